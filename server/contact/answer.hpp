@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How a load case is solved, and what comes out: plain data, no linear algebra types.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace anticrack::contact {
+
+enum class Mass {
+  lumped,      ///< diagonal interface mass: the fixed point is the nodal contact problem
+  consistent,  ///< the paper's int1d: a slightly different discrete problem
+};
+
+/// Parameters of Algorithm 2; the defaults are those of section 8 of the paper.
+struct UzawaOptions {
+  std::optional<double> theta = 2.0;  ///< relaxation, > 0; empty: 0.97 theta* of the mesh
+  double epsilon = 1e-12;             ///< stop when the criterion of step 3 is below; > 0
+  double p = 1e5;                     ///< bound on the multipliers; >= 0
+  int max_iterations = 20000;         ///< >= 1
+  Mass mass = Mass::lumped;
+};
+
+/// Throws errors::Error (invalid_argument) with the field at fault: "theta", "epsilon", "p",
+/// "max_iterations".
+void check(const UzawaOptions& options, int iteration_limit);
+
+/// Residuals of the optimality conditions at an iterate, absolute.
+struct KktResiduals {
+  double equilibrium = 0;      ///< max |(S t - g +- M mu)_i|, force; zero to rounding in Algorithm 2
+  double gap = 0;              ///< max violation of [u] = 0 (glue, tips) and [u] >= 0 (cracks)
+  double sign = 0;             ///< max(0, -mu) on cracks
+  double complementarity = 0;  ///< max |mu_i [u]_i| on cracks
+};
+
+/// One iteration as the paper and its users see it.
+struct Sample {
+  int iteration = 0;     ///< from 1
+  double criterion = 1;  ///< max_i |u_k - u_{k-1}|_V^2 / |u_k|_V^2, step 3; 1 in the first
+  double energy = 0;     ///< Pi_1 + Pi_2 at the iterate
+  int contact_count = 0; ///< crack nodes with positive pressure
+  KktResiduals kkt;
+};
+
+/// Told of every iteration, on the solving thread; must be quick and must not throw.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// Returns false to stop the load case (it ends cancelled).
+  virtual bool on_iteration(const Sample& sample) = 0;
+};
+
+enum class Status { converged, not_converged, cancelled };
+
+struct InclusionAnswer {
+  std::string name;
+  double displacement = 0;    ///< A, equation (5)
+  double resultant = 0;       ///< int [du/dnu] ds over the inclusion, equation (6)
+  double contact_length = 0;  ///< lumped length of its delaminated nodes in contact
+};
+
+struct ContactInterval {
+  std::size_t interface = 0;  ///< index into Mesh::interfaces
+  double begin = 0;           ///< arc length of its first node in contact
+  double end = 0;             ///< and of its last
+};
+
+/// Traces along one interface, one value per node of mesh::Interface::nodes, ends included.
+struct Trace {
+  std::vector<double> u_minus;
+  std::vector<double> u_plus;
+  std::vector<double> jump;           ///< u_plus - u_minus
+  std::vector<double> pressure;       ///< multiplier mu: contact pressure on cracks, flux on glue
+  std::vector<std::int32_t> contact;  ///< 1: crack node with [u] closed under pressure
+};
+
+/// u on the nodes of one subdomain.
+struct Field {
+  std::vector<std::int32_t> nodes;  ///< indices into Mesh::xy
+  std::vector<double> u;
+};
+
+struct Answer {
+  Status status = Status::not_converged;
+  std::string reason;      ///< for not_converged: what happened and what to change
+  int iterations = 0;
+  double criterion = 1;
+  double theta = 0;        ///< used
+  double theta_star = 0;   ///< 2 / lambda_max(M^1/2 (F1+F2) M^1/2), Theorem 4
+  double energy = 0;       ///< Pi(u)
+  KktResiduals kkt;
+  KktResiduals kkt_relative;
+  std::vector<InclusionAnswer> inclusions;  ///< one per Mesh::inclusions
+  double contact_length = 0;
+  std::vector<ContactInterval> contact_intervals;
+  std::vector<Trace> traces;  ///< one per Mesh::interfaces
+  std::vector<Field> fields;  ///< one per Mesh::subdomains, when asked for
+};
+
+/// Where the interface's nodes are: what traces are drawn over.
+struct TraceGeometry {
+  std::vector<double> s, x, y;     ///< arc length from the interface's first node, coordinates
+  std::vector<mesh::Kind> kind;    ///< condition in the node; a tip is `inclusion` or `glue` (tied)
+};
+
+}  // namespace anticrack::contact

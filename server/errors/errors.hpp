@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The one exception of the server. A layer that knows what is wrong throws it with the bad value
+// and the cure in the message; rpc/error_table.cpp maps its reason to a gRPC code.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace anticrack::errors {
+
+/// What went wrong, as far as a caller would act differently on it.
+enum class Reason {
+  invalid_argument,     ///< a value no state of the server could accept
+  geometry_invalid,     ///< geometry that describes no membrane cut by an interface
+  mesh_invalid,         ///< a .msh that cannot be read, or is no cut membrane
+  expression_invalid,   ///< syntax error, unknown symbol, or a value that is not finite
+  request_id_reused,    ///< same request id, other body
+  limit_exceeded,       ///< larger than a bound of the server could ever allow
+  not_found,            ///< no such mesh, job or upload
+  not_ready,            ///< needs another state first (not meshed, not ended)
+  in_use,               ///< held by something that has not ended
+  sequence_trimmed,     ///< events asked for are no longer, or not yet, in the log
+  offset_out_of_range,  ///< past the end of a block
+  busy,                 ///< a queue or budget is full now; try again after retry_delay
+  draining,             ///< the server is stopping
+  not_implemented,      ///< in the API, not in this version
+  cancelled,            ///< asked to stop
+  mesher_failed,        ///< the helper crashed, timed out or ran out of memory
+  numerical,            ///< factorisation or iteration broke down (e.g. a floating subdomain)
+  storage,              ///< the disk refused
+  internal,             ///< a bug
+};
+
+/// Stable upper-case name of a reason, e.g. "EXPRESSION_INVALID".
+std::string_view name(Reason reason) noexcept;
+
+/// A field of the request and what is wrong with it.
+struct FieldViolation {
+  std::string field;  ///< path, e.g. "load_cases[1].force.expression"
+  std::string description;
+};
+
+/// Error with everything a client is told. Copyable, so it can also be kept in a job or mesh.
+class Error : public std::runtime_error {
+ public:
+  Error(Reason reason, const std::string& message) : std::runtime_error(message), _reason(reason) {}
+
+  /// Adds the field at fault; the message is its description.
+  Error& at(std::string field);
+  Error& with(std::string key, std::string value);
+  Error& retry_after(std::chrono::milliseconds delay);
+  /// Puts `prefix` before the path of every field, as the error climbs to the layer that knows
+  /// where the part stands in the request.
+  Error& below(std::string_view prefix);
+
+  Reason reason() const noexcept { return _reason; }
+  const std::vector<FieldViolation>& fields() const noexcept { return _fields; }
+  const std::map<std::string, std::string>& metadata() const noexcept { return _metadata; }
+  std::chrono::milliseconds retry_delay() const noexcept { return _retry_delay; }
+
+ private:
+  Reason _reason;
+  std::vector<FieldViolation> _fields;
+  std::map<std::string, std::string> _metadata;
+  std::chrono::milliseconds _retry_delay{0};
+};
+
+}  // namespace anticrack::errors

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The events of one job, numbered from 1 without gaps, in a log of bounded size that any number of
+// watchers read, each with its own cursor.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "contact/answer.hpp"
+#include "store/records.hpp"
+
+namespace anticrack::jobs {
+
+struct SampleEvent {
+  std::int32_t load_case = 0;
+  contact::Sample sample;
+};
+
+/// The job passed into another state, or another phase of it.
+struct PhaseEvent {
+  store::JobState state = store::JobState::queued;
+  std::string detail;  ///< e.g. "meshing"
+};
+
+/// A load case ended.
+struct CaseEvent {
+  std::int32_t load_case = 0;
+  std::shared_ptr<const store::CaseRecord> record;
+};
+
+/// The job ended: always the last event.
+struct EndEvent {
+  std::shared_ptr<const store::JobRecord> job;
+};
+
+using Event = std::variant<SampleEvent, PhaseEvent, CaseEvent, EndEvent>;
+
+struct NumberedEvent {
+  std::uint64_t sequence = 0;
+  Event event;
+};
+
+/// Thread-safe. One writer, any number of readers; a reader costs the writer one wake call, and
+/// only when it has read everything before.
+class EventLog {
+ public:
+  /// `byte_limit`: the oldest events go when the log is larger (the end event never).
+  explicit EventLog(std::size_t byte_limit);
+  ~EventLog();
+
+  void append(Event event);
+
+  std::uint64_t earliest() const;  ///< sequence of the oldest event kept; latest()+1 when none is
+  std::uint64_t latest() const;    ///< 0 before the first
+
+  /// Up to `count` events after `after`, in order. Empty when there is none yet.
+  /// Throws errors::Error (sequence_trimmed, metadata earliest_sequence and latest_sequence) when
+  /// event after+1 is no longer kept, or `after` is larger than latest().
+  std::vector<NumberedEvent> read(std::uint64_t after, std::size_t count) const;
+
+  /// `wake` is called, on the writer's thread and with no lock of the log held, after each append
+  /// until the handle is destroyed; destroying waits for a call under way. It must be quick.
+  class Listener;
+  std::shared_ptr<Listener> listen(std::function<void()> wake);
+
+ private:
+  struct State;
+  std::shared_ptr<State> _state;
+};
+
+}  // namespace anticrack::jobs

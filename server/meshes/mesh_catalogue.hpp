@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The meshes the server knows: from their definition to a triangulation (in the helper process) to
+// factorised operators (in the cache).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "mesher/helper.hpp"
+#include "operators/operator_cache.hpp"
+#include "store/store.hpp"
+
+namespace anticrack::meshes {
+
+struct CatalogueOptions {
+  mesher::HelperOptions helper;
+  std::size_t max_triangles = 4'000'000;
+  std::size_t max_pending = 64;  ///< meshes waiting for the mesher, then `busy`
+  int threads = 2;               ///< for one factorisation
+};
+
+/// A mesh on its way to READY: phases for whoever waits.
+using PhaseListener = std::function<void(store::MeshState)>;
+
+/// Owns the preparation thread(s): new meshes are meshed and factorised in the background, in
+/// order. Thread-safe.
+class MeshCatalogue {
+ public:
+  MeshCatalogue(CatalogueOptions options, store::Store& store, operators::OperatorCache& cache);
+  /// Stops what is under way (kills the helper).
+  ~MeshCatalogue();
+
+  /// Checks the definition (errors::Error: geometry_invalid, invalid_argument, not_found for an
+  /// upload, busy) and returns its record: the one that is there already for the same definition,
+  /// or a new one, `pending`. A failed one is tried again. Does not block.
+  store::MeshRecord create(const store::MeshDefinition& definition, const std::string& title);
+
+  store::MeshRecord get(const std::string& id) const;  ///< throws not_found
+  std::vector<store::MeshRecord> list(const std::string& after, std::size_t count) const;
+  /// Throws not_found, not_ready (not meshed).
+  std::shared_ptr<const store::Block> read(const std::string& id) const;
+
+  /// Meshes and factorises if need be, and returns the pinned operator. Blocks; `listener` hears of
+  /// each phase on the calling thread. Throws the mesh's error if it failed; cancelled on `stop`.
+  std::shared_ptr<const operators::MeshOperator> prepare(const std::string& id,
+                                                         const PhaseListener& listener,
+                                                         std::stop_token stop);
+  /// True when prepare() would not block: operators in memory.
+  bool ready(const std::string& id) const;
+
+  std::uint64_t meshings() const noexcept;  ///< runs of the helper so far
+
+ private:
+  struct State;
+  std::unique_ptr<State> _state;
+};
+
+}  // namespace anticrack::meshes

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Factorised meshes in memory, under a byte budget.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "operators/mesh_operator.hpp"
+
+namespace anticrack::operators {
+
+struct CacheMetrics {
+  std::uint64_t factorizations = 0;
+  std::uint64_t hits = 0;
+  std::uint64_t joins = 0;  ///< callers that waited for a factorisation under way
+  std::uint64_t evictions = 0;
+  std::uint64_t bytes = 0;  ///< held now
+};
+
+/// Contract:
+/// 1. One factorisation at a time per key; others that ask for it meanwhile join and get the same
+///    operator, or the same error.
+/// 2. An operator somebody still holds (shared_ptr) is pinned: it counts, and is not evicted.
+/// 3. Before a factorisation its estimate is reserved: unpinned entries go, least recently used
+///    first; where that is not enough: errors::Error (busy, or limit_exceeded when the estimate
+///    alone is over the budget). After it the measured size replaces the estimate.
+/// 4. A joiner's stop ends its wait; the factorisation itself stops when nobody waits any more.
+/// Thread-safe. Locks are never held while factorising.
+class OperatorCache {
+ public:
+  using Factorise = std::function<std::shared_ptr<const MeshOperator>(
+      std::shared_ptr<const mesh::Mesh>, std::stop_token)>;
+
+  OperatorCache(std::uint64_t budget_bytes, Factorise factorise);
+  ~OperatorCache();
+
+  /// The operator of a mesh, from memory or factorised on the calling thread. Blocks.
+  /// `key` is the hash of the mesh's content.
+  std::shared_ptr<const MeshOperator> acquire(const std::string& key,
+                                              std::shared_ptr<const mesh::Mesh> mesh,
+                                              std::stop_token stop);
+  bool contains(const std::string& key) const;
+  /// Drops an entry. False when it is pinned or not there.
+  bool evict(const std::string& key);
+  CacheMetrics metrics() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> _state;
+};
+
+}  // namespace anticrack::operators

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace anticrack::store {
+
+/// SHA-256 over bytes that arrive in pieces (OpenSSL).
+class Sha256 {
+ public:
+  Sha256();
+  ~Sha256();
+  Sha256(Sha256&&) noexcept;
+  Sha256& operator=(Sha256&&) noexcept;
+  Sha256& add(std::span<const std::byte> bytes);
+  Sha256& add(const std::string& text);
+  /// 64 lower-case hexadecimal digits. The object may not be used after.
+  std::string finish();
+
+ private:
+  struct Context;
+  std::unique_ptr<Context> _context;
+};
+
+/// CRC-32C (Castagnoli), as in iSCSI (ISA-L).
+std::uint32_t crc32c(std::span<const std::byte> bytes) noexcept;
+
+}  // namespace anticrack::store

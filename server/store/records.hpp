@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the server remembers of meshes and jobs.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "contact/answer.hpp"
+#include "errors/errors.hpp"
+#include "fem/load.hpp"
+#include "mesh/geometry.hpp"
+
+namespace anticrack::store {
+
+using Clock = std::chrono::system_clock;
+
+/// An uploaded .msh, by the sha256 of its bytes; the file lies in the store's folder.
+struct UploadRef {
+  std::string sha256;
+};
+
+struct GeometrySource {
+  mesh::Geometry geometry;
+  mesh::MeshOptions options;
+};
+
+/// What a mesh is made from; its identity is the hash of this.
+using MeshDefinition = std::variant<GeometrySource, UploadRef>;
+
+enum class MeshState { pending, meshing, factorizing, ready, evicted, failed };
+
+struct SubdomainSummary {
+  std::string name;
+  std::uint64_t node_count = 0;
+  std::uint64_t triangle_count = 0;
+  double area = 0;
+};
+
+struct SegmentSummary {
+  mesh::Kind kind = mesh::Kind::glue;
+  std::int32_t inclusion = -1;
+  double begin = 0;
+  double end = 0;
+  std::uint64_t edge_count = 0;
+};
+
+struct InterfaceSummary {
+  std::string name;
+  double length = 0;
+  std::uint64_t node_count = 0;
+  std::vector<SegmentSummary> segments;
+};
+
+struct MeshRecord {
+  std::string id;  ///< first 16 digits of the definition's hash
+  std::string title;
+  MeshDefinition definition;
+  MeshState state = MeshState::pending;
+  std::optional<errors::Error> error;  ///< when failed
+  Clock::time_point created;
+  // Known once meshed:
+  std::string sha256;  ///< of mesh::encode(mesh): the key of the operators
+  std::uint64_t node_count = 0;
+  std::uint64_t triangle_count = 0;
+  std::vector<SubdomainSummary> subdomains;
+  std::vector<InterfaceSummary> interfaces;
+  std::vector<std::string> inclusions;
+  std::vector<std::string> warnings;
+  double minimum_angle = 0;
+  double mesh_seconds = 0;
+  // Known once factorised:
+  std::uint64_t operator_bytes = 0;
+  double theta_star = 0;
+  double factorize_seconds = 0;
+};
+
+enum class JobState { queued, waiting_for_mesh, running, succeeded, failed, cancelled, expired };
+
+constexpr bool ended(JobState state) noexcept { return state >= JobState::succeeded; }
+
+enum class CaseStatus { pending, running, converged, not_converged, failed, cancelled };
+
+/// A load case's answer without its arrays, which are in the result block.
+struct CaseRecord {
+  CaseStatus status = CaseStatus::pending;
+  std::optional<errors::Error> error;  ///< when failed
+  contact::Answer answer;              ///< traces and fields left empty
+  double seconds = 0;
+};
+
+/// What a client asked for.
+struct JobSpec {
+  std::string title;
+  std::string mesh;  ///< id of the mesh
+  std::vector<fem::Load> loads;
+  contact::UzawaOptions solver;
+  bool fields = false;
+};
+
+struct JobRecord {
+  std::string id;
+  JobSpec spec;
+  JobState state = JobState::queued;
+  std::optional<errors::Error> error;
+  Clock::time_point created;
+  std::optional<Clock::time_point> started;
+  std::optional<Clock::time_point> ended;
+  std::vector<CaseRecord> cases;  ///< one per load
+  std::uint64_t result_bytes = 0;
+  int attempt = 1;
+};
+
+}  // namespace anticrack::store
