@@ -32,18 +32,18 @@ void check(const UzawaOptions& options, int iteration_limit);
 
 /// Residuals of the optimality conditions at an iterate, absolute.
 struct KktResiduals {
-  double equilibrium = 0;      ///< max |(S t - g +- M mu)_i|, force; zero to rounding in Algorithm 2
-  double gap = 0;              ///< max violation of [u] = 0 (glue, tips) and [u] >= 0 (cracks)
-  double sign = 0;             ///< max(0, -mu) on cracks
+  double equilibrium = 0;  ///< max |(S t - g +- M mu)_i|, force; zero to rounding in Algorithm 2
+  double gap = 0;          ///< max violation of [u] = 0 (glue, tips) and [u] >= 0 (cracks)
+  double sign = 0;         ///< max(0, -mu) on cracks
   double complementarity = 0;  ///< max |mu_i [u]_i| on cracks
 };
 
 /// One iteration as the paper and its users see it.
 struct Sample {
-  int iteration = 0;     ///< from 1
-  double criterion = 1;  ///< max_i |u_k - u_{k-1}|_V^2 / |u_k|_V^2, step 3; 1 in the first
-  double energy = 0;     ///< Pi_1 + Pi_2 at the iterate
-  int contact_count = 0; ///< crack nodes with positive pressure
+  int iteration = 0;      ///< from 1
+  double criterion = 1;   ///< max_i |u_k - u_{k-1}|_V^2 / |u_k|_V^2, step 3; 1 in the first
+  double energy = 0;      ///< Pi_1 + Pi_2 at the iterate
+  int contact_count = 0;  ///< crack nodes with positive pressure
   KktResiduals kkt;
 };
 
@@ -87,12 +87,12 @@ struct Field {
 
 struct Answer {
   Status status = Status::not_converged;
-  std::string reason;      ///< for not_converged: what happened and what to change
+  std::string reason;  ///< for not_converged: what happened and what to change
   int iterations = 0;
   double criterion = 1;
-  double theta = 0;        ///< used
-  double theta_star = 0;   ///< 2 / lambda_max(M^1/2 (F1+F2) M^1/2), Theorem 4
-  double energy = 0;       ///< Pi(u)
+  double theta = 0;       ///< used
+  double theta_star = 0;  ///< 2 / lambda_max(M^1/2 (F1+F2) M^1/2), Theorem 4
+  double energy = 0;      ///< Pi(u)
   KktResiduals kkt;
   KktResiduals kkt_relative;
   std::vector<InclusionAnswer> inclusions;  ///< one per Mesh::inclusions
@@ -104,8 +104,8 @@ struct Answer {
 
 /// Where the interface's nodes are: what traces are drawn over.
 struct TraceGeometry {
-  std::vector<double> s, x, y;     ///< arc length from the interface's first node, coordinates
-  std::vector<mesh::Kind> kind;    ///< condition in the node; a tip is `inclusion` or `glue` (tied)
+  std::vector<double> s, x, y;   ///< arc length from the interface's first node, coordinates
+  std::vector<mesh::Kind> kind;  ///< condition in the node; a tip is `inclusion` or `glue` (tied)
 };
 
 }  // namespace anticrack::contact

@@ -29,8 +29,8 @@ struct Load {
 };
 
 /// Throws errors::Error (expression_invalid, invalid_argument) with the field at fault:
-/// "force.expression", "force.per_region[NAME]", "force.constant", "boundary_value". Checks what can
-/// be checked without a mesh: syntax, symbols, length, finite constants.
+/// "force.expression", "force.per_region[NAME]", "force.constant", "boundary_value". Checks what
+/// can be checked without a mesh: syntax, symbols, length, finite constants.
 void check(const Load& load, std::size_t max_expression_bytes);
 
 }  // namespace anticrack::fem

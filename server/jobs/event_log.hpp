@@ -45,8 +45,8 @@ struct NumberedEvent {
   Event event;
 };
 
-/// Thread-safe. One writer, any number of readers; a reader costs the writer one wake call, and
-/// only when it has read everything before.
+/// Thread-safe; any number of writers and readers. A listener costs a writer one wake call an
+/// event.
 class EventLog {
  public:
   /// `byte_limit`: the oldest events go when the log is larger (the end event never).
@@ -57,6 +57,7 @@ class EventLog {
 
   std::uint64_t earliest() const;  ///< sequence of the oldest event kept; latest()+1 when none is
   std::uint64_t latest() const;    ///< 0 before the first
+  std::size_t bytes() const;       ///< held now, at most about the limit
 
   /// Up to `count` events after `after`, in order. Empty when there is none yet.
   /// Throws errors::Error (sequence_trimmed, metadata earliest_sequence and latest_sequence) when
@@ -64,7 +65,9 @@ class EventLog {
   std::vector<NumberedEvent> read(std::uint64_t after, std::size_t count) const;
 
   /// `wake` is called, on the writer's thread and with no lock of the log held, after each append
-  /// until the handle is destroyed; destroying waits for a call under way. It must be quick.
+  /// until the handle is destroyed; never by two writers at once. It must be quick and not throw.
+  /// Destroying the handle waits for a call under way, unless it is destroyed by that call: do not
+  /// destroy it under a lock that `wake` takes.
   class Listener;
   std::shared_ptr<Listener> listen(std::function<void()> wake);
 

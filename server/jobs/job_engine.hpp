@@ -16,13 +16,15 @@
 namespace anticrack::jobs {
 
 struct EngineOptions {
-  int threads = 2;                        ///< load cases solved at once
-  int max_load_cases = 10'000;            ///< a job
-  int max_iterations = 1'000'000;         ///< a load case
+  int threads = 2;                 ///< load cases solved at once
+  int max_load_cases = 10'000;     ///< a job
+  int max_iterations = 1'000'000;  ///< a load case
   std::size_t max_expression_bytes = 4096;
-  int max_queued_jobs = 1'000;            ///< then `busy` with a retry delay
-  int max_kept_jobs = 10'000;             ///< ended ones; the oldest go first
+  int max_queued_jobs = 1'000;              ///< then `busy` with a retry delay
+  int max_kept_jobs = 10'000;               ///< ended ones; the oldest go first
   std::size_t event_log_bytes = 16u << 20;  ///< a job
+  /// Results and event logs of ended jobs together; the oldest jobs go first, never the newest.
+  std::uint64_t max_kept_bytes = std::uint64_t{4} << 30;
 };
 
 struct EngineMetrics {
@@ -62,8 +64,8 @@ class JobEngine {
   /// Throws not_found, not_ready (not ended, or no load case has an answer).
   std::shared_ptr<const store::Block> result(const std::string& id) const;
 
-  /// Refuses new jobs, lets running load cases go on for at most `grace`, then cancels them; returns
-  /// when all workers are idle. Idempotent.
+  /// Refuses new jobs, lets running load cases go on for at most `grace`, then cancels them;
+  /// returns when all workers are idle. Idempotent.
   void stop(std::chrono::milliseconds grace);
 
   EngineMetrics metrics() const;

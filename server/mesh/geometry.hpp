@@ -32,8 +32,9 @@ struct CrackSpec {
 };
 
 struct Geometry {
-  std::vector<Point> boundary;   ///< simple polygon, not closed, either orientation
-  std::vector<Point> interface;  ///< ends on the boundary, the rest strictly inside; plus on its left
+  std::vector<Point> boundary;  ///< simple polygon, not closed, either orientation
+  std::vector<Point>
+      interface;  ///< ends on the boundary, the rest strictly inside; plus on its left
   std::vector<InclusionSpec> inclusions;
   std::vector<CrackSpec> cracks;
 };
@@ -65,10 +66,12 @@ struct Plan {
   std::array<std::vector<PlannedCurve>, 2> outer;  ///< of each subdomain, counterclockwise, open
   std::vector<PlannedInterfaceCurve> interface;
   std::vector<std::string> inclusions;
+  double growth = 0.3;  ///< how much longer edges become per length away from a finer curve
 };
 
 /// Checks a geometry and cuts it into curves with the intervals of the preset.
-/// Throws errors::Error (geometry_invalid, or invalid_argument for options) with the field at fault
+/// Throws errors::Error (geometry_invalid; invalid_argument for options; limit_exceeded for too many
+/// vertices or triangles) with the field at fault
 /// ("boundary", "interface", "inclusions[1].part.from", "options.size", ...): boundary that crosses
 /// itself, interface that does not cut the polygon in two, inclusion off the interface, touching
 /// the boundary, or overlapping another, values not finite, names empty, wrong or used twice,

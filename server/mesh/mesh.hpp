@@ -35,14 +35,14 @@ struct Interface {
 /// of different subdomains, every edge between two subdomains lies on exactly one interface, every
 /// boundary edge belongs to exactly one triangle.
 struct Mesh {
-  std::vector<double> xy;                            ///< (n,2) row-major, unit of the geometry
-  std::vector<std::int32_t> triangles;               ///< (m,3) row-major
-  std::vector<std::int32_t> subdomain;               ///< (m) index into subdomains
-  std::vector<std::string> subdomains;               ///< names
-  std::vector<std::string> inclusions;               ///< names
+  std::vector<double> xy;               ///< (n,2) row-major, unit of the geometry
+  std::vector<std::int32_t> triangles;  ///< (m,3) row-major
+  std::vector<std::int32_t> subdomain;  ///< (m) index into subdomains
+  std::vector<std::string> subdomains;  ///< names
+  std::vector<std::string> inclusions;  ///< names
   std::vector<Interface> interfaces;
   std::vector<std::array<std::int32_t, 2>> dirichlet;  ///< edges of the boundary where u = g_D
-  std::vector<std::string> warnings;                 ///< what an import repaired or assumed
+  std::vector<std::string> warnings;                   ///< what an import repaired or assumed
 
   std::size_t node_count() const noexcept { return xy.size() / 2; }
   std::size_t triangle_count() const noexcept { return triangles.size() / 3; }

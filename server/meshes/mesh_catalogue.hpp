@@ -21,7 +21,6 @@ struct CatalogueOptions {
   mesher::HelperOptions helper;
   std::size_t max_triangles = 4'000'000;
   std::size_t max_pending = 64;  ///< meshes waiting for the mesher, then `busy`
-  int threads = 2;               ///< for one factorisation
 };
 
 /// A mesh on its way to READY: phases for whoever waits.
@@ -46,10 +45,13 @@ class MeshCatalogue {
   std::shared_ptr<const store::Block> read(const std::string& id) const;
 
   /// Meshes and factorises if need be, and returns the pinned operator. Blocks; `listener` hears of
-  /// each phase on the calling thread. Throws the mesh's error if it failed; cancelled on `stop`.
+  /// each phase on the calling thread. Throws the mesh's error if it failed; busy when the memory
+  /// budget is held by others; cancelled on `stop`, which ends this wait alone.
   std::shared_ptr<const operators::MeshOperator> prepare(const std::string& id,
                                                          const PhaseListener& listener,
                                                          std::stop_token stop);
+  /// The pinned operator when it is in memory, else null. Does not block.
+  std::shared_ptr<const operators::MeshOperator> find(const std::string& id) const;
   /// True when prepare() would not block: operators in memory.
   bool ready(const std::string& id) const;
 

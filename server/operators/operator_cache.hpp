@@ -36,13 +36,17 @@ class OperatorCache {
       std::shared_ptr<const mesh::Mesh>, std::stop_token)>;
 
   OperatorCache(std::uint64_t budget_bytes, Factorise factorise);
+  /// Stops factorisations nobody waits for any more and waits until they have stopped.
   ~OperatorCache();
 
-  /// The operator of a mesh, from memory or factorised on the calling thread. Blocks.
+  /// The operator of a mesh, from memory or factorised, on a thread of its own so that a stop is
+  /// obeyed at once. Blocks.
   /// `key` is the hash of the mesh's content.
   std::shared_ptr<const MeshOperator> acquire(const std::string& key,
                                               std::shared_ptr<const mesh::Mesh> mesh,
                                               std::stop_token stop);
+  /// The operator when it is in memory (a hit), else null. Does not block.
+  std::shared_ptr<const MeshOperator> find(const std::string& key);
   bool contains(const std::string& key) const;
   /// Drops an entry. False when it is pinned or not there.
   bool evict(const std::string& key);

@@ -81,7 +81,9 @@ struct MeshRecord {
 
 enum class JobState { queued, waiting_for_mesh, running, succeeded, failed, cancelled, expired };
 
-constexpr bool ended(JobState state) noexcept { return state >= JobState::succeeded; }
+constexpr bool ended(JobState state) noexcept {
+  return state >= JobState::succeeded;
+}
 
 enum class CaseStatus { pending, running, converged, not_converged, failed, cancelled };
 

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace anticrack::casefile {
+
+/// Where a value of a case was written.
+struct Spot {
+  std::string key;     ///< dotted path, arrays by index from 0: "load.1.f"; empty: the whole
+  std::string source;  ///< the case's file, or the --set that wrote it
+  unsigned line = 0;   ///< from 1; 0: no line (a --set, or the whole file)
+};
+
+/// "case.toml:12: solver.theta: " or as much of it as is known.
+std::string prefix(const Spot& spot);
+
+/// A case that cannot be read. what() names file, line and key, gives the bad value and the cure.
+class Error : public std::runtime_error {
+ public:
+  Error(Spot spot, const std::string& problem)
+      : std::runtime_error(prefix(spot) + problem), _spot(std::move(spot)) {}
+
+  const Spot& spot() const noexcept { return _spot; }
+
+ private:
+  Spot _spot;
+};
+
+}  // namespace anticrack::casefile

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "casefile/overrides.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "casefile/error.hpp"
+
+namespace anticrack::casefile {
+namespace {
+
+std::vector<std::string> split(const std::string& path) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  while (true) {
+    const std::size_t dot = path.find('.', begin);
+    parts.push_back(path.substr(begin, dot == std::string::npos ? dot : dot - begin));
+    if (dot == std::string::npos) {
+      return parts;
+    }
+    begin = dot + 1;
+  }
+}
+
+// A table with the one key `value`, its source the override.
+toml::table parse_value(const std::string& text, const std::string& source) {
+  const bool one_line = text.find_first_of("\r\n") == std::string::npos;
+  if (one_line) {
+    try {
+      return toml::parse("value = " + text, source);
+    } catch (const toml::parse_error&) {
+      // A bare word, taken as text below.
+    }
+  }
+  toml::table quoted = toml::parse("value = ''", source);
+  quoted.get("value")->ref<std::string>() = text;
+  return quoted;
+}
+
+std::optional<std::size_t> index_of(const std::string& word) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
+  const bool whole = error == std::errc() && end == word.data() + word.size();
+  return whole ? std::optional(index) : std::nullopt;
+}
+
+/// Walks down the case; knows what it has walked for its errors.
+class Walk {
+ public:
+  Walk(std::string source, std::vector<std::string> parts)
+      : _source(std::move(source)), _parts(std::move(parts)) {}
+
+  void assign(toml::node& root, toml::node&& value) {
+    toml::node* place = &root;
+    for (_depth = 0; _depth + 1 < _parts.size(); ++_depth) {
+      place = &step(*place);
+    }
+    put(*place, std::move(value));
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& problem) const {
+    std::string walked;
+    for (std::size_t i = 0; i <= _depth; ++i) {
+      walked += (i == 0 ? "" : ".") + _parts[i];
+    }
+    throw Error({walked, _source, 0}, problem);
+  }
+
+  std::size_t index_in(const toml::array& array) const {
+    const auto index = index_of(_parts[_depth]);
+    if (!index || *index > array.size()) {
+      fail("there are " + std::to_string(array.size()) +
+           " of them; write an index from 0 to that number");
+    }
+    return *index;
+  }
+
+  toml::node& step(toml::node& place) const {
+    const std::string& part = _parts[_depth];
+    if (toml::table* table = place.as_table()) {
+      if (!table->contains(part)) {
+        const bool list = index_of(_parts[_depth + 1]).has_value();
+        if (list) {
+          table->insert(part, toml::array());
+        } else {
+          table->insert(part, toml::table());
+        }
+      }
+      return *table->get(part);
+    }
+    if (toml::array* array = place.as_array()) {
+      const std::size_t index = index_in(*array);
+      if (index == array->size()) {
+        array->push_back(toml::table());
+      }
+      return *array->get(index);
+    }
+    fail("nothing lies below a plain value; set the key above it");
+  }
+
+  void put(toml::node& place, toml::node&& value) const {
+    toml::table* table = place.as_table();
+    toml::array* array = place.as_array();
+    if (!table && !array) {
+      fail("nothing lies below a plain value; set the key above it");
+    }
+    // Moved, not copied: only a moved node keeps its source.
+    std::move(value).visit([&](auto&& node) {
+      if (table) {
+        table->insert_or_assign(_parts[_depth], std::forward<decltype(node)>(node));
+        return;
+      }
+      const std::size_t index = index_in(*array);
+      if (index == array->size()) {
+        array->push_back(std::forward<decltype(node)>(node));
+      } else {
+        array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(index),
+                       std::forward<decltype(node)>(node));
+      }
+    });
+  }
+
+  std::string _source;
+  std::vector<std::string> _parts;
+  std::size_t _depth = 0;
+};
+
+}  // namespace
+
+void apply_override(toml::table& root, const std::string& assignment) {
+  const std::string source = "--set " + assignment;
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw Error({"", source, 0}, "no assignment; write --set key=value");
+  }
+  std::vector<std::string> parts = split(assignment.substr(0, equals));
+  if (std::any_of(parts.begin(), parts.end(), [](const std::string& p) { return p.empty(); })) {
+    throw Error({"", source, 0}, "a part of the key is empty; write for example solver.theta=2");
+  }
+  toml::table parsed = parse_value(assignment.substr(equals + 1), source);
+  Walk(source, std::move(parts)).assign(root, std::move(*parsed.get("value")));
+}
+
+}  // namespace anticrack::casefile

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// --set key=value. For the sources of this folder only.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <string>
+
+namespace anticrack::casefile {
+
+/// Writes the value of "key=value" into the case. The key is a dotted path, arrays by index from 0
+/// (an index one past the end appends a table); missing tables are made. The value is TOML; what is
+/// no TOML value is text, so that quotes may be left out. Throws Error for a key that leads
+/// nowhere.
+void apply_override(toml::table& root, const std::string& assignment);
+
+}  // namespace anticrack::casefile

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "casefile/section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "casefile/nearest.hpp"
+
+namespace anticrack::casefile {
+namespace {
+
+std::string join(const std::string& path, std::string_view key) {
+  return path.empty() ? std::string(key) : path + "." + std::string(key);
+}
+
+std::string join(const std::string& path, std::size_t index) {
+  return path + "." + std::to_string(index);
+}
+
+}  // namespace
+
+std::string prefix(const Spot& spot) {
+  std::string text = spot.source;
+  if (spot.line > 0) {
+    text += ":" + std::to_string(spot.line);
+  }
+  if (!spot.key.empty()) {
+    text += (text.empty() ? "" : ": ") + spot.key;
+  }
+  return text.empty() ? text : text + ": ";
+}
+
+Spot spot_of(const toml::node& node, std::string key) {
+  const toml::source_region& region = node.source();
+  Spot spot{std::move(key), region.path ? *region.path : std::string(), region.begin.line};
+  if (spot.source.rfind("--set", 0) == 0) {
+    spot.line = 0;  // an override has one line only
+  }
+  return spot;
+}
+
+std::string shown(const toml::node& node) {
+  constexpr std::size_t longest = 60;
+  std::ostringstream out;
+  if (const toml::table* table = node.as_table()) {
+    toml::table on_one_line(*table);
+    on_one_line.is_inline(true);
+    out << toml::array{on_one_line}.get(0)->ref<toml::table>();
+  } else {
+    node.visit([&out](const auto& value) { out << toml::toml_formatter(value); });
+  }
+  std::string text = out.str();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  if (text.size() > longest) {
+    text = text.substr(0, longest) + "...";
+  }
+  return text;
+}
+
+double number_of(const toml::node& node, const std::string& key, std::string_view cure) {
+  const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+  if (!value || !std::isfinite(*value)) {
+    throw Error(spot_of(node, key), shown(node) + " is no finite number; " + std::string(cure));
+  }
+  return *value;
+}
+
+Point point_of(const toml::node& node, const std::string& key) {
+  const toml::array* pair = node.as_array();
+  if (!pair || pair->size() != 2) {
+    throw Error(spot_of(node, key), shown(node) + " is no point; write [x, y]");
+  }
+  return {number_of(*pair->get(0), key, "write [x, y]"),
+          number_of(*pair->get(1), key, "write [x, y]")};
+}
+
+std::vector<Point> points_of(const toml::node& node, const std::string& key) {
+  const toml::array* list = node.as_array();
+  if (!list) {
+    throw Error(spot_of(node, key),
+                shown(node) + " is no list of points; write [[x, y], [x, y], ...]");
+  }
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    points.push_back(point_of(*list->get(i), join(key, i)));
+  }
+  return points;
+}
+
+Section::Section(const toml::table& table, std::string path, std::vector<std::string> known)
+    : _table(table), _path(std::move(path)) {
+  for (const auto& [key, node] : _table) {
+    if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
+      Spot spot = casefile::spot_of(node, path_of(key.str()));
+      if (spot.line > 0 && key.source().begin.line > 0) {
+        spot.line = key.source().begin.line;
+      }
+      throw Error(std::move(spot), "unknown key; " + suggestion(key.str(), known));
+    }
+  }
+}
+
+std::string Section::path_of(std::string_view key) const {
+  return join(_path, key);
+}
+
+Spot Section::spot_of(std::string_view key) const {
+  const toml::node* node = find(key);
+  return node ? casefile::spot_of(*node, path_of(key)) : spot();
+}
+
+std::optional<std::string> Section::text(std::string_view key) const {
+  const toml::node* node = find(key);
+  if (!node) {
+    return std::nullopt;
+  }
+  const auto value = node->value_exact<std::string>();
+  if (!value) {
+    throw Error(spot_of(key), shown(*node) + " is no text; write it in quotes");
+  }
+  return value;
+}
+
+std::optional<double> Section::number(std::string_view key) const {
+  const toml::node* node = find(key);
+  if (!node) {
+    return std::nullopt;
+  }
+  return number_of(*node, path_of(key), "write a number without quotes");
+}
+
+std::optional<std::int32_t> Section::count(std::string_view key) const {
+  const toml::node* node = find(key);
+  if (!node) {
+    return std::nullopt;
+  }
+  constexpr std::int64_t largest = std::numeric_limits<std::int32_t>::max();
+  const auto value = node->value_exact<std::int64_t>();
+  if (!value || *value < 1 || *value > largest) {
+    throw Error(spot_of(key), shown(*node) + " is no count; write a whole number from 1 to " +
+                                  std::to_string(largest));
+  }
+  return static_cast<std::int32_t>(*value);
+}
+
+std::optional<bool> Section::boolean(std::string_view key) const {
+  const toml::node* node = find(key);
+  if (!node) {
+    return std::nullopt;
+  }
+  const auto value = node->value_exact<bool>();
+  if (!value) {
+    throw Error(spot_of(key), shown(*node) + " is neither true nor false");
+  }
+  return value;
+}
+
+std::optional<Section> Section::section(std::string_view key,
+                                        std::vector<std::string> known) const {
+  const toml::node* node = find(key);
+  if (!node) {
+    return std::nullopt;
+  }
+  const toml::table* table = node->as_table();
+  if (!table) {
+    throw Error(spot_of(key), shown(*node) + " is no table; write [" + path_of(key) + "]");
+  }
+  return Section(*table, path_of(key), std::move(known));
+}
+
+std::vector<Section> Section::sections(std::string_view key,
+                                       const std::vector<std::string>& known) const {
+  const toml::node* node = find(key);
+  if (!node) {
+    return {};
+  }
+  const std::string cure = "; write [[" + path_of(key) + "]] above each of them";
+  const toml::array* list = node->as_array();
+  if (!list) {
+    throw Error(spot_of(key), shown(*node) + " is no list of tables" + cure);
+  }
+  std::vector<Section> sections;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const std::string path = join(path_of(key), i);
+    const toml::node& entry = *list->get(i);
+    const toml::table* table = entry.as_table();
+    if (!table) {
+      throw Error(casefile::spot_of(entry, path), shown(entry) + " is no table" + cure);
+    }
+    sections.emplace_back(*table, path, known);
+  }
+  return sections;
+}
+
+std::optional<std::size_t> Section::choice(std::string_view key,
+                                           const std::vector<std::string>& choices) const {
+  const std::optional<std::string> value = text(key);
+  if (!value) {
+    return std::nullopt;
+  }
+  const auto found = std::find(choices.begin(), choices.end(), *value);
+  if (found == choices.end()) {
+    throw Error(spot_of(key),
+                shown(*find(key)) + " is not possible; " + suggestion(*value, choices));
+  }
+  return static_cast<std::size_t>(found - choices.begin());
+}
+
+const toml::node& Section::need(std::string_view key, std::string_view cure) const {
+  const toml::node* node = find(key);
+  if (!node) {
+    Spot here = spot();
+    here.key = path_of(key);
+    throw Error(std::move(here), "missing; " + std::string(cure));
+  }
+  return *node;
+}
+
+std::string Section::need_text(std::string_view key, std::string_view cure) const {
+  need(key, cure);
+  return *text(key);
+}
+
+}  // namespace anticrack::casefile

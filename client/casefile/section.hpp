@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A table of a case, read by key with the errors of error.hpp. For the sources of this folder only.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "casefile/error.hpp"
+
+namespace anticrack::casefile {
+
+using Point = std::array<double, 2>;
+
+/// Where a node was written; `key` is its path.
+Spot spot_of(const toml::node& node, std::string key);
+
+/// A value as it stands in the case, shortened, for error messages.
+std::string shown(const toml::node& node);
+
+/// A finite number. Throws Error: "... is no number; CURE".
+double number_of(const toml::node& node, const std::string& key, std::string_view cure);
+/// [x, y], both finite.
+Point point_of(const toml::node& node, const std::string& key);
+/// [[x, y], ...].
+std::vector<Point> points_of(const toml::node& node, const std::string& key);
+
+class Section {
+ public:
+  /// Throws Error for a key that is not among `known`, naming the nearest of them.
+  Section(const toml::table& table, std::string path, std::vector<std::string> known);
+
+  const toml::node* find(std::string_view key) const { return _table.get(key); }
+  std::string path_of(std::string_view key) const;
+  Spot spot_of(std::string_view key) const;
+  /// Where the table itself begins.
+  Spot spot() const { return casefile::spot_of(_table, _path); }
+
+  // Empty where the key is absent; Error where the value has another type.
+  std::optional<std::string> text(std::string_view key) const;
+  std::optional<double> number(std::string_view key) const;
+  std::optional<std::int32_t> count(std::string_view key) const;
+  std::optional<bool> boolean(std::string_view key) const;
+  std::optional<Section> section(std::string_view key, std::vector<std::string> known) const;
+  /// The tables of [[path.key]], none where it is absent.
+  std::vector<Section> sections(std::string_view key, const std::vector<std::string>& known) const;
+  /// One of `choices` by name; its index. Error names the nearest.
+  std::optional<std::size_t> choice(std::string_view key,
+                                    const std::vector<std::string>& choices) const;
+
+  // As above, but Error where the key is absent.
+  std::string need_text(std::string_view key, std::string_view cure) const;
+  const toml::node& need(std::string_view key, std::string_view cure) const;
+
+ private:
+  const toml::table& _table;
+  std::string _path;
+};
+
+}  // namespace anticrack::casefile

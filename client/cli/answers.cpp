@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/answers.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "cli/exit_codes.hpp"
+#include "cli/json.hpp"
+#include "cli/text.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+bool has_answer(const results::Load& load) {
+  return load.status == results::Status::converged || load.status == results::Status::not_converged;
+}
+
+// Names of all inclusions, in order of appearance.
+std::vector<std::string> inclusions_of(const results::Result& result) {
+  std::vector<std::string> names;
+  for (const results::Load& load : result.loads) {
+    for (const results::Inclusion& inclusion : load.inclusions) {
+      if (std::find(names.begin(), names.end(), inclusion.name) == names.end()) {
+        names.push_back(inclusion.name);
+      }
+    }
+  }
+  return names;
+}
+
+std::string displacement_of(const results::Load& load, const std::string& name) {
+  const auto found = std::find_if(load.inclusions.begin(), load.inclusions.end(),
+                                  [&](const auto& inclusion) { return inclusion.name == name; });
+  return found == load.inclusions.end() ? "-" : number(found->displacement);
+}
+
+std::string words_of(results::Status status) {
+  std::string words(results::name(status));
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+std::vector<std::string> row_of(const results::Load& load,
+                                const std::vector<std::string>& inclusions) {
+  const bool answered = has_answer(load);
+  const auto when_answered = [answered](double value, int digits = 6) {
+    return answered ? number(value, digits) : "-";
+  };
+  std::vector<std::string> row{sanitise(load.name), words_of(load.status),
+                               std::to_string(load.iterations),
+                               answered ? number(load.criterion, 2, true) : "-"};
+  for (const std::string& name : inclusions) {
+    row.push_back(answered ? displacement_of(load, name) : "-");
+  }
+  row.push_back(when_answered(load.energy));
+  row.push_back(when_answered(load.contact_length));
+  row.push_back(when_answered(load.theta, 4));
+  row.push_back(when_answered(load.theta_star, 4));
+  row.push_back(number(load.solve_seconds, 3));
+  return row;
+}
+
+}  // namespace
+
+std::string answers_table(const results::Result& result) {
+  const std::vector<std::string> inclusions = inclusions_of(result);
+  std::vector<std::string> head{"load", "status", "iterations", "criterion"};
+  for (const std::string& name : inclusions) {
+    head.push_back(inclusions.size() == 1 ? "A" : "A " + sanitise(name));
+  }
+  for (const char* column : {"energy", "contact length", "theta", "theta*", "wall time"}) {
+    head.emplace_back(column);
+  }
+  std::vector<std::string> units(head.size(), "-");
+  units[0] = units[1] = "";
+  units.back() = "s";
+  std::vector<std::vector<std::string>> rows{head, units};
+  std::string remarks;
+  for (const results::Load& load : result.loads) {
+    rows.push_back(row_of(load, inclusions));
+    const std::string& remark = load.error.empty() ? load.reason : load.error;
+    if (!remark.empty()) {
+      remarks += sanitise(load.name) + ": " + sanitise(remark) + "\n";
+    }
+  }
+  return table(rows, {1}) + remarks;
+}
+
+std::string answers_json(const results::Result& result, const std::filesystem::path& file) {
+  JsonWriter json;
+  json.begin_object();
+  json.value("title", result.title)
+      .value("file", file.string())
+      .value("job", result.job_name)
+      .value("mesh", result.mesh_name)
+      .value("mesh_seconds", result.timings.mesh_seconds)
+      .value("factorize_seconds", result.timings.factorize_seconds)
+      .value("solve_seconds", result.timings.solve_seconds)
+      .value("total_seconds", result.timings.total_seconds);
+  json.begin_array("answers");
+  for (const results::Load& load : result.loads) {
+    json.begin_object()
+        .value("name", load.name)
+        .value("status", results::name(load.status))
+        .value("reason", load.reason)
+        .value("error", load.error)
+        .value("iterations", std::int64_t{load.iterations})
+        .value("criterion", load.criterion)
+        .value("theta", load.theta)
+        .value("theta_star", load.theta_star)
+        .value("energy", load.energy)
+        .value("contact_length", load.contact_length)
+        .value("solve_seconds", load.solve_seconds);
+    json.begin_array("inclusions");
+    for (const results::Inclusion& inclusion : load.inclusions) {
+      json.begin_object()
+          .value("name", inclusion.name)
+          .value("A", inclusion.displacement)
+          .value("resultant", inclusion.resultant)
+          .value("contact_length", inclusion.contact_length)
+          .end_object();
+    }
+    json.end_array().end_object();
+  }
+  json.end_array().end_object();
+  return json.text();
+}
+
+int exit_code_of(const results::Result& result) {
+  const auto some = [&](auto... statuses) {
+    return std::any_of(result.loads.begin(), result.loads.end(), [&](const results::Load& load) {
+      return ((load.status == statuses) || ...);
+    });
+  };
+  using results::Status;
+  if (some(Status::failed, Status::cancelled, Status::pending, Status::running,
+           Status::unspecified)) {
+    return exit_job_failed;
+  }
+  return some(Status::not_converged) ? exit_not_converged : exit_ok;
+}
+
+}  // namespace anticrack::cli

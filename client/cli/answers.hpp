@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The table of answers, for people and as JSON. Pure.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "results/result.hpp"
+
+namespace anticrack::cli {
+
+/// A head row, a row of units ("-": dimensionless), one row per load case; below it, why load cases
+/// did not converge or failed. A column "A" per inclusion, with its name where there are several.
+std::string answers_table(const results::Result& result);
+
+/// {title, file, job, mesh, timings, answers: [one per load case]}.
+std::string answers_json(const results::Result& result, const std::filesystem::path& file);
+
+/// exit_ok, exit_job_failed (failed or cancelled load cases) or exit_not_converged.
+int exit_code_of(const results::Result& result);
+
+}  // namespace anticrack::cli

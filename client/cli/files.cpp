@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+//   anticrack show | plot: what needs a result file and no server
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+#include "cli/answers.hpp"
+#include "cli/commands.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/json.hpp"
+#include "cli/text.hpp"
+#include "figures/figures.hpp"
+#include "results/file.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+struct FileOptions {
+  std::string file;
+  std::string folder;
+};
+
+int show(const FileOptions& options, const Globals& globals) {
+  const results::Result result = results::read(options.file);
+  if (globals.json) {
+    print_document(answers_json(result, options.file));
+    return exit_ok;
+  }
+  std::string head;
+  if (!result.title.empty()) {
+    head += sanitise(result.title) + "\n";
+  }
+  head += std::to_string(result.mesh.triangle_count()) + " triangles, " +
+          std::to_string(result.mesh.node_count()) + " nodes (" + sanitise(result.mesh_name) +
+          "), solved by " + sanitise(result.job_name) + "\n\n";
+  print_document(head + answers_table(result));
+  return exit_ok;
+}
+
+int plot(const FileOptions& options, const Globals& globals) {
+  const results::Result result = results::read(options.file);
+  const figures::Drawn drawn = figures::draw(result, options.folder);
+  if (globals.json) {
+    JsonWriter json;
+    json.begin_object().begin_array("files");
+    for (const auto& file : drawn.files) {
+      json.element(file.string());
+    }
+    json.end_array().begin_array("notes");
+    for (const std::string& note : drawn.notes) {
+      json.element(note);
+    }
+    print_document(json.end_array().end_object().text());
+    return exit_ok;
+  }
+  for (const auto& file : drawn.files) {
+    say(globals, file.string());
+  }
+  for (const std::string& note : drawn.notes) {
+    say(globals, note);
+  }
+  return exit_ok;
+}
+
+}  // namespace
+
+void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
+  const auto options = std::make_shared<FileOptions>();
+  CLI::App* show_command = app.add_subcommand("show", "Show the answers of a result file");
+  show_command->add_option("FILE", options->file, "Result file, HDF5")->required();
+  show_command->footer("Example:\n  anticrack show paper.h5");
+  show_command->callback([options, &globals, &chosen] {
+    chosen = [options, &globals] { return show(*options, globals); };
+  });
+
+  CLI::App* plot_command =
+      app.add_subcommand("plot", "Draw the figures of a result file, PNG and SVG");
+  plot_command->add_option("FILE", options->file, "Result file, HDF5")->required();
+  plot_command->add_option("-o,--output", options->folder, "Folder of the figures")->required();
+  plot_command->footer("Example:\n  anticrack plot paper.h5 -o figures");
+  plot_command->callback([options, &globals, &chosen] {
+    chosen = [options, &globals] { return plot(*options, globals); };
+  });
+}
+
+}  // namespace anticrack::cli

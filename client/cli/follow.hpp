@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Watching a job with a live view, and what Ctrl-C means meanwhile.
+#pragma once
+
+#include <string>
+
+#include "anticrack/v1/solve.pb.h"
+#include "cli/session.hpp"
+
+namespace anticrack::cli {
+
+struct Followed {
+  enum class How { ended, detached, cancelled };  ///< cancelled: by this command, in time
+  How how = How::ended;
+  v1::Job job;  ///< as it ended; as it was when detached
+};
+
+/// Shows a job's progress until it ends. Ctrl-C detaches and says how to attach again; a second one
+/// within two seconds cancels the job. With a private server the first one cancels: the server
+/// would not outlive the command.
+Followed follow(Session& session, const v1::Job& job);
+
+}  // namespace anticrack::cli

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+//   anticrack job submit | list | show | watch | cancel | fetch | delete
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/answers.hpp"
+#include "cli/commands.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/follow.hpp"
+#include "cli/json.hpp"
+#include "cli/progress.hpp"
+#include "cli/submit.hpp"
+#include "cli/text.hpp"
+#include "client/jobs.hpp"
+#include "client/uuid.hpp"
+#include "results/file.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+struct JobOptions {
+  std::string case_file;
+  std::vector<std::string> overrides;
+  std::string name;
+  std::string output;
+  int limit = 50;
+
+  std::string full() const { return full_name("jobs/", name); }
+};
+
+std::string text_of(const v1::Job& job) {
+  std::string text = sanitise(job.name()) + " on " + sanitise(job.mesh()) + ": " +
+                     std::string(word(job.state())) + "\n";
+  if (!job.title().empty()) {
+    text += sanitise(job.title()) + "\n";
+  }
+  if (job.has_error()) {
+    text += sanitise(job.error().message()) + "\n";
+  }
+  std::vector<std::vector<std::string>> rows{
+      {"load", "status", "iterations", "criterion", "energy"}};
+  std::string remarks;
+  for (const v1::LoadCaseAnswer& answer : job.answers()) {
+    const bool answered = answer.status() == v1::LoadCaseAnswer::STATUS_CONVERGED ||
+                          answer.status() == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED;
+    rows.push_back({sanitise(answer.name()), std::string(word(answer.status())),
+                    std::to_string(answer.iterations()),
+                    answered ? number(answer.criterion(), 2, true) : "-",
+                    answered ? number(answer.energy()) : "-"});
+    const std::string& remark = answer.has_error() ? answer.error().message() : answer.reason();
+    if (!remark.empty()) {
+      remarks += sanitise(answer.name()) + ": " + sanitise(remark) + "\n";
+    }
+  }
+  return text + table(rows, {1}) + remarks;
+}
+
+int show(const Globals& globals, const v1::Job& job, int exit_code = exit_ok) {
+  print_document(globals.json ? to_json(job) : text_of(job));
+  return exit_code;
+}
+
+int submit_case(const JobOptions& options, const Globals& globals) {
+  const casefile::Case the_case = casefile::read_case(options.case_file, options.overrides);
+  Session session(globals);
+  const v1::Job job = submit(session, the_case, client::make_uuid());
+  if (globals.json) {
+    return show(globals, job);
+  }
+  say(globals, job.name());
+  say(globals, "To watch it: anticrack job watch " + job.name() + session.server_option());
+  return exit_ok;
+}
+
+int list(const JobOptions& options, const Globals& globals) {
+  Session session(globals);
+  v1::ListJobsRequest request;
+  request.set_page_size(options.limit);
+  const auto response = client::list_jobs(session.connection(), request, session.stop());
+  if (globals.json) {
+    print_document(to_json(response));
+    return exit_ok;
+  }
+  std::vector<std::vector<std::string>> rows{{"job", "state", "ended", "mesh", "title"}};
+  for (const v1::Job& job : response.jobs()) {
+    const auto ended_cases =
+        std::count_if(job.answers().begin(), job.answers().end(),
+                      [](const v1::LoadCaseAnswer& answer) { return ended(answer.status()); });
+    rows.push_back({sanitise(job.name()), std::string(word(job.state())),
+                    std::to_string(ended_cases) + "/" + std::to_string(job.load_cases_size()),
+                    sanitise(job.mesh()), sanitise(job.title())});
+  }
+  print_document(table(rows, {1, 3, 4}));
+  if (!response.next_page_token().empty()) {
+    say(globals, "There are more; see --limit");
+  }
+  return exit_ok;
+}
+
+// As exit_code_of a result, from a job's own answers.
+int exit_code_of_answers(const v1::Job& job) {
+  const bool all_converged = std::all_of(
+      job.answers().begin(), job.answers().end(),
+      [](const auto& answer) { return answer.status() == v1::LoadCaseAnswer::STATUS_CONVERGED; });
+  const int code = exit_code_of(job.state());
+  return code == exit_ok && !all_converged ? exit_not_converged : code;
+}
+
+int watch(const JobOptions& options, const Globals& globals) {
+  Session session(globals);
+  const v1::Job job = client::get_job(session.connection(), options.full(), session.stop());
+  const Followed followed = follow(session, job);
+  if (followed.how == Followed::How::detached) {
+    if (globals.json) {
+      print_document(to_json(followed.job));
+    }
+    return exit_interrupted;
+  }
+  return show(globals, followed.job,
+              followed.how == Followed::How::cancelled ? exit_interrupted
+                                                       : exit_code_of_answers(followed.job));
+}
+
+int fetch_result(const JobOptions& options, const Globals& globals) {
+  const std::string output = options.output.empty()
+                                 ? options.full().substr(std::string("jobs/").size()) + ".h5"
+                                 : options.output;
+  results::check_writable(output);
+  Session session(globals);
+  const v1::Job job = client::get_job(session.connection(), options.full(), session.stop());
+  const results::Result result = fetch(session, job);
+  results::write(output, result);
+  print_document(globals.json ? answers_json(result, output)
+                              : answers_table(result) + "\nResults: " + sanitise(output));
+  const int code = exit_code_of(job.state());
+  return code != exit_ok ? code : exit_code_of(result);
+}
+
+}  // namespace
+
+void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
+  CLI::App* group = app.add_subcommand("job", "Jobs on the server");
+  group->require_subcommand(1);
+  const auto options = std::make_shared<JobOptions>();
+  const auto add = [&](const std::string& name, const std::string& help, const std::string& example,
+                       std::function<int(const JobOptions&)> action) {
+    CLI::App* command = group->add_subcommand(name, help);
+    command->footer("Example:\n  anticrack job " + name + " " + example);
+    command->callback(
+        [options, action, &chosen] { chosen = [options, action] { return action(*options); }; });
+    return command;
+  };
+  const auto add_named = [&](const std::string& name, const std::string& help,
+                             const std::string& example,
+                             std::function<int(const JobOptions&)> action) {
+    CLI::App* command = add(name, help, "jobs/0123456789abcdef" + example, std::move(action));
+    command->add_option("JOB", options->name, "jobs/ID")->required();
+    return command;
+  };
+
+  CLI::App* submit_command =
+      add("submit", "Submit a case and return at once", "client/examples/paper.toml",
+          [&globals](const JobOptions& o) { return submit_case(o, globals); });
+  submit_command->add_option("CASE", options->case_file, "The case, a TOML file")->required();
+  submit_command->add_option("--set", options->overrides, "Override a key of the case")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+
+  CLI::App* list_command = add("list", "List the newest jobs", "--limit 10",
+                               [&globals](const JobOptions& o) { return list(o, globals); });
+  list_command->add_option("--limit", options->limit, "At most so many")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+
+  add_named("show", "Show a job", "", [&globals](const JobOptions& o) {
+    Session session(globals);
+    return show(globals, client::get_job(session.connection(), o.full(), session.stop()));
+  });
+  add_named("watch", "Watch a job until it ends", "",
+            [&globals](const JobOptions& o) { return watch(o, globals); });
+  add_named("cancel", "Cancel a job", "", [&globals](const JobOptions& o) {
+    Session session(globals);
+    return show(globals, client::cancel_job(session.connection(), o.full(), session.stop()));
+  });
+  CLI::App* fetch_command =
+      add_named("fetch", "Save the results of a job that has ended", " -o plate.h5",
+                [&globals](const JobOptions& o) { return fetch_result(o, globals); });
+  fetch_command->add_option("-o,--output", options->output,
+                            "Result file, HDF5 (default: ID.h5 in this folder)");
+  add_named("delete", "Delete a job that has ended, and its results", "",
+            [&globals](const JobOptions& o) {
+              Session session(globals);
+              client::delete_job(session.connection(), o.full(), session.stop());
+              if (globals.json) {
+                print_document(
+                    JsonWriter().begin_object().value("deleted", o.full()).end_object().text());
+              } else {
+                say(globals, o.full() + ": deleted");
+              }
+              return exit_ok;
+            });
+}
+
+}  // namespace anticrack::cli

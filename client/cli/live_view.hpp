@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A job's progress as text: frames for a terminal, lines for a pipe. Pure functions of the
+// progress.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "cli/progress.hpp"
+
+namespace anticrack::cli {
+
+/// At most `height` lines of fewer than `width` columns each: a head line, then one line per load
+/// case. With more load cases than lines: those running, the last ones that ended, the next ones,
+/// in their order in the job, and a last line that counts the others.
+std::vector<std::string> frame(const JobProgress& progress, std::size_t width, std::size_t height);
+
+/// What a pipe is told: changes of state, ends of load cases, and iterations 50, 100, ...
+class PlainLog {
+ public:
+  /// Lines for what has changed since the last call.
+  std::vector<std::string> lines(const JobProgress& progress);
+
+  static constexpr std::int32_t stride = 50;
+
+ private:
+  struct Seen {
+    v1::LoadCaseAnswer::Status status = v1::LoadCaseAnswer::STATUS_PENDING;
+    std::int32_t strides = 0;
+  };
+  std::string _head;
+  std::vector<Seen> _cases;
+};
+
+}  // namespace anticrack::cli

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/progress.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/text.hpp"
+
+namespace anticrack::cli {
+
+void JobProgress::apply(const v1::WatchJobResponse& event) {
+  notice.clear();
+  switch (event.event_case()) {
+    case v1::WatchJobResponse::kSnapshot:
+      apply(event.snapshot().job());
+      break;
+    case v1::WatchJobResponse::kSamples:
+      apply(event.samples());
+      break;
+    case v1::WatchJobResponse::kPhase:
+      state = event.phase().state();
+      detail = sanitise(event.phase().detail());
+      break;
+    case v1::WatchJobResponse::kLoadCaseEnded: {
+      const std::int32_t index = event.load_case_ended().load_case();
+      if (index >= 0) {
+        apply(static_cast<std::size_t>(index), event.load_case_ended().answer());
+      }
+      break;
+    }
+    case v1::WatchJobResponse::kHeartbeat:
+      state = event.heartbeat().state();
+      detail = sanitise(event.heartbeat().detail());
+      break;
+    case v1::WatchJobResponse::kEnded:
+      apply(event.ended());
+      break;
+    case v1::WatchJobResponse::EVENT_NOT_SET:
+      break;  // an event of a later version
+  }
+}
+
+void JobProgress::apply(const v1::Job& job_now) {
+  job = sanitise(job_now.name());
+  if (state != job_now.state()) {
+    detail.clear();
+  }
+  state = job_now.state();
+  const v1::Uzawa& uzawa = job_now.solver().uzawa();
+  target = uzawa.has_epsilon() ? uzawa.epsilon() : 1e-12;
+  cases.resize(static_cast<std::size_t>(job_now.load_cases_size()));
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    cases[i].name = sanitise(job_now.load_cases(static_cast<int>(i)).name());
+  }
+  for (int i = 0; i < job_now.answers_size(); ++i) {
+    apply(static_cast<std::size_t>(i), job_now.answers(i));
+  }
+}
+
+void JobProgress::apply(const v1::Samples& samples) {
+  const int count = std::min({samples.load_case_size(), samples.iteration_size(),
+                              samples.criterion_size(), samples.contact_count_size()});
+  for (int i = 0; i < count; ++i) {
+    const auto index = static_cast<std::size_t>(samples.load_case(i));
+    if (samples.load_case(i) < 0 || index >= cases.size()) {
+      continue;
+    }
+    CaseProgress& progress = cases[index];
+    // Started over from an old event, or late: an ended case is not running again.
+    if (ended(progress.status) || samples.iteration(i) <= progress.iteration) {
+      continue;
+    }
+    progress.status = v1::LoadCaseAnswer::STATUS_RUNNING;
+    progress.iteration = samples.iteration(i);
+    progress.criterion = samples.criterion(i);
+    progress.contact_count = samples.contact_count(i);
+  }
+}
+
+void JobProgress::apply(std::size_t index, const v1::LoadCaseAnswer& answer) {
+  if (index >= cases.size()) {
+    return;
+  }
+  CaseProgress& progress = cases[index];
+  if (ended(answer.status()) && !ended(progress.status)) {
+    progress.end_rank = ++ended_count;
+  }
+  progress.status = answer.status();
+  if (answer.iterations() > 0) {
+    progress.iteration = answer.iterations();
+    progress.criterion = answer.criterion();
+  }
+  progress.seconds =
+      static_cast<double>(answer.solve_time().seconds()) + 1e-9 * answer.solve_time().nanos();
+  progress.remark = sanitise(answer.has_error() ? answer.error().message() : answer.reason());
+}
+
+std::string_view word(v1::LoadCaseAnswer::Status status) noexcept {
+  switch (status) {
+    case v1::LoadCaseAnswer::STATUS_PENDING:
+      return "waiting";
+    case v1::LoadCaseAnswer::STATUS_RUNNING:
+      return "running";
+    case v1::LoadCaseAnswer::STATUS_CONVERGED:
+      return "converged";
+    case v1::LoadCaseAnswer::STATUS_NOT_CONVERGED:
+      return "not converged";
+    case v1::LoadCaseAnswer::STATUS_FAILED:
+      return "failed";
+    case v1::LoadCaseAnswer::STATUS_CANCELLED:
+      return "cancelled";
+    default:
+      return "unknown";
+  }
+}
+
+std::string_view word(v1::Job::State state) noexcept {
+  switch (state) {
+    case v1::Job::STATE_QUEUED:
+      return "queued";
+    case v1::Job::STATE_WAITING_FOR_MESH:
+      return "waiting for the mesh";
+    case v1::Job::STATE_RUNNING:
+      return "running";
+    case v1::Job::STATE_SUCCEEDED:
+      return "done";
+    case v1::Job::STATE_FAILED:
+      return "failed";
+    case v1::Job::STATE_CANCELLED:
+      return "cancelled";
+    case v1::Job::STATE_EXPIRED:
+      return "expired";
+    default:
+      return "submitted";
+  }
+}
+
+std::string_view word(v1::Mesh::State state) noexcept {
+  switch (state) {
+    case v1::Mesh::STATE_PENDING:
+      return "waiting";
+    case v1::Mesh::STATE_MESHING:
+      return "meshing";
+    case v1::Mesh::STATE_FACTORIZING:
+      return "factorising";
+    case v1::Mesh::STATE_READY:
+      return "ready";
+    case v1::Mesh::STATE_EVICTED:
+      return "evicted";
+    case v1::Mesh::STATE_FAILED:
+      return "failed";
+    default:
+      return "unknown";
+  }
+}
+
+bool ended(v1::LoadCaseAnswer::Status status) noexcept {
+  return status == v1::LoadCaseAnswer::STATUS_CONVERGED ||
+         status == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED ||
+         status == v1::LoadCaseAnswer::STATUS_FAILED ||
+         status == v1::LoadCaseAnswer::STATUS_CANCELLED;
+}
+
+double bar_fraction(double criterion, double target) noexcept {
+  if (std::isnan(criterion)) {
+    return 0;
+  }
+  if (criterion <= target) {
+    return 1;
+  }
+  if (criterion >= 1 || !(target > 0)) {
+    return 0;
+  }
+  return std::log(criterion) / std::log(target);
+}
+
+}  // namespace anticrack::cli

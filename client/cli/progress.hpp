@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How far a job has come, folded from its events. Pure.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "anticrack/v1/solve.pb.h"
+
+namespace anticrack::cli {
+
+struct CaseProgress {
+  std::string name;
+  v1::LoadCaseAnswer::Status status = v1::LoadCaseAnswer::STATUS_PENDING;
+  std::int32_t iteration = 0;
+  double criterion = std::numeric_limits<double>::quiet_NaN();  ///< NaN before the first iteration
+  std::int32_t contact_count = 0;
+  double seconds = 0;        ///< once ended
+  std::string remark;        ///< why it did not converge, or failed
+  std::size_t end_rank = 0;  ///< 1 for the first that ended, and so on; 0 before
+};
+
+struct JobProgress {
+  std::string job;
+  v1::Job::State state = v1::Job::STATE_UNSPECIFIED;
+  std::string detail;  ///< phase, e.g. "meshing"
+  std::string notice;  ///< e.g. that the connection is lost; empty when all is well
+  double target = 1e-12;
+  std::vector<CaseProgress> cases;
+  std::size_t ended_count = 0;
+
+  void apply(const v1::WatchJobResponse& event);
+
+ private:
+  void apply(const v1::Job& job_now);
+  void apply(const v1::Samples& samples);
+  void apply(std::size_t index, const v1::LoadCaseAnswer& answer);
+};
+
+/// "converged", "not converged", "running", ... for people.
+std::string_view word(v1::LoadCaseAnswer::Status status) noexcept;
+/// "queued", "waiting for the mesh", ... for people.
+std::string_view word(v1::Job::State state) noexcept;
+std::string_view word(v1::Mesh::State state) noexcept;
+
+bool ended(v1::LoadCaseAnswer::Status status) noexcept;
+
+/// Part of the way from 1 down to `target` that `criterion` has gone on a log scale, 0 to 1.
+double bar_fraction(double criterion, double target) noexcept;
+
+}  // namespace anticrack::cli

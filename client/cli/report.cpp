@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/report.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <sstream>
+#include <string>
+
+#include "casefile/error.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/json.hpp"
+#include "cli/text.hpp"
+#include "figures/figures.hpp"
+#include "results/error.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+struct Complaint {
+  int exit_code = exit_job_failed;
+  std::string code;  ///< stable, for scripts
+  std::string message;
+  client::Details details;
+};
+
+Complaint complaint_of(const client::Error& error) {
+  return {exit_code_of(error.code()), std::string(name(error.code())), error.what(),
+          error.details()};
+}
+
+Complaint current_complaint() {
+  try {
+    throw;
+  } catch (const client::Interrupted&) {
+    return {exit_interrupted, "INTERRUPTED", "interrupted", {}};
+  } catch (const client::Error& error) {
+    return complaint_of(error);
+  } catch (const LocalServerError& error) {
+    return {exit_server, "LOCAL_SERVER", error.what(), {}};
+  } catch (const casefile::Error& error) {
+    return {exit_usage, "CASE", error.what(), {}};
+  } catch (const results::Error& error) {
+    return {exit_usage, "RESULT_FILE", error.what(), {}};
+  } catch (const figures::Error& error) {
+    return {exit_usage, "FIGURES", error.what(), {}};
+  } catch (const std::exception& error) {
+    return {exit_usage, "ERROR", error.what(), {}};
+  }
+}
+
+std::string document_of(const Complaint& complaint) {
+  JsonWriter json;
+  json.begin_object().begin_object("error");
+  json.value("code", complaint.code)
+      .value("reason", complaint.details.reason)
+      .value("message", complaint.message);
+  json.begin_array("fields");
+  for (const client::FieldViolation& violation : complaint.details.fields) {
+    json.begin_object()
+        .value("field", violation.field)
+        .value("description", violation.description)
+        .end_object();
+  }
+  json.end_array().end_object().end_object();
+  return json.text();
+}
+
+}  // namespace
+
+int exit_code_of(client::Code code) noexcept {
+  switch (code) {
+    case client::Code::invalid_argument:
+    case client::Code::not_found:
+    case client::Code::already_exists:
+    case client::Code::failed_precondition:
+    case client::Code::out_of_range:
+    case client::Code::unimplemented:
+      return exit_usage;
+    case client::Code::cancelled:
+      return exit_interrupted;
+    default:
+      return exit_server;
+  }
+}
+
+int guarded(const Globals& globals, const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (...) {
+    const Complaint complaint = current_complaint();
+    std::istringstream lines(complaint.message);
+    for (std::string line; std::getline(lines, line);) {
+      std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
+    }
+    if (globals.json) {
+      print_document(document_of(complaint));
+    }
+    return complaint.exit_code;
+  }
+}
+
+}  // namespace anticrack::cli

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+//   anticrack server
+#include <CLI/CLI.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/json.hpp"
+#include "cli/text.hpp"
+#include "client/jobs.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+std::string megabytes(std::uint64_t bytes) {
+  return number(static_cast<double>(bytes) / 1e6, 4) + " MB";
+}
+
+std::string text_of(const v1::ServerInfo& info, const std::string& address) {
+  const v1::ServerMetrics& metrics = info.metrics();
+  const v1::ServerLimits& limits = info.limits();
+  std::string features;
+  for (const std::string& feature : info.features()) {
+    features += (features.empty() ? "" : ", ") + sanitise(feature);
+  }
+  const std::vector<std::vector<std::string>> rows{
+      {"address", sanitise(address)},
+      {"version", sanitise(info.version()) + " (" + sanitise(info.build()) + ")"},
+      {"features", features},
+      {"solver threads", std::to_string(info.threads())},
+      {"jobs", std::to_string(metrics.jobs_queued()) + " queued, " +
+                   std::to_string(metrics.jobs_running()) + " running, " +
+                   std::to_string(metrics.jobs_ended()) + " ended"},
+      {"load cases ended", std::to_string(metrics.load_cases_ended())},
+      {"iterations", std::to_string(metrics.iterations())},
+      {"meshings", std::to_string(metrics.meshings())},
+      {"factorisations", std::to_string(metrics.factorizations()) + ", reused " +
+                             std::to_string(metrics.operator_hits()) + " times, joined " +
+                             std::to_string(metrics.operator_joins()) + " times, evicted " +
+                             std::to_string(metrics.operator_evictions())},
+      {"factors in memory",
+       megabytes(metrics.operator_bytes()) + " of " + megabytes(limits.memory_budget_bytes())},
+      {"watchers", std::to_string(metrics.watchers()) + " of " + std::to_string(limits.watchers())},
+      {"limits", std::to_string(limits.mesh_triangles()) + " triangles a mesh, uploads of " +
+                     megabytes(limits.upload_bytes()) + ", " + std::to_string(limits.load_cases()) +
+                     " load cases a job, " + std::to_string(limits.iterations()) +
+                     " iterations a load case"}};
+  return table(rows, {1});
+}
+
+}  // namespace
+
+void add_server(CLI::App& app, const Globals& globals, Command& chosen) {
+  CLI::App* command =
+      app.add_subcommand("server", "What the server is, what it allows, how busy it is");
+  command->footer("Example:\n  anticrack --server localhost:7433 server");
+  command->callback([&globals, &chosen] {
+    chosen = [&globals] {
+      Session session(globals);
+      const v1::ServerInfo info = client::server_info(session.connection(), session.stop());
+      print_document(globals.json ? to_json(info) : text_of(info, session.connection().address()));
+      return exit_ok;
+    };
+  });
+}
+
+}  // namespace anticrack::cli

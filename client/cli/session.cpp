@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/session.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "cli/text.hpp"
+
+namespace anticrack::cli {
+
+std::FILE* people(const Globals& globals) {
+  return globals.json ? stderr : stdout;
+}
+
+void say(const Globals& globals, std::string_view line) {
+  const std::string text = sanitise(line) + "\n";
+  std::fwrite(text.data(), 1, text.size(), people(globals));
+  std::fflush(people(globals));
+}
+
+void print_document(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  if (text.empty() || text.back() != '\n') {
+    std::fputc('\n', stdout);
+  }
+  if (std::fflush(stdout) != 0) {
+    throw std::runtime_error("standard output cannot be written");
+  }
+}
+
+Session::Session(const Globals& globals) : _globals(globals) {
+  client::ConnectionOptions options;
+  options.notice = [this](const std::string& message) { notice(message); };
+  if (globals.local) {
+    _local.emplace(_signals.first());
+    options.address = _local->address();
+  } else if (!globals.server.empty()) {
+    options.address = globals.server;
+  }
+  _connection.emplace(std::move(options));
+}
+
+std::string Session::server_option() const {
+  return _globals.server.empty() ? "" : " --server " + _globals.server;
+}
+
+void Session::notice(const std::string& message) {
+  if (_listener) {
+    _listener(message);
+    return;
+  }
+  if (message != _last_notice) {
+    std::fprintf(stderr, "anticrack: %s\n", sanitise(message).c_str());
+    _last_notice = message;
+  }
+}
+
+}  // namespace anticrack::cli

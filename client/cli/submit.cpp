@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/submit.hpp"
+
+#include <optional>
+
+#include "cli/exit_codes.hpp"
+#include "cli/to_result.hpp"
+#include "client/jobs.hpp"
+#include "client/meshes.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+// The server speaks of fields of a request, its user of lines of a file.
+client::Error in_terms_of(const casefile::Case& the_case, const client::Error& error) {
+  std::string message;
+  for (const client::FieldViolation& violation : error.details().fields) {
+    const std::optional<casefile::Spot> spot = the_case.locate(violation.field);
+    message += message.empty() ? "" : "\n";
+    message += spot ? casefile::prefix(*spot) : violation.field + ": ";
+    message += violation.description;
+  }
+  return client::Error(error.code(), message.empty() ? error.what() : message, error.details());
+}
+
+template <class Call>
+auto in_terms_of(const casefile::Case& the_case, const Call& call) -> decltype(call()) {
+  try {
+    return call();
+  } catch (const client::Error& error) {
+    throw in_terms_of(the_case, error);
+  }
+}
+
+}  // namespace
+
+v1::Mesh create_mesh(Session& session, const casefile::Case& the_case) {
+  return in_terms_of(the_case, [&] {
+    v1::CreateMeshRequest request = the_case.mesh;
+    if (the_case.mesh_file) {
+      request.set_upload(
+          client::upload_mesh(session.connection(), *the_case.mesh_file, session.stop()));
+    }
+    return client::create_mesh(session.connection(), request, session.stop());
+  });
+}
+
+v1::Job submit(Session& session, const casefile::Case& the_case, const std::string& request_id) {
+  const v1::Mesh mesh = create_mesh(session, the_case);
+  return in_terms_of(the_case, [&] {
+    v1::Job job = the_case.job;
+    job.set_mesh(mesh.name());
+    return client::create_job(session.connection(), job, request_id, session.stop());
+  });
+}
+
+results::Result fetch(Session& session, const v1::Job& job) {
+  client::Connection& connection = session.connection();
+  Fetched fetched;
+  fetched.job = job;
+  fetched.mesh = client::get_mesh(connection, job.mesh());
+  fetched.server = client::server_info(connection);
+  fetched.mesh_block = client::read_mesh(connection, job.mesh());
+  fetched.result_block = client::read_result(connection, job.name());
+  return to_result(fetched);
+}
+
+std::string full_name(const std::string& collection, const std::string& given) {
+  return given.rfind(collection, 0) == 0 ? given : collection + given;
+}
+
+int exit_code_of(v1::Job::State state) {
+  return state == v1::Job::STATE_SUCCEEDED ? exit_ok : exit_job_failed;
+}
+
+}  // namespace anticrack::cli

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A case on its way to the server, and answers on their way back.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "anticrack/v1/mesh.pb.h"
+#include "anticrack/v1/solve.pb.h"
+#include "casefile/case.hpp"
+#include "cli/session.hpp"
+#include "results/result.hpp"
+
+namespace anticrack::cli {
+
+/// Uploads the case's .msh if it has one, and creates its mesh. A refusal names the lines of the
+/// case it is about.
+v1::Mesh create_mesh(Session& session, const casefile::Case& the_case);
+
+/// create_mesh, then the job. Repeating it with the same id is harmless.
+v1::Job submit(Session& session, const casefile::Case& the_case, const std::string& request_id);
+
+/// Everything about a job that has ended and has results.
+results::Result fetch(Session& session, const v1::Job& job);
+
+/// "jobs/ID" of "jobs/ID" or "ID"; the same for "meshes/".
+std::string full_name(const std::string& collection, const std::string& given);
+
+/// exit_ok or exit_job_failed, by the state of a job that has ended.
+int exit_code_of(v1::Job::State state);
+
+}  // namespace anticrack::cli

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+namespace anticrack::cli {
+namespace {
+
+std::uint8_t byte_at(std::string_view text, std::size_t i) {
+  return static_cast<std::uint8_t>(text[i]);
+}
+
+bool is_continuation(std::string_view text, std::size_t i) {
+  return i < text.size() && (byte_at(text, i) & 0xc0) == 0x80;
+}
+
+// Length of the printable code point at `i`, 0 where there is none.
+std::size_t printable_length(std::string_view text, std::size_t i) {
+  const std::uint8_t lead = byte_at(text, i);
+  if (lead < 0x80) {
+    return lead >= 0x20 && lead != 0x7f ? 1 : 0;
+  }
+  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4) {
+    return 0;
+  }
+  std::uint32_t point = lead & (0xffu >> (length + 1));
+  for (std::size_t k = 1; k < length; ++k) {
+    if (!is_continuation(text, i + k)) {
+      return 0;
+    }
+    point = (point << 6) | (byte_at(text, i + k) & 0x3fu);
+  }
+  const bool overlong = (length == 3 && point < 0x800) || (length == 4 && point < 0x10000);
+  const bool surrogate = point >= 0xd800 && point < 0xe000;
+  const bool control = point < 0xa0;
+  // Marks that turn the direction of writing can make a line read as another one.
+  const bool direction = (point >= 0x202a && point <= 0x202e) ||
+                         (point >= 0x2066 && point <= 0x2069) || point == 0x200e || point == 0x200f;
+  const bool line_end = point == 0x2028 || point == 0x2029;
+  const bool bad = overlong || surrogate || control || direction || line_end || point > 0x10ffff;
+  return bad ? 0 : length;
+}
+
+}  // namespace
+
+std::string sanitise(std::string_view text) {
+  std::string clean;
+  clean.reserve(text.size());
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = printable_length(text, i);
+    clean += length > 0 ? text.substr(i, length) : std::string_view("?");
+    i += std::max<std::size_t>(length, 1);
+  }
+  return clean;
+}
+
+std::size_t columns_of(std::string_view text) noexcept {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<std::uint8_t>(c) & 0xc0) != 0x80;
+  }));
+}
+
+std::string fit(std::string_view text, std::size_t width) {
+  if (columns_of(text) <= width) {
+    return std::string(text);
+  }
+  if (width == 0) {
+    return "";
+  }
+  std::size_t end = 0;
+  for (std::size_t column = 0; column + 1 < width; ++column) {
+    ++end;
+    while (is_continuation(text, end)) {
+      ++end;
+    }
+  }
+  return std::string(text.substr(0, end)) + "~";
+}
+
+std::string pad_right(std::string_view text, std::size_t width) {
+  const std::size_t columns = columns_of(text);
+  return std::string(text) + std::string(width > columns ? width - columns : 0, ' ');
+}
+
+std::string pad_left(std::string_view text, std::size_t width) {
+  const std::size_t columns = columns_of(text);
+  return std::string(width > columns ? width - columns : 0, ' ') + std::string(text);
+}
+
+std::string number(double value, int digits, bool exponent) {
+  if (!std::isfinite(value)) {
+    return "-";
+  }
+  std::array<char, 64> buffer{};
+  const int length =
+      std::snprintf(buffer.data(), buffer.size(), exponent ? "%.*e" : "%.*g", digits, value);
+  return std::string(buffer.data(), static_cast<std::size_t>(length));
+}
+
+std::string table(const std::vector<std::vector<std::string>>& rows,
+                  const std::vector<std::size_t>& left) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()), 0);
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      widths[j] = std::max(widths[j], columns_of(row[j]));
+    }
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      const bool to_left = j == 0 || std::find(left.begin(), left.end(), j) != left.end();
+      line += (j == 0 ? "" : "  ");
+      line += to_left ? pad_right(row[j], widths[j]) : pad_left(row[j], widths[j]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+}  // namespace anticrack::cli

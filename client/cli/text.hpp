@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Text for a terminal. Pure.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace anticrack::cli {
+
+/// Control characters (escape sequences, line ends) and invalid UTF-8 become '?': what a server
+/// sends may not steer the terminal.
+std::string sanitise(std::string_view text);
+
+/// Code points of valid UTF-8: about the columns it takes.
+std::size_t columns_of(std::string_view text) noexcept;
+
+/// Cut to `width` code points, the last one "~" where something was cut off.
+std::string fit(std::string_view text, std::size_t width);
+
+/// Spaces up to `width`, on the right or on the left.
+std::string pad_right(std::string_view text, std::size_t width);
+std::string pad_left(std::string_view text, std::size_t width);
+
+/// As printf's %.*g or, for `exponent`, %.*e; "-" for what is not finite.
+std::string number(double value, int digits = 6, bool exponent = false);
+
+/// Rows under each other, two spaces between columns; column 0 and those named in `left` are
+/// aligned left. No space at line ends.
+std::string table(const std::vector<std::vector<std::string>>& rows,
+                  const std::vector<std::size_t>& left = {});
+
+}  // namespace anticrack::cli

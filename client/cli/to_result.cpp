@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/to_result.hpp"
+
+#include <algorithm>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "results/assemble.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+double seconds_of(const google::protobuf::Duration& duration) {
+  return static_cast<double>(duration.seconds()) + 1e-9 * duration.nanos();
+}
+
+results::Kkt absolute(const v1::KktResiduals& kkt) {
+  return {kkt.equilibrium(), kkt.gap(), kkt.sign(), kkt.complementarity()};
+}
+
+results::Kkt relative(const v1::KktResiduals& kkt) {
+  return {kkt.equilibrium_relative(), kkt.gap_relative(), kkt.sign_relative(),
+          kkt.complementarity_relative()};
+}
+
+void set_solver(const v1::Solver& solver, results::Load& load) {
+  if (solver.has_active_set()) {
+    load.method = "active-set";
+    return;
+  }
+  // Defaults as the API documents them.
+  const v1::Uzawa& uzawa = solver.uzawa();
+  load.method = "uzawa";
+  load.mass = uzawa.mass() == v1::MASS_CONSISTENT ? "consistent" : "lumped";
+  load.epsilon = uzawa.has_epsilon() ? uzawa.epsilon() : 1e-12;
+  load.p = uzawa.has_p() ? uzawa.p() : 1e5;
+}
+
+results::Load to_load(const v1::LoadCase& load_case, const v1::LoadCaseAnswer& answer,
+                      const v1::Solver& solver,
+                      const std::map<std::string, std::size_t>& interfaces) {
+  results::Load load;
+  load.name = load_case.name();
+  load.status = static_cast<results::Status>(answer.status());
+  load.reason = answer.reason();
+  load.error = answer.error().message();
+  set_solver(solver, load);
+  load.iterations = answer.iterations();
+  load.solve_seconds = seconds_of(answer.solve_time());
+  if (load.status != results::Status::converged && load.status != results::Status::not_converged) {
+    return load;
+  }
+  load.criterion = answer.criterion();
+  load.theta = answer.theta();
+  load.theta_star = answer.theta_star();
+  load.energy = answer.energy();
+  load.kkt = absolute(answer.kkt());
+  load.kkt_relative = relative(answer.kkt());
+  load.contact_length = answer.contact_length();
+  for (const v1::InclusionAnswer& inclusion : answer.inclusions()) {
+    load.inclusions.push_back({inclusion.name(), inclusion.displacement(), inclusion.resultant(),
+                               inclusion.contact_length()});
+  }
+  for (const v1::ContactInterval& interval : answer.contact_intervals()) {
+    const auto found = interfaces.find(interval.interface());
+    if (found == interfaces.end()) {
+      throw results::Error("load case " + load.name,
+                           "it has contact on '" + interval.interface() + "', no such interface",
+                           "");
+    }
+    load.contact_intervals.push_back({found->second, interval.begin(), interval.end()});
+  }
+  return load;
+}
+
+std::vector<results::ArrayView> views_of(const client::Block& block) {
+  std::vector<results::ArrayView> views;
+  for (const v1::ArrayLayout& array : block.layout.arrays()) {
+    if (array.type() != v1::ArrayLayout::TYPE_FLOAT64 &&
+        array.type() != v1::ArrayLayout::TYPE_INT32) {
+      continue;  // of a later version
+    }
+    const auto type = array.type() == v1::ArrayLayout::TYPE_FLOAT64
+                          ? results::ArrayView::Type::float64
+                          : results::ArrayView::Type::int32;
+    views.push_back(results::view(array.name(), type, {array.shape().begin(), array.shape().end()},
+                                  array.offset(), std::span(block.bytes)));
+  }
+  return views;
+}
+
+}  // namespace
+
+results::Result to_result(const Fetched& fetched) {
+  results::Result result;
+  result.title = fetched.job.title();
+  result.client_version = ANTICRACK_VERSION;
+  result.server_version = fetched.server.version();
+  result.mesh_name = fetched.mesh.name();
+  result.job_name = fetched.job.name();
+  result.mesh_sha256 = fetched.mesh.sha256();
+  result.timings.mesh_seconds = fetched.mesh.mesh_seconds();
+  result.timings.factorize_seconds = fetched.mesh.factorize_seconds();
+  for (const v1::SubdomainInfo& subdomain : fetched.mesh.subdomains()) {
+    result.mesh.subdomains.push_back(subdomain.name());
+  }
+  std::map<std::string, std::size_t> interfaces;
+  for (const v1::InterfaceInfo& interface : fetched.mesh.interfaces()) {
+    interfaces.emplace(interface.name(), result.interfaces.size());
+    result.interfaces.emplace_back().name = interface.name();
+  }
+  for (int i = 0; i < fetched.job.load_cases_size(); ++i) {
+    const v1::LoadCaseAnswer answer =
+        i < fetched.job.answers_size() ? fetched.job.answers(i) : v1::LoadCaseAnswer();
+    result.loads.push_back(
+        to_load(fetched.job.load_cases(i), answer, fetched.job.solver(), interfaces));
+    result.timings.solve_seconds += result.loads.back().solve_seconds;
+  }
+  return results::assemble(std::move(result), views_of(fetched.mesh_block),
+                           views_of(fetched.result_block));
+}
+
+}  // namespace anticrack::cli

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From what the server sent to what is kept. Pure.
+#pragma once
+
+#include <string>
+
+#include "anticrack/v1/mesh.pb.h"
+#include "anticrack/v1/server.pb.h"
+#include "anticrack/v1/solve.pb.h"
+#include "client/block.hpp"
+#include "results/result.hpp"
+
+namespace anticrack::cli {
+
+struct Fetched {
+  v1::Job job;
+  v1::Mesh mesh;
+  v1::ServerInfo server;
+  client::Block mesh_block;
+  client::Block result_block;
+};
+
+/// Throws results::Error for what does not fit together.
+results::Result to_result(const Fetched& fetched);
+
+}  // namespace anticrack::cli

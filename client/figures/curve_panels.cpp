@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "figures/panels.hpp"
+#include "figures/text.hpp"
+
+namespace anticrack::figures {
+namespace {
+
+using results::Load;
+
+// Okabe & Ito; the curves differ in dash as well, for print without colour.
+const std::string blue = "rgb '#0072B2'";
+const std::string vermillion = "rgb '#D55E00'";
+const std::string black = "rgb '#222222'";
+const std::string contact_shade = "rgb '#F0E442'";
+
+std::string margins(const Place& place, double left, double right, double bottom, double top) {
+  return "set lmargin at screen " + number(place.x + left * place.width) +
+         "\nset rmargin at screen " + number(place.x + right * place.width) +
+         "\nset bmargin at screen " + number(place.y + bottom * place.height) +
+         "\nset tmargin at screen " + number(place.y + top * place.height) + "\n";
+}
+
+std::string caption(const std::string& text, const Place& place) {
+  return "set label 2 " + quoted(text) + " at screen " + number(place.x + 0.5 * place.width) +
+         ", screen " + number(place.y + 0.965 * place.height) +
+         " center noenhanced textcolor rgb '#222222'\n";
+}
+
+/// Label of the horizontal axis at a height of the place: terminals measure the distance `set
+/// xlabel` keeps in characters of different sizes.
+std::string below(const std::string& quoted_text, double height, const Place& place) {
+  return "set label 3 " + quoted_text + " at graph 0.5, screen " +
+         number(place.y + height * place.height) + " center noenhanced\n";
+}
+
+std::string axes() {
+  return "set border 3 linewidth 0.8 linecolor rgb '#555555'\n"
+         "set tics nomirror textcolor rgb '#333333'\n"
+         "set grid xtics ytics linewidth 0.6 linecolor rgb '#cccccc' dashtype solid\n";
+}
+
+/// Strips of the graph's whole height or of a bar below the curves, one command a band.
+std::string strips(const std::vector<Band>& bands, const std::string& bottom,
+                   const std::string& top, const std::string& style) {
+  std::string text;
+  for (const Band& band : bands) {
+    text += "set object rectangle from first " + number(band.begin) + ", graph " + bottom +
+            " to first " + number(band.end) + ", graph " + top + " " + style + "\n";
+  }
+  return text;
+}
+
+struct Mark {
+  const std::vector<Band>& bands;
+  std::string name;
+  std::string colour;
+};
+
+}  // namespace
+
+std::string traces_data(const Profile& profile, const results::Trace& trace) {
+  std::string text = "$traces << EOD\n";
+  for (std::size_t i = 0; i < profile.position.size(); ++i) {
+    text += number(profile.position[i]) + " " + number(trace.u_minus[i]) + " " +
+            number(trace.u_plus[i]) + " " + number(trace.jump[i]) + "\n";
+  }
+  return text + "EOD\n";
+}
+
+std::string traces_panel(const Profile& profile, const Load& load, const Place& place) {
+  const Mark marks[] = {{profile.delaminated, "delaminated inclusion", "rgb '#666666'"},
+                        {profile.bonded, "bonded inclusion", "rgb '#111111'"},
+                        {profile.crack, "crack", "rgb '#CC79A7'"}};
+  std::string text = margins(place, 0.13, 0.96, 0.24, 0.925) + axes();
+  std::string keys;
+  text += strips(profile.contact, "0", "1",
+                 "behind fillcolor " + contact_shade + " fillstyle solid 0.55 noborder");
+  if (!profile.contact.empty()) {
+    keys += ", keyentry with boxes fillstyle solid 0.55 noborder linecolor " + contact_shade +
+            " title 'contact'";
+  }
+  for (const Mark& mark : marks) {
+    text += strips(mark.bands, "0", "0.018",
+                   "front fillcolor " + mark.colour + " fillstyle solid 1 noborder");
+    if (!mark.bands.empty()) {
+      keys += ", keyentry with boxes fillstyle solid 1 noborder linecolor " + mark.colour +
+              " title '" + mark.name + "'";
+    }
+  }
+  std::string answer;
+  for (const results::Inclusion& inclusion : load.inclusions) {
+    answer +=
+        (answer.empty() ? "" : ",  ") + std::string("A = ") + readable(inclusion.displacement);
+    if (load.inclusions.size() > 1) answer += " (" + inclusion.name + ")";
+  }
+  text += caption(
+      "displacements and jump on the interface" + (answer.empty() ? std::string() : ",  " + answer),
+      place);
+  const auto [low, high] = std::minmax_element(profile.position.begin(), profile.position.end());
+  if (low != high) text += "set xrange [" + number(*low) + ":" + number(*high) + "]\n";
+  text += "set offsets 0, 0, graph 0.06, graph 0.06\nset autoscale y\n";
+  text += below(quoted(profile.axis), 0.16, place) + "set ylabel 'displacement [-]'\n";
+  text += "set key at screen " + number(place.x + 0.54 * place.width) + ", screen " +
+          number(place.y + 0.01 * place.height) +
+          " center bottom vertical maxrows 3 Left reverse noenhanced samplen 2.5 width 1 height "
+          "0.3\n";
+  text += "plot 0 with lines linewidth 0.7 linecolor rgb '#888888' notitle, ";
+  text += "$traces using 1:2 with lines linewidth 2 linecolor " + blue +
+          " dashtype solid title 'u\xE2\x81\xBB'";
+  text += ", $traces using 1:3 with lines linewidth 2 linecolor " + vermillion +
+          " dashtype (8,4) title 'u\xE2\x81\xBA'";
+  text += ", $traces using 1:4 with lines linewidth 2 linecolor " + black +
+          " dashtype (2,3) title '[u] = u\xE2\x81\xBA \xE2\x88\x92 u\xE2\x81\xBB'";
+  text += keys + "\nunset object\nunset label\n";
+  return text;
+}
+
+bool has_convergence(const Load& load) {
+  return std::any_of(load.history.criterion.begin(), load.history.criterion.end(),
+                     [](double criterion) { return criterion > 0 && std::isfinite(criterion); });
+}
+
+std::string convergence_data(const Load& load) {
+  std::string text = "$history << EOD\n";
+  for (std::size_t i = 0; i < load.history.size(); ++i) {
+    const double criterion = load.history.criterion[i];
+    // A log axis has no place for zero; what cannot be drawn leaves a gap.
+    text += std::to_string(load.history.iteration[i]) + " " +
+            (criterion > 0 ? number(criterion) : "NaN") + "\n";
+  }
+  return text + "EOD\n";
+}
+
+namespace {
+
+bool has_epsilon(const Load& load) {
+  return std::isfinite(load.epsilon) && load.epsilon > 0;
+}
+
+/// Smallest positive number to be drawn.
+double lowest(const Load& load) {
+  double least = has_epsilon(load) ? load.epsilon : 1;
+  for (const double criterion : load.history.criterion) {
+    if (criterion > 0) least = std::min(least, criterion);
+  }
+  return std::max(least, 1e-300);
+}
+
+}  // namespace
+
+std::string convergence_panel(const Load& load, const Place& place) {
+  std::string text = margins(place, 0.12, 0.96, 0.19, 0.925) + axes();
+  std::string how(results::name(load.status));
+  std::replace(how.begin(), how.end(), '_', ' ');
+  how += " after " + std::to_string(load.iterations) +
+         (load.iterations == 1 ? " iteration" : " iterations");
+  if (std::isfinite(load.theta)) how += ",  \xCE\xB8 = " + readable(load.theta);
+  if (std::isfinite(load.theta_star)) how += ",  \xCE\xB8* = " + readable(load.theta_star);
+  text += caption(how, place);
+  text += "set logscale y\nset format y '10^{%T}'\n";
+  text += below("'iteration'", 0.11, place);
+  text += "set ylabel 'relative change of u, squared [-]'\n";
+  text += "set xrange [0:" + number(load.history.size() == 0 ? 1 : load.history.iteration.back()) +
+          "]\n";
+  text += "set yrange [" + number(0.1 * lowest(load)) + ":*]\n";
+  text += "set key at screen " + number(place.x + 0.54 * place.width) + ", screen " +
+          number(place.y + 0.01 * place.height) +
+          " center bottom vertical maxrows 1 Left reverse samplen 2.5\n";
+  text += "plot $history using 1:2 with lines linewidth 2 linecolor " + blue +
+          " title 'criterion of step 3'";
+  if (has_epsilon(load)) {
+    text += ", " + number(load.epsilon) + " with lines linewidth 1.5 linecolor " + vermillion +
+            " dashtype (8,4) title '\xCE\xB5 = " + readable(load.epsilon) + "'";
+  }
+  text += "\nunset label\n";
+  return text;
+}
+
+}  // namespace anticrack::figures

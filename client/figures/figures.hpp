@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Figures of a result, as Figures 2-5 of Rudoy & Shcherbakov (2016), drawn by gnuplot.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "results/result.hpp"
+
+namespace anticrack::figures {
+
+/// gnuplot missing, failing or too slow, or a folder that cannot be written.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Options {
+  bool png = true;
+  bool svg = true;
+  std::chrono::seconds time_limit{120};  ///< for one picture
+};
+
+struct Drawn {
+  std::vector<std::filesystem::path> files;  ///< in the order of the loads
+  std::vector<std::string> notes;            ///< what was left out and why, for people
+};
+
+/// Draws for every load with traces, as .png and .svg in `folder` (made if missing):
+///   LOAD-membrane     the deformed membrane with its slit open; needs fields
+///   LOAD-traces       u-, u+ and [u] along each interface, contact shaded
+///   LOAD-convergence  the criterion of every iteration, log scale
+///   LOAD              membrane left, traces right, as in the paper
+/// LOAD is the load's name made safe for a file name, and unique. With several interfaces the
+/// traces of the second and later are LOAD-traces-2 and so on. Each file is written under a
+/// temporary name and renamed. Throws Error; files drawn before it stay.
+Drawn draw(const results::Result& result, const std::filesystem::path& folder,
+           const Options& options = {});
+
+}  // namespace anticrack::figures

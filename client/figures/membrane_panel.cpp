@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+
+#include "figures/panels.hpp"
+#include "figures/text.hpp"
+
+namespace anticrack::figures {
+namespace {
+
+/// viridis: for u of one sign.
+const std::string sequential =
+    "set palette defined (0 '#440154', 1 '#482878', 2 '#3e4a89', 3 '#31688e', 4 '#26828e', "
+    "5 '#1f9e89', 6 '#35b779', 7 '#6ece58', 8 '#b5de2b', 9 '#fde725')\n";
+
+/// Blue to red through light grey: for u of both signs, zero in the middle.
+const std::string diverging =
+    "set palette defined (0 '#1b4f8f', 1 '#4a90c8', 2 '#a6cbe3', 3 '#dedede', 4 '#f4b698', "
+    "5 '#d6604d', 6 '#97162b')\n";
+
+std::string colours(const Surface& surface) {
+  const double largest = surface.largest();
+  if (largest == 0) return sequential + "set cbrange [-1:1]\n";
+  if (std::min(-surface.lowest, surface.highest) > 0.05 * largest) {
+    return diverging + "set cbrange [" + number(-largest) + ":" + number(largest) + "]\n";
+  }
+  return sequential + "set cbrange [" + number(surface.lowest) + ":" + number(surface.highest) +
+         "]\n";
+}
+
+std::string caption(double factor) {
+  return factor == 1 ? "deformed membrane, u to scale"
+                     : "deformed membrane, u amplified \xC3\x97" + readable(factor);
+}
+
+std::string axis_label(int tag, const std::string& text, double x, double y, double z) {
+  return "set label " + std::to_string(tag) + " '" + text + "' at first " + number(x) + ", first " +
+         number(y) + ", first " + number(z) + " center noenhanced\n";
+}
+
+}  // namespace
+
+double membrane_view(const results::Result& result) {
+  constexpr double oblique = 28;
+  double angle = 0;
+  if (!result.interfaces.empty() && result.interfaces[0].node_count() > 1) {
+    const results::Interface& interface = result.interfaces[0];
+    angle = std::atan2(interface.y.back() - interface.y.front(),
+                       interface.x.back() - interface.x.front()) *
+            180 / std::acos(-1.0);
+  }
+  return std::fmod(oblique + 360 - angle, 360);
+}
+
+std::string membrane_data(const Surface& surface) {
+  const double factor = amplification(surface);
+  std::string text = "$membrane << EOD\n";
+  const auto line = [&](const Vertex& v) {
+    text += number(v.x) + " " + number(v.y) + " " + number(factor * v.u) + " " + number(v.u) + "\n";
+  };
+  // gnuplot has no triangles: each is a quadrilateral A B / C C.
+  for (const Triangle& triangle : surface.triangles) {
+    line(triangle[0]);
+    line(triangle[1]);
+    text += "\n";
+    line(triangle[2]);
+    line(triangle[2]);
+    text += "\n\n";
+  }
+  return text + "EOD\n";
+}
+
+std::string membrane_panel(const Surface& surface, double view, const Place& place, Format format) {
+  const double factor = amplification(surface);
+  const double low = factor * surface.lowest;
+  const double high = factor * surface.highest;
+  const double base = std::min(low, 0.0) - 0.02 * surface.width();
+  const auto at = [&](double x, double y) {
+    return "screen " + number(place.x + x * place.width) + ", screen " +
+           number(place.y + y * place.height);
+  };
+  std::string text;
+  // gnuplot centres the box, not what is drawn in it, which leaves room above.
+  text += "set origin " + number(place.x) + "," + number(place.y + 0.06 * place.height) + "\n";
+  text += "set size " + number(place.width) + "," + number(place.height) + "\n";
+  text += "unset key\nset border 15 linewidth 0.7 linecolor rgb '#888888'\nunset ztics\n";
+  text += "unset xlabel\nunset ylabel\n";
+  text += "set xtics autofreq nomirror offset 0,-0.3 textcolor rgb '#333333'\n";
+  text += "set ytics autofreq nomirror textcolor rgb '#333333'\n";
+  text += "set xrange [" + number(surface.x_min) + ":" + number(surface.x_max) + "]\n";
+  text += "set yrange [" + number(surface.y_min) + ":" + number(surface.y_max) + "]\n";
+  text += "set zrange [" + number(std::min(low, 0.0)) + ":" +
+          number(std::max(high, low + 0.1 * surface.width())) + "]\n";
+  text += "set xyplane at " + number(base) + "\n";
+  text += "set view 58, " + number(view) + ", 1.42\nset view equal xyz\n";
+  text += colours(surface);
+  text += "set pm3d depthorder corners2color mean lighting primary 0.35 specular 0.08\n";
+  // Cairo blurs the edges of polygons, and what lies behind shines through; SVG draws them crisp.
+  text += format == Format::png ? "set pm3d border retrace\n" : "set pm3d noborder\n";
+  text += "set colorbox user horizontal origin " + at(0.25, 0.09) + " size screen " +
+          number(0.5 * place.width) + ", screen " + number(0.025 * place.height) + "\n";
+  text += "set cblabel 'u [-]' offset 0,0.4\n";
+  text += "set cbtics autofreq offset 0,0.2\n";
+  text += "set label 2 '" + caption(factor) + "' at " + at(0.5, 0.965) +
+          " center noenhanced textcolor rgb '#222222'\n";
+  // Not `set xlabel`: terminals keep different distances for it.
+  const double middle_x = (surface.x_min + surface.x_max) / 2;
+  const double middle_y = (surface.y_min + surface.y_max) / 2;
+  const double away = 0.23 * surface.width();
+  text += axis_label(3, "x [-]", middle_x, surface.y_min - away, base);
+  text += axis_label(4, "y [-]", surface.x_max + away, middle_y, base);
+  text += "splot $membrane using 1:2:3:4 with pm3d notitle\n";
+  text += "unset label\n";
+  return text;
+}
+
+}  // namespace anticrack::figures

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The parts of the figures: for each kind of panel its data blocks, and the commands that draw it
+// into a part of the picture. Colours are safe for colour-blind readers (Okabe & Ito; viridis).
+#pragma once
+
+#include <string>
+
+#include "figures/profile.hpp"
+#include "figures/surface.hpp"
+#include "results/result.hpp"
+
+namespace anticrack::figures {
+
+enum class Format { png, svg };
+
+/// Part of the picture, fractions from its lower left corner.
+struct Place {
+  double x = 0;
+  double y = 0;
+  double width = 1;
+  double height = 1;
+};
+
+/// Degrees about the vertical: the reader looks over the minus side at the interface, because the
+/// crack opens upwards on the far side ([u] >= 0).
+double membrane_view(const results::Result& result);
+
+std::string membrane_data(const Surface& surface);
+std::string membrane_panel(const Surface& surface, double view, const Place& place, Format format);
+
+std::string traces_data(const Profile& profile, const results::Trace& trace);
+std::string traces_panel(const Profile& profile, const results::Load& load, const Place& place);
+
+/// Whether there is anything to draw on a log axis.
+bool has_convergence(const results::Load& load);
+std::string convergence_data(const results::Load& load);
+std::string convergence_panel(const results::Load& load, const Place& place);
+
+}  // namespace anticrack::figures

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "figures/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+namespace anticrack::figures {
+namespace {
+
+bool is_alphanumeric(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+}
+
+/// Length of the UTF-8 character that begins `text`, 0 if it is none that can be shown: stray or
+/// overlong bytes, surrogates, C0 and C1 control characters.
+std::size_t character(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(0);
+  if (lead < 0x80) return lead >= 0x20 && lead != 0x7F ? 1 : 0;
+  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return 0;
+  unsigned code = lead & (0x7Fu >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0u) != 0x80u) return 0;
+    code = code << 6 | (byte(i) & 0x3Fu);
+  }
+  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
+  const bool surrogate = code >= 0xD800 && code < 0xE000;
+  // Right-to-left overrides and line separators can disguise a text as another one.
+  const bool format = (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+  return overlong || surrogate || format || code > 0x10FFFF || code < 0xA0 ? 0 : length;
+}
+
+std::string printed(double value, int digits) {
+  if (!std::isfinite(value)) return "NaN";
+  std::array<char, 40> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                 std::chars_format::general, digits);
+  return {buffer.data(), end.ptr};
+}
+
+std::string lower(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string quoted(std::string_view text, std::size_t limit) {
+  std::string out = "'";
+  std::size_t count = 0;
+  while (!text.empty()) {
+    if (++count > limit) {
+      out += "\xE2\x80\xA6";
+      break;
+    }
+    const std::size_t length = character(text);
+    if (length == 0) {
+      out += ' ';
+      text.remove_prefix(1);
+      continue;
+    }
+    if (text[0] == '\'') {
+      out += "''";
+    } else if (text[0] == '`') {
+      out += "\xE2\x80\x98";  // the typographic quote
+    } else if (text[0] == '\\') {
+      out += "\xE2\x88\x96";  // gnuplot reads \n even where it should not
+    } else {
+      out += text.substr(0, length);
+    }
+    text.remove_prefix(length);
+  }
+  return out + "'";
+}
+
+std::string number(double value) {
+  return printed(value, 9);
+}
+
+std::string readable(double value, int digits) {
+  return printed(value, digits);
+}
+
+std::vector<std::string> file_stems(const std::vector<std::string>& names,
+                                    const std::vector<std::string>& suffixes) {
+  std::set<std::string> taken;
+  const auto files_of = [&](const std::string& stem) {
+    std::vector<std::string> files{lower(stem)};
+    for (const std::string& suffix : suffixes) files.push_back(lower(stem + suffix));
+    return files;
+  };
+  std::vector<std::string> stems;
+  for (const std::string& name : names) {
+    std::string base;
+    for (const char c : name) {
+      base += is_alphanumeric(c) || c == '.' || c == '-' ? c : '_';
+    }
+    if (base.empty() || !is_alphanumeric(base[0])) base = "load" + base;
+    std::string stem = base;
+    for (int copy = 2;; ++copy) {
+      const auto files = files_of(stem);
+      if (std::none_of(files.begin(), files.end(),
+                       [&](const std::string& file) { return taken.count(file) != 0; })) {
+        taken.insert(files.begin(), files.end());
+        break;
+      }
+      stem = base + "-" + std::to_string(copy);
+    }
+    stems.push_back(stem);
+  }
+  return stems;
+}
+
+}  // namespace anticrack::figures

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What may enter a gnuplot script, and what a figure's file may be called. gnuplot runs shell
+// commands from backquotes, from lines that begin with "!" and from output names that begin with
+// "|", so text from outside goes in only through `quoted`, and paths do not go in at all.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace anticrack::figures {
+
+/// `text` as a single-quoted string of gnuplot on one line: quotes doubled, backquotes, control
+/// characters and bytes that are no UTF-8 replaced. Longer than `limit` characters: cut, with an
+/// ellipsis. For places marked `noenhanced`.
+std::string quoted(std::string_view text, std::size_t limit = 110);
+
+/// Nine significant digits, independent of the locale; "NaN" for what is not finite.
+std::string number(double value);
+/// A few significant digits, for people.
+std::string readable(double value, int digits = 4);
+
+/// One file name stem a load: [A-Za-z0-9][A-Za-z0-9_.-]*, such that no two stems with any of
+/// `suffixes` (or none) coincide, upper and lower case not told apart.
+std::vector<std::string> file_stems(const std::vector<std::string>& names,
+                                    const std::vector<std::string>& suffixes);
+
+}  // namespace anticrack::figures

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// gRPC's side of a Connection and the loop every call runs in: try, wait, try again. For the
+// sources of this folder only.
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "anticrack/v1/mesh.grpc.pb.h"
+#include "anticrack/v1/server.grpc.pb.h"
+#include "anticrack/v1/solve.grpc.pb.h"
+#include "client/connection.hpp"
+#include "client/error.hpp"
+
+namespace anticrack::client {
+
+struct Connection::State {
+  explicit State(ConnectionOptions chosen);
+
+  ConnectionOptions options;
+  std::unique_ptr<v1::MeshService::Stub> meshes;
+  std::unique_ptr<v1::SolveService::Stub> jobs;
+  std::unique_ptr<v1::ServerService::Stub> server;
+  std::unique_ptr<v1::MeshService::Stub> bulk_meshes;  ///< on the channel of bulk reads
+  std::unique_ptr<v1::SolveService::Stub> bulk_jobs;
+  std::atomic<bool> met = false;  ///< the server has answered once
+};
+
+/// The error of a call that ended with `status`, which is not OK. UNAVAILABLE without a word from
+/// the server gets the address and the cure into its message.
+Error error_of(const Connection::State& state, const grpc::Status& status);
+
+/// Waits before the next try of a call, or gives up.
+class Retries {
+ public:
+  explicit Retries(Connection::State& state);
+
+  /// Returns when it is time to try again; throws `error` when it is no use, Interrupted on `stop`.
+  void wait(const Error& error, const std::stop_token& stop);
+  /// The server has answered.
+  void succeeded();
+
+ private:
+  Connection::State& _state;
+  Backoff _backoff;
+  std::optional<std::chrono::steady_clock::time_point> _failing_since;
+  std::optional<Error> _first_error;  ///< since then
+};
+
+/// Sleeps; throws Interrupted on `stop`.
+void sleep(std::chrono::milliseconds time, const std::stop_token& stop);
+
+/// One try of a unary call, ended by `stop`.
+template <class Stub, class Request, class Response>
+grpc::Status try_call(const Connection::State& state, Stub& stub,
+                      grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+                      const Request& request, Response& response, const std::stop_token& stop) {
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + state.options.deadline);
+  const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
+  return (stub.*method)(&context, request, &response);
+}
+
+template <class Stub, class Request, class Response>
+Response call(Connection::State& state, Stub& stub,
+              grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+              const Request& request, const std::stop_token& stop) {
+  Retries retries(state);
+  while (true) {
+    Response response;
+    const grpc::Status status = try_call(state, stub, method, request, response, stop);
+    if (status.ok()) {
+      retries.succeeded();
+      return response;
+    }
+    retries.wait(error_of(state, status), stop);
+  }
+}
+
+}  // namespace anticrack::client

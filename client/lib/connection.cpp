@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "client/connection.hpp"
+
+#include <condition_variable>
+#include <mutex>
+#include <string_view>
+#include <utility>
+
+#include "client/channel.hpp"
+
+namespace anticrack::client {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+std::shared_ptr<grpc::Channel> make_channel(const std::string& address, bool bulk) {
+  grpc::ChannelArguments arguments;
+  // Heartbeats come every 10 s; a stream silent for longer may hang on a dead connection. Shorter
+  // periods are taken for abuse by the server ("too many pings").
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
+  // gRPC's own back-off reaches minutes; ours decides.
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 1'000);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2'000);
+  // Channels of equal arguments share one connection.
+  arguments.SetInt("anticrack.bulk", bulk ? 1 : 0);
+  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+}
+
+}  // namespace
+
+Connection::State::State(ConnectionOptions chosen) : options(std::move(chosen)) {
+  const auto channel = make_channel(options.address, false);
+  meshes = v1::MeshService::NewStub(channel);
+  jobs = v1::SolveService::NewStub(channel);
+  server = v1::ServerService::NewStub(channel);
+  const auto bulk = make_channel(options.address, true);
+  bulk_meshes = v1::MeshService::NewStub(bulk);
+  bulk_jobs = v1::SolveService::NewStub(bulk);
+}
+
+Connection::Connection(ConnectionOptions options)
+    : _state(std::make_unique<State>(std::move(options))) {}
+
+Connection::~Connection() = default;
+
+const std::string& Connection::address() const noexcept {
+  return _state->options.address;
+}
+
+Error error_of(const Connection::State& state, const grpc::Status& status) {
+  const int code = static_cast<int>(status.error_code());
+  const Error error = decode_error(code, status.error_message(), status.error_details());
+  if (error.code() == Code::unavailable && error.details().reason.empty()) {
+    // gRPC tells the cause after its own story.
+    const std::string_view story = status.error_message();
+    const std::size_t cause = story.rfind(": ");
+    return Error(
+        error.code(),
+        "cannot reach the server at " + state.options.address + " (" +
+            std::string(cause == std::string_view::npos ? story : story.substr(cause + 2)) +
+            "); start anticrackd, name its address with --server, or use "
+            "--local");
+  }
+  if (error.code() == Code::deadline_exceeded) {
+    return Error(error.code(),
+                 "the server at " + state.options.address + " did not answer in time (" +
+                     status.error_message() + ")",
+                 error.details());
+  }
+  return error;
+}
+
+Retries::Retries(Connection::State& state) : _state(state), _backoff(state.options.retry) {}
+
+void Retries::wait(const Error& error, const std::stop_token& stop) {
+  if (stop.stop_requested()) {
+    throw Interrupted();
+  }
+  const auto now = steady_clock::now();
+  if (!_failing_since) {
+    _failing_since = now;
+    _first_error = error;
+  }
+  const auto failing = std::chrono::duration_cast<milliseconds>(now - *_failing_since);
+  const bool lost = is_lost_connection(error);
+  auto delay = _backoff.next(error, failing);
+  if (delay && lost && !_state.met && failing + *delay > _state.options.first_contact) {
+    delay.reset();
+  }
+  if (!delay) {
+    // Of a lost connection the first cause tells most ("connection refused"); later ones are
+    // gRPC's own attempts getting in each other's way.
+    throw lost && is_lost_connection(*_first_error) ? *_first_error : error;
+  }
+  if (_state.options.notice) {
+    _state.options.notice(lost ? "no connection to " + _state.options.address + ", trying again"
+                               : std::string(error.what()) + "; trying again");
+  }
+  sleep(*delay, stop);
+}
+
+void Retries::succeeded() {
+  _state.met = true;
+  _failing_since.reset();
+  _backoff.reset();
+}
+
+void sleep(milliseconds time, const std::stop_token& stop) {
+  std::mutex mutex;
+  std::condition_variable_any woken;
+  std::unique_lock lock(mutex);
+  woken.wait_for(lock, stop, time, [] { return false; });
+  if (stop.stop_requested()) {
+    throw Interrupted();
+  }
+}
+
+}  // namespace anticrack::client

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "client/jobs.hpp"
+
+#include "client/channel.hpp"
+#include "client/read_block.hpp"
+
+namespace anticrack::client {
+
+v1::Job create_job(Connection& connection, const v1::Job& job, const std::string& request_id,
+                   const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  v1::CreateJobRequest request;
+  *request.mutable_job() = job;
+  request.set_request_id(request_id);
+  return call(state, *state.jobs, &v1::SolveService::Stub::CreateJob, request, stop);
+}
+
+v1::Job get_job(Connection& connection, const std::string& name, const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  v1::GetJobRequest request;
+  request.set_name(name);
+  return call(state, *state.jobs, &v1::SolveService::Stub::GetJob, request, stop);
+}
+
+v1::ListJobsResponse list_jobs(Connection& connection, const v1::ListJobsRequest& request,
+                               const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  return call(state, *state.jobs, &v1::SolveService::Stub::ListJobs, request, stop);
+}
+
+v1::Job cancel_job(Connection& connection, const std::string& name, const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  v1::CancelJobRequest request;
+  request.set_name(name);
+  return call(state, *state.jobs, &v1::SolveService::Stub::CancelJob, request, stop);
+}
+
+void delete_job(Connection& connection, const std::string& name, const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  v1::DeleteJobRequest request;
+  request.set_name(name);
+  call(state, *state.jobs, &v1::SolveService::Stub::DeleteJob, request, stop);
+}
+
+bool ended(v1::Job::State state) {
+  return state == v1::Job::STATE_SUCCEEDED || state == v1::Job::STATE_FAILED ||
+         state == v1::Job::STATE_CANCELLED || state == v1::Job::STATE_EXPIRED;
+}
+
+Block read_result(Connection& connection, const std::string& name, const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  return read_block(state, *state.bulk_jobs, &v1::SolveService::Stub::ReadResult, name, stop);
+}
+
+v1::ServerInfo server_info(Connection& connection, const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  return call(state, *state.server, &v1::ServerService::Stub::GetServerInfo,
+              v1::GetServerInfoRequest(), stop);
+}
+
+}  // namespace anticrack::client

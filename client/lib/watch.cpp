@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <optional>
+
+#include "client/channel.hpp"
+#include "client/jobs.hpp"
+
+namespace anticrack::client {
+namespace {
+
+/// What one stream after another is asked for, and what came of it.
+struct Position {
+  std::uint64_t after;
+  std::optional<v1::Job> last;
+
+  /// Whether this message is news. A snapshot or a heartbeat has no number of its own.
+  bool take(const v1::WatchJobResponse& message) {
+    if (message.has_ended()) {
+      last = message.ended();
+    }
+    const bool numbered = !message.has_snapshot() && !message.has_heartbeat();
+    const bool news = !numbered || message.sequence() > after;
+    if (numbered && news) {
+      after = message.sequence();
+    }
+    return news;
+  }
+};
+
+}  // namespace
+
+v1::Job watch_job(Connection& connection, const std::string& name, std::uint64_t after_sequence,
+                  const std::function<void(const v1::WatchJobResponse&)>& event,
+                  const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  Retries retries(state);
+  Position position{after_sequence, std::nullopt};
+  while (true) {
+    v1::WatchJobRequest request;
+    request.set_name(name);
+    request.set_after_sequence(position.after);
+    grpc::ClientContext context;  // no deadline: a job may take days, heartbeats tell it lives
+    const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
+    const auto reader = state.jobs->WatchJob(&context, request);
+    v1::WatchJobResponse message;
+    while (reader->Read(&message)) {
+      retries.succeeded();
+      if (position.take(message)) {
+        event(message);
+      }
+    }
+    const grpc::Status status = reader->Finish();
+    if (position.last) {
+      return *std::move(position.last);
+    }
+    if (stop.stop_requested()) {
+      throw Interrupted();
+    }
+    if (status.error_code() == grpc::StatusCode::OUT_OF_RANGE && position.after != 0) {
+      position.after = 0;
+      continue;
+    }
+    retries.wait(status.ok() ? Error(Code::unavailable, "the server closed the stream early")
+                             : error_of(state, status),
+                 stop);
+  }
+}
+
+}  // namespace anticrack::client

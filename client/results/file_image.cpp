@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/file_image.hpp"
+
+#include <cstdlib>
+#include <cstring>
+
+namespace anticrack::results::hdf5 {
+namespace {
+
+/// The memory of a file of the core driver, kept when the file is closed. H5Fget_file_image takes
+/// it from an open file, and in HDF5 1.10.8 that leaves a wrong checksum in the superblock.
+class Memory {
+ public:
+  Memory() = default;
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+  ~Memory() { std::free(_kept); }
+
+  H5FD_file_image_callbacks_t callbacks() {
+    return {allocate, copy, reallocate, release, same, forget, this};
+  }
+
+  /// The closed file. It ends where its superblock says; the memory is a little larger.
+  std::vector<std::byte> bytes() const {
+    constexpr std::size_t end_of_file = 28;  // in a superblock of version 2 or 3, eight bytes
+    std::uint64_t end = 0;
+    if (_kept == nullptr || _size < end_of_file + sizeof(end)) throw Fault("HDF5 made no file");
+    std::memcpy(&end, static_cast<const std::byte*>(_kept) + end_of_file, sizeof(end));
+    if (end > _size) throw Fault("HDF5 made a file that is not whole");
+    const auto* first = static_cast<const std::byte*>(_kept);
+    return {first, first + end};
+  }
+
+ private:
+  static void* allocate(std::size_t size, H5FD_file_image_op_t, void* self) {
+    static_cast<Memory*>(self)->_size = size;
+    return std::malloc(size);
+  }
+  static void* copy(void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*) {
+    return std::memcpy(to, from, size);
+  }
+  static void* reallocate(void* memory, std::size_t size, H5FD_file_image_op_t, void* self) {
+    static_cast<Memory*>(self)->_size = size;
+    return std::realloc(memory, size);
+  }
+  static herr_t release(void* memory, H5FD_file_image_op_t, void* self) {
+    std::free(std::exchange(static_cast<Memory*>(self)->_kept, memory));
+    return 0;
+  }
+  // HDF5 copies the property list; all copies serve this one file.
+  static void* same(void* self) { return self; }
+  static herr_t forget(void*) { return 0; }
+
+  void* _kept = nullptr;
+  std::size_t _size = 0;
+};
+
+}  // namespace
+
+std::vector<std::byte> file_image(const std::function<void(const Handle& file)>& fill) {
+  constexpr std::size_t increment = 1 << 20;
+  Memory memory;
+  {
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "HDF5 does not start");
+    H5FD_file_image_callbacks_t callbacks = memory.callbacks();
+    if (H5Pset_fapl_core(access.get(), increment, false) < 0 ||
+        H5Pset_file_image_callbacks(access.get(), &callbacks) < 0) {
+      throw Fault("HDF5 has no core driver");
+    }
+    // The formats since 1.10 have checksums on all metadata; with older ones a damaged file can
+    // lead the library to read outside its buffers.
+    if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110) < 0) {
+      throw Fault("HDF5 is older than 1.10");
+    }
+    Handle file(H5Fcreate("result", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose,
+                "HDF5 cannot create a file in memory");
+    fill(file);
+    file.close_now("HDF5 cannot finish the file");
+  }
+  return memory.bytes();
+}
+
+}  // namespace anticrack::results::hdf5

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+
+#include "results/hdf5.hpp"
+
+namespace anticrack::results::hdf5 {
+namespace {
+
+/// Below this compression saves nothing to speak of.
+constexpr std::size_t compressed_from = 2048;  // entries
+constexpr std::size_t chunk_entries = 65536;
+constexpr unsigned deflate_level = 6;
+
+void require(herr_t status, const std::string& what) {
+  if (status < 0) throw Fault(what);
+}
+
+Handle text_type() {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "HDF5 has no string type");
+  require(H5Tset_size(type.get(), H5T_VARIABLE), "HDF5 has no variable-length strings");
+  require(H5Tset_cset(type.get(), H5T_CSET_UTF8), "HDF5 has no UTF-8 strings");
+  return type;
+}
+
+Handle scalar_space() {
+  return {H5Screate(H5S_SCALAR), H5Sclose, "cannot create a dataspace"};
+}
+
+void put_scalar(const Handle& object, const std::string& name, hid_t file_type, hid_t memory_type,
+                const void* value) {
+  const std::string what = "cannot write attribute " + name;
+  const Handle space = scalar_space();
+  const Handle attribute(
+      H5Acreate2(object.get(), name.c_str(), file_type, space.get(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose, what);
+  require(H5Awrite(attribute.get(), memory_type, value), what);
+}
+
+Handle creation_properties(std::size_t rows, std::size_t columns, bool checked,
+                           const std::string& what) {
+  Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
+  // Without times the same result gives the same bytes.
+  require(H5Pset_obj_track_times(properties.get(), false), what);
+  if (!checked || rows == 0) return properties;
+  const std::size_t width = std::max<std::size_t>(columns, 1);
+  const std::array<hsize_t, 2> chunk{
+      std::min(rows, std::max<std::size_t>(chunk_entries / width, 1)), width};
+  require(H5Pset_chunk(properties.get(), columns == 0 ? 1 : 2, chunk.data()), what);
+  if (rows * width >= compressed_from) {
+    require(H5Pset_shuffle(properties.get()), what);
+    require(H5Pset_deflate(properties.get(), deflate_level), what);
+  }
+  require(H5Pset_fletcher32(properties.get()), what);
+  return properties;
+}
+
+Handle put_numbers(const Handle& group, const std::string& name, hid_t file_type, hid_t memory_type,
+                   const void* values, std::size_t count, const std::string& units,
+                   std::size_t columns) {
+  const std::string what = "cannot write dataset " + name;
+  if (columns != 0 && count % columns != 0) throw Fault(what + ": not whole rows");
+  const std::size_t rows = columns == 0 ? count : count / columns;
+  const std::array<hsize_t, 2> shape{rows, columns};
+  const Handle space(H5Screate_simple(columns == 0 ? 1 : 2, shape.data(), nullptr), H5Sclose, what);
+  // A checksum over text would be one over pointers into the heap: HDF5 refuses it.
+  const bool text = H5Tis_variable_str(file_type) > 0;
+  const Handle properties = creation_properties(rows, columns, !text, what);
+  Handle dataset(H5Dcreate2(group.get(), name.c_str(), file_type, space.get(), H5P_DEFAULT,
+                            properties.get(), H5P_DEFAULT),
+                 H5Dclose, what);
+  if (count != 0) {
+    require(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), what);
+  }
+  put(dataset, "units", units);
+  return dataset;
+}
+
+}  // namespace
+
+Quiet::Quiet() {
+  H5Eget_auto2(H5E_DEFAULT, &_function, &_data);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Quiet::~Quiet() {
+  H5Eset_auto2(H5E_DEFAULT, _function, _data);
+}
+
+Handle create_group(const Handle& parent, const std::string& name) {
+  const std::string what = "cannot create group " + name;
+  return {H5Gcreate2(parent.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+          what};
+}
+
+void put(const Handle& object, const std::string& attribute, double value) {
+  put_scalar(object, attribute, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
+}
+
+void put(const Handle& object, const std::string& attribute, std::int32_t value) {
+  put_scalar(object, attribute, H5T_STD_I32LE, H5T_NATIVE_INT32, &value);
+}
+
+void put(const Handle& object, const std::string& attribute, const std::string& text) {
+  const Handle type = text_type();
+  const char* pointer = text.c_str();
+  put_scalar(object, attribute, type.get(), type.get(), &pointer);
+}
+
+Handle put_array(const Handle& group, const std::string& name, std::span<const double> values,
+                 const std::string& units, std::size_t columns) {
+  return put_numbers(group, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data(), values.size(),
+                     units, columns);
+}
+
+Handle put_array(const Handle& group, const std::string& name, std::span<const std::int32_t> values,
+                 const std::string& units, std::size_t columns) {
+  return put_numbers(group, name, H5T_STD_I32LE, H5T_NATIVE_INT32, values.data(), values.size(),
+                     units, columns);
+}
+
+void put_array(const Handle& group, const std::string& name, std::span<const std::string> values) {
+  const Handle type = text_type();
+  std::vector<const char*> pointers;
+  pointers.reserve(values.size());
+  for (const std::string& value : values) pointers.push_back(value.c_str());
+  put_numbers(group, name, type.get(), type.get(), pointers.data(), pointers.size(), "-", 0);
+}
+
+}  // namespace anticrack::results::hdf5

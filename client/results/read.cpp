@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <charconv>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "results/file.hpp"
+#include "results/hdf5.hpp"
+
+namespace anticrack::results {
+namespace {
+
+namespace fs = std::filesystem;
+using hdf5::Handle;
+using hdf5::open_group;
+
+/// Deflate packs at most 1032 to 1, so no honest dataset is larger than this in memory.
+constexpr std::uint64_t largest_ratio = 1032;
+
+std::vector<double> doubles(const Handle& group, const char* name, std::uint64_t budget,
+                            std::size_t columns = 0) {
+  return hdf5::get_doubles(group, name, budget, columns);
+}
+
+std::vector<std::int32_t> ints(const Handle& group, const char* name, std::uint64_t budget,
+                               std::size_t columns = 0) {
+  return hdf5::get_ints(group, name, budget, columns);
+}
+
+/// Groups "0", "1", ... of a list: how many there are. Other names are a fault.
+std::size_t count_of(const Handle& list, const char* what) {
+  const std::size_t count = hdf5::names_in(list).size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!hdf5::has(list, std::to_string(i))) {
+      throw hdf5::Fault(std::string(what) + " are not numbered from 0");
+    }
+  }
+  return count;
+}
+
+Mesh get_mesh(const Handle& root, std::uint64_t budget) {
+  const Handle group = open_group(root, "mesh");
+  Mesh mesh;
+  mesh.xy = doubles(group, "nodes", budget, 2);
+  mesh.triangles = ints(group, "triangles", budget, 3);
+  mesh.subdomain = ints(group, "subdomain", budget);
+  mesh.boundary = ints(group, "boundary", budget, 2);
+  mesh.subdomains = hdf5::get_texts(group, "subdomain_names", budget);
+  return mesh;
+}
+
+Interface get_interface(const Handle& list, std::size_t index, std::uint64_t budget) {
+  const Handle group = open_group(list, std::to_string(index));
+  Interface interface;
+  interface.name = hdf5::get_text(group, "name");
+  interface.s = doubles(group, "s", budget);
+  interface.x = doubles(group, "x", budget);
+  interface.y = doubles(group, "y", budget);
+  for (const std::int32_t kind : ints(group, "kind", budget)) {
+    interface.kind.push_back(static_cast<Kind>(kind));
+  }
+  return interface;
+}
+
+Kkt get_kkt(const Handle& group, const std::string& prefix) {
+  Kkt kkt;
+  kkt.equilibrium = hdf5::get_double(group, prefix + "equilibrium");
+  kkt.gap = hdf5::get_double(group, prefix + "gap");
+  kkt.sign = hdf5::get_double(group, prefix + "sign");
+  kkt.complementarity = hdf5::get_double(group, prefix + "complementarity");
+  return kkt;
+}
+
+void require_same(const char* what, std::size_t a, std::size_t b) {
+  if (a != b) throw hdf5::Fault(std::string(what) + " has datasets of different lengths");
+}
+
+std::vector<Inclusion> get_inclusions(const Handle& load, std::uint64_t budget) {
+  const Handle group = open_group(load, "inclusions");
+  const auto names = hdf5::get_texts(group, "name", budget);
+  const auto displacement = doubles(group, "A", budget);
+  const auto resultant = doubles(group, "resultant", budget);
+  const auto contact_length = doubles(group, "contact_length", budget);
+  require_same("inclusions", displacement.size(), names.size());
+  require_same("inclusions", resultant.size(), names.size());
+  require_same("inclusions", contact_length.size(), names.size());
+  std::vector<Inclusion> inclusions;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    inclusions.push_back({names[i], displacement[i], resultant[i], contact_length[i]});
+  }
+  return inclusions;
+}
+
+std::vector<ContactInterval> get_contact_intervals(const Handle& load, std::uint64_t budget) {
+  const Handle group = open_group(load, "contact_intervals");
+  const auto interface = ints(group, "interface", budget);
+  const auto begin = doubles(group, "begin", budget);
+  const auto end = doubles(group, "end", budget);
+  require_same("contact_intervals", begin.size(), interface.size());
+  require_same("contact_intervals", end.size(), interface.size());
+  std::vector<ContactInterval> intervals;
+  for (std::size_t i = 0; i < interface.size(); ++i) {
+    // A negative index becomes a huge one, which first_fault refuses.
+    intervals.push_back({static_cast<std::size_t>(interface[i]), begin[i], end[i]});
+  }
+  return intervals;
+}
+
+std::vector<Trace> get_traces(const Handle& load, std::uint64_t budget) {
+  const Handle list = open_group(load, "traces");
+  std::vector<Trace> traces;
+  const std::size_t count = count_of(list, "traces");
+  for (std::size_t i = 0; i < count; ++i) {
+    const Handle group = open_group(list, std::to_string(i));
+    traces.push_back({doubles(group, "u_minus", budget), doubles(group, "u_plus", budget),
+                      doubles(group, "jump", budget), doubles(group, "pressure", budget),
+                      ints(group, "contact", budget)});
+  }
+  return traces;
+}
+
+History get_history(const Handle& load, std::uint64_t budget) {
+  const Handle group = open_group(load, "history");
+  History history;
+  history.iteration = ints(group, "iteration", budget);
+  history.criterion = doubles(group, "criterion", budget);
+  history.energy = doubles(group, "energy", budget);
+  history.contact_count = ints(group, "contact_count", budget);
+  history.kkt_equilibrium = doubles(group, "kkt_equilibrium", budget);
+  history.kkt_gap = doubles(group, "kkt_gap", budget);
+  history.kkt_sign = doubles(group, "kkt_sign", budget);
+  history.kkt_complementarity = doubles(group, "kkt_complementarity", budget);
+  return history;
+}
+
+std::vector<Field> get_fields(const Handle& load, std::uint64_t budget) {
+  std::vector<Field> fields;
+  if (!hdf5::has(load, "fields")) return fields;
+  const Handle list = open_group(load, "fields");
+  const std::size_t count = count_of(list, "fields");
+  for (std::size_t i = 0; i < count; ++i) {
+    const Handle group = open_group(list, std::to_string(i));
+    fields.push_back({ints(group, "nodes", budget), doubles(group, "u", budget)});
+  }
+  return fields;
+}
+
+Load get_load(const Handle& group, const std::string& name, std::uint64_t budget) {
+  Load load;
+  load.name = name;
+  const std::string status = hdf5::get_text(group, "status");
+  const auto known = status_from(status);
+  if (!known) throw hdf5::Fault("load \"" + name + "\" has the unknown status \"" + status + "\"");
+  load.status = *known;
+  load.reason = hdf5::get_text(group, "reason");
+  load.error = hdf5::get_text(group, "error");
+  load.method = hdf5::get_text(group, "method");
+  load.mass = hdf5::get_text(group, "mass");
+  load.epsilon = hdf5::get_double(group, "epsilon");
+  load.p = hdf5::get_double(group, "p");
+  load.iterations = hdf5::get_int(group, "iterations");
+  load.criterion = hdf5::get_double(group, "criterion");
+  load.theta = hdf5::get_double(group, "theta");
+  load.theta_star = hdf5::get_double(group, "theta_star");
+  load.energy = hdf5::get_double(group, "energy");
+  load.kkt = get_kkt(group, "kkt_");
+  load.kkt_relative = get_kkt(group, "kkt_relative_");
+  load.contact_length = hdf5::get_double(group, "contact_length");
+  load.solve_seconds = hdf5::get_double(group, "solve_seconds");
+  load.inclusions = get_inclusions(group, budget);
+  load.contact_intervals = get_contact_intervals(group, budget);
+  load.traces = get_traces(group, budget);
+  load.history = get_history(group, budget);
+  load.fields = get_fields(group, budget);
+  return load;
+}
+
+/// Loads in their order in the job; a group lists its members by name.
+std::vector<Load> get_loads(const Handle& root, std::uint64_t budget) {
+  const Handle list = open_group(root, "loads");
+  const std::vector<std::string> names = hdf5::names_in(list);
+  std::vector<Load> loads(names.size());
+  std::vector<bool> filled(names.size(), false);
+  for (const std::string& name : names) {
+    const Handle group = open_group(list, name);
+    const auto index = static_cast<std::size_t>(hdf5::get_int(group, "index"));
+    if (index >= loads.size() || filled[index]) {
+      throw hdf5::Fault("load \"" + name + "\" has the index of another or none");
+    }
+    filled[index] = true;
+    loads[index] = get_load(group, name, budget);
+  }
+  return loads;
+}
+
+Result get_result(const Handle& root, std::uint64_t budget) {
+  Result result;
+  result.title = hdf5::get_text(root, "title");
+  result.case_text = hdf5::get_text(root, "case");
+  result.client_version = hdf5::get_text(root, "client_version");
+  result.server_version = hdf5::get_text(root, "server_version");
+  result.mesh_name = hdf5::get_text(root, "mesh");
+  result.job_name = hdf5::get_text(root, "job");
+  result.mesh_sha256 = hdf5::get_text(root, "mesh_sha256");
+  result.timings.mesh_seconds = hdf5::get_double(root, "mesh_seconds");
+  result.timings.factorize_seconds = hdf5::get_double(root, "factorize_seconds");
+  result.timings.solve_seconds = hdf5::get_double(root, "solve_seconds");
+  result.timings.total_seconds = hdf5::get_double(root, "total_seconds");
+  result.mesh = get_mesh(root, budget);
+  const Handle interfaces = open_group(root, "interfaces");
+  const std::size_t count = count_of(interfaces, "interfaces");
+  for (std::size_t i = 0; i < count; ++i) {
+    result.interfaces.push_back(get_interface(interfaces, i, budget));
+  }
+  result.loads = get_loads(root, budget);
+  return result;
+}
+
+/// Throws Error unless the root says `format`.
+void check_format(const fs::path& path, const Handle& root) {
+  const char* cure = "name a file that `anticrack run -o` wrote";
+  if (!hdf5::has_attribute(root, "format")) {
+    throw Error(path.string(), "is HDF5, but no result of anticrack", cure);
+  }
+  const std::string found = hdf5::get_text(root, "format");
+  if (found == format) return;
+
+  const std::string_view family = format.substr(0, format.find('/') + 1);
+  int version = 0;
+  const char* end = found.data() + found.size();
+  if (found.compare(0, family.size(), family) == 0 &&
+      std::from_chars(found.data() + family.size(), end, version).ptr == end) {
+    throw Error(path.string(),
+                "has format \"" + found + "\", this client reads \"" + std::string(format) + "\"",
+                version > 1 ? "use a newer anticrack" : "run the case again");
+  }
+  throw Error(path.string(), "has format \"" + found + "\", no result of anticrack", cure);
+}
+
+Handle open_file(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) {
+    throw Error(path.string(), "no such file", "make one with `anticrack run CASE.toml -o FILE`");
+  }
+  if (status.type() != fs::file_type::regular) {
+    throw Error(path.string(), error ? error.message() : "is not a regular file",
+                "name a result file");
+  }
+  const htri_t is_hdf5 = H5Fis_hdf5(path.c_str());
+  if (is_hdf5 < 0) throw Error(path.string(), "cannot be opened", "check its permissions");
+  if (is_hdf5 == 0) {
+    throw Error(path.string(), "is not an HDF5 file", "name a file that `anticrack run -o` wrote");
+  }
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "HDF5 does not start");
+  // Reading needs no lock, and some network file systems have none.
+  H5Pset_file_locking(access.get(), false, true);
+  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose, "is truncated or damaged"};
+}
+
+}  // namespace
+
+Result read(const fs::path& path) {
+  const hdf5::Quiet quiet;
+  Result result;
+  try {
+    const Handle file = open_file(path);
+    const Handle root(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, "has no root group");
+    check_format(path, root);
+    result = get_result(root, fs::file_size(path) * largest_ratio);
+    const std::string fault = first_fault(result);
+    if (!fault.empty()) throw hdf5::Fault("is inconsistent: " + fault);
+  } catch (const hdf5::Fault& fault) {
+    throw Error(path.string(), fault.what(), "copy it again from where it was made, or run again");
+  }
+  return result;
+}
+
+}  // namespace anticrack::results

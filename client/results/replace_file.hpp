@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+namespace anticrack::results {
+
+/// Makes `bytes` the content of `path`: temporary file in the same folder, fsync, rename, fsync of
+/// the folder. On failure throws Error, removes the temporary file and leaves `path` as it was.
+void replace_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+}  // namespace anticrack::results

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The whole answer to a run as plain data: what the result file holds, figures draw and tables
+// show.
+//
+// The membrane problem, its notation and equation numbers: Rudoy & Shcherbakov (2016). Index base
+// 0. Lengths, displacements and forces are in the units of the case (dimensionless in the paper);
+// times are in seconds. [u] = u+ - u-, the plus side lies on the left of an interface.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace anticrack::results {
+
+/// Condition at a node of an interface. The numbers are those of the API's InterfaceKind.
+enum class Kind : std::int32_t {
+  glue = 1,         ///< u+ = u-                      gamma_g
+  crack = 2,        ///< [u] >= 0, no inclusion
+  inclusion = 3,    ///< u+ = u- = A, bonded; the tips of a delaminated part too
+  delaminated = 4,  ///< u+ = A, [u] >= 0             gamma_c, (3)-(6)
+};
+
+/// How a load case ended. The numbers are those of the API's LoadCaseAnswer.Status.
+enum class Status : std::int32_t {
+  unspecified = 0,
+  pending = 1,
+  running = 2,
+  converged = 3,
+  not_converged = 4,  ///< keeps its last traces; `reason` says why
+  failed = 5,         ///< no traces; `error` says why
+  cancelled = 6,
+};
+
+/// "converged", "not_converged", ...: the attribute `status` of the file. Empty for no Status.
+std::string_view name(Status status) noexcept;
+/// Inverse of `name`; empty for an unknown name.
+std::optional<Status> status_from(std::string_view name) noexcept;
+
+struct Mesh {
+  std::vector<double> xy;               ///< (n,2) row-major
+  std::vector<std::int32_t> triangles;  ///< (m,3) row-major, counterclockwise
+  std::vector<std::int32_t> subdomain;  ///< (m) index into subdomains
+  std::vector<std::int32_t> boundary;   ///< (b,2) row-major, edges where u is prescribed
+  std::vector<std::string> subdomains;  ///< names
+
+  std::size_t node_count() const noexcept { return xy.size() / 2; }
+  std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
+};
+
+/// A chain of k nodes, one array entry a node.
+struct Interface {
+  std::string name;
+  std::vector<double> s;     ///< (k) arc length from its start, strictly increasing
+  std::vector<double> x, y;  ///< (k)
+  std::vector<Kind> kind;    ///< (k)
+
+  std::size_t node_count() const noexcept { return s.size(); }
+};
+
+/// Residuals of the optimality conditions: see KktResiduals of the API.
+struct Kkt {
+  double equilibrium = 0;
+  double gap = 0;
+  double sign = 0;
+  double complementarity = 0;
+};
+
+struct Inclusion {
+  std::string name;
+  double displacement = 0;    ///< A of equation (5)
+  double resultant = 0;       ///< int [du/dnu] ds over it, equation (6): zero at the solution
+  double contact_length = 0;  ///< length of its delaminated part in contact
+};
+
+/// Contact along an interface, by arc length; begin == end: contact in a single node.
+struct ContactInterval {
+  std::size_t interface = 0;  ///< index into Result::interfaces
+  double begin = 0;
+  double end = 0;
+};
+
+/// Along one interface, all (k).
+struct Trace {
+  std::vector<double> u_minus;
+  std::vector<double> u_plus;
+  std::vector<double> jump;           ///< u_plus - u_minus
+  std::vector<double> pressure;       ///< contact pressure on cracks, flux on glue
+  std::vector<std::int32_t> contact;  ///< 1: crack node closed under pressure
+};
+
+/// One entry an iteration kept by the server, all of one length.
+struct History {
+  std::vector<std::int32_t> iteration;  ///< from 1, strictly increasing
+  std::vector<double> criterion;        ///< step 3 of Algorithm 2; 1 in the first iteration
+  std::vector<double> energy;           ///< Pi(u_k)
+  std::vector<std::int32_t> contact_count;
+  std::vector<double> kkt_equilibrium, kkt_gap, kkt_sign, kkt_complementarity;  ///< absolute
+
+  std::size_t size() const noexcept { return iteration.size(); }
+};
+
+/// u on the nodes of one subdomain, those on the interface with its own trace.
+struct Field {
+  std::vector<std::int32_t> nodes;  ///< (n_i) index into Mesh::xy
+  std::vector<double> u;            ///< (n_i)
+};
+
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+struct Load {
+  std::string name;  ///< [A-Za-z0-9][A-Za-z0-9_. -]{0,63}, unique
+  Status status = Status::unspecified;
+  std::string reason;        ///< of not_converged
+  std::string error;         ///< of failed
+  std::string method;        ///< "uzawa"
+  std::string mass;          ///< "lumped" or "consistent"; empty where unknown
+  double epsilon = unknown;  ///< stopping criterion asked for
+  double p = unknown;        ///< bound on the multipliers asked for
+  std::int32_t iterations = 0;
+  double criterion = unknown;   ///< of the last iteration
+  double theta = unknown;       ///< used
+  double theta_star = unknown;  ///< of the mesh and mass, Theorem 4
+  double energy = unknown;      ///< Pi(u)
+  Kkt kkt;                      ///< absolute
+  Kkt kkt_relative;
+  double contact_length = 0;
+  double solve_seconds = 0;
+  std::vector<Inclusion> inclusions;
+  std::vector<ContactInterval> contact_intervals;
+  std::vector<Trace> traces;  ///< one per Result::interfaces, or none
+  History history;
+  std::vector<Field> fields;  ///< one per Mesh::subdomains, or none (not asked for)
+};
+
+struct Timings {
+  double mesh_seconds = 0;
+  double factorize_seconds = 0;
+  double solve_seconds = 0;  ///< all load cases
+  double total_seconds = 0;  ///< as the user waited
+};
+
+struct Result {
+  std::string title;
+  std::string case_text;  ///< the TOML as run, overrides applied
+  std::string client_version;
+  std::string server_version;
+  std::string mesh_name;    ///< "meshes/ID"
+  std::string job_name;     ///< "jobs/ID"
+  std::string mesh_sha256;  ///< 64 lower-case hexadecimal digits
+  Timings timings;
+  Mesh mesh;
+  std::vector<Interface> interfaces;
+  std::vector<Load> loads;
+};
+
+/// The first invariant above that does not hold (shapes, index ranges, names, enums, finite
+/// coordinates), as "loads[1].traces[0].jump has 160 entries for 161 nodes"; empty when all hold.
+/// O(size of the result).
+std::string first_fault(const Result& result);
+
+/// Whether a load may have this name (it becomes the name of a group).
+bool is_load_name(std::string_view name) noexcept;
+
+}  // namespace anticrack::results

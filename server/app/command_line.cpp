@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace anticrack::app {
+
+CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version) {
+  const Config defaults;
+  CommandLine result;
+  CLI::App parser("Solves membranes with cracks and thin rigid inclusions, over gRPC.",
+                  "anticrackd");
+  parser.footer(
+      "Every flag is also a key of the file, e.g. memory-budget = \"2GiB\"; the command line "
+      "wins.\n"
+      "Example: anticrackd --listen 127.0.0.1:0 --data-dir data --memory-budget 2GiB");
+  parser.set_version_flag("--version", "anticrackd " + version);
+  parser.add_option("--config", result.config_file, "TOML file with any of the keys below")
+      ->type_name("FILE");
+  parser.add_flag("--check-config", result.check_config,
+                  "Print the configuration in effect and stop");
+  for (const Key& key : keys()) {
+    const std::string flag = "--" + key.name;
+    if (key.type == KeyType::flag) {
+      parser.add_flag_callback(
+          flag,
+          [&result, key, flag] {
+            result.settings.push_back({key.name, "true", flag});
+          },
+          key.help);
+      continue;
+    }
+    CLI::Option* option = parser
+                              .add_option_function<std::string>(
+                                  flag,
+                                  [&result, key, flag](const std::string& value) {
+                                    result.settings.push_back({key.name, value, flag});
+                                  },
+                                  key.help)
+                              ->type_name(key.placeholder);
+    const std::string fallback = key.get(defaults);
+    if (!fallback.empty() && fallback != "0") option->default_str(fallback);
+  }
+  try {
+    parser.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    result.text = parser.help();
+  } catch (const CLI::CallForVersion& call) {
+    result.text = std::string(call.what()) + "\n";
+  } catch (const CLI::ParseError& error) {
+    throw ConfigError(std::string(error.what()) + " (see anticrackd --help)");
+  }
+  return result;
+}
+
+}  // namespace anticrack::app

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What can be set: one table of keys, each a flag of the command line and a key of the TOML file.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace anticrack::app {
+
+struct Config {
+  std::string listen = "127.0.0.1:7433";
+  bool allow_insecure_remote = false;
+  std::string data_dir;             ///< empty: default_data_dir()
+  std::uint64_t memory_budget = 0;  ///< 0: default_memory_budget()
+  int threads = 0;                  ///< 0: as many as processors
+  std::string log_level = "info";
+  std::chrono::milliseconds drain_time{3'000};
+
+  std::string mesher;  ///< empty: beside the executable
+  std::chrono::milliseconds meshing_time{600'000};
+  std::uint64_t mesher_memory = 6ULL << 30;
+  std::uint64_t mesh_triangles = 4'000'000;
+  int pending_meshes = 64;
+  std::uint64_t upload_limit = 256ULL << 20;
+
+  int load_cases = 1'000;
+  int iterations = 1'000'000;
+  int expression_bytes = 4'096;
+  int queued_jobs = 1'000;
+  int kept_jobs = 10'000;
+  std::uint64_t kept_bytes = 4ULL << 30;
+  std::uint64_t event_log = 8ULL << 20;
+  int watchers = 256;
+  int transfers = 32;
+};
+
+/// Says where (file and line, or flag), the bad value and the cure, in one line.
+class ConfigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class KeyType { text, number, flag };
+
+struct Key {
+  std::string name;  ///< "memory-budget": the flag is --memory-budget
+  KeyType type;
+  std::string placeholder;  ///< of the value in the help
+  std::string help;
+  /// Throws std::invalid_argument with one sentence.
+  std::function<void(Config&, const std::string&)> set;
+  /// The value, as `set` would read it.
+  std::function<std::string(const Config&)> get;
+};
+
+const std::vector<Key>& keys();
+
+/// Throws ConfigError, which names the nearest known key, where there is none of this name.
+const Key& find_key(const std::string& name, const std::string& where);
+
+/// A value somebody wrote, and where.
+struct Setting {
+  std::string key;
+  std::string value;
+  std::string where;  ///< "FILE:LINE" or "--FLAG"
+};
+
+/// Defaults, overridden by `file`, overridden by `command_line`; what was left to be found out is.
+/// Throws ConfigError.
+Config make_config(const std::vector<Setting>& file, const std::vector<Setting>& command_line);
+
+/// As a TOML file that gives the same configuration.
+std::string to_toml(const Config& config);
+
+/// $XDG_STATE_HOME/anticrack or ~/.local/state/anticrack. Throws ConfigError where neither is set.
+std::string default_data_dir();
+
+/// Half of the machine's memory, bytes.
+std::uint64_t default_memory_budget();
+
+}  // namespace anticrack::app

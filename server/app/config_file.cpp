@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/config_file.hpp"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+namespace anticrack::app {
+namespace {
+
+std::string number_text(double number) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(17);
+  out << number;
+  return out.str();
+}
+
+std::string value_text(const Key& key, const toml::node& node, const std::string& where) {
+  const bool number = key.type == KeyType::number;
+  if (key.type == KeyType::flag) {
+    if (const auto flag = node.value_exact<bool>()) return *flag ? "true" : "false";
+    throw ConfigError(where + ": " + key.name + " takes true or false, without quotes");
+  }
+  if (const auto text = node.value_exact<std::string>()) return *text;
+  if (number) {
+    if (const auto integer = node.value_exact<std::int64_t>()) return std::to_string(*integer);
+    if (const auto real = node.value_exact<double>()) return number_text(*real);
+  }
+  throw ConfigError(where + ": " + key.name + " takes a " +
+                    (number ? "number, or a text like \"2GiB\"" : "text in quotes"));
+}
+
+}  // namespace
+
+std::vector<Setting> parse_config(const std::string& text, const std::string& path) {
+  toml::table table;
+  try {
+    table = toml::parse(text, path);
+  } catch (const toml::parse_error& error) {
+    throw ConfigError(path + ":" + std::to_string(error.source().begin.line) + ": " +
+                      std::string(error.description()));
+  }
+  std::vector<Setting> settings;
+  for (const auto& [name, node] : table) {
+    const std::string where = path + ":" + std::to_string(node.source().begin.line);
+    const Key& key = find_key(std::string(name.str()), where);
+    settings.push_back({key.name, value_text(key, node, where), where});
+  }
+  return settings;
+}
+
+std::vector<Setting> read_config_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf())) {
+    throw ConfigError(path + ": cannot be read: " + std::generic_category().message(errno));
+  }
+  return parse_config(text.str(), path);
+}
+
+}  // namespace anticrack::app

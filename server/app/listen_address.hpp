@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace anticrack::app {
+
+/// Where the server listens.
+struct ListenAddress {
+  std::string text;         ///< as written
+  std::string socket_path;  ///< of unix:PATH, else empty
+  std::string host;         ///< of HOST:PORT, brackets removed
+  int port = 0;
+};
+
+/// Throws std::invalid_argument with one sentence unless `text` is HOST:PORT, [IPV6]:PORT or
+/// unix:PATH.
+ListenAddress parse_listen_address(const std::string& text);
+
+/// True for unix sockets, 127.0.0.0/8, ::1 and localhost.
+bool is_local(const ListenAddress& address);
+
+/// Throws ConfigError unless the address is local or `allow_remote`: there is no TLS yet.
+void require_local(const ListenAddress& address, bool allow_remote);
+
+/// Makes room for a unix socket: a socket file nobody answers on is removed. Throws ConfigError
+/// when a server answers on it, or when something else is there. Nothing to do for other addresses.
+void clear_stale_socket(const ListenAddress& address);
+
+}  // namespace anticrack::app

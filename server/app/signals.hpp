@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+namespace anticrack::app {
+
+/// SIGTERM and SIGINT as something to wait for, and SIGPIPE ignored. By handlers that write into a
+/// pipe: blocking the signals would not do, OpenBLAS starts threads before main which do not
+/// inherit that. One object at a time.
+class Signals {
+ public:
+  Signals();
+  ~Signals();
+  Signals(const Signals&) = delete;
+  Signals& operator=(const Signals&) = delete;
+
+  /// Waits for a signal and returns its number.
+  int wait() const;
+  /// Runs `work` on a thread of its own; a signal meanwhile ends the process at once, with
+  /// 128 + its number.
+  void run_unless_interrupted(const std::function<void()>& work) const;
+
+ private:
+  int _reader = -1;
+};
+
+}  // namespace anticrack::app

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <sstream>
+
+#include "contact/answer.hpp"
+#include "errors/errors.hpp"
+
+namespace anticrack::contact {
+namespace {
+
+template <class Value>
+void require(bool holds, const char* field, Value value, const std::string& cure) {
+  if (!holds) {
+    std::ostringstream message;
+    message << field << " is " << value << "; it must be " << cure;
+    throw errors::Error(errors::Reason::invalid_argument, message.str()).at(field);
+  }
+}
+
+}  // namespace
+
+void check(const UzawaOptions& options, int iteration_limit) {
+  if (options.theta) {
+    require(std::isfinite(*options.theta) && *options.theta > 0, "theta", *options.theta,
+            "a finite number above 0, or auto");
+  }
+  require(std::isfinite(options.epsilon) && options.epsilon > 0, "epsilon", options.epsilon,
+          "a finite number above 0");
+  require(std::isfinite(options.p) && options.p >= 0, "p", options.p, "finite and not negative");
+  require(options.max_iterations >= 1 && options.max_iterations <= iteration_limit,
+          "max_iterations", options.max_iterations, "from 1 to " + std::to_string(iteration_limit));
+}
+
+}  // namespace anticrack::contact

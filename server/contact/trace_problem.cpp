@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/trace_problem.hpp"
+
+#include <Eigen/SparseCholesky>
+
+#include "contact/theta_star.hpp"
+#include "fem/interface_mass.hpp"
+
+namespace anticrack::contact {
+namespace {
+
+/// Any root R with M = R R' will do: F M and R'F R have the same eigenvalues.
+Eigen::SparseMatrix<double> root(const Eigen::SparseMatrix<double>& mass) {
+  if (mass.rows() == 0) {
+    return {};
+  }
+  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>>
+      cholesky(mass);
+  return cholesky.matrixL();
+}
+
+Eigen::SparseMatrix<double> root(const Eigen::VectorXd& mass) {
+  if (mass.size() == 0) {
+    return {};  // Eigen 3.4 writes through a null pointer for a diagonal of size 0
+  }
+  return Eigen::SparseMatrix<double>(mass.cwiseSqrt().asDiagonal());
+}
+
+}  // namespace
+
+TraceProblem::TraceProblem(const ddm::Decomposition& decomposition,
+                           const std::vector<ddm::SubdomainOperator>& operators)
+    : _decomposition(decomposition),
+      _operators(operators),
+      _lumped(fem::lumped_mass(decomposition.edges, decomposition.pairs.size())),
+      _consistent(fem::consistent_mass(decomposition.edges, decomposition.pairs.size())),
+      _theta_star_lumped(contact::theta_star(decomposition, operators, root(_lumped))),
+      _theta_star_consistent(contact::theta_star(decomposition, operators, root(_consistent))) {}
+
+void TraceProblem::apply_mass(Mass mass, const Eigen::VectorXd& mu, Eigen::VectorXd& force) const {
+  if (mass == Mass::lumped) {
+    force.noalias() = _lumped.cwiseProduct(mu);
+  } else {
+    force.noalias() = _consistent * mu;
+  }
+}
+
+}  // namespace anticrack::contact

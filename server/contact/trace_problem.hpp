@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "contact/answer.hpp"
+#include "ddm/decomposition.hpp"
+#include "ddm/subdomain_operator.hpp"
+
+namespace anticrack::contact {
+
+/// The contact problem on the interfaces alone. Multipliers mu, one per node pair, act on the
+/// traces as forces M mu: down on the minus side, up on the plus side. Keeps references: the
+/// decomposition and the operators (one per subdomain, same order) must outlive it.
+/// Immutable after construction, safe to share among threads.
+class TraceProblem {
+ public:
+  /// Throws errors::Error (numerical) when theta* cannot be computed.
+  TraceProblem(const ddm::Decomposition& decomposition,
+               const std::vector<ddm::SubdomainOperator>& operators);
+
+  const ddm::Decomposition& decomposition() const noexcept { return _decomposition; }
+  const std::vector<ddm::SubdomainOperator>& operators() const noexcept { return _operators; }
+  Eigen::Index pair_count() const noexcept { return _lumped.size(); }
+
+  /// Diagonal of the lumped interface mass: the length that belongs to each pair.
+  const Eigen::VectorXd& lumped_mass() const noexcept { return _lumped; }
+
+  /// force = M mu. No allocation.
+  void apply_mass(Mass mass, const Eigen::VectorXd& mu, Eigen::VectorXd& force) const;
+
+  /// theta* = 2 / lambda_max(M^1/2 (F1 + F2) M^1/2): the iteration contracts for every load when
+  /// 0 < theta < theta* (Theorem 4). Infinite when there is no interface.
+  double theta_star(Mass mass) const noexcept {
+    return mass == Mass::lumped ? _theta_star_lumped : _theta_star_consistent;
+  }
+
+ private:
+  const ddm::Decomposition& _decomposition;
+  const std::vector<ddm::SubdomainOperator>& _operators;
+  Eigen::VectorXd _lumped;
+  Eigen::SparseMatrix<double> _consistent;
+  double _theta_star_lumped = 0;
+  double _theta_star_consistent = 0;
+};
+
+}  // namespace anticrack::contact

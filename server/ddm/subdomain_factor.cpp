@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ddm/subdomain_factor.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "ddm/cholmod.hpp"
+#include "errors/errors.hpp"
+
+namespace anticrack::ddm {
+
+struct SubdomainFactor::Factor {
+  FactorPtr cholesky;
+};
+
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// CHOLMOD's view of the lower triangle of a compressed symmetric matrix.
+cholmod_sparse view(Sparse& matrix) {
+  cholmod_sparse result{};
+  result.nrow = static_cast<std::size_t>(matrix.rows());
+  result.ncol = static_cast<std::size_t>(matrix.cols());
+  result.nzmax = static_cast<std::size_t>(matrix.nonZeros());
+  result.p = matrix.outerIndexPtr();
+  result.i = matrix.innerIndexPtr();
+  result.x = matrix.valuePtr();
+  result.stype = -1;
+  result.itype = CHOLMOD_INT;
+  result.xtype = CHOLMOD_REAL;
+  result.dtype = CHOLMOD_DOUBLE;
+  result.sorted = 1;
+  result.packed = 1;
+  return result;
+}
+
+std::vector<int> interior_first(Sparse& interior, Eigen::Index n, Ordering ordering) {
+  std::vector<int> permutation(static_cast<std::size_t>(n));
+  std::iota(permutation.begin(), permutation.end(), 0);
+  switch (ordering) {
+    case Ordering::amd:
+      if (interior.rows() > 0) {
+        cholmod_sparse matrix = view(interior);
+        cholmod_common& context = cholmod_context();
+        cholmod_amd(&matrix, nullptr, 0, permutation.data(), &context);
+        require_success(context, "the ordering of a subdomain");
+      }
+  }
+  return permutation;
+}
+
+bool keeps_trace_last(const cholmod_factor& factor, Eigen::Index interior) {
+  const int* permutation = static_cast<const int*>(factor.Perm);
+  for (auto i = static_cast<std::size_t>(interior); i < factor.n; ++i) {
+    if (permutation[i] != static_cast<int>(i)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+FactorPtr analyze(cholmod_sparse& matrix, std::vector<int>& permutation, bool postorder) {
+  cholmod_common& context = cholmod_context();
+  context.postorder = postorder ? 1 : 0;
+  FactorPtr factor(cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, &context));
+  require_success(context, "the analysis of a subdomain");
+  return factor;
+}
+
+FactorPtr factorise(Sparse& lower, std::vector<int>& permutation, Eigen::Index interior) {
+  cholmod_sparse matrix = view(lower);
+  FactorPtr factor = analyze(matrix, permutation, true);
+  // The interface is a clique at the root of the elimination tree, so postordering leaves it where
+  // it is, unless the interior falls apart and the tree has several roots.
+  if (!keeps_trace_last(*factor, interior)) {
+    factor = analyze(matrix, permutation, false);
+    if (!keeps_trace_last(*factor, interior)) {
+      throw errors::Error(errors::Reason::internal,
+                          "the analysis of a subdomain moved its interface nodes");
+    }
+  }
+  cholmod_common& context = cholmod_context();
+  cholmod_factorize(&matrix, factor.get(), &context);
+  require_success(context, "the factorisation of a subdomain");
+  if (factor->is_super == 0 || factor->is_ll == 0) {
+    throw errors::Error(errors::Reason::internal, "CHOLMOD left no supernodal LL' factor");
+  }
+  return factor;
+}
+
+/// The lower triangle of the last `size` rows and columns of L.
+Eigen::MatrixXd trailing_block(const cholmod_factor& factor, Eigen::Index size) {
+  Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
+  const Eigen::Index first = static_cast<Eigen::Index>(factor.n) - size;
+  const int* super = static_cast<const int*>(factor.super);
+  const int* pattern_begin = static_cast<const int*>(factor.pi);
+  const int* value_begin = static_cast<const int*>(factor.px);
+  const int* pattern = static_cast<const int*>(factor.s);
+  const double* value = static_cast<const double*>(factor.x);
+  for (std::size_t s = 0; s < factor.nsuper; ++s) {
+    const std::ptrdiff_t rows = pattern_begin[s + 1] - pattern_begin[s];
+    for (std::ptrdiff_t column = super[s]; column < super[s + 1]; ++column) {
+      if (column < first) {
+        continue;
+      }
+      const std::ptrdiff_t local = column - super[s];
+      for (std::ptrdiff_t r = local; r < rows; ++r) {
+        block(pattern[pattern_begin[s] + r] - first, column - first) =
+            value[value_begin[s] + local * rows + r];
+      }
+    }
+  }
+  return block;
+}
+
+Eigen::VectorXd triangular_solve(int system, const cholmod_factor& factor,
+                                 Eigen::VectorXd& right_hand_side) {
+  cholmod_dense b{};
+  b.nrow = b.nzmax = b.d = static_cast<std::size_t>(right_hand_side.size());
+  b.ncol = 1;
+  b.x = right_hand_side.data();
+  b.xtype = CHOLMOD_REAL;
+  b.dtype = CHOLMOD_DOUBLE;
+  cholmod_common& context = cholmod_context();
+  // CHOLMOD takes the factor without const but only reads a supernodal one.
+  const DensePtr x(cholmod_solve(system, const_cast<cholmod_factor*>(&factor), &b, &context));
+  require_success(context, "a triangular solve");
+  return Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(x->x),
+                                           right_hand_side.size());
+}
+
+}  // namespace
+
+SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior, Ordering ordering)
+    : _interior(interior) {
+  Sparse inner = stiffness.topLeftCorner(interior, interior).triangularView<Eigen::Lower>();
+  std::vector<int> permutation = interior_first(inner, stiffness.rows(), ordering);
+  inner.resize(0, 0);
+  Sparse lower = stiffness.triangularView<Eigen::Lower>();
+  FactorPtr cholesky = factorise(lower, permutation, interior);
+  _trace_factor = trailing_block(*cholesky, stiffness.rows() - interior);
+  _factor = std::make_unique<Factor>(Factor{std::move(cholesky)});
+}
+
+SubdomainFactor::~SubdomainFactor() = default;
+SubdomainFactor::SubdomainFactor(SubdomainFactor&&) noexcept = default;
+SubdomainFactor& SubdomainFactor::operator=(SubdomainFactor&&) noexcept = default;
+
+SubdomainFactor::Forward SubdomainFactor::forward(const Eigen::VectorXd& f) const {
+  const cholmod_factor& factor = *_factor->cholesky;
+  const Eigen::Map<const Eigen::VectorXi> permutation(static_cast<const int*>(factor.Perm),
+                                                      f.size());
+  Eigen::VectorXd ordered = f(permutation);
+  const Eigen::VectorXd z = triangular_solve(CHOLMOD_L, factor, ordered);
+  return {z.head(_interior), _trace_factor.triangularView<Eigen::Lower>() * z.tail(trace())};
+}
+
+Eigen::VectorXd SubdomainFactor::recover(const Eigen::VectorXd& z_interior,
+                                         const Eigen::VectorXd& trace_values) const {
+  const cholmod_factor& factor = *_factor->cholesky;
+  Eigen::VectorXd z(_interior + trace());
+  z << z_interior, _trace_factor.transpose().triangularView<Eigen::Upper>() * trace_values;
+  const Eigen::VectorXd ordered = triangular_solve(CHOLMOD_Lt, factor, z);
+  Eigen::VectorXd u(ordered.size());
+  const Eigen::Map<const Eigen::VectorXi> permutation(static_cast<const int*>(factor.Perm),
+                                                      ordered.size());
+  u(permutation) = ordered;
+  return u;
+}
+
+Eigen::VectorXd SubdomainFactor::apply_schur(const Eigen::VectorXd& trace_values) const {
+  const Eigen::VectorXd half =
+      _trace_factor.transpose().triangularView<Eigen::Upper>() * trace_values;
+  return _trace_factor.triangularView<Eigen::Lower>() * half;
+}
+
+Eigen::MatrixXd SubdomainFactor::schur() const {
+  return _trace_factor.triangularView<Eigen::Lower>() * _trace_factor.transpose();
+}
+
+std::size_t SubdomainFactor::bytes() const noexcept {
+  const cholmod_factor& factor = *_factor->cholesky;
+  const std::size_t integers = factor.ssize + 3 * (factor.nsuper + 1) + 2 * factor.n;
+  return sizeof(double) * (factor.xsize + static_cast<std::size_t>(_trace_factor.size())) +
+         sizeof(int) * integers + sizeof(cholmod_factor);
+}
+
+}  // namespace anticrack::ddm

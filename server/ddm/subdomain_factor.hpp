@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <cstddef>
+#include <memory>
+
+namespace anticrack::ddm {
+
+/// Fill-reducing order of the interior.
+enum class Ordering {
+  amd,  ///< approximate minimum degree: the soonest first answer
+};
+
+/// Sparse Cholesky factor of one subdomain's stiffness with the interface numbered last:
+///
+///   K = [K_II K_IG; K_GI K_GG],  P K P' = L L',  L = [L_II 0; L_GI L_GG],  S = L_GG L_GG'
+///
+/// so the trailing dense block of L is the factor of the Schur complement S = K_GG - K_GI K_II^-1
+/// K_IG, the discrete Steklov-Poincare operator, at no cost. P moves interior unknowns only.
+/// Immutable after construction; any number of threads may solve with it at once.
+class SubdomainFactor {
+ public:
+  /// K: symmetric positive definite, both triangles stored, interior unknowns first. Throws
+  /// errors::Error (numerical when K is not positive definite, limit_exceeded without memory).
+  SubdomainFactor(const Eigen::SparseMatrix<double>& stiffness, Eigen::Index interior,
+                  Ordering ordering);
+  ~SubdomainFactor();
+  SubdomainFactor(SubdomainFactor&&) noexcept;
+  SubdomainFactor& operator=(SubdomainFactor&&) noexcept;
+
+  struct Forward {
+    Eigen::VectorXd z_interior;  ///< L_II^-1 P f_I, in the factor's order
+    Eigen::VectorXd g;           ///< condensed load f_G - K_GI K_II^-1 f_I
+  };
+  /// One forward solve, O(nnz(L)).
+  Forward forward(const Eigen::VectorXd& f) const;
+
+  /// u with trace t and interior K_II^-1 (f_I - K_IG t), f the load of `z_interior`: one backward
+  /// solve of L' x = [z_I; L_GG' t], O(nnz(L)). Shape (interior + trace).
+  Eigen::VectorXd recover(const Eigen::VectorXd& z_interior, const Eigen::VectorXd& trace) const;
+
+  /// S t, O(n_G^2).
+  Eigen::VectorXd apply_schur(const Eigen::VectorXd& trace) const;
+  /// S, dense, O(n_G^3).
+  Eigen::MatrixXd schur() const;
+
+  Eigen::Index interior() const noexcept { return _interior; }
+  Eigen::Index trace() const noexcept { return _trace_factor.rows(); }
+  std::size_t bytes() const noexcept;
+
+ private:
+  struct Factor;  // keeps CHOLMOD's types out of this header
+  std::unique_ptr<const Factor> _factor;
+  Eigen::Index _interior;
+  Eigen::MatrixXd _trace_factor;  // L_GG, lower triangle
+};
+
+}  // namespace anticrack::ddm

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <cstddef>
+
+#include "ddm/decomposition.hpp"
+#include "ddm/flexibility.hpp"
+#include "ddm/subdomain_factor.hpp"
+
+namespace anticrack::ddm {
+
+/// A load of one subdomain seen from its trace t. With S the Schur complement, exactly:
+///   Pi_i(t)  = t'S t/2 - g't + energy_constant         (the paper's Pi_i, g_D included)
+///   |u|_V^2  = t'S t - 2 g_boundary't + norm_constant  (int |grad u|^2 over the subdomain)
+struct CondensedLoad {
+  Eigen::VectorXd z_interior;  ///< L_II^-1 f_I: what `recover` needs
+  Eigen::VectorXd g;           ///< f_G - K_GI K_II^-1 f_I, f_I and f_G including -K_.D g_D
+  Eigen::VectorXd g_boundary;  ///< the part of g that comes from g_D
+  Eigen::VectorXd dirichlet;   ///< g_D in the Dirichlet nodes
+  double energy_constant = 0;
+  double norm_constant = 0;
+};
+
+/// One subdomain, factorised: everything Algorithm 2 needs of it. Immutable after construction.
+class SubdomainOperator {
+ public:
+  /// Throws errors::Error as SubdomainFactor does.
+  explicit SubdomainOperator(const Subdomain& subdomain, Ordering ordering = Ordering::amd);
+
+  /// `load`: int f phi_i for all nodes of the subdomain; `dirichlet`: g_D in its Dirichlet nodes.
+  /// One forward solve, two when g_D is not zero.
+  CondensedLoad condense(const Eigen::VectorXd& load, const Eigen::VectorXd& dirichlet) const;
+
+  /// u on all nodes of the subdomain, in its numbering. One backward solve.
+  Eigen::VectorXd recover(const CondensedLoad& load, const Eigen::VectorXd& trace) const;
+
+  const SubdomainFactor& factor() const noexcept { return _factor; }
+  const Flexibility& flexibility() const noexcept { return _flexibility; }
+  std::size_t bytes() const noexcept;
+
+ private:
+  SubdomainOperator(const Subdomain& subdomain, const Eigen::SparseMatrix<double>& stiffness,
+                    Ordering ordering);
+
+  SubdomainFactor _factor;
+  Flexibility _flexibility;
+  Eigen::SparseMatrix<double> _free_dirichlet;       // [K_ID; K_GD]
+  Eigen::SparseMatrix<double> _dirichlet_dirichlet;  // K_DD
+};
+
+}  // namespace anticrack::ddm

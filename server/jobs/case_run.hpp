@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <stop_token>
+
+#include "jobs/event_log.hpp"
+#include "jobs/live_job.hpp"
+#include "operators/mesh_operator.hpp"
+#include "store/records.hpp"
+
+namespace anticrack::jobs {
+
+struct CaseOutcome {
+  std::shared_ptr<const store::CaseRecord> record;
+  std::unique_ptr<SolvedCase> solved;  ///< converged and not_converged only
+};
+
+/// Solves one load case on the calling thread: a sample event an iteration, stopped within one.
+/// What goes wrong is in the record ("load_cases[i]..." at fault), nothing is thrown.
+CaseOutcome run_case(const operators::MeshOperator& mesh_operator, const store::JobSpec& spec,
+                     std::size_t index, EventLog& log, const std::stop_token& stop,
+                     std::atomic<std::uint64_t>& iterations);
+
+}  // namespace anticrack::jobs

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What can be said of a job before any work is done on it.
+#pragma once
+
+#include <string>
+
+#include "jobs/job_engine.hpp"
+#include "store/records.hpp"
+
+namespace anticrack::jobs {
+
+/// Throws errors::Error (invalid_argument, expression_invalid, limit_exceeded) for the first thing
+/// that is wrong, with its path in the job: "title", "load_cases", "load_cases[i].name",
+/// "load_cases[i].force.expression", "solver.uzawa.theta", ...
+void check(const store::JobSpec& spec, const EngineOptions& options);
+
+/// Hash of all that makes a job, its title included: equal for equal requests only.
+std::string fingerprint(const store::JobSpec& spec);
+
+}  // namespace anticrack::jobs

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "jobs/live_job.hpp"
+#include "operators/mesh_operator.hpp"
+#include "store/block.hpp"
+
+namespace anticrack::jobs {
+
+/// The arrays of ReadResult for the cases that have an answer; null when none has. The answers are
+/// freed on the way, so that they and the block are not all in memory at once.
+std::shared_ptr<const store::Block> result_block(const operators::MeshOperator& mesh_operator,
+                                                 std::vector<LiveCase>& cases);
+
+}  // namespace anticrack::jobs

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The edges of a triangulation and the triangles on either side of them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace anticrack::mesh {
+
+/// One side of one triangle, walked in the triangle's direction: from -> to, the triangle on the
+/// left when it is counterclockwise.
+struct EdgeUse {
+  std::int32_t from = 0;
+  std::int32_t to = 0;
+  std::int32_t triangle = 0;
+
+  std::int32_t low() const noexcept { return from < to ? from : to; }
+  std::int32_t high() const noexcept { return from < to ? to : from; }
+};
+
+/// All sides of all triangles, those of one edge next to one another: sorted by (low, high), then
+/// by triangle. Memory 12 bytes a side.
+class EdgeTable {
+ public:
+  /// `triangles` (m,3) row-major. O(m log m).
+  explicit EdgeTable(std::span<const std::int32_t> triangles);
+
+  /// The sides of the edge between two nodes, in either order; empty if there is none. O(log m).
+  std::span<const EdgeUse> find(std::int32_t a, std::int32_t b) const noexcept;
+
+  /// Calls `visit(std::span<const EdgeUse>)` once an edge, in order of (low, high).
+  template <class Visit>
+  void each(Visit&& visit) const {
+    for (std::size_t i = 0; i < _uses.size();) {
+      std::size_t end = i + 1;
+      while (end < _uses.size() && same_edge(_uses[i], _uses[end])) ++end;
+      visit(std::span<const EdgeUse>(_uses).subspan(i, end - i));
+      i = end;
+    }
+  }
+
+ private:
+  static bool same_edge(const EdgeUse& a, const EdgeUse& b) noexcept {
+    return a.low() == b.low() && a.high() == b.high();
+  }
+
+  std::vector<EdgeUse> _uses;
+};
+
+}  // namespace anticrack::mesh

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/geometry_primitives.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace anticrack::mesh {
+namespace {
+
+double cross(const Point& o, const Point& a, const Point& b) noexcept {
+  return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+}
+
+bool crosses(const Segment& s, const Segment& t) noexcept {
+  const double a = cross(s.a, s.b, t.a);
+  const double b = cross(s.a, s.b, t.b);
+  const double c = cross(t.a, t.b, s.a);
+  const double d = cross(t.a, t.b, s.b);
+  return ((a > 0) != (b > 0)) && ((c > 0) != (d > 0));
+}
+
+}  // namespace
+
+double distance(const Point& a, const Point& b) noexcept {
+  return std::hypot(b[0] - a[0], b[1] - a[1]);
+}
+
+double nearest(const Point& p, const Segment& s) noexcept {
+  const double dx = s.b[0] - s.a[0];
+  const double dy = s.b[1] - s.a[1];
+  const double square = dx * dx + dy * dy;
+  if (square == 0) return 0;
+  return std::clamp(((p[0] - s.a[0]) * dx + (p[1] - s.a[1]) * dy) / square, 0.0, 1.0);
+}
+
+double distance(const Point& p, const Segment& s) noexcept {
+  const double t = nearest(p, s);
+  return distance(p, Point{s.a[0] + t * (s.b[0] - s.a[0]), s.a[1] + t * (s.b[1] - s.a[1])});
+}
+
+double distance(const Segment& s, const Segment& t) noexcept {
+  if (crosses(s, t)) return 0;
+  return std::min({distance(s.a, t), distance(s.b, t), distance(t.a, s), distance(t.b, s)});
+}
+
+bool boxes_meet(const Segment& s, const Segment& t, double tolerance) noexcept {
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (std::min(s.a[i], s.b[i]) > std::max(t.a[i], t.b[i]) + tolerance) return false;
+    if (std::min(t.a[i], t.b[i]) > std::max(s.a[i], s.b[i]) + tolerance) return false;
+  }
+  return true;
+}
+
+double signed_area(std::span<const Point> polygon) noexcept {
+  double twice = 0;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    twice += cross(polygon[0], polygon[i], polygon[i + 1]);
+  }
+  return twice / 2;
+}
+
+bool inside(const Point& p, std::span<const Point> polygon) noexcept {
+  bool odd = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    Point a = polygon[i];
+    Point b = polygon[(i + 1) % polygon.size()];
+    if ((a[1] > p[1]) == (b[1] > p[1])) continue;
+    if (a[1] > b[1]) std::swap(a, b);
+    if (cross(a, b, p) > 0) odd = !odd;
+  }
+  return odd;
+}
+
+double polyline_length(std::span<const Point> line) noexcept {
+  double length = 0;
+  for (std::size_t i = 1; i < line.size(); ++i) length += distance(line[i - 1], line[i]);
+  return length;
+}
+
+double diagonal(std::span<const Point> points) noexcept {
+  if (points.empty()) return 0;
+  Point low = points[0];
+  Point high = points[0];
+  for (const Point& p : points) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  }
+  return distance(low, high);
+}
+
+std::string show(double value) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  return {digits.data(), end.ptr};
+}
+
+std::string show(const Point& p) {
+  return "(" + show(p[0]) + ", " + show(p[1]) + ")";
+}
+
+std::string indexed(const std::string& name, std::size_t i) {
+  return name + "[" + std::to_string(i) + "]";
+}
+
+}  // namespace anticrack::mesh

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <utility>
+
+#include "errors/errors.hpp"
+#include "mesh/edges.hpp"
+
+namespace anticrack::mesh {
+namespace {
+
+using EdgeKey = std::pair<std::int32_t, std::int32_t>;
+
+EdgeKey key(std::int32_t a, std::int32_t b) noexcept {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+template <class... Parts>
+[[noreturn]] void fail(const Parts&... parts) {
+  std::ostringstream text;
+  text.precision(17);
+  (text << ... << parts);
+  throw errors::Error(errors::Reason::mesh_invalid, text.str());
+}
+
+std::string where(const Mesh& mesh, std::int32_t node) {
+  std::ostringstream text;
+  const auto i = 2 * static_cast<std::size_t>(node);
+  text << "node " << node << " (" << mesh.xy[i] << ", " << mesh.xy[i + 1] << ")";
+  return text.str();
+}
+
+std::string where_edge(const Mesh& mesh, std::int32_t a, std::int32_t b) {
+  return "the edge from " + where(mesh, a) + " to " + where(mesh, b);
+}
+
+void check_shapes(const Mesh& mesh) {
+  constexpr auto limit = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+  if (mesh.xy.size() % 2 != 0) fail("xy has ", mesh.xy.size(), " numbers; it takes two a node");
+  if (mesh.triangles.size() % 3 != 0) {
+    fail("triangles has ", mesh.triangles.size(), " indices; it takes three a triangle");
+  }
+  if (mesh.triangles.empty()) fail("the mesh has no triangle");
+  if (mesh.node_count() > limit || mesh.triangle_count() > limit) {
+    fail("the mesh has ", mesh.node_count(), " nodes and ", mesh.triangle_count(),
+         " triangles; at most ", limit, " fit the indices");
+  }
+  if (mesh.subdomain.size() != mesh.triangle_count()) {
+    fail("subdomain has ", mesh.subdomain.size(), " entries for ", mesh.triangle_count(),
+         " triangles");
+  }
+}
+
+void check_nodes(const Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.xy.size(); ++i) {
+    if (!std::isfinite(mesh.xy[i])) {
+      fail(i % 2 == 0 ? "x" : "y", " of node ", i / 2, " is ", mesh.xy[i], ", not a finite number");
+    }
+  }
+}
+
+void check_triangles(const Mesh& mesh) {
+  const auto nodes = static_cast<std::int32_t>(mesh.node_count());
+  const auto subdomains = static_cast<std::int32_t>(mesh.subdomains.size());
+  std::vector<bool> node_used(mesh.node_count(), false);
+  std::vector<bool> subdomain_used(mesh.subdomains.size(), false);
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::int32_t node = mesh.triangles[3 * t + corner];
+      if (node < 0 || node >= nodes) {
+        fail("triangle ", t, " has node ", node, "; the nodes are 0 to ", nodes - 1);
+      }
+      node_used[static_cast<std::size_t>(node)] = true;
+    }
+    const std::int32_t s = mesh.subdomain[t];
+    if (s < 0 || s >= subdomains) {
+      fail("triangle ", t, " is in subdomain ", s, "; there are ", subdomains);
+    }
+    subdomain_used[static_cast<std::size_t>(s)] = true;
+    const double size = area(mesh, t);
+    // written so that an area that is not a number fails as well
+    if (!(size > 0)) {
+      fail("triangle ", t, " at ", where(mesh, mesh.triangles[3 * t]), " has area ", size,
+           "; its nodes must run counterclockwise around a positive area");
+    }
+  }
+  for (std::size_t s = 0; s < subdomain_used.size(); ++s) {
+    if (!subdomain_used[s]) {
+      fail("subdomain ", s, " (\"", mesh.subdomains[s], "\") has no triangle");
+    }
+  }
+  for (std::size_t n = 0; n < node_used.size(); ++n) {
+    if (!node_used[n]) fail(where(mesh, static_cast<std::int32_t>(n)), " belongs to no triangle");
+  }
+}
+
+bool needs_inclusion(Kind kind) noexcept {
+  return kind == Kind::inclusion || kind == Kind::delaminated;
+}
+
+void check_interface_shape(const Mesh& mesh, const Interface& interface) {
+  const std::string& name = interface.name;
+  if (interface.nodes.size() < 2) {
+    fail("interface \"", name, "\" has ", interface.nodes.size(), " nodes; it takes two at least");
+  }
+  const std::size_t edges = interface.nodes.size() - 1;
+  if (interface.kind.size() != edges || interface.inclusion.size() != edges) {
+    fail("interface \"", name, "\" has ", edges, " edges, but ", interface.kind.size(),
+         " kinds and ", interface.inclusion.size(), " inclusion indices");
+  }
+  for (std::size_t i = 0; i < interface.nodes.size(); ++i) {
+    const std::int32_t node = interface.nodes[i];
+    if (node < 0 || static_cast<std::size_t>(node) >= mesh.node_count()) {
+      fail("interface \"", name, "\" has node ", node, " at place ", i, "; the nodes are 0 to ",
+           mesh.node_count() - 1);
+    }
+  }
+  for (std::size_t i = 0; i < edges; ++i) {
+    const auto number = static_cast<std::int32_t>(interface.kind[i]);
+    if (number < static_cast<std::int32_t>(Kind::glue) ||
+        number > static_cast<std::int32_t>(Kind::delaminated)) {
+      fail("edge ", i, " of interface \"", name, "\" has kind ", number, "; the kinds are 1 to 4");
+    }
+    const std::int32_t j = interface.inclusion[i];
+    if (j < -1 || j >= static_cast<std::int32_t>(mesh.inclusions.size())) {
+      fail("edge ", i, " of interface \"", name, "\" has inclusion ", j, "; there are ",
+           mesh.inclusions.size());
+    }
+    if (needs_inclusion(interface.kind[i]) != (j >= 0)) {
+      fail("edge ", i, " of interface \"", name, "\" has kind ", number, " and inclusion ", j,
+           "; kinds 3 and 4 take an inclusion, the others -1");
+    }
+  }
+}
+
+/// Edges of all interfaces, sorted.
+std::vector<EdgeKey> check_interfaces(const Mesh& mesh, const EdgeTable& edges) {
+  std::vector<EdgeKey> seen;
+  for (const Interface& interface : mesh.interfaces) {
+    check_interface_shape(mesh, interface);
+    for (std::size_t i = 0; i + 1 < interface.nodes.size(); ++i) {
+      const std::int32_t a = interface.nodes[i];
+      const std::int32_t b = interface.nodes[i + 1];
+      const auto uses = edges.find(a, b);
+      if (uses.size() != 2) {
+        fail(where_edge(mesh, a, b), " of interface \"", interface.name, "\" belongs to ",
+             uses.size(), " triangles; it takes two, of different subdomains");
+      }
+      const auto left = mesh.subdomain[static_cast<std::size_t>(uses[0].triangle)];
+      const auto right = mesh.subdomain[static_cast<std::size_t>(uses[1].triangle)];
+      if (left == right) {
+        fail(where_edge(mesh, a, b), " of interface \"", interface.name, "\" has subdomain ", left,
+             " on both sides");
+      }
+      seen.push_back(key(a, b));
+    }
+  }
+  std::sort(seen.begin(), seen.end());
+  const auto twice = std::adjacent_find(seen.begin(), seen.end());
+  if (twice != seen.end()) {
+    fail(where_edge(mesh, twice->first, twice->second), " lies on the interfaces more than once");
+  }
+  return seen;
+}
+
+void check_edges(const Mesh& mesh, const EdgeTable& edges, const std::vector<EdgeKey>& interfaces) {
+  edges.each([&](std::span<const EdgeUse> uses) {
+    const EdgeUse& first = uses[0];
+    if (uses.size() > 2) {
+      fail(where_edge(mesh, first.low(), first.high()), " belongs to ", uses.size(),
+           " triangles; a plane mesh has two at most");
+    }
+    if (uses.size() < 2) return;
+    if (first.from == uses[1].from) {
+      fail("triangles ", first.triangle, " and ", uses[1].triangle, " lie on the same side of ",
+           where_edge(mesh, first.low(), first.high()), ": they overlap");
+    }
+    const auto s = mesh.subdomain[static_cast<std::size_t>(first.triangle)];
+    const auto other = mesh.subdomain[static_cast<std::size_t>(uses[1].triangle)];
+    if (s != other &&
+        !std::binary_search(interfaces.begin(), interfaces.end(), key(first.from, first.to))) {
+      fail(where_edge(mesh, first.low(), first.high()), " between subdomains ", s, " and ", other,
+           " lies on no interface");
+    }
+  });
+}
+
+void check_boundary(const Mesh& mesh, const EdgeTable& edges) {
+  std::vector<EdgeKey> seen;
+  seen.reserve(mesh.dirichlet.size());
+  const auto nodes = static_cast<std::int32_t>(mesh.node_count());
+  for (std::size_t i = 0; i < mesh.dirichlet.size(); ++i) {
+    const auto [a, b] = mesh.dirichlet[i];
+    if (a < 0 || a >= nodes || b < 0 || b >= nodes) {
+      fail("dirichlet edge ", i, " joins nodes ", a, " and ", b, "; the nodes are 0 to ",
+           nodes - 1);
+    }
+    const auto uses = edges.find(a, b);
+    if (uses.size() != 1) {
+      fail("dirichlet edge ", i, ", ", where_edge(mesh, a, b), ", belongs to ", uses.size(),
+           " triangles; an edge of the boundary belongs to one");
+    }
+    seen.push_back(key(a, b));
+  }
+  std::sort(seen.begin(), seen.end());
+  const auto twice = std::adjacent_find(seen.begin(), seen.end());
+  if (twice != seen.end()) {
+    fail(where_edge(mesh, twice->first, twice->second), " is listed as dirichlet twice");
+  }
+}
+
+double distance(const Mesh& mesh, std::int32_t a, std::int32_t b) noexcept {
+  const auto i = 2 * static_cast<std::size_t>(a);
+  const auto j = 2 * static_cast<std::size_t>(b);
+  return std::hypot(mesh.xy[j] - mesh.xy[i], mesh.xy[j + 1] - mesh.xy[i + 1]);
+}
+
+}  // namespace
+
+double area(const Mesh& mesh, std::size_t triangle) noexcept {
+  const auto corner = [&](std::size_t i) {
+    return 2 * static_cast<std::size_t>(mesh.triangles[3 * triangle + i]);
+  };
+  const std::size_t a = corner(0);
+  const std::size_t b = corner(1);
+  const std::size_t c = corner(2);
+  const double abx = mesh.xy[b] - mesh.xy[a];
+  const double aby = mesh.xy[b + 1] - mesh.xy[a + 1];
+  const double acx = mesh.xy[c] - mesh.xy[a];
+  const double acy = mesh.xy[c + 1] - mesh.xy[a + 1];
+  return 0.5 * (abx * acy - aby * acx);
+}
+
+double minimum_angle(const Mesh& mesh) noexcept {
+  double smallest = std::numbers::pi;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = 2 * static_cast<std::size_t>(mesh.triangles[3 * t + i]);
+      const auto next = 2 * static_cast<std::size_t>(mesh.triangles[3 * t + (i + 1) % 3]);
+      const auto last = 2 * static_cast<std::size_t>(mesh.triangles[3 * t + (i + 2) % 3]);
+      const double ux = mesh.xy[next] - mesh.xy[at];
+      const double uy = mesh.xy[next + 1] - mesh.xy[at + 1];
+      const double vx = mesh.xy[last] - mesh.xy[at];
+      const double vy = mesh.xy[last + 1] - mesh.xy[at + 1];
+      smallest = std::min(smallest, std::atan2(std::abs(ux * vy - uy * vx), ux * vx + uy * vy));
+    }
+  }
+  return smallest * 180 / std::numbers::pi;
+}
+
+std::vector<double> arc_length(const Mesh& mesh, const Interface& interface) {
+  std::vector<double> s(interface.nodes.size(), 0.0);
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    s[i] = s[i - 1] + distance(mesh, interface.nodes[i - 1], interface.nodes[i]);
+  }
+  return s;
+}
+
+void validate(const Mesh& mesh) {
+  check_shapes(mesh);
+  check_nodes(mesh);
+  check_triangles(mesh);
+  const EdgeTable edges(mesh.triangles);
+  check_edges(mesh, edges, check_interfaces(mesh, edges));
+  check_boundary(mesh, edges);
+}
+
+}  // namespace anticrack::mesh

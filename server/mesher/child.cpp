@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/child.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+
+namespace anticrack::mesher {
+namespace {
+
+void check(int error, const std::string& what) {
+  if (error != 0) throw std::system_error(error, std::system_category(), what);
+}
+
+struct FileActions {
+  posix_spawn_file_actions_t value;
+  FileActions() { check(posix_spawn_file_actions_init(&value), "posix_spawn"); }
+  ~FileActions() { posix_spawn_file_actions_destroy(&value); }
+  FileActions(const FileActions&) = delete;
+  FileActions& operator=(const FileActions&) = delete;
+};
+
+struct Attributes {
+  posix_spawnattr_t value;
+  Attributes() { check(posix_spawnattr_init(&value), "posix_spawn"); }
+  ~Attributes() { posix_spawnattr_destroy(&value); }
+  Attributes(const Attributes&) = delete;
+  Attributes& operator=(const Attributes&) = delete;
+};
+
+/// Standard descriptors a parent may have closed must not become the child's end: dup2 to 0 and 1
+/// would overwrite it.
+Descriptor above_standard(Descriptor descriptor) {
+  if (descriptor.get() > STDERR_FILENO) return descriptor;
+  Descriptor moved(fcntl(descriptor.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
+  check(moved.get() < 0 ? errno : 0, "fcntl");
+  return moved;
+}
+
+/// One thread of everything, no message catalogues, and nothing of the server's that could be a
+/// secret.
+std::vector<std::string> environment() {
+  std::vector<std::string> variables{"LC_ALL=C", "OMP_NUM_THREADS=1", "OPENBLAS_NUM_THREADS=1"};
+  for (const char* name :
+       {"LD_LIBRARY_PATH", "ASAN_OPTIONS", "LSAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS"}) {
+    if (const char* value = std::getenv(name)) {
+      variables.push_back(std::string(name) + "=" + value);
+    }
+  }
+  return variables;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& strings) {
+  std::vector<char*> list;
+  for (std::string& s : strings) list.push_back(s.data());
+  list.push_back(nullptr);
+  return list;
+}
+
+}  // namespace
+
+Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
+  if (this != &other) {
+    reset();
+    _value = other.release();
+  }
+  return *this;
+}
+
+void Descriptor::reset() noexcept {
+  if (_value >= 0) close(_value);
+  _value = -1;
+}
+
+int Descriptor::release() noexcept {
+  return std::exchange(_value, -1);
+}
+
+Child::Child(const std::string& executable, const std::vector<std::string>& arguments) {
+  int ends[2] = {-1, -1};
+  // close-on-exec from the start: a spawn in another thread must not inherit it
+  check(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0 ? errno : 0, "socketpair");
+  Descriptor ours(ends[0]);
+  Descriptor theirs(ends[1]);
+  ours = above_standard(std::move(ours));
+  theirs = above_standard(std::move(theirs));
+  check(fcntl(ours.get(), F_SETFL, O_NONBLOCK) != 0 ? errno : 0, "fcntl");
+
+  FileActions actions;
+  check(posix_spawn_file_actions_adddup2(&actions.value, theirs.get(), STDIN_FILENO), "dup2");
+  check(posix_spawn_file_actions_adddup2(&actions.value, theirs.get(), STDOUT_FILENO), "dup2");
+  check(posix_spawn_file_actions_addclosefrom_np(&actions.value, STDERR_FILENO + 1), "closefrom");
+
+  Attributes attributes;
+  sigset_t none;
+  sigset_t all;
+  sigemptyset(&none);
+  sigfillset(&all);
+  check(posix_spawnattr_setsigmask(&attributes.value, &none), "sigmask");
+  check(posix_spawnattr_setsigdefault(&attributes.value, &all), "sigdefault");
+  check(posix_spawnattr_setpgroup(&attributes.value, 0), "pgroup");
+  check(posix_spawnattr_setflags(&attributes.value, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF |
+                                                        POSIX_SPAWN_SETPGROUP),
+        "flags");
+
+  std::vector<std::string> words{executable};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> variables = environment();
+  check(posix_spawn(&_pid, executable.c_str(), &actions.value, &attributes.value,
+                    pointers(words).data(), pointers(variables).data()),
+        executable);
+  _socket = std::move(ours);
+}
+
+Child::~Child() {
+  if (_ended) return;
+  kill();
+  while (waitpid(_pid, &_status, 0) < 0 && errno == EINTR) {
+  }
+}
+
+std::size_t Child::send(std::span<const std::byte> bytes) {
+  const ssize_t n = ::send(_socket.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+  return n > 0 ? static_cast<std::size_t>(n) : 0;
+}
+
+void Child::end_input() noexcept {
+  shutdown(_socket.get(), SHUT_WR);
+}
+
+void Child::kill() noexcept {
+  if (!_ended) ::kill(-_pid, SIGKILL);
+}
+
+bool Child::ended() noexcept {
+  if (!_ended) _ended = waitpid(_pid, &_status, WNOHANG) == _pid;
+  return _ended;
+}
+
+}  // namespace anticrack::mesher

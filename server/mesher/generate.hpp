@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From a plan to a mesh, by gmsh. The only file that sees it.
+#pragma once
+
+#include "mesh/codec.hpp"
+#include "mesh/mesh.hpp"
+
+namespace anticrack::mesher {
+
+/// Meshes both sides of the interface. The nodes of every planned curve lie exactly at
+/// a + (b-a) k/n. The same request gives the same mesh. One call a process: gmsh is global.
+/// Throws errors::Error: limit_exceeded (more triangles than asked for), mesher_failed (gmsh gave
+/// up).
+mesh::Mesh generate(const mesh::GenerateRequest& request);
+
+}  // namespace anticrack::mesher

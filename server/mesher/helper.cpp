@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/helper.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "mesher/child.hpp"
+
+namespace anticrack::mesher {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using errors::Error;
+using errors::Reason;
+
+constexpr std::string_view msh_token = "$MeshFormat";
+/// The standard descriptors alone: gmsh's graphics library would write its preferences to the home
+/// folder and to /etc. Reading a .msh takes one more.
+constexpr int standard_files = 3;
+/// Processor time beyond the wall time, so that the wall clock, whose message is better, wins.
+constexpr std::chrono::seconds cpu_slack{10};
+/// A triangle with its three nodes, interface and boundary edges takes less; names and warnings
+/// come on top.
+constexpr std::size_t reply_bytes_a_triangle = 256;
+constexpr std::size_t reply_bytes_besides = 16U << 20;
+
+Error failed(const std::string& message) {
+  return {Reason::mesher_failed, message};
+}
+
+std::size_t most_reply_bytes(const mesh::MesherRequest& request) {
+  const std::size_t triangles =
+      std::visit([](const auto& wanted) { return wanted.max_triangles; }, request);
+  const std::size_t most = (SIZE_MAX - reply_bytes_besides) / reply_bytes_a_triangle;
+  return reply_bytes_besides + std::min(triangles, most) * reply_bytes_a_triangle;
+}
+
+std::string time_limit_message(std::chrono::seconds limit) {
+  return "the mesher was stopped after " + std::to_string(limit.count()) +
+         " s, its time limit; choose a coarser mesh or raise the limit";
+}
+
+std::string ending(int status, const HelperOptions& options) {
+  if (WIFEXITED(status)) {
+    return "the mesher ended with status " + std::to_string(WEXITSTATUS(status)) +
+           " and no answer; the server's error output may say why";
+  }
+  const int signal = WTERMSIG(status);
+  const char* abbreviation = sigabbrev_np(signal);
+  const std::string name =
+      abbreviation == nullptr ? std::to_string(signal) : std::string("SIG") + abbreviation;
+  switch (signal) {
+    case SIGXCPU:
+      return "the mesher was stopped by " + name + ", its limit of processor time; choose a " +
+             "coarser mesh or raise the time limit";
+    case SIGKILL:
+      return "the mesher was killed (" + name + "), perhaps because the machine ran out of " +
+             "memory; choose a coarser mesh";
+    default:
+      return "the mesher crashed (" + name + "), perhaps at its limit of " +
+             std::to_string(options.memory_limit >> 20) +
+             " MiB of memory; choose a coarser mesh or change the geometry";
+  }
+}
+
+/// Turns a stop request into something poll() sees.
+class StopSignal {
+ public:
+  explicit StopSignal(const std::stop_token& stop)
+      : _event(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), _callback(stop, Wake{_event.get()}) {
+    if (_event.get() < 0) throw std::system_error(errno, std::system_category(), "eventfd");
+  }
+  int descriptor() const noexcept { return _event.get(); }
+
+ private:
+  struct Wake {
+    int descriptor;
+    // A full counter is as readable as one that took the number.
+    void operator()() const noexcept { eventfd_write(descriptor, 1); }
+  };
+  Descriptor _event;
+  std::stop_callback<Wake> _callback;
+};
+
+/// One conversation with a helper: the request in, the reply out, in the time there is.
+class Conversation {
+ public:
+  Conversation(const HelperOptions& options, std::stop_token stop, std::size_t most_bytes,
+               bool reads_file)
+      : _options(options),
+        _stop(std::move(stop)),
+        _wake(_stop),
+        _deadline(Clock::now() + options.time_limit),
+        _most_bytes(most_bytes),
+        _child(options.executable, {std::to_string(options.memory_limit),
+                                    std::to_string((options.time_limit + cpu_slack).count()),
+                                    std::to_string(standard_files + (reads_file ? 1 : 0))}) {}
+
+  mesh::Bytes exchange(std::span<const std::byte> request) {
+    mesh::Bytes reply;
+    bool open = true;
+    while (open) {
+      const short events = wait(request.empty() ? POLLIN : POLLIN | POLLOUT);
+      if ((events & POLLOUT) != 0 && !request.empty()) {
+        request = request.subspan(_child.send(request));
+        if (request.empty()) _child.end_input();
+      }
+      if ((events & (POLLIN | POLLHUP | POLLERR)) != 0) open = receive(reply);
+    }
+    // The end of its output comes just before its end.
+    while (!_child.ended()) wait(0, std::chrono::milliseconds(2));
+    if (!WIFEXITED(_child.status()) || WEXITSTATUS(_child.status()) != 0 || reply.empty()) {
+      throw failed(ending(_child.status(), _options));
+    }
+    return reply;
+  }
+
+ private:
+  /// Waits for the child (or `longest`) and returns what poll says about its socket. Throws, and
+  /// with it kills the child, when stopped or out of time.
+  short wait(short events, std::chrono::milliseconds longest = std::chrono::hours(1)) {
+    if (_stop.stop_requested()) throw Error(Reason::cancelled, "meshing was cancelled");
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(_deadline - Clock::now());
+    if (left.count() <= 0) throw failed(time_limit_message(_options.time_limit));
+    // poll ignores a negative descriptor; an ended socket would be ready for ever
+    pollfd polled[2] = {{events == 0 ? -1 : _child.socket(), events, 0},
+                        {_wake.descriptor(), POLLIN, 0}};
+    const auto timeout = std::min(left + std::chrono::milliseconds(1), longest);
+    if (poll(polled, 2, static_cast<int>(timeout.count())) < 0 && errno != EINTR) {
+      throw std::system_error(errno, std::system_category(), "poll");
+    }
+    return polled[0].revents;
+  }
+
+  /// False at the end of what the child says.
+  bool receive(mesh::Bytes& reply) {
+    constexpr std::size_t step = 1U << 18;
+    const std::size_t used = reply.size();
+    reply.resize(used + step);
+    const ssize_t n = recv(_child.socket(), reply.data() + used, step, 0);
+    reply.resize(used + static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+    if (reply.size() > _most_bytes) {
+      throw failed("the mesher's answer is longer than " + std::to_string(_most_bytes) +
+                   " bytes, more than the triangles asked for can take");
+    }
+    if (n > 0) return true;
+    return n < 0 && (errno == EAGAIN || errno == EINTR);
+  }
+
+  const HelperOptions& _options;
+  std::stop_token _stop;
+  StopSignal _wake;
+  Clock::time_point _deadline;
+  std::size_t _most_bytes;
+  Child _child;
+};
+
+mesh::Bytes converse(const HelperOptions& options, const mesh::MesherRequest& request,
+                     const std::stop_token& stop) {
+  try {
+    Conversation conversation(options, stop, most_reply_bytes(request),
+                              std::holds_alternative<mesh::ImportRequest>(request));
+    return conversation.exchange(mesh::encode(request));
+  } catch (const std::system_error& error) {
+    throw failed("cannot run the mesher \"" + options.executable + "\": " + error.code().message() +
+                 "; it is installed with the server, beside it or in ../libexec/anticrack");
+  }
+}
+
+mesh::MesherReply understand(std::span<const std::byte> bytes) {
+  try {
+    return mesh::decode_reply(bytes);
+  } catch (const Error& error) {
+    throw failed(std::string("the mesher's answer makes no sense: ") + error.what());
+  }
+}
+
+}  // namespace
+
+mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
+               std::stop_token stop) {
+  if (stop.stop_requested()) throw Error(Reason::cancelled, "meshing was cancelled");
+  if (const auto* import = std::get_if<mesh::ImportRequest>(&request)) require_msh(import->path);
+  mesh::MesherReply reply = understand(converse(options, request, stop));
+  if (auto* error = std::get_if<Error>(&reply)) throw std::move(*error);
+  mesh::Mesh mesh = std::get<mesh::Mesh>(std::move(reply));
+  try {
+    mesh::validate(mesh);
+  } catch (const Error& error) {
+    // the user drew no triangles, so they are no field of his to mend
+    if (std::holds_alternative<mesh::ImportRequest>(request)) throw;
+    throw failed(std::string("the mesh made of this geometry is not usable: ") + error.what() +
+                 "; remove details far smaller than the rest of the geometry");
+  }
+  return mesh;
+}
+
+void require_msh(const std::string& path) {
+  const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  char start[msh_token.size() + 1] = {};
+  const ssize_t n = file.get() < 0 ? -1 : read(file.get(), start, sizeof start);
+  if (n < 0) {
+    throw Error(Reason::mesh_invalid,
+                "the mesh file cannot be read: " + std::generic_category().message(errno));
+  }
+  if (n == 0) {
+    throw Error(Reason::mesh_invalid, "the mesh file is empty; save the mesh as MSH 4.1 or 2.2");
+  }
+  const std::string_view first(start, static_cast<std::size_t>(n));
+  const bool ends = first.size() > msh_token.size() &&
+                    (first.back() == '\n' || first.back() == '\r' || first.back() == ' ');
+  if (!first.starts_with(msh_token) || !ends) {
+    throw Error(Reason::mesh_invalid,
+                "the file does not begin with $MeshFormat, so it is no .msh file; save the mesh "
+                "as MSH 4.1 or 2.2 (gmsh case.geo -2 -o case.msh)");
+  }
+}
+
+std::string default_executable() {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  const fs::path beside = folder / "anticrack-mesher";
+  const fs::path installed = folder.parent_path() / "libexec" / "anticrack" / "anticrack-mesher";
+  return !fs::exists(beside, ignored) && fs::exists(installed, ignored) ? installed : beside;
+}
+
+}  // namespace anticrack::mesher

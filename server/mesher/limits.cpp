@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/limits.hpp"
+
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+namespace anticrack::mesher {
+namespace {
+
+/// A sanitizer's shadow is larger than any memory limit, and it reads /proc and writes reports at
+/// the end.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+
+[[noreturn]] void fail(const char* what) {
+  throw std::system_error(errno, std::system_category(), what);
+}
+
+/// `slack`: how far the hard limit lies above, where reaching the soft one is only a signal.
+void limit(decltype(RLIMIT_AS) resource, rlim_t value, const char* name, rlim_t slack = 0) {
+  rlimit current{};
+  if (getrlimit(resource, &current) != 0) fail(name);
+  // whoever started the server may have set less, and it cannot be raised
+  const rlimit wanted{std::min(value, current.rlim_max), std::min(value + slack, current.rlim_max)};
+  if (setrlimit(resource, &wanted) != 0) fail(name);
+}
+
+}  // namespace
+
+void restrict_process(const Limits& limits) {
+  // at the hard limit it would be SIGKILL, which says nothing
+  limit(RLIMIT_CPU, limits.cpu_seconds, "RLIMIT_CPU", 2);
+  limit(RLIMIT_CORE, 0, "RLIMIT_CORE");
+  if (!sanitized) {
+    limit(RLIMIT_AS, limits.memory_bytes, "RLIMIT_AS");
+    limit(RLIMIT_NOFILE, limits.open_files, "RLIMIT_NOFILE");
+    // a write beyond the next limit is to fail, not to kill
+    if (signal(SIGXFSZ, SIG_IGN) == SIG_ERR) fail("SIGXFSZ");
+    limit(RLIMIT_FSIZE, 0, "RLIMIT_FSIZE");
+  }
+  if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) fail("PR_SET_NO_NEW_PRIVS");
+  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) fail("PR_SET_PDEATHSIG");
+}
+
+}  // namespace anticrack::mesher

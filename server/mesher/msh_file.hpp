@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a .msh file says, before any of it is understood as a membrane.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace anticrack::mesher {
+
+/// An element with its nodes as tags of the file.
+template <std::size_t Nodes>
+struct MshElement {
+  std::uint64_t tag = 0;
+  std::array<std::uint64_t, Nodes> nodes{};
+  int group = 0;   ///< physical tag, 0 for none
+  int entity = 0;  ///< elementary tag
+};
+
+struct MshFile {
+  std::map<int, std::string> curve_names;    ///< physical tag -> name, from $PhysicalNames
+  std::map<int, std::string> surface_names;  ///< as above
+  std::vector<std::uint64_t> node_tags;      ///< (n)
+  std::vector<double> xyz;                   ///< (n,3) row-major
+  /// One entry for each physical group the line is in; direction as in the file, turned round where
+  /// the group takes the curve backwards.
+  std::vector<MshElement<2>> lines;
+  std::vector<MshElement<3>> triangles;
+};
+
+/// Reads MSH 2.2 and 4.1, ascii and binary, without gmsh: its own reader is lenient about damaged
+/// files and cannot be kept from taking one for a script. Points are passed over.
+/// Throws errors::Error: mesh_invalid (damaged, another version, elements other than 2-node lines
+/// and 3-node triangles, names used twice), limit_exceeded (more than `max_triangles`).
+/// Linear in the size of the file.
+MshFile read_msh(std::string_view bytes, std::size_t max_triangles);
+
+}  // namespace anticrack::mesher

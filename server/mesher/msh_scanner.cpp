@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/msh_scanner.hpp"
+
+#include <algorithm>
+
+#include "errors/errors.hpp"
+
+namespace anticrack::mesher {
+namespace {
+
+bool is_space(char c) noexcept {
+  return c == ' ' || c == '\n' || c == '\r' || c == '\t';
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string shown(text.substr(0, 32));
+  std::replace_if(
+      shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  if (text.size() > shown.size()) shown += "...";
+  return shown;
+}
+
+void MshScanner::skip_space() noexcept {
+  while (_at < _bytes.size() && is_space(_bytes[_at])) ++_at;
+}
+
+bool MshScanner::at_end() noexcept {
+  skip_space();
+  return _at == _bytes.size();
+}
+
+std::string_view MshScanner::word() {
+  if (at_end()) truncated();
+  const std::size_t begin = _at;
+  while (_at < _bytes.size() && !is_space(_bytes[_at])) ++_at;
+  return _bytes.substr(begin, _at - begin);
+}
+
+std::string_view MshScanner::rest_of_line() {
+  const std::size_t end = _bytes.find('\n', _at);
+  if (end == std::string_view::npos) truncated();
+  std::string_view line = _bytes.substr(_at, end - _at);
+  _at = end + 1;
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+void MshScanner::expect(std::string_view wanted) {
+  const std::string_view found = word();
+  if (found != wanted) {
+    fail("expected " + std::string(wanted) + ", found \"" + printable(found) + "\"");
+  }
+}
+
+bool MshScanner::skip_past(std::string_view wanted) {
+  for (std::size_t at = _at;;) {
+    at = _bytes.find(wanted, at);
+    if (at == std::string_view::npos) return false;
+    const std::size_t end = at + wanted.size();
+    const bool begins = at == 0 || _bytes[at - 1] == '\n';
+    if (begins && (end == _bytes.size() || is_space(_bytes[end]))) {
+      _at = end;
+      return true;
+    }
+    at = end;
+  }
+}
+
+void MshScanner::require_room(std::size_t count, std::size_t least_bytes) const {
+  if (count > (_bytes.size() - _at) / least_bytes) {
+    fail("announces " + std::to_string(count) + " entries, more than the " +
+         std::to_string(_bytes.size() - _at) +
+         " bytes that follow can hold; the file is truncated or damaged, save it again");
+  }
+}
+
+void MshScanner::fail(const std::string& why) const {
+  std::string where = "byte " + std::to_string(_at);
+  if (!_binary) {
+    const auto lines =
+        std::count(_bytes.begin(), _bytes.begin() + static_cast<std::ptrdiff_t>(_at), '\n');
+    where = "line " + std::to_string(lines + 1);
+  }
+  throw errors::Error(
+      errors::Reason::mesh_invalid,
+      ".msh file, " + where + (_section.empty() ? "" : ", in " + _section) + ": " + why);
+}
+
+void MshScanner::truncated() const {
+  fail("the file ends too early; it is truncated, save it again");
+}
+
+void MshScanner::not_a_number(std::string_view token) const {
+  fail("expected a number, found \"" + printable(token) + "\"");
+}
+
+}  // namespace anticrack::mesher

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "store/records.hpp"
+
+namespace anticrack::meshes {
+
+/// Hash of all that decides what mesh a definition gives, 64 hexadecimal digits. Options without
+/// effect (the size of preset `paper`) do not count. O(size of the definition).
+std::string identity(const store::MeshDefinition& definition);
+
+}  // namespace anticrack::meshes

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "operators/mesh_operator.hpp"
+
+#include <cblas.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "contact/solve.hpp"
+#include "contact/trace_problem.hpp"
+#include "ddm/decomposition.hpp"
+#include "ddm/subdomain_operator.hpp"
+#include "errors/errors.hpp"
+#include "fem/load_vector.hpp"
+
+namespace anticrack::operators {
+namespace {
+
+void require_running(const std::stop_token& stop) {
+  if (stop.stop_requested()) {
+    throw errors::Error(errors::Reason::cancelled, "stopped while factorising a mesh");
+  }
+}
+
+/// One subdomain after the other from a common counter on each of `threads` threads.
+std::vector<ddm::SubdomainOperator> factorise_subdomains(
+    const std::vector<ddm::Subdomain>& subdomains, int threads, const std::stop_token& stop) {
+  std::vector<std::optional<ddm::SubdomainOperator>> done(subdomains.size());
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (std::size_t s = next++; s < subdomains.size(); s = next++) {
+      try {
+        require_running(stop);
+        done[s].emplace(subdomains[s]);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        failure = failure ? failure : std::current_exception();
+        next = subdomains.size();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    const auto wanted = std::min(static_cast<std::size_t>(std::max(threads, 1)), subdomains.size());
+    for (std::size_t i = 1; i < wanted; ++i) {
+      helpers.emplace_back(work);
+    }
+    work();
+  }
+  if (failure) {
+    std::rethrow_exception(failure);
+  }
+  std::vector<ddm::SubdomainOperator> operators;
+  operators.reserve(done.size());
+  for (std::optional<ddm::SubdomainOperator>& subdomain : done) {
+    operators.push_back(std::move(*subdomain));
+  }
+  return operators;
+}
+
+template <class Value>
+std::size_t bytes_of(const std::vector<Value>& values) {
+  return values.capacity() * sizeof(Value);
+}
+
+std::size_t bytes_of(const mesh::Mesh& mesh) {
+  std::size_t bytes = bytes_of(mesh.xy) + bytes_of(mesh.triangles) + bytes_of(mesh.subdomain) +
+                      bytes_of(mesh.dirichlet);
+  for (const mesh::Interface& interface : mesh.interfaces) {
+    bytes += bytes_of(interface.nodes) + bytes_of(interface.kind) + bytes_of(interface.inclusion);
+  }
+  return bytes;
+}
+
+std::size_t bytes_of(const ddm::Decomposition& decomposition) {
+  std::size_t bytes = bytes_of(decomposition.pairs) + bytes_of(decomposition.edges);
+  for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
+    bytes += bytes_of(subdomain.part.xy) + bytes_of(subdomain.part.triangles) +
+             bytes_of(subdomain.node) + bytes_of(subdomain.rigid);
+  }
+  return bytes;
+}
+
+void require_known_regions(const fem::Load& load, const mesh::Mesh& mesh) {
+  const auto* regions = std::get_if<fem::PerRegion>(&load.force);
+  if (regions == nullptr) {
+    return;
+  }
+  for (const auto& [name, value] : regions->values) {
+    if (std::find(mesh.subdomains.begin(), mesh.subdomains.end(), name) == mesh.subdomains.end()) {
+      std::string known;
+      for (const std::string& subdomain : mesh.subdomains) {
+        known += (known.empty() ? "\"" : ", \"") + subdomain + "\"";
+      }
+      throw errors::Error(errors::Reason::invalid_argument,
+                          "the mesh has no subdomain \"" + name + "\"; it has " + known)
+          .at("force.per_region[" + name + "]");
+    }
+  }
+}
+
+}  // namespace
+
+struct MeshOperator::Parts {
+  Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads, const std::stop_token& stop)
+      : mesh(std::move(cut_mesh)),
+        decomposition(ddm::cut(*mesh)),
+        operators(factorise_subdomains(decomposition.subdomains, threads, stop)),
+        problem(decomposition, operators),
+        geometry(contact::trace_geometry(decomposition, *mesh)) {}
+
+  std::shared_ptr<const mesh::Mesh> mesh;
+  ddm::Decomposition decomposition;
+  std::vector<ddm::SubdomainOperator> operators;
+  contact::TraceProblem problem;  // refers to the two above
+  std::vector<contact::TraceGeometry> geometry;
+};
+
+MeshOperator::MeshOperator(std::unique_ptr<const Parts> parts) : _parts(std::move(parts)) {}
+MeshOperator::~MeshOperator() = default;
+
+std::shared_ptr<const MeshOperator> MeshOperator::factorise(std::shared_ptr<const mesh::Mesh> mesh,
+                                                            int threads, std::stop_token stop) {
+  require_threadsafe_blas();
+  require_running(stop);
+  auto parts = std::make_unique<const Parts>(std::move(mesh), threads, stop);
+  return std::shared_ptr<const MeshOperator>(new MeshOperator(std::move(parts)));
+}
+
+contact::Answer MeshOperator::solve(const fem::Load& load, const contact::UzawaOptions& options,
+                                    bool fields, contact::Observer& observer) const {
+  require_known_regions(load, *_parts->mesh);
+  std::vector<ddm::CondensedLoad> condensed;
+  for (std::size_t s = 0; s < _parts->operators.size(); ++s) {
+    const ddm::Subdomain& subdomain = _parts->decomposition.subdomains[s];
+    condensed.push_back(
+        _parts->operators[s].condense(fem::load_vector(subdomain.part, load.force, subdomain.name),
+                                      fem::boundary_values(subdomain.part, load.boundary_value,
+                                                           subdomain.free(), subdomain.dirichlet)));
+  }
+  return contact::solve_uzawa(_parts->problem, *_parts->mesh, condensed, options, fields, observer);
+}
+
+const mesh::Mesh& MeshOperator::mesh() const noexcept {
+  return *_parts->mesh;
+}
+
+const std::vector<contact::TraceGeometry>& MeshOperator::trace_geometry() const noexcept {
+  return _parts->geometry;
+}
+
+double MeshOperator::theta_star() const noexcept {
+  return _parts->problem.theta_star(contact::Mass::lumped);
+}
+
+std::size_t MeshOperator::bytes() const noexcept {
+  std::size_t bytes = sizeof(Parts) + bytes_of(*_parts->mesh) + bytes_of(_parts->decomposition);
+  for (const ddm::SubdomainOperator& subdomain : _parts->operators) {
+    bytes += subdomain.bytes();
+  }
+  return bytes;
+}
+
+void require_threadsafe_blas() {
+  constexpr int pthreads = 1;  // 0: serial, 2: OpenMP
+  if (openblas_get_parallel() != pthreads) {
+    throw errors::Error(
+        errors::Reason::internal,
+        "the BLAS in use is OpenBLAS with parallel model " +
+            std::to_string(openblas_get_parallel()) +
+            " (0 serial, 2 OpenMP); install libopenblas0-pthread and select it with "
+            "update-alternatives, or factors come out wrong under threads");
+  }
+  openblas_set_num_threads(1);
+}
+
+}  // namespace anticrack::operators

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the edge stands on.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace anticrack::jobs {
+class JobEngine;
+}
+namespace anticrack::meshes {
+class MeshCatalogue;
+}
+namespace anticrack::operators {
+class OperatorCache;
+}
+namespace anticrack::store {
+class Store;
+}
+
+namespace anticrack::rpc {
+
+/// Not owned; all of it outlives the server.
+struct Backend {
+  jobs::JobEngine& engine;
+  meshes::MeshCatalogue& catalogue;
+  operators::OperatorCache& cache;
+  store::Store& store;
+};
+
+/// What the edge refuses, and what GetServerInfo says of the layers below.
+struct Limits {
+  std::uint64_t upload_bytes = 256u << 20;
+  std::uint64_t mesh_triangles = 4'000'000;
+  std::uint64_t memory_budget_bytes = 0;
+  std::chrono::seconds meshing_time{600};
+  /// A reader that does not read holds about 4 MiB of the transport's buffers.
+  int watchers = 256;
+  /// Uploads and block reads under way.
+  int transfers = 32;
+  /// Creations that wait to be checked; each holds its request of at most 4 MiB.
+  int waiting_creations = 128;
+};
+
+}  // namespace anticrack::rpc

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A block, its layout first and then in chunks: ReadMesh and ReadResult.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "anticrack/v1/mesh.pb.h"
+#include "rpc/feed.hpp"
+#include "rpc/from_domain.hpp"
+#include "store/block.hpp"
+
+namespace anticrack::rpc {
+
+constexpr std::size_t max_chunk_bytes = 1u << 20;
+
+/// Throws errors::Error (offset_out_of_range) where `offset` lies past the end.
+void require_offset(const store::Block& block, std::uint64_t offset);
+
+/// The bytes from `offset` on, at most max_chunk_bytes, with their checksum.
+v1::BlockChunk chunk_of(const store::Block& block, std::uint64_t offset);
+
+/// `Response` has `layout` and `chunk`.
+template <class Response>
+class BlockFeed final : public Feed<Response> {
+ public:
+  using Next = typename Feed<Response>::Next;
+
+  /// Throws errors::Error (offset_out_of_range).
+  BlockFeed(std::shared_ptr<const store::Block> block, std::uint64_t offset)
+      : _block(std::move(block)), _offset(offset) {
+    require_offset(*_block, offset);
+  }
+
+  Next next(Response& response) override {
+    if (!_layout_sent) {
+      *response.mutable_layout() = layout_of(*_block);
+      _layout_sent = true;
+      return Next::message;
+    }
+    if (_offset >= _block->bytes.size()) return Next::end;
+    *response.mutable_chunk() = chunk_of(*_block, _offset);
+    _offset += response.chunk().data().size();
+    return Next::message;
+  }
+
+ private:
+  const std::shared_ptr<const store::Block> _block;
+  std::uint64_t _offset;
+  bool _layout_sent = false;
+};
+
+}  // namespace anticrack::rpc

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rpc/error_table.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <new>
+#include <string>
+
+#include "rpc/text.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+using errors::Reason;
+
+/// How much of an error is kept; tried in order until it fits.
+struct Budget {
+  std::size_t message;
+  std::size_t description;
+  std::size_t field;
+  std::size_t violations;
+  std::size_t metadata;
+  std::size_t value;
+};
+
+constexpr std::array<Budget, 4> budgets{{
+    {800, 300, 200, max_violations, 16, 200},
+    {400, 120, 160, 12, 8, 100},
+    {300, 80, 120, 5, 8, 60},
+    {200, 60, 100, 1, 0, 0},
+}};
+
+template <class Detail>
+void pack(const Detail& detail, const char* type, v1::Status& status) {
+  google::protobuf::Any& any = *status.add_details();
+  any.set_type_url(std::string("type.googleapis.com/google.rpc.") + type);
+  any.set_value(detail.SerializeAsString());
+}
+
+v1::Status build(const errors::Error& error, const Budget& budget) {
+  v1::Status status;
+  status.set_code(code(error.reason()));
+  status.set_message(printable(error.what(), budget.message));
+
+  v1::ErrorInfo info;
+  info.set_reason(std::string(errors::name(error.reason())));
+  info.set_domain("anticrack");
+  std::size_t kept = 0;
+  for (const auto& [key, value] : error.metadata()) {
+    if (kept++ == budget.metadata) break;
+    (*info.mutable_metadata())[printable(key, 64)] = printable(value, budget.value);
+  }
+  pack(info, "ErrorInfo", status);
+
+  if (!error.fields().empty()) {
+    v1::BadRequest bad;
+    const std::size_t count = std::min(error.fields().size(), budget.violations);
+    for (std::size_t i = 0; i < count; ++i) {
+      v1::BadRequest::FieldViolation& violation = *bad.add_field_violations();
+      violation.set_field(printable(error.fields()[i].field, budget.field));
+      violation.set_description(printable(error.fields()[i].description, budget.description));
+    }
+    pack(bad, "BadRequest", status);
+  }
+
+  if (error.retry_delay().count() > 0) {
+    v1::RetryInfo retry;
+    const auto delay = error.retry_delay().count();
+    retry.mutable_retry_delay()->set_seconds(delay / 1000);
+    retry.mutable_retry_delay()->set_nanos(static_cast<std::int32_t>(delay % 1000) * 1'000'000);
+    pack(retry, "RetryInfo", status);
+  }
+  return status;
+}
+
+}  // namespace
+
+grpc::StatusCode code(Reason reason) noexcept {
+  switch (reason) {
+    case Reason::invalid_argument:
+    case Reason::geometry_invalid:
+    case Reason::mesh_invalid:
+    case Reason::expression_invalid:
+    case Reason::request_id_reused:
+    case Reason::limit_exceeded:
+      return grpc::StatusCode::INVALID_ARGUMENT;
+    case Reason::not_found:
+      return grpc::StatusCode::NOT_FOUND;
+    case Reason::not_ready:
+    case Reason::in_use:
+    case Reason::numerical:
+      return grpc::StatusCode::FAILED_PRECONDITION;
+    case Reason::sequence_trimmed:
+    case Reason::offset_out_of_range:
+      return grpc::StatusCode::OUT_OF_RANGE;
+    case Reason::busy:
+    case Reason::storage:
+      return grpc::StatusCode::RESOURCE_EXHAUSTED;
+    case Reason::draining:
+      return grpc::StatusCode::UNAVAILABLE;
+    case Reason::not_implemented:
+      return grpc::StatusCode::UNIMPLEMENTED;
+    case Reason::cancelled:
+      return grpc::StatusCode::CANCELLED;
+    case Reason::mesher_failed:
+    case Reason::internal:
+      return grpc::StatusCode::INTERNAL;
+  }
+  return grpc::StatusCode::INTERNAL;
+}
+
+v1::Status to_message(const errors::Error& error) {
+  v1::Status status;
+  for (const Budget& budget : budgets) {
+    status = build(error, budget);
+    if (status.ByteSizeLong() <= max_detail_bytes) break;
+  }
+  return status;
+}
+
+grpc::Status to_status(const errors::Error& error) {
+  const v1::Status message = to_message(error);
+  return {static_cast<grpc::StatusCode>(message.code()), message.message(),
+          message.SerializeAsString()};
+}
+
+errors::Error current_error(std::string_view where) {
+  try {
+    throw;
+  } catch (const errors::Error& error) {
+    if (error.reason() != Reason::internal) return error;
+    spdlog::error("{}: {}", where, printable(error.what(), 2000));
+    return error;
+  } catch (const std::bad_alloc&) {
+    spdlog::error("{}: out of memory", where);
+    return errors::Error(Reason::busy, "the server is out of memory; try again later")
+        .retry_after(std::chrono::seconds(5));
+  } catch (const std::exception& error) {
+    spdlog::error("{}: {}", where, printable(error.what(), 2000));
+  } catch (...) {
+    spdlog::error("{}: exception of an unknown type", where);
+  }
+  return {Reason::internal, "internal error; the server's log says more"};
+}
+
+}  // namespace anticrack::rpc

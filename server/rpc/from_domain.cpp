@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rpc/from_domain.hpp"
+
+#include <string>
+
+#include "rpc/error_table.hpp"
+#include "rpc/names.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+v1::Mesh::State from_state(store::MeshState state) {
+  switch (state) {
+    case store::MeshState::pending:
+      return v1::Mesh::STATE_PENDING;
+    case store::MeshState::meshing:
+      return v1::Mesh::STATE_MESHING;
+    case store::MeshState::factorizing:
+      return v1::Mesh::STATE_FACTORIZING;
+    case store::MeshState::ready:
+      return v1::Mesh::STATE_READY;
+    case store::MeshState::evicted:
+      return v1::Mesh::STATE_EVICTED;
+    case store::MeshState::failed:
+      return v1::Mesh::STATE_FAILED;
+  }
+  return v1::Mesh::STATE_UNSPECIFIED;
+}
+
+v1::LoadCaseAnswer::Status from_status(store::CaseStatus status) {
+  switch (status) {
+    case store::CaseStatus::pending:
+      return v1::LoadCaseAnswer::STATUS_PENDING;
+    case store::CaseStatus::running:
+      return v1::LoadCaseAnswer::STATUS_RUNNING;
+    case store::CaseStatus::converged:
+      return v1::LoadCaseAnswer::STATUS_CONVERGED;
+    case store::CaseStatus::not_converged:
+      return v1::LoadCaseAnswer::STATUS_NOT_CONVERGED;
+    case store::CaseStatus::failed:
+      return v1::LoadCaseAnswer::STATUS_FAILED;
+    case store::CaseStatus::cancelled:
+      return v1::LoadCaseAnswer::STATUS_CANCELLED;
+  }
+  return v1::LoadCaseAnswer::STATUS_UNSPECIFIED;
+}
+
+v1::InterfaceKind from_kind(mesh::Kind kind) {
+  return static_cast<v1::InterfaceKind>(static_cast<std::int32_t>(kind));
+}
+
+v1::InterfaceInfo from_interface(const store::InterfaceSummary& summary) {
+  v1::InterfaceInfo info;
+  info.set_name(summary.name);
+  info.set_length(summary.length);
+  info.set_node_count(summary.node_count);
+  for (const store::SegmentSummary& segment : summary.segments) {
+    v1::InterfaceInfo::Segment& to = *info.add_segments();
+    to.set_kind(from_kind(segment.kind));
+    to.set_inclusion(segment.inclusion);
+    to.set_begin(segment.begin);
+    to.set_end(segment.end);
+    to.set_edge_count(segment.edge_count);
+  }
+  return info;
+}
+
+v1::Force from_force(const fem::Force& force) {
+  struct Visitor {
+    v1::Force& to;
+    void operator()(double constant) const { to.set_constant(constant); }
+    void operator()(const fem::Expression& expression) const { to.set_expression(expression.text); }
+    void operator()(const fem::PerRegion& regions) const {
+      auto& values = *to.mutable_per_region()->mutable_values();
+      for (const auto& [name, value] : regions.values) values[name] = value;
+    }
+  };
+  v1::Force result;
+  std::visit(Visitor{result}, force);
+  return result;
+}
+
+v1::Solver from_solver(const contact::UzawaOptions& options) {
+  v1::Solver solver;
+  v1::Uzawa& uzawa = *solver.mutable_uzawa();
+  if (options.theta) {
+    uzawa.set_theta(*options.theta);
+  } else {
+    uzawa.set_theta_auto(true);
+  }
+  uzawa.set_epsilon(options.epsilon);
+  uzawa.set_p(options.p);
+  uzawa.set_max_iterations(options.max_iterations);
+  uzawa.set_mass(options.mass == contact::Mass::lumped ? v1::MASS_LUMPED : v1::MASS_CONSISTENT);
+  return solver;
+}
+
+void set_kkt(const contact::Answer& answer, v1::KktResiduals& to) {
+  to.set_equilibrium(answer.kkt.equilibrium);
+  to.set_gap(answer.kkt.gap);
+  to.set_sign(answer.kkt.sign);
+  to.set_complementarity(answer.kkt.complementarity);
+  to.set_equilibrium_relative(answer.kkt_relative.equilibrium);
+  to.set_gap_relative(answer.kkt_relative.gap);
+  to.set_sign_relative(answer.kkt_relative.sign);
+  to.set_complementarity_relative(answer.kkt_relative.complementarity);
+}
+
+bool has_answer(store::CaseStatus status) {
+  return status == store::CaseStatus::converged || status == store::CaseStatus::not_converged ||
+         status == store::CaseStatus::cancelled;
+}
+
+}  // namespace
+
+v1::Mesh from_domain(const store::MeshRecord& record) {
+  v1::Mesh mesh;
+  mesh.set_name(mesh_name(record.id));
+  mesh.set_title(record.title);
+  mesh.set_state(from_state(record.state));
+  if (record.error) *mesh.mutable_error() = to_message(*record.error);
+  *mesh.mutable_create_time() = to_timestamp(record.created);
+  mesh.set_sha256(record.sha256);
+  mesh.set_node_count(record.node_count);
+  mesh.set_triangle_count(record.triangle_count);
+  for (const store::SubdomainSummary& subdomain : record.subdomains) {
+    v1::SubdomainInfo& to = *mesh.add_subdomains();
+    to.set_name(subdomain.name);
+    to.set_node_count(subdomain.node_count);
+    to.set_triangle_count(subdomain.triangle_count);
+    to.set_area(subdomain.area);
+  }
+  for (const store::InterfaceSummary& interface : record.interfaces) {
+    *mesh.add_interfaces() = from_interface(interface);
+  }
+  mesh.mutable_inclusions()->Add(record.inclusions.begin(), record.inclusions.end());
+  mesh.mutable_warnings()->Add(record.warnings.begin(), record.warnings.end());
+  mesh.set_minimum_angle(record.minimum_angle);
+  mesh.set_operator_bytes(record.operator_bytes);
+  mesh.set_theta_star(record.theta_star);
+  mesh.set_mesh_seconds(record.mesh_seconds);
+  mesh.set_factorize_seconds(record.factorize_seconds);
+  return mesh;
+}
+
+v1::Job::State from_domain(store::JobState state) noexcept {
+  switch (state) {
+    case store::JobState::queued:
+      return v1::Job::STATE_QUEUED;
+    case store::JobState::waiting_for_mesh:
+      return v1::Job::STATE_WAITING_FOR_MESH;
+    case store::JobState::running:
+      return v1::Job::STATE_RUNNING;
+    case store::JobState::succeeded:
+      return v1::Job::STATE_SUCCEEDED;
+    case store::JobState::failed:
+      return v1::Job::STATE_FAILED;
+    case store::JobState::cancelled:
+      return v1::Job::STATE_CANCELLED;
+    case store::JobState::expired:
+      return v1::Job::STATE_EXPIRED;
+  }
+  return v1::Job::STATE_UNSPECIFIED;
+}
+
+v1::LoadCaseAnswer from_domain(const store::CaseRecord& record, const std::string& name,
+                               const InterfaceNames& interfaces) {
+  v1::LoadCaseAnswer to;
+  to.set_name(name);
+  to.set_status(from_status(record.status));
+  if (record.error) *to.mutable_error() = to_message(*record.error);
+  if (!has_answer(record.status)) return to;
+  const contact::Answer& answer = record.answer;
+  to.set_reason(answer.reason);
+  to.set_iterations(answer.iterations);
+  to.set_criterion(answer.criterion);
+  to.set_theta(answer.theta);
+  to.set_theta_star(answer.theta_star);
+  to.set_energy(answer.energy);
+  set_kkt(answer, *to.mutable_kkt());
+  for (const contact::InclusionAnswer& inclusion : answer.inclusions) {
+    v1::InclusionAnswer& into = *to.add_inclusions();
+    into.set_name(inclusion.name);
+    into.set_displacement(inclusion.displacement);
+    into.set_resultant(inclusion.resultant);
+    into.set_contact_length(inclusion.contact_length);
+  }
+  to.set_contact_length(answer.contact_length);
+  for (const contact::ContactInterval& interval : answer.contact_intervals) {
+    v1::ContactInterval& into = *to.add_contact_intervals();
+    if (interval.interface < interfaces.size()) into.set_interface(interfaces[interval.interface]);
+    into.set_begin(interval.begin);
+    into.set_end(interval.end);
+  }
+  *to.mutable_solve_time() = to_duration(std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(record.seconds)));
+  return to;
+}
+
+v1::Job from_domain(const store::JobRecord& record, const InterfaceNames& interfaces) {
+  v1::Job job;
+  job.set_title(record.spec.title);
+  job.set_mesh(mesh_name(record.spec.mesh));
+  for (const fem::Load& load : record.spec.loads) {
+    v1::LoadCase& to = *job.add_load_cases();
+    to.set_name(load.name);
+    *to.mutable_force() = from_force(load.force);
+    to.set_boundary_value(load.boundary_value);
+  }
+  *job.mutable_solver() = from_solver(record.spec.solver);
+  job.set_fields(record.spec.fields);
+  job.set_name(job_name(record.id));
+  job.set_state(from_domain(record.state));
+  if (record.error) *job.mutable_error() = to_message(*record.error);
+  *job.mutable_create_time() = to_timestamp(record.created);
+  if (record.started) *job.mutable_start_time() = to_timestamp(*record.started);
+  if (record.ended) *job.mutable_end_time() = to_timestamp(*record.ended);
+  for (std::size_t i = 0; i < record.cases.size() && i < record.spec.loads.size(); ++i) {
+    *job.add_answers() = from_domain(record.cases[i], record.spec.loads[i].name, interfaces);
+  }
+  job.set_result_bytes(record.result_bytes);
+  job.set_attempt(record.attempt);
+  if (job.ByteSizeLong() > max_job_message_bytes) {
+    for (v1::LoadCaseAnswer& answer : *job.mutable_answers()) answer.clear_contact_intervals();
+  }
+  return job;
+}
+
+v1::BlockLayout layout_of(const store::Block& block) {
+  v1::BlockLayout layout;
+  layout.set_size(block.bytes.size());
+  layout.set_sha256(block.sha256);
+  for (const store::ArrayLayout& array : block.arrays) {
+    v1::ArrayLayout& to = *layout.add_arrays();
+    to.set_name(array.name);
+    to.set_type(array.type == store::ArrayType::float64 ? v1::ArrayLayout::TYPE_FLOAT64
+                                                        : v1::ArrayLayout::TYPE_INT32);
+    to.mutable_shape()->Add(array.shape.begin(), array.shape.end());
+    to.set_offset(array.offset);
+  }
+  return layout;
+}
+
+void append(v1::Samples& samples, std::int32_t load_case, const contact::Sample& sample) {
+  samples.add_load_case(load_case);
+  samples.add_iteration(sample.iteration);
+  samples.add_criterion(sample.criterion);
+  samples.add_energy(sample.energy);
+  samples.add_contact_count(sample.contact_count);
+  samples.add_kkt_gap(sample.kkt.gap);
+  samples.add_kkt_sign(sample.kkt.sign);
+  samples.add_kkt_complementarity(sample.kkt.complementarity);
+  samples.add_kkt_equilibrium(sample.kkt.equilibrium);
+}
+
+google::protobuf::Duration to_duration(std::chrono::nanoseconds duration) {
+  google::protobuf::Duration to;
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(duration);
+  to.set_seconds(seconds.count());
+  to.set_nanos(static_cast<std::int32_t>((duration - seconds).count()));
+  return to;
+}
+
+google::protobuf::Timestamp to_timestamp(store::Clock::time_point time) {
+  google::protobuf::Timestamp to;
+  const auto since = std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch());
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(since);
+  to.set_seconds(seconds.count());
+  to.set_nanos(static_cast<std::int32_t>((since - seconds).count()));
+  return to;
+}
+
+}  // namespace anticrack::rpc

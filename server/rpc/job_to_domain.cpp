@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "rpc/names.hpp"
+#include "rpc/to_domain.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+using errors::Error;
+using errors::Reason;
+
+Error not_implemented(const std::string& what, const std::string& field) {
+  return Error(Reason::not_implemented,
+               what + " is not in this version; GetServerInfo lists what is")
+      .at(field);
+}
+
+fem::Force to_force(const v1::Force& force, const std::string& field) {
+  switch (force.kind_case()) {
+    case v1::Force::KIND_NOT_SET:
+      return 0.0;
+    case v1::Force::kConstant:
+      return force.constant();
+    case v1::Force::kExpression:
+      return fem::Expression{force.expression()};
+    case v1::Force::kPerRegion: {
+      const auto& values = force.per_region().values();
+      if (values.size() > max_regions) {
+        throw Error(Reason::limit_exceeded, std::to_string(values.size()) + " regions: at most " +
+                                                std::to_string(max_regions) + " are accepted")
+            .at(field + ".per_region");
+      }
+      return fem::PerRegion{{values.begin(), values.end()}};
+    }
+    case v1::Force::kArray:
+      throw not_implemented("a force given as an array", field + ".array");
+  }
+  throw Error(Reason::invalid_argument, "unknown kind of force").at(field);
+}
+
+fem::Load to_load(const v1::LoadCase& load, const std::string& field) {
+  if (!load.traction().empty()) throw not_implemented("traction", field + ".traction");
+  if (!load.point_forces().empty()) throw not_implemented("a point force", field + ".point_forces");
+  if (!load.inclusion_forces().empty()) {
+    throw not_implemented("a force on an inclusion", field + ".inclusion_forces");
+  }
+  return {load.name(), to_force(load.force(), field + ".force"), load.boundary_value()};
+}
+
+contact::Mass to_mass(v1::Mass mass) {
+  switch (mass) {
+    case v1::MASS_UNSPECIFIED:
+    case v1::MASS_LUMPED:
+      return contact::Mass::lumped;
+    case v1::MASS_CONSISTENT:
+      return contact::Mass::consistent;
+    default:
+      throw Error(Reason::invalid_argument,
+                  "mass " + std::to_string(mass) + " is unknown; use lumped (1) or consistent (2)")
+          .at("job.solver.uzawa.mass");
+  }
+}
+
+contact::UzawaOptions to_options(const v1::Uzawa& uzawa, int iteration_limit) {
+  if (uzawa.has_kkt_tolerance()) {
+    throw not_implemented("stopping by KKT residuals", "job.solver.uzawa.kkt_tolerance");
+  }
+  contact::UzawaOptions options;
+  if (uzawa.step_case() == v1::Uzawa::kTheta) {
+    options.theta = uzawa.theta();
+  } else if (uzawa.step_case() == v1::Uzawa::kThetaAuto) {
+    if (!uzawa.theta_auto()) {
+      throw Error(Reason::invalid_argument, "theta_auto = false chooses nothing; set theta instead")
+          .at("job.solver.uzawa.theta_auto");
+    }
+    options.theta.reset();
+  }
+  if (uzawa.has_epsilon()) options.epsilon = uzawa.epsilon();
+  if (uzawa.has_p()) options.p = uzawa.p();
+  options.max_iterations = uzawa.max_iterations() != 0
+                               ? uzawa.max_iterations()
+                               : std::min(options.max_iterations, iteration_limit);
+  options.mass = to_mass(uzawa.mass());
+  return options;
+}
+
+}  // namespace
+
+store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
+  require_title(job.title(), "job.title");
+  if (job.load_cases_size() > limits.load_cases) {
+    throw Error(Reason::limit_exceeded,
+                std::to_string(job.load_cases_size()) + " load cases: a job has at most " +
+                    std::to_string(limits.load_cases) + "; make several jobs of it")
+        .at("job.load_cases");
+  }
+  const std::size_t bytes = job.ByteSizeLong();
+  if (bytes > max_job_bytes) {
+    throw Error(Reason::limit_exceeded, "the job has " + std::to_string(bytes) +
+                                            " bytes: at most " + std::to_string(max_job_bytes) +
+                                            " are accepted; make several jobs of it")
+        .at("job");
+  }
+  store::JobSpec spec;
+  spec.title = job.title();
+  spec.mesh = mesh_id(job.mesh(), "job.mesh");
+  spec.fields = job.fields();
+  if (job.solver().has_active_set()) {
+    throw not_implemented("the active-set method", "job.solver.active_set");
+  }
+  spec.solver = to_options(job.solver().uzawa(), limits.iterations);
+  spec.loads.reserve(static_cast<std::size_t>(job.load_cases_size()));
+  for (int i = 0; i < job.load_cases_size(); ++i) {
+    spec.loads.push_back(to_load(job.load_cases(i), "job.load_cases[" + std::to_string(i) + "]"));
+  }
+  return spec;
+}
+
+void require_request_id(const std::string& id) {
+  const bool fits =
+      id.size() <= max_request_id_bytes && std::all_of(id.begin(), id.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '-' || c == '_';
+      });
+  if (!fits) {
+    throw Error(Reason::invalid_argument,
+                "request_id is no UUID, e.g. 123e4567-e89b-12d3-a456-426614174000")
+        .at("request_id");
+  }
+}
+
+}  // namespace anticrack::rpc

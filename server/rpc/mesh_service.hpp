@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include "anticrack/v1/mesh.grpc.pb.h"
+#include "rpc/backend.hpp"
+#include "rpc/stream_hub.hpp"
+#include "rpc/unary.hpp"
+#include "rpc/work_thread.hpp"
+
+namespace anticrack::rpc {
+
+/// Translates, calls the catalogue, maps the status. See mesh.proto for the methods.
+class MeshService final : public v1::MeshService::CallbackService {
+ public:
+  MeshService(const Backend& backend, const Limits& limits, const Admission& admission,
+              StreamHub& hub, WorkThread& work);
+
+  grpc::ServerReadReactor<v1::UploadMeshRequest>* UploadMesh(
+      grpc::CallbackServerContext* context, v1::UploadMeshResponse* response) override;
+  grpc::ServerUnaryReactor* CreateMesh(grpc::CallbackServerContext* context,
+                                       const v1::CreateMeshRequest* request,
+                                       v1::Mesh* response) override;
+  grpc::ServerUnaryReactor* GetMesh(grpc::CallbackServerContext* context,
+                                    const v1::GetMeshRequest* request, v1::Mesh* response) override;
+  grpc::ServerUnaryReactor* ListMeshes(grpc::CallbackServerContext* context,
+                                       const v1::ListMeshesRequest* request,
+                                       v1::ListMeshesResponse* response) override;
+  grpc::ServerWriteReactor<v1::ReadMeshResponse>* ReadMesh(
+      grpc::CallbackServerContext* context, const v1::ReadMeshRequest* request) override;
+  grpc::ServerUnaryReactor* DeleteMesh(grpc::CallbackServerContext* context,
+                                       const v1::DeleteMeshRequest* request,
+                                       google::protobuf::Empty* response) override;
+  grpc::ServerUnaryReactor* WarmMesh(grpc::CallbackServerContext* context,
+                                     const v1::WarmMeshRequest* request,
+                                     v1::Mesh* response) override;
+  grpc::ServerUnaryReactor* EvictMesh(grpc::CallbackServerContext* context,
+                                      const v1::EvictMeshRequest* request,
+                                      v1::Mesh* response) override;
+
+ private:
+  const Backend _backend;
+  const Limits _limits;
+  const Admission& _admission;
+  StreamHub& _hub;
+  WorkThread& _work;
+};
+
+}  // namespace anticrack::rpc

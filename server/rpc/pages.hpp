@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "errors/errors.hpp"
+#include "rpc/names.hpp"
+
+namespace anticrack::rpc {
+
+/// Fills one page. `list(after, count)` gives records newest first, `add(record)` appends one to
+/// the answer and returns its bytes. Returns the token of the next page, empty after the last.
+/// Records are fetched a few at a time: one may be large, and a page ends at max_page_bytes.
+template <class List, class Add>
+std::string fill_page(const Page& page, List list, Add add) {
+  constexpr std::size_t batch = 16;
+  std::string after = page.after;
+  std::size_t count = 0;
+  std::size_t bytes = 0;
+  for (;;) {
+    const std::size_t wanted = std::min(batch, page.size - count + 1);
+    decltype(list(after, wanted)) records;
+    try {
+      records = list(after, wanted);
+    } catch (const errors::Error& error) {
+      if (error.reason() != errors::Reason::not_found) throw;
+      throw errors::Error(errors::Reason::invalid_argument,
+                          "the resource this page_token stands for is gone; start the list again")
+          .at("page_token");
+    }
+    for (const auto& record : records) {
+      if (count == page.size || bytes >= max_page_bytes) return after;
+      bytes += add(record);
+      ++count;
+      after = record.id;
+    }
+    if (records.size() < wanted) return {};
+  }
+}
+
+}  // namespace anticrack::rpc

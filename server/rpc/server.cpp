@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rpc/server.hpp"
+
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/health_check_service_interface.h>
+
+#include <array>
+#include <mutex>
+#include <thread>
+
+#include "errors/errors.hpp"
+#include "jobs/job_engine.hpp"
+#include "rpc/mesh_service.hpp"
+#include "rpc/server_service.hpp"
+#include "rpc/solve_service.hpp"
+#include "rpc/stream_hub.hpp"
+#include "rpc/unary.hpp"
+#include "rpc/work_thread.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::array service_names{"anticrack.v1.MeshService", "anticrack.v1.SolveService",
+                                   "anticrack.v1.ServerService"};
+
+/// gRPC's own default; what is larger travels in chunks.
+constexpr int max_receive_bytes = 4 << 20;
+/// Streams of ours that do not take their end by then are broken off.
+constexpr auto stream_patience = 300ms;
+/// Health and reflection streams are not ours and hold Shutdown to its deadline.
+constexpr auto shutdown_patience = 300ms;
+
+void set_arguments(grpc::ServerBuilder& builder) {
+  // Without it a second server on the port starts silently and takes half of the calls.
+  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
+  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+  // A client's keepalive of 1 s would otherwise end its idle watch with "too many pings".
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 500);
+  builder.SetMaxReceiveMessageSize(max_receive_bytes);
+}
+
+std::string bound_address(const std::string& listen, int port) {
+  if (listen.starts_with("unix:")) return listen;
+  return listen.substr(0, listen.rfind(':') + 1) + std::to_string(port);
+}
+
+}  // namespace
+
+void Admission::require_open() const {
+  if (_closed) throw draining_error();
+}
+
+struct Server::State {
+  State(const ServerOptions& options, const Backend& to)
+      : backend(to),
+        hub({options.limits.watchers, options.limits.transfers, options.heartbeat, options.stall}),
+        meshes(backend, options.limits, admission, hub, work),
+        solves(backend, options.limits, admission, hub, work),
+        info(backend, options.limits, hub) {}
+
+  void set_serving(bool serving) {
+    grpc::HealthCheckServiceInterface* health = server->GetHealthCheckService();
+    health->SetServingStatus(serving);
+    for (const char* name : service_names) health->SetServingStatus(name, serving);
+  }
+
+  void wait_for_jobs(SteadyClock::time_point deadline) const {
+    while (SteadyClock::now() < deadline) {
+      const jobs::EngineMetrics metrics = backend.engine.metrics();
+      if (metrics.jobs_running + metrics.jobs_queued == 0) return;
+      std::this_thread::sleep_for(20ms);
+    }
+  }
+
+  const Backend backend;
+  Admission admission;
+  StreamHub hub;
+  WorkThread work;
+  MeshService meshes;
+  SolveService solves;
+  ServerService info;
+  std::unique_ptr<grpc::Server> server;
+  std::string address;
+  std::once_flag drained;
+};
+
+Server::Server(const ServerOptions& options, const Backend& backend)
+    : _state(std::make_unique<State>(options, backend)) {
+  grpc::EnableDefaultHealthCheckService(true);
+  grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  grpc::ServerBuilder builder;
+  set_arguments(builder);
+  int port = 0;
+  builder.AddListeningPort(options.listen, grpc::InsecureServerCredentials(), &port);
+  builder.RegisterService(&_state->meshes);
+  builder.RegisterService(&_state->solves);
+  builder.RegisterService(&_state->info);
+  _state->server = builder.BuildAndStart();
+  if (!_state->server || port == 0) {
+    throw errors::Error(errors::Reason::invalid_argument,
+                        "cannot listen on " + options.listen +
+                            ": the address is taken or not one of this machine; choose another "
+                            "(port 0 picks a free one)")
+        .at("listen");
+  }
+  _state->address = bound_address(options.listen, port);
+  _state->set_serving(true);
+}
+
+Server::~Server() {
+  if (_state->server) drain(0ms);
+}
+
+const std::string& Server::address() const noexcept {
+  return _state->address;
+}
+
+void Server::drain(std::chrono::milliseconds grace) {
+  std::call_once(_state->drained, [&] {
+    _state->admission.close();
+    _state->set_serving(false);
+    _state->hub.close();
+    _state->wait_for_jobs(SteadyClock::now() + grace);
+    _state->hub.drain(draining_error(), stream_patience, SteadyClock::now() + 2 * stream_patience);
+    _state->server->Shutdown(std::chrono::system_clock::now() + shutdown_patience);
+    _state->server->Wait();
+  });
+}
+
+}  // namespace anticrack::rpc

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rpc/server_service.hpp"
+
+#include <array>
+
+#include "jobs/job_engine.hpp"
+#include "meshes/mesh_catalogue.hpp"
+#include "operators/operator_cache.hpp"
+#include "rpc/from_domain.hpp"
+#include "rpc/unary.hpp"
+#include "rpc/version.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+constexpr std::array features{
+    "boundary_value",  "fields",      "force.constant",   "force.expression", "force.per_region",
+    "mass.consistent", "mass.lumped", "mesh.geometry",    "mesh.msh",         "mesh.paper",
+    "mesh.uniform",    "uzawa",       "uzawa.theta_auto",
+};
+
+v1::ServerLimits to_message(const Limits& limits, const jobs::EngineOptions& engine) {
+  v1::ServerLimits to;
+  to.set_upload_bytes(limits.upload_bytes);
+  to.set_mesh_triangles(limits.mesh_triangles);
+  to.set_memory_budget_bytes(limits.memory_budget_bytes);
+  to.set_load_cases(engine.max_load_cases);
+  to.set_iterations(engine.max_iterations);
+  to.set_expression_bytes(static_cast<std::uint32_t>(engine.max_expression_bytes));
+  to.set_queued_jobs(engine.max_queued_jobs);
+  to.set_kept_jobs(engine.max_kept_jobs);
+  to.set_watchers(limits.watchers);
+  to.set_event_log_bytes(engine.event_log_bytes);
+  *to.mutable_meshing_time() = to_duration(limits.meshing_time);
+  return to;
+}
+
+v1::ServerMetrics to_message(const jobs::EngineMetrics& engine,
+                             const operators::CacheMetrics& cache) {
+  v1::ServerMetrics to;
+  to.set_factorizations(cache.factorizations);
+  to.set_operator_hits(cache.hits);
+  to.set_operator_joins(cache.joins);
+  to.set_operator_evictions(cache.evictions);
+  to.set_operator_bytes(cache.bytes);
+  to.set_jobs_created(engine.jobs_created);
+  to.set_jobs_ended(engine.jobs_ended);
+  to.set_load_cases_ended(engine.load_cases_ended);
+  to.set_iterations(engine.iterations);
+  to.set_jobs_queued(engine.jobs_queued);
+  to.set_jobs_running(engine.jobs_running);
+  return to;
+}
+
+}  // namespace
+
+ServerService::ServerService(const Backend& backend, const Limits& limits, const StreamHub& hub)
+    : _backend(backend), _limits(limits), _hub(hub) {}
+
+grpc::ServerUnaryReactor* ServerService::GetServerInfo(grpc::CallbackServerContext* context,
+                                                       const v1::GetServerInfoRequest* /*request*/,
+                                                       v1::ServerInfo* response) {
+  return answer(context, "GetServerInfo", [&] {
+    response->set_version(version());
+    response->set_build(build());
+    *response->mutable_start_time() = to_timestamp(_start);
+    const jobs::EngineOptions& engine = _backend.engine.options();
+    response->set_threads(engine.threads);
+    *response->mutable_limits() = to_message(_limits, engine);
+    *response->mutable_metrics() = to_message(_backend.engine.metrics(), _backend.cache.metrics());
+    response->mutable_metrics()->set_meshings(_backend.catalogue.meshings());
+    response->mutable_metrics()->set_watchers(_hub.watchers());
+    for (const char* feature : features) response->add_features(feature);
+  });
+}
+
+}  // namespace anticrack::rpc

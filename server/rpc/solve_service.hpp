@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include "anticrack/v1/solve.grpc.pb.h"
+#include "rpc/backend.hpp"
+#include "rpc/stream_hub.hpp"
+#include "rpc/unary.hpp"
+#include "rpc/work_thread.hpp"
+#include "store/records.hpp"
+
+namespace anticrack::rpc {
+
+/// Translates, calls the job engine, maps the status. See solve.proto for the methods.
+class SolveService final : public v1::SolveService::CallbackService {
+ public:
+  SolveService(const Backend& backend, const Limits& limits, const Admission& admission,
+               StreamHub& hub, WorkThread& work);
+
+  grpc::ServerUnaryReactor* CreateJob(grpc::CallbackServerContext* context,
+                                      const v1::CreateJobRequest* request,
+                                      v1::Job* response) override;
+  grpc::ServerUnaryReactor* GetJob(grpc::CallbackServerContext* context,
+                                   const v1::GetJobRequest* request, v1::Job* response) override;
+  grpc::ServerUnaryReactor* ListJobs(grpc::CallbackServerContext* context,
+                                     const v1::ListJobsRequest* request,
+                                     v1::ListJobsResponse* response) override;
+  grpc::ServerUnaryReactor* CancelJob(grpc::CallbackServerContext* context,
+                                      const v1::CancelJobRequest* request,
+                                      v1::Job* response) override;
+  grpc::ServerUnaryReactor* DeleteJob(grpc::CallbackServerContext* context,
+                                      const v1::DeleteJobRequest* request,
+                                      google::protobuf::Empty* response) override;
+  grpc::ServerWriteReactor<v1::WatchJobResponse>* WatchJob(
+      grpc::CallbackServerContext* context, const v1::WatchJobRequest* request) override;
+  grpc::ServerWriteReactor<v1::ReadResultResponse>* ReadResult(
+      grpc::CallbackServerContext* context, const v1::ReadResultRequest* request) override;
+
+ private:
+  v1::Job to_answer(const store::JobRecord& record) const;
+
+  const Backend _backend;
+  const Limits _limits;
+  const Admission& _admission;
+  StreamHub& _hub;
+  WorkThread& _work;
+};
+
+}  // namespace anticrack::rpc

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Requests as the domain understands them. Pure functions; each checks what the domain's types
+// cannot express (unset alternatives, names, counts before anything is allocated for them, what
+// this version does not implement) and throws errors::Error with the field at fault, as a path in
+// the request. What the values mean is checked below, by the domain.
+#pragma once
+
+#include <cstddef>
+
+#include "anticrack/v1/mesh.pb.h"
+#include "anticrack/v1/solve.pb.h"
+#include "errors/errors.hpp"
+#include "store/records.hpp"
+
+namespace anticrack::rpc {
+
+/// Points of one geometry: its check is quadratic in them.
+constexpr std::size_t max_vertices = 10'000;
+/// Inclusions, cracks and delaminated parts of one geometry, together.
+constexpr std::size_t max_parts = 1'000;
+/// Subdomains named in one force.
+constexpr std::size_t max_regions = 1'000;
+constexpr std::size_t max_title_bytes = 200;
+constexpr std::size_t max_request_id_bytes = 64;
+/// A job's own bytes come back in every answer about it, which must stay below 4 MiB.
+constexpr std::size_t max_job_bytes = 1u << 20;
+
+store::MeshDefinition to_definition(const v1::CreateMeshRequest& request);
+
+/// The limits a job is held against before it is converted.
+struct JobLimits {
+  int load_cases = 0;
+  int iterations = 0;
+};
+
+store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits);
+
+/// Throws unless `title` is at most max_title_bytes.
+void require_title(const std::string& title, const char* field);
+/// Throws unless `id` is empty or something like a UUID.
+void require_request_id(const std::string& id);
+
+/// The same error with the path of every field put through what the request's shape asks for:
+/// geometry errors come relative to the geometry, those of options and upload as they are.
+errors::Error below_mesh_request(const errors::Error& error);
+/// Job errors come relative to the job; one without a field that is `not_found` is about its mesh.
+errors::Error below_job_request(const errors::Error& error);
+
+}  // namespace anticrack::rpc

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rpc/upload_stream.hpp"
+
+#include <utility>
+
+#include "rpc/error_table.hpp"
+#include "rpc/names.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+class RefusedUpload final : public grpc::ServerReadReactor<v1::UploadMeshRequest> {
+ public:
+  explicit RefusedUpload(grpc::Status status) { Finish(std::move(status)); }
+  void OnDone() noexcept override { delete this; }
+};
+
+}  // namespace
+
+UploadStream::UploadStream(StreamHub& hub, WorkThread& work, store::Store& store,
+                           std::uint64_t max_bytes, v1::UploadMeshResponse* response)
+    : _hub(hub), _work(work), _receiver(store, max_bytes), _response(response) {}
+
+void UploadStream::start() {
+  _hub.add(StreamKind::transfer, shared_from_this());
+  _self = shared_from_this();
+  {
+    const std::lock_guard lock(_mutex);
+    ++_operations;
+  }
+  read_next();
+  leave();
+}
+
+void UploadStream::OnReadDone(bool ok) noexcept {
+  {
+    const std::lock_guard lock(_mutex);
+    if (_finished) return;
+    ++_operations;
+  }
+  try {
+    _work.post([self = shared_from_this(), ok] {
+      self->take(ok);
+      self->leave();
+    });
+  } catch (...) {
+    finish(to_status(current_error("UploadMesh")));
+    leave();
+  }
+}
+
+void UploadStream::OnCancel() noexcept {
+  finish(grpc::Status::CANCELLED);
+}
+
+void UploadStream::OnDone() noexcept {
+  _hub.remove(*this);
+  const auto self = std::move(_self);
+}
+
+void UploadStream::tick(SteadyClock::time_point now) noexcept {
+  {
+    const std::lock_guard lock(_mutex);
+    if (_operations > 0 || now - _last_read <= _hub.limits().stall) return;
+  }
+  end(errors::Error(errors::Reason::cancelled, "no chunk came for too long; upload again"));
+}
+
+void UploadStream::end(const errors::Error& error) noexcept {
+  finish(to_status(error));
+}
+
+void UploadStream::take(bool ok) noexcept {
+  {
+    const std::lock_guard lock(_mutex);
+    if (_end) return;
+  }
+  try {
+    if (ok) {
+      _receiver.accept(_request);
+      read_next();
+    } else {
+      _response->set_upload(upload_name(_receiver.complete()));
+      finish(grpc::Status::OK);
+    }
+  } catch (...) {
+    finish(to_status(current_error("UploadMesh")));
+  }
+}
+
+void UploadStream::read_next() noexcept {
+  {
+    const std::lock_guard lock(_mutex);
+    if (_end) return;
+    _last_read = SteadyClock::now();
+  }
+  StartRead(&_request);
+}
+
+void UploadStream::finish(grpc::Status status) noexcept {
+  {
+    const std::lock_guard lock(_mutex);
+    if (!_end) _end = std::move(status);
+    ++_operations;
+  }
+  leave();
+}
+
+void UploadStream::leave() noexcept {
+  grpc::Status status;
+  {
+    const std::lock_guard lock(_mutex);
+    if (--_operations > 0 || !_end || _finished) return;
+    _finished = true;
+    status = *_end;
+  }
+  Finish(std::move(status));
+}
+
+grpc::ServerReadReactor<v1::UploadMeshRequest>* receive_upload(
+    StreamHub& hub, WorkThread& work, store::Store& store, std::uint64_t max_bytes,
+    v1::UploadMeshResponse* response) noexcept {
+  try {
+    auto upload = std::make_shared<UploadStream>(hub, work, store, max_bytes, response);
+    upload->start();
+    return upload.get();
+  } catch (...) {
+    return new RefusedUpload(to_status(current_error("UploadMesh")));
+  }
+}
+
+}  // namespace anticrack::rpc

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// UploadMesh: a client stream into an UploadReceiver.
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "anticrack/v1/mesh.pb.h"
+#include "rpc/stream_hub.hpp"
+#include "rpc/upload_receiver.hpp"
+#include "rpc/work_thread.hpp"
+
+namespace anticrack::rpc {
+
+/// Each message is hashed and written on the work thread: a disk that makes writers wait must not
+/// hold one of gRPC's two threads. The next one is read when that is done, so a fast client is held
+/// back by the transport.
+/// `Finish` exactly once, never while an operation is being started (`_operations`); a read that is
+/// pending then completes with ok = false.
+class UploadStream final : public grpc::ServerReadReactor<v1::UploadMeshRequest>,
+                           public Stream,
+                           public std::enable_shared_from_this<UploadStream> {
+ public:
+  UploadStream(StreamHub& hub, WorkThread& work, store::Store& store, std::uint64_t max_bytes,
+               v1::UploadMeshResponse* response);
+
+  /// Gives the stream to the hub (which may refuse: errors::Error) and begins to read.
+  void start();
+
+  void OnReadDone(bool ok) noexcept override;
+  void OnCancel() noexcept override;
+  void OnDone() noexcept override;
+
+  void wake() noexcept override {}
+  void tick(SteadyClock::time_point now) noexcept override;
+  void end(const errors::Error& error) noexcept override;
+  void abort() noexcept override {}  // end() waits for no peer
+
+ private:
+  void take(bool ok) noexcept;
+  void read_next() noexcept;
+  void finish(grpc::Status status) noexcept;
+  void leave() noexcept;
+
+  StreamHub& _hub;
+  WorkThread& _work;
+  UploadReceiver _receiver;
+  v1::UploadMeshRequest _request;
+  v1::UploadMeshResponse* const _response;
+  std::shared_ptr<UploadStream> _self;
+
+  std::mutex _mutex;
+  int _operations = 0;  ///< messages being taken; `Finish` waits for them
+  bool _finished = false;
+  SteadyClock::time_point _last_read = SteadyClock::now();
+  std::optional<grpc::Status> _end;
+};
+
+/// The reactor of UploadMesh.
+grpc::ServerReadReactor<v1::UploadMeshRequest>* receive_upload(
+    StreamHub& hub, WorkThread& work, store::Store& store, std::uint64_t max_bytes,
+    v1::UploadMeshResponse* response) noexcept;
+
+}  // namespace anticrack::rpc

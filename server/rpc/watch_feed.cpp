@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rpc/watch_feed.hpp"
+
+#include <utility>
+#include <variant>
+
+#include "errors/errors.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+/// True when the end event is in the log: nothing comes after it.
+bool is_complete(const jobs::EventLog& log) {
+  const std::uint64_t latest = log.latest();
+  if (latest == 0) return false;
+  const auto last = log.read(latest - 1, 1);
+  return !last.empty() && std::holds_alternative<jobs::EndEvent>(last.front().event);
+}
+
+}  // namespace
+
+WatchFeed::WatchFeed(const jobs::JobEngine& engine, const meshes::MeshCatalogue& catalogue,
+                     std::string id, std::uint64_t after)
+    : _engine(engine),
+      _id(std::move(id)),
+      _log(engine.events(_id)),
+      _catalogue(catalogue),
+      _cursor(after),
+      _from_earliest(after == 0) {
+  try {
+    read();
+  } catch (errors::Error& error) {
+    error.at("after_sequence");
+    throw;
+  }
+}
+
+void WatchFeed::start(std::function<void()> wake) {
+  _listener = _log->listen(std::move(wake));
+}
+
+WatchFeed::Next WatchFeed::next(v1::WatchJobResponse& response) {
+  if (_ended) return Next::end;
+  if (!_snapshot_sent) {
+    fill_snapshot(response);
+    _snapshot_sent = true;
+    return Next::message;
+  }
+  const std::vector<jobs::NumberedEvent> events = read();
+  if (events.empty())
+    return is_complete(*_log) && _cursor == _log->latest() ? Next::end : Next::wait;
+  fill(events, response);
+  return Next::message;
+}
+
+bool WatchFeed::heartbeat(v1::WatchJobResponse& response) {
+  response.set_sequence(_cursor);
+  response.mutable_heartbeat()->set_state(_state);
+  response.mutable_heartbeat()->set_detail(_detail);
+  return true;
+}
+
+void WatchFeed::fill_snapshot(v1::WatchJobResponse& response) {
+  const store::JobRecord record = _engine.get(_id);
+  for (const fem::Load& load : record.spec.loads) _load_names.push_back(load.name);
+  _interfaces = interface_names(_catalogue, record.spec.mesh);
+  _state = from_domain(record.state);
+  v1::WatchJobResponse::Snapshot& snapshot = *response.mutable_snapshot();
+  *snapshot.mutable_job() = from_domain(record, _interfaces);
+  snapshot.set_earliest_sequence(_log->earliest());
+  snapshot.set_latest_sequence(_log->latest());
+  response.set_sequence(_cursor);
+}
+
+std::vector<jobs::NumberedEvent> WatchFeed::read() {
+  for (;;) {
+    if (_from_earliest) _cursor = _log->earliest() - 1;
+    try {
+      return _log->read(_cursor, max_batch);
+    } catch (const errors::Error&) {
+      // The log was trimmed between the two lines above; who asked for no place misses nothing.
+      if (!_from_earliest || _log->earliest() - 1 == _cursor) throw;
+    }
+  }
+}
+
+void WatchFeed::fill(const std::vector<jobs::NumberedEvent>& events,
+                     v1::WatchJobResponse& response) {
+  _from_earliest = false;
+  for (const jobs::NumberedEvent& event : events) {
+    const auto* sample = std::get_if<jobs::SampleEvent>(&event.event);
+    if (sample == nullptr) break;
+    append(*response.mutable_samples(), sample->load_case, sample->sample);
+    _cursor = event.sequence;
+  }
+  if (!response.has_samples()) {
+    const jobs::NumberedEvent& event = events.front();
+    if (const auto* phase = std::get_if<jobs::PhaseEvent>(&event.event)) {
+      _state = from_domain(phase->state);
+      _detail = phase->detail;
+      response.mutable_phase()->set_state(_state);
+      response.mutable_phase()->set_detail(_detail);
+    } else if (const auto* ended = std::get_if<jobs::CaseEvent>(&event.event)) {
+      if (_interfaces.empty()) {  // the mesh was not meshed yet when the watch began
+        _interfaces = interface_names(_catalogue, _engine.get(_id).spec.mesh);
+      }
+      const auto index = static_cast<std::size_t>(ended->load_case);
+      const std::string name = index < _load_names.size() ? _load_names[index] : "";
+      response.mutable_load_case_ended()->set_load_case(ended->load_case);
+      *response.mutable_load_case_ended()->mutable_answer() =
+          from_domain(*ended->record, name, _interfaces);
+    } else if (const auto* end = std::get_if<jobs::EndEvent>(&event.event)) {
+      if (_interfaces.empty()) _interfaces = interface_names(_catalogue, end->job->spec.mesh);
+      *response.mutable_ended() = from_domain(*end->job, _interfaces);
+      _ended = true;
+    }
+    _cursor = event.sequence;
+  }
+  response.set_sequence(_cursor);
+}
+
+InterfaceNames interface_names(const meshes::MeshCatalogue& catalogue, const std::string& mesh_id) {
+  InterfaceNames names;
+  try {
+    for (const store::InterfaceSummary& interface : catalogue.get(mesh_id).interfaces) {
+      names.push_back(interface.name);
+    }
+  } catch (const errors::Error&) {
+    names.clear();  // the mesh was deleted since; its answers stay readable
+  }
+  return names;
+}
+
+}  // namespace anticrack::rpc

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Hash of structured data: equal values give equal hashes on every machine and in every version.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "store/digest.hpp"
+
+namespace anticrack::store {
+
+static_assert(std::endian::native == std::endian::little, "hashes and blocks are little-endian");
+
+/// Texts and lists go with their length before them, so that no two different sequences of calls
+/// hash the same bytes.
+class CanonicalHash {
+ public:
+  CanonicalHash& add(std::uint64_t value) {
+    _hash.add(std::as_bytes(std::span(&value, 1)));
+    return *this;
+  }
+  /// -0 counts as 0: they compare equal.
+  CanonicalHash& add(double value) {
+    return add(std::bit_cast<std::uint64_t>(value == 0 ? 0.0 : value));
+  }
+  CanonicalHash& add(const std::string& text) {
+    add(std::uint64_t{text.size()});
+    _hash.add(text);
+    return *this;
+  }
+  std::string finish() { return _hash.finish(); }
+
+ private:
+  Sha256 _hash;
+};
+
+}  // namespace anticrack::store

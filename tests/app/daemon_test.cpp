@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The real executable as a process.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "support/process.hpp"
+
+namespace anticrack::app {
+namespace {
+
+using support::Process;
+using support::TemporaryFolder;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+
+class Daemon : public ::testing::Test {
+ protected:
+  std::unique_ptr<Process> start(std::vector<std::string> flags) {
+    flags.insert(flags.begin(), ANTICRACKD);
+    flags.insert(flags.end(), {"--data-dir", _folder / "data"});
+    return std::make_unique<Process>(flags);
+  }
+
+  TemporaryFolder _folder;
+};
+
+TEST_F(Daemon, SaysOneLineWhenItIsReadyAndStopsOnSigterm) {
+  for (const int number : {SIGTERM, SIGINT}) {
+    const auto daemon = start({"--listen", "127.0.0.1:0"});
+    ASSERT_TRUE(daemon->wait_for_output("\n")) << daemon->error();
+    daemon->signal(number);
+    EXPECT_EQ(daemon->wait(), 0) << daemon->error();
+    EXPECT_THAT(daemon->output(), MatchesRegex("anticrackd listening on 127.0.0.1:[1-9][0-9]+\n"));
+  }
+}
+
+TEST_F(Daemon, KeepsItsDataToItself) {
+  const auto daemon = start({"--listen", "127.0.0.1:0"});
+  ASSERT_TRUE(daemon->wait_for_output("\n")) << daemon->error();
+  struct stat found {};
+  ASSERT_EQ(::stat((_folder / "data").c_str(), &found), 0);
+  EXPECT_EQ(found.st_mode & 0777, 0700u);
+
+  const auto second = start({"--listen", "127.0.0.1:0"});
+  EXPECT_EQ(second->wait(), 2);
+  EXPECT_THAT(second->error(), HasSubstr("another anticrackd uses it"));
+}
+
+TEST_F(Daemon, ServesOnAUnixSocketAndTakesItAway) {
+  const std::string path = _folder / "socket";
+  {
+    const auto killed = start({"--listen", "unix:" + path});
+    ASSERT_TRUE(killed->wait_for_output("listening on unix:" + path + "\n")) << killed->error();
+    killed->signal(SIGKILL);
+    EXPECT_EQ(killed->wait(), 128 + SIGKILL);
+  }
+  EXPECT_TRUE(std::filesystem::exists(path));
+  const auto daemon = start({"--listen", "unix:" + path});
+  ASSERT_TRUE(daemon->wait_for_output("listening on unix:" + path + "\n")) << daemon->error();
+  struct stat found {};
+  ASSERT_EQ(::stat(path.c_str(), &found), 0);
+  EXPECT_EQ(found.st_mode & 0077, 0u);
+  daemon->signal(SIGTERM);
+  EXPECT_EQ(daemon->wait(), 0);
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST_F(Daemon, SaysThatAnAddressIsTaken) {
+  const auto first = start({"--listen", "127.0.0.1:0"});
+  ASSERT_TRUE(first->wait_for_output("\n")) << first->error();
+  std::string address = first->output();
+  address = address.substr(address.rfind(' ') + 1);
+  address.pop_back();
+  Process second({ANTICRACKD, "--listen", address, "--data-dir", _folder / "other"});
+  EXPECT_EQ(second.wait(), 1);
+  EXPECT_THAT(second.error(), HasSubstr("cannot listen on " + address));
+  EXPECT_EQ(second.output(), "");
+}
+
+TEST_F(Daemon, ChecksItsConfiguration) {
+  std::ofstream(_folder / "c.toml") << "threads = 3\nmemory-budget = \"1GiB\"\n";
+  const auto daemon = start({"--config", _folder / "c.toml", "--threads", "4", "--check-config"});
+  EXPECT_EQ(daemon->wait(), 0);
+  EXPECT_THAT(daemon->output(), HasSubstr("threads = 4\n"));
+  EXPECT_THAT(daemon->output(), HasSubstr("memory-budget = \"1GiB\"\n"));
+  EXPECT_FALSE(std::filesystem::exists(_folder / "data"));
+}
+
+TEST_F(Daemon, RefusesABadConfigurationInOneLine) {
+  std::ofstream(_folder / "c.toml") << "\nthread = 3\n";
+  const auto daemon = start({"--config", _folder / "c.toml"});
+  EXPECT_EQ(daemon->wait(), 2);
+  EXPECT_EQ(daemon->output(), "");
+  EXPECT_THAT(daemon->error(), HasSubstr("c.toml:2: unknown key \"thread\""));
+  EXPECT_THAT(daemon->error(), EndsWith("did you mean \"threads\"?\n"));
+}
+
+TEST_F(Daemon, RefusesToListenBeyondTheMachine) {
+  const auto daemon = start({"--listen", "0.0.0.0:0"});
+  EXPECT_EQ(daemon->wait(), 2);
+  EXPECT_THAT(daemon->error(), HasSubstr("--allow-insecure-remote"));
+}
+
+TEST_F(Daemon, RefusesAMesherThatIsNotThere) {
+  const auto daemon = start({"--listen", "127.0.0.1:0", "--mesher", _folder / "none"});
+  EXPECT_EQ(daemon->wait(), 2);
+  EXPECT_THAT(daemon->error(), HasSubstr("--mesher PATH"));
+}
+
+}  // namespace
+}  // namespace anticrack::app

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "casefile/case.hpp"
+
+namespace anticrack::casefile {
+namespace {
+
+const std::string folder = ANTICRACK_EXAMPLES;
+
+TEST(Examples, PaperHasItsFourLoadsAndParameters) {
+  const Case the_case = read_case(folder + "/paper.toml");
+  ASSERT_EQ(the_case.job.load_cases_size(), 4);
+  EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_PAPER);
+  const v1::Uzawa& uzawa = the_case.job.solver().uzawa();
+  EXPECT_EQ(uzawa.theta(), 2);
+  EXPECT_EQ(uzawa.epsilon(), 1e-12);
+  EXPECT_EQ(uzawa.p(), 1e5);
+}
+
+TEST(Examples, EachOfTheFourIsOneLoadOfThePaperOnTheSameMesh) {
+  const Case all = read_case(folder + "/paper.toml");
+  for (int i = 0; i < 4; ++i) {
+    const Case one = read_case(folder + "/paper-" + std::to_string(i + 1) + ".toml");
+    ASSERT_EQ(one.job.load_cases_size(), 1);
+    EXPECT_EQ(one.job.load_cases(0).SerializeAsString(), all.job.load_cases(i).SerializeAsString());
+    EXPECT_EQ(one.job.load_cases(0).name(), "example-" + std::to_string(i + 1));
+    EXPECT_EQ(one.mesh.geometry().SerializeAsString(), all.mesh.geometry().SerializeAsString());
+    EXPECT_EQ(one.job.solver().SerializeAsString(), all.job.solver().SerializeAsString());
+  }
+}
+
+}  // namespace
+}  // namespace anticrack::casefile

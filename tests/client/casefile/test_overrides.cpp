@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "client/casefile/sample_case.hpp"
+
+namespace anticrack::casefile {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Overrides, ReplaceAndAddKeys) {
+  const Case the_case =
+      parse(sample_text, {"solver.theta=1.7", "solver.mass=consistent", "output.fields=true"});
+  EXPECT_EQ(the_case.job.solver().uzawa().theta(), 1.7);
+  EXPECT_EQ(the_case.job.solver().uzawa().mass(), v1::MASS_CONSISTENT);
+  EXPECT_TRUE(the_case.job.fields());
+}
+
+TEST(Overrides, TakeBareWordsAsText) {
+  EXPECT_TRUE(parse(sample_text, {"solver.theta=auto"}).job.solver().uzawa().theta_auto());
+  EXPECT_EQ(
+      parse(sample_text, {"load.0.f=x * y > 0 ? 1 : -1"}).job.load_cases(0).force().expression(),
+      "x * y > 0 ? 1 : -1");
+  EXPECT_EQ(parse(sample_text, {"title=a = b\nc = 1"}).job.title(), "a = b\nc = 1");
+}
+
+TEST(Overrides, TakeTomlValues) {
+  EXPECT_EQ(parse(sample_text, {"title=\"3\""}).job.title(), "3");
+  const Case the_case = parse(sample_text, {"load.1.f={plus = 2}"});
+  EXPECT_EQ(the_case.job.load_cases(1).force().per_region().values().at("plus"), 2);
+  EXPECT_EQ(parse(sample_text, {"geometry.boundary=[[0, 0], [1, 0], [0, 1]]"})
+                .mesh.geometry()
+                .boundary_size(),
+            3);
+}
+
+TEST(Overrides, ReachIntoLists) {
+  const Case the_case = parse(
+      sample_text, {"load.0.f=5", "geometry.boundary.2.0=7", "geometry.inclusion.0.name=rod"});
+  EXPECT_EQ(the_case.job.load_cases(0).force().constant(), 5);
+  EXPECT_EQ(the_case.mesh.geometry().boundary(2).x(), 7);
+  EXPECT_EQ(the_case.mesh.geometry().inclusions(0).name(), "rod");
+}
+
+TEST(Overrides, AppendBehindTheLastOne) {
+  const Case the_case = parse(sample_text, {"load.2.name=three", "load.2.f=3"});
+  ASSERT_EQ(the_case.job.load_cases_size(), 3);
+  EXPECT_EQ(the_case.job.load_cases(2).name(), "three");
+}
+
+TEST(Overrides, TheLastOfTwoWins) {
+  EXPECT_EQ(parse(sample_text, {"solver.theta=1", "solver.theta=3"}).job.solver().uzawa().theta(),
+            3);
+}
+
+TEST(Overrides, AreInTheTextThatIsKept) {
+  const Case the_case = parse(sample_text, {"solver.theta=1.75"});
+  EXPECT_THAT(the_case.text, HasSubstr("1.75"));
+  const Case again = parse(the_case.text);
+  EXPECT_EQ(again.job.SerializeAsString(), the_case.job.SerializeAsString());
+  EXPECT_EQ(again.mesh.SerializeAsString(), the_case.mesh.SerializeAsString());
+}
+
+TEST(Overrides, NameThemselvesInErrors) {
+  EXPECT_EQ(complaint(sample_text, {"solver.thta=1"}),
+            "--set solver.thta=1: solver.thta: unknown key; did you mean theta?");
+  EXPECT_EQ(complaint(sample_text, {"solver.epsilon=small"}),
+            "--set solver.epsilon=small: solver.epsilon: 'small' is no finite number; write a "
+            "number without quotes");
+}
+
+TEST(Overrides, RefuseKeysThatLeadNowhere) {
+  EXPECT_EQ(complaint(sample_text, {"load.5.f=1"}),
+            "--set load.5.f=1: load.5: there are 2 of them; write an index from 0 to that number");
+  EXPECT_EQ(complaint(sample_text, {"load.first.f=1"}),
+            "--set load.first.f=1: load.first: there are 2 of them; write an index from 0 to that "
+            "number");
+  EXPECT_EQ(complaint(sample_text, {"solver.theta.x=1"}),
+            "--set solver.theta.x=1: solver.theta.x: nothing lies below a plain value; set the key "
+            "above it");
+  EXPECT_EQ(complaint(sample_text, {"solver.theta"}),
+            "--set solver.theta: no assignment; write --set key=value");
+  EXPECT_EQ(complaint(sample_text, {"=1"}), "--set =1: no assignment; write --set key=value");
+  EXPECT_EQ(complaint(sample_text, {"solver..theta=1"}),
+            "--set solver..theta=1: a part of the key is empty; write for example solver.theta=2");
+}
+
+}  // namespace
+}  // namespace anticrack::casefile

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/answers.hpp"
+
+#include <gmock/gmock.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+
+#include "cli/exit_codes.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+using results::Status;
+
+results::Result two_loads() {
+  results::Result result;
+  result.title = "A plate";
+  result.job_name = "jobs/1";
+  results::Load opening;
+  opening.name = "opening";
+  opening.status = Status::converged;
+  opening.iterations = 346;
+  opening.criterion = 9.92e-13;
+  opening.inclusions = {{"fibre", 0.086569, 1e-16, 0}};
+  opening.energy = -0.163945;
+  opening.theta = 2;
+  opening.theta_star = 1.7432;
+  opening.solve_seconds = 0.012;
+  results::Load failed;
+  failed.name = "failed";
+  failed.status = Status::failed;
+  failed.error = "the expression is not finite at\x1b (0, 0)";
+  result.loads = {opening, failed};
+  return result;
+}
+
+TEST(AnswersTable, HasUnitsAndSaysWhatIsUnknown) {
+  EXPECT_EQ(
+      answers_table(two_loads()),
+      "load     status     iterations  criterion         A     energy  contact length  theta  "
+      "theta*  wall time\n"
+      "                             -          -         -          -               -      -       "
+      "-          s\n"
+      "opening  converged         346   9.92e-13  0.086569  -0.163945               0      2   "
+      "1.743      0.012\n"
+      "failed   failed              0          -         -          -               -      -       "
+      "-          0\n"
+      "failed: the expression is not finite at? (0, 0)\n");
+}
+
+TEST(AnswersTable, NamesInclusionsWhereThereAreSeveral) {
+  results::Result result = two_loads();
+  result.loads[0].inclusions.push_back({"rod", -0.5, 0, 0});
+  const std::string text = answers_table(result);
+  EXPECT_THAT(text, testing::HasSubstr("A fibre"));
+  EXPECT_THAT(text, testing::HasSubstr("A rod"));
+  EXPECT_THAT(text, testing::HasSubstr("-0.5"));
+}
+
+TEST(AnswersJson, IsOneDocumentWithEveryLoad) {
+  google::protobuf::Struct parsed;
+  ASSERT_TRUE(
+      google::protobuf::util::JsonStringToMessage(answers_json(two_loads(), "out.h5"), &parsed)
+          .ok());
+  EXPECT_EQ(parsed.fields().at("title").string_value(), "A plate");
+  EXPECT_EQ(parsed.fields().at("file").string_value(), "out.h5");
+  const auto& answers = parsed.fields().at("answers").list_value();
+  ASSERT_EQ(answers.values_size(), 2);
+  const auto& opening = answers.values(0).struct_value().fields();
+  EXPECT_EQ(opening.at("status").string_value(), "converged");
+  EXPECT_EQ(opening.at("iterations").number_value(), 346);
+  const auto& inclusion = opening.at("inclusions").list_value().values(0).struct_value().fields();
+  EXPECT_EQ(inclusion.at("A").number_value(), 0.086569);
+  const auto& failed = answers.values(1).struct_value().fields();
+  EXPECT_EQ(failed.at("energy").kind_case(), google::protobuf::Value::kNullValue);
+}
+
+TEST(ExitCode, IsThatOfTheWorstLoadCase) {
+  results::Result result = two_loads();
+  EXPECT_EQ(exit_code_of(result), exit_job_failed);
+  result.loads[1].status = Status::not_converged;
+  EXPECT_EQ(exit_code_of(result), exit_not_converged);
+  result.loads[1].status = Status::converged;
+  EXPECT_EQ(exit_code_of(result), exit_ok);
+  result.loads[0].status = Status::cancelled;
+  EXPECT_EQ(exit_code_of(result), exit_job_failed);
+}
+
+}  // namespace
+}  // namespace anticrack::cli

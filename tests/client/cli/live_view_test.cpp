@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/live_view.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/text.hpp"
+#include "client/cli/sample_progress.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+JobProgress three_cases() {
+  JobProgress progress;
+  progress.apply(snapshot(3));
+  progress.apply(load_ended(0, 291, 8e-13));
+  progress.apply(sample(1, 120, 1e-6, 41));
+  return progress;
+}
+
+TEST(Frame, HasALinePerLoadCaseWithABar) {
+  EXPECT_THAT(
+      frame(three_cases(), 101, 24),
+      ElementsAre("jobs/1: running, 1 of 3 load cases ended",
+                  "  load-0  converged      iteration   291  criterion 8.0e-13     0.0125 s  "
+                  "[########################]",
+                  "  load-1  running        iteration   120  criterion 1.0e-06  contact  41  "
+                  "[############------------]",
+                  "  load-2  waiting"));
+}
+
+TEST(Frame, DropsTheLabelsBeforeTheBar) {
+  const std::vector<std::string> lines = frame(three_cases(), 80, 24);
+  EXPECT_EQ(lines[1],
+            "  load-0  converged      it   291  8.0e-13     0.0125 s  [####################]");
+  EXPECT_EQ(lines[2],
+            "  load-1  running        it   120  1.0e-06  contact  41  [##########----------]");
+  EXPECT_EQ(frame(three_cases(), 60, 24)[2],
+            "  load-1  running        it   120  1.0e-06  contact  41");
+}
+
+TEST(Frame, FitsEveryWidth) {
+  JobProgress progress = three_cases();
+  progress.cases[1].name = std::string(64, 'x');
+  progress.notice = "no connection to localhost:7433, trying again";
+  for (const std::size_t width : {0, 1, 2, 10, 40, 60, 79, 80, 120, 400}) {
+    for (const std::string& line : frame(progress, width, 24)) {
+      EXPECT_LT(columns_of(line), std::max<std::size_t>(width, 2)) << width << ": " << line;
+    }
+  }
+}
+
+TEST(Frame, FitsEveryHeight) {
+  JobProgress progress;
+  progress.apply(snapshot(100));
+  for (const std::size_t height : {3, 5, 24, 100, 101}) {
+    EXPECT_LE(frame(progress, 80, height).size(), height);
+  }
+  EXPECT_EQ(frame(progress, 80, 200).size(), 101U);
+}
+
+TEST(Frame, OfManyLoadCasesShowsThoseRunningAndTheLastThatEnded) {
+  JobProgress progress;
+  progress.apply(snapshot(100));
+  for (int i = 0; i < 50; ++i) {
+    progress.apply(load_ended(i, 300, 1e-13));
+  }
+  progress.apply(sample(60, 10, 0.1, 3));
+  progress.apply(sample(61, 10, 0.1, 3));
+  const std::vector<std::string> lines = frame(progress, 80, 8);
+  ASSERT_EQ(lines.size(), 8U);
+  EXPECT_THAT(lines[0], HasSubstr("50 of 100 load cases ended"));
+  EXPECT_THAT(lines[1], HasSubstr("load-47 "));
+  EXPECT_THAT(lines[2], HasSubstr("load-48 "));
+  EXPECT_THAT(lines[3], HasSubstr("load-49 "));
+  EXPECT_THAT(lines[4], HasSubstr("load-50 "));
+  EXPECT_THAT(lines[5], HasSubstr("load-60 "));
+  EXPECT_THAT(lines[6], HasSubstr("load-61 "));
+  EXPECT_EQ(lines[7], "  and 94 more");
+}
+
+TEST(Frame, TellsThePhaseAndALostConnection) {
+  JobProgress progress = three_cases();
+  progress.detail = "factorising";
+  progress.notice = "no connection, trying again";
+  EXPECT_EQ(frame(progress, 200, 24)[0],
+            "jobs/1: running (factorising), 1 of 3 load cases ended; no connection, trying again");
+}
+
+TEST(Frame, BeforeTheFirstEventIsOneLine) {
+  EXPECT_THAT(frame(JobProgress(), 80, 24), ElementsAre("job: submitted"));
+}
+
+TEST(PlainLog, TellsStatesEveryFiftiethIterationAndEnds) {
+  JobProgress progress;
+  PlainLog log;
+  progress.apply(snapshot(1));
+  EXPECT_THAT(log.lines(progress), ElementsAre("jobs/1: running"));
+  progress.apply(sample(0, 49, 0.1, 3));
+  EXPECT_THAT(log.lines(progress), IsEmpty());
+  progress.apply(sample(0, 50, 0.05, 4));
+  EXPECT_THAT(log.lines(progress),
+              ElementsAre("load-0: iteration 50, criterion 5.00e-02, 4 nodes in contact"));
+  progress.apply(sample(0, 99, 0.01, 4));
+  EXPECT_THAT(log.lines(progress), IsEmpty());
+  progress.apply(sample(0, 260, 0.001, 4));
+  EXPECT_THAT(log.lines(progress),
+              ElementsAre("load-0: iteration 260, criterion 1.00e-03, 4 nodes in contact"));
+  progress.apply(load_ended(0, 291, 8e-13));
+  EXPECT_THAT(log.lines(progress),
+              ElementsAre("load-0: converged after 291 iterations, criterion 8.00e-13"));
+  EXPECT_THAT(log.lines(progress), IsEmpty());
+}
+
+TEST(PlainLog, SaysWhyALoadCaseDidNotConverge) {
+  JobProgress progress;
+  PlainLog log;
+  progress.apply(snapshot(1));
+  log.lines(progress);
+  v1::WatchJobResponse event = load_ended(0, 200, 2.7, v1::LoadCaseAnswer::STATUS_NOT_CONVERGED);
+  event.mutable_load_case_ended()->mutable_answer()->set_reason("theta = 2 is above theta*");
+  progress.apply(event);
+  EXPECT_THAT(log.lines(progress),
+              ElementsAre("load-0: not converged after 200 iterations, criterion 2.70e+00; theta = "
+                          "2 is above theta*"));
+}
+
+TEST(PlainLog, SaysWhyALoadCaseFailedBeforeItsFirstIteration) {
+  JobProgress progress;
+  PlainLog log;
+  progress.apply(snapshot(1));
+  log.lines(progress);
+  v1::WatchJobResponse event = load_ended(0, 0, 0, v1::LoadCaseAnswer::STATUS_FAILED);
+  event.mutable_load_case_ended()->mutable_answer()->mutable_error()->set_message("not finite");
+  progress.apply(event);
+  EXPECT_THAT(log.lines(progress), ElementsAre("load-0: failed; not finite"));
+}
+
+}  // namespace
+}  // namespace anticrack::cli

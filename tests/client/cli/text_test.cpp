@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace anticrack::cli {
+namespace {
+
+TEST(Sanitise, TakesTheTerminalOutOfTheServersHands) {
+  EXPECT_EQ(sanitise("\x1b[2Jgone\r\n\t\x7f"), "?[2Jgone????");
+  EXPECT_EQ(sanitise("\xc2\x9b"
+                     "31m"),
+            "?"
+            "?31m")
+      << "the C1 control CSI, in UTF-8";
+  EXPECT_EQ(sanitise(std::string("a\0b", 3)), "a?b");
+}
+
+TEST(Sanitise, KeepsText) {
+  EXPECT_EQ(sanitise("Плита δ = 0,5 — \xf0\x9f\x99\x82"), "Плита δ = 0,5 — \xf0\x9f\x99\x82");
+}
+
+TEST(Sanitise, ReplacesWhatIsNoUtf8) {
+  EXPECT_EQ(sanitise("a\xff"
+                     "b"),
+            "a?b");
+  EXPECT_EQ(sanitise("\xe2\x82"), "??") << "cut off";
+  EXPECT_EQ(sanitise("\xc0\xaf"), "??") << "overlong";
+  EXPECT_EQ(sanitise("\xed\xa0\x80"), "???") << "a surrogate";
+  EXPECT_EQ(sanitise("\xf5\x80\x80\x80"), "????") << "beyond Unicode";
+}
+
+TEST(Sanitise, ReplacesMarksThatReorderALine) {
+  EXPECT_EQ(sanitise("a\xe2\x80\xae"
+                     "b"),
+            "a???b");
+}
+
+TEST(Columns, CountsCodePoints) {
+  EXPECT_EQ(columns_of(""), 0U);
+  EXPECT_EQ(columns_of("δδ"), 2U);
+}
+
+TEST(Fit, CutsBetweenCodePoints) {
+  EXPECT_EQ(fit("abc", 3), "abc");
+  EXPECT_EQ(fit("abcd", 3), "ab~");
+  EXPECT_EQ(fit("δδδδ", 3), "δδ~");
+  EXPECT_EQ(fit("abc", 1), "~");
+  EXPECT_EQ(fit("abc", 0), "");
+}
+
+TEST(Pad, IsByColumnsAndNeverCuts) {
+  EXPECT_EQ(pad_right("δ", 3), "δ  ");
+  EXPECT_EQ(pad_left("δ", 3), "  δ");
+  EXPECT_EQ(pad_left("abcd", 3), "abcd");
+}
+
+TEST(Number, IsShortAndSaysWhenThereIsNone) {
+  EXPECT_EQ(number(2.0, 4), "2");
+  EXPECT_EQ(number(1.74321, 4), "1.743");
+  EXPECT_EQ(number(9.56e-13, 2, true), "9.56e-13");
+  EXPECT_EQ(number(std::numeric_limits<double>::quiet_NaN()), "-");
+  EXPECT_EQ(number(std::numeric_limits<double>::infinity()), "-");
+}
+
+TEST(Table, AlignsNumbersRightAndTextLeft) {
+  EXPECT_EQ(table({{"load", "status", "A"}, {"one", "converged", "0.5"}, {"δ", "-", "12.25"}}, {1}),
+            "load  status         A\n"
+            "one   converged    0.5\n"
+            "δ     -          12.25\n");
+}
+
+TEST(Table, TakesRowsOfDifferentLength) {
+  EXPECT_EQ(table({{"a"}, {"b", "c"}}), "a\nb  c\n");
+  EXPECT_EQ(table({}), "");
+}
+
+}  // namespace
+}  // namespace anticrack::cli

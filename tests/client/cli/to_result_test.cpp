@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/to_result.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "results/error.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+/// A block, array by array, as the server lays it out.
+class BlockMaker {
+ public:
+  template <class T>
+  BlockMaker& add(const std::string& name, const std::vector<T>& values, std::size_t columns = 0) {
+    auto& array = *_block.layout.add_arrays();
+    array.set_name(name);
+    array.set_type(sizeof(T) == 8 ? v1::ArrayLayout::TYPE_FLOAT64 : v1::ArrayLayout::TYPE_INT32);
+    array.add_shape(columns == 0 ? values.size() : values.size() / columns);
+    if (columns != 0) {
+      array.add_shape(columns);
+    }
+    array.set_offset(_block.bytes.size());
+    const auto bytes = std::as_bytes(std::span(values));
+    _block.bytes.insert(_block.bytes.end(), bytes.begin(), bytes.end());
+    _block.bytes.resize((_block.bytes.size() + 7) / 8 * 8);
+    return *this;
+  }
+  client::Block block() const { return _block; }
+
+ private:
+  client::Block _block;
+};
+
+using Reals = std::vector<double>;
+using Integers = std::vector<std::int32_t>;
+
+/// Two triangles, glued along their common edge, and one iteration.
+Fetched fetched() {
+  Fetched result;
+  result.server.set_version("9.8");
+  result.mesh.set_name("meshes/1");
+  result.mesh.set_sha256(std::string(64, 'a'));
+  result.mesh.set_mesh_seconds(0.25);
+  result.mesh.add_subdomains()->set_name("minus");
+  result.mesh.add_subdomains()->set_name("plus");
+  result.mesh.add_interfaces()->set_name("sigma");
+  result.job.set_name("jobs/1");
+  result.job.set_title("A plate");
+  result.job.add_load_cases()->set_name("one");
+  v1::LoadCaseAnswer& answer = *result.job.add_answers();
+  answer.set_status(v1::LoadCaseAnswer::STATUS_CONVERGED);
+  answer.set_iterations(1);
+  answer.set_criterion(0.5);
+  answer.set_theta(2);
+  answer.set_energy(-0.25);
+  answer.mutable_kkt()->set_gap(0.125);
+  answer.mutable_kkt()->set_gap_relative(0.0625);
+  answer.mutable_solve_time()->set_seconds(1);
+  answer.mutable_solve_time()->set_nanos(500'000'000);
+  v1::InclusionAnswer& inclusion = *answer.add_inclusions();
+  inclusion.set_name("fibre");
+  inclusion.set_displacement(0.75);
+  v1::ContactInterval& interval = *answer.add_contact_intervals();
+  interval.set_interface("sigma");
+  interval.set_begin(0.25);
+  interval.set_end(0.5);
+
+  result.mesh_block = BlockMaker()
+                          .add("nodes", Reals{0, 0, 1, 0, 0, 1, 0, -1}, 2)
+                          .add("triangles", Integers{0, 1, 2, 0, 3, 1}, 3)
+                          .add("subdomain", Integers{1, 0})
+                          .add("boundary", Integers{2, 0}, 2)
+                          .block();
+  const std::string traces = "loads/0/traces/0/";
+  const std::string history = "loads/0/history/";
+  BlockMaker maker;
+  maker.add("interfaces/0/s", Reals{0, 1}).add("interfaces/0/x", Reals{0, 1});
+  maker.add("interfaces/0/y", Reals{0, 0}).add("interfaces/0/kind", Integers{1, 1});
+  for (const char* name : {"u_minus", "u_plus", "jump", "pressure"}) {
+    maker.add(traces + name, Reals{0.5, 0.5});
+  }
+  maker.add(traces + "contact", Integers{0, 0});
+  maker.add(history + "iteration", Integers{1}).add(history + "contact_count", Integers{0});
+  for (const char* name :
+       {"criterion", "energy", "kkt_equilibrium", "kkt_gap", "kkt_sign", "kkt_complementarity"}) {
+    maker.add(history + name, Reals{0.5});
+  }
+  result.result_block = maker.block();
+  return result;
+}
+
+TEST(ToResult, KeepsWhatTheServerSaid) {
+  const results::Result result = to_result(fetched());
+  EXPECT_EQ(result.title, "A plate");
+  EXPECT_EQ(result.server_version, "9.8");
+  EXPECT_FALSE(result.client_version.empty());
+  EXPECT_EQ(result.mesh.node_count(), 4U);
+  EXPECT_EQ(result.mesh.subdomains[1], "plus");
+  ASSERT_EQ(result.loads.size(), 1U);
+  const results::Load& load = result.loads[0];
+  EXPECT_EQ(load.name, "one");
+  EXPECT_EQ(load.status, results::Status::converged);
+  EXPECT_EQ(load.method, "uzawa");
+  EXPECT_EQ(load.mass, "lumped");
+  EXPECT_EQ(load.epsilon, 1e-12);
+  EXPECT_EQ(load.p, 1e5);
+  EXPECT_EQ(load.energy, -0.25);
+  EXPECT_EQ(load.kkt.gap, 0.125);
+  EXPECT_EQ(load.kkt_relative.gap, 0.0625);
+  EXPECT_EQ(load.solve_seconds, 1.5);
+  EXPECT_EQ(load.inclusions[0].displacement, 0.75);
+  EXPECT_EQ(load.contact_intervals[0].end, 0.5);
+  EXPECT_EQ(load.traces[0].u_plus, (Reals{0.5, 0.5}));
+  EXPECT_EQ(load.history.iteration, Integers{1});
+  EXPECT_EQ(result.timings.solve_seconds, 1.5);
+}
+
+TEST(ToResult, KeepsTheParametersAskedFor) {
+  Fetched asked = fetched();
+  v1::Uzawa& uzawa = *asked.job.mutable_solver()->mutable_uzawa();
+  uzawa.set_epsilon(1e-8);
+  uzawa.set_p(7);
+  uzawa.set_mass(v1::MASS_CONSISTENT);
+  const results::Load load = to_result(asked).loads[0];
+  EXPECT_EQ(load.epsilon, 1e-8);
+  EXPECT_EQ(load.p, 7);
+  EXPECT_EQ(load.mass, "consistent");
+}
+
+TEST(ToResult, KeepsALoadThatFailedWithoutArrays) {
+  Fetched failed = fetched();
+  failed.job.add_load_cases()->set_name("two");
+  v1::LoadCaseAnswer& answer = *failed.job.add_answers();
+  answer.set_status(v1::LoadCaseAnswer::STATUS_FAILED);
+  answer.mutable_error()->set_message("not finite");
+  const results::Result result = to_result(failed);
+  EXPECT_EQ(result.loads[1].error, "not finite");
+  EXPECT_TRUE(result.loads[1].traces.empty());
+}
+
+TEST(ToResult, RefusesContactOnAnUnknownInterface) {
+  Fetched odd = fetched();
+  odd.job.mutable_answers(0)->mutable_contact_intervals(0)->set_interface("tau");
+  try {
+    to_result(odd);
+    FAIL();
+  } catch (const results::Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("tau"));
+  }
+}
+
+TEST(ToResult, RefusesArraysOutsideTheirBlock) {
+  Fetched odd = fetched();
+  odd.mesh_block.bytes.resize(8);
+  EXPECT_THROW(to_result(odd), results::Error);
+}
+
+}  // namespace
+}  // namespace anticrack::cli

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Pictures by the real gnuplot.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "figures/figures.hpp"
+#include "support/process.hpp"
+#include "support/sample_result.hpp"
+
+namespace anticrack::figures {
+namespace {
+
+namespace fs = std::filesystem;
+using support::sample_result;
+using support::TemporaryFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::set<std::string> files_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
+  return names;
+}
+
+TEST(Draw, makes_every_figure_of_every_load) {
+  const TemporaryFolder folder;
+  const Drawn drawn = draw(sample_result(10), folder / "new/figures");
+  EXPECT_THAT(drawn.notes, IsEmpty());
+  EXPECT_EQ(drawn.files.size(), 16u);
+  std::set<std::string> expected;
+  for (const char* load : {"opening", "partly_closed"}) {
+    for (const char* figure : {"", "-membrane", "-traces", "-convergence"}) {
+      expected.insert(std::string(load) + figure + ".png");
+      expected.insert(std::string(load) + figure + ".svg");
+    }
+  }
+  EXPECT_EQ(files_in(folder / "new/figures"), expected);
+  for (const fs::path& file : drawn.files) {
+    const std::string bytes = bytes_of(file);
+    EXPECT_GT(bytes.size(), 8000u) << file;
+    if (file.extension() == ".png") {
+      EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1A\n") << file;
+    } else {
+      EXPECT_THAT(bytes.substr(0, 200), HasSubstr("<svg")) << file;
+      EXPECT_THAT(bytes, HasSubstr("A made-up membrane"));
+      EXPECT_THAT(bytes.substr(bytes.size() - 10), HasSubstr("</svg>")) << file;
+    }
+  }
+}
+
+TEST(Draw, says_what_it_left_out) {
+  const TemporaryFolder folder;
+  auto result = sample_result(4);
+  result.loads[0].fields.clear();
+  result.loads[1].status = results::Status::failed;
+  result.loads[1].traces.clear();
+  result.loads[1].fields.clear();
+  const Drawn drawn = draw(result, folder.path(), {.png = true, .svg = false});
+  EXPECT_EQ(files_in(folder.path()),
+            (std::set<std::string>{"opening-convergence.png", "opening-traces.png"}));
+  EXPECT_THAT(drawn.notes, ElementsAre(HasSubstr("no fields"), HasSubstr("no traces (failed)")));
+}
+
+TEST(Draw, replaces_old_figures) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "opening-traces.svg") << "old";
+  auto result = sample_result(4);
+  result.loads.resize(1);
+  draw(result, folder.path(), {.png = false, .svg = true});
+  EXPECT_GT(fs::file_size(folder / "opening-traces.svg"), 1000u);
+}
+
+TEST(Draw, runs_nothing_that_a_case_says) {
+  const TemporaryFolder folder;
+  auto result = sample_result(4);
+  result.loads.resize(1);
+  result.title = "<script>&amp;</script> `touch pwned` '; system('touch pwned'); '\n!touch pwned";
+  result.loads[0].inclusions = {{"'`touch pwned`", 1, 0, 0}, {"\n!touch pwned\n", 2, 0, 0}};
+  const Drawn drawn = draw(result, folder.path());
+  EXPECT_EQ(drawn.files.size(), 8u);
+  EXPECT_EQ(files_in(folder.path()).count("pwned"), 0u);
+  EXPECT_THAT(bytes_of(folder / "opening-traces.svg"), Not(HasSubstr("<script>&amp;</script>")));
+}
+
+TEST(Draw, survives_degenerate_answers) {
+  const TemporaryFolder folder;
+  auto result = sample_result(4);
+  auto& still = result.loads[0];
+  for (auto& field : still.fields) std::fill(field.u.begin(), field.u.end(), 0.0);
+  for (auto* values : {&still.traces[0].u_minus, &still.traces[0].u_plus, &still.traces[0].jump}) {
+    std::fill(values->begin(), values->end(), 0.0);
+  }
+  still.history.iteration = {1};
+  for (auto* values :
+       {&still.history.criterion, &still.history.energy, &still.history.kkt_equilibrium,
+        &still.history.kkt_gap, &still.history.kkt_sign, &still.history.kkt_complementarity}) {
+    *values = {0.0};
+  }
+  still.history.contact_count = {0};
+
+  auto& wild = result.loads[1];
+  for (auto& field : wild.fields) std::fill(field.u.begin(), field.u.end(), results::unknown);
+  for (auto* values : {&wild.traces[0].u_minus, &wild.traces[0].u_plus, &wild.traces[0].jump}) {
+    std::fill(values->begin(), values->end(), results::unknown);
+  }
+  for (double& criterion : wild.history.criterion) criterion = results::unknown;
+  EXPECT_NO_THROW(draw(result, folder.path(), {.png = true, .svg = false}));
+}
+
+TEST(Draw, draws_an_interface_that_is_bent_and_one_that_stands_upright) {
+  const TemporaryFolder folder;
+  auto result = sample_result(4);
+  result.loads.resize(1);
+  auto upright = result.interfaces[0];
+  std::swap(upright.x, upright.y);
+  result.interfaces.push_back(upright);
+  result.interfaces[0].y[2] = 0.1;
+  result.loads[0].traces.push_back(result.loads[0].traces[0]);
+  draw(result, folder.path(), {.png = true, .svg = false});
+  EXPECT_TRUE(fs::exists(folder / "opening-traces.png"));
+  EXPECT_TRUE(fs::exists(folder / "opening-traces-2.png"));
+}
+
+TEST(Draw, refuses_a_folder_it_cannot_write_and_a_broken_result) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "file") << "x";
+  EXPECT_THROW(draw(sample_result(2), folder / "file"), Error);
+  EXPECT_THROW(draw(sample_result(2), folder / "file/figures"), Error);
+  EXPECT_THROW(draw(sample_result(2), "/proc/figures"), Error);
+  auto result = sample_result(2);
+  result.mesh.triangles[0] = 99;
+  EXPECT_THROW(draw(result, folder / "figures"), Error);
+  EXPECT_FALSE(fs::exists(folder / "figures"));
+}
+
+}  // namespace
+}  // namespace anticrack::figures

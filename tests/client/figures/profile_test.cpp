@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "figures/profile.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/sample_result.hpp"
+
+namespace anticrack::figures {
+namespace {
+
+using results::Kind;
+using support::sample_result;
+
+TEST(Profile, marks_the_delaminated_part_from_tip_to_tip) {
+  const auto result = sample_result(20);
+  const Profile seen = profile(result.interfaces[0], result.loads[0].traces[0]);
+  EXPECT_EQ(seen.axis, "x [-]");
+  ASSERT_EQ(seen.delaminated.size(), 1u);
+  EXPECT_NEAR(seen.delaminated[0].begin, -0.5, 1e-12);
+  EXPECT_NEAR(seen.delaminated[0].end, 0.5, 1e-12);
+  EXPECT_TRUE(seen.crack.empty());
+  EXPECT_TRUE(seen.bonded.empty());
+  EXPECT_TRUE(seen.contact.empty());
+}
+
+TEST(Profile, contact_has_its_lumped_length) {
+  const auto result = sample_result(20);
+  const Profile seen = profile(result.interfaces[0], result.loads[1].traces[0]);
+  ASSERT_EQ(seen.contact.size(), 1u);
+  EXPECT_NEAR(seen.contact[0].begin, -0.475, 1e-12);  // the tip itself is tied
+  EXPECT_NEAR(seen.contact[0].end, -0.175, 1e-12);
+}
+
+TEST(Profile, a_single_node_in_contact_can_be_seen) {
+  auto result = sample_result(20);
+  auto trace = result.loads[0].traces[0];
+  trace.contact[20] = 1;
+  const Profile seen = profile(result.interfaces[0], trace);
+  ASSERT_EQ(seen.contact.size(), 1u);
+  EXPECT_NEAR(seen.contact[0].end - seen.contact[0].begin, 0.05, 1e-12);
+}
+
+TEST(Profile, tells_the_kinds_apart) {
+  auto result = sample_result(10);
+  auto& kind = result.interfaces[0].kind;
+  // An inclusion from x = -0.5 to 0.5, bonded right of 0; a crack from 0.7 to 0.9.
+  for (std::size_t i = 10; i <= 15; ++i) kind[i] = Kind::inclusion;
+  kind[18] = Kind::crack;
+  const Profile seen = profile(result.interfaces[0], result.loads[0].traces[0]);
+  ASSERT_EQ(seen.delaminated.size(), 1u);
+  EXPECT_NEAR(seen.delaminated[0].end, 0.0, 1e-12);
+  ASSERT_EQ(seen.bonded.size(), 1u);
+  EXPECT_NEAR(seen.bonded[0].begin, 0.0, 1e-12);
+  EXPECT_NEAR(seen.bonded[0].end, 0.5, 1e-12);
+  ASSERT_EQ(seen.crack.size(), 1u);
+  EXPECT_NEAR(seen.crack[0].begin, 0.7, 1e-12);
+  EXPECT_NEAR(seen.crack[0].end, 0.9, 1e-12);
+}
+
+TEST(Profile, takes_the_axis_the_interface_lies_along) {
+  auto result = sample_result(10);
+  auto& interface = result.interfaces[0];
+  const auto& trace = result.loads[0].traces[0];
+  std::swap(interface.x, interface.y);
+  EXPECT_EQ(profile(interface, trace).axis, "y [-]");
+  interface.x[3] = 0.2;
+  EXPECT_EQ(profile(interface, trace).axis, "arc length s [-]");
+}
+
+TEST(Profile, runs_backwards_along_x_too) {
+  auto result = sample_result(10);
+  auto& interface = result.interfaces[0];
+  for (double& x : interface.x) x = -x;
+  const Profile seen = profile(interface, result.loads[1].traces[0]);
+  EXPECT_EQ(seen.axis, "x [-]");
+  ASSERT_EQ(seen.contact.size(), 1u);
+  EXPECT_LT(seen.contact[0].begin, seen.contact[0].end);
+  EXPECT_NEAR(seen.contact[0].end, 0.45, 1e-12);
+}
+
+TEST(Profile, of_nothing_is_empty) {
+  EXPECT_TRUE(profile({}, {}).position.empty());
+}
+
+}  // namespace
+}  // namespace anticrack::figures

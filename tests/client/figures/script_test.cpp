@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "figures/script.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <stdexcept>
+
+#include "figures/text.hpp"
+#include "support/sample_result.hpp"
+
+namespace anticrack::figures {
+namespace {
+
+using support::sample_result;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::vector<Output> both{{Format::png, "a.png"}, {Format::svg, "a.svg"}};
+
+/// All scripts of a load, one after the other.
+std::string scripts(const results::Result& result, const results::Load& load) {
+  const Surface membrane = surface(result, load, 10000);
+  return combined_script(result, load, membrane, both) +
+         membrane_script(result, load, membrane, both) + traces_script(result, load, 0, both) +
+         convergence_script(result, load, both);
+}
+
+/// What gnuplot would take for commands: the script without the insides of quoted strings. Throws
+/// if a quoted string runs over the end of a line.
+std::string commands(const std::string& script) {
+  std::string outside;
+  bool inside = false;
+  for (const char c : script) {
+    if (c == '\'') {
+      inside = !inside;  // a doubled quote closes and opens again
+    } else if (inside && c == '\n') {
+      throw std::runtime_error("a string runs over the end of its line");
+    } else if (!inside) {
+      outside += c;
+    }
+  }
+  return outside;
+}
+
+TEST(Script, draws_both_formats_from_one_copy_of_the_data) {
+  const auto result = sample_result(4);
+  const std::string script =
+      combined_script(result, result.loads[0], surface(result, result.loads[0], 1000), both);
+  EXPECT_THAT(script, HasSubstr("set output 'a.png'"));
+  EXPECT_THAT(script, HasSubstr("set output 'a.svg'"));
+  EXPECT_EQ(script.find("$membrane << EOD"), script.rfind("$membrane << EOD"));
+  EXPECT_THAT(script, HasSubstr("amplified"));
+  EXPECT_THAT(script, HasSubstr("u [-]"));
+}
+
+TEST(Script, marks_contact_only_where_there_is_some) {
+  const auto result = sample_result(10);
+  EXPECT_THAT(traces_script(result, result.loads[0], 0, both), Not(HasSubstr("title 'contact'")));
+  EXPECT_THAT(traces_script(result, result.loads[1], 0, both), HasSubstr("title 'contact'"));
+}
+
+TEST(Script, draws_epsilon_where_it_is_known) {
+  auto result = sample_result(4);
+  EXPECT_THAT(convergence_script(result, result.loads[0], both), HasSubstr("1e-12 with lines"));
+  result.loads[0].epsilon = results::unknown;
+  EXPECT_THAT(convergence_script(result, result.loads[0], both), Not(HasSubstr("\xCE\xB5 =")));
+}
+
+TEST(Script, says_how_a_load_ended) {
+  auto result = sample_result(4);
+  result.loads[0].status = results::Status::not_converged;
+  EXPECT_THAT(convergence_script(result, result.loads[0], both),
+              HasSubstr("not converged after 180 iterations"));
+}
+
+TEST(Script, looks_over_the_minus_side) {
+  auto result = sample_result(4);
+  const double along_x = membrane_view(result);
+  std::swap(result.interfaces[0].x, result.interfaces[0].y);
+  EXPECT_NEAR(std::fmod(along_x - membrane_view(result) + 360, 360), 90, 1e-9);
+}
+
+TEST(Script, lets_nothing_hostile_through) {
+  auto result = sample_result(4);
+  const std::string plain = commands(scripts(result, result.loads[0]));
+  const char* hostile[] = {
+      "'; system('touch pwned'); '", "`touch pwned`",          "\n!touch pwned\n",
+      "\"; system(\"touch pwned\")", "\\'; !touch pwned #",    "| touch pwned",
+      "EOD\nsystem 'touch pwned'\n", "\xC0\xA7; !touch pwned", "@macro $data"};
+  for (const char* text : hostile) {
+    result.title = text;
+    result.loads[0].inclusions = {{text, 0.1, 0, 0}, {text, 0.2, 0, 0}};
+    result.loads[0].name = text;
+    result.loads[0].method = result.loads[0].mass = result.loads[0].reason = text;
+    result.interfaces[0].name = text;
+    result.mesh.subdomains = {text, text};
+    const std::string script = scripts(result, result.loads[0]);
+    EXPECT_EQ(commands(script), plain) << text;
+    EXPECT_THAT(script, Not(HasSubstr("`")));
+  }
+}
+
+TEST(Script, takes_only_bare_file_names) {
+  const auto result = sample_result(4);
+  for (const char* file : {"", "| sh", "../a.png", "a'b.png", "-a", "a b", "/a.png", "a\nb"}) {
+    EXPECT_THROW(convergence_script(result, result.loads[0], {{Format::png, file}}),
+                 std::invalid_argument)
+        << file;
+  }
+}
+
+TEST(Script, has_only_numbers_gnuplot_can_read) {
+  auto result = sample_result(4);
+  result.loads[0].traces[0].jump[3] = results::unknown;
+  result.loads[0].history.criterion[3] = 0;
+  result.loads[0].history.criterion[4] = -std::numeric_limits<double>::infinity();
+  result.loads[0].theta_star = results::unknown;
+  const std::string script = scripts(result, result.loads[0]);
+  EXPECT_THAT(script, Not(HasSubstr("inf")));
+  EXPECT_THAT(script, Not(HasSubstr("nan")));
+  EXPECT_THAT(script, HasSubstr("\n4 NaN\n"));
+}
+
+}  // namespace
+}  // namespace anticrack::figures

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "figures/text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <limits>
+
+namespace anticrack::figures {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(Quoted, keeps_plain_text) {
+  EXPECT_EQ(quoted("Example 3 of Rudoy & Shcherbakov (2016)"),
+            "'Example 3 of Rudoy & Shcherbakov (2016)'");
+  EXPECT_EQ(quoted("\xCE\xB8 \xE2\x89\xA4 \xCE\xB8*"), "'\xCE\xB8 \xE2\x89\xA4 \xCE\xB8*'");
+  EXPECT_EQ(quoted(""), "''");
+}
+
+TEST(Quoted, cannot_be_left) {
+  EXPECT_EQ(quoted("a'b"), "'a''b'");
+  EXPECT_EQ(quoted("'; system('rm x'); '"), "'''; system(''rm x''); '''");
+  EXPECT_EQ(quoted("a\nb\r\tc"), "'a b  c'");
+  EXPECT_EQ(quoted(std::string_view("a\0b", 3)), "'a b'");
+}
+
+TEST(Quoted, has_neither_backquotes_nor_backslashes) {
+  const std::string text = quoted("`touch x` \\n \\`");
+  EXPECT_EQ(text.find('`'), std::string::npos);
+  EXPECT_EQ(text.find('\\'), std::string::npos);
+}
+
+TEST(Quoted, replaces_what_is_no_text) {
+  EXPECT_EQ(quoted("a\xFF"
+                   "b"),
+            "'a b'");
+  EXPECT_EQ(quoted("\xC0\xA7"), "'  '");            // overlong apostrophe
+  EXPECT_EQ(quoted("\xE0\x80\xA7"), "'   '");       // and a longer one
+  EXPECT_EQ(quoted("a\xE2\x80"), "'a  '");          // cut off
+  EXPECT_EQ(quoted("\xED\xA0\x80"), "'   '");       // surrogate
+  EXPECT_EQ(quoted("\xF4\x90\x80\x80"), "'    '");  // past Unicode
+  EXPECT_EQ(quoted("\xC2\x85"), "'  '");            // C1 control
+  EXPECT_EQ(quoted("\xE2\x80\xAE"
+                   "abc"),
+            "'   abc'");  // right-to-left override
+}
+
+TEST(Quoted, cuts_by_characters_and_says_so) {
+  EXPECT_EQ(quoted("\xC3\xA9\xC3\xA9\xC3\xA9", 2), "'\xC3\xA9\xC3\xA9\xE2\x80\xA6'");
+  EXPECT_EQ(quoted("abc", 3), "'abc'");
+}
+
+TEST(Number, does_not_depend_on_the_locale_and_marks_what_is_not_finite) {
+  EXPECT_EQ(number(0.5), "0.5");
+  EXPECT_EQ(number(-1e-12), "-1e-12");
+  EXPECT_EQ(number(1.0 / 3), "0.333333333");
+  EXPECT_EQ(number(std::numeric_limits<double>::infinity()), "NaN");
+  EXPECT_EQ(number(std::numeric_limits<double>::quiet_NaN()), "NaN");
+}
+
+TEST(FileStems, are_safe_and_unique) {
+  EXPECT_THAT(file_stems({"opening", "partly closed", "partly_closed", "PARTLY_CLOSED"}, {}),
+              ElementsAre("opening", "partly_closed", "partly_closed-2", "PARTLY_CLOSED-3"));
+  EXPECT_THAT(file_stems({"../etc/passwd", "-rf", "", "a'b|c"}, {}),
+              ElementsAre("load.._etc_passwd", "load-rf", "load", "a_b_c"));
+}
+
+TEST(FileStems, do_not_meet_in_a_suffix) {
+  EXPECT_THAT(file_stems({"a", "a-traces"}, {"-traces"}), ElementsAre("a", "a-traces-2"));
+  EXPECT_THAT(file_stems({"a-traces", "a"}, {"-traces"}), ElementsAre("a-traces", "a-2"));
+}
+
+}  // namespace
+}  // namespace anticrack::figures

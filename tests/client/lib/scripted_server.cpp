@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "client/lib/scripted_server.hpp"
+
+#include <grpcpp/grpcpp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include "anticrack/v1/mesh.grpc.pb.h"
+#include "anticrack/v1/solve.grpc.pb.h"
+
+namespace anticrack::client {
+namespace {
+
+grpc::Status status_of(const Ending& ending) {
+  return ending.code == Code::ok
+             ? grpc::Status::OK
+             : grpc::Status(static_cast<grpc::StatusCode>(ending.code), ending.message);
+}
+
+template <class Script>
+const Script& script_of_call(const std::vector<Script>& scripts, std::size_t call) {
+  return scripts.at(std::min(call, scripts.size() - 1));
+}
+
+/// Requests, recorded by gRPC's threads and read by the test's.
+template <class Request>
+class Record {
+ public:
+  /// Index of this call.
+  std::size_t add(const Request& request) {
+    const std::lock_guard lock(_mutex);
+    _requests.push_back(request);
+    return _requests.size() - 1;
+  }
+  std::vector<Request> all() const {
+    const std::lock_guard lock(_mutex);
+    return _requests;
+  }
+
+ private:
+  mutable std::mutex _mutex;
+  std::vector<Request> _requests;
+};
+
+class Jobs : public v1::SolveService::Service {
+ public:
+  explicit Jobs(ScriptedServer& script) : _script(script) {}
+
+  grpc::Status CreateJob(grpc::ServerContext*, const v1::CreateJobRequest* request,
+                         v1::Job* job) override {
+    const std::size_t call = created.add(*request);
+    *job = request->job();
+    job->set_name("jobs/1");
+    return status_of(script_of_call(_script.creations, call));
+  }
+
+  grpc::Status WatchJob(grpc::ServerContext* context, const v1::WatchJobRequest* request,
+                        grpc::ServerWriter<v1::WatchJobResponse>* writer) override {
+    const WatchScript& script = script_of_call(_script.watches, watched.add(*request));
+    for (const v1::WatchJobResponse& message : script.messages) {
+      writer->Write(message);
+    }
+    while (script.hang && !context->IsCancelled()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return status_of(script.ending);
+  }
+
+  grpc::Status ReadResult(grpc::ServerContext*, const v1::ReadResultRequest* request,
+                          grpc::ServerWriter<v1::ReadResultResponse>* writer) override {
+    const ReadScript& script = script_of_call(_script.reads, read.add(*request));
+    for (const v1::ReadResultResponse& message : script.messages) {
+      writer->Write(message);
+    }
+    return status_of(script.ending);
+  }
+
+  Record<v1::CreateJobRequest> created;
+  Record<v1::WatchJobRequest> watched;
+  Record<v1::ReadResultRequest> read;
+
+ private:
+  ScriptedServer& _script;
+};
+
+class Meshes : public v1::MeshService::Service {
+ public:
+  grpc::Status UploadMesh(grpc::ServerContext*, grpc::ServerReader<v1::UploadMeshRequest>* reader,
+                          v1::UploadMeshResponse* response) override {
+    v1::UploadMeshRequest request;
+    while (reader->Read(&request)) {
+      requests.add(request);
+      if (request.has_header()) {
+        response->set_upload("uploads/" + request.header().sha256());
+      }
+    }
+    return grpc::Status::OK;
+  }
+
+  Record<v1::UploadMeshRequest> requests;
+};
+
+}  // namespace
+
+struct ScriptedServer::Services {
+  explicit Services(ScriptedServer& script) : jobs(script) {}
+
+  Jobs jobs;
+  Meshes meshes;
+  std::unique_ptr<grpc::Server> server;
+  int port = 0;
+};
+
+ScriptedServer::ScriptedServer() : _services(std::make_unique<Services>(*this)) {
+  grpc::ServerBuilder builder;
+  builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &_services->port);
+  builder.RegisterService(&_services->jobs);
+  builder.RegisterService(&_services->meshes);
+  _services->server = builder.BuildAndStart();
+  if (!_services->server || _services->port == 0) {
+    throw std::runtime_error("the scripted server does not start");
+  }
+}
+
+ScriptedServer::~ScriptedServer() {
+  _services->server->Shutdown(std::chrono::system_clock::now() + std::chrono::seconds(1));
+}
+
+std::vector<v1::WatchJobRequest> ScriptedServer::watched() const {
+  return _services->jobs.watched.all();
+}
+
+std::vector<v1::ReadResultRequest> ScriptedServer::read() const {
+  return _services->jobs.read.all();
+}
+
+std::vector<v1::CreateJobRequest> ScriptedServer::created() const {
+  return _services->jobs.created.all();
+}
+
+std::string ScriptedServer::uploaded() const {
+  std::string bytes;
+  for (const v1::UploadMeshRequest& request : _services->meshes.requests.all()) {
+    bytes += request.chunk();
+  }
+  return bytes;
+}
+
+v1::UploadMeshRequest::Header ScriptedServer::upload_header() const {
+  return _services->meshes.requests.all().at(0).header();
+}
+
+std::size_t ScriptedServer::largest_upload_chunk() const {
+  std::size_t largest = 0;
+  for (const v1::UploadMeshRequest& request : _services->meshes.requests.all()) {
+    largest = std::max(largest, request.chunk().size());
+  }
+  return largest;
+}
+
+ConnectionOptions ScriptedServer::options() const {
+  ConnectionOptions options;
+  options.address = "127.0.0.1:" + std::to_string(_services->port);
+  options.retry.first = std::chrono::milliseconds(1);
+  options.retry.longest = std::chrono::milliseconds(5);
+  return options;
+}
+
+v1::WatchJobResponse sample_event(std::uint64_t sequence) {
+  v1::WatchJobResponse event;
+  event.set_sequence(sequence);
+  v1::Samples& samples = *event.mutable_samples();
+  samples.add_load_case(0);
+  samples.add_iteration(static_cast<std::int32_t>(sequence));
+  samples.add_criterion(0.5);
+  samples.add_contact_count(1);
+  return event;
+}
+
+v1::WatchJobResponse snapshot_event(std::uint64_t delivered) {
+  v1::WatchJobResponse event;
+  event.set_sequence(delivered);
+  event.mutable_snapshot()->mutable_job()->set_name("jobs/1");
+  return event;
+}
+
+v1::WatchJobResponse ended_event(std::uint64_t sequence) {
+  v1::WatchJobResponse event;
+  event.set_sequence(sequence);
+  event.mutable_ended()->set_name("jobs/1");
+  event.mutable_ended()->set_state(v1::Job::STATE_SUCCEEDED);
+  return event;
+}
+
+}  // namespace anticrack::client

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A gRPC server that fails on cue: what a real one does only when it is killed at the right moment.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "anticrack/v1/mesh.pb.h"
+#include "anticrack/v1/solve.pb.h"
+#include "client/connection.hpp"
+#include "client/error.hpp"
+
+namespace anticrack::client {
+
+/// How one call ends.
+struct Ending {
+  Code code = Code::ok;
+  std::string message;
+};
+
+/// What one stream of WatchJob sends, and how it ends.
+struct WatchScript {
+  std::vector<v1::WatchJobResponse> messages;
+  Ending ending;
+  bool hang = false;  ///< after the messages, until the client cancels
+};
+
+/// The same for ReadResult.
+struct ReadScript {
+  std::vector<v1::ReadResultResponse> messages;
+  Ending ending;
+};
+
+/// Plays one script a call, in order; the last one again and again. Records what it was asked.
+class ScriptedServer {
+ public:
+  ScriptedServer();
+  ~ScriptedServer();
+  ScriptedServer(const ScriptedServer&) = delete;
+  ScriptedServer& operator=(const ScriptedServer&) = delete;
+
+  std::vector<WatchScript> watches;
+  std::vector<ReadScript> reads;
+  std::vector<Ending> creations;  ///< of CreateJob
+
+  std::vector<v1::WatchJobRequest> watched() const;
+  std::vector<v1::ReadResultRequest> read() const;
+  std::vector<v1::CreateJobRequest> created() const;
+  /// Bytes of the last upload and its header.
+  std::string uploaded() const;
+  v1::UploadMeshRequest::Header upload_header() const;
+  std::size_t largest_upload_chunk() const;
+
+  /// Options of a connection to it that retries quickly.
+  ConnectionOptions options() const;
+
+ private:
+  struct Services;
+  std::unique_ptr<Services> _services;
+};
+
+/// An iteration of load case 0, with its sequence number.
+v1::WatchJobResponse sample_event(std::uint64_t sequence);
+v1::WatchJobResponse snapshot_event(std::uint64_t delivered);
+v1::WatchJobResponse ended_event(std::uint64_t sequence);
+
+}  // namespace anticrack::client

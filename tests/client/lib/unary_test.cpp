@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "client/jobs.hpp"
+#include "client/lib/scripted_server.hpp"
+#include "client/uuid.hpp"
+
+namespace anticrack::client {
+namespace {
+
+TEST(CreateJob, RetriesUnderTheSameId) {
+  ScriptedServer server;
+  server.creations = {{Code::unavailable, "gone"}, {Code::unknown, "Stream removed"}, {}};
+  Connection connection(server.options());
+  const std::string id = make_uuid();
+  v1::Job job;
+  job.set_title("A plate");
+  EXPECT_EQ(create_job(connection, job, id).name(), "jobs/1");
+  const auto requests = server.created();
+  ASSERT_EQ(requests.size(), 3U);
+  for (const v1::CreateJobRequest& request : requests) {
+    EXPECT_EQ(request.request_id(), id);
+    EXPECT_EQ(request.job().title(), "A plate");
+  }
+}
+
+TEST(CreateJob, IsNotRepeatedWhenRefused) {
+  ScriptedServer server;
+  server.creations = {{Code::invalid_argument, "theta is 0"}};
+  Connection connection(server.options());
+  EXPECT_THROW(create_job(connection, {}, make_uuid()), Error);
+  EXPECT_EQ(server.created().size(), 1U);
+}
+
+TEST(Connection, TellsThatItTriesAgain) {
+  ScriptedServer server;
+  server.creations = {{Code::unavailable, "gone"}, {}};
+  ConnectionOptions options = server.options();
+  std::vector<std::string> notices;
+  options.notice = [&notices](const std::string& message) { notices.push_back(message); };
+  Connection connection(options);
+  create_job(connection, {}, make_uuid());
+  ASSERT_EQ(notices.size(), 1U);
+  EXPECT_THAT(notices[0], testing::HasSubstr(options.address));
+}
+
+TEST(Connection, ToNobodyFailsWithTheAddressAndTheCure) {
+  ConnectionOptions options;
+  options.address = "unix:/nonexistent/socket";
+  options.first_contact = std::chrono::milliseconds(0);
+  Connection connection(options);
+  try {
+    server_info(connection);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code::unavailable);
+    EXPECT_THAT(error.what(), testing::HasSubstr("/nonexistent/socket"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("--local"));
+  }
+}
+
+}  // namespace
+}  // namespace anticrack::client

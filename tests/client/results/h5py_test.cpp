@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The layout as a stranger reads it: h5py, three lines.
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "results/file.hpp"
+#include "support/process.hpp"
+#include "support/sample_result.hpp"
+
+namespace anticrack::results {
+namespace {
+
+using support::Process;
+using support::sample_result;
+using support::TemporaryFolder;
+
+std::string python(const std::string& program) {
+  Process process({"/usr/bin/python3", "-c", program});
+  EXPECT_EQ(process.wait(), 0) << process.error();
+  return process.output();
+}
+
+class H5py : public testing::Test {
+ protected:
+  void SetUp() override {
+    Process process({"/usr/bin/python3", "-c", "import h5py"});
+    if (process.wait() != 0) GTEST_SKIP() << "python3-h5py is not installed";
+    write(path, sample_result(20));
+  }
+
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.h5";
+};
+
+TEST_F(H5py, reads_the_traces_in_three_lines) {
+  EXPECT_EQ(
+      python("import h5py\n"
+             "f = h5py.File('" +
+             path +
+             "')\n"
+             "print(f['interfaces/0/x'][20], round(f['loads/opening/traces/0/jump'][20], 6))"),
+      "0.0 0.15\n");
+}
+
+TEST_F(H5py, sees_attributes_units_and_text) {
+  EXPECT_EQ(
+      python("import h5py\n"
+             "f = h5py.File('" +
+             path +
+             "')\n"
+             "load = f['loads/partly closed']\n"
+             "print(f.attrs['format'], f.attrs['title'])\n"
+             "print(load.attrs['status'], load.attrs['iterations'], load.attrs['theta_star'])\n"
+             "print(load['inclusions/name'].asstr()[0], load['inclusions/A'][0])\n"
+             "print(f['mesh/nodes'].shape, f['mesh/nodes'].attrs['units'],\n"
+             "      f['mesh/triangles'].dtype, f['mesh/nodes'].compression)\n"
+             "print(ascii(f.attrs['case'].splitlines()[1]))\n"),
+      "anticrack-result/1 A made-up membrane\n"
+      "converged 180 1.74\n"
+      "fibre 0.0863\n"
+      "(1681, 2) - int32 gzip\n"
+      "'# \\xe9'\n");
+}
+
+TEST_F(H5py, finds_units_on_every_dataset) {
+  EXPECT_EQ(python("import h5py\n"
+                   "f = h5py.File('" +
+                   path +
+                   "')\n"
+                   "seen = []\n"
+                   "f.visititems(lambda n, o: seen.append('units' in o.attrs)\n"
+                   "             if isinstance(o, h5py.Dataset) else None)\n"
+                   "print(len(seen), all(seen))"),
+            "57 True\n");
+}
+
+}  // namespace
+}  // namespace anticrack::results

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Files that are no good result: every one is refused with a clear error, none crashes the reader.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+
+#include "results/file.hpp"
+#include "support/process.hpp"
+#include "support/sample_result.hpp"
+
+namespace anticrack::results {
+namespace {
+
+namespace fs = std::filesystem;
+using support::sample_result;
+using support::TemporaryFolder;
+using testing::HasSubstr;
+
+void expect_refused(const std::string& path, const std::string& cause) {
+  try {
+    read(path);
+    FAIL() << "accepted; expected: " << cause;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.subject(), path);
+    EXPECT_THAT(error.cause(), HasSubstr(cause));
+    EXPECT_FALSE(error.cure().empty());
+  }
+}
+
+void save(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary)
+      .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+std::string good_bytes(int n) {
+  const TemporaryFolder folder;
+  write(folder / "a.h5", sample_result(n));
+  std::ifstream file(folder / "a.h5", std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(MalformedFile, missing_or_no_file) {
+  const TemporaryFolder folder;
+  expect_refused(folder / "a.h5", "no such file");
+  expect_refused(folder.path(), "is not a regular file");
+}
+
+TEST(MalformedFile, foreign) {
+  const TemporaryFolder folder;
+  save(folder / "a.h5", "");
+  expect_refused(folder / "a.h5", "is not an HDF5 file");
+  save(folder / "a.h5", "title = \"a case file\"\n");
+  expect_refused(folder / "a.h5", "is not an HDF5 file");
+}
+
+TEST(MalformedFile, truncated_anywhere) {
+  const TemporaryFolder folder;
+  const std::string bytes = good_bytes(8);
+  for (std::size_t part = 1; part < 20; ++part) {
+    save(folder / "a.h5", bytes.substr(0, bytes.size() * part / 20));
+    expect_refused(folder / "a.h5", "is truncated or damaged");
+  }
+  save(folder / "a.h5", bytes.substr(0, bytes.size() - 1));
+  expect_refused(folder / "a.h5", "is truncated or damaged");
+}
+
+/// Where the first chunk of a dataset lies in the file.
+haddr_t chunk_address(const std::string& path, const char* dataset) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t id = H5Dopen2(file, dataset, H5P_DEFAULT);
+  const hid_t space = H5Dget_space(id);
+  std::array<hsize_t, 2> offset{};
+  unsigned mask = 0;
+  haddr_t address = HADDR_UNDEF;
+  hsize_t size = 0;
+  H5Dget_chunk_info(id, space, 0, offset.data(), &mask, &address, &size);
+  H5Sclose(space);
+  H5Dclose(id);
+  H5Fclose(file);
+  return address;
+}
+
+TEST(MalformedFile, a_flipped_bit_in_any_dataset_is_noticed) {
+  for (const char* dataset : {"/mesh/nodes", "/loads/opening/traces/0/jump",
+                              "/loads/opening/inclusions/A", "/loads/opening/history/iteration"}) {
+    const TemporaryFolder folder;
+    std::string bytes = good_bytes(40);
+    save(folder / "good.h5", bytes);
+    const haddr_t at = chunk_address(folder / "good.h5", dataset);
+    ASSERT_LT(at, bytes.size()) << dataset;
+    bytes[at + 3] = static_cast<char>(bytes[at + 3] ^ 0x10);
+    save(folder / "a.h5", bytes);
+    expect_refused(folder / "a.h5", "is damaged");
+  }
+}
+
+/// A change to a good file through HDF5, and what the reader must say of it.
+struct Damage {
+  std::string name;
+  std::function<void(hid_t file)> inflict;
+  std::string complaint;
+};
+
+void replace_text(hid_t file, const char* object, const char* attribute, const char* value) {
+  const hid_t id = H5Oopen(file, object, H5P_DEFAULT);
+  H5Adelete(id, attribute);
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, H5T_VARIABLE);
+  const hid_t space = H5Screate(H5S_SCALAR);
+  const hid_t made = H5Acreate2(id, attribute, type, space, H5P_DEFAULT, H5P_DEFAULT);
+  H5Awrite(made, type, &value);
+  H5Aclose(made);
+  H5Sclose(space);
+  H5Tclose(type);
+  H5Oclose(id);
+}
+
+void replace_int(hid_t file, const char* object, const char* attribute, int value) {
+  const hid_t id = H5Oopen(file, object, H5P_DEFAULT);
+  H5Adelete(id, attribute);
+  const hid_t space = H5Screate(H5S_SCALAR);
+  const hid_t made = H5Acreate2(id, attribute, H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT);
+  H5Awrite(made, H5T_NATIVE_INT, &value);
+  H5Aclose(made);
+  H5Sclose(space);
+  H5Oclose(id);
+}
+
+/// A dataset that was never written: all zero, of any claimed size.
+void replace_dataset(hid_t file, const char* path, hid_t type, std::vector<hsize_t> shape) {
+  H5Ldelete(file, path, H5P_DEFAULT);
+  const hid_t space = H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
+  const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
+  if (!shape.empty()) {
+    const std::vector<hsize_t> chunk(shape.size(), 1);
+    H5Pset_chunk(properties, static_cast<int>(shape.size()), chunk.data());
+  }
+  H5Dclose(H5Dcreate2(file, path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT));
+  H5Pclose(properties);
+  H5Sclose(space);
+}
+
+void move_outside(hid_t file, const char* path, hsize_t count, const char* other) {
+  H5Ldelete(file, path, H5P_DEFAULT);
+  const hid_t space = H5Screate_simple(1, &count, nullptr);
+  const hid_t properties = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_external(properties, other, 0, count * 8);
+  H5Dclose(H5Dcreate2(file, path, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT));
+  H5Pclose(properties);
+  H5Sclose(space);
+}
+
+class Damaged : public testing::TestWithParam<Damage> {};
+
+TEST_P(Damaged, is_refused) {
+  const TemporaryFolder folder;
+  write(folder / "a.h5", sample_result(4));  // 81 nodes, 128 triangles, 9 interface nodes
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  GetParam().inflict(file);
+  H5Fclose(file);
+  expect_refused(folder / "a.h5", GetParam().complaint);
+}
+
+const std::array<Damage, 26> damages{{
+    {"format_missing", [](hid_t f) { H5Adelete(f, "format"); },
+     "is HDF5, but no result of anticrack"},
+    {"format_foreign", [](hid_t f) { replace_text(f, "/", "format", "netcdf"); },
+     "has format \"netcdf\""},
+    {"format_newer", [](hid_t f) { replace_text(f, "/", "format", "anticrack-result/2"); },
+     "this client reads \"anticrack-result/1\""},
+    {"format_older", [](hid_t f) { replace_text(f, "/", "format", "anticrack-result/0"); },
+     "this client reads \"anticrack-result/1\""},
+    {"format_no_text", [](hid_t f) { replace_int(f, "/", "format", 1); },
+     "attribute format is not one variable-length text"},
+    {"attribute_missing", [](hid_t f) { H5Adelete(f, "mesh_sha256"); },
+     "attribute mesh_sha256 is missing"},
+    {"attribute_of_another_type", [](hid_t f) { replace_int(f, "/", "mesh_seconds", 1); },
+     "attribute mesh_seconds is not one float64"},
+    {"status_unknown", [](hid_t f) { replace_text(f, "/loads/opening", "status", "fine"); },
+     "unknown status \"fine\""},
+    {"index_out_of_range", [](hid_t f) { replace_int(f, "/loads/opening", "index", 2); },
+     "index of another or none"},
+    {"index_negative", [](hid_t f) { replace_int(f, "/loads/opening", "index", -1); },
+     "index of another or none"},
+    {"index_twice", [](hid_t f) { replace_int(f, "/loads/opening", "index", 1); },
+     "index of another or none"},
+    {"group_missing", [](hid_t f) { H5Ldelete(f, "/mesh", H5P_DEFAULT); }, "\"mesh\" is missing"},
+    {"dataset_missing", [](hid_t f) { H5Ldelete(f, "/mesh/nodes", H5P_DEFAULT); },
+     "\"nodes\" is missing"},
+    {"group_for_a_dataset",
+     [](hid_t f) {
+       H5Ldelete(f, "/mesh/nodes", H5P_DEFAULT);
+       H5Gclose(H5Gcreate2(f, "/mesh/nodes", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+     },
+     "dataset nodes is damaged"},
+    {"dataset_for_a_group",
+     [](hid_t f) { replace_dataset(f, "/loads/opening/history", H5T_STD_I32LE, {3}); },
+     "\"history\" is not a group"},
+    {"wrong_type",
+     [](hid_t f) {
+       replace_dataset(f, "/mesh/nodes", H5T_IEEE_F32LE, {81, 2});
+     },
+     "dataset nodes is not float64"},
+    {"wrong_rank", [](hid_t f) { replace_dataset(f, "/mesh/nodes", H5T_IEEE_F64LE, {162}); },
+     "dataset nodes is not of shape (n,2)"},
+    {"wrong_columns",
+     [](hid_t f) {
+       replace_dataset(f, "/mesh/triangles", H5T_STD_I32LE, {96, 4});
+     },
+     "dataset triangles is not of shape (n,3)"},
+    {"wrong_length",
+     [](hid_t f) { replace_dataset(f, "/loads/opening/traces/0/jump", H5T_IEEE_F64LE, {8}); },
+     "8 entries for 9 nodes"},
+    {"wrong_length_of_inclusions",
+     [](hid_t f) { replace_dataset(f, "/loads/opening/inclusions/A", H5T_IEEE_F64LE, {4}); },
+     "inclusions has datasets of different lengths"},
+    {"claims_more_than_the_file_holds",
+     [](hid_t f) {
+       replace_dataset(f, "/mesh/nodes", H5T_IEEE_F64LE, {hsize_t{1} << 40, 2});
+     },
+     "more than the file can hold"},
+    {"index_outside_the_mesh",
+     [](hid_t f) {
+       const hid_t id = H5Dopen2(f, "/mesh/triangles", H5P_DEFAULT);
+       const std::vector<int> far(384, 1000);
+       H5Dwrite(id, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, far.data());
+       H5Dclose(id);
+     },
+     "is inconsistent: mesh.triangles[0] is 1000"},
+    {"interfaces_not_numbered",
+     [](hid_t f) { H5Lmove(f, "/interfaces/0", f, "/interfaces/sigma", H5P_DEFAULT, H5P_DEFAULT); },
+     "interfaces are not numbered from 0"},
+    {"traces_missing",
+     [](hid_t f) {
+       H5Gclose(H5Gcreate2(f, "/interfaces/1", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+     },
+     "attribute name is missing"},
+    {"external_link",
+     [](hid_t f) {
+       H5Ldelete(f, "/mesh", H5P_DEFAULT);
+       H5Lcreate_external("other.h5", "/mesh", f, "mesh", H5P_DEFAULT, H5P_DEFAULT);
+     },
+     "\"mesh\" is a link, not data"},
+    {"external_data",
+     [](hid_t f) { move_outside(f, "/loads/opening/traces/0/jump", 9, "/etc/passwd"); },
+     "dataset jump lies in another file"},
+}};
+
+INSTANTIATE_TEST_SUITE_P(MalformedFile, Damaged, testing::ValuesIn(damages),
+                         [](const auto& each) { return each.param.name; });
+
+}  // namespace
+}  // namespace anticrack::results

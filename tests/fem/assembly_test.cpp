@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "fem/load_vector.hpp"
+#include "fem/quadrature.hpp"
+#include "fem/stiffness.hpp"
+
+namespace anticrack::fem {
+namespace {
+
+/// The unit square in 2 n^2 triangles, inner nodes moved so that no two triangles are alike.
+Triangulation crooked_square(int n) {
+  Triangulation part;
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) {
+      const bool inner = i > 0 && i < n && j > 0 && j < n;
+      part.xy.push_back((i + (inner ? 0.2 * std::sin(3.0 * j + i) : 0.0)) / n);
+      part.xy.push_back((j + (inner ? 0.2 * std::cos(2.0 * i + j) : 0.0)) / n);
+    }
+  }
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const int a = j * (n + 1) + i, b = a + 1, c = a + n + 2, d = a + n + 1;
+      part.triangles.insert(part.triangles.end(), {a, b, c, a, c, d});
+    }
+  }
+  return part;
+}
+
+Eigen::VectorXd nodal(const Triangulation& part, double (*f)(double, double)) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(part.node_count()));
+  for (std::size_t i = 0; i < part.node_count(); ++i) {
+    values[static_cast<Eigen::Index>(i)] = f(part.xy[2 * i], part.xy[2 * i + 1]);
+  }
+  return values;
+}
+
+TEST(Stiffness, MatchesTheReferenceTriangle) {
+  const Triangulation part{{0, 0, 1, 0, 0, 1}, {0, 1, 2}};
+  Eigen::Matrix3d expected;
+  expected << 1, -0.5, -0.5, -0.5, 0.5, 0, -0.5, 0, 0.5;
+  EXPECT_NEAR((Eigen::Matrix3d(stiffness(part)) - expected).norm(), 0, 1e-15);
+}
+
+TEST(Stiffness, GivesTheEnergyOfALinearFunctionExactly) {
+  const Triangulation part = crooked_square(6);
+  const Eigen::SparseMatrix<double> k = stiffness(part);
+  const Eigen::VectorXd u = nodal(part, [](double x, double y) { return 2 * x - 3 * y + 7; });
+  EXPECT_NEAR(u.dot(k * u), 13.0, 1e-12);
+  EXPECT_NEAR((k * Eigen::VectorXd::Ones(u.size())).norm(), 0, 1e-13);
+  EXPECT_NEAR((Eigen::MatrixXd(k) - Eigen::MatrixXd(k).transpose()).norm(), 0, 1e-15);
+}
+
+TEST(Quadrature, IsExactToDegreeFive) {
+  // int x^a y^b over the triangle (0,0),(1,0),(0,1) is a! b! / (a+b+2)!
+  const auto factorial = [](int n) { return std::tgamma(n + 1.0); };
+  for (int a = 0; a <= 5; ++a) {
+    for (int b = 0; a + b <= 5; ++b) {
+      double sum = 0;
+      for (const QuadraturePoint& point : degree_five_rule()) {
+        sum += 0.5 * point.weight * std::pow(point.barycentric[1], a) *
+               std::pow(point.barycentric[2], b);
+      }
+      EXPECT_NEAR(sum, factorial(a) * factorial(b) / factorial(a + b + 2), 1e-16)
+          << "x^" << a << " y^" << b;
+    }
+  }
+}
+
+TEST(LoadVector, OfAConstantIsAThirdOfTheAreaPerCorner) {
+  const Triangulation part = crooked_square(5);
+  EXPECT_NEAR(load_vector(part, 3.0, "a").sum(), 3.0, 1e-14);
+  EXPECT_NEAR((load_vector(part, 3.0, "a") - load_vector(part, Expression{"3"}, "a")).norm(), 0,
+              1e-15);
+}
+
+TEST(LoadVector, IntegratesAPolynomialOfDegreeFourAgainstEveryHat) {
+  const Triangulation part = crooked_square(5);
+  const Eigen::VectorXd load = load_vector(part, Expression{"x^3*y + 2*x*y^2"}, "a");
+  // Tested with v = x, itself in the space: int x^4 y + 2 x^2 y^2 = 1/10 + 2/9.
+  const Eigen::VectorXd x = nodal(part, [](double px, double) { return px; });
+  EXPECT_NEAR(load.dot(x), 0.1 + 2.0 / 9, 1e-15);
+}
+
+TEST(LoadVector, OfRegionsTakesTheRegionOfTheSubdomain) {
+  const Triangulation part = crooked_square(2);
+  const PerRegion force{{{"a", 2.0}, {"b", 5.0}}};
+  EXPECT_NEAR(load_vector(part, force, "b").sum(), 5.0, 1e-14);
+  EXPECT_EQ(load_vector(part, force, "c").norm(), 0.0);
+}
+
+TEST(LoadVector, OfAJumpAlongEdgesIsExact) {
+  const Triangulation part{{0, 0, 1, 0, 1, 1, 0, 1}, {0, 1, 2, 0, 2, 3}};  // jumps on y = x
+  EXPECT_NEAR(load_vector(part, Expression{"y > x ? 4 : 1"}, "a").sum(), 2.5, 1e-15);
+}
+
+TEST(BoundaryValues, AreThoseOfTheNodesAskedFor) {
+  const Triangulation part = crooked_square(1);
+  const Eigen::VectorXd values = boundary_values(part, "10*x + y", 1, 2);
+  ASSERT_EQ(values.size(), 2);
+  EXPECT_EQ(values[0], 10.0);
+  EXPECT_EQ(values[1], 1.0);
+  EXPECT_EQ(boundary_values(part, "", 0, 4).norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace anticrack::fem

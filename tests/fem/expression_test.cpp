@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/expression.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "errors/errors.hpp"
+#include "fem/load.hpp"
+#include "fem/load_vector.hpp"
+
+namespace anticrack::fem {
+namespace {
+
+using errors::Reason;
+using ::testing::HasSubstr;
+
+constexpr std::size_t length_limit = 200;
+
+/// The error `check` throws for a load; fails the test when it throws none.
+errors::Error error_of(const Load& load) {
+  try {
+    check(load, length_limit);
+  } catch (const errors::Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "accepted";
+  return {Reason::internal, "accepted"};
+}
+
+std::string field_of(const errors::Error& error) {
+  return error.fields().empty() ? "" : error.fields().front().field;
+}
+
+TEST(Expression, KnowsCoordinatesFunctionsConstantsAndConditions) {
+  ExpressionFunction function("y > 0 && x <= 1 ? sin(_pi*x)^2 + 0*_e : -abs(y)", "f");
+  EXPECT_NEAR(function(0.5, 1), 1.0, 1e-15);
+  EXPECT_EQ(function(0.5, -2), -2.0);
+  EXPECT_EQ(function(2, 3), -3.0);
+}
+
+class Refused : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Refused, InBothFieldsThatTakeExpressions) {
+  const errors::Error force = error_of({"a", Expression{GetParam()}, ""});
+  EXPECT_EQ(force.reason(), Reason::expression_invalid) << force.what();
+  EXPECT_EQ(field_of(force), "force.expression");
+  if (*GetParam() != '\0') {
+    const errors::Error boundary = error_of({"a", 1.0, GetParam()});
+    EXPECT_EQ(boundary.reason(), Reason::expression_invalid) << boundary.what();
+    EXPECT_EQ(field_of(boundary), "boundary_value");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Expressions, Refused,
+                         ::testing::Values("", "  ", "1 +", "z", "sin(x", "foo(x)", "x = 2",
+                                           "y = x > 0", "1, 2", "\"text\"", "x y", "atof(\"1\")",
+                                           "x\x01", "\xd1\x84", "1 ? 2", "x; y"));
+
+TEST(Expression, ComparisonsAreNoAssignments) {
+  for (const char* text : {"x == 1", "x<=1", "x >= 1", "x != 1", "(x==y)*(y==x)"}) {
+    EXPECT_NO_THROW(check({"a", Expression{text}, ""}, length_limit)) << text;
+  }
+}
+
+TEST(Expression, LongerThanTheLimitIsRefused) {
+  const errors::Error error = error_of({"a", Expression{std::string(length_limit + 1, '1')}, ""});
+  EXPECT_EQ(error.reason(), Reason::expression_invalid);
+  EXPECT_THAT(error.what(), HasSubstr("201"));
+}
+
+TEST(Expression, NestedAsDeepAsItsLengthAllowsIsRead) {
+  constexpr std::size_t depth = 2000;
+  const std::string text = std::string(depth, '(') + "x" + std::string(depth, ')');
+  ExpressionFunction function(text, "f");
+  EXPECT_EQ(function(3, 0), 3.0);
+}
+
+TEST(Expression, ValueThatIsNotFiniteNamesThePlace) {
+  ExpressionFunction function("1/(x-2)", "force.expression");
+  EXPECT_EQ(function(3, 0), 1.0);
+  try {
+    function(2, 0.25);
+    FAIL() << "accepted";
+  } catch (const errors::Error& error) {
+    EXPECT_EQ(error.reason(), Reason::expression_invalid);
+    EXPECT_EQ(field_of(error), "force.expression");
+    EXPECT_THAT(error.what(), HasSubstr("inf at (x, y) = (2, 0.25)"));
+  }
+}
+
+TEST(Expression, NotANumberInsideATriangleNamesThePlace) {
+  const Triangulation part{{0, 0, 1, 0, 0, 1}, {0, 1, 2}};
+  try {
+    load_vector(part, Expression{"sqrt(x - 2)"}, "a");
+    FAIL() << "accepted";
+  } catch (const errors::Error& error) {
+    EXPECT_EQ(error.reason(), Reason::expression_invalid);
+    EXPECT_THAT(error.what(), HasSubstr("nan at (x, y) = (0.33"));
+  }
+}
+
+TEST(Load, ConstantsMustBeFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const errors::Error constant = error_of({"a", nan, ""});
+  EXPECT_EQ(constant.reason(), Reason::invalid_argument);
+  EXPECT_EQ(field_of(constant), "force.constant");
+  const errors::Error region = error_of({"a", PerRegion{{{"up", 1.0}, {"down", nan}}}, ""});
+  EXPECT_EQ(field_of(region), "force.per_region[down]");
+  EXPECT_NO_THROW(check({"a", PerRegion{{{"up", 1.0}}}, "x"}, length_limit));
+}
+
+}  // namespace
+}  // namespace anticrack::fem

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "support/errors.hpp"
+
+namespace anticrack::jobs {
+namespace {
+
+using anticrack::testing::throws;
+using errors::Reason;
+using store::JobSpec;
+
+JobSpec good() {
+  JobSpec spec;
+  spec.title = "a title";
+  spec.mesh = "0123456789abcdef";
+  spec.loads = {{"first", 1.0, ""},
+                {"second", fem::Expression{"y > 0 ? x : -1"}, "x*y"},
+                {"third", fem::PerRegion{{{"upper", 2.0}}}, ""}};
+  return spec;
+}
+
+class Check : public ::testing::Test {
+ protected:
+  ::testing::AssertionResult refuses(const std::function<void(JobSpec&)>& spoil,
+                                     const std::string& field,
+                                     Reason reason = Reason::invalid_argument) {
+    JobSpec spec = good();
+    spoil(spec);
+    return throws([&] { check(spec, options); }, reason, field);
+  }
+  EngineOptions options;
+};
+
+TEST_F(Check, AcceptsAGoodJob) {
+  EXPECT_NO_THROW(check(good(), options));
+  JobSpec spec = good();
+  spec.loads[0].name = "0 a_b.c-d" + std::string(55, 'x');
+  spec.solver.theta.reset();
+  spec.solver.p = 0;
+  EXPECT_NO_THROW(check(spec, options));
+}
+
+TEST_F(Check, NamesTheLoadCaseAtFault) {
+  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.loads.clear(); }, "load_cases"));
+  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.loads[1].name = "first"; }, "load_cases[1].name"));
+  for (const char* name : {"", " x", "_x", "a/b", "a\n", "\xc3\xa4"}) {
+    EXPECT_TRUE(refuses([&](JobSpec& spec) { spec.loads[2].name = name; }, "load_cases[2].name"))
+        << name;
+  }
+  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.loads[0].name = std::string(65, 'x'); },
+                      "load_cases[0].name"));
+}
+
+TEST_F(Check, NamesTheExpressionAtFault) {
+  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.loads[1].force = fem::Expression{"x +"}; },
+                      "load_cases[1].force.expression", Reason::expression_invalid));
+  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.loads[1].force = fem::Expression{"q"}; },
+                      "load_cases[1].force.expression", Reason::expression_invalid));
+  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.loads[2].boundary_value = "1 +"; },
+                      "load_cases[2].boundary_value", Reason::expression_invalid));
+}
+
+TEST_F(Check, NamesTheParameterAtFault) {
+  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.solver.theta = 0; }, "solver.uzawa.theta"));
+  EXPECT_TRUE(
+      refuses([](JobSpec& spec) { spec.solver.theta = std::nan(""); }, "solver.uzawa.theta"));
+  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.solver.epsilon = 0; }, "solver.uzawa.epsilon"));
+  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.solver.p = -1; }, "solver.uzawa.p"));
+  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.solver.max_iterations = 0; },
+                      "solver.uzawa.max_iterations"));
+}
+
+TEST_F(Check, HoldsTheLimits) {
+  options.max_load_cases = 2;
+  EXPECT_TRUE(refuses([](JobSpec&) {}, "load_cases", Reason::limit_exceeded));
+  options.max_load_cases = 3;
+  EXPECT_NO_THROW(check(good(), options));
+  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.title = std::string(201, 'x'); }, "title"));
+}
+
+TEST(Fingerprint, IsThatOfTheWholeJob) {
+  std::set<std::string> seen = {fingerprint(good())};
+  EXPECT_EQ(seen.count(fingerprint(good())), 1U);
+  const std::vector<std::function<void(JobSpec&)>> changes = {
+      [](JobSpec& spec) { spec.title += "!"; },
+      [](JobSpec& spec) { spec.mesh = "other"; },
+      [](JobSpec& spec) { spec.fields = true; },
+      [](JobSpec& spec) { spec.solver.theta = 1.5; },
+      [](JobSpec& spec) { spec.solver.theta.reset(); },
+      [](JobSpec& spec) { spec.solver.theta = 0; },
+      [](JobSpec& spec) { spec.solver.epsilon = 1e-9; },
+      [](JobSpec& spec) { spec.solver.p = 2; },
+      [](JobSpec& spec) { spec.solver.max_iterations = 7; },
+      [](JobSpec& spec) { spec.solver.mass = contact::Mass::consistent; },
+      [](JobSpec& spec) { spec.loads.pop_back(); },
+      [](JobSpec& spec) { std::swap(spec.loads[0], spec.loads[1]); },
+      [](JobSpec& spec) { spec.loads[0].name = "1st"; },
+      [](JobSpec& spec) { spec.loads[0].force = 2.0; },
+      [](JobSpec& spec) { spec.loads[0].force = fem::Expression{"1"}; },
+      [](JobSpec& spec) { spec.loads[1].boundary_value = "x"; },
+      [](JobSpec& spec) { std::get<fem::PerRegion>(spec.loads[2].force).values["lower"] = 0; }};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    JobSpec spec = good();
+    changes[i](spec);
+    EXPECT_TRUE(seen.insert(fingerprint(spec)).second) << i;
+  }
+}
+
+}  // namespace
+}  // namespace anticrack::jobs

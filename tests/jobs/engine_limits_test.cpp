@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What is bounded, and that nobody starves.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "jobs/engine_support.hpp"
+#include "support/errors.hpp"
+
+namespace anticrack::jobs {
+namespace {
+
+using anticrack::testing::BackendOptions;
+using anticrack::testing::error_of;
+using anticrack::testing::eventually;
+using anticrack::testing::throws;
+using errors::Reason;
+using store::JobState;
+
+EngineOptions one_thread() {
+  EngineOptions options;
+  options.threads = 1;
+  return options;
+}
+
+TEST(EngineLimits, TheQueueIsBoundedButKnowsItsRequests) {
+  EngineOptions options = one_thread();
+  options.max_queued_jobs = 2;
+  Engine test(options);
+  const std::string mesh = test.ready_mesh();
+  const std::string running = test.submit(endless_job(mesh));
+  ASSERT_TRUE(test.iterating(running));
+  test.submit(short_job(mesh));
+  const std::string last = test.submit(short_job(mesh), "request");
+  const auto error = error_of([&] { test.submit(short_job(mesh)); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->reason(), Reason::busy);
+  EXPECT_GT(error->retry_delay().count(), 0);
+  EXPECT_EQ(test.submit(short_job(mesh), "request"), last);
+  EXPECT_TRUE(throws([&] { test.submit(short_job(mesh), "other request"); }, Reason::busy));
+  EXPECT_EQ(test.engine.list("", 10).size(), 3U);
+  test.engine.cancel(running);
+  test.ended(last);
+  EXPECT_EQ(test.ended(test.submit(short_job(mesh), "other request")).state, JobState::succeeded);
+}
+
+TEST(EngineLimits, TheOldestEndedJobsGo) {
+  EngineOptions options;
+  options.max_kept_jobs = 2;
+  Engine test(options);
+  const std::string mesh = test.ready_mesh();
+  std::vector<std::string> ids;
+  for (int i = 0; i < 4; ++i) {
+    ids.push_back(test.submit(short_job(mesh), "request " + std::to_string(i)));
+    test.ended(ids.back());
+  }
+  EXPECT_TRUE(throws([&] { test.engine.get(ids[0]); }, Reason::not_found));
+  EXPECT_TRUE(throws([&] { test.engine.events(ids[1]); }, Reason::not_found));
+  EXPECT_TRUE(throws([&] { test.engine.result(ids[1]); }, Reason::not_found));
+  EXPECT_NE(test.engine.result(ids[2]), nullptr);
+  EXPECT_EQ(test.engine.list("", 10).size(), 2U);
+  // "A client that later gets NOT_FOUND for its job may submit again with the same request id."
+  EXPECT_NE(test.submit(short_job(mesh), "request 0"), ids[0]);
+}
+
+TEST(EngineLimits, ResultsAreBoundedInBytes) {
+  EngineOptions options;
+  options.max_kept_bytes = 1;
+  Engine test(options);
+  const std::string mesh = test.ready_mesh();
+  const std::string first = test.submit(short_job(mesh));
+  test.ended(first);
+  EXPECT_NE(test.engine.result(first), nullptr);
+  const std::string second = test.submit(short_job(mesh));
+  test.ended(second);
+  EXPECT_NE(test.engine.result(second), nullptr);
+  EXPECT_TRUE(throws([&] { test.engine.get(first); }, Reason::not_found));
+}
+
+TEST(EngineLimits, TheEventLogIsTrimmedAndTheResultIsNot) {
+  EngineOptions options = one_thread();
+  options.event_log_bytes = 2048;
+  Engine test(options);
+  store::JobSpec spec = short_job(test.ready_mesh());
+  spec.solver.epsilon = 1e-300;
+  spec.solver.max_iterations = 200;
+  const std::string id = test.submit(spec);
+  const auto record = test.ended(id);
+  const auto log = test.engine.events(id);
+  EXPECT_GT(log->earliest(), 100U);
+  const auto error = error_of([&] { log->read(0, 10); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->reason(), Reason::sequence_trimmed);
+  EXPECT_EQ(error->metadata().at("earliest_sequence"), std::to_string(log->earliest()));
+  EXPECT_EQ(array<std::int32_t>(*test.engine.result(id), "loads/0/history/iteration")->size(),
+            static_cast<std::size_t>(record.cases[0].answer.iterations));
+}
+
+TEST(EngineErase, TakesEndedJobsOnly) {
+  Engine test(one_thread());
+  const std::string id = test.submit(endless_job(test.ready_mesh()));
+  EXPECT_TRUE(throws([&] { test.engine.erase(id); }, Reason::in_use));
+  EXPECT_TRUE(throws([&] { test.engine.result(id); }, Reason::not_ready));
+  test.engine.cancel(id);
+  test.ended(id);
+  const auto log = test.engine.events(id);
+  test.engine.erase(id);
+  EXPECT_TRUE(throws([&] { test.engine.get(id); }, Reason::not_found));
+  EXPECT_TRUE(throws([&] { test.engine.erase(id); }, Reason::not_found));
+  EXPECT_TRUE(test.engine.list("", 10).empty());
+  EXPECT_GT(log->latest(), 0U);  // whoever watches it may finish
+}
+
+TEST(EngineSchedule, AJobOnAReadyMeshPassesThoseThatWait) {
+  Engine test(one_thread());
+  const std::string ready = test.ready_mesh(0.25);
+  test.backend.door.shut();
+  // Both preparation threads are taken by these, and a third waits behind them.
+  std::vector<std::string> waiting;
+  for (const double size : {0.2, 0.3, 0.4}) {
+    waiting.push_back(test.submit(short_job(test.backend.create(size))));
+  }
+  ASSERT_TRUE(eventually([&] { return test.backend.door.waiting() == 2; }));
+  EXPECT_EQ(test.ended(test.submit(short_job(ready))).state, JobState::succeeded);
+  for (const std::string& id : waiting) {
+    EXPECT_FALSE(store::ended(test.state(id)));
+  }
+  test.backend.door.open();
+  for (const std::string& id : waiting) {
+    EXPECT_EQ(test.ended(id).state, JobState::succeeded);
+  }
+}
+
+TEST(EngineSchedule, JobsOnOneMeshShareOneFactorisation) {
+  Engine test;
+  test.backend.door.shut();
+  const std::string mesh = test.backend.create();
+  std::vector<std::string> ids;
+  for (int i = 0; i < 6; ++i) {
+    ids.push_back(test.submit(short_job(mesh)));
+  }
+  ASSERT_TRUE(eventually([&] { return test.told(ids[0], "factorising"); }));
+  test.backend.door.open();
+  for (const std::string& id : ids) {
+    EXPECT_EQ(test.ended(id).state, JobState::succeeded);
+  }
+  EXPECT_EQ(test.backend.cache.metrics().factorizations, 1U);
+  EXPECT_EQ(test.backend.catalogue.meshings(), 1U);
+}
+
+TEST(EngineSchedule, StartsJobsInTheOrderTheyCame) {
+  Engine test(one_thread());
+  const std::string mesh = test.ready_mesh();
+  const std::string blocker = test.submit(endless_job(mesh));
+  ASSERT_TRUE(test.iterating(blocker));
+  std::vector<std::string> ids;
+  for (int i = 0; i < 5; ++i) {
+    ids.push_back(test.submit(short_job(mesh)));
+  }
+  test.engine.cancel(blocker);
+  std::vector<store::Clock::time_point> starts;
+  for (const std::string& id : ids) {
+    starts.push_back(test.ended(id).started.value());
+  }
+  EXPECT_TRUE(std::is_sorted(starts.begin(), starts.end()));
+}
+
+TEST(EngineSchedule, AJobWaitsForMemoryThatAnotherHolds) {
+  std::uint64_t larger = 0;
+  {
+    Engine measure;
+    const std::string mesh = measure.ready_mesh(0.2);
+    larger = operators::estimate_bytes(*measure.backend.store->triangulation(mesh));
+  }
+  BackendOptions tight;
+  tight.memory_budget = larger;
+  Engine test({}, tight);
+  const std::string holds = test.submit(endless_job(test.ready_mesh(0.25)));
+  ASSERT_TRUE(test.iterating(holds));
+  const std::string waits = test.submit(short_job(test.backend.create(0.2)));
+  ASSERT_TRUE(eventually([&] { return test.told(waits, "waiting for memory to factorise"); }));
+  EXPECT_EQ(test.state(waits), JobState::waiting_for_mesh);
+  const std::string impatient = test.submit(short_job(test.backend.create(0.2)));
+  EXPECT_EQ(test.engine.cancel(impatient).state, JobState::cancelled);
+  test.engine.cancel(holds);
+  EXPECT_EQ(test.ended(waits).state, JobState::succeeded);
+}
+
+}  // namespace
+}  // namespace anticrack::jobs

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "jobs/job_engine.hpp"
+#include "support/backend.hpp"
+#include "support/eventually.hpp"
+
+namespace anticrack::jobs {
+
+/// A job of one load case that converges.
+inline store::JobSpec short_job(const std::string& mesh) {
+  store::JobSpec spec;
+  spec.mesh = mesh;
+  spec.loads = {{"pull", fem::Expression{"y > 0 ? 1 : -1"}, ""}};
+  spec.solver.theta.reset();
+  spec.solver.epsilon = 1e-10;
+  return spec;
+}
+
+/// A job that iterates for as long as anybody would wait: its steps are tiny.
+inline store::JobSpec endless_job(const std::string& mesh) {
+  store::JobSpec spec = short_job(mesh);
+  spec.solver.theta = 1e-7;
+  spec.solver.epsilon = 1e-300;
+  spec.solver.max_iterations = 1'000'000;
+  return spec;
+}
+
+class Engine {
+ public:
+  explicit Engine(EngineOptions options = {},
+                  const anticrack::testing::BackendOptions& backend_options = {})
+      : backend(backend_options), engine(options, *backend.store, backend.catalogue) {}
+
+  std::string submit(const store::JobSpec& spec, const std::string& request_id = {}) {
+    return engine.submit(spec, request_id).id;
+  }
+  store::JobState state(const std::string& id) const { return engine.get(id).state; }
+  bool reaches(const std::string& id, store::JobState state_wanted) const {
+    return anticrack::testing::eventually([&] { return state(id) == state_wanted; });
+  }
+  /// Waits for the last event, so nothing of the job is left to happen.
+  store::JobRecord ended(const std::string& id) const {
+    const std::shared_ptr<EventLog> log = engine.events(id);
+    std::shared_ptr<const store::JobRecord> record;
+    EXPECT_TRUE(anticrack::testing::eventually([&] {
+      const std::uint64_t latest = log->latest();
+      if (latest == 0) {
+        return false;
+      }
+      const auto last = log->read(latest - 1, 1);
+      const auto* end = std::get_if<EndEvent>(&last.at(0).event);
+      record = end == nullptr ? nullptr : end->job;
+      return record != nullptr;
+    }));
+    return record ? *record : store::JobRecord();
+  }
+  /// A mesh whose operators are in memory and held by nobody.
+  std::string ready_mesh(double size = 0.25) {
+    const std::string id = backend.create(size);
+    EXPECT_TRUE(anticrack::testing::eventually([&] { return backend.catalogue.ready(id); }));
+    return id;
+  }
+  std::vector<NumberedEvent> events(const std::string& id) const {
+    return engine.events(id)->read(0, SIZE_MAX);
+  }
+  bool told(const std::string& id, const std::string& detail) const {
+    for (const NumberedEvent& event : events(id)) {
+      const auto* phase = std::get_if<PhaseEvent>(&event.event);
+      if (phase != nullptr && phase->detail == detail) {
+        return true;
+      }
+    }
+    return false;
+  }
+  bool iterating(const std::string& id) const {
+    return anticrack::testing::eventually([&] {
+      for (const NumberedEvent& event : events(id)) {
+        if (std::holds_alternative<SampleEvent>(event.event)) {
+          return true;
+        }
+      }
+      return false;
+    });
+  }
+
+  anticrack::testing::Backend backend;
+  JobEngine engine;
+};
+
+/// The array of a block; none where it has no such array.
+template <class T>
+std::optional<std::vector<T>> array(const store::Block& block, const std::string& name) {
+  for (const store::ArrayLayout& layout : block.arrays) {
+    if (layout.name == name) {
+      std::uint64_t count = 1;
+      for (const std::uint64_t extent : layout.shape) {
+        count *= extent;
+      }
+      std::vector<T> values(count);
+      std::memcpy(values.data(), block.bytes.data() + layout.offset, count * sizeof(T));
+      return values;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace anticrack::jobs

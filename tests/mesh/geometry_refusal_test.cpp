@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "mesh/geometry.hpp"
+#include "support/errors.hpp"
+#include "support/paper_geometry.hpp"
+
+namespace anticrack {
+namespace {
+
+using errors::Reason;
+using mesh::Geometry;
+using ::testing::HasSubstr;
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+struct Fault {
+  const char* name;
+  std::function<void(Geometry&)> make;
+  std::string field;
+  std::vector<std::string> message;
+  Reason reason = Reason::geometry_invalid;
+};
+
+void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << fault.name;
+}
+
+class FaultyGeometry : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(FaultyGeometry, IsRefusedWithItsField) {
+  Geometry geometry = testing::paper_geometry();
+  GetParam().make(geometry);
+  const auto error = testing::error_of([&] { mesh::plan(geometry, {}, 1'000'000); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->reason(), GetParam().reason) << error->what();
+  ASSERT_EQ(error->fields().size(), 1U);
+  EXPECT_EQ(error->fields()[0].field, GetParam().field) << error->what();
+  for (const std::string& part : GetParam().message) EXPECT_THAT(error->what(), HasSubstr(part));
+}
+
+mesh::CrackSpec crack(const char* name, double from, double to) {
+  return {name, {{from, 0}, {to, 0}}};
+}
+
+const Fault faults[] = {
+    {"TwoVertices", [](Geometry& g) { g.boundary.resize(2); }, "boundary", {"2 vertices"}},
+    {"NoVertices", [](Geometry& g) { g.boundary.clear(); }, "boundary", {"0 vertices"}},
+    {"TooManyVertices",
+     [](Geometry& g) { g.boundary.resize(10'001); },
+     "boundary",
+     {"10001 vertices", "10000"},
+     Reason::limit_exceeded},
+    {"BoundaryNan",
+     [](Geometry& g) { g.boundary[3][1] = nan_value; },
+     "boundary[3]",
+     {"(-1, nan)"}},
+    {"BoundaryHuge", [](Geometry& g) { g.boundary[2][0] = 1e300; }, "boundary[2]", {"1e+300"}},
+    {"BoundaryRepeats",
+     [](Geometry& g) {
+       g.boundary.insert(g.boundary.begin() + 2, {1, -1});
+     },
+     "boundary[2]",
+     {"repeats boundary[1]"}},
+    {"BoundaryClosed",
+     [](Geometry& g) {
+       g.boundary.push_back({-1, -1});
+     },
+     "boundary[4]",
+     {"repeats boundary[0]", "closes by itself"}},
+    {"ZeroArea",
+     [](Geometry& g) {
+       g.boundary = {{0, 0}, {1, 1}, {3, 3}};
+     },
+     "boundary",
+     {"no area", "straight line"}},
+    {"Bowtie",
+     [](Geometry& g) {
+       g.boundary = {{-1, -1}, {1, 1}, {1, -1}, {-1, 1}};
+     },
+     "boundary",
+     {"crosses", "from boundary[0] to boundary[1]", "from boundary[2] to boundary[3]"}},
+    {"BoundaryTouchesItself",
+     [](Geometry& g) {
+       g.boundary = {{-1, -1}, {1, -1}, {1, 1}, {0, -1}, {-1, 1}};
+     },
+     "boundary",
+     {"touches itself", "boundary[0] to boundary[1]"}},
+    {"BoundarySpike",
+     [](Geometry& g) {
+       g.boundary = {{-1, -1}, {1, -1}, {1, 0.5}, {3, 0.5}, {2, 0.5}, {1, 1}, {-1, 1}};
+     },
+     "boundary",
+     {"folds back", "boundary[2] to boundary[3]"}},
+    {"BoundarySpikeAtTheStart",
+     [](Geometry& g) {
+       g.boundary = {{3, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
+     },
+     "boundary",
+     {"folds back", "boundary[4] to boundary[0]"}},
+    {"FarFromTheOrigin",
+     [](Geometry& g) {
+       for (auto& p : g.boundary) p[0] += 1e9;
+     },
+     "boundary",
+     {"from the origin"}},
+
+    {"InterfaceOnePoint", [](Geometry& g) { g.interface.resize(1); }, "interface", {"1 vertices"}},
+    {"InterfaceTooLong",
+     [](Geometry& g) { g.interface.resize(10'001); },
+     "interface",
+     {"10001"},
+     Reason::limit_exceeded},
+    {"InterfaceInfinite",
+     [](Geometry& g) { g.interface[1][0] = infinite; },
+     "interface[1]",
+     {"inf"}},
+    {"InterfaceRepeats",
+     [](Geometry& g) {
+       g.interface = {{-1, 0}, {-1, 0}, {1, 0}};
+     },
+     "interface[1]",
+     {"repeats interface[0]"}},
+    {"InterfaceStartsInside",
+     [](Geometry& g) {
+       g.interface[0] = {-0.75, 0};
+     },
+     "interface",
+     {"starts at interface[0] (-0.75, 0), 0.25 inside"}},
+    {"InterfaceEndsOutside",
+     [](Geometry& g) {
+       g.interface[1] = {1.5, 0};
+     },
+     "interface",
+     {"ends at interface[1] (1.5, 0), 0.5 outside"}},
+    {"InterfaceLeaves",
+     [](Geometry& g) {
+       g.interface = {{-1, 0}, {0, -2}, {1, 0}};
+     },
+     "interface",
+     {"leaves the polygon", "interface[0] (-1, 0) to interface[1] (0, -2)"}},
+    {"InterfaceOutside",
+     [](Geometry& g) {
+       g.interface = {{-1, 0}, {-2, 0}, {-2, 3}, {0, 3}, {0, 1}};
+     },
+     "interface",
+     {"outside"}},
+    {"InterfaceTouchesBetween",
+     [](Geometry& g) {
+       g.interface = {{-1, 0}, {0, 1}, {1, 0}};
+     },
+     "interface",
+     {"touches its boundary", "(0, 1)"}},
+    {"InterfaceTouchesCorner",
+     [](Geometry& g) {
+       g.boundary = {{-1, -1}, {1, -1}, {1, 1}, {0, 0}, {-1, 1}};
+     },
+     "interface",
+     {"touches its boundary"}},
+    {"InterfaceAlongTheBoundary",
+     [](Geometry& g) {
+       g.interface = {{-1, 1}, {1, 1}};
+     },
+     "interface",
+     {"only its two ends"}},
+    {"InterfacePartlyAlongTheBoundary",
+     [](Geometry& g) {
+       g.interface = {{-1, 0}, {-1, 0.5}, {1, 0}};
+     },
+     "interface",
+     {"only its two ends"}},
+    {"InterfaceWithinOneEdge",
+     [](Geometry& g) {
+       g.interface = {{-0.5, 1}, {0.5, 1}};
+     },
+     "interface",
+     {"only its two ends"}},
+    {"InterfaceCrossesItself",
+     [](Geometry& g) {
+       g.interface = {{-1, 0}, {0.5, 0}, {0, 0.5}, {0, -0.5}, {1, -0.5}};
+     },
+     "interface",
+     {"crosses", "interface[0] to interface[1]", "interface[2] to interface[3]"}},
+    {"InterfaceFoldsBack",
+     [](Geometry& g) {
+       g.interface = {{-1, 0}, {0.5, 0}, {0, 0}, {0, 1}};
+     },
+     "interface",
+     {"folds back"}},
+    {"InterfaceDoesNotCut",
+     [](Geometry& g) {
+       g.interface = {{-1, 0}, {0, 0}, {0, 0.5}, {-1, 0}};
+     },
+     "interface",
+     {"starts and ends at the same point (-1, 0)"}},
+
+    {"InclusionOff",
+     [](Geometry& g) {
+       g.inclusions[0].part.from = {-0.5, 0.25};
+     },
+     "inclusions[0].part.from",
+     {"(-0.5, 0.25)", "0.25 off the interface"}},
+    {"InclusionJustOff",
+     [](Geometry& g) {
+       g.inclusions[0].part.to = {0.5, 1e-8};
+     },
+     "inclusions[0].part.to",
+     {"1e-08 off the interface"}},
+    {"InclusionBeyond",
+     [](Geometry& g) {
+       g.inclusions[0].part.to = {1.5, 0};
+     },
+     "inclusions[0].part.to",
+     {"0.5 off the interface"}},
+    {"InclusionNan",
+     [](Geometry& g) { g.inclusions[0].part.to[1] = nan_value; },
+     "inclusions[0].part.to",
+     {"nan"}},
+    {"InclusionAtTheStart",
+     [](Geometry& g) {
+       g.inclusions[0] = {"a", {{-1, 0}, {0, 0}}, {}};
+     },
+     "inclusions[0].part.from",
+     {"(-1, 0) touches the boundary"}},
+    {"InclusionAtTheEnd",
+     [](Geometry& g) {
+       g.inclusions[0] = {"a", {{0, 0}, {1, 0}}, {}};
+     },
+     "inclusions[0].part.to",
+     {"(1, 0) touches the boundary"}},
+    {"InclusionAtTheEndBackwards",
+     [](Geometry& g) {
+       g.inclusions[0] = {"a", {{1, 0}, {0, 0}}, {}};
+     },
+     "inclusions[0].part.from",
+     {"(1, 0) touches the boundary"}},
+    {"InclusionWithoutLength",
+     [](Geometry& g) {
+       g.inclusions[0] = {"a", {{0.25, 0}, {0.25, 0}}, {}};
+     },
+     "inclusions[0].part",
+     {"no length", "(0.25, 0)"}},
+    {"CracksOverlap",
+     [](Geometry& g) {
+       g.cracks = {crack("a", 0.6, 0.8), crack("b", 0.9, 0.7)};
+     },
+     "cracks[1].part",
+     {"cracks[1] and cracks[0] overlap", "(0.7, 0)"}},
+    {"CrackInsideInclusion",
+     [](Geometry& g) { g.cracks = {crack("a", -0.1, 0.1)}; },
+     "cracks[0].part",
+     {"cracks[0] and inclusions[0] overlap"}},
+    {"SharedTip",
+     [](Geometry& g) { g.cracks = {crack("a", 0.5, 0.7)}; },
+     "cracks[0].part",
+     {"share the tip (0.5, 0)", "tied to both"}},
+    {"DelaminatedOutside",
+     [](Geometry& g) {
+       g.inclusions[0].delaminated = {{{-0.5, 0}, {-0.4, 0}}, {{0, 0}, {0.6, 0}}};
+     },
+     "inclusions[0].delaminated_parts[1].to",
+     {"(0.6, 0)", "outside its inclusion"}},
+    {"DelaminatedOff",
+     [](Geometry& g) {
+       g.inclusions[0].delaminated = {{{-0.5, 0.5}, {0, 0}}};
+     },
+     "inclusions[0].delaminated_parts[0].from",
+     {"0.5 off the interface"}},
+    {"DelaminatedWithoutLength",
+     [](Geometry& g) {
+       g.inclusions[0].delaminated = {{{0, 0}, {0, 0}}};
+     },
+     "inclusions[0].delaminated_parts[0]",
+     {"no length"}},
+    {"DelaminatedOverlap",
+     [](Geometry& g) {
+       g.inclusions[0].delaminated = {{{0, 0}, {0.3, 0}}, {{-0.4, 0}, {0.1, 0}}};
+     },
+     "inclusions[0].delaminated_parts[0]",
+     {"delaminated_parts[1]", "overlap"}},
+    {"DelaminatedTouch",
+     [](Geometry& g) {
+       g.inclusions[0].delaminated = {{{-0.4, 0}, {0, 0}}, {{0, 0}, {0.3, 0}}};
+     },
+     "inclusions[0].delaminated_parts[1]",
+     {"touch at (0, 0)"}},
+
+    {"NameEmpty",
+     [](Geometry& g) { g.inclusions[0].name.clear(); },
+     "inclusions[0].name",
+     {"empty"}},
+    {"NameWrong",
+     [](Geometry& g) { g.inclusions[0].name = "1st"; },
+     "inclusions[0].name",
+     {"\"1st\"", "a letter"}},
+    {"NameWithSlash",
+     [](Geometry& g) { g.inclusions[0].name = "a/b"; },
+     "inclusions[0].name",
+     {"\"a/b\""}},
+    {"NameWithLineBreak",
+     [](Geometry& g) { g.inclusions[0].name = "a\nb"; },
+     "inclusions[0].name",
+     {"not printable"}},
+    {"NameTooLong",
+     [](Geometry& g) { g.inclusions[0].name = std::string(65, 'a'); },
+     "inclusions[0].name",
+     {"65 characters"}},
+    {"NameTwice",
+     [](Geometry& g) { g.cracks = {crack("inclusion", 0.6, 0.8)}; },
+     "cracks[0].name",
+     {"\"inclusion\" is already the name of inclusions[0]"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Each, FaultyGeometry, ::testing::ValuesIn(faults),
+                         [](const auto& case_) { return case_.param.name; });
+
+TEST(MeshOptions, SizeMustBeAnEdgeLength) {
+  for (const double size : {-0.1, nan_value, infinite}) {
+    EXPECT_TRUE(testing::throws(
+        [&] {
+          mesh::plan(testing::paper_geometry(), {mesh::Preset::uniform, size}, 1000);
+        },
+        Reason::invalid_argument, "options.size"));
+  }
+  EXPECT_TRUE(testing::throws(
+      [] {
+        mesh::plan(testing::paper_geometry(), {mesh::Preset::paper, 0.1}, 100'000);
+      },
+      Reason::invalid_argument, "options.size"));
+}
+
+TEST(Geometry, PointsWithinTheToleranceAreOnTheInterface) {
+  Geometry geometry = testing::paper_geometry();
+  geometry.inclusions[0].part.to = {0.5, 1e-9};
+  EXPECT_NO_THROW(mesh::plan(geometry, {}, 1'000'000));
+}
+
+TEST(Geometry, NamesMayHave64Characters) {
+  Geometry geometry = testing::paper_geometry();
+  geometry.inclusions[0].name = "z" + std::string(59, '9') + "_.-Z";
+  EXPECT_NO_THROW(mesh::plan(geometry, {}, 1'000'000));
+}
+
+}  // namespace
+}  // namespace anticrack

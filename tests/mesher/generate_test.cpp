@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Meshes of geometries, made by the real helper.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <thread>
+
+#include "mesher/helper.hpp"
+#include "support/errors.hpp"
+#include "support/paper_geometry.hpp"
+
+namespace anticrack {
+namespace {
+
+using mesh::Geometry;
+using mesh::Kind;
+using mesh::Mesh;
+using mesh::MeshOptions;
+using mesh::Point;
+using testing::paper_geometry;
+
+constexpr std::size_t enough = 1'000'000;
+
+mesher::HelperOptions helper() {
+  mesher::HelperOptions options;
+  options.executable = mesher::default_executable();
+  return options;
+}
+
+Mesh make(const Geometry& geometry, const MeshOptions& options = {}) {
+  return mesher::run(helper(), mesh::GenerateRequest{mesh::plan(geometry, options, enough), enough},
+                     {});
+}
+
+Point point(const Mesh& mesh, std::int32_t node) {
+  const auto i = 2 * static_cast<std::size_t>(node);
+  return {mesh.xy[i], mesh.xy[i + 1]};
+}
+
+double area(const Mesh& mesh, std::int32_t subdomain) {
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.subdomain[t] == subdomain) sum += mesh::area(mesh, t);
+  }
+  return sum;
+}
+
+TEST(Generate, PaperPresetHasTheSizeOfThePapersMesh) {
+  const Mesh mesh = make(paper_geometry());
+  for (std::int32_t s = 0; s < 2; ++s) {
+    std::size_t triangles = 0;
+    std::set<std::int32_t> nodes;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      if (mesh.subdomain[t] != s) continue;
+      ++triangles;
+      nodes.insert(&mesh.triangles[3 * t], &mesh.triangles[3 * t] + 3);
+    }
+    // 5700 and 5674 triangles, 2971 and 2958 nodes in the paper
+    EXPECT_NEAR(static_cast<double>(triangles), 5700, 60);
+    EXPECT_NEAR(static_cast<double>(nodes.size()), 2970, 30);
+    // Euler's formula with 240 edges on the boundary of the subdomain
+    EXPECT_EQ(triangles, 2 * nodes.size() - 2 - 240);
+    EXPECT_NEAR(area(mesh, s), 2, 1e-12);
+  }
+  EXPECT_GT(mesh::minimum_angle(mesh), 20);
+  EXPECT_EQ(mesh.dirichlet.size(), 160U);
+  EXPECT_EQ(mesh.subdomains, (std::vector<std::string>{"minus", "plus"}));
+  EXPECT_EQ(mesh.inclusions, std::vector<std::string>{"inclusion"});
+  EXPECT_TRUE(mesh.warnings.empty());
+}
+
+TEST(Generate, InterfaceNodesOfThePaperLieExactly) {
+  const Mesh mesh = make(paper_geometry());
+  ASSERT_EQ(mesh.interfaces.size(), 1U);
+  const mesh::Interface& interface = mesh.interfaces[0];
+  EXPECT_EQ(interface.name, "interface");
+  ASSERT_EQ(interface.nodes.size(), 161U);
+  for (std::size_t i = 0; i < 161; ++i) {
+    const Point p = point(mesh, interface.nodes[i]);
+    EXPECT_NEAR(p[0], -1 + static_cast<double>(i) / 80, 2e-16);
+    EXPECT_EQ(p[1], 0.0);
+  }
+  for (std::size_t i = 0; i < 160; ++i) {
+    const bool on_inclusion = i >= 40 && i < 120;
+    EXPECT_EQ(interface.kind[i], on_inclusion ? Kind::delaminated : Kind::glue);
+    EXPECT_EQ(interface.inclusion[i], on_inclusion ? 0 : -1);
+  }
+  // the plus side lies above
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    double y = 0;
+    for (std::size_t k = 0; k < 3; ++k) y += point(mesh, mesh.triangles[3 * t + k])[1];
+    ASSERT_EQ(mesh.subdomain[t], y > 0 ? 1 : 0);
+  }
+}
+
+TEST(Generate, UniformPresetHasElementsOfItsSize) {
+  const Mesh mesh = make(paper_geometry(), {mesh::Preset::uniform, 0.05});
+  EXPECT_NEAR(static_cast<double>(mesh.triangle_count()), 4 / (std::sqrt(3.0) / 4 * 0.05 * 0.05),
+              0.1 * 3695);
+  EXPECT_GT(mesh::minimum_angle(mesh), 25);
+}
+
+TEST(Generate, UnitOfLengthDoesNotMatter) {
+  Geometry geometry = paper_geometry();
+  const auto scale = [](Point& p) {
+    for (double& value : p) value *= 1e-7;
+  };
+  for (Point& p : geometry.boundary) scale(p);
+  for (Point& p : geometry.interface) scale(p);
+  auto& inclusion = geometry.inclusions[0];
+  scale(inclusion.part.from);
+  scale(inclusion.part.to);
+  inclusion.delaminated = {inclusion.part};
+  const Mesh mesh = make(geometry);
+  EXPECT_NEAR(static_cast<double>(mesh.triangle_count()), 11'400, 200);
+  EXPECT_NEAR(area(mesh, 1), 2e-14, 1e-24);
+}
+
+TEST(Generate, BentInterfaceInAClockwisePolygon) {
+  Geometry geometry;
+  geometry.boundary = {{0, 0}, {0, 2}, {1, 3}, {3, 2}, {4, 0}, {2, 0.5}};
+  geometry.interface = {{0, 1}, {1, 1.5}, {2, 1}, {4, 0}};
+  geometry.inclusions = {{"a", {{0.5, 1.25}, {1.5, 1.25}}, {{{0.5, 1.25}, {0.75, 1.375}}}}};
+  geometry.cracks = {{"c", {{2.5, 0.75}, {3, 0.5}}}};
+  const Mesh mesh = make(geometry);
+  const auto& kinds = mesh.interfaces[0].kind;
+  EXPECT_EQ(std::set<Kind>(kinds.begin(), kinds.end()),
+            (std::set<Kind>{Kind::glue, Kind::crack, Kind::inclusion, Kind::delaminated}));
+  EXPECT_EQ(kinds.size(), 160U);
+  EXPECT_GT(mesh::minimum_angle(mesh), 10);
+  // every node of the interface lies on one of its three edges
+  for (const auto node : mesh.interfaces[0].nodes) {
+    const Point p = point(mesh, node);
+    const double y = p[0] <= 1 ? 1 + p[0] / 2 : p[0] <= 2 ? 2 - p[0] / 2 : 2 - p[0] / 2;
+    EXPECT_NEAR(p[1], y, 1e-14);
+  }
+}
+
+TEST(Generate, EightAtOnceGiveTheSameMesh) {
+  const mesh::Bytes expected = mesh::encode(make(paper_geometry()));
+  std::vector<mesh::Bytes> made(8);
+  {
+    std::vector<std::jthread> threads;
+    for (auto& bytes : made) {
+      threads.emplace_back([&bytes] { bytes = mesh::encode(make(paper_geometry())); });
+    }
+  }
+  for (const auto& bytes : made) EXPECT_EQ(bytes, expected);
+}
+
+TEST(Generate, MoreTrianglesThanAskedForAreRefused) {
+  const auto plan = mesh::plan(paper_geometry(), {}, enough);
+  EXPECT_TRUE(testing::throws(
+      [&] {
+        mesher::run(helper(), mesh::GenerateRequest{plan, 5000}, {});
+      },
+      errors::Reason::limit_exceeded));
+}
+
+}  // namespace
+}  // namespace anticrack

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <future>
+#include <stop_token>
+#include <vector>
+
+#include "support/backend.hpp"
+#include "support/errors.hpp"
+#include "support/eventually.hpp"
+
+namespace anticrack::meshes {
+namespace {
+
+using anticrack::testing::Backend;
+using anticrack::testing::BackendOptions;
+using anticrack::testing::eventually;
+using anticrack::testing::throws;
+using errors::Reason;
+using store::MeshState;
+using ::testing::ElementsAre;
+using Operator = std::shared_ptr<const operators::MeshOperator>;
+
+class Prepare : public ::testing::Test {
+ protected:
+  Operator prepare(const std::string& id, std::stop_token stop = {}) {
+    return backend.catalogue.prepare(
+        id, [](MeshState) {}, stop);
+  }
+  MeshState state(const std::string& id) { return backend.catalogue.get(id).state; }
+  bool reaches(const std::string& id, MeshState wanted) {
+    return eventually([&] { return state(id) == wanted; });
+  }
+  bool evict(const std::string& id) {
+    return backend.cache.evict(backend.catalogue.get(id).sha256);
+  }
+
+  Backend backend;
+};
+
+TEST_F(Prepare, SharesTheWorkWithTheBackgroundAndOthers) {
+  const std::string id = backend.create();
+  std::vector<std::future<Operator>> callers;
+  for (int i = 0; i < 6; ++i) {
+    callers.push_back(std::async(std::launch::async, [&] { return prepare(id); }));
+  }
+  const Operator first = callers[0].get();
+  for (std::size_t i = 1; i < callers.size(); ++i) {
+    EXPECT_EQ(callers[i].get(), first);
+  }
+  EXPECT_EQ(prepare(id), first);
+  EXPECT_EQ(backend.catalogue.find(id), first);
+  EXPECT_EQ(backend.catalogue.meshings(), 1U);
+  EXPECT_EQ(backend.cache.metrics().factorizations, 1U);
+  EXPECT_TRUE(reaches(id, MeshState::ready));
+}
+
+TEST_F(Prepare, SaysEvictedWhenTheFactorsAreGoneAndMakesThemAgain) {
+  const std::string id = backend.create();
+  ASSERT_TRUE(reaches(id, MeshState::ready));
+  ASSERT_TRUE(eventually([&] { return evict(id); }));
+  EXPECT_EQ(state(id), MeshState::evicted);
+  EXPECT_EQ(backend.catalogue.list("", 1).at(0).state, MeshState::evicted);
+  EXPECT_FALSE(backend.catalogue.ready(id));
+  EXPECT_EQ(backend.catalogue.find(id), nullptr);
+
+  std::vector<MeshState> heard;
+  const Operator result =
+      backend.catalogue.prepare(id, [&](MeshState phase) { heard.push_back(phase); }, {});
+  EXPECT_THAT(heard, ElementsAre(MeshState::factorizing));
+  EXPECT_EQ(state(id), MeshState::ready);
+  EXPECT_EQ(backend.catalogue.meshings(), 1U);
+  EXPECT_EQ(backend.cache.metrics().factorizations, 2U);
+  EXPECT_FALSE(evict(id));  // held here
+
+  heard.clear();
+  backend.catalogue.prepare(id, [&](MeshState phase) { heard.push_back(phase); }, {});
+  EXPECT_TRUE(heard.empty());
+}
+
+TEST_F(Prepare, TellsTheStepsOnTheWay) {
+  backend.door.shut();
+  const std::string id = backend.create();
+  std::vector<MeshState> heard;
+  std::mutex mutex;
+  auto caller = std::async(std::launch::async, [&] {
+    return backend.catalogue.prepare(id,
+                                     [&](MeshState phase) {
+                                       const std::lock_guard lock(mutex);
+                                       heard.push_back(phase);
+                                     },
+                                     {});
+  });
+  EXPECT_TRUE(reaches(id, MeshState::factorizing));
+  backend.door.open();
+  EXPECT_NE(caller.get(), nullptr);
+  ASSERT_FALSE(heard.empty());
+  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
+  EXPECT_EQ(heard.back(), MeshState::factorizing);
+}
+
+TEST_F(Prepare, ObeysAStopWhileFactorisingAndLeavesTheOthersAlone) {
+  backend.door.shut();
+  const std::string id = backend.create();
+  ASSERT_TRUE(reaches(id, MeshState::factorizing));
+  std::stop_source stop;
+  auto caller = std::async(std::launch::async, [&] { return prepare(id, stop.get_token()); });
+  ASSERT_TRUE(eventually([&] { return backend.cache.metrics().joins == 1; }));
+  stop.request_stop();
+  EXPECT_TRUE(throws([&] { caller.get(); }, Reason::cancelled));
+  EXPECT_EQ(state(id), MeshState::factorizing);
+  backend.door.open();
+  EXPECT_TRUE(reaches(id, MeshState::ready));
+  EXPECT_EQ(backend.cache.metrics().factorizations, 1U);
+}
+
+TEST_F(Prepare, SaysEvictedAgainAfterTheOnlyCallerStopped) {
+  const std::string id = backend.create();
+  ASSERT_TRUE(reaches(id, MeshState::ready));
+  ASSERT_TRUE(eventually([&] { return evict(id); }));
+  backend.door.shut();
+  std::stop_source stop;
+  auto caller = std::async(std::launch::async, [&] { return prepare(id, stop.get_token()); });
+  ASSERT_TRUE(reaches(id, MeshState::factorizing));
+  ASSERT_TRUE(eventually([&] { return backend.cache.metrics().factorizations == 2; }));
+  stop.request_stop();
+  EXPECT_TRUE(throws([&] { caller.get(); }, Reason::cancelled));
+  EXPECT_EQ(state(id), MeshState::evicted);
+  backend.door.open();
+  EXPECT_NE(prepare(id), nullptr);
+}
+
+TEST_F(Prepare, KnowsNoOtherMeshes) {
+  EXPECT_TRUE(throws([&] { prepare("unknown"); }, Reason::not_found));
+}
+
+TEST(PrepareMeshing, ObeysAStopAndTheMesherIsKilledAtTheEnd) {
+  BackendOptions options;
+  options.mesher_hangs = true;
+  Backend backend(options);
+  const std::string id = backend.create();
+  std::stop_source stop;
+  std::promise<void> meshing;
+  auto caller = std::async(std::launch::async, [&] {
+    return backend.catalogue.prepare(
+        id,
+        [&](MeshState phase) {
+          if (phase == MeshState::meshing) {
+            meshing.set_value();
+          }
+        },
+        stop.get_token());
+  });
+  meshing.get_future().wait();
+  stop.request_stop();
+  EXPECT_TRUE(throws([&] { caller.get(); }, Reason::cancelled));
+  EXPECT_EQ(backend.catalogue.get(id).state, MeshState::meshing);
+  // The destructor would wait for an hour if it did not kill the helper.
+}
+
+TEST(PrepareBudget, PassesOnThatMemoryIsHeldByOthers) {
+  std::uint64_t larger = 0;
+  {
+    Backend measure;
+    const Operator result = measure.catalogue.prepare(measure.create(0.2), [](MeshState) {}, {});
+    larger = operators::estimate_bytes(result->mesh());
+  }
+  BackendOptions options;
+  options.memory_budget = larger;
+  Backend backend(options);
+  const std::string first = backend.create(0.25);
+  Operator held = backend.catalogue.prepare(first, [](MeshState) {}, {});
+  const std::string second = backend.create(0.2);
+  EXPECT_TRUE(
+      throws([&] { backend.catalogue.prepare(second, [](MeshState) {}, {}); }, Reason::busy));
+  EXPECT_TRUE(
+      eventually([&] { return backend.catalogue.get(second).state == MeshState::evicted; }));
+  held.reset();
+  EXPECT_NE(backend.catalogue.prepare(second, [](MeshState) {}, {}), nullptr);
+  EXPECT_EQ(backend.catalogue.get(first).state, MeshState::evicted);
+}
+
+TEST(PrepareFailure, OfTheFactorisationFailsTheMesh) {
+  BackendOptions options;
+  options.memory_budget = 1024;
+  Backend backend(options);
+  const std::string id = backend.create();
+  EXPECT_TRUE(
+      throws([&] { backend.catalogue.prepare(id, [](MeshState) {}, {}); }, Reason::limit_exceeded));
+  ASSERT_TRUE(eventually([&] { return backend.catalogue.get(id).state == MeshState::failed; }));
+  EXPECT_EQ(backend.catalogue.get(id).error->reason(), Reason::limit_exceeded);
+  EXPECT_NE(backend.catalogue.read(id), nullptr);  // the triangulation is good
+  EXPECT_EQ(backend.catalogue.create(Backend::definition(), "").state, MeshState::factorizing);
+  EXPECT_TRUE(eventually([&] { return backend.catalogue.get(id).state == MeshState::failed; }));
+  EXPECT_EQ(backend.catalogue.meshings(), 1U);
+}
+
+}  // namespace
+}  // namespace anticrack::meshes

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <thread>
+
+#include "support/backend.hpp"
+#include "support/errors.hpp"
+#include "support/eventually.hpp"
+
+namespace anticrack::meshes {
+namespace {
+
+using anticrack::testing::Backend;
+using anticrack::testing::BackendOptions;
+using anticrack::testing::eventually;
+using anticrack::testing::throws;
+using errors::Reason;
+using store::MeshRecord;
+using store::MeshState;
+
+class Catalogue : public ::testing::Test {
+ protected:
+  bool reaches(const std::string& id, MeshState state) {
+    return eventually([&] { return backend.catalogue.get(id).state == state; });
+  }
+  /// An upload with this content.
+  store::UploadRef upload(const std::string& content) {
+    const std::string part = backend.store->new_upload_path();
+    std::ofstream(part, std::ios::binary) << content;
+    const store::UploadRef result{std::string(63, '0') + std::to_string(++_uploads)};
+    backend.store->keep_upload(part, result.sha256);
+    return result;
+  }
+
+  Backend backend;
+
+ private:
+  int _uploads = 0;
+};
+
+TEST_F(Catalogue, MakesAMeshReadyInTheBackground) {
+  const MeshRecord created = backend.catalogue.create(Backend::definition(), "a title");
+  EXPECT_EQ(created.state, MeshState::pending);
+  EXPECT_EQ(created.id.size(), 16U);
+  ASSERT_TRUE(reaches(created.id, MeshState::ready));
+  const MeshRecord record = backend.catalogue.get(created.id);
+  EXPECT_EQ(record.title, "a title");
+  EXPECT_EQ(record.sha256.size(), 64U);
+  EXPECT_FALSE(record.error);
+  ASSERT_EQ(record.subdomains.size(), 2U);
+  EXPECT_NEAR(record.subdomains[0].area, 2, 1e-12);
+  EXPECT_NEAR(record.subdomains[1].area, 2, 1e-12);
+  ASSERT_EQ(record.interfaces.size(), 1U);
+  EXPECT_NEAR(record.interfaces[0].length, 2, 1e-12);
+  ASSERT_EQ(record.interfaces[0].segments.size(), 3U);
+  EXPECT_EQ(record.interfaces[0].segments[1].kind, mesh::Kind::delaminated);
+  EXPECT_NEAR(record.interfaces[0].segments[1].begin, 0.5, 1e-12);
+  EXPECT_EQ(record.inclusions, std::vector<std::string>{"inclusion"});
+  EXPECT_GT(record.minimum_angle, 20);
+  EXPECT_GT(record.mesh_seconds, 0);
+  EXPECT_GT(record.factorize_seconds, 0);
+  EXPECT_GT(record.theta_star, 0);
+  EXPECT_EQ(record.operator_bytes, backend.cache.metrics().bytes);
+  EXPECT_TRUE(backend.catalogue.ready(created.id));
+  EXPECT_EQ(backend.catalogue.meshings(), 1U);
+  EXPECT_EQ(backend.cache.metrics().factorizations, 1U);
+}
+
+TEST_F(Catalogue, ReadsTheMeshOnceThereIsOne) {
+  const std::string id = backend.create();
+  ASSERT_TRUE(reaches(id, MeshState::ready));
+  const auto block = backend.catalogue.read(id);
+  const MeshRecord record = backend.catalogue.get(id);
+  EXPECT_EQ(block->arrays[0].shape[0], record.node_count);
+  EXPECT_EQ(block->arrays[1].shape[0], record.triangle_count);
+  EXPECT_TRUE(throws([&] { backend.catalogue.read("unknown"); }, Reason::not_found));
+}
+
+TEST_F(Catalogue, GivesTheSameMeshForTheSameDefinition) {
+  const MeshRecord first = backend.catalogue.create(Backend::definition(), "first");
+  ASSERT_TRUE(reaches(first.id, MeshState::ready));
+  const MeshRecord again = backend.catalogue.create(Backend::definition(), "second");
+  EXPECT_EQ(again.id, first.id);
+  EXPECT_EQ(again.title, "first");
+  EXPECT_EQ(again.state, MeshState::ready);
+  EXPECT_NE(backend.create(0.3), first.id);
+  EXPECT_EQ(backend.catalogue.list("", 10).size(), 2U);
+}
+
+TEST_F(Catalogue, MakesOneMeshOfADefinitionThatManyThreadsSend) {
+  std::vector<std::thread> threads;
+  std::vector<std::string> ids(4);
+  for (std::size_t t = 0; t < ids.size(); ++t) {
+    threads.emplace_back([&, t] { ids[t] = backend.create(); });
+  }
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+  ASSERT_TRUE(reaches(ids[0], MeshState::ready));
+  EXPECT_THAT(ids, ::testing::Each(ids[0]));
+  EXPECT_EQ(backend.catalogue.meshings(), 1U);
+  EXPECT_EQ(backend.cache.metrics().factorizations, 1U);
+}
+
+TEST_F(Catalogue, RefusesWhatCanBeNoMesh) {
+  auto source = std::get<store::GeometrySource>(Backend::definition());
+  source.geometry.inclusions[0].part.from = {-0.5, 0.3};
+  EXPECT_TRUE(throws([&] { backend.catalogue.create(source, ""); }, Reason::geometry_invalid));
+  EXPECT_TRUE(throws([&] { backend.catalogue.create(Backend::definition(-1), ""); },
+                     Reason::invalid_argument, "options.size"));
+  EXPECT_TRUE(throws([&] { backend.catalogue.create(store::UploadRef{std::string(64, 'f')}, ""); },
+                     Reason::not_found, "upload"));
+  EXPECT_TRUE(throws([&] { backend.catalogue.create(upload("Merge \"x.geo\";"), ""); },
+                     Reason::mesh_invalid));
+  EXPECT_TRUE(
+      throws([&] { backend.catalogue.create(Backend::definition(), std::string(201, 'x')); },
+             Reason::invalid_argument, "title"));
+  EXPECT_TRUE(backend.catalogue.list("", 10).empty());
+  EXPECT_TRUE(throws([&] { backend.catalogue.get("unknown"); }, Reason::not_found));
+  EXPECT_FALSE(backend.catalogue.ready("unknown"));
+}
+
+TEST_F(Catalogue, KeepsTheErrorOfAMeshThatFailedAndTriesItAgain) {
+  const store::MeshDefinition truncated = upload("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n9");
+  const std::string id = backend.catalogue.create(truncated, "").id;
+  ASSERT_TRUE(reaches(id, MeshState::failed));
+  EXPECT_EQ(backend.catalogue.get(id).error->reason(), Reason::mesh_invalid);
+  EXPECT_TRUE(throws([&] { backend.catalogue.read(id); }, Reason::not_ready));
+  EXPECT_TRUE(
+      throws([&] { backend.catalogue.prepare(id, [](MeshState) {}, {}); }, Reason::mesh_invalid));
+  EXPECT_EQ(backend.catalogue.meshings(), 1U);
+
+  EXPECT_TRUE(eventually([&] {
+    const MeshRecord again = backend.catalogue.create(truncated, "");
+    return again.id == id && backend.catalogue.meshings() >= 2;
+  }));
+  EXPECT_TRUE(reaches(id, MeshState::failed));
+}
+
+TEST_F(Catalogue, ListsNewestFirst) {
+  const std::string first = backend.create(0.25);
+  const std::string second = backend.create(0.3);
+  const auto page = backend.catalogue.list("", 1);
+  ASSERT_EQ(page.size(), 1U);
+  EXPECT_EQ(page[0].id, second);
+  EXPECT_EQ(backend.catalogue.list(second, 5).at(0).id, first);
+  EXPECT_TRUE(throws([&] { backend.catalogue.list("unknown", 5); }, Reason::not_found));
+}
+
+TEST(CatalogueQueue, IsBusyWhenTooManyWait) {
+  BackendOptions options;
+  options.mesher_hangs = true;
+  options.max_pending = 1;
+  Backend backend(options);
+  backend.create(0.2);
+  ASSERT_TRUE(eventually([&] { return backend.catalogue.meshings() == 1; }));
+  backend.create(0.3);
+  ASSERT_TRUE(eventually([&] { return backend.catalogue.meshings() == 2; }));
+  const std::string waiting = backend.create(0.4);
+  EXPECT_EQ(backend.catalogue.get(waiting).state, MeshState::pending);
+  const auto error = anticrack::testing::error_of([&] { backend.create(0.5); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->reason(), Reason::busy);
+  EXPECT_GT(error->retry_delay().count(), 0);
+  EXPECT_EQ(backend.catalogue.list("", 10).size(), 3U);
+  EXPECT_EQ(backend.create(0.4), waiting);  // no new one
+}
+
+}  // namespace
+}  // namespace anticrack::meshes

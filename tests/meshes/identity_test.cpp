@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshes/identity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+#include "support/paper_geometry.hpp"
+
+namespace anticrack::meshes {
+namespace {
+
+using store::GeometrySource;
+using store::UploadRef;
+
+GeometrySource paper(mesh::Preset preset = mesh::Preset::paper, double size = 0) {
+  return {anticrack::testing::paper_geometry(), {preset, size}};
+}
+
+TEST(Identity, IsEqualForEqualDefinitions) {
+  EXPECT_EQ(identity(paper()).size(), 64U);
+  EXPECT_EQ(identity(paper()), identity(paper()));
+  EXPECT_EQ(identity(UploadRef{"ab"}), identity(UploadRef{"ab"}));
+  GeometrySource negative_zero = paper();
+  negative_zero.geometry.interface[0][1] = -0.0;
+  EXPECT_EQ(identity(negative_zero), identity(paper()));
+  EXPECT_EQ(identity(paper(mesh::Preset::paper, 0.5)), identity(paper()));
+}
+
+TEST(Identity, IsThatOfTheWholeDefinition) {
+  std::set<std::string> seen = {
+      identity(paper()), identity(UploadRef{"ab"}), identity(UploadRef{"ac"}),
+      identity(paper(mesh::Preset::uniform, 0.5)), identity(paper(mesh::Preset::uniform, 0.25))};
+  ASSERT_EQ(seen.size(), 5U);
+  const std::vector<std::function<void(mesh::Geometry&)>> changes = {
+      [](mesh::Geometry& g) { g.boundary[2][0] = 1.5; },
+      [](mesh::Geometry& g) {
+        g.boundary.push_back({-1, 0.5});
+      },
+      [](mesh::Geometry& g) { std::swap(g.interface[0], g.interface[1]); },
+      // the same points, another division between the lists
+      [](mesh::Geometry& g) {
+        g.interface.insert(g.interface.begin(), g.boundary.back());
+        g.boundary.pop_back();
+      },
+      [](mesh::Geometry& g) { g.inclusions[0].name = "other"; },
+      [](mesh::Geometry& g) {
+        g.inclusions[0].part.to = {0.4, 0};
+      },
+      [](mesh::Geometry& g) { g.inclusions[0].delaminated.clear(); },
+      [](mesh::Geometry& g) { g.inclusions.clear(); },
+      [](mesh::Geometry& g) {
+        g.cracks = {{"crack", {{0.6, 0}, {0.8, 0}}}};
+      }};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    GeometrySource source = paper();
+    changes[i](source.geometry);
+    EXPECT_TRUE(seen.insert(identity(source)).second) << i;
+  }
+}
+
+}  // namespace
+}  // namespace anticrack::meshes

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshes/summary.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "support/structured_mesh.hpp"
+
+namespace anticrack::meshes {
+namespace {
+
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+
+mesh::Mesh example() {
+  anticrack::testing::StructuredOptions options;
+  options.columns = 8;
+  options.rows = 4;
+  mesh::Mesh mesh = anticrack::testing::structured_mesh(options);
+  mesh.warnings = {"assumed"};
+  return mesh;
+}
+
+TEST(Summary, CountsAndMeasures) {
+  store::MeshRecord record;
+  summarize(example(), record);
+  EXPECT_EQ(record.node_count, 81U);
+  EXPECT_EQ(record.triangle_count, 128U);
+  EXPECT_THAT(record.warnings, ElementsAre("assumed"));
+  EXPECT_EQ(record.inclusions.size(), 1U);
+  EXPECT_NEAR(record.minimum_angle, 45, 1e-9);
+  ASSERT_EQ(record.subdomains.size(), 2U);
+  for (const store::SubdomainSummary& subdomain : record.subdomains) {
+    EXPECT_EQ(subdomain.node_count, 45U);  // the interface's in both
+    EXPECT_EQ(subdomain.triangle_count, 64U);
+    EXPECT_NEAR(subdomain.area, 2, 1e-12);
+  }
+}
+
+TEST(Summary, JoinsEdgesOfOneKindToSegments) {
+  store::MeshRecord record;
+  record.interfaces.resize(3);  // of an attempt before
+  summarize(example(), record);
+  ASSERT_EQ(record.interfaces.size(), 1U);
+  const store::InterfaceSummary& interface = record.interfaces[0];
+  EXPECT_NEAR(interface.length, 2, 1e-12);
+  EXPECT_EQ(interface.node_count, 9U);
+  ASSERT_EQ(interface.segments.size(), 3U);
+  EXPECT_EQ(interface.segments[0].kind, mesh::Kind::glue);
+  EXPECT_EQ(interface.segments[0].inclusion, -1);
+  EXPECT_THAT(interface.segments[0].end, DoubleNear(0.5, 1e-12));
+  EXPECT_EQ(interface.segments[1].kind, mesh::Kind::delaminated);
+  EXPECT_EQ(interface.segments[1].inclusion, 0);
+  EXPECT_THAT(interface.segments[1].begin, DoubleNear(0.5, 1e-12));
+  EXPECT_THAT(interface.segments[1].end, DoubleNear(1.5, 1e-12));
+  EXPECT_EQ(interface.segments[1].edge_count, 4U);
+  EXPECT_EQ(interface.segments[2].edge_count, 2U);
+}
+
+TEST(Summary, SeparatesSegmentsOfDifferentInclusions) {
+  anticrack::testing::StructuredOptions options;
+  options.columns = 8;
+  options.inclusions = {"left", "right"};
+  options.kind = [](double) { return mesh::Kind::delaminated; };
+  options.inclusion = [](double x) { return x < 0 ? 0 : 1; };
+  store::MeshRecord record;
+  summarize(anticrack::testing::structured_mesh(options), record);
+  ASSERT_EQ(record.interfaces[0].segments.size(), 2U);
+  EXPECT_EQ(record.interfaces[0].segments[1].inclusion, 1);
+}
+
+TEST(MeshBlock, HoldsTheArraysOfTheMesh) {
+  const mesh::Mesh mesh = example();
+  const store::Block block = mesh_block(mesh);
+  std::vector<std::string> names;
+  for (const store::ArrayLayout& array : block.arrays) {
+    names.push_back(array.name);
+  }
+  EXPECT_THAT(names,
+              ElementsAre("nodes", "triangles", "subdomain", "boundary", "interfaces/sigma/nodes",
+                          "interfaces/sigma/kind", "interfaces/sigma/inclusion"));
+  EXPECT_THAT(block.arrays[0].shape, ElementsAre(81, 2));
+  EXPECT_THAT(block.arrays[1].shape, ElementsAre(128, 3));
+  EXPECT_THAT(block.arrays[2].shape, ElementsAre(128));
+  EXPECT_THAT(block.arrays[3].shape, ElementsAre(32, 2));
+  EXPECT_THAT(block.arrays[4].shape, ElementsAre(9));
+  EXPECT_THAT(block.arrays[5].shape, ElementsAre(8));
+  std::vector<double> xy(mesh.xy.size());
+  std::memcpy(xy.data(), block.bytes.data() + block.arrays[0].offset, xy.size() * sizeof(double));
+  EXPECT_EQ(xy, mesh.xy);
+  std::vector<std::int32_t> kinds(8);
+  std::memcpy(kinds.data(), block.bytes.data() + block.arrays[5].offset, 8 * sizeof(std::int32_t));
+  EXPECT_THAT(kinds, ElementsAre(1, 1, 4, 4, 4, 4, 1, 1));
+}
+
+}  // namespace
+}  // namespace anticrack::meshes

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Interfaces of glue alone must give the membrane that was never cut: the same nodes in one sparse
+// solve. With any number of subdomains, cross points included.
+#include <gtest/gtest.h>
+
+#include <Eigen/SparseCholesky>
+#include <cmath>
+
+#include "fem/load_vector.hpp"
+#include "fem/stiffness.hpp"
+#include "operators/mesh_operator.hpp"
+#include "support/structured_mesh.hpp"
+
+namespace anticrack::operators {
+namespace {
+
+class Silent : public contact::Observer {
+ public:
+  bool on_iteration(const contact::Sample&) override { return true; }
+};
+
+mesh::Kind glue(double) {
+  return mesh::Kind::glue;
+}
+
+/// Cuts one half once more along x = 0; `half` 0 lower, 1 upper. The new part is on x > 0.
+void cut_half(mesh::Mesh& mesh, int half, int columns, int rows) {
+  const auto name = static_cast<std::int32_t>(mesh.subdomains.size());
+  mesh.subdomains.push_back(half == 0 ? "lower right" : "upper right");
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    double x = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x += mesh.xy[2 * static_cast<std::size_t>(mesh.triangles[3 * t + k])];
+    }
+    if (mesh.subdomain[t] == half && x > 0) {
+      mesh.subdomain[t] = name;
+    }
+  }
+  mesh::Interface wall{half == 0 ? "lower wall" : "upper wall", {}, {}, {}};
+  for (int j = half * rows; j <= (half + 1) * rows; ++j) {
+    wall.nodes.push_back(j * (columns + 1) + columns / 2);
+  }
+  wall.kind.assign(wall.nodes.size() - 1, mesh::Kind::glue);
+  wall.inclusion.assign(wall.nodes.size() - 1, -1);
+  mesh.interfaces.push_back(wall);
+}
+
+/// Largest difference of the subdomains' fields from one solve on the whole mesh, and of the
+/// energy.
+void expect_uncut(const mesh::Mesh& mesh) {
+  const fem::Load load{"load", fem::Expression{"1 + sin(4*x)*y"}, "0.3*x - y*y"};
+  const auto op = MeshOperator::factorise(std::make_shared<const mesh::Mesh>(mesh), 2, {});
+  contact::UzawaOptions options;
+  options.theta.reset();
+  options.epsilon = 1e-30;
+  options.max_iterations = 200000;
+  Silent observer;
+  const contact::Answer answer = op->solve(load, options, true, observer);
+  ASSERT_EQ(answer.status, contact::Status::converged) << answer.reason;
+
+  const fem::Triangulation whole{mesh.xy, mesh.triangles};
+  const Eigen::SparseMatrix<double> stiffness = fem::stiffness(whole);
+  const Eigen::VectorXd force = fem::load_vector(whole, load.force, "");
+  Eigen::VectorXd prescribed =
+      fem::boundary_values(whole, load.boundary_value, 0, whole.node_count());
+  std::vector<char> fixed(whole.node_count(), 0);
+  for (const auto& edge : mesh.dirichlet) {
+    fixed[static_cast<std::size_t>(edge[0])] = fixed[static_cast<std::size_t>(edge[1])] = 1;
+  }
+  Eigen::SparseMatrix<double> constrained = stiffness;
+  constrained.prune([&fixed](Eigen::Index i, Eigen::Index j, double) {
+    return fixed[static_cast<std::size_t>(i)] == 0 && fixed[static_cast<std::size_t>(j)] == 0;
+  });
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    if (fixed[i] != 0) {
+      constrained.coeffRef(k, k) = 1;
+    } else {
+      prescribed[k] = 0;
+    }
+  }
+  Eigen::VectorXd right = force - stiffness * prescribed;
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    right[k] = fixed[i] != 0 ? prescribed[k] : right[k];
+  }
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(constrained);
+  const Eigen::VectorXd u = solver.solve(right);
+
+  double difference = 0;
+  for (const contact::Field& field : answer.fields) {
+    for (std::size_t i = 0; i < field.nodes.size(); ++i) {
+      difference = std::max(difference, std::abs(field.u[i] - u[field.nodes[i]]));
+    }
+  }
+  std::printf("[ figures  ] %zu subdomains against the uncut membrane: %.1e in %d iterations\n",
+              mesh.subdomains.size(), difference, answer.iterations);
+  EXPECT_LT(difference, 1e-11);
+  EXPECT_NEAR(answer.energy, u.dot(stiffness * u) / 2 - force.dot(u), 1e-12);
+  EXPECT_TRUE(answer.contact_intervals.empty());
+}
+
+TEST(UncutMembrane, IsTwoGluedHalves) {
+  expect_uncut(testing::structured_mesh({24, 8, glue, {}, {}}));
+}
+
+TEST(UncutMembrane, IsThreeGluedPartsThatMeetInAPoint) {
+  mesh::Mesh mesh = testing::structured_mesh({24, 8, glue, {}, {}});
+  cut_half(mesh, 1, 24, 8);
+  expect_uncut(mesh);
+}
+
+TEST(UncutMembrane, IsFourGluedQuartersThatMeetInAPoint) {
+  mesh::Mesh mesh = testing::structured_mesh({24, 8, glue, {}, {}});
+  cut_half(mesh, 0, 24, 8);
+  cut_half(mesh, 1, 24, 8);
+  expect_uncut(mesh);
+}
+
+TEST(UncutMembrane, IsOneSubdomainWithoutInterface) {
+  mesh::Mesh mesh = testing::structured_mesh({24, 8, glue, {}, {}});
+  mesh.subdomains = {"whole"};
+  mesh.interfaces.clear();
+  mesh.subdomain.assign(mesh.subdomain.size(), 0);
+  expect_uncut(mesh);
+}
+
+}  // namespace
+}  // namespace anticrack::operators

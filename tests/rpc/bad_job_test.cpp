@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Jobs that cannot be: each refused with a clear error that names the field, the server serving on.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "rpc/details.hpp"
+#include "rpc/requests.hpp"
+#include "rpc/running_server.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+using anticrack::testing::expect_error;
+using anticrack::testing::opening_job;
+using anticrack::testing::paper_mesh;
+using anticrack::testing::RunningServer;
+
+struct BadJob {
+  const char* name;
+  std::function<void(v1::Job&)> spoil;
+  const char* reason;
+  const char* field;
+  grpc::StatusCode code = grpc::StatusCode::INVALID_ARGUMENT;
+};
+
+v1::Uzawa& uzawa(v1::Job& job) {
+  return *job.mutable_solver()->mutable_uzawa();
+}
+
+v1::Force& force(v1::Job& job) {
+  return *job.mutable_load_cases(0)->mutable_force();
+}
+
+const std::vector<BadJob>& bad_jobs() {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr auto unimplemented = grpc::StatusCode::UNIMPLEMENTED;
+  static const std::vector<BadJob> all{
+      {"ExpressionWithASyntaxError", [](auto& job) { force(job).set_expression("x + * y"); },
+       "EXPRESSION_INVALID", "job.load_cases[0].force.expression"},
+      {"ExpressionWithAnUnknownSymbol", [](auto& job) { force(job).set_expression("x + z"); },
+       "EXPRESSION_INVALID", "job.load_cases[0].force.expression"},
+      {"EmptyExpression", [](auto& job) { force(job).set_expression(""); }, "EXPRESSION_INVALID",
+       "job.load_cases[0].force.expression"},
+      {"BoundaryValueWithASyntaxError",
+       [](auto& job) { job.mutable_load_cases(0)->set_boundary_value("sin("); },
+       "EXPRESSION_INVALID", "job.load_cases[0].boundary_value"},
+      {"ConstantNan", [](auto& job) { force(job).set_constant(nan); }, "INVALID_ARGUMENT",
+       "job.load_cases[0].force.constant"},
+      {"DuplicateName", [](auto& job) { job.add_load_cases()->set_name(job.load_cases(0).name()); },
+       "INVALID_ARGUMENT", "job.load_cases[1].name"},
+      {"EmptyName", [](auto& job) { job.add_load_cases(); }, "INVALID_ARGUMENT",
+       "job.load_cases[1].name"},
+      {"NoLoadCase", [](auto& job) { job.clear_load_cases(); }, "INVALID_ARGUMENT",
+       "job.load_cases"},
+      {"ThetaZero", [](auto& job) { uzawa(job).set_theta(0); }, "INVALID_ARGUMENT",
+       "job.solver.uzawa.theta"},
+      {"ThetaNegative", [](auto& job) { uzawa(job).set_theta(-2); }, "INVALID_ARGUMENT",
+       "job.solver.uzawa.theta"},
+      {"ThetaNan", [](auto& job) { uzawa(job).set_theta(nan); }, "INVALID_ARGUMENT",
+       "job.solver.uzawa.theta"},
+      {"PNegative", [](auto& job) { uzawa(job).set_p(-1); }, "INVALID_ARGUMENT",
+       "job.solver.uzawa.p"},
+      {"EpsilonZero", [](auto& job) { uzawa(job).set_epsilon(0); }, "INVALID_ARGUMENT",
+       "job.solver.uzawa.epsilon"},
+      {"EpsilonNegative", [](auto& job) { uzawa(job).set_epsilon(-1e-9); }, "INVALID_ARGUMENT",
+       "job.solver.uzawa.epsilon"},
+      {"IterationsNegative", [](auto& job) { uzawa(job).set_max_iterations(-1); },
+       "INVALID_ARGUMENT", "job.solver.uzawa.max_iterations"},
+      {"TitleTooLong", [](auto& job) { job.set_title(std::string(201, 't')); }, "LIMIT_EXCEEDED",
+       "job.title"},
+      {"MeshUnnamed", [](auto& job) { job.clear_mesh(); }, "INVALID_ARGUMENT", "job.mesh"},
+      {"MeshUnknown", [](auto& job) { job.set_mesh("meshes/0000000000000000"); }, "NOT_FOUND",
+       "job.mesh", grpc::StatusCode::NOT_FOUND},
+      {"ActiveSet", [](auto& job) { job.mutable_solver()->mutable_active_set(); },
+       "NOT_IMPLEMENTED", "job.solver.active_set", unimplemented},
+      {"KktTolerance", [](auto& job) { uzawa(job).set_kkt_tolerance(1e-9); }, "NOT_IMPLEMENTED",
+       "job.solver.uzawa.kkt_tolerance", unimplemented},
+      {"ForceArray", [](auto& job) { force(job).mutable_array(); }, "NOT_IMPLEMENTED",
+       "job.load_cases[0].force.array", unimplemented},
+      {"Traction", [](auto& job) { job.mutable_load_cases(0)->set_traction("1"); },
+       "NOT_IMPLEMENTED", "job.load_cases[0].traction", unimplemented},
+      {"PointForces", [](auto& job) { job.mutable_load_cases(0)->add_point_forces(); },
+       "NOT_IMPLEMENTED", "job.load_cases[0].point_forces", unimplemented},
+      {"InclusionForces",
+       [](auto& job) { (*job.mutable_load_cases(0)->mutable_inclusion_forces())["fibre"] = 1; },
+       "NOT_IMPLEMENTED", "job.load_cases[0].inclusion_forces", unimplemented},
+  };
+  return all;
+}
+
+void PrintTo(const BadJob& bad, std::ostream* out) {
+  *out << bad.name;
+}
+
+/// One server for all: each bad job is followed by a good one.
+class BadJobTest : public ::testing::TestWithParam<BadJob> {
+ protected:
+  static void SetUpTestSuite() { _server = std::make_unique<RunningServer>(); }
+  static void TearDownTestSuite() { _server.reset(); }
+  static std::unique_ptr<RunningServer> _server;
+};
+
+std::unique_ptr<RunningServer> BadJobTest::_server;
+
+TEST_P(BadJobTest, IsRefusedAndTheServerServesOn) {
+  const std::string mesh = _server->create(paper_mesh()).name();
+  v1::CreateJobRequest request = opening_job(mesh);
+  GetParam().spoil(*request.mutable_job());
+  expect_error(_server->try_create(request), GetParam().code, GetParam().reason, GetParam().field);
+  const v1::Job good = _server->finish(_server->create(opening_job(mesh)).name());
+  EXPECT_EQ(good.state(), v1::Job::STATE_SUCCEEDED);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, BadJobTest, ::testing::ValuesIn(bad_jobs()),
+                         [](const auto& bad) { return std::string(bad.param.name); });
+
+TEST(BadJob, WithAValueThatIsNotFiniteFailsItsLoadCaseAlone) {
+  RunningServer server;
+  const std::string mesh = server.create(paper_mesh()).name();
+  v1::CreateJobRequest request = opening_job(mesh);
+  v1::LoadCase& bad = *request.mutable_job()->add_load_cases();
+  bad.set_name("bad");
+  bad.mutable_force()->set_expression("sqrt(x - 5)");
+  const v1::Job job = server.finish(server.create(request).name());
+  ASSERT_EQ(job.answers_size(), 2);
+  EXPECT_EQ(job.answers(0).status(), v1::LoadCaseAnswer::STATUS_CONVERGED);
+  EXPECT_EQ(job.answers(1).status(), v1::LoadCaseAnswer::STATUS_FAILED);
+  const v1::Status& error = job.answers(1).error();
+  EXPECT_EQ(error.code(), static_cast<int>(grpc::StatusCode::INVALID_ARGUMENT));
+  const grpc::Status status(static_cast<grpc::StatusCode>(error.code()), error.message(),
+                            error.SerializeAsString());
+  expect_error(status, grpc::StatusCode::INVALID_ARGUMENT, "EXPRESSION_INVALID",
+               "load_cases[1].force.expression");
+}
+
+TEST(BadJob, LargerThanALimitIsRefusedBeforeItIsRead) {
+  RunningServer server([](auto& settings) {
+    settings.engine.max_load_cases = 2;
+    settings.engine.max_expression_bytes = 10;
+    settings.engine.max_iterations = 100;
+  });
+  const std::string mesh = server.create(paper_mesh()).name();
+  v1::CreateJobRequest many = opening_job(mesh);
+  many.mutable_job()->add_load_cases();
+  many.mutable_job()->add_load_cases();
+  expect_error(server.try_create(many), grpc::StatusCode::INVALID_ARGUMENT, "LIMIT_EXCEEDED",
+               "job.load_cases");
+  v1::CreateJobRequest request = opening_job(mesh);
+  force(*request.mutable_job()).set_expression("1 + 1 + 1 + 1");
+  EXPECT_EQ(anticrack::testing::details_of(server.try_create(request)).fields,
+            std::vector<std::string>{"job.load_cases[0].force.expression"});
+  force(*request.mutable_job()).set_constant(1);
+  uzawa(*request.mutable_job()).set_max_iterations(101);
+  EXPECT_EQ(anticrack::testing::details_of(server.try_create(request)).fields,
+            std::vector<std::string>{"job.solver.uzawa.max_iterations"});
+}
+
+TEST(BadJob, FindsTheQueueFullAndIsToldWhenToComeAgain) {
+  RunningServer server([](auto& settings) {
+    settings.engine.threads = 1;
+    settings.engine.max_queued_jobs = 1;
+  });
+  const std::string mesh = server.create(paper_mesh()).name();
+  grpc::Status status;
+  for (int i = 0; i < 50 && status.ok(); ++i)
+    status = server.try_create(anticrack::testing::endless_job(mesh));
+  expect_error(status, grpc::StatusCode::RESOURCE_EXHAUSTED, "BUSY", "");
+  EXPECT_GT(anticrack::testing::details_of(status).retry_seconds, 0);
+}
+
+}  // namespace
+}  // namespace anticrack::rpc

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Jobs from submission to result.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <span>
+
+#include "rpc/details.hpp"
+#include "rpc/requests.hpp"
+#include "rpc/running_server.hpp"
+#include "store/digest.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+using anticrack::testing::Context;
+using anticrack::testing::endless_job;
+using anticrack::testing::expect_error;
+using anticrack::testing::opening_job;
+using anticrack::testing::paper_mesh;
+using anticrack::testing::RunningServer;
+
+struct Received {
+  v1::BlockLayout layout;
+  std::string bytes;
+  int chunks = 0;
+};
+
+/// Reads a block from an offset to the end, checking chunks on the way.
+template <class Reader, class Response>
+grpc::Status receive(Reader& reader, std::uint64_t offset, Received& to, Response response) {
+  while (reader.Read(&response)) {
+    if (response.has_layout()) {
+      to.layout = response.layout();
+      EXPECT_EQ(to.chunks, 0);
+      continue;
+    }
+    const v1::BlockChunk& chunk = response.chunk();
+    EXPECT_EQ(chunk.offset(), offset + to.bytes.size());
+    EXPECT_LE(chunk.data().size(), 1u << 20);
+    EXPECT_EQ(store::crc32c(std::as_bytes(std::span(chunk.data()))), chunk.crc32c());
+    to.bytes += chunk.data();
+    ++to.chunks;
+  }
+  return reader.Finish();
+}
+
+grpc::Status read_result(RunningServer& server, const std::string& job, std::uint64_t offset,
+                         Received& to) {
+  Context context;
+  v1::ReadResultRequest request;
+  request.set_name(job);
+  request.set_offset(offset);
+  const auto reader = server.jobs->ReadResult(&context, request);
+  return receive(*reader, offset, to, v1::ReadResultResponse());
+}
+
+grpc::Status read_mesh(RunningServer& server, const std::string& mesh, std::uint64_t offset,
+                       Received& to) {
+  Context context;
+  v1::ReadMeshRequest request;
+  request.set_name(mesh);
+  request.set_offset(offset);
+  const auto reader = server.meshes->ReadMesh(&context, request);
+  return receive(*reader, offset, to, v1::ReadMeshResponse());
+}
+
+std::vector<double> doubles(const Received& block, const std::string& name) {
+  for (const v1::ArrayLayout& array : block.layout.arrays()) {
+    if (array.name() != name) continue;
+    EXPECT_EQ(array.type(), v1::ArrayLayout::TYPE_FLOAT64);
+    std::vector<double> values(array.shape(0));
+    std::memcpy(values.data(), block.bytes.data() + array.offset(), values.size() * sizeof(double));
+    return values;
+  }
+  ADD_FAILURE() << "no array " << name;
+  return {};
+}
+
+TEST(Job, OpensTheCrackOfExampleThree) {
+  RunningServer server;
+  v1::CreateMeshRequest mesh = paper_mesh();
+  mesh.mutable_options()->Clear();  // the preset "paper"
+  const v1::Mesh created = server.create(mesh);
+  EXPECT_EQ(created.title(), "section 8");
+  v1::CreateJobRequest request = opening_job(created.name());
+  request.mutable_job()->set_title("Example 3");
+  request.mutable_job()->set_fields(true);
+  const v1::Job job = server.finish(server.create(request).name());
+
+  EXPECT_EQ(job.title(), "Example 3");
+  EXPECT_EQ(job.mesh(), created.name());
+  ASSERT_EQ(job.state(), v1::Job::STATE_SUCCEEDED);
+  EXPECT_EQ(job.attempt(), 1);
+  EXPECT_GE(job.end_time().seconds(), job.start_time().seconds());
+  EXPECT_EQ(job.solver().uzawa().theta(), 2.0);
+  EXPECT_EQ(job.load_cases(0).force().expression(), "y > 0 ? 1 : -1");
+  ASSERT_EQ(job.answers_size(), 1);
+  const v1::LoadCaseAnswer& answer = job.answers(0);
+  EXPECT_EQ(answer.name(), "opening");
+  EXPECT_EQ(answer.status(), v1::LoadCaseAnswer::STATUS_CONVERGED);
+  EXPECT_GT(answer.iterations(), 0);
+  EXPECT_LE(answer.criterion(), 1e-12);
+  ASSERT_EQ(answer.inclusions_size(), 1);
+  EXPECT_EQ(answer.inclusions(0).name(), "fibre");
+  EXPECT_NEAR(answer.inclusions(0).displacement(), 0.0863, 0.001);
+  EXPECT_NEAR(answer.inclusions(0).resultant(), 0, 1e-9);
+  EXPECT_EQ(answer.contact_length(), 0);
+
+  Received block;
+  ASSERT_TRUE(read_result(server, job.name(), 0, block).ok());
+  EXPECT_EQ(block.bytes.size(), job.result_bytes());
+  EXPECT_EQ(block.layout.size(), job.result_bytes());
+  EXPECT_EQ(block.layout.sha256(), store::Sha256().add(block.bytes).finish());
+  const auto x = doubles(block, "interfaces/0/x");
+  const auto jump = doubles(block, "loads/0/traces/0/jump");
+  ASSERT_EQ(x.size(), jump.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (std::abs(x[i]) < 0.49) {
+      EXPECT_GT(jump[i], 0) << "at " << x[i];
+    } else {
+      EXPECT_NEAR(jump[i], 0, 1e-4) << "at " << x[i];
+    }
+  }
+  EXPECT_EQ(doubles(block, "loads/0/history/criterion").size(),
+            static_cast<std::size_t>(answer.iterations()));
+}
+
+TEST(Job, ReadsItsMeshInChunksFromAnyOffset) {
+  RunningServer server;
+  const v1::Mesh mesh = server.settle(server.create(paper_mesh(0.01)).name());
+  ASSERT_EQ(mesh.state(), v1::Mesh::STATE_READY);
+  EXPECT_EQ(mesh.subdomains_size(), 2);
+  EXPECT_EQ(mesh.interfaces_size(), 1);
+  EXPECT_GT(mesh.theta_star(), 0);
+  EXPECT_GT(mesh.minimum_angle(), 10);
+
+  Received whole;
+  ASSERT_TRUE(read_mesh(server, mesh.name(), 0, whole).ok());
+  EXPECT_GT(whole.chunks, 1);
+  EXPECT_EQ(whole.layout.sha256(), store::Sha256().add(whole.bytes).finish());
+  EXPECT_EQ(doubles(whole, "nodes").size(), mesh.node_count());
+
+  Received rest;
+  ASSERT_TRUE(read_mesh(server, mesh.name(), 1'234'567, rest).ok());
+  EXPECT_EQ(rest.bytes, whole.bytes.substr(1'234'567));
+
+  Received nothing;
+  ASSERT_TRUE(read_mesh(server, mesh.name(), whole.bytes.size(), nothing).ok());
+  EXPECT_TRUE(nothing.bytes.empty());
+  EXPECT_EQ(nothing.layout.size(), whole.bytes.size());
+
+  Received beyond;
+  expect_error(read_mesh(server, mesh.name(), whole.bytes.size() + 1, beyond),
+               grpc::StatusCode::OUT_OF_RANGE, "OFFSET_OUT_OF_RANGE", "offset");
+}
+
+TEST(Job, OfTheSameRequestIdIsTheSame) {
+  RunningServer server;
+  const std::string mesh = server.create(paper_mesh()).name();
+  v1::CreateJobRequest request = opening_job(mesh);
+  request.set_request_id("123e4567-e89b-12d3-a456-426614174000");
+  const std::string first = server.create(request).name();
+  EXPECT_EQ(server.create(request).name(), first);
+  request.mutable_job()->mutable_load_cases(0)->set_name("other");
+  expect_error(server.try_create(request), grpc::StatusCode::INVALID_ARGUMENT, "REQUEST_ID_REUSED",
+               "request_id");
+  request.clear_request_id();
+  EXPECT_NE(server.create(request).name(), first);
+}
+
+TEST(Job, IsCancelledWhileItRuns) {
+  RunningServer server;
+  const std::string mesh = server.create(paper_mesh()).name();
+  const std::string name = server.create(endless_job(mesh)).name();
+  Context context;
+  v1::WatchJobRequest request;
+  request.set_name(name);
+  const auto reader = server.jobs->WatchJob(&context, request);
+  v1::WatchJobResponse event;
+  while (reader->Read(&event) && !event.has_samples()) {
+  }
+  ASSERT_TRUE(event.has_samples());
+  EXPECT_TRUE(server.cancel(name).ok());
+  while (reader->Read(&event)) {
+  }
+  EXPECT_TRUE(reader->Finish().ok());
+  ASSERT_TRUE(event.has_ended());
+  EXPECT_EQ(event.ended().state(), v1::Job::STATE_CANCELLED);
+  EXPECT_TRUE(server.cancel(name).ok());  // idempotent
+  EXPECT_EQ(server.job(name).state(), v1::Job::STATE_CANCELLED);
+}
+
+TEST(Job, ThatDidNotConvergeSaysWhy) {
+  RunningServer server;
+  v1::CreateJobRequest request = opening_job(server.create(paper_mesh()).name());
+  request.mutable_job()->mutable_solver()->mutable_uzawa()->set_max_iterations(3);
+  const v1::Job job = server.finish(server.create(request).name());
+  EXPECT_EQ(job.state(), v1::Job::STATE_SUCCEEDED);
+  ASSERT_EQ(job.answers_size(), 1);
+  EXPECT_EQ(job.answers(0).status(), v1::LoadCaseAnswer::STATUS_NOT_CONVERGED);
+  EXPECT_EQ(job.answers(0).iterations(), 3);
+  EXPECT_FALSE(job.answers(0).reason().empty());
+  EXPECT_FALSE(job.answers(0).has_error());
+}
+
+TEST(Job, IsDeletedOnceItEnded) {
+  RunningServer server;
+  const std::string name = server.create(endless_job(server.create(paper_mesh()).name())).name();
+  const auto remove = [&] {
+    Context context;
+    v1::DeleteJobRequest request;
+    request.set_name(name);
+    google::protobuf::Empty empty;
+    return server.jobs->DeleteJob(&context, request, &empty);
+  };
+  expect_error(remove(), grpc::StatusCode::FAILED_PRECONDITION, "IN_USE", "");
+  Received block;
+  expect_error(read_result(server, name, 0, block), grpc::StatusCode::FAILED_PRECONDITION,
+               "NOT_READY", "");
+  server.cancel(name);
+  server.finish(name);
+  EXPECT_TRUE(remove().ok());
+  expect_error(remove(), grpc::StatusCode::NOT_FOUND, "NOT_FOUND", "");
+}
+
+}  // namespace
+}  // namespace anticrack::rpc

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "rpc/details.hpp"
+#include "rpc/requests.hpp"
+#include "rpc/running_server.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+using anticrack::testing::Context;
+using anticrack::testing::expect_error;
+using anticrack::testing::opening_job;
+using anticrack::testing::paper_mesh;
+using anticrack::testing::RunningServer;
+
+v1::ListJobsResponse list(RunningServer& server, int size, const std::string& token) {
+  Context context;
+  v1::ListJobsRequest request;
+  request.set_page_size(size);
+  request.set_page_token(token);
+  v1::ListJobsResponse response;
+  const grpc::Status status = server.jobs->ListJobs(&context, request, &response);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  return response;
+}
+
+TEST(List, PagesThroughJobsNewestFirst) {
+  RunningServer server;
+  const std::string mesh = server.create(paper_mesh()).name();
+  std::vector<std::string> created;
+  for (int i = 0; i < 20; ++i) created.push_back(server.create(opening_job(mesh)).name());
+  std::vector<std::string> listed;
+  std::string token;
+  int pages = 0;
+  do {
+    const v1::ListJobsResponse page = list(server, 19, token);
+    EXPECT_LE(page.jobs_size(), 19);
+    for (const v1::Job& job : page.jobs()) listed.push_back(job.name());
+    token = page.next_page_token();
+    ++pages;
+  } while (!token.empty());
+  EXPECT_EQ(pages, 2);
+  EXPECT_EQ(listed, std::vector<std::string>(created.rbegin(), created.rend()));
+  EXPECT_EQ(list(server, 20, "").next_page_token(), "");
+  EXPECT_EQ(list(server, 0, "").jobs_size(), 20);
+}
+
+TEST(List, ClosesAPageBeforeItGrowsTooLargeForAMessage) {
+  RunningServer server;
+  v1::CreateJobRequest request = opening_job(server.create(paper_mesh()).name());
+  for (int i = 0; i < 230; ++i) {
+    v1::LoadCase& load = *request.mutable_job()->add_load_cases();
+    load.set_name(std::to_string(i));
+    load.mutable_force()->set_expression("1" + std::string(4'000, ' '));
+  }
+  std::vector<std::string> names;
+  for (int i = 0; i < 5; ++i) {
+    names.push_back(server.create(request).name());
+    server.cancel(names.back());
+  }
+  const v1::ListJobsResponse first = list(server, 5, "");
+  EXPECT_LT(first.jobs_size(), 5);
+  EXPECT_LT(first.ByteSizeLong(), 4u << 20);
+  const v1::ListJobsResponse second = list(server, 5, first.next_page_token());
+  EXPECT_EQ(first.jobs_size() + second.jobs_size(), 5);
+}
+
+TEST(List, RefusesPagesThereAreNot) {
+  RunningServer server;
+  Context a, b, c;
+  v1::ListJobsResponse jobs;
+  v1::ListMeshesResponse meshes;
+  v1::ListJobsRequest request;
+  request.set_page_size(1001);
+  expect_error(server.jobs->ListJobs(&a, request, &jobs), grpc::StatusCode::INVALID_ARGUMENT,
+               "INVALID_ARGUMENT", "page_size");
+  request.set_page_size(10);
+  request.set_page_token("deadbeef");
+  expect_error(server.jobs->ListJobs(&b, request, &jobs), grpc::StatusCode::INVALID_ARGUMENT,
+               "INVALID_ARGUMENT", "page_token");
+  v1::ListMeshesRequest mesh_request;
+  mesh_request.set_page_size(-1);
+  expect_error(server.meshes->ListMeshes(&c, mesh_request, &meshes),
+               grpc::StatusCode::INVALID_ARGUMENT, "INVALID_ARGUMENT", "page_size");
+}
+
+TEST(List, ShowsMeshes) {
+  RunningServer server;
+  const std::string a = server.create(paper_mesh(0.2)).name();
+  const std::string b = server.create(paper_mesh(0.3)).name();
+  EXPECT_EQ(server.create(paper_mesh(0.2)).name(), a);  // the same content is the same mesh
+  Context context;
+  v1::ListMeshesResponse response;
+  ASSERT_TRUE(server.meshes->ListMeshes(&context, {}, &response).ok());
+  ASSERT_EQ(response.meshes_size(), 2);
+  EXPECT_EQ(response.meshes(0).name(), b);
+  EXPECT_EQ(response.meshes(1).name(), a);
+}
+
+}  // namespace
+}  // namespace anticrack::rpc

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rpc/requests.hpp"
+
+namespace anticrack::testing {
+namespace {
+
+void add_point(v1::Point& to, double x, double y) {
+  to.set_x(x);
+  to.set_y(y);
+}
+
+}  // namespace
+
+v1::CreateMeshRequest paper_mesh(double size) {
+  v1::CreateMeshRequest request;
+  v1::Geometry& geometry = *request.mutable_geometry();
+  add_point(*geometry.add_boundary(), -1, -1);
+  add_point(*geometry.add_boundary(), 1, -1);
+  add_point(*geometry.add_boundary(), 1, 1);
+  add_point(*geometry.add_boundary(), -1, 1);
+  add_point(*geometry.mutable_interface()->add_points(), -1, 0);
+  add_point(*geometry.mutable_interface()->add_points(), 1, 0);
+  v1::Inclusion& inclusion = *geometry.add_inclusions();
+  inclusion.set_name("fibre");
+  add_point(*inclusion.mutable_part()->mutable_from(), -0.5, 0);
+  add_point(*inclusion.mutable_part()->mutable_to(), 0.5, 0);
+  request.mutable_options()->set_preset(v1::MESH_PRESET_UNIFORM);
+  request.mutable_options()->set_size(size);
+  request.set_title("section 8");
+  return request;
+}
+
+v1::CreateJobRequest opening_job(const std::string& mesh) {
+  v1::CreateJobRequest request;
+  request.mutable_job()->set_mesh(mesh);
+  v1::LoadCase& load = *request.mutable_job()->add_load_cases();
+  load.set_name("opening");
+  load.mutable_force()->set_expression("y > 0 ? 1 : -1");
+  return request;
+}
+
+v1::CreateJobRequest endless_job(const std::string& mesh) {
+  v1::CreateJobRequest request = opening_job(mesh);
+  v1::Uzawa& uzawa = *request.mutable_job()->mutable_solver()->mutable_uzawa();
+  uzawa.set_theta(1e-9);  // so small that the iteration goes nowhere for hours
+  uzawa.set_epsilon(1e-300);
+  uzawa.set_max_iterations(2'000'000'000);
+  return request;
+}
+
+std::string small_msh() {
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+         "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+         "$Elements\n2\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n$EndElements\n";
+}
+
+}  // namespace anticrack::testing

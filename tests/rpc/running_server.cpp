@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rpc/running_server.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <thread>
+#include <utility>
+
+#include "operators/mesh_operator.hpp"
+#include "store/digest.hpp"
+
+namespace anticrack::testing {
+Context::Context() {
+  set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(2));
+}
+
+RunningServer::RunningServer(const std::function<void(Settings&)>& adjust) {
+  Settings settings;
+  settings.engine.max_iterations = 2'000'000'000;
+  settings.catalogue.helper.executable = ANTICRACK_MESHER;
+  settings.server.listen = "127.0.0.1:0";
+  if (adjust) adjust(settings);
+  operators::require_threadsafe_blas();
+  _store = store::make_memory_store(_folder.path());
+  _cache = std::make_unique<operators::OperatorCache>(
+      std::uint64_t{1} << 30, [](std::shared_ptr<const mesh::Mesh> mesh, std::stop_token stop) {
+        return operators::MeshOperator::factorise(std::move(mesh), 2, std::move(stop));
+      });
+  _catalogue = std::make_unique<meshes::MeshCatalogue>(settings.catalogue, *_store, *_cache);
+  _engine = std::make_unique<jobs::JobEngine>(settings.engine, *_store, *_catalogue);
+  _server = std::make_unique<rpc::Server>(settings.server,
+                                          rpc::Backend{*_engine, *_catalogue, *_cache, *_store});
+  const auto shared = channel();
+  meshes = v1::MeshService::NewStub(shared);
+  jobs = v1::SolveService::NewStub(shared);
+  servers = v1::ServerService::NewStub(shared);
+}
+
+RunningServer::~RunningServer() {
+  _server.reset();
+  _engine.reset();
+  _catalogue.reset();
+}
+
+std::size_t RunningServer::upload_files() const {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(_folder.path())) {
+    if (entry.is_regular_file()) ++count;
+  }
+  return count;
+}
+
+std::shared_ptr<grpc::Channel> RunningServer::channel() const {
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  return grpc::CreateCustomChannel(_server->address(), grpc::InsecureChannelCredentials(),
+                                   arguments);
+}
+
+v1::Mesh RunningServer::create(const v1::CreateMeshRequest& request) {
+  Context context;
+  v1::Mesh mesh;
+  const grpc::Status status = meshes->CreateMesh(&context, request, &mesh);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  return mesh;
+}
+
+v1::Job RunningServer::create(const v1::CreateJobRequest& request) {
+  Context context;
+  v1::Job job;
+  const grpc::Status status = jobs->CreateJob(&context, request, &job);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  return job;
+}
+
+v1::ServerInfo RunningServer::info() {
+  Context context;
+  v1::ServerInfo info;
+  const grpc::Status status = servers->GetServerInfo(&context, {}, &info);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  return info;
+}
+
+v1::Job RunningServer::job(const std::string& name) {
+  Context context;
+  v1::GetJobRequest request;
+  request.set_name(name);
+  v1::Job job;
+  const grpc::Status status = jobs->GetJob(&context, request, &job);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  return job;
+}
+
+v1::Mesh RunningServer::mesh(const std::string& name) {
+  Context context;
+  v1::GetMeshRequest request;
+  request.set_name(name);
+  v1::Mesh mesh;
+  const grpc::Status status = meshes->GetMesh(&context, request, &mesh);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  return mesh;
+}
+
+grpc::Status RunningServer::try_create(const v1::CreateMeshRequest& request) {
+  Context context;
+  v1::Mesh mesh;
+  return meshes->CreateMesh(&context, request, &mesh);
+}
+
+grpc::Status RunningServer::try_create(const v1::CreateJobRequest& request) {
+  Context context;
+  v1::Job job;
+  return jobs->CreateJob(&context, request, &job);
+}
+
+grpc::Status RunningServer::cancel(const std::string& job) {
+  Context context;
+  v1::CancelJobRequest request;
+  request.set_name(job);
+  v1::Job answer;
+  return jobs->CancelJob(&context, request, &answer);
+}
+
+grpc::Status RunningServer::upload(const v1::UploadMeshRequest::Header& header,
+                                   const std::string& content, std::string* name,
+                                   std::size_t chunk) {
+  Context context;
+  v1::UploadMeshResponse response;
+  const auto writer = meshes->UploadMesh(&context, &response);
+  v1::UploadMeshRequest request;
+  *request.mutable_header() = header;
+  bool open = writer->Write(request);
+  for (std::size_t offset = 0; open && offset < content.size(); offset += chunk) {
+    request.set_chunk(content.substr(offset, chunk));
+    open = writer->Write(request);
+  }
+  writer->WritesDone();
+  const grpc::Status status = writer->Finish();
+  if (name != nullptr) *name = response.upload();
+  return status;
+}
+
+grpc::Status RunningServer::upload(const std::string& content, std::string* name) {
+  v1::UploadMeshRequest::Header header;
+  header.set_size(content.size());
+  header.set_sha256(store::Sha256().add(content).finish());
+  return upload(header, content, name);
+}
+
+grpc::Status RunningServer::watch(const std::string& job, std::uint64_t after,
+                                  std::vector<v1::WatchJobResponse>& events) {
+  Context context;
+  v1::WatchJobRequest request;
+  request.set_name(job);
+  request.set_after_sequence(after);
+  const auto reader = jobs->WatchJob(&context, request);
+  v1::WatchJobResponse event;
+  while (reader->Read(&event)) events.push_back(event);
+  return reader->Finish();
+}
+
+v1::Job RunningServer::finish(const std::string& name) {
+  std::vector<v1::WatchJobResponse> events;
+  const grpc::Status status = watch(name, 0, events);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  return job(name);
+}
+
+v1::Mesh RunningServer::settle(const std::string& name) {
+  for (;;) {
+    const v1::Mesh current = mesh(name);
+    if (current.state() == v1::Mesh::STATE_READY || current.state() == v1::Mesh::STATE_FAILED ||
+        current.name().empty()) {
+      return current;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+}  // namespace anticrack::testing

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The real server with everything below it, in this process, and stubs on a channel to it.
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "anticrack/v1/mesh.grpc.pb.h"
+#include "anticrack/v1/server.grpc.pb.h"
+#include "anticrack/v1/solve.grpc.pb.h"
+#include "jobs/job_engine.hpp"
+#include "meshes/mesh_catalogue.hpp"
+#include "operators/operator_cache.hpp"
+#include "rpc/server.hpp"
+#include "store/store.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace anticrack::testing {
+
+struct Settings {
+  meshes::CatalogueOptions catalogue;
+  jobs::EngineOptions engine;
+  rpc::ServerOptions server;
+};
+
+class RunningServer {
+ public:
+  /// On a free port of 127.0.0.1; `adjust` may change the settings.
+  explicit RunningServer(const std::function<void(Settings&)>& adjust = {});
+  ~RunningServer();
+  RunningServer(const RunningServer&) = delete;
+  RunningServer& operator=(const RunningServer&) = delete;
+
+  rpc::Server& server() { return *_server; }
+  jobs::JobEngine& engine() { return *_engine; }
+  /// Files of uploads, finished or not.
+  std::size_t upload_files() const;
+  /// A channel of its own.
+  std::shared_ptr<grpc::Channel> channel() const;
+
+  /// Calls that must succeed; gtest failures otherwise.
+  v1::Mesh create(const v1::CreateMeshRequest& request);
+  v1::Job create(const v1::CreateJobRequest& request);
+  v1::ServerInfo info();
+  v1::Job job(const std::string& name);
+  v1::Mesh mesh(const std::string& name);
+
+  /// The statuses of calls that may fail.
+  grpc::Status try_create(const v1::CreateMeshRequest& request);
+  grpc::Status try_create(const v1::CreateJobRequest& request);
+  grpc::Status cancel(const std::string& job);
+  /// Uploads `content` in chunks of `chunk` bytes under the header given.
+  grpc::Status upload(const v1::UploadMeshRequest::Header& header, const std::string& content,
+                      std::string* name = nullptr, std::size_t chunk = 1000);
+  /// With the right header.
+  grpc::Status upload(const std::string& content, std::string* name = nullptr);
+
+  /// Watches to the end of the stream.
+  grpc::Status watch(const std::string& job, std::uint64_t after,
+                     std::vector<v1::WatchJobResponse>& events);
+  /// Waits for the end of the job by watching it.
+  v1::Job finish(const std::string& job);
+  /// Waits until the mesh is READY or FAILED.
+  v1::Mesh settle(const std::string& mesh);
+
+  std::unique_ptr<v1::MeshService::Stub> meshes;
+  std::unique_ptr<v1::SolveService::Stub> jobs;
+  std::unique_ptr<v1::ServerService::Stub> servers;
+
+ private:
+  TemporaryFolder _folder;
+  std::unique_ptr<store::Store> _store;
+  std::unique_ptr<operators::OperatorCache> _cache;
+  std::unique_ptr<meshes::MeshCatalogue> _catalogue;
+  std::unique_ptr<jobs::JobEngine> _engine;
+  std::unique_ptr<rpc::Server> _server;
+};
+
+/// A context that ends a call that hangs, so that a test fails instead of standing still.
+struct Context : grpc::ClientContext {
+  Context();
+};
+
+}  // namespace anticrack::testing

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rpc/server.hpp"
+
+#include <gmock/gmock.h>
+#include <grpcpp/generic/generic_stub.h>
+#include <gtest/gtest.h>
+
+#include <future>
+
+#include "errors/errors.hpp"
+#include "rpc/details.hpp"
+#include "rpc/requests.hpp"
+#include "rpc/running_server.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+using anticrack::testing::Context;
+using anticrack::testing::expect_error;
+using anticrack::testing::opening_job;
+using anticrack::testing::paper_mesh;
+using anticrack::testing::RunningServer;
+
+/// One message each way to a service whose stubs are not here, in protobuf's wire format.
+grpc::Status call(RunningServer& server, const std::string& method, const std::string& request,
+                  std::string& response) {
+  grpc::GenericStub stub(server.channel());
+  Context context;
+  const grpc::Slice slice(request);
+  const grpc::ByteBuffer out(&slice, 1);
+  grpc::ByteBuffer in;
+  std::promise<grpc::Status> done;
+  stub.UnaryCall(&context, method, grpc::StubOptions(), &out, &in,
+                 [&](grpc::Status status) { done.set_value(std::move(status)); });
+  const grpc::Status status = done.get_future().get();
+  grpc::Slice flat;
+  response.clear();
+  if (status.ok() && in.DumpToSingleSlice(&flat).ok()) {
+    response.assign(reinterpret_cast<const char*>(flat.begin()), flat.size());
+  }
+  return status;
+}
+
+TEST(Server, TellsWhatItIsAndAllows) {
+  RunningServer server([](auto& settings) {
+    settings.engine.threads = 3;
+    settings.engine.max_load_cases = 17;
+    settings.server.limits.upload_bytes = 12'345;
+    settings.server.limits.watchers = 5;
+    settings.server.limits.meshing_time = std::chrono::seconds(99);
+  });
+  const v1::ServerInfo info = server.info();
+  EXPECT_FALSE(info.version().empty());
+  EXPECT_FALSE(info.build().empty());
+  EXPECT_GT(info.start_time().seconds(), 0);
+  EXPECT_EQ(info.threads(), 3);
+  EXPECT_EQ(info.limits().load_cases(), 17);
+  EXPECT_EQ(info.limits().upload_bytes(), 12'345u);
+  EXPECT_EQ(info.limits().watchers(), 5);
+  EXPECT_EQ(info.limits().meshing_time().seconds(), 99);
+  EXPECT_GT(info.limits().expression_bytes(), 0u);
+  EXPECT_GT(info.limits().queued_jobs(), 0);
+  EXPECT_THAT(info.features(), ::testing::Contains("uzawa"));
+  EXPECT_THAT(info.features(), ::testing::Not(::testing::Contains("active_set")));
+}
+
+TEST(Server, CountsWhatItDoes) {
+  RunningServer server;
+  const std::string mesh = server.create(paper_mesh()).name();
+  ASSERT_EQ(server.settle(mesh).state(), v1::Mesh::STATE_READY);
+  server.finish(server.create(opening_job(mesh)).name());
+  const v1::ServerMetrics first = server.info().metrics();
+  EXPECT_EQ(first.meshings(), 1u);
+  EXPECT_EQ(first.factorizations(), 1u);
+  EXPECT_EQ(first.jobs_created(), 1u);
+  EXPECT_EQ(first.jobs_ended(), 1u);
+  EXPECT_EQ(first.load_cases_ended(), 1u);
+  EXPECT_GT(first.iterations(), 0u);
+  EXPECT_GT(first.operator_bytes(), 0u);
+
+  server.finish(server.create(opening_job(mesh)).name());
+  const v1::ServerMetrics second = server.info().metrics();
+  EXPECT_EQ(second.factorizations(), 1u);
+  EXPECT_GT(second.operator_hits(), first.operator_hits());
+  EXPECT_EQ(second.meshings(), 1u);
+}
+
+TEST(Server, AnswersHealthChecksByServiceName) {
+  RunningServer server;
+  const auto check = [&](const std::string& service, std::string& answer) {
+    const std::string request =
+        service.empty() ? "" : "\x0a" + std::string(1, static_cast<char>(service.size())) + service;
+    return call(server, "/grpc.health.v1.Health/Check", request, answer);
+  };
+  const std::string serving = "\x08\x01";
+  for (const char* service : {"", "anticrack.v1.MeshService", "anticrack.v1.SolveService",
+                              "anticrack.v1.ServerService"}) {
+    std::string answer;
+    EXPECT_TRUE(check(service, answer).ok()) << service;
+    EXPECT_EQ(answer, serving) << service;
+  }
+  std::string answer;
+  EXPECT_EQ(check("anticrack.v1.Other", answer).error_code(), grpc::StatusCode::NOT_FOUND);
+}
+
+TEST(Server, ListsItsServicesByReflection) {
+  RunningServer server;
+  std::string answer;
+  const std::string list_services{"\x3a\x00", 2};
+  const grpc::Status status =
+      call(server, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", list_services,
+           answer);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  EXPECT_THAT(answer, ::testing::HasSubstr("anticrack.v1.SolveService"));
+}
+
+TEST(Server, TakesNoPortThatAnotherHas) {
+  RunningServer first;
+  try {
+    RunningServer second(
+        [&](auto& settings) { settings.server.listen = first.server().address(); });
+    ADD_FAILURE() << "both listen on " << first.server().address();
+  } catch (const errors::Error& error) {
+    EXPECT_EQ(error.reason(), errors::Reason::invalid_argument);
+    ASSERT_EQ(error.fields().size(), 1u);
+    EXPECT_EQ(error.fields()[0].field, "listen");
+  }
+  EXPECT_FALSE(first.info().version().empty());
+}
+
+TEST(Server, ListensOnAUnixSocket) {
+  const anticrack::testing::TemporaryFolder folder;
+  const std::string address = "unix:" + folder.path() + "/socket";
+  RunningServer server([&](auto& settings) { settings.server.listen = address; });
+  EXPECT_EQ(server.server().address(), address);
+  EXPECT_FALSE(server.info().version().empty());
+}
+
+TEST(Server, SaysWhichMethodsItDoesNotHave) {
+  RunningServer server;
+  v1::Mesh mesh;
+  google::protobuf::Empty empty;
+  v1::DeleteMeshRequest remove;
+  v1::WarmMeshRequest warm;
+  v1::EvictMeshRequest evict;
+  Context a, b, c;
+  for (const grpc::Status& status :
+       {server.meshes->DeleteMesh(&a, remove, &empty), server.meshes->WarmMesh(&b, warm, &mesh),
+        server.meshes->EvictMesh(&c, evict, &mesh)}) {
+    expect_error(status, grpc::StatusCode::UNIMPLEMENTED, "NOT_IMPLEMENTED", "name");
+  }
+  EXPECT_FALSE(server.info().version().empty());
+}
+
+TEST(Server, SurvivesARequestLargerThanAMessageMayBe) {
+  RunningServer server;
+  v1::CreateJobRequest request = opening_job("meshes/a");
+  request.mutable_job()->mutable_load_cases(0)->mutable_force()->set_expression(
+      std::string(5u << 20, '1'));
+  EXPECT_EQ(server.try_create(request).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_FALSE(server.info().version().empty());
+}
+
+}  // namespace
+}  // namespace anticrack::rpc

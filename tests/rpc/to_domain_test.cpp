@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rpc/to_domain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "rpc/requests.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+using anticrack::testing::opening_job;
+using anticrack::testing::paper_mesh;
+using errors::Error;
+using errors::Reason;
+
+constexpr JobLimits limits{10, 1'000};
+
+mesh::Geometry geometry_of(const v1::CreateMeshRequest& request) {
+  return std::get<store::GeometrySource>(to_definition(request)).geometry;
+}
+
+/// The field and the reason of what is thrown.
+void expect_refused(const std::function<void()>& call, Reason reason, const std::string& field) {
+  try {
+    call();
+    ADD_FAILURE() << "accepted; expected " << field;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.reason(), reason) << error.what();
+    ASSERT_EQ(error.fields().size(), 1u);
+    EXPECT_EQ(error.fields().front().field, field);
+  }
+}
+
+void expect_mesh_refused(const std::function<void(v1::CreateMeshRequest&)>& spoil, Reason reason,
+                         const std::string& field) {
+  v1::CreateMeshRequest request = paper_mesh();
+  spoil(request);
+  expect_refused([&] { to_definition(request); }, reason, field);
+}
+
+void expect_job_refused(const std::function<void(v1::Job&)>& spoil, Reason reason,
+                        const std::string& field) {
+  v1::Job job = opening_job("meshes/a").job();
+  spoil(job);
+  expect_refused([&] { to_spec(job, limits); }, reason, field);
+}
+
+TEST(GeometryToDomain, TakesEveryPart) {
+  v1::CreateMeshRequest request = paper_mesh(0.1);
+  v1::Crack& crack = *request.mutable_geometry()->add_cracks();
+  crack.set_name("slit");
+  crack.mutable_part()->mutable_from()->set_x(0.6);
+  crack.mutable_part()->mutable_to()->set_x(0.8);
+  const auto source = std::get<store::GeometrySource>(to_definition(request));
+  EXPECT_EQ(source.options.preset, mesh::Preset::uniform);
+  EXPECT_EQ(source.options.size, 0.1);
+  EXPECT_EQ(source.geometry.boundary.size(), 4u);
+  EXPECT_EQ(source.geometry.interface.front(), (mesh::Point{-1, 0}));
+  ASSERT_EQ(source.geometry.cracks.size(), 1u);
+  EXPECT_EQ(source.geometry.cracks[0].part.to, (mesh::Point{0.8, 0}));
+}
+
+TEST(GeometryToDomain, DelaminatesWhatWasAskedFor) {
+  v1::CreateMeshRequest request = paper_mesh();
+  v1::Inclusion& inclusion = *request.mutable_geometry()->mutable_inclusions(0);
+  const mesh::InclusionSpec whole = geometry_of(request).inclusions[0];
+  ASSERT_EQ(whole.delaminated.size(), 1u);
+  EXPECT_EQ(whole.delaminated[0].from, whole.part.from);
+  EXPECT_EQ(whole.delaminated[0].to, whole.part.to);
+
+  inclusion.set_delaminated(true);
+  EXPECT_EQ(geometry_of(request).inclusions[0].delaminated.size(), 1u);
+  inclusion.set_delaminated(false);
+  EXPECT_TRUE(geometry_of(request).inclusions[0].delaminated.empty());
+
+  v1::InterfacePart& part = *inclusion.mutable_delaminated_parts()->add_parts();
+  part.mutable_from()->set_x(-0.25);
+  part.mutable_to()->set_x(0.125);
+  const mesh::InclusionSpec some = geometry_of(request).inclusions[0];
+  ASSERT_EQ(some.delaminated.size(), 1u);
+  EXPECT_EQ(some.delaminated[0].from, (mesh::Point{-0.25, 0}));
+  EXPECT_EQ(some.delaminated[0].to, (mesh::Point{0.125, 0}));
+}
+
+TEST(GeometryToDomain, RefusesWhatItsTypesCannotExpress) {
+  expect_mesh_refused([](auto& request) { request.clear_source(); }, Reason::invalid_argument,
+                      "geometry");
+  expect_mesh_refused(
+      [](auto& request) {
+        request.mutable_geometry()->mutable_inclusions(0)->mutable_part()->clear_from();
+      },
+      Reason::invalid_argument, "geometry.inclusions[0].part.from");
+  expect_mesh_refused(
+      [](auto& request) {
+        request.mutable_geometry()->add_cracks()->mutable_part()->mutable_from();
+      },
+      Reason::invalid_argument, "geometry.cracks[0].part.to");
+  expect_mesh_refused(
+      [](auto& request) {
+        request.mutable_geometry()->mutable_inclusions(0)->mutable_delaminated_parts();
+      },
+      Reason::invalid_argument, "geometry.inclusions[0].delaminated_parts.parts");
+  expect_mesh_refused(
+      [](auto& request) { request.mutable_options()->set_preset(v1::MESH_PRESET_GRADED); },
+      Reason::not_implemented, "options.preset");
+  expect_mesh_refused(
+      [](auto& request) { request.mutable_options()->set_preset(static_cast<v1::MeshPreset>(77)); },
+      Reason::invalid_argument, "options.preset");
+  expect_mesh_refused([](auto& request) { request.set_title(std::string(201, 't')); },
+                      Reason::limit_exceeded, "title");
+  expect_mesh_refused([](auto& request) { request.set_upload("uploads/1"); },
+                      Reason::invalid_argument, "options");
+  expect_mesh_refused(
+      [](auto& request) {
+        request.clear_options();
+        request.set_upload("uploads/1");
+      },
+      Reason::invalid_argument, "upload");
+}
+
+TEST(GeometryToDomain, CountsBeforeItConverts) {
+  expect_mesh_refused(
+      [](auto& request) {
+        for (std::size_t i = 0; i < max_vertices; ++i) request.mutable_geometry()->add_boundary();
+      },
+      Reason::limit_exceeded, "geometry.boundary");
+  expect_mesh_refused(
+      [](auto& request) {
+        for (std::size_t i = 0; i < max_vertices; ++i) {
+          request.mutable_geometry()->mutable_interface()->add_points();
+        }
+      },
+      Reason::limit_exceeded, "geometry.interface.points");
+  expect_mesh_refused(
+      [](auto& request) {
+        for (std::size_t i = 0; i < max_parts; ++i) request.mutable_geometry()->add_cracks();
+      },
+      Reason::limit_exceeded, "geometry.inclusions");
+}
+
+TEST(GeometryToDomain, PutsTheDomainsFieldsIntoTheRequest) {
+  const auto path = [](const char* field) {
+    return below_mesh_request(Error(Reason::geometry_invalid, "m").at(field)).fields()[0].field;
+  };
+  EXPECT_EQ(path("boundary[2]"), "geometry.boundary[2]");
+  EXPECT_EQ(path("inclusions[0].part.from"), "geometry.inclusions[0].part.from");
+  EXPECT_EQ(path("options.size"), "options.size");
+  EXPECT_EQ(path("upload"), "upload");
+}
+
+TEST(JobToDomain, TakesTheDefaultsOfThePaper) {
+  const store::JobSpec spec = to_spec(opening_job("meshes/a").job(), {10, 1'000'000});
+  EXPECT_EQ(spec.mesh, "a");
+  EXPECT_EQ(spec.solver.theta, 2.0);
+  EXPECT_EQ(spec.solver.epsilon, 1e-12);
+  EXPECT_EQ(spec.solver.p, 1e5);
+  EXPECT_EQ(spec.solver.max_iterations, 20'000);
+  EXPECT_EQ(spec.solver.mass, contact::Mass::lumped);
+  EXPECT_EQ(to_spec(opening_job("meshes/a").job(), limits).solver.max_iterations, 1'000);
+}
+
+TEST(JobToDomain, TakesWhatIsSet) {
+  v1::Job job = opening_job("meshes/a").job();
+  job.set_title("t");
+  job.set_fields(true);
+  v1::Uzawa& uzawa = *job.mutable_solver()->mutable_uzawa();
+  uzawa.set_theta_auto(true);
+  uzawa.set_epsilon(0);
+  uzawa.set_p(0);
+  uzawa.set_max_iterations(7);
+  uzawa.set_mass(v1::MASS_CONSISTENT);
+  v1::LoadCase& regions = *job.add_load_cases();
+  (*regions.mutable_force()->mutable_per_region()->mutable_values())["plus"] = 3;
+  regions.set_boundary_value("x");
+  job.add_load_cases()->mutable_force()->set_constant(-2);
+  job.add_load_cases();
+  const store::JobSpec spec = to_spec(job, limits);
+  EXPECT_TRUE(spec.fields);
+  EXPECT_FALSE(spec.solver.theta.has_value());
+  EXPECT_EQ(spec.solver.epsilon, 0);
+  EXPECT_EQ(spec.solver.p, 0);
+  EXPECT_EQ(spec.solver.max_iterations, 7);
+  EXPECT_EQ(spec.solver.mass, contact::Mass::consistent);
+  ASSERT_EQ(spec.loads.size(), 4u);
+  EXPECT_EQ(std::get<fem::Expression>(spec.loads[0].force).text, "y > 0 ? 1 : -1");
+  EXPECT_EQ(std::get<fem::PerRegion>(spec.loads[1].force).values.at("plus"), 3);
+  EXPECT_EQ(spec.loads[1].boundary_value, "x");
+  EXPECT_EQ(std::get<double>(spec.loads[2].force), -2);
+  EXPECT_EQ(std::get<double>(spec.loads[3].force), 0);
+}
+
+TEST(JobToDomain, NamesWhatThisVersionDoesNotDo) {
+  const auto refused = [](const std::function<void(v1::Job&)>& spoil, const std::string& field) {
+    expect_job_refused(spoil, Reason::not_implemented, field);
+  };
+  refused([](auto& job) { job.mutable_solver()->mutable_active_set(); }, "job.solver.active_set");
+  refused([](auto& job) { job.mutable_solver()->mutable_uzawa()->set_kkt_tolerance(1e-9); },
+          "job.solver.uzawa.kkt_tolerance");
+  refused([](auto& job) { job.mutable_load_cases(0)->mutable_force()->mutable_array(); },
+          "job.load_cases[0].force.array");
+  refused([](auto& job) { job.mutable_load_cases(0)->set_traction("1"); },
+          "job.load_cases[0].traction");
+  refused([](auto& job) { job.add_load_cases()->add_point_forces(); },
+          "job.load_cases[1].point_forces");
+  refused([](auto& job) { (*job.mutable_load_cases(0)->mutable_inclusion_forces())["a"] = 1; },
+          "job.load_cases[0].inclusion_forces");
+}
+
+TEST(JobToDomain, RefusesWhatItsTypesCannotExpress) {
+  expect_job_refused([](auto& job) { job.clear_mesh(); }, Reason::invalid_argument, "job.mesh");
+  expect_job_refused([](auto& job) { job.set_title(std::string(201, 't')); },
+                     Reason::limit_exceeded, "job.title");
+  expect_job_refused(
+      [](auto& job) {
+        for (int i = 0; i < 10; ++i) job.add_load_cases();
+      },
+      Reason::limit_exceeded, "job.load_cases");
+  expect_job_refused(
+      [](auto& job) {
+        job.mutable_load_cases(0)->mutable_force()->set_expression(std::string(max_job_bytes, '1'));
+      },
+      Reason::limit_exceeded, "job");
+  expect_job_refused(
+      [](auto& job) {
+        auto& values = *job.mutable_load_cases(0)->mutable_force()->mutable_per_region();
+        for (std::size_t i = 0; i <= max_regions; ++i) {
+          (*values.mutable_values())[std::to_string(i)] = 1;
+        }
+      },
+      Reason::limit_exceeded, "job.load_cases[0].force.per_region");
+  expect_job_refused(
+      [](auto& job) { job.mutable_solver()->mutable_uzawa()->set_theta_auto(false); },
+      Reason::invalid_argument, "job.solver.uzawa.theta_auto");
+  expect_job_refused(
+      [](auto& job) { job.mutable_solver()->mutable_uzawa()->set_mass(static_cast<v1::Mass>(9)); },
+      Reason::invalid_argument, "job.solver.uzawa.mass");
+}
+
+TEST(JobToDomain, TakesRequestIdsLikeUuids) {
+  require_request_id("");
+  require_request_id("123e4567-e89b-12d3-a456-426614174000");
+  EXPECT_THROW(require_request_id("a b"), Error);
+  EXPECT_THROW(require_request_id(std::string(65, 'a')), Error);
+}
+
+}  // namespace
+}  // namespace anticrack::rpc

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rpc/upload_receiver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "errors/errors.hpp"
+#include "rpc/requests.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+using anticrack::testing::small_msh;
+using errors::Error;
+using errors::Reason;
+
+v1::UploadMeshRequest header_of(const std::string& content) {
+  v1::UploadMeshRequest request;
+  request.mutable_header()->set_size(content.size());
+  request.mutable_header()->set_sha256(store::Sha256().add(content).finish());
+  return request;
+}
+
+v1::UploadMeshRequest chunk_of(const std::string& content) {
+  v1::UploadMeshRequest request;
+  request.set_chunk(content);
+  return request;
+}
+
+class UploadReceiverTest : public ::testing::Test {
+ protected:
+  std::size_t files() const {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(_folder.path())) {
+      if (entry.is_regular_file()) ++count;
+    }
+    return count;
+  }
+
+  /// The requests, then complete(); expects the error, and no file left.
+  void expect_refused(const std::vector<v1::UploadMeshRequest>& requests, Reason reason,
+                      const std::string& field) {
+    try {
+      UploadReceiver receiver(*_store, 10'000);
+      for (const auto& request : requests) receiver.accept(request);
+      receiver.complete();
+      ADD_FAILURE() << "accepted; expected " << field;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.reason(), reason) << error.what();
+      ASSERT_EQ(error.fields().size(), 1u);
+      EXPECT_EQ(error.fields()[0].field, field);
+    }
+    EXPECT_EQ(files(), 0u);
+  }
+
+  anticrack::testing::TemporaryFolder _folder;
+  std::unique_ptr<store::Store> _store = store::make_memory_store(_folder.path());
+};
+
+TEST_F(UploadReceiverTest, KeepsWhatWasSent) {
+  const std::string content = small_msh();
+  UploadReceiver receiver(*_store, 10'000);
+  receiver.accept(header_of(content));
+  receiver.accept(chunk_of(content.substr(0, 20)));
+  receiver.accept(chunk_of(content.substr(20)));
+  const std::string sha256 = receiver.complete();
+  EXPECT_EQ(sha256, store::Sha256().add(content).finish());
+  const auto path = _store->upload_path(sha256);
+  ASSERT_TRUE(path);
+  std::ostringstream kept;
+  kept << std::ifstream(*path).rdbuf();
+  EXPECT_EQ(kept.str(), content);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(UploadReceiverTest, LeavesNothingBehindWhenItIsDropped) {
+  {
+    UploadReceiver receiver(*_store, 10'000);
+    receiver.accept(header_of(small_msh()));
+    receiver.accept(chunk_of("$Mesh"));
+    EXPECT_EQ(files(), 1u);
+  }
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(UploadReceiverTest, StoresNothingBeforeAHeaderWithinTheLimits) {
+  expect_refused({chunk_of("$MeshFormat")}, Reason::invalid_argument, "header");
+  expect_refused({}, Reason::invalid_argument, "header");
+  expect_refused({v1::UploadMeshRequest()}, Reason::invalid_argument, "chunk");
+  expect_refused({header_of(std::string(10'001, 'x'))}, Reason::limit_exceeded, "header.size");
+  expect_refused({header_of("")}, Reason::mesh_invalid, "header.size");
+  v1::UploadMeshRequest upper = header_of(small_msh());
+  upper.mutable_header()->set_sha256(std::string(64, 'A'));
+  expect_refused({upper}, Reason::invalid_argument, "header.sha256");
+  expect_refused({header_of("x"), header_of("x")}, Reason::invalid_argument, "header");
+}
+
+TEST_F(UploadReceiverTest, ComparesWithTheHeader) {
+  const std::string content = small_msh();
+  expect_refused({header_of(content), chunk_of(content + "x")}, Reason::invalid_argument,
+                 "header.size");
+  expect_refused({header_of(content), chunk_of(content.substr(1))}, Reason::invalid_argument,
+                 "header.size");
+  std::string other = content;
+  other.back() = '?';
+  expect_refused({header_of(content), chunk_of(other)}, Reason::invalid_argument, "header.sha256");
+}
+
+TEST_F(UploadReceiverTest, LetsNothingPassThatGmshWouldRun) {
+  for (const std::string content : {"SystemCall \"touch /nowhere\";\n", "// $MeshFormat\n",
+                                    "\x7f"
+                                    "ELF"}) {
+    expect_refused({header_of(content), chunk_of(content)}, Reason::mesh_invalid, "chunk");
+  }
+}
+
+TEST_F(UploadReceiverTest, RefusesLargeChunks) {
+  UploadReceiver receiver(*_store, 10'000'000);
+  v1::UploadMeshRequest header = header_of(small_msh());
+  header.mutable_header()->set_size(5'000'000);
+  receiver.accept(header);
+  EXPECT_THROW(receiver.accept(chunk_of(std::string((1u << 20) + 1, 'x'))), Error);
+  EXPECT_EQ(files(), 0u);
+}
+
+}  // namespace
+}  // namespace anticrack::rpc

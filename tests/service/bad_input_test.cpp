@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Bad input: a clear error that names the field, and a server that serves on.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "service/processes.hpp"
+
+namespace anticrack::service_test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+struct BadCase {
+  std::string name;
+  std::vector<std::string> overrides;  ///< of paper-3.toml
+  std::vector<std::string> says;       ///< what the error must contain
+  int code = 2;
+};
+
+void PrintTo(const BadCase& bad, std::ostream* out) {
+  *out << bad.name;
+}
+
+class BadInput : public testing::TestWithParam<BadCase> {};
+
+void expect_still_serving(const Server& server) {
+  EXPECT_EQ(server.client({"server"}).code, 0) << server.client({"server"}).error;
+}
+
+TEST_P(BadInput, IsRefusedWithTheFieldNamed) {
+  const Server server;
+  const support::TemporaryFolder folder;
+  std::vector<std::string> arguments = {"run", example("paper-3.toml"), "-o", folder / "out.h5"};
+  for (const std::string& entry : GetParam().overrides) {
+    arguments.insert(arguments.end(), {"--set", entry});
+  }
+  const Ended run = server.client(arguments);
+  EXPECT_EQ(run.code, GetParam().code) << run.output << run.error;
+  for (const std::string& text : GetParam().says) EXPECT_THAT(run.error, HasSubstr(text));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.h5"));
+  expect_still_serving(server);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cases, BadInput,
+    testing::Values(
+        BadCase{"SyntaxError", {"load.0.f='x +* 2'"}, {"expression", "x +* 2"}},
+        BadCase{"UnknownSymbol", {"load.0.f='x + z'"}, {"expression", "z"}},
+        BadCase{"NanValue", {"load.0.f='sqrt(-1 - x*x)'"}, {"expression", "not finite"}, 1},
+        BadCase{"SelfCrossingBoundary",
+                {"geometry.boundary=[[-1,-1],[1,1],[1,-1],[-1,1]]"},
+                {"boundary"}},
+        BadCase{"InclusionOffTheInterface",
+                {"geometry.inclusion.0.from=[-0.5,0.25]"},
+                {"inclusion", "interface"}},
+        BadCase{"InclusionTouchingTheBoundary",
+                {"geometry.inclusion.0.from=[-1,0]"},
+                {"inclusion", "boundary"}},
+        BadCase{"InterfaceThatDoesNotCut", {"geometry.interface=[[-1,0],[0.9,0]]"}, {"interface"}},
+        BadCase{"ThetaZero", {"solver.theta=0"}, {"theta", "0"}},
+        BadCase{"ThetaNegative", {"solver.theta=-1"}, {"theta", "-1"}},
+        BadCase{"PNegative", {"solver.p=-5"}, {"p", "-5"}},
+        BadCase{"EpsilonZero", {"solver.epsilon=0"}, {"epsilon", "0"}},
+        BadCase{"UnknownKey", {"solver.tetha=1"}, {"tetha", "theta"}}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(BadInputFile, DuplicateLoadName) {
+  const Server server;
+  const support::TemporaryFolder folder;
+  const std::string text = read_file(example("paper-3.toml"));
+  const std::string load = text.substr(text.find("[[load]]"));
+  const Ended run = server.client({"run", write_file(folder, "twice.toml", text + "\n" + load)});
+  EXPECT_EQ(run.code, 2) << run.output;
+  EXPECT_THAT(run.error, AllOf(HasSubstr("twice"), HasSubstr("name")));
+  expect_still_serving(server);
+}
+
+TEST(BadInputFile, UnknownTomlKeyNamesFileLineAndNearestKey) {
+  const Server server;
+  const support::TemporaryFolder folder;
+  const std::string path =
+      write_file(folder, "typo.toml", "titel = \"x\"\n" + read_file(example("paper-3.toml")));
+  const Ended run = server.client({"run", path});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.error, AllOf(HasSubstr("typo.toml"), HasSubstr("titel"), HasSubstr("title")));
+}
+
+TEST(BadInputFile, MeshOverTheLimit) {
+  const Server server({"--mesh-triangles", "1000"});
+  const support::TemporaryFolder folder;
+  const Ended run = server.client({"run", example("paper-3.toml"), "-o", folder / "out.h5"});
+  EXPECT_NE(run.code, 0);
+  EXPECT_THAT(run.error, HasSubstr("1000"));
+  expect_still_serving(server);
+}
+
+TEST(BadInputFile, UnwritableOutputIsSeenBeforeAnythingIsSubmitted) {
+  const Server server;
+  const Ended run =
+      server.client({"run", example("paper-3.toml"), "-o", "/nonexistent-folder/out.h5"});
+  EXPECT_EQ(run.code, 2) << run.error;
+  EXPECT_THAT(run.error, HasSubstr("/nonexistent-folder"));
+  EXPECT_EQ(server.info().metrics().jobs_created(), 0U);
+}
+
+class BadMsh : public testing::TestWithParam<std::pair<std::string, std::string>> {};
+
+TEST_P(BadMsh, IsRefused) {
+  const Server server;
+  const support::TemporaryFolder folder;
+  std::string content = GetParam().second;
+  const std::string here = "@FOLDER@";
+  if (const auto at = content.find(here); at != std::string::npos) {
+    content.replace(at, here.size(), folder.path());
+  }
+  const std::string path = write_file(folder, "plate.msh", content);
+  const Ended upload = server.client({"mesh", "upload", path});
+  EXPECT_NE(upload.code, 0) << upload.output;
+  EXPECT_FALSE(upload.error.empty());
+  EXPECT_FALSE(std::filesystem::exists(folder / "evil")) << "a script was run";
+  expect_still_serving(server);
+}
+
+const std::string msh_start = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BadMsh,
+    testing::Values(
+        std::pair{"Empty", ""}, std::pair{"Truncated", msh_start + "$Nodes\n4\n1 0 0 0\n2 1 0 0\n"},
+        std::pair{"BinaryGarbage", msh_start + std::string(4096, '\xfe')},
+        std::pair{"NonTriangular", msh_start +
+                                       "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+                                       "$Elements\n1\n1 3 2 1 1 1 2 3 4\n$EndElements\n"},
+        std::pair{"GeoScript", "SystemCall \"touch @FOLDER@/evil\";\nPoint(1) = {0,0,0};\n"}),
+    [](const auto& info) { return info.param.first; });
+
+}  // namespace
+}  // namespace anticrack::service_test

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Store, cache and catalogue over the real mesher and the real operators.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+
+#include "mesher/helper.hpp"
+#include "meshes/mesh_catalogue.hpp"
+#include "operators/mesh_operator.hpp"
+#include "operators/operator_cache.hpp"
+#include "store/store.hpp"
+#include "support/paper_geometry.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace anticrack::testing {
+
+/// A door in front of something slow: whoever passes waits while it is shut, or until stopped.
+class Door {
+ public:
+  void shut() {
+    const std::lock_guard lock(_mutex);
+    _open = false;
+  }
+  void open() {
+    {
+      const std::lock_guard lock(_mutex);
+      _open = true;
+    }
+    _changed.notify_all();
+  }
+  void pass(const std::stop_token& stop) {
+    std::unique_lock lock(_mutex);
+    ++_waiting;
+    _changed.wait(lock, stop, [&] { return _open; });
+    --_waiting;
+  }
+  int waiting() const {
+    const std::lock_guard lock(_mutex);
+    return _waiting;
+  }
+
+ private:
+  mutable std::mutex _mutex;
+  std::condition_variable_any _changed;
+  bool _open = true;
+  int _waiting = 0;
+};
+
+struct BackendOptions {
+  std::uint64_t memory_budget = std::uint64_t{1} << 30;
+  std::size_t max_pending = 64;
+  bool mesher_hangs = false;  ///< a program in its place that does nothing until it is killed
+};
+
+class Backend {
+ public:
+  explicit Backend(const BackendOptions& options = {})
+      : store(store::make_memory_store(folder.path())),
+        cache(options.memory_budget,
+              [this](std::shared_ptr<const mesh::Mesh> mesh, std::stop_token stop) {
+                door.pass(stop);
+                return operators::MeshOperator::factorise(std::move(mesh), 2, stop);
+              }),
+        catalogue(catalogue_options(options), *store, cache) {}
+
+  /// The paper's membrane with elements of this size. Each size is another mesh.
+  static store::MeshDefinition definition(double size = 0.25) {
+    return store::GeometrySource{paper_geometry(), {mesh::Preset::uniform, size}};
+  }
+  std::string create(double size = 0.25) { return catalogue.create(definition(size), "").id; }
+
+  TemporaryFolder folder;
+  Door door;  ///< of the factorisation
+  std::unique_ptr<store::Store> store;
+  operators::OperatorCache cache;
+  meshes::MeshCatalogue catalogue;
+
+ private:
+  meshes::CatalogueOptions catalogue_options(const BackendOptions& options) const {
+    meshes::CatalogueOptions result;
+    result.helper.executable = ANTICRACK_MESHER;
+    result.max_pending = options.max_pending;
+    if (options.mesher_hangs) {
+      result.helper.executable = (folder / "hanging-mesher").string();
+      std::ofstream(result.helper.executable) << "#!/bin/sh\nexec sleep 3600\n";
+      std::filesystem::permissions(result.helper.executable, std::filesystem::perms::owner_all);
+    }
+    return result;
+  }
+};
+
+}  // namespace anticrack::testing

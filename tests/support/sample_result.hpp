@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A result made up without a server: the paper's square, a structured mesh, and displacements with
+// the features of a solution (jump like sqrt(1/4 - x^2), contact near a tip).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "results/result.hpp"
+
+namespace anticrack::support {
+
+/// u+ - u- at (x, 0): open over all of the crack, or closed for x < -0.2.
+inline double sample_jump(double x, bool contact) {
+  if (!contact) return 0.3 * std::sqrt(std::max(0.25 - x * x, 0.0));
+  return x <= -0.2 ? 0.0 : 0.4 * (x + 0.2) * std::sqrt(std::max(0.5 - x, 0.0));
+}
+
+/// u at (x, y) on the given side.
+inline double sample_u(double x, double y, bool plus, bool contact) {
+  const double smooth = (contact ? 0.12 * std::sin(2.2 * x + 0.4) : 0.05) * (1 - x * x);
+  const double side = plus ? 0.35 : -0.65;
+  const double face = smooth + side * sample_jump(x, contact) * std::exp(-2 * std::abs(y));
+  const double load = (plus ? 0.3 : -0.3) * (contact ? 0.4 : 1.0) * std::abs(y) * (1 - x * x);
+  return (face + load) * (1 - std::abs(y));
+}
+
+/// Grid of 2n x 2n squares, two triangles each, on (-1,1)^2; the interface is y = 0.
+inline results::Mesh sample_mesh(int n) {
+  results::Mesh mesh;
+  mesh.subdomains = {"lower", "upper"};
+  const int side = 2 * n + 1;
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      mesh.xy.push_back(-1 + static_cast<double>(i) / n);
+      mesh.xy.push_back(-1 + static_cast<double>(j) / n);
+    }
+  }
+  for (int j = 0; j + 1 < side; ++j) {
+    for (int i = 0; i + 1 < side; ++i) {
+      const int a = j * side + i;
+      for (const int node : {a, a + 1, a + side + 1, a, a + side + 1, a + side}) {
+        mesh.triangles.push_back(node);
+      }
+      mesh.subdomain.insert(mesh.subdomain.end(), 2, j < n ? 0 : 1);
+    }
+  }
+  for (int i = 0; i + 1 < side; ++i) {
+    const int top = side * (side - 1);
+    for (const int node : {i, i + 1, top + i, top + i + 1, i * side, (i + 1) * side,
+                           i * side + side - 1, (i + 1) * side + side - 1}) {
+      mesh.boundary.push_back(node);
+    }
+  }
+  return mesh;
+}
+
+inline results::Interface sample_interface(int n) {
+  results::Interface interface;
+  interface.name = "sigma";
+  for (int i = 0; i <= 2 * n; ++i) {
+    const double x = -1 + static_cast<double>(i) / n;
+    interface.s.push_back(x + 1);
+    interface.x.push_back(x);
+    interface.y.push_back(0);
+    const double beyond = std::abs(x) - 0.5;
+    interface.kind.push_back(beyond < -1e-9  ? results::Kind::delaminated
+                             : beyond < 1e-9 ? results::Kind::inclusion
+                                             : results::Kind::glue);
+  }
+  return interface;
+}
+
+inline results::Load sample_load(const std::string& name, const results::Mesh& mesh,
+                                 const results::Interface& interface, bool contact) {
+  results::Load load;
+  load.name = name;
+  load.status = results::Status::converged;
+  load.method = "uzawa";
+  load.mass = "lumped";
+  load.epsilon = 1e-12;
+  load.p = 1e5;
+  load.iterations = 180;
+  load.criterion = 8.7e-13;
+  load.theta = 2;
+  load.theta_star = 1.74;
+  load.energy = -0.031;
+  load.kkt = {1e-15, 2e-8, 0, 3e-9};
+  load.kkt_relative = {2e-15, 2e-7, 0, 3e-8};
+  load.solve_seconds = 0.05;
+  load.inclusions = {{"fibre", 0.0863, 1e-12, contact ? 0.3 : 0.0}};
+
+  results::Trace trace;
+  for (std::size_t i = 0; i < interface.node_count(); ++i) {
+    const double x = interface.x[i];
+    const bool crack = interface.kind[i] == results::Kind::delaminated;
+    const bool closed = contact && crack && x <= -0.2 + 1e-9;
+    trace.u_minus.push_back(sample_u(x, 0, false, contact));
+    trace.u_plus.push_back(sample_u(x, 0, true, contact));
+    trace.jump.push_back(trace.u_plus.back() - trace.u_minus.back());
+    trace.pressure.push_back(closed ? 0.2 + x : 0.0);
+    trace.contact.push_back(closed ? 1 : 0);
+  }
+  load.traces.push_back(trace);
+  if (contact) {
+    load.contact_length = 0.3;
+    load.contact_intervals = {{0, 0.5, 0.8}};
+  }
+
+  for (int k = 1; k <= load.iterations; ++k) {
+    load.history.iteration.push_back(k);
+    load.history.criterion.push_back(
+        k == 1 ? 1.0 : 0.3 * std::exp(-0.148 * k) * (1 + 0.3 * std::sin(0.5 * k)));
+    load.history.energy.push_back(load.energy * (1 + std::exp(-0.1 * k)));
+    load.history.contact_count.push_back(contact ? 12 : 0);
+    load.history.kkt_equilibrium.push_back(1e-15);
+    load.history.kkt_gap.push_back(std::exp(-0.08 * k));
+    load.history.kkt_sign.push_back(0);
+    load.history.kkt_complementarity.push_back(0.1 * std::exp(-0.08 * k));
+  }
+
+  for (const bool plus : {false, true}) {
+    results::Field field;
+    for (std::size_t i = 0; i < mesh.node_count(); ++i) {
+      const double x = mesh.xy[2 * i];
+      const double y = mesh.xy[2 * i + 1];
+      if (plus ? y < -1e-12 : y > 1e-12) continue;
+      field.nodes.push_back(static_cast<std::int32_t>(i));
+      field.u.push_back(sample_u(x, y, plus, contact));
+    }
+    load.fields.push_back(field);
+  }
+  return load;
+}
+
+/// Two loads, "opening" and "partly closed"; 8 n^2 triangles.
+inline results::Result sample_result(int n = 20) {
+  results::Result result;
+  result.title = "A made-up membrane";
+  result.case_text = "title = \"A made-up membrane\"\n# \xC3\xA9\n";
+  result.client_version = "0.1.0";
+  result.server_version = "0.1.0";
+  result.mesh_name = "meshes/0123";
+  result.job_name = "jobs/4567";
+  result.mesh_sha256 = std::string(64, 'a');
+  result.timings = {0.2, 0.1, 0.05, 0.6};
+  result.mesh = sample_mesh(n);
+  result.interfaces = {sample_interface(n)};
+  result.loads = {sample_load("opening", result.mesh, result.interfaces[0], false),
+                  sample_load("partly closed", result.mesh, result.interfaces[0], true)};
+  return result;
+}
+
+}  // namespace anticrack::support
