@@ -27,7 +27,9 @@ void read_mesh(const Section& root, Case& result) {
       throw Error(geometry->spot(), "there is a mesh.file too; remove one of the two");
     }
     result.mesh_file = result.path.parent_path() / *file;
-    result.spots["upload"] = mesh->spot_of("file");
+    for (const char* field : {"upload", "header", "chunk"}) {
+      result.spots[field] = mesh->spot_of("file");
+    }
     return;
   }
   root.need("geometry", "write [geometry] with boundary and interface, or mesh.file = \"x.msh\"");

@@ -47,6 +47,7 @@ fs::path make_folder() {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
+  signal(SIGPIPE, SIG_DFL);
   // Ctrl-C in the terminal is for the client, which then stops the server.
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);

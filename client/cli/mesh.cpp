@@ -118,7 +118,9 @@ int upload(const MeshOptions& options, const Globals& globals) {
   the_case.path = options.file;
   the_case.mesh_file = options.file;
   the_case.mesh.set_title(options.title);
-  the_case.spots["upload"] = {"", options.file, 0};
+  for (const char* field : {"upload", "header", "chunk"}) {
+    the_case.spots[field] = {"", options.file, 0};
+  }
   return create(the_case, !options.no_wait, globals);
 }
 

@@ -92,6 +92,19 @@ int finish_without_results(const Globals& globals, const v1::Job& job, int exit_
   return exit_code;
 }
 
+void save(const fs::path& output, const results::Result& result, const Session& session) {
+  try {
+    results::write(output, result);
+  } catch (const results::Error&) {
+    if (!session.globals().local) {
+      say(session.globals(),
+          "The server still has the results. To fetch them: anticrack job fetch " +
+              result.job_name + session.server_option());
+    }
+    throw;
+  }
+}
+
 int run(const RunOptions& options, const Globals& globals) {
   const auto begin = std::chrono::steady_clock::now();
   const casefile::Case the_case = casefile::read_case(options.case_file, options.overrides);
@@ -120,7 +133,7 @@ int run(const RunOptions& options, const Globals& globals) {
   result.case_text = the_case.text;
   result.timings.total_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  results::write(output, result);
+  save(output, result, session);
   if (globals.json) {
     print_document(answers_json(result, output));
   } else {

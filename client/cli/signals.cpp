@@ -27,6 +27,8 @@ sigset_t listened_set() {
 Signals::Signals() {
   const sigset_t set = listened_set();
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  // A reader that goes away (| head) shall not end a command that still has results to save.
+  signal(SIGPIPE, SIG_IGN);
   _thread = std::thread([this] { listen(); });
 }
 
@@ -35,6 +37,7 @@ Signals::~Signals() {
   _thread.join();
   const sigset_t set = listened_set();
   pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+  signal(SIGPIPE, SIG_DFL);
 }
 
 bool Signals::second_within(std::chrono::milliseconds time) {

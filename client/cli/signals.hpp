@@ -12,7 +12,7 @@
 namespace anticrack::cli {
 
 /// Takes the signals over for as long as it lives. Make it before any other thread: threads inherit
-/// that the signals are blocked. The third signal ends the process at once.
+/// that the signals are blocked. The third signal ends the process at once. SIGPIPE is ignored.
 class Signals {
  public:
   Signals();

@@ -35,6 +35,10 @@ auto in_terms_of(const casefile::Case& the_case, const Call& call) -> decltype(c
 }  // namespace
 
 v1::Mesh create_mesh(Session& session, const casefile::Case& the_case) {
+  if (the_case.mesh_file && !std::filesystem::is_regular_file(*the_case.mesh_file)) {
+    throw casefile::Error(*the_case.locate("upload"),
+                          the_case.mesh_file->string() + " is no file; name a .msh file");
+  }
   return in_terms_of(the_case, [&] {
     v1::CreateMeshRequest request = the_case.mesh;
     if (the_case.mesh_file) {

@@ -45,10 +45,13 @@ std::string axes() {
 /// Strips of the graph's whole height or of a bar below the curves, one command a band.
 std::string strips(const std::vector<Band>& bands, const std::string& bottom,
                    const std::string& top, const std::string& style) {
+  const std::string from_height = ", graph " + bottom + " to first ";
+  const std::string to_height = ", graph " + top + " " + style + "\n";
   std::string text;
   for (const Band& band : bands) {
-    text += "set object rectangle from first " + number(band.begin) + ", graph " + bottom +
-            " to first " + number(band.end) + ", graph " + top + " " + style + "\n";
+    text += "set object rectangle from first " + number(band.begin);
+    text += from_height + number(band.end);
+    text += to_height;
   }
   return text;
 }

@@ -18,14 +18,30 @@ const std::string diverging =
     "set palette defined (0 '#1b4f8f', 1 '#4a90c8', 2 '#a6cbe3', 3 '#dedede', 4 '#f4b698', "
     "5 '#d6604d', 6 '#97162b')\n";
 
+/// Distance of labels that leaves at most five on a colour bar.
+double label_step(double range) {
+  const double power = std::pow(10.0, std::floor(std::log10(range / 4)));
+  for (const double step : {1.0, 2.0, 5.0}) {
+    if (range / (step * power) <= 4.2) return step * power;
+  }
+  return 10 * power;
+}
+
 std::string colours(const Surface& surface) {
   const double largest = surface.largest();
-  if (largest == 0) return sequential + "set cbrange [-1:1]\n";
-  if (std::min(-surface.lowest, surface.highest) > 0.05 * largest) {
-    return diverging + "set cbrange [" + number(-largest) + ":" + number(largest) + "]\n";
+  std::string palette = sequential;
+  double low = surface.lowest;
+  double high = surface.highest;
+  if (largest == 0) {
+    low = -1;
+    high = 1;
+  } else if (std::min(-low, high) > 0.05 * largest) {
+    palette = diverging;
+    low = -largest;
+    high = largest;
   }
-  return sequential + "set cbrange [" + number(surface.lowest) + ":" + number(surface.highest) +
-         "]\n";
+  return palette + "set cbrange [" + number(low) + ":" + number(high) + "]\nset cbtics " +
+         number(label_step(high - low)) + " offset 0,0.2 textcolor rgb '#333333'\n";
 }
 
 std::string caption(double factor) {
@@ -56,7 +72,8 @@ std::string membrane_data(const Surface& surface) {
   const double factor = amplification(surface);
   std::string text = "$membrane << EOD\n";
   const auto line = [&](const Vertex& v) {
-    text += number(v.x) + " " + number(v.y) + " " + number(factor * v.u) + " " + number(v.u) + "\n";
+    text += number(v.x) + " " + number(v.y) + " " + readable(factor * v.u, 6) + " " +
+            readable(v.u, 6) + "\n";
   };
   // gnuplot has no triangles: each is a quadrilateral A B / C C.
   for (const Triangle& triangle : surface.triangles) {
@@ -100,7 +117,6 @@ std::string membrane_panel(const Surface& surface, double view, const Place& pla
   text += "set colorbox user horizontal origin " + at(0.25, 0.09) + " size screen " +
           number(0.5 * place.width) + ", screen " + number(0.025 * place.height) + "\n";
   text += "set cblabel 'u [-]' offset 0,0.4\n";
-  text += "set cbtics autofreq offset 0,0.2\n";
   text += "set label 2 '" + caption(factor) + "' at " + at(0.5, 0.965) +
           " center noenhanced textcolor rgb '#222222'\n";
   // Not `set xlabel`: terminals keep different distances for it.

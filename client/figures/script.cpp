@@ -59,8 +59,9 @@ std::string script(const std::string& data, const std::string& title, const Plot
     text += "reset\nset encoding utf8\n" + terminal(output, canvas);
     text += "set multiplot\n";
     const std::string size = std::to_string(font_size(output.format) + 4);
-    text += "set label 1 " + title + " at screen 0.5, 0.965 center noenhanced font 'DejaVu Sans," +
-            size + "' textcolor rgb '#222222'\n";
+    text += "set label 1 " + title;
+    text += " at screen 0.5, 0.965 center noenhanced font 'DejaVu Sans," + size;
+    text += "' textcolor rgb '#222222'\n";
     text += plots(output.format);
     text += "unset multiplot\nset output\n";
   }

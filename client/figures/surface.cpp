@@ -146,7 +146,7 @@ Surface surface(const Result& result, const Load& load, std::size_t limit) {
 }
 
 double amplification(const Surface& surface) {
-  const double wanted = 0.25 * surface.width() / surface.largest();
+  const double wanted = 0.38 * surface.width() / (surface.highest - surface.lowest);
   if (!std::isfinite(wanted) || wanted <= 0) return 1;
   const double power = std::pow(10.0, std::floor(std::log10(wanted)));
   const double leading = wanted / power;

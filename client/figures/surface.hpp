@@ -35,7 +35,7 @@ struct Surface {
 /// Needs load.fields. O(m log m).
 Surface surface(const results::Result& result, const results::Load& load, std::size_t limit);
 
-/// A round factor that makes the largest |u| about a quarter of the membrane's width; 1 for u = 0.
+/// A round factor that makes u range over about a third of the membrane's width; 1 for u = 0.
 double amplification(const Surface& surface);
 
 }  // namespace anticrack::figures

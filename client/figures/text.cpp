@@ -101,7 +101,7 @@ std::vector<std::string> file_stems(const std::vector<std::string>& names,
     for (const char c : name) {
       base += is_alphanumeric(c) || c == '.' || c == '-' ? c : '_';
     }
-    if (base.empty() || !is_alphanumeric(base[0])) base = "load" + base;
+    if (base.empty() || !is_alphanumeric(base[0])) base.insert(0, "load");
     std::string stem = base;
     for (int copy = 2;; ++copy) {
       const auto files = files_of(stem);

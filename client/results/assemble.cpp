@@ -145,13 +145,15 @@ void add_load(const Block& block, std::size_t index, std::size_t interfaces, std
       load.traces.push_back(trace_of(block, at + "/traces/" + std::to_string(i)));
     }
   }
-  if (solved || block.has_below(at + "/history/"))
+  if (solved || block.has_below(at + "/history/")) {
     load.history = history_of(block, at + "/history");
+  }
   if (block.has_below(at + "/fields/")) {
     for (std::size_t i = 0; i < subdomains; ++i) {
-      const std::string field = "fields/" + std::to_string(i);  // its nodes serve all loads
+      const std::string field = "/fields/" + std::to_string(i);
+      // A subdomain's nodes serve all loads.
       load.fields.push_back(
-          {block.get<std::int32_t>(field + "/nodes"), block.get<double>(at + "/" + field)});
+          {block.get<std::int32_t>(field.substr(1) + "/nodes"), block.get<double>(at + field)});
     }
   }
 }

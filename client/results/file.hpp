@@ -19,7 +19,8 @@
 //
 // I and D are indices in decimal (an interface, a subdomain); the attribute `name` has their names.
 // Every dataset has the attribute `units` ("-": dimensionless), `kind` also what its numbers mean.
-// Numbers are float64 and int32, little-endian; text is variable-length UTF-8.
+// Needs HDF5 1.10 to read. Numbers are float64 and int32, little-endian; text is variable-length
+// UTF-8.
 #pragma once
 
 #include <filesystem>

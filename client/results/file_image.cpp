@@ -34,14 +34,19 @@ class Memory {
  private:
   static void* allocate(std::size_t size, H5FD_file_image_op_t, void* self) {
     static_cast<Memory*>(self)->_size = size;
-    return std::malloc(size);
+    return std::calloc(size, 1);
   }
   static void* copy(void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*) {
     return std::memcpy(to, from, size);
   }
   static void* reallocate(void* memory, std::size_t size, H5FD_file_image_op_t, void* self) {
-    static_cast<Memory*>(self)->_size = size;
-    return std::realloc(memory, size);
+    // Zeros in the gaps of the file, or the same result would not give the same bytes.
+    auto& known = static_cast<Memory*>(self)->_size;
+    void* grown = std::realloc(memory, size);
+    if (grown == nullptr) return nullptr;
+    if (size > known) std::memset(static_cast<std::byte*>(grown) + known, 0, size - known);
+    known = size;
+    return grown;
   }
   static herr_t release(void* memory, H5FD_file_image_op_t, void* self) {
     std::free(std::exchange(static_cast<Memory*>(self)->_kept, memory));
@@ -72,7 +77,8 @@ std::vector<std::byte> file_image(const std::function<void(const Handle& file)>&
     if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110) < 0) {
       throw Fault("HDF5 is older than 1.10");
     }
-    Handle file(H5Fcreate("result", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose,
+    const Handle creation = without_times(H5P_FILE_CREATE);
+    Handle file(H5Fcreate("result", H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose,
                 "HDF5 cannot create a file in memory");
     fill(file);
     file.close_now("HDF5 cannot finish the file");

@@ -60,6 +60,9 @@ class Quiet {
 };
 
 // Writing.
+
+/// Creation properties of a class, times off: so the same result gives the same bytes.
+Handle without_times(hid_t property_class);
 Handle create_group(const Handle& parent, const std::string& name);
 void put(const Handle& object, const std::string& attribute, double value);
 void put(const Handle& object, const std::string& attribute, std::int32_t value);

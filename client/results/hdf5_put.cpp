@@ -39,9 +39,7 @@ void put_scalar(const Handle& object, const std::string& name, hid_t file_type, 
 
 Handle creation_properties(std::size_t rows, std::size_t columns, bool checked,
                            const std::string& what) {
-  Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
-  // Without times the same result gives the same bytes.
-  require(H5Pset_obj_track_times(properties.get(), false), what);
+  Handle properties = without_times(H5P_DATASET_CREATE);
   if (!checked || rows == 0) return properties;
   const std::size_t width = std::max<std::size_t>(columns, 1);
   const std::array<hsize_t, 2> chunk{
@@ -87,10 +85,17 @@ Quiet::~Quiet() {
   H5Eset_auto2(H5E_DEFAULT, _function, _data);
 }
 
+Handle without_times(hid_t property_class) {
+  const std::string what = "HDF5 has no creation properties";
+  Handle properties(H5Pcreate(property_class), H5Pclose, what);
+  require(H5Pset_obj_track_times(properties.get(), false), what);
+  return properties;
+}
+
 Handle create_group(const Handle& parent, const std::string& name) {
-  const std::string what = "cannot create group " + name;
-  return {H5Gcreate2(parent.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-          what};
+  const Handle creation = without_times(H5P_GROUP_CREATE);
+  return {H5Gcreate2(parent.get(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
+          H5Gclose, "cannot create group " + name};
 }
 
 void put(const Handle& object, const std::string& attribute, double value) {

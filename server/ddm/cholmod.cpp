@@ -5,12 +5,19 @@
 
 #include "errors/errors.hpp"
 
+// From OpenMP's run-time library, which Debian's libcholmod is linked with. Its header is not
+// included: compiling with OpenMP would make Eigen start threads as well.
+extern "C" void omp_set_max_active_levels(int);
+
 namespace anticrack::ddm {
 namespace {
 
 class Context {
  public:
   Context() {
+    // CHOLMOD asks for a team of four threads inside every factorisation, whoever calls it. Ours
+    // are parallel already; with no level allowed a team is the calling thread alone.
+    omp_set_max_active_levels(0);
     cholmod_start(&_common);
     _common.print = 0;  // it would write to the standard output
     _common.nmethods = 1;

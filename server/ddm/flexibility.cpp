@@ -26,6 +26,9 @@ Flexibility::Flexibility(const Eigen::MatrixXd& schur, std::span<const std::int3
       _column[i] = column;
     }
   }
+  if (size == 0) {
+    return;
+  }
   Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(size, size);
   for (Eigen::Index j = 0; j < schur.cols(); ++j) {
     for (Eigen::Index i = 0; i < schur.rows(); ++i) {

@@ -177,6 +177,9 @@ Eigen::VectorXd SubdomainFactor::apply_schur(const Eigen::VectorXd& trace_values
 }
 
 Eigen::MatrixXd SubdomainFactor::schur() const {
+  if (trace() == 0) {
+    return {};  // Eigen 3.4 forms references through the null data of an empty product
+  }
   return _trace_factor.triangularView<Eigen::Lower>() * _trace_factor.transpose();
 }
 

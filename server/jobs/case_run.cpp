@@ -82,6 +82,29 @@ Error placed(Error error, std::size_t index) {
 
 }  // namespace
 
+std::uint64_t bytes_of(const SolvedCase& solved) {
+  std::uint64_t bytes = solved.history.size() * sizeof(contact::Sample);
+  for (const contact::Trace& trace : solved.answer.traces) {
+    bytes += trace.jump.size() * (4 * sizeof(double) + sizeof(std::int32_t));
+  }
+  for (const contact::Field& field : solved.answer.fields) {
+    bytes += field.u.size() * (sizeof(double) + sizeof(std::int32_t));
+  }
+  return bytes;
+}
+
+CaseOutcome refuse_case(std::size_t index, std::uint64_t max_result_bytes) {
+  auto record = std::make_shared<store::CaseRecord>();
+  record->status = CaseStatus::failed;
+  record->error = placed(
+      Error(Reason::limit_exceeded, "the results of the load cases before are over " +
+                                        std::to_string(max_result_bytes) +
+                                        " bytes, the limit of a job: split the job, or leave its "
+                                        "fields out"),
+      index);
+  return {std::move(record), nullptr};
+}
+
 CaseOutcome run_case(const operators::MeshOperator& mesh_operator, const store::JobSpec& spec,
                      std::size_t index, EventLog& log, const std::stop_token& stop,
                      std::atomic<std::uint64_t>& iterations) {

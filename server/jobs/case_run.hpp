@@ -19,6 +19,12 @@ struct CaseOutcome {
   std::unique_ptr<SolvedCase> solved;  ///< converged and not_converged only
 };
 
+/// Memory of an answer's arrays.
+std::uint64_t bytes_of(const SolvedCase& solved);
+
+/// The outcome of a load case that is not run because the job's result is large enough.
+CaseOutcome refuse_case(std::size_t index, std::uint64_t max_result_bytes);
+
 /// Solves one load case on the calling thread: a sample event an iteration, stopped within one.
 /// What goes wrong is in the record ("load_cases[i]..." at fault), nothing is thrown.
 CaseOutcome run_case(const operators::MeshOperator& mesh_operator, const store::JobSpec& spec,

@@ -154,7 +154,9 @@ void JobEngine::State::start(Lock& lock, const JobPtr& job) {
   job->log->append(PhaseEvent{JobState::running, {}});
   lock.lock();
   --job->active;
-  runnable.push_back(job);
+  if (job->next_case < job->cases.size()) {  // else it was cancelled meanwhile
+    runnable.push_back(job);
+  }
   settle(job);
   changed.notify_all();
 }
@@ -167,15 +169,18 @@ void JobEngine::State::solve_next_case(Lock& lock) {
   }
   ++job->active;
   job->cases[index].running = true;
+  const bool refused = job->result_bytes > options.max_result_bytes;
   lock.unlock();
-  CaseOutcome outcome = run_case(*job->mesh_operator, *job->spec, index, *job->log,
-                                 job->stop.get_token(), iterations);
+  CaseOutcome outcome = refused ? refuse_case(index, options.max_result_bytes)
+                                : run_case(*job->mesh_operator, *job->spec, index, *job->log,
+                                           job->stop.get_token(), iterations);
   job->log->append(CaseEvent{static_cast<std::int32_t>(index), outcome.record});
   lock.lock();
   LiveCase& live = job->cases[index];
   live.running = false;
   live.record = std::move(outcome.record);
   live.solved = std::move(outcome.solved);
+  job->result_bytes += live.solved ? bytes_of(*live.solved) : 0;
   ++cases_ended;
   --job->active;
   settle(job);

@@ -23,6 +23,8 @@ struct EngineOptions {
   int max_queued_jobs = 1'000;              ///< then `busy` with a retry delay
   int max_kept_jobs = 10'000;               ///< ended ones; the oldest go first
   std::size_t event_log_bytes = 16u << 20;  ///< a job
+  /// Traces, fields and history of one job; load cases that would come after it is reached fail.
+  std::uint64_t max_result_bytes = std::uint64_t{2} << 30;
   /// Results and event logs of ended jobs together; the oldest jobs go first, never the newest.
   std::uint64_t max_kept_bytes = std::uint64_t{4} << 30;
 };

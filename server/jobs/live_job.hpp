@@ -49,8 +49,9 @@ struct LiveJob {
   /// Set before the job runs, reset by the thread that ends it.
   std::shared_ptr<const operators::MeshOperator> mesh_operator;
   std::vector<LiveCase> cases;
-  std::size_t next_case = 0;  ///< first one that no thread has taken
-  int active = 0;             ///< threads at work on it
+  std::size_t next_case = 0;       ///< first one that no thread has taken
+  int active = 0;                  ///< threads at work on it
+  std::uint64_t result_bytes = 0;  ///< of the answers so far
   bool ending = false;
   std::shared_ptr<const store::JobRecord> final_record;  ///< once it has ended
   std::chrono::steady_clock::time_point not_before;      ///< its mesh is not to be tried earlier

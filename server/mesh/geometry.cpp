@@ -78,6 +78,7 @@ void each_curve(Plan& plan, const std::function<void(PlannedCurve&)>& visit) {
 void share(const Plan& plan, const std::vector<PlannedCurve*>& curves) {
   if (curves.empty()) return;
   std::vector<double> lengths;
+  lengths.reserve(curves.size());
   for (const PlannedCurve* curve : curves) lengths.push_back(length_of(plan, *curve));
   const std::vector<int> shares = apportion(lengths, paper_intervals);
   for (std::size_t i = 0; i < curves.size(); ++i) curves[i]->intervals = shares[i];
@@ -93,6 +94,7 @@ void set_paper_intervals(Plan& plan) {
   share(plan, rest);
   for (auto& outer : plan.outer) {
     std::vector<PlannedCurve*> curves;
+    curves.reserve(outer.size());
     for (PlannedCurve& curve : outer) curves.push_back(&curve);
     share(plan, curves);
   }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "errors/errors.hpp"
+#include "mesher/size_field.hpp"
 
 namespace anticrack::mesher {
 namespace {
@@ -102,62 +103,28 @@ void build_model(const Plan& plan, const Frame& frame) {
   gmsh::model::geo::synchronize();
 }
 
-/// Edge length wanted at a point: that of the longest interval of the plan, less near curves that
-/// are cut finer, h(x) = min over curves (h_c + growth dist(x, c)). gmsh's own way, to carry the
-/// lengths inwards from the boundary, makes 4 % more triangles than the paper's mesh has.
-class SizeField {
- public:
-  SizeField(const Plan& plan, const Frame& frame) : _growth(plan.growth) {
-    const auto add = [&](const PlannedCurve& planned) {
-      Curve curve{frame.to_gmsh(plan.points[static_cast<std::size_t>(planned.a)]),
-                  frame.to_gmsh(plan.points[static_cast<std::size_t>(planned.b)]), 0};
-      curve.size = std::hypot(curve.b[0] - curve.a[0], curve.b[1] - curve.a[1]) / planned.intervals;
-      _longest = std::max(_longest, curve.size);
-      _curves.push_back(curve);
-    };
-    for (const auto& curve : plan.interface) add(curve);
-    for (const auto& outer : plan.outer) {
-      for (const PlannedCurve& curve : outer) add(curve);
-    }
-    // What is hardly finer changes nothing, and most curves of a uniform mesh are like that.
-    std::erase_if(_curves, [&](const Curve& curve) { return curve.size > 0.9 * _longest; });
-    std::sort(_curves.begin(), _curves.end(),
-              [](const Curve& a, const Curve& b) { return a.size < b.size; });
-  }
-
-  double operator()(double x, double y) const {
-    double best = _longest;
-    for (const Curve& curve : _curves) {
-      if (curve.size >= best) break;
-      const double dx = curve.b[0] - curve.a[0];
-      const double dy = curve.b[1] - curve.a[1];
-      const double along = ((x - curve.a[0]) * dx + (y - curve.a[1]) * dy) / (dx * dx + dy * dy);
-      const double t = std::clamp(along, 0.0, 1.0);
-      const double distance = std::hypot(x - curve.a[0] - t * dx, y - curve.a[1] - t * dy);
-      best = std::min(best, curve.size + _growth * distance);
-    }
-    return best;
-  }
-
- private:
-  struct Curve {
-    Point a{};
-    Point b{};
-    double size = 0;
+SizeField size_field(const Plan& plan, const Frame& frame) {
+  std::vector<SizedCurve> curves;
+  const auto add = [&](const PlannedCurve& planned) {
+    const Point a = frame.to_gmsh(plan.points[static_cast<std::size_t>(planned.a)]);
+    const Point b = frame.to_gmsh(plan.points[static_cast<std::size_t>(planned.b)]);
+    curves.push_back({a, b, std::hypot(b[0] - a[0], b[1] - a[1]) / planned.intervals});
   };
-
-  double _growth;
-  double _longest = 0;
-  std::vector<Curve> _curves;
-};
+  for (const auto& curve : plan.interface) add(curve);
+  for (const auto& outer : plan.outer) {
+    for (const PlannedCurve& curve : outer) add(curve);
+  }
+  return {std::move(curves), plan.growth};
+}
 
 void choose_options(const SizeField& size) {
   gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay);
   gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
   gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
   gmsh::option::setNumber("Mesh.RandomSeed", 1);
-  gmsh::model::mesh::setSizeCallback(
-      [size](int, int, double x, double y, double) { return size(x, y); });
+  gmsh::model::mesh::setSizeCallback([size](int, int, double x, double y, double) {
+    return size({x, y});
+  });
 }
 
 /// Collects gmsh's nodes into a mesh, numbered in the order they are asked for.
@@ -298,7 +265,7 @@ mesh::Mesh generate(const mesh::GenerateRequest& request) {
   const Frame frame(request.plan.points);
   try {
     build_model(request.plan, frame);
-    choose_options(SizeField(request.plan, frame));
+    choose_options(size_field(request.plan, frame));
     gmsh::model::mesh::generate(2);
   } catch (const std::bad_alloc&) {
     throw;

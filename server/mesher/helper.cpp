@@ -171,9 +171,9 @@ class Conversation {
 };
 
 mesh::Bytes converse(const HelperOptions& options, const mesh::MesherRequest& request,
-                     const std::stop_token& stop) {
+                     std::stop_token stop) {
   try {
-    Conversation conversation(options, stop, most_reply_bytes(request),
+    Conversation conversation(options, std::move(stop), most_reply_bytes(request),
                               std::holds_alternative<mesh::ImportRequest>(request));
     return conversation.exchange(mesh::encode(request));
   } catch (const std::system_error& error) {
@@ -196,7 +196,7 @@ mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
                std::stop_token stop) {
   if (stop.stop_requested()) throw Error(Reason::cancelled, "meshing was cancelled");
   if (const auto* import = std::get_if<mesh::ImportRequest>(&request)) require_msh(import->path);
-  mesh::MesherReply reply = understand(converse(options, request, stop));
+  mesh::MesherReply reply = understand(converse(options, request, std::move(stop)));
   if (auto* error = std::get_if<Error>(&reply)) throw std::move(*error);
   mesh::Mesh mesh = std::get<mesh::Mesh>(std::move(reply));
   try {
@@ -205,7 +205,7 @@ mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
     // the user drew no triangles, so they are no field of his to mend
     if (std::holds_alternative<mesh::ImportRequest>(request)) throw;
     throw failed(std::string("the mesh made of this geometry is not usable: ") + error.what() +
-                 "; remove details far smaller than the rest of the geometry");
+                 "; choose preset uniform, or remove details far smaller than the rest");
   }
   return mesh;
 }

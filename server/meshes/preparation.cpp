@@ -61,9 +61,11 @@ MeshRecord Preparation::seen_now(MeshRecord record) const {
     const auto live = _live.find(record.id);
     const bool factorizing =
         live != _live.end() && (live->second.scheduled || live->second.factorizing > 0);
-    record.state = _cache.contains(record.sha256) ? MeshState::ready
-                   : factorizing                  ? MeshState::factorizing
-                                                  : MeshState::evicted;
+    // The cache has an operator a moment before the record has what is known of it.
+    const bool ready = record.operator_bytes > 0 && _cache.contains(record.sha256);
+    record.state = ready         ? MeshState::ready
+                   : factorizing ? MeshState::factorizing
+                                 : MeshState::evicted;
   }
   return record;
 }
@@ -260,8 +262,10 @@ Preparation::Operator Preparation::prepare(const std::string& id, const PhaseLis
   if (record.state == MeshState::failed) {
     throw Error(*record.error);
   }
-  if (Operator ready = _cache.find(record.sha256)) {
-    return ready;
+  if (record.operator_bytes > 0) {
+    if (Operator ready = _cache.find(record.sha256)) {
+      return ready;
+    }
   }
   const std::string sha256 = record.sha256;
   begin_factorizing(std::move(record));

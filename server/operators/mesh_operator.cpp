@@ -179,7 +179,12 @@ void require_threadsafe_blas() {
             " (0 serial, 2 OpenMP); install libopenblas0-pthread and select it with "
             "update-alternatives, or factors come out wrong under threads");
   }
-  openblas_set_num_threads(1);
+  // Once: it is a global setting that others may be computing under by now.
+  static const bool set = [] {
+    openblas_set_num_threads(1);
+    return true;
+  }();
+  static_cast<void>(set);
 }
 
 }  // namespace anticrack::operators

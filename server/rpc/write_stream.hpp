@@ -40,7 +40,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
     } catch (...) {
       end(current_error("stream"));
     }
-    drive();
+    run();
   }
 
   void OnWriteDone(bool ok) noexcept override {
@@ -180,7 +180,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
   std::shared_ptr<WriteStream> _self;
 
   std::mutex _mutex;
-  bool _driving = false;
+  bool _driving = true;  ///< until start() lets go
   bool _again = false;
   bool _writing = false;
   bool _finished = false;

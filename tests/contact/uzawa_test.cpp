@@ -170,7 +170,8 @@ TEST(Uzawa, TurnedInterfaceTurnsTheContact) {
   mesh::Mesh turned = testing::structured_mesh();
   std::reverse(turned.interfaces[0].nodes.begin(), turned.interfaces[0].nodes.end());
   Recorder recorder;
-  const Answer up = Membrane(testing::structured_mesh()).solve("x < y + 0.01 ? 1 : -2", tight(), recorder);
+  const Answer up =
+      Membrane(testing::structured_mesh()).solve("x < y + 0.01 ? 1 : -2", tight(), recorder);
   const Answer down = Membrane(turned).solve("x > y - 0.01 ? 1 : -2", tight(), recorder);
   EXPECT_NEAR(up.energy, down.energy, 1e-12);
   EXPECT_NEAR(up.contact_length, down.contact_length, 1e-15);

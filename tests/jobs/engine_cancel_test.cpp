@@ -3,7 +3,10 @@
 // Cancel at every stage of a job's life, and the end of the engine.
 #include <gtest/gtest.h>
 
+#include <future>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "jobs/engine_support.hpp"
 #include "support/errors.hpp"
@@ -69,6 +72,22 @@ TEST(EngineCancel, WhileFactorising) {
   test.engine.cancel(id);
   expect_cancelled(test.ended(id));  // with the door still shut
   test.backend.door.open();
+}
+
+TEST(EngineCancel, AsTheJobStarts) {
+  Engine test(one_thread());
+  const std::string mesh = test.ready_mesh();
+  const std::string blocker = test.submit(endless_job(mesh));
+  ASSERT_TRUE(test.iterating(blocker));
+  const std::string id = test.submit(short_job(mesh));
+  const auto listener = test.engine.events(id)->listen([&] {
+    if (!store::ended(test.state(id))) {
+      test.engine.cancel(id);  // its first event: that it runs
+    }
+  });
+  test.engine.cancel(blocker);
+  expect_cancelled(test.ended(id));
+  EXPECT_EQ(test.ended(test.submit(short_job(mesh))).state, JobState::succeeded);
 }
 
 TEST(EngineCancel, WhileIteratingIsEffectiveWithinOneIteration) {
@@ -147,7 +166,9 @@ TEST(EngineStop, EndsEveryJobAndTellsItsWatchers) {
   test.engine.stop(0ms);
   for (const std::string& id : {running, queued, factorising}) {
     EXPECT_EQ(test.state(id), JobState::cancelled);
-    EXPECT_TRUE(std::holds_alternative<EndEvent>(test.events(id).back().event));
+    const auto log = test.engine.events(id);
+    const auto last = log->read(log->latest() - 1, 1);
+    EXPECT_TRUE(std::holds_alternative<EndEvent>(last.at(0).event));
   }
   EXPECT_TRUE(throws([&] { test.submit(short_job(mesh)); }, Reason::draining));
   EXPECT_EQ(test.engine.list("", 10).size(), 3U);
@@ -158,15 +179,30 @@ TEST(EngineStop, EndsEveryJobAndTellsItsWatchers) {
 TEST(EngineStop, LetsRunningJobsFinishInTheGraceTheyHave) {
   Engine test(one_thread());
   const std::string mesh = test.ready_mesh();
+  const std::string blocker = test.submit(endless_job(mesh));
+  ASSERT_TRUE(test.iterating(blocker));
   store::JobSpec spec = short_job(mesh);
-  for (int i = 0; i < 20; ++i) {
-    spec.loads.push_back({"load " + std::to_string(i), 1.0 + i, ""});
-  }
+  spec.loads.push_back({"second", 1.0, ""});
   const std::string running = test.submit(spec, "request");
-  ASSERT_TRUE(test.iterating(running));
-  test.engine.stop(10min);
+  // Its first event does not return before the engine is stopping.
+  std::promise<void> started;
+  std::promise<void> stopping;
+  bool first = true;
+  const auto listener = test.engine.events(running)->listen([&] {
+    if (std::exchange(first, false)) {
+      started.set_value();
+      stopping.get_future().wait();
+    }
+  });
+  test.engine.cancel(blocker);
+  started.get_future().wait();
+  const std::string queued = test.submit(short_job(mesh));
+  std::thread stopper([&] { test.engine.stop(10min); });
+  EXPECT_EQ(test.ended(queued).state, JobState::cancelled);
+  stopping.set_value();
+  stopper.join();
   EXPECT_EQ(test.state(running), JobState::succeeded);
-  // The same request is answered while draining, too.
+  // The same request is answered by a stopped engine, too.
   EXPECT_EQ(test.submit(spec, "request"), running);
 }
 

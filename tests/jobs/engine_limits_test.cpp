@@ -77,6 +77,23 @@ TEST(EngineLimits, ResultsAreBoundedInBytes) {
   EXPECT_TRUE(throws([&] { test.engine.get(first); }, Reason::not_found));
 }
 
+TEST(EngineLimits, LoadCasesPastTheBytesOfAResultFail) {
+  EngineOptions options = one_thread();
+  options.max_result_bytes = 1;
+  Engine test(options);
+  store::JobSpec spec = short_job(test.ready_mesh());
+  spec.loads.push_back({"second", 1.0, ""});
+  const std::string id = test.submit(spec);
+  const auto record = test.ended(id);
+  EXPECT_EQ(record.state, JobState::failed);
+  EXPECT_EQ(record.cases[0].status, store::CaseStatus::converged);
+  EXPECT_EQ(record.cases[1].status, store::CaseStatus::failed);
+  ASSERT_TRUE(record.error);
+  EXPECT_EQ(record.error->reason(), Reason::limit_exceeded);
+  EXPECT_EQ(record.error->fields().at(0).field, "load_cases[1]");
+  EXPECT_TRUE(array<double>(*test.engine.result(id), "loads/0/traces/0/jump"));
+}
+
 TEST(EngineLimits, TheEventLogIsTrimmedAndTheResultIsNot) {
   EngineOptions options = one_thread();
   options.event_log_bytes = 2048;
@@ -87,7 +104,9 @@ TEST(EngineLimits, TheEventLogIsTrimmedAndTheResultIsNot) {
   const std::string id = test.submit(spec);
   const auto record = test.ended(id);
   const auto log = test.engine.events(id);
-  EXPECT_GT(log->earliest(), 100U);
+  ASSERT_GT(record.cases[0].answer.iterations, 40);
+  EXPECT_GT(log->earliest(), 1U);
+  EXPECT_LE(log->bytes(), options.event_log_bytes);
   const auto error = error_of([&] { log->read(0, 10); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->reason(), Reason::sequence_trimmed);

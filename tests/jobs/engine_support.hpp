@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,7 +32,7 @@ inline store::JobSpec endless_job(const std::string& mesh) {
   store::JobSpec spec = short_job(mesh);
   spec.solver.theta = 1e-7;
   spec.solver.epsilon = 1e-300;
-  spec.solver.max_iterations = 1'000'000;
+  spec.solver.max_iterations = std::numeric_limits<int>::max();
   return spec;
 }
 
@@ -39,7 +40,7 @@ class Engine {
  public:
   explicit Engine(EngineOptions options = {},
                   const anticrack::testing::BackendOptions& backend_options = {})
-      : backend(backend_options), engine(options, *backend.store, backend.catalogue) {}
+      : backend(backend_options), engine(unlimited(options), *backend.store, backend.catalogue) {}
 
   std::string submit(const store::JobSpec& spec, const std::string& request_id = {}) {
     return engine.submit(spec, request_id).id;
@@ -65,7 +66,7 @@ class Engine {
     return record ? *record : store::JobRecord();
   }
   /// A mesh whose operators are in memory and held by nobody.
-  std::string ready_mesh(double size = 0.25) {
+  std::string ready_mesh(double size = 0.1) {
     const std::string id = backend.create(size);
     EXPECT_TRUE(anticrack::testing::eventually([&] { return backend.catalogue.ready(id); }));
     return id;
@@ -83,18 +84,18 @@ class Engine {
     return false;
   }
   bool iterating(const std::string& id) const {
-    return anticrack::testing::eventually([&] {
-      for (const NumberedEvent& event : events(id)) {
-        if (std::holds_alternative<SampleEvent>(event.event)) {
-          return true;
-        }
-      }
-      return false;
-    });
+    return anticrack::testing::eventually(
+        [&] { return state(id) == store::JobState::running && engine.metrics().iterations > 0; });
   }
 
   anticrack::testing::Backend backend;
   JobEngine engine;
+
+ private:
+  static EngineOptions unlimited(EngineOptions options) {
+    options.max_iterations = std::numeric_limits<int>::max();
+    return options;
+  }
 };
 
 /// The array of a block; none where it has no such array.

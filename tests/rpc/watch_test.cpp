@@ -160,6 +160,22 @@ TEST(Watch, ThatIsNotReadFallsBehindWithoutHoldingTheJob) {
   EXPECT_TRUE(server.cancel(job).ok());
 }
 
+TEST(Watch, ThatStallsIsBrokenOff) {
+  RunningServer server(
+      [](auto& settings) { settings.server.stall = std::chrono::milliseconds(50); });
+  const std::string job = server.create(endless_job(server.create(paper_mesh(0.05)).name())).name();
+  Context context;
+  const auto reader = server.jobs->WatchJob(&context, request_for(job));
+  ASSERT_TRUE(eventually([&] { return server.info().metrics().iterations() > 0; }));
+  EXPECT_TRUE(eventually([&] { return server.info().metrics().watchers() == 0; }));
+  v1::WatchJobResponse event;
+  while (reader->Read(&event)) {
+  }
+  EXPECT_FALSE(reader->Finish().ok());
+  EXPECT_EQ(server.job(job).state(), v1::Job::STATE_RUNNING);
+  server.cancel(job);
+}
+
 TEST(Watch, BeatsWhereNothingHappens) {
   RunningServer server([](auto& settings) {
     settings.engine.threads = 1;

@@ -51,7 +51,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadCase{"SyntaxError", {"load.0.f='x +* 2'"}, {"expression", "x +* 2"}},
         BadCase{"UnknownSymbol", {"load.0.f='x + z'"}, {"expression", "z"}},
-        BadCase{"NanValue", {"load.0.f='sqrt(-1 - x*x)'"}, {"expression", "not finite"}, 1},
+        BadCase{
+            "NanValue", {"load.0.f='sqrt(-1 - x*x)'"}, {"expression", "nan", "must be finite"}, 1},
         BadCase{"SelfCrossingBoundary",
                 {"geometry.boundary=[[-1,-1],[1,1],[1,-1],[-1,1]]"},
                 {"boundary"}},
@@ -67,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"PNegative", {"solver.p=-5"}, {"p", "-5"}},
         BadCase{"EpsilonZero", {"solver.epsilon=0"}, {"epsilon", "0"}},
         BadCase{"UnknownKey", {"solver.tetha=1"}, {"tetha", "theta"}}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& tested) { return tested.param.name; });
 
 TEST(BadInputFile, DuplicateLoadName) {
   const Server server;
@@ -137,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
                                        "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
                                        "$Elements\n1\n1 3 2 1 1 1 2 3 4\n$EndElements\n"},
         std::pair{"GeoScript", "SystemCall \"touch @FOLDER@/evil\";\nPoint(1) = {0,0,0};\n"}),
-    [](const auto& info) { return info.param.first; });
+    [](const auto& tested) { return tested.param.first; });
 
 }  // namespace
 }  // namespace anticrack::service_test

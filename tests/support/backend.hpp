@@ -73,10 +73,10 @@ class Backend {
         catalogue(catalogue_options(options), *store, cache) {}
 
   /// The paper's membrane with elements of this size. Each size is another mesh.
-  static store::MeshDefinition definition(double size = 0.25) {
+  static store::MeshDefinition definition(double size = 0.1) {
     return store::GeometrySource{paper_geometry(), {mesh::Preset::uniform, size}};
   }
-  std::string create(double size = 0.25) { return catalogue.create(definition(size), "").id; }
+  std::string create(double size = 0.1) { return catalogue.create(definition(size), "").id; }
 
   TemporaryFolder folder;
   Door door;  ///< of the factorisation

@@ -244,7 +244,9 @@ TEST(View, finds_an_array_at_any_alignment) {
   std::memcpy(block.data() + 5, &value, 8);
   const auto seen = view("x", ArrayView::Type::float64, {2}, 5, block);
   EXPECT_EQ(seen.bytes.size(), 16u);
-  EXPECT_EQ(std::memcmp(seen.bytes.data(), &value, 8), 0);
+  double found = 0;
+  std::memcpy(&found, seen.bytes.data(), 8);
+  EXPECT_EQ(found, value);
 }
 
 TEST(View, refuses_what_lies_outside_the_block) {

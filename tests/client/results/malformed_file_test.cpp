@@ -6,7 +6,6 @@
 #include <hdf5.h>
 
 #include <array>
-#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -18,7 +17,6 @@
 namespace anticrack::results {
 namespace {
 
-namespace fs = std::filesystem;
 using support::sample_result;
 using support::TemporaryFolder;
 using testing::HasSubstr;
