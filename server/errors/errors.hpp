@@ -5,10 +5,11 @@
 #pragma once
 
 #include <chrono>
+#include <exception>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace anticrack::errors {
@@ -45,10 +46,13 @@ struct FieldViolation {
   std::string description;
 };
 
-/// Error with everything a client is told. Copyable, so it can also be kept in a job or mesh.
-class Error : public std::runtime_error {
+/// Error with everything a client is told. Copyable, so it can also be kept in a job or mesh. It
+/// holds its own message: copies of std::runtime_error share one among threads.
+class Error : public std::exception {
  public:
-  Error(Reason reason, const std::string& message) : std::runtime_error(message), _reason(reason) {}
+  Error(Reason reason, std::string message) : _reason(reason), _message(std::move(message)) {}
+
+  const char* what() const noexcept override { return _message.c_str(); }
 
   /// Adds the field at fault; the message is its description.
   Error& at(std::string field);
@@ -65,6 +69,7 @@ class Error : public std::runtime_error {
 
  private:
   Reason _reason;
+  std::string _message;
   std::vector<FieldViolation> _fields;
   std::map<std::string, std::string> _metadata;
   std::chrono::milliseconds _retry_delay{0};
