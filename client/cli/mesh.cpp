@@ -79,9 +79,8 @@ std::string text_of(const v1::Mesh& mesh) {
     }
   }
   if (mesh.theta_star() > 0) {
-    text += "theta* " + number(mesh.theta_star()) + ", factors of " +
-            number(static_cast<double>(mesh.operator_bytes()) / 1e6, 3) + " MB made in " +
-            number(mesh.factorize_seconds(), 3) + " s\n";
+    text += "theta* " + number(mesh.theta_star()) + ", factors of " + bytes(mesh.operator_bytes()) +
+            " made in " + number(mesh.factorize_seconds(), 3) + " s\n";
   }
   for (const std::string& warning : mesh.warnings()) {
     text += "warning: " + sanitise(warning) + "\n";

@@ -12,10 +12,6 @@
 namespace anticrack::cli {
 namespace {
 
-std::string megabytes(std::uint64_t bytes) {
-  return number(static_cast<double>(bytes) / 1e6, 4) + " MB";
-}
-
 std::string text_of(const v1::ServerInfo& info, const std::string& address) {
   const v1::ServerMetrics& metrics = info.metrics();
   const v1::ServerLimits& limits = info.limits();
@@ -39,10 +35,10 @@ std::string text_of(const v1::ServerInfo& info, const std::string& address) {
                              std::to_string(metrics.operator_joins()) + " times, evicted " +
                              std::to_string(metrics.operator_evictions())},
       {"factors in memory",
-       megabytes(metrics.operator_bytes()) + " of " + megabytes(limits.memory_budget_bytes())},
+       bytes(metrics.operator_bytes()) + " of " + bytes(limits.memory_budget_bytes())},
       {"watchers", std::to_string(metrics.watchers()) + " of " + std::to_string(limits.watchers())},
       {"limits", std::to_string(limits.mesh_triangles()) + " triangles a mesh, uploads of " +
-                     megabytes(limits.upload_bytes()) + ", " + std::to_string(limits.load_cases()) +
+                     bytes(limits.upload_bytes()) + ", " + std::to_string(limits.load_cases()) +
                      " load cases a job, " + std::to_string(limits.iterations()) +
                      " iterations a load case"}};
   return table(rows, {1});

@@ -102,6 +102,17 @@ std::string number(double value, int digits, bool exponent) {
   return std::string(buffer.data(), static_cast<std::size_t>(length));
 }
 
+std::string bytes(std::uint64_t count) {
+  const std::array<const char*, 5> units{" B", " kB", " MB", " GB", " TB"};
+  auto value = static_cast<double>(count);
+  std::size_t unit = 0;
+  while (value >= 999.5 && unit + 1 < units.size()) {
+    value /= 1000;
+    ++unit;
+  }
+  return number(value, 3) + units[unit];
+}
+
 std::string table(const std::vector<std::vector<std::string>>& rows,
                   const std::vector<std::size_t>& left) {
   std::vector<std::size_t> widths;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,9 @@ std::string pad_left(std::string_view text, std::size_t width);
 
 /// As printf's %.*g or, for `exponent`, %.*e; "-" for what is not finite.
 std::string number(double value, int digits = 6, bool exponent = false);
+
+/// In the largest of B, kB, MB, GB, TB that leaves at least 1 before the point, to three digits.
+std::string bytes(std::uint64_t count);
 
 /// Rows under each other, two spaces between columns; column 0 and those named in `left` are
 /// aligned left. No space at line ends.

@@ -70,8 +70,8 @@ struct Plan {
 };
 
 /// Checks a geometry and cuts it into curves with the intervals of the preset.
-/// Throws errors::Error (geometry_invalid; invalid_argument for options; limit_exceeded for too many
-/// vertices or triangles) with the field at fault
+/// Throws errors::Error (geometry_invalid; invalid_argument for options; limit_exceeded for too
+/// many vertices or triangles) with the field at fault
 /// ("boundary", "interface", "inclusions[1].part.from", "options.size", ...): boundary that crosses
 /// itself, interface that does not cut the polygon in two, inclusion off the interface, touching
 /// the boundary, or overlapping another, values not finite, names empty, wrong or used twice,

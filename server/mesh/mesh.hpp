@@ -33,8 +33,8 @@ struct Interface {
 /// Invariants (checked by `validate`): indices in range, triangles counterclockwise with positive
 /// area, every subdomain has a triangle, every interface edge is an edge of exactly two triangles
 /// of different subdomains, every edge between two subdomains lies on exactly one interface, every
-/// boundary edge belongs to exactly one triangle; every node belongs to a triangle, triangles do not
-/// overlap at an edge, and an edge has an inclusion just if its kind needs one.
+/// boundary edge belongs to exactly one triangle; every node belongs to a triangle, triangles do
+/// not overlap at an edge, and an edge has an inclusion just if its kind needs one.
 struct Mesh {
   std::vector<double> xy;               ///< (n,2) row-major, unit of the geometry
   std::vector<std::int32_t> triangles;  ///< (m,3) row-major

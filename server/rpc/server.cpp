@@ -28,6 +28,8 @@ constexpr std::array service_names{"anticrack.v1.MeshService", "anticrack.v1.Sol
 
 /// gRPC's own default; what is larger travels in chunks.
 constexpr int max_receive_bytes = 4 << 20;
+/// What a client may have under way on one stream: a chunk. 20 MB/s at 50 ms.
+constexpr int receive_window_bytes = 1 << 20;
 /// Streams of ours that do not take their end by then are broken off.
 constexpr auto stream_patience = 300ms;
 /// Health and reflection streams are not ours and hold Shutdown to its deadline.
@@ -41,6 +43,11 @@ void set_arguments(grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
   // A client's keepalive of 1 s would otherwise end its idle watch with "too many pings".
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, 500);
+  // gRPC 1.51's probe of the connection now and then leaves a client's large messages without
+  // window until its own next ping: 13 of 339 uploads of 5 MB stood still for 10 s, none of 800
+  // without it.
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_BDP_PROBE, 0);
+  builder.AddChannelArgument(GRPC_ARG_HTTP2_STREAM_LOOKAHEAD_BYTES, receive_window_bytes);
   builder.SetMaxReceiveMessageSize(max_receive_bytes);
 }
 

@@ -18,6 +18,14 @@ TEST(Sanitise, TakesTheTerminalOutOfTheServersHands) {
   EXPECT_EQ(sanitise(std::string("a\0b", 3)), "a?b");
 }
 
+TEST(Bytes, ArePrintedInAUnitThatFits) {
+  EXPECT_EQ(bytes(0), "0 B");
+  EXPECT_EQ(bytes(999), "999 B");
+  EXPECT_EQ(bytes(4'136'000), "4.14 MB");
+  EXPECT_EQ(bytes(999'999), "1 MB");
+  EXPECT_EQ(bytes(12'640'000'000), "12.6 GB");
+}
+
 TEST(Sanitise, KeepsText) {
   EXPECT_EQ(sanitise("Плита δ = 0,5 — \xf0\x9f\x99\x82"), "Плита δ = 0,5 — \xf0\x9f\x99\x82");
 }
