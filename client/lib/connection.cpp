@@ -55,14 +55,12 @@ Error error_of(const Connection::State& state, const grpc::Status& status) {
   const Error error = decode_error(code, status.error_message(), status.error_details());
   if (error.code() == Code::unavailable && error.details().reason.empty()) {
     // gRPC tells the cause after its own story.
-    const std::string_view story = status.error_message();
+    const std::string story = status.error_message();
     const std::size_t cause = story.rfind(": ");
-    return Error(
-        error.code(),
-        "cannot reach the server at " + state.options.address + " (" +
-            std::string(cause == std::string_view::npos ? story : story.substr(cause + 2)) +
-            "); start anticrackd, name its address with --server, or use "
-            "--local");
+    return Error(error.code(), "cannot reach the server at " + state.options.address + " (" +
+                                   (cause == std::string::npos ? story : story.substr(cause + 2)) +
+                                   "); start anticrackd, name its address with --server, or use "
+                                   "--local");
   }
   if (error.code() == Code::deadline_exceeded) {
     return Error(error.code(),
