@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "ddm/blas.hpp"
 #include "errors/errors.hpp"
 
 // From OpenMP's run-time library, which Debian's libcholmod is linked with. Its header is not
@@ -15,6 +16,7 @@ namespace {
 class Context {
  public:
   Context() {
+    require_threadsafe_blas();
     // CHOLMOD asks for a team of four threads inside every factorisation, whoever calls it. Ours
     // are parallel already; with no level allowed a team is the calling thread alone.
     omp_set_max_active_levels(0);

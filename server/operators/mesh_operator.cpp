@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "operators/mesh_operator.hpp"
 
-#include <cblas.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -14,6 +12,7 @@
 
 #include "contact/solve.hpp"
 #include "contact/trace_problem.hpp"
+#include "ddm/blas.hpp"
 #include "ddm/decomposition.hpp"
 #include "ddm/subdomain_operator.hpp"
 #include "errors/errors.hpp"
@@ -170,21 +169,7 @@ std::size_t MeshOperator::bytes() const noexcept {
 }
 
 void require_threadsafe_blas() {
-  constexpr int pthreads = 1;  // 0: serial, 2: OpenMP
-  if (openblas_get_parallel() != pthreads) {
-    throw errors::Error(
-        errors::Reason::internal,
-        "the BLAS in use is OpenBLAS with parallel model " +
-            std::to_string(openblas_get_parallel()) +
-            " (0 serial, 2 OpenMP); install libopenblas0-pthread and select it with "
-            "update-alternatives, or factors come out wrong under threads");
-  }
-  // Once: it is a global setting that others may be computing under by now.
-  static const bool set = [] {
-    openblas_set_num_threads(1);
-    return true;
-  }();
-  static_cast<void>(set);
+  ddm::require_threadsafe_blas();
 }
 
 }  // namespace anticrack::operators
