@@ -30,14 +30,17 @@ class Counting {
       throw;
     }
   }
-  bool overlapped() const { return _overlapped; }
+  bool overlapped() const {
+    const std::lock_guard lock(_mutex);
+    return _overlapped;
+  }
 
  private:
   void change(const mesh::Mesh* key, int by) {
     const std::lock_guard lock(_mutex);
     _overlapped = _overlapped || (_running[key] += by) > 1;
   }
-  std::mutex _mutex;
+  mutable std::mutex _mutex;
   std::map<const mesh::Mesh*, int> _running;
   bool _overlapped = false;
 };
