@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "app/config_file.hpp"
-#include "support/process.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace anticrack::app {
 namespace {
@@ -92,7 +92,7 @@ TEST(Config, NamesTheLineWhereTheFileIsNoToml) {
 }
 
 TEST(Config, SaysWhichFileItCannotRead) {
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   EXPECT_THROW(read_config_file(folder / "none.toml"), ConfigError);
   EXPECT_THROW(read_config_file(folder.path()), ConfigError);
 }

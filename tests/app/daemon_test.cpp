@@ -11,12 +11,13 @@
 #include <memory>
 
 #include "support/process.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace anticrack::app {
 namespace {
 
-using support::Process;
-using support::TemporaryFolder;
+using anticrack::testing::Process;
+using anticrack::testing::TemporaryFolder;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;

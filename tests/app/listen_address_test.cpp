@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "app/config.hpp"
-#include "support/process.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace anticrack::app {
 namespace {
@@ -57,7 +57,7 @@ TEST(ListenAddress, IsLocalOnLoopbackOnly) {
 }
 
 TEST(StaleSocket, IsRemovedOnlyWhenNobodyAnswers) {
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   const std::string path = folder / "socket";
   const ListenAddress address = parse_listen_address("unix:" + path);
   clear_stale_socket(address);  // nothing there
@@ -70,9 +70,10 @@ TEST(StaleSocket, IsRemovedOnlyWhenNobodyAnswers) {
 }
 
 TEST(StaleSocket, LeavesOtherFilesAlone) {
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   std::ofstream(folder / "file") << "precious";
-  EXPECT_THROW(clear_stale_socket(parse_listen_address("unix:" + (folder / "file"))), ConfigError);
+  EXPECT_THROW(clear_stale_socket(parse_listen_address("unix:" + (folder / "file").string())),
+               ConfigError);
   EXPECT_TRUE(std::filesystem::exists(folder / "file"));
 }
 

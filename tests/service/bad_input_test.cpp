@@ -12,8 +12,8 @@
 namespace anticrack::service_test {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 struct BadCase {
   std::string name;
@@ -26,7 +26,7 @@ void PrintTo(const BadCase& bad, std::ostream* out) {
   *out << bad.name;
 }
 
-class BadInput : public testing::TestWithParam<BadCase> {};
+class BadInput : public ::testing::TestWithParam<BadCase> {};
 
 void expect_still_serving(const Server& server) {
   EXPECT_EQ(server.client({"server"}).code, 0) << server.client({"server"}).error;
@@ -34,7 +34,7 @@ void expect_still_serving(const Server& server) {
 
 TEST_P(BadInput, IsRefusedWithTheFieldNamed) {
   const Server server;
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   std::vector<std::string> arguments = {"run", example("paper-3.toml"), "-o", folder / "out.h5"};
   for (const std::string& entry : GetParam().overrides) {
     arguments.insert(arguments.end(), {"--set", entry});
@@ -48,7 +48,7 @@ TEST_P(BadInput, IsRefusedWithTheFieldNamed) {
 
 INSTANTIATE_TEST_SUITE_P(
     Cases, BadInput,
-    testing::Values(
+    ::testing::Values(
         BadCase{"SyntaxError", {"load.0.f='x +* 2'"}, {"expression", "x +* 2"}},
         BadCase{"UnknownSymbol", {"load.0.f='x + z'"}, {"expression", "z"}},
         BadCase{
@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(BadInputFile, DuplicateLoadName) {
   const Server server;
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   const std::string text = read_file(example("paper-3.toml"));
   const std::string load = text.substr(text.find("[[load]]"));
   const Ended run = server.client({"run", write_file(folder, "twice.toml", text + "\n" + load)});
@@ -83,7 +83,7 @@ TEST(BadInputFile, DuplicateLoadName) {
 
 TEST(BadInputFile, UnknownTomlKeyNamesFileLineAndNearestKey) {
   const Server server;
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   const std::string path =
       write_file(folder, "typo.toml", "titel = \"x\"\n" + read_file(example("paper-3.toml")));
   const Ended run = server.client({"run", path});
@@ -93,7 +93,7 @@ TEST(BadInputFile, UnknownTomlKeyNamesFileLineAndNearestKey) {
 
 TEST(BadInputFile, MeshOverTheLimit) {
   const Server server({"--mesh-triangles", "1000"});
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   const Ended run = server.client({"run", example("paper-3.toml"), "-o", folder / "out.h5"});
   EXPECT_NE(run.code, 0);
   EXPECT_THAT(run.error, HasSubstr("1000"));
@@ -109,11 +109,11 @@ TEST(BadInputFile, UnwritableOutputIsSeenBeforeAnythingIsSubmitted) {
   EXPECT_EQ(server.info().metrics().jobs_created(), 0U);
 }
 
-class BadMsh : public testing::TestWithParam<std::pair<std::string, std::string>> {};
+class BadMsh : public ::testing::TestWithParam<std::pair<std::string, std::string>> {};
 
 TEST_P(BadMsh, IsRefused) {
   const Server server;
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   std::string content = GetParam().second;
   const std::string here = "@FOLDER@";
   if (const auto at = content.find(here); at != std::string::npos) {
@@ -131,7 +131,7 @@ const std::string msh_start = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Files, BadMsh,
-    testing::Values(
+    ::testing::Values(
         std::pair{"Empty", ""}, std::pair{"Truncated", msh_start + "$Nodes\n4\n1 0 0 0\n2 1 0 0\n"},
         std::pair{"BinaryGarbage", msh_start + std::string(4096, '\xfe')},
         std::pair{"NonTriangular", msh_start +

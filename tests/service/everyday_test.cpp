@@ -12,12 +12,12 @@
 namespace anticrack::service_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 TEST(Everyday, RunSolvesThePapersExamplesAndSavesThem) {
   const Server server;
-  const support::TemporaryFolder folder;
-  const std::string file = folder / "paper.h5";
+  const anticrack::testing::TemporaryFolder folder;
+  const std::string file = (folder / "paper.h5").string();
 
   const Ended run = server.client({"run", example("paper.toml"), "-o", file});
   ASSERT_EQ(run.code, 0) << run.output << run.error;
@@ -47,7 +47,7 @@ TEST(Everyday, RunSolvesThePapersExamplesAndSavesThem) {
 
 TEST(Everyday, SecondJobOnAMeshFactorisesNothing) {
   const Server server;
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   for (const char* name : {"paper-1.toml", "paper-3.toml"}) {
     ASSERT_EQ(server.client({"run", example(name), "-o", folder / name}).code, 0);
   }
@@ -59,7 +59,7 @@ TEST(Everyday, SecondJobOnAMeshFactorisesNothing) {
 
 TEST(Everyday, TwoClientsOnOneMeshShareOneFactorisation) {
   const Server server;
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   const auto first = server.start_client({"run", example("paper-2.toml"), "-o", folder / "a.h5"});
   const auto second = server.start_client({"run", example("paper-4.toml"), "-o", folder / "b.h5"});
   EXPECT_EQ(first->wait(), 0) << first->error();
@@ -69,11 +69,11 @@ TEST(Everyday, TwoClientsOnOneMeshShareOneFactorisation) {
 
 TEST(Everyday, SubmitWatchFetchAreThreeSeparateThings) {
   const Server server;
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   const Ended submit = server.client({"job", "submit", example("paper-3.toml"), "--json"});
   ASSERT_EQ(submit.code, 0) << submit.error;
   const std::string name = parse_json(submit.output).fields().at("name").string_value();
-  ASSERT_THAT(name, testing::StartsWith("jobs/"));
+  ASSERT_THAT(name, ::testing::StartsWith("jobs/"));
 
   const Ended watch = server.client({"job", "watch", name});
   EXPECT_EQ(watch.code, 0) << watch.error;
@@ -85,7 +85,7 @@ TEST(Everyday, SubmitWatchFetchAreThreeSeparateThings) {
 
 TEST(Everyday, LocalNeedsNoServer) {
   const Server bystander;  // only for its client()
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   const Ended run =
       bystander.client({"--local", "run", example("paper-1.toml"), "-o", folder / "one.h5"});
   EXPECT_EQ(run.code, 0) << run.error;
@@ -94,7 +94,7 @@ TEST(Everyday, LocalNeedsNoServer) {
 
 TEST(Everyday, ClosingLoadIsReportedNotHidden) {
   const Server server;
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   const std::vector<std::string> closing = {"run", example("paper-3.toml"), "--set",
                                             "load.0.f='y > 0 ? -1 : 1'", "-o"};
   auto fixed = closing;

@@ -10,7 +10,7 @@
 namespace anticrack::service_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::vector<std::string> run_endless(const std::string& output) {
   std::vector<std::string> arguments = {"run", example("paper-3.toml"), "-o", output};
@@ -20,7 +20,7 @@ std::vector<std::string> run_endless(const std::string& output) {
 
 TEST(Interruption, DetachAndAttachAgainInMidIteration) {
   const Server server;
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   const auto run = server.start_client(run_endless(folder / "out.h5"));
   const std::string name = server.running_job();
 
@@ -54,7 +54,7 @@ TEST(Interruption, CancelKeepsWhatHadEnded) {
 
 TEST(Interruption, AClientKilledWhileStreamingHurtsNobody) {
   const Server server;
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   const auto victim = server.start_client(run_endless(folder / "victim.h5"));
   const std::string name = server.running_job();
   victim->signal(SIGKILL);
@@ -69,7 +69,7 @@ TEST(Interruption, AClientKilledWhileStreamingHurtsNobody) {
 
 TEST(Interruption, SigtermWithStreamsOpenStopsInTime) {
   Server server;
-  const support::TemporaryFolder folder;
+  const anticrack::testing::TemporaryFolder folder;
   const auto run = server.start_client(run_endless(folder / "out.h5"));
   const std::string name = server.running_job();
   const auto first = server.start_client({"job", "watch", name});

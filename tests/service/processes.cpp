@@ -33,7 +33,7 @@ Server::Server(const std::vector<std::string>& options) {
   std::vector<std::string> argv = {ANTICRACKD, "--listen", "127.0.0.1:0", "--data-dir",
                                    _folder / "data"};
   argv.insert(argv.end(), options.begin(), options.end());
-  _process = std::make_unique<support::Process>(argv);
+  _process = std::make_unique<anticrack::testing::Process>(argv);
   if (!_process->wait_for_output("\n")) {
     throw std::runtime_error("anticrackd did not start: " + _process->error());
   }
@@ -43,11 +43,11 @@ Server::Server(const std::vector<std::string>& options) {
   _address.erase(_address.find('\n'));
 }
 
-std::unique_ptr<support::Process> Server::start_client(
+std::unique_ptr<anticrack::testing::Process> Server::start_client(
     const std::vector<std::string>& arguments) const {
   std::vector<std::string> argv = {ANTICRACK, "--server", _address};
   argv.insert(argv.end(), arguments.begin(), arguments.end());
-  return std::make_unique<support::Process>(argv);
+  return std::make_unique<anticrack::testing::Process>(argv);
 }
 
 Ended Server::client(const std::vector<std::string>& arguments) const {
@@ -106,9 +106,9 @@ google::protobuf::Struct parse_json(const std::string& text) {
   return result;
 }
 
-std::string write_file(const support::TemporaryFolder& folder, const std::string& name,
+std::string write_file(const anticrack::testing::TemporaryFolder& folder, const std::string& name,
                        const std::string& content) {
-  const std::string path = folder / name;
+  const std::string path = (folder / name).string();
   std::ofstream(path, std::ios::binary) << content;
   return path;
 }

@@ -13,6 +13,7 @@
 #include "anticrack/v1/server.pb.h"
 #include "anticrack/v1/solve.pb.h"
 #include "support/process.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace anticrack::service_test {
 
@@ -29,12 +30,13 @@ class Server {
   explicit Server(const std::vector<std::string>& options = {});
 
   const std::string& address() const noexcept { return _address; }
-  support::Process& process() noexcept { return *_process; }
+  anticrack::testing::Process& process() noexcept { return *_process; }
 
   /// Runs `anticrack ...` against this server to its end.
   Ended client(const std::vector<std::string>& arguments) const;
   /// Starts `anticrack ...` against this server and lets it run.
-  std::unique_ptr<support::Process> start_client(const std::vector<std::string>& arguments) const;
+  std::unique_ptr<anticrack::testing::Process> start_client(
+      const std::vector<std::string>& arguments) const;
 
   v1::ServerInfo info() const;
   v1::Job job(const std::string& name) const;
@@ -46,9 +48,9 @@ class Server {
   std::string running_job() const;
 
  private:
-  support::TemporaryFolder _folder;
+  anticrack::testing::TemporaryFolder _folder;
   std::string _address;
-  std::unique_ptr<support::Process> _process;
+  std::unique_ptr<anticrack::testing::Process> _process;
 };
 
 /// Path of a case shipped with the client, e.g. "paper-3.toml".
@@ -59,7 +61,7 @@ std::vector<std::string> endless();
 
 google::protobuf::Struct parse_json(const std::string& text);
 
-std::string write_file(const support::TemporaryFolder& folder, const std::string& name,
+std::string write_file(const anticrack::testing::TemporaryFolder& folder, const std::string& name,
                        const std::string& content);
 std::string read_file(const std::string& path);
 

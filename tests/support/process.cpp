@@ -9,14 +9,12 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
-#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
 extern char** environ;
 
-namespace anticrack::support {
+namespace anticrack::testing {
 
 namespace {
 
@@ -149,15 +147,4 @@ std::string Process::error() const {
   return _error.text;
 }
 
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = std::filesystem::temp_directory_path() / "anticrack-test-XXXXXX";
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("mkdtemp failed");
-  _path = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(_path, ignored);
-}
-
-}  // namespace anticrack::support
+}  // namespace anticrack::testing

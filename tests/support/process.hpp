@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace anticrack::support {
+namespace anticrack::testing {
 
 /// Starts a program, drains its output in the background, kills it at the end of the scope.
 class Process {
@@ -54,18 +54,4 @@ class Process {
   std::condition_variable _changed;
 };
 
-/// A folder of its own, removed at the end of the scope.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::string& path() const noexcept { return _path; }
-  std::string operator/(const std::string& name) const { return _path + "/" + name; }
-
- private:
-  std::string _path;
-};
-
-}  // namespace anticrack::support
+}  // namespace anticrack::testing

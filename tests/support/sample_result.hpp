@@ -11,7 +11,7 @@
 
 #include "results/result.hpp"
 
-namespace anticrack::support {
+namespace anticrack::testing {
 
 /// u+ - u- at (x, 0): open over all of the crack, or closed for x < -0.2.
 inline double sample_jump(double x, bool contact) {
@@ -154,4 +154,4 @@ inline results::Result sample_result(int n = 20) {
   return result;
 }
 
-}  // namespace anticrack::support
+}  // namespace anticrack::testing

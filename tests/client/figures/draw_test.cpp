@@ -10,19 +10,19 @@
 #include <set>
 
 #include "figures/figures.hpp"
-#include "support/process.hpp"
 #include "support/sample_result.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace anticrack::figures {
 namespace {
 
 namespace fs = std::filesystem;
-using support::sample_result;
-using support::TemporaryFolder;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
+using anticrack::testing::sample_result;
+using anticrack::testing::TemporaryFolder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
 
 std::string bytes_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -8,14 +8,14 @@
 #include <filesystem>
 
 #include "figures/figures.hpp"
-#include "support/process.hpp"
 #include "support/sample_result.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace anticrack::figures {
 namespace {
 
-using support::TemporaryFolder;
-using testing::HasSubstr;
+using anticrack::testing::TemporaryFolder;
+using ::testing::HasSubstr;
 using namespace std::chrono_literals;
 
 std::string failure(const std::string& script, const std::string& folder,
@@ -89,7 +89,7 @@ TEST(Gnuplot, that_is_not_installed_is_named_with_its_package) {
   const TemporaryFolder folder;
   const Path path(folder.path());
   EXPECT_THAT(failure("print 1\n", folder.path()), HasSubstr("gnuplot-nox"));
-  EXPECT_THROW(draw(support::sample_result(4), folder / "figures"), Error);
+  EXPECT_THROW(draw(anticrack::testing::sample_result(4), folder / "figures"), Error);
   EXPECT_TRUE(std::filesystem::is_empty(folder / "figures"));
 }
 

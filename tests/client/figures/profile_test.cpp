@@ -8,8 +8,8 @@
 namespace anticrack::figures {
 namespace {
 
+using anticrack::testing::sample_result;
 using results::Kind;
-using support::sample_result;
 
 TEST(Profile, marks_the_delaminated_part_from_tip_to_tip) {
   const auto result = sample_result(20);

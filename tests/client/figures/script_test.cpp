@@ -13,9 +13,9 @@
 namespace anticrack::figures {
 namespace {
 
-using support::sample_result;
-using testing::HasSubstr;
-using testing::Not;
+using anticrack::testing::sample_result;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::vector<Output> both{{Format::png, "a.png"}, {Format::svg, "a.svg"}};
 

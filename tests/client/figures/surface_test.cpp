@@ -11,8 +11,8 @@
 namespace anticrack::figures {
 namespace {
 
-using support::sample_result;
-using support::sample_u;
+using anticrack::testing::sample_result;
+using anticrack::testing::sample_u;
 
 double area(const Surface& surface) {
   double sum = 0;

@@ -14,8 +14,8 @@
 namespace anticrack::results {
 namespace {
 
-using support::sample_result;
-using testing::HasSubstr;
+using anticrack::testing::sample_result;
+using ::testing::HasSubstr;
 
 /// The two blocks a server would send for a result, with bytes of their own.
 class Blocks {
@@ -160,7 +160,7 @@ struct Lie {
   std::string complaint;
 };
 
-class Lies : public testing::TestWithParam<Lie> {};
+class Lies : public ::testing::TestWithParam<Lie> {};
 
 TEST_P(Lies, are_refused) {
   const Result result = sample_result(4);
@@ -177,7 +177,7 @@ TEST_P(Lies, are_refused) {
 
 INSTANTIATE_TEST_SUITE_P(
     Assemble, Lies,
-    testing::Values(
+    ::testing::Values(
         Lie{"missing", [](Blocks& b) { b.drop("loads/0/traces/0/jump"); },
             "loads/0/traces/0/jump is missing"},
         Lie{"missing_all_traces", [](Blocks& b) { b.drop("loads/0/traces"); }, "is missing"},

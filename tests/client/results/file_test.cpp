@@ -15,16 +15,16 @@
 #include <iterator>
 #include <thread>
 
-#include "support/process.hpp"
 #include "support/sample_result.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace anticrack::results {
 namespace {
 
 namespace fs = std::filesystem;
-using support::sample_result;
-using support::TemporaryFolder;
-using testing::HasSubstr;
+using anticrack::testing::sample_result;
+using anticrack::testing::TemporaryFolder;
+using ::testing::HasSubstr;
 
 std::string bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

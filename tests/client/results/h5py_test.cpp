@@ -8,13 +8,14 @@
 #include "results/file.hpp"
 #include "support/process.hpp"
 #include "support/sample_result.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace anticrack::results {
 namespace {
 
-using support::Process;
-using support::sample_result;
-using support::TemporaryFolder;
+using anticrack::testing::Process;
+using anticrack::testing::sample_result;
+using anticrack::testing::TemporaryFolder;
 
 std::string python(const std::string& program) {
   Process process({"/usr/bin/python3", "-c", program});
@@ -22,7 +23,7 @@ std::string python(const std::string& program) {
   return process.output();
 }
 
-class H5py : public testing::Test {
+class H5py : public ::testing::Test {
  protected:
   void SetUp() override {
     Process process({"/usr/bin/python3", "-c", "import h5py"});

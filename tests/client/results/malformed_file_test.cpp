@@ -11,15 +11,15 @@
 #include <iterator>
 
 #include "results/file.hpp"
-#include "support/process.hpp"
 #include "support/sample_result.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace anticrack::results {
 namespace {
 
-using support::sample_result;
-using support::TemporaryFolder;
-using testing::HasSubstr;
+using anticrack::testing::sample_result;
+using anticrack::testing::TemporaryFolder;
+using ::testing::HasSubstr;
 
 void expect_refused(const std::string& path, const std::string& cause) {
   try {
@@ -155,7 +155,7 @@ void move_outside(hid_t file, const char* path, hsize_t count, const char* other
   H5Sclose(space);
 }
 
-class Damaged : public testing::TestWithParam<Damage> {};
+class Damaged : public ::testing::TestWithParam<Damage> {};
 
 TEST_P(Damaged, is_refused) {
   const TemporaryFolder folder;
@@ -252,7 +252,7 @@ const std::array<Damage, 26> damages{{
      "dataset jump lies in another file"},
 }};
 
-INSTANTIATE_TEST_SUITE_P(MalformedFile, Damaged, testing::ValuesIn(damages),
+INSTANTIATE_TEST_SUITE_P(MalformedFile, Damaged, ::testing::ValuesIn(damages),
                          [](const auto& each) { return each.param.name; });
 
 }  // namespace
