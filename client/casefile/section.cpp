@@ -117,7 +117,7 @@ std::optional<std::string> Section::text(std::string_view key) const {
   if (!node) {
     return std::nullopt;
   }
-  const auto value = node->value_exact<std::string>();
+  auto value = node->value_exact<std::string>();
   if (!value) {
     throw Error(spot_of(key), shown(*node) + " is no text; write it in quotes");
   }

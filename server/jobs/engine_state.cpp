@@ -247,6 +247,7 @@ void JobEngine::State::end(const JobPtr& job, const std::optional<Error>& failur
   running -= job->state == JobState::running ? 1 : 0;
   job->state = record->state;
   job->final_record = record;
+  ++ended;  // before the end event: who sees that finds the job counted
   job->cases.clear();
   kept.push_back({job->id, record->result_bytes + job->log->bytes()});
   const std::vector<std::string> forgotten = forget_oldest();
@@ -261,7 +262,7 @@ void JobEngine::State::end(const JobPtr& job, const std::optional<Error>& failur
 
   job->log->append(EndEvent{std::move(record)});
   lock.lock();
-  ++ended;
+  ++announced;
   lock.unlock();
   changed.notify_all();
 }

@@ -69,6 +69,7 @@ struct JobEngine::State {
   int running = 0;
   std::uint64_t created = 0;  ///< jobs so far
   std::uint64_t ended = 0;
+  std::uint64_t announced = 0;  ///< ended, and the end event is in the log
   std::uint64_t cases_ended = 0;
   struct Kept {
     std::string id;

@@ -199,7 +199,7 @@ void JobEngine::stop(std::chrono::milliseconds grace) {
     }
     lock.lock();
   };
-  const auto idle = [&] { return state.ended == state.created; };
+  const auto idle = [&] { return state.announced == state.created; };
 
   State::Lock lock(state.mutex);
   state.draining = true;
