@@ -146,7 +146,7 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
   group->require_subcommand(1);
   const auto options = std::make_shared<JobOptions>();
   const auto add = [&](const std::string& name, const std::string& help, const std::string& example,
-                       std::function<int(const JobOptions&)> action) {
+                       const std::function<int(const JobOptions&)>& action) {
     CLI::App* command = group->add_subcommand(name, help);
     command->footer("Example:\n  anticrack job " + name + " " + example);
     command->callback(
@@ -155,8 +155,8 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
   };
   const auto add_named = [&](const std::string& name, const std::string& help,
                              const std::string& example,
-                             std::function<int(const JobOptions&)> action) {
-    CLI::App* command = add(name, help, "jobs/0123456789abcdef" + example, std::move(action));
+                             const std::function<int(const JobOptions&)>& action) {
+    CLI::App* command = add(name, help, "jobs/0123456789abcdef" + example, action);
     command->add_option("JOB", options->name, "jobs/ID")->required();
     return command;
   };

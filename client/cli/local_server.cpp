@@ -69,7 +69,7 @@ fs::path find_server(const fs::path& executable, const std::string& search_path)
     folders.emplace_back(folder.empty() ? "." : folder);
   }
   for (const fs::path& folder : folders) {
-    const fs::path candidate = folder / "anticrackd";
+    fs::path candidate = folder / "anticrackd";
     std::error_code error;
     if (fs::is_regular_file(candidate, error) && access(candidate.c_str(), X_OK) == 0) {
       return candidate;

@@ -151,7 +151,7 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
   CLI::App* group = app.add_subcommand("mesh", "Meshes on the server");
   group->require_subcommand(1);
   const auto options = std::make_shared<MeshOptions>();
-  const auto on = [&](CLI::App* command, std::function<int(const MeshOptions&)> action) {
+  const auto on = [&](CLI::App* command, const std::function<int(const MeshOptions&)>& action) {
     command->callback(
         [options, action, &chosen] { chosen = [options, action] { return action(*options); }; });
   };

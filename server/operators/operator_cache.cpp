@@ -234,7 +234,7 @@ std::shared_ptr<const MeshOperator> OperatorCache::acquire(const std::string& ke
       lock.lock();
     } else {
       evicted = _state->make_room(*estimate);
-      flight = _state->take_off(key, std::move(mesh), *estimate);
+      flight = _state->take_off(key, mesh, *estimate);
     }
   }
 

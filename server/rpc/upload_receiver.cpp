@@ -144,7 +144,7 @@ std::string UploadReceiver::complete() {
                                               " bytes that the header announced")
         .at("header.size");
   }
-  const std::string sha256 = _hash.finish();
+  std::string sha256 = _hash.finish();
   if (sha256 != _announced_sha256) {
     throw Error(Reason::invalid_argument,
                 "the bytes received have the sha256 " + sha256 + ", not the one announced")
