@@ -52,7 +52,7 @@ const std::string& Connection::address() const noexcept {
 
 Error error_of(const Connection::State& state, const grpc::Status& status) {
   const int code = static_cast<int>(status.error_code());
-  const Error error = decode_error(code, status.error_message(), status.error_details());
+  Error error = decode_error(code, status.error_message(), status.error_details());
   if (error.code() == Code::unavailable && error.details().reason.empty()) {
     // gRPC tells the cause after its own story.
     const std::string story = status.error_message();

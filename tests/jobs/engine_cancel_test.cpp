@@ -38,14 +38,14 @@ void expect_cancelled(const JobRecord& record) {
   }
 }
 
-TEST(EngineCancel, OfAQueuedJobTakesEffectAtOnce) {
+TEST(EngineCancel, OfAQueuedJobNeedsNoSolverThread) {
   Engine test(one_thread());
   const std::string mesh = test.ready_mesh();
   const std::string running = test.submit(endless_job(mesh));
   ASSERT_TRUE(test.iterating(running));
   const std::string queued = test.submit(short_job(mesh));
   EXPECT_EQ(test.engine.metrics().jobs_queued, 1);
-  expect_cancelled(test.engine.cancel(queued));
+  test.engine.cancel(queued);
   expect_cancelled(test.ended(queued));
   EXPECT_EQ(test.engine.metrics().jobs_queued, 0);
   EXPECT_EQ(test.state(running), JobState::running);

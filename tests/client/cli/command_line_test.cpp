@@ -30,6 +30,7 @@ struct Ran {
 Ran run(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "anticrack");
   std::vector<char*> argv;
+  argv.reserve(arguments.size());
   for (std::string& argument : arguments) {
     argv.push_back(argument.data());
   }

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 fs::path make_program(const fs::path& folder, bool executable = true) {
   fs::create_directories(folder);
-  const fs::path program = folder / "anticrackd";
+  fs::path program = folder / "anticrackd";
   std::ofstream(program) << "#!/bin/sh\n";
   fs::permissions(program, executable ? fs::perms::owner_all : fs::perms::owner_read);
   return program;
