@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -24,11 +25,21 @@ struct UzawaOptions {
   double p = 1e5;                     ///< bound on the multipliers; >= 0
   int max_iterations = 20000;         ///< >= 1
   Mass mass = Mass::lumped;
+  std::optional<double> kkt_tolerance;  ///< > 0: stop by the relative KKT residuals, not by epsilon
 };
 
-/// Throws errors::Error (invalid_argument) with the field at fault: "theta", "epsilon", "p",
-/// "max_iterations".
-void check(const UzawaOptions& options, int iteration_limit);
+/// Primal-dual active set: exact contact in a handful of steps.
+struct ActiveSetOptions {
+  double tolerance = 1e-12;  ///< >= 0; relative jump or pressure below which a node is weakly active
+  int max_steps = 1000;      ///< >= 1
+};
+
+using SolverOptions = std::variant<ActiveSetOptions, UzawaOptions>;
+
+/// Throws errors::Error (invalid_argument) with the field at fault below the method's name:
+/// "uzawa.theta", "uzawa.epsilon", "uzawa.p", "uzawa.max_iterations", "uzawa.kkt_tolerance",
+/// "active_set.tolerance", "active_set.max_steps".
+void check(const SolverOptions& options, int iteration_limit);
 
 /// Residuals of the optimality conditions at an iterate, absolute.
 struct KktResiduals {
@@ -60,7 +71,7 @@ enum class Status { converged, not_converged, cancelled };
 struct InclusionAnswer {
   std::string name;
   double displacement = 0;    ///< A, equation (5)
-  double resultant = 0;       ///< int [du/dnu] ds over the inclusion, equation (6)
+  double resultant = 0;       ///< int [T du/dnu] ds over it, equation (6): the force on it
   double contact_length = 0;  ///< lumped length of its delaminated nodes in contact
 };
 
@@ -95,6 +106,8 @@ struct Answer {
   double energy = 0;      ///< Pi(u)
   KktResiduals kkt;
   KktResiduals kkt_relative;
+  int weakly_active = 0;                    ///< crack nodes with neither jump nor pressure
+  std::vector<std::string> warnings;
   std::vector<InclusionAnswer> inclusions;  ///< one per Mesh::inclusions
   double contact_length = 0;
   std::vector<ContactInterval> contact_intervals;

@@ -4,6 +4,7 @@
 // each other across an interface under which condition.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -17,20 +18,30 @@ namespace anticrack::ddm {
 /// One subdomain Omega_i. Its nodes are numbered interior first, then those on interfaces (the
 /// trace), then those on the Dirichlet boundary; index base 0. A node that is on an interface and
 /// on the Dirichlet boundary counts as Dirichlet.
+/// A mesh node on interfaces is there once for each of its *sides* in the subdomain: the fans of
+/// triangles into which the interface edges cut its neighbourhood. Two on a slit, one at its tip.
 struct Subdomain {
   std::string name;
+  double tension = 1;
   fem::Triangulation part;
-  std::vector<std::int32_t> node;  ///< (n) index into Mesh::xy of each local node
+  std::vector<std::int32_t> node;      ///< (n) index into Mesh::xy of each local node
+  std::vector<std::int32_t> triangle;  ///< (m) index into the mesh's triangles of each local one
   std::size_t interior = 0;
   std::size_t trace = 0;
   std::size_t dirichlet = 0;
-  std::vector<std::int32_t> rigid;  ///< (trace) inclusion whose plus side holds the node, or -1
+  std::vector<std::int32_t> rigid;  ///< (trace) inclusion whose plus side (or tip) holds it, or -1
+  std::vector<std::int32_t> unknown;  ///< (trace) its entry of the skeleton's w
+  /// A trace node of each connected part without Dirichlet nodes: the part could move as a whole.
+  std::vector<std::int32_t> floating;
+  std::vector<std::array<std::int32_t, 2>>
+      neumann;  ///< local nodes of edges of the Neumann boundary
 
   std::size_t free() const noexcept { return interior + trace; }
 };
 
 /// The two sides of an interface node that is not on the Dirichlet boundary; carries one multiplier
-/// mu, a force per length that pushes the minus side down and the plus side up.
+/// mu, a force per length that pushes the minus side down and the plus side up. Both may lie in one
+/// subdomain (slit). A tip of a slit has one side only and no pair.
 /// In the node of two edges the stricter condition holds: a tip is tied, u+ = u- (= A_j).
 struct NodePair {
   std::int32_t node = 0;   ///< index into Mesh::xy
@@ -40,6 +51,7 @@ struct NodePair {
   std::int32_t plus_trace = 0;
   mesh::Kind kind = mesh::Kind::glue;
   std::int32_t inclusion = -1;
+  std::int32_t contact = -1;  ///< of the skeleton; -1 where tied
 
   /// [u] >= 0 here; elsewhere [u] = 0.
   bool unilateral() const noexcept {
@@ -47,22 +59,46 @@ struct NodePair {
   }
 };
 
+/// All traces at once. Sides tied to each other by glue, tips and rigid inclusions share one
+/// unknown of w: the A_j come first, w_j = A_j. The contact conditions on cracks are
+///   d_c = w[plus_c] - w[minus_c] >= 0,
+/// each node of a crack once, also where several pairs of a cross point ask for the same; the graph
+/// of the contacts is a forest, so the d_c are independent of each other.
+struct Contact {
+  std::int32_t plus = 0;
+  std::int32_t minus = 0;
+};
+struct Skeleton {
+  std::size_t unknowns = 0;
+  std::vector<Contact> contacts;
+};
+
+/// Where the traces of an interface's node are read: every side is given, tied or not.
+struct SidePair {
+  std::int32_t pair = -1;                     ///< -1: Dirichlet node, or the tip of a slit
+  std::int32_t minus = -1, minus_trace = -1;  ///< subdomain and trace number; -1: Dirichlet
+  std::int32_t plus = -1, plus_trace = -1;
+  mesh::Kind kind = mesh::Kind::glue;  ///< condition in the node; a tip is tied
+};
+
 struct Decomposition {
   std::vector<Subdomain> subdomains;
   std::vector<NodePair> pairs;
-  std::vector<fem::MassEdge> edges;  ///< interface edges between pairs
-  std::vector<std::vector<std::int32_t>>
-      interface_pairs;                            ///< per interface and node; -1: Dirichlet
-  std::vector<std::int32_t> inclusion_subdomain;  ///< per inclusion: where its plus side lies
+  std::vector<fem::MassEdge> edges;                    ///< interface edges between pairs
+  std::vector<std::vector<SidePair>> interface_sides;  ///< per interface and node
+  Skeleton skeleton;
 };
 
-/// Throws errors::Error where this version has no method, with the cure: numerical for a part of a
-/// subdomain without Dirichlet nodes; not_implemented for a crack or inclusion that touches the
-/// Dirichlet boundary, or ends where more than two subdomains meet, for an inclusion whose plus
-/// side lies in two subdomains, for two inclusions that share a node; mesh_invalid for an interface
-/// edge without a triangle on each side and for an inclusion without edges. Nodes in which more
-/// than two subdomains meet (glue only) get a pair per couple of neighbours. O(m log k), k the
-/// number of interface edges.
+/// Throws errors::Error: mesh_invalid for an interface edge without a triangle on each side, for an
+/// inclusion without edges, and for a part of the membrane that nothing holds (no Dirichlet node,
+/// no interface); not_implemented with the cure for a crack or inclusion that touches the Dirichlet
+/// boundary, for two inclusions that share a node, for cracks that cross so that their contact
+/// conditions depend on each other. O(m log k), k the number of interface edges.
 Decomposition cut(const mesh::Mesh& mesh);
+
+/// Why Algorithm 2 of the paper cannot be used, with the cure ("use active-set"), or empty: a
+/// subdomain with a part without Dirichlet nodes (named), an inclusion whose rigid sides lie in two
+/// subdomains (its section 6 works on one).
+std::string uzawa_obstacle(const Decomposition& decomposition, const mesh::Mesh& mesh);
 
 }  // namespace anticrack::ddm

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace anticrack::fem {
 
@@ -19,17 +21,36 @@ struct PerRegion {
   std::map<std::string, double> values;
 };
 
+/// A value per triangle (constant on it) or per node (linear between), in the order of the mesh.
+struct Array {
+  std::string upload;  ///< sha256 of the bytes the values came from
+  bool per_triangle = false;
+  /// Set where the load is solved; a job that waits holds the name only.
+  std::shared_ptr<const std::vector<double>> values;
+};
+
 /// f of equation (1): force per unit area, positive in the direction of u.
-using Force = std::variant<double, Expression, PerRegion>;
+using Force = std::variant<double, Expression, PerRegion, Array>;
+
+/// A force that acts in one point of the membrane.
+struct PointForce {
+  double x = 0;
+  double y = 0;
+  double value = 0;
+};
 
 struct Load {
   std::string name;
   Force force = 0.0;
   std::string boundary_value;  ///< g_D on the Dirichlet boundary, an expression; empty: 0
+  std::string traction;        ///< g_N = T du/dn on the Neumann boundary, an expression; empty: 0
+  std::vector<PointForce> point_forces;
+  std::map<std::string, double> inclusion_forces;  ///< by name of the inclusion
 };
 
 /// Throws errors::Error (expression_invalid, invalid_argument) with the field at fault:
-/// "force.expression", "force.per_region[NAME]", "force.constant", "boundary_value". Checks what
+/// "force.expression", "force.per_region[NAME]", "force.constant", "boundary_value", "traction",
+/// "point_forces[I].value", "inclusion_forces[NAME]", ... Checks what
 /// can be checked without a mesh: syntax, symbols, length, finite constants.
 void check(const Load& load, std::size_t max_expression_bytes);
 

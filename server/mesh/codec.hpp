@@ -25,14 +25,15 @@ Bytes encode(const Mesh& mesh);
 /// Throws errors::Error (mesh_invalid) where the bytes are not those of a mesh.
 Mesh decode_mesh(std::span<const std::byte> bytes);
 
-/// Mesh this plan.
+/// Mesh this plan, then grade.
 struct GenerateRequest {
   Plan plan;
   std::size_t max_triangles = 0;
 };
-/// Read this .msh; the file begins with $MeshFormat.
+/// Read this .msh, then grade or refine as the options say; the file begins with $MeshFormat.
 struct ImportRequest {
   std::string path;
+  MeshOptions options;
   std::size_t max_triangles = 0;
 };
 using MesherRequest = std::variant<GenerateRequest, ImportRequest>;

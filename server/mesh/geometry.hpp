@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The parametric geometry of a case: a polygon, an interface that cuts it, what lies on the
-// interface. Pure data and checks; no mesher is needed to refuse a bad one.
+// The parametric geometry of a case: a polygon, interfaces in it, what lies on them. Pure data and
+// checks; no mesher is needed to refuse a bad one.
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,10 +16,21 @@ namespace anticrack::mesh {
 
 using Point = std::array<double, 2>;
 
-/// From one point of the interface to another; either order.
+/// From one point of an interface to another; either order.
 struct Part {
   Point from{};
   Point to{};
+};
+
+enum class Shape { polyline, arc, spline };
+
+/// A line in the membrane, plus side on its left. Ends on the boundary, on another interface, or
+/// free: see InterfaceCurve of the API.
+struct InterfaceSpec {
+  std::string name;
+  Shape shape = Shape::polyline;
+  std::vector<Point> points;  ///< polyline, spline: through all; arc: from, through, to
+  bool closed = false;        ///< polyline and spline only
 };
 
 struct InclusionSpec {
@@ -31,51 +44,98 @@ struct CrackSpec {
   Part part;
 };
 
+struct RegionSpec {
+  std::string name;
+  Point at{};          ///< inside the subdomain it names
+  double tension = 1;  ///< T > 0
+};
+
 struct Geometry {
   std::vector<Point> boundary;  ///< simple polygon, not closed, either orientation
-  std::vector<Point>
-      interface;  ///< ends on the boundary, the rest strictly inside; plus on its left
+  std::vector<InterfaceSpec> interfaces;
   std::vector<InclusionSpec> inclusions;
   std::vector<CrackSpec> cracks;
+  std::vector<Part> neumann;  ///< of the boundary, counterclockwise; from == to: all of it
+  std::vector<RegionSpec> regions;
 };
 
-enum class Preset { paper, uniform };
+enum class Preset { graded, paper, uniform };
 
 struct MeshOptions {
-  Preset preset = Preset::paper;
-  double size = 0;  ///< edge length of `uniform`; 0: a fiftieth of the bounding box's diagonal
+  Preset preset = Preset::graded;
+  double size = 0;       ///< edge length away from tips; 0: chosen, see MeshOptions of the API
+  double tip_size = 0;   ///< graded: smallest edge wanted; 0: as small as coordinates resolve
+  double grading = 0.2;  ///< graded: m
+  std::vector<std::vector<Point>> align;  ///< geometry: lines that edges must follow
+  // An upload's:
+  std::map<std::int32_t, std::string>
+      curve_groups;  ///< physical tag -> "crack", "inclusion:NAME"...
+  std::map<std::int32_t, std::string> surface_groups;  ///< physical tag -> subdomain
+  std::map<std::string, double> tension;               ///< subdomain -> T
 };
 
-/// One straight curve of the plan: from points[a] to points[b], cut into `intervals` equal pieces.
+/// What a straight curve of the plan is.
+enum class Role : std::int32_t { dirichlet, neumann, interface, align };
+
+/// From points[a] to points[b], cut into `intervals` equal pieces.
 struct PlannedCurve {
   int a = 0;
   int b = 0;
   int intervals = 1;
-};
-
-/// A curve of the interface, in order from its start.
-struct PlannedInterfaceCurve : PlannedCurve {
+  Role role = Role::dirichlet;
+  int left = -1;   ///< face on the left of a-b, -1: outside the membrane
+  int right = -1;  ///< and on its right; the same as `left`: the curve hangs in that face
+  // of an interface:
   Kind kind = Kind::glue;
   int inclusion = -1;
 };
 
-/// What the mesher needs to know: the geometry cut into straight curves. Subdomain 0 is the minus
-/// side (Omega_1), 1 the plus side (Omega_2).
+/// A chain of curves, each from a to b, end to start; plus side on the left.
+struct PlannedInterface {
+  std::string name;
+  std::vector<int> curves;
+};
+
+/// A face of the arrangement of all curves: a subdomain. Curves are +-(index + 1), the sign
+/// negative where the loop walks from b to a.
+struct PlannedFace {
+  std::string name;
+  double tension = 1;
+  std::vector<int> outer;               ///< counterclockwise, the face on its left
+  std::vector<std::vector<int>> holes;  ///< clockwise, the face on its left
+  std::vector<int> embedded;            ///< indices of curves that hang in it or swim in it
+};
+
+/// How a mesh is to be graded; see mesh/refine.hpp. h0 = 0: not at all.
+struct GradingSpec {
+  double h0 = 0;
+  double m = 0.2;
+  double tip_size = 0;
+};
+
+/// What the mesher needs to know: the geometry cut into straight curves and faces.
 struct Plan {
   std::vector<Point> points;
-  std::array<std::vector<PlannedCurve>, 2> outer;  ///< of each subdomain, counterclockwise, open
-  std::vector<PlannedInterfaceCurve> interface;
+  std::vector<PlannedCurve> curves;
+  std::vector<PlannedInterface> interfaces;
+  std::vector<PlannedFace> faces;
   std::vector<std::string> inclusions;
   double growth = 0.3;  ///< how much longer edges become per length away from a finer curve
+  GradingSpec grading;
 };
 
 /// Checks a geometry and cuts it into curves with the intervals of the preset.
 /// Throws errors::Error (geometry_invalid; invalid_argument for options; limit_exceeded for too
-/// many vertices or triangles) with the field at fault
-/// ("boundary", "interface", "inclusions[1].part.from", "options.size", ...): boundary that crosses
-/// itself, interface that does not cut the polygon in two, inclusion off the interface, touching
-/// the boundary, or overlapping another, values not finite, names empty, wrong or used twice,
-/// more triangles than `max_triangles` to be expected. O(v^2) in the vertices, at most 10,000.
+/// many vertices or triangles) with the field at fault ("boundary", "interfaces[0].polyline",
+/// "inclusions[1].part.from", "regions[0].at", "options.size", ...): boundary that crosses itself,
+/// interface outside the membrane or along another, part off every interface or touching the
+/// boundary, parts overlapping, values not finite, names empty, wrong or used twice, more triangles
+/// than `max_triangles` to be expected. O(v^2) in the vertices, at most 10,000.
 Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_triangles);
+
+/// Checks what of the options can be checked for an upload, before its mesh is known. Throws
+/// errors::Error (invalid_argument) with the field at fault ("options.preset", "options.align",
+/// "options.curve_groups[3]", ...).
+void check_for_upload(const MeshOptions& options);
 
 }  // namespace anticrack::mesh

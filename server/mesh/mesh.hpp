@@ -20,7 +20,7 @@ enum class Kind : std::int32_t {
 };
 
 /// A chain of k nodes and k-1 edges. Its plus side (the paper's Omega_2) is on the left, walked in
-/// the order given.
+/// the order given. A closed chain has its first node again as its last.
 struct Interface {
   std::string name;
   std::vector<std::int32_t> nodes;      ///< (k) indices into Mesh::xy
@@ -31,15 +31,18 @@ struct Interface {
 /// Conforming triangulation, index base 0. Nodes on an interface are stored once: the doubling of
 /// u across it is made by ddm::cut.
 /// Invariants (checked by `validate`): indices in range, triangles counterclockwise with positive
-/// area, every subdomain has a triangle, every interface edge is an edge of exactly two triangles
-/// of different subdomains, every edge between two subdomains lies on exactly one interface, every
-/// boundary edge belongs to exactly one triangle; every node belongs to a triangle, triangles do
-/// not overlap at an edge, and an edge has an inclusion just if its kind needs one.
+/// area, every subdomain has a triangle, every interface edge is an edge of exactly two triangles,
+/// of different subdomains where it is glue (a slit has one subdomain on both sides), every edge
+/// between two subdomains lies on exactly one interface, every Dirichlet edge belongs to exactly
+/// one triangle; every node belongs to a triangle, triangles do not overlap at an edge, an edge has
+/// an inclusion just if its kind needs one, tension is positive.
+/// Edges of one triangle that are not in `dirichlet` are the Neumann boundary.
 struct Mesh {
   std::vector<double> xy;               ///< (n,2) row-major, unit of the geometry
   std::vector<std::int32_t> triangles;  ///< (m,3) row-major
   std::vector<std::int32_t> subdomain;  ///< (m) index into subdomains
   std::vector<std::string> subdomains;  ///< names
+  std::vector<double> tension;          ///< (subdomains) T > 0 of each; empty: 1 everywhere
   std::vector<std::string> inclusions;  ///< names
   std::vector<Interface> interfaces;
   std::vector<std::array<std::int32_t, 2>> dirichlet;  ///< edges of the boundary where u = g_D

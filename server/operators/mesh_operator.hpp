@@ -26,10 +26,13 @@ class MeshOperator {
                                                        int threads, std::stop_token stop);
   ~MeshOperator();
 
-  /// Algorithm 2 on one load case. O(n_G^2) an iteration, O(N) before and (for fields) after.
+  /// One load case. O(n_G^2) an iteration of Algorithm 2, O(c^3) a step of the active set with c
+  /// crack nodes, O(N) before and (for fields) after.
   /// Same mesh, load and options: same bits. Throws errors::Error (expression_invalid: a value that
-  /// is not finite, with the place; invalid_argument: a subdomain the mesh does not have).
-  contact::Answer solve(const fem::Load& load, const contact::UzawaOptions& options, bool fields,
+  /// is not finite, with the place; invalid_argument: a subdomain or inclusion the mesh does not
+  /// have, an array of another length, a point outside; not_implemented: Uzawa where
+  /// ddm::uzawa_obstacle has a reason).
+  contact::Answer solve(const fem::Load& load, const contact::SolverOptions& options, bool fields,
                         contact::Observer& observer) const;
 
   const mesh::Mesh& mesh() const noexcept;
@@ -37,7 +40,7 @@ class MeshOperator {
   const std::vector<contact::TraceGeometry>& trace_geometry() const noexcept;
   /// Memory held, measured, bytes (the mesh included).
   std::size_t bytes() const noexcept;
-  /// theta* for lumped mass.
+  /// theta* for lumped mass; 0 where Algorithm 2 does not apply.
   double theta_star() const noexcept;
 
  private:

@@ -22,6 +22,7 @@ using Clock = std::chrono::system_clock;
 /// An uploaded .msh, by the sha256 of its bytes; the file lies in the store's folder.
 struct UploadRef {
   std::string sha256;
+  mesh::MeshOptions options;
 };
 
 struct GeometrySource {
@@ -39,6 +40,17 @@ struct SubdomainSummary {
   std::uint64_t node_count = 0;
   std::uint64_t triangle_count = 0;
   double area = 0;
+  double tension = 1;
+  bool floating = false;     ///< a part of it is held by interfaces only
+  double minimum_angle = 0;  ///< degrees
+  double shortest_edge = 0;
+  double longest_edge = 0;
+};
+
+struct TipSummary {
+  mesh::Point at{};
+  std::string interface;
+  double smallest_edge = 0;
 };
 
 struct SegmentSummary {
@@ -72,6 +84,10 @@ struct MeshRecord {
   std::vector<std::string> inclusions;
   std::vector<std::string> warnings;
   double minimum_angle = 0;
+  double bisection_bound = 0;  ///< degrees; 0: not graded
+  std::vector<TipSummary> tips;
+  double dirichlet_length = 0;
+  double neumann_length = 0;
   double mesh_seconds = 0;
   // Known once factorised:
   std::uint64_t operator_bytes = 0;
@@ -100,7 +116,7 @@ struct JobSpec {
   std::string title;
   std::string mesh;  ///< id of the mesh
   std::vector<fem::Load> loads;
-  contact::UzawaOptions solver;
+  contact::SolverOptions solver;
   bool fields = false;
 };
 

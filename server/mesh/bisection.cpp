@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/bisection.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "errors/errors.hpp"
+#include "mesh/midpoints.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/refine.hpp"
+
+namespace anticrack::mesh {
+namespace {
+
+std::size_t side_of(const Mesh& mesh, const EdgeUse& use) noexcept {
+  const auto t = 3 * static_cast<std::size_t>(use.triangle);
+  if (mesh.triangles[t] == use.from) return 0;
+  return mesh.triangles[t + 1] == use.from ? 1 : 2;
+}
+
+double squared_length(const Mesh& mesh, std::int32_t a, std::int32_t b) noexcept {
+  const auto i = 2 * static_cast<std::size_t>(a);
+  const auto j = 2 * static_cast<std::size_t>(b);
+  const double dx = mesh.xy[j] - mesh.xy[i];
+  const double dy = mesh.xy[j + 1] - mesh.xy[i + 1];
+  return dx * dx + dy * dy;
+}
+
+void check_plane(std::span<const EdgeUse> uses) {
+  if (uses.size() < 2 || (uses.size() == 2 && uses[0].from != uses[1].from)) return;
+  throw errors::Error(errors::Reason::mesh_invalid,
+                      "the edge between nodes " + std::to_string(uses[0].low()) + " and " +
+                          std::to_string(uses[0].high()) + " belongs to " +
+                          std::to_string(uses.size()) +
+                          " triangles; refinement takes one on each side at most");
+}
+
+Point between(const Point& a, const Point& b) noexcept {
+  return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> reference_sides(const Mesh& mesh, const EdgeTable& edges) {
+  std::vector<std::uint8_t> sides(mesh.triangle_count(), 0);
+  std::vector<double> longest(mesh.triangle_count(), -1.0);
+  edges.each([&](std::span<const EdgeUse> uses) {
+    const double length = squared_length(mesh, uses[0].low(), uses[0].high());
+    for (const EdgeUse& use : uses) {
+      const auto t = static_cast<std::size_t>(use.triangle);
+      if (length > longest[t]) {
+        longest[t] = length;
+        sides[t] = static_cast<std::uint8_t>(side_of(mesh, use));
+      }
+    }
+  });
+  return sides;
+}
+
+Bisection::Bisection(const Mesh& base, std::size_t max_triangles)
+    : _base(base), _max_triangles(max_triangles), _xy(base.xy), _subdomain(base.subdomain) {
+  const EdgeTable edges(base.triangles);
+  const std::vector<std::uint8_t> reference = reference_sides(base, edges);
+  _corners.resize(base.triangle_count());
+  for (std::size_t t = 0; t < _corners.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      _corners[t][i] = base.triangles[3 * t + (reference[t] + i) % 3];
+    }
+  }
+  _across.assign(base.triangle_count(), {-1, -1, -1});
+  edges.each([&](std::span<const EdgeUse> uses) {
+    check_plane(uses);
+    if (uses.size() < 2) return;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto t = static_cast<std::size_t>(uses[i].triangle);
+      _across[t][(side_of(base, uses[i]) + 3 - reference[t]) % 3] = uses[1 - i].triangle;
+    }
+  });
+}
+
+std::array<Point, 3> Bisection::corners(std::size_t triangle) const noexcept {
+  std::array<Point, 3> points;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto node = 2 * static_cast<std::size_t>(_corners[triangle][i]);
+    points[i] = {_xy[node], _xy[node + 1]};
+  }
+  return points;
+}
+
+std::int32_t Bisection::midpoint(std::int32_t a, std::int32_t b) {
+  const auto node = static_cast<std::int32_t>(_xy.size() / 2);
+  const auto i = 2 * static_cast<std::size_t>(a);
+  const auto j = 2 * static_cast<std::size_t>(b);
+  _xy.push_back(0.5 * (_xy[i] + _xy[j]));
+  _xy.push_back(0.5 * (_xy[i + 1] + _xy[j + 1]));
+  _parents.push_back({a, b});
+  return node;
+}
+
+std::int32_t Bisection::append_triangle(std::int32_t like) {
+  const auto t = static_cast<std::int32_t>(triangle_count());
+  _corners.emplace_back();
+  _across.emplace_back();
+  _subdomain.push_back(_subdomain[static_cast<std::size_t>(like)]);
+  return t;
+}
+
+/// Precondition: the triangle across the reference edge, if any, has the same reference edge.
+void Bisection::bisect_along_reference(std::int32_t t) {
+  const std::int32_t n = _across[static_cast<std::size_t>(t)][0];
+  const auto start = _corners[static_cast<std::size_t>(t)][0];
+  const std::int32_t m = midpoint(start, _corners[static_cast<std::size_t>(t)][1]);
+  const std::int32_t t_new = append_triangle(t);
+  const std::int32_t n_new = n < 0 ? -1 : append_triangle(n);
+
+  // (a, b, c) with reference edge ab becomes (c, a, m), in its place, and (b, c, m); seen from
+  // across ab, where a and b change roles, the half at a borders the new triangle there.
+  const auto split = [&](std::int32_t old, std::int32_t fresh, std::int32_t across_old,
+                         std::int32_t across_fresh) {
+    const auto i = static_cast<std::size_t>(old);
+    const auto j = static_cast<std::size_t>(fresh);
+    const auto [a, b, c] = _corners[i];
+    const auto [ab, bc, ca] = _across[i];
+    _corners[i] = {c, a, m};
+    _across[i] = {ca, across_fresh, fresh};
+    _corners[j] = {b, c, m};
+    _across[j] = {bc, old, across_old};
+    if (bc >= 0) std::ranges::replace(_across[static_cast<std::size_t>(bc)], old, fresh);
+  };
+  split(t, t_new, n, n_new);
+  if (n >= 0) split(n, n_new, t, t_new);
+}
+
+// Why the walk across reference edges ends. Give a triangle of the base generation 0, children one
+// more than their parent, and an edge of a triangle of generation g level g if it is the reference
+// edge, g + 1 if not. Inside a triangle of the base both sides of an edge agree on its level. On an
+// edge of the base, and the pieces of it, they differ by one at most, and the side where it was the
+// reference edge has the lower level. So a step from T across its reference edge e to N, where e is
+// not the reference edge, never raises the generation, and keeps it only when e is a piece of the
+// reference edge of T's ancestor in the base and not of N's: then N's ancestor has an edge larger
+// in the strict order than T's has. No triangle is met twice.
+bool Bisection::bisect(std::size_t triangle) {
+  _waiting.assign(1, static_cast<std::int32_t>(triangle));
+  while (!_waiting.empty()) {
+    const std::int32_t t = _waiting.back();
+    const std::int32_t n = _across[static_cast<std::size_t>(t)][0];
+    if (n >= 0 && _across[static_cast<std::size_t>(n)][0] != t) {
+      _waiting.push_back(n);
+      continue;
+    }
+    if (triangle_count() + (n < 0 ? 1 : 2) > _max_triangles) return false;
+    bisect_along_reference(t);
+    _waiting.pop_back();
+  }
+  return true;
+}
+
+Mesh Bisection::finish() && {
+  Mesh mesh;
+  mesh.xy = std::move(_xy);
+  mesh.triangles.reserve(3 * _corners.size());
+  for (const auto& nodes : _corners) {
+    mesh.triangles.insert(mesh.triangles.end(), nodes.begin(), nodes.end());
+  }
+  mesh.subdomain = std::move(_subdomain);
+  mesh.subdomains = _base.subdomains;
+  mesh.inclusions = _base.inclusions;
+  mesh.interfaces = _base.interfaces;
+  mesh.dirichlet = _base.dirichlet;
+  mesh.warnings = _base.warnings;
+  cut_lines(mesh, Midpoints(static_cast<std::int32_t>(_base.node_count()), _parents));
+  return mesh;
+}
+
+double bisection_bound(const Mesh& base) {
+  const std::vector<std::uint8_t> reference = reference_sides(base, EdgeTable(base.triangles));
+  double smallest = 180;
+  for (std::size_t t = 0; t < base.triangle_count(); ++t) {
+    const Point a = corner(base, t, reference[t]);
+    const Point b = corner(base, t, (reference[t] + 1U) % 3);
+    const Point c = corner(base, t, (reference[t] + 2U) % 3);
+    const Point m = between(a, b);
+    // The triangle and its children. Of the grandchildren two are similar to it; the other two are
+    // congruent, with children like the first children, and their angles are the two parts of the
+    // angle at c and the sum of those at a and b: never the smallest.
+    for (const auto& similar : {angles(a, b, c), angles(c, a, m), angles(b, c, m)}) {
+      smallest = std::min(smallest, *std::ranges::min_element(similar));
+    }
+  }
+  return smallest;
+}
+
+}  // namespace anticrack::mesh

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Newest-vertex bisection of a conforming triangulation, conforming after every step.
+//
+// Each triangle has a reference edge; bisection joins its midpoint to the opposite corner, and the
+// reference edges of the two children are the other two edges of the parent. At first it is the
+// longest edge, of equals that of the smaller (low, high) pair of nodes: a strict order of all
+// edges.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesh/edges.hpp"
+#include "mesh/geometry.hpp"
+#include "mesh/mesh.hpp"
+
+namespace anticrack::mesh {
+
+/// The side (0, 1, 2: from corner 0, 1, 2 to the next) of each triangle that is its reference edge,
+/// shape (m). O(m).
+std::vector<std::uint8_t> reference_sides(const Mesh& mesh, const EdgeTable& edges);
+
+/// Use: construct, `bisect` at will, `finish`. `base` must outlive it. One thread.
+class Bisection {
+ public:
+  /// Throws errors::Error (mesh_invalid) where three triangles share an edge, or two lie on the
+  /// same side of one. O(m log m).
+  Bisection(const Mesh& base, std::size_t max_triangles);
+
+  std::size_t triangle_count() const noexcept { return _subdomain.size(); }
+  std::array<Point, 3> corners(std::size_t triangle) const noexcept;
+
+  /// Bisects a triangle, after those that must be bisected for the mesh to conform. One child takes
+  /// its number, the other the next free one. False, and as much done as fitted, if the mesh would
+  /// get more than `max_triangles`. Terminates: see the source. O(1) amortised over all calls.
+  [[nodiscard]] bool bisect(std::size_t triangle);
+
+  /// The mesh as it stands, interfaces and dirichlet edges cut with it. O(n log n).
+  Mesh finish() &&;
+
+ private:
+  std::int32_t midpoint(std::int32_t a, std::int32_t b);
+  std::int32_t append_triangle(std::int32_t like);
+  void bisect_along_reference(std::int32_t t);
+
+  const Mesh& _base;
+  std::size_t _max_triangles;
+  std::vector<double> _xy;
+  std::vector<std::array<std::int32_t, 2>> _parents;  ///< of the new nodes
+  /// Corners counterclockwise from the start of the reference edge: the newest vertex is the third.
+  std::vector<std::array<std::int32_t, 3>> _corners;
+  /// Triangle across the side from corner i to the next, -1 for none; so [0] across the reference.
+  std::vector<std::array<std::int32_t, 3>> _across;
+  std::vector<std::int32_t> _subdomain;
+  std::vector<std::int32_t> _waiting;
+};
+
+}  // namespace anticrack::mesh

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "errors/errors.hpp"
+#include "mesh/edges.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/refine.hpp"
+#include "mesh/refinement_checks.hpp"
+#include "mesh/refinement_mesh.hpp"
+
+namespace anticrack::mesh {
+namespace {
+
+using ::testing::AllOf;
+using testing::expect_refines;
+using ::testing::HasSubstr;
+using testing::OnInterface;
+using testing::structured_mesh;
+
+constexpr std::size_t plenty = 1'000'000;
+const std::vector<OnInterface> paper{{-0.5, 0.5, Kind::delaminated, 0}};
+
+/// A sample of 16 points a side finds the distance to within h_T/32, and h_T is less than half the
+/// distance wherever the tip size does not decide.
+constexpr double sampling = 1.05;
+
+std::vector<Point> points(const Mesh& mesh, const std::vector<std::int32_t>& nodes) {
+  std::vector<Point> found;
+  found.reserve(nodes.size());
+  for (const std::int32_t node : nodes) found.push_back(testing::point(mesh, node));
+  return found;
+}
+
+/// Moves every node by up to `part` of the mesh width except those on the boundary, which stay on
+/// it, and the tips.
+Mesh perturbed(Mesh mesh, double width, double part, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto shift = [&] { return part * width * (2 * (random() / 4294967296.0) - 1); };
+  const std::vector<std::int32_t> fixed = tips(mesh);
+  for (std::size_t n = 0; n < mesh.node_count(); ++n) {
+    double& x = mesh.xy[2 * n];
+    double& y = mesh.xy[2 * n + 1];
+    const bool stays = std::ranges::find(fixed, static_cast<std::int32_t>(n)) != fixed.end();
+    const bool on_boundary = std::abs(x) == 1 || std::abs(y) == 1;
+    const double dx = shift();
+    const double dy = shift();
+    if (stays || on_boundary) continue;
+    x += dx;
+    y += dy;
+  }
+  return mesh;
+}
+
+Mesh moved(Mesh mesh, double angle, const Point& by) {
+  for (std::size_t n = 0; n < mesh.node_count(); ++n) {
+    const double x = mesh.xy[2 * n];
+    const double y = mesh.xy[2 * n + 1];
+    mesh.xy[2 * n] = std::cos(angle) * x - std::sin(angle) * y + by[0];
+    mesh.xy[2 * n + 1] = std::sin(angle) * x + std::cos(angle) * y + by[1];
+  }
+  return mesh;
+}
+
+errors::Error refusal(const Mesh& base, const Grading& grading, std::size_t limit = plenty) {
+  try {
+    grade(base, grading, limit);
+  } catch (const errors::Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "not refused";
+  return {errors::Reason::internal, ""};
+}
+
+TEST(Grade, MeetsTheSizeRuleOnThePapersSquare) {
+  const Mesh base = structured_mesh(16, 16, paper);
+  for (const double h0 : {0.2, 0.1}) {
+    const Mesh fine = grade(base, {.h0 = h0}, plenty);
+    expect_refines(base, fine);
+    const auto centres = points(base, tips(base));
+    const double worst = testing::worst_size_ratio(fine, centres, h0, 0.2, 1e-13, 1.0);
+    EXPECT_LT(worst, sampling);
+    // bisection halves areas, so a mesh much finer than asked for would be a waste
+    EXPECT_GT(worst, 0.9);
+  }
+}
+
+TEST(Grade, TakesAQuarterOfTheTrianglesForTwiceTheSize) {
+  const Mesh base = structured_mesh(16, 16, paper);
+  const auto count = [&](double h0) {
+    return static_cast<double>(grade(base, {.h0 = h0}, plenty).triangle_count());
+  };
+  EXPECT_NEAR(count(0.05) / count(0.1), 4, 0.5);
+  EXPECT_LT(count(0.1), 20'000);
+}
+
+TEST(Grade, StopsAtTheTipSize) {
+  const Mesh base = structured_mesh(16, 16, paper);
+  const Mesh fine = grade(base, {.h0 = 0.1, .tip_size = 1e-3}, plenty);
+  EXPECT_LT(testing::worst_size_ratio(fine, points(base, tips(base)), 0.1, 0.2, 1e-3, 1.0),
+            sampling);
+  EXPECT_GT(quality(fine).smallest_diameter, 0.4e-3);
+}
+
+TEST(Grade, HalvesARightIsoscelesTriangleExactlyDownToTheSmallestSize) {
+  // Coordinates of the base are multiples of 1/8, tips at 0 and at 0.5 and -0.5.
+  for (const auto& parts : {paper, std::vector<OnInterface>{{0, 0.5, Kind::delaminated, 0}}}) {
+    const Mesh base = structured_mesh(16, 16, parts);
+    const Mesh fine = grade(base, {.h0 = 0.2, .tip_size = 1e-13}, plenty);
+    expect_refines(base, fine);
+    EXPECT_LE(quality(fine).smallest_diameter, 1e-13);
+    EXPECT_GT(quality(fine).smallest_diameter, 0.4e-13);
+    for (std::size_t t = 0; t < fine.triangle_count(); ++t) {
+      std::array<double, 3> squares{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Point a = corner(fine, t, i);
+        const Point b = corner(fine, t, (i + 1) % 3);
+        squares[i] = (b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]);
+      }
+      std::ranges::sort(squares);
+      ASSERT_EQ(squares[0], squares[1]);
+      ASSERT_EQ(squares[2], 2 * squares[0]);
+    }
+  }
+}
+
+TEST(Grade, KeepsAnglesAtTheSmallestSizeWhereCoordinatesAreRounded) {
+  for (const Point& by : {Point{0, 0}, Point{0.3, 0.1}, Point{1000, -300}}) {
+    for (const double angle : {0.3, 1.1}) {
+      const Mesh base =
+          moved(structured_mesh(10, 10, {{{-0.4, 0.6, Kind::delaminated, 0}}}), angle, by);
+      const Mesh fine = grade(base, {.h0 = 0.2}, plenty);
+      expect_refines(base, fine);
+      EXPECT_LT(quality(fine).smallest_diameter, 1e-9);
+      EXPECT_GT(quality(fine).minimum_angle, 0.99 * bisection_bound(base));
+      EXPECT_LT(quality(fine).maximum_angle, 91);
+    }
+  }
+}
+
+TEST(Grade, NeverFallsBelowTheBisectionBound) {
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const Mesh base = perturbed(structured_mesh(8, 8, paper), 0.25, 0.3, seed);
+    ASSERT_NO_THROW(validate(base));
+    const double bound = bisection_bound(base);
+    ASSERT_LE(bound, quality(base).minimum_angle);
+    const Mesh fine = grade(base, {.h0 = 0.15, .tip_size = 1e-8}, plenty);
+    expect_refines(base, fine);
+    EXPECT_GT(quality(fine).minimum_angle, bound * (1 - 1e-6));
+    EXPECT_LT(testing::worst_size_ratio(fine, points(base, tips(base)), 0.15, 0.2, 1e-8,
+                                        characteristic_length(base)),
+              sampling);
+  }
+}
+
+TEST(Grade, KeepsAnglesOfAPerturbedMeshAtTheSmallestSize) {
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    const Mesh base =
+        moved(perturbed(structured_mesh(8, 8, paper), 0.25, 0.25, seed), 0.7, {0.1, 0.2});
+    const Mesh fine = grade(base, {.h0 = 0.2}, plenty);
+    expect_refines(base, fine);
+    EXPECT_GT(quality(fine).minimum_angle, 0.98 * bisection_bound(base));
+  }
+}
+
+TEST(Grade, ConformsWhereAllEdgesAreOfOneLength) {
+  // Equilateral triangles: which edge is the longest is decided by numbers of nodes alone.
+  Mesh base = structured_mesh(12, 12, {});
+  for (std::size_t n = 0; n < base.node_count(); ++n) {
+    base.xy[2 * n] -= 0.5 * base.xy[2 * n + 1];
+    base.xy[2 * n + 1] *= 0.5 * std::numbers::sqrt3;
+  }
+  const std::vector<std::int32_t> corner_of_square{0};
+  for (const double h0 : {0.1, 0.03}) {
+    const Mesh fine = grade(base, corner_of_square, {.h0 = h0, .tip_size = 1e-6}, plenty);
+    expect_refines(base, fine);
+    EXPECT_NEAR(quality(fine).minimum_angle, 30, 1e-6);
+  }
+}
+
+TEST(Grade, KeepsAPartlyDelaminatedInclusionAndItsNeighbour) {
+  const std::vector<OnInterface> parts{{-0.75, 0, Kind::inclusion, 0},
+                                       {-0.5, -0.25, Kind::delaminated, 0},
+                                       {0.25, 0.5, Kind::delaminated, 1},
+                                       {0.75, 0.875, Kind::crack, -1}};
+  const Mesh base = structured_mesh(16, 8, parts);
+  ASSERT_EQ(tips(base).size(), 8U);
+  const Mesh fine = grade(base, {.h0 = 0.2}, plenty);
+  expect_refines(base, fine);
+  EXPECT_LT(testing::worst_size_ratio(fine, points(base, tips(base)), 0.2, 0.2, 1e-13, 1.0),
+            sampling);
+}
+
+TEST(Grade, ConformsAcrossASlitInOneSubdomain) {
+  Mesh base = structured_mesh(16, 16, {});
+  base.subdomain.assign(base.triangle_count(), 0);
+  base.subdomains = {"all"};
+  auto& nodes = base.interfaces[0].nodes;
+  nodes = std::vector<std::int32_t>(nodes.begin() + 4, nodes.begin() + 10);
+  base.interfaces[0].kind.assign(5, Kind::crack);
+  base.interfaces[0].inclusion.assign(5, -1);
+  const Mesh fine = grade(base, {.h0 = 0.2}, plenty);
+  testing::expect_same_line(base, fine, 0);
+  const EdgeTable edges(fine.triangles);
+  const Interface& slit = fine.interfaces[0];
+  EXPECT_GT(slit.kind.size(), 100U);
+  for (std::size_t i = 0; i < slit.kind.size(); ++i) {
+    EXPECT_EQ(edges.find(slit.nodes[i], slit.nodes[i + 1]).size(), 2U);
+  }
+}
+
+TEST(Grade, DoesNotDependOnTheUnitOfLength) {
+  const Mesh base = perturbed(structured_mesh(8, 8, paper), 0.25, 0.3, 7);
+  const Mesh fine = grade(base, {.h0 = 0.2, .tip_size = 1e-6}, plenty);
+  // powers of four have exact roots, so the two runs round alike
+  for (const double unit : {1024.0 * 1024.0, 1.0 / 4096.0}) {
+    Mesh scaled = base;
+    for (double& value : scaled.xy) value *= unit;
+    const Mesh other = grade(scaled, {.h0 = 0.2 * unit, .tip_size = 1e-6 * unit}, plenty);
+    EXPECT_EQ(other.triangles, fine.triangles);
+    std::vector<double> xy = fine.xy;
+    for (double& value : xy) value *= unit;
+    EXPECT_EQ(other.xy, xy);
+  }
+}
+
+TEST(Grade, GivesTheSameBitsTwice) {
+  const Mesh base = perturbed(structured_mesh(8, 8, paper), 0.25, 0.3, 11);
+  const Mesh first = grade(base, {.h0 = 0.1}, plenty);
+  const Mesh second = grade(base, {.h0 = 0.1}, plenty);
+  EXPECT_EQ(first.xy, second.xy);
+  EXPECT_EQ(first.triangles, second.triangles);
+  EXPECT_EQ(first.subdomain, second.subdomain);
+  EXPECT_EQ(first.dirichlet, second.dirichlet);
+  EXPECT_EQ(first.interfaces[0].nodes, second.interfaces[0].nodes);
+}
+
+TEST(Grade, LeavesAMeshThatIsFineEnoughAlone) {
+  const Mesh base = structured_mesh(16, 16, paper);
+  const Mesh same = grade(base, {.h0 = 1, .m = 1}, plenty);
+  EXPECT_EQ(same.xy, base.xy);
+  EXPECT_EQ(same.triangle_count(), base.triangle_count());
+  expect_refines(base, same);
+}
+
+TEST(Grade, WithoutATipOrWithMOneIsUniform) {
+  const Mesh plain = structured_mesh(16, 16, {});
+  const Mesh cracked = structured_mesh(16, 16, paper);
+  const Mesh fine = grade(plain, {.h0 = 0.05}, plenty);
+  EXPECT_EQ(grade(cracked, {.h0 = 0.05, .m = 1}, plenty).triangles, fine.triangles);
+  // diagonals of sqrt(2)/8 are halved twice, to sqrt(2)/32: four bisections of every triangle
+  EXPECT_EQ(fine.triangle_count(), 16 * plain.triangle_count());
+}
+
+TEST(Grade, GoesTowardsTheNodesItIsGiven) {
+  const Mesh base = structured_mesh(16, 16, {});
+  const std::vector<std::int32_t> corners{0, 16};
+  const Mesh fine = grade(base, corners, {.h0 = 0.2}, plenty);
+  expect_refines(base, fine);
+  EXPECT_LT(testing::worst_size_ratio(fine, points(base, corners), 0.2, 0.2, 1e-13, 1.0), sampling);
+  EXPECT_GT(fine.triangle_count(), base.triangle_count() + 500);
+}
+
+TEST(Grade, FindsTipsThatLieAboveOneAnother) {
+  // the square turned by a right angle, so the tips differ in y
+  const Mesh base = moved(structured_mesh(16, 16, paper), std::numbers::pi / 2, {0, 0});
+  const Mesh fine = grade(base, {.h0 = 0.2}, plenty);
+  EXPECT_LT(testing::worst_size_ratio(fine, points(base, tips(base)), 0.2, 0.2, 1e-13, 1.0),
+            sampling);
+}
+
+TEST(Grade, KeepsToTheLimitAndSaysWhatToChange) {
+  const Mesh base = structured_mesh(16, 16, paper);
+  const std::size_t needed = grade(base, {.h0 = 0.1}, plenty).triangle_count();
+  EXPECT_EQ(grade(base, {.h0 = 0.1}, needed).triangle_count(), needed);
+  for (const std::size_t limit : {needed - 1, std::size_t{600}, std::size_t{100}}) {
+    const errors::Error error = refusal(base, {.h0 = 0.1}, limit);
+    EXPECT_EQ(error.reason(), errors::Reason::limit_exceeded);
+    EXPECT_THAT(error.what(), AllOf(HasSubstr(std::to_string(limit)), HasSubstr("h0 = 0.1"),
+                                    HasSubstr("m = 0.2"), HasSubstr("raise h0")));
+    ASSERT_EQ(error.fields().size(), 1U);
+    EXPECT_EQ(error.fields()[0].field, "h0");
+  }
+}
+
+TEST(Grade, RefusesABaseBeyondTheLimitThoughItIsFineEnough) {
+  const Mesh base = structured_mesh(16, 16, paper);
+  EXPECT_EQ(refusal(base, {.h0 = 1, .m = 1}, 511).reason(), errors::Reason::limit_exceeded);
+}
+
+TEST(Grade, RefusesNumbersThatAreNoSizes) {
+  const Mesh base = structured_mesh(16, 16, paper);
+  const double nan = std::nan("");
+  const struct {
+    Grading grading;
+    const char* field;
+  } cases[] = {{{.h0 = 0}, "h0"},
+               {{.h0 = -0.1}, "h0"},
+               {{.h0 = nan}, "h0"},
+               {{.h0 = INFINITY}, "h0"},
+               {{.h0 = 1e-14}, "h0"},
+               {{.h0 = 0.1, .m = 0}, "m"},
+               {{.h0 = 0.1, .m = 1.5}, "m"},
+               {{.h0 = 0.1, .m = nan}, "m"},
+               {{.h0 = 0.1, .tip_size = -1}, "tip_size"},
+               {{.h0 = 0.1, .tip_size = nan}, "tip_size"},
+               {{.h0 = 0.1, .tip_size = 1e-14}, "tip_size"}};
+  for (const auto& [grading, field] : cases) {
+    const errors::Error error = refusal(base, grading);
+    EXPECT_EQ(error.reason(), errors::Reason::invalid_argument) << error.what();
+    ASSERT_EQ(error.fields().size(), 1U);
+    EXPECT_EQ(error.fields()[0].field, field) << error.what();
+  }
+}
+
+TEST(Grade, RefusesAnEdgeOfThreeTriangles) {
+  Mesh base = structured_mesh(4, 4, {});
+  base.triangles.insert(base.triangles.end(), {0, 1, 7});
+  base.subdomain.push_back(0);
+  EXPECT_EQ(refusal(base, {.h0 = 0.1}).reason(), errors::Reason::mesh_invalid);
+}
+
+}  // namespace
+}  // namespace anticrack::mesh
