@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <new>
 #include <numeric>
 #include <sstream>
@@ -45,11 +46,25 @@ int tag_of(std::size_t index) {
   return static_cast<int>(index) + 1;
 }
 
-void add_face(const mesh::PlannedFace& face, int tag, int& loops) {
+/// gmsh's mesh depends on where a loop begins: always where its first interface does, so that it
+/// does not depend on which vertex of the boundary the user wrote first.
+std::vector<int> begun_at_interface(const Plan& plan, std::vector<int> loop) {
+  const auto on_interface = [&](int curve) {
+    return plan.curves[static_cast<std::size_t>(std::abs(curve)) - 1].role == mesh::Role::interface;
+  };
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    if (!on_interface(loop[i]) || on_interface(loop[(i + loop.size() - 1) % loop.size()])) continue;
+    std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(i), loop.end());
+    break;
+  }
+  return loop;
+}
+
+void add_face(const Plan& plan, const mesh::PlannedFace& face, int tag, int& loops) {
   std::vector<int> bounds;
   const auto add_loop = [&](const std::vector<int>& curves) {
     bounds.push_back(++loops);
-    gmsh::model::geo::addCurveLoop(curves, loops);
+    gmsh::model::geo::addCurveLoop(begun_at_interface(plan, curves), loops);
   };
   add_loop(face.outer);
   for (const auto& hole : face.holes) add_loop(hole);
@@ -67,7 +82,8 @@ void build_model(const Plan& plan, const Frame& frame) {
     gmsh::model::geo::mesh::setTransfiniteCurve(tag_of(i), curve.intervals + 1);
   }
   int loops = 0;
-  for (std::size_t i = 0; i < plan.faces.size(); ++i) add_face(plan.faces[i], tag_of(i), loops);
+  for (std::size_t i = 0; i < plan.faces.size(); ++i)
+    add_face(plan, plan.faces[i], tag_of(i), loops);
   gmsh::model::geo::synchronize();
   for (std::size_t i = 0; i < plan.faces.size(); ++i) {
     std::vector<int> embedded;
