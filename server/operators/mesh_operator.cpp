@@ -9,7 +9,9 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <variant>
 
+#include "contact/skeleton_problem.hpp"
 #include "contact/solve.hpp"
 #include "contact/trace_problem.hpp"
 #include "ddm/blas.hpp"
@@ -113,13 +115,17 @@ struct MeshOperator::Parts {
       : mesh(std::move(cut_mesh)),
         decomposition(ddm::cut(*mesh)),
         operators(factorise_subdomains(decomposition.subdomains, threads, stop)),
-        problem(decomposition, operators),
+        uzawa_obstacle(ddm::uzawa_obstacle(decomposition, *mesh)),
+        problem(decomposition, operators, uzawa_obstacle.empty()),
+        skeleton(problem),
         geometry(contact::trace_geometry(decomposition, *mesh)) {}
 
   std::shared_ptr<const mesh::Mesh> mesh;
   ddm::Decomposition decomposition;
   std::vector<ddm::SubdomainOperator> operators;
-  contact::TraceProblem problem;  // refers to the two above
+  std::string uzawa_obstacle;
+  contact::TraceProblem problem;      // refers to the decomposition and the operators
+  contact::SkeletonProblem skeleton;  // refers to the problem
   std::vector<contact::TraceGeometry> geometry;
 };
 
@@ -134,8 +140,12 @@ std::shared_ptr<const MeshOperator> MeshOperator::factorise(std::shared_ptr<cons
   return std::shared_ptr<const MeshOperator>(new MeshOperator(std::move(parts)));
 }
 
-contact::Answer MeshOperator::solve(const fem::Load& load, const contact::UzawaOptions& options,
+contact::Answer MeshOperator::solve(const fem::Load& load, const contact::SolverOptions& options,
                                     bool fields, contact::Observer& observer) const {
+  const auto* uzawa = std::get_if<contact::UzawaOptions>(&options);
+  if (uzawa != nullptr && !_parts->uzawa_obstacle.empty()) {
+    throw errors::Error(errors::Reason::not_implemented, _parts->uzawa_obstacle).at("uzawa");
+  }
   require_known_regions(load, *_parts->mesh);
   std::vector<ddm::CondensedLoad> condensed;
   for (std::size_t s = 0; s < _parts->operators.size(); ++s) {
@@ -145,7 +155,12 @@ contact::Answer MeshOperator::solve(const fem::Load& load, const contact::UzawaO
                                       fem::boundary_values(subdomain.part, load.boundary_value,
                                                            subdomain.free(), subdomain.dirichlet)));
   }
-  return contact::solve_uzawa(_parts->problem, *_parts->mesh, condensed, options, fields, observer);
+  const contact::CaseLoads loads{condensed};
+  if (uzawa != nullptr) {
+    return contact::solve_uzawa(_parts->problem, *_parts->mesh, loads, *uzawa, fields, observer);
+  }
+  return contact::solve_active_set(_parts->skeleton, *_parts->mesh, loads,
+                                   std::get<contact::ActiveSetOptions>(options), fields, observer);
 }
 
 const mesh::Mesh& MeshOperator::mesh() const noexcept {
@@ -165,7 +180,7 @@ std::size_t MeshOperator::bytes() const noexcept {
   for (const ddm::SubdomainOperator& subdomain : _parts->operators) {
     bytes += subdomain.bytes();
   }
-  return bytes;
+  return bytes + _parts->skeleton.bytes();
 }
 
 void require_threadsafe_blas() {
