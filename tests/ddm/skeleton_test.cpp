@@ -98,15 +98,22 @@ class RandomMembrane {
 
   void add_wall(GridMesh::Point from, GridMesh::Point to, bool as_given) {
     std::vector<Kind> of_edges = kinds(block, 0.6);
-    if (chance() < 0.9) {  // mostly away from the ends, where other inclusions may begin
-      for (Kind* end : {&of_edges.front(), &of_edges.back()}) {
-        *end = *end == Kind::glue || chance() < 0.6 ? Kind::glue : Kind::crack;
+    // Mostly without inclusions at the ends, where others may begin, and held at the boundary.
+    if (chance() < 0.95) {
+      const double glue = chance();
+      for (const auto& [edge, node] :
+           {std::pair{&of_edges.front(), from}, {&of_edges.back(), to}}) {
+        *edge = chance() < glue || on_boundary(node) ? Kind::glue : Kind::crack;
       }
     }
     if (!as_given && chance() < 0.5) {
       std::swap(from, to);
     }
     add({from, to}, of_edges);
+  }
+
+  bool on_boundary(const GridMesh::Point& p) const {
+    return p[0] == 0 || p[0] == block * columns || p[1] == 0 || p[1] == block * rows;
   }
 
   void add_slit(GridMesh::Point corner) {
