@@ -108,8 +108,7 @@ preset = "uniform"
 [mesh.groups]
 curve.7 = "crack:slit"
 surface.1 = "top"
-[mesh.groups.curve]
-8 = "neumann"
+curve.8 = "neumann"
 [mesh.tension]
 top = 2.5
 [[load]]
@@ -126,7 +125,7 @@ f = 1
   EXPECT_EQ(options.tension().at("top"), 2.5);
   EXPECT_EQ(the_case.locate("options.curve_groups[7]")->line, 5U);
   EXPECT_EQ(the_case.locate("options.curve_groups[12]")->key, "mesh.groups.curve");
-  EXPECT_EQ(the_case.locate("options.tension.top")->line, 10U);
+  EXPECT_EQ(the_case.locate("options.tension.top")->line, 9U);
 }
 
 TEST(Case, TakesAFileWithoutACase) {
@@ -269,7 +268,7 @@ TEST(Locate, FindsTheLineOfAField) {
 
 TEST(Locate, FindsWhatIsAroundADefault) {
   const Case the_case = parse(sample_text);
-  EXPECT_EQ(the_case.locate("job.solver.uzawa.p")->key, "solver");
+  EXPECT_EQ(the_case.locate("job.solver.uzawa.p")->key, "solver.method");
   EXPECT_FALSE(the_case.locate("request_id").has_value());
   EXPECT_FALSE(the_case.locate("").has_value());
 }
