@@ -5,17 +5,27 @@
 //     title = "..."                     for people
 //     [geometry]                        or mesh.file
 //       boundary  = [[x, y], ...]       polygon
-//       interface = [[x, y], ...]       cuts it; the plus side (Omega_2) is on its left
+//       interface = [[x, y], ...]       one line; the plus side (Omega_2) is on its left
+//       neumann   = [[from, to], ...]   parts of the boundary, or "all"
+//     [[geometry.interface]]            instead of the one line: name; points = [[x, y], ...] |
+//                                       arc = [from, through, to] | spline = [[x, y], ...]; closed
 //     [[geometry.inclusion]]            name, from, to; delaminated = true | false | [[from, to],
-//     ...]
+//                                       ...]
 //     [[geometry.crack]]                name, from, to
-//     [mesh]                            preset = "paper" | "uniform" | "graded", size; or file =
-//     "x.msh" [solver]                          method = "uzawa" | "active-set"; theta = number |
-//     "auto",
-//                                       epsilon, p, max_iterations, mass = "lumped" | "consistent"
+//     [[geometry.region]]               name, at = [x, y], tension
+//     [mesh]                            preset = "graded" | "uniform" | "paper", size, tip_size,
+//                                       grading, align = [[[x, y], ...], ...]; file = "x.msh"
+//     [mesh.groups]                     curve.TAG = "crack:NAME", surface.TAG = "NAME"; of a file
+//     [mesh.tension]                    NAME = number; of a file
+//     [solver]                          method = "active-set": tolerance, max_steps;
+//                                       method = "uzawa": theta = number | "auto", epsilon, p,
+//                                       max_iterations, mass = "lumped" | "consistent",
+//                                       kkt_tolerance
 //     [[load]]                          name; f = number | "expression in x, y" | {region =
-//     number};
-//                                       boundary_value = "expression in x, y"
+//                                       number} | {file = "f.h5", dataset = "/f", per = "triangle"
+//                                       | "node"}; boundary_value, traction = "expression in x, y";
+//                                       point_forces = [{at = [x, y], value = number}];
+//                                       inclusion_forces = {inclusion = number}
 //     [output]                          fields = true | false
 //
 // Shapes and types are checked here; what they mean, and every range, is the server's to judge: its
@@ -34,12 +44,21 @@
 
 namespace anticrack::casefile {
 
+/// Values of a load's f that lie in a file: a one-dimensional dataset of float64.
+struct ForceFile {
+  int load_case = 0;  ///< index into Case::job.load_cases
+  std::filesystem::path path;
+  std::string dataset;
+  bool per_triangle = false;  ///< else per node
+};
+
 struct Case {
   std::filesystem::path path;
   std::string text;  ///< the TOML as run: the file, or what it is with the overrides
   std::optional<std::filesystem::path> mesh_file;  ///< .msh to upload
-  v1::CreateMeshRequest mesh;         ///< its source is set unless there is a mesh_file
-  v1::Job job;                        ///< all but `mesh`
+  v1::CreateMeshRequest mesh;  ///< its source is set unless there is a mesh_file
+  v1::Job job;                 ///< all but `mesh` and the uploads of `force_files`
+  std::vector<ForceFile> force_files;
   std::map<std::string, Spot> spots;  ///< field of a request -> where its value was written
 
   /// Where the value of a field of CreateMeshRequest or CreateJobRequest was written, or the
@@ -50,8 +69,12 @@ struct Case {
 /// Reads a case and applies the overrides ("key=value") in order. Throws Error.
 Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
 
-/// The same for a text; `path` names it in errors and is where mesh.file is relative to.
+/// The same for a text; `path` names it in errors and is where the files it names are relative to.
 Case parse_case(const std::string& text, const std::filesystem::path& path,
                 const std::vector<std::string>& overrides = {});
+
+/// A mesh from a .msh file and nothing else; the overrides are keys of [mesh], "mesh.preset=...".
+Case mesh_file_case(const std::filesystem::path& file, const std::string& title,
+                    const std::vector<std::string>& overrides = {});
 
 }  // namespace anticrack::casefile

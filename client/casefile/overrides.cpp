@@ -83,7 +83,8 @@ class Walk {
     const std::string& part = _parts[_depth];
     if (toml::table* table = place.as_table()) {
       if (!table->contains(part)) {
-        const bool list = index_of(_parts[_depth + 1]).has_value();
+        // Index 0 begins a list; another number is a name, such as the tag of a group.
+        const bool list = index_of(_parts[_depth + 1]) == std::size_t{0};
         if (list) {
           table->insert(part, toml::array());
         } else {

@@ -2,6 +2,7 @@
 #include "casefile/section.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -16,11 +17,11 @@ std::string join(const std::string& path, std::string_view key) {
   return path.empty() ? std::string(key) : path + "." + std::string(key);
 }
 
-std::string join(const std::string& path, std::size_t index) {
-  return path + "." + std::to_string(index);
-}
-
 }  // namespace
+
+std::string entry_key(const std::string& list, std::size_t index) {
+  return list + "." + std::to_string(index);
+}
 
 std::string prefix(const Spot& spot) {
   std::string text = spot.source;
@@ -84,8 +85,9 @@ std::vector<Point> points_of(const toml::node& node, const std::string& key) {
                 shown(node) + " is no list of points; write [[x, y], [x, y], ...]");
   }
   std::vector<Point> points;
+  points.reserve(list->size());
   for (std::size_t i = 0; i < list->size(); ++i) {
-    points.push_back(point_of(*list->get(i), join(key, i)));
+    points.push_back(point_of(*list->get(i), entry_key(key, i)));
   }
   return points;
 }
@@ -130,6 +132,47 @@ std::optional<double> Section::number(std::string_view key) const {
     return std::nullopt;
   }
   return number_of(*node, path_of(key), "write a number without quotes");
+}
+
+std::optional<double> Section::positive(std::string_view key) const {
+  const std::optional<double> value = number(key);
+  if (value && !(*value > 0)) {
+    throw Error(spot_of(key), shown(*find(key)) +
+                                  " is not above 0; write a number above 0, or leave the key out "
+                                  "for its default");
+  }
+  return value;
+}
+
+std::optional<std::string> Section::expression(std::string_view key) const {
+  const toml::node* node = find(key);
+  if (!node || node->is_string()) {
+    return text(key);
+  }
+  const double value =
+      number_of(*node, path_of(key), "write a number, or an expression in x and y in quotes");
+  std::array<char, 32> digits{};  // of the shortest text that reads back as the same number
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  return std::string(digits.data(), end);
+}
+
+std::vector<std::pair<std::string, double>> Section::numbers(std::string_view key,
+                                                             std::string_view cure) const {
+  const toml::node* node = find(key);
+  if (!node) {
+    return {};
+  }
+  const toml::table* table = node->as_table();
+  if (!table) {
+    throw Error(spot_of(key), shown(*node) + " is no table; " + std::string(cure));
+  }
+  std::vector<std::pair<std::string, double>> values;
+  values.reserve(table->size());
+  for (const auto& [name, entry] : *table) {
+    const std::string entry_name(name.str());
+    values.emplace_back(entry_name, number_of(entry, join(path_of(key), entry_name), cure));
+  }
+  return values;
 }
 
 std::optional<std::int32_t> Section::count(std::string_view key) const {
@@ -183,8 +226,9 @@ std::vector<Section> Section::sections(std::string_view key,
     throw Error(spot_of(key), shown(*node) + " is no list of tables" + cure);
   }
   std::vector<Section> sections;
+  sections.reserve(list->size());
   for (std::size_t i = 0; i < list->size(); ++i) {
-    const std::string path = join(path_of(key), i);
+    const std::string path = entry_key(path_of(key), i);
     const toml::node& entry = *list->get(i);
     const toml::table* table = entry.as_table();
     if (!table) {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "casefile/error.hpp"
@@ -31,12 +32,16 @@ Point point_of(const toml::node& node, const std::string& key);
 /// [[x, y], ...].
 std::vector<Point> points_of(const toml::node& node, const std::string& key);
 
+/// "list.3": the key of an entry of a list.
+std::string entry_key(const std::string& list, std::size_t index);
+
 class Section {
  public:
   /// Throws Error for a key that is not among `known`, naming the nearest of them.
   Section(const toml::table& table, std::string path, std::vector<std::string> known);
 
   const toml::node* find(std::string_view key) const { return _table.get(key); }
+  const toml::table& table() const { return _table; }
   std::string path_of(std::string_view key) const;
   Spot spot_of(std::string_view key) const;
   /// Where the table itself begins.
@@ -45,6 +50,13 @@ class Section {
   // Empty where the key is absent; Error where the value has another type.
   std::optional<std::string> text(std::string_view key) const;
   std::optional<double> number(std::string_view key) const;
+  /// A number above 0, where the API takes 0 for a default: that is said by leaving the key out.
+  std::optional<double> positive(std::string_view key) const;
+  /// An expression in quotes, or a number, which is one too.
+  std::optional<std::string> expression(std::string_view key) const;
+  /// {name = number, ...}, in order of the names.
+  std::vector<std::pair<std::string, double>> numbers(std::string_view key,
+                                                      std::string_view cure) const;
   std::optional<std::int32_t> count(std::string_view key) const;
   std::optional<bool> boolean(std::string_view key) const;
   std::optional<Section> section(std::string_view key, std::vector<std::string> known) const;

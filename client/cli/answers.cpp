@@ -60,6 +60,23 @@ std::vector<std::string> row_of(const results::Load& load,
   return row;
 }
 
+// Lines for people below the table.
+std::vector<std::string> remarks_on(const results::Load& load) {
+  std::vector<std::string> remarks;
+  if (const std::string& cause = load.error.empty() ? load.reason : load.error; !cause.empty()) {
+    remarks.push_back(cause);
+  }
+  if (load.weakly_active > 0) {
+    remarks.push_back(std::to_string(load.weakly_active) +
+                      (load.weakly_active == 1 ? " node just touches" : " nodes just touch") +
+                      ": neither jump nor pressure");
+  }
+  for (const std::string& warning : load.warnings) {
+    remarks.push_back("warning: " + warning);
+  }
+  return remarks;
+}
+
 }  // namespace
 
 std::string answers_table(const results::Result& result) {
@@ -78,8 +95,7 @@ std::string answers_table(const results::Result& result) {
   std::string remarks;
   for (const results::Load& load : result.loads) {
     rows.push_back(row_of(load, inclusions));
-    const std::string& remark = load.error.empty() ? load.reason : load.error;
-    if (!remark.empty()) {
+    for (const std::string& remark : remarks_on(load)) {
       remarks += sanitise(load.name) + ": " + sanitise(remark) + "\n";
     }
   }
@@ -104,12 +120,14 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
         .value("status", results::name(load.status))
         .value("reason", load.reason)
         .value("error", load.error)
+        .value("method", load.method)
         .value("iterations", std::int64_t{load.iterations})
         .value("criterion", load.criterion)
         .value("theta", load.theta)
         .value("theta_star", load.theta_star)
         .value("energy", load.energy)
         .value("contact_length", load.contact_length)
+        .value("weakly_active", std::int64_t{load.weakly_active})
         .value("solve_seconds", load.solve_seconds);
     json.begin_array("inclusions");
     for (const results::Inclusion& inclusion : load.inclusions) {
@@ -119,6 +137,10 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
           .value("resultant", inclusion.resultant)
           .value("contact_length", inclusion.contact_length)
           .end_object();
+    }
+    json.end_array().begin_array("warnings");
+    for (const std::string& warning : load.warnings) {
+      json.element(warning);
     }
     json.end_array().end_object();
   }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/submit.hpp"
 
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "cli/exit_codes.hpp"
 #include "cli/to_result.hpp"
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
+#include "results/array_file.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -32,6 +35,44 @@ auto in_terms_of(const casefile::Case& the_case, const Call& call) -> decltype(c
   }
 }
 
+// One upload for every content: loads often share a file.
+class ForceUploads {
+ public:
+  explicit ForceUploads(Session& session) : _session(session) {}
+
+  std::string operator()(const casefile::ForceFile& file) {
+    std::string& upload = _uploads[{file.path, file.dataset}];
+    if (upload.empty()) {
+      upload = client::upload_array(_session.connection(),
+                                    results::read_array(file.path, file.dataset), _session.stop());
+    }
+    return upload;
+  }
+
+ private:
+  Session& _session;
+  std::map<std::pair<std::filesystem::path, std::string>, std::string> _uploads;
+};
+
+// The refusal of an upload speaks of the upload; its user of the load it is for.
+void upload_forces(Session& session, const casefile::Case& the_case, v1::Job& job) {
+  ForceUploads upload_of(session);
+  for (const casefile::ForceFile& file : the_case.force_files) {
+    const auto spot =
+        the_case.locate("load_cases[" + std::to_string(file.load_case) + "].force").value();
+    try {
+      job.mutable_load_cases(file.load_case)
+          ->mutable_force()
+          ->mutable_array()
+          ->set_upload(upload_of(file));
+    } catch (const results::Error& error) {
+      throw casefile::Error(spot, error.what());
+    } catch (const client::Error& error) {
+      throw client::Error(error.code(), casefile::prefix(spot) + error.what(), error.details());
+    }
+  }
+}
+
 }  // namespace
 
 v1::Mesh create_mesh(Session& session, const casefile::Case& the_case) {
@@ -50,9 +91,10 @@ v1::Mesh create_mesh(Session& session, const casefile::Case& the_case) {
 }
 
 v1::Job submit(Session& session, const casefile::Case& the_case, const std::string& request_id) {
+  v1::Job job = the_case.job;
+  upload_forces(session, the_case, job);  // first: a file that cannot be read starts nothing
   const v1::Mesh mesh = create_mesh(session, the_case);
   return in_terms_of(the_case, [&] {
-    v1::Job job = the_case.job;
     job.set_mesh(mesh.name());
     return client::create_job(session.connection(), job, request_id, session.stop());
   });

@@ -24,17 +24,28 @@ results::Kkt relative(const v1::KktResiduals& kkt) {
           kkt.complementarity_relative()};
 }
 
+// Zero is how the API says that there is none.
+double positive_or_unknown(double value) {
+  return value > 0 ? value : results::unknown;
+}
+
 void set_solver(const v1::Solver& solver, results::Load& load) {
-  if (solver.has_active_set()) {
+  // Defaults as the API documents them.
+  if (!solver.has_uzawa()) {
+    const v1::ActiveSet& active_set = solver.active_set();
     load.method = "active-set";
+    load.tolerance = active_set.has_tolerance() ? active_set.tolerance() : 1e-12;
     return;
   }
-  // Defaults as the API documents them.
   const v1::Uzawa& uzawa = solver.uzawa();
   load.method = "uzawa";
   load.mass = uzawa.mass() == v1::MASS_CONSISTENT ? "consistent" : "lumped";
-  load.epsilon = uzawa.has_epsilon() ? uzawa.epsilon() : 1e-12;
   load.p = uzawa.has_p() ? uzawa.p() : 1e5;
+  if (uzawa.has_kkt_tolerance()) {
+    load.kkt_tolerance = uzawa.kkt_tolerance();
+  } else {
+    load.epsilon = uzawa.has_epsilon() ? uzawa.epsilon() : 1e-12;
+  }
 }
 
 results::Load to_load(const v1::LoadCase& load_case, const v1::LoadCaseAnswer& answer,
@@ -52,12 +63,14 @@ results::Load to_load(const v1::LoadCase& load_case, const v1::LoadCaseAnswer& a
     return load;
   }
   load.criterion = answer.criterion();
-  load.theta = answer.theta();
-  load.theta_star = answer.theta_star();
+  load.theta = positive_or_unknown(answer.theta());
+  load.theta_star = positive_or_unknown(answer.theta_star());
   load.energy = answer.energy();
   load.kkt = absolute(answer.kkt());
   load.kkt_relative = relative(answer.kkt());
   load.contact_length = answer.contact_length();
+  load.weakly_active = answer.weakly_active();
+  load.warnings.assign(answer.warnings().begin(), answer.warnings().end());
   for (const v1::InclusionAnswer& inclusion : answer.inclusions()) {
     load.inclusions.push_back({inclusion.name(), inclusion.displacement(), inclusion.resultant(),
                                inclusion.contact_length()});
@@ -104,6 +117,8 @@ results::Result to_result(const Fetched& fetched) {
   result.timings.factorize_seconds = fetched.mesh.factorize_seconds();
   for (const v1::SubdomainInfo& subdomain : fetched.mesh.subdomains()) {
     result.mesh.subdomains.push_back(subdomain.name());
+    // A server that knows no tension solves with 1.
+    result.mesh.tension.push_back(subdomain.tension() > 0 ? subdomain.tension() : 1);
   }
   std::map<std::string, std::size_t> interfaces;
   for (const v1::InterfaceInfo& interface : fetched.mesh.interfaces()) {

@@ -2,9 +2,13 @@
 #include "client/meshes.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include "client/channel.hpp"
 #include "client/read_block.hpp"
@@ -17,30 +21,40 @@ constexpr std::size_t chunk_bytes = 1u << 20;
 constexpr std::chrono::milliseconds shortest_poll{50};
 constexpr std::chrono::milliseconds longest_poll{1'000};
 
-std::ifstream open_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (std::filesystem::is_directory(path) || !file) {
-    throw std::runtime_error("cannot read " + path.string() + ": it is no readable file");
-  }
-  return file;
-}
+/// What is sent: the next chunk of it, empty at the end.
+using NextChunk = std::function<std::string()>;
+/// Begins again from the start, once for the hash and once for every try to send.
+using Begin = std::function<NextChunk()>;
 
-// Empty at the end of the file.
-std::string read_chunk(std::ifstream& file, const std::filesystem::path& path) {
-  std::string chunk(chunk_bytes, '\0');
-  file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
-  if (file.bad()) {
-    throw std::runtime_error("cannot read " + path.string() + ": the disk reports an error");
+class FileChunks {
+ public:
+  explicit FileChunks(std::filesystem::path path)
+      : _path(std::move(path)), _file(_path, std::ios::binary) {
+    if (std::filesystem::is_directory(_path) || !_file) {
+      throw std::runtime_error("cannot read " + _path.string() + ": it is no readable file");
+    }
   }
-  chunk.resize(static_cast<std::size_t>(file.gcount()));
-  return chunk;
-}
 
-v1::UploadMeshRequest::Header header_of(const std::filesystem::path& path) {
-  std::ifstream file = open_file(path);
+  std::string next() {
+    std::string chunk(chunk_bytes, '\0');
+    _file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+    if (_file.bad()) {
+      throw std::runtime_error("cannot read " + _path.string() + ": the disk reports an error");
+    }
+    chunk.resize(static_cast<std::size_t>(_file.gcount()));
+    return chunk;
+  }
+
+ private:
+  std::filesystem::path _path;
+  std::ifstream _file;
+};
+
+v1::UploadMeshRequest::Header header_of(const Begin& begin) {
   store::Sha256 sha256;
   std::uint64_t size = 0;
-  for (std::string chunk = read_chunk(file, path); !chunk.empty(); chunk = read_chunk(file, path)) {
+  const NextChunk next = begin();
+  for (std::string chunk = next(); !chunk.empty(); chunk = next()) {
     sha256.add(chunk);
     size += chunk.size();
   }
@@ -51,7 +65,7 @@ v1::UploadMeshRequest::Header header_of(const std::filesystem::path& path) {
 }
 
 // The server may refuse before everything is sent; its status then says why.
-grpc::Status upload_once(Connection::State& state, const std::filesystem::path& path,
+grpc::Status upload_once(Connection::State& state, const Begin& begin,
                          const v1::UploadMeshRequest::Header& header, std::string& upload,
                          const std::stop_token& stop) {
   grpc::ClientContext context;
@@ -61,9 +75,8 @@ grpc::Status upload_once(Connection::State& state, const std::filesystem::path& 
   v1::UploadMeshRequest request;
   *request.mutable_header() = header;
   bool writing = writer->Write(request);
-  std::ifstream file = open_file(path);
-  for (std::string chunk = read_chunk(file, path); writing && !chunk.empty();
-       chunk = read_chunk(file, path)) {
+  const NextChunk next = begin();
+  for (std::string chunk = next(); writing && !chunk.empty(); chunk = next()) {
     request.set_chunk(std::move(chunk));
     writing = writer->Write(request);
   }
@@ -73,22 +86,51 @@ grpc::Status upload_once(Connection::State& state, const std::filesystem::path& 
   return status;
 }
 
+std::string upload(Connection& connection, v1::UploadMeshRequest::Content content,
+                   const Begin& begin, const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  v1::UploadMeshRequest::Header header = header_of(begin);
+  header.set_content(content);
+  Retries retries(state);
+  while (true) {
+    std::string name;
+    const grpc::Status status = upload_once(state, begin, header, name, stop);
+    if (status.ok()) {
+      retries.succeeded();
+      return name;
+    }
+    retries.wait(error_of(state, status), stop);
+  }
+}
+
 }  // namespace
 
 std::string upload_mesh(Connection& connection, const std::filesystem::path& path,
                         const std::stop_token& stop) {
-  Connection::State& state = connection.state();
-  const v1::UploadMeshRequest::Header header = header_of(path);
-  Retries retries(state);
-  while (true) {
-    std::string upload;
-    const grpc::Status status = upload_once(state, path, header, upload, stop);
-    if (status.ok()) {
-      retries.succeeded();
-      return upload;
-    }
-    retries.wait(error_of(state, status), stop);
-  }
+  return upload(
+      connection, v1::UploadMeshRequest::CONTENT_MSH,
+      [&path] {
+        const auto file = std::make_shared<FileChunks>(path);
+        return [file] { return file->next(); };
+      },
+      stop);
+}
+
+std::string upload_array(Connection& connection, std::span<const double> values,
+                         const std::stop_token& stop) {
+  static_assert(std::endian::native == std::endian::little, "arrays are sent little-endian");
+  const std::string_view bytes(static_cast<const char*>(static_cast<const void*>(values.data())),
+                               values.size_bytes());
+  return upload(
+      connection, v1::UploadMeshRequest::CONTENT_ARRAY,
+      [bytes] {
+        return [rest = bytes]() mutable {
+          const std::string chunk(rest.substr(0, chunk_bytes));
+          rest.remove_prefix(chunk.size());
+          return chunk;
+        };
+      },
+      stop);
 }
 
 v1::Mesh create_mesh(Connection& connection, const v1::CreateMeshRequest& request,

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <stop_token>
 #include <string>
 
@@ -20,6 +21,10 @@ namespace anticrack::client {
 /// Throws std::runtime_error when the file cannot be read or changes while it is sent.
 std::string upload_mesh(Connection& connection, const std::filesystem::path& path,
                         const std::stop_token& stop = {});
+
+/// Sends values as they are (float64, little-endian) for Force.Array; returns "uploads/SHA256".
+std::string upload_array(Connection& connection, std::span<const double> values,
+                         const std::stop_token& stop = {});
 
 v1::Mesh create_mesh(Connection& connection, const v1::CreateMeshRequest& request,
                      const std::stop_token& stop = {});

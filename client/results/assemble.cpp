@@ -133,7 +133,24 @@ void add_interface(const Block& block, std::size_t index, Interface& interface) 
   }
 }
 
-void add_load(const Block& block, std::size_t index, std::size_t interfaces, std::size_t subdomains,
+/// A subdomain's nodes and triangles serve all loads.
+Field field_of(const Block& block, const std::string& load, std::size_t subdomain,
+               const Mesh& mesh) {
+  const std::string at = "fields/" + std::to_string(subdomain);
+  Field field;
+  field.nodes = block.get<std::int32_t>(at + "/nodes");
+  field.u = block.get<double>(load + "/" + at);
+  if (!block.has(at + "/triangles")) {
+    if (auto triangles = triangles_of(mesh, subdomain, field.nodes)) {
+      field.triangles = *std::move(triangles);
+      return field;
+    }
+  }
+  field.triangles = block.get<std::int32_t>(at + "/triangles", 3);
+  return field;
+}
+
+void add_load(const Block& block, std::size_t index, std::size_t interfaces, const Mesh& mesh,
               Load& load) {
   const std::string at = "loads/" + std::to_string(index);
   const bool solved = load.status == Status::converged || load.status == Status::not_converged;
@@ -149,11 +166,8 @@ void add_load(const Block& block, std::size_t index, std::size_t interfaces, std
     load.history = history_of(block, at + "/history");
   }
   if (block.has_below(at + "/fields/")) {
-    for (std::size_t i = 0; i < subdomains; ++i) {
-      const std::string field = "/fields/" + std::to_string(i);
-      // A subdomain's nodes serve all loads.
-      load.fields.push_back(
-          {block.get<std::int32_t>(field.substr(1) + "/nodes"), block.get<double>(at + field)});
+    for (std::size_t i = 0; i < mesh.subdomains.size(); ++i) {
+      load.fields.push_back(field_of(block, at, i, mesh));
     }
   }
 }
@@ -179,14 +193,15 @@ Result assemble(Result answers, std::span<const ArrayView> mesh_block,
   const Block mesh("the mesh read from the server", mesh_block);
   const Block result("the result read from the server", result_block);
   add_mesh(mesh, answers.mesh);
+  std::string fault = first_mesh_fault(answers.mesh);
+  if (!fault.empty()) mesh.fail(fault);
   for (std::size_t i = 0; i < answers.interfaces.size(); ++i) {
     add_interface(result, i, answers.interfaces[i]);
   }
   for (std::size_t i = 0; i < answers.loads.size(); ++i) {
-    add_load(result, i, answers.interfaces.size(), answers.mesh.subdomains.size(),
-             answers.loads[i]);
+    add_load(result, i, answers.interfaces.size(), answers.mesh, answers.loads[i]);
   }
-  const std::string fault = first_fault(answers);
+  fault = first_fault(answers);
   if (!fault.empty()) result.fail(fault);
   return answers;
 }

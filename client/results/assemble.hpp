@@ -30,7 +30,7 @@ ArrayView view(std::string name, ArrayView::Type type, std::vector<std::uint64_t
 
 /// Adds the arrays to what the messages Job, Mesh and ServerInfo said.
 ///
-/// `answers` comes with everything but arrays: texts, timings, mesh.subdomains (names),
+/// `answers` comes with everything but arrays: texts, timings, mesh.subdomains and tension,
 /// interfaces[].name in the order of Mesh.interfaces, and loads in the order of Job.load_cases with
 /// their attributes, inclusions and contact_intervals. Filled in here: mesh arrays from
 /// `mesh_block`, interfaces[].s,x,y,kind and loads[].traces, history, fields from `result_block`.

@@ -6,16 +6,20 @@
 //                              server_version, mesh, job, mesh_sha256, mesh_seconds,
 //                              factorize_seconds, solve_seconds, total_seconds
 //     /mesh                    nodes (n,2), triangles (m,3), subdomain (m), boundary (b,2),
-//                              subdomain_names
-//     /interfaces/I            s, x, y, kind (k); attribute name
+//                              subdomain_names, tension
+//     /interfaces/I            s, x, y, kind (k); attribute name; of a closed one the first
+//                              node is there again as the last
 //     /loads/NAME              attributes index, status, reason, error, method, mass, epsilon, p,
-//                              iterations, criterion, theta, theta_star, energy, kkt_*,
-//                              kkt_relative_*, contact_length, solve_seconds
+//                              kkt_tolerance, tolerance, iterations (or steps), criterion, theta,
+//                              theta_star, energy, kkt_*, kkt_relative_*, contact_length,
+//                              weakly_active, solve_seconds; NaN or "" where a method has none
+//     /loads/NAME/warnings     text (one entry a warning)
 //     /loads/NAME/inclusions   name, A, resultant, contact_length (one entry an inclusion)
 //     /loads/NAME/contact_intervals   interface, begin, end (one entry an interval)
 //     /loads/NAME/traces/I     u_minus, u_plus, jump, pressure, contact (k)
 //     /loads/NAME/history      iteration, criterion, energy, contact_count, kkt_*
-//     /loads/NAME/fields/D     nodes, u (n_D); attribute name (only when asked for)
+//     /loads/NAME/fields/D     nodes, u (n_D), triangles (m_D,3) into nodes; attribute name (only
+//                              when asked for)
 //
 // I and D are indices in decimal (an interface, a subdomain); the attribute `name` has their names.
 // Every dataset has the attribute `units` ("-": dimensionless), `kind` also what its numbers mean.

@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "results/file.hpp"
 #include "results/hdf5.hpp"
+#include "results/open_file.hpp"
 
 namespace anticrack::results {
 namespace {
@@ -15,9 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 using hdf5::Handle;
 using hdf5::open_group;
-
-/// Deflate packs at most 1032 to 1, so no honest dataset is larger than this in memory.
-constexpr std::uint64_t largest_ratio = 1032;
 
 std::vector<double> doubles(const Handle& group, const char* name, std::uint64_t budget,
                             std::size_t columns = 0) {
@@ -48,6 +45,8 @@ Mesh get_mesh(const Handle& root, std::uint64_t budget) {
   mesh.subdomain = ints(group, "subdomain", budget);
   mesh.boundary = ints(group, "boundary", budget, 2);
   mesh.subdomains = hdf5::get_texts(group, "subdomain_names", budget);
+  mesh.tension = hdf5::has(group, "tension") ? doubles(group, "tension", budget)
+                                             : std::vector<double>(mesh.subdomains.size(), 1.0);
   return mesh;
 }
 
@@ -135,19 +134,44 @@ History get_history(const Handle& load, std::uint64_t budget) {
   return history;
 }
 
-std::vector<Field> get_fields(const Handle& load, std::uint64_t budget) {
+Field get_field(const Handle& list, std::size_t subdomain, const Mesh& mesh, std::uint64_t budget) {
+  const Handle group = open_group(list, std::to_string(subdomain));
+  Field field;
+  field.nodes = ints(group, "nodes", budget);
+  field.u = doubles(group, "u", budget);
+  if (!hdf5::has(group, "triangles")) {
+    if (auto triangles = triangles_of(mesh, subdomain, field.nodes)) {
+      field.triangles = *std::move(triangles);
+      return field;
+    }
+  }
+  field.triangles = ints(group, "triangles", budget, 3);
+  return field;
+}
+
+std::vector<Field> get_fields(const Handle& load, const Mesh& mesh, std::uint64_t budget) {
   std::vector<Field> fields;
   if (!hdf5::has(load, "fields")) return fields;
   const Handle list = open_group(load, "fields");
   const std::size_t count = count_of(list, "fields");
   for (std::size_t i = 0; i < count; ++i) {
-    const Handle group = open_group(list, std::to_string(i));
-    fields.push_back({ints(group, "nodes", budget), doubles(group, "u", budget)});
+    fields.push_back(get_field(list, i, mesh, budget));
   }
   return fields;
 }
 
-Load get_load(const Handle& group, const std::string& name, std::uint64_t budget) {
+/// What files of earlier clients do not have: they knew one method, and no warnings.
+void get_later_additions(const Handle& group, std::uint64_t budget, Load& load) {
+  if (hdf5::has_attribute(group, "weakly_active")) {
+    load.kkt_tolerance = hdf5::get_double(group, "kkt_tolerance");
+    load.tolerance = hdf5::get_double(group, "tolerance");
+    load.weakly_active = hdf5::get_int(group, "weakly_active");
+    load.warnings = hdf5::get_texts(group, "warnings", budget);
+  }
+}
+
+Load get_load(const Handle& group, const std::string& name, const Mesh& mesh,
+              std::uint64_t budget) {
   Load load;
   load.name = name;
   const std::string status = hdf5::get_text(group, "status");
@@ -173,12 +197,13 @@ Load get_load(const Handle& group, const std::string& name, std::uint64_t budget
   load.contact_intervals = get_contact_intervals(group, budget);
   load.traces = get_traces(group, budget);
   load.history = get_history(group, budget);
-  load.fields = get_fields(group, budget);
+  load.fields = get_fields(group, mesh, budget);
+  get_later_additions(group, budget, load);
   return load;
 }
 
 /// Loads in their order in the job; a group lists its members by name.
-std::vector<Load> get_loads(const Handle& root, std::uint64_t budget) {
+std::vector<Load> get_loads(const Handle& root, const Mesh& mesh, std::uint64_t budget) {
   const Handle list = open_group(root, "loads");
   const std::vector<std::string> names = hdf5::names_in(list);
   std::vector<Load> loads(names.size());
@@ -190,7 +215,7 @@ std::vector<Load> get_loads(const Handle& root, std::uint64_t budget) {
       throw hdf5::Fault("load \"" + name + "\" has the index of another or none");
     }
     filled[index] = true;
-    loads[index] = get_load(group, name, budget);
+    loads[index] = get_load(group, name, mesh, budget);
   }
   return loads;
 }
@@ -209,12 +234,14 @@ Result get_result(const Handle& root, std::uint64_t budget) {
   result.timings.solve_seconds = hdf5::get_double(root, "solve_seconds");
   result.timings.total_seconds = hdf5::get_double(root, "total_seconds");
   result.mesh = get_mesh(root, budget);
+  const std::string fault = first_mesh_fault(result.mesh);
+  if (!fault.empty()) throw hdf5::Fault("is inconsistent: " + fault);
   const Handle interfaces = open_group(root, "interfaces");
   const std::size_t count = count_of(interfaces, "interfaces");
   for (std::size_t i = 0; i < count; ++i) {
     result.interfaces.push_back(get_interface(interfaces, i, budget));
   }
-  result.loads = get_loads(root, budget);
+  result.loads = get_loads(root, result.mesh, budget);
   return result;
 }
 
@@ -239,37 +266,17 @@ void check_format(const fs::path& path, const Handle& root) {
   throw Error(path.string(), "has format \"" + found + "\", no result of anticrack", cure);
 }
 
-Handle open_file(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) {
-    throw Error(path.string(), "no such file", "make one with `anticrack run CASE.toml -o FILE`");
-  }
-  if (status.type() != fs::file_type::regular) {
-    throw Error(path.string(), error ? error.message() : "is not a regular file",
-                "name a result file");
-  }
-  const htri_t is_hdf5 = H5Fis_hdf5(path.c_str());
-  if (is_hdf5 < 0) throw Error(path.string(), "cannot be opened", "check its permissions");
-  if (is_hdf5 == 0) {
-    throw Error(path.string(), "is not an HDF5 file", "name a file that `anticrack run -o` wrote");
-  }
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "HDF5 does not start");
-  // Reading needs no lock, and some network file systems have none.
-  H5Pset_file_locking(access.get(), false, true);
-  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose, "is truncated or damaged"};
-}
-
 }  // namespace
 
 Result read(const fs::path& path) {
   const hdf5::Quiet quiet;
   Result result;
   try {
-    const Handle file = open_file(path);
+    const Handle file =
+        hdf5::open_file(path, "name a result file, as `anticrack run CASE.toml -o FILE` makes one");
     const Handle root(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, "has no root group");
     check_format(path, root);
-    result = get_result(root, fs::file_size(path) * largest_ratio);
+    result = get_result(root, hdf5::memory_budget(path));
     const std::string fault = first_fault(result);
     if (!fault.empty()) throw hdf5::Fault("is inconsistent: " + fault);
   } catch (const hdf5::Fault& fault) {

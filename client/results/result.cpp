@@ -78,6 +78,8 @@ void check_mesh(const Mesh& mesh, Faults& faults) {
   faults.in_range("mesh.triangles", mesh.triangles, mesh.node_count());
   faults.in_range("mesh.boundary", mesh.boundary, mesh.node_count());
   faults.in_range("mesh.subdomain", mesh.subdomain, mesh.subdomains.size());
+  faults.length("mesh.tension", mesh.tension.size(), mesh.subdomains.size(), "subdomains");
+  faults.finite("mesh.tension", mesh.tension);
 }
 
 void check_interface(const std::string& at, const Interface& interface, Faults& faults) {
@@ -117,6 +119,21 @@ void check_history(const std::string& at, const History& history, Faults& faults
   faults.increasing(at + ".iteration", history.iteration);
 }
 
+void check_field(const std::string& at, const Field& field, const Mesh& mesh,
+                 std::size_t triangle_count, Faults& faults) {
+  faults.length(at + ".u", field.u.size(), field.nodes.size(), "nodes");
+  faults.in_range(at + ".nodes", field.nodes, mesh.node_count());
+  faults.length(at + ".triangles", field.triangles.size(), 3 * triangle_count,
+                "corners of triangles");
+  faults.in_range(at + ".triangles", field.triangles, field.nodes.size());
+}
+
+std::vector<std::size_t> triangles_by_subdomain(const Mesh& mesh) {
+  std::vector<std::size_t> count(mesh.subdomains.size(), 0);
+  for (const std::int32_t subdomain : mesh.subdomain) ++count[static_cast<std::size_t>(subdomain)];
+  return count;
+}
+
 void check_load(const std::string& at, const Load& load, const Result& result, Faults& faults) {
   faults.require(is_load_name(load.name),
                  at + ".name is not of the form [A-Za-z0-9][A-Za-z0-9_. -]{0,63}");
@@ -131,10 +148,11 @@ void check_load(const std::string& at, const Load& load, const Result& result, F
   if (!load.fields.empty()) {
     faults.length(at + ".fields", load.fields.size(), result.mesh.subdomains.size(), "subdomains");
   }
-  for (std::size_t i = 0; i < load.fields.size() && !faults.any(); ++i) {
-    const Field& field = load.fields[i];
-    faults.length(item(at + ".fields", i) + ".u", field.u.size(), field.nodes.size(), "nodes");
-    faults.in_range(item(at + ".fields", i) + ".nodes", field.nodes, result.mesh.node_count());
+  if (!load.fields.empty() && !faults.any()) {
+    const std::vector<std::size_t> counts = triangles_by_subdomain(result.mesh);
+    for (std::size_t i = 0; i < load.fields.size() && !faults.any(); ++i) {
+      check_field(item(at + ".fields", i), load.fields[i], result.mesh, counts[i], faults);
+    }
   }
   for (std::size_t i = 0; i < load.contact_intervals.size() && !faults.any(); ++i) {
     const ContactInterval& interval = load.contact_intervals[i];
@@ -171,6 +189,33 @@ bool is_load_name(std::string_view name) noexcept {
     if (!alphanumeric(c) && c != '_' && c != '.' && c != ' ' && c != '-') return false;
   }
   return true;
+}
+
+std::optional<std::vector<std::int32_t>> triangles_of(const Mesh& mesh, std::size_t subdomain,
+                                                      const std::vector<std::int32_t>& nodes) {
+  std::vector<std::int32_t> local(mesh.node_count(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto node = static_cast<std::size_t>(nodes[i]);
+    if (nodes[i] < 0 || node >= local.size() || local[node] >= 0) return std::nullopt;
+    local[node] = static_cast<std::int32_t>(i);
+  }
+  std::vector<std::int32_t> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (static_cast<std::size_t>(mesh.subdomain[t]) != subdomain) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::int32_t corner = local[static_cast<std::size_t>(mesh.triangles[3 * t + c])];
+      if (corner < 0) return std::nullopt;
+      triangles.push_back(corner);
+    }
+  }
+  return triangles;
+}
+
+std::string first_mesh_fault(const Mesh& mesh) {
+  Faults faults;
+  check_mesh(mesh, faults);
+  return faults.first();
 }
 
 std::string first_fault(const Result& result) {

@@ -47,12 +47,13 @@ struct Mesh {
   std::vector<std::int32_t> subdomain;  ///< (m) index into subdomains
   std::vector<std::int32_t> boundary;   ///< (b,2) row-major, edges where u is prescribed
   std::vector<std::string> subdomains;  ///< names
+  std::vector<double> tension;          ///< T of -div(T grad u) = f, one a subdomain
 
   std::size_t node_count() const noexcept { return xy.size() / 2; }
   std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
 };
 
-/// A chain of k nodes, one array entry a node.
+/// A chain of k nodes, one array entry a node. A closed one has its first node again at its end.
 struct Interface {
   std::string name;
   std::vector<double> s;     ///< (k) arc length from its start, strictly increasing
@@ -73,7 +74,7 @@ struct Kkt {
 struct Inclusion {
   std::string name;
   double displacement = 0;    ///< A of equation (5)
-  double resultant = 0;       ///< int [du/dnu] ds over it, equation (6): zero at the solution
+  double resultant = 0;       ///< int [T du/dnu] ds over it, equation (6): the force on it
   double contact_length = 0;  ///< length of its delaminated part in contact
 };
 
@@ -104,32 +105,45 @@ struct History {
   std::size_t size() const noexcept { return iteration.size(); }
 };
 
-/// u on the nodes of one subdomain, those on the interface with its own trace.
+/// u on the nodes of one subdomain, those on an interface with its own trace. A node inside a slit
+/// is there twice, once a face: `triangles` says which of the two a triangle hangs on.
 struct Field {
   std::vector<std::int32_t> nodes;  ///< (n_i) index into Mesh::xy
-  std::vector<double> u;            ///< (n_i)
+  std::vector<std::int32_t>
+      triangles;          ///< (m_i,3) row-major, index into nodes; all of the subdomain
+  std::vector<double> u;  ///< (n_i)
 };
+
+/// Field::triangles where every node is there once, in the order of the mesh; empty where one is
+/// there twice or missing. For servers and files that do not say. O(n + m).
+std::optional<std::vector<std::int32_t>> triangles_of(const Mesh& mesh, std::size_t subdomain,
+                                                      const std::vector<std::int32_t>& nodes);
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 struct Load {
   std::string name;  ///< [A-Za-z0-9][A-Za-z0-9_. -]{0,63}, unique
   Status status = Status::unspecified;
-  std::string reason;        ///< of not_converged
-  std::string error;         ///< of failed
-  std::string method;        ///< "uzawa"
-  std::string mass;          ///< "lumped" or "consistent"; empty where unknown
-  double epsilon = unknown;  ///< stopping criterion asked for
-  double p = unknown;        ///< bound on the multipliers asked for
-  std::int32_t iterations = 0;
-  double criterion = unknown;   ///< of the last iteration
-  double theta = unknown;       ///< used
-  double theta_star = unknown;  ///< of the mesh and mass, Theorem 4
-  double energy = unknown;      ///< Pi(u)
-  Kkt kkt;                      ///< absolute
+  std::string reason;              ///< of not_converged
+  std::string error;               ///< of failed
+  std::string method;              ///< "active-set" or "uzawa"
+  std::string mass;                ///< "lumped" or "consistent"; empty where unknown
+  double epsilon = unknown;        ///< stopping criterion asked for
+  double p = unknown;              ///< bound on the multipliers asked for
+  double kkt_tolerance = unknown;  ///< of uzawa, where it stops by KKT residuals and not by epsilon
+  double tolerance = unknown;      ///< of active-set
+  std::int32_t iterations = 0;     ///< of Algorithm 2, or steps of the active set
+  double criterion = unknown;      ///< of the last iteration
+  double theta = unknown;          ///< used by Algorithm 2
+  double theta_star = unknown;     ///< of the mesh and mass, Theorem 4
+  double energy = unknown;         ///< Pi(u)
+  Kkt kkt;                         ///< absolute
   Kkt kkt_relative;
   double contact_length = 0;
+  std::int32_t weakly_active = 0;  ///< crack nodes with neither jump nor pressure
   double solve_seconds = 0;
+  std::vector<std::string>
+      warnings;  ///< e.g. a load that could not be integrated as exactly as asked
   std::vector<Inclusion> inclusions;
   std::vector<ContactInterval> contact_intervals;
   std::vector<Trace> traces;  ///< one per Result::interfaces, or none
@@ -162,6 +176,9 @@ struct Result {
 /// coordinates), as "loads[1].traces[0].jump has 160 entries for 161 nodes"; empty when all hold.
 /// O(size of the result).
 std::string first_fault(const Result& result);
+
+/// The same for the mesh alone.
+std::string first_mesh_fault(const Mesh& mesh);
 
 /// Whether a load may have this name (it becomes the name of a group).
 bool is_load_name(std::string_view name) noexcept;

@@ -27,6 +27,7 @@ void put_mesh(const Handle& root, const Mesh& mesh) {
   put_array(group, "subdomain", mesh.subdomain, dimensionless);
   put_array(group, "boundary", mesh.boundary, dimensionless, 2);
   put_array(group, "subdomain_names", mesh.subdomains);
+  put_array(group, "tension", mesh.tension, dimensionless);
 }
 
 void put_interface(const Handle& parent, std::size_t index, const Interface& interface) {
@@ -111,6 +112,7 @@ void put_fields(const Handle& load, const std::vector<Field>& fields,
     const Handle group = create_group(parent, std::to_string(i));
     put(group, "name", subdomains[i]);
     put_array(group, "nodes", fields[i].nodes, dimensionless);
+    put_array(group, "triangles", fields[i].triangles, dimensionless, 3);
     put_array(group, "u", fields[i].u, dimensionless);
   }
 }
@@ -125,6 +127,8 @@ void put_load(const Handle& parent, std::size_t index, const Load& load, const M
   put(group, "mass", load.mass);
   put(group, "epsilon", load.epsilon);
   put(group, "p", load.p);
+  put(group, "kkt_tolerance", load.kkt_tolerance);
+  put(group, "tolerance", load.tolerance);
   put(group, "iterations", load.iterations);
   put(group, "criterion", load.criterion);
   put(group, "theta", load.theta);
@@ -133,7 +137,9 @@ void put_load(const Handle& parent, std::size_t index, const Load& load, const M
   put_kkt(group, "kkt_", load.kkt);
   put_kkt(group, "kkt_relative_", load.kkt_relative);
   put(group, "contact_length", load.contact_length);
+  put(group, "weakly_active", load.weakly_active);
   put(group, "solve_seconds", load.solve_seconds);
+  put_array(group, "warnings", load.warnings);
   put_inclusions(group, load.inclusions);
   put_contact_intervals(group, load.contact_intervals);
   put_traces(group, load.traces);

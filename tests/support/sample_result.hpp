@@ -32,6 +32,7 @@ inline double sample_u(double x, double y, bool plus, bool contact) {
 inline results::Mesh sample_mesh(int n) {
   results::Mesh mesh;
   mesh.subdomains = {"lower", "upper"};
+  mesh.tension = {1, 2};
   const int side = 2 * n + 1;
   for (int j = 0; j < side; ++j) {
     for (int i = 0; i < side; ++i) {
@@ -90,7 +91,9 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
   load.energy = -0.031;
   load.kkt = {1e-15, 2e-8, 0, 3e-9};
   load.kkt_relative = {2e-15, 2e-7, 0, 3e-8};
+  load.weakly_active = 3;
   load.solve_seconds = 0.05;
+  load.warnings = {"f jumps along a curve that the mesh does not follow"};
   load.inclusions = {{"fibre", 0.0863, 1e-12, contact ? 0.3 : 0.0}};
 
   results::Trace trace;
@@ -131,6 +134,7 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
       field.nodes.push_back(static_cast<std::int32_t>(i));
       field.u.push_back(sample_u(x, y, plus, contact));
     }
+    field.triangles = *results::triangles_of(mesh, plus ? 1 : 0, field.nodes);
     load.fields.push_back(field);
   }
   return load;

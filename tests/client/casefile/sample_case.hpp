@@ -22,7 +22,7 @@ to   = [0.5, 0]
 
 [solver]
 theta = 1.5
-
+method = "uzawa"
 [[load]]
 name = "one"
 f = 1

@@ -11,13 +11,16 @@ TEST(Case, BecomesRequests) {
   const Case the_case = parse(sample_text);
 
   EXPECT_EQ(the_case.mesh.title(), "A plate");
-  EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_PAPER);
+  EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_GRADED);
+  EXPECT_EQ(the_case.mesh.options().size(), 0);
   EXPECT_FALSE(the_case.mesh_file.has_value());
   const v1::Geometry& geometry = the_case.mesh.geometry();
   ASSERT_EQ(geometry.boundary_size(), 4);
   EXPECT_EQ(geometry.boundary(1).x(), 1);
   EXPECT_EQ(geometry.boundary(1).y(), -1);
-  ASSERT_EQ(geometry.interface().points_size(), 2);
+  ASSERT_EQ(geometry.interfaces_size(), 1);
+  EXPECT_EQ(geometry.interfaces(0).name(), "");
+  ASSERT_EQ(geometry.interfaces(0).polyline().points_size(), 2);
   ASSERT_EQ(geometry.inclusions_size(), 1);
   EXPECT_EQ(geometry.inclusions(0).name(), "fibre");
   EXPECT_EQ(geometry.inclusions(0).part().from().x(), -0.5);
@@ -36,7 +39,7 @@ TEST(Case, BecomesRequests) {
 }
 
 TEST(Case, ReadsEveryKey) {
-  const Case the_case = parse(sample_with("[solver]\ntheta = 1.5",
+  const Case the_case = parse(sample_with("[solver]\ntheta = 1.5\nmethod = \"uzawa\"",
                                           R"(delaminated = [[[-0.5, 0], [0, 0]]]
 [[geometry.crack]]
 name = "slit"
@@ -53,7 +56,8 @@ theta = "auto"
 epsilon = 1e-10
 p = 1000
 max_iterations = 7
-mass = "consistent")") + "boundary_value = \"-y\"\n");
+mass = "consistent"
+kkt_tolerance = 1e-9)") + "boundary_value = \"-y\"\n");
   const v1::Geometry& geometry = the_case.mesh.geometry();
   ASSERT_EQ(geometry.inclusions(0).delaminated_parts().parts_size(), 1);
   EXPECT_EQ(geometry.inclusions(0).delaminated_parts().parts(0).from().x(), -0.5);
@@ -70,6 +74,7 @@ mass = "consistent")") + "boundary_value = \"-y\"\n");
   EXPECT_EQ(uzawa.p(), 1000);
   EXPECT_EQ(uzawa.max_iterations(), 7);
   EXPECT_EQ(uzawa.mass(), v1::MASS_CONSISTENT);
+  EXPECT_EQ(uzawa.kkt_tolerance(), 1e-9);
   EXPECT_EQ(the_case.job.load_cases(1).boundary_value(), "-y");
 }
 
@@ -93,14 +98,149 @@ TEST(Case, TakesAMeshFileBesideTheCase) {
   ASSERT_TRUE(the_case.mesh_file.has_value());
   EXPECT_EQ(*the_case.mesh_file, "some/plate.msh");
   EXPECT_EQ(the_case.mesh.source_case(), v1::CreateMeshRequest::SOURCE_NOT_SET);
-  EXPECT_FALSE(the_case.mesh.has_options());
+  EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_GRADED);
 }
 
-TEST(Case, PassesOnWhatTheServerMayNotKnowYet) {
+TEST(Case, TakesTheMeaningOfAFilesGroups) {
+  const Case the_case = parse_case(R"([mesh]
+file = "plate.msh"
+preset = "uniform"
+[mesh.groups]
+curve.7 = "crack:slit"
+surface.1 = "top"
+curve.8 = "neumann"
+[mesh.tension]
+top = 2.5
+[[load]]
+name = "one"
+f = 1
+)",
+                                   "some/where.toml", {"mesh.groups.curve.9=glue"});
+  const v1::MeshOptions& options = the_case.mesh.options();
+  EXPECT_EQ(options.preset(), v1::MESH_PRESET_UNIFORM);
+  EXPECT_EQ(options.curve_groups().at(7), "crack:slit");
+  EXPECT_EQ(options.curve_groups().at(8), "neumann");
+  EXPECT_EQ(options.curve_groups().at(9), "glue");
+  EXPECT_EQ(options.surface_groups().at(1), "top");
+  EXPECT_EQ(options.tension().at("top"), 2.5);
+  EXPECT_EQ(the_case.locate("options.curve_groups[7]")->line, 5U);
+  EXPECT_EQ(the_case.locate("options.curve_groups[12]")->key, "mesh.groups.curve");
+  EXPECT_EQ(the_case.locate("options.tension.top")->line, 9U);
+}
+
+TEST(Case, TakesAFileWithoutACase) {
   const Case the_case =
-      parse(sample_with("theta = 1.5", "method = \"active-set\""), {"mesh.preset=graded"});
-  EXPECT_TRUE(the_case.job.solver().has_active_set());
-  EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_GRADED);
+      mesh_file_case("a/plate.msh", "A plate", {"mesh.preset=uniform", "mesh.groups.curve.7=glue"});
+  EXPECT_EQ(*the_case.mesh_file, "a/plate.msh");
+  EXPECT_EQ(the_case.mesh.title(), "A plate");
+  EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_UNIFORM);
+  EXPECT_EQ(the_case.mesh.options().curve_groups().at(7), "glue");
+  EXPECT_EQ(mesh_file_case("plate.msh", "").mesh.options().preset(), v1::MESH_PRESET_GRADED);
+  EXPECT_THROW(mesh_file_case("plate.msh", "", {"solver.theta=1"}), Error);
+  EXPECT_THROW(mesh_file_case("plate.msh", "", {"mesh.file=other.msh"}), Error);
+}
+
+TEST(Case, TakesInterfacesOfEveryShape) {
+  const Case the_case = parse(sample_with("interface = [[-1, 0], [1, 0]]\n", R"(neumann = "all"
+[[geometry.interface]]
+name = "ring"
+spline = [[0.2, 0], [0, 0.2], [-0.2, 0]]
+closed = true
+[[geometry.interface]]
+arc = [[-1, 0], [0, 0.5], [1, 0]]
+[[geometry.interface]]
+points = [[0, -1], [0, -0.5]]
+[[geometry.region]]
+name = "top"
+at = [0, 0.9]
+tension = 3
+[[geometry.region]]
+name = "bottom"
+at = [0, -0.9]
+)"));
+  const v1::Geometry& geometry = the_case.mesh.geometry();
+  ASSERT_EQ(geometry.interfaces_size(), 3);
+  EXPECT_EQ(geometry.interfaces(0).name(), "ring");
+  EXPECT_TRUE(geometry.interfaces(0).closed());
+  EXPECT_EQ(geometry.interfaces(0).spline().points(2).x(), -0.2);
+  EXPECT_EQ(geometry.interfaces(1).arc().through().y(), 0.5);
+  EXPECT_EQ(geometry.interfaces(2).polyline().points(1).y(), -0.5);
+  ASSERT_EQ(geometry.neumann_size(), 1);
+  EXPECT_EQ(geometry.neumann(0).from().x(), geometry.neumann(0).to().x());
+  ASSERT_EQ(geometry.regions_size(), 2);
+  EXPECT_EQ(geometry.regions(0).tension(), 3);
+  EXPECT_EQ(geometry.regions(1).tension(), 0);
+  EXPECT_EQ(the_case.locate("geometry.interfaces[0].spline.points[1]")->line, 8U);
+  EXPECT_EQ(the_case.locate("geometry.interfaces[1].arc.through")->line, 11U);
+  EXPECT_EQ(the_case.locate("geometry.interfaces[2]")->line, 12U);
+  EXPECT_EQ(the_case.locate("geometry.regions[0].tension")->line, 17U);
+  EXPECT_EQ(the_case.locate("geometry.neumann[0].from")->key, "geometry.neumann");
+}
+
+TEST(Case, NeedsNoInterface) {
+  const Case the_case = parse_case(
+      "geometry.boundary = [[0, 0], [1, 0], [0, 1]]\ngeometry.neumann = [[[0, 0], [1, 0]]]\n"
+      "[[load]]\nname = \"one\"\nf = 1\n",
+      "plate.toml");
+  EXPECT_EQ(the_case.mesh.geometry().interfaces_size(), 0);
+  EXPECT_EQ(the_case.mesh.geometry().neumann(0).to().x(), 1);
+}
+
+TEST(Case, TakesEveryKindOfLoad) {
+  const Case the_case = parse(sample_with("f = 1\n", R"(traction = 0.5
+boundary_value = "-y"
+point_forces = [{at = [0.5, 0.25], value = -2}, {at = [0, 0.5], value = 1}]
+inclusion_forces = {fibre = 2}
+)"));
+  const v1::LoadCase& load = the_case.job.load_cases(0);
+  EXPECT_FALSE(load.has_force());
+  EXPECT_EQ(load.traction(), "0.5");
+  EXPECT_EQ(load.boundary_value(), "-y");
+  ASSERT_EQ(load.point_forces_size(), 2);
+  EXPECT_EQ(load.point_forces(0).at().y(), 0.25);
+  EXPECT_EQ(load.point_forces(0).value(), -2);
+  EXPECT_EQ(load.inclusion_forces().at("fibre"), 2);
+  EXPECT_EQ(the_case.locate("job.load_cases[0].point_forces[1].at")->line, 19U);
+  EXPECT_EQ(the_case.locate("job.load_cases[0].inclusion_forces[fibre]")->key,
+            "load.0.inclusion_forces.fibre");
+  EXPECT_EQ(the_case.locate("job.load_cases[0].traction")->line, 17U);
+}
+
+TEST(Case, NamesTheFilesOfForces) {
+  const Case the_case =
+      parse_case(sample_with("f = \"y > 0 ? 1 : -1\"\n",
+                             "f = {file = \"f.h5\", dataset = \"/a/f\", per = \"triangle\"}\n"),
+                 "some/plate.toml");
+  ASSERT_EQ(the_case.force_files.size(), 1U);
+  const ForceFile& file = the_case.force_files[0];
+  EXPECT_EQ(file.load_case, 1);
+  EXPECT_EQ(file.path, "some/f.h5");
+  EXPECT_EQ(file.dataset, "/a/f");
+  EXPECT_TRUE(the_case.job.load_cases(1).force().array().per_triangle());
+  EXPECT_EQ(the_case.locate("job.load_cases[1].force.array.upload")->line, 20U);
+}
+
+TEST(Case, SolvesByTheActiveSetUnlessSaidOtherwise) {
+  const std::string solver = "[solver]\ntheta = 1.5\nmethod = \"uzawa\"\n";
+  EXPECT_TRUE(parse(sample_with(solver, "")).job.solver().has_active_set());
+  const Case the_case = parse(sample_with(solver, "[solver]\ntolerance = 0\nmax_steps = 7\n"));
+  const v1::ActiveSet& active_set = the_case.job.solver().active_set();
+  EXPECT_TRUE(active_set.has_tolerance());
+  EXPECT_EQ(active_set.tolerance(), 0);
+  EXPECT_EQ(active_set.max_steps(), 7);
+  EXPECT_EQ(the_case.locate("job.solver.active_set.max_steps")->line, 14U);
+}
+
+TEST(Case, TakesTheOptionsOfAMesh) {
+  const Case the_case = parse(sample_text, {"mesh.size=0.1", "mesh.tip_size=1e-9",
+                                            "mesh.grading=0.5", "mesh.align=[[[0, 0], [0, 0.5]]]"});
+  const v1::MeshOptions& options = the_case.mesh.options();
+  EXPECT_EQ(options.preset(), v1::MESH_PRESET_GRADED);
+  EXPECT_EQ(options.size(), 0.1);
+  EXPECT_EQ(options.tip_size(), 1e-9);
+  EXPECT_EQ(options.grading(), 0.5);
+  ASSERT_EQ(options.align_size(), 1);
+  EXPECT_EQ(options.align(0).points(1).y(), 0.5);
 }
 
 TEST(Case, IsReadTheSameEveryTime) {
@@ -120,12 +260,15 @@ TEST(Locate, FindsTheLineOfAField) {
   EXPECT_EQ(prefix(*spot), "plate.toml:20: load.1.f: ");
   EXPECT_EQ(the_case.locate("job.solver.uzawa.theta")->key, "solver.theta");
   EXPECT_EQ(the_case.locate("geometry.inclusions[0].part.from")->line, 9U);
-  EXPECT_EQ(the_case.locate("geometry.interface.points[1]")->key, "geometry.interface");
+  EXPECT_EQ(the_case.locate("geometry.interfaces[0].polyline.points[1]")->key,
+            "geometry.interface.1");
+  EXPECT_EQ(the_case.locate("geometry.interfaces[0].name")->key, "geometry.interface");
+  EXPECT_EQ(the_case.locate("geometry.boundary[2]")->key, "geometry.boundary.2");
 }
 
 TEST(Locate, FindsWhatIsAroundADefault) {
   const Case the_case = parse(sample_text);
-  EXPECT_EQ(the_case.locate("job.solver.uzawa.p")->key, "solver");
+  EXPECT_EQ(the_case.locate("job.solver.uzawa.p")->key, "solver.method");
   EXPECT_FALSE(the_case.locate("request_id").has_value());
   EXPECT_FALSE(the_case.locate("").has_value());
 }

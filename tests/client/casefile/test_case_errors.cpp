@@ -31,12 +31,13 @@ const Mistake mistakes[] = {
     {"unknown_key", "theta = 1.5", "thta = 1.5",
      "plate.toml:13: solver.thta: unknown key; did you mean theta?"},
     {"unknown_key_far_off", "theta = 1.5", "colour = 1.5",
-     "plate.toml:13: solver.colour: unknown key; known are epsilon, mass, max_iterations, method, "
-     "p, theta"},
+     "plate.toml:13: solver.colour: unknown key; known are epsilon, kkt_tolerance, mass, "
+     "max_iterations, max_steps, method, p, theta, tolerance"},
     {"unknown_table", "[solver]", "[slover]",
      "plate.toml:12: slover: unknown key; did you mean solver?"},
     {"unknown_key_in_list", "f = 1\n", "force = 1\n",
-     "plate.toml:17: load.0.force: unknown key; known are boundary_value, f, name"},
+     "plate.toml:17: load.0.force: unknown key; known are boundary_value, f, "
+     "inclusion_forces, name, point_forces, traction"},
     {"theta_text", "theta = 1.5", "theta = \"fast\"",
      "plate.toml:13: solver.theta: 'fast' is no finite number; write a number above 0, or "
      "\"auto\""},
@@ -50,19 +51,16 @@ const Mistake mistakes[] = {
     {"iterations_zero", "theta = 1.5", "max_iterations = 0",
      "plate.toml:13: solver.max_iterations: 0 is no count; write a whole number from 1 to "
      "2147483647"},
-    {"unknown_method", "theta = 1.5", "method = \"usawa\"",
+    {"unknown_method", "theta = 1.5\nmethod = \"uzawa\"", "method = \"usawa\"",
      "plate.toml:13: solver.method: 'usawa' is not possible; did you mean uzawa?"},
-    {"method_number", "theta = 1.5", "method = 3",
+    {"method_number", "theta = 1.5\nmethod = \"uzawa\"", "method = 3",
      "plate.toml:13: solver.method: 3 is no text; write it in quotes"},
-    {"foreign_parameter", "theta = 1.5", "method = \"active-set\"\ntheta = 1.5",
+    {"foreign_parameter", "theta = 1.5\nmethod = \"uzawa\"", "method = \"active-set\"\ntheta = 1.5",
      "plate.toml:14: solver.theta: belongs to method \"uzawa\"; remove it, or write method = "
      "\"uzawa\""},
-    {"solver_number", "[solver]\ntheta = 1.5", "[mesh]\npreset = 3",
+    {"solver_number", "[solver]\ntheta = 1.5\nmethod = \"uzawa\"", "[mesh]\npreset = 3",
      "plate.toml:13: mesh.preset: 3 is no text; write it in quotes"},
-    {"size_without_uniform", "[solver]\ntheta = 1.5", "[mesh]\nsize = 3",
-     "plate.toml:13: mesh.size: means nothing with this preset; write preset = \"uniform\" beside "
-     "it"},
-    {"file_and_geometry", "[solver]\ntheta = 1.5", "[mesh]\nfile = \"a.msh\"",
+    {"file_and_geometry", "[solver]\ntheta = 1.5\nmethod = \"uzawa\"", "[mesh]\nfile = \"a.msh\"",
      "plate.toml:3: geometry: there is a mesh.file too; remove one of the two"},
     {"no_boundary", "boundary  = [[-1, -1], [1, -1], [1, 1], [-1, 1]]\n", "",
      "plate.toml:3: geometry.boundary: missing; write [[x, y], [x, y], ...]"},
@@ -77,7 +75,7 @@ const Mistake mistakes[] = {
     {"no_name", "name = \"fibre\"\n", "",
      "plate.toml:7: geometry.inclusion.0.name: missing; give the inclusion a name"},
     {"no_from", "from = [-0.5, 0]\n", "",
-     "plate.toml:7: geometry.inclusion.0.from: missing; write [x, y], a point of the interface"},
+     "plate.toml:7: geometry.inclusion.0.from: missing; write [x, y], a point of an interface"},
     {"single_brackets", "[[geometry.inclusion]]", "[geometry.inclusion]",
      "plate.toml:7: geometry.inclusion: { from = [ -0.5, 0 ], name = 'fibre', to = [ 0.5, 0 ] } is "
      "no list of tables; write [[geometry.inclusion]] above each of them"},
@@ -88,21 +86,186 @@ const Mistake mistakes[] = {
      "plate.toml:11: geometry.inclusion.0.delaminated.0: [ 0, 0, 0 ] is no part; write [from, to] "
      "with points from and to"},
     {"no_f", "f = 1\n", "",
-     "plate.toml:15: load.0.f: missing; write a number, an expression in x and y in quotes, or "
-     "{region = number}"},
+     "plate.toml:15: load.0.f: missing; write a number, an expression in x and y in quotes, "
+     "{region = number} or {file = \"f.h5\", dataset = \"/f\", per = \"triangle\"}"},
     {"f_list", "f = 1\n", "f = [1]\n",
      "plate.toml:17: load.0.f: [ 1 ] is no finite number; write a number, an expression in x and y "
-     "in quotes, or {region = number}"},
+     "in quotes, "
+     "{region = number} or {file = \"f.h5\", dataset = \"/f\", per = \"triangle\"}"},
     {"f_region_text", "f = 1\n", "f = {a = \"b\"}\n",
      "plate.toml:17: load.0.f.a: 'b' is no finite number; write one number for each region"},
     {"title_number", "title = \"A plate\"", "title = 3",
      "plate.toml:1: title: 3 is no text; write it in quotes"},
-    {"fields_text", "[solver]\ntheta = 1.5", "[output]\nfields = \"yes\"",
+    {"fields_text", "[solver]\ntheta = 1.5\nmethod = \"uzawa\"", "[output]\nfields = \"yes\"",
      "plate.toml:13: output.fields: 'yes' is neither true nor false"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Case, Mistakes, testing::ValuesIn(mistakes),
-                         [](const auto& mistake) { return std::string(mistake.param.what); });
+/// The sample's interface, replaced.
+Mistake interface(const char* what, const char* to, const char* complaint) {
+  return {what, "interface = [[-1, 0], [1, 0]]\n", to, complaint};
+}
+
+/// A [mesh] of its own in place of the sample's [solver]; its first key is in line 13.
+Mistake mesh(const char* what, const char* to, const char* complaint) {
+  return {what, "[solver]\ntheta = 1.5\nmethod = \"uzawa\"", to, complaint};
+}
+
+/// Keys of the first load, from line 17.
+Mistake load(const char* what, const char* to, const char* complaint) {
+  return {what, "f = 1\n", to, complaint};
+}
+
+const Mistake geometry_mistakes[] = {
+    interface("interface_number", "interface = 3\n",
+              "plate.toml:5: geometry.interface: 3 is no list of points; write [[x, y], [x, y], "
+              "...]"),
+    interface("interface_key", "[[geometry.interface]]\npoint = [[0, 0], [1, 0]]\n",
+              "plate.toml:6: geometry.interface.0.point: unknown key; did you mean points?"),
+    interface("interface_without_shape", "[[geometry.interface]]\nname = \"a\"\n",
+              "plate.toml:5: geometry.interface.0: an interface without a shape; write points = "
+              "[[x, y], ...], arc = [from, through, to] or spline = [[x, y], ...]"),
+    interface("interface_of_two_shapes",
+              "[[geometry.interface]]\npoints = [[-1, 0], [1, 0]]\narc = [[-1, 0], [0, 1], [1, "
+              "0]]\n",
+              "plate.toml:7: geometry.interface.0.arc: the interface has points too; remove one of "
+              "the two"),
+    interface("arc_of_two", "[[geometry.interface]]\narc = [[-1, 0], [1, 0]]\n",
+              "plate.toml:6: geometry.interface.0.arc: [ [ -1, 0 ], [ 1, 0 ] ] is no arc; write "
+              "[from, through, to], three points of which the second lies between the others"),
+    interface("closed_arc",
+              "[[geometry.interface]]\narc = [[-1, 0], [0, 1], [1, 0]]\nclosed = true\n",
+              "plate.toml:7: geometry.interface.0.closed: an arc has two ends; remove the key, or "
+              "write a spline through the points"),
+    interface("closed_text", "[[geometry.interface]]\nspline = [[-1, 0], [1, 0]]\nclosed = 1\n",
+              "plate.toml:7: geometry.interface.0.closed: 1 is neither true nor false"),
+    interface("interface_name", "[[geometry.interface]]\nname = 1\n",
+              "plate.toml:6: geometry.interface.0.name: 1 is no text; write it in quotes"),
+    interface("spline_point", "[[geometry.interface]]\nspline = [[-1, 0], [1]]\n",
+              "plate.toml:6: geometry.interface.0.spline.1: [ 1 ] is no point; write [x, y]"),
+    interface("neumann_text", "neumann = \"left\"\n",
+              "plate.toml:5: geometry.neumann: 'left' is not possible; write [[from, to], ...], "
+              "parts of the boundary walked counterclockwise, or \"all\""),
+    interface("neumann_point", "neumann = [[1, -1], [1, 1]]\n",
+              "plate.toml:5: geometry.neumann.0.0: 1 is no point; write [x, y]"),
+    interface("neumann_three", "neumann = [[[1, -1], [1, 1], [0, 0]]]\n",
+              "plate.toml:5: geometry.neumann.0: [ [ 1, -1 ], [ 1, 1 ], [ 0, 0 ] ] is no part; "
+              "write [from, to] with points from and to"),
+    interface("region_without_name", "[[geometry.region]]\nat = [0, 1]\n",
+              "plate.toml:5: geometry.region.0.name: missing; give the region a name"),
+    interface("region_without_at", "[[geometry.region]]\nname = \"top\"\n",
+              "plate.toml:5: geometry.region.0.at: missing; write [x, y], a point inside the "
+              "region"),
+    interface("region_key", "[[geometry.region]]\nname = \"top\"\nat = [0, 1]\ntensoin = 2\n",
+              "plate.toml:8: geometry.region.0.tensoin: unknown key; did you mean tension?"),
+    interface(
+        "tension_zero", "[[geometry.region]]\nname = \"top\"\nat = [0, 1]\ntension = 0\n",
+        "plate.toml:8: geometry.region.0.tension: 0 is not above 0; write a number above 0, or "
+        "leave the key out for its default"),
+};
+
+const Mistake mesh_mistakes[] = {
+    mesh("mesh_key", "[mesh]\ngradin = 0.2",
+         "plate.toml:13: mesh.gradin: unknown key; did you mean grading?"),
+    mesh("size_of_paper", "[mesh]\nsize = 3\npreset = \"paper\"",
+         "plate.toml:13: mesh.size: means nothing with preset \"paper\"; remove it, or write "
+         "preset = \"graded\""),
+    mesh("tip_size_of_uniform", "[mesh]\ntip_size = 3\npreset = \"uniform\"",
+         "plate.toml:13: mesh.tip_size: means nothing with preset \"uniform\"; remove it, or write "
+         "preset = \"graded\""),
+    mesh(
+        "size_negative", "[mesh]\nsize = -1",
+        "plate.toml:13: mesh.size: -1 is not above 0; write a number above 0, or leave the key out "
+        "for its default"),
+    mesh("tip_size_text", "[mesh]\ntip_size = \"small\"",
+         "plate.toml:13: mesh.tip_size: 'small' is no finite number; write a number without "
+         "quotes"),
+    mesh("grading_zero", "[mesh]\ngrading = 0",
+         "plate.toml:13: mesh.grading: 0 is not above 0; write a number above 0, or leave the key "
+         "out for its default"),
+    mesh("align_number", "[mesh]\nalign = 3",
+         "plate.toml:13: mesh.align: 3 is no list of lines; write [[[x, y], [x, y], ...], ...]"),
+    mesh("align_one_line", "[mesh]\nalign = [[0, 0], [1, 1]]",
+         "plate.toml:13: mesh.align.0.0: 0 is no point; write [x, y]"),
+    mesh("align_and_file", "[mesh]\nalign = [[[0, 0], [1, 1]]]\nfile = \"a.msh\"",
+         "plate.toml:13: mesh.align: means nothing with mesh.file; remove one of the two"),
+    mesh("groups_without_file", "[mesh.groups]\ncurve.7 = \"crack\"",
+         "plate.toml:12: mesh.groups: belongs to mesh.file; write file = \"x.msh\" beside it"),
+    mesh("tension_without_file", "[mesh.tension]\ntop = 2",
+         "plate.toml:12: mesh.tension: belongs to mesh.file; for a geometry write "
+         "[[geometry.region]] with name, at and tension"),
+    mesh("groups_key", "[mesh]\nfile = \"a.msh\"\n[mesh.groups]\ncurves.7 = \"crack\"",
+         "plate.toml:15: mesh.groups.curves: unknown key; did you mean curve?"),
+    mesh("group_tag", "[mesh]\nfile = \"a.msh\"\n[mesh.groups]\ncurve.seven = \"crack\"",
+         "plate.toml:15: mesh.groups.curve.seven: 'seven' is no tag; write the tag of a physical "
+         "group and in quotes what it is, as in curve.7 = \"crack\" or surface.1 = \"top\""),
+    mesh("group_meaning", "[mesh]\nfile = \"a.msh\"\n[mesh.groups.surface]\n1 = 2",
+         "plate.toml:15: mesh.groups.surface.1: 2 is no meaning of a group; write the tag of a "
+         "physical group and in quotes what it is, as in curve.7 = \"crack\" or surface.1 = "
+         "\"top\""),
+    mesh("group_list", "[mesh]\nfile = \"a.msh\"\ngroups.curve = [7]",
+         "plate.toml:14: mesh.groups.curve: [ 7 ] is no table; write the tag of a physical group "
+         "and in quotes what it is, as in curve.7 = \"crack\" or surface.1 = \"top\""),
+    mesh("mesh_tension_text", "[mesh]\nfile = \"a.msh\"\ntension.top = \"2\"",
+         "plate.toml:14: mesh.tension.top: '2' is no finite number; write subdomain = number for "
+         "each of them"),
+    mesh("mesh_tension_number", "[mesh]\nfile = \"a.msh\"\ntension = 2",
+         "plate.toml:14: mesh.tension: 2 is no table; write subdomain = number for each of them"),
+    mesh("steps_of_uzawa", "[solver]\nmethod = \"uzawa\"\nmax_steps = 3",
+         "plate.toml:14: solver.max_steps: belongs to method \"active-set\"; remove it, or write "
+         "method = \"active-set\""),
+    mesh("kkt_tolerance_of_active_set", "[solver]\nkkt_tolerance = 1e-8",
+         "plate.toml:13: solver.kkt_tolerance: belongs to method \"uzawa\"; remove it, or write "
+         "method = \"uzawa\""),
+    mesh("tolerance_text", "[solver]\ntolerance = \"tiny\"",
+         "plate.toml:13: solver.tolerance: 'tiny' is no finite number; write a number without "
+         "quotes"),
+    mesh("steps_zero", "[solver]\nmax_steps = 0",
+         "plate.toml:13: solver.max_steps: 0 is no count; write a whole number from 1 to "
+         "2147483647"),
+};
+
+const Mistake load_mistakes[] = {
+    load("file_without_dataset", "f = {file = \"f.h5\", per = \"node\"}\n",
+         "plate.toml:17: load.0.f.dataset: missing; name the dataset in the file, as \"/f\""),
+    load("file_without_per", "f = {file = \"f.h5\", dataset = \"/f\"}\n",
+         "plate.toml:17: load.0.f.per: missing; write per = \"triangle\" or per = \"node\""),
+    load("dataset_without_file", "f = {dataset = \"/f\", per = \"node\"}\n",
+         "plate.toml:17: load.0.f.file: missing; name an HDF5 file"),
+    load("per_unknown", "f = {file = \"f.h5\", dataset = \"/f\", per = \"nodes\"}\n",
+         "plate.toml:17: load.0.f.per: 'nodes' is not possible; did you mean node?"),
+    load("file_key", "f = {file = \"f.h5\", datset = \"/f\", per = \"node\"}\n",
+         "plate.toml:17: load.0.f.datset: unknown key; did you mean dataset?"),
+    load("traction_list", "traction = [1]\n",
+         "plate.toml:17: load.0.traction: [ 1 ] is no finite number; write a number, or an "
+         "expression in x and y in quotes"),
+    load("boundary_value_nan", "boundary_value = nan\n",
+         "plate.toml:17: load.0.boundary_value: nan is no finite number; write a number, or an "
+         "expression in x and y in quotes"),
+    load("point_force_key", "point_forces = [{at = [0, 0], valeu = 1}]\n",
+         "plate.toml:17: load.0.point_forces.0.valeu: unknown key; did you mean value?"),
+    load("point_force_without_at", "point_forces = [{value = 1}]\n",
+         "plate.toml:17: load.0.point_forces.0.at: missing; write [x, y], where the force acts"),
+    load("point_force_without_value", "point_forces = [{at = [0, 0]}]\n",
+         "plate.toml:17: load.0.point_forces.0.value: missing; write the force, a number"),
+    load("point_force_text", "point_forces = [{at = [0, 0], value = \"1\"}]\n",
+         "plate.toml:17: load.0.point_forces.0.value: '1' is no finite number; write a number "
+         "without quotes"),
+    load("inclusion_forces_number", "inclusion_forces = 2\n",
+         "plate.toml:17: load.0.inclusion_forces: 2 is no table; write inclusion = number for each "
+         "of them"),
+    load("inclusion_force_text", "inclusion_forces = {fibre = \"2\"}\n",
+         "plate.toml:17: load.0.inclusion_forces.fibre: '2' is no finite number; write inclusion = "
+         "number for each of them"),
+};
+
+std::string name_of(const testing::TestParamInfo<Mistake>& mistake) {
+  return mistake.param.what;
+}
+
+INSTANTIATE_TEST_SUITE_P(Case, Mistakes, testing::ValuesIn(mistakes), name_of);
+INSTANTIATE_TEST_SUITE_P(Geometry, Mistakes, testing::ValuesIn(geometry_mistakes), name_of);
+INSTANTIATE_TEST_SUITE_P(Mesh, Mistakes, testing::ValuesIn(mesh_mistakes), name_of);
+INSTANTIATE_TEST_SUITE_P(Load, Mistakes, testing::ValuesIn(load_mistakes), name_of);
 
 TEST(CaseErrors, SyntaxNamesTheLine) {
   EXPECT_THAT(complaint("title = \"A\"\n[geometry\n"),

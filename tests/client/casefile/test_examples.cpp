@@ -14,6 +14,7 @@ TEST(Examples, PaperHasItsFourLoadsAndParameters) {
   const Case the_case = read_case(folder + "/paper.toml");
   ASSERT_EQ(the_case.job.load_cases_size(), 4);
   EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_PAPER);
+  ASSERT_TRUE(the_case.job.solver().has_uzawa());
   const v1::Uzawa& uzawa = the_case.job.solver().uzawa();
   EXPECT_EQ(uzawa.theta(), 2);
   EXPECT_EQ(uzawa.epsilon(), 1e-12);
@@ -29,6 +30,16 @@ TEST(Examples, EachOfTheFourIsOneLoadOfThePaperOnTheSameMesh) {
     EXPECT_EQ(one.job.load_cases(0).name(), "example-" + std::to_string(i + 1));
     EXPECT_EQ(one.mesh.geometry().SerializeAsString(), all.mesh.geometry().SerializeAsString());
     EXPECT_EQ(one.job.solver().SerializeAsString(), all.job.solver().SerializeAsString());
+  }
+}
+
+TEST(Examples, OfOtherGeometriesUseTheDefaults) {
+  for (const char* name : {"several-inclusions", "slit", "arc", "floating"}) {
+    const Case the_case = read_case(folder + "/" + name + ".toml");
+    EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_GRADED) << name;
+    EXPECT_TRUE(the_case.job.solver().has_active_set()) << name;
+    EXPECT_GE(the_case.job.load_cases_size(), 2) << name;
+    EXPECT_GE(the_case.mesh.geometry().interfaces_size(), 1) << name;
   }
 }
 

@@ -49,6 +49,15 @@ TEST(AnswersTable, HasUnitsAndSaysWhatIsUnknown) {
       "failed: the expression is not finite at? (0, 0)\n");
 }
 
+TEST(AnswersTable, SaysWhatJustTouchesAndWarns) {
+  results::Result result = two_loads();
+  result.loads[0].weakly_active = 1;
+  result.loads[0].warnings = {"f is rough"};
+  EXPECT_THAT(answers_table(result),
+              testing::HasSubstr("opening: 1 node just touches: neither jump nor pressure\n"
+                                 "opening: warning: f is rough\n"));
+}
+
 TEST(AnswersTable, NamesInclusionsWhereThereAreSeveral) {
   results::Result result = two_loads();
   result.loads[0].inclusions.push_back({"rod", -0.5, 0, 0});

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,11 +49,14 @@ Fetched fetched() {
   result.mesh.set_sha256(std::string(64, 'a'));
   result.mesh.set_mesh_seconds(0.25);
   result.mesh.add_subdomains()->set_name("minus");
-  result.mesh.add_subdomains()->set_name("plus");
+  v1::SubdomainInfo& plus = *result.mesh.add_subdomains();
+  plus.set_name("plus");
+  plus.set_tension(2.5);
   result.mesh.add_interfaces()->set_name("sigma");
   result.job.set_name("jobs/1");
   result.job.set_title("A plate");
   result.job.add_load_cases()->set_name("one");
+  result.job.mutable_solver()->mutable_uzawa();
   v1::LoadCaseAnswer& answer = *result.job.add_answers();
   answer.set_status(v1::LoadCaseAnswer::STATUS_CONVERGED);
   answer.set_iterations(1);
@@ -102,6 +106,7 @@ TEST(ToResult, KeepsWhatTheServerSaid) {
   EXPECT_FALSE(result.client_version.empty());
   EXPECT_EQ(result.mesh.node_count(), 4U);
   EXPECT_EQ(result.mesh.subdomains[1], "plus");
+  EXPECT_EQ(result.mesh.tension, (Reals{1, 2.5}));
   ASSERT_EQ(result.loads.size(), 1U);
   const results::Load& load = result.loads[0];
   EXPECT_EQ(load.name, "one");
@@ -131,6 +136,33 @@ TEST(ToResult, KeepsTheParametersAskedFor) {
   EXPECT_EQ(load.epsilon, 1e-8);
   EXPECT_EQ(load.p, 7);
   EXPECT_EQ(load.mass, "consistent");
+}
+
+TEST(ToResult, KeepsWhatTheActiveSetSays) {
+  Fetched exact = fetched();
+  exact.job.clear_solver();
+  v1::LoadCaseAnswer& answer = *exact.job.mutable_answers(0);
+  answer.set_theta(0);
+  answer.set_criterion(0);
+  answer.set_weakly_active(2);
+  answer.add_warnings("f jumps");
+  const results::Load load = to_result(exact).loads[0];
+  EXPECT_EQ(load.method, "active-set");
+  EXPECT_EQ(load.tolerance, 1e-12);
+  EXPECT_EQ(load.criterion, 0);
+  EXPECT_TRUE(std::isnan(load.theta));
+  EXPECT_TRUE(std::isnan(load.theta_star));
+  EXPECT_TRUE(std::isnan(load.epsilon));
+  EXPECT_EQ(load.weakly_active, 2);
+  EXPECT_EQ(load.warnings, std::vector<std::string>{"f jumps"});
+}
+
+TEST(ToResult, HasNoEpsilonWhereKktResidualsStop) {
+  Fetched asked = fetched();
+  asked.job.mutable_solver()->mutable_uzawa()->set_kkt_tolerance(1e-7);
+  const results::Load load = to_result(asked).loads[0];
+  EXPECT_TRUE(std::isnan(load.epsilon));
+  EXPECT_EQ(load.kkt_tolerance, 1e-7);
 }
 
 TEST(ToResult, KeepsALoadThatFailedWithoutArrays) {

@@ -102,8 +102,25 @@ TEST(Upload, SendsTheWholeFileInChunksUnderItsHash) {
   EXPECT_EQ(upload_mesh(connection, path), "uploads/" + sha256);
   EXPECT_EQ(server.upload_header().sha256(), sha256);
   EXPECT_EQ(server.upload_header().size(), content.size());
+  EXPECT_EQ(server.upload_header().content(), v1::UploadMeshRequest::CONTENT_MSH);
   EXPECT_TRUE(server.uploaded() == content);
   EXPECT_EQ(server.largest_upload_chunk(), 1u << 20);
+}
+
+TEST(Upload, SendsValuesAsTheyAre) {
+  ScriptedServer server;
+  std::vector<double> values(200'000);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = 0.5 * static_cast<double>(i) - 7;
+  }
+  Connection connection(server.options());
+  const std::string upload = upload_array(connection, values);
+  const std::string sent = server.uploaded();
+  EXPECT_EQ(server.upload_header().content(), v1::UploadMeshRequest::CONTENT_ARRAY);
+  EXPECT_EQ(server.upload_header().size(), 1'600'000U);
+  ASSERT_EQ(sent.size(), 1'600'000U);
+  EXPECT_EQ(std::memcmp(sent.data(), values.data(), sent.size()), 0);
+  EXPECT_EQ(upload, "uploads/" + store::Sha256().add(sent).finish());
 }
 
 TEST(Upload, OfWhatCannotBeReadNamesThePath) {

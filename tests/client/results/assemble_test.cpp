@@ -39,7 +39,9 @@ class Blocks {
       add_load("loads/" + std::to_string(i) + "/", result.loads[i]);
     }
     for (std::size_t i = 0; i < result.loads[0].fields.size(); ++i) {
-      add(answer, "fields/" + std::to_string(i) + "/nodes", result.loads[0].fields[i].nodes);
+      const std::string at = "fields/" + std::to_string(i);
+      add(answer, at + "/nodes", result.loads[0].fields[i].nodes);
+      add(answer, at + "/triangles", result.loads[0].fields[i].triangles, 3);
     }
   }
 
@@ -110,8 +112,10 @@ class Blocks {
 /// A result without its arrays: what the messages say.
 Result answers_of(Result result) {
   const std::vector<std::string> subdomains = result.mesh.subdomains;
+  const std::vector<double> tension = result.mesh.tension;
   result.mesh = {};
   result.mesh.subdomains = subdomains;
+  result.mesh.tension = tension;
   for (Interface& interface : result.interfaces) interface = {interface.name, {}, {}, {}, {}};
   for (Load& load : result.loads) {
     load.traces.clear();
@@ -145,6 +149,14 @@ TEST(Assemble, a_load_that_failed_needs_no_arrays) {
   const Result built = assemble(answers_of(result), blocks.mesh, blocks.answer);
   EXPECT_TRUE(built.loads[0].traces.empty());
   EXPECT_FALSE(built.loads[1].traces.empty());
+}
+
+TEST(Assemble, finds_the_triangles_of_a_field_where_no_node_is_there_twice) {
+  const Result result = sample_result(4);
+  Blocks blocks(result);
+  blocks.drop("fields/1/triangles");
+  const Result built = assemble(answers_of(result), blocks.mesh, blocks.answer);
+  EXPECT_EQ(built.loads[1].fields[1].triangles, result.loads[1].fields[1].triangles);
 }
 
 TEST(Assemble, passes_over_arrays_of_a_newer_server) {
@@ -212,6 +224,22 @@ INSTANTIATE_TEST_SUITE_P(
         Lie{"field_node_out_of_range",
             [](Blocks& b) { b.overwrite<std::int32_t>("fields/0/nodes", 1, 9999); },
             "loads[0].fields[0].nodes[1]"},
+        Lie{"corner_out_of_range",
+            [](Blocks& b) { b.overwrite<std::int32_t>("fields/1/triangles", 2, 45); },
+            "loads[0].fields[1].triangles[2] is 45"},
+        Lie{"triangles_of_another_number",
+            [](Blocks& b) {
+              auto& triangles = b.array("fields/1/triangles");
+              triangles.shape = {63, 3};
+              triangles.bytes = triangles.bytes.first(63 * 12);
+            },
+            "fields[1].triangles has 189 entries for 192 corners"},
+        Lie{"doubled_node_without_triangles",
+            [](Blocks& b) {
+              b.drop("fields/0/triangles");
+              b.overwrite<std::int32_t>("fields/0/nodes", 1, 0);
+            },
+            "fields/0/triangles is missing"},
         Lie{"kind_unknown", [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/0/kind", 2, 7); },
             "interfaces[0].kind[2] is 7"},
         Lie{"contact_not_a_flag",

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hdf5.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -52,6 +53,8 @@ void expect_same(const Load& a, const Load& b) {
   EXPECT_EQ(a.mass, b.mass);
   EXPECT_EQ(a.epsilon, b.epsilon);
   EXPECT_EQ(a.p, b.p);
+  EXPECT_EQ(a.weakly_active, b.weakly_active);
+  EXPECT_EQ(a.warnings, b.warnings);
   EXPECT_EQ(a.iterations, b.iterations);
   EXPECT_EQ(a.criterion, b.criterion);
   EXPECT_EQ(a.theta, b.theta);
@@ -93,6 +96,7 @@ void expect_same(const Load& a, const Load& b) {
   ASSERT_EQ(a.fields.size(), b.fields.size());
   for (std::size_t i = 0; i < a.fields.size(); ++i) {
     EXPECT_EQ(a.fields[i].nodes, b.fields[i].nodes);
+    EXPECT_EQ(a.fields[i].triangles, b.fields[i].triangles);
     EXPECT_EQ(a.fields[i].u, b.fields[i].u);
   }
 }
@@ -114,6 +118,7 @@ void expect_same(const Result& a, const Result& b) {
   EXPECT_EQ(a.mesh.subdomain, b.mesh.subdomain);
   EXPECT_EQ(a.mesh.boundary, b.mesh.boundary);
   EXPECT_EQ(a.mesh.subdomains, b.mesh.subdomains);
+  EXPECT_EQ(a.mesh.tension, b.mesh.tension);
   ASSERT_EQ(a.interfaces.size(), b.interfaces.size());
   for (std::size_t i = 0; i < a.interfaces.size(); ++i) {
     EXPECT_EQ(a.interfaces[i].name, b.interfaces[i].name);
@@ -158,6 +163,67 @@ TEST(File, holds_a_failed_load_and_an_empty_result) {
   expect_same(read(folder / "a.h5"), result);
   write(folder / "b.h5", Result{});
   expect_same(read(folder / "b.h5"), Result{});
+}
+
+/// What clients before the active set wrote.
+void take_away_later_additions(const std::string& path) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  H5Ldelete(file, "/mesh/tension", H5P_DEFAULT);
+  for (const std::string load : {"/loads/opening", "/loads/partly closed"}) {
+    for (const char* attribute : {"weakly_active", "tolerance", "kkt_tolerance"}) {
+      H5Adelete_by_name(file, load.c_str(), attribute, H5P_DEFAULT);
+    }
+    H5Ldelete(file, (load + "/warnings").c_str(), H5P_DEFAULT);
+    for (const char* triangles : {"/fields/0/triangles", "/fields/1/triangles"}) {
+      H5Ldelete(file, (load + triangles).c_str(), H5P_DEFAULT);
+    }
+  }
+  H5Fclose(file);
+}
+
+TEST(File, of_an_earlier_client_is_read) {
+  const TemporaryFolder folder;
+  Result result = sample_result(4);
+  write(folder / "a.h5", result);
+  take_away_later_additions(folder / "a.h5");
+  result.mesh.tension = {1, 1};
+  for (Load& load : result.loads) {
+    load.weakly_active = 0;
+    load.warnings.clear();
+  }
+  expect_same(read(folder / "a.h5"), result);
+}
+
+/// The upper half of the sample with one node of the interface there twice, as inside a slit.
+Result with_a_doubled_node() {
+  Result result = sample_result(4);
+  for (Load& load : result.loads) {
+    Field& field = load.fields[1];
+    field.nodes.push_back(field.nodes[4]);
+    field.u.push_back(field.u[4] + 1);
+    for (std::int32_t& corner : field.triangles) {
+      if (corner == 4) {
+        corner = static_cast<std::int32_t>(field.nodes.size()) - 1;
+        break;
+      }
+    }
+  }
+  return result;
+}
+
+TEST(File, keeps_both_faces_of_a_slit) {
+  const TemporaryFolder folder;
+  const Result result = with_a_doubled_node();
+  write(folder / "a.h5", result);
+  expect_same(read(folder / "a.h5"), result);
+}
+
+TEST(File, of_an_earlier_client_cannot_have_a_slit) {
+  const TemporaryFolder folder;
+  write(folder / "a.h5", with_a_doubled_node());
+  take_away_later_additions(folder / "a.h5");
+  EXPECT_THROW(read(folder / "a.h5"), Error);
 }
 
 TEST(File, keeps_unknown_numbers_as_nan) {

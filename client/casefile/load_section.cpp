@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "casefile/load_section.hpp"
+
+#include <optional>
+
+namespace anticrack::casefile {
+namespace {
+
+constexpr const char* force_cure =
+    "write a number, an expression in x and y in quotes, {region = number} or {file = \"f.h5\", "
+    "dataset = \"/f\", per = \"triangle\"}";
+
+// A region may be called "file" too, but its value is a number.
+bool names_a_file(const toml::table& table) {
+  const toml::node* file = table.get("file");
+  return table.contains("dataset") || table.contains("per") || (file && !file->is_number());
+}
+
+ForceFile read_force_file(const Section& section, const std::filesystem::path& folder) {
+  ForceFile file;
+  file.path = folder / section.need_text("file", "name an HDF5 file");
+  file.dataset = section.need_text("dataset", "name the dataset in the file, as \"/f\"");
+  section.need("per", "write per = \"triangle\" or per = \"node\"");
+  file.per_triangle = *section.choice("per", {"triangle", "node"}) == 0;
+  return file;
+}
+
+// Empty where the values are not in a file.
+std::optional<ForceFile> read_force(const Section& section, const std::filesystem::path& folder,
+                                    v1::Force& force) {
+  const toml::node& node = section.need("f", force_cure);
+  const toml::table* table = node.as_table();
+  if (table && names_a_file(*table)) {
+    ForceFile file = read_force_file(*section.section("f", {"file", "dataset", "per"}), folder);
+    force.mutable_array()->set_per_triangle(file.per_triangle);
+    return file;
+  }
+  if (const auto expression = node.value_exact<std::string>()) {
+    force.set_expression(*expression);
+  } else if (table) {
+    auto& values = *force.mutable_per_region()->mutable_values();
+    for (const auto& [region, value] : section.numbers("f", "write one number for each region")) {
+      values[region] = value;
+    }
+  } else {
+    force.set_constant(number_of(node, section.path_of("f"), force_cure));
+  }
+  return std::nullopt;
+}
+
+void read_point_forces(const Section& section, const std::string& field, v1::LoadCase& load,
+                       Spots& spots) {
+  const std::vector<Section> forces = section.sections("point_forces", {"at", "value"});
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const Section& force = forces[i];
+    v1::PointForce& point_force = *load.add_point_forces();
+    set(*point_force.mutable_at(),
+        point_of(force.need("at", "write [x, y], where the force acts"), force.path_of("at")));
+    force.need("value", "write the force, a number");
+    point_force.set_value(*force.number("value"));
+    const std::string entry = entry_field(field + ".point_forces", i);
+    spots[entry] = force.spot();
+    spots[entry + ".at"] = force.spot_of("at");
+    spots[entry + ".value"] = force.spot_of("value");
+  }
+}
+
+void read_inclusion_forces(const Section& section, const std::string& field, v1::LoadCase& load,
+                           Spots& spots) {
+  if (!section.find("inclusion_forces")) {
+    return;
+  }
+  spots[field + ".inclusion_forces"] = section.spot_of("inclusion_forces");
+  for (const auto& [name, value] :
+       section.numbers("inclusion_forces", "write inclusion = number for each of them")) {
+    (*load.mutable_inclusion_forces())[name] = value;
+    const toml::node& entry = *section.find("inclusion_forces")->as_table()->get(name);
+    set_entry(spots, field + ".inclusion_forces", name,
+              spot_of(entry, section.path_of("inclusion_forces") + "." + name));
+  }
+}
+
+void read_load(const Section& section, std::size_t index, Case& result) {
+  const std::string field = entry_field("load_cases", index);
+  Spots& spots = result.spots;
+  v1::LoadCase& load = *result.job.add_load_cases();
+  load.set_name(section.need_text("name", "give the load case a name"));
+  load.set_boundary_value(section.expression("boundary_value").value_or(""));
+  load.set_traction(section.expression("traction").value_or(""));
+  spots[field] = section.spot();
+  for (const char* key : {"name", "boundary_value", "traction"}) {
+    spots[field + "." + key] = section.spot_of(key);
+  }
+  read_point_forces(section, field, load, spots);
+  read_inclusion_forces(section, field, load, spots);
+
+  // A load case of nothing at all is most likely one that was forgotten.
+  const bool loaded = !load.boundary_value().empty() || !load.traction().empty() ||
+                      !load.point_forces().empty() || !load.inclusion_forces().empty();
+  if (section.find("f") || !loaded) {
+    auto file = read_force(section, result.path.parent_path(), *load.mutable_force());
+    spots[field + ".force"] = section.spot_of("f");
+    if (file) {
+      file->load_case = static_cast<int>(index);
+      result.force_files.push_back(*std::move(file));
+    }
+  }
+}
+
+}  // namespace
+
+void read_loads(const Section& root, Case& result) {
+  root.need("load", "write [[load]] with name and f for each load case");
+  const std::vector<Section> loads = root.sections(
+      "load", {"name", "f", "boundary_value", "traction", "point_forces", "inclusion_forces"});
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    read_load(loads[i], i, result);
+  }
+}
+
+}  // namespace anticrack::casefile

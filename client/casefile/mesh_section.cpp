@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "casefile/mesh_section.hpp"
+
+#include <charconv>
+
+namespace anticrack::casefile {
+namespace {
+
+constexpr const char* group_cure =
+    "write the tag of a physical group and in quotes what it is, as in curve.7 = \"crack\" or "
+    "surface.1 = \"top\"";
+
+void refuse(const Section& section, const std::vector<const char*>& keys, const char* why) {
+  for (const char* key : keys) {
+    if (section.find(key)) {
+      throw Error(section.spot_of(key), why);
+    }
+  }
+}
+
+v1::MeshPreset read_preset(const Section& section) {
+  const auto preset = section.choice("preset", {"paper", "uniform", "graded"});
+  return preset ? static_cast<v1::MeshPreset>(v1::MESH_PRESET_PAPER + static_cast<int>(*preset))
+                : v1::MESH_PRESET_GRADED;
+}
+
+void refuse_what_means_nothing(const Section& section, v1::MeshPreset preset) {
+  if (preset == v1::MESH_PRESET_PAPER) {
+    refuse(section, {"size", "tip_size", "grading", "align"},
+           "means nothing with preset \"paper\"; remove it, or write preset = \"graded\"");
+  }
+  if (preset == v1::MESH_PRESET_UNIFORM) {
+    refuse(section, {"tip_size", "grading"},
+           "means nothing with preset \"uniform\"; remove it, or write preset = \"graded\"");
+  }
+  if (section.find("file")) {
+    refuse(section, {"align"}, "means nothing with mesh.file; remove one of the two");
+  } else {
+    refuse(section, {"groups"}, "belongs to mesh.file; write file = \"x.msh\" beside it");
+    refuse(section, {"tension"},
+           "belongs to mesh.file; for a geometry write [[geometry.region]] with name, at and "
+           "tension");
+  }
+}
+
+void read_align(const Section& section, v1::MeshOptions& options, Spots& spots) {
+  const toml::node* node = section.find("align");
+  if (!node) {
+    return;
+  }
+  const std::string key = section.path_of("align");
+  spots["options.align"] = section.spot_of("align");
+  const toml::array* lines = node->as_array();
+  if (!lines) {
+    throw Error(spot_of(*node, key),
+                shown(*node) + " is no list of lines; write [[[x, y], [x, y], ...], ...]");
+  }
+  for (std::size_t i = 0; i < lines->size(); ++i) {
+    const std::string field = entry_field("options.align", i);
+    spots[field] = spot_of(*lines->get(i), entry_key(key, i));
+    add_points(*lines->get(i), entry_key(key, i), field + ".points",
+               *options.add_align()->mutable_points(), spots);
+  }
+}
+
+template <class Groups>
+void read_groups(const Section& section, const char* key, const std::string& field, Groups& groups,
+                 Spots& spots) {
+  const toml::node* node = section.find(key);
+  if (!node) {
+    return;
+  }
+  spots[field] = section.spot_of(key);
+  const toml::table* table = node->as_table();
+  if (!table) {
+    throw Error(section.spot_of(key), shown(*node) + " is no table; " + group_cure);
+  }
+  for (const auto& [name, entry] : *table) {
+    const std::string tag_text(name.str());
+    const Spot spot = spot_of(entry, section.path_of(key) + "." + tag_text);
+    std::int32_t tag = 0;
+    const char* end = tag_text.data() + tag_text.size();
+    const auto [stopped, error] = std::from_chars(tag_text.data(), end, tag);
+    if (error != std::errc() || stopped != end || tag < 1) {
+      throw Error(spot, "'" + tag_text + "' is no tag; " + group_cure);
+    }
+    const auto meaning = entry.template value_exact<std::string>();
+    if (!meaning || meaning->empty()) {
+      throw Error(spot, shown(entry) + " is no meaning of a group; " + group_cure);
+    }
+    groups[tag] = *meaning;
+    set_entry(spots, field, tag_text, spot);
+  }
+}
+
+}  // namespace
+
+v1::MeshOptions read_mesh_options(const Section& section, Spots& spots) {
+  v1::MeshOptions options;
+  options.set_preset(read_preset(section));
+  refuse_what_means_nothing(section, options.preset());
+  options.set_size(section.positive("size").value_or(0));
+  options.set_tip_size(section.positive("tip_size").value_or(0));
+  options.set_grading(section.positive("grading").value_or(0));
+  spots["options"] = section.spot();
+  for (const char* key : {"preset", "size", "tip_size", "grading"}) {
+    spots[std::string("options.") + key] = section.spot_of(key);
+  }
+  read_align(section, options, spots);
+  if (const auto groups = section.section("groups", {"curve", "surface"})) {
+    read_groups(*groups, "curve", "options.curve_groups", *options.mutable_curve_groups(), spots);
+    read_groups(*groups, "surface", "options.surface_groups", *options.mutable_surface_groups(),
+                spots);
+  }
+  if (section.find("tension")) {
+    spots["options.tension"] = section.spot_of("tension");
+  }
+  for (const auto& [name, tension] :
+       section.numbers("tension", "write subdomain = number for each of them")) {
+    (*options.mutable_tension())[name] = tension;
+    const toml::node& entry = *section.find("tension")->as_table()->get(name);
+    set_entry(spots, "options.tension", name,
+              spot_of(entry, section.path_of("tension") + "." + name));
+  }
+  return options;
+}
+
+}  // namespace anticrack::casefile

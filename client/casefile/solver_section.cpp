@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "casefile/solver_section.hpp"
+
+namespace anticrack::casefile {
+namespace {
+
+using Keys = std::vector<std::string>;
+
+const Keys uzawa_keys{"theta", "epsilon", "p", "max_iterations", "mass", "kkt_tolerance"};
+const Keys active_set_keys{"tolerance", "max_steps"};
+
+Keys all_keys() {
+  Keys keys{"method"};
+  keys.insert(keys.end(), uzawa_keys.begin(), uzawa_keys.end());
+  keys.insert(keys.end(), active_set_keys.begin(), active_set_keys.end());
+  return keys;
+}
+
+void refuse(const Section& section, const Keys& keys, const std::string& method) {
+  for (const std::string& key : keys) {
+    if (section.find(key)) {
+      throw Error(section.spot_of(key), "belongs to method \"" + method +
+                                            "\"; remove it, or write method = \"" + method + "\"");
+    }
+  }
+}
+
+void set_spots(const Section& section, const Keys& keys, const std::string& field, Spots& spots) {
+  spots[field] = section.spot_of("method");
+  for (const std::string& key : keys) {
+    if (section.find(key)) {
+      spots[field + "." + key] = section.spot_of(key);
+    }
+  }
+}
+
+void read_step(const Section& section, v1::Uzawa& uzawa) {
+  const toml::node* node = section.find("theta");
+  if (!node) {
+    return;
+  }
+  if (node->value_exact<std::string>() == "auto") {
+    uzawa.set_theta_auto(true);
+  } else {
+    uzawa.set_theta(
+        number_of(*node, section.path_of("theta"), "write a number above 0, or \"auto\""));
+  }
+}
+
+void read_uzawa(const Section& section, v1::Uzawa& uzawa, Spots& spots) {
+  refuse(section, active_set_keys, "active-set");
+  read_step(section, uzawa);
+  if (const auto epsilon = section.number("epsilon")) {
+    uzawa.set_epsilon(*epsilon);
+  }
+  if (const auto p = section.number("p")) {
+    uzawa.set_p(*p);
+  }
+  if (const auto limit = section.count("max_iterations")) {
+    uzawa.set_max_iterations(*limit);
+  }
+  if (const auto mass = section.choice("mass", {"lumped", "consistent"})) {
+    uzawa.set_mass(*mass == 0 ? v1::MASS_LUMPED : v1::MASS_CONSISTENT);
+  }
+  if (const auto tolerance = section.number("kkt_tolerance")) {
+    uzawa.set_kkt_tolerance(*tolerance);
+  }
+  set_spots(section, uzawa_keys, "solver.uzawa", spots);
+  if (uzawa.theta_auto()) {
+    spots["solver.uzawa.theta_auto"] = section.spot_of("theta");
+  }
+}
+
+void read_active_set(const Section& section, v1::ActiveSet& active_set, Spots& spots) {
+  refuse(section, uzawa_keys, "uzawa");
+  if (const auto tolerance = section.number("tolerance")) {
+    active_set.set_tolerance(*tolerance);
+  }
+  if (const auto limit = section.count("max_steps")) {
+    active_set.set_max_steps(*limit);
+  }
+  set_spots(section, active_set_keys, "solver.active_set", spots);
+}
+
+}  // namespace
+
+v1::Solver read_solver(const Section& root, Spots& spots) {
+  v1::Solver solver;
+  const auto section = root.section("solver", all_keys());
+  if (!section) {
+    solver.mutable_active_set();
+    return solver;
+  }
+  spots["solver"] = section->spot();
+  const auto method = section->choice("method", {"active-set", "uzawa"});
+  if (method) {
+    spots["solver.method"] = section->spot_of("method");
+  }
+  if (method.value_or(0) == 0) {
+    read_active_set(*section, *solver.mutable_active_set(), spots);
+  } else {
+    read_uzawa(*section, *solver.mutable_uzawa(), spots);
+  }
+  return solver;
+}
+
+}  // namespace anticrack::casefile

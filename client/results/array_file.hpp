@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace anticrack::results {
+
+/// A one-dimensional float64 dataset of any HDF5 file, in the byte order of this machine; `dataset`
+/// is its path, as "/f" or "/loads/f". Throws Error for what is no HDF5, for another type or shape,
+/// for no values, and for one that is not finite. Follows hard links only, and takes memory for no
+/// more than the file can hold.
+std::vector<double> read_array(const std::filesystem::path& file, const std::string& dataset);
+
+}  // namespace anticrack::results

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/array_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <fstream>
+#include <limits>
+
+#include "results/error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace anticrack::results {
+namespace {
+
+using anticrack::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+
+void put(hid_t parent, const char* name, hid_t type, const std::vector<hsize_t>& shape,
+         const std::vector<double>& values) {
+  const hid_t space = H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
+  const hid_t set = H5Dcreate2(parent, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  if (!values.empty()) {
+    H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  }
+  H5Dclose(set);
+  H5Sclose(space);
+}
+
+class ArrayFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    ASSERT_GE(file, 0);
+    put(file, "f", H5T_IEEE_F64LE, {3}, {1, -2.5, 3});
+    put(file, "big", H5T_IEEE_F64BE, {2}, {1.5, 2});
+    put(file, "single", H5T_IEEE_F32LE, {2}, {1, 2});
+    put(file, "whole", H5T_STD_I32LE, {2}, {1, 2});
+    put(file, "plane", H5T_IEEE_F64LE, {2, 2}, {1, 2, 3, 4});
+    put(file, "none", H5T_IEEE_F64LE, {0}, {});
+    put(file, "nan", H5T_IEEE_F64LE, {2}, {1, std::numeric_limits<double>::quiet_NaN()});
+    put(file, "huge", H5T_IEEE_F64LE, {hsize_t{1} << 45}, {});
+    const hid_t group = H5Gcreate2(file, "a", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    put(group, "f", H5T_IEEE_F64LE, {1}, {7});
+    H5Lcreate_external("other.h5", "/f", group, "link", H5P_DEFAULT, H5P_DEFAULT);
+    H5Gclose(group);
+    H5Fclose(file);
+  }
+
+  std::string complaint(const std::string& dataset) const {
+    try {
+      read_array(path, dataset);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  const TemporaryFolder folder;
+  const std::string path = folder / "f.h5";
+};
+
+TEST_F(ArrayFile, gives_the_values) {
+  EXPECT_EQ(read_array(path, "/f"), (std::vector<double>{1, -2.5, 3}));
+  EXPECT_EQ(read_array(path, "f"), (std::vector<double>{1, -2.5, 3}));
+  EXPECT_EQ(read_array(path, "/a/f"), std::vector<double>{7});
+  EXPECT_EQ(read_array(path, "big"), (std::vector<double>{1.5, 2}));
+}
+
+TEST_F(ArrayFile, refuses_what_is_no_list_of_finite_numbers) {
+  EXPECT_THAT(complaint("/single"), HasSubstr("single is not float64"));
+  EXPECT_THAT(complaint("/whole"), HasSubstr("whole is not float64"));
+  EXPECT_THAT(complaint("/plane"), HasSubstr("plane is not of shape (n)"));
+  EXPECT_THAT(complaint("/none"), HasSubstr("/none has no values"));
+  EXPECT_THAT(complaint("/nan"), HasSubstr("value 1 of dataset /nan is not finite"));
+  EXPECT_THAT(complaint("/huge"), HasSubstr("more than the file can hold"));
+  EXPECT_THAT(complaint("/g"), HasSubstr("\"g\" is missing"));
+  EXPECT_THAT(complaint("/b/f"), HasSubstr("\"b\" is missing"));
+  EXPECT_THAT(complaint("/a"), HasSubstr("a is damaged"));
+  EXPECT_THAT(complaint("/a/link"), HasSubstr("is a link, not data"));
+  EXPECT_THAT(complaint("/"), HasSubstr("names no dataset"));
+}
+
+TEST_F(ArrayFile, refuses_what_is_no_file) {
+  std::ofstream(folder / "text.h5") << "not HDF5";
+  EXPECT_THROW(read_array(folder / "text.h5", "/f"), Error);
+  EXPECT_THROW(read_array(folder / "missing.h5", "/f"), Error);
+  EXPECT_THROW(read_array(folder.path(), "/f"), Error);
+}
+
+}  // namespace
+}  // namespace anticrack::results
