@@ -165,6 +165,7 @@ Mesh Bisection::finish() && {
   }
   mesh.subdomain = std::move(_subdomain);
   mesh.subdomains = _base.subdomains;
+  mesh.tension = _base.tension;
   mesh.inclusions = _base.inclusions;
   mesh.interfaces = _base.interfaces;
   mesh.dirichlet = _base.dirichlet;

@@ -1,144 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/codec.hpp"
 
-#include <bit>
 #include <cstdint>
-#include <cstring>
+#include <cstdlib>
+#include <map>
 #include <string_view>
-#include <type_traits>
 #include <utility>
+
+#include "mesh/codec_bytes.hpp"
 
 namespace anticrack::mesh {
 namespace {
 
-static_assert(std::endian::native == std::endian::little,
-              "numbers are copied as they lie in memory");
-
 // The first eight bytes say what follows and in which version of the format.
-constexpr std::string_view mesh_tag = "ACMESH1\n";
-constexpr std::string_view request_tag = "ACMREQ1\n";
-constexpr std::string_view reply_tag = "ACMREP1\n";
-
-class Writer {
- public:
-  explicit Writer(std::string_view tag) { raw(tag.data(), tag.size()); }
-
-  template <class T>
-  void number(T value) {
-    static_assert(std::is_arithmetic_v<T>);
-    // -0.0 equals 0.0, so it must not give other bytes
-    if constexpr (std::is_floating_point_v<T>) value += T{0};
-    raw(&value, sizeof value);
-  }
-  void count(std::size_t n) { number(static_cast<std::uint64_t>(n)); }
-  void text(const std::string& value) {
-    count(value.size());
-    raw(value.data(), value.size());
-  }
-  template <class Range, class Write>
-  void list(const Range& range, Write write) {
-    count(range.size());
-    for (const auto& item : range) write(item);
-  }
-  template <class T>
-  void numbers(const std::vector<T>& values) {
-    _bytes.reserve(_bytes.size() + 8 + values.size() * sizeof(T));
-    list(values, [this](T value) { number(value); });
-  }
-  void texts(const std::vector<std::string>& values) {
-    list(values, [this](const std::string& value) { text(value); });
-  }
-
-  Bytes take() { return std::move(_bytes); }
-
- private:
-  void raw(const void* data, std::size_t size) {
-    const auto* first = static_cast<const std::byte*>(data);
-    _bytes.insert(_bytes.end(), first, first + size);
-  }
-
-  Bytes _bytes;
-};
-
-class Reader {
- public:
-  Reader(std::span<const std::byte> bytes, std::string_view tag) : _bytes(bytes) {
-    if (left() < tag.size() || std::memcmp(_bytes.data(), tag.data(), tag.size()) != 0) {
-      fail("they do not begin with the tag " + std::string(tag.substr(0, tag.size() - 1)));
-    }
-    _at = tag.size();
-  }
-
-  template <class T>
-  T number() {
-    static_assert(std::is_arithmetic_v<T>);
-    need(sizeof(T));
-    T value;
-    std::memcpy(&value, _bytes.data() + _at, sizeof value);
-    _at += sizeof value;
-    return value;
-  }
-  /// The length of a list whose items take at least `item_bytes` each; what is left bounds it.
-  std::size_t count(std::size_t item_bytes) {
-    const auto n = number<std::uint64_t>();
-    if (n > left() / item_bytes) {
-      fail("a list of " + std::to_string(n) + " items begins at byte " + std::to_string(_at) +
-           " of " + std::to_string(_bytes.size()));
-    }
-    return static_cast<std::size_t>(n);
-  }
-  std::string text() {
-    const std::size_t n = count(1);
-    std::string value(n, '\0');
-    if (n > 0) std::memcpy(value.data(), _bytes.data() + _at, n);
-    _at += n;
-    return value;
-  }
-  template <class T>
-  std::vector<T> numbers() {
-    const std::size_t n = count(sizeof(T));
-    std::vector<T> values(n);
-    if (n > 0) std::memcpy(values.data(), _bytes.data() + _at, n * sizeof(T));
-    _at += n * sizeof(T);
-    return values;
-  }
-  template <class Read>
-  auto list(std::size_t item_bytes, Read read) {
-    std::vector<decltype(read())> items;
-    const std::size_t n = count(item_bytes);
-    for (std::size_t i = 0; i < n; ++i) items.push_back(read());
-    return items;
-  }
-  std::vector<std::string> texts() {
-    return list(8, [this] { return text(); });
-  }
-  /// A number from `first` to `last`.
-  std::int32_t choice(std::int32_t first, std::int32_t last, const char* what) {
-    const auto value = number<std::int32_t>();
-    if (value < first || value > last) {
-      fail(std::string(what) + " is " + std::to_string(value) + "; it is " + std::to_string(first) +
-           " to " + std::to_string(last));
-    }
-    return value;
-  }
-  void end() const {
-    if (left() > 0) fail(std::to_string(left()) + " bytes are left over");
-  }
-
- private:
-  std::size_t left() const noexcept { return _bytes.size() - _at; }
-  void need(std::size_t n) const {
-    if (left() < n) fail("they end at byte " + std::to_string(_bytes.size()) + ", too early");
-  }
-  [[noreturn]] static void fail(const std::string& why) {
-    throw errors::Error(errors::Reason::mesh_invalid, "these bytes cannot be decoded: " + why);
-  }
-
-  std::span<const std::byte> _bytes;
-  std::size_t _at = 0;
-};
+constexpr std::string_view mesh_tag = "ACMESH2\n";
+constexpr std::string_view request_tag = "ACMREQ2\n";
+constexpr std::string_view reply_tag = "ACMREP2\n";
 
 constexpr auto last_kind = static_cast<std::int32_t>(Kind::delaminated);
+constexpr auto last_role = static_cast<std::int32_t>(Role::align);
+constexpr auto last_preset = static_cast<std::int32_t>(Preset::uniform);
 constexpr auto last_reason = static_cast<std::int32_t>(errors::Reason::internal);
 
 void put(Writer& out, const Mesh& mesh) {
@@ -146,6 +27,9 @@ void put(Writer& out, const Mesh& mesh) {
   out.numbers(mesh.triangles);
   out.numbers(mesh.subdomain);
   out.texts(mesh.subdomains);
+  // no tension at all means 1 everywhere
+  out.numbers(mesh.tension.empty() ? std::vector<double>(mesh.subdomains.size(), 1.0)
+                                   : mesh.tension);
   out.texts(mesh.inclusions);
   out.list(mesh.interfaces, [&](const Interface& interface) {
     out.text(interface.name);
@@ -169,6 +53,7 @@ Mesh get_mesh(Reader& in) {
   mesh.triangles = in.numbers<std::int32_t>();
   mesh.subdomain = in.numbers<std::int32_t>();
   mesh.subdomains = in.texts();
+  mesh.tension = in.numbers<double>();
   mesh.inclusions = in.texts();
   mesh.interfaces = in.list(32, [&] {
     Interface interface;
@@ -186,57 +71,181 @@ Mesh get_mesh(Reader& in) {
   return mesh;
 }
 
+void put(Writer& out, const Point& point) {
+  out.number(point[0]);
+  out.number(point[1]);
+}
+
+Point get_point(Reader& in) {
+  const auto x = in.number<double>();
+  const auto y = in.number<double>();
+  return {x, y};
+}
+
 void put(Writer& out, const PlannedCurve& curve) {
   out.number(static_cast<std::int32_t>(curve.a));
   out.number(static_cast<std::int32_t>(curve.b));
   out.number(static_cast<std::int32_t>(curve.intervals));
+  out.number(static_cast<std::int32_t>(curve.role));
+  out.number(static_cast<std::int32_t>(curve.left));
+  out.number(static_cast<std::int32_t>(curve.right));
+  out.number(static_cast<std::int32_t>(curve.kind));
+  out.number(static_cast<std::int32_t>(curve.inclusion));
 }
 
-template <class Curve>
-Curve get_curve(Reader& in) {
-  Curve curve;
+PlannedCurve get_curve(Reader& in) {
+  PlannedCurve curve;
   curve.a = in.number<std::int32_t>();
   curve.b = in.number<std::int32_t>();
   curve.intervals = in.number<std::int32_t>();
+  curve.role = static_cast<Role>(in.choice(0, last_role, "a curve's role"));
+  curve.left = in.number<std::int32_t>();
+  curve.right = in.number<std::int32_t>();
+  curve.kind = get_kind(in);
+  curve.inclusion = in.number<std::int32_t>();
   return curve;
 }
 
+void put(Writer& out, const PlannedFace& face) {
+  out.text(face.name);
+  out.number(face.tension);
+  out.numbers(face.outer);
+  out.list(face.holes, [&](const std::vector<int>& hole) { out.numbers(hole); });
+  out.numbers(face.embedded);
+}
+
+PlannedFace get_face(Reader& in) {
+  PlannedFace face;
+  face.name = in.text();
+  face.tension = in.number<double>();
+  face.outer = in.numbers<int>();
+  face.holes = in.list(8, [&] { return in.numbers<int>(); });
+  face.embedded = in.numbers<int>();
+  return face;
+}
+
 void put(Writer& out, const Plan& plan) {
-  out.list(plan.points, [&](const Point& point) {
-    out.number(point[0]);
-    out.number(point[1]);
+  out.list(plan.points, [&](const Point& point) { put(out, point); });
+  out.list(plan.curves, [&](const PlannedCurve& curve) { put(out, curve); });
+  out.list(plan.interfaces, [&](const PlannedInterface& interface) {
+    out.text(interface.name);
+    out.numbers(interface.curves);
   });
-  for (const auto& curves : plan.outer) {
-    out.list(curves, [&](const PlannedCurve& curve) { put(out, curve); });
-  }
-  out.list(plan.interface, [&](const PlannedInterfaceCurve& curve) {
-    put(out, static_cast<const PlannedCurve&>(curve));
-    out.number(static_cast<std::int32_t>(curve.kind));
-    out.number(static_cast<std::int32_t>(curve.inclusion));
-  });
+  out.list(plan.faces, [&](const PlannedFace& face) { put(out, face); });
   out.texts(plan.inclusions);
   out.number(plan.growth);
+  out.number(plan.grading.h0);
+  out.number(plan.grading.m);
+  out.number(plan.grading.tip_size);
+}
+
+/// A place in an array of `size` items.
+void check_index(int index, std::size_t size, const char* what) {
+  if (index >= 0 && static_cast<std::size_t>(index) < size) return;
+  Reader::fail(std::string(what) + " has the number " + std::to_string(index) + " of " +
+               std::to_string(size));
+}
+
+/// The mesher walks these numbers without looking.
+void check_indices(const Plan& plan) {
+  for (const PlannedCurve& curve : plan.curves) {
+    check_index(curve.a, plan.points.size(), "a point");
+    check_index(curve.b, plan.points.size(), "a point");
+    for (const int face : {curve.left, curve.right}) {
+      if (face != -1) check_index(face, plan.faces.size(), "a face");
+    }
+    if (curve.inclusion != -1) check_index(curve.inclusion, plan.inclusions.size(), "an inclusion");
+  }
+  const auto check_curves = [&](const std::vector<int>& curves) {
+    for (const int curve : curves) check_index(curve, plan.curves.size(), "a curve");
+  };
+  const auto check_loop = [&](const std::vector<int>& loop) {
+    const auto n = static_cast<std::int64_t>(plan.curves.size());
+    for (const int signed_curve : loop) {
+      if (signed_curve == 0 || std::abs(std::int64_t{signed_curve}) > n) {
+        Reader::fail("a loop names curve " + std::to_string(signed_curve) + " of " +
+                     std::to_string(n));
+      }
+    }
+  };
+  for (const PlannedInterface& interface : plan.interfaces) check_curves(interface.curves);
+  for (const PlannedFace& face : plan.faces) {
+    check_loop(face.outer);
+    for (const std::vector<int>& hole : face.holes) check_loop(hole);
+    check_curves(face.embedded);
+  }
 }
 
 Plan get_plan(Reader& in) {
   Plan plan;
-  plan.points = in.list(16, [&] {
-    const auto x = in.number<double>();
-    const auto y = in.number<double>();
-    return Point{x, y};
+  plan.points = in.list(16, [&] { return get_point(in); });
+  plan.curves = in.list(32, [&] { return get_curve(in); });
+  plan.interfaces = in.list(16, [&] {
+    PlannedInterface interface;
+    interface.name = in.text();
+    interface.curves = in.numbers<int>();
+    return interface;
   });
-  for (auto& curves : plan.outer) {
-    curves = in.list(12, [&] { return get_curve<PlannedCurve>(in); });
-  }
-  plan.interface = in.list(20, [&] {
-    auto curve = get_curve<PlannedInterfaceCurve>(in);
-    curve.kind = get_kind(in);
-    curve.inclusion = in.number<std::int32_t>();
-    return curve;
-  });
+  plan.faces = in.list(40, [&] { return get_face(in); });
   plan.inclusions = in.texts();
   plan.growth = in.number<double>();
+  plan.grading.h0 = in.number<double>();
+  plan.grading.m = in.number<double>();
+  plan.grading.tip_size = in.number<double>();
+  check_indices(plan);
   return plan;
+}
+
+template <class Map, class Write>
+void put_map(Writer& out, const Map& map, Write write) {
+  out.list(map, [&](const auto& entry) { write(entry.first, entry.second); });
+}
+
+void put(Writer& out, const MeshOptions& options) {
+  out.number(static_cast<std::int32_t>(options.preset));
+  out.number(options.size);
+  out.number(options.tip_size);
+  out.number(options.grading);
+  out.list(options.align, [&](const std::vector<Point>& line) {
+    out.list(line, [&](const Point& point) { put(out, point); });
+  });
+  const auto group = [&](std::int32_t tag, const std::string& name) {
+    out.number(tag);
+    out.text(name);
+  };
+  put_map(out, options.curve_groups, group);
+  put_map(out, options.surface_groups, group);
+  put_map(out, options.tension, [&](const std::string& name, double tension) {
+    out.text(name);
+    out.number(tension);
+  });
+}
+
+std::map<std::int32_t, std::string> get_groups(Reader& in) {
+  std::map<std::int32_t, std::string> groups;
+  const std::size_t n = in.count(12);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto tag = in.number<std::int32_t>();
+    groups[tag] = in.text();
+  }
+  return groups;
+}
+
+MeshOptions get_options(Reader& in) {
+  MeshOptions options;
+  options.preset = static_cast<Preset>(in.choice(0, last_preset, "the preset"));
+  options.size = in.number<double>();
+  options.tip_size = in.number<double>();
+  options.grading = in.number<double>();
+  options.align = in.list(8, [&] { return in.list(16, [&] { return get_point(in); }); });
+  options.curve_groups = get_groups(in);
+  options.surface_groups = get_groups(in);
+  const std::size_t n = in.count(16);
+  for (std::size_t i = 0; i < n; ++i) {
+    std::string name = in.text();
+    options.tension[std::move(name)] = in.number<double>();
+  }
+  return options;
 }
 
 /// The description of every field violation is the message itself (errors::Error::at), so the
@@ -289,6 +298,7 @@ Bytes encode(const MesherRequest& request) {
   } else {
     const auto& import = std::get<ImportRequest>(request);
     out.text(import.path);
+    put(out, import.options);
     out.count(import.max_triangles);
   }
   return out.take();
@@ -305,6 +315,7 @@ MesherRequest decode_request(std::span<const std::byte> bytes) {
   } else {
     ImportRequest import;
     import.path = in.text();
+    import.options = get_options(in);
     import.max_triangles = in.number<std::uint64_t>();
     request = std::move(import);
   }
@@ -318,6 +329,7 @@ Bytes encode(const MesherReply& reply) {
   if (const auto* mesh = std::get_if<Mesh>(&reply)) {
     put(out, *mesh);
     out.texts(mesh->warnings);
+    out.number(mesh->bisection_bound);
   } else {
     put(out, std::get<errors::Error>(reply));
   }
@@ -333,6 +345,7 @@ MesherReply decode_reply(std::span<const std::byte> bytes) {
   }
   Mesh mesh = get_mesh(in);
   mesh.warnings = in.texts();
+  mesh.bisection_bound = in.number<double>();
   in.end();
   return mesh;
 }

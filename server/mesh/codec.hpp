@@ -41,7 +41,7 @@ using MesherReply = std::variant<Mesh, errors::Error>;
 
 Bytes encode(const MesherRequest& request);
 MesherRequest decode_request(std::span<const std::byte> bytes);
-/// The reply carries the mesh's warnings as well.
+/// The reply carries the mesh's warnings and its bisection bound as well.
 Bytes encode(const MesherReply& reply);
 MesherReply decode_reply(std::span<const std::byte> bytes);
 

@@ -30,12 +30,16 @@ int add_point(Plan& plan, const Point& p) {
   return static_cast<int>(plan.points.size()) - 1;
 }
 
-void add_interface(Plan& plan, const InterfaceLayout& layout) {
+void add_interface(Plan& plan, const InterfaceLayout& layout, const std::string& name) {
   int before = add_point(plan, layout.stations.front().point);
   std::size_t next = 0;  // the first stretch that does not end before the curve
+  PlannedInterface chain{name, {}};
   for (std::size_t i = 1; i < layout.stations.size(); ++i) {
     const double middle = (layout.stations[i - 1].s + layout.stations[i].s) / 2;
-    PlannedInterfaceCurve curve;
+    PlannedCurve curve;
+    curve.role = Role::interface;
+    curve.left = 1;
+    curve.right = 0;
     curve.a = before;
     curve.b = before = add_point(plan, layout.stations[i].point);
     while (next < layout.stretches.size() && layout.stretches[next].end < middle) ++next;
@@ -43,36 +47,47 @@ void add_interface(Plan& plan, const InterfaceLayout& layout) {
       curve.kind = layout.stretches[next].kind;
       curve.inclusion = layout.stretches[next].inclusion;
     }
-    plan.interface.push_back(curve);
+    chain.curves.push_back(static_cast<int>(plan.curves.size()));
+    plan.curves.push_back(curve);
   }
+  plan.interfaces.push_back(std::move(chain));
 }
 
 void add_outer(Plan& plan, const Outline& outline) {
-  const int start = plan.interface.front().a;
-  const int end = plan.interface.back().b;
-  const auto walk = [&](int first, const BoundaryPlace& from, int last, const BoundaryPlace& to) {
-    std::vector<PlannedCurve> curves;
+  const std::vector<int> chain = plan.interfaces.front().curves;
+  const int start = plan.curves[static_cast<std::size_t>(chain.front())].a;
+  const int end = plan.curves[static_cast<std::size_t>(chain.back())].b;
+  plan.faces.resize(2);
+  plan.faces[0].name = "omega1";
+  plan.faces[1].name = "omega2";
+  const auto walk = [&](int face, int first, const BoundaryPlace& from, int last,
+                        const BoundaryPlace& to) {
     int before = first;
+    const auto add = [&](int next) {
+      PlannedCurve curve;
+      curve.a = before;
+      curve.b = before = next;
+      curve.left = face;
+      plan.curves.push_back(curve);
+      plan.faces[static_cast<std::size_t>(face)].outer.push_back(
+          static_cast<int>(plan.curves.size()));
+    };
     for (const std::size_t v : vertices_between(from, to, outline.boundary.size())) {
-      const int vertex = add_point(plan, outline.boundary[v]);
-      curves.push_back({before, vertex, 1});
-      before = vertex;
+      add(add_point(plan, outline.boundary[v]));
     }
-    curves.push_back({before, last, 1});
-    return curves;
+    add(last);
   };
   // The minus side lies right of the interface: counterclockwise around it, the outer boundary runs
   // from the interface's start to its end.
-  plan.outer[0] = walk(start, outline.start, end, outline.end);
-  plan.outer[1] = walk(end, outline.end, start, outline.start);
+  walk(0, start, outline.start, end, outline.end);
+  walk(1, end, outline.end, start, outline.start);
+  for (const int curve : chain) plan.faces[1].outer.push_back(curve + 1);
+  for (auto c = chain.rbegin(); c != chain.rend(); ++c) plan.faces[0].outer.push_back(-*c - 1);
 }
 
 /// Calls `visit` for each curve of the plan.
 void each_curve(Plan& plan, const std::function<void(PlannedCurve&)>& visit) {
-  for (PlannedCurve& curve : plan.interface) visit(curve);
-  for (auto& outer : plan.outer) {
-    for (PlannedCurve& curve : outer) visit(curve);
-  }
+  for (PlannedCurve& curve : plan.curves) visit(curve);
 }
 
 void share(const Plan& plan, const std::vector<PlannedCurve*>& curves) {
@@ -87,17 +102,17 @@ void share(const Plan& plan, const std::vector<PlannedCurve*>& curves) {
 void set_paper_intervals(Plan& plan) {
   std::vector<PlannedCurve*> glue;
   std::vector<PlannedCurve*> rest;
-  for (PlannedInterfaceCurve& curve : plan.interface) {
-    (curve.kind == Kind::glue ? glue : rest).push_back(&curve);
+  std::array<std::vector<PlannedCurve*>, 2> outer;
+  for (PlannedCurve& curve : plan.curves) {
+    if (curve.role == Role::interface) {
+      (curve.kind == Kind::glue ? glue : rest).push_back(&curve);
+    } else {
+      outer[static_cast<std::size_t>(curve.left)].push_back(&curve);
+    }
   }
   share(plan, glue);
   share(plan, rest);
-  for (auto& outer : plan.outer) {
-    std::vector<PlannedCurve*> curves;
-    curves.reserve(outer.size());
-    for (PlannedCurve& curve : outer) curves.push_back(&curve);
-    share(plan, curves);
-  }
+  for (const auto& curves : outer) share(plan, curves);
 }
 
 double uniform_pieces(const Plan& plan, const PlannedCurve& curve, double size) {
@@ -153,14 +168,17 @@ Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_
   const Outline outline = check_outline(geometry);
   const InterfaceLayout layout = lay_out(geometry);
   Plan plan;
-  add_interface(plan, layout);
+  add_interface(plan, layout, geometry.interfaces.front().name);
   add_outer(plan, outline);
   for (const InclusionSpec& inclusion : geometry.inclusions) {
     plan.inclusions.push_back(inclusion.name);
   }
   const double area = std::abs(signed_area(outline.boundary));
-  if (options.preset == Preset::uniform) {
-    const double size = options.size > 0 ? options.size : diagonal(outline.boundary) / 50;
+  if (options.preset != Preset::paper) {
+    const bool graded = options.preset == Preset::graded;
+    const double size =
+        options.size > 0 ? options.size : diagonal(outline.boundary) / (graded ? 22 : 50);
+    if (graded) plan.grading = {size, options.grading, options.tip_size};
     set_uniform_intervals(plan, size, area, max_triangles);
     return plan;
   }
@@ -175,6 +193,10 @@ Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_
   refuse_too_many(expected_triangles(area, longest, pieces), max_triangles, "preset paper",
                   "options.preset");
   return plan;
+}
+
+void check_for_upload(const MeshOptions& options) {
+  check_options(options);
 }
 
 }  // namespace anticrack::mesh

@@ -208,13 +208,14 @@ void check_point(const Point& p, const std::string& field) {
 }
 
 Outline check_outline(const Geometry& geometry) {
+  if (geometry.interfaces.size() != 1) refuse("interfaces", "one interface is taken");
   Outline outline;
   outline.tolerance = check_boundary(geometry.boundary);
   outline.boundary = geometry.boundary;
   if (signed_area(outline.boundary) < 0) {
     std::reverse(outline.boundary.begin(), outline.boundary.end());
   }
-  const std::vector<Point>& line = geometry.interface;
+  const std::vector<Point>& line = geometry.interfaces.front().points;
   if (line.size() < 2) {
     refuse("interface", "interface has ", line.size(), " vertices; a polyline takes at least 2");
   }

@@ -204,10 +204,10 @@ InterfaceLayout lay_out(const Geometry& geometry) {
   check_count(geometry.inclusions.size(), "inclusions");
   check_count(geometry.cracks.size(), "cracks");
   check_names(geometry);
-  const Line line = measure(geometry.interface);
+  const Line line = measure(geometry.interfaces.front().points);
   InterfaceLayout layout;
-  for (std::size_t i = 0; i < geometry.interface.size(); ++i) {
-    layout.stations.push_back({line.s[i], geometry.interface[i]});
+  for (std::size_t i = 0; i < geometry.interfaces.front().points.size(); ++i) {
+    layout.stations.push_back({line.s[i], geometry.interfaces.front().points[i]});
   }
   std::vector<PlacedPart> placed;
   const auto add = [&](const Part& part, const std::string& owner) {

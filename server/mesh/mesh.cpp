@@ -99,6 +99,19 @@ void check_triangles(const Mesh& mesh) {
   }
 }
 
+void check_tension(const Mesh& mesh) {
+  if (!mesh.tension.empty() && mesh.tension.size() != mesh.subdomains.size()) {
+    fail("tension has ", mesh.tension.size(), " entries for ", mesh.subdomains.size(),
+         " subdomains; it takes one each, or none at all");
+  }
+  for (std::size_t s = 0; s < mesh.tension.size(); ++s) {
+    if (!(mesh.tension[s] > 0) || !std::isfinite(mesh.tension[s])) {
+      fail("tension of subdomain ", s, " (\"", mesh.subdomains[s], "\") is ", mesh.tension[s],
+           "; it takes a finite number above 0");
+    }
+  }
+}
+
 bool needs_inclusion(Kind kind) noexcept {
   return kind == Kind::inclusion || kind == Kind::delaminated;
 }
@@ -149,13 +162,14 @@ std::vector<EdgeKey> check_interfaces(const Mesh& mesh, const EdgeTable& edges) 
       const auto uses = edges.find(a, b);
       if (uses.size() != 2) {
         fail(where_edge(mesh, a, b), " of interface \"", interface.name, "\" belongs to ",
-             uses.size(), " triangles; it takes two, of different subdomains");
+             uses.size(), " triangles; it takes one on each side");
       }
       const auto left = mesh.subdomain[static_cast<std::size_t>(uses[0].triangle)];
       const auto right = mesh.subdomain[static_cast<std::size_t>(uses[1].triangle)];
-      if (left == right) {
-        fail(where_edge(mesh, a, b), " of interface \"", interface.name, "\" has subdomain ", left,
-             " on both sides");
+      if (left == right && interface.kind[i] == Kind::glue) {
+        fail(where_edge(mesh, a, b), " of interface \"", interface.name,
+             "\" is glue and has subdomain ", left,
+             " on both sides; inside one subdomain only a crack or an inclusion is an interface");
       }
       seen.push_back(key(a, b));
     }
@@ -265,6 +279,7 @@ void validate(const Mesh& mesh) {
   check_shapes(mesh);
   check_nodes(mesh);
   check_triangles(mesh);
+  check_tension(mesh);
   const EdgeTable edges(mesh.triangles);
   check_edges(mesh, edges, check_interfaces(mesh, edges));
   check_boundary(mesh, edges);

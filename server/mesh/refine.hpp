@@ -10,7 +10,7 @@
 //   follow;
 //   - a new node is the midpoint 0.5 (a + b) of an edge, so dyadic coordinates stay exact;
 //   - triangles inherit the subdomain, pieces of interface and dirichlet edges their edge's kind,
-//     inclusion, direction and place in the chain; names and warnings are copied;
+//     inclusion, direction and place in the chain; names, tension and warnings are copied;
 //   - equal input gives equal bits.
 //
 // Source: R. Stevenson, The completion of locally refined simplicial partitions created by

@@ -5,14 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <new>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "errors/errors.hpp"
+#include "mesh/edges.hpp"
+#include "mesher/frame.hpp"
 #include "mesher/size_field.hpp"
 
 namespace anticrack::mesher {
@@ -37,82 +41,65 @@ struct GmshSession {
   GmshSession& operator=(const GmshSession&) = delete;
 };
 
-/// To a box of about (-1,1)^2, where gmsh's absolute tolerances fit. The factor is a power of two,
-/// so it rounds nothing; the square of the paper stays as it is.
-class Frame {
- public:
-  explicit Frame(const std::vector<Point>& points) {
-    Point low = points.at(0);
-    Point high = low;
-    for (const Point& p : points) {
-      for (std::size_t i = 0; i < 2; ++i) {
-        low[i] = std::min(low[i], p[i]);
-        high[i] = std::max(high[i], p[i]);
-      }
-    }
-    for (std::size_t i = 0; i < 2; ++i) _centre[i] = low[i] + (high[i] - low[i]) / 2;
-    const double extent = std::max(high[0] - low[0], high[1] - low[1]);
-    _exponent = static_cast<int>(std::lround(std::log2(extent / 2)));
-  }
-  Point to_gmsh(const Point& p) const {
-    return {std::ldexp(p[0] - _centre[0], -_exponent), std::ldexp(p[1] - _centre[1], -_exponent)};
-  }
-  Point from_gmsh(double x, double y) const {
-    return {std::ldexp(x, _exponent) + _centre[0], std::ldexp(y, _exponent) + _centre[1]};
-  }
+/// gmsh's tags are the plan's indices + 1: of points, curves and faces.
+int tag_of(std::size_t index) {
+  return static_cast<int>(index) + 1;
+}
 
- private:
-  Point _centre{};
-  int _exponent = 0;
-};
+/// gmsh's mesh depends on where a loop begins: always where its first interface does, so that it
+/// does not depend on which vertex of the boundary the user wrote first.
+std::vector<int> begun_at_interface(const Plan& plan, std::vector<int> loop) {
+  const auto on_interface = [&](int curve) {
+    return plan.curves[static_cast<std::size_t>(std::abs(curve)) - 1].role == mesh::Role::interface;
+  };
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    if (!on_interface(loop[i]) || on_interface(loop[(i + loop.size() - 1) % loop.size()])) continue;
+    std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(i), loop.end());
+    break;
+  }
+  return loop;
+}
 
-/// gmsh's tags are indices + 1: points as in the plan; curves of the interface first, then the
-/// outer ones of subdomain 0 and 1; surfaces as subdomains.
-int first_outer_tag(const Plan& plan, std::size_t subdomain) {
-  const std::size_t before = plan.interface.size() + (subdomain == 1 ? plan.outer[0].size() : 0);
-  return static_cast<int>(before) + 1;
+void add_face(const Plan& plan, const mesh::PlannedFace& face, int tag, int& loops) {
+  std::vector<int> bounds;
+  const auto add_loop = [&](const std::vector<int>& curves) {
+    bounds.push_back(++loops);
+    gmsh::model::geo::addCurveLoop(begun_at_interface(plan, curves), loops);
+  };
+  add_loop(face.outer);
+  for (const auto& hole : face.holes) add_loop(hole);
+  gmsh::model::geo::addPlaneSurface(bounds, tag);
 }
 
 void build_model(const Plan& plan, const Frame& frame) {
   for (std::size_t i = 0; i < plan.points.size(); ++i) {
     const Point p = frame.to_gmsh(plan.points[i]);
-    gmsh::model::geo::addPoint(p[0], p[1], 0, 0, static_cast<int>(i) + 1);
+    gmsh::model::geo::addPoint(p[0], p[1], 0, 0, tag_of(i));
   }
-  const auto add_line = [](const PlannedCurve& curve, int tag) {
-    gmsh::model::geo::addLine(curve.a + 1, curve.b + 1, tag);
-    gmsh::model::geo::mesh::setTransfiniteCurve(tag, curve.intervals + 1);
-  };
-  int tag = 1;
-  for (const auto& curve : plan.interface) add_line(curve, tag++);
-  for (const auto& outer : plan.outer) {
-    for (const PlannedCurve& curve : outer) add_line(curve, tag++);
+  for (std::size_t i = 0; i < plan.curves.size(); ++i) {
+    const PlannedCurve& curve = plan.curves[i];
+    gmsh::model::geo::addLine(curve.a + 1, curve.b + 1, tag_of(i));
+    gmsh::model::geo::mesh::setTransfiniteCurve(tag_of(i), curve.intervals + 1);
   }
-  const auto interface_curves = static_cast<int>(plan.interface.size());
-  for (std::size_t side = 0; side < 2; ++side) {
-    std::vector<int> loop;
-    // counterclockwise: the minus side has the interface backwards
-    for (int i = 1; i <= interface_curves; ++i) {
-      loop.push_back(side == 1 ? i : -(interface_curves + 1 - i));
-    }
-    const int first = first_outer_tag(plan, side);
-    for (int i = 0; i < static_cast<int>(plan.outer[side].size()); ++i) loop.push_back(first + i);
-    const int surface = static_cast<int>(side) + 1;
-    gmsh::model::geo::addCurveLoop(loop, surface);
-    gmsh::model::geo::addPlaneSurface({surface}, surface);
-  }
+  int loops = 0;
+  for (std::size_t i = 0; i < plan.faces.size(); ++i)
+    add_face(plan, plan.faces[i], tag_of(i), loops);
   gmsh::model::geo::synchronize();
+  for (std::size_t i = 0; i < plan.faces.size(); ++i) {
+    std::vector<int> embedded;
+    embedded.reserve(plan.faces[i].embedded.size());
+    for (const int curve : plan.faces[i].embedded) embedded.push_back(curve + 1);
+    if (!embedded.empty()) gmsh::model::mesh::embed(1, embedded, 2, tag_of(i));
+  }
 }
 
 SizeField size_field(const Plan& plan, const Frame& frame) {
   std::vector<SizedCurve> curves;
-  const auto add = [&](const PlannedCurve& planned) {
-    const Point a = frame.to_gmsh(plan.points[static_cast<std::size_t>(planned.a)]);
-    const Point b = frame.to_gmsh(plan.points[static_cast<std::size_t>(planned.b)]);
-    curves.push_back({a, b, std::hypot(b[0] - a[0], b[1] - a[1]) / planned.intervals});
-  };
-  for (const auto& curve : plan.interface) add(curve);
-  for (const auto& outer : plan.outer) {
-    for (const PlannedCurve& curve : outer) add(curve);
+  curves.reserve(plan.curves.size());
+  for (const PlannedCurve& curve : plan.curves) {
+    const Point a = frame.to_gmsh(plan.points[static_cast<std::size_t>(curve.a)]);
+    const Point b = frame.to_gmsh(plan.points[static_cast<std::size_t>(curve.b)]);
+    curves.push_back({a, b, std::hypot(b[0] - a[0], b[1] - a[1]) / curve.intervals});
   }
   return {std::move(curves), plan.growth};
 }
@@ -180,12 +167,12 @@ std::size_t point_tag(int point) {
 }
 
 /// All nodes of a curve in order from a to b.
-std::vector<std::int32_t> curve_nodes(const Plan& plan, const PlannedCurve& curve, int tag,
-                                      Nodes& nodes) {
+std::vector<std::int32_t> curve_nodes(const Plan& plan, std::size_t index, Nodes& nodes) {
+  const PlannedCurve& curve = plan.curves[index];
   std::vector<std::size_t> tags;
   std::vector<double> xyz;
   std::vector<double> parameters;
-  gmsh::model::mesh::getNodes(tags, xyz, parameters, 1, tag);
+  gmsh::model::mesh::getNodes(tags, xyz, parameters, 1, tag_of(index));
   if (tags.size() + 1 != static_cast<std::size_t>(curve.intervals) ||
       parameters.size() != tags.size()) {
     throw errors::Error(errors::Reason::mesher_failed,
@@ -199,6 +186,7 @@ std::vector<std::int32_t> curve_nodes(const Plan& plan, const PlannedCurve& curv
   const Point& a = plan.points[static_cast<std::size_t>(curve.a)];
   const Point& b = plan.points[static_cast<std::size_t>(curve.b)];
   std::vector<std::int32_t> chain{nodes.at(point_tag(curve.a), a)};
+  chain.reserve(order.size() + 2);
   for (std::size_t k = 0; k < order.size(); ++k) {
     const auto part = static_cast<double>(k + 1) / curve.intervals;
     chain.push_back(
@@ -208,12 +196,13 @@ std::vector<std::int32_t> curve_nodes(const Plan& plan, const PlannedCurve& curv
   return chain;
 }
 
-mesh::Interface read_interface(const Plan& plan, Nodes& nodes) {
+mesh::Interface read_interface(const Plan& plan, const mesh::PlannedInterface& planned,
+                               const std::vector<std::vector<std::int32_t>>& chains) {
   mesh::Interface interface;
-  interface.name = "interface";
-  int tag = 1;
-  for (const auto& curve : plan.interface) {
-    const auto chain = curve_nodes(plan, curve, tag++, nodes);
+  interface.name = planned.name;
+  for (const int index : planned.curves) {
+    const PlannedCurve& curve = plan.curves[static_cast<std::size_t>(index)];
+    const auto& chain = chains[static_cast<std::size_t>(index)];
     const auto first = chain.begin() + (interface.nodes.empty() ? 0 : 1);
     interface.nodes.insert(interface.nodes.end(), first, chain.end());
     const auto edges = static_cast<std::size_t>(curve.intervals);
@@ -223,10 +212,25 @@ mesh::Interface read_interface(const Plan& plan, Nodes& nodes) {
   return interface;
 }
 
-void read_triangles(mesh::Mesh& mesh, std::int32_t subdomain, Nodes& nodes) {
+/// Faces of one name are one subdomain. Returns the subdomain of each face.
+std::vector<std::int32_t> name_subdomains(const Plan& plan, mesh::Mesh& mesh) {
+  std::vector<std::int32_t> subdomain_of;
+  subdomain_of.reserve(plan.faces.size());
+  for (const mesh::PlannedFace& face : plan.faces) {
+    const auto known = std::find(mesh.subdomains.begin(), mesh.subdomains.end(), face.name);
+    subdomain_of.push_back(static_cast<std::int32_t>(known - mesh.subdomains.begin()));
+    if (known != mesh.subdomains.end()) continue;
+    mesh.subdomains.push_back(face.name);
+    mesh.tension.push_back(face.tension);
+  }
+  return subdomain_of;
+}
+
+void read_triangles(mesh::Mesh& mesh, int face_tag, std::int32_t subdomain, Nodes& nodes) {
   std::vector<std::size_t> elements;
   std::vector<std::size_t> corners;
-  gmsh::model::mesh::getElementsByType(triangle_type, elements, corners, subdomain + 1);
+  gmsh::model::mesh::getElementsByType(triangle_type, elements, corners, face_tag);
+  mesh.triangles.reserve(mesh.triangles.size() + corners.size());
   for (const std::size_t tag : corners) mesh.triangles.push_back(nodes(tag));
   mesh.subdomain.insert(mesh.subdomain.end(), elements.size(), subdomain);
 }
@@ -238,23 +242,46 @@ void orient(mesh::Mesh& mesh) {
   }
 }
 
-mesh::Mesh read_mesh(const Plan& plan, const Frame& frame) {
-  mesh::Mesh mesh;
-  mesh.subdomains = {"minus", "plus"};
-  mesh.inclusions = plan.inclusions;
-  Nodes nodes(mesh, frame);
-  mesh.interfaces.push_back(read_interface(plan, nodes));
-  for (std::size_t side = 0; side < 2; ++side) {
-    int tag = first_outer_tag(plan, side);
-    for (const PlannedCurve& curve : plan.outer[side]) {
-      const auto chain = curve_nodes(plan, curve, tag++, nodes);
-      for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-        mesh.dirichlet.push_back({chain[i], chain[i + 1]});
-      }
+/// gmsh may give up an embedded curve that it cannot recover, and only says so in its log.
+void require_curves(const mesh::Mesh& mesh, const Plan& plan,
+                    const std::vector<std::vector<std::int32_t>>& chains) {
+  const mesh::EdgeTable edges(mesh.triangles);
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    const bool inside = plan.curves[i].left >= 0 && plan.curves[i].right >= 0;
+    for (std::size_t k = 0; k + 1 < chains[i].size(); ++k) {
+      if (edges.find(chains[i][k], chains[i][k + 1]).size() == (inside ? 2U : 1U)) continue;
+      std::ostringstream text;
+      const Point& p = plan.points[static_cast<std::size_t>(plan.curves[i].a)];
+      const Point& q = plan.points[static_cast<std::size_t>(plan.curves[i].b)];
+      text << "gmsh made no edges along the line from (" << p[0] << ", " << p[1] << ") to (" << q[0]
+           << ", " << q[1] << "); choose a smaller options.size, or move what is close to it";
+      throw errors::Error(errors::Reason::mesher_failed, text.str());
     }
   }
-  for (std::int32_t side = 0; side < 2; ++side) read_triangles(mesh, side, nodes);
+}
+
+mesh::Mesh read_mesh(const Plan& plan, const Frame& frame) {
+  mesh::Mesh mesh;
+  mesh.inclusions = plan.inclusions;
+  Nodes nodes(mesh, frame);
+  std::vector<std::vector<std::int32_t>> chains;
+  chains.reserve(plan.curves.size());
+  for (std::size_t i = 0; i < plan.curves.size(); ++i) {
+    chains.push_back(curve_nodes(plan, i, nodes));
+    if (plan.curves[i].role != mesh::Role::dirichlet) continue;
+    for (std::size_t k = 0; k + 1 < chains[i].size(); ++k) {
+      mesh.dirichlet.push_back({chains[i][k], chains[i][k + 1]});
+    }
+  }
+  for (const mesh::PlannedInterface& planned : plan.interfaces) {
+    mesh.interfaces.push_back(read_interface(plan, planned, chains));
+  }
+  const std::vector<std::int32_t> subdomain_of = name_subdomains(plan, mesh);
+  for (std::size_t i = 0; i < plan.faces.size(); ++i) {
+    read_triangles(mesh, tag_of(i), subdomain_of[i], nodes);
+  }
   orient(mesh);
+  require_curves(mesh, plan, chains);
   return mesh;
 }
 

@@ -8,10 +8,10 @@
 
 namespace anticrack::mesher {
 
-/// Meshes both sides of the interface. The nodes of every planned curve lie exactly at
-/// a + (b-a) k/n. The same request gives the same mesh. One call a process: gmsh is global.
-/// Throws errors::Error: limit_exceeded (more triangles than asked for), mesher_failed (gmsh gave
-/// up).
+/// Meshes every face of the plan; it is not graded yet. Faces of one name are one subdomain. The
+/// nodes of every planned curve lie exactly at a + (b-a) k/n. The same request gives the same mesh.
+/// One call a process: gmsh is global. Throws errors::Error: limit_exceeded (more triangles than
+/// asked for), mesher_failed (gmsh gave up).
 mesh::Mesh generate(const mesh::GenerateRequest& request);
 
 }  // namespace anticrack::mesher

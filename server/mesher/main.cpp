@@ -15,6 +15,7 @@
 
 #include "mesh/codec.hpp"
 #include "mesher/generate.hpp"
+#include "mesher/grading.hpp"
 #include "mesher/import.hpp"
 #include "mesher/limits.hpp"
 
@@ -56,10 +57,11 @@ void write_all(int descriptor, const mesh::Bytes& bytes) {
 mesh::MesherReply answer(std::uint64_t memory) {
   try {
     const mesh::MesherRequest request = mesh::decode_request(read_all(STDIN_FILENO));
-    if (const auto* plan = std::get_if<mesh::GenerateRequest>(&request)) {
-      return mesher::generate(*plan);
+    if (const auto* wanted = std::get_if<mesh::GenerateRequest>(&request)) {
+      return mesher::graded(mesher::generate(*wanted), wanted->plan.grading, wanted->max_triangles);
     }
-    return mesher::import_msh(std::get<mesh::ImportRequest>(request));
+    const auto& file = std::get<mesh::ImportRequest>(request);
+    return mesher::graded(mesher::import_msh(file), file.options, file.max_triangles);
   } catch (const errors::Error& error) {
     return error;
   } catch (const std::bad_alloc&) {

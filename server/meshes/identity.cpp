@@ -2,7 +2,9 @@
 #include "meshes/identity.hpp"
 
 #include <cstdint>
+#include <map>
 #include <variant>
+#include <vector>
 
 #include "store/canonical.hpp"
 
@@ -12,15 +14,13 @@ namespace {
 
 using store::CanonicalHash;
 
-void add(CanonicalHash& hash, const mesh::Point& point) {
-  hash.add(point[0]).add(point[1]);
+template <class Enum>
+void add_choice(CanonicalHash& hash, Enum value) {
+  hash.add(static_cast<std::uint64_t>(value));
 }
 
-void add(CanonicalHash& hash, const std::vector<mesh::Point>& points) {
-  hash.add(std::uint64_t{points.size()});
-  for (const mesh::Point& point : points) {
-    add(hash, point);
-  }
+void add(CanonicalHash& hash, const mesh::Point& point) {
+  hash.add(point[0]).add(point[1]);
 }
 
 void add(CanonicalHash& hash, const mesh::Part& part) {
@@ -28,23 +28,75 @@ void add(CanonicalHash& hash, const mesh::Part& part) {
   add(hash, part.to);
 }
 
+template <class Item>
+void add(CanonicalHash& hash, const std::vector<Item>& items);
+
+void add(CanonicalHash& hash, const std::map<std::int32_t, std::string>& names) {
+  hash.add(std::uint64_t{names.size()});
+  for (const auto& [tag, name] : names) {
+    hash.add(static_cast<std::uint64_t>(tag)).add(name);
+  }
+}
+
+void add(CanonicalHash& hash, const std::map<std::string, double>& values) {
+  hash.add(std::uint64_t{values.size()});
+  for (const auto& [name, value] : values) {
+    hash.add(name).add(value);
+  }
+}
+
+void add(CanonicalHash& hash, const mesh::InterfaceSpec& interface) {
+  hash.add(interface.name);
+  add_choice(hash, interface.shape);
+  add(hash, interface.points);
+  add_choice(hash, interface.closed);
+}
+
+void add(CanonicalHash& hash, const mesh::InclusionSpec& inclusion) {
+  hash.add(inclusion.name);
+  add(hash, inclusion.part);
+  add(hash, inclusion.delaminated);
+}
+
+void add(CanonicalHash& hash, const mesh::CrackSpec& crack) {
+  hash.add(crack.name);
+  add(hash, crack.part);
+}
+
+void add(CanonicalHash& hash, const mesh::RegionSpec& region) {
+  hash.add(region.name);
+  add(hash, region.at);
+  hash.add(region.tension);
+}
+
+/// The length first, so that no item can move to the next list unseen.
+template <class Item>
+void add(CanonicalHash& hash, const std::vector<Item>& items) {
+  hash.add(std::uint64_t{items.size()});
+  for (const Item& item : items) {
+    add(hash, item);
+  }
+}
+
 void add(CanonicalHash& hash, const mesh::Geometry& geometry) {
   add(hash, geometry.boundary);
-  add(hash, geometry.interface);
-  hash.add(std::uint64_t{geometry.inclusions.size()});
-  for (const mesh::InclusionSpec& inclusion : geometry.inclusions) {
-    hash.add(inclusion.name);
-    add(hash, inclusion.part);
-    hash.add(std::uint64_t{inclusion.delaminated.size()});
-    for (const mesh::Part& part : inclusion.delaminated) {
-      add(hash, part);
-    }
-  }
-  hash.add(std::uint64_t{geometry.cracks.size()});
-  for (const mesh::CrackSpec& crack : geometry.cracks) {
-    hash.add(crack.name);
-    add(hash, crack.part);
-  }
+  add(hash, geometry.interfaces);
+  add(hash, geometry.inclusions);
+  add(hash, geometry.cracks);
+  add(hash, geometry.neumann);
+  add(hash, geometry.regions);
+}
+
+void add(CanonicalHash& hash, const mesh::MeshOptions& options) {
+  add_choice(hash, options.preset);
+  const bool graded = options.preset == mesh::Preset::graded;
+  hash.add(options.preset == mesh::Preset::paper ? 0.0 : options.size);
+  hash.add(graded ? options.tip_size : 0.0);
+  hash.add(graded ? options.grading : 0.0);
+  add(hash, options.align);
+  add(hash, options.curve_groups);
+  add(hash, options.surface_groups);
+  add(hash, options.tension);
 }
 
 }  // namespace
@@ -52,12 +104,14 @@ void add(CanonicalHash& hash, const mesh::Geometry& geometry) {
 std::string identity(const store::MeshDefinition& definition) {
   CanonicalHash hash;
   if (const auto* upload = std::get_if<store::UploadRef>(&definition)) {
-    return hash.add(std::string("upload")).add(upload->sha256).finish();
+    hash.add(std::string("upload")).add(upload->sha256);
+    add(hash, upload->options);
+  } else {
+    const auto& source = std::get<store::GeometrySource>(definition);
+    hash.add(std::string("geometry"));
+    add(hash, source.geometry);
+    add(hash, source.options);
   }
-  const auto& source = std::get<store::GeometrySource>(definition);
-  const bool uniform = source.options.preset == mesh::Preset::uniform;
-  hash.add(std::string(uniform ? "uniform" : "paper")).add(uniform ? source.options.size : 0.0);
-  add(hash, source.geometry);
   return hash.finish();
 }
 

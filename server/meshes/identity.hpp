@@ -8,7 +8,8 @@
 namespace anticrack::meshes {
 
 /// Hash of all that decides what mesh a definition gives, 64 hexadecimal digits. Options without
-/// effect (the size of preset `paper`) do not count. O(size of the definition).
+/// effect on a preset (the tip size of one that is not graded) do not count. O(size of the
+/// definition).
 std::string identity(const store::MeshDefinition& definition);
 
 }  // namespace anticrack::meshes

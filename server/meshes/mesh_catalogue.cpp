@@ -54,7 +54,9 @@ struct MeshCatalogue::State {
     if (const auto* source = std::get_if<store::GeometrySource>(&definition)) {
       mesh::plan(source->geometry, source->options, options.max_triangles);
     } else {
-      mesher::require_msh(preparation.require_upload(std::get<store::UploadRef>(definition)));
+      const auto& upload = std::get<store::UploadRef>(definition);
+      mesh::check_for_upload(upload.options);
+      mesher::require_msh(preparation.require_upload(upload));
     }
   }
 };

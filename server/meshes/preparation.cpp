@@ -182,8 +182,8 @@ void Preparation::triangulate(const std::string& id) {
         mesh::GenerateRequest{mesh::plan(source->geometry, source->options, _options.max_triangles),
                               _options.max_triangles};
   } else {
-    request = mesh::ImportRequest{require_upload(std::get<store::UploadRef>(record.definition)),
-                                  _options.max_triangles};
+    const auto& upload = std::get<store::UploadRef>(record.definition);
+    request = mesh::ImportRequest{require_upload(upload), upload.options, _options.max_triangles};
   }
   ++_meshings;
   auto mesh = std::make_shared<const mesh::Mesh>(

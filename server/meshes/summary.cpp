@@ -1,29 +1,74 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/summary.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
 #include <vector>
+
+#include "mesh/edges.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/refine.hpp"
 
 namespace anticrack::meshes {
 
 namespace {
 
-std::vector<store::SubdomainSummary> subdomains(const mesh::Mesh& mesh) {
-  std::vector<store::SubdomainSummary> result(mesh.subdomains.size());
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i].name = mesh.subdomains[i];
+using EdgeKey = std::pair<std::int32_t, std::int32_t>;
+
+EdgeKey key(std::int32_t a, std::int32_t b) noexcept {
+  return std::minmax(a, b);
+}
+
+double length(const mesh::Mesh& mesh, std::int32_t a, std::int32_t b) noexcept {
+  const auto i = 2 * static_cast<std::size_t>(a);
+  const auto j = 2 * static_cast<std::size_t>(b);
+  return std::hypot(mesh.xy[j] - mesh.xy[i], mesh.xy[j + 1] - mesh.xy[i + 1]);
+}
+
+struct EdgeLengths {
+  double shortest = 0;
+  double longest = 0;
+};
+
+EdgeLengths edge_lengths(const mesh::Mesh& mesh, std::size_t triangle) noexcept {
+  const std::int32_t* node = &mesh.triangles[3 * triangle];
+  const auto [shortest, longest] =
+      std::minmax({length(mesh, node[0], node[1]), length(mesh, node[1], node[2]),
+                   length(mesh, node[2], node[0])});
+  return {shortest, longest};
+}
+
+void measure_triangles(const mesh::Mesh& mesh, std::vector<store::SubdomainSummary>& result) {
+  for (store::SubdomainSummary& to : result) {
+    to.minimum_angle = 180;
+    to.shortest_edge = std::numeric_limits<double>::infinity();
   }
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    store::SubdomainSummary& to = result[static_cast<std::size_t>(mesh.subdomain[t])];
+    ++to.triangle_count;
+    to.area += mesh::area(mesh, t);
+    const auto angles =
+        mesh::angles(mesh::corner(mesh, t, 0), mesh::corner(mesh, t, 1), mesh::corner(mesh, t, 2));
+    to.minimum_angle = std::min(to.minimum_angle, *std::min_element(angles.begin(), angles.end()));
+    const EdgeLengths edges = edge_lengths(mesh, t);
+    to.shortest_edge = std::min(to.shortest_edge, edges.shortest);
+    to.longest_edge = std::max(to.longest_edge, edges.longest);
+  }
+}
+
+void count_nodes(const mesh::Mesh& mesh, std::vector<store::SubdomainSummary>& result) {
   std::vector<std::vector<std::size_t>> triangles(result.size());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const auto i = static_cast<std::size_t>(mesh.subdomain[t]);
-    triangles[i].push_back(t);
-    result[i].area += mesh::area(mesh, t);
+    triangles[static_cast<std::size_t>(mesh.subdomain[t])].push_back(t);
   }
   constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> last_seen_in(mesh.node_count(), nowhere);
   for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i].triangle_count = triangles[i].size();
     for (const std::size_t t : triangles[i]) {
       for (std::size_t corner = 3 * t; corner < 3 * t + 3; ++corner) {
         std::size_t& last = last_seen_in[static_cast<std::size_t>(mesh.triangles[corner])];
@@ -32,7 +77,111 @@ std::vector<store::SubdomainSummary> subdomains(const mesh::Mesh& mesh) {
       }
     }
   }
+}
+
+/// Disjoint sets of triangles.
+class Parts {
+ public:
+  explicit Parts(std::size_t count) : _parent(count) {
+    std::iota(_parent.begin(), _parent.end(), std::size_t{0});
+  }
+  std::size_t of(std::size_t i) {
+    while (_parent[i] != i) i = _parent[i] = _parent[_parent[i]];
+    return i;
+  }
+  void join(std::size_t i, std::size_t j) { _parent[of(i)] = of(j); }
+
+ private:
+  std::vector<std::size_t> _parent;
+};
+
+/// A part is what one reaches from triangle to triangle without crossing an interface, so a slit
+/// parts nothing unless it goes all the way; it floats when none of its nodes is a Dirichlet node.
+void find_floating(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
+                   std::vector<store::SubdomainSummary>& result) {
+  std::vector<EdgeKey> cuts;
+  for (const mesh::Interface& interface : mesh.interfaces) {
+    for (std::size_t i = 0; i + 1 < interface.nodes.size(); ++i) {
+      cuts.push_back(key(interface.nodes[i], interface.nodes[i + 1]));
+    }
+  }
+  std::sort(cuts.begin(), cuts.end());
+  Parts parts(mesh.triangle_count());
+  edges.each([&](std::span<const mesh::EdgeUse> uses) {
+    const EdgeKey edge{uses[0].low(), uses[0].high()};
+    if (uses.size() != 2 || std::binary_search(cuts.begin(), cuts.end(), edge)) return;
+    parts.join(static_cast<std::size_t>(uses[0].triangle),
+               static_cast<std::size_t>(uses[1].triangle));
+  });
+  std::vector<bool> fixed(mesh.node_count(), false);
+  for (const auto& [a, b] : mesh.dirichlet) {
+    fixed[static_cast<std::size_t>(a)] = true;
+    fixed[static_cast<std::size_t>(b)] = true;
+  }
+  std::vector<bool> held(mesh.triangle_count(), false);
+  for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
+    if (fixed[static_cast<std::size_t>(mesh.triangles[corner])]) held[parts.of(corner / 3)] = true;
+  }
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (!held[parts.of(t)]) result[static_cast<std::size_t>(mesh.subdomain[t])].floating = true;
+  }
+}
+
+std::vector<store::SubdomainSummary> subdomains(const mesh::Mesh& mesh,
+                                                const mesh::EdgeTable& edges) {
+  std::vector<store::SubdomainSummary> result(mesh.subdomains.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i].name = mesh.subdomains[i];
+    if (!mesh.tension.empty()) result[i].tension = mesh.tension[i];
+  }
+  measure_triangles(mesh, result);
+  count_nodes(mesh, result);
+  find_floating(mesh, edges, result);
   return result;
+}
+
+std::vector<store::TipSummary> tip_summaries(const mesh::Mesh& mesh) {
+  const std::vector<std::int32_t> nodes = mesh::tips(mesh);
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> tip_at(mesh.node_count(), none);
+  std::vector<store::TipSummary> result;
+  result.reserve(nodes.size());
+  for (const std::int32_t node : nodes) {
+    const auto n = static_cast<std::size_t>(node);
+    tip_at[n] = result.size();
+    result.push_back(
+        {{mesh.xy[2 * n], mesh.xy[2 * n + 1]}, "", std::numeric_limits<double>::infinity()});
+  }
+  for (const mesh::Interface& interface : mesh.interfaces) {
+    for (const std::int32_t node : interface.nodes) {
+      const std::size_t tip = tip_at[static_cast<std::size_t>(node)];
+      if (tip != none && result[tip].interface.empty()) result[tip].interface = interface.name;
+    }
+  }
+  for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
+    const std::size_t tip = tip_at[static_cast<std::size_t>(mesh.triangles[corner])];
+    if (tip == none) continue;
+    double& smallest = result[tip].smallest_edge;
+    smallest = std::min(smallest, edge_lengths(mesh, corner / 3).shortest);
+  }
+  return result;
+}
+
+void measure_boundary(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
+                      store::MeshRecord& record) {
+  std::vector<EdgeKey> fixed;
+  fixed.reserve(mesh.dirichlet.size());
+  for (const auto& [a, b] : mesh.dirichlet) fixed.push_back(key(a, b));
+  std::sort(fixed.begin(), fixed.end());
+  record.dirichlet_length = 0;
+  record.neumann_length = 0;
+  edges.each([&](std::span<const mesh::EdgeUse> uses) {
+    if (uses.size() != 1) return;
+    const EdgeKey edge{uses[0].low(), uses[0].high()};
+    const bool dirichlet = std::binary_search(fixed.begin(), fixed.end(), edge);
+    (dirichlet ? record.dirichlet_length : record.neumann_length) +=
+        length(mesh, edge.first, edge.second);
+  });
 }
 
 store::InterfaceSummary summary(const mesh::Mesh& mesh, const mesh::Interface& interface) {
@@ -55,7 +204,8 @@ store::InterfaceSummary summary(const mesh::Mesh& mesh, const mesh::Interface& i
 void summarize(const mesh::Mesh& mesh, store::MeshRecord& record) {
   record.node_count = mesh.node_count();
   record.triangle_count = mesh.triangle_count();
-  record.subdomains = subdomains(mesh);
+  const mesh::EdgeTable edges(mesh.triangles);
+  record.subdomains = subdomains(mesh, edges);
   record.interfaces.clear();
   for (const mesh::Interface& interface : mesh.interfaces) {
     record.interfaces.push_back(summary(mesh, interface));
@@ -63,6 +213,9 @@ void summarize(const mesh::Mesh& mesh, store::MeshRecord& record) {
   record.inclusions = mesh.inclusions;
   record.warnings = mesh.warnings;
   record.minimum_angle = mesh::minimum_angle(mesh);
+  record.bisection_bound = mesh.bisection_bound;
+  record.tips = tip_summaries(mesh);
+  measure_boundary(mesh, edges, record);
 }
 
 store::Block mesh_block(const mesh::Mesh& mesh) {

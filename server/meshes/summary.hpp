@@ -10,7 +10,8 @@
 namespace anticrack::meshes {
 
 /// Fills in what is known of a record once it is meshed (not `sha256` and the times): counts,
-/// areas, runs of edges with one kind and inclusion, smallest angle, warnings. O(n + m).
+/// areas, angles and edges of each subdomain and whether it floats; runs of edges with one kind and
+/// inclusion; tips; lengths of the boundary; warnings. O(m log m).
 void summarize(const mesh::Mesh& mesh, store::MeshRecord& record);
 
 /// The arrays of ReadMesh: nodes (n,2), triangles (m,3), subdomain (m), boundary (b,2),

@@ -65,6 +65,29 @@ v1::InterfaceInfo from_interface(const store::InterfaceSummary& summary) {
   return info;
 }
 
+v1::SubdomainInfo from_subdomain(const store::SubdomainSummary& summary) {
+  v1::SubdomainInfo info;
+  info.set_name(summary.name);
+  info.set_node_count(summary.node_count);
+  info.set_triangle_count(summary.triangle_count);
+  info.set_area(summary.area);
+  info.set_tension(summary.tension);
+  info.set_floating(summary.floating);
+  info.set_minimum_angle(summary.minimum_angle);
+  info.set_shortest_edge(summary.shortest_edge);
+  info.set_longest_edge(summary.longest_edge);
+  return info;
+}
+
+v1::TipInfo from_tip(const store::TipSummary& summary) {
+  v1::TipInfo info;
+  info.mutable_at()->set_x(summary.at[0]);
+  info.mutable_at()->set_y(summary.at[1]);
+  info.set_interface(summary.interface);
+  info.set_smallest_edge(summary.smallest_edge);
+  return info;
+}
+
 v1::Force from_force(const fem::Force& force) {
   struct Visitor {
     v1::Force& to;
@@ -124,11 +147,7 @@ v1::Mesh from_domain(const store::MeshRecord& record) {
   mesh.set_node_count(record.node_count);
   mesh.set_triangle_count(record.triangle_count);
   for (const store::SubdomainSummary& subdomain : record.subdomains) {
-    v1::SubdomainInfo& to = *mesh.add_subdomains();
-    to.set_name(subdomain.name);
-    to.set_node_count(subdomain.node_count);
-    to.set_triangle_count(subdomain.triangle_count);
-    to.set_area(subdomain.area);
+    *mesh.add_subdomains() = from_subdomain(subdomain);
   }
   for (const store::InterfaceSummary& interface : record.interfaces) {
     *mesh.add_interfaces() = from_interface(interface);
@@ -136,6 +155,10 @@ v1::Mesh from_domain(const store::MeshRecord& record) {
   mesh.mutable_inclusions()->Add(record.inclusions.begin(), record.inclusions.end());
   mesh.mutable_warnings()->Add(record.warnings.begin(), record.warnings.end());
   mesh.set_minimum_angle(record.minimum_angle);
+  mesh.set_bisection_bound(record.bisection_bound);
+  for (const store::TipSummary& tip : record.tips) *mesh.add_tips() = from_tip(tip);
+  mesh.set_dirichlet_length(record.dirichlet_length);
+  mesh.set_neumann_length(record.neumann_length);
   mesh.set_operator_bytes(record.operator_bytes);
   mesh.set_theta_star(record.theta_star);
   mesh.set_mesh_seconds(record.mesh_seconds);

@@ -22,7 +22,7 @@ using Clock = std::chrono::system_clock;
 /// An uploaded .msh, by the sha256 of its bytes; the file lies in the store's folder.
 struct UploadRef {
   std::string sha256;
-  mesh::MeshOptions options;
+  mesh::MeshOptions options{};
 };
 
 struct GeometrySource {

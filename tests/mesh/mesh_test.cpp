@@ -80,11 +80,32 @@ const Damage damages[] = {
     {"NoInclusion", [](Mesh& m) { m.interfaces[0].inclusion[3] = -1; }, "kind 4 and inclusion -1"},
     {"InterfaceOffTheEdges", [](Mesh& m) { m.interfaces[0].nodes[1] = 20; },
      "belongs to 0 triangles"},
-    {"InterfaceInsideASubdomain",
+    {"InterfaceOnTheBoundary",
      [](Mesh& m) {
-       m.interfaces.push_back({"stray", {9, 10}, {Kind::glue}, {-1}});
+       m.interfaces.push_back({"edge", {0, 1}, {Kind::crack}, {-1}});
      },
-     "has subdomain 0 on both sides"},
+     "belongs to 1 triangles; it takes one on each side"},
+    {"GlueInsideASubdomain",
+     [](Mesh& m) {
+       m.interfaces.push_back({"stray", {10, 11}, {Kind::glue}, {-1}});
+     },
+     "is glue and has subdomain 0 on both sides"},
+    {"ClosedChainOfOneEdge",
+     [](Mesh& m) {
+       m.interfaces.push_back({"fold", {10, 11, 10}, {Kind::crack, Kind::crack}, {-1, -1}});
+     },
+     "more than once"},
+    {"TensionCount", [](Mesh& m) { m.tension = {1}; }, "tension has 1 entries for 2 subdomains"},
+    {"TensionZero",
+     [](Mesh& m) {
+       m.tension = {1, 0};
+     },
+     "tension of subdomain 1 (\"upper\") is 0"},
+    {"TensionNotFinite",
+     [](Mesh& m) {
+       m.tension = {std::numeric_limits<double>::infinity(), 1};
+     },
+     "tension of subdomain 0 (\"lower\") is inf"},
     {"InterfaceTwice", [](Mesh& m) { m.interfaces.push_back(m.interfaces[0]); }, "more than once"},
     {"InterfaceMissing", [](Mesh& m) { m.interfaces.clear(); }, "lies on no interface"},
     {"DirichletInside",
@@ -109,6 +130,52 @@ INSTANTIATE_TEST_SUITE_P(Each, DamagedMesh, ::testing::ValuesIn(damages),
 
 TEST(Mesh, SoundOneIsAccepted) {
   EXPECT_NO_THROW(mesh::validate(sound()));
+}
+
+/// All of it one subdomain: what was the interface no longer parts it.
+Mesh whole() {
+  Mesh mesh = sound();
+  mesh.subdomains = {"all"};
+  mesh.subdomain.assign(mesh.triangle_count(), 0);
+  mesh.inclusions.clear();
+  mesh.interfaces.clear();
+  return mesh;
+}
+
+TEST(Mesh, WithoutInterfacesIsAccepted) {
+  EXPECT_NO_THROW(mesh::validate(whole()));
+}
+
+TEST(Mesh, TensionPerSubdomainIsAccepted) {
+  Mesh mesh = sound();
+  mesh.tension = {0.5, 2};
+  EXPECT_NO_THROW(mesh::validate(mesh));
+}
+
+TEST(Mesh, SlitsMayCrossShareEndsAndReachTheBoundary) {
+  Mesh mesh = whole();
+  mesh.interfaces = {
+      {"along", {18, 19, 20, 21}, {Kind::crack, Kind::crack, Kind::crack}, {-1, -1, -1}},
+      {"across", {10, 19, 28}, {Kind::crack, Kind::crack}, {-1, -1}},
+      {"next", {21, 30}, {Kind::crack}, {-1}}};
+  EXPECT_NO_THROW(mesh::validate(mesh));
+}
+
+TEST(Mesh, ClosedChainsAreAccepted) {
+  Mesh mesh = whole();
+  // around two squares, one subdomain inside and outside
+  mesh.interfaces = {{"ring",
+                      {10, 11, 12, 21, 20, 19, 10},
+                      std::vector<Kind>(6, Kind::crack),
+                      std::vector<std::int32_t>(6, -1)}};
+  EXPECT_NO_THROW(mesh::validate(mesh));
+  // an island is glued all around
+  mesh.subdomains = {"outside", "inside"};
+  for (const std::size_t square : {9U, 10U}) {
+    mesh.subdomain[2 * square] = mesh.subdomain[2 * square + 1] = 1;
+  }
+  mesh.interfaces[0].kind.assign(6, Kind::glue);
+  EXPECT_NO_THROW(mesh::validate(mesh));
 }
 
 TEST(Mesh, AreaIsSigned) {

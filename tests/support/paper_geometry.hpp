@@ -11,10 +11,17 @@ namespace anticrack::testing {
 inline mesh::Geometry paper_geometry() {
   mesh::Geometry geometry;
   geometry.boundary = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-  geometry.interface = {{-1, 0}, {1, 0}};
+  geometry.interfaces = {{"interface", mesh::Shape::polyline, {{-1, 0}, {1, 0}}}};
   const mesh::Part part{{-0.5, 0}, {0.5, 0}};
   geometry.inclusions = {{"inclusion", part, {part}}};
   return geometry;
+}
+
+/// The preset the paper's meshes are made with.
+inline mesh::MeshOptions paper_options() {
+  mesh::MeshOptions options;
+  options.preset = mesh::Preset::paper;
+  return options;
 }
 
 }  // namespace anticrack::testing

@@ -18,7 +18,8 @@ inline std::shared_ptr<const mesh::Mesh> paper_mesh() {
     options.executable = ANTICRACK_MESHER;
     constexpr std::size_t limit = 100'000;
     return std::make_shared<const mesh::Mesh>(mesher::run(
-        options, mesh::GenerateRequest{mesh::plan(paper_geometry(), {}, limit), limit}, {}));
+        options, mesh::GenerateRequest{mesh::plan(paper_geometry(), paper_options(), limit), limit},
+        {}));
   }();
   return mesh;
 }

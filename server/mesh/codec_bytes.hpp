@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Numbers, texts and lists as bytes and back. The reader checks every length against the bytes that
+// are left before it allocates.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "errors/errors.hpp"
+#include "mesh/codec.hpp"
+
+namespace anticrack::mesh {
+
+static_assert(std::endian::native == std::endian::little,
+              "numbers are copied as they lie in memory");
+
+class Writer {
+ public:
+  explicit Writer(std::string_view tag) { raw(tag.data(), tag.size()); }
+
+  template <class T>
+  void number(T value) {
+    static_assert(std::is_arithmetic_v<T>);
+    // -0.0 equals 0.0, so it must not give other bytes
+    if constexpr (std::is_floating_point_v<T>) value += T{0};
+    raw(&value, sizeof value);
+  }
+  void count(std::size_t n) { number(static_cast<std::uint64_t>(n)); }
+  void text(const std::string& value) {
+    count(value.size());
+    raw(value.data(), value.size());
+  }
+  template <class Range, class Write>
+  void list(const Range& range, Write write) {
+    count(range.size());
+    for (const auto& item : range) write(item);
+  }
+  template <class T>
+  void numbers(const std::vector<T>& values) {
+    _bytes.reserve(_bytes.size() + 8 + values.size() * sizeof(T));
+    list(values, [this](T value) { number(value); });
+  }
+  void texts(const std::vector<std::string>& values) {
+    list(values, [this](const std::string& value) { text(value); });
+  }
+
+  Bytes take() { return std::move(_bytes); }
+
+ private:
+  void raw(const void* data, std::size_t size) {
+    const auto* first = static_cast<const std::byte*>(data);
+    _bytes.insert(_bytes.end(), first, first + size);
+  }
+
+  Bytes _bytes;
+};
+
+class Reader {
+ public:
+  Reader(std::span<const std::byte> bytes, std::string_view tag) : _bytes(bytes) {
+    if (left() < tag.size() || std::memcmp(_bytes.data(), tag.data(), tag.size()) != 0) {
+      fail("they do not begin with the tag " + std::string(tag.substr(0, tag.size() - 1)));
+    }
+    _at = tag.size();
+  }
+
+  template <class T>
+  T number() {
+    static_assert(std::is_arithmetic_v<T>);
+    need(sizeof(T));
+    T value;
+    std::memcpy(&value, _bytes.data() + _at, sizeof value);
+    _at += sizeof value;
+    return value;
+  }
+  /// The length of a list whose items take at least `item_bytes` each; what is left bounds it.
+  std::size_t count(std::size_t item_bytes) {
+    const auto n = number<std::uint64_t>();
+    if (n > left() / item_bytes) {
+      fail("a list of " + std::to_string(n) + " items begins at byte " + std::to_string(_at) +
+           " of " + std::to_string(_bytes.size()));
+    }
+    return static_cast<std::size_t>(n);
+  }
+  std::string text() {
+    const std::size_t n = count(1);
+    std::string value(n, '\0');
+    if (n > 0) std::memcpy(value.data(), _bytes.data() + _at, n);
+    _at += n;
+    return value;
+  }
+  template <class T>
+  std::vector<T> numbers() {
+    const std::size_t n = count(sizeof(T));
+    std::vector<T> values(n);
+    if (n > 0) std::memcpy(values.data(), _bytes.data() + _at, n * sizeof(T));
+    _at += n * sizeof(T);
+    return values;
+  }
+  template <class Read>
+  auto list(std::size_t item_bytes, Read read) {
+    std::vector<decltype(read())> items;
+    const std::size_t n = count(item_bytes);
+    for (std::size_t i = 0; i < n; ++i) items.push_back(read());
+    return items;
+  }
+  std::vector<std::string> texts() {
+    return list(8, [this] { return text(); });
+  }
+  /// A number from `first` to `last`.
+  std::int32_t choice(std::int32_t first, std::int32_t last, const char* what) {
+    const auto value = number<std::int32_t>();
+    if (value < first || value > last) {
+      fail(std::string(what) + " is " + std::to_string(value) + "; it is " + std::to_string(first) +
+           " to " + std::to_string(last));
+    }
+    return value;
+  }
+  void end() const {
+    if (left() > 0) fail(std::to_string(left()) + " bytes are left over");
+  }
+  [[noreturn]] static void fail(const std::string& why) {
+    throw errors::Error(errors::Reason::mesh_invalid, "these bytes cannot be decoded: " + why);
+  }
+
+ private:
+  std::size_t left() const noexcept { return _bytes.size() - _at; }
+  void need(std::size_t n) const {
+    if (left() < n) fail("they end at byte " + std::to_string(_bytes.size()) + ", too early");
+  }
+
+  std::span<const std::byte> _bytes;
+  std::size_t _at = 0;
+};
+
+}  // namespace anticrack::mesh
