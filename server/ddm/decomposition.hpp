@@ -51,7 +51,8 @@ struct NodePair {
   std::int32_t plus_trace = 0;
   mesh::Kind kind = mesh::Kind::glue;
   std::int32_t inclusion = -1;
-  std::int32_t contact = -1;  ///< of the skeleton; -1 where tied
+  /// Of the skeleton; -1 where tied, and where [u] >= 0 follows from other contacts of the node.
+  std::int32_t contact = -1;
 
   /// [u] >= 0 here; elsewhere [u] = 0.
   bool unilateral() const noexcept {

@@ -133,12 +133,19 @@ Eigen::VectorXd triangular_solve(int system, const cholmod_factor& factor,
 
 }  // namespace
 
-SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior, Ordering ordering)
-    : _interior(interior) {
+SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior, Ordering ordering,
+                                 std::span<const std::int32_t> floating)
+    : _interior(interior), _held(floating.begin(), floating.end()) {
   Sparse inner = stiffness.topLeftCorner(interior, interior).triangularView<Eigen::Lower>();
   std::vector<int> permutation = interior_first(inner, stiffness.rows(), ordering);
   inner.resize(0, 0);
   Sparse lower = stiffness.triangularView<Eigen::Lower>();
+  if (!_held.empty()) {
+    _rho = stiffness.diagonal().mean();
+    for (const std::int32_t trace : _held) {
+      lower.coeffRef(interior + trace, interior + trace) += _rho;
+    }
+  }
   FactorPtr cholesky = factorise(lower, permutation, interior);
   _trace_factor = trailing_block(*cholesky, stiffness.rows() - interior);
   _factor = std::make_unique<Factor>(Factor{std::move(cholesky)});
@@ -173,21 +180,29 @@ Eigen::VectorXd SubdomainFactor::recover(const Eigen::VectorXd& z_interior,
 Eigen::VectorXd SubdomainFactor::apply_schur(const Eigen::VectorXd& trace_values) const {
   const Eigen::VectorXd half =
       _trace_factor.transpose().triangularView<Eigen::Upper>() * trace_values;
-  return _trace_factor.triangularView<Eigen::Lower>() * half;
+  Eigen::VectorXd result = _trace_factor.triangularView<Eigen::Lower>() * half;
+  for (const std::int32_t trace : _held) {
+    result[trace] -= _rho * trace_values[trace];
+  }
+  return result;
 }
 
 Eigen::MatrixXd SubdomainFactor::schur() const {
   if (trace() == 0) {
     return {};  // Eigen 3.4 forms references through the null data of an empty product
   }
-  return _trace_factor.triangularView<Eigen::Lower>() * _trace_factor.transpose();
+  Eigen::MatrixXd result = _trace_factor.triangularView<Eigen::Lower>() * _trace_factor.transpose();
+  for (const std::int32_t trace : _held) {
+    result(trace, trace) -= _rho;
+  }
+  return result;
 }
 
 std::size_t SubdomainFactor::bytes() const noexcept {
   const cholmod_factor& factor = *_factor->cholesky;
   const std::size_t integers = factor.ssize + 3 * (factor.nsuper + 1) + 2 * factor.n;
   return sizeof(double) * (factor.xsize + static_cast<std::size_t>(_trace_factor.size())) +
-         sizeof(int) * integers + sizeof(cholmod_factor);
+         sizeof(int) * integers + sizeof(cholmod_factor) + sizeof(std::int32_t) * _held.capacity();
 }
 
 }  // namespace anticrack::ddm

@@ -4,7 +4,10 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 namespace anticrack::ddm {
 
@@ -19,13 +22,18 @@ enum class Ordering {
 ///
 /// so the trailing dense block of L is the factor of the Schur complement S = K_GG - K_GI K_II^-1
 /// K_IG, the discrete Steklov-Poincare operator, at no cost. P moves interior unknowns only.
+/// Where parts of the subdomain float, K is singular: what is factorised then is K + rho e e' with
+/// the unit vector e of one trace node of each such part, and S = L_GG L_GG' - rho e e', exactly,
+/// for adding to K_GG adds the same to S and changes nothing else.
 /// Immutable after construction; any number of threads may solve with it at once.
 class SubdomainFactor {
  public:
-  /// K: symmetric positive definite, both triangles stored, interior unknowns first. Throws
-  /// errors::Error (numerical when K is not positive definite, limit_exceeded without memory).
+  /// K: symmetric positive semidefinite, both triangles stored, interior unknowns first;
+  /// `floating`: one trace number for each vector in its kernel (constant on one part of the
+  /// subdomain). Throws errors::Error (numerical when K + rho e e' is not positive definite,
+  /// limit_exceeded without memory).
   SubdomainFactor(const Eigen::SparseMatrix<double>& stiffness, Eigen::Index interior,
-                  Ordering ordering);
+                  Ordering ordering, std::span<const std::int32_t> floating = {});
   ~SubdomainFactor();
   SubdomainFactor(SubdomainFactor&&) noexcept;
   SubdomainFactor& operator=(SubdomainFactor&&) noexcept;
@@ -54,7 +62,9 @@ class SubdomainFactor {
   struct Factor;  // keeps CHOLMOD's types out of this header
   std::unique_ptr<const Factor> _factor;
   Eigen::Index _interior;
-  Eigen::MatrixXd _trace_factor;  // L_GG, lower triangle
+  Eigen::MatrixXd _trace_factor;    // L_GG, lower triangle
+  std::vector<std::int32_t> _held;  // trace nodes with _rho on their diagonal
+  double _rho = 0;
 };
 
 }  // namespace anticrack::ddm

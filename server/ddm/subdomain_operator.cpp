@@ -18,18 +18,21 @@ std::size_t bytes_of(const Eigen::SparseMatrix<double>& matrix) {
 }  // namespace
 
 SubdomainOperator::SubdomainOperator(const Subdomain& subdomain, Ordering ordering)
-    : SubdomainOperator(subdomain, fem::stiffness(subdomain.part), ordering) {}
+    : SubdomainOperator(subdomain, fem::stiffness(subdomain.part, subdomain.tension), ordering) {}
 
 SubdomainOperator::SubdomainOperator(const Subdomain& subdomain,
                                      const Eigen::SparseMatrix<double>& stiffness,
                                      Ordering ordering)
     : _factor(stiffness.topLeftCorner(index(subdomain.free()), index(subdomain.free())),
-              index(subdomain.interior), ordering),
-      _flexibility(_factor.schur(), subdomain.rigid),
+              index(subdomain.interior), ordering, subdomain.floating),
       _free_dirichlet(
           stiffness.topRightCorner(index(subdomain.free()), index(subdomain.dirichlet))),
       _dirichlet_dirichlet(
-          stiffness.bottomRightCorner(index(subdomain.dirichlet), index(subdomain.dirichlet))) {}
+          stiffness.bottomRightCorner(index(subdomain.dirichlet), index(subdomain.dirichlet))) {
+  if (subdomain.floating.empty()) {
+    _flexibility.emplace(_factor.schur(), subdomain.rigid);
+  }
+}
 
 CondensedLoad SubdomainOperator::condense(const Eigen::VectorXd& load,
                                           const Eigen::VectorXd& dirichlet) const {
@@ -68,7 +71,7 @@ Eigen::VectorXd SubdomainOperator::recover(const CondensedLoad& load,
 }
 
 std::size_t SubdomainOperator::bytes() const noexcept {
-  return _factor.bytes() + _flexibility.bytes() + bytes_of(_free_dirichlet) +
+  return _factor.bytes() + (_flexibility ? _flexibility->bytes() : 0) + bytes_of(_free_dirichlet) +
          bytes_of(_dirichlet_dirichlet);
 }
 

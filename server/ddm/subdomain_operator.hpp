@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <cstddef>
+#include <optional>
 
 #include "ddm/decomposition.hpp"
 #include "ddm/flexibility.hpp"
@@ -13,7 +14,8 @@ namespace anticrack::ddm {
 
 /// A load of one subdomain seen from its trace t. With S the Schur complement, exactly:
 ///   Pi_i(t)  = t'S t/2 - g't + energy_constant         (the paper's Pi_i, g_D included)
-///   |u|_V^2  = t'S t - 2 g_boundary't + norm_constant  (int |grad u|^2 over the subdomain)
+///   |u|_V^2  = t'S t - 2 g_boundary't + norm_constant  (int T |grad u|^2 over the subdomain)
+/// with T the subdomain's tension, which multiplies its stiffness.
 struct CondensedLoad {
   Eigen::VectorXd z_interior;  ///< L_II^-1 f_I: what `recover` needs
   Eigen::VectorXd g;           ///< f_G - K_GI K_II^-1 f_I, f_I and f_G including -K_.D g_D
@@ -23,7 +25,7 @@ struct CondensedLoad {
   double norm_constant = 0;
 };
 
-/// One subdomain, factorised: everything Algorithm 2 needs of it. Immutable after construction.
+/// One subdomain, factorised: everything the methods need of it. Immutable after construction.
 class SubdomainOperator {
  public:
   /// Throws errors::Error as SubdomainFactor does.
@@ -37,7 +39,10 @@ class SubdomainOperator {
   Eigen::VectorXd recover(const CondensedLoad& load, const Eigen::VectorXd& trace) const;
 
   const SubdomainFactor& factor() const noexcept { return _factor; }
-  const Flexibility& flexibility() const noexcept { return _flexibility; }
+  /// Null where a part of the subdomain floats: forces alone do not tell where it goes.
+  const Flexibility* flexibility() const noexcept {
+    return _flexibility ? &*_flexibility : nullptr;
+  }
   std::size_t bytes() const noexcept;
 
  private:
@@ -45,7 +50,7 @@ class SubdomainOperator {
                     Ordering ordering);
 
   SubdomainFactor _factor;
-  Flexibility _flexibility;
+  std::optional<Flexibility> _flexibility;
   Eigen::SparseMatrix<double> _free_dirichlet;       // [K_ID; K_GD]
   Eigen::SparseMatrix<double> _dirichlet_dirichlet;  // K_DD
 };

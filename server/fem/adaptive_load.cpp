@@ -5,10 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <utility>
 #include <vector>
 
-#include "errors/errors.hpp"
 #include "fem/cut_triangle.hpp"
 #include "fem/sampled_triangle.hpp"
 #include "fem/smooth_triangle.hpp"
@@ -25,23 +24,14 @@ struct EdgeSide {
   std::size_t edge;  ///< from corner `edge` to the next
 };
 
-void require_area(std::size_t t, const Triangle& triangle) {
-  if (!(area(triangle) > 0)) {
-    std::ostringstream message;
-    message << "triangle " << t << " has the area " << area(triangle)
-            << "; order its corners counterclockwise, or remove it";
-    throw errors::Error(errors::Reason::mesh_invalid, message.str());
-  }
-}
-
 class LoadIntegrator {
  public:
   LoadIntegrator(std::span<const double> xy, std::span<const std::int32_t> triangles,
-                 const ScalarField& f, const IntegrationLimits& limits)
+                 const ScalarField& f, const IntegrationLimits& limits, std::stop_token stop)
       : _xy(xy),
         _triangles(triangles),
         _limits(limits),
-        _field(f, points_per_sample * (triangles.size() / 3) + limits.evaluations),
+        _field(f, points_per_sample * (triangles.size() / 3) + limits.evaluations, std::move(stop)),
         _parts(triangles.size() / 3),
         _swept(_parts.size(), 0) {}
 
@@ -49,7 +39,10 @@ class LoadIntegrator {
     double whole = 0;
     for (std::size_t t = 0; t < _parts.size(); ++t) {
       const Triangle triangle = corners(t);
-      require_area(t, triangle);
+      if (!(area(triangle) > 0)) {  // as small as coordinates resolve
+        _swept[t] = 1;
+        continue;
+      }
       _parts[t] = sample_triangle(triangle, _field);
       _absolute += _parts[t].absolute;
       whole += area(triangle);
@@ -83,7 +76,7 @@ class LoadIntegrator {
     for (std::size_t t = 0; t < _parts.size(); ++t) {
       const Triangle triangle = corners(t);
       const double allowed = tolerance(t, triangle);
-      if (_parts[t].error <= allowed || _field.spent()) {
+      if (!(_parts[t].error > allowed) || _field.spent()) {
         continue;
       }
       if (!refine_smooth_triangle(triangle, allowed, _parts[t], _field)) {
@@ -211,7 +204,7 @@ class LoadIntegrator {
   IntegrationLimits _limits;
   CountedField _field;
   std::vector<SampledTriangle> _parts;
-  std::vector<char> _swept;
+  std::vector<char> _swept;  ///< 1: its edges need no look from the neighbours
   std::vector<std::size_t> _cut;
   double _absolute = 0;  ///< int |f|, from the samples
   double _mean = 0;      ///< of |f|
@@ -221,8 +214,9 @@ class LoadIntegrator {
 
 IntegrationReport integrate_load(std::span<const double> xy,
                                  std::span<const std::int32_t> triangles, const ScalarField& f,
-                                 std::span<double> load, const IntegrationLimits& limits) {
-  return LoadIntegrator(xy, triangles, f, limits)(load);
+                                 std::span<double> load, const IntegrationLimits& limits,
+                                 std::stop_token stop) {
+  return LoadIntegrator(xy, triangles, f, limits, std::move(stop))(load);
 }
 
 }  // namespace anticrack::fem

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <stop_token>
 
 #include "fem/scalar_field.hpp"
 
@@ -16,7 +17,7 @@ struct IntegrationLimits {
   /// First, for each; then what is left of the total goes to the worst, a sixteenth of it to each.
   std::size_t evaluations_per_triangle = 20'000;
   /// For all, next to the 15 that every triangle gets.
-  std::size_t evaluations = 20'000'000;
+  std::size_t evaluations = 10'000'000;
 };
 
 struct IntegrationReport {
@@ -49,11 +50,11 @@ struct IntegrationReport {
 /// well as jumps; where the slope is infinite the limits may end the work first.
 ///
 /// Deterministic. Memory O(m). 15 m evaluations where f is smooth, some 1500 for a
-/// triangle with one jump. Throws errors::Error (expression_invalid at "force.expression") naming
-/// the point and the value when f is not finite, and (mesh_invalid) when a triangle is degenerate
-/// or clockwise.
+/// triangle with one jump. A triangle whose area is zero to rounding has no load. Throws what f
+/// throws, and errors::Error (cancelled) soon after `stop` is requested.
 IntegrationReport integrate_load(std::span<const double> xy,
                                  std::span<const std::int32_t> triangles, const ScalarField& f,
-                                 std::span<double> load, const IntegrationLimits& limits = {});
+                                 std::span<double> load, const IntegrationLimits& limits = {},
+                                 std::stop_token stop = {});
 
 }  // namespace anticrack::fem

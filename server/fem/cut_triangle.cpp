@@ -121,7 +121,8 @@ class Line {
     }
     std::vector<double> ends{low};
     for (const double end : _forecast.divide(s)) {
-      if (end > ends.back() + 4 * _control.resolution && end < high - 4 * _control.resolution) {
+      if (!_field.exhausted() && end > ends.back() + 4 * _control.resolution &&
+          end < high - 4 * _control.resolution) {
         ends.push_back(end);
       }
     }
@@ -261,7 +262,9 @@ CutTriangle integrate_cut_triangle(const Triangle& triangle, const std::array<Ed
   // A jump may be plain on one side of a panel's end and hidden on the other: let all ends have
   // been seen before the first one counts.
   for (const double s : ends) {
-    line(s);
+    if (!field.exhausted()) {
+      line(s);
+    }
   }
   const PiecewiseIntegral<2> found =
       PiecewiseQuadrature<2, Line>(line, field, {0.5 * tolerance / scale, across})(ends);

@@ -9,10 +9,20 @@
 namespace anticrack::fem {
 namespace {
 
-void require_finite(double value, const std::string& field) {
+void require_finite(double value, const std::string& field, const char* what = "the force") {
   if (!std::isfinite(value)) {
     throw errors::Error(errors::Reason::invalid_argument,
-                        "the force is " + std::to_string(value) + "; it must be finite")
+                        std::string(what) + " is " + std::to_string(value) + "; it must be finite")
+        .at(field);
+  }
+}
+
+void require_count(std::size_t count, std::size_t limit, const char* what,
+                   const std::string& field) {
+  if (count > limit) {
+    throw errors::Error(
+        errors::Reason::limit_exceeded,
+        std::to_string(count) + " " + what + ": a load case may have " + std::to_string(limit))
         .at(field);
   }
 }
@@ -35,11 +45,29 @@ struct CheckForce {
     require_expression(expression.text, "force.expression", max_expression_bytes);
   }
   void operator()(const PerRegion& regions) const {
+    require_count(regions.values.size(), max_named_forces, "regions", "force.per_region");
     for (const auto& [name, value] : regions.values) {
       require_finite(value, "force.per_region[" + name + "]");
     }
   }
+  void operator()(const Array& array) const {
+    if (array.upload.empty()) {
+      throw errors::Error(errors::Reason::invalid_argument,
+                          "the array of the force is not named; upload its values first")
+          .at("force.array.upload");
+    }
+  }
 };
+
+void check_point_forces(const std::vector<PointForce>& forces) {
+  require_count(forces.size(), max_point_forces, "point forces", "point_forces");
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const std::string field = "point_forces[" + std::to_string(i) + "]";
+    require_finite(forces[i].x, field + ".at", "x");
+    require_finite(forces[i].y, field + ".at", "y");
+    require_finite(forces[i].value, field + ".value");
+  }
+}
 
 }  // namespace
 
@@ -47,6 +75,15 @@ void check(const Load& load, std::size_t max_expression_bytes) {
   std::visit(CheckForce{max_expression_bytes}, load.force);
   if (!load.boundary_value.empty()) {
     require_expression(load.boundary_value, "boundary_value", max_expression_bytes);
+  }
+  if (!load.traction.empty()) {
+    require_expression(load.traction, "traction", max_expression_bytes);
+  }
+  check_point_forces(load.point_forces);
+  require_count(load.inclusion_forces.size(), max_named_forces, "forces on inclusions",
+                "inclusion_forces");
+  for (const auto& [name, value] : load.inclusion_forces) {
+    require_finite(value, "inclusion_forces[" + name + "]");
   }
 }
 

@@ -3,6 +3,7 @@
 // What acts on the membrane in one load case.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
@@ -23,10 +24,10 @@ struct PerRegion {
 
 /// A value per triangle (constant on it) or per node (linear between), in the order of the mesh.
 struct Array {
-  std::string upload;  ///< sha256 of the bytes the values came from
+  std::string upload = {};  ///< sha256 of the bytes the values came from
   bool per_triangle = false;
   /// Set where the load is solved; a job that waits holds the name only.
-  std::shared_ptr<const std::vector<double>> values;
+  std::shared_ptr<const std::vector<double>> values = nullptr;
 };
 
 /// f of equation (1): force per unit area, positive in the direction of u.
@@ -42,16 +43,21 @@ struct PointForce {
 struct Load {
   std::string name;
   Force force = 0.0;
-  std::string boundary_value;  ///< g_D on the Dirichlet boundary, an expression; empty: 0
-  std::string traction;        ///< g_N = T du/dn on the Neumann boundary, an expression; empty: 0
-  std::vector<PointForce> point_forces;
-  std::map<std::string, double> inclusion_forces;  ///< by name of the inclusion
+  std::string boundary_value = {};  ///< g_D on the Dirichlet boundary, an expression; empty: 0
+  std::string traction = {};  ///< g_N = T du/dn on the Neumann boundary, an expression; empty: 0
+  std::vector<PointForce> point_forces = {};
+  std::map<std::string, double> inclusion_forces = {};  ///< by name of the inclusion
 };
 
-/// Throws errors::Error (expression_invalid, invalid_argument) with the field at fault:
-/// "force.expression", "force.per_region[NAME]", "force.constant", "boundary_value", "traction",
-/// "point_forces[I].value", "inclusion_forces[NAME]", ... Checks what
-/// can be checked without a mesh: syntax, symbols, length, finite constants.
+/// Of one load case.
+constexpr std::size_t max_point_forces = 10'000;
+/// Regions of a PerRegion, and inclusions with a force.
+constexpr std::size_t max_named_forces = 1'000;
+
+/// Throws errors::Error (expression_invalid, invalid_argument, limit_exceeded) with the field at
+/// fault: "force.expression", "force.per_region[NAME]", "force.constant", "force.array.upload",
+/// "boundary_value", "traction", "point_forces[I].value", "inclusion_forces[NAME]", ... Checks what
+/// can be checked without a mesh: syntax, symbols, lengths, counts, finite values.
 void check(const Load& load, std::size_t max_expression_bytes);
 
 }  // namespace anticrack::fem

@@ -1,47 +1,69 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/load_vector.hpp"
 
+#include <array>
+
+#include "fem/adaptive_load.hpp"
 #include "fem/expression.hpp"
-#include "fem/quadrature.hpp"
 
 namespace anticrack::fem {
 namespace {
 
-struct Corners {
-  std::array<Eigen::Index, 3> node;
-  std::array<Eigen::Vector2d, 3> at;
-  double area;
-};
-
-Corners corners(const Triangulation& part, std::size_t triangle) {
-  Corners result{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    result.node[a] = part.triangles[3 * triangle + a];
-    result.at[a] =
-        Eigen::Map<const Eigen::Vector2d>(&part.xy[2 * static_cast<std::size_t>(result.node[a])]);
-  }
-  const Eigen::Vector2d p = result.at[1] - result.at[0], q = result.at[2] - result.at[0];
-  result.area = 0.5 * (p.x() * q.y() - p.y() * q.x());
-  return result;
-}
-
 struct AssembleForce {
   const Triangulation& part;
   const std::string& region;
+  const LoadContext& context;
 
   Eigen::VectorXd zero() const {
     return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(part.node_count()));
   }
 
-  Eigen::VectorXd operator()(double value) const {
+  std::array<Eigen::Index, 3> corners(std::size_t t) const {
+    return {part.triangles[3 * t], part.triangles[3 * t + 1], part.triangles[3 * t + 2]};
+  }
+
+  double area(const std::array<Eigen::Index, 3>& nodes) const {
+    const auto at = [this](Eigen::Index node) {
+      return Eigen::Map<const Eigen::Vector2d>(&part.xy[2 * static_cast<std::size_t>(node)]);
+    };
+    const Eigen::Vector2d p = at(nodes[1]) - at(nodes[0]), q = at(nodes[2]) - at(nodes[0]);
+    return 0.5 * (p.x() * q.y() - p.y() * q.x());
+  }
+
+  /// int f phi_i for f constant on triangles; value(t) on the t-th.
+  template <class Value>
+  Eigen::VectorXd constant_on_triangles(const Value& value) const {
     Eigen::VectorXd load = zero();
     for (std::size_t t = 0; t < part.triangle_count(); ++t) {
-      const Corners triangle = corners(part, t);
-      for (const Eigen::Index node : triangle.node) {
-        load[node] += value * triangle.area / 3;
+      const std::array<Eigen::Index, 3> nodes = corners(t);
+      const double third = value(t) * area(nodes) / 3;
+      for (const Eigen::Index node : nodes) {
+        load[node] += third;
       }
     }
     return load;
+  }
+
+  /// By the exact mass matrix of a triangle, area/12 (1 + delta_ij).
+  Eigen::VectorXd linear_on_triangles(const std::vector<double>& of_node) const {
+    Eigen::VectorXd load = zero();
+    for (std::size_t t = 0; t < part.triangle_count(); ++t) {
+      const std::array<Eigen::Index, 3> nodes = corners(t);
+      std::array<double, 3> value{};
+      for (std::size_t a = 0; a < 3; ++a) {
+        value[a] =
+            of_node[static_cast<std::size_t>(context.node[static_cast<std::size_t>(nodes[a])])];
+      }
+      const double part_of_area = area(nodes) / 12, sum = value[0] + value[1] + value[2];
+      for (std::size_t a = 0; a < 3; ++a) {
+        load[nodes[a]] += part_of_area * (sum + value[a]);
+      }
+    }
+    return load;
+  }
+
+  Eigen::VectorXd operator()(double value) const {
+    return constant_on_triangles([value](std::size_t) { return value; });
   }
 
   Eigen::VectorXd operator()(const PerRegion& regions) const {
@@ -49,20 +71,25 @@ struct AssembleForce {
     return found == regions.values.end() ? zero() : (*this)(found->second);
   }
 
+  Eigen::VectorXd operator()(const Array& array) const {
+    const std::vector<double>& values = *array.values;
+    if (!array.per_triangle) {
+      return linear_on_triangles(values);
+    }
+    return constant_on_triangles(
+        [&](std::size_t t) { return values[static_cast<std::size_t>(context.triangle[t])]; });
+  }
+
   Eigen::VectorXd operator()(const Expression& expression) const {
     ExpressionFunction force(expression.text, "force.expression");
     Eigen::VectorXd load = zero();
-    for (std::size_t t = 0; t < part.triangle_count(); ++t) {
-      const Corners triangle = corners(part, t);
-      for (const QuadraturePoint& point : degree_five_rule()) {
-        const Eigen::Vector2d at = point.barycentric[0] * triangle.at[0] +
-                                   point.barycentric[1] * triangle.at[1] +
-                                   point.barycentric[2] * triangle.at[2];
-        const double weighted = point.weight * triangle.area * force(at.x(), at.y());
-        for (std::size_t a = 0; a < 3; ++a) {
-          load[triangle.node[a]] += weighted * point.barycentric[a];
-        }
-      }
+    IntegrationLimits limits;
+    limits.relative_tolerance = load_tolerance;
+    const IntegrationReport report = integrate_load(
+        part.xy, part.triangles, [&force](double x, double y) { return force(x, y); },
+        {load.data(), part.node_count()}, limits, context.stop);
+    if (context.relative_error != nullptr) {
+      *context.relative_error = report.relative_error_estimate;
     }
     return load;
   }
@@ -71,8 +98,8 @@ struct AssembleForce {
 }  // namespace
 
 Eigen::VectorXd load_vector(const Triangulation& part, const Force& force,
-                            const std::string& region) {
-  return std::visit(AssembleForce{part, region}, force);
+                            const std::string& region, const LoadContext& context) {
+  return std::visit(AssembleForce{part, region, context}, force);
 }
 
 Eigen::VectorXd boundary_values(const Triangulation& part, const std::string& text,

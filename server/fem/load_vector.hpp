@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
+#include <stop_token>
 #include <string>
 
 #include "fem/load.hpp"
@@ -10,13 +12,27 @@
 
 namespace anticrack::fem {
 
-/// b_i = int f phi_i dx for every node of a subdomain, shape (n). Constants exactly; an expression
-/// by a rule of degree 5 (7 points inside each triangle), so f phi_i is integrated exactly for f of
-/// degree 4, and for f that jumps across edges of the mesh only. `region` is the subdomain's name.
-/// Throws errors::Error (expression_invalid) where the expression is not finite.
-/// O(m), 7 evaluations a triangle.
+/// What integrating a load is to know and to tell besides its values.
+struct LoadContext {
+  /// Mesh numbers of the subdomain's nodes and triangles: where its entries of an Array are.
+  std::span<const std::int32_t> node = {};
+  std::span<const std::int32_t> triangle = {};
+  std::stop_token stop = {};
+  /// Told how wrong an expression's integral may be, relative to int |f|; above
+  /// `load_tolerance` only where a limit was met.
+  double* relative_error = nullptr;
+};
+
+/// Relative to int |f| of the subdomain; see integrate_load.
+constexpr double load_tolerance = 1e-10;
+
+/// b_i = int f phi_i dx for every node of a subdomain, shape (n). Constants and arrays exactly, an
+/// expression adaptively, wherever it jumps (adaptive_load.hpp). `region` is the subdomain's name.
+/// An Array has its values, as many as the mesh has nodes or triangles, and the context's numbers
+/// point into them. Throws errors::Error (expression_invalid where the expression is not finite,
+/// cancelled). O(m), 15 evaluations a triangle where the expression is smooth.
 Eigen::VectorXd load_vector(const Triangulation& part, const Force& force,
-                            const std::string& region);
+                            const std::string& region, const LoadContext& context = {});
 
 /// g_D at `count` nodes from number `first` on, shape (count); an empty text is 0. Throws
 /// errors::Error (expression_invalid at "boundary_value").

@@ -6,32 +6,31 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <sstream>
+#include <stop_token>
+#include <utility>
 
 #include "errors/errors.hpp"
 
 namespace anticrack::fem {
 
-/// A function of the plane that may be expensive, may jump, and is known by its values only.
+/// A function of the plane that may be expensive, may jump, and is known by its values only. Finite
+/// wherever it is asked: it throws where it is not.
 using ScalarField = std::function<double(double x, double y)>;
 
 /// Evaluates a field, counts, and knows when to stop. `exhausted` is a request to the integrators,
 /// which finish what they began: the count may pass a limit by the points of a few rules.
 class CountedField {
  public:
-  CountedField(const ScalarField& field, std::size_t limit) : _field(field), _limit(limit) {}
+  CountedField(const ScalarField& field, std::size_t limit, std::stop_token stop = {})
+      : _field(field), _limit(limit), _stop(std::move(stop)) {}
 
-  /// Throws errors::Error (expression_invalid at "force.expression") when the value is not finite.
+  /// Throws errors::Error (cancelled) soon after a stop was requested.
   double operator()(double x, double y) {
-    ++_count;
-    const double value = _field(x, y);
-    if (!std::isfinite(value)) {
-      std::ostringstream message;
-      message.precision(17);
-      message << "the load has the value " << value << " at (x, y) = (" << x << ", " << y
-              << "); it must be finite wherever the membrane is";
-      throw errors::Error(errors::Reason::expression_invalid, message.str()).at("force.expression");
+    constexpr std::size_t evaluations_between_looks = 1024;
+    if (++_count % evaluations_between_looks == 0 && _stop.stop_requested()) {
+      throw errors::Error(errors::Reason::cancelled, "stopped while integrating a load");
     }
+    const double value = _field(x, y);
     _peak = std::max(_peak, std::abs(value));
     return value;
   }
@@ -51,6 +50,7 @@ class CountedField {
  private:
   const ScalarField& _field;
   std::size_t _limit;
+  std::stop_token _stop;
   std::size_t _allowed = std::numeric_limits<std::size_t>::max();
   std::size_t _count = 0;
   double _peak = 0;

@@ -5,7 +5,7 @@
 
 namespace anticrack::fem {
 
-Eigen::SparseMatrix<double> stiffness(const Triangulation& part) {
+Eigen::SparseMatrix<double> stiffness(const Triangulation& part, double tension) {
   std::vector<Eigen::Triplet<double, std::int32_t>> entries;
   entries.reserve(9 * part.triangle_count());
   for (std::size_t t = 0; t < part.triangle_count(); ++t) {
@@ -21,7 +21,7 @@ Eigen::SparseMatrix<double> stiffness(const Triangulation& part) {
     for (std::size_t a = 0; a < 3; ++a) {
       for (std::size_t b = 0; b < 3; ++b) {
         const double dot = edge[a][0] * edge[b][0] + edge[a][1] * edge[b][1];
-        entries.emplace_back(node[a], node[b], dot / (2.0 * twice_area));
+        entries.emplace_back(node[a], node[b], tension * (dot / (2.0 * twice_area)));
       }
     }
   }

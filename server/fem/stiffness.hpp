@@ -7,8 +7,9 @@
 
 namespace anticrack::fem {
 
-/// K_ij = int grad(phi_i).grad(phi_j) dx for the P1 hat functions of all nodes, boundary ones
-/// included: symmetric (n,n), both triangles stored, constants in its kernel. O(m).
-Eigen::SparseMatrix<double> stiffness(const Triangulation& part);
+/// K_ij = T int grad(phi_i).grad(phi_j) dx for the P1 hat functions of all nodes, boundary ones
+/// included, T > 0 the tension (force per length): symmetric (n,n), both triangles stored,
+/// constants in its kernel. O(m).
+Eigen::SparseMatrix<double> stiffness(const Triangulation& part, double tension = 1);
 
 }  // namespace anticrack::fem

@@ -63,6 +63,8 @@ contact::Answer without_arrays(const contact::Answer& answer) {
   result.energy = answer.energy;
   result.kkt = answer.kkt;
   result.kkt_relative = answer.kkt_relative;
+  result.weakly_active = answer.weakly_active;
+  result.warnings = answer.warnings;
   result.inclusions = answer.inclusions;
   result.contact_length = answer.contact_length;
   result.contact_intervals = answer.contact_intervals;
@@ -105,17 +107,18 @@ CaseOutcome refuse_case(std::size_t index, std::uint64_t max_result_bytes) {
   return {std::move(record), nullptr};
 }
 
-CaseOutcome run_case(const operators::MeshOperator& mesh_operator, const store::JobSpec& spec,
-                     std::size_t index, EventLog& log, const std::stop_token& stop,
+CaseOutcome run_case(LiveJob& job, std::size_t index, const store::Store& store,
                      std::atomic<std::uint64_t>& iterations) {
   const auto start = std::chrono::steady_clock::now();
   auto record = std::make_shared<store::CaseRecord>();
   std::unique_ptr<SolvedCase> solved;
   record->status = CaseStatus::failed;
   try {
-    Recorder recorder(index, log, stop, iterations);
-    contact::Answer answer =
-        mesh_operator.solve(spec.loads[index], spec.solver, spec.fields, recorder);
+    const store::JobSpec& spec = *job.spec;
+    const std::stop_token stop = job.stop.get_token();
+    Recorder recorder(index, *job.log, stop, iterations);
+    contact::Answer answer = job.mesh_operator->solve(job.arrays.resolve(spec.loads[index], store),
+                                                      spec.solver, spec.fields, recorder, stop);
     record->answer = without_arrays(answer);
     record->status = status_of(answer.status);
     if (record->status != CaseStatus::cancelled) {
@@ -123,7 +126,11 @@ CaseOutcome run_case(const operators::MeshOperator& mesh_operator, const store::
           std::make_unique<SolvedCase>(SolvedCase{std::move(answer), std::move(recorder.history)});
     }
   } catch (const Error& error) {
-    record->error = placed(error, index);
+    if (error.reason() == Reason::cancelled) {
+      record->status = CaseStatus::cancelled;
+    } else {
+      record->error = placed(error, index);
+    }
   } catch (const std::bad_alloc&) {
     record->error =
         placed(Error(Reason::limit_exceeded, "not enough memory for this load case"), index);

@@ -5,12 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <stop_token>
 
-#include "jobs/event_log.hpp"
 #include "jobs/live_job.hpp"
-#include "operators/mesh_operator.hpp"
-#include "store/records.hpp"
+#include "store/store.hpp"
 
 namespace anticrack::jobs {
 
@@ -25,10 +22,10 @@ std::uint64_t bytes_of(const SolvedCase& solved);
 /// The outcome of a load case that is not run because the job's result is large enough.
 CaseOutcome refuse_case(std::size_t index, std::uint64_t max_result_bytes);
 
-/// Solves one load case on the calling thread: a sample event an iteration, stopped within one.
-/// What goes wrong is in the record ("load_cases[i]..." at fault), nothing is thrown.
-CaseOutcome run_case(const operators::MeshOperator& mesh_operator, const store::JobSpec& spec,
-                     std::size_t index, EventLog& log, const std::stop_token& stop,
+/// Solves one load case on the calling thread: a sample event an iteration, stopped within one, or
+/// soon while the load is integrated. What goes wrong is in the record ("load_cases[i]..." at
+/// fault), nothing is thrown.
+CaseOutcome run_case(LiveJob& job, std::size_t index, const store::Store& store,
                      std::atomic<std::uint64_t>& iterations);
 
 }  // namespace anticrack::jobs

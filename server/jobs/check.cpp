@@ -2,6 +2,8 @@
 #include "jobs/check.hpp"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <unordered_set>
 #include <variant>
 
@@ -53,6 +55,54 @@ void check_names(const std::vector<fem::Load>& loads) {
   }
 }
 
+struct HashForce {
+  store::CanonicalHash& hash;
+
+  void operator()(double constant) const { hash.add(constant); }
+  void operator()(const fem::Expression& expression) const { hash.add(expression.text); }
+  void operator()(const fem::PerRegion& regions) const { add_named(hash, regions.values); }
+  void operator()(const fem::Array& array) const {
+    hash.add(array.upload).add(std::uint64_t{array.per_triangle});
+  }
+
+  static void add_named(store::CanonicalHash& hash, const std::map<std::string, double>& values) {
+    hash.add(std::uint64_t{values.size()});
+    for (const auto& [name, value] : values) {
+      hash.add(name).add(value);
+    }
+  }
+};
+
+void add_optional(store::CanonicalHash& hash, const std::optional<double>& value) {
+  hash.add(std::uint64_t{value.has_value()}).add(value.value_or(0));
+}
+
+struct HashSolver {
+  store::CanonicalHash& hash;
+
+  void operator()(const contact::UzawaOptions& options) const {
+    add_optional(hash, options.theta);
+    hash.add(options.epsilon).add(options.p);
+    hash.add(static_cast<std::uint64_t>(options.max_iterations));
+    hash.add(static_cast<std::uint64_t>(options.mass));
+    add_optional(hash, options.kkt_tolerance);
+  }
+  void operator()(const contact::ActiveSetOptions& options) const {
+    hash.add(options.tolerance).add(static_cast<std::uint64_t>(options.max_steps));
+  }
+};
+
+void add_load(store::CanonicalHash& hash, const fem::Load& load) {
+  hash.add(load.name).add(load.boundary_value).add(load.traction);
+  hash.add(std::uint64_t{load.force.index()});
+  std::visit(HashForce{hash}, load.force);
+  hash.add(std::uint64_t{load.point_forces.size()});
+  for (const fem::PointForce& force : load.point_forces) {
+    hash.add(force.x).add(force.y).add(force.value);
+  }
+  HashForce::add_named(hash, load.inclusion_forces);
+}
+
 }  // namespace
 
 void check(const store::JobSpec& spec, const EngineOptions& options) {
@@ -84,7 +134,7 @@ void check(const store::JobSpec& spec, const EngineOptions& options) {
   try {
     contact::check(spec.solver, options.max_iterations);
   } catch (Error& error) {
-    error.below("solver.uzawa");
+    error.below("solver");
     throw;
   }
 }
@@ -92,24 +142,11 @@ void check(const store::JobSpec& spec, const EngineOptions& options) {
 std::string fingerprint(const store::JobSpec& spec) {
   store::CanonicalHash hash;
   hash.add(spec.title).add(spec.mesh).add(std::uint64_t{spec.fields});
-  hash.add(std::uint64_t{spec.solver.theta.has_value()}).add(spec.solver.theta.value_or(0));
-  hash.add(spec.solver.epsilon).add(spec.solver.p);
-  hash.add(static_cast<std::uint64_t>(spec.solver.max_iterations));
-  hash.add(static_cast<std::uint64_t>(spec.solver.mass));
+  hash.add(std::uint64_t{spec.solver.index()});
+  std::visit(HashSolver{hash}, spec.solver);
   hash.add(std::uint64_t{spec.loads.size()});
   for (const fem::Load& load : spec.loads) {
-    hash.add(load.name).add(load.boundary_value).add(std::uint64_t{load.force.index()});
-    if (const auto* constant = std::get_if<double>(&load.force)) {
-      hash.add(*constant);
-    } else if (const auto* expression = std::get_if<fem::Expression>(&load.force)) {
-      hash.add(expression->text);
-    } else {
-      const auto& regions = std::get<fem::PerRegion>(load.force).values;
-      hash.add(std::uint64_t{regions.size()});
-      for (const auto& [region, value] : regions) {
-        hash.add(region).add(value);
-      }
-    }
+    add_load(hash, load);
   }
   return hash.finish();
 }

@@ -172,8 +172,7 @@ void JobEngine::State::solve_next_case(Lock& lock) {
   const bool refused = job->result_bytes > options.max_result_bytes;
   lock.unlock();
   CaseOutcome outcome = refused ? refuse_case(index, options.max_result_bytes)
-                                : run_case(*job->mesh_operator, *job->spec, index, *job->log,
-                                           job->stop.get_token(), iterations);
+                                : run_case(*job, index, store, iterations);
   job->log->append(CaseEvent{static_cast<std::int32_t>(index), outcome.record});
   lock.lock();
   LiveCase& live = job->cases[index];

@@ -61,6 +61,7 @@ JobRecord JobEngine::submit(const store::JobSpec& spec, const std::string& reque
     error.at("mesh");
     throw;
   }
+  require_arrays(spec.loads, state.store);
   JobRecord record;
   record.id = new_id();
   record.spec = spec;

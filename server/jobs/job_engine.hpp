@@ -48,9 +48,9 @@ class JobEngine {
   /// stop(0s).
   ~JobEngine();
 
-  /// Checks the job (errors::Error with "load_cases[i]...." or "solver.uzawa...." at fault: no load
-  /// case, duplicate or empty name, bad expression or parameter; not_found for the mesh; busy;
-  /// draining) and queues it. Same non-empty request id: the same job.
+  /// Checks the job (errors::Error with "load_cases[i]...." or "solver...." at fault: no load case,
+  /// duplicate or empty name, bad expression or parameter; not_found for the mesh and for an
+  /// uploaded array; busy; draining) and queues it. Same non-empty request id: the same job.
   store::JobRecord submit(const store::JobSpec& spec, const std::string& request_id);
 
   store::JobRecord get(const std::string& id) const;  ///< live state; throws not_found

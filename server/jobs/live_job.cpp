@@ -40,6 +40,7 @@ LiveJob::LiveJob(std::uint64_t submission, const JobRecord& record, std::size_t 
       spec(std::make_shared<const store::JobSpec>(record.spec)),
       created(record.created),
       log(std::make_shared<EventLog>(event_log_bytes)),
+      arrays(record.spec.loads),
       cases(record.spec.loads.size()) {}
 
 JobSnapshot::JobSnapshot(const LiveJob& job)

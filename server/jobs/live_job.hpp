@@ -13,6 +13,7 @@
 
 #include "contact/answer.hpp"
 #include "jobs/event_log.hpp"
+#include "jobs/force_arrays.hpp"
 #include "operators/mesh_operator.hpp"
 #include "store/records.hpp"
 
@@ -42,6 +43,7 @@ struct LiveJob {
   const std::shared_ptr<const store::JobSpec> spec;
   const store::Clock::time_point created;
   const std::shared_ptr<EventLog> log;
+  ForceArrays arrays;
   std::stop_source stop;
 
   store::JobState state = store::JobState::queued;

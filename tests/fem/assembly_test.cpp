@@ -3,10 +3,13 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <memory>
+#include <stop_token>
+#include <vector>
 
 #include "fem/load_vector.hpp"
-#include "fem/quadrature.hpp"
 #include "fem/stiffness.hpp"
+#include "support/errors.hpp"
 
 namespace anticrack::fem {
 namespace {
@@ -54,22 +57,6 @@ TEST(Stiffness, GivesTheEnergyOfALinearFunctionExactly) {
   EXPECT_NEAR((Eigen::MatrixXd(k) - Eigen::MatrixXd(k).transpose()).norm(), 0, 1e-15);
 }
 
-TEST(Quadrature, IsExactToDegreeFive) {
-  // int x^a y^b over the triangle (0,0),(1,0),(0,1) is a! b! / (a+b+2)!
-  const auto factorial = [](int n) { return std::tgamma(n + 1.0); };
-  for (int a = 0; a <= 5; ++a) {
-    for (int b = 0; a + b <= 5; ++b) {
-      double sum = 0;
-      for (const QuadraturePoint& point : degree_five_rule()) {
-        sum += 0.5 * point.weight * std::pow(point.barycentric[1], a) *
-               std::pow(point.barycentric[2], b);
-      }
-      EXPECT_NEAR(sum, factorial(a) * factorial(b) / factorial(a + b + 2), 1e-16)
-          << "x^" << a << " y^" << b;
-    }
-  }
-}
-
 TEST(LoadVector, OfAConstantIsAThirdOfTheAreaPerCorner) {
   const Triangulation part = crooked_square(5);
   EXPECT_NEAR(load_vector(part, 3.0, "a").sum(), 3.0, 1e-14);
@@ -95,6 +82,41 @@ TEST(LoadVector, OfRegionsTakesTheRegionOfTheSubdomain) {
 TEST(LoadVector, OfAJumpAlongEdgesIsExact) {
   const Triangulation part{{0, 0, 1, 0, 1, 1, 0, 1}, {0, 1, 2, 0, 2, 3}};  // jumps on y = x
   EXPECT_NEAR(load_vector(part, Expression{"y > x ? 4 : 1"}, "a").sum(), 2.5, 1e-15);
+}
+
+TEST(LoadVector, OfAnArrayOnNodesIsThatOfItsInterpolant) {
+  const Triangulation part = crooked_square(5);
+  // The subdomain's nodes are some of the mesh's, in another order.
+  std::vector<std::int32_t> node(part.node_count());
+  auto values = std::make_shared<std::vector<double>>(2 * node.size(), 1e300);
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    node[i] = static_cast<std::int32_t>(2 * (node.size() - i) - 1);
+    (*values)[static_cast<std::size_t>(node[i])] = 2 * part.xy[2 * i] - 3 * part.xy[2 * i + 1];
+  }
+  const Eigen::VectorXd load = load_vector(part, Array{"sha", false, values}, "a", {.node = node});
+  EXPECT_NEAR((load - load_vector(part, Expression{"2*x - 3*y"}, "a")).norm(), 0, 1e-15);
+}
+
+TEST(LoadVector, OfAnArrayOnTrianglesIsConstantOnEach) {
+  const Triangulation part{{0, 0, 1, 0, 1, 1, 0, 1}, {0, 1, 2, 0, 2, 3}};
+  const std::vector<std::int32_t> triangle{3, 1};
+  const auto values = std::make_shared<const std::vector<double>>(std::vector<double>{9, 1, 9, 4});
+  const Eigen::VectorXd load =
+      load_vector(part, Array{"sha", true, values}, "a", {.triangle = triangle});
+  EXPECT_NEAR((load - Eigen::Vector4d(2.5, 2, 2.5, 0.5) / 3).norm(), 0, 1e-15);
+}
+
+TEST(LoadVector, TellsHowWrongItIsAndStopsWhenAsked) {
+  const Triangulation part = crooked_square(5);
+  double relative_error = -1;
+  load_vector(part, Expression{"x > 0.3 ? 1 : 2"}, "a", {.relative_error = &relative_error});
+  EXPECT_GE(relative_error, 0);
+  EXPECT_LE(relative_error, load_tolerance);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_TRUE(anticrack::testing::throws(
+      [&] { load_vector(crooked_square(20), Expression{"x"}, "a", {.stop = stop.get_token()}); },
+      errors::Reason::cancelled));
 }
 
 TEST(BoundaryValues, AreThoseOfTheNodesAskedFor) {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ddm/free_boundary.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace anticrack::ddm {
+namespace {
+
+using EdgeKey = std::pair<std::int32_t, std::int32_t>;
+
+/// An edge of a triangle, kept at the lower one of its two nodes.
+struct Use {
+  std::int32_t high;
+  std::int32_t corner;  // 3t + k
+};
+
+std::size_t at(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+EdgeKey edge_of(const mesh::Mesh& mesh, std::size_t corner) {
+  const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
+  return std::minmax(mesh.triangles[corner], mesh.triangles[next]);
+}
+
+}  // namespace
+
+std::vector<std::int32_t> free_boundary(const mesh::Mesh& mesh) {
+  std::vector<std::size_t> end(mesh.node_count() + 1, 0);  // of each node's uses
+  for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
+    ++end[at(edge_of(mesh, c).first) + 1];
+  }
+  for (std::size_t n = 1; n < end.size(); ++n) {
+    end[n] += end[n - 1];
+  }
+  std::vector<Use> uses(mesh.triangles.size());
+  for (std::size_t c = mesh.triangles.size(); c-- > 0;) {
+    const auto [low, high] = edge_of(mesh, c);
+    uses[--end[at(low) + 1]] = {high, static_cast<std::int32_t>(c)};
+  }
+  // end[n + 1] is now where node n begins.
+  std::vector<EdgeKey> held;
+  held.reserve(mesh.dirichlet.size());
+  for (const auto& edge : mesh.dirichlet) {
+    held.push_back(std::minmax(edge[0], edge[1]));
+  }
+  std::sort(held.begin(), held.end());
+  std::vector<std::int32_t> result;
+  for (std::size_t n = 0; n < mesh.node_count(); ++n) {
+    const auto first = uses.begin() + static_cast<std::ptrdiff_t>(end[n + 1]);
+    const auto last =
+        n + 2 < end.size() ? uses.begin() + static_cast<std::ptrdiff_t>(end[n + 2]) : uses.end();
+    std::sort(first, last, [](const Use& a, const Use& b) { return a.high < b.high; });
+    for (auto use = first; use != last;) {
+      const auto next =
+          std::find_if(use, last, [use](const Use& other) { return other.high != use->high; });
+      const EdgeKey key{static_cast<std::int32_t>(n), use->high};
+      if (next - use == 1 && !std::binary_search(held.begin(), held.end(), key)) {
+        result.push_back(use->corner);
+      }
+      use = next;
+    }
+  }
+  return result;
+}
+
+}  // namespace anticrack::ddm

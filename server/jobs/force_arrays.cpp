@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/force_arrays.hpp"
+
+#include <set>
+#include <utility>
+#include <variant>
+
+#include "errors/errors.hpp"
+#include "store/array_upload.hpp"
+
+namespace anticrack::jobs {
+namespace {
+
+using errors::Error;
+using errors::Reason;
+
+std::string path_of(const store::Store& store, const std::string& sha256) {
+  std::optional<std::string> path = store.upload_path(sha256);
+  if (!path) {
+    throw Error(Reason::not_found,
+                "there is no uploads/" + sha256 + "; upload the values of the force first");
+  }
+  return std::move(*path);
+}
+
+template <class Call>
+auto at_field(const std::string& field, const Call& call) {
+  try {
+    return call();
+  } catch (Error& error) {
+    error.at(field);
+    throw;
+  }
+}
+
+}  // namespace
+
+void require_arrays(const std::vector<fem::Load>& loads, const store::Store& store) {
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const auto* array = std::get_if<fem::Array>(&loads[i].force);
+    if (array != nullptr && seen.insert(array->upload).second) {
+      at_field("load_cases[" + std::to_string(i) + "].force.array",
+               [&] { return store::array_length(path_of(store, array->upload)); });
+    }
+  }
+}
+
+ForceArrays::ForceArrays(const std::vector<fem::Load>& loads) {
+  for (const fem::Load& load : loads) {
+    if (const auto* array = std::get_if<fem::Array>(&load.force)) {
+      ++_entries[array->upload].cases_left;
+    }
+  }
+}
+
+fem::Load ForceArrays::resolve(const fem::Load& load, const store::Store& store) {
+  fem::Load resolved = load;
+  if (auto* array = std::get_if<fem::Array>(&resolved.force)) {
+    array->values = at_field("force.array", [&] { return take(array->upload, store); });
+  }
+  return resolved;
+}
+
+ForceArrays::Values ForceArrays::take(const std::string& sha256, const store::Store& store) {
+  // Held while reading: another case that wants the same values waits for them.
+  const std::lock_guard lock(_mutex);
+  Entry& entry = _entries.at(sha256);
+  const bool last = --entry.cases_left == 0;
+  Values values = entry.in_use.lock();
+  if (!values) {
+    values = std::make_shared<const std::vector<double>>(store::read_array(path_of(store, sha256)));
+    entry.in_use = values;
+  }
+  const std::size_t bytes = values->size() * sizeof(double);
+  if (entry.kept && last) {
+    entry.kept.reset();
+    _kept_bytes -= bytes;
+  } else if (!entry.kept && !last && _kept_bytes + bytes <= max_kept_bytes) {
+    entry.kept = values;
+    _kept_bytes += bytes;
+  }
+  return values;
+}
+
+}  // namespace anticrack::jobs

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The arrays that the load cases of one job take their forces from.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "store/store.hpp"
+
+namespace anticrack::jobs {
+
+/// Throws errors::Error at "load_cases[i].force.array": not_found where the store has no such
+/// upload, invalid_argument where it is no array.
+void require_arrays(const std::vector<fem::Load>& loads, const store::Store& store);
+
+/// Reads each upload when its first load case is solved and shares the values among all; they are
+/// let go with the last case that names them, or when `max_kept_bytes` are kept already (the next
+/// case then reads them again). Thread-safe.
+class ForceArrays {
+ public:
+  static constexpr std::size_t max_kept_bytes = std::size_t{512} << 20;
+
+  explicit ForceArrays(const std::vector<fem::Load>& loads);
+
+  /// The load, with values where its force is an array. To be called once for each load case.
+  /// Throws errors::Error at "force.array" as require_arrays does, and where a value is not finite.
+  fem::Load resolve(const fem::Load& load, const store::Store& store);
+
+ private:
+  using Values = std::shared_ptr<const std::vector<double>>;
+  struct Entry {
+    std::size_t cases_left = 0;
+    Values kept;
+    std::weak_ptr<const std::vector<double>> in_use;
+  };
+
+  Values take(const std::string& sha256, const store::Store& store);
+
+  std::mutex _mutex;
+  std::map<std::string, Entry> _entries;  ///< by sha256
+  std::size_t _kept_bytes = 0;
+};
+
+}  // namespace anticrack::jobs

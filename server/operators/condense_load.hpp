@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "ddm/decomposition.hpp"
+#include "ddm/subdomain_operator.hpp"
+#include "fem/load.hpp"
+#include "mesh/mesh.hpp"
+
+namespace anticrack::operators {
+
+/// A load case as the traces feel it.
+struct LoadOnTraces {
+  std::vector<ddm::CondensedLoad> subdomains;  ///< one per subdomain
+  /// One per Mesh::inclusions: the force that acts on it, point forces on it counted. It is in `g`
+  /// of `subdomains` already, at one trace node that the inclusion holds.
+  std::vector<double> inclusion_forces;
+  std::vector<std::string> warnings;  ///< an integral that met a limit, with how wrong it may be
+};
+
+/// Integrates everything that acts on the membrane (paper: f, g_D; and tractions, point forces,
+/// forces on inclusions) and condenses it to the traces: one forward solve a subdomain, two where
+/// g_D is not zero. `operators`: one per subdomain of the decomposition, `mesh` the one it was cut
+/// from. Throws errors::Error: invalid_argument for a subdomain or inclusion that the mesh does not
+/// have, an array of another length than the mesh's, a point force outside or on a crack
+/// (place_forces.hpp); expression_invalid; cancelled soon after `stop` is requested.
+LoadOnTraces condense_load(const fem::Load& load, const mesh::Mesh& mesh,
+                           const ddm::Decomposition& decomposition,
+                           std::span<const ddm::SubdomainOperator> operators,
+                           const std::stop_token& stop);
+
+}  // namespace anticrack::operators
