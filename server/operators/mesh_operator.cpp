@@ -9,14 +9,16 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <variant>
 
+#include "contact/skeleton_problem.hpp"
 #include "contact/solve.hpp"
 #include "contact/trace_problem.hpp"
 #include "ddm/blas.hpp"
 #include "ddm/decomposition.hpp"
 #include "ddm/subdomain_operator.hpp"
 #include "errors/errors.hpp"
-#include "fem/load_vector.hpp"
+#include "operators/condense_load.hpp"
 
 namespace anticrack::operators {
 namespace {
@@ -88,24 +90,6 @@ std::size_t bytes_of(const ddm::Decomposition& decomposition) {
   return bytes;
 }
 
-void require_known_regions(const fem::Load& load, const mesh::Mesh& mesh) {
-  const auto* regions = std::get_if<fem::PerRegion>(&load.force);
-  if (regions == nullptr) {
-    return;
-  }
-  for (const auto& [name, value] : regions->values) {
-    if (std::find(mesh.subdomains.begin(), mesh.subdomains.end(), name) == mesh.subdomains.end()) {
-      std::string known;
-      for (const std::string& subdomain : mesh.subdomains) {
-        known += (known.empty() ? "\"" : ", \"") + subdomain + "\"";
-      }
-      throw errors::Error(errors::Reason::invalid_argument,
-                          "the mesh has no subdomain \"" + name + "\"; it has " + known)
-          .at("force.per_region[" + name + "]");
-    }
-  }
-}
-
 }  // namespace
 
 struct MeshOperator::Parts {
@@ -113,13 +97,17 @@ struct MeshOperator::Parts {
       : mesh(std::move(cut_mesh)),
         decomposition(ddm::cut(*mesh)),
         operators(factorise_subdomains(decomposition.subdomains, threads, stop)),
-        problem(decomposition, operators),
+        uzawa_obstacle(ddm::uzawa_obstacle(decomposition, *mesh)),
+        problem(decomposition, operators, uzawa_obstacle.empty()),
+        skeleton(problem),
         geometry(contact::trace_geometry(decomposition, *mesh)) {}
 
   std::shared_ptr<const mesh::Mesh> mesh;
   ddm::Decomposition decomposition;
   std::vector<ddm::SubdomainOperator> operators;
-  contact::TraceProblem problem;  // refers to the two above
+  std::string uzawa_obstacle;
+  contact::TraceProblem problem;      // refers to the decomposition and the operators
+  contact::SkeletonProblem skeleton;  // refers to the problem
   std::vector<contact::TraceGeometry> geometry;
 };
 
@@ -134,18 +122,25 @@ std::shared_ptr<const MeshOperator> MeshOperator::factorise(std::shared_ptr<cons
   return std::shared_ptr<const MeshOperator>(new MeshOperator(std::move(parts)));
 }
 
-contact::Answer MeshOperator::solve(const fem::Load& load, const contact::UzawaOptions& options,
-                                    bool fields, contact::Observer& observer) const {
-  require_known_regions(load, *_parts->mesh);
-  std::vector<ddm::CondensedLoad> condensed;
-  for (std::size_t s = 0; s < _parts->operators.size(); ++s) {
-    const ddm::Subdomain& subdomain = _parts->decomposition.subdomains[s];
-    condensed.push_back(
-        _parts->operators[s].condense(fem::load_vector(subdomain.part, load.force, subdomain.name),
-                                      fem::boundary_values(subdomain.part, load.boundary_value,
-                                                           subdomain.free(), subdomain.dirichlet)));
+contact::Answer MeshOperator::solve(const fem::Load& load, const contact::SolverOptions& options,
+                                    bool fields, contact::Observer& observer,
+                                    const std::stop_token& stop) const {
+  const auto* uzawa = std::get_if<contact::UzawaOptions>(&options);
+  if (uzawa != nullptr && !_parts->uzawa_obstacle.empty()) {
+    throw errors::Error(errors::Reason::not_implemented, _parts->uzawa_obstacle).at("uzawa");
   }
-  return contact::solve_uzawa(_parts->problem, *_parts->mesh, condensed, options, fields, observer);
+  const LoadOnTraces condensed =
+      condense_load(load, *_parts->mesh, _parts->decomposition, _parts->operators, stop);
+  const contact::CaseLoads loads{condensed.subdomains, condensed.inclusion_forces};
+  contact::Answer answer =
+      uzawa != nullptr
+          ? contact::solve_uzawa(_parts->problem, *_parts->mesh, loads, *uzawa, fields, observer)
+          : contact::solve_active_set(_parts->skeleton, *_parts->mesh, loads,
+                                      std::get<contact::ActiveSetOptions>(options), fields,
+                                      observer);
+  answer.warnings.insert(answer.warnings.end(), condensed.warnings.begin(),
+                         condensed.warnings.end());
+  return answer;
 }
 
 const mesh::Mesh& MeshOperator::mesh() const noexcept {
@@ -165,7 +160,7 @@ std::size_t MeshOperator::bytes() const noexcept {
   for (const ddm::SubdomainOperator& subdomain : _parts->operators) {
     bytes += subdomain.bytes();
   }
-  return bytes;
+  return bytes + _parts->skeleton.bytes();
 }
 
 void require_threadsafe_blas() {

@@ -31,9 +31,10 @@ class MeshOperator {
   /// Same mesh, load and options: same bits. Throws errors::Error (expression_invalid: a value that
   /// is not finite, with the place; invalid_argument: a subdomain or inclusion the mesh does not
   /// have, an array of another length, a point outside; not_implemented: Uzawa where
-  /// ddm::uzawa_obstacle has a reason).
+  /// ddm::uzawa_obstacle has a reason; cancelled: `stop` was requested while the load was
+  /// integrated, before there is an iteration that the observer could stop).
   contact::Answer solve(const fem::Load& load, const contact::SolverOptions& options, bool fields,
-                        contact::Observer& observer) const;
+                        contact::Observer& observer, const std::stop_token& stop = {}) const;
 
   const mesh::Mesh& mesh() const noexcept;
   /// Per interface of the mesh.
