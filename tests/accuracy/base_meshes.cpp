@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "accuracy/base_meshes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "mesher/helper.hpp"
+#include "support/paper_geometry.hpp"
+#include "support/structured_mesh.hpp"
+
+namespace anticrack::accuracy {
+namespace {
+
+constexpr int columns = 8, rows = 4;
+
+std::size_t at(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+mesh::Mesh diagonals(mesh::Kind condition) {
+  testing::StructuredOptions options;
+  options.columns = columns;
+  options.rows = rows;
+  options.kind = [condition](double x) { return std::abs(x) < 0.5 ? condition : mesh::Kind::glue; };
+  if (condition == mesh::Kind::crack) {
+    options.inclusions.clear();
+  }
+  return testing::structured_mesh(options);
+}
+
+mesh::Mesh crosses() {
+  mesh::Mesh mesh = diagonals();
+  std::vector<std::int32_t> triangles, subdomain;
+  // A square's two triangles follow each other: (a, b, c) and (a, c, d).
+  for (std::size_t t = 0; t < mesh.triangle_count(); t += 2) {
+    const std::int32_t* corner = &mesh.triangles[3 * t];
+    const std::int32_t a = corner[0], b = corner[1], c = corner[2], d = corner[5];
+    const auto centre = static_cast<std::int32_t>(mesh.node_count());
+    mesh.xy.push_back(0.5 * (mesh.xy[2 * at(a)] + mesh.xy[2 * at(c)]));
+    mesh.xy.push_back(0.5 * (mesh.xy[2 * at(a) + 1] + mesh.xy[2 * at(c) + 1]));
+    triangles.insert(triangles.end(), {a, b, centre, b, c, centre, c, d, centre, d, a, centre});
+    subdomain.insert(subdomain.end(), 4, mesh.subdomain[t]);
+  }
+  mesh.triangles = std::move(triangles);
+  mesh.subdomain = std::move(subdomain);
+  return mesh;
+}
+
+mesh::Mesh shaken(unsigned seed) {
+  mesh::Mesh mesh = diagonals();
+  std::mt19937 random(seed);
+  // Multiples of 2^-10 keep midpoints exact in all the bisections that follow.
+  std::uniform_int_distribution<int> step(-56, 56);
+  for (std::size_t i = 0; i < mesh.node_count(); ++i) {
+    double &x = mesh.xy[2 * i], &y = mesh.xy[2 * i + 1];
+    if (std::abs(x) == 1 || std::abs(y) == 1) {
+      continue;
+    }
+    const double dx = std::ldexp(step(random), -10), dy = std::ldexp(step(random), -10);
+    if (y != 0) {
+      x += dx;
+      y += dy;
+    } else if (std::abs(x) != 0.5) {
+      x += dx;
+    }
+  }
+  return mesh;
+}
+
+mesh::Mesh generated(double h0) {
+  mesher::HelperOptions helper;
+  helper.executable = ANTICRACK_MESHER;
+  constexpr std::size_t limit = 1'000'000;
+  mesh::MeshOptions options;
+  options.size = h0;
+  return mesher::run(
+      helper, mesh::GenerateRequest{mesh::plan(testing::paper_geometry(), options, limit), limit},
+      {});
+}
+
+mesh::Mesh turned(mesh::Mesh mesh) {
+  for (mesh::Interface& interface : mesh.interfaces) {
+    std::reverse(interface.nodes.begin(), interface.nodes.end());
+    std::reverse(interface.kind.begin(), interface.kind.end());
+    std::reverse(interface.inclusion.begin(), interface.inclusion.end());
+  }
+  return mesh;
+}
+
+mesh::Mesh mirrored(mesh::Mesh mesh, Mirror mirror) {
+  for (std::size_t i = mirror == Mirror::x ? 0 : 1; i < mesh.xy.size(); i += 2) {
+    mesh.xy[i] = -mesh.xy[i];
+  }
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    std::swap(mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]);
+  }
+  return turned(std::move(mesh));
+}
+
+}  // namespace anticrack::accuracy

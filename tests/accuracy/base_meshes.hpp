@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Coarse meshes of the paper's membrane to refine, and their mirror images.
+#pragma once
+
+#include "mesh/geometry.hpp"
+#include "mesh/mesh.hpp"
+
+namespace anticrack::accuracy {
+
+/// Squares of side 1/4 with one diagonal each; `condition` holds on (-0.5, 0.5).
+mesh::Mesh diagonals(mesh::Kind condition = mesh::Kind::delaminated);
+
+/// The same squares cut by both diagonals.
+mesh::Mesh crosses();
+
+/// `diagonals`, its inner nodes moved at random, those on the interface along it: triangles of
+/// every shape, and no edge on x = 0 but where it happens. The tips stay.
+mesh::Mesh shaken(unsigned seed);
+
+/// What the service makes of the paper's geometry with its default preset, by the helper process
+/// and graded towards the tips: unstructured. `h0` is the edge length away from them.
+mesh::Mesh generated(double h0);
+
+enum class Mirror { x, y };
+
+/// The image under x -> -x or y -> -y. Nodes, triangles and edges keep their numbers; the chain of
+/// each interface is turned round, so that the image of its plus side is its plus side.
+mesh::Mesh mirrored(mesh::Mesh mesh, Mirror mirror);
+
+/// Plus and minus sides exchanged.
+mesh::Mesh turned(mesh::Mesh mesh);
+
+}  // namespace anticrack::accuracy

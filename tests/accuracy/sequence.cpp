@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "accuracy/sequence.hpp"
+
+#include <stdexcept>
+
+namespace anticrack::accuracy {
+namespace {
+
+class Silent : public contact::Observer {
+ public:
+  bool on_iteration(const contact::Sample&) override { return true; }
+};
+
+}  // namespace
+
+contact::Answer solve(const operators::MeshOperator& op, const fem::Force& force,
+                      const std::string& boundary, bool fields) {
+  fem::Load load;
+  load.name = "case";
+  load.force = force;
+  load.boundary_value = boundary;
+  Silent silent;
+  contact::Answer answer = op.solve(load, contact::ActiveSetOptions{}, fields, silent);
+  if (answer.status != contact::Status::converged) {
+    throw std::runtime_error("not converged: " + answer.reason);
+  }
+  return answer;
+}
+
+std::shared_ptr<const operators::MeshOperator> factorise(mesh::Mesh mesh) {
+  return operators::MeshOperator::factorise(std::make_shared<const mesh::Mesh>(std::move(mesh)), 2,
+                                            {});
+}
+
+}  // namespace anticrack::accuracy

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Load cases solved one after the other, and rates of convergence.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "mesh/mesh.hpp"
+#include "operators/mesh_operator.hpp"
+
+namespace anticrack::accuracy {
+
+/// f and g_D; exact contact (active set). Throws std::runtime_error where it does not converge.
+contact::Answer solve(const operators::MeshOperator& op, const fem::Force& force,
+                      const std::string& boundary = "", bool fields = false);
+
+std::shared_ptr<const operators::MeshOperator> factorise(mesh::Mesh mesh);
+
+/// Order of convergence between two errors when h halves.
+inline double rate(double coarse, double fine) {
+  return std::log2(coarse / fine);
+}
+
+/// What grading by m leaves of the O(h0^2) of A and of the energy (of a squared energy norm) where
+/// u ~ r^{1/4}: each ring at distance r adds h^2 |D^2 u|^2 = h0^2 r^{-2m-3/2}, but rings inside
+/// r = h0^{1/m}, where elements are as large as r itself, add h0^{1/(2m)} only. So the sum behaves
+/// like
+///
+///   h0^2 (1 - h0^{(1/2 - 2m)/m}) / (1/2 - 2m)
+///
+/// and with m = 0.2 the bracket, 1 - h0^{1/2}, is still growing at any h0 in use: the rate seen
+/// between h0 = 0.1 and 0.05 is 1.8, not 2. With m = 0.1 it is 1 - h0^3.
+inline double unsaturated(double h0, double m) {
+  return 1 - std::pow(h0, (0.5 - 2 * m) / m);
+}
+
+}  // namespace anticrack::accuracy
