@@ -15,7 +15,6 @@ namespace anticrack::jobs {
 namespace {
 
 using anticrack::testing::error_of;
-using anticrack::testing::eventually;
 using anticrack::testing::throws;
 using errors::Reason;
 using ::testing::IsEmpty;
