@@ -29,26 +29,31 @@ bool in_contact(const ddm::NodePair& pair, double mu) {
   return pair.unilateral() && mu > 0;
 }
 
+/// u on one side; a side on the Dirichlet boundary has no trace.
+double side_value(const TraceState& state, std::int32_t subdomain, std::int32_t trace,
+                  double dirichlet) {
+  return subdomain < 0 ? dirichlet : state.trace[at(subdomain)][trace];
+}
+
 Trace trace_of(const TraceProblem& problem, std::span<const ddm::CondensedLoad> loads,
-               const Iterate& iterate, const mesh::Interface& interface,
-               const std::vector<std::int32_t>& pairs) {
+               const TraceState& state, const mesh::Interface& interface,
+               const std::vector<ddm::SidePair>& sides) {
   Trace trace;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (pairs[i] < 0) {
-      const double value = dirichlet_value(problem.decomposition(), loads, interface.nodes[i]);
-      trace.u_minus.push_back(value);
-      trace.u_plus.push_back(value);
-      trace.jump.push_back(0);
-      trace.pressure.push_back(0);
-      trace.contact.push_back(0);
-      continue;
-    }
-    const ddm::NodePair& pair = problem.decomposition().pairs[at(pairs[i])];
-    trace.u_minus.push_back(iterate.trace[at(pair.minus)][pair.minus_trace]);
-    trace.u_plus.push_back(iterate.trace[at(pair.plus)][pair.plus_trace]);
-    trace.jump.push_back(iterate.jump[pairs[i]]);
-    trace.pressure.push_back(iterate.mu[pairs[i]]);
-    trace.contact.push_back(in_contact(pair, iterate.mu[pairs[i]]) ? 1 : 0);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const ddm::SidePair& side = sides[i];
+    const double dirichlet =
+        side.minus < 0 || side.plus < 0
+            ? dirichlet_value(problem.decomposition(), loads, interface.nodes[i])
+            : 0;
+    trace.u_minus.push_back(side_value(state, side.minus, side.minus_trace, dirichlet));
+    trace.u_plus.push_back(side_value(state, side.plus, side.plus_trace, dirichlet));
+    const bool paired = side.pair >= 0;
+    trace.jump.push_back(paired ? state.jump[side.pair] : 0);
+    trace.pressure.push_back(paired ? state.mu[side.pair] : 0);
+    trace.contact.push_back(
+        paired && in_contact(problem.decomposition().pairs[at(side.pair)], state.mu[side.pair])
+            ? 1
+            : 0);
   }
   return trace;
 }
@@ -68,26 +73,33 @@ void append_intervals(std::size_t interface, const std::vector<double>& arc_leng
   }
 }
 
-/// Both sides' outward fluxes over the nodes of each inclusion: [du/dnu] = du2/dn2 + du1/dn1.
-void fill_inclusions(const TraceProblem& problem, const mesh::Mesh& mesh, const Uzawa& uzawa,
+/// Outward fluxes of all sides: [T du/dn] = T du2/dn2 + T du1/dn1.
+void fill_inclusions(const TraceProblem& problem, const mesh::Mesh& mesh,
+                     std::span<const double> inclusion_forces, const TraceState& state,
                      Answer& answer) {
-  const Iterate& iterate = uzawa.iterate();
+  const ddm::Decomposition& decomposition = problem.decomposition();
   for (std::size_t j = 0; j < mesh.inclusions.size(); ++j) {
-    answer.inclusions.push_back(
-        {mesh.inclusions[j], iterate.displacement[static_cast<Eigen::Index>(j)], 0, 0});
+    answer.inclusions.push_back({mesh.inclusions[j],
+                                 state.displacement[static_cast<Eigen::Index>(j)],
+                                 inclusion_forces.empty() ? 0 : inclusion_forces[j], 0});
   }
-  const std::vector<Eigen::VectorXd> flux = uzawa.fluxes();
-  const auto& pairs = problem.decomposition().pairs;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const ddm::NodePair& pair = pairs[i];
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
+    for (std::size_t i = 0; i < unknown.size(); ++i) {
+      const std::size_t j = at(problem.forest().root(unknown[i]));  // A_j come first
+      if (j < answer.inclusions.size()) {
+        answer.inclusions[j].resultant += state.flux[s][static_cast<Eigen::Index>(i)];
+      }
+    }
+  }
+  for (std::size_t i = 0; i < decomposition.pairs.size(); ++i) {
+    const ddm::NodePair& pair = decomposition.pairs[i];
     const auto k = static_cast<Eigen::Index>(i);
-    const double contact_length = in_contact(pair, iterate.mu[k]) ? problem.lumped_mass()[k] : 0;
-    answer.contact_length += contact_length;
-    if (pair.inclusion >= 0) {
-      InclusionAnswer& inclusion = answer.inclusions[at(pair.inclusion)];
-      inclusion.contact_length += contact_length;
-      inclusion.resultant +=
-          flux[at(pair.minus)][pair.minus_trace] + flux[at(pair.plus)][pair.plus_trace];
+    if (in_contact(pair, state.mu[k])) {
+      answer.contact_length += problem.lumped_mass()[k];
+      if (pair.inclusion >= 0) {
+        answer.inclusions[at(pair.inclusion)].contact_length += problem.lumped_mass()[k];
+      }
     }
   }
 }
@@ -95,20 +107,19 @@ void fill_inclusions(const TraceProblem& problem, const mesh::Mesh& mesh, const 
 }  // namespace
 
 void describe(const TraceProblem& problem, const mesh::Mesh& mesh,
-              std::span<const ddm::CondensedLoad> loads, const Uzawa& uzawa, bool fields,
-              Answer& answer) {
+              std::span<const ddm::CondensedLoad> loads, std::span<const double> inclusion_forces,
+              const TraceState& state, bool fields, Answer& answer) {
   const ddm::Decomposition& decomposition = problem.decomposition();
-  const Iterate& iterate = uzawa.iterate();
-  fill_inclusions(problem, mesh, uzawa, answer);
+  fill_inclusions(problem, mesh, inclusion_forces, state, answer);
   for (std::size_t c = 0; c < mesh.interfaces.size(); ++c) {
     answer.traces.push_back(
-        trace_of(problem, loads, iterate, mesh.interfaces[c], decomposition.interface_pairs[c]));
+        trace_of(problem, loads, state, mesh.interfaces[c], decomposition.interface_sides[c]));
     append_intervals(c, mesh::arc_length(mesh, mesh.interfaces[c]), answer.traces.back().contact,
                      answer.contact_intervals);
   }
   if (fields) {
     for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
-      const Eigen::VectorXd u = problem.operators()[s].recover(loads[s], iterate.trace[s]);
+      const Eigen::VectorXd u = problem.operators()[s].recover(loads[s], state.trace[s]);
       answer.fields.push_back({decomposition.subdomains[s].node, {u.begin(), u.end()}});
     }
   }
@@ -122,10 +133,9 @@ std::vector<TraceGeometry> trace_geometry(const ddm::Decomposition& decompositio
     geometry.s = mesh::arc_length(mesh, mesh.interfaces[c]);
     for (std::size_t i = 0; i < mesh.interfaces[c].nodes.size(); ++i) {
       const std::size_t node = at(mesh.interfaces[c].nodes[i]);
-      const std::int32_t pair = decomposition.interface_pairs[c][i];
       geometry.x.push_back(mesh.xy[2 * node]);
       geometry.y.push_back(mesh.xy[2 * node + 1]);
-      geometry.kind.push_back(pair < 0 ? mesh::Kind::glue : decomposition.pairs[at(pair)].kind);
+      geometry.kind.push_back(decomposition.interface_sides[c][i].kind);
     }
     result.push_back(std::move(geometry));
   }

@@ -30,8 +30,9 @@ struct UzawaOptions {
 
 /// Primal-dual active set: exact contact in a handful of steps.
 struct ActiveSetOptions {
-  double tolerance = 1e-12;  ///< >= 0; relative jump or pressure below which a node is weakly active
-  int max_steps = 1000;      ///< >= 1
+  double tolerance =
+      1e-12;             ///< >= 0; relative jump or pressure below which a node is weakly active
+  int max_steps = 1000;  ///< >= 1
 };
 
 using SolverOptions = std::variant<ActiveSetOptions, UzawaOptions>;
@@ -41,7 +42,9 @@ using SolverOptions = std::variant<ActiveSetOptions, UzawaOptions>;
 /// "active_set.tolerance", "active_set.max_steps".
 void check(const SolverOptions& options, int iteration_limit);
 
-/// Residuals of the optimality conditions at an iterate, absolute.
+/// Residuals of the optimality conditions at an iterate. Relative ones are over the largest force
+/// (condensed load or M mu), the largest trace |u|, the largest |mu|, and the product of the last
+/// two; a residual of 0 is 0.
 struct KktResiduals {
   double equilibrium = 0;  ///< max |(S t - g +- M mu)_i|, force; zero to rounding in Algorithm 2
   double gap = 0;          ///< max violation of [u] = 0 (glue, tips) and [u] >= 0 (cracks)
@@ -106,7 +109,8 @@ struct Answer {
   double energy = 0;      ///< Pi(u)
   KktResiduals kkt;
   KktResiduals kkt_relative;
-  int weakly_active = 0;                    ///< crack nodes with neither jump nor pressure
+  int weakly_active = 0;     ///< active set: crack nodes with neither jump nor pressure
+  std::vector<char> closed;  ///< active set: 1 for each contact condition with d = 0
   std::vector<std::string> warnings;
   std::vector<InclusionAnswer> inclusions;  ///< one per Mesh::inclusions
   double contact_length = 0;

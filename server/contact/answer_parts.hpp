@@ -4,13 +4,17 @@
 #include <span>
 
 #include "contact/answer.hpp"
-#include "contact/uzawa.hpp"
+#include "contact/trace_problem.hpp"
+#include "contact/trace_state.hpp"
 
 namespace anticrack::contact {
 
-/// Fills traces, contact, inclusions and (when asked) fields from the last iterate.
+/// Fills traces, contact, inclusions and (when asked) fields from the last state. The resultant on
+/// inclusion j is the sum of the fluxes of all sides that hang on A_j in the forest (its own, and
+/// through contact the delaminated ones), of the load without the force F_j on the inclusion:
+/// F_j in the solution. `inclusion_forces`: F_j, in the condensed loads; empty for none.
 void describe(const TraceProblem& problem, const mesh::Mesh& mesh,
-              std::span<const ddm::CondensedLoad> loads, const Uzawa& uzawa, bool fields,
-              Answer& answer);
+              std::span<const ddm::CondensedLoad> loads, std::span<const double> inclusion_forces,
+              const TraceState& state, bool fields, Answer& answer);
 
 }  // namespace anticrack::contact

@@ -43,7 +43,7 @@ class Product {
  private:
   Eigen::VectorXd answer(std::int32_t subdomain, const Eigen::VectorXd& force) const {
     const ddm::Flexibility& flexibility =
-        _operators[static_cast<std::size_t>(subdomain)].flexibility();
+        *_operators[static_cast<std::size_t>(subdomain)].flexibility();
     Eigen::VectorXd load = Eigen::VectorXd::Zero(flexibility.trace_size());
     for (Eigen::Index i = 0; i < rows(); ++i) {
       const ddm::NodePair& pair = _decomposition.pairs[static_cast<std::size_t>(i)];

@@ -29,13 +29,18 @@ Eigen::SparseMatrix<double> root(const Eigen::VectorXd& mass) {
 }  // namespace
 
 TraceProblem::TraceProblem(const ddm::Decomposition& decomposition,
-                           const std::vector<ddm::SubdomainOperator>& operators)
+                           const std::vector<ddm::SubdomainOperator>& operators, bool uzawa)
     : _decomposition(decomposition),
       _operators(operators),
+      _forest(decomposition.skeleton),
       _lumped(fem::lumped_mass(decomposition.edges, decomposition.pairs.size())),
       _consistent(fem::consistent_mass(decomposition.edges, decomposition.pairs.size())),
-      _theta_star_lumped(contact::theta_star(decomposition, operators, root(_lumped))),
-      _theta_star_consistent(contact::theta_star(decomposition, operators, root(_consistent))) {}
+      _pair_forces(decomposition, _lumped) {
+  if (uzawa) {
+    _theta_star_lumped = contact::theta_star(decomposition, operators, root(_lumped));
+    _theta_star_consistent = contact::theta_star(decomposition, operators, root(_consistent));
+  }
+}
 
 void TraceProblem::apply_mass(Mass mass, const Eigen::VectorXd& mu, Eigen::VectorXd& force) const {
   if (mass == Mass::lumped) {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "contact/answer.hpp"
+#include "contact/forest.hpp"
+#include "contact/pair_forces.hpp"
 #include "ddm/decomposition.hpp"
 #include "ddm/subdomain_operator.hpp"
 
@@ -14,15 +16,22 @@ namespace anticrack::contact {
 /// The contact problem on the interfaces alone. Multipliers mu, one per node pair, act on the
 /// traces as forces M mu: down on the minus side, up on the plus side. Keeps references: the
 /// decomposition and the operators (one per subdomain, same order) must outlive it.
-/// Immutable after construction, safe to share among threads.
+/// Immutable after construction, safe to share among threads; stays where it is (parts of it refer
+/// to each other).
 class TraceProblem {
  public:
+  TraceProblem(const TraceProblem&) = delete;
+  TraceProblem& operator=(const TraceProblem&) = delete;
+
+  /// `uzawa`: Algorithm 2 applies (ddm::uzawa_obstacle is empty); without, theta* is not computed.
   /// Throws errors::Error (numerical) when theta* cannot be computed.
   TraceProblem(const ddm::Decomposition& decomposition,
-               const std::vector<ddm::SubdomainOperator>& operators);
+               const std::vector<ddm::SubdomainOperator>& operators, bool uzawa = true);
 
   const ddm::Decomposition& decomposition() const noexcept { return _decomposition; }
   const std::vector<ddm::SubdomainOperator>& operators() const noexcept { return _operators; }
+  const Forest& forest() const noexcept { return _forest; }
+  const PairForces& pair_forces() const noexcept { return _pair_forces; }
   Eigen::Index pair_count() const noexcept { return _lumped.size(); }
 
   /// Diagonal of the lumped interface mass: the length that belongs to each pair.
@@ -32,7 +41,8 @@ class TraceProblem {
   void apply_mass(Mass mass, const Eigen::VectorXd& mu, Eigen::VectorXd& force) const;
 
   /// theta* = 2 / lambda_max(M^1/2 (F1 + F2) M^1/2): the iteration contracts for every load when
-  /// 0 < theta < theta* (Theorem 4). Infinite when there is no interface.
+  /// 0 < theta < theta* (Theorem 4). Infinite when there is no interface, 0 where Algorithm 2 does
+  /// not apply.
   double theta_star(Mass mass) const noexcept {
     return mass == Mass::lumped ? _theta_star_lumped : _theta_star_consistent;
   }
@@ -40,8 +50,10 @@ class TraceProblem {
  private:
   const ddm::Decomposition& _decomposition;
   const std::vector<ddm::SubdomainOperator>& _operators;
+  Forest _forest;
   Eigen::VectorXd _lumped;
   Eigen::SparseMatrix<double> _consistent;
+  PairForces _pair_forces;
   double _theta_star_lumped = 0;
   double _theta_star_consistent = 0;
 };

@@ -15,10 +15,6 @@ double ratio(double value, double scale) {
   return value == 0 ? 0 : value / scale;
 }
 
-double largest(const Eigen::VectorXd& values) {
-  return values.size() == 0 ? 0 : values.lpNorm<Eigen::Infinity>();
-}
-
 }  // namespace
 
 Uzawa::Uzawa(const TraceProblem& problem, std::span<const ddm::CondensedLoad> loads, double theta,
@@ -27,15 +23,23 @@ Uzawa::Uzawa(const TraceProblem& problem, std::span<const ddm::CondensedLoad> lo
   const Eigen::Index pairs = problem.pair_count();
   _iterate.mu = _iterate.jump = Eigen::VectorXd::Zero(pairs);
   _pair_force = _change = _previous_change = Eigen::VectorXd::Zero(pairs);
-  _iterate.displacement = Eigen::VectorXd::Zero(
-      static_cast<Eigen::Index>(problem.decomposition().inclusion_subdomain.size()));
   for (const ddm::SubdomainOperator& subdomain : problem.operators()) {
-    const ddm::Flexibility& flexibility = subdomain.flexibility();
+    const ddm::Flexibility& flexibility = *subdomain.flexibility();
     const Eigen::VectorXd trace = Eigen::VectorXd::Zero(flexibility.trace_size());
     const Eigen::VectorXd skeleton = Eigen::VectorXd::Zero(flexibility.skeleton_size());
     _iterate.trace.push_back(trace);
     _sides.push_back({trace, trace, trace, skeleton, skeleton});
   }
+  for (std::size_t s = 0; s < _sides.size(); ++s) {
+    for (const std::int32_t inclusion : problem.decomposition().subdomains[s].rigid) {
+      if (inclusion >= 0) {
+        _inclusions.resize(std::max(_inclusions.size(), at(inclusion) + 1));
+        _inclusions[at(inclusion)] = {
+            s, problem.operators()[s].flexibility()->inclusion_column(inclusion)};
+      }
+    }
+  }
+  _iterate.displacement = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(_inclusions.size()));
 }
 
 const Iterate& Uzawa::step() {
@@ -52,11 +56,10 @@ const Iterate& Uzawa::step() {
     _iterate.jump[static_cast<Eigen::Index>(i)] = _iterate.trace[at(pair.plus)][pair.plus_trace] -
                                                   _iterate.trace[at(pair.minus)][pair.minus_trace];
   }
-  for (std::size_t j = 0; j < decomposition.inclusion_subdomain.size(); ++j) {
-    const std::size_t s = at(decomposition.inclusion_subdomain[j]);
+  for (std::size_t j = 0; j < _inclusions.size(); ++j) {
+    const Held& held = _inclusions[j];
     _iterate.displacement[static_cast<Eigen::Index>(j)] =
-        _sides[s].skeleton[_problem.operators()[s].flexibility().inclusion_column(
-            static_cast<std::int32_t>(j))];
+        _sides[held.subdomain].skeleton[held.column];
   }
   return _iterate;
 }
@@ -95,7 +98,7 @@ void Uzawa::solve_sides() {
     Side& side = _sides[s];
     Eigen::VectorXd& trace = _iterate.trace[s];
     side.previous_trace.swap(trace);
-    _problem.operators()[s].flexibility().apply(side.force, side.reduced, side.skeleton, trace);
+    _problem.operators()[s].flexibility()->apply(side.force, side.reduced, side.skeleton, trace);
 
     const ddm::CondensedLoad& load = _loads[s];
     const double trace_energy = trace.dot(side.force);  // t'S t
@@ -109,69 +112,10 @@ void Uzawa::solve_sides() {
   }
 }
 
-KktResiduals Uzawa::kkt() const {
-  KktResiduals result;
-  const auto& pairs = _problem.decomposition().pairs;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const double mu = _iterate.mu[static_cast<Eigen::Index>(i)];
-    const double jump = _iterate.jump[static_cast<Eigen::Index>(i)];
-    if (pairs[i].unilateral()) {
-      result.gap = std::max(result.gap, -jump);
-      result.sign = std::max(result.sign, -mu);
-      result.complementarity = std::max(result.complementarity, std::abs(mu * jump));
-    } else {
-      result.gap = std::max(result.gap, std::abs(jump));
-    }
-  }
-  return result;
-}
-
-std::vector<Eigen::VectorXd> Uzawa::fluxes() const {
-  std::vector<Eigen::VectorXd> result;
-  for (std::size_t s = 0; s < _sides.size(); ++s) {
-    result.push_back(_problem.operators()[s].factor().apply_schur(_iterate.trace[s]) - _loads[s].g);
-  }
-  return result;
-}
-
-double Uzawa::equilibrium_residual() const {
-  const std::vector<Eigen::VectorXd> flux = fluxes();
-  const ddm::Decomposition& decomposition = _problem.decomposition();
-  double residual = 0;
-  Eigen::VectorXd on_inclusion = Eigen::VectorXd::Zero(_iterate.displacement.size());
-  for (std::size_t s = 0; s < _sides.size(); ++s) {
-    const auto& rigid = decomposition.subdomains[s].rigid;
-    for (std::size_t i = 0; i < rigid.size(); ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      const double node = flux[s][k] - (_sides[s].force[k] - _loads[s].g[k]);
-      if (rigid[i] < 0) {
-        residual = std::max(residual, std::abs(node));
-      } else {
-        on_inclusion[rigid[i]] += node;
-      }
-    }
-  }
-  return std::max(residual, largest(on_inclusion));
-}
-
-KktResiduals Uzawa::relative(const KktResiduals& absolute) const {
-  double force = largest(_pair_force), displacement = 0;
-  for (std::size_t s = 0; s < _sides.size(); ++s) {
-    force = std::max(force, largest(_loads[s].g));
-    displacement = std::max(displacement, largest(_iterate.trace[s]));
-  }
-  const double mu = largest(_iterate.mu);
-  return {ratio(absolute.equilibrium, force), ratio(absolute.gap, displacement),
-          ratio(absolute.sign, mu), ratio(absolute.complementarity, mu * displacement)};
-}
-
-int Uzawa::contact_count() const {
-  int count = 0;
-  const auto& pairs = _problem.decomposition().pairs;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    count += pairs[i].unilateral() && _iterate.mu[static_cast<Eigen::Index>(i)] > 0 ? 1 : 0;
-  }
-  return count;
+TraceState Uzawa::state() const {
+  return {_iterate.trace,        fluxes(_problem.operators(), _loads, _iterate.trace),
+          _iterate.displacement, _iterate.mu,
+          _pair_force,           _iterate.jump};
 }
 
 }  // namespace anticrack::contact

@@ -7,6 +7,7 @@
 
 #include "contact/answer.hpp"
 #include "contact/trace_problem.hpp"
+#include "contact/trace_state.hpp"
 
 namespace anticrack::contact {
 
@@ -34,7 +35,8 @@ struct Iterate {
 /// One object belongs to one thread. O(n_G^2) an iteration, no allocation.
 class Uzawa {
  public:
-  /// `loads`: one per subdomain. Keeps references to both. mu_0 = 0.
+  /// `loads`: one per subdomain. Keeps references to both. mu_0 = 0. Every subdomain must have a
+  /// flexibility, and every inclusion its rigid sides in one subdomain (ddm::uzawa_obstacle).
   Uzawa(const TraceProblem& problem, std::span<const ddm::CondensedLoad> loads, double theta,
         double p, Mass mass);
 
@@ -42,20 +44,16 @@ class Uzawa {
   const Iterate& step();
   const Iterate& iterate() const noexcept { return _iterate; }
 
-  /// Optimality at the current iterate; `equilibrium` is not measured (0). No allocation. O(n_G).
-  KktResiduals kkt() const;
-  /// max |(S t - g - B'M mu)_i|, summed over the nodes an inclusion holds rigid. O(n_G^2).
-  double equilibrium_residual() const;
-  /// The residuals over the largest force, displacement, multiplier, and their product.
-  KktResiduals relative(const KktResiduals& absolute) const;
-  /// Crack nodes with mu > 0.
-  int contact_count() const;
-  /// S t - g on the trace of each subdomain: int du/dn phi_i, n outward, sum over i is the flux.
-  std::vector<Eigen::VectorXd> fluxes() const;
+  /// The iterate with its forces and fluxes. O(n_G^2).
+  TraceState state() const;
 
  private:
   struct Side {  // workspace of one subdomain
     Eigen::VectorXd force, previous_force, previous_trace, reduced, skeleton;
+  };
+  struct Held {  // where A_j is found: subdomain and skeleton column
+    std::size_t subdomain;
+    Eigen::Index column;
   };
 
   void update_multipliers();
@@ -69,6 +67,7 @@ class Uzawa {
   Mass _mass;
   Iterate _iterate;
   std::vector<Side> _sides;
+  std::vector<Held> _inclusions;
   Eigen::VectorXd _pair_force, _change, _previous_change;
 };
 

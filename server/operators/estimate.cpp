@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
-#include <set>
-#include <utility>
 #include <vector>
 
+#include "ddm/sides.hpp"
 #include "operators/mesh_operator.hpp"
 
 namespace anticrack::operators {
@@ -14,31 +13,50 @@ struct Size {
   double trace = 0;
 };
 
-/// Nodes of each subdomain, and those of them on interfaces.
-std::vector<Size> subdomain_sizes(const mesh::Mesh& mesh) {
-  std::vector<char> on_interface(mesh.node_count(), 0), seen(mesh.node_count(), 0);
-  for (const mesh::Interface& interface : mesh.interfaces) {
-    for (const std::int32_t node : interface.nodes) {
-      on_interface[static_cast<std::size_t>(node)] = 1;
-    }
-  }
+/// Nodes of each subdomain, and those of them on interfaces, once for each side.
+std::vector<Size> subdomain_sizes(const mesh::Mesh& mesh, const ddm::Sides& sides) {
   std::vector<Size> sizes(mesh.subdomains.size());
-  std::set<std::pair<std::int32_t, std::int32_t>> traces;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto node = static_cast<std::size_t>(mesh.triangles[i]);
-    const std::int32_t subdomain = mesh.subdomain[i / 3];
-    if (on_interface[node] != 0) {
-      traces.emplace(subdomain, mesh.triangles[i]);
-    } else if (seen[node] == 0) {
+  std::vector<char> seen(mesh.node_count(), 0);
+  for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
+    const auto node = static_cast<std::size_t>(mesh.triangles[c]);
+    if (sides.corner[c] < 0 && seen[node] == 0) {
       seen[node] = 1;
-      sizes[static_cast<std::size_t>(subdomain)].nodes += 1;
+      sizes[static_cast<std::size_t>(mesh.subdomain[c / 3])].nodes += 1;
     }
   }
-  for (const auto& [subdomain, node] : traces) {
-    sizes[static_cast<std::size_t>(subdomain)].nodes += 1;
-    sizes[static_cast<std::size_t>(subdomain)].trace += 1;
+  for (const ddm::Side& side : sides.sides) {
+    sizes[static_cast<std::size_t>(side.subdomain)].nodes += 1;
+    sizes[static_cast<std::size_t>(side.subdomain)].trace += 1;
   }
   return sizes;
+}
+
+/// Upper bounds of the skeleton's unknowns and contacts.
+struct SkeletonSize {
+  double unknowns = 0;
+  double contacts = 0;
+};
+
+/// A node whose edges all hold has one value; where one may open, each side may have its own, with
+/// a contact less than there are sides.
+SkeletonSize skeleton_size(const mesh::Mesh& mesh, const ddm::Sides& sides) {
+  std::vector<char> open(mesh.node_count(), 0), seen(mesh.node_count(), 0);
+  for (const ddm::CutEdge& edge : sides.edges) {
+    if (edge.kind == mesh::Kind::crack || edge.kind == mesh::Kind::delaminated) {
+      for (const std::int32_t node : edge.node) {
+        open[static_cast<std::size_t>(node)] = 1;
+      }
+    }
+  }
+  SkeletonSize size{static_cast<double>(mesh.inclusions.size()), 0};
+  for (const ddm::Side& side : sides.sides) {
+    const auto node = static_cast<std::size_t>(side.node);
+    const bool another = seen[node] != 0;
+    seen[node] = 1;
+    size.unknowns += another && open[node] == 0 ? 0 : 1;
+    size.contacts += another && open[node] != 0 ? 1 : 0;
+  }
+  return size;
 }
 
 }  // namespace
@@ -47,14 +65,19 @@ std::size_t estimate_bytes(const mesh::Mesh& mesh) {
   // The sparse factor of a planar graph in a minimum degree order has O(n log n) entries. Measured
   // with everything else that is kept per node: 35 to 42 bytes a node and log2(n) from 1 k to 2 M
   // nodes, structured and unstructured. Dense on the trace: L_GG twice (in the factor and out of
-  // it) and the flexibility.
+  // it), the flexibility and S; on the skeleton H and its factor; on the contacts S^, its factor
+  // and a block of either while it is active.
   constexpr double bytes_per_node_and_level = 60, bytes_per_node = 200;
-  constexpr double dense_blocks = 3, fixed = 1 << 14;
+  constexpr double trace_blocks = 4, skeleton_blocks = 2, contact_blocks = 3, fixed = 1 << 14;
+  const ddm::Sides sides = ddm::find_sides(mesh);
   double bytes = fixed;
-  for (const Size& size : subdomain_sizes(mesh)) {
+  for (const Size& size : subdomain_sizes(mesh, sides)) {
     bytes += size.nodes * (bytes_per_node + bytes_per_node_and_level * std::log2(size.nodes + 1));
-    bytes += dense_blocks * sizeof(double) * size.trace * size.trace;
+    bytes += trace_blocks * sizeof(double) * size.trace * size.trace;
   }
+  const SkeletonSize size = skeleton_size(mesh, sides);
+  bytes += skeleton_blocks * sizeof(double) * size.unknowns * size.unknowns;
+  bytes += contact_blocks * sizeof(double) * size.contacts * size.contacts;
   return static_cast<std::size_t>(bytes);
 }
 

@@ -9,7 +9,9 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <variant>
 
+#include "contact/skeleton_problem.hpp"
 #include "contact/solve.hpp"
 #include "contact/trace_problem.hpp"
 #include "ddm/blas.hpp"
@@ -95,13 +97,17 @@ struct MeshOperator::Parts {
       : mesh(std::move(cut_mesh)),
         decomposition(ddm::cut(*mesh)),
         operators(factorise_subdomains(decomposition.subdomains, threads, stop)),
-        problem(decomposition, operators),
+        uzawa_obstacle(ddm::uzawa_obstacle(decomposition, *mesh)),
+        problem(decomposition, operators, uzawa_obstacle.empty()),
+        skeleton(problem),
         geometry(contact::trace_geometry(decomposition, *mesh)) {}
 
   std::shared_ptr<const mesh::Mesh> mesh;
   ddm::Decomposition decomposition;
   std::vector<ddm::SubdomainOperator> operators;
-  contact::TraceProblem problem;  // refers to the two above
+  std::string uzawa_obstacle;
+  contact::TraceProblem problem;      // refers to the decomposition and the operators
+  contact::SkeletonProblem skeleton;  // refers to the problem
   std::vector<contact::TraceGeometry> geometry;
 };
 
@@ -119,12 +125,21 @@ std::shared_ptr<const MeshOperator> MeshOperator::factorise(std::shared_ptr<cons
 contact::Answer MeshOperator::solve(const fem::Load& load, const contact::SolverOptions& options,
                                     bool fields, contact::Observer& observer,
                                     const std::stop_token& stop) const {
-  LoadOnTraces loads =
+  const auto* uzawa = std::get_if<contact::UzawaOptions>(&options);
+  if (uzawa != nullptr && !_parts->uzawa_obstacle.empty()) {
+    throw errors::Error(errors::Reason::not_implemented, _parts->uzawa_obstacle).at("uzawa");
+  }
+  const LoadOnTraces condensed =
       condense_load(load, *_parts->mesh, _parts->decomposition, _parts->operators, stop);
+  const contact::CaseLoads loads{condensed.subdomains, condensed.inclusion_forces};
   contact::Answer answer =
-      contact::solve_uzawa(_parts->problem, *_parts->mesh, loads.subdomains,
-                           std::get<contact::UzawaOptions>(options), fields, observer);
-  answer.warnings.insert(answer.warnings.end(), loads.warnings.begin(), loads.warnings.end());
+      uzawa != nullptr
+          ? contact::solve_uzawa(_parts->problem, *_parts->mesh, loads, *uzawa, fields, observer)
+          : contact::solve_active_set(_parts->skeleton, *_parts->mesh, loads,
+                                      std::get<contact::ActiveSetOptions>(options), fields,
+                                      observer);
+  answer.warnings.insert(answer.warnings.end(), condensed.warnings.begin(),
+                         condensed.warnings.end());
   return answer;
 }
 
@@ -145,7 +160,7 @@ std::size_t MeshOperator::bytes() const noexcept {
   for (const ddm::SubdomainOperator& subdomain : _parts->operators) {
     bytes += subdomain.bytes();
   }
-  return bytes;
+  return bytes + _parts->skeleton.bytes();
 }
 
 void require_threadsafe_blas() {

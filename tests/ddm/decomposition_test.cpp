@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "errors/errors.hpp"
+#include "ddm_support.hpp"
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::ddm {
@@ -13,22 +13,13 @@ namespace {
 
 using errors::Reason;
 using mesh::Kind;
+using testing::expect_refused;
 using ::testing::HasSubstr;
 
 const NodePair& pair_at(const Decomposition& decomposition, std::size_t interface,
                         std::size_t node) {
   return decomposition.pairs.at(
-      static_cast<std::size_t>(decomposition.interface_pairs.at(interface).at(node)));
-}
-
-void expect_refused(const mesh::Mesh& mesh, Reason reason, const char* part_of_message) {
-  try {
-    cut(mesh);
-    FAIL() << "accepted";
-  } catch (const errors::Error& error) {
-    EXPECT_EQ(error.reason(), reason) << error.what();
-    EXPECT_THAT(error.what(), HasSubstr(part_of_message));
-  }
+      static_cast<std::size_t>(decomposition.interface_sides.at(interface).at(node).pair));
 }
 
 TEST(Cut, NumbersInteriorThenTraceThenDirichlet) {
@@ -55,8 +46,14 @@ TEST(Cut, NumbersInteriorThenTraceThenDirichlet) {
 TEST(Cut, TiesTipsToTheInclusion) {
   const Decomposition decomposition = cut(testing::structured_mesh());
   ASSERT_EQ(decomposition.pairs.size(), 15U);
-  EXPECT_EQ(decomposition.interface_pairs[0].front(), -1);
-  EXPECT_EQ(decomposition.interface_pairs[0].back(), -1);
+  for (const SidePair& end :
+       {decomposition.interface_sides[0].front(), decomposition.interface_sides[0].back()}) {
+    EXPECT_EQ(end.pair, -1);
+    EXPECT_EQ(end.minus, -1);
+    EXPECT_EQ(end.plus, -1);
+  }
+  EXPECT_EQ(decomposition.skeleton.contacts.size(), 7U);
+  EXPECT_EQ(decomposition.skeleton.unknowns, 1U + 6 + 7);  // A, glue, minus side of the crack
   for (std::size_t i = 1; i < 16; ++i) {
     const NodePair& pair = pair_at(decomposition, 0, i);
     EXPECT_EQ(pair.minus, 0);
@@ -70,6 +67,18 @@ TEST(Cut, TiesTipsToTheInclusion) {
     EXPECT_EQ(decomposition.subdomains[0].rigid[static_cast<std::size_t>(pair.minus_trace)], -1);
     const Subdomain& lower = decomposition.subdomains[0];
     EXPECT_EQ(lower.node[lower.interior + static_cast<std::size_t>(pair.minus_trace)], pair.node);
+    const std::int32_t above =
+        decomposition.subdomains[1].unknown[static_cast<std::size_t>(pair.plus_trace)];
+    const std::int32_t below = lower.unknown[static_cast<std::size_t>(pair.minus_trace)];
+    EXPECT_EQ(above == 0, x <= 0.5);
+    EXPECT_EQ(above == below, x >= 0.5);
+    ASSERT_EQ(pair.contact >= 0, x < 0.5);
+    if (pair.contact >= 0) {
+      const Contact& contact =
+          decomposition.skeleton.contacts[static_cast<std::size_t>(pair.contact)];
+      EXPECT_EQ(contact.plus, above);
+      EXPECT_EQ(contact.minus, below);
+    }
   }
 }
 
@@ -101,10 +110,11 @@ TEST(Cut, PlusSideIsOnTheLeftOfTheInterface) {
   const Decomposition decomposition = cut(mesh);
   EXPECT_EQ(decomposition.pairs.front().plus, 0);
   EXPECT_EQ(decomposition.pairs.front().minus, 1);
-  EXPECT_EQ(decomposition.inclusion_subdomain[0], 0);
+  EXPECT_EQ(decomposition.subdomains[0].rigid[7], 0);
+  EXPECT_EQ(decomposition.subdomains[1].rigid[7], -1);
 }
 
-TEST(Cut, RefusesASubdomainWithoutDirichletNodes) {
+TEST(Cut, HoldsTheMembraneByAnyDirichletNode) {
   mesh::Mesh mesh = testing::structured_mesh();
   std::erase_if(mesh.dirichlet, [&mesh](const std::array<std::int32_t, 2>& edge) {
     const auto y = [&mesh](std::int32_t node) {
@@ -113,12 +123,20 @@ TEST(Cut, RefusesASubdomainWithoutDirichletNodes) {
     return y(edge[0]) >= 0 && y(edge[1]) >= 0;
   });
   // The ends of the interface stay Dirichlet nodes of the lower half and hold the upper one too.
-  EXPECT_NO_THROW(cut(mesh));
+  const Decomposition held = cut(mesh);
+  EXPECT_TRUE(held.subdomains[1].floating.empty());
+  EXPECT_EQ(uzawa_obstacle(held, mesh), "");
   std::erase_if(mesh.dirichlet, [&mesh](const std::array<std::int32_t, 2>& edge) {
     return std::abs(mesh.xy[2 * static_cast<std::size_t>(edge[0])]) == 1 &&
            std::abs(mesh.xy[2 * static_cast<std::size_t>(edge[1])]) == 1;
   });
-  expect_refused(mesh, Reason::numerical, "\"upper\" has a part without Dirichlet nodes");
+  const Decomposition floating = cut(mesh);
+  EXPECT_EQ(floating.subdomains[0].floating.size(), 0U);
+  EXPECT_EQ(floating.subdomains[1].floating.size(), 1U);
+  EXPECT_THAT(uzawa_obstacle(floating, mesh), HasSubstr("\"upper\" has a part without Dirichlet"));
+  EXPECT_THAT(uzawa_obstacle(floating, mesh), HasSubstr("active-set"));
+  mesh.dirichlet.clear();
+  expect_refused(mesh, Reason::numerical, "nothing but contact holds the subdomain \"lower\"");
 }
 
 TEST(Cut, RefusesACrackThatTouchesTheDirichletBoundary) {
@@ -146,7 +164,7 @@ TEST(Cut, RefusesAnInclusionWithoutEdges) {
                  Reason::mesh_invalid, "\"missing\"");
 }
 
-TEST(Cut, RefusesAnInclusionWithItsPlusSideInTwoSubdomains) {
+TEST(Cut, AnInclusionMayHaveItsPlusSideInTwoSubdomainsButNotForUzawa) {
   mesh::Mesh mesh = testing::structured_mesh();
   mesh::Interface right = mesh.interfaces[0];
   mesh::Interface& left = mesh.interfaces[0];
@@ -157,37 +175,15 @@ TEST(Cut, RefusesAnInclusionWithItsPlusSideInTwoSubdomains) {
   right.kind.erase(right.kind.begin(), right.kind.begin() + 8);
   right.inclusion.erase(right.inclusion.begin(), right.inclusion.begin() + 8);
   mesh.interfaces.push_back(right);
-  EXPECT_NO_THROW(cut(mesh));
+  EXPECT_EQ(uzawa_obstacle(cut(mesh), mesh), "");
   std::reverse(mesh.interfaces[1].nodes.begin(), mesh.interfaces[1].nodes.end());
   std::reverse(mesh.interfaces[1].kind.begin(), mesh.interfaces[1].kind.end());
   std::reverse(mesh.interfaces[1].inclusion.begin(), mesh.interfaces[1].inclusion.end());
-  expect_refused(mesh, Reason::not_implemented, "lies in two subdomains (\"upper\" and");
-}
-
-TEST(Cut, RefusesACrackAtACrossPoint) {
-  // The upper half in two: at (0, 0) three subdomains meet.
-  mesh::Mesh mesh = testing::structured_mesh({16, 4, [](double) { return Kind::glue; }, {}, {}});
-  mesh.subdomains.emplace_back("upper right");
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    double x = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      x += mesh.xy[2 * static_cast<std::size_t>(mesh.triangles[3 * t + k])];
-    }
-    if (mesh.subdomain[t] == 1 && x > 0) {
-      mesh.subdomain[t] = 2;
-    }
-  }
-  mesh::Interface wall{"wall", {}, {}, {}};
-  for (int j = 4; j <= 8; ++j) {
-    wall.nodes.push_back(j * 17 + 8);
-  }
-  wall.kind.assign(4, Kind::glue);
-  wall.inclusion.assign(4, -1);
-  mesh.interfaces.push_back(wall);
-  EXPECT_EQ(cut(mesh).pairs.size(), 15U + 2 + 3);  // three couples of neighbours in (0, 0)
-
-  mesh.interfaces[0].kind[8] = Kind::crack;
-  expect_refused(mesh, Reason::not_implemented, "reaches the point (0, 0) where interfaces meet");
+  const Decomposition turned = cut(mesh);
+  EXPECT_THAT(uzawa_obstacle(turned, mesh), HasSubstr("lies in two subdomains, \"lower\" and"));
+  // Where the faces change roles both are the plus side of one edge: the node is bonded.
+  EXPECT_EQ(pair_at(turned, 0, 8).kind, Kind::inclusion);
+  EXPECT_EQ(turned.skeleton.contacts.size(), 6U);
 }
 
 }  // namespace

@@ -120,6 +120,28 @@ TEST(SubdomainFactor, KeepsTheInterfaceLastWhenTheSubdomainFallsApart) {
   expect_exact(laplacian(15, edges), 10);
 }
 
+/// Two chains without a diagonal shift: constants on each are in the kernel.
+TEST(SubdomainFactor, OfPartsThatFloatIsExactWithOneNodeOfEachHeld) {
+  const std::vector<std::pair<int, int>> edges = {{0, 1}, {1, 2}, {2, 5}, {5, 6},
+                                                  {3, 4}, {4, 7}, {7, 8}, {8, 3}};
+  Sparse matrix = laplacian(9, edges);
+  for (int i = 0; i < 9; ++i) {
+    matrix.coeffRef(i, i) -= 0.01 * (i + 1);
+  }
+  const Eigen::MatrixXd schur = dense_schur(matrix, 5);
+  const std::vector<std::int32_t> floating = {1, 2};  // nodes 6 and 7
+  const SubdomainFactor factor(matrix, 5, Ordering::amd, floating);
+  EXPECT_LT((factor.schur() - schur).norm(), 1e-14 * schur.norm());
+  EXPECT_LT(factor.schur().rowwise().sum().norm(), 1e-14 * schur.norm());
+  const Eigen::VectorXd t = random_vector(4), f = random_vector(9);
+  EXPECT_LT((factor.apply_schur(t) - schur * t).norm(), 1e-14 * schur.norm());
+  const auto [z, g] = factor.forward(f);
+  const Eigen::VectorXd u = factor.recover(z, t);
+  EXPECT_LT((u.tail(4) - t).norm(), 1e-14);
+  EXPECT_LT((matrix * u - f).head(5).norm(), 1e-13);
+  EXPECT_LT(((matrix * u - f).tail(4) - (schur * t - g)).norm(), 1e-13);
+}
+
 TEST(SubdomainFactor, RefusesAnIndefiniteMatrix) {
   Sparse matrix = grid(5, 4);
   matrix.coeffRef(3, 3) = -1;

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/skeleton_problem.hpp"
+
+#include <cstdint>
+#include <utility>
+
+#include "errors/errors.hpp"
+
+namespace anticrack::contact {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// K = sum of the Schur complements over the unknowns.
+MatrixXd join(const ddm::Decomposition& decomposition,
+              const std::vector<ddm::SubdomainOperator>& operators) {
+  const auto n = static_cast<Index>(decomposition.skeleton.unknowns);
+  MatrixXd k = MatrixXd::Zero(n, n);
+  for (std::size_t s = 0; s < operators.size(); ++s) {
+    const MatrixXd schur = operators[s].factor().schur();
+    const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
+    for (Index j = 0; j < schur.cols(); ++j) {
+      for (Index i = 0; i < schur.rows(); ++i) {
+        k(unknown[at(i)], unknown[at(j)]) += schur(i, j);
+      }
+    }
+  }
+  return k;
+}
+
+Eigen::LLT<MatrixXd> factorise(const MatrixXd& h) {
+  Eigen::LLT<MatrixXd> cholesky;
+  if (h.size() == 0) {
+    return cholesky;
+  }
+  cholesky.compute(h);
+  if (cholesky.info() != Eigen::Success) {
+    throw errors::Error(errors::Reason::numerical,
+                        "the stiffness of the joined subdomains is not positive definite to "
+                        "rounding; a part of the membrane is not held, the mesh has triangles that "
+                        "are degenerate, or it is badly scaled");
+  }
+  return cholesky;
+}
+
+}  // namespace
+
+struct SkeletonProblem::Blocks {
+  Eigen::LLT<MatrixXd> h;
+  MatrixXd w;
+  MatrixXd condensed;
+
+  Blocks(const Forest& forest, MatrixXd k) {
+    forest.accumulate(k);
+    k.transposeInPlace();
+    forest.accumulate(k);
+    h = factorise(k(forest.roots(), forest.roots()));
+    const auto sign = forest.sign().asDiagonal();
+    const MatrixXd c = MatrixXd(k(forest.roots(), forest.hung())) * sign;
+    w = c.size() == 0 ? c : MatrixXd(h.solve(c));
+    condensed = sign * MatrixXd(k(forest.hung(), forest.hung())) * sign;
+    condensed -= c.transpose() * w;
+    condensed = ((condensed + condensed.transpose()) / 2).eval();
+  }
+};
+
+SkeletonProblem::SkeletonProblem(const TraceProblem& traces)
+    : SkeletonProblem(traces,
+                      Blocks(traces.forest(), join(traces.decomposition(), traces.operators()))) {}
+
+SkeletonProblem::SkeletonProblem(const TraceProblem& traces, Blocks blocks)
+    : _traces(traces),
+      _h(std::move(blocks.h)),
+      _closed_to_open(std::move(blocks.w)),
+      _lcp(std::move(blocks.condensed)) {}
+
+SkeletonProblem::Reduced SkeletonProblem::reduce(const VectorXd& h) const {
+  const auto reduced = [this](const VectorXd& values) {
+    MatrixXd sums = values;
+    forest().accumulate(sums);
+    return std::pair{VectorXd(sums.col(0)(forest().roots())),
+                     VectorXd(sums.col(0)(forest().hung()))};
+  };
+  const auto [on_roots, on_hung] = reduced(h);
+  const auto [size_on_roots, size_on_hung] = reduced(h.cwiseAbs());
+  Reduced result;
+  result.q = on_roots.size() == 0 ? on_roots : VectorXd(_h.solve(on_roots));
+  result.r = _closed_to_open.transpose() * on_roots - forest().sign().cwiseProduct(on_hung);
+  result.magnitude = _closed_to_open.cwiseAbs().transpose() * size_on_roots + size_on_hung;
+  return result;
+}
+
+VectorXd SkeletonProblem::unknowns(const Reduced& load, const VectorXd& d) const {
+  return forest().expand(load.q + _closed_to_open * d, d);
+}
+
+void SkeletonProblem::refine(const VectorXd& residual, const std::vector<char>& closed,
+                             Reduced& load, VectorXd& d) const {
+  const Reduced correction = reduce(residual);
+  load.q += correction.q;
+  d += _lcp.solve_open(closed, correction.r);
+}
+
+VectorXd SkeletonProblem::multipliers(const VectorXd& residual) const {
+  MatrixXd sums = residual;
+  forest().accumulate(sums);
+  return forest().sign().cwiseProduct(VectorXd(sums.col(0)(forest().hung())));
+}
+
+VectorXd SkeletonProblem::gather(const std::vector<VectorXd>& on_traces) const {
+  VectorXd sum = VectorXd::Zero(forest().unknowns());
+  for (std::size_t s = 0; s < on_traces.size(); ++s) {
+    const std::vector<std::int32_t>& unknown = _traces.decomposition().subdomains[s].unknown;
+    for (Index i = 0; i < on_traces[s].size(); ++i) {
+      sum[unknown[at(i)]] += on_traces[s][i];
+    }
+  }
+  return sum;
+}
+
+std::vector<VectorXd> SkeletonProblem::scatter(const VectorXd& w) const {
+  std::vector<VectorXd> traces;
+  traces.reserve(_traces.decomposition().subdomains.size());
+  for (const ddm::Subdomain& subdomain : _traces.decomposition().subdomains) {
+    VectorXd trace(static_cast<Index>(subdomain.trace));
+    for (Index i = 0; i < trace.size(); ++i) {
+      trace[i] = w[subdomain.unknown[at(i)]];
+    }
+    traces.push_back(std::move(trace));
+  }
+  return traces;
+}
+
+std::size_t SkeletonProblem::bytes() const noexcept {
+  return sizeof(double) * static_cast<std::size_t>(forest().free_count() * forest().free_count() +
+                                                   _closed_to_open.size()) +
+         _lcp.bytes() + static_cast<std::size_t>(forest().unknowns()) * 6 * sizeof(Index);
+}
+
+}  // namespace anticrack::contact

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "contact/dense_lcp.hpp"
+#include "contact/trace_problem.hpp"
+
+namespace anticrack::contact {
+
+/// All subdomains joined at their traces and condensed to the cracks. With K = sum_i S_i over the
+/// skeleton's unknowns w = Z q - P d (Forest), load h = sum_i g_i:
+///
+///   H = Z'K Z,  C = Z'K P,  D = P'K P,  S^ = D - C'H^-1 C,  r = C'H^-1 Z'h - P'h
+///   d >= 0,  lambda = S^ d - r >= 0,  d'lambda = 0;         q = H^-1 (Z'h + C d)
+///
+/// Immutable after construction, safe to share among threads. Keeps a reference to
+/// its argument. Construction O(n^3) with n unknowns.
+class SkeletonProblem {
+ public:
+  /// Throws errors::Error (numerical) when H is not positive definite.
+  explicit SkeletonProblem(const TraceProblem& traces);
+
+  /// One load, reduced.
+  struct Reduced {
+    Eigen::VectorXd q;          ///< H^-1 Z'h: the answer with every crack closed
+    Eigen::VectorXd r;          ///< per contact
+    Eigen::VectorXd magnitude;  ///< sums of the absolute values r is made of
+  };
+  /// O(n^2).
+  Reduced reduce(const Eigen::VectorXd& h) const;
+
+  /// w for jumps d, shape (unknowns). O(n c).
+  Eigen::VectorXd unknowns(const Reduced& load, const Eigen::VectorXd& d) const;
+  /// Adds to q of the load and to d what brings the residual h - K w to zero with d unchanged on
+  /// the closed nodes: a step of iterative refinement. O(n^2 + c^3).
+  void refine(const Eigen::VectorXd& residual, const std::vector<char>& closed, Reduced& load,
+              Eigen::VectorXd& d) const;
+  /// lambda = P'(h - K w) of a residual, shape (contacts). O(n).
+  Eigen::VectorXd multipliers(const Eigen::VectorXd& residual) const;
+
+  /// Sum over the subdomains of values on their traces, shape (unknowns).
+  Eigen::VectorXd gather(const std::vector<Eigen::VectorXd>& on_traces) const;
+  /// Values on the traces from those of the unknowns.
+  std::vector<Eigen::VectorXd> scatter(const Eigen::VectorXd& w) const;
+
+  const DenseLcp& lcp() const noexcept { return _lcp; }
+  const TraceProblem& traces() const noexcept { return _traces; }
+  std::size_t bytes() const noexcept;
+
+ private:
+  struct Blocks;
+  SkeletonProblem(const TraceProblem& traces, Blocks blocks);
+
+  const Forest& forest() const noexcept { return _traces.forest(); }
+
+  const TraceProblem& _traces;
+  Eigen::LLT<Eigen::MatrixXd> _h;
+  Eigen::MatrixXd _closed_to_open;  // W = H^-1 C
+  DenseLcp _lcp;
+};
+
+}  // namespace anticrack::contact

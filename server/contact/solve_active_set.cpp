@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "contact/answer_parts.hpp"
+#include "contact/solve.hpp"
+
+namespace anticrack::contact {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// From the unknowns of one load to the states and samples the paper's users know.
+class Case {
+ public:
+  Case(const SkeletonProblem& problem, std::size_t inclusions, const CaseLoads& loads)
+      : _problem(problem), _traces(problem.traces()), _loads(loads.subdomains) {
+    _state.displacement = VectorXd::Zero(static_cast<Index>(inclusions));
+    std::vector<VectorXd> g;
+    g.reserve(_loads.size());
+    for (const ddm::CondensedLoad& load : _loads) {
+      g.push_back(load.g);
+    }
+    _reduced = problem.reduce(problem.gather(g));
+  }
+
+  const SkeletonProblem::Reduced& reduced() const noexcept { return _reduced; }
+  const TraceState& state() const noexcept { return _state; }
+  const Sample& sample() const noexcept { return _sample; }
+
+  void sample_step(int number, const VectorXd& d, const VectorXd& lambda) {
+    _sample.iteration = number;
+    move_to(_problem.unknowns(_reduced, d));
+    fill(d, lambda);
+  }
+
+  /// One step of iterative refinement, and multipliers from the forces themselves.
+  void refine(const LcpAnswer& solution) {
+    VectorXd d = solution.d;
+    _problem.refine(-_problem.gather(_state.flux), solution.closed, _reduced, d);
+    d = d.cwiseMax(0.0);
+    move_to(_problem.unknowns(_reduced, d));
+    VectorXd lambda = _problem.multipliers(-_problem.gather(_state.flux));
+    for (Index c = 0; c < lambda.size(); ++c) {
+      lambda[c] = solution.closed[static_cast<std::size_t>(c)] != 0 ? std::max(lambda[c], 0.0) : 0;
+    }
+    fill(d, lambda);
+  }
+
+ private:
+  void move_to(const VectorXd& w) {
+    std::vector<VectorXd> previous_trace = std::move(_state.trace);
+    std::vector<VectorXd> previous_flux = std::move(_state.flux);
+    _state.trace = _problem.scatter(w);
+    _state.flux = fluxes(_traces.operators(), _loads, _state.trace);
+    _state.displacement = w.head(_state.displacement.size());
+    _sample.criterion = previous_trace.empty() ? 1 : criterion(previous_trace, previous_flux);
+  }
+
+  /// max_i |u_k - u_{k-1}|_V^2 / |u_k|_V^2, formed with traces and fluxes over their sizes: loads
+  /// have squares beyond the range of double.
+  double criterion(const std::vector<VectorXd>& previous_trace,
+                   const std::vector<VectorXd>& previous_flux) const {
+    double worst = 0;
+    for (std::size_t s = 0; s < _loads.size(); ++s) {
+      const VectorXd& t = _state.trace[s];
+      if (t.size() == 0) {
+        continue;
+      }
+      const VectorXd force = _state.flux[s] + _loads[s].g;
+      const double size = std::max(t.lpNorm<Eigen::Infinity>(), force.lpNorm<Eigen::Infinity>());
+      if (size == 0) {
+        continue;
+      }
+      const VectorXd scaled = t / size;
+      const double change =
+          ((t - previous_trace[s]) / size).dot((_state.flux[s] - previous_flux[s]) / size);
+      const double constant = _loads[s].norm_constant / size / size;
+      const double norm = scaled.dot(force / size) - 2 * scaled.dot(_loads[s].g_boundary / size) +
+                          (std::isfinite(constant) ? constant : 0);
+      worst = std::max(worst, change > 0 ? change / norm : 0);
+    }
+    return worst;
+  }
+
+  void fill(const VectorXd& d, const VectorXd& lambda) {
+    const std::vector<ddm::NodePair>& pairs = _traces.decomposition().pairs;
+    _state.mu = _traces.pair_forces().multipliers(_state.flux, lambda);
+    _state.force = _traces.lumped_mass().cwiseProduct(_state.mu);
+    _state.jump = VectorXd::Zero(_traces.pair_count());
+    for (Index i = 0; i < _state.jump.size(); ++i) {
+      const ddm::NodePair& pair = pairs[static_cast<std::size_t>(i)];
+      // d itself where it is known: the difference of the traces is rounded.
+      _state.jump[i] =
+          pair.contact >= 0
+              ? d[pair.contact]
+              : _state.trace[static_cast<std::size_t>(pair.plus)][pair.plus_trace] -
+                    _state.trace[static_cast<std::size_t>(pair.minus)][pair.minus_trace];
+    }
+    _sample.energy = energy(_loads, _state);
+    _sample.contact_count = contact_count(_traces.decomposition(), _state.mu);
+    _sample.kkt = contact_residuals(_traces.decomposition(), _state.mu, _state.jump);
+    _sample.kkt.equilibrium = equilibrium_residual(_traces.decomposition(), _state);
+  }
+
+  const SkeletonProblem& _problem;
+  const TraceProblem& _traces;
+  std::span<const ddm::CondensedLoad> _loads;
+  SkeletonProblem::Reduced _reduced;
+  TraceState _state;
+  Sample _sample;
+};
+
+std::string limit_reason(const ActiveSetOptions& options) {
+  std::ostringstream text;
+  text << "after " << options.max_steps
+       << " steps the set of closed nodes still changes; raise max_steps";
+  return text.str();
+}
+
+}  // namespace
+
+Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
+                        const CaseLoads& loads, const ActiveSetOptions& options, bool fields,
+                        Observer& observer, std::span<const char> start) {
+  Case load_case(problem, mesh.inclusions.size(), loads);
+  const auto on_step = [&](const LcpStep& step) {
+    load_case.sample_step(step.number, step.d, step.lambda);
+    return observer.on_iteration(load_case.sample());
+  };
+  const LcpAnswer solution =
+      problem.lcp().solve(load_case.reduced().r, load_case.reduced().magnitude,
+                          {options.tolerance, options.max_steps}, start, on_step);
+  Answer answer;
+  answer.theta_star = problem.traces().theta_star(Mass::lumped);
+  answer.iterations = solution.steps;
+  answer.criterion = load_case.sample().criterion;
+  switch (solution.status) {
+    case LcpStatus::solved:
+      answer.status = Status::converged;
+      load_case.sample_step(solution.steps, solution.d, solution.lambda);
+      load_case.refine(solution);
+      break;
+    case LcpStatus::unbounded:
+      answer.reason =
+          "a part of the membrane that only contact holds is pulled off by this load; hold it by "
+          "glue or a prescribed boundary value, or press it on";
+      break;
+    case LcpStatus::step_limit:
+      answer.reason = limit_reason(options);
+      break;
+    case LcpStatus::stopped:
+      answer.status = Status::cancelled;
+      break;
+  }
+  answer.energy = load_case.sample().energy;
+  answer.kkt = load_case.sample().kkt;
+  answer.kkt_relative = relative_residuals(problem.traces().decomposition(), loads.subdomains,
+                                           load_case.state(), answer.kkt);
+  answer.weakly_active = solution.weakly_active;
+  answer.closed = solution.closed;
+  if (!std::isfinite(answer.energy)) {
+    answer.warnings.emplace_back("the energy is beyond the range of double; scale the load down");
+  }
+  describe(problem.traces(), mesh, loads.subdomains, loads.inclusion_forces, load_case.state(),
+           fields, answer);
+  return answer;
+}
+
+}  // namespace anticrack::contact

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "contact/answer.hpp"
+#include "ddm/decomposition.hpp"
+#include "ddm/subdomain_operator.hpp"
+
+namespace anticrack::contact {
+
+/// Where the membrane stands on its interfaces, whatever the method that brought it there.
+struct TraceState {
+  std::vector<Eigen::VectorXd> trace;  ///< t_i, per subdomain
+  std::vector<Eigen::VectorXd> flux;   ///< S t - g: int T du/dn phi_i, n outward
+  Eigen::VectorXd displacement;        ///< A, per inclusion
+  Eigen::VectorXd mu;                  ///< per pair
+  Eigen::VectorXd force;               ///< M mu, per pair
+  Eigen::VectorXd jump;                ///< u+ - u-, per pair
+};
+
+/// S_i t_i - g_i of every subdomain. O(n_G^2).
+std::vector<Eigen::VectorXd> fluxes(const std::vector<ddm::SubdomainOperator>& operators,
+                                    std::span<const ddm::CondensedLoad> loads,
+                                    const std::vector<Eigen::VectorXd>& traces);
+
+/// Pi = sum_i (t'S t/2 - g't + constant), of a state with fluxes. O(n_G).
+double energy(std::span<const ddm::CondensedLoad> loads, const TraceState& state);
+
+/// gap, sign and complementarity; `equilibrium` is left 0. O(n_G), no allocation.
+KktResiduals contact_residuals(const ddm::Decomposition& decomposition, const Eigen::VectorXd& mu,
+                               const Eigen::VectorXd& jump);
+/// max |(S t - g - B'M mu)_i|, summed over the nodes an inclusion holds rigid. O(n_G).
+double equilibrium_residual(const ddm::Decomposition& decomposition, const TraceState& state);
+
+/// The residuals relative to: the largest condensed load or pair force |g|, |M mu| (equilibrium),
+/// the largest trace |t| (gap), the largest |mu| (sign), the product of the last two
+/// (complementarity, formed without overflow). 0 where the residual is 0.
+KktResiduals relative_residuals(const ddm::Decomposition& decomposition,
+                                std::span<const ddm::CondensedLoad> loads, const TraceState& state,
+                                const KktResiduals& absolute);
+
+/// Crack nodes with mu > 0.
+int contact_count(const ddm::Decomposition& decomposition, const Eigen::VectorXd& mu);
+
+}  // namespace anticrack::contact

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/dense_lcp.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+namespace anticrack::contact {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+bool go_on(const LcpStep&) {
+  return true;
+}
+
+LcpAnswer solve(const MatrixXd& s, const VectorXd& r, bool monotone_only = false,
+                const std::vector<char>& start = {}) {
+  LcpOptions options;
+  options.monotone_only = monotone_only;
+  return DenseLcp(s).solve(r, {}, options, start, go_on);
+}
+
+/// The conditions themselves, relative to unit diagonal and unit load.
+void expect_solution(const MatrixXd& s, const VectorXd& r, const LcpAnswer& answer,
+                     double tolerance = 1e-10) {
+  ASSERT_EQ(answer.status, LcpStatus::solved);
+  const VectorXd lambda = s * answer.d - r;
+  const VectorXd root = s.diagonal().cwiseSqrt();
+  const double unit = std::max(r.cwiseQuotient(root).lpNorm<Eigen::Infinity>(), 1e-300);
+  for (Index i = 0; i < r.size(); ++i) {
+    EXPECT_GE(answer.d[i], 0);
+    EXPECT_GE(answer.lambda[i], 0);
+    EXPECT_TRUE(answer.d[i] == 0 || answer.lambda[i] == 0) << i;
+    EXPECT_EQ(answer.closed[static_cast<std::size_t>(i)] != 0, answer.d[i] == 0) << i;
+    EXPECT_NEAR(lambda[i] / root[i] / unit, answer.lambda[i] / root[i] / unit, tolerance) << i;
+  }
+}
+
+MatrixXd random_spd(std::mt19937& random, Index n, double ridge) {
+  std::normal_distribution<double> normal;
+  const MatrixXd a = MatrixXd::NullaryExpr(n, n, [&] { return normal(random); });
+  return a * a.transpose() + ridge * MatrixXd::Identity(n, n);
+}
+
+VectorXd random_vector(std::mt19937& random, Index n) {
+  std::normal_distribution<double> normal;
+  return VectorXd::NullaryExpr(n, [&] { return normal(random); });
+}
+
+bool same_bits(const VectorXd& a, const VectorXd& b) {
+  return a.size() == b.size() &&
+         std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
+}
+
+TEST(DenseLcp, SolvesRandomProblemsBothWaysFromAnyStartToTheSameBits) {
+  const unsigned seed = std::random_device{}();
+  std::printf("[ seed     ] %u\n", seed);
+  std::mt19937 random(seed);
+  int fell_back = 0;
+  for (int k = 0; k < 300; ++k) {
+    const Index n = 1 + k % 25;
+    // A small ridge makes it ill-conditioned, and far from the M-matrices of contact.
+    const MatrixXd s = random_spd(random, n, k % 3 == 0 ? 1e-3 : 1.0);
+    const VectorXd r = random_vector(random, n);
+    const LcpAnswer answer = solve(s, r);
+    expect_solution(s, r, answer);
+    fell_back += answer.fell_back ? 1 : 0;
+    expect_solution(s, r, solve(s, r, true));
+    std::vector<char> start(static_cast<std::size_t>(n));
+    for (char& closed : start) {
+      closed = static_cast<char>(random() % 2);
+    }
+    for (const bool monotone : {false, true}) {
+      const LcpAnswer other = solve(s, r, monotone, start);
+      EXPECT_EQ(answer.closed, other.closed);
+      EXPECT_TRUE(same_bits(answer.d, other.d));
+      EXPECT_TRUE(same_bits(answer.lambda, other.lambda));
+    }
+  }
+  std::printf("[ figures  ] %d of 300 fell back\n", fell_back);
+}
+
+TEST(DenseLcp, IsNotMisledByScale) {
+  const unsigned seed = std::random_device{}();
+  std::printf("[ seed     ] %u\n", seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> exponent(-6, 6);
+  for (int k = 0; k < 100; ++k) {
+    const Index n = 1 + k % 20;
+    const VectorXd scale =
+        VectorXd::NullaryExpr(n, [&] { return std::pow(10.0, exponent(random)); });
+    const MatrixXd s = scale.asDiagonal() * random_spd(random, n, 1) * scale.asDiagonal();
+    const VectorXd r = scale.cwiseProduct(random_vector(random, n));
+    expect_solution(s, r, solve(s, r));
+  }
+}
+
+TEST(DenseLcp, LoadsOfAnySizeGiveTheSameSet) {
+  std::mt19937 random(7);
+  const MatrixXd s = random_spd(random, 12, 1);
+  const VectorXd r = random_vector(random, 12);
+  const LcpAnswer one = solve(s, r);
+  for (const double factor : {std::ldexp(1.0, -660), std::ldexp(1.0, 660)}) {
+    const LcpAnswer answer = solve(s, VectorXd(factor * r));
+    EXPECT_EQ(answer.status, LcpStatus::solved);
+    EXPECT_EQ(answer.closed, one.closed);
+    EXPECT_TRUE(same_bits(answer.d, VectorXd(factor * one.d)));
+  }
+}
+
+/// Curtis, Han and Robinson (2015): the plain primal-dual method goes round for ever.
+TEST(DenseLcp, LeavesACycle) {
+  MatrixXd s(3, 3);
+  s << 4, 5, -5, 5, 9, -5, -5, -5, 7;
+  int fell_back = 0;
+  for (int k = 0; k < 343; ++k) {
+    const VectorXd r = Eigen::Vector3d(k % 7 - 3, k / 7 % 7 - 3, k / 49 - 3);
+    const LcpAnswer answer = solve(s, r);
+    expect_solution(s, r, answer);
+    fell_back += answer.fell_back ? 1 : 0;
+  }
+  std::printf("[ figures  ] %d of 343 loads go round\n", fell_back);
+  EXPECT_GT(fell_back, 0);
+}
+
+TEST(DenseLcp, ZeroLoadIsClosedAndWeaklyActiveEverywhere) {
+  std::mt19937 random(3);
+  const LcpAnswer answer = solve(random_spd(random, 5, 1), VectorXd::Zero(5));
+  EXPECT_EQ(answer.status, LcpStatus::solved);
+  EXPECT_EQ(answer.steps, 1);
+  EXPECT_EQ(answer.weakly_active, 5);
+  EXPECT_EQ(answer.d.norm() + answer.lambda.norm(), 0);
+}
+
+/// r is the rounding of a sum of terms of size 1: it says nothing.
+TEST(DenseLcp, RoundingDoesNotOpenANode) {
+  std::mt19937 random(3);
+  const MatrixXd s = random_spd(random, 6, 1);
+  const VectorXd r = 1e-16 * random_vector(random, 6);
+  const VectorXd terms = s.diagonal().cwiseSqrt();
+  const LcpAnswer answer = DenseLcp(s).solve(r, terms, {}, {}, go_on);
+  EXPECT_EQ(answer.weakly_active, 6);
+  EXPECT_EQ(answer.closed, std::vector<char>(6, 1));
+}
+
+TEST(DenseLcp, WeaklyActiveNodesAreCountedAndClosed) {
+  std::mt19937 random(11);
+  const Index n = 9;
+  const MatrixXd s = random_spd(random, n, 1);
+  VectorXd d = VectorXd::Zero(n), lambda = VectorXd::Zero(n);
+  for (Index i = 0; i < n; ++i) {
+    (i % 3 == 0 ? d : lambda)[i] = i % 3 == 2 ? 0 : 1;  // every third has neither
+  }
+  const VectorXd r = s * d - lambda;
+  const LcpAnswer answer = solve(s, r);
+  expect_solution(s, r, answer);
+  EXPECT_EQ(answer.weakly_active, 3);
+  const LcpAnswer other = solve(s, r, false, std::vector<char>(static_cast<std::size_t>(n), 0));
+  EXPECT_TRUE(same_bits(answer.d, other.d));
+}
+
+/// Two parts that hold each other by contact only: S has a null vector of one sign.
+TEST(DenseLcp, SemidefiniteIsSolvedWhenPressedTogetherAndUnboundedWhenPulledApart) {
+  const unsigned seed = std::random_device{}();
+  std::printf("[ seed     ] %u\n", seed);
+  std::mt19937 random(seed);
+  for (int k = 0; k < 50; ++k) {
+    const Index n = 2 + k % 10;
+    MatrixXd s = random_spd(random, n, 1);
+    const VectorXd one = VectorXd::Ones(n);
+    const VectorXd s_one = s * one;
+    s -= s_one * s_one.transpose() / one.dot(s_one);  // s one = 0
+    s = (s + s.transpose()).eval() / 2;
+    VectorXd r = random_vector(random, n);
+    r -= one * ((r.sum() + 0.5) / static_cast<double>(n));  // r'one = -0.5
+    for (const bool monotone : {false, true}) {
+      const LcpAnswer pressed = solve(s, r, monotone);
+      expect_solution(s, r, pressed, 1e-9);
+      EXPECT_EQ(solve(s, VectorXd(r + one), monotone).status, LcpStatus::unbounded);
+    }
+  }
+}
+
+TEST(DenseLcp, StopsAtTheLimitAndWhenTold) {
+  std::mt19937 random(5);
+  const MatrixXd s = random_spd(random, 20, 1e-3);
+  const VectorXd r = random_vector(random, 20);
+  LcpOptions options;
+  options.max_steps = 1;
+  EXPECT_EQ(DenseLcp(s).solve(r, {}, options, {}, go_on).status, LcpStatus::step_limit);
+  options.max_steps = 1000;
+  const LcpAnswer told =
+      DenseLcp(s).solve(r, {}, options, {}, [](const LcpStep& step) { return step.number < 2; });
+  EXPECT_EQ(told.status, LcpStatus::stopped);
+  EXPECT_EQ(told.steps, 2);
+}
+
+TEST(DenseLcp, EmptyProblemIsSolved) {
+  const LcpAnswer answer = solve(MatrixXd(0, 0), VectorXd(0));
+  EXPECT_EQ(answer.status, LcpStatus::solved);
+  EXPECT_EQ(answer.steps, 1);
+}
+
+/// The square root of the Laplacian of a line, as a Schur complement nearly is: a handful of steps
+/// whatever the size.
+TEST(DenseLcp, TakesAHandfulOfStepsForACrack) {
+  for (const Index n : {10, 100, 400}) {
+    const MatrixXd s = MatrixXd::NullaryExpr(n, n, [](Index i, Index j) {
+      const auto distance = static_cast<double>(i - j);
+      return i == j ? std::acos(-1.0) * std::acos(-1.0) / 3 : -1 / (distance * distance);
+    });
+    VectorXd r(n);
+    for (Index i = 0; i < n; ++i) {
+      r[i] = std::sin(9.0 * static_cast<double>(i) / static_cast<double>(n)) - 0.2;
+    }
+    const LcpAnswer answer = solve(s, r);
+    std::printf("[ figures  ] %d nodes: %d steps\n", static_cast<int>(n), answer.steps);
+    ASSERT_EQ(answer.status, LcpStatus::solved);
+    EXPECT_FALSE(answer.fell_back);
+    EXPECT_LE(answer.steps, 25);
+  }
+}
+
+}  // namespace
+}  // namespace anticrack::contact
