@@ -66,12 +66,12 @@ struct MeshOptions {
   double size = 0;       ///< edge length away from tips; 0: chosen, see MeshOptions of the API
   double tip_size = 0;   ///< graded: smallest edge wanted; 0: as small as coordinates resolve
   double grading = 0.2;  ///< graded: m
-  std::vector<std::vector<Point>> align;  ///< geometry: lines that edges must follow
+  std::vector<std::vector<Point>> align{};  ///< geometry: lines that edges must follow
   // An upload's:
   std::map<std::int32_t, std::string>
-      curve_groups;  ///< physical tag -> "crack", "inclusion:NAME"...
-  std::map<std::int32_t, std::string> surface_groups;  ///< physical tag -> subdomain
-  std::map<std::string, double> tension;               ///< subdomain -> T
+      curve_groups{};  ///< physical tag -> "crack", "inclusion:NAME"...
+  std::map<std::int32_t, std::string> surface_groups{};  ///< physical tag -> subdomain
+  std::map<std::string, double> tension{};               ///< subdomain -> T
 };
 
 /// What a straight curve of the plan is.

@@ -197,22 +197,98 @@ TEST(Grade, KeepsAPartlyDelaminatedInclusionAndItsNeighbour) {
             sampling);
 }
 
+/// One subdomain, a slit of five edges in it.
+Mesh slit_mesh() {
+  Mesh made = structured_mesh(16, 16, {});
+  made.subdomain.assign(made.triangle_count(), 0);
+  made.subdomains = {"all"};
+  auto& nodes = made.interfaces[0].nodes;
+  nodes = std::vector<std::int32_t>(nodes.begin() + 4, nodes.begin() + 10);
+  made.interfaces[0].kind.assign(5, Kind::crack);
+  made.interfaces[0].inclusion.assign(5, -1);
+  return made;
+}
+
+/// Columns and rows `low` to `high` of sixteen are a subdomain of their own, the ring around it
+/// closed, counterclockwise, delaminated along its lower side.
+Mesh ring_mesh(int low, int high) {
+  Mesh made = structured_mesh(16, 16, {});
+  made.subdomains = {"inside", "outside"};
+  made.tension = {2, 0.5};
+  made.inclusions = {"rim"};
+  for (std::size_t t = 0; t < made.triangle_count(); ++t) {
+    const auto cell = static_cast<int>(t / 2);
+    const auto within = [&](int i) { return low <= i && i < high; };
+    made.subdomain[t] = within(cell % 16) && within(cell / 16) ? 0 : 1;
+  }
+  Interface ring{"ring", {}, {}, {}};
+  const int side = high - low;
+  for (int k = 0; k < 4 * side; ++k) {
+    const int along = k % side;
+    const int i = k < side ? low + along : k < 2 * side ? high : k < 3 * side ? high - along : low;
+    const int j = k < side ? low : k < 2 * side ? low + along : k < 3 * side ? high : high - along;
+    ring.nodes.push_back(17 * j + i);
+    ring.kind.push_back(k < side ? Kind::delaminated : Kind::glue);
+    ring.inclusion.push_back(k < side ? 0 : -1);
+  }
+  ring.nodes.push_back(ring.nodes.front());
+  made.interfaces = {ring};
+  return made;
+}
+
 TEST(Grade, ConformsAcrossASlitInOneSubdomain) {
+  const Mesh base = slit_mesh();
+  const Mesh fine = grade(base, {.h0 = 0.2}, plenty);
+  expect_refines(base, fine);
+  EXPECT_GT(fine.interfaces[0].kind.size(), 100U);
+}
+
+TEST(Grade, ReachesTheTipOfASlitAtTheNeumannBoundary) {
   Mesh base = structured_mesh(16, 16, {});
   base.subdomain.assign(base.triangle_count(), 0);
   base.subdomains = {"all"};
-  auto& nodes = base.interfaces[0].nodes;
-  nodes = std::vector<std::int32_t>(nodes.begin() + 4, nodes.begin() + 10);
-  base.interfaces[0].kind.assign(5, Kind::crack);
-  base.interfaces[0].inclusion.assign(5, -1);
+  Interface& slit = base.interfaces[0];
+  slit.nodes.resize(9);  // from the left side to the centre
+  slit.kind.assign(8, Kind::crack);
+  slit.inclusion.assign(8, -1);
+  std::erase_if(base.dirichlet, [&](const auto& edge) {
+    return testing::point(base, edge[0])[0] == -1 && testing::point(base, edge[1])[0] == -1;
+  });
   const Mesh fine = grade(base, {.h0 = 0.2}, plenty);
-  testing::expect_same_line(base, fine, 0);
-  const EdgeTable edges(fine.triangles);
-  const Interface& slit = fine.interfaces[0];
-  EXPECT_GT(slit.kind.size(), 100U);
-  for (std::size_t i = 0; i < slit.kind.size(); ++i) {
-    EXPECT_EQ(edges.find(slit.nodes[i], slit.nodes[i + 1]).size(), 2U);
+  expect_refines(base, fine);
+  EXPECT_EQ(tips(fine), std::vector<std::int32_t>{slit.nodes.back()});
+  EXPECT_LE(quality(fine).smallest_diameter, 1e-13);
+}
+
+TEST(Grade, KeepsARingClosedAndTheTensionInside) {
+  const Mesh base = ring_mesh(5, 11);
+  ASSERT_EQ(tips(base).size(), 2U);
+  const Mesh fine = grade(base, {.h0 = 0.2}, plenty);
+  expect_refines(base, fine);
+  EXPECT_EQ(fine.interfaces[0].nodes.front(), fine.interfaces[0].nodes.back());
+}
+
+TEST(Grade, ConformsWhereInterfacesCross) {
+  Mesh base = structured_mesh(16, 16, paper);
+  Interface upright{"upright", {}, {}, {}};
+  for (int j = 0; j <= 16; ++j) {
+    upright.nodes.push_back(17 * j + 6);
+    if (j == 16) break;
+    upright.kind.push_back(j >= 8 && j < 12 ? Kind::crack : Kind::glue);
+    upright.inclusion.push_back(-1);
   }
+  base.interfaces.push_back(upright);
+  base.subdomains = {"sw", "nw", "se", "ne"};
+  for (std::size_t t = 0; t < base.triangle_count(); ++t) {
+    if (t / 2 % 16 >= 6) base.subdomain[t] += 2;
+  }
+  const std::int32_t crossing = 17 * 8 + 6;
+  const std::vector<std::int32_t> found = tips(base);
+  ASSERT_EQ(found.size(), 4U);
+  EXPECT_TRUE(std::ranges::find(found, crossing) != found.end());
+  const Mesh fine = grade(base, {.h0 = 0.2}, plenty);
+  expect_refines(base, fine);
+  EXPECT_LT(testing::worst_size_ratio(fine, points(base, found), 0.2, 0.2, 1e-13, 1.0), sampling);
 }
 
 TEST(Grade, DoesNotDependOnTheUnitOfLength) {

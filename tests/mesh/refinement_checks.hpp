@@ -113,6 +113,7 @@ inline void expect_refines(const mesh::Mesh& base, const mesh::Mesh& fine) {
   ASSERT_GE(fine.xy.size(), base.xy.size());
   EXPECT_TRUE(std::equal(base.xy.begin(), base.xy.end(), fine.xy.begin()));
   EXPECT_EQ(fine.subdomains, base.subdomains);
+  EXPECT_EQ(fine.tension, base.tension);
   EXPECT_EQ(fine.inclusions, base.inclusions);
   EXPECT_EQ(fine.warnings, base.warnings);
   const std::vector<double> before = areas(base);

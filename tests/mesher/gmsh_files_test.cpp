@@ -60,7 +60,7 @@ class GmshFiles : public ::testing::Test {
     gmsh::option::setNumber("Mesh.MshFileVersion", version);
     gmsh::option::setNumber("Mesh.Binary", binary ? 1 : 0);
     gmsh::write(path);
-    return mesher::import_msh({path, enough});
+    return mesher::import_msh({path, {}, enough});
   }
 
  private:
