@@ -297,8 +297,11 @@ TEST(ActiveSet, FloatingSubdomainIsHeldByGlue) {
               HasSubstr("island"));
 }
 
-TEST(ActiveSet, FloatingSubdomainLiesOnTheOtherWhenPressedAndIsPulledOff) {
-  const Membrane membrane(island(Kind::crack).mesh);
+/// Glue in one node of the rim is enough; everything else of it may open.
+TEST(ActiveSet, FloatingSubdomainHangsOnOneGluedEdge) {
+  testing::GridMesh grid = island(Kind::crack);
+  grid.mesh.interfaces[0].kind[2] = Kind::glue;
+  const Membrane membrane(grid.mesh);
   const Answer pressed = membrane.exact(fem::PerRegion{{{"island", -1.0}}});
   expect_exact(pressed);
   double force = 0;
@@ -308,8 +311,9 @@ TEST(ActiveSet, FloatingSubdomainLiesOnTheOtherWhenPressedAndIsPulledOff) {
   }
   EXPECT_NEAR(force, 4, 1e-10) << "the weight of the island";
   const Answer pulled = membrane.exact(fem::PerRegion{{{"island", 1.0}}});
-  EXPECT_EQ(pulled.status, Status::not_converged);
-  EXPECT_THAT(pulled.reason, HasSubstr("pulled off"));
+  expect_exact(pulled);
+  EXPECT_EQ(pulled.contact_length, 0);
+  EXPECT_EQ(pulled.closed, std::vector<char>(pulled.closed.size(), 0));
 }
 
 TEST(ActiveSet, ResultantIsTheForceOnTheInclusion) {
