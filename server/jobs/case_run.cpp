@@ -71,11 +71,14 @@ contact::Answer without_arrays(const contact::Answer& answer) {
   return result;
 }
 
-/// The error with its place in the job: always a field, so that a client can point at the case.
+/// The error with its place in the job: always a field, so that a client can point at the case, or
+/// at the method that cannot solve on this mesh.
 Error placed(Error error, std::size_t index) {
   const std::string path = "load_cases[" + std::to_string(index) + "]";
   if (error.fields().empty()) {
     error.at(path);
+  } else if (error.fields().front().field == "uzawa") {
+    error.below("solver");
   } else {
     error.below(path);
   }

@@ -2,9 +2,11 @@
 #include "rpc/from_domain.hpp"
 
 #include <string>
+#include <variant>
 
 #include "rpc/error_table.hpp"
 #include "rpc/names.hpp"
+#include "rpc/text.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -97,24 +99,57 @@ v1::Force from_force(const fem::Force& force) {
       auto& values = *to.mutable_per_region()->mutable_values();
       for (const auto& [name, value] : regions.values) values[name] = value;
     }
+    void operator()(const fem::Array& array) const {
+      to.mutable_array()->set_upload(upload_name(array.upload));
+      to.mutable_array()->set_per_triangle(array.per_triangle);
+    }
   };
   v1::Force result;
   std::visit(Visitor{result}, force);
   return result;
 }
 
-v1::Solver from_solver(const contact::UzawaOptions& options) {
-  v1::Solver solver;
-  v1::Uzawa& uzawa = *solver.mutable_uzawa();
-  if (options.theta) {
-    uzawa.set_theta(*options.theta);
-  } else {
-    uzawa.set_theta_auto(true);
+v1::LoadCase from_load(const fem::Load& load) {
+  v1::LoadCase to;
+  to.set_name(load.name);
+  *to.mutable_force() = from_force(load.force);
+  to.set_boundary_value(load.boundary_value);
+  to.set_traction(load.traction);
+  for (const fem::PointForce& force : load.point_forces) {
+    v1::PointForce& into = *to.add_point_forces();
+    into.mutable_at()->set_x(force.x);
+    into.mutable_at()->set_y(force.y);
+    into.set_value(force.value);
   }
-  uzawa.set_epsilon(options.epsilon);
-  uzawa.set_p(options.p);
-  uzawa.set_max_iterations(options.max_iterations);
-  uzawa.set_mass(options.mass == contact::Mass::lumped ? v1::MASS_LUMPED : v1::MASS_CONSISTENT);
+  for (const auto& [name, value] : load.inclusion_forces) {
+    (*to.mutable_inclusion_forces())[name] = value;
+  }
+  return to;
+}
+
+v1::Solver from_solver(const contact::SolverOptions& options) {
+  struct Visitor {
+    v1::Solver& to;
+    void operator()(const contact::UzawaOptions& from) const {
+      v1::Uzawa& uzawa = *to.mutable_uzawa();
+      if (from.theta) {
+        uzawa.set_theta(*from.theta);
+      } else {
+        uzawa.set_theta_auto(true);
+      }
+      uzawa.set_epsilon(from.epsilon);
+      uzawa.set_p(from.p);
+      uzawa.set_max_iterations(from.max_iterations);
+      uzawa.set_mass(from.mass == contact::Mass::lumped ? v1::MASS_LUMPED : v1::MASS_CONSISTENT);
+      if (from.kkt_tolerance) uzawa.set_kkt_tolerance(*from.kkt_tolerance);
+    }
+    void operator()(const contact::ActiveSetOptions& from) const {
+      to.mutable_active_set()->set_tolerance(from.tolerance);
+      to.mutable_active_set()->set_max_steps(from.max_steps);
+    }
+  };
+  v1::Solver solver;
+  std::visit(Visitor{solver}, options);
   return solver;
 }
 
@@ -201,6 +236,8 @@ v1::LoadCaseAnswer from_domain(const store::CaseRecord& record, const std::strin
   to.set_theta_star(answer.theta_star);
   to.set_energy(answer.energy);
   set_kkt(answer, *to.mutable_kkt());
+  to.set_weakly_active(answer.weakly_active);
+  for (const std::string& warning : answer.warnings) to.add_warnings(printable(warning, 500));
   for (const contact::InclusionAnswer& inclusion : answer.inclusions) {
     v1::InclusionAnswer& into = *to.add_inclusions();
     into.set_name(inclusion.name);
@@ -225,10 +262,7 @@ v1::Job from_domain(const store::JobRecord& record, const InterfaceNames& interf
   job.set_title(record.spec.title);
   job.set_mesh(mesh_name(record.spec.mesh));
   for (const fem::Load& load : record.spec.loads) {
-    v1::LoadCase& to = *job.add_load_cases();
-    to.set_name(load.name);
-    *to.mutable_force() = from_force(load.force);
-    to.set_boundary_value(load.boundary_value);
+    *job.add_load_cases() = from_load(load);
   }
   *job.mutable_solver() = from_solver(record.spec.solver);
   job.set_fields(record.spec.fields);

@@ -12,10 +12,13 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-Error not_implemented(const std::string& what, const std::string& field) {
-  return Error(Reason::not_implemented,
-               what + " is not in this version; GetServerInfo lists what is")
-      .at(field);
+void require_count(std::size_t count, std::size_t limit, const char* what,
+                   const std::string& field) {
+  if (count > limit) {
+    throw Error(Reason::limit_exceeded, std::to_string(count) + " " + what + ": at most " +
+                                            std::to_string(limit) + " are accepted")
+        .at(field);
+  }
 }
 
 fem::Force to_force(const v1::Force& force, const std::string& field) {
@@ -28,26 +31,36 @@ fem::Force to_force(const v1::Force& force, const std::string& field) {
       return fem::Expression{force.expression()};
     case v1::Force::kPerRegion: {
       const auto& values = force.per_region().values();
-      if (values.size() > max_regions) {
-        throw Error(Reason::limit_exceeded, std::to_string(values.size()) + " regions: at most " +
-                                                std::to_string(max_regions) + " are accepted")
-            .at(field + ".per_region");
-      }
+      require_count(values.size(), fem::max_named_forces, "regions", field + ".per_region");
       return fem::PerRegion{{values.begin(), values.end()}};
     }
     case v1::Force::kArray:
-      throw not_implemented("a force given as an array", field + ".array");
+      return fem::Array{upload_sha256(force.array().upload(), field + ".array.upload"),
+                        force.array().per_triangle(), nullptr};
   }
   throw Error(Reason::invalid_argument, "unknown kind of force").at(field);
 }
 
 fem::Load to_load(const v1::LoadCase& load, const std::string& field) {
-  if (!load.traction().empty()) throw not_implemented("traction", field + ".traction");
-  if (!load.point_forces().empty()) throw not_implemented("a point force", field + ".point_forces");
-  if (!load.inclusion_forces().empty()) {
-    throw not_implemented("a force on an inclusion", field + ".inclusion_forces");
+  fem::Load to;
+  to.name = load.name();
+  to.force = to_force(load.force(), field + ".force");
+  to.boundary_value = load.boundary_value();
+  to.traction = load.traction();
+  require_count(static_cast<std::size_t>(load.point_forces_size()), fem::max_point_forces,
+                "point forces", field + ".point_forces");
+  to.point_forces.reserve(static_cast<std::size_t>(load.point_forces_size()));
+  for (const v1::PointForce& force : load.point_forces()) {
+    if (!force.has_at()) {
+      throw Error(Reason::invalid_argument, "the point force does not say where it acts; set `at`")
+          .at(field + ".point_forces[" + std::to_string(to.point_forces.size()) + "].at");
+    }
+    to.point_forces.push_back({force.at().x(), force.at().y(), force.value()});
   }
-  return {load.name(), to_force(load.force(), field + ".force"), load.boundary_value()};
+  require_count(load.inclusion_forces().size(), fem::max_named_forces, "forces on inclusions",
+                field + ".inclusion_forces");
+  to.inclusion_forces = {load.inclusion_forces().begin(), load.inclusion_forces().end()};
+  return to;
 }
 
 contact::Mass to_mass(v1::Mass mass) {
@@ -65,9 +78,6 @@ contact::Mass to_mass(v1::Mass mass) {
 }
 
 contact::UzawaOptions to_options(const v1::Uzawa& uzawa, int iteration_limit) {
-  if (uzawa.has_kkt_tolerance()) {
-    throw not_implemented("stopping by KKT residuals", "job.solver.uzawa.kkt_tolerance");
-  }
   contact::UzawaOptions options;
   if (uzawa.step_case() == v1::Uzawa::kTheta) {
     options.theta = uzawa.theta();
@@ -84,7 +94,21 @@ contact::UzawaOptions to_options(const v1::Uzawa& uzawa, int iteration_limit) {
                                ? uzawa.max_iterations()
                                : std::min(options.max_iterations, iteration_limit);
   options.mass = to_mass(uzawa.mass());
+  if (uzawa.has_kkt_tolerance()) options.kkt_tolerance = uzawa.kkt_tolerance();
   return options;
+}
+
+contact::ActiveSetOptions to_options(const v1::ActiveSet& active_set, int iteration_limit) {
+  contact::ActiveSetOptions options;
+  if (active_set.has_tolerance()) options.tolerance = active_set.tolerance();
+  options.max_steps = active_set.max_steps() != 0 ? active_set.max_steps()
+                                                  : std::min(options.max_steps, iteration_limit);
+  return options;
+}
+
+contact::SolverOptions to_options(const v1::Solver& solver, int iteration_limit) {
+  if (solver.has_uzawa()) return to_options(solver.uzawa(), iteration_limit);
+  return to_options(solver.active_set(), iteration_limit);
 }
 
 }  // namespace
@@ -108,10 +132,7 @@ store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
   spec.title = job.title();
   spec.mesh = mesh_id(job.mesh(), "job.mesh");
   spec.fields = job.fields();
-  if (job.solver().has_active_set()) {
-    throw not_implemented("the active-set method", "job.solver.active_set");
-  }
-  spec.solver = to_options(job.solver().uzawa(), limits.iterations);
+  spec.solver = to_options(job.solver(), limits.iterations);
   spec.loads.reserve(static_cast<std::size_t>(job.load_cases_size()));
   for (int i = 0; i < job.load_cases_size(); ++i) {
     spec.loads.push_back(to_load(job.load_cases(i), "job.load_cases[" + std::to_string(i) + "]"));

@@ -14,9 +14,30 @@ namespace anticrack::rpc {
 namespace {
 
 constexpr std::array features{
-    "boundary_value",  "fields",      "force.constant",   "force.expression", "force.per_region",
-    "mass.consistent", "mass.lumped", "mesh.geometry",    "mesh.msh",         "mesh.paper",
-    "mesh.uniform",    "uzawa",       "uzawa.theta_auto",
+    "active_set",
+    "boundary_value",
+    "fields",
+    "force.array",
+    "force.constant",
+    "force.expression",
+    "force.per_region",
+    "inclusion_forces",
+    "mass.consistent",
+    "mass.lumped",
+    "mesh.align",
+    "mesh.geometry",
+    "mesh.graded",
+    "mesh.groups",
+    "mesh.msh",
+    "mesh.neumann",
+    "mesh.paper",
+    "mesh.tension",
+    "mesh.uniform",
+    "point_forces",
+    "traction",
+    "uzawa",
+    "uzawa.kkt_tolerance",
+    "uzawa.theta_auto",
 };
 
 v1::ServerLimits to_message(const Limits& limits, const jobs::EngineOptions& engine) {

@@ -19,8 +19,6 @@ namespace anticrack::rpc {
 constexpr std::size_t max_vertices = 10'000;
 /// Inclusions, cracks and delaminated parts of one geometry, together.
 constexpr std::size_t max_parts = 1'000;
-/// Subdomains named in one force.
-constexpr std::size_t max_regions = 1'000;
 constexpr std::size_t max_title_bytes = 200;
 constexpr std::size_t max_request_id_bytes = 64;
 /// A job's own bytes come back in every answer about it, which must stay below 4 MiB.

@@ -13,6 +13,7 @@
 #include "mesher/helper.hpp"
 #include "rpc/block_feed.hpp"
 #include "rpc/names.hpp"
+#include "store/array_upload.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -24,6 +25,33 @@ Error storage_error(const std::string& what) {
   return Error(Reason::storage,
                what + ": " + std::generic_category().message(errno) + "; the upload is dropped")
       .retry_after(std::chrono::seconds(10));
+}
+
+bool is_array(v1::UploadMeshRequest::Content content) {
+  switch (content) {
+    case v1::UploadMeshRequest::CONTENT_UNSPECIFIED:
+    case v1::UploadMeshRequest::CONTENT_MSH:
+      return false;
+    case v1::UploadMeshRequest::CONTENT_ARRAY:
+      return true;
+    default:
+      throw Error(Reason::invalid_argument,
+                  "content " + std::to_string(content) + " is unknown; use a .msh (1) or array (2)")
+          .at("header.content");
+  }
+}
+
+/// Nothing else may reach gmsh, which runs what it takes for a script, nor a load.
+void require_content(const std::string& path, bool array) {
+  try {
+    if (array) {
+      store::require_array(path);
+    } else {
+      mesher::require_msh(path);
+    }
+  } catch (const Error& error) {
+    throw error.fields().empty() ? Error(error).at("chunk") : error;
+  }
 }
 
 }  // namespace
@@ -94,8 +122,15 @@ void UploadReceiver::begin(const v1::UploadMeshRequest::Header& header) {
     throw Error(Reason::invalid_argument, "a second header; only the first message has one")
         .at("header");
   }
+  const bool array = is_array(header.content());
   if (header.size() == 0) {
-    throw Error(Reason::mesh_invalid, "the file is empty; a .msh begins with $MeshFormat")
+    throw array ? Error(Reason::invalid_argument, "the array has no value").at("header.size")
+                : Error(Reason::mesh_invalid, "the file is empty; a .msh begins with $MeshFormat")
+                      .at("header.size");
+  }
+  if (array && header.size() % sizeof(double) != 0) {
+    throw Error(Reason::invalid_argument, "an array of " + std::to_string(header.size()) +
+                                              " bytes: each value has 8 (f64, little-endian)")
         .at("header.size");
   }
   if (header.size() > _max_bytes) {
@@ -111,6 +146,7 @@ void UploadReceiver::begin(const v1::UploadMeshRequest::Header& header) {
   }
   _announced_bytes = header.size();
   _announced_sha256 = header.sha256();
+  _is_array = array;
   _file = std::make_unique<File>(_store.new_upload_path());
 }
 
@@ -151,11 +187,7 @@ std::string UploadReceiver::complete() {
         .at("header.sha256");
   }
   file->close();
-  try {
-    mesher::require_msh(file->path());
-  } catch (const Error& error) {
-    throw error.fields().empty() ? Error(error).at("chunk") : error;
-  }
+  require_content(file->path(), _is_array);
   _store.keep_upload(file->path(), sha256);
   file->release();
   return sha256;

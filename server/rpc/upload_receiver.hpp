@@ -26,7 +26,8 @@ class UploadReceiver {
   /// Throws errors::Error: invalid_argument, limit_exceeded, storage.
   void accept(const v1::UploadMeshRequest& request);
 
-  /// The upload's sha256, when it is all there, is what was announced and begins with $MeshFormat.
+  /// The upload's sha256, when it is all there and is what was announced: a .msh begins with
+  /// $MeshFormat, an array is finite values of 8 bytes.
   /// Throws errors::Error: invalid_argument, mesh_invalid, storage.
   std::string complete();
 
@@ -42,6 +43,7 @@ class UploadReceiver {
   store::Sha256 _hash;
   std::string _announced_sha256;
   std::uint64_t _announced_bytes = 0;
+  bool _is_array = false;
   std::uint64_t _received_bytes = 0;
 };
 

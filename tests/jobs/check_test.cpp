@@ -22,8 +22,23 @@ JobSpec good() {
   spec.mesh = "0123456789abcdef";
   spec.loads = {{"first", 1.0, ""},
                 {"second", fem::Expression{"y > 0 ? x : -1"}, "x*y"},
-                {"third", fem::PerRegion{{{"upper", 2.0}}}, ""}};
+                {"third", fem::PerRegion{{{"upper", 2.0}}}, ""},
+                {"fourth", fem::Array{std::string(64, 'a'), true}, "", "y"}};
+  spec.loads[3].point_forces = {{0.25, 0.5, 1}};
+  spec.loads[3].inclusion_forces = {{"fibre", -1.0}};
   return spec;
+}
+
+/// Its options, Algorithm 2's defaults if it had another method.
+contact::UzawaOptions& uzawa(JobSpec& spec) {
+  if (!std::holds_alternative<contact::UzawaOptions>(spec.solver)) {
+    spec.solver = contact::UzawaOptions();
+  }
+  return std::get<contact::UzawaOptions>(spec.solver);
+}
+
+contact::ActiveSetOptions& active_set(JobSpec& spec) {
+  return std::get<contact::ActiveSetOptions>(spec.solver);
 }
 
 class Check : public ::testing::Test {
@@ -42,8 +57,8 @@ TEST_F(Check, AcceptsAGoodJob) {
   EXPECT_NO_THROW(check(good(), options));
   JobSpec spec = good();
   spec.loads[0].name = "0 a_b.c-d" + std::string(55, 'x');
-  spec.solver.theta.reset();
-  spec.solver.p = 0;
+  uzawa(spec).theta.reset();
+  uzawa(spec).p = 0;
   EXPECT_NO_THROW(check(spec, options));
 }
 
@@ -67,20 +82,39 @@ TEST_F(Check, NamesTheExpressionAtFault) {
                       "load_cases[2].boundary_value", Reason::expression_invalid));
 }
 
-TEST_F(Check, NamesTheParameterAtFault) {
-  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.solver.theta = 0; }, "solver.uzawa.theta"));
+TEST_F(Check, NamesTheLoadAtFault) {
+  const double nan = std::nan("");
+  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.loads[3].traction = "1 +"; },
+                      "load_cases[3].traction", Reason::expression_invalid));
+  EXPECT_TRUE(refuses([&](JobSpec& spec) { spec.loads[3].point_forces[0].value = nan; },
+                      "load_cases[3].point_forces[0].value"));
+  EXPECT_TRUE(refuses([&](JobSpec& spec) { spec.loads[3].inclusion_forces["fibre"] = nan; },
+                      "load_cases[3].inclusion_forces[fibre]"));
   EXPECT_TRUE(
-      refuses([](JobSpec& spec) { spec.solver.theta = std::nan(""); }, "solver.uzawa.theta"));
-  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.solver.epsilon = 0; }, "solver.uzawa.epsilon"));
-  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.solver.p = -1; }, "solver.uzawa.p"));
-  EXPECT_TRUE(refuses([](JobSpec& spec) { spec.solver.max_iterations = 0; },
+      refuses([](JobSpec& spec) { spec.loads[3].point_forces.resize(fem::max_point_forces + 1); },
+              "load_cases[3].point_forces", Reason::limit_exceeded));
+}
+
+TEST_F(Check, NamesTheParameterAtFault) {
+  EXPECT_TRUE(refuses([](JobSpec& spec) { uzawa(spec).theta = 0; }, "solver.uzawa.theta"));
+  EXPECT_TRUE(
+      refuses([](JobSpec& spec) { uzawa(spec).theta = std::nan(""); }, "solver.uzawa.theta"));
+  EXPECT_TRUE(refuses([](JobSpec& spec) { uzawa(spec).epsilon = 0; }, "solver.uzawa.epsilon"));
+  EXPECT_TRUE(refuses([](JobSpec& spec) { uzawa(spec).p = -1; }, "solver.uzawa.p"));
+  EXPECT_TRUE(refuses([](JobSpec& spec) { uzawa(spec).max_iterations = 0; },
                       "solver.uzawa.max_iterations"));
+  EXPECT_TRUE(
+      refuses([](JobSpec& spec) { uzawa(spec).kkt_tolerance = 0; }, "solver.uzawa.kkt_tolerance"));
+  EXPECT_TRUE(refuses([](JobSpec& spec) { active_set(spec).tolerance = -1; },
+                      "solver.active_set.tolerance"));
+  EXPECT_TRUE(refuses([](JobSpec& spec) { active_set(spec).max_steps = -1; },
+                      "solver.active_set.max_steps"));
 }
 
 TEST_F(Check, HoldsTheLimits) {
-  options.max_load_cases = 2;
-  EXPECT_TRUE(refuses([](JobSpec&) {}, "load_cases", Reason::limit_exceeded));
   options.max_load_cases = 3;
+  EXPECT_TRUE(refuses([](JobSpec&) {}, "load_cases", Reason::limit_exceeded));
+  options.max_load_cases = 4;
   EXPECT_NO_THROW(check(good(), options));
   EXPECT_TRUE(refuses([](JobSpec& spec) { spec.title = std::string(201, 'x'); }, "title"));
 }
@@ -92,13 +126,29 @@ TEST(Fingerprint, IsThatOfTheWholeJob) {
       [](JobSpec& spec) { spec.title += "!"; },
       [](JobSpec& spec) { spec.mesh = "other"; },
       [](JobSpec& spec) { spec.fields = true; },
-      [](JobSpec& spec) { spec.solver.theta = 1.5; },
-      [](JobSpec& spec) { spec.solver.theta.reset(); },
-      [](JobSpec& spec) { spec.solver.theta = 0; },
-      [](JobSpec& spec) { spec.solver.epsilon = 1e-9; },
-      [](JobSpec& spec) { spec.solver.p = 2; },
-      [](JobSpec& spec) { spec.solver.max_iterations = 7; },
-      [](JobSpec& spec) { spec.solver.mass = contact::Mass::consistent; },
+      [](JobSpec& spec) { active_set(spec).tolerance = 1e-9; },
+      [](JobSpec& spec) { active_set(spec).max_steps = 7; },
+      [](JobSpec& spec) { uzawa(spec); },
+      [](JobSpec& spec) { uzawa(spec).theta = 1.5; },
+      [](JobSpec& spec) { uzawa(spec).theta.reset(); },
+      [](JobSpec& spec) { uzawa(spec).theta = 0; },
+      [](JobSpec& spec) { uzawa(spec).epsilon = 1e-9; },
+      [](JobSpec& spec) { uzawa(spec).p = 2; },
+      [](JobSpec& spec) { uzawa(spec).max_iterations = 7; },
+      [](JobSpec& spec) { uzawa(spec).mass = contact::Mass::consistent; },
+      [](JobSpec& spec) { uzawa(spec).kkt_tolerance = 0; },
+      [](JobSpec& spec) { spec.loads[3].traction = "x"; },
+      [](JobSpec& spec) { std::swap(spec.loads[3].traction, spec.loads[3].boundary_value); },
+      [](JobSpec& spec) { spec.loads[3].point_forces[0].x = 1; },
+      [](JobSpec& spec) { spec.loads[3].point_forces[0].y = 1; },
+      [](JobSpec& spec) { spec.loads[3].point_forces[0].value = 2; },
+      [](JobSpec& spec) {
+        spec.loads[3].point_forces.push_back({0, 0, 0});
+      },
+      [](JobSpec& spec) { spec.loads[3].inclusion_forces["fibre"] = 2; },
+      [](JobSpec& spec) { spec.loads[3].inclusion_forces["other"] = 0; },
+      [](JobSpec& spec) { std::get<fem::Array>(spec.loads[3].force).per_triangle = false; },
+      [](JobSpec& spec) { std::get<fem::Array>(spec.loads[3].force).upload[0] = 'b'; },
       [](JobSpec& spec) { spec.loads.pop_back(); },
       [](JobSpec& spec) { std::swap(spec.loads[0], spec.loads[1]); },
       [](JobSpec& spec) { spec.loads[0].name = "1st"; },

@@ -99,8 +99,8 @@ TEST(EngineLimits, TheEventLogIsTrimmedAndTheResultIsNot) {
   options.event_log_bytes = 2048;
   Engine test(options);
   store::JobSpec spec = short_job(test.ready_mesh());
-  spec.solver.epsilon = 1e-300;
-  spec.solver.max_iterations = 200;
+  uzawa_of(spec).epsilon = 1e-300;
+  uzawa_of(spec).max_iterations = 200;
   const std::string id = test.submit(spec);
   const auto record = test.ended(id);
   const auto log = test.engine.events(id);

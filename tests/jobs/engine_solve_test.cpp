@@ -2,7 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <fstream>
+#include <span>
+
 #include "jobs/engine_support.hpp"
+#include "store/digest.hpp"
 #include "support/errors.hpp"
 
 namespace anticrack::jobs {
@@ -197,6 +202,83 @@ TEST(EngineFailure, OfOneLoadCaseLeavesTheOthers) {
   EXPECT_TRUE(array<double>(*block, "loads/1/traces/0/jump"));
 }
 
+/// The bytes of the values as an upload; its name.
+std::string upload(store::Store& store, const std::vector<double>& values) {
+  const std::string part = store.new_upload_path();
+  std::ofstream(part, std::ios::binary)
+      .write(reinterpret_cast<const char*>(values.data()),
+             static_cast<std::streamsize>(values.size() * sizeof(double)));
+  const std::string sha256 = store::Sha256().add(std::as_bytes(std::span(values))).finish();
+  store.keep_upload(part, sha256);
+  return sha256;
+}
+
+TEST(EngineSolve, SolvesByTheActiveSetUnlessAskedOtherwise) {
+  Engine test;
+  store::JobSpec spec = two_loads(test.ready_mesh());
+  const JobRecord uzawa = test.ended(test.submit(spec));
+  spec.solver = {};
+  const JobRecord exact = test.ended(test.submit(spec));
+  ASSERT_EQ(exact.state, JobState::succeeded);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const contact::Answer& answer = exact.cases[i].answer;
+    EXPECT_EQ(exact.cases[i].status, CaseStatus::converged);
+    EXPECT_LT(answer.iterations, 20);
+    EXPECT_EQ(answer.theta, 0);
+    EXPECT_NEAR(answer.inclusions.at(0).displacement,
+                uzawa.cases[i].answer.inclusions.at(0).displacement, 1e-3);
+  }
+}
+
+TEST(EngineSolve, TakesForcesFromUploadedArrays) {
+  Engine test;
+  const std::string mesh = test.ready_mesh();
+  const std::uint64_t triangles = test.backend.catalogue.get(mesh).triangle_count;
+  const std::uint64_t nodes = test.backend.catalogue.get(mesh).node_count;
+  store::Store& store = *test.backend.store;
+  const std::string ones = upload(store, std::vector<double>(triangles, 1.0));
+  store::JobSpec spec = short_job(mesh);
+  spec.loads = {{"constant", 1.0},
+                {"triangles", fem::Array{ones, true}},
+                {"again", fem::Array{ones, true}},
+                {"nodes", fem::Array{upload(store, std::vector<double>(nodes, 1.0)), false}},
+                {"not of this mesh", fem::Array{ones, false}}};
+  const JobRecord record = test.ended(test.submit(spec));
+  for (std::size_t i = 0; i < 4; ++i) {
+    ASSERT_EQ(record.cases[i].status, CaseStatus::converged) << i;
+    EXPECT_NEAR(record.cases[i].answer.energy, record.cases[0].answer.energy, 1e-12) << i;
+  }
+  EXPECT_EQ(record.cases[4].status, CaseStatus::failed);
+  ASSERT_TRUE(record.cases[4].error);
+  EXPECT_EQ(record.cases[4].error->fields().at(0).field, "load_cases[4].force.array");
+  EXPECT_FALSE(std::get<fem::Array>(test.engine.get(record.id).spec.loads[1].force).values);
+}
+
+TEST(EngineSolve, TellsTheWarningsOfALoad) {
+  Engine test;
+  store::JobSpec spec = short_job(test.ready_mesh());
+  spec.loads[0].force = fem::Expression{"y > 0 ? 1 : sin(1e5*x*y)/sqrt(abs(x - 0.03))"};
+  const JobRecord record = test.ended(test.submit(spec));
+  EXPECT_EQ(record.cases[0].answer.warnings.size(), 1U);
+}
+
+TEST(EngineSolve, StopsWhileALoadIsIntegrated) {
+  Engine test;
+  store::JobSpec spec = short_job(test.ready_mesh());
+  spec.loads.resize(1000, spec.loads[0]);  // hours, if they were not stopped
+  for (std::size_t i = 0; i < spec.loads.size(); ++i) {
+    spec.loads[i].name = std::to_string(i);
+    spec.loads[i].force =
+        fem::Expression{"sin(1e5*x*y)/sqrt(abs(x - 0.03)) + 1e-9*" + std::to_string(i)};
+  }
+  const std::string id = test.submit(spec);
+  ASSERT_TRUE(test.reaches(id, JobState::running));
+  test.engine.cancel(id);
+  const JobRecord record = test.ended(id);
+  EXPECT_EQ(record.state, JobState::cancelled);
+  EXPECT_FALSE(record.error);
+}
+
 TEST(EngineFailure, OfTheMeshFailsTheJob) {
   Engine test;
   const std::string part = test.backend.store->new_upload_path();
@@ -218,8 +300,8 @@ TEST(EngineFailure, OfTheMeshFailsTheJob) {
 TEST(EngineFailure, ToConvergeIsNone) {
   Engine test;
   store::JobSpec spec = short_job(test.ready_mesh());
-  spec.solver.epsilon = 1e-300;
-  spec.solver.max_iterations = 3;
+  uzawa_of(spec).epsilon = 1e-300;
+  uzawa_of(spec).max_iterations = 3;
   const std::string id = test.submit(spec);
   const JobRecord record = test.ended(id);
   EXPECT_EQ(record.state, JobState::succeeded);
@@ -243,6 +325,19 @@ TEST(EngineSubmit, ChecksTheJob) {
   EXPECT_TRUE(throws([&] { test.engine.result("unknown"); }, Reason::not_found));
   EXPECT_TRUE(throws([&] { test.engine.cancel("unknown"); }, Reason::not_found));
   EXPECT_TRUE(throws([&] { test.engine.erase("unknown"); }, Reason::not_found));
+}
+
+TEST(EngineSubmit, LooksForTheArrays) {
+  Engine test;
+  store::JobSpec spec = short_job(test.backend.create());
+  spec.loads.push_back({"array", fem::Array{std::string(64, 'b'), true}});
+  EXPECT_TRUE(throws([&] { test.submit(spec); }, Reason::not_found, "load_cases[1].force.array"));
+  const std::string part = test.backend.store->new_upload_path();
+  std::ofstream(part) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  test.backend.store->keep_upload(part, std::string(64, 'b'));
+  EXPECT_TRUE(
+      throws([&] { test.submit(spec); }, Reason::invalid_argument, "load_cases[1].force.array"));
+  EXPECT_TRUE(test.engine.list("", 10).empty());
 }
 
 TEST(EngineSubmit, GivesTheSameJobForTheSameRequest) {

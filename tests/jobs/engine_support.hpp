@@ -17,22 +17,28 @@
 
 namespace anticrack::jobs {
 
-/// A job of one load case that converges.
+/// A job of one load case that converges in many iterations.
 inline store::JobSpec short_job(const std::string& mesh) {
   store::JobSpec spec;
   spec.mesh = mesh;
   spec.loads = {{"pull", fem::Expression{"y > 0 ? 1 : -1"}, ""}};
-  spec.solver.theta.reset();
-  spec.solver.epsilon = 1e-10;
+  contact::UzawaOptions uzawa;
+  uzawa.theta.reset();
+  uzawa.epsilon = 1e-10;
+  spec.solver = uzawa;
   return spec;
+}
+
+inline contact::UzawaOptions& uzawa_of(store::JobSpec& spec) {
+  return std::get<contact::UzawaOptions>(spec.solver);
 }
 
 /// A job that iterates for as long as anybody would wait: its steps are tiny.
 inline store::JobSpec endless_job(const std::string& mesh) {
   store::JobSpec spec = short_job(mesh);
-  spec.solver.theta = 1e-7;
-  spec.solver.epsilon = 1e-300;
-  spec.solver.max_iterations = std::numeric_limits<int>::max();
+  uzawa_of(spec).theta = 1e-7;
+  uzawa_of(spec).epsilon = 1e-300;
+  uzawa_of(spec).max_iterations = std::numeric_limits<int>::max();
   return spec;
 }
 

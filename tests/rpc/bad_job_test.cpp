@@ -30,13 +30,16 @@ v1::Uzawa& uzawa(v1::Job& job) {
   return *job.mutable_solver()->mutable_uzawa();
 }
 
+v1::ActiveSet& active_set(v1::Job& job) {
+  return *job.mutable_solver()->mutable_active_set();
+}
+
 v1::Force& force(v1::Job& job) {
   return *job.mutable_load_cases(0)->mutable_force();
 }
 
 const std::vector<BadJob>& bad_jobs() {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  constexpr auto unimplemented = grpc::StatusCode::UNIMPLEMENTED;
   static const std::vector<BadJob> all{
       {"ExpressionWithASyntaxError", [](auto& job) { force(job).set_expression("x + * y"); },
        "EXPRESSION_INVALID", "job.load_cases[0].force.expression"},
@@ -74,19 +77,40 @@ const std::vector<BadJob>& bad_jobs() {
       {"MeshUnnamed", [](auto& job) { job.clear_mesh(); }, "INVALID_ARGUMENT", "job.mesh"},
       {"MeshUnknown", [](auto& job) { job.set_mesh("meshes/0000000000000000"); }, "NOT_FOUND",
        "job.mesh", grpc::StatusCode::NOT_FOUND},
-      {"ActiveSet", [](auto& job) { job.mutable_solver()->mutable_active_set(); },
-       "NOT_IMPLEMENTED", "job.solver.active_set", unimplemented},
-      {"KktTolerance", [](auto& job) { uzawa(job).set_kkt_tolerance(1e-9); }, "NOT_IMPLEMENTED",
-       "job.solver.uzawa.kkt_tolerance", unimplemented},
-      {"ForceArray", [](auto& job) { force(job).mutable_array(); }, "NOT_IMPLEMENTED",
-       "job.load_cases[0].force.array", unimplemented},
-      {"Traction", [](auto& job) { job.mutable_load_cases(0)->set_traction("1"); },
-       "NOT_IMPLEMENTED", "job.load_cases[0].traction", unimplemented},
-      {"PointForces", [](auto& job) { job.mutable_load_cases(0)->add_point_forces(); },
-       "NOT_IMPLEMENTED", "job.load_cases[0].point_forces", unimplemented},
-      {"InclusionForces",
-       [](auto& job) { (*job.mutable_load_cases(0)->mutable_inclusion_forces())["fibre"] = 1; },
-       "NOT_IMPLEMENTED", "job.load_cases[0].inclusion_forces", unimplemented},
+      {"KktToleranceZero", [](auto& job) { uzawa(job).set_kkt_tolerance(0); }, "INVALID_ARGUMENT",
+       "job.solver.uzawa.kkt_tolerance"},
+      {"ActiveSetToleranceNegative", [](auto& job) { active_set(job).set_tolerance(-1); },
+       "INVALID_ARGUMENT", "job.solver.active_set.tolerance"},
+      {"ActiveSetStepsNegative", [](auto& job) { active_set(job).set_max_steps(-1); },
+       "INVALID_ARGUMENT", "job.solver.active_set.max_steps"},
+      {"ArrayUnnamed", [](auto& job) { force(job).mutable_array(); }, "INVALID_ARGUMENT",
+       "job.load_cases[0].force.array.upload"},
+      {"ArrayUnknown",
+       [](auto& job) { force(job).mutable_array()->set_upload("uploads/" + std::string(64, '0')); },
+       "NOT_FOUND", "job.load_cases[0].force.array", grpc::StatusCode::NOT_FOUND},
+      {"TractionWithASyntaxError",
+       [](auto& job) { job.mutable_load_cases(0)->set_traction("sin("); }, "EXPRESSION_INVALID",
+       "job.load_cases[0].traction"},
+      {"PointForceNowhere", [](auto& job) { job.mutable_load_cases(0)->add_point_forces(); },
+       "INVALID_ARGUMENT", "job.load_cases[0].point_forces[0].at"},
+      {"PointForceAtNan",
+       [](auto& job) { job.mutable_load_cases(0)->add_point_forces()->mutable_at()->set_x(nan); },
+       "INVALID_ARGUMENT", "job.load_cases[0].point_forces[0].at"},
+      {"PointForceNan",
+       [](auto& job) {
+         v1::PointForce& point = *job.mutable_load_cases(0)->add_point_forces();
+         point.mutable_at();
+         point.set_value(nan);
+       },
+       "INVALID_ARGUMENT", "job.load_cases[0].point_forces[0].value"},
+      {"PointForcesTooMany",
+       [](auto& job) {
+         for (int i = 0; i < 10'001; ++i) job.mutable_load_cases(0)->add_point_forces();
+       },
+       "LIMIT_EXCEEDED", "job.load_cases[0].point_forces"},
+      {"InclusionForceNan",
+       [](auto& job) { (*job.mutable_load_cases(0)->mutable_inclusion_forces())["fibre"] = nan; },
+       "INVALID_ARGUMENT", "job.load_cases[0].inclusion_forces[fibre]"},
   };
   return all;
 }
@@ -117,23 +141,51 @@ TEST_P(BadJobTest, IsRefusedAndTheServerServesOn) {
 INSTANTIATE_TEST_SUITE_P(Each, BadJobTest, ::testing::ValuesIn(bad_jobs()),
                          [](const auto& bad) { return std::string(bad.param.name); });
 
-TEST(BadJob, WithAValueThatIsNotFiniteFailsItsLoadCaseAlone) {
+struct BadLoad {
+  const char* name;
+  std::function<void(v1::LoadCase&)> spoil;
+  const char* reason;
+  const char* field;
+  const char* told;  ///< a part of the message
+};
+
+/// What only the mesh can tell: the load case fails, the others are solved.
+const std::vector<BadLoad>& bad_loads() {
+  static const std::vector<BadLoad> all{
+      {"ForceNotFinite", [](auto& load) { load.mutable_force()->set_expression("sqrt(x - 5)"); },
+       "EXPRESSION_INVALID", "load_cases[1].force.expression", "nan at (x, y)"},
+      {"RegionUnknown",
+       [](auto& load) {
+         (*load.mutable_force()->mutable_per_region()->mutable_values())["left"] = 1;
+       },
+       "INVALID_ARGUMENT", "load_cases[1].force.per_region[left]", "\"left\""},
+      {"PointOutside", [](auto& load) { load.add_point_forces()->mutable_at()->set_x(1.5); },
+       "INVALID_ARGUMENT", "load_cases[1].point_forces[0].at", "(1.5, 0) is outside"},
+      {"InclusionUnknown", [](auto& load) { (*load.mutable_inclusion_forces())["rod"] = 1; },
+       "INVALID_ARGUMENT", "load_cases[1].inclusion_forces[rod]", "it has \"fibre\""},
+  };
+  return all;
+}
+
+TEST(BadJob, ThatOnlyTheMeshCanTellFailsItsLoadCaseAlone) {
   RunningServer server;
   const std::string mesh = server.create(paper_mesh()).name();
-  v1::CreateJobRequest request = opening_job(mesh);
-  v1::LoadCase& bad = *request.mutable_job()->add_load_cases();
-  bad.set_name("bad");
-  bad.mutable_force()->set_expression("sqrt(x - 5)");
-  const v1::Job job = server.finish(server.create(request).name());
-  ASSERT_EQ(job.answers_size(), 2);
-  EXPECT_EQ(job.answers(0).status(), v1::LoadCaseAnswer::STATUS_CONVERGED);
-  EXPECT_EQ(job.answers(1).status(), v1::LoadCaseAnswer::STATUS_FAILED);
-  const v1::Status& error = job.answers(1).error();
-  EXPECT_EQ(error.code(), static_cast<int>(grpc::StatusCode::INVALID_ARGUMENT));
-  const grpc::Status status(static_cast<grpc::StatusCode>(error.code()), error.message(),
-                            error.SerializeAsString());
-  expect_error(status, grpc::StatusCode::INVALID_ARGUMENT, "EXPRESSION_INVALID",
-               "load_cases[1].force.expression");
+  for (const BadLoad& bad : bad_loads()) {
+    SCOPED_TRACE(bad.name);
+    v1::CreateJobRequest request = opening_job(mesh);
+    v1::LoadCase& load = *request.mutable_job()->add_load_cases();
+    load.set_name("bad");
+    bad.spoil(load);
+    const v1::Job job = server.finish(server.create(request).name());
+    ASSERT_EQ(job.answers_size(), 2);
+    EXPECT_EQ(job.answers(0).status(), v1::LoadCaseAnswer::STATUS_CONVERGED);
+    EXPECT_EQ(job.answers(1).status(), v1::LoadCaseAnswer::STATUS_FAILED);
+    const v1::Status& error = job.answers(1).error();
+    EXPECT_NE(error.message().find(bad.told), std::string::npos) << error.message();
+    const grpc::Status status(static_cast<grpc::StatusCode>(error.code()), error.message(),
+                              error.SerializeAsString());
+    expect_error(status, grpc::StatusCode::INVALID_ARGUMENT, bad.reason, bad.field);
+  }
 }
 
 TEST(BadJob, LargerThanALimitIsRefusedBeforeItIsRead) {

@@ -83,12 +83,14 @@ std::vector<double> doubles(const Received& block, const std::string& name) {
 TEST(Job, OpensTheCrackOfExampleThree) {
   RunningServer server;
   v1::CreateMeshRequest mesh = paper_mesh();
-  mesh.mutable_options()->Clear();  // the preset "paper"
+  mesh.mutable_options()->Clear();
+  mesh.mutable_options()->set_preset(v1::MESH_PRESET_PAPER);
   const v1::Mesh created = server.create(mesh);
   EXPECT_EQ(created.title(), "section 8");
   v1::CreateJobRequest request = opening_job(created.name());
   request.mutable_job()->set_title("Example 3");
   request.mutable_job()->set_fields(true);
+  request.mutable_job()->mutable_solver()->mutable_uzawa();
   const v1::Job job = server.finish(server.create(request).name());
 
   EXPECT_EQ(job.title(), "Example 3");
@@ -127,6 +129,33 @@ TEST(Job, OpensTheCrackOfExampleThree) {
   }
   EXPECT_EQ(doubles(block, "loads/0/history/criterion").size(),
             static_cast<std::size_t>(answer.iterations()));
+}
+
+TEST(Job, IsSolvedExactlyUnlessAskedOtherwise) {
+  RunningServer server;
+  v1::CreateJobRequest request = opening_job(server.create(paper_mesh()).name());
+  v1::LoadCase& pushed = *request.mutable_job()->add_load_cases();
+  pushed.set_name("pushed");
+  (*pushed.mutable_inclusion_forces())["fibre"] = 0.5;
+  v1::LoadCase& poked = *request.mutable_job()->add_load_cases();
+  poked.set_name("poked");
+  v1::PointForce& point = *poked.add_point_forces();
+  point.mutable_at()->set_x(0.1);
+  point.set_value(0.5);
+  const v1::Job job = server.finish(server.create(request).name());
+  ASSERT_EQ(job.state(), v1::Job::STATE_SUCCEEDED);
+  EXPECT_EQ(job.solver().active_set().max_steps(), 1000);
+  ASSERT_EQ(job.answers_size(), 3);
+  for (const v1::LoadCaseAnswer& answer : job.answers()) {
+    EXPECT_EQ(answer.status(), v1::LoadCaseAnswer::STATUS_CONVERGED);
+    EXPECT_EQ(answer.theta(), 0);
+    EXPECT_LT(answer.iterations(), 20);
+    EXPECT_LT(answer.kkt().complementarity_relative(), 1e-12);
+    EXPECT_EQ(answer.warnings_size(), 0);
+  }
+  EXPECT_NEAR(job.answers(1).inclusions(0).resultant(), 0.5, 1e-9);
+  EXPECT_EQ(job.answers(2).inclusions(0).displacement(),
+            job.answers(1).inclusions(0).displacement());
 }
 
 TEST(Job, ReadsItsMeshInChunksFromAnyOffset) {

@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "rpc/from_domain.hpp"
 #include "rpc/requests.hpp"
 
 namespace anticrack::rpc {
@@ -150,15 +151,36 @@ TEST(GeometryToDomain, PutsTheDomainsFieldsIntoTheRequest) {
   EXPECT_EQ(path("upload"), "upload");
 }
 
-TEST(JobToDomain, TakesTheDefaultsOfThePaper) {
-  const store::JobSpec spec = to_spec(opening_job("meshes/a").job(), {10, 1'000'000});
+contact::UzawaOptions uzawa_of(const store::JobSpec& spec) {
+  return std::get<contact::UzawaOptions>(spec.solver);
+}
+
+TEST(JobToDomain, TakesTheActiveSetUnlessAskedOtherwise) {
+  v1::Job job = opening_job("meshes/a").job();
+  const store::JobSpec spec = to_spec(job, {10, 1'000'000});
   EXPECT_EQ(spec.mesh, "a");
-  EXPECT_EQ(spec.solver.theta, 2.0);
-  EXPECT_EQ(spec.solver.epsilon, 1e-12);
-  EXPECT_EQ(spec.solver.p, 1e5);
-  EXPECT_EQ(spec.solver.max_iterations, 20'000);
-  EXPECT_EQ(spec.solver.mass, contact::Mass::lumped);
-  EXPECT_EQ(to_spec(opening_job("meshes/a").job(), limits).solver.max_iterations, 1'000);
+  const auto defaults = std::get<contact::ActiveSetOptions>(spec.solver);
+  EXPECT_EQ(defaults.tolerance, contact::ActiveSetOptions().tolerance);
+  EXPECT_EQ(defaults.max_steps, contact::ActiveSetOptions().max_steps);
+  job.mutable_solver()->mutable_active_set()->set_tolerance(0);
+  const auto exact = std::get<contact::ActiveSetOptions>(to_spec(job, {10, 50}).solver);
+  EXPECT_EQ(exact.tolerance, 0);
+  EXPECT_EQ(exact.max_steps, 50);
+  job.mutable_solver()->mutable_active_set()->set_max_steps(7);
+  EXPECT_EQ(std::get<contact::ActiveSetOptions>(to_spec(job, limits).solver).max_steps, 7);
+}
+
+TEST(JobToDomain, TakesTheDefaultsOfThePaper) {
+  v1::Job job = opening_job("meshes/a").job();
+  job.mutable_solver()->mutable_uzawa();
+  const contact::UzawaOptions uzawa = uzawa_of(to_spec(job, {10, 1'000'000}));
+  EXPECT_EQ(uzawa.theta, 2.0);
+  EXPECT_EQ(uzawa.epsilon, 1e-12);
+  EXPECT_EQ(uzawa.p, 1e5);
+  EXPECT_EQ(uzawa.max_iterations, 20'000);
+  EXPECT_EQ(uzawa.mass, contact::Mass::lumped);
+  EXPECT_FALSE(uzawa.kkt_tolerance);
+  EXPECT_EQ(uzawa_of(to_spec(job, limits)).max_iterations, 1'000);
 }
 
 TEST(JobToDomain, TakesWhatIsSet) {
@@ -171,41 +193,84 @@ TEST(JobToDomain, TakesWhatIsSet) {
   uzawa.set_p(0);
   uzawa.set_max_iterations(7);
   uzawa.set_mass(v1::MASS_CONSISTENT);
+  uzawa.set_kkt_tolerance(1e-9);
   v1::LoadCase& regions = *job.add_load_cases();
   (*regions.mutable_force()->mutable_per_region()->mutable_values())["plus"] = 3;
   regions.set_boundary_value("x");
+  regions.set_traction("y");
+  v1::PointForce& point = *regions.add_point_forces();
+  point.mutable_at()->set_x(0.5);
+  point.mutable_at()->set_y(-0.25);
+  point.set_value(4);
+  (*regions.mutable_inclusion_forces())["fibre"] = -5;
   job.add_load_cases()->mutable_force()->set_constant(-2);
   job.add_load_cases();
+  const std::string sha256(64, 'c');
+  v1::Force::Array& array = *job.add_load_cases()->mutable_force()->mutable_array();
+  array.set_upload("uploads/" + sha256);
+  array.set_per_triangle(true);
   const store::JobSpec spec = to_spec(job, limits);
   EXPECT_TRUE(spec.fields);
-  EXPECT_FALSE(spec.solver.theta.has_value());
-  EXPECT_EQ(spec.solver.epsilon, 0);
-  EXPECT_EQ(spec.solver.p, 0);
-  EXPECT_EQ(spec.solver.max_iterations, 7);
-  EXPECT_EQ(spec.solver.mass, contact::Mass::consistent);
-  ASSERT_EQ(spec.loads.size(), 4u);
+  const contact::UzawaOptions options = uzawa_of(spec);
+  EXPECT_FALSE(options.theta.has_value());
+  EXPECT_EQ(options.epsilon, 0);
+  EXPECT_EQ(options.p, 0);
+  EXPECT_EQ(options.max_iterations, 7);
+  EXPECT_EQ(options.mass, contact::Mass::consistent);
+  EXPECT_EQ(options.kkt_tolerance, 1e-9);
+  ASSERT_EQ(spec.loads.size(), 5u);
   EXPECT_EQ(std::get<fem::Expression>(spec.loads[0].force).text, "y > 0 ? 1 : -1");
   EXPECT_EQ(std::get<fem::PerRegion>(spec.loads[1].force).values.at("plus"), 3);
   EXPECT_EQ(spec.loads[1].boundary_value, "x");
+  EXPECT_EQ(spec.loads[1].traction, "y");
+  ASSERT_EQ(spec.loads[1].point_forces.size(), 1u);
+  EXPECT_EQ(spec.loads[1].point_forces[0].x, 0.5);
+  EXPECT_EQ(spec.loads[1].point_forces[0].y, -0.25);
+  EXPECT_EQ(spec.loads[1].point_forces[0].value, 4);
+  EXPECT_EQ(spec.loads[1].inclusion_forces.at("fibre"), -5);
   EXPECT_EQ(std::get<double>(spec.loads[2].force), -2);
   EXPECT_EQ(std::get<double>(spec.loads[3].force), 0);
+  EXPECT_EQ(std::get<fem::Array>(spec.loads[4].force).upload, sha256);
+  EXPECT_TRUE(std::get<fem::Array>(spec.loads[4].force).per_triangle);
+  EXPECT_FALSE(std::get<fem::Array>(spec.loads[4].force).values);
 }
 
-TEST(JobToDomain, NamesWhatThisVersionDoesNotDo) {
-  const auto refused = [](const std::function<void(v1::Job&)>& spoil, const std::string& field) {
-    expect_job_refused(spoil, Reason::not_implemented, field);
-  };
-  refused([](auto& job) { job.mutable_solver()->mutable_active_set(); }, "job.solver.active_set");
-  refused([](auto& job) { job.mutable_solver()->mutable_uzawa()->set_kkt_tolerance(1e-9); },
-          "job.solver.uzawa.kkt_tolerance");
-  refused([](auto& job) { job.mutable_load_cases(0)->mutable_force()->mutable_array(); },
-          "job.load_cases[0].force.array");
-  refused([](auto& job) { job.mutable_load_cases(0)->set_traction("1"); },
-          "job.load_cases[0].traction");
-  refused([](auto& job) { job.add_load_cases()->add_point_forces(); },
-          "job.load_cases[1].point_forces");
-  refused([](auto& job) { (*job.mutable_load_cases(0)->mutable_inclusion_forces())["a"] = 1; },
-          "job.load_cases[0].inclusion_forces");
+/// A client reads back what it asked for, defaults filled in.
+TEST(JobFromDomain, TellsTheWholeJobAgain) {
+  v1::Job job = opening_job("meshes/a").job();
+  job.mutable_solver()->mutable_active_set()->set_tolerance(1e-10);
+  job.mutable_solver()->mutable_active_set()->set_max_steps(9);
+  v1::LoadCase& load = *job.mutable_load_cases(0);
+  load.set_boundary_value("x");
+  load.set_traction("y");
+  v1::PointForce& point = *load.add_point_forces();
+  point.mutable_at()->set_x(0.5);
+  point.set_value(4);
+  (*load.mutable_inclusion_forces())["fibre"] = -5;
+  load.mutable_force()->mutable_array()->set_upload("uploads/" + std::string(64, 'c'));
+  load.mutable_force()->mutable_array()->set_per_triangle(true);
+  store::JobRecord record;
+  record.id = "b";
+  record.spec = to_spec(job, limits);
+  const v1::Job told = from_domain(record, {});
+  EXPECT_EQ(told.solver().SerializeAsString(), job.solver().SerializeAsString());
+  EXPECT_EQ(told.load_cases(0).SerializeAsString(), load.SerializeAsString());
+
+  job.mutable_solver()->mutable_uzawa()->set_kkt_tolerance(1e-9);
+  record.spec = to_spec(job, limits);
+  EXPECT_EQ(from_domain(record, {}).solver().uzawa().kkt_tolerance(), 1e-9);
+}
+
+TEST(AnswerFromDomain, TellsWarningsAndWhatJustTouches) {
+  store::CaseRecord record;
+  record.status = store::CaseStatus::converged;
+  record.answer.weakly_active = 3;
+  record.answer.warnings = {"inexact \xff"};
+  const v1::LoadCaseAnswer told = from_domain(record, "a", {});
+  EXPECT_EQ(told.weakly_active(), 3);
+  EXPECT_EQ(told.theta(), 0);
+  ASSERT_EQ(told.warnings_size(), 1);
+  EXPECT_EQ(told.warnings(0), "inexact ?");
 }
 
 TEST(JobToDomain, RefusesWhatItsTypesCannotExpress) {
@@ -225,11 +290,32 @@ TEST(JobToDomain, RefusesWhatItsTypesCannotExpress) {
   expect_job_refused(
       [](auto& job) {
         auto& values = *job.mutable_load_cases(0)->mutable_force()->mutable_per_region();
-        for (std::size_t i = 0; i <= max_regions; ++i) {
+        for (std::size_t i = 0; i <= fem::max_named_forces; ++i) {
           (*values.mutable_values())[std::to_string(i)] = 1;
         }
       },
       Reason::limit_exceeded, "job.load_cases[0].force.per_region");
+  expect_job_refused(
+      [](auto& job) {
+        for (std::size_t i = 0; i <= fem::max_named_forces; ++i) {
+          (*job.mutable_load_cases(0)->mutable_inclusion_forces())[std::to_string(i)] = 1;
+        }
+      },
+      Reason::limit_exceeded, "job.load_cases[0].inclusion_forces");
+  expect_job_refused(
+      [](auto& job) {
+        for (std::size_t i = 0; i <= fem::max_point_forces; ++i) {
+          job.mutable_load_cases(0)->add_point_forces();
+        }
+      },
+      Reason::limit_exceeded, "job.load_cases[0].point_forces");
+  expect_job_refused([](auto& job) { job.mutable_load_cases(0)->add_point_forces(); },
+                     Reason::invalid_argument, "job.load_cases[0].point_forces[0].at");
+  expect_job_refused(
+      [](auto& job) {
+        job.mutable_load_cases(0)->mutable_force()->mutable_array()->set_upload("uploads/1");
+      },
+      Reason::invalid_argument, "job.load_cases[0].force.array.upload");
   expect_job_refused(
       [](auto& job) { job.mutable_solver()->mutable_uzawa()->set_theta_auto(false); },
       Reason::invalid_argument, "job.solver.uzawa.theta_auto");

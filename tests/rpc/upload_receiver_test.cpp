@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "errors/errors.hpp"
@@ -116,6 +117,40 @@ TEST_F(UploadReceiverTest, LetsNothingPassThatGmshWouldRun) {
                                     "ELF"}) {
     expect_refused({header_of(content), chunk_of(content)}, Reason::mesh_invalid, "chunk");
   }
+}
+
+v1::UploadMeshRequest array_header_of(const std::string& content) {
+  v1::UploadMeshRequest request = header_of(content);
+  request.mutable_header()->set_content(v1::UploadMeshRequest::CONTENT_ARRAY);
+  return request;
+}
+
+std::string bytes_of(const std::vector<double>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
+}
+
+TEST_F(UploadReceiverTest, KeepsArrays) {
+  const std::string content = bytes_of({1, -2.5, 1e300});
+  UploadReceiver receiver(*_store, 10'000);
+  receiver.accept(array_header_of(content));
+  receiver.accept(chunk_of(content.substr(0, 5)));
+  receiver.accept(chunk_of(content.substr(5)));
+  EXPECT_TRUE(_store->upload_path(receiver.complete()));
+}
+
+TEST_F(UploadReceiverTest, TakesNothingElseForAnArray) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  expect_refused({array_header_of("")}, Reason::invalid_argument, "header.size");
+  expect_refused({array_header_of("123456789")}, Reason::invalid_argument, "header.size");
+  const std::string bad = bytes_of({1, nan});
+  expect_refused({array_header_of(bad), chunk_of(bad)}, Reason::invalid_argument, "chunk");
+  const std::string msh = "$MeshFormat\n2.2 ";
+  expect_refused({array_header_of(msh), chunk_of(msh)}, Reason::invalid_argument, "chunk");
+  const std::string array = bytes_of({1, 2});
+  expect_refused({header_of(array), chunk_of(array)}, Reason::mesh_invalid, "chunk");
+  v1::UploadMeshRequest unknown = header_of(array);
+  unknown.mutable_header()->set_content(static_cast<v1::UploadMeshRequest::Content>(9));
+  expect_refused({unknown}, Reason::invalid_argument, "header.content");
 }
 
 TEST_F(UploadReceiverTest, RefusesLargeChunks) {

@@ -108,5 +108,28 @@ TEST(Upload, IsRefusedBeyondTheLimitOfTransfers) {
   writer->Finish();
 }
 
+TEST(Upload, IsUsedAsWhatItIs) {
+  RunningServer server;
+  const std::vector<double> values(6, 1.0);
+  const std::string bytes(reinterpret_cast<const char*>(values.data()),
+                          values.size() * sizeof(double));
+  v1::UploadMeshRequest::Header header = header_of(bytes);
+  header.set_content(v1::UploadMeshRequest::CONTENT_ARRAY);
+  std::string array;
+  ASSERT_TRUE(server.upload(header, bytes, &array).ok());
+  v1::CreateMeshRequest mesh;
+  mesh.set_upload(array);
+  expect_error(server.try_create(mesh), grpc::StatusCode::INVALID_ARGUMENT, "MESH_INVALID",
+               "upload");
+  std::string msh;
+  ASSERT_TRUE(server.upload(small_msh(), &msh).ok());
+  v1::CreateJobRequest job =
+      anticrack::testing::opening_job(server.create(anticrack::testing::paper_mesh()).name());
+  v1::Force& force = *job.mutable_job()->mutable_load_cases(0)->mutable_force();
+  force.mutable_array()->set_upload(msh);
+  expect_error(server.try_create(job), grpc::StatusCode::INVALID_ARGUMENT, "INVALID_ARGUMENT",
+               "job.load_cases[0].force.array");
+}
+
 }  // namespace
 }  // namespace anticrack::rpc

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "store/array_upload.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "support/errors.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace anticrack::store {
+namespace {
+
+using anticrack::testing::error_of;
+using anticrack::testing::TemporaryFolder;
+using anticrack::testing::throws;
+using errors::Reason;
+
+class ArrayUpload : public ::testing::Test {
+ protected:
+  std::string file(const std::vector<double>& values) const {
+    return file(
+        std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)));
+  }
+  std::string file(const std::string& bytes) const {
+    const std::string path = (_folder / "array").string();
+    std::ofstream(path, std::ios::binary) << bytes;
+    return path;
+  }
+
+ private:
+  TemporaryFolder _folder;
+};
+
+TEST_F(ArrayUpload, IsReadAsItWasWritten) {
+  std::vector<double> values(20'000);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = std::sin(static_cast<double>(i));
+  }
+  const std::string path = file(values);
+  EXPECT_EQ(array_length(path), values.size());
+  EXPECT_NO_THROW(require_array(path));
+  EXPECT_EQ(read_array(path), values);
+}
+
+TEST_F(ArrayUpload, NamesTheValueThatIsNotFinite) {
+  std::vector<double> values(20'000, 1.0);
+  values[12'345] = std::nan("");
+  const std::string path = file(values);
+  for (const bool reading : {false, true}) {
+    const auto error = error_of([&] { reading ? (void)read_array(path) : require_array(path); });
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error->reason(), Reason::invalid_argument);
+    EXPECT_NE(std::string(error->what()).find("value 12345"), std::string::npos) << error->what();
+  }
+}
+
+TEST_F(ArrayUpload, IsNoMshAndNoFractionOfAValue) {
+  for (const std::string& bytes : {std::string("$MeshFormat\n2.2 0 8"), std::string("$MeshFormat"),
+                                   std::string(), std::string(15, 'x')}) {
+    const std::string path = file(bytes);
+    EXPECT_TRUE(throws([&] { array_length(path); }, Reason::invalid_argument)) << bytes;
+    EXPECT_TRUE(throws([&] { read_array(path); }, Reason::invalid_argument)) << bytes;
+  }
+  EXPECT_TRUE(throws([&] { array_length("/nowhere/at/all"); }, Reason::storage));
+}
+
+}  // namespace
+}  // namespace anticrack::store
