@@ -35,33 +35,35 @@ std::string bar(double fraction, std::size_t width) {
   return "[" + std::string(full, '#') + std::string(width - full, '-') + "]";
 }
 
-std::string numbers(const CaseProgress& progress, bool labels) {
+std::string numbers(const CaseProgress& progress, bool active_set, bool labels) {
   const std::string iteration = pad_left(std::to_string(progress.iteration), 5);
   const std::string criterion = number(progress.criterion, 1, true);
-  std::string text = labels ? "iteration " + iteration + "  criterion " + criterion
-                            : "it " + iteration + "  " + criterion;
+  const std::string text = active_set ? "step " + iteration
+                           : labels   ? "iteration " + iteration + "  criterion " + criterion
+                                      : "it " + iteration + "  " + criterion;
   return text + (ended(progress.status)
                      ? "  " + pad_left(number(progress.seconds, 3) + " s", 11)
                      : "  contact " + pad_left(std::to_string(progress.contact_count), 3));
 }
 
 // In a narrow terminal the labels go first, then the bar.
-std::string case_line(const CaseProgress& progress, double target, std::size_t name_width,
+std::string case_line(const JobProgress& job, std::size_t index, std::size_t name_width,
                       std::size_t width) {
+  const CaseProgress& progress = job.cases[index];
   const std::string name = "  " + pad_right(fit(progress.name, name_width), name_width) + "  ";
   if (progress.iteration == 0) {
     return fit(name + std::string(word(progress.status)), width);
   }
   constexpr std::size_t around_bar = 4;  // two spaces and two brackets
   const std::string head = name + pad_right(word(progress.status), status_width) + "  ";
-  std::string line = head + numbers(progress, true);
+  std::string line = head + numbers(progress, job.active_set, true);
   if (columns_of(line) + around_bar + narrowest_bar > width) {
-    line = head + numbers(progress, false);
+    line = head + numbers(progress, job.active_set, false);
   }
   const std::size_t used = columns_of(line) + around_bar;
-  if (used + narrowest_bar <= width) {
-    line +=
-        "  " + bar(bar_fraction(progress.criterion, target), std::min(widest_bar, width - used));
+  if (job.target > 0 && used + narrowest_bar <= width) {
+    line += "  " +
+            bar(bar_fraction(progress.criterion, job.target), std::min(widest_bar, width - used));
   }
   return fit(line, width);
 }
@@ -95,6 +97,16 @@ std::vector<std::size_t> shown_cases(const JobProgress& progress, std::size_t co
   return order;
 }
 
+std::string count_of(std::int32_t iterations, bool active_set) {
+  return std::to_string(iterations) + (active_set ? " step" : " iteration") +
+         (iterations == 1 ? "" : "s");
+}
+
+// The active set has none: it ends when nothing changes any more.
+std::string criterion_of(const CaseProgress& progress, bool active_set) {
+  return active_set ? "" : ", criterion " + number(progress.criterion, 2, true);
+}
+
 }  // namespace
 
 std::vector<std::string> frame(const JobProgress& progress, std::size_t width, std::size_t height) {
@@ -110,7 +122,7 @@ std::vector<std::string> frame(const JobProgress& progress, std::size_t width, s
   }
   name_width = std::min(name_width, widest_name);
   for (const std::size_t i : shown) {
-    lines.push_back(case_line(progress.cases[i], progress.target, name_width, room));
+    lines.push_back(case_line(progress, i, name_width, room));
   }
   if (!all) {
     lines.push_back(
@@ -141,13 +153,13 @@ std::vector<std::string> PlainLog::lines(const JobProgress& progress) {
       lines.push_back(now.name + ": " + std::string(word(now.status)) +
                       (now.iteration == 0
                            ? ""
-                           : " after " + std::to_string(now.iteration) + " iterations, criterion " +
-                                 number(now.criterion, 2, true)) +
+                           : " after " + count_of(now.iteration, progress.active_set) +
+                                 criterion_of(now, progress.active_set)) +
                       (now.remark.empty() ? "" : "; " + now.remark));
     } else if (!ended(now.status) && now.iteration / stride > seen.strides) {
-      lines.push_back(now.name + ": iteration " + std::to_string(now.iteration) + ", criterion " +
-                      number(now.criterion, 2, true) + ", " + std::to_string(now.contact_count) +
-                      " nodes in contact");
+      lines.push_back(now.name + (progress.active_set ? ": step " : ": iteration ") +
+                      std::to_string(now.iteration) + criterion_of(now, progress.active_set) +
+                      ", " + std::to_string(now.contact_count) + " nodes in contact");
     }
     seen.status = now.status;
     seen.strides = std::max(seen.strides, now.iteration / stride);

@@ -47,7 +47,10 @@ void JobProgress::apply(const v1::Job& job_now) {
   }
   state = job_now.state();
   const v1::Uzawa& uzawa = job_now.solver().uzawa();
-  target = uzawa.has_epsilon() ? uzawa.epsilon() : 1e-12;
+  active_set = !job_now.solver().has_uzawa();
+  target = active_set || uzawa.has_kkt_tolerance() ? 0
+           : uzawa.has_epsilon()                   ? uzawa.epsilon()
+                                                   : 1e-12;
   cases.resize(static_cast<std::size_t>(job_now.load_cases_size()));
   for (std::size_t i = 0; i < cases.size(); ++i) {
     cases[i].name = sanitise(job_now.load_cases(static_cast<int>(i)).name());

@@ -28,9 +28,10 @@ struct CaseProgress {
 struct JobProgress {
   std::string job;
   v1::Job::State state = v1::Job::STATE_UNSPECIFIED;
-  std::string detail;  ///< phase, e.g. "meshing"
-  std::string notice;  ///< e.g. that the connection is lost; empty when all is well
-  double target = 1e-12;
+  std::string detail;       ///< phase, e.g. "meshing"
+  std::string notice;       ///< e.g. that the connection is lost; empty when all is well
+  bool active_set = false;  ///< a handful of steps, no criterion; else iterations of Algorithm 2
+  double target = 1e-12;    ///< of the criterion; 0: something else ends the iteration
   std::vector<CaseProgress> cases;
   std::size_t ended_count = 0;
 

@@ -10,6 +10,7 @@
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
 #include "results/array_file.hpp"
+#include "results/error.hpp"
 
 namespace anticrack::cli {
 namespace {

@@ -7,18 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "figures/panels.hpp"
+#include "figures/canvas.hpp"
 #include "figures/surface.hpp"
 #include "results/result.hpp"
 
 namespace anticrack::figures {
-
-/// Where one run of gnuplot draws to. `file` is a bare name in its working folder, of the
-/// characters [A-Za-z0-9_.-] and not beginning with "-"; anything else throws.
-struct Output {
-  Format format;
-  std::string file;
-};
 
 /// Deformed membrane, slit open. Throws if the load has no fields.
 std::string membrane_script(const results::Result& result, const results::Load& load,

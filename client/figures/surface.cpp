@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <numeric>
 #include <set>
-#include <tuple>
+#include <utility>
 
 namespace anticrack::figures {
 namespace {
@@ -16,90 +15,142 @@ using results::Load;
 using results::Mesh;
 using results::Result;
 
-/// Nodes of the same class may be merged: 0 interior, 1 boundary of the membrane, 2 interface, 3
-/// both.
-std::vector<std::size_t> classes(const Result& result) {
-  const Mesh& mesh = result.mesh;
-  std::vector<std::size_t> of(mesh.node_count(), 0);
-  for (const std::int32_t node : mesh.boundary) of[static_cast<std::size_t>(node)] = 1;
-  // The mesh does not say which nodes lie on an interface; those of two subdomains do.
-  std::vector<std::int32_t> first(mesh.node_count(), -1);
+using Corners = std::array<std::size_t, 3>;
+
+/// The membrane cut open: a vertex for every face of a node.
+struct Cut {
+  std::vector<std::size_t> node;  // of the mesh, by vertex
+  std::vector<double> u;
+  std::vector<Corners> triangles;
+};
+
+Cut cut_open(const Load& load) {
+  Cut cut;
+  for (const results::Field& field : load.fields) {
+    const std::size_t first = cut.node.size();
+    cut.node.insert(cut.node.end(), field.nodes.begin(), field.nodes.end());
+    cut.u.insert(cut.u.end(), field.u.begin(), field.u.end());
+    for (std::size_t t = 0; t + 2 < field.triangles.size(); t += 3) {
+      Corners corners{};
+      for (std::size_t c = 0; c < 3; ++c) {
+        corners[c] = first + static_cast<std::size_t>(field.triangles[t + c]);
+      }
+      cut.triangles.push_back(corners);
+    }
+  }
+  return cut;
+}
+
+/// Nodes on the boundary of the membrane, whatever holds there.
+std::vector<bool> outer_nodes(const Mesh& mesh) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+  edges.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto node = static_cast<std::size_t>(mesh.triangles[3 * t + c]);
-      if (first[node] < 0) first[node] = mesh.subdomain[t];
-      if (first[node] != mesh.subdomain[t]) of[node] = of[node] == 1 ? 3 : 2;
+      edges.push_back(std::minmax<std::int32_t>(
+          {mesh.triangles[3 * t + c], mesh.triangles[3 * t + (c + 1) % 3]}));
     }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<bool> outer(mesh.node_count(), false);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const bool shared =
+        (i > 0 && edges[i - 1] == edges[i]) || (i + 1 < edges.size() && edges[i + 1] == edges[i]);
+    if (shared) continue;
+    outer[static_cast<std::size_t>(edges[i].first)] = true;
+    outer[static_cast<std::size_t>(edges[i].second)] = true;
+  }
+  return outer;
+}
+
+/// Vertices of the same class may be merged: 0 interior, 1 boundary of the membrane, 2 interface, 3
+/// both.
+std::vector<int> classes(const Mesh& mesh, const Cut& cut) {
+  std::vector<int> faces(mesh.node_count(), 0);
+  for (const std::size_t node : cut.node) ++faces[node];
+  const std::vector<bool> outer = outer_nodes(mesh);
+  std::vector<int> of;
+  of.reserve(cut.node.size());
+  for (const std::size_t node : cut.node) {
+    of.push_back((outer[node] ? 1 : 0) + (faces[node] > 1 ? 2 : 0));
   }
   return of;
 }
 
-/// For every node the node it is merged into: the first of its class in its cell of a grid.
-std::vector<std::size_t> merged(const Mesh& mesh, const std::vector<std::size_t>& of,
-                                const Surface& box, double cell) {
-  std::map<std::tuple<std::size_t, std::int64_t, std::int64_t>, std::size_t> seen;
-  std::vector<std::size_t> into(mesh.node_count());
-  for (std::size_t i = 0; i < into.size(); ++i) {
-    const auto column = static_cast<std::int64_t>(std::floor((mesh.xy[2 * i] - box.x_min) / cell));
-    const auto row = static_cast<std::int64_t>(std::floor((mesh.xy[2 * i + 1] - box.y_min) / cell));
-    into[i] = seen.try_emplace({of[i], column, row}, i).first->second;
+/// Sets of vertices that are one.
+class Merger {
+ public:
+  explicit Merger(std::size_t count) : _parent(count) {
+    std::iota(_parent.begin(), _parent.end(), std::size_t{0});
   }
+  std::size_t find(std::size_t vertex) {
+    while (_parent[vertex] != vertex) {
+      _parent[vertex] = _parent[_parent[vertex]];
+      vertex = _parent[vertex];
+    }
+    return vertex;
+  }
+  /// The first of them stands for all.
+  void merge(std::size_t a, std::size_t b) {
+    a = find(a);
+    b = find(b);
+    _parent[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::size_t> _parent;
+};
+
+/// Neighbours of one class in one cell of a grid become one. Only neighbours: the two faces of a
+/// slit may lie in one cell.
+std::vector<std::size_t> merged(const Mesh& mesh, const Cut& cut, const std::vector<int>& of,
+                                const Surface& box, double cell) {
+  const auto cell_of = [&](std::size_t vertex, std::size_t axis) {
+    const double origin = axis == 0 ? box.x_min : box.y_min;
+    return std::floor((mesh.xy[2 * cut.node[vertex] + axis] - origin) / cell);
+  };
+  Merger merger(cut.node.size());
+  for (const Corners& corners : cut.triangles) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t a = corners[c];
+      const std::size_t b = corners[(c + 1) % 3];
+      if (of[a] == of[b] && cell_of(a, 0) == cell_of(b, 0) && cell_of(a, 1) == cell_of(b, 1)) {
+        merger.merge(a, b);
+      }
+    }
+  }
+  std::vector<std::size_t> into(cut.node.size());
+  for (std::size_t i = 0; i < into.size(); ++i) into[i] = merger.find(i);
   return into;
 }
 
-using Corners = std::array<std::size_t, 3>;
-
-struct Coarse {
-  std::vector<Corners> triangles;
-  std::vector<std::size_t> subdomain;
-};
-
-Coarse collapse(const Mesh& mesh, const std::vector<std::size_t>& into) {
-  Coarse coarse;
-  std::set<std::pair<Corners, std::size_t>> seen;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    Corners corners{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      corners[c] = into[static_cast<std::size_t>(mesh.triangles[3 * t + c])];
-    }
+/// The triangles that are left, each once.
+std::vector<Corners> collapse(const std::vector<Corners>& triangles,
+                              const std::vector<std::size_t>& into) {
+  std::vector<Corners> left;
+  std::set<Corners> seen;
+  for (const Corners& triangle : triangles) {
+    const Corners corners{into[triangle[0]], into[triangle[1]], into[triangle[2]]};
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
-    const auto subdomain = static_cast<std::size_t>(mesh.subdomain[t]);
     Corners key = corners;
     std::sort(key.begin(), key.end());
-    if (!seen.insert({key, subdomain}).second) continue;
-    coarse.triangles.push_back(corners);
-    coarse.subdomain.push_back(subdomain);
+    if (seen.insert(key).second) left.push_back(corners);
   }
-  return coarse;
+  return left;
 }
 
-Coarse coarsen(const Result& result, const Surface& box, std::size_t limit) {
-  const Mesh& mesh = result.mesh;
-  std::vector<std::size_t> into(mesh.node_count());
-  std::iota(into.begin(), into.end(), std::size_t{0});
-  Coarse coarse = collapse(mesh, into);
-  if (coarse.triangles.size() <= limit) return coarse;
-
-  const std::vector<std::size_t> of = classes(result);
+std::vector<Corners> coarsen(const Mesh& mesh, const Cut& cut, const Surface& box,
+                             std::size_t limit) {
+  std::vector<Corners> left = cut.triangles;
+  if (left.size() <= limit) return left;
+  const std::vector<int> of = classes(mesh, cut);
   // Two triangles a cell to begin with; graded meshes need more than one step.
   double cell = box.width() * std::sqrt(2.0 / static_cast<double>(limit));
-  while (coarse.triangles.size() > limit && cell < box.width()) {
-    coarse = collapse(mesh, merged(mesh, of, box, cell));
+  while (left.size() > limit && cell < box.width()) {
+    left = collapse(cut.triangles, merged(mesh, cut, of, box, cell));
     cell *= 1.2;
   }
-  return coarse;
-}
-
-std::vector<std::vector<double>> values_by_node(const Result& result, const Load& load) {
-  std::vector<std::vector<double>> u(
-      load.fields.size(), std::vector<double>(result.mesh.node_count(), results::unknown));
-  for (std::size_t d = 0; d < load.fields.size(); ++d) {
-    const results::Field& field = load.fields[d];
-    for (std::size_t i = 0; i < field.nodes.size(); ++i) {
-      u[d][static_cast<std::size_t>(field.nodes[i])] = field.u[i];
-    }
-  }
-  return u;
+  return left;
 }
 
 }  // namespace
@@ -125,14 +176,13 @@ Surface surface(const Result& result, const Load& load, std::size_t limit) {
     surface.y_max = std::max(surface.y_max, mesh.xy[2 * i + 1]);
   }
 
-  const auto u = values_by_node(result, load);
-  const Coarse coarse = coarsen(result, surface, limit);
-  for (std::size_t t = 0; t < coarse.triangles.size(); ++t) {
+  const Cut cut = cut_open(load);
+  for (const Corners& corners : coarsen(mesh, cut, surface, limit)) {
     Triangle triangle;
     bool finite = true;
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t node = coarse.triangles[t][c];
-      triangle[c] = {mesh.xy[2 * node], mesh.xy[2 * node + 1], u[coarse.subdomain[t]][node]};
+      const std::size_t node = cut.node[corners[c]];
+      triangle[c] = {mesh.xy[2 * node], mesh.xy[2 * node + 1], cut.u[corners[c]]};
       finite = finite && std::isfinite(triangle[c].u);
     }
     if (!finite) continue;

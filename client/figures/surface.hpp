@@ -29,9 +29,9 @@ struct Surface {
   double width() const noexcept;    ///< longer side of the bounding box
 };
 
-/// Every triangle with its own subdomain's u, so that the faces of a crack come apart; triangles
-/// with a value that is not finite are left out. More than `limit` triangles are merged: nodes in
-/// one cell of a grid become one, nodes of interface, boundary and interior apart from each other.
+/// Every triangle with the u of its own face, so that the faces of a crack come apart; triangles
+/// with a value that is not finite are left out. More than `limit` triangles are merged: neighbours
+/// in one cell of a grid become one, interface, boundary and interior apart from each other.
 /// Needs load.fields. O(m log m).
 Surface surface(const results::Result& result, const results::Load& load, std::size_t limit);
 

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "figures/drawing.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "figures/gnuplot.hpp"
+#include "figures/svg.hpp"
+
+namespace anticrack::figures {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* extension(Format format) {
+  return format == Format::png ? ".png" : ".svg";
+}
+
+/// gnuplot leaves an empty file where a terminal is missing.
+bool has_signature(const fs::path& path, Format format) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 5> head{};
+  file.read(head.data(), head.size());
+  const std::string_view wanted = format == Format::png ? "\x89PNG\r" : "<?xml";
+  return file && std::string_view(head.data(), head.size()) == wanted;
+}
+
+void shrink(const fs::path& svg) {
+  std::ifstream from(svg, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(from), {}};
+  std::ofstream to(svg, std::ios::binary | std::ios::trunc);
+  to << without_empty_groups(text);
+  to.close();
+  if (!from || !to) throw Error(svg.string() + ": cannot be written; free space there");
+}
+
+/// Removes its files unless they were renamed.
+class Partials {
+ public:
+  Partials(fs::path folder, const Options& options) : _folder(std::move(folder)) {
+    static std::atomic<unsigned> counter{0};
+    const std::string stem = ".anticrack-" + std::to_string(getpid()) + "-" +
+                             std::to_string(counter.fetch_add(1)) + ".partial";
+    if (options.png) outputs.push_back({Format::png, stem + ".png"});
+    if (options.svg) outputs.push_back({Format::svg, stem + ".svg"});
+  }
+  Partials(const Partials&) = delete;
+  Partials& operator=(const Partials&) = delete;
+  ~Partials() {
+    std::error_code ignored;
+    for (const Output& output : outputs) fs::remove(_folder / output.file, ignored);
+  }
+
+  void rename_to(const std::string& stem, std::vector<fs::path>& files) {
+    for (const Output& output : outputs) {
+      const fs::path partial = _folder / output.file;
+      if (!has_signature(partial, output.format)) {
+        throw Error("gnuplot made no " + std::string(extension(output.format)) +
+                    " file; its package gnuplot-nox may be damaged");
+      }
+      if (output.format == Format::svg) shrink(partial);
+      const fs::path target = _folder / (stem + extension(output.format));
+      std::error_code error;
+      fs::rename(partial, target, error);
+      if (error) throw Error(target.string() + ": " + error.message());
+      files.push_back(target);
+    }
+  }
+
+  std::vector<Output> outputs;
+
+ private:
+  fs::path _folder;
+};
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder)) {
+    throw Error(folder.string() + ": cannot be made a folder" +
+                (error ? ": " + error.message() : "") + "; choose another folder with -o");
+  }
+  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw Error(folder.string() + ": " + std::generic_category().message(errno) +
+                "; make the folder writable, or choose another one with -o");
+  }
+}
+
+}  // namespace
+
+Drawing::Drawing(fs::path folder, Options options) : _folder(std::move(folder)), _options(options) {
+  make_folder(_folder);
+}
+
+void Drawing::draw(const std::string& stem,
+                   const std::function<std::string(const std::vector<Output>&)>& script) {
+  Partials partials(_folder, _options);
+  run_gnuplot(script(partials.outputs), _folder, _options.time_limit);
+  partials.rename_to(stem, drawn.files);
+}
+
+}  // namespace anticrack::figures

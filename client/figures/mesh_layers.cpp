@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "figures/mesh_layers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace anticrack::figures {
+namespace {
+
+using results::InterfaceLine;
+using results::Kind;
+using results::Mesh;
+using results::MeshPlan;
+
+using Edge = std::pair<std::int32_t, std::int32_t>;
+
+constexpr double pixels = 1500;  // of a panel, about
+
+Spot spot_of(const Mesh& mesh, std::int32_t node) {
+  const auto i = 2 * static_cast<std::size_t>(node);
+  return {mesh.xy[i], mesh.xy[i + 1]};
+}
+
+double distance(const Spot& a, const Spot& b) {
+  return std::hypot(b.x - a.x, b.y - a.y);
+}
+
+template <class Spots>
+Window box_of(const Spots& spots) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Window box{far, -far, far, -far};
+  for (const Spot& spot : spots) {
+    box.x_min = std::min(box.x_min, spot.x);
+    box.x_max = std::max(box.x_max, spot.x);
+    box.y_min = std::min(box.y_min, spot.y);
+    box.y_max = std::max(box.y_max, spot.y);
+  }
+  return box;
+}
+
+bool overlap(const Window& a, const Window& b) {
+  return a.x_min <= b.x_max && b.x_min <= a.x_max && a.y_min <= b.y_max && b.y_min <= a.y_max;
+}
+
+bool inside(const Spot& spot, const Window& window) {
+  return spot.x >= window.x_min && spot.x <= window.x_max && spot.y >= window.y_min &&
+         spot.y <= window.y_max;
+}
+
+double triangle_area(const std::array<Spot, 3>& t) {
+  return 0.5 * ((t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[2].x - t[0].x) * (t[1].y - t[0].y));
+}
+
+std::array<Spot, 3> triangle_of(const Mesh& mesh, std::size_t t) {
+  return {spot_of(mesh, mesh.triangles[3 * t]), spot_of(mesh, mesh.triangles[3 * t + 1]),
+          spot_of(mesh, mesh.triangles[3 * t + 2])};
+}
+
+void add_triangles(const Mesh& mesh, const Window& window, MeshLayers& to) {
+  to.triangles.resize(mesh.subdomains.size());
+  const double smallest = std::max(window.width(), window.height()) / (2 * pixels);
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const std::array<Spot, 3> triangle = triangle_of(mesh, t);
+    const Window box = box_of(triangle);
+    if (overlap(box, window) && std::max(box.width(), box.height()) > smallest) {
+      to.triangles[static_cast<std::size_t>(mesh.subdomain[t])].push_back(triangle);
+      ++to.triangle_count;
+    }
+  }
+}
+
+/// Edges of one triangle only, in order.
+std::vector<Edge> outer_edges(const Mesh& mesh) {
+  std::vector<Edge> edges;
+  edges.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      edges.push_back(std::minmax<std::int32_t>(
+          {mesh.triangles[3 * t + c], mesh.triangles[3 * t + (c + 1) % 3]}));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<Edge> outer;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const bool shared =
+        (i > 0 && edges[i - 1] == edges[i]) || (i + 1 < edges.size() && edges[i + 1] == edges[i]);
+    if (!shared) outer.push_back(edges[i]);
+  }
+  return outer;
+}
+
+void add_boundary(const Mesh& mesh, MeshLayers& to) {
+  std::vector<Edge> prescribed;
+  prescribed.reserve(mesh.boundary.size() / 2);
+  for (std::size_t b = 0; b + 1 < mesh.boundary.size(); b += 2) {
+    prescribed.push_back(std::minmax<std::int32_t>({mesh.boundary[b], mesh.boundary[b + 1]}));
+  }
+  std::sort(prescribed.begin(), prescribed.end());
+  for (const Edge& edge : outer_edges(mesh)) {
+    const bool given = std::binary_search(prescribed.begin(), prescribed.end(), edge);
+    (given ? to.dirichlet : to.neumann)
+        .push_back({spot_of(mesh, edge.first), spot_of(mesh, edge.second)});
+  }
+}
+
+/// Runs of edges of one kind, without nodes too near to be told apart.
+void add_stretches(const MeshPlan& plan, const InterfaceLine& line, double smallest,
+                   MeshLayers& to) {
+  for (std::size_t first = 0; first < line.kind.size();) {
+    std::size_t end = first + 1;
+    while (end < line.kind.size() && line.kind[end] == line.kind[first]) ++end;
+    Stretch stretch{spot_of(plan.mesh, line.nodes[first])};
+    for (std::size_t i = first + 1; i <= end; ++i) {
+      const Spot spot = spot_of(plan.mesh, line.nodes[i]);
+      if (i == end || distance(stretch.back(), spot) > smallest) stretch.push_back(spot);
+    }
+    to.interfaces[static_cast<std::size_t>(line.kind[first])].push_back(std::move(stretch));
+    first = end;
+  }
+}
+
+/// An arrow at the middle of the part of the line that the window shows.
+void add_plus_side(const MeshPlan& plan, const InterfaceLine& line, const Window& window,
+                   MeshLayers& to) {
+  double shown = 0;
+  std::vector<double> lengths(line.kind.size(), 0);
+  for (std::size_t e = 0; e < line.kind.size(); ++e) {
+    const Spot a = spot_of(plan.mesh, line.nodes[e]);
+    const Spot b = spot_of(plan.mesh, line.nodes[e + 1]);
+    if (inside(a, window) && inside(b, window)) lengths[e] = distance(a, b);
+    shown += lengths[e];
+  }
+  // A little off the middle: there may be a tip, a cross point or another interface's arrow.
+  constexpr double where = 0.56;
+  double walked = 0;
+  for (std::size_t e = 0; e < lengths.size(); ++e) {
+    if (lengths[e] == 0 || walked + lengths[e] < where * shown) {
+      walked += lengths[e];
+      continue;
+    }
+    const Spot a = spot_of(plan.mesh, line.nodes[e]);
+    const Spot b = spot_of(plan.mesh, line.nodes[e + 1]);
+    const double along = (where * shown - walked) / lengths[e];
+    const Spot from{a.x + along * (b.x - a.x), a.y + along * (b.y - a.y)};
+    const double reach = 0.05 * std::max(window.width(), window.height()) / lengths[e];
+    to.plus_sides.push_back(
+        {from, {from.x - reach * (b.y - a.y), from.y + reach * (b.x - a.x)}, line.name});
+    return;
+  }
+}
+
+double squared(const Spot& a, const Spot& b) {
+  return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y);
+}
+
+/// At most `count` of them, evenly.
+template <class T>
+std::vector<T> thinned(const std::vector<T>& all, std::size_t count) {
+  if (all.size() <= count) return all;
+  std::vector<T> some;
+  some.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
+  return some;
+}
+
+/// Where a subdomain has room for its name: far from all lines that are drawn.
+void add_subdomain_names(const Mesh& mesh, const Window& window, MeshLayers& to) {
+  std::vector<Spot> lines;
+  for (const auto* stretches : {&to.dirichlet, &to.neumann, &to.interfaces[1], &to.interfaces[2],
+                                &to.interfaces[3], &to.interfaces[4]}) {
+    for (const Stretch& stretch : *stretches) {
+      lines.insert(lines.end(), stretch.begin(), stretch.end());
+    }
+  }
+  for (const PlusSide& side : to.plus_sides) lines.push_back(side.to);
+  lines = thinned(lines, 1000);
+  for (std::size_t d = 0; d < to.triangles.size(); ++d) {
+    double best = 0;
+    Spot place;
+    for (const auto& triangle : thinned(to.triangles[d], 3000)) {
+      const Spot centre{(triangle[0].x + triangle[1].x + triangle[2].x) / 3,
+                        (triangle[0].y + triangle[1].y + triangle[2].y) / 3};
+      if (!inside(centre, window)) continue;
+      double room = std::numeric_limits<double>::infinity();
+      for (const Spot& spot : lines) room = std::min(room, squared(centre, spot));
+      if (room > best) {
+        best = room;
+        place = centre;
+      }
+    }
+    if (best > 0) to.subdomain_names.emplace_back(place, mesh.subdomains[d]);
+  }
+}
+
+}  // namespace
+
+Window whole(const Mesh& mesh) {
+  std::vector<Spot> spots;
+  spots.reserve(mesh.node_count());
+  for (std::size_t i = 0; i < mesh.node_count(); ++i) {
+    spots.push_back({mesh.xy[2 * i], mesh.xy[2 * i + 1]});
+  }
+  Window box = spots.empty() ? Window{0, 1, 0, 1} : box_of(spots);
+  const double margin = 0.03 * std::max(box.width(), box.height());
+  return {box.x_min - margin, box.x_max + margin, box.y_min - margin, box.y_max + margin};
+}
+
+bool finest_tip(const MeshPlan& plan, Window& window, results::Tip& tip) {
+  if (plan.tips.empty() || plan.mesh.triangle_count() == 0) return false;
+  tip = *std::min_element(plan.tips.begin(), plan.tips.end(), [](const auto& a, const auto& b) {
+    return a.smallest_edge < b.smallest_edge;
+  });
+  double area = 0;
+  for (std::size_t t = 0; t < plan.mesh.triangle_count(); ++t) {
+    area += triangle_area(triangle_of(plan.mesh, t));
+  }
+  const double typical = std::sqrt(2 * area / static_cast<double>(plan.mesh.triangle_count()));
+  if (tip.smallest_edge > typical / 4) return false;
+  const Window all = whole(plan.mesh);
+  const double half = std::max(all.width() / 40, 20 * tip.smallest_edge);
+  window = {tip.x - half, tip.x + half, tip.y - half, tip.y + half};
+  return true;
+}
+
+MeshLayers layers(const MeshPlan& plan, const Window& window) {
+  MeshLayers result;
+  add_triangles(plan.mesh, window, result);
+  add_boundary(plan.mesh, result);
+  const double smallest = std::max(window.width(), window.height()) / pixels;
+  for (const InterfaceLine& line : plan.interfaces) {
+    add_stretches(plan, line, smallest, result);
+    add_plus_side(plan, line, window, result);
+  }
+  for (const results::Tip& tip : plan.tips) {
+    if (inside({tip.x, tip.y}, window)) result.tips.push_back(tip);
+  }
+  add_subdomain_names(plan.mesh, window, result);
+  return result;
+}
+
+}  // namespace anticrack::figures

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A block of the server, array by array, believed only as far as it fits. For the sources of this
+// folder only.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "results/assemble.hpp"
+
+namespace anticrack::results {
+
+static_assert(std::endian::native == std::endian::little, "blocks are little-endian");
+
+const char* name_of(ArrayView::Type type);
+std::string text_of(const std::vector<std::uint64_t>& shape);
+/// Bytes of an array of its type and shape; throws where their product leaves 64 bits.
+std::uint64_t byte_count(const std::string& subject, const ArrayView& array);
+
+/// One block, arrays by name.
+class Block {
+ public:
+  Block(std::string subject, std::span<const ArrayView> arrays) : _subject(std::move(subject)) {
+    for (const ArrayView& array : arrays) {
+      if (!_arrays.emplace(array.name, &array).second) fail("array " + array.name + " twice");
+    }
+  }
+
+  bool has(const std::string& name) const { return _arrays.count(name) != 0; }
+
+  /// Any array below a folder, e.g. "loads/0/traces/".
+  bool has_below(const std::string& prefix) const {
+    const auto found = _arrays.lower_bound(prefix);
+    return found != _arrays.end() && found->first.compare(0, prefix.size(), prefix) == 0;
+  }
+
+  /// Array of shape (rows) for columns 0, else (rows, columns).
+  template <typename T>
+  std::vector<T> get(const std::string& name, std::uint64_t columns = 0) const {
+    const auto found = _arrays.find(name);
+    if (found == _arrays.end()) fail("array " + name + " is missing");
+    const ArrayView& array = *found->second;
+    constexpr auto wanted = sizeof(T) == 8 ? ArrayView::Type::float64 : ArrayView::Type::int32;
+    if (array.type != wanted) {
+      fail("array " + name + " is " + name_of(array.type) + ", not " + name_of(wanted));
+    }
+    const bool fits = columns == 0 ? array.shape.size() == 1
+                                   : array.shape.size() == 2 && array.shape[1] == columns;
+    if (!fits) {
+      fail("array " + name + " has shape " + text_of(array.shape) + ", not " +
+           (columns == 0 ? std::string("(n)") : "(n," + std::to_string(columns) + ")"));
+    }
+    if (byte_count(_subject, array) != array.bytes.size()) {
+      fail("array " + name + " of shape " + text_of(array.shape) + " comes with " +
+           std::to_string(array.bytes.size()) + " bytes");
+    }
+    std::vector<T> values(array.bytes.size() / sizeof(T));
+    if (!values.empty()) std::memcpy(values.data(), array.bytes.data(), array.bytes.size());
+    return values;
+  }
+
+  [[noreturn]] void fail(const std::string& cause) const;
+
+ private:
+  std::string _subject;
+  std::map<std::string, const ArrayView*> _arrays;
+};
+
+/// The arrays of a mesh, checked.
+void add_mesh(const Block& block, Mesh& mesh);
+
+}  // namespace anticrack::results

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtk/export.hpp"
+
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include "figures/text.hpp"
+#include "results/replace_file.hpp"
+
+namespace anticrack::vtk {
+namespace {
+
+namespace fs = std::filesystem;
+using results::Load;
+using results::Result;
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+void write(const fs::path& path, const std::string& bytes, Exported& exported) {
+  results::replace_file(path, std::as_bytes(std::span(bytes)));
+  exported.files.push_back(path);
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder)) {
+    throw results::Error(folder.string(),
+                         "cannot be made a folder" + (error ? ": " + error.message() : ""),
+                         "choose another folder with -o");
+  }
+}
+
+bool exportable(const Load& load, Exported& exported) {
+  if (load.traces.empty() && load.fields.empty()) {
+    exported.notes.push_back("load \"" + load.name + "\" has no answer (" +
+                             std::string(results::name(load.status)) + "): nothing to export");
+    return false;
+  }
+  if (load.fields.empty()) {
+    throw results::Error("load \"" + load.name + "\"",
+                         "the result has no fields, u is known along the interfaces only",
+                         "run the case again with [output] fields = true, or with --set "
+                         "output.fields=true");
+  }
+  return true;
+}
+
+}  // namespace
+
+UnstructuredGrid membrane(const Result& result, const Load& load) {
+  UnstructuredGrid grid;
+  RealData u{"u", {}}, tension{"tension", {}};
+  IntegerData node{"node", {}}, subdomain{"subdomain", {}};
+  for (std::size_t d = 0; d < load.fields.size(); ++d) {
+    const results::Field& field = load.fields[d];
+    const auto first = static_cast<std::int32_t>(node.values.size());
+    append(node.values, field.nodes);
+    append(u.values, field.u);
+    for (const std::int32_t corner : field.triangles) grid.corners.push_back(first + corner);
+    const std::size_t cells = field.triangles.size() / 3;
+    subdomain.values.insert(subdomain.values.end(), cells, static_cast<std::int32_t>(d));
+    tension.values.insert(tension.values.end(), cells, result.mesh.tension[d]);
+  }
+  grid.xy.reserve(2 * node.values.size());
+  for (const std::int32_t index : node.values) {
+    const auto at = 2 * static_cast<std::size_t>(index);
+    grid.xy.push_back(result.mesh.xy[at]);
+    grid.xy.push_back(result.mesh.xy[at + 1]);
+  }
+  grid.points = {{std::move(u)}, {std::move(node)}};
+  grid.cells = {{std::move(tension)}, {std::move(subdomain)}};
+  return grid;
+}
+
+UnstructuredGrid interfaces(const Result& result, const Load& load) {
+  UnstructuredGrid grid;
+  grid.shape = Cell::line;
+  std::vector<RealData> reals{
+      {"u_minus", {}}, {"u_plus", {}}, {"jump", {}}, {"pressure", {}}, {"s", {}}};
+  IntegerData kind{"kind", {}}, contact{"contact", {}}, index{"interface", {}};
+  for (std::size_t i = 0; i < load.traces.size(); ++i) {
+    const results::Interface& line = result.interfaces[i];
+    const results::Trace& trace = load.traces[i];
+    const auto first = static_cast<std::int32_t>(grid.xy.size() / 2);
+    const auto count = static_cast<std::int32_t>(line.node_count());
+    for (std::size_t k = 0; k < line.node_count(); ++k) {
+      grid.xy.insert(grid.xy.end(), {line.x[k], line.y[k]});
+      kind.values.push_back(static_cast<std::int32_t>(line.kind[k]));
+    }
+    for (std::int32_t k = 0; k + 1 < count; ++k) {
+      grid.corners.insert(grid.corners.end(), {first + k, first + k + 1});
+      index.values.push_back(static_cast<std::int32_t>(i));
+    }
+    append(reals[0].values, trace.u_minus);
+    append(reals[1].values, trace.u_plus);
+    append(reals[2].values, trace.jump);
+    append(reals[3].values, trace.pressure);
+    append(reals[4].values, line.s);
+    append(contact.values, trace.contact);
+  }
+  grid.points = {std::move(reals), {std::move(kind), std::move(contact)}};
+  grid.cells = {{}, {std::move(index)}};
+  return grid;
+}
+
+Exported export_result(const Result& result, const fs::path& folder) {
+  const std::string fault = results::first_fault(result);
+  if (!fault.empty()) throw results::Error("the result", "is inconsistent: " + fault, "");
+  std::vector<std::string> names;
+  names.reserve(result.loads.size());
+  for (const Load& load : result.loads) names.push_back(load.name);
+  const std::vector<std::string> stems = figures::file_stems(names, {"-interfaces"});
+
+  Exported exported;
+  std::vector<std::size_t> answered;
+  for (std::size_t i = 0; i < result.loads.size(); ++i) {
+    if (exportable(result.loads[i], exported)) answered.push_back(i);
+  }
+  if (answered.empty()) {
+    throw results::Error("the result", "no load has an answer to export", "solve the case first");
+  }
+  make_folder(folder);
+  std::vector<Member> members;
+  for (const std::size_t i : answered) {
+    const Load& load = result.loads[i];
+    const std::string file = stems[i] + ".vtu";
+    write(folder / file, to_vtu(membrane(result, load)), exported);
+    members.push_back({load.name, file, i, 0});
+    if (!load.traces.empty()) {
+      const std::string lines = stems[i] + "-interfaces.vtu";
+      write(folder / lines, to_vtu(interfaces(result, load)), exported);
+      members.push_back({load.name + ", interfaces", lines, i, 1});
+    }
+  }
+  write(folder / "result.pvd", to_pvd(members), exported);
+  return exported;
+}
+
+}  // namespace anticrack::vtk

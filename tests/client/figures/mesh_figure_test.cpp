@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "figures/mesh_figure.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "figures/mesh_layers.hpp"
+#include "support/sample_mesh_plan.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace anticrack::figures {
+namespace {
+
+using anticrack::testing::sample_mesh_plan;
+using anticrack::testing::TemporaryFolder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+double length(const std::vector<Stretch>& stretches) {
+  double sum = 0;
+  for (const Stretch& stretch : stretches) {
+    for (std::size_t i = 1; i < stretch.size(); ++i) {
+      sum += std::hypot(stretch[i].x - stretch[i - 1].x, stretch[i].y - stretch[i - 1].y);
+    }
+  }
+  return sum;
+}
+
+TEST(MeshLayers, sort_everything_by_what_it_is) {
+  const results::MeshPlan plan = sample_mesh_plan(10);
+  const MeshLayers seen = layers(plan, whole(plan.mesh));
+  EXPECT_EQ(seen.triangle_count, 800u);
+  EXPECT_EQ(seen.triangles[0].size(), 400u);
+  EXPECT_NEAR(length(seen.interfaces[1]), 0.9, 1e-12);  // glue
+  EXPECT_NEAR(length(seen.interfaces[2]), 0.8, 1e-12);  // crack: of both interfaces
+  EXPECT_NEAR(length(seen.interfaces[3]), 0.4, 1e-12);  // bonded
+  EXPECT_NEAR(length(seen.interfaces[4]), 0.4, 1e-12);  // delaminated
+  EXPECT_NEAR(length(seen.dirichlet), 6, 1e-12);
+  EXPECT_NEAR(length(seen.neumann), 2, 1e-12);
+  EXPECT_EQ(seen.tips.size(), 6u);
+}
+
+TEST(MeshLayers, point_into_the_plus_side) {
+  const results::MeshPlan plan = sample_mesh_plan(10);
+  const MeshLayers seen = layers(plan, whole(plan.mesh));
+  ASSERT_EQ(seen.plus_sides.size(), 2u);
+  EXPECT_EQ(seen.plus_sides[0].name, "sigma");  // walked to the right: its left is above
+  EXPECT_DOUBLE_EQ(seen.plus_sides[0].from.y, 0);
+  EXPECT_GT(seen.plus_sides[0].to.y, 0.05);
+  EXPECT_DOUBLE_EQ(seen.plus_sides[0].to.x, seen.plus_sides[0].from.x);
+  EXPECT_LT(seen.plus_sides[1].to.x, -0.05);  // walked upwards: its left is where x is smaller
+}
+
+TEST(MeshLayers, name_subdomains_inside_them) {
+  const results::MeshPlan plan = sample_mesh_plan(10);
+  const MeshLayers seen = layers(plan, whole(plan.mesh));
+  ASSERT_EQ(seen.subdomain_names.size(), 2u);
+  EXPECT_EQ(seen.subdomain_names[0].second, "lower");
+  EXPECT_LT(seen.subdomain_names[0].first.y, -0.2);
+  EXPECT_GT(seen.subdomain_names[1].first.y, 0.2);
+}
+
+TEST(MeshLayers, leave_out_what_cannot_be_seen) {
+  const results::MeshPlan plan = sample_mesh_plan(10, 8);
+  const Window everything = whole(plan.mesh);
+  EXPECT_LT(layers(plan, everything).triangle_count, 800u);
+  Window near;
+  results::Tip tip;
+  ASSERT_TRUE(finest_tip(plan, near, tip));
+  EXPECT_EQ(tip.x, 0.5);
+  EXPECT_LT(near.width(), 0.06 * everything.width());
+  const MeshLayers detail = layers(plan, near);
+  EXPECT_EQ(detail.tips.size(), 1u);
+  for (const auto& triangle : detail.triangles[1]) {
+    EXPECT_GT(triangle[0].y + triangle[1].y + triangle[2].y, 0);
+  }
+}
+
+TEST(MeshLayers, of_a_uniform_mesh_have_no_finest_tip) {
+  Window near;
+  results::Tip tip;
+  EXPECT_FALSE(finest_tip(sample_mesh_plan(10), near, tip));
+  EXPECT_FALSE(finest_tip({}, near, tip));
+}
+
+TEST(MeshFigure, is_drawn_with_its_legend_and_the_finest_tip) {
+  const TemporaryFolder folder;
+  const Drawn drawn = draw_mesh(sample_mesh_plan(20, 4), "meshes/0123", folder / "new");
+  EXPECT_THAT(drawn.notes, IsEmpty());
+  EXPECT_THAT(drawn.files,
+              ElementsAre(folder / "new/meshes_0123.png", folder / "new/meshes_0123.svg"));
+  EXPECT_GT(std::filesystem::file_size(drawn.files[0]), 20000u);
+  const std::string svg = bytes_of(drawn.files[1]);
+  for (const char* text : {"A made-up mesh", "1681 nodes", "around the tip (0.5, 0)", "sigma +",
+                           "slit +", "upper", "glue", "traction given", "inclusion, bonded"}) {
+    EXPECT_THAT(svg, HasSubstr(text));
+  }
+}
+
+TEST(MeshFigure, of_a_uniform_mesh_is_one_panel) {
+  std::vector<std::string> notes;
+  const std::string text = mesh_script(sample_mesh_plan(10), {{Format::png, "a.png"}}, notes);
+  EXPECT_THAT(text, Not(HasSubstr("around the tip")));
+  EXPECT_THAT(notes, IsEmpty());
+}
+
+TEST(MeshFigure, of_too_many_triangles_shows_lines_and_says_so) {
+  std::vector<std::string> notes;
+  const std::string text = mesh_script(sample_mesh_plan(100), {{Format::png, "a.png"}}, notes);
+  EXPECT_THAT(notes, ElementsAre(HasSubstr("80000 of them")));
+  EXPECT_THAT(text, Not(HasSubstr("filledcurves")));
+}
+
+TEST(MeshFigure, runs_nothing_that_names_say) {
+  const TemporaryFolder folder;
+  results::MeshPlan plan = sample_mesh_plan(10);
+  plan.title = "'`touch pwned`\n!touch pwned";
+  plan.mesh.subdomains[0] = "`touch pwned`";
+  plan.interfaces[0].name = "'; system('touch pwned'); '";
+  draw_mesh(plan, "../`x`", folder / "a");
+  EXPECT_FALSE(std::filesystem::exists(folder / "a/pwned"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "pwned"));
+}
+
+TEST(MeshFigure, refuses_a_mesh_that_is_inconsistent) {
+  const TemporaryFolder folder;
+  results::MeshPlan plan = sample_mesh_plan(10);
+  plan.interfaces[0].kind.pop_back();
+  EXPECT_THROW(draw_mesh(plan, "m", folder.path()), Error);
+  plan = sample_mesh_plan(10);
+  plan.interfaces[1].nodes[0] = 9999;
+  EXPECT_THROW(draw_mesh(plan, "m", folder.path()), Error);
+}
+
+TEST(MeshFigure, of_a_membrane_without_interfaces) {
+  const TemporaryFolder folder;
+  results::MeshPlan plan = sample_mesh_plan(10);
+  plan.interfaces.clear();
+  plan.tips.clear();
+  EXPECT_EQ(draw_mesh(plan, "m", folder.path(), {.png = true, .svg = false}).files.size(), 1u);
+}
+
+}  // namespace
+}  // namespace anticrack::figures
