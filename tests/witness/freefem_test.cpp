@@ -116,7 +116,7 @@ TEST_P(FreeFem, ConvergesToTheAnswerOfTheActiveSet) {
       operators::MeshOperator::factorise(mesh, 2, {})
           ->solve(load(GetParam().expression), contact::ActiveSetOptions{}, true, history);
   ASSERT_EQ(ours.status, contact::Status::converged) << ours.reason;
-  constexpr int enough = 1000;
+  constexpr int enough = 300;
   const Answer theirs = witness(*program, *mesh, enough, GetParam().quadrants);
   const auto [largest, difference] = compare(ours, theirs);
   std::printf(
