@@ -11,20 +11,10 @@
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::accuracy {
-namespace {
-
-constexpr int columns = 8, rows = 4;
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 mesh::Mesh diagonals(mesh::Kind condition) {
   testing::StructuredOptions options;
-  options.columns = columns;
-  options.rows = rows;
+  options.columns = 8;
+  options.rows = 4;
   options.kind = [condition](double x) { return std::abs(x) < 0.5 ? condition : mesh::Kind::glue; };
   if (condition == mesh::Kind::crack) {
     options.inclusions.clear();
@@ -32,22 +22,8 @@ mesh::Mesh diagonals(mesh::Kind condition) {
   return testing::structured_mesh(options);
 }
 
-mesh::Mesh crosses() {
-  mesh::Mesh mesh = diagonals();
-  std::vector<std::int32_t> triangles, subdomain;
-  // A square's two triangles follow each other: (a, b, c) and (a, c, d).
-  for (std::size_t t = 0; t < mesh.triangle_count(); t += 2) {
-    const std::int32_t* corner = &mesh.triangles[3 * t];
-    const std::int32_t a = corner[0], b = corner[1], c = corner[2], d = corner[5];
-    const auto centre = static_cast<std::int32_t>(mesh.node_count());
-    mesh.xy.push_back(0.5 * (mesh.xy[2 * at(a)] + mesh.xy[2 * at(c)]));
-    mesh.xy.push_back(0.5 * (mesh.xy[2 * at(a) + 1] + mesh.xy[2 * at(c) + 1]));
-    triangles.insert(triangles.end(), {a, b, centre, b, c, centre, c, d, centre, d, a, centre});
-    subdomain.insert(subdomain.end(), 4, mesh.subdomain[t]);
-  }
-  mesh.triangles = std::move(triangles);
-  mesh.subdomain = std::move(subdomain);
-  return mesh;
+mesh::Mesh rectangles() {
+  return testing::structured_mesh({12, 5, {}, {}, {"stiffener"}});
 }
 
 mesh::Mesh shaken(unsigned seed) {

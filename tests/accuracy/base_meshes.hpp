@@ -11,8 +11,8 @@ namespace anticrack::accuracy {
 /// Squares of side 1/4 with one diagonal each; `condition` holds on (-0.5, 0.5).
 mesh::Mesh diagonals(mesh::Kind condition = mesh::Kind::delaminated);
 
-/// The same squares cut by both diagonals.
-mesh::Mesh crosses();
+/// Rectangles of 1/6 by 1/5 with one diagonal each.
+mesh::Mesh rectangles();
 
 /// `diagonals`, its inner nodes moved at random, those on the interface along it: triangles of
 /// every shape, and no edge on x = 0 but where it happens. The tips stay.

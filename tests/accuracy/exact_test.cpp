@@ -30,7 +30,9 @@ struct Errors {
 Errors measure(mesh::Mesh mesh, double h, const testing::ExactSolution& exact) {
   const auto op = factorise(std::move(mesh));
   const contact::Answer answer = solve(*op, 0.0, exact.boundary, true);
-  Errors errors{h, op->mesh().triangle_count()};
+  Errors errors;
+  errors.h = h;
+  errors.triangles = op->mesh().triangle_count();
   if (!answer.inclusions.empty()) {
     errors.a = std::abs(answer.inclusions[0].displacement - exact.displacement);
   }
@@ -77,6 +79,8 @@ std::vector<Errors> uniform(mesh::Mesh mesh, const testing::ExactSolution& exact
 /// What coordinates of 1e-13 leave of u ~ r^{1/4} in the tip's own triangles.
 const double tip_floor = 0.5 * std::pow(1e-13, 0.25);
 
+/// At the left tip the exact solution has no r^{1/4} part. A mesh's error has one of either sign,
+/// so a few nodes close there.
 TEST(OpenInclusion, StronglyGradedHasTheRatesOfSmoothSolutions) {
   constexpr double m = 0.1;
   const auto sequence = graded(diagonals(), m, testing::open_inclusion(shift));
@@ -88,7 +92,7 @@ TEST(OpenInclusion, StronglyGradedHasTheRatesOfSmoothSolutions) {
   }
   for (const Errors& errors : sequence) {
     EXPECT_LT(errors.jump.largest, 0.06 * errors.h * errors.h + tip_floor);
-    EXPECT_EQ(errors.contact_length, 0);
+    EXPECT_LT(errors.contact_length, 2e-4 * errors.h * errors.h);
   }
 }
 

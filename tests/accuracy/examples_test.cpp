@@ -27,7 +27,9 @@ struct Row {
 
 Row solve_examples(mesh::Mesh mesh, double h0) {
   const auto op = factorise(std::move(mesh));
-  Row row{h0, op->mesh().triangle_count()};
+  Row row;
+  row.h0 = h0;
+  row.triangles = op->mesh().triangle_count();
   for (std::size_t i = 0; i < 4; ++i) {
     const contact::Answer answer = solve(*op, fem::Expression{paper_forces[i]});
     row.a[i] = answer.inclusions.at(0).displacement;
@@ -116,7 +118,7 @@ TEST(PaperExamples, ThirdIsAsGoodOnTheMeshesOfTheService) {
     std::size_t triangles;
     double tolerance;
   };
-  for (const Aim& aim : {Aim{0.1, 20'000, 4e-3}, Aim{0.05, 80'000, 1e-3}}) {
+  for (const Aim& aim : {Aim{0.105, 20'000, 4e-3}, Aim{0.05, 80'000, 1e-3}}) {
     const Row row = solve_examples(generated(aim.h0), aim.h0);
     std::printf("[ figures  ] generated, h0 = %.3f, %zu triangles:", row.h0, row.triangles);
     for (std::size_t i = 0; i < 4; ++i) {

@@ -70,7 +70,7 @@ TEST_P(Example, IsTheSameOnOtherBaseMeshes) {
     highest = std::max(highest, a);
   };
   look("diagonals", graded(diagonals()));
-  look("crosses", graded(crosses()));
+  look("rectangles", graded(rectangles()));
   look("shaken", graded(shaken(7)));
   look("generated", generated(h0));
   EXPECT_LT(highest - lowest, 3e-3 * scale);
