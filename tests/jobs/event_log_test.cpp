@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "support/errors.hpp"
-#include "support/eventually.hpp"
 
 namespace anticrack::jobs {
 namespace {

@@ -138,7 +138,7 @@ TEST(Generate, BentInterfaceInAClockwisePolygon) {
   // every node of the interface lies on one of its three edges
   for (const auto node : mesh.interfaces[0].nodes) {
     const Point p = point(mesh, node);
-    const double y = p[0] <= 1 ? 1 + p[0] / 2 : p[0] <= 2 ? 2 - p[0] / 2 : 2 - p[0] / 2;
+    const double y = p[0] <= 1 ? 1 + p[0] / 2 : 2 - p[0] / 2;
     EXPECT_NEAR(p[1], y, 1e-14);
   }
 }
