@@ -46,7 +46,7 @@ void compare_trace(const MonolithicContact& reference, std::size_t c, const cont
   for (std::size_t i = 0; i < nodes; ++i) {
     std::vector<double> minus, plus, mu;
     for (const auto& [e, end] : {std::pair{i, std::size_t{0}}, std::pair{i - 1, std::size_t{1}}}) {
-      if (e + 1 < nodes) {
+      if (e < nodes - 1) {  // not so before the first
         minus.push_back(reference.u_side(c, e, end, false));
         plus.push_back(reference.u_side(c, e, end, true));
         if (const auto value = reference.multiplier(c, e, end)) {
