@@ -51,17 +51,14 @@ std::string taken(Assumed assumed) {
   return "left out";
 }
 
-std::string cure(Assumed assumed, const std::string& tag) {
-  const std::string map = "give " + tag + " a meaning in the groups of the mesh options";
-  switch (assumed) {
-    case Assumed::dirichlet:
-    case Assumed::neumann:
-      return "; to choose, name it dirichlet or neumann, or " + map;
-    case Assumed::left_out:
-      return "";
-    default:
-      return "; to choose, name it glue, crack, inclusion:NAME or delaminated:NAME, or " + map;
-  }
+/// `it` is "it" or "them", `tag` what the map of the request would have to name.
+std::string cure(Assumed assumed, bool physical, const std::string& it, const std::string& tag) {
+  if (assumed == Assumed::left_out) return "";
+  const bool boundary = assumed == Assumed::dirichlet || assumed == Assumed::neumann;
+  return "; to choose, " +
+         (physical ? "name " + it + " " : "put " + it + " in physical curves called ") +
+         (boundary ? "dirichlet or neumann" : "glue, crack, inclusion:NAME or delaminated:NAME") +
+         ", or give " + tag + " a meaning in the groups of the mesh options";
 }
 
 std::string edges(std::size_t count) {
@@ -89,13 +86,14 @@ void Assumptions::tell(const CurveGroups& groups, mesh::Mesh& mesh) const {
     }
     mesh.warnings.push_back(groups.groups.at(tag).title + " lies" + place(assumed) +
                             taken(assumed) + " (" + edges(count) + ")" +
-                            cure(assumed, std::to_string(tag)));
+                            cure(assumed, true, "it", std::to_string(tag)));
   }
   for (const auto& [assumed, tags] : curves) {
     const bool one = tags.size() == 1;
     mesh.warnings.push_back((one ? "curve " : "curves ") + list_of(tags) +
                             (one ? " (in no group) lies" : " (in no group) lie") + place(assumed) +
-                            taken(assumed) + cure(assumed, one ? "it" : "them"));
+                            taken(assumed) +
+                            cure(assumed, false, one ? "it" : "them", one ? "it" : "them"));
   }
   for (const auto& [assumed, bare] : _bare) {
     const bool one = bare.edges == 1;

@@ -117,11 +117,12 @@ const CurveGroup* CurveGroups::of(const MshElement<2>& line) const {
 CurveGroups read_curve_groups(const MshFile& file,
                               const std::map<std::int32_t, std::string>& given) {
   CurveGroups result;
+  // names may be left over of groups that are gone
   result.physical =
-      !file.curve_names.empty() || std::any_of(file.lines.begin(), file.lines.end(),
-                                               [](const auto& line) { return line.group != 0; });
+      file.lines.empty() || std::any_of(file.lines.begin(), file.lines.end(),
+                                        [](const auto& line) { return line.group != 0; });
   for (const auto& [tag, name] : file.curve_names) {
-    result.groups.emplace(tag, named_by_file(tag, true, name));
+    if (result.physical) result.groups.emplace(tag, named_by_file(tag, true, name));
   }
   for (const auto& line : file.lines) {
     const std::int32_t tag = result.physical ? line.group : line.entity;

@@ -35,7 +35,7 @@ struct CurveGroup {
 };
 
 struct CurveGroups {
-  /// In a file without physical curves its elementary curves take their place.
+  /// In a file whose lines are in no physical group the elementary curves take their place.
   bool physical = true;
   std::map<std::int32_t, CurveGroup> groups;
 

@@ -159,7 +159,7 @@ class Reading {
     if (side == Side::inside && doubled == nullptr && marks.empty()) return;
     const Assumed assumed = assume(side, doubled, marks.empty());
     const bool plain = assumed == Assumed::glue && marks.empty() && _any_meaning;
-    if (!plain && marks.empty()) _assumptions.add(assumed, uses[0].from);
+    if (!plain && marks.empty()) _assumptions.add(assumed, uses[0].low());
     for (const Mark& mark : marks) _assumptions.add(*mark.group, assumed);
     take(uses, side, meaning_of(assumed));
   }

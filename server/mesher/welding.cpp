@@ -17,8 +17,9 @@
 namespace anticrack::mesher {
 namespace {
 
-/// Of the extent: rounding of coordinates that were computed in two ways.
-constexpr double same_place = 1e-12;
+/// Of the extent. gmsh integrates along curves: on one line meshed from either end its nodes are
+/// 3e-12 apart.
+constexpr double same_place = 1e-9;
 /// Of the shortest rim edge: keeps the nodes of a mesh graded below `same_place` apart.
 constexpr double same_place_of_edge = 1e-3;
 /// Radians within which two edges from one node lie on one another. Opened notches are wider.

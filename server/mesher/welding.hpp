@@ -29,7 +29,7 @@ struct Welding {
 };
 
 /// Nodes of the rim (edges of one triangle) lie on one another when they are no further apart than
-/// 1e-12 of the mesh's extent and a thousandth of their shortest rim edge.
+/// 1e-9 of the mesh's extent and a thousandth of their shortest rim edge.
 /// `xy` (n,2), `triangles` (m,3) counterclockwise, both row-major; `tags` (n) for messages.
 /// Throws errors::Error (mesh_invalid): edges that lie on one another but do not end in the same
 /// nodes (hanging nodes), nodes that do so without a common edge, triangles that overlap.

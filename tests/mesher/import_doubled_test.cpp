@@ -217,7 +217,7 @@ TEST(ImportDoubled, AnIslandMeshedSeparatelyIsARing) {
 TEST(ImportDoubled, RoundingDoesNotKeepNodesApartButAGapDoes) {
   MshSample sample = square_sample("");
   open_middle(sample, {0});
-  sample.points.back() = {1e-13, 1e-13, 0};
+  sample.points.back() = {1e-11, 1e-11, 0};
   EXPECT_THAT(import_sample(sample).interfaces[0].kind,
               ElementsAre(Kind::glue, Kind::crack, Kind::crack, Kind::glue));
   // a notch of this width is a hole with a boundary of its own
