@@ -27,6 +27,7 @@ std::vector<std::string> feature_lines(const v1::ServerInfo& info) {
     group += (group.empty() ? "" : ", ") + sanitise(grouped ? feature.substr(dot + 1) : feature);
   }
   std::vector<std::string> lines;
+  lines.reserve(groups.size());
   for (const auto& [name, features] : groups) {
     lines.push_back(name.empty() ? features : sanitise(name) + ": " + features);
   }

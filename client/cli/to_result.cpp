@@ -104,6 +104,8 @@ std::vector<results::ArrayView> views_of(const client::Block& block) {
 }
 
 void add_subdomains(const v1::Mesh& from, results::Mesh& to) {
+  to.subdomains.reserve(static_cast<std::size_t>(from.subdomains_size()));
+  to.tension.reserve(static_cast<std::size_t>(from.subdomains_size()));
   for (const v1::SubdomainInfo& subdomain : from.subdomains()) {
     to.subdomains.push_back(subdomain.name());
     // A server that knows no tension solves with 1.
@@ -118,9 +120,11 @@ results::MeshPlan to_mesh_plan(const v1::Mesh& mesh, const client::Block& block)
   plan.title = mesh.title().empty() ? mesh.name() : mesh.title();
   add_subdomains(mesh, plan.mesh);
   plan.inclusions.assign(mesh.inclusions().begin(), mesh.inclusions().end());
+  plan.interfaces.reserve(static_cast<std::size_t>(mesh.interfaces_size()));
   for (const v1::InterfaceInfo& interface : mesh.interfaces()) {
     plan.interfaces.push_back({interface.name(), {}, {}, {}});
   }
+  plan.tips.reserve(static_cast<std::size_t>(mesh.tips_size()));
   for (const v1::TipInfo& tip : mesh.tips()) {
     plan.tips.push_back({tip.at().x(), tip.at().y(), tip.smallest_edge()});
   }
