@@ -63,6 +63,7 @@ std::vector<std::string> row_of(const results::Load& load,
 // Lines for people below the table.
 std::vector<std::string> remarks_on(const results::Load& load) {
   std::vector<std::string> remarks;
+  remarks.reserve(2 + load.warnings.size());
   if (const std::string& cause = load.error.empty() ? load.reason : load.error; !cause.empty()) {
     remarks.push_back(cause);
   }

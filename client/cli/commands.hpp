@@ -21,7 +21,7 @@ using Command = std::function<int()>;
 void add_run(CLI::App& app, const Globals& globals, Command& chosen);
 void add_mesh(CLI::App& app, const Globals& globals, Command& chosen);
 void add_job(CLI::App& app, const Globals& globals, Command& chosen);
-void add_files(CLI::App& app, const Globals& globals, Command& chosen);  ///< show and plot
+void add_files(CLI::App& app, const Globals& globals, Command& chosen);  ///< show, plot, export
 void add_server(CLI::App& app, const Globals& globals, Command& chosen);
 
 /// The whole command line: parses, runs, returns the exit code.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-//   anticrack show | plot: what needs a result file and no server
+//   anticrack show | plot | export: what needs a result file and no server
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "cli/answers.hpp"
 #include "cli/commands.hpp"
@@ -12,6 +14,7 @@
 #include "cli/text.hpp"
 #include "figures/figures.hpp"
 #include "results/file.hpp"
+#include "vtk/export.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -38,29 +41,39 @@ int show(const FileOptions& options, const Globals& globals) {
   return exit_ok;
 }
 
-int plot(const FileOptions& options, const Globals& globals) {
-  const results::Result result = results::read(options.file);
-  const figures::Drawn drawn = figures::draw(result, options.folder);
+// The files that were made, and what was left out.
+int tell_made(const std::vector<std::filesystem::path>& files,
+              const std::vector<std::string>& notes, const Globals& globals) {
   if (globals.json) {
     JsonWriter json;
     json.begin_object().begin_array("files");
-    for (const auto& file : drawn.files) {
+    for (const auto& file : files) {
       json.element(file.string());
     }
     json.end_array().begin_array("notes");
-    for (const std::string& note : drawn.notes) {
+    for (const std::string& note : notes) {
       json.element(note);
     }
     print_document(json.end_array().end_object().text());
     return exit_ok;
   }
-  for (const auto& file : drawn.files) {
+  for (const auto& file : files) {
     say(globals, file.string());
   }
-  for (const std::string& note : drawn.notes) {
+  for (const std::string& note : notes) {
     say(globals, note);
   }
   return exit_ok;
+}
+
+int plot(const FileOptions& options, const Globals& globals) {
+  const figures::Drawn drawn = figures::draw(results::read(options.file), options.folder);
+  return tell_made(drawn.files, drawn.notes, globals);
+}
+
+int export_file(const FileOptions& options, const Globals& globals) {
+  const vtk::Exported exported = vtk::export_result(results::read(options.file), options.folder);
+  return tell_made(exported.files, exported.notes, globals);
 }
 
 }  // namespace
@@ -81,6 +94,18 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
   plot_command->footer("Example:\n  anticrack plot paper.h5 -o figures");
   plot_command->callback([options, &globals, &chosen] {
     chosen = [options, &globals] { return plot(*options, globals); };
+  });
+
+  CLI::App* export_command =
+      app.add_subcommand("export", "Export a result file to .vtu and .pvd, for ParaView");
+  export_command->add_option("FILE", options->file, "Result file, HDF5, with fields")->required();
+  export_command->add_option("-o,--output", options->folder, "Folder of the files")->required();
+  export_command->footer(
+      "The membrane needs u on every node: run the case with [output] fields = true. To see it\n"
+      "deformed, apply the filter Warp By Scalar to u.\n\n"
+      "Example:\n  anticrack export paper.h5 -o paraview");
+  export_command->callback([options, &globals, &chosen] {
+    chosen = [options, &globals] { return export_file(*options, globals); };
   });
 }
 

@@ -5,15 +5,20 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <memory>
+#include <stdexcept>
 
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/json.hpp"
+#include "cli/mesh_text.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/submit.hpp"
 #include "cli/text.hpp"
+#include "cli/to_result.hpp"
+#include "figures/mesh_figure.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -22,105 +27,85 @@ struct MeshOptions {
   std::string file;
   std::string name;
   std::string title;
+  std::string folder;
   std::vector<std::string> overrides;
   bool no_wait = false;
   int limit = 50;
 };
 
-std::string kind_of(v1::InterfaceKind kind) {
-  switch (kind) {
-    case v1::INTERFACE_KIND_GLUE:
-      return "glue";
-    case v1::INTERFACE_KIND_CRACK:
-      return "crack";
-    case v1::INTERFACE_KIND_INCLUSION:
-      return "inclusion, bonded";
-    case v1::INTERFACE_KIND_DELAMINATED:
-      return "inclusion, delaminated";
-    default:
-      return "unknown";
-  }
-}
-
-std::string segment_line(const v1::Mesh& mesh, const v1::InterfaceInfo::Segment& segment) {
-  const bool named = segment.inclusion() >= 0 && segment.inclusion() < mesh.inclusions_size();
-  return "  " + number(segment.begin()) + " to " + number(segment.end()) + ": " +
-         kind_of(segment.kind()) +
-         (named ? " " + sanitise(mesh.inclusions(segment.inclusion())) : "") + ", " +
-         std::to_string(segment.edge_count()) + " edges\n";
-}
-
-std::string text_of(const v1::Mesh& mesh) {
-  std::string text = sanitise(mesh.name()) + ": " + std::string(word(mesh.state())) + "\n";
-  if (!mesh.title().empty()) {
-    text += sanitise(mesh.title()) + "\n";
-  }
-  if (mesh.has_error()) {
-    text += sanitise(mesh.error().message()) + "\n";
-  }
-  if (mesh.triangle_count() == 0) {
-    return text;
-  }
-  text += std::to_string(mesh.triangle_count()) + " triangles, " +
-          std::to_string(mesh.node_count()) + " nodes, smallest angle " +
-          number(mesh.minimum_angle(), 3) + " degrees, meshed in " +
-          number(mesh.mesh_seconds(), 3) + " s\n";
-  for (const v1::SubdomainInfo& subdomain : mesh.subdomains()) {
-    text += "subdomain " + sanitise(subdomain.name()) + ": " +
-            std::to_string(subdomain.triangle_count()) + " triangles, " +
-            std::to_string(subdomain.node_count()) + " nodes, area " + number(subdomain.area()) +
-            "\n";
-  }
-  for (const v1::InterfaceInfo& interface : mesh.interfaces()) {
-    text += "interface " + sanitise(interface.name()) + ": length " + number(interface.length()) +
-            ", " + std::to_string(interface.node_count()) + " nodes\n";
-    for (const auto& segment : interface.segments()) {
-      text += segment_line(mesh, segment);
-    }
-  }
-  if (mesh.theta_star() > 0) {
-    text += "theta* " + number(mesh.theta_star()) + ", factors of " + bytes(mesh.operator_bytes()) +
-            " made in " + number(mesh.factorize_seconds(), 3) + " s\n";
-  }
-  for (const std::string& warning : mesh.warnings()) {
-    text += "warning: " + sanitise(warning) + "\n";
-  }
-  return text;
-}
-
 int show(const Globals& globals, const v1::Mesh& mesh) {
-  print_document(globals.json ? to_json(mesh) : text_of(mesh));
+  print_document(globals.json ? to_json(mesh) : mesh_text(mesh));
   return exit_ok;
+}
+
+/// Waits until the server is done with it; throws what it failed of.
+v1::Mesh wait_for(Session& session, const std::string& name) {
+  const v1::Mesh mesh = client::wait_for_mesh(
+      session.connection(), name,
+      [&](const v1::Mesh& now) {
+        if (!client::settled(now.state())) {
+          say(session.globals(), now.name() + ": " + std::string(word(now.state())));
+        }
+      },
+      session.stop());
+  if (mesh.state() == v1::Mesh::STATE_FAILED) {
+    throw client::decode_error(mesh.error());
+  }
+  return mesh;
 }
 
 int create(const casefile::Case& the_case, bool wait, const Globals& globals) {
   Session session(globals);
-  v1::Mesh mesh = create_mesh(session, the_case);
-  if (wait) {
-    mesh = client::wait_for_mesh(
-        session.connection(), mesh.name(),
-        [&](const v1::Mesh& now) {
-          if (!client::settled(now.state())) {
-            say(globals, now.name() + ": " + std::string(word(now.state())));
-          }
-        },
-        session.stop());
-  }
+  const v1::Mesh mesh = create_mesh(session, the_case);
   if (mesh.state() == v1::Mesh::STATE_FAILED) {
     throw client::decode_error(mesh.error());
   }
-  return show(globals, mesh);
+  return show(globals, wait ? wait_for(session, mesh.name()) : mesh);
 }
 
 int upload(const MeshOptions& options, const Globals& globals) {
-  casefile::Case the_case;
-  the_case.path = options.file;
-  the_case.mesh_file = options.file;
-  the_case.mesh.set_title(options.title);
-  for (const char* field : {"upload", "header", "chunk"}) {
-    the_case.spots[field] = {"", options.file, 0};
+  return create(casefile::mesh_file_case(options.file, options.title, options.overrides),
+                !options.no_wait, globals);
+}
+
+/// "meshes/ID", or the name of a mesh made from a case or a .msh file.
+std::string mesh_name_of(Session& session, const MeshOptions& options) {
+  const std::string extension = std::filesystem::path(options.name).extension();
+  if (extension == ".msh") {
+    return create_mesh(session, casefile::mesh_file_case(options.name, "", options.overrides))
+        .name();
   }
-  return create(the_case, !options.no_wait, globals);
+  if (extension == ".toml") {
+    return create_mesh(session, casefile::read_case(options.name, options.overrides)).name();
+  }
+  if (!options.overrides.empty()) {
+    throw std::runtime_error("--set means nothing for a mesh on the server; name a case");
+  }
+  return full_name("meshes/", options.name);
+}
+
+int show_mesh(const MeshOptions& options, const Globals& globals) {
+  Session session(globals);
+  const std::string name = mesh_name_of(session, options);
+  if (options.folder.empty() && name == full_name("meshes/", options.name)) {
+    return show(globals, client::get_mesh(session.connection(), name, session.stop()));
+  }
+  const v1::Mesh mesh = wait_for(session, name);
+  show(globals, mesh);
+  if (options.folder.empty()) {
+    return exit_ok;
+  }
+  const client::Block block = client::read_mesh(session.connection(), name, session.stop());
+  const std::string stem = name.substr(std::string("meshes/").size());
+  const figures::Drawn drawn =
+      figures::draw_mesh(to_mesh_plan(mesh, block), "mesh-" + stem, options.folder);
+  for (const auto& file : drawn.files) {
+    say(globals, file.string());
+  }
+  for (const std::string& note : drawn.notes) {
+    say(globals, note);
+  }
+  return exit_ok;
 }
 
 int list(const MeshOptions& options, const Globals& globals) {
@@ -156,11 +141,18 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
         [options, action, &chosen] { chosen = [options, action] { return action(*options); }; });
   };
 
+  const auto add_overrides = [&](CLI::App* command) {
+    command
+        ->add_option("--set", options->overrides,
+                     "Override a key of the case; of a .msh one of [mesh], for example "
+                     "mesh.groups.curve.7=crack")
+        ->allow_extra_args(false)
+        ->type_name("KEY=VALUE");
+  };
+
   CLI::App* create_command = group->add_subcommand("create", "Create the mesh of a case");
   create_command->add_option("CASE", options->file, "The case, a TOML file")->required();
-  create_command->add_option("--set", options->overrides, "Override a key of the case")
-      ->allow_extra_args(false)
-      ->type_name("KEY=VALUE");
+  add_overrides(create_command);
   create_command->add_flag("--no-wait", options->no_wait, "Do not wait until it is factorised");
   create_command->footer("Example:\n  anticrack mesh create client/examples/paper.toml");
   on(create_command, [&globals](const MeshOptions& o) {
@@ -171,7 +163,8 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
   upload_command->add_option("FILE", options->file, "MSH 2.2 or 4.1, ascii or binary")->required();
   upload_command->add_option("--title", options->title, "A title for people");
   upload_command->add_flag("--no-wait", options->no_wait, "Do not wait until it is factorised");
-  upload_command->footer("Example:\n  anticrack mesh upload plate.msh");
+  add_overrides(upload_command);
+  upload_command->footer("Example:\n  anticrack mesh upload plate.msh --set mesh.preset=uniform");
   on(upload_command, [&globals](const MeshOptions& o) { return upload(o, globals); });
 
   CLI::App* list_command = group->add_subcommand("list", "List the newest meshes");
@@ -181,14 +174,18 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
   list_command->footer("Example:\n  anticrack mesh list --limit 10");
   on(list_command, [&globals](const MeshOptions& o) { return list(o, globals); });
 
-  CLI::App* show_command = group->add_subcommand("show", "Show a mesh");
-  show_command->add_option("MESH", options->name, "meshes/ID")->required();
-  show_command->footer("Example:\n  anticrack mesh show meshes/0123456789abcdef");
-  on(show_command, [&globals](const MeshOptions& o) {
-    Session session(globals);
-    return show(globals, client::get_mesh(session.connection(), full_name("meshes/", o.name),
-                                          session.stop()));
-  });
+  CLI::App* show_command =
+      group->add_subcommand("show", "Show a mesh as the server understood it, and draw it");
+  show_command
+      ->add_option("MESH", options->name,
+                   "meshes/ID, or a case (.toml) or .msh file to make the mesh of")
+      ->required();
+  show_command->add_option("-o,--output", options->folder, "Folder to draw it into, PNG and SVG");
+  add_overrides(show_command);
+  show_command->footer(
+      "Example:\n  anticrack mesh show plate.msh -o figures\n"
+      "  anticrack mesh show meshes/0123456789abcdef");
+  on(show_command, [&globals](const MeshOptions& o) { return show_mesh(o, globals); });
 }
 
 }  // namespace anticrack::cli

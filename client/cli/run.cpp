@@ -17,6 +17,7 @@
 #include "cli/submit.hpp"
 #include "cli/text.hpp"
 #include "client/jobs.hpp"
+#include "client/meshes.hpp"
 #include "client/uuid.hpp"
 #include "results/file.hpp"
 
@@ -105,6 +106,14 @@ void save(const fs::path& output, const results::Result& result, const Session& 
   }
 }
 
+// What an import took for what, or repaired.
+void tell_warnings(Session& session, const v1::Job& job) {
+  for (const std::string& warning :
+       client::get_mesh(session.connection(), job.mesh(), session.stop()).warnings()) {
+    say(session.globals(), "mesh: " + warning);
+  }
+}
+
 int run(const RunOptions& options, const Globals& globals) {
   const auto begin = std::chrono::steady_clock::now();
   const casefile::Case the_case = casefile::read_case(options.case_file, options.overrides);
@@ -123,6 +132,7 @@ int run(const RunOptions& options, const Globals& globals) {
     }
     return exit_interrupted;
   }
+  tell_warnings(session, followed.job);
   const int job_code = followed.how == Followed::How::cancelled
                            ? exit_interrupted
                            : exit_code_of(followed.job.state());

@@ -3,6 +3,10 @@
 //   anticrack server
 #include <CLI/CLI.hpp>
 
+#include <map>
+#include <string>
+#include <vector>
+
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/json.hpp"
@@ -12,17 +16,34 @@
 namespace anticrack::cli {
 namespace {
 
+// "force: array, constant, ..." for those that share what stands before their dot, in one line the
+// others.
+std::vector<std::string> feature_lines(const v1::ServerInfo& info) {
+  std::map<std::string, std::string> groups;
+  for (const std::string& feature : info.features()) {
+    const std::size_t dot = feature.find('.');
+    const bool grouped = dot != std::string::npos;
+    std::string& group = groups[grouped ? feature.substr(0, dot) : ""];
+    group += (group.empty() ? "" : ", ") + sanitise(grouped ? feature.substr(dot + 1) : feature);
+  }
+  std::vector<std::string> lines;
+  lines.reserve(groups.size());
+  for (const auto& [name, features] : groups) {
+    lines.push_back(name.empty() ? features : sanitise(name) + ": " + features);
+  }
+  return lines;
+}
+
 std::string text_of(const v1::ServerInfo& info, const std::string& address) {
   const v1::ServerMetrics& metrics = info.metrics();
   const v1::ServerLimits& limits = info.limits();
-  std::string features;
-  for (const std::string& feature : info.features()) {
-    features += (features.empty() ? "" : ", ") + sanitise(feature);
-  }
-  const std::vector<std::vector<std::string>> rows{
+  std::vector<std::vector<std::string>> rows{
       {"address", sanitise(address)},
-      {"version", sanitise(info.version()) + " (" + sanitise(info.build()) + ")"},
-      {"features", features},
+      {"version", sanitise(info.version()) + " (" + sanitise(info.build()) + ")"}};
+  for (const std::string& line : feature_lines(info)) {
+    rows.push_back({rows.size() == 2 ? "features" : "", line});
+  }
+  const std::vector<std::vector<std::string>> counters{
       {"solver threads", std::to_string(info.threads())},
       {"jobs", std::to_string(metrics.jobs_queued()) + " queued, " +
                    std::to_string(metrics.jobs_running()) + " running, " +
@@ -41,6 +62,7 @@ std::string text_of(const v1::ServerInfo& info, const std::string& address) {
                      bytes(limits.upload_bytes()) + ", " + std::to_string(limits.load_cases()) +
                      " load cases a job, " + std::to_string(limits.iterations()) +
                      " iterations a load case"}};
+  rows.insert(rows.end(), counters.begin(), counters.end());
   return table(rows, {1});
 }
 

@@ -103,7 +103,33 @@ std::vector<results::ArrayView> views_of(const client::Block& block) {
   return views;
 }
 
+void add_subdomains(const v1::Mesh& from, results::Mesh& to) {
+  to.subdomains.reserve(static_cast<std::size_t>(from.subdomains_size()));
+  to.tension.reserve(static_cast<std::size_t>(from.subdomains_size()));
+  for (const v1::SubdomainInfo& subdomain : from.subdomains()) {
+    to.subdomains.push_back(subdomain.name());
+    // A server that knows no tension solves with 1.
+    to.tension.push_back(subdomain.tension() > 0 ? subdomain.tension() : 1);
+  }
+}
+
 }  // namespace
+
+results::MeshPlan to_mesh_plan(const v1::Mesh& mesh, const client::Block& block) {
+  results::MeshPlan plan;
+  plan.title = mesh.title().empty() ? mesh.name() : mesh.title();
+  add_subdomains(mesh, plan.mesh);
+  plan.inclusions.assign(mesh.inclusions().begin(), mesh.inclusions().end());
+  plan.interfaces.reserve(static_cast<std::size_t>(mesh.interfaces_size()));
+  for (const v1::InterfaceInfo& interface : mesh.interfaces()) {
+    plan.interfaces.push_back({interface.name(), {}, {}, {}});
+  }
+  plan.tips.reserve(static_cast<std::size_t>(mesh.tips_size()));
+  for (const v1::TipInfo& tip : mesh.tips()) {
+    plan.tips.push_back({tip.at().x(), tip.at().y(), tip.smallest_edge()});
+  }
+  return results::assemble_mesh(std::move(plan), views_of(block));
+}
 
 results::Result to_result(const Fetched& fetched) {
   results::Result result;
@@ -115,11 +141,7 @@ results::Result to_result(const Fetched& fetched) {
   result.mesh_sha256 = fetched.mesh.sha256();
   result.timings.mesh_seconds = fetched.mesh.mesh_seconds();
   result.timings.factorize_seconds = fetched.mesh.factorize_seconds();
-  for (const v1::SubdomainInfo& subdomain : fetched.mesh.subdomains()) {
-    result.mesh.subdomains.push_back(subdomain.name());
-    // A server that knows no tension solves with 1.
-    result.mesh.tension.push_back(subdomain.tension() > 0 ? subdomain.tension() : 1);
-  }
+  add_subdomains(fetched.mesh, result.mesh);
   std::map<std::string, std::size_t> interfaces;
   for (const v1::InterfaceInfo& interface : fetched.mesh.interfaces()) {
     interfaces.emplace(interface.name(), result.interfaces.size());

@@ -9,6 +9,7 @@
 #include "anticrack/v1/server.pb.h"
 #include "anticrack/v1/solve.pb.h"
 #include "client/block.hpp"
+#include "results/mesh_plan.hpp"
 #include "results/result.hpp"
 
 namespace anticrack::cli {
@@ -23,5 +24,8 @@ struct Fetched {
 
 /// Throws results::Error for what does not fit together.
 results::Result to_result(const Fetched& fetched);
+
+/// What ReadMesh gave for a mesh, to be drawn. Throws as to_result.
+results::MeshPlan to_mesh_plan(const v1::Mesh& mesh, const client::Block& block);
 
 }  // namespace anticrack::cli

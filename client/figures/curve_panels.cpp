@@ -99,9 +99,10 @@ std::string traces_panel(const Profile& profile, const Load& load, const Place& 
         (answer.empty() ? "" : ",  ") + std::string("A = ") + readable(inclusion.displacement);
     if (load.inclusions.size() > 1) answer += " (" + inclusion.name + ")";
   }
-  text += caption(
-      "displacements and jump on the interface" + (answer.empty() ? std::string() : ",  " + answer),
-      place);
+  text += caption("displacements and jump on " +
+                      (profile.name.empty() ? std::string("the interface") : profile.name) +
+                      (answer.empty() ? std::string() : ",  " + answer),
+                  place);
   const auto [low, high] = std::minmax_element(profile.position.begin(), profile.position.end());
   if (low != high) text += "set xrange [" + number(*low) + ":" + number(*high) + "]\n";
   text += "set offsets 0, 0, graph 0.06, graph 0.06\nset autoscale y\n";
@@ -121,59 +122,104 @@ std::string traces_panel(const Profile& profile, const Load& load, const Place& 
   return text;
 }
 
-bool has_convergence(const Load& load) {
-  return std::any_of(load.history.criterion.begin(), load.history.criterion.end(),
-                     [](double criterion) { return criterion > 0 && std::isfinite(criterion); });
-}
-
-std::string convergence_data(const Load& load) {
-  std::string text = "$history << EOD\n";
-  for (std::size_t i = 0; i < load.history.size(); ++i) {
-    const double criterion = load.history.criterion[i];
-    // A log axis has no place for zero; what cannot be drawn leaves a gap.
-    text += std::to_string(load.history.iteration[i]) + " " +
-            (criterion > 0 ? number(criterion) : "NaN") + "\n";
-  }
-  return text + "EOD\n";
-}
-
 namespace {
 
+/// What the history shows of a method's way to the answer.
+struct Series {
+  const std::vector<double>* values;
+  const char* title;
+  const char* style;
+};
+
+const char* const blue_solid = "linecolor rgb '#0072B2' dashtype solid";
+
+/// Algorithm 2 has its criterion; the active set has none, it is done when the conditions hold.
+std::vector<Series> series_of(const Load& load) {
+  const results::History& history = load.history;
+  if (load.method != "active-set") {
+    return {{&history.criterion, "criterion of step 3", blue_solid}};
+  }
+  return {
+      {&history.kkt_gap, "gap", blue_solid},
+      {&history.kkt_sign, "sign", "linecolor rgb '#009E73' dashtype (8,4)"},
+      {&history.kkt_complementarity, "complementarity", "linecolor rgb '#222222' dashtype (2,3)"}};
+}
+
+bool drawable(double value) {
+  return value > 0 && std::isfinite(value);
+}
+
 bool has_epsilon(const Load& load) {
-  return std::isfinite(load.epsilon) && load.epsilon > 0;
+  return drawable(load.epsilon);
 }
 
 /// Smallest positive number to be drawn.
 double lowest(const Load& load) {
   double least = has_epsilon(load) ? load.epsilon : 1;
-  for (const double criterion : load.history.criterion) {
-    if (criterion > 0) least = std::min(least, criterion);
+  for (const Series& series : series_of(load)) {
+    for (const double value : *series.values) {
+      if (drawable(value)) least = std::min(least, value);
+    }
   }
   return std::max(least, 1e-300);
 }
 
+std::string counted(const Load& load) {
+  const std::string unit = load.method == "active-set" ? " step" : " iteration";
+  return std::to_string(load.iterations) + unit + (load.iterations == 1 ? "" : "s");
+}
+
 }  // namespace
 
+bool has_convergence(const Load& load) {
+  for (const Series& series : series_of(load)) {
+    if (std::any_of(series.values->begin(), series.values->end(), drawable)) return true;
+  }
+  return false;
+}
+
+std::string convergence_data(const Load& load) {
+  std::string text = "$history << EOD\n";
+  for (std::size_t i = 0; i < load.history.size(); ++i) {
+    text += std::to_string(load.history.iteration[i]);
+    // A log axis has no place for zero; what cannot be drawn leaves a gap.
+    for (const Series& series : series_of(load)) {
+      const double value = (*series.values)[i];
+      text += " " + (value > 0 ? number(value) : std::string("NaN"));
+    }
+    text += "\n";
+  }
+  return text + "EOD\n";
+}
+
 std::string convergence_panel(const Load& load, const Place& place) {
+  const bool steps = load.method == "active-set";
   std::string text = margins(place, 0.12, 0.96, 0.19, 0.925) + axes();
   std::string how(results::name(load.status));
   std::replace(how.begin(), how.end(), '_', ' ');
-  how += " after " + std::to_string(load.iterations) +
-         (load.iterations == 1 ? " iteration" : " iterations");
+  how += " after " + counted(load);
   if (std::isfinite(load.theta)) how += ",  \xCE\xB8 = " + readable(load.theta);
   if (std::isfinite(load.theta_star)) how += ",  \xCE\xB8* = " + readable(load.theta_star);
   text += caption(how, place);
   text += "set logscale y\nset format y '10^{%T}'\n";
-  text += below("'iteration'", 0.11, place);
-  text += "set ylabel 'relative change of u, squared [-]'\n";
+  text += below(steps ? "'step of the active set'" : "'iteration'", 0.11, place);
+  text += steps ? "set ylabel 'KKT residual [-]'\n"
+                : "set ylabel 'relative change of u, squared [-]'\n";
   text += "set xrange [0:" + number(load.history.size() == 0 ? 1 : load.history.iteration.back()) +
           "]\n";
   text += "set yrange [" + number(0.1 * lowest(load)) + ":*]\n";
   text += "set key at screen " + number(place.x + 0.54 * place.width) + ", screen " +
           number(place.y + 0.01 * place.height) +
           " center bottom vertical maxrows 1 Left reverse samplen 2.5\n";
-  text += "plot $history using 1:2 with lines linewidth 2 linecolor " + blue +
-          " title 'criterion of step 3'";
+  std::string plots;
+  int column = 2;
+  for (const Series& series : series_of(load)) {
+    plots += (plots.empty() ? "plot $history using 1:" : ", $history using 1:") +
+             std::to_string(column++) + " with " +
+             (steps ? "linespoints pointtype 7 pointsize 0.8" : "lines") + " linewidth 2 " +
+             series.style + " title '" + series.title + "'";
+  }
+  text += plots;
   if (has_epsilon(load)) {
     text += ", " + number(load.epsilon) + " with lines linewidth 1.5 linecolor " + vermillion +
             " dashtype (8,4) title '\xCE\xB5 = " + readable(load.epsilon) + "'";

@@ -33,7 +33,7 @@ struct Drawn {
 /// Draws for every load with traces, as .png and .svg in `folder` (made if missing):
 ///   LOAD-membrane     the deformed membrane with its slit open; needs fields
 ///   LOAD-traces       u-, u+ and [u] along each interface, contact shaded
-///   LOAD-convergence  the criterion of every iteration, log scale
+///   LOAD-convergence  the criterion of every iteration, or the KKT residuals of every step, log
 ///   LOAD              membrane left, traces right, as in the paper
 /// LOAD is the load's name made safe for a file name, and unique. With several interfaces the
 /// traces of the second and later are LOAD-traces-2 and so on. Each file is written under a

@@ -44,25 +44,23 @@ std::string mesh_script(const results::MeshPlan& plan, const std::vector<Output>
   const MeshLayers overview = layers(plan, everything);
   const bool overview_triangles = few(overview, "in the whole", notes);
   const std::string title = figures::quoted(plan.title.empty() ? "mesh" : plan.title, 90);
+  MeshPanel first{"A", everything, counts(plan.mesh), overview_triangles, all};
   Window near;
   results::Tip tip;
   if (!finest_tip(plan, near, tip)) {
     return script(
-        mesh_data(overview, "A"), title,
-        [&](Format) {
-          return mesh_panel(overview, "A", everything, counts(plan.mesh), overview_triangles, all) +
-                 mesh_legend(overview, below);
-        },
+        mesh_data(overview, first.tag), title,
+        [&](Format) { return mesh_panel(overview, first, single) + mesh_legend(overview, below); },
         single, outputs);
   }
+  first.place = left;
   const MeshLayers detail = layers(plan, near);
   const bool detail_triangles = few(detail, "around the tip", notes);
+  const MeshPanel second{"B", near, caption_of(tip, near, everything), detail_triangles, right};
   return script(
-      mesh_data(overview, "A") + mesh_data(detail, "B"), title,
+      mesh_data(overview, first.tag) + mesh_data(detail, second.tag), title,
       [&](Format) {
-        return mesh_panel(overview, "A", everything, counts(plan.mesh), overview_triangles, left) +
-               mesh_panel(detail, "B", near, caption_of(tip, near, everything), detail_triangles,
-                          right) +
+        return mesh_panel(overview, first, wide) + mesh_panel(detail, second, wide) +
                mesh_legend(overview, below);
       },
       wide, outputs);

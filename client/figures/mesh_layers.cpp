@@ -176,13 +176,17 @@ void add_subdomain_names(const Mesh& mesh, const Window& window, MeshLayers& to)
   }
   for (const PlusSide& side : to.plus_sides) lines.push_back(side.to);
   lines = thinned(lines, 1000);
+  const double margin_x = 0.12 * window.width();
+  const double margin_y = 0.08 * window.height();
+  const Window room_for_names{window.x_min + margin_x, window.x_max - margin_x,
+                              window.y_min + margin_y, window.y_max - margin_y};
   for (std::size_t d = 0; d < to.triangles.size(); ++d) {
     double best = 0;
     Spot place;
     for (const auto& triangle : thinned(to.triangles[d], 3000)) {
       const Spot centre{(triangle[0].x + triangle[1].x + triangle[2].x) / 3,
                         (triangle[0].y + triangle[1].y + triangle[2].y) / 3};
-      if (!inside(centre, window)) continue;
+      if (!inside(centre, room_for_names)) continue;
       double room = std::numeric_limits<double>::infinity();
       for (const Spot& spot : lines) room = std::min(room, squared(centre, spot));
       if (room > best) {

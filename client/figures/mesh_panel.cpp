@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "figures/mesh_panel.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "figures/text.hpp"
 
@@ -77,15 +79,36 @@ std::string screen(double x, double y, const Place& place) {
          number(place.y + y * place.height);
 }
 
+/// The largest box inside the place in which both axes have one scale.
+std::string margins(const Window& window, const Place& place, const Canvas& canvas) {
+  constexpr double left = 0.09, right = 0.97, bottom = 0.06, top = 0.93;
+  const double room_x = (right - left) * place.width * canvas.width;  // pixels
+  const double room_y = (top - bottom) * place.height * canvas.height;
+  const double scale = std::min(room_x / window.width(), room_y / window.height());
+  const double half_x = 0.5 * scale * window.width() / canvas.width;
+  const double half_y = 0.5 * scale * window.height() / canvas.height;
+  const double middle_x = place.x + 0.5 * (left + right) * place.width;
+  const double middle_y = place.y + 0.5 * (bottom + top) * place.height;
+  return "set lmargin at screen " + number(middle_x - half_x) + "\nset rmargin at screen " +
+         number(middle_x + half_x) + "\nset bmargin at screen " + number(middle_y - half_y) +
+         "\nset tmargin at screen " + number(middle_y + half_y) + "\n";
+}
+
+std::string drawn_data(const Style& style, const std::string& tag) {
+  return std::string(", $") + style.name + tag + " using 1:2 with " + style.drawn + " notitle";
+}
+
 std::string labels(const MeshLayers& layers) {
   std::string text;
   for (const PlusSide& side : layers.plus_sides) {
+    const bool leftwards = side.from.x - side.to.x > 0.5 * std::abs(side.to.y - side.from.y);
     text += "set arrow from " + number(side.from.x) + "," + number(side.from.y) + " to " +
             number(side.to.x) + "," + number(side.to.y) +
             " head filled size screen 0.008,22 linewidth 2 linecolor rgb '#000000' front\n";
     text += "set label " + figures::quoted(side.name + " +", 40) + " at " + number(side.to.x) +
             "," + number(side.to.y) +
-            " offset 0.6,0.4 left noenhanced textcolor rgb '#000000' front\n";
+            (leftwards ? " offset -0.6,0 right" : " offset 0.6,0.3 left") +
+            " noenhanced textcolor rgb '#000000' front\n";
   }
   for (const auto& [spot, name] : layers.subdomain_names) {
     text += "set label " + figures::quoted(name, 40) + " at " + number(spot.x) + "," +
@@ -109,38 +132,29 @@ std::string mesh_data(const MeshLayers& layers, const std::string& tag) {
   return text + block(tips.name + tag, points);
 }
 
-std::string mesh_panel(const MeshLayers& layers, const std::string& tag, const Window& window,
-                       const std::string& caption, bool with_triangles, const Place& place) {
-  std::string text;
-  text += "set lmargin at screen " + number(place.x + 0.09 * place.width) + "\n";
-  text += "set rmargin at screen " + number(place.x + 0.97 * place.width) + "\n";
-  text += "set bmargin at screen " + number(place.y + 0.06 * place.height) + "\n";
-  text += "set tmargin at screen " + number(place.y + 0.93 * place.height) + "\n";
-  text += "set size ratio -1\nunset key\nset border 0\n";
+std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const Canvas& canvas) {
+  const Window& window = panel.window;
+  std::string text = margins(window, panel.place, canvas);
+  text += "unset key\nset border 0\n";
   text += "set tics nomirror textcolor rgb '#333333'\nset xtics autofreq\nset ytics autofreq\n";
   text += "set xrange [" + number(window.x_min) + ":" + number(window.x_max) + "]\n";
   text += "set yrange [" + number(window.y_min) + ":" + number(window.y_max) + "]\n";
-  text += "set label 2 " + caption + " at " + screen(0.53, 0.965, place) +
+  text += "set label 2 " + panel.caption + " at " + screen(0.53, 0.965, panel.place) +
           " center noenhanced textcolor rgb '#222222'\n";
   text += labels(layers);
   std::string plots = "plot NaN notitle";
-  for (std::size_t d = 0; with_triangles && d < layers.triangles.size(); ++d) {
+  for (std::size_t d = 0; panel.with_triangles && d < layers.triangles.size(); ++d) {
     if (layers.triangles[d].empty()) continue;
-    const std::string data = ", $subdomain" + std::to_string(d) + tag + " using 1:2 with ";
+    const std::string data = ", $subdomain" + std::to_string(d) + panel.tag + " using 1:2 with ";
     plots += data + "filledcurves closed fillcolor rgb '" + paints[d % paints.size()] +
              "' fillstyle solid 1 noborder notitle";
     plots += data + "lines linewidth 0.5 linecolor rgb '#A8A8A8' notitle";
   }
   for (const auto& [style, stretches] : line_layers(layers)) {
-    if (!stretches->empty()) {
-      plots +=
-          std::string(", $") + style.name + tag + " using 1:2 with " + style.drawn + " notitle";
-    }
+    if (!stretches->empty()) plots += drawn_data(style, panel.tag);
   }
-  if (!layers.tips.empty()) {
-    plots += std::string(", $") + tips.name + tag + " using 1:2 with " + tips.drawn + " notitle";
-  }
-  return text + plots + "\nunset label\nunset arrow\nset size noratio\n";
+  if (!layers.tips.empty()) plots += drawn_data(tips, panel.tag);
+  return text + plots + "\nunset label\nunset arrow\n";
 }
 
 std::string mesh_legend(const MeshLayers& layers, const Place& place) {

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "figures/canvas.hpp"
 #include "figures/mesh_layers.hpp"
 #include "figures/panels.hpp"
 
@@ -13,9 +14,17 @@ namespace anticrack::figures {
 /// The data blocks of the layers; `tag` tells those of several panels apart.
 std::string mesh_data(const MeshLayers& layers, const std::string& tag);
 
-/// Draws them under a caption (made by `quoted`), with the triangles or without.
-std::string mesh_panel(const MeshLayers& layers, const std::string& tag, const Window& window,
-                       const std::string& caption, bool with_triangles, const Place& place);
+/// Where and how large a panel is drawn.
+struct MeshPanel {
+  std::string tag;  ///< of its data
+  Window window;
+  std::string caption;  ///< made by `quoted`
+  bool with_triangles = true;
+  Place place;
+};
+
+/// Draws the layers to one scale in both directions, in the middle of the panel's place.
+std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const Canvas& canvas);
 
 /// The legend of everything that some panel shows.
 std::string mesh_legend(const MeshLayers& layers, const Place& place);

@@ -32,7 +32,8 @@ std::string membrane_panel(const Surface& surface, double view, const Place& pla
 std::string traces_data(const Profile& profile, const results::Trace& trace);
 std::string traces_panel(const Profile& profile, const results::Load& load, const Place& place);
 
-/// Whether there is anything to draw on a log axis.
+/// Whether there is anything to draw on a log axis: the criterion of Algorithm 2, or the KKT
+/// residuals of the active set.
 bool has_convergence(const results::Load& load);
 std::string convergence_data(const results::Load& load);
 std::string convergence_panel(const results::Load& load, const Place& place);

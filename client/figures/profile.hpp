@@ -17,6 +17,7 @@ struct Band {
 };
 
 struct Profile {
+  std::string name;              ///< of the interface, where there are several; else empty
   std::string axis;              ///< label, e.g. "x [-]"
   std::vector<double> position;  ///< (k) along the axis, increasing or decreasing
   std::vector<Band> delaminated;

@@ -11,6 +11,12 @@ namespace {
 using results::Load;
 using results::Result;
 
+Profile profile_of(const Result& result, const Load& load, std::size_t interface) {
+  Profile along = profile(result.interfaces.at(interface), load.traces.at(interface));
+  if (result.interfaces.size() > 1) along.name = result.interfaces[interface].name;
+  return along;
+}
+
 std::string title_of(const Result& result, const Load& load) {
   return quoted(result.title.empty() ? load.name : result.title + " \xE2\x80\x94 " + load.name, 90);
 }
@@ -29,7 +35,7 @@ std::string membrane_script(const Result& result, const Load& load, const Surfac
 
 std::string traces_script(const Result& result, const Load& load, std::size_t interface,
                           const std::vector<Output>& outputs) {
-  const Profile along = profile(result.interfaces.at(interface), load.traces.at(interface));
+  const Profile along = profile_of(result, load, interface);
   return script(
       traces_data(along, load.traces[interface]), title_of(result, load),
       [&](Format) {
@@ -50,7 +56,7 @@ std::string convergence_script(const Result& result, const Load& load,
 
 std::string combined_script(const Result& result, const Load& load, const Surface& surface,
                             const std::vector<Output>& outputs) {
-  const Profile along = profile(result.interfaces.at(0), load.traces.at(0));
+  const Profile along = profile_of(result, load, 0);
   return script(
       membrane_data(surface) + traces_data(along, load.traces[0]), title_of(result, load),
       [&](Format format) {

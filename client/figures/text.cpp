@@ -66,7 +66,8 @@ std::string quoted(std::string_view text, std::size_t limit) {
       continue;
     }
     if (text[0] == '\'') {
-      out += "''";
+      // gnuplot does not see a doubled quote right after the one that opens the string.
+      out += out.size() == 1 ? "\xE2\x80\x99" : "''";
     } else if (text[0] == '`') {
       out += "\xE2\x80\x98";  // the typographic quote
     } else if (text[0] == '\\') {

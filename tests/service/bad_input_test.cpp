@@ -15,11 +15,13 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
+constexpr int any_error = -1;
+
 struct BadCase {
   std::string name;
   std::vector<std::string> overrides;  ///< of paper-3.toml
   std::vector<std::string> says;       ///< what the error must contain
-  int code = 2;
+  int code = 2;                        ///< any_error: seen now or once the mesh is known
 };
 
 void PrintTo(const BadCase& bad, std::ostream* out) {
@@ -40,7 +42,11 @@ TEST_P(BadInput, IsRefusedWithTheFieldNamed) {
     arguments.insert(arguments.end(), {"--set", entry});
   }
   const Ended run = server.client(arguments);
-  EXPECT_EQ(run.code, GetParam().code) << run.output << run.error;
+  if (GetParam().code == any_error) {
+    EXPECT_TRUE(run.code == 1 || run.code == 2) << run.code << run.output << run.error;
+  } else {
+    EXPECT_EQ(run.code, GetParam().code) << run.output << run.error;
+  }
   for (const std::string& text : GetParam().says) EXPECT_THAT(run.error, HasSubstr(text));
   EXPECT_FALSE(std::filesystem::exists(folder / "out.h5"));
   expect_still_serving(server);
@@ -67,7 +73,39 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"ThetaNegative", {"solver.theta=-1"}, {"theta", "-1"}},
         BadCase{"PNegative", {"solver.p=-5"}, {"p", "-5"}},
         BadCase{"EpsilonZero", {"solver.epsilon=0"}, {"epsilon", "0"}},
-        BadCase{"UnknownKey", {"solver.tetha=1"}, {"tetha", "theta"}}),
+        BadCase{"UnknownKey", {"solver.tetha=1"}, {"tetha", "theta"}},
+        BadCase{"KktToleranceZero", {"solver.kkt_tolerance=0"}, {"kkt_tolerance", "0"}},
+        BadCase{"KeyOfTheOtherMethod", {"solver.max_steps=5"}, {"max_steps", "active-set"}},
+        BadCase{"SizeNegative", {"mesh.preset=graded", "mesh.size=-1"}, {"mesh.size", "-1"}},
+        BadCase{"GradingAboveOne", {"mesh.preset=graded", "mesh.grading=2"}, {"grading", "2"}},
+        BadCase{"AlignOutside",
+                {"mesh.preset=graded", "mesh.align=[[[0, 0.5], [0, 5]]]"},
+                {"mesh.align"}},
+        BadCase{"NeumannOffTheBoundary", {"geometry.neumann=[[[0,0],[1,1]]]"}, {"neumann"}},
+        BadCase{"RegionOutside",
+                {"geometry.region.0.name=top", "geometry.region.0.at=[5,5]"},
+                {"region"},
+                any_error},
+        BadCase{"TensionNegative",
+                {"geometry.region.0.name=top", "geometry.region.0.at=[0,0.5]",
+                 "geometry.region.0.tension=-1"},
+                {"tension", "-1"}},
+        BadCase{"InterfacesAlongEachOther",
+                {"mesh.preset=graded",
+                 "geometry.interface=[{points=[[-1,0],[1,0]]},{points=[[0,0],[1,0]]}]"},
+                {"interface"}},
+        BadCase{"ArcThroughALine",
+                {"mesh.preset=graded", "geometry.interface=[{arc=[[-1,0],[0,0],[1,0]]}]"},
+                {"interface"}},
+        BadCase{"TractionSyntax",
+                {"geometry.neumann=[[[1,-1],[1,1]]]", "load.0.traction='x +* 2'"},
+                {"x +* 2"}},
+        BadCase{
+            "PointForceOutside", {"load.0.point_forces=[{at=[3,3],value=1}]"}, {"3"}, any_error},
+        BadCase{"InclusionForceOnNone", {"load.0.inclusion_forces={rod=1}"}, {"rod"}, any_error},
+        BadCase{"ForceFileMissing",
+                {"load.0.f={file='no.h5',dataset='/f',per='node'}"},
+                {"load.0.f", "no.h5"}}),
     [](const auto& tested) { return tested.param.name; });
 
 TEST(BadInputFile, DuplicateLoadName) {

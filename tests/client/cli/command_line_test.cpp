@@ -57,6 +57,7 @@ TEST(CommandLine, HelpOfEveryCommandHasAnExample) {
                                                        {"job", "delete"},
                                                        {"show"},
                                                        {"plot"},
+                                                       {"export"},
                                                        {"server"}};
   for (std::vector<std::string> command : commands) {
     command.emplace_back("--help");
@@ -102,9 +103,9 @@ TEST(CommandLine, NamesACaseThatCannotBeRead) {
 }
 
 TEST(CommandLine, NamesAResultThatCannotBeRead) {
-  for (const char* command : {"show", "plot"}) {
+  for (const char* command : {"show", "plot", "export"}) {
     std::vector<std::string> arguments{command, "no-such-file.h5"};
-    if (std::string(command) == "plot") {
+    if (std::string(command) != "show") {
       arguments.insert(arguments.end(), {"-o", "figures"});
     }
     const Ran missing = run(arguments);

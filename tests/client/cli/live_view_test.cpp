@@ -95,6 +95,32 @@ TEST(Frame, BeforeTheFirstEventIsOneLine) {
   EXPECT_THAT(frame(JobProgress(), 80, 24), ElementsAre("job: submitted"));
 }
 
+JobProgress active_set() {
+  v1::WatchJobResponse event = snapshot(2);
+  event.mutable_snapshot()->mutable_job()->mutable_solver()->mutable_active_set();
+  JobProgress progress;
+  progress.apply(event);
+  return progress;
+}
+
+TEST(Frame, OfTheActiveSetHasStepsAndNoBar) {
+  JobProgress progress = active_set();
+  progress.apply(load_ended(0, 4, 0));
+  progress.apply(sample(1, 2, 0, 41));
+  EXPECT_THAT(frame(progress, 101, 24),
+              ElementsAre("jobs/1: running, 1 of 2 load cases ended",
+                          "  load-0  converged      step     4     0.0125 s",
+                          "  load-1  running        step     2  contact  41"));
+}
+
+TEST(PlainLog, OfTheActiveSetCountsSteps) {
+  JobProgress progress = active_set();
+  PlainLog log;
+  log.lines(progress);
+  progress.apply(load_ended(0, 1, 0));
+  EXPECT_THAT(log.lines(progress), ElementsAre("load-0: converged after 1 step"));
+}
+
 TEST(PlainLog, TellsStatesEveryFiftiethIterationAndEnds) {
   JobProgress progress;
   PlainLog log;

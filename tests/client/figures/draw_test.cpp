@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -132,6 +133,41 @@ TEST(Draw, draws_an_interface_that_is_bent_and_one_that_stands_upright) {
   draw(result, folder.path(), {.png = true, .svg = false});
   EXPECT_TRUE(fs::exists(folder / "opening-traces.png"));
   EXPECT_TRUE(fs::exists(folder / "opening-traces-2.png"));
+}
+
+TEST(Draw, draws_an_interface_that_is_closed_and_names_several) {
+  const TemporaryFolder folder;
+  auto result = sample_result(4);
+  result.loads.resize(1);
+  auto ring = result.interfaces[0];
+  ring.name = "ring";
+  for (std::size_t i = 0; i < ring.node_count(); ++i) {
+    const double angle = 2 * std::acos(-1.0) * static_cast<double>(i) / 8;
+    ring.x[i] = std::cos(angle);
+    ring.y[i] = std::sin(angle);
+  }
+  result.interfaces.push_back(ring);
+  result.loads[0].traces.push_back(result.loads[0].traces[0]);
+  draw(result, folder.path(), {.png = false, .svg = true});
+  EXPECT_THAT(bytes_of(folder / "opening-traces.svg"), HasSubstr("jump on sigma"));
+  EXPECT_THAT(bytes_of(folder / "opening-traces-2.svg"), HasSubstr("jump on ring"));
+}
+
+TEST(Draw, draws_the_steps_of_the_active_set) {
+  const TemporaryFolder folder;
+  auto result = sample_result(4);
+  result.loads.resize(1);
+  auto& load = result.loads[0];
+  load.method = "active-set";
+  load.epsilon = load.theta = load.theta_star = results::unknown;
+  load.iterations = 3;
+  load.history = {{1, 2, 3}, {1, 0.5, 0},        {-1, -2, -2}, {5, 4, 4},
+                  {0, 0, 0}, {0.1, 0.01, 1e-17}, {0, 0, 0},    {0.2, 0, 0}};
+  draw(result, folder.path(), {.png = false, .svg = true});
+  const std::string svg = bytes_of(folder / "opening-convergence.svg");
+  EXPECT_THAT(svg, HasSubstr("converged after 3 steps"));
+  EXPECT_THAT(svg, HasSubstr("complementarity"));
+  EXPECT_THAT(svg, Not(HasSubstr("criterion of step 3")));
 }
 
 TEST(Draw, refuses_a_folder_it_cannot_write_and_a_broken_result) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -52,6 +53,67 @@ TEST(Surface, is_coarsened_to_the_limit_and_stays_whole) {
       plus = plus || v.y > 0;
     }
     EXPECT_FALSE(minus && plus);  // the slit stays open
+  }
+}
+
+/// The sample with the interface's crack inside one subdomain: a slit.
+results::Result slit_result(int n) {
+  results::Result result = sample_result(n);
+  result.mesh.subdomains = {"whole"};
+  result.mesh.tension = {1};
+  std::fill(result.mesh.subdomain.begin(), result.mesh.subdomain.end(), 0);
+  for (results::Load& load : result.loads) {
+    const results::Field lower = load.fields[0];
+    const results::Field upper = load.fields[1];
+    results::Field whole = lower;
+    std::vector<std::int32_t> place(upper.nodes.size());
+    for (std::size_t i = 0; i < upper.nodes.size(); ++i) {
+      const auto node = static_cast<std::size_t>(upper.nodes[i]);
+      const double x = result.mesh.xy[2 * node];
+      const bool tied = result.mesh.xy[2 * node + 1] == 0 && std::abs(x) >= 0.5 - 1e-9;
+      if (tied) {
+        const auto same = std::find(lower.nodes.begin(), lower.nodes.end(), upper.nodes[i]);
+        place[i] = static_cast<std::int32_t>(same - lower.nodes.begin());
+        continue;
+      }
+      place[i] = static_cast<std::int32_t>(whole.nodes.size());
+      whole.nodes.push_back(upper.nodes[i]);
+      whole.u.push_back(upper.u[i]);
+    }
+    for (const std::int32_t corner : upper.triangles) {
+      whole.triangles.push_back(place[static_cast<std::size_t>(corner)]);
+    }
+    load.fields = {whole};
+  }
+  return result;
+}
+
+/// Largest difference of u between the faces seen at the middle of the crack.
+double opening_at_the_middle(const Surface& surface) {
+  double low = 1e9, high = -1e9;
+  for (const Triangle& triangle : surface.triangles) {
+    for (const Vertex& v : triangle) {
+      if (v.y != 0 || std::abs(v.x) > 0.1) continue;
+      low = std::min(low, v.u);
+      high = std::max(high, v.u);
+    }
+  }
+  return high - low;
+}
+
+TEST(Surface, of_a_slit_is_open) {
+  const auto result = slit_result(40);
+  ASSERT_EQ(results::first_fault(result), "");
+  for (const std::size_t limit : {100000u, 3000u}) {
+    const Surface seen = surface(result, result.loads[0], limit);
+    EXPECT_LE(seen.triangles.size(), limit);
+    EXPECT_GT(opening_at_the_middle(seen), 0.1) << limit;
+    for (const Triangle& triangle : seen.triangles) {
+      const auto [low, high] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
+      const double x = (triangle[0].x + triangle[1].x + triangle[2].x) / 3;
+      EXPECT_FALSE(low < 0 && high > 0 && std::abs(x) < 0.4) << "a triangle spans the slit";
+    }
+    EXPECT_NEAR(area(seen), 4.0, 0.15);
   }
 }
 

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/mesh_text.hpp"
+
+#include <vector>
+
+#include "cli/progress.hpp"
+#include "cli/text.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string kind_of(v1::InterfaceKind kind) {
+  switch (kind) {
+    case v1::INTERFACE_KIND_GLUE:
+      return "glue";
+    case v1::INTERFACE_KIND_CRACK:
+      return "crack";
+    case v1::INTERFACE_KIND_INCLUSION:
+      return "bonded";
+    case v1::INTERFACE_KIND_DELAMINATED:
+      return "delaminated";
+    default:
+      return "unknown";
+  }
+}
+
+std::string inclusion_of(const v1::Mesh& mesh, int inclusion) {
+  const bool named = inclusion >= 0 && inclusion < mesh.inclusions_size();
+  return named ? sanitise(mesh.inclusions(inclusion)) : "-";
+}
+
+std::string head(const v1::Mesh& mesh) {
+  std::string text = sanitise(mesh.name()) + ": " + std::string(word(mesh.state())) + "\n";
+  if (!mesh.title().empty()) {
+    text += sanitise(mesh.title()) + "\n";
+  }
+  if (mesh.has_error()) {
+    text += sanitise(mesh.error().message()) + "\n";
+  }
+  return text;
+}
+
+std::string sizes(const v1::Mesh& mesh) {
+  std::string text = std::to_string(mesh.triangle_count()) + " triangles, " +
+                     std::to_string(mesh.node_count()) + " nodes, meshed in " +
+                     number(mesh.mesh_seconds(), 3) + " s; smallest angle " +
+                     number(mesh.minimum_angle(), 3) + " degrees";
+  if (mesh.bisection_bound() > 0) {
+    text += " (no grading can go below " + number(mesh.bisection_bound(), 3) + ")";
+  }
+  text += "\n";
+  if (mesh.operator_bytes() > 0) {
+    text += "factors of " + bytes(mesh.operator_bytes()) + " made in " +
+            number(mesh.factorize_seconds(), 3) + " s";
+    text += mesh.theta_star() > 0 ? ", theta* " + number(mesh.theta_star()) + "\n" : "\n";
+  }
+  return text;
+}
+
+std::string subdomains(const v1::Mesh& mesh) {
+  Rows rows{{"subdomain", "triangles", "nodes", "area", "tension", "smallest angle",
+             "shortest edge", "longest edge", "held by"}};
+  for (const v1::SubdomainInfo& each : mesh.subdomains()) {
+    rows.push_back({sanitise(each.name()), std::to_string(each.triangle_count()),
+                    std::to_string(each.node_count()), number(each.area()), number(each.tension()),
+                    number(each.minimum_angle(), 3), number(each.shortest_edge(), 3),
+                    number(each.longest_edge(), 3),
+                    each.floating() ? "interfaces only" : "the boundary"});
+  }
+  return table(rows, {8});
+}
+
+std::string interfaces(const v1::Mesh& mesh) {
+  Rows rows{{"interface", "from", "to", "kind", "inclusion", "edges"}};
+  for (const v1::InterfaceInfo& interface : mesh.interfaces()) {
+    for (const auto& segment : interface.segments()) {
+      rows.push_back({sanitise(interface.name()), number(segment.begin()), number(segment.end()),
+                      kind_of(segment.kind()), inclusion_of(mesh, segment.inclusion()),
+                      std::to_string(segment.edge_count())});
+    }
+  }
+  return rows.size() == 1 ? "no interfaces\n" : table(rows, {3, 4});
+}
+
+std::string tips(const v1::Mesh& mesh) {
+  Rows rows{{"tip on", "x", "y", "smallest edge"}};
+  for (const v1::TipInfo& tip : mesh.tips()) {
+    rows.push_back({sanitise(tip.interface()), number(tip.at().x()), number(tip.at().y()),
+                    number(tip.smallest_edge(), 3)});
+  }
+  return rows.size() == 1 ? "" : "\n" + table(rows);
+}
+
+std::string boundary(const v1::Mesh& mesh) {
+  if (mesh.dirichlet_length() + mesh.neumann_length() <= 0) {
+    return "";  // of a server that does not say
+  }
+  return "\nboundary: u given on a length of " + number(mesh.dirichlet_length()) +
+         ", traction on " + number(mesh.neumann_length()) + "\n";
+}
+
+}  // namespace
+
+std::string mesh_text(const v1::Mesh& mesh) {
+  std::string text = head(mesh);
+  if (mesh.triangle_count() > 0) {
+    text += sizes(mesh) + "\n" + subdomains(mesh) + "\n" + interfaces(mesh) + tips(mesh) +
+            boundary(mesh);
+  }
+  for (const std::string& warning : mesh.warnings()) {
+    text += "warning: " + sanitise(warning) + "\n";
+  }
+  return text;
+}
+
+}  // namespace anticrack::cli
