@@ -2,10 +2,56 @@
 #include "mesh/geometry_intervals.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
+#include "mesh/geometry_primitives.hpp"
+
 namespace anticrack::mesh {
+namespace {
+
+constexpr int paper_intervals = 80;
+
+void share(const Plan& plan, const std::vector<PlannedCurve*>& curves) {
+  if (curves.empty()) return;
+  std::vector<double> lengths;
+  lengths.reserve(curves.size());
+  for (const PlannedCurve* curve : curves) lengths.push_back(length_of(plan, *curve));
+  const std::vector<int> shares = apportion(lengths, paper_intervals);
+  for (std::size_t i = 0; i < curves.size(); ++i) curves[i]->intervals = shares[i];
+}
+
+}  // namespace
+
+double length_of(const Plan& plan, const PlannedCurve& curve) noexcept {
+  return distance(plan.points[static_cast<std::size_t>(curve.a)],
+                  plan.points[static_cast<std::size_t>(curve.b)]);
+}
+
+void set_paper_intervals(Plan& plan) {
+  std::vector<PlannedCurve*> glue;
+  std::vector<PlannedCurve*> rest;
+  std::array<std::vector<PlannedCurve*>, 2> outer;
+  for (PlannedCurve& curve : plan.curves) {
+    if (curve.role == Role::interface) {
+      (curve.kind == Kind::glue ? glue : rest).push_back(&curve);
+    } else {
+      outer[static_cast<std::size_t>(curve.left)].push_back(&curve);
+    }
+  }
+  share(plan, glue);
+  share(plan, rest);
+  for (const auto& curves : outer) share(plan, curves);
+}
+
+void set_intervals(Plan& plan, double size) {
+  for (PlannedCurve& curve : plan.curves) {
+    // a length that is a whole number of sizes but for rounding is cut into just as many
+    curve.intervals =
+        static_cast<int>(std::max(1.0, std::ceil(length_of(plan, curve) / size - 1e-9)));
+  }
+}
 
 std::vector<int> apportion(std::span<const double> lengths, int total) {
   const std::size_t k = lengths.size();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The polygon, the interface that cuts it, and the outer boundary of the two parts it leaves.
+// The polygon of the membrane, and what is asked of any list of vertices.
 #pragma once
 
-#include <array>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "mesh/geometry.hpp"
@@ -13,31 +14,31 @@ namespace anticrack::mesh {
 /// Two points nearer to one another than this part of the boundary's diagonal count as one.
 inline constexpr double relative_tolerance = 1e-9;
 inline constexpr std::size_t max_vertices = 10'000;
+inline constexpr std::size_t max_interfaces = 1'000;
 
-/// A place on the boundary: on the edge from vertex `edge` to the next, `t` in [0,1) of the way.
-struct BoundaryPlace {
-  std::size_t edge = 0;
-  double t = 0;
-};
-
-/// The polygon counterclockwise, and where the interface starts and ends on it.
+/// The polygon counterclockwise, and the distance within which two points are one.
 struct Outline {
   std::vector<Point> boundary;
-  BoundaryPlace start;
-  BoundaryPlace end;
   double tolerance = 0;
 };
 
-/// Checks boundary and interface. Throws errors::Error (geometry_invalid, limit_exceeded) with the
-/// field at fault: "boundary", "boundary[i]", "interface", "interface[i]".
-Outline check_outline(const Geometry& geometry);
-
-/// The vertices passed on the way counterclockwise from one place to another, ends left out.
-std::vector<std::size_t> vertices_between(const BoundaryPlace& from, const BoundaryPlace& to,
-                                          std::size_t vertex_count);
+/// Throws errors::Error (geometry_invalid, limit_exceeded) with the field at fault: "boundary",
+/// "boundary[i]". O(v^2).
+Outline check_outline(const std::vector<Point>& boundary);
 
 /// Throws geometry_invalid at `field` unless both coordinates are finite and of a size that can be
 /// squared and summed.
 void check_point(const Point& p, const std::string& field);
+
+/// The same of each of them, which are at most `max_vertices`.
+void check_points(const std::vector<Point>& points, const std::string& field);
+
+/// No two consecutive ones are equal.
+void check_distinct(std::span<const Point> points, const std::string& field, double tolerance);
+
+/// The polyline through the points `field` neither crosses itself nor folds back; else `owner` is
+/// refused. `closed`: the last vertex is joined to the first. O(v^2).
+void check_simple(std::span<const Point> points, bool closed, const std::string& owner,
+                  const std::string& field, double tolerance);
 
 }  // namespace anticrack::mesh

@@ -3,235 +3,269 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <string>
+#include <limits>
+#include <utility>
 
-#include "mesh/geometry_outline.hpp"
 #include "mesh/geometry_primitives.hpp"
-#include "mesh/names.hpp"
 
 namespace anticrack::mesh {
 namespace {
 
-/// An end of a part, found on the interface.
-struct PlacedPart {
-  Station begin;
-  Station end;
-  std::string field;  ///< of the inclusion, crack or delaminated part
+struct Ends {
+  int from = 0;  ///< points of the network
+  int to = 0;
 };
 
-struct Line {
-  const std::vector<Point>& points;
-  std::vector<double> s;  ///< arc length of each vertex
-  double tolerance = 0;
-
-  double length() const { return s.back(); }
-};
-
-Line measure(const std::vector<Point>& points) {
-  Line line{points, {0.0}, 0};
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    line.s.push_back(line.s.back() + distance(points[i - 1], points[i]));
+/// Lines of a role that have a station at a point.
+std::vector<int> lines_at(const Network& network, Role role, int point) {
+  std::vector<int> lines;
+  for (std::size_t l = 0; l < network.lines.size(); ++l) {
+    const NetworkLine& line = network.lines[l];
+    if (line.role == role && station_of(line, point) >= 0) lines.push_back(static_cast<int>(l));
   }
-  line.tolerance = relative_tolerance * line.length();
-  return line;
+  return lines;
 }
 
-Station locate(const Line& line, const Point& p, const std::string& field) {
-  check_point(p, field);
-  std::size_t best = 0;
-  double off = distance(p, Segment{line.points[0], line.points[1]});
-  for (std::size_t i = 1; i + 1 < line.points.size(); ++i) {
-    const double d = distance(p, Segment{line.points[i], line.points[i + 1]});
-    if (d < off) {
-      off = d;
-      best = i;
-    }
+void refuse_off(const Network& network, const Point& p, const std::string& field) {
+  double off = std::numeric_limits<double>::infinity();
+  for (const NetworkLine& line : network.lines) {
+    if (line.role != Role::interface) continue;
+    const double d = line.line.distance_to(p);
+    off = std::min(off, d);
   }
-  if (off > line.tolerance) {
-    refuse(field, field, " ", show(p), " lies ", show(off),
-           " off the interface; it must lie on it, to ", show(line.tolerance));
+  if (std::isinf(off)) {
+    refuse(field, field, " ", show(p), " lies on no interface: there is none");
   }
-  for (const std::size_t i : {best, best + 1}) {
-    if (distance(p, line.points[i]) <= line.tolerance) return {line.s[i], line.points[i]};
-  }
-  const double t = nearest(p, Segment{line.points[best], line.points[best + 1]});
-  return {line.s[best] + t * (line.s[best + 1] - line.s[best]), p};
+  refuse(field, field, " ", show(p), " lies ", show(off),
+         " off the interface; it must lie on it, to ", show(network.tolerance));
 }
 
-/// `field` names the part itself ("cracks[0].part"), `owner` what it belongs to.
-PlacedPart place(const Line& line, const Part& part, const std::string& field,
-                 const std::string& owner) {
-  PlacedPart placed{locate(line, part.from, field + ".from"), locate(line, part.to, field + ".to"),
-                    owner};
-  if (std::abs(placed.end.s - placed.begin.s) <= line.tolerance) {
+Ends mark_ends(Network& network, const Part& part, const std::string& field) {
+  check_point(part.from, field + ".from");
+  check_point(part.to, field + ".to");
+  return {mark(network, part.from), mark(network, part.to)};
+}
+
+/// The interface both ends of a part lie on.
+int line_of(const Network& network, const Part& part, const Ends& ends, const std::string& field) {
+  const std::vector<int> from = lines_at(network, Role::interface, ends.from);
+  const std::vector<int> to = lines_at(network, Role::interface, ends.to);
+  if (from.empty()) refuse_off(network, part.from, field + ".from");
+  if (to.empty()) refuse_off(network, part.to, field + ".to");
+  if (ends.from == ends.to) {
     refuse(field, field, " has no length: it runs from ", show(part.from), " to ", show(part.to));
   }
-  if (placed.begin.s > placed.end.s) std::swap(placed.begin, placed.end);
+  std::vector<int> both;
+  std::set_intersection(from.begin(), from.end(), to.begin(), to.end(), std::back_inserter(both));
+  const auto name = [&](int line) { return network.lines[static_cast<std::size_t>(line)].field; };
+  if (both.empty()) {
+    refuse(field, field, " starts on ", name(from[0]), " and ends on ", name(to[0]),
+           "; it must lie on one interface");
+  }
+  if (both.size() > 1) {
+    refuse(field, field, " may lie on ", name(both[0]), " or on ", name(both[1]),
+           ", which both hold its two ends; make it two parts that are told apart");
+  }
+  return both[0];
+}
+
+/// The stations of a part on its line, in order.
+PlacedPart place(const Network& network, int l, const Ends& ends) {
+  const NetworkLine& line = network.lines[static_cast<std::size_t>(l)];
+  PlacedPart placed;
+  placed.line = l;
+  placed.begin = {station_of(line, ends.from), ends.from};
+  placed.end = {station_of(line, ends.to), ends.to};
+  if (placed.begin.t > placed.end.t) {
+    if (line.line.closed()) {
+      placed.end.t += line.line.spans();
+    } else {
+      std::swap(placed.begin, placed.end);
+      placed.reversed = true;
+    }
+  }
   return placed;
 }
 
-void refuse_at_ends(const Line& line, const Part& part, const PlacedPart& placed,
-                    const std::string& field) {
-  const auto check = [&](const Station& tip) {
-    if (tip.s > line.tolerance && tip.s < line.length() - line.tolerance) return;
-    const bool is_from = distance(tip.point, part.from) <= line.tolerance;
-    const std::string at = field + (is_from ? ".from" : ".to");
-    refuse(at, at, " ", show(tip.point),
-           " touches the boundary, at an end of the interface; a tip must lie inside the membrane");
-  };
-  check(placed.begin);
-  check(placed.end);
-}
-
-void check_names(const Geometry& geometry) {
-  std::map<std::string, std::string> used;
-  const auto check = [&](const std::string& name, const std::string& owner) {
-    const std::string field = owner + ".name";
-    if (!valid_name(name)) {
-      // what is quoted goes into messages and logs
-      const bool printable =
-          std::all_of(name.begin(), name.end(), [](char c) { return c >= ' ' && c <= '~'; });
-      refuse(field, field, " is ",
-             name.empty()       ? "empty"
-             : !printable       ? "not printable"
-             : name.size() > 64 ? "of " + std::to_string(name.size()) + " characters"
-                                : "\"" + name + "\"",
-             "; a name is ", name_rule);
-    }
-    const auto [entry, added] = used.emplace(name, owner);
-    if (!added) {
-      refuse(field, field, " \"", name, "\" is already the name of ", entry->second,
-             "; every inclusion and crack needs its own");
-    }
-  };
-  for (std::size_t i = 0; i < geometry.inclusions.size(); ++i) {
-    check(geometry.inclusions[i].name, indexed("inclusions", i));
-  }
-  for (std::size_t i = 0; i < geometry.cracks.size(); ++i) {
-    check(geometry.cracks[i].name, indexed("cracks", i));
-  }
-}
-
-void check_count(std::size_t count, const std::string& field) {
-  if (count <= max_vertices) return;
-  throw errors::Error(errors::Reason::limit_exceeded,
-                      field + " has " + std::to_string(count) + " entries; at most " +
-                          std::to_string(max_vertices) + " are taken")
-      .at(field);
-}
-
-bool by_begin(const PlacedPart& a, const PlacedPart& b) {
-  return a.begin.s < b.begin.s;
-}
-
-void check_apart(std::vector<PlacedPart> parts, double tolerance) {
-  std::stable_sort(parts.begin(), parts.end(), by_begin);
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    const PlacedPart& left = parts[i - 1];
-    const PlacedPart& right = parts[i];
-    if (right.begin.s > left.end.s + tolerance) continue;
-    const std::string field = right.field + ".part";
-    if (right.begin.s >= left.end.s - tolerance) {
-      refuse(field, right.field, " and ", left.field, " share the tip ", show(right.begin.point),
-             "; the membrane is tied to both at a common tip, so leave glue between them or make "
-             "them one");
-    }
-    refuse(field, right.field, " and ", left.field, " overlap from ", show(right.begin.point),
-           " on; a piece of the interface belongs to one inclusion or crack");
-  }
-}
-
-/// The delaminated parts of an inclusion, in order, held against the ends of the inclusion.
-std::vector<PlacedPart> place_delaminated(const Line& line, const InclusionSpec& inclusion,
+/// The delaminated parts of an inclusion, in order.
+std::vector<PlacedPart> place_delaminated(Network& network, const InclusionSpec& inclusion,
                                           const PlacedPart& whole) {
   const std::string list = whole.field + ".delaminated_parts";
-  check_count(inclusion.delaminated.size(), list);
+  if (inclusion.delaminated.size() > max_vertices) {
+    throw errors::Error(errors::Reason::limit_exceeded,
+                        list + " has " + std::to_string(inclusion.delaminated.size()) +
+                            " entries; at most " + std::to_string(max_vertices) + " are taken")
+        .at(list);
+  }
   std::vector<PlacedPart> parts;
+  parts.reserve(inclusion.delaminated.size());
+  const Point begin = network.points[static_cast<std::size_t>(whole.begin.point)];
+  const Point end = network.points[static_cast<std::size_t>(whole.end.point)];
   for (std::size_t k = 0; k < inclusion.delaminated.size(); ++k) {
     const std::string field = indexed(list, k);
     const Part& part = inclusion.delaminated[k];
-    for (const auto& [end, point] : {std::pair(".from", part.from), std::pair(".to", part.to)}) {
-      const std::string at = field + end;
-      const double s = locate(line, point, at).s;
-      if (s < whole.begin.s - line.tolerance || s > whole.end.s + line.tolerance) {
-        refuse(at, at, " ", show(point), " lies outside its inclusion, which runs from ",
-               show(whole.begin.point), " to ", show(whole.end.point));
+    const Ends ends = mark_ends(network, part, field);
+    const NetworkLine& line = network.lines[static_cast<std::size_t>(whole.line)];
+    const auto within = [&](int point, const Point& p, const char* which) {
+      double t = station_of(line, point);
+      if (t < 0) refuse_off(network, p, field + which);
+      if (t < whole.begin.t) t += line.line.closed() ? line.line.spans() : 0;
+      if (t < whole.begin.t || t > whole.end.t) {
+        refuse(field + which, field, which, " ", show(p),
+               " lies outside its inclusion, which runs from ", show(begin), " to ", show(end));
       }
+      return Station{t, point};
+    };
+    PlacedPart placed;
+    placed.begin = within(ends.from, part.from, ".from");
+    placed.end = within(ends.to, part.to, ".to");
+    if (ends.from == ends.to) {
+      refuse(field, field, " has no length: it runs from ", show(part.from), " to ", show(part.to));
     }
-    PlacedPart placed = place(line, part, field, field);
-    if (placed.begin.s <= whole.begin.s + line.tolerance) placed.begin = whole.begin;
-    if (placed.end.s >= whole.end.s - line.tolerance) placed.end = whole.end;
+    if (placed.begin.t > placed.end.t) std::swap(placed.begin, placed.end);
+    placed.line = whole.line;
+    placed.field = field;
     parts.push_back(std::move(placed));
   }
-  std::stable_sort(parts.begin(), parts.end(), by_begin);
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const PlacedPart& a, const PlacedPart& b) { return a.begin.t < b.begin.t; });
   for (std::size_t k = 1; k < parts.size(); ++k) {
-    if (parts[k].begin.s > parts[k - 1].end.s + line.tolerance) continue;
+    if (parts[k].begin.t > parts[k - 1].end.t) continue;
     refuse(parts[k].field, parts[k].field, " and ", parts[k - 1].field, " overlap or touch at ",
-           show(parts[k].begin.point), "; make them one part");
+           show(network.points[static_cast<std::size_t>(parts[k].begin.point)]),
+           "; make them one part");
   }
   return parts;
 }
 
 /// Bonded and delaminated stretches of one inclusion.
-void add_inclusion(const PlacedPart& whole, const std::vector<PlacedPart>& delaminated, int index,
-                   InterfaceLayout& layout) {
-  double at = whole.begin.s;
+void add_inclusion(const PlacedPart& whole, const std::vector<PlacedPart>& delaminated,
+                   Layout& layout) {
+  double at = whole.begin.t;
+  const auto add = [&](double end, Kind kind) {
+    if (end > at) layout.stretches.push_back({whole.line, at, end, kind, whole.inclusion});
+    at = end;
+  };
   for (const PlacedPart& part : delaminated) {
-    if (part.begin.s > at) {
-      layout.stretches.push_back({at, part.begin.s, Kind::inclusion, index});
-    }
-    layout.stretches.push_back({part.begin.s, part.end.s, Kind::delaminated, index});
-    layout.stations.push_back(part.begin);
-    layout.stations.push_back(part.end);
-    at = part.end.s;
+    add(part.begin.t, Kind::inclusion);
+    add(part.end.t, Kind::delaminated);
   }
-  if (at < whole.end.s) layout.stretches.push_back({at, whole.end.s, Kind::inclusion, index});
+  add(whole.end.t, Kind::inclusion);
 }
 
-/// A tip that was snapped to a vertex, or to the tip of its inclusion, is there twice.
-void sort_and_merge(std::vector<Station>& stations) {
-  std::stable_sort(stations.begin(), stations.end(),
-                   [](const Station& a, const Station& b) { return a.s < b.s; });
-  const auto end = std::unique(stations.begin(), stations.end(),
-                               [](const Station& a, const Station& b) { return a.s == b.s; });
-  stations.erase(end, stations.end());
+void check_pair(const Network& network, const PlacedPart& left, const PlacedPart& right,
+                double shift) {
+  const double begin = right.begin.t + shift;
+  if (begin > left.end.t) return;
+  const std::string field = right.field + ".part";
+  const std::string at = show(network.points[static_cast<std::size_t>(right.begin.point)]);
+  if (begin == left.end.t) {
+    refuse(field, right.field, " and ", left.field, " share the tip ", at,
+           "; the membrane is tied to both at a common tip, so leave glue between them or make "
+           "them one");
+  }
+  refuse(field, right.field, " and ", left.field, " overlap from ", at,
+         " on; a piece of the interface belongs to one inclusion or crack");
+}
+
+void check_apart(const Network& network, std::vector<PlacedPart> parts) {
+  std::stable_sort(parts.begin(), parts.end(), [](const PlacedPart& a, const PlacedPart& b) {
+    return std::pair(a.line, a.begin.t) < std::pair(b.line, b.begin.t);
+  });
+  for (std::size_t first = 0; first < parts.size();) {
+    std::size_t last = first;
+    while (last + 1 < parts.size() && parts[last + 1].line == parts[first].line) {
+      check_pair(network, parts[last], parts[last + 1], 0);
+      ++last;
+    }
+    const Line& line = network.lines[static_cast<std::size_t>(parts[first].line)].line;
+    if (line.closed()) {
+      if (last > first) check_pair(network, parts[last], parts[first], line.spans());
+    }
+    first = last + 1;
+  }
+}
+
+std::vector<Stretch> lay_neumann(const Geometry& geometry, Network& network) {
+  struct Placed {
+    Stretch stretch;
+    std::string field;
+  };
+  std::vector<Placed> placed;
+  placed.reserve(geometry.neumann.size());
+  const double spans = network.lines.front().line.spans();
+  for (std::size_t i = 0; i < geometry.neumann.size(); ++i) {
+    const std::string field = indexed("neumann", i);
+    const Part& part = geometry.neumann[i];
+    const Ends ends = mark_ends(network, part, field);
+    const auto on_boundary = [&](int point, const Point& p, const char* which) {
+      const double t = station_of(network.lines.front(), point);
+      if (t >= 0) return t;
+      refuse(field + which, field, which, " ", show(p), " lies ",
+             show(network.lines.front().line.distance_to(p)),
+             " off the boundary; it must lie on it, to ", show(network.tolerance));
+    };
+    const double begin = on_boundary(ends.from, part.from, ".from");
+    double end = on_boundary(ends.to, part.to, ".to");
+    if (end <= begin) end += spans;
+    placed.push_back({{0, begin, end, Kind::glue, -1}, field});
+  }
+  std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
+    return a.stretch.begin < b.stretch.begin;
+  });
+  std::vector<Stretch> stretches;
+  stretches.reserve(placed.size());
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    stretches.push_back(placed[i].stretch);
+    if (placed.size() == 1) break;
+    const Placed& next = placed[(i + 1) % placed.size()];
+    const double shift = i + 1 == placed.size() ? spans : 0;
+    if (next.stretch.begin + shift < placed[i].stretch.end) {
+      refuse(next.field, next.field, " and ", placed[i].field, " overlap; make them one part");
+    }
+  }
+  return stretches;
 }
 
 }  // namespace
 
-InterfaceLayout lay_out(const Geometry& geometry) {
-  check_count(geometry.inclusions.size(), "inclusions");
-  check_count(geometry.cracks.size(), "cracks");
-  check_names(geometry);
-  const Line line = measure(geometry.interfaces.front().points);
-  InterfaceLayout layout;
-  for (std::size_t i = 0; i < geometry.interfaces.front().points.size(); ++i) {
-    layout.stations.push_back({line.s[i], geometry.interfaces.front().points[i]});
-  }
-  std::vector<PlacedPart> placed;
-  const auto add = [&](const Part& part, const std::string& owner) {
+Layout lay_parts(const Geometry& geometry, Network& network) {
+  Layout layout;
+  layout.parts.reserve(geometry.inclusions.size() + geometry.cracks.size());
+  const auto add = [&](const Part& part, const std::string& owner, int inclusion) {
     const std::string field = owner + ".part";
-    placed.push_back(place(line, part, field, owner));
-    refuse_at_ends(line, part, placed.back(), field);
-    layout.stations.push_back(placed.back().begin);
-    layout.stations.push_back(placed.back().end);
+    const Ends ends = mark_ends(network, part, field);
+    PlacedPart placed = place(network, line_of(network, part, ends, field), ends);
+    placed.field = owner;
+    placed.inclusion = inclusion;
+    layout.parts.push_back(std::move(placed));
   };
   for (std::size_t i = 0; i < geometry.inclusions.size(); ++i) {
-    const InclusionSpec& inclusion = geometry.inclusions[i];
-    add(inclusion.part, indexed("inclusions", i));
-    add_inclusion(placed.back(), place_delaminated(line, inclusion, placed.back()),
-                  static_cast<int>(i), layout);
+    add(geometry.inclusions[i].part, indexed("inclusions", i), static_cast<int>(i));
+    const PlacedPart& whole = layout.parts.back();
+    add_inclusion(whole, place_delaminated(network, geometry.inclusions[i], whole), layout);
   }
   for (std::size_t i = 0; i < geometry.cracks.size(); ++i) {
-    add(geometry.cracks[i].part, indexed("cracks", i));
-    layout.stretches.push_back({placed.back().begin.s, placed.back().end.s, Kind::crack, -1});
+    add(geometry.cracks[i].part, indexed("cracks", i), -1);
+    const PlacedPart& placed = layout.parts.back();
+    layout.stretches.push_back({placed.line, placed.begin.t, placed.end.t, Kind::crack, -1});
   }
-  check_apart(placed, line.tolerance);
-  std::sort(layout.stretches.begin(), layout.stretches.end(),
-            [](const Stretch& a, const Stretch& b) { return a.begin < b.begin; });
-  sort_and_merge(layout.stations);
+  check_apart(network, layout.parts);
+  layout.neumann = lay_neumann(geometry, network);
   return layout;
+}
+
+const Stretch* stretch_of(const std::vector<Stretch>& stretches, const Network& network,
+                          const Chord& chord) noexcept {
+  const double spans = network.lines[static_cast<std::size_t>(chord.line)].line.spans();
+  const double middle = (chord.from + chord.to) / 2;
+  for (const Stretch& stretch : stretches) {
+    if (stretch.line != chord.line) continue;
+    if (stretch.begin < middle && middle < stretch.end) return &stretch;
+    // past the joint of a closed line
+    if (stretch.begin < middle + spans && middle + spans < stretch.end) return &stretch;
+  }
+  return nullptr;
 }
 
 }  // namespace anticrack::mesh

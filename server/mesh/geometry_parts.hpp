@@ -1,36 +1,51 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What lies on the interface, as intervals of its arc length.
+// What lies on the interfaces, and which of the boundary is Neumann's, as stretches of the lines'
+// parameters.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mesh/geometry.hpp"
+#include "mesh/geometry_network.hpp"
 
 namespace anticrack::mesh {
 
-/// A stretch of the interface between two arc lengths that is not glue.
+/// A stretch of an interface that is not glue. On a closed one `end` may lie past the line's last
+/// parameter.
 struct Stretch {
+  int line = 0;
   double begin = 0;
   double end = 0;
   Kind kind = Kind::crack;
   int inclusion = -1;
 };
 
-/// A point where curves of the interface meet.
-struct Station {
-  double s = 0;  ///< arc length from the interface's start
-  Point point{};
+/// A whole inclusion or crack.
+struct PlacedPart {
+  int line = 0;
+  Station begin;
+  Station end;
+  std::string field;      ///< of the inclusion or crack
+  int inclusion = -1;     ///< -1: a crack
+  bool reversed = false;  ///< `begin` is the part's `to`
 };
 
-struct InterfaceLayout {
-  std::vector<Stretch> stretches;  ///< in order, not overlapping
-  std::vector<Station> stations;   ///< in order: ends, vertices, ends of stretches
+struct Layout {
+  std::vector<PlacedPart> parts;
+  std::vector<Stretch> stretches;
+  std::vector<Stretch> neumann;  ///< of line 0
 };
 
-/// Checks names and places of inclusions and cracks and sorts them along the interface, which is
-/// known to be a simple polyline. A tip takes the coordinates it was given.
-/// Throws errors::Error (geometry_invalid) with fields like "inclusions[1].part.from".
-InterfaceLayout lay_out(const Geometry& geometry);
+/// Finds the parts on the lines, which get stations at their ends; a tip takes the coordinates it
+/// was given. A part of a closed interface runs from `from` to `to` in the interface's order.
+/// Throws errors::Error (geometry_invalid) with fields like "inclusions[1].part.from",
+/// "neumann[0].to" for a part on no interface, without length, or over another one.
+Layout lay_parts(const Geometry& geometry, Network& network);
+
+/// The stretch that holds a chord; none: null.
+const Stretch* stretch_of(const std::vector<Stretch>& stretches, const Network& network,
+                          const Chord& chord) noexcept;
 
 }  // namespace anticrack::mesh

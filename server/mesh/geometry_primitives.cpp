@@ -45,6 +45,28 @@ double distance(const Segment& s, const Segment& t) noexcept {
   return std::min({distance(s.a, t), distance(s.b, t), distance(t.a, s), distance(t.b, s)});
 }
 
+std::pair<double, double> meeting_point(const Segment& s, const Segment& t) noexcept {
+  if (crosses(s, t)) {
+    const double a = cross(s.a, s.b, t.a);
+    const double b = cross(s.a, s.b, t.b);
+    const double c = cross(t.a, t.b, s.a);
+    const double d = cross(t.a, t.b, s.b);
+    return {c / (c - d), a / (a - b)};
+  }
+  const std::array<double, 4> off{distance(s.a, t), distance(s.b, t), distance(t.a, s),
+                                  distance(t.b, s)};
+  switch (std::min_element(off.begin(), off.end()) - off.begin()) {
+    case 0:
+      return {0, nearest(s.a, t)};
+    case 1:
+      return {1, nearest(s.b, t)};
+    case 2:
+      return {nearest(t.a, s), 0};
+    default:
+      return {nearest(t.b, s), 1};
+  }
+}
+
 bool boxes_meet(const Segment& s, const Segment& t, double tolerance) noexcept {
   for (std::size_t i = 0; i < 2; ++i) {
     if (std::min(s.a[i], s.b[i]) > std::max(t.a[i], t.b[i]) + tolerance) return false;

@@ -24,6 +24,8 @@ double distance(const Point& p, const Segment& s) noexcept;
 double nearest(const Point& p, const Segment& s) noexcept;
 /// 0 where they cross.
 double distance(const Segment& s, const Segment& t) noexcept;
+/// Where two segments come nearest, as parts of each of them; where they cross, if they do.
+std::pair<double, double> meeting_point(const Segment& s, const Segment& t) noexcept;
 /// Whether the bounding boxes, grown by `tolerance`, have a point in common. Cheap.
 bool boxes_meet(const Segment& s, const Segment& t, double tolerance) noexcept;
 

@@ -2,8 +2,8 @@
 #include "mesher/curve_groups.hpp"
 
 #include <algorithm>
-#include <sstream>
-#include <tuple>
+#include <string_view>
+#include <utility>
 
 #include "errors/errors.hpp"
 #include "mesh/names.hpp"
@@ -12,125 +12,144 @@
 namespace anticrack::mesher {
 namespace {
 
-[[noreturn]] void refuse(const std::string& message) {
-  throw errors::Error(errors::Reason::mesh_invalid, message);
+constexpr std::string_view keywords =
+    "dirichlet, neumann, glue, crack, crack:NAME, inclusion:NAME or delaminated:NAME";
+
+/// Upper case to lower, whatever the locale.
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
 }
 
-CurveGroup read_group(int tag, const std::string& full) {
-  if (full == "dirichlet") return {CurveRole::dirichlet, "", full};
-  if (full == "neumann") return {CurveRole::natural, "", full};
-  if (full == "crack") return {CurveRole::crack, "", full};
-  const std::size_t colon = full.find(':');
-  const std::string role = full.substr(0, colon);
-  const std::pair<const char*, CurveRole> roles[] = {{"crack", CurveRole::crack},
-                                                     {"inclusion", CurveRole::inclusion},
-                                                     {"delaminated", CurveRole::delaminated}};
-  for (const auto& [known, meaning] : roles) {
-    if (role != known) continue;
-    const std::string name = colon == std::string::npos ? "" : full.substr(colon + 1);
-    if (mesh::valid_name(name)) return {meaning, name, full};
-    refuse("physical curve " + std::to_string(tag) + " \"" + printable(full) +
-           "\" takes a name, \"" + known + ":NAME\": " + std::string(mesh::name_rule));
-  }
-  refuse("physical curve " + std::to_string(tag) + " is named \"" + printable(full) +
-         "\", which means nothing here; a curve is dirichlet, neumann, crack, crack:NAME, "
-         "inclusion:NAME, delaminated:NAME, or has no name");
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
 }
 
-bool on_boundary(CurveRole role) {
-  return role == CurveRole::dirichlet || role == CurveRole::natural;
+/// Whether a name belongs to a crack or to an inclusion, one of them only.
+class NameOwners {
+ public:
+  void add(const CurveMeaning& meaning) {
+    if (meaning.name.empty()) return;
+    const bool crack = meaning.role == CurveRole::crack;
+    if (_is_crack.emplace(meaning.name, crack).first->second == crack) return;
+    throw errors::Error(
+        errors::Reason::mesh_invalid,
+        "\"" + meaning.name + "\" is the name of a crack and of an inclusion; give each its own");
+  }
+
+ private:
+  std::map<std::string, bool> _is_crack;
+};
+
+std::string title_of(std::int32_t tag, bool physical, const std::string& name) {
+  if (!physical) return "curve " + std::to_string(tag) + " (in no group)";
+  const std::string title = "curve group " + std::to_string(tag);
+  return title + (name.empty() ? " (no name)" : " \"" + printable(name) + "\"");
 }
 
-std::string describe(const mesh::Mesh& mesh, const CurveEdge& edge, const CurveGroup& group) {
-  return "the edge " + place_of(mesh, edge.from) + "-" + place_of(mesh, edge.to) + " of curve \"" +
-         group.full + "\"";
+CurveGroup named_by_file(std::int32_t tag, bool physical, const std::string& name) {
+  CurveGroup group{tag, title_of(tag, physical, name), std::nullopt};
+  ReadMeaning read = read_meaning(name);
+  if (!read.fault.empty()) {
+    throw errors::Error(errors::Reason::mesh_invalid, group.title + " " + read.fault);
+  }
+  group.meaning = std::move(read.meaning);
+  return group;
 }
 
-void check_place(const mesh::Mesh& mesh, const mesh::EdgeTable& edges, const CurveEdge& edge,
-                 const CurveGroup& group) {
-  const auto uses = edges.find(edge.from, edge.to);
-  if (uses.empty()) {
-    refuse(describe(mesh, edge, group) +
-           " is the edge of no triangle; mesh surfaces and curves together, so that they share "
-           "nodes");
-  }
-  if (on_boundary(group.role)) {
-    if (uses.size() == 1) return;
-    refuse(describe(mesh, edge, group) + " lies inside the membrane; \"" + group.full +
-           "\" is for its boundary");
-  }
-  if (uses.size() == 1) {
-    refuse(describe(mesh, edge, group) +
-           " has a triangle on one side only; it must lie between two surfaces that share its "
-           "nodes (let no plugin double them: that is done here)");
-  }
-  const auto side = [&](std::size_t i) {
-    return mesh.subdomain[static_cast<std::size_t>(uses[i].triangle)];
-  };
-  if (side(0) == side(1)) {
-    refuse(describe(mesh, edge, group) + " has surface \"" +
-           mesh.subdomains[static_cast<std::size_t>(side(0))] +
-           "\" on both sides; prolong the curve so that it cuts the membrane into two surfaces");
-  }
+CurveMeaning given_meaning(std::int32_t tag, const std::string& text) {
+  ReadMeaning read = read_meaning(text);
+  if (read.meaning) return std::move(*read.meaning);
+  throw errors::Error(
+      errors::Reason::invalid_argument,
+      "curve group " + std::to_string(tag) + " is said to be \"" + printable(text) + "\"" +
+          (read.fault.empty() ? "; it is " + std::string(keywords) : ", which " + read.fault))
+      .at("options.curve_groups[" + std::to_string(tag) + "]");
+}
+
+[[noreturn]] void refuse_missing(std::int32_t tag, const CurveGroups& known) {
+  std::vector<std::int32_t> tags;
+  tags.reserve(known.groups.size());
+  for (const auto& [there, group] : known.groups) tags.push_back(there);
+  const std::string what = known.physical ? "curve group" : "curve";
+  throw errors::Error(
+      errors::Reason::invalid_argument,
+      "the file has no " + what + " " + std::to_string(tag) + "; " +
+          (tags.empty() ? "it has no lines at all" : "its " + what + "s are " + list_of(tags)))
+      .at("options.curve_groups[" + std::to_string(tag) + "]");
 }
 
 }  // namespace
 
-std::string place_of(const mesh::Mesh& mesh, std::int32_t node) {
-  std::ostringstream text;
-  const auto i = 2 * static_cast<std::size_t>(node);
-  text << "(" << mesh.xy[i] << ", " << mesh.xy[i + 1] << ")";
-  return text.str();
+ReadMeaning read_meaning(const std::string& text) {
+  const std::string_view whole = trimmed(text);
+  const std::size_t colon = whole.find(':');
+  const std::string keyword = lower(trimmed(whole.substr(0, colon)));
+  if (colon == std::string_view::npos) {
+    if (keyword == "dirichlet") return {CurveMeaning{CurveRole::dirichlet, ""}, ""};
+    if (keyword == "neumann") return {CurveMeaning{CurveRole::neumann, ""}, ""};
+    if (keyword == "glue") return {CurveMeaning{CurveRole::glue, ""}, ""};
+    if (keyword == "crack") return {CurveMeaning{CurveRole::crack, ""}, ""};
+  }
+  const std::pair<std::string_view, CurveRole> named[] = {{"crack", CurveRole::crack},
+                                                          {"inclusion", CurveRole::inclusion},
+                                                          {"delaminated", CurveRole::delaminated}};
+  for (const auto& [known, role] : named) {
+    if (keyword != known) continue;
+    const std::string name(colon == std::string_view::npos ? "" : trimmed(whole.substr(colon + 1)));
+    if (mesh::valid_name(name)) return {CurveMeaning{role, name}, ""};
+    return {std::nullopt,
+            "takes a name, \"" + std::string(known) + ":NAME\": " + std::string(mesh::name_rule)};
+  }
+  return {};
 }
 
-std::map<int, CurveGroup> read_curve_groups(const std::map<int, std::string>& names) {
-  std::map<int, CurveGroup> groups;
-  std::map<std::string, bool> is_crack;
-  for (const auto& [tag, full] : names) {
-    if (full.empty()) continue;
-    CurveGroup group = read_group(tag, full);
-    if (!group.name.empty()) {
-      const bool crack = group.role == CurveRole::crack;
-      if (is_crack.emplace(group.name, crack).first->second != crack) {
-        refuse("\"" + group.name +
-               "\" is the name of a crack and of an inclusion; give each its own");
-      }
-    }
-    groups.emplace(tag, std::move(group));
-  }
-  return groups;
+const CurveGroup* CurveGroups::of(const MshElement<2>& line) const {
+  const auto found = groups.find(physical ? line.group : line.entity);
+  return found == groups.end() ? nullptr : &found->second;
 }
 
-NamedEdges::NamedEdges(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
-                       std::span<const CurveEdge> lines, const std::map<int, CurveGroup>& groups) {
-  for (const CurveEdge& line : lines) {
-    const auto group = groups.find(line.group);
-    if (group == groups.end()) continue;
-    check_place(mesh, edges, line, group->second);
-    _entries.push_back(
-        {std::min(line.from, line.to), std::max(line.from, line.to), &group->second});
+CurveGroups read_curve_groups(const MshFile& file,
+                              const std::map<std::int32_t, std::string>& given) {
+  CurveGroups result;
+  // names may be left over of groups that are gone
+  result.physical =
+      file.lines.empty() || std::any_of(file.lines.begin(), file.lines.end(),
+                                        [](const auto& line) { return line.group != 0; });
+  for (const auto& [tag, name] : file.curve_names) {
+    if (result.physical) result.groups.emplace(tag, named_by_file(tag, true, name));
   }
-  const auto key = [](const Entry& e) { return std::tuple(e.low, e.high, e.group); };
-  std::sort(_entries.begin(), _entries.end(),
-            [&](const Entry& a, const Entry& b) { return key(a) < key(b); });
-  for (std::size_t i = 1; i < _entries.size(); ++i) {
-    const Entry& a = _entries[i - 1];
-    const Entry& b = _entries[i];
-    if (a.low == b.low && a.high == b.high && a.group != b.group) {
-      refuse("the edge " + place_of(mesh, a.low) + "-" + place_of(mesh, a.high) +
-             " belongs to two curves, \"" + a.group->full + "\" and \"" + b.group->full +
-             "\"; put it in one");
-    }
+  for (const auto& line : file.lines) {
+    const std::int32_t tag = result.physical ? line.group : line.entity;
+    // physical tag 0 stands for none
+    if ((result.physical && tag == 0) || result.groups.contains(tag)) continue;
+    result.groups.emplace(tag, named_by_file(tag, result.physical, ""));
   }
+  for (const auto& [tag, text] : given) {
+    const auto group = result.groups.find(tag);
+    if (group == result.groups.end()) refuse_missing(tag, result);
+    group->second.meaning = given_meaning(tag, text);
+  }
+  NameOwners owners;
+  for (const auto& [tag, group] : result.groups) {
+    if (group.meaning) owners.add(*group.meaning);
+  }
+  return result;
 }
 
-const CurveGroup* NamedEdges::find(std::int32_t a, std::int32_t b) const {
-  const auto key = std::pair(std::min(a, b), std::max(a, b));
-  const auto found =
-      std::lower_bound(_entries.begin(), _entries.end(), key,
-                       [](const Entry& e, const auto& k) { return std::pair(e.low, e.high) < k; });
-  const bool there = found != _entries.end() && std::pair(found->low, found->high) == key;
-  return there ? found->group : nullptr;
+std::string list_of(const std::vector<std::int32_t>& tags) {
+  constexpr std::size_t most = 20;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(tags.size(), most); ++i) {
+    text += (i == 0 ? "" : ", ") + std::to_string(tags[i]);
+  }
+  if (tags.size() > most) text += " and " + std::to_string(tags.size() - most) + " more";
+  return text;
 }
 
 }  // namespace anticrack::mesher

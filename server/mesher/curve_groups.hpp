@@ -1,60 +1,56 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the physical groups of curves say about edges.
+// What the groups of curves are called, by the file or by the request.
 #pragma once
 
 #include <cstdint>
 #include <map>
-#include <span>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "mesh/edges.hpp"
-#include "mesh/mesh.hpp"
+#include "mesher/msh_file.hpp"
 
 namespace anticrack::mesher {
 
-enum class CurveRole { natural, dirichlet, crack, inclusion, delaminated };
+enum class CurveRole { neumann, dirichlet, glue, crack, inclusion, delaminated };
+
+struct CurveMeaning {
+  CurveRole role = CurveRole::glue;
+  std::string name;  ///< of the inclusion or crack, else empty
+};
+
+/// One keyword of the API read: dirichlet, neumann, glue, crack, crack:NAME, inclusion:NAME,
+/// delaminated:NAME, in upper or lower case. Neither a meaning nor a fault: a name of one's own.
+struct ReadMeaning {
+  std::optional<CurveMeaning> meaning;
+  std::string fault;  ///< not empty: what is wrong with the NAME of a keyword
+};
+ReadMeaning read_meaning(const std::string& text);
 
 struct CurveGroup {
-  CurveRole role = CurveRole::natural;
-  std::string name;  ///< of the inclusion or crack, else empty
-  std::string full;  ///< as in the file, for messages
+  std::int32_t tag = 0;
+  std::string title;                    ///< for messages: curve group 7 "gamma_c"
+  std::optional<CurveMeaning> meaning;  ///< none: adjacency decides
 };
 
-/// Groups by physical tag. Throws errors::Error (mesh_invalid) for a name that means nothing,
-/// naming those that do, and for a name shared by a crack and an inclusion.
-std::map<int, CurveGroup> read_curve_groups(const std::map<int, std::string>& names);
+struct CurveGroups {
+  /// In a file whose lines are in no physical group the elementary curves take their place.
+  bool physical = true;
+  std::map<std::int32_t, CurveGroup> groups;
 
-/// A line of the file, its nodes as indices into the mesh.
-struct CurveEdge {
-  std::int32_t from = 0;
-  std::int32_t to = 0;
-  int group = 0;
+  /// Group of a line, null for none.
+  const CurveGroup* of(const MshElement<2>& line) const;
 };
 
-/// The named edges, checked against the triangles: dirichlet and neumann on the boundary, the
-/// others between two subdomains, none with two meanings.
-class NamedEdges {
- public:
-  /// `groups` must outlive it. Throws errors::Error (mesh_invalid).
-  NamedEdges(const mesh::Mesh& mesh, const mesh::EdgeTable& edges, std::span<const CurveEdge> lines,
-             const std::map<int, CurveGroup>& groups);
+/// `given` (physical tag -> meaning) wins over the names of the file.
+/// Throws errors::Error: invalid_argument at "options.curve_groups[TAG]" for a tag the file lacks
+/// and for what is no keyword; mesh_invalid for a keyword with a bad NAME, and for a NAME shared by
+/// a crack and an inclusion.
+CurveGroups read_curve_groups(const MshFile& file,
+                              const std::map<std::int32_t, std::string>& given);
 
-  /// The group of an edge, in either direction, or null. O(log).
-  const CurveGroup* find(std::int32_t a, std::int32_t b) const;
-
- private:
-  struct Entry {
-    std::int32_t low = 0;
-    std::int32_t high = 0;
-    const CurveGroup* group = nullptr;
-  };
-  std::vector<Entry> _entries;
-};
-
-/// "(x, y)" of a node.
-std::string place_of(const mesh::Mesh& mesh, std::int32_t node);
+/// "3, 4, 7", at most twenty of them.
+std::string list_of(const std::vector<std::int32_t>& tags);
 
 }  // namespace anticrack::mesher

@@ -2,20 +2,21 @@
 #include "mesher/import.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <fstream>
 #include <iterator>
-#include <limits>
-#include <optional>
-#include <set>
-#include <unordered_map>
+#include <map>
 #include <utility>
 
 #include "errors/errors.hpp"
 #include "mesher/curve_groups.hpp"
+#include "mesher/edge_roles.hpp"
 #include "mesher/helper.hpp"
 #include "mesher/interface_chains.hpp"
-#include "mesher/msh_scanner.hpp"
+#include "mesher/plane_mesh.hpp"
+#include "mesher/plus_side.hpp"
+#include "mesher/surface_groups.hpp"
+#include "mesher/welding.hpp"
 
 namespace anticrack::mesher {
 namespace {
@@ -23,312 +24,197 @@ namespace {
 using mesh::Kind;
 using mesh::Mesh;
 
-/// What a plane geometry that was rotated or scaled may leave in z, relative to its size.
-constexpr double plane_tolerance = 1e-9;
+/// Of warnings: more are not read.
+constexpr std::size_t most_warnings = 100;
 
 [[noreturn]] void refuse(const std::string& message) {
   throw errors::Error(errors::Reason::mesh_invalid, message);
 }
 
-using NodeIndex = std::unordered_map<std::uint64_t, std::int32_t>;
-
-/// Subdomain of each physical or elementary surface.
-std::map<int, std::int32_t> read_subdomains(const MshFile& file, Mesh& mesh) {
-  const bool grouped = std::any_of(file.triangles.begin(), file.triangles.end(),
-                                   [](const auto& t) { return t.group != 0; });
-  std::map<int, std::int32_t> subdomains;
-  for (const auto& t : file.triangles) {
-    if (grouped && t.group == 0) {
-      refuse("triangle " + std::to_string(t.tag) + " of surface " + std::to_string(t.entity) +
-             " is in no physical surface, but others are; put every surface in one");
-    }
-    subdomains.emplace(grouped ? t.group : t.entity, 0);
+/// The mesh after welding, without subdomains and interfaces.
+Mesh welded_mesh(const PlaneMesh& plane, const Welding& welding) {
+  Mesh mesh;
+  mesh.warnings = plane.warnings;
+  mesh.xy.reserve(2 * welding.node_count);
+  for (std::size_t i = 0; i < welding.node.size(); ++i) {
+    if (static_cast<std::size_t>(welding.node[i]) < mesh.node_count()) continue;
+    mesh.xy.push_back(plane.xy[2 * i]);
+    mesh.xy.push_back(plane.xy[2 * i + 1]);
   }
-  for (auto& [tag, index] : subdomains) {
-    index = static_cast<std::int32_t>(mesh.subdomains.size());
-    const auto named = file.surface_names.find(tag);
-    const bool has_name = grouped && named != file.surface_names.end() && !named->second.empty();
-    mesh.subdomains.push_back(has_name ? printable(named->second) : std::to_string(tag));
+  mesh.triangles.reserve(plane.triangles.size());
+  for (const std::int32_t node : plane.triangles) {
+    mesh.triangles.push_back(welding.node[static_cast<std::size_t>(node)]);
   }
-  if (std::set(mesh.subdomains.begin(), mesh.subdomains.end()).size() < subdomains.size()) {
-    refuse("two physical surfaces have the same name; give each its own");
+  const std::size_t doubles = welding.node.size() - welding.node_count;
+  if (doubles > 0) {
+    mesh.warnings.push_back(
+        std::to_string(doubles) + (doubles == 1 ? " node that lies" : " nodes that lie") +
+        " on another made one with it, as are " + std::to_string(welding.doubled.size()) +
+        " pairs of edges: cracks are opened again by the solver");
   }
-  if (subdomains.size() < 2) {
-    refuse("the mesh has one surface, \"" + mesh.subdomains[0] +
-           "\"; an interface must cut the membrane into two surfaces at least, each a physical "
-           "surface");
-  }
-  for (const auto& t : file.triangles) {
-    mesh.subdomain.push_back(subdomains.at(grouped ? t.group : t.entity));
-  }
-  return subdomains;
+  return mesh;
 }
 
-/// Takes the nodes that triangles use, in the order of the file.
-NodeIndex take_nodes(const MshFile& file, Mesh& mesh) {
-  NodeIndex index;
-  for (const std::uint64_t tag : file.node_tags) {
-    if (!index.emplace(tag, -1).second) {
-      refuse("node " + std::to_string(tag) + " is there twice; save the mesh again");
-    }
+std::array<std::int32_t, 3> sorted_nodes(const PlaneMesh& plane, std::int32_t triangle) {
+  const auto i = 3 * static_cast<std::size_t>(triangle);
+  std::array<std::int32_t, 3> nodes{plane.triangles[i], plane.triangles[i + 1],
+                                    plane.triangles[i + 2]};
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+[[noreturn]] void refuse_overlap(const MshFile& file, const PlaneMesh& plane,
+                                 const mesh::EdgeUse& a, const mesh::EdgeUse& b) {
+  const auto& first = file.triangles[static_cast<std::size_t>(a.triangle)];
+  const auto& second = file.triangles[static_cast<std::size_t>(b.triangle)];
+  const auto tag = [&](std::int32_t node) {
+    return std::to_string(plane.tags[static_cast<std::size_t>(node)]);
+  };
+  const std::string edge = "the edge of nodes " + tag(a.from) + " and " + tag(a.to);
+  if (sorted_nodes(plane, a.triangle) != sorted_nodes(plane, b.triangle)) {
+    refuse("triangles " + std::to_string(first.tag) + " and " + std::to_string(second.tag) +
+           " overlap at " + edge + "; mesh every surface once");
   }
-  for (const auto& t : file.triangles) {
-    for (const std::uint64_t tag : t.nodes) {
-      const auto found = index.find(tag);
-      if (found == index.end()) {
-        refuse("triangle " + std::to_string(t.tag) + " has node " + std::to_string(tag) +
-               ", which the file does not define");
+  if (first.group != second.group) {
+    refuse("a triangle at " + edge + " is in the physical surfaces " + std::to_string(first.group) +
+           " and " + std::to_string(second.group) +
+           "; a surface belongs to one subdomain, so put it in one group");
+  }
+  refuse("triangles " + std::to_string(first.tag) + " and " + std::to_string(second.tag) +
+         " are the same, at " + edge + "; mesh every surface once");
+}
+
+/// Of three triangles at one edge two lie on the same side.
+void check_sides(const MshFile& file, const PlaneMesh& plane) {
+  mesh::EdgeTable(plane.triangles).each([&](std::span<const mesh::EdgeUse> uses) {
+    for (std::size_t i = 1; i < uses.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (uses[i].from == uses[j].from) refuse_overlap(file, plane, uses[j], uses[i]);
       }
-      found->second = 0;
     }
-  }
-  double extent = 0;
-  for (std::size_t i = 0; i < file.xyz.size(); i += 3) {
-    extent = std::max({extent, std::abs(file.xyz[i]), std::abs(file.xyz[i + 1])});
-  }
-  for (std::size_t i = 0; i < file.node_tags.size(); ++i) {
-    std::int32_t& place = index[file.node_tags[i]];
-    if (place < 0) continue;
-    const double z = file.xyz[3 * i + 2];
-    if (std::abs(z) > plane_tolerance * extent) {
-      refuse("node " + std::to_string(file.node_tags[i]) + " lies at z = " + std::to_string(z) +
-             "; a membrane lies in the plane z = 0");
-    }
-    place = static_cast<std::int32_t>(mesh.node_count());
-    mesh.xy.push_back(file.xyz[3 * i]);
-    mesh.xy.push_back(file.xyz[3 * i + 1]);
-  }
-  const std::size_t unused = file.node_tags.size() - mesh.node_count();
-  if (unused > 0) {
-    mesh.warnings.push_back(std::to_string(unused) +
-                            " nodes that belong to no triangle were left out");
-  }
-  return index;
+  });
 }
 
-void take_triangles(const MshFile& file, const NodeIndex& index, Mesh& mesh) {
-  std::size_t turned = 0;
-  for (const auto& t : file.triangles) {
-    for (const std::uint64_t tag : t.nodes) mesh.triangles.push_back(index.at(tag));
-    const std::size_t last = mesh.triangle_count() - 1;
-    if (mesh::area(mesh, last) < 0) {
-      std::swap(mesh.triangles[3 * last + 1], mesh.triangles[3 * last + 2]);
-      ++turned;
-    }
-    if (!(mesh::area(mesh, last) > 0)) {
-      refuse("triangle " + std::to_string(t.tag) + " at " +
-             place_of(mesh, mesh.triangles[3 * last]) + " has no area; mesh again");
-    }
-  }
-  if (turned > 0) {
-    mesh.warnings.push_back(std::to_string(turned) +
-                            " triangles were clockwise and have been turned round");
-  }
-}
-
-std::vector<CurveEdge> take_lines(const MshFile& file, const NodeIndex& index,
-                                  const std::map<int, CurveGroup>& groups) {
+/// Lines between nodes of triangles; others are left out, or refused if they say something.
+std::vector<CurveEdge> take_lines(const MshFile& file, const PlaneMesh& plane,
+                                  const Welding& welding, const CurveGroups& groups, Mesh& mesh) {
   std::vector<CurveEdge> lines;
+  lines.reserve(file.lines.size());
+  std::map<std::int32_t, std::size_t> stray;
   for (const auto& line : file.lines) {
-    const auto a = index.find(line.nodes[0]);
-    const auto b = index.find(line.nodes[1]);
-    const bool there = a != index.end() && b != index.end() && a->second >= 0 && b->second >= 0;
-    if (there) {
-      lines.push_back({a->second, b->second, line.group});
-    } else if (groups.contains(line.group)) {
-      refuse("line " + std::to_string(line.tag) + " of curve \"" + groups.at(line.group).full +
-             "\" has a node that belongs to no triangle; mesh surfaces and curves together");
+    const CurveGroup* group = groups.of(line);
+    const auto a = plane.of.find(line.nodes[0]);
+    const auto b = plane.of.find(line.nodes[1]);
+    if (a != plane.of.end() && b != plane.of.end() && a->second >= 0 && b->second >= 0) {
+      lines.push_back({welding.node[static_cast<std::size_t>(a->second)],
+                       welding.node[static_cast<std::size_t>(b->second)], group});
+    } else if (group != nullptr && group->meaning) {
+      refuse("line " + std::to_string(line.tag) + " of " + group->title +
+             " has a node that belongs to no triangle; mesh surfaces and curves together");
+    } else if (group != nullptr) {
+      ++stray[group->tag];
     }
+  }
+  for (const auto& [tag, count] : stray) {
+    mesh.warnings.push_back(groups.groups.at(tag).title + " has " + std::to_string(count) +
+                            (count == 1 ? " line" : " lines") +
+                            " with nodes that belong to no triangle: left out");
   }
   return lines;
 }
 
-/// Nodes of the outer boundary; fills in mesh.dirichlet.
-std::set<std::int32_t> take_boundary(const mesh::EdgeTable& edges, const NamedEdges& named,
-                                     const std::map<int, CurveGroup>& groups, Mesh& mesh) {
-  const bool any = std::any_of(groups.begin(), groups.end(), [](const auto& entry) {
-    return entry.second.role == CurveRole::dirichlet;
-  });
-  std::set<std::int32_t> nodes;
-  edges.each([&](std::span<const mesh::EdgeUse> uses) {
-    if (uses.size() != 1) return;
-    const auto& edge = uses[0];
-    nodes.insert(edge.from);
-    nodes.insert(edge.to);
-    const CurveGroup* group = named.find(edge.from, edge.to);
-    const bool held = group == nullptr ? !any : group->role == CurveRole::dirichlet;
-    if (held) mesh.dirichlet.push_back({edge.from, edge.to});
-  });
-  if (mesh.dirichlet.empty()) {
-    refuse(
-        "no edge of the boundary is dirichlet, so nothing holds the membrane; put some of its "
-        "boundary in a physical curve \"dirichlet\"");
-  }
-  if (!any) {
-    mesh.warnings.push_back("no physical curve is named \"dirichlet\"; the boundary" +
-                            std::string(groups.empty() ? "" : ", where it has no name,") +
-                            " is taken to be");
-  }
-  return nodes;
+/// Where elementary curves and doubled nodes may part a surface.
+std::vector<std::pair<std::int32_t, std::int32_t>> cuts_of(const std::vector<CurveEdge>& lines,
+                                                           const Welding& welding) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> cuts;
+  cuts.reserve(lines.size() + welding.doubled.size());
+  for (const CurveEdge& line : lines) cuts.push_back(std::minmax(line.from, line.to));
+  for (const DoubledEdge& edge : welding.doubled) cuts.emplace_back(edge.low, edge.high);
+  std::sort(cuts.begin(), cuts.end());
+  return cuts;
 }
 
-/// Which way the lines of the file run along chains.
-class LineDirections {
+std::vector<bool> boundary_nodes(const mesh::EdgeTable& edges, const Mesh& mesh) {
+  std::vector<bool> found(mesh.node_count(), false);
+  edges.each([&](std::span<const mesh::EdgeUse> uses) {
+    if (uses.size() != 1) return;
+    found[static_cast<std::size_t>(uses[0].from)] = true;
+    found[static_cast<std::size_t>(uses[0].to)] = true;
+  });
+  return found;
+}
+
+Kind kind_of(CurveRole role) {
+  if (role == CurveRole::crack) return Kind::crack;
+  if (role == CurveRole::inclusion) return Kind::inclusion;
+  return role == CurveRole::delaminated ? Kind::delaminated : Kind::glue;
+}
+
+/// Numbers inclusions in the order in which they are met.
+class InclusionNumbers {
  public:
-  explicit LineDirections(const std::vector<CurveEdge>& lines) {
-    for (const CurveEdge& line : lines) _directed.insert({line.from, line.to});
-  }
-  /// +1: all along the chain, -1: all against it, 0: neither, or no line there.
-  int along(const Chain& chain) const {
-    bool forwards = false;
-    bool backwards = false;
-    for (std::size_t i = 0; i + 1 < chain.nodes.size(); ++i) {
-      forwards |= _directed.contains({chain.nodes[i], chain.nodes[i + 1]});
-      backwards |= _directed.contains({chain.nodes[i + 1], chain.nodes[i]});
-    }
-    return static_cast<int>(forwards) - static_cast<int>(backwards);
+  explicit InclusionNumbers(Mesh& mesh) : _mesh(mesh) {}
+
+  std::int32_t of(const CurveMeaning& meaning) {
+    if (meaning.role != CurveRole::inclusion && meaning.role != CurveRole::delaminated) return -1;
+    const auto next = static_cast<std::int32_t>(_mesh.inclusions.size());
+    const auto [entry, added] = _known.emplace(meaning.name, next);
+    if (added) _mesh.inclusions.push_back(meaning.name);
+    return entry->second;
   }
 
  private:
-  std::set<std::pair<std::int32_t, std::int32_t>> _directed;
+  Mesh& _mesh;
+  std::map<std::string, std::int32_t> _known;
 };
 
-/// Walks the chain with its plus side on the left, by the rules of the header.
-Chain orient(Chain chain, const Mesh& mesh, const LineDirections& directions, bool& guessed) {
-  const auto name = [&](std::int32_t s) { return mesh.subdomains[static_cast<std::size_t>(s)]; };
-  const auto is_plus = [&](std::int32_t s, std::int32_t facing) {
-    return name(s) == "plus" || name(facing) == "minus";
-  };
-  guessed = false;
-  if (is_plus(chain.left, chain.right)) return chain;
-  if (is_plus(chain.right, chain.left)) return reversed(std::move(chain));
-  const int direction = directions.along(chain);
-  if (direction > 0) return chain;
-  if (direction < 0) return reversed(std::move(chain));
-  guessed = true;
-  return chain.left > chain.right ? chain : reversed(std::move(chain));
-}
-
-std::int32_t inclusion_index(const std::string& name, Mesh& mesh) {
-  const auto found = std::find(mesh.inclusions.begin(), mesh.inclusions.end(), name);
-  if (found == mesh.inclusions.end()) mesh.inclusions.push_back(name);
-  return static_cast<std::int32_t>(std::distance(
-      mesh.inclusions.begin(), std::find(mesh.inclusions.begin(), mesh.inclusions.end(), name)));
-}
-
-bool same_body(const CurveGroup& a, const CurveGroup& b) {
-  const bool cracks = a.role == CurveRole::crack && b.role == CurveRole::crack;
-  const bool inclusions = a.role != CurveRole::crack && b.role != CurveRole::crack;
-  return (cracks || inclusions) && a.name == b.name;
-}
-
-/// A crack or inclusion must lie strictly inside, and share no tip with another.
-void check_tips(const Mesh& mesh, const Chain& chain, const std::vector<const CurveGroup*>& groups,
-                const std::set<std::int32_t>& boundary) {
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    if (groups[i] == nullptr) continue;
-    for (const std::size_t k : {i, i + 1}) {
-      const bool end = k == 0 || k + 1 == chain.nodes.size();
-      if (end || boundary.contains(chain.nodes[k])) {
-        refuse("curve \"" + groups[i]->full + "\" reaches " +
-               (boundary.contains(chain.nodes[k]) ? "the boundary" : "the end of its interface") +
-               " at " + place_of(mesh, chain.nodes[k]) + "; a tip must lie inside the membrane");
-      }
-    }
-    if (i > 0 && groups[i - 1] != nullptr && !same_body(*groups[i - 1], *groups[i])) {
-      refuse("curves \"" + groups[i - 1]->full + "\" and \"" + groups[i]->full +
-             "\" share the tip " + place_of(mesh, chain.nodes[i]) +
-             "; leave an unnamed curve between them");
-    }
-  }
-}
-
-mesh::Interface make_interface(const Chain& chain, const std::vector<const CurveGroup*>& groups,
-                               Mesh& mesh) {
-  mesh::Interface interface;
-  interface.nodes = chain.nodes;
-  for (const CurveGroup* group : groups) {
-    Kind kind = Kind::glue;
-    std::int32_t inclusion = -1;
-    if (group != nullptr && group->role == CurveRole::crack) {
-      kind = Kind::crack;
-    } else if (group != nullptr) {
-      kind = group->role == CurveRole::inclusion ? Kind::inclusion : Kind::delaminated;
-      inclusion = inclusion_index(group->name, mesh);
-    }
-    interface.kind.push_back(kind);
-    interface.inclusion.push_back(inclusion);
-  }
-  return interface;
-}
-
-void take_interfaces(const mesh::EdgeTable& edges, const NamedEdges& named,
-                     const std::vector<CurveEdge>& lines, const std::set<std::int32_t>& boundary,
-                     Mesh& mesh) {
-  const LineDirections directions(lines);
-  std::vector<bool> connected(mesh.subdomains.size(), false);
-  std::vector<Chain> chains = build_chains(mesh, edges);
+void take_interfaces(const EdgeRoles& roles, const std::vector<bool>& on_boundary,
+                     const LineDirections& directions, Mesh& mesh) {
+  std::vector<Chain> chains = build_chains(roles.interfaces, on_boundary);
+  const bool single = chains.size() == 1;
+  InclusionNumbers numbers(mesh);
+  mesh.interfaces.reserve(chains.size());
   for (Chain& found : chains) {
-    bool guessed = false;
-    const Chain chain = orient(std::move(found), mesh, directions, guessed);
-    const auto left = static_cast<std::size_t>(chain.left);
-    const auto right = static_cast<std::size_t>(chain.right);
-    connected[left] = connected[right] = true;
-    std::vector<const CurveGroup*> groups;
-    for (std::size_t i = 0; i + 1 < chain.nodes.size(); ++i) {
-      groups.push_back(named.find(chain.nodes[i], chain.nodes[i + 1]));
+    Oriented oriented = orient(std::move(found), mesh, directions);
+    mesh::Interface interface;
+    interface.name =
+        single ? "interface" : "interface-" + std::to_string(mesh.interfaces.size() + 1);
+    interface.nodes = std::move(oriented.chain.nodes);
+    interface.kind.reserve(oriented.chain.edges.size());
+    interface.inclusion.reserve(oriented.chain.edges.size());
+    for (const InterfaceEdge* edge : oriented.chain.edges) {
+      interface.kind.push_back(kind_of(edge->meaning.role));
+      interface.inclusion.push_back(numbers.of(edge->meaning));
     }
-    check_tips(mesh, chain, groups, boundary);
-    mesh.interfaces.push_back(make_interface(chain, groups, mesh));
-    mesh.interfaces.back().name =
-        chains.size() == 1 ? "interface" : "interface" + std::to_string(mesh.interfaces.size());
-    if (guessed) {
-      mesh.warnings.push_back("surface \"" + mesh.subdomains[left] +
-                              "\" is taken for the plus side of " + mesh.interfaces.back().name +
-                              "; name the surface on that side \"plus\" to choose");
+    if (!oriented.note.empty()) {
+      mesh.warnings.push_back(interface.name + ": " + oriented.note);
     }
-  }
-  for (std::size_t s = 0; s < connected.size(); ++s) {
-    if (!connected[s]) {
-      refuse("surface \"" + mesh.subdomains[s] +
-             "\" shares no edge with another; let neighbours share the nodes of their common curve "
-             "(in gmsh: one curve for both, or Coherence)");
-    }
+    mesh.interfaces.push_back(std::move(interface));
   }
 }
 
-void check_plane(const mesh::EdgeTable& edges, const Mesh& mesh) {
-  edges.each([&](std::span<const mesh::EdgeUse> uses) {
-    const bool overlap = uses.size() == 2 && uses[0].from == uses[1].from;
-    if (uses.size() <= 2 && !overlap) return;
-    refuse("triangles overlap at the edge " + place_of(mesh, uses[0].from) + "-" +
-           place_of(mesh, uses[0].to) + ", which belongs to " + std::to_string(uses.size()) +
-           "; put every surface in one physical group and mesh it once");
-  });
+void shorten(std::vector<std::string>& warnings) {
+  if (warnings.size() <= most_warnings) return;
+  const std::size_t more = warnings.size() - most_warnings;
+  warnings.resize(most_warnings);
+  warnings.push_back("and " + std::to_string(more) + " more");
 }
 
 }  // namespace
 
-Mesh to_mesh(const MshFile& file) {
-  if (file.triangles.empty()) {
-    refuse(
-        "the mesh has no triangle; mesh in two dimensions (gmsh -2) and put the surfaces in "
-        "physical groups before saving");
-  }
-  if (file.node_tags.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    refuse("the mesh has " + std::to_string(file.node_tags.size()) + " nodes, too many to number");
-  }
-  const std::map<int, CurveGroup> groups = read_curve_groups(file.curve_names);
-  Mesh mesh;
-  read_subdomains(file, mesh);
-  const NodeIndex index = take_nodes(file, mesh);
-  take_triangles(file, index, mesh);
-  const std::vector<CurveEdge> lines = take_lines(file, index, groups);
+Mesh to_mesh(const MshFile& file, const mesh::MeshOptions& options) {
+  const PlaneMesh plane = read_plane(file);
+  const CurveGroups groups = read_curve_groups(file, options.curve_groups);
+  check_sides(file, plane);
+  const Welding welding = weld(plane.xy, plane.triangles, plane.tags);
+  Mesh mesh = welded_mesh(plane, welding);
+  const std::vector<CurveEdge> lines = take_lines(file, plane, welding, groups, mesh);
   const mesh::EdgeTable edges(mesh.triangles);
-  check_plane(edges, mesh);
-  const NamedEdges named(mesh, edges, lines, groups);
-  const std::set<std::int32_t> boundary = take_boundary(edges, named, groups, mesh);
-  take_interfaces(edges, named, lines, boundary, mesh);
+  read_surfaces(file, options, edges, cuts_of(lines, welding), mesh);
+  EdgeRoles roles = read_edges(edges, lines, groups, welding, mesh);
+  take_interfaces(roles, boundary_nodes(edges, mesh), LineDirections(lines), mesh);
+  mesh.dirichlet = std::move(roles.dirichlet);
+  shorten(mesh.warnings);
   mesh::validate(mesh);
   return mesh;
 }
@@ -338,7 +224,7 @@ Mesh import_msh(const mesh::ImportRequest& request) {
   std::ifstream in(request.path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (in.bad()) refuse("the mesh file cannot be read to its end");
-  return to_mesh(read_msh(bytes, request.max_triangles));
+  return to_mesh(read_msh(bytes, request.max_triangles), request.options);
 }
 
 }  // namespace anticrack::mesher

@@ -1,28 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The edges between subdomains, put in order.
+// The edges of interfaces, put in order.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "mesh/edges.hpp"
 #include "mesh/mesh.hpp"
+#include "mesher/edge_roles.hpp"
 
 namespace anticrack::mesher {
 
-/// A chain of nodes with subdomain `left` on its left and `right` on its right all along.
+/// A chain of nodes with subdomain `left` on its left and `right` on its right all along; both are
+/// the same for a slit.
 struct Chain {
   std::int32_t left = 0;
   std::int32_t right = 0;
-  std::vector<std::int32_t> nodes;
+  std::vector<std::int32_t> nodes;          ///< k; a closed chain has its first again as last
+  std::vector<const InterfaceEdge*> edges;  ///< k-1
+
+  bool closed() const noexcept { return nodes.front() == nodes.back(); }
 };
 
-/// One chain for each connected set of edges between the same two subdomains, by (lower, higher)
-/// subdomain and then by its lowest end node, from which it starts.
-/// Throws errors::Error (mesh_invalid) where edges branch, close to a ring, or change sides.
-/// O(e log e) in the edges between subdomains.
-std::vector<Chain> build_chains(const mesh::Mesh& mesh, const mesh::EdgeTable& edges);
+/// Chains end at free ends, at the boundary, and in cross points, where other than two edges meet.
+/// By (lower, higher) subdomain, then by node. An open chain starts from its lower end node, a ring
+/// from its lowest node. `on_boundary` (n). O(e log e) in the edges.
+std::vector<Chain> build_chains(std::span<const InterfaceEdge> edges,
+                                const std::vector<bool>& on_boundary);
 
 /// The same chain walked the other way.
 Chain reversed(Chain chain);

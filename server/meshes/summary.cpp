@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "mesh/edges.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
+#include "mesher/union_find.hpp"
 
 namespace anticrack::meshes {
 
@@ -79,22 +79,6 @@ void count_nodes(const mesh::Mesh& mesh, std::vector<store::SubdomainSummary>& r
   }
 }
 
-/// Disjoint sets of triangles.
-class Parts {
- public:
-  explicit Parts(std::size_t count) : _parent(count) {
-    std::iota(_parent.begin(), _parent.end(), std::size_t{0});
-  }
-  std::size_t of(std::size_t i) {
-    while (_parent[i] != i) i = _parent[i] = _parent[_parent[i]];
-    return i;
-  }
-  void join(std::size_t i, std::size_t j) { _parent[of(i)] = of(j); }
-
- private:
-  std::vector<std::size_t> _parent;
-};
-
 /// A part is what one reaches from triangle to triangle without crossing an interface, so a slit
 /// parts nothing unless it goes all the way; it floats when none of its nodes is a Dirichlet node.
 void find_floating(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
@@ -106,12 +90,11 @@ void find_floating(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
     }
   }
   std::sort(cuts.begin(), cuts.end());
-  Parts parts(mesh.triangle_count());
+  mesher::UnionFind parts(mesh.triangle_count());
   edges.each([&](std::span<const mesh::EdgeUse> uses) {
     const EdgeKey edge{uses[0].low(), uses[0].high()};
     if (uses.size() != 2 || std::binary_search(cuts.begin(), cuts.end(), edge)) return;
-    parts.join(static_cast<std::size_t>(uses[0].triangle),
-               static_cast<std::size_t>(uses[1].triangle));
+    parts.unite(uses[0].triangle, uses[1].triangle);
   });
   std::vector<bool> fixed(mesh.node_count(), false);
   for (const auto& [a, b] : mesh.dirichlet) {
@@ -119,11 +102,14 @@ void find_floating(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
     fixed[static_cast<std::size_t>(b)] = true;
   }
   std::vector<bool> held(mesh.triangle_count(), false);
+  const auto part_of = [&](std::size_t triangle) {
+    return static_cast<std::size_t>(parts.find(static_cast<std::int32_t>(triangle)));
+  };
   for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
-    if (fixed[static_cast<std::size_t>(mesh.triangles[corner])]) held[parts.of(corner / 3)] = true;
+    if (fixed[static_cast<std::size_t>(mesh.triangles[corner])]) held[part_of(corner / 3)] = true;
   }
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    if (!held[parts.of(t)]) result[static_cast<std::size_t>(mesh.subdomain[t])].floating = true;
+    if (!held[part_of(t)]) result[static_cast<std::size_t>(mesh.subdomain[t])].floating = true;
   }
 }
 

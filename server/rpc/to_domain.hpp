@@ -19,7 +19,9 @@ namespace anticrack::rpc {
 constexpr std::size_t max_vertices = 10'000;
 /// Inclusions, cracks and delaminated parts of one geometry, together.
 constexpr std::size_t max_parts = 1'000;
-/// Subdomains named in one force.
+/// Interfaces of one geometry, and lines its mesh is to follow.
+constexpr std::size_t max_interfaces = 1'000;
+/// Subdomains named in one force or geometry, groups named for one upload.
 constexpr std::size_t max_regions = 1'000;
 constexpr std::size_t max_title_bytes = 200;
 constexpr std::size_t max_request_id_bytes = 64;

@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <random>
+#include <tuple>
 
 #include "support/errors.hpp"
 #include "support/paper_geometry.hpp"
@@ -22,6 +23,8 @@ Mesh small_mesh() {
   options.rows = 1;
   Mesh mesh = testing::structured_mesh(options);
   mesh.warnings = {"one", ""};
+  mesh.tension.assign(mesh.subdomains.size(), 1.0);
+  mesh.tension.back() = 2.5;
   return mesh;
 }
 
@@ -30,6 +33,7 @@ void expect_equal(const Mesh& a, const Mesh& b) {
   EXPECT_EQ(a.triangles, b.triangles);
   EXPECT_EQ(a.subdomain, b.subdomain);
   EXPECT_EQ(a.subdomains, b.subdomains);
+  EXPECT_EQ(a.tension, b.tension);
   EXPECT_EQ(a.inclusions, b.inclusions);
   EXPECT_EQ(a.dirichlet, b.dirichlet);
   ASSERT_EQ(a.interfaces.size(), b.interfaces.size());
@@ -56,7 +60,15 @@ void expect_exact(const Bytes& bytes, const Decode& decode) {
 }
 
 mesh::GenerateRequest generate_request() {
-  return {mesh::plan(testing::paper_geometry(), {}, 100'000), 12'345};
+  mesh::Geometry geometry = testing::paper_geometry();
+  geometry.interfaces.push_back(
+      {"ring", mesh::Shape::polyline, {{-0.5, -0.5}, {0, -0.25}, {0.5, -0.5}}, true});
+  mesh::MeshOptions options;
+  options.size = 0.5;
+  options.grading = 0.125;
+  options.tip_size = 1e-5;
+  options.align = {{{-0.5, -0.75}, {0.5, -0.75}}};
+  return {mesh::plan(geometry, options, 100'000), 12'345};
 }
 
 errors::Error full_error() {
@@ -79,6 +91,13 @@ TEST(Codec, EqualMeshesGiveEqualBytes) {
   a.xy[2] = 0.0;
   b.xy[2] = -0.0;
   EXPECT_EQ(mesh::encode(a), mesh::encode(b));
+  // no tension means 1 everywhere
+  a.tension.clear();
+  b.tension.assign(b.subdomains.size(), 1.0);
+  EXPECT_EQ(mesh::encode(a), mesh::encode(b));
+  b.tension[0] = 2;
+  EXPECT_NE(mesh::encode(a), mesh::encode(b));
+  b.tension[0] = 1;
   b.xy[2] = 1e-300;
   EXPECT_NE(mesh::encode(a), mesh::encode(b));
 }
@@ -88,31 +107,83 @@ TEST(Codec, GenerateRequestComesBack) {
   const auto back = std::get<mesh::GenerateRequest>(
       mesh::decode_request(mesh::encode(mesh::MesherRequest(request))));
   EXPECT_EQ(back.max_triangles, 12'345U);
-  EXPECT_EQ(back.plan.points, request.plan.points);
-  EXPECT_EQ(back.plan.inclusions, request.plan.inclusions);
-  EXPECT_EQ(back.plan.growth, request.plan.growth);
-  const auto same = [](const mesh::PlannedCurve& a, const mesh::PlannedCurve& b) {
-    return a.a == b.a && a.b == b.b && a.intervals == b.intervals;
-  };
-  for (std::size_t side = 0; side < 2; ++side) {
-    ASSERT_EQ(back.plan.outer[side].size(), request.plan.outer[side].size());
-    for (std::size_t i = 0; i < back.plan.outer[side].size(); ++i) {
-      EXPECT_TRUE(same(back.plan.outer[side][i], request.plan.outer[side][i]));
-    }
+  const mesh::Plan& a = request.plan;
+  const mesh::Plan& b = back.plan;
+  EXPECT_EQ(b.points, a.points);
+  EXPECT_EQ(b.inclusions, a.inclusions);
+  EXPECT_EQ(b.growth, a.growth);
+  EXPECT_EQ(b.grading.h0, a.grading.h0);
+  EXPECT_EQ(b.grading.m, 0.125);
+  EXPECT_EQ(b.grading.tip_size, 1e-5);
+  ASSERT_EQ(b.curves.size(), a.curves.size());
+  for (std::size_t i = 0; i < a.curves.size(); ++i) {
+    const auto members = [](const mesh::PlannedCurve& c) {
+      return std::tuple(c.a, c.b, c.intervals, c.role, c.left, c.right, c.kind, c.inclusion);
+    };
+    EXPECT_EQ(members(b.curves[i]), members(a.curves[i]));
   }
-  ASSERT_EQ(back.plan.interface.size(), 3U);
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_TRUE(same(back.plan.interface[i], request.plan.interface[i]));
-    EXPECT_EQ(back.plan.interface[i].kind, request.plan.interface[i].kind);
-    EXPECT_EQ(back.plan.interface[i].inclusion, request.plan.interface[i].inclusion);
+  ASSERT_EQ(b.interfaces.size(), a.interfaces.size());
+  for (std::size_t i = 0; i < a.interfaces.size(); ++i) {
+    EXPECT_EQ(b.interfaces[i].name, a.interfaces[i].name);
+    EXPECT_EQ(b.interfaces[i].curves, a.interfaces[i].curves);
+  }
+  ASSERT_EQ(b.faces.size(), a.faces.size());
+  for (std::size_t i = 0; i < a.faces.size(); ++i) {
+    const auto members = [](const mesh::PlannedFace& f) {
+      return std::tuple(f.name, f.tension, f.outer, f.holes, f.embedded);
+    };
+    EXPECT_EQ(members(b.faces[i]), members(a.faces[i]));
   }
 }
 
+TEST(Codec, APlanWhoseNumbersPointNowhereIsRefused) {
+  const auto spoiled = [](const auto& spoil) {
+    mesh::GenerateRequest request = generate_request();
+    spoil(request.plan);
+    const Bytes bytes = mesh::encode(mesh::MesherRequest(request));
+    return testing::throws([&] { mesh::decode_request(bytes); }, errors::Reason::mesh_invalid);
+  };
+  EXPECT_FALSE(spoiled([](mesh::Plan&) {}));
+  EXPECT_TRUE(spoiled([](mesh::Plan& p) { p.curves[1].a = -1; }));
+  EXPECT_TRUE(spoiled([](mesh::Plan& p) { p.curves[1].b = 1'000'000; }));
+  EXPECT_TRUE(spoiled([](mesh::Plan& p) { p.curves[1].left = 77; }));
+  EXPECT_TRUE(spoiled([](mesh::Plan& p) { p.curves[1].inclusion = 3; }));
+  EXPECT_TRUE(spoiled([](mesh::Plan& p) { p.interfaces[0].curves[0] = 1'000'000; }));
+  EXPECT_TRUE(spoiled([](mesh::Plan& p) { p.faces[0].outer[0] = 0; }));
+  EXPECT_TRUE(spoiled([](mesh::Plan& p) { p.faces[0].outer[0] = -2'147'483'647 - 1; }));
+  EXPECT_TRUE(spoiled([](mesh::Plan& p) { p.faces[0].holes.at(0).at(0) = 1'000'000; }));
+  EXPECT_TRUE(spoiled([](mesh::Plan& p) { p.faces[0].embedded.at(0) = -1; }));
+}
+
+mesh::MesherRequest import_request() {
+  mesh::ImportRequest request;
+  request.path = "a file.msh";
+  request.max_triangles = 99;
+  request.options.preset = mesh::Preset::uniform;
+  request.options.size = 0.25;
+  request.options.tip_size = 1e-7;
+  request.options.grading = 0.5;
+  request.options.align = {{{1, 2}, {3, 4}}, {{5, 6}}};
+  request.options.curve_groups = {{3, "crack"}, {-1, "delaminated:a"}};
+  request.options.surface_groups = {{7, "left"}};
+  request.options.tension = {{"left", 2.5}, {"right", 1}};
+  return request;
+}
+
 TEST(Codec, ImportRequestComesBack) {
-  const mesh::MesherRequest request = mesh::ImportRequest{"a file.msh", 99};
+  const mesh::MesherRequest request = import_request();
+  const auto& sent = std::get<mesh::ImportRequest>(request);
   const auto back = std::get<mesh::ImportRequest>(mesh::decode_request(mesh::encode(request)));
   EXPECT_EQ(back.path, "a file.msh");
   EXPECT_EQ(back.max_triangles, 99U);
+  EXPECT_EQ(back.options.preset, mesh::Preset::uniform);
+  EXPECT_EQ(back.options.size, 0.25);
+  EXPECT_EQ(back.options.tip_size, 1e-7);
+  EXPECT_EQ(back.options.grading, 0.5);
+  EXPECT_EQ(back.options.align, sent.options.align);
+  EXPECT_EQ(back.options.curve_groups, sent.options.curve_groups);
+  EXPECT_EQ(back.options.surface_groups, sent.options.surface_groups);
+  EXPECT_EQ(back.options.tension, sent.options.tension);
 }
 
 TEST(Codec, ReplyCarriesWarnings) {
@@ -138,7 +209,7 @@ TEST(Codec, TruncationAtEveryByteIsRefused) {
   expect_exact(mesh::encode(small_mesh()), [](const Bytes& b) { mesh::decode_mesh(b); });
   const auto request = [](const Bytes& b) { mesh::decode_request(b); };
   expect_exact(mesh::encode(mesh::MesherRequest(generate_request())), request);
-  expect_exact(mesh::encode(mesh::MesherRequest(mesh::ImportRequest{"x.msh", 1})), request);
+  expect_exact(mesh::encode(import_request()), request);
   const auto reply = [](const Bytes& b) { mesh::decode_reply(b); };
   expect_exact(mesh::encode(mesh::MesherReply(small_mesh())), reply);
   expect_exact(mesh::encode(mesh::MesherReply(full_error())), reply);

@@ -110,93 +110,91 @@ const Fault faults[] = {
      "boundary",
      {"from the origin"}},
 
-    {"InterfaceOnePoint", [](Geometry& g) { g.interface.resize(1); }, "interface", {"1 vertices"}},
+    {"InterfaceOnePoint",
+     [](Geometry& g) { g.interfaces[0].points.resize(1); },
+     "interfaces[0].polyline",
+     {"1 vertices"}},
     {"InterfaceTooLong",
-     [](Geometry& g) { g.interface.resize(10'001); },
-     "interface",
+     [](Geometry& g) { g.interfaces[0].points.resize(10'001); },
+     "interfaces",
      {"10001"},
      Reason::limit_exceeded},
     {"InterfaceInfinite",
-     [](Geometry& g) { g.interface[1][0] = infinite; },
-     "interface[1]",
+     [](Geometry& g) { g.interfaces[0].points[1][0] = infinite; },
+     "interfaces[0].polyline.points[1]",
      {"inf"}},
     {"InterfaceRepeats",
      [](Geometry& g) {
-       g.interface = {{-1, 0}, {-1, 0}, {1, 0}};
+       g.interfaces[0].points = {{-1, 0}, {-1, 0}, {1, 0}};
      },
-     "interface[1]",
-     {"repeats interface[0]"}},
-    {"InterfaceStartsInside",
-     [](Geometry& g) {
-       g.interface[0] = {-0.75, 0};
-     },
-     "interface",
-     {"starts at interface[0] (-0.75, 0), 0.25 inside"}},
+     "interfaces[0].polyline.points[1]",
+     {"repeats interfaces[0].polyline.points[0]"}},
     {"InterfaceEndsOutside",
      [](Geometry& g) {
-       g.interface[1] = {1.5, 0};
+       g.interfaces[0].points[1] = {1.5, 0};
      },
-     "interface",
-     {"ends at interface[1] (1.5, 0), 0.5 outside"}},
+     "interfaces[0].polyline",
+     {"leaves the polygon", "(1.5, 0)"}},
     {"InterfaceLeaves",
      [](Geometry& g) {
-       g.interface = {{-1, 0}, {0, -2}, {1, 0}};
+       g.interfaces[0].points = {{-1, 0}, {0, -2}, {1, 0}};
      },
-     "interface",
-     {"leaves the polygon", "interface[0] (-1, 0) to interface[1] (0, -2)"}},
+     "interfaces[0].polyline",
+     {"leaves the polygon", "(-1, 0) to (0, -2)"}},
     {"InterfaceOutside",
      [](Geometry& g) {
-       g.interface = {{-1, 0}, {-2, 0}, {-2, 3}, {0, 3}, {0, 1}};
+       g.interfaces[0].points = {{-1, 0}, {-2, 0}, {-2, 3}, {0, 3}, {0, 1}};
      },
-     "interface",
+     "interfaces[0].polyline",
      {"outside"}},
     {"InterfaceTouchesBetween",
      [](Geometry& g) {
-       g.interface = {{-1, 0}, {0, 1}, {1, 0}};
+       g.interfaces[0].points = {{-1, 0}, {0, 1}, {1, 0}};
      },
-     "interface",
+     "interfaces[0].polyline",
      {"touches its boundary", "(0, 1)"}},
     {"InterfaceTouchesCorner",
      [](Geometry& g) {
        g.boundary = {{-1, -1}, {1, -1}, {1, 1}, {0, 0}, {-1, 1}};
      },
-     "interface",
+     "interfaces[0].polyline",
      {"touches its boundary"}},
     {"InterfaceAlongTheBoundary",
      [](Geometry& g) {
-       g.interface = {{-1, 1}, {1, 1}};
+       g.interfaces[0].points = {{-1, 1}, {1, 1}};
      },
-     "interface",
+     "interfaces[0].polyline",
      {"only its two ends"}},
     {"InterfacePartlyAlongTheBoundary",
      [](Geometry& g) {
-       g.interface = {{-1, 0}, {-1, 0.5}, {1, 0}};
+       g.interfaces[0].points = {{-1, 0}, {-1, 0.5}, {1, 0}};
      },
-     "interface",
+     "interfaces[0].polyline",
      {"only its two ends"}},
     {"InterfaceWithinOneEdge",
      [](Geometry& g) {
-       g.interface = {{-0.5, 1}, {0.5, 1}};
+       g.interfaces[0].points = {{-0.5, 1}, {0.5, 1}};
      },
-     "interface",
+     "interfaces[0].polyline",
      {"only its two ends"}},
     {"InterfaceCrossesItself",
      [](Geometry& g) {
-       g.interface = {{-1, 0}, {0.5, 0}, {0, 0.5}, {0, -0.5}, {1, -0.5}};
+       g.interfaces[0].points = {{-1, 0}, {0.5, 0}, {0, 0.5}, {0, -0.5}, {1, -0.5}};
      },
-     "interface",
-     {"crosses", "interface[0] to interface[1]", "interface[2] to interface[3]"}},
+     "interfaces[0].polyline",
+     {"crosses", "points[0] to interfaces[0].polyline.points[1]",
+      "points[2] to interfaces[0].polyline.points[3]"}},
     {"InterfaceFoldsBack",
      [](Geometry& g) {
-       g.interface = {{-1, 0}, {0.5, 0}, {0, 0}, {0, 1}};
+       g.interfaces[0].points = {{-1, 0}, {0.5, 0}, {0, 0}, {0, 1}};
      },
-     "interface",
+     "interfaces[0].polyline",
      {"folds back"}},
     {"InterfaceDoesNotCut",
      [](Geometry& g) {
-       g.interface = {{-1, 0}, {0, 0}, {0, 0.5}, {-1, 0}};
+       g.interfaces[0].points = {{-1, 0}, {0, 0}, {0, 0.5}, {-1, 0}};
      },
-     "interface",
+     "interfaces[0].polyline",
      {"starts and ends at the same point (-1, 0)"}},
 
     {"InclusionOff",
@@ -323,13 +321,15 @@ TEST(MeshOptions, SizeMustBeAnEdgeLength) {
   for (const double size : {-0.1, nan_value, infinite}) {
     EXPECT_TRUE(testing::throws(
         [&] {
-          mesh::plan(testing::paper_geometry(), {mesh::Preset::uniform, size}, 1000);
+          mesh::plan(testing::paper_geometry(), {.preset = mesh::Preset::uniform, .size = size},
+                     1000);
         },
         Reason::invalid_argument, "options.size"));
   }
   EXPECT_TRUE(testing::throws(
       [] {
-        mesh::plan(testing::paper_geometry(), {mesh::Preset::paper, 0.1}, 100'000);
+        mesh::plan(testing::paper_geometry(), {.preset = mesh::Preset::paper, .size = 0.1},
+                   100'000);
       },
       Reason::invalid_argument, "options.size"));
 }

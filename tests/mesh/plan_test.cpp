@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "mesh/geometry.hpp"
 #include "mesh/geometry_intervals.hpp"
+#include "mesh/plan_checks.hpp"
 #include "support/errors.hpp"
 #include "support/paper_geometry.hpp"
 
@@ -15,65 +15,67 @@ namespace {
 
 using mesh::Geometry;
 using mesh::Kind;
+using mesh::MeshOptions;
 using mesh::Plan;
+using mesh::PlannedCurve;
 using mesh::Point;
+using mesh::Role;
+using testing::curve;
+using testing::expect_consistent;
+using testing::face_area;
+using testing::length;
 using testing::paper_geometry;
+using testing::paper_options;
+using testing::point;
 
 constexpr std::size_t enough = 4'000'000;
 
-template <class Curves>
-int intervals(const Curves& curves) {
-  return std::accumulate(curves.begin(), curves.end(), 0,
-                         [](int sum, const auto& curve) { return sum + curve.intervals; });
+/// Intervals of the curves of a role, on the boundary of a face where one is named.
+int intervals(const Plan& plan, Role role, int face = -1) {
+  int sum = 0;
+  for (const auto& c : plan.curves) {
+    if (c.role == role && (face < 0 || c.left == face)) sum += c.intervals;
+  }
+  return sum;
 }
 
-double area(const Plan& plan, const std::vector<mesh::PlannedCurve>& loop) {
-  double twice = 0;
-  for (const auto& curve : loop) {
-    const Point& a = plan.points.at(static_cast<std::size_t>(curve.a));
-    const Point& b = plan.points.at(static_cast<std::size_t>(curve.b));
-    twice += a[0] * b[1] - a[1] * b[0];
-  }
-  return twice / 2;
-}
-
-/// The closed loop around a subdomain, counterclockwise if the plan keeps its word.
-std::vector<mesh::PlannedCurve> loop(const Plan& plan, std::size_t side) {
-  std::vector<mesh::PlannedCurve> curves;
-  for (const auto& curve : plan.interface) {
-    curves.push_back(side == 1 ? mesh::PlannedCurve{curve.a, curve.b, curve.intervals}
-                               : mesh::PlannedCurve{curve.b, curve.a, curve.intervals});
-  }
-  if (side == 0) std::reverse(curves.begin(), curves.end());
-  curves.insert(curves.end(), plan.outer[side].begin(), plan.outer[side].end());
+std::vector<PlannedCurve> chain(const Plan& plan, std::size_t i = 0) {
+  std::vector<PlannedCurve> curves;
+  for (const int c : plan.interfaces.at(i).curves) curves.push_back(curve(plan, c));
   return curves;
 }
 
-void expect_closed(const Plan& plan) {
-  for (std::size_t side = 0; side < 2; ++side) {
-    const auto curves = loop(plan, side);
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      EXPECT_EQ(curves[i].b, curves[(i + 1) % curves.size()].a);
-    }
-  }
+MeshOptions uniform(double size) {
+  MeshOptions options;
+  options.preset = mesh::Preset::uniform;
+  options.size = size;
+  return options;
 }
 
 TEST(Plan, PaperPresetHas80IntervalsOnEachPart) {
-  const Plan plan = mesh::plan(paper_geometry(), {}, enough);
-  ASSERT_EQ(plan.interface.size(), 3U);
-  EXPECT_EQ(plan.interface[0].intervals, 40);
-  EXPECT_EQ(plan.interface[1].intervals, 80);
-  EXPECT_EQ(plan.interface[2].intervals, 40);
-  EXPECT_EQ(plan.interface[0].kind, Kind::glue);
-  EXPECT_EQ(plan.interface[1].kind, Kind::delaminated);
-  EXPECT_EQ(plan.interface[1].inclusion, 0);
+  const Plan plan = mesh::plan(paper_geometry(), paper_options(), enough);
+  expect_consistent(plan, 4);
+  ASSERT_EQ(plan.interfaces.size(), 1U);
+  EXPECT_EQ(plan.interfaces[0].name, "interface");
+  const auto curves = chain(plan);
+  ASSERT_EQ(curves.size(), 3U);
+  EXPECT_EQ(curves[0].intervals, 40);
+  EXPECT_EQ(curves[1].intervals, 80);
+  EXPECT_EQ(curves[2].intervals, 40);
+  EXPECT_EQ(curves[0].kind, Kind::glue);
+  EXPECT_EQ(curves[1].kind, Kind::delaminated);
+  EXPECT_EQ(curves[1].inclusion, 0);
   EXPECT_EQ(plan.inclusions, std::vector<std::string>{"inclusion"});
-  for (const auto& outer : plan.outer) {
-    ASSERT_EQ(outer.size(), 3U);
-    EXPECT_EQ(outer[0].intervals, 20);
-    EXPECT_EQ(outer[1].intervals, 40);
-    EXPECT_EQ(outer[2].intervals, 20);
+  ASSERT_EQ(plan.faces.size(), 2U);
+  for (const int face : {0, 1}) {
+    EXPECT_EQ(intervals(plan, Role::dirichlet, face), 80);
+    EXPECT_EQ(plan.faces[static_cast<std::size_t>(face)].name, "omega" + std::to_string(face + 1));
   }
+  for (const auto& c : plan.curves) {
+    if (c.role != Role::dirichlet) continue;
+    EXPECT_EQ(c.intervals, length(plan, c) > 1.5 ? 40 : 20);
+  }
+  EXPECT_EQ(plan.grading.h0, 0);
 }
 
 TEST(Plan, PlusLiesLeftOfTheInterface) {
@@ -81,93 +83,114 @@ TEST(Plan, PlusLiesLeftOfTheInterface) {
   geometry.boundary = {{-1, -1}, {1, -1}, {1, 2}, {-1, 2}};
   for (const bool clockwise : {false, true}) {
     if (clockwise) std::reverse(geometry.boundary.begin(), geometry.boundary.end());
-    const Plan plan = mesh::plan(geometry, {}, enough);
-    expect_closed(plan);
-    EXPECT_DOUBLE_EQ(area(plan, loop(plan, 0)), 2);
-    EXPECT_DOUBLE_EQ(area(plan, loop(plan, 1)), 4);
+    const Plan plan = mesh::plan(geometry, paper_options(), enough);
+    expect_consistent(plan, 6);
+    EXPECT_DOUBLE_EQ(face_area(plan, plan.faces.at(0)), 2);
+    EXPECT_DOUBLE_EQ(face_area(plan, plan.faces.at(1)), 4);
+    for (const auto& c : chain(plan)) {
+      EXPECT_EQ(c.left, 1);
+      EXPECT_EQ(c.right, 0);
+    }
   }
-  std::reverse(geometry.interface.begin(), geometry.interface.end());
-  const Plan plan = mesh::plan(geometry, {}, enough);
-  expect_closed(plan);
-  EXPECT_DOUBLE_EQ(area(plan, loop(plan, 0)), 4);
-  EXPECT_DOUBLE_EQ(area(plan, loop(plan, 1)), 2);
+  std::reverse(geometry.interfaces[0].points.begin(), geometry.interfaces[0].points.end());
+  const Plan plan = mesh::plan(geometry, paper_options(), enough);
+  expect_consistent(plan, 6);
+  EXPECT_DOUBLE_EQ(face_area(plan, plan.faces.at(0)), 4);
+  EXPECT_DOUBLE_EQ(face_area(plan, plan.faces.at(1)), 2);
 }
 
 TEST(Plan, InterfaceMayEndAtCornersOrOnOneEdge) {
   Geometry corners = paper_geometry();
-  corners.interface = {{-1, -1}, {1, 1}};
+  corners.interfaces[0].points = {{-1, -1}, {1, 1}};
   corners.inclusions.clear();
-  const Plan diagonal = mesh::plan(corners, {}, enough);
-  expect_closed(diagonal);
-  EXPECT_DOUBLE_EQ(area(diagonal, loop(diagonal, 0)), 2);
-  EXPECT_EQ(diagonal.outer[0].size(), 2U);
+  const Plan diagonal = mesh::plan(corners, paper_options(), enough);
+  expect_consistent(diagonal, 4);
+  EXPECT_DOUBLE_EQ(face_area(diagonal, diagonal.faces.at(0)), 2);
   EXPECT_EQ(diagonal.points.size(), 4U);
 
   Geometry pocket = corners;
-  pocket.interface = {{-0.5, -1}, {-0.5, 0}, {0.5, 0}, {0.5, -1}};
+  pocket.interfaces[0].points = {{-0.5, -1}, {-0.5, 0}, {0.5, 0}, {0.5, -1}};
   for (const double plus : {3.0, 1.0}) {
-    const Plan plan = mesh::plan(pocket, {}, enough);
-    expect_closed(plan);
-    EXPECT_DOUBLE_EQ(area(plan, loop(plan, 1)), plus);
-    EXPECT_DOUBLE_EQ(area(plan, loop(plan, 0)), 4 - plus);
-    std::reverse(pocket.interface.begin(), pocket.interface.end());
+    const Plan plan = mesh::plan(pocket, paper_options(), enough);
+    expect_consistent(plan, 4);
+    EXPECT_DOUBLE_EQ(face_area(plan, plan.faces.at(1)), plus);
+    EXPECT_DOUBLE_EQ(face_area(plan, plan.faces.at(0)), 4 - plus);
+    std::reverse(pocket.interfaces[0].points.begin(), pocket.interfaces[0].points.end());
   }
 }
 
 TEST(Plan, PartlyBondedInclusionBecomesSeveralCurves) {
   Geometry geometry = paper_geometry();
-  geometry.interface = {{-1, 0}, {0, 0}, {1, 0}};
+  geometry.interfaces[0].points = {{-1, 0}, {0, 0}, {1, 0}};
   geometry.inclusions = {
       {"a", {{0.5, 0}, {-0.5, 0}}, {{{-0.5, 0}, {-0.25, 0}}, {{0.25, 0}, {0.125, 0}}}},
       {"b", {{0.75, 0}, {0.875, 0}}, {}}};
   geometry.cracks = {{"c", {{-0.75, 0}, {-0.625, 0}}}};
-  const Plan plan = mesh::plan(geometry, {}, enough);
+  const Plan plan = mesh::plan(geometry, paper_options(), enough);
+  expect_consistent(plan, 4);
   std::vector<std::pair<Kind, int>> kinds;
-  for (const auto& curve : plan.interface) kinds.emplace_back(curve.kind, curve.inclusion);
+  int glue = 0;
+  int rest = 0;
+  for (const auto& c : chain(plan)) {
+    kinds.emplace_back(c.kind, c.inclusion);
+    (c.kind == Kind::glue ? glue : rest) += c.intervals;
+  }
   const std::vector<std::pair<Kind, int>> expected = {
       {Kind::glue, -1},     {Kind::crack, -1},    {Kind::glue, -1},       {Kind::delaminated, 0},
       {Kind::inclusion, 0}, {Kind::inclusion, 0}, {Kind::delaminated, 0}, {Kind::inclusion, 0},
       {Kind::glue, -1},     {Kind::inclusion, 1}, {Kind::glue, -1}};
   EXPECT_EQ(kinds, expected);
-  int glue = 0;
-  int rest = 0;
-  for (const auto& curve : plan.interface)
-    (curve.kind == Kind::glue ? glue : rest) += curve.intervals;
   EXPECT_EQ(glue, 80);
   EXPECT_EQ(rest, 80);
 }
 
 TEST(Plan, UniformPresetCutsBySize) {
-  const Plan plan = mesh::plan(paper_geometry(), {mesh::Preset::uniform, 0.1}, enough);
-  EXPECT_EQ(intervals(plan.interface), 20);
-  EXPECT_EQ(intervals(plan.outer[0]), 40);
-  const Plan standard = mesh::plan(paper_geometry(), {mesh::Preset::uniform, 0}, enough);
+  const Plan plan = mesh::plan(paper_geometry(), uniform(0.1), enough);
+  expect_consistent(plan, 4);
+  EXPECT_EQ(intervals(plan, Role::interface), 20);
+  EXPECT_EQ(intervals(plan, Role::dirichlet, 0), 40);
+  EXPECT_EQ(plan.curves.size(), 9U);
+  const Plan standard = mesh::plan(paper_geometry(), uniform(0), enough);
   const double size = std::sqrt(8.0) / 50;
-  EXPECT_EQ(standard.interface[1].intervals, static_cast<int>(std::ceil(1 / size)));
+  EXPECT_EQ(chain(standard).at(1).intervals, static_cast<int>(std::ceil(1 / size)));
+}
+
+TEST(Plan, GradedIsTheDefault) {
+  MeshOptions options;
+  const Plan standard = mesh::plan(paper_geometry(), options, enough);
+  expect_consistent(standard, 4);
+  EXPECT_DOUBLE_EQ(standard.grading.h0, std::sqrt(8.0) / 22);
+  EXPECT_EQ(standard.grading.m, 0.2);
+  EXPECT_EQ(standard.grading.tip_size, 0);
+  options.size = 0.25;
+  options.tip_size = 1e-6;
+  options.grading = 0.125;
+  const Plan plan = mesh::plan(paper_geometry(), options, enough);
+  EXPECT_EQ(plan.grading.h0, 0.25);
+  EXPECT_EQ(plan.grading.m, 0.125);
+  EXPECT_EQ(plan.grading.tip_size, 1e-6);
+  EXPECT_EQ(intervals(plan, Role::interface), 8);
 }
 
 TEST(Plan, TooManyTrianglesAreRefusedBeforeTheyAreMade) {
   for (const double size : {1e-3, 1e-12, 1e-300}) {
-    EXPECT_TRUE(testing::throws(
-        [&] {
-          mesh::plan(paper_geometry(), {mesh::Preset::uniform, size}, 100'000);
-        },
-        errors::Reason::limit_exceeded, "options.size"));
+    EXPECT_TRUE(testing::throws([&] { mesh::plan(paper_geometry(), uniform(size), 100'000); },
+                                errors::Reason::limit_exceeded, "options.size"));
   }
-  EXPECT_TRUE(testing::throws([] { mesh::plan(paper_geometry(), {}, 300); },
+  EXPECT_TRUE(testing::throws([] { mesh::plan(paper_geometry(), paper_options(), 300); },
                               errors::Reason::limit_exceeded, "options.preset"));
-  EXPECT_NO_THROW(mesh::plan(paper_geometry(), {mesh::Preset::uniform, 0.02}, 100'000));
+  EXPECT_NO_THROW(mesh::plan(paper_geometry(), uniform(0.02), 100'000));
 }
 
 TEST(Plan, TipsKeepTheCoordinatesTheyWereGiven) {
   Geometry geometry = paper_geometry();
-  geometry.interface = {{-1, -1.0 / 3}, {1, 1.0 / 3}};
+  geometry.interfaces[0].points = {{-1, -1.0 / 3}, {1, 1.0 / 3}};
   const Point from{-0.3, -0.1};
   const Point to{0.3, 0.1 + 1e-12};
   geometry.inclusions = {{"a", {from, to}, {}}};
-  const Plan plan = mesh::plan(geometry, {}, enough);
-  EXPECT_EQ(plan.points.at(static_cast<std::size_t>(plan.interface[1].a)), from);
-  EXPECT_EQ(plan.points.at(static_cast<std::size_t>(plan.interface[1].b)), to);
+  const Plan plan = mesh::plan(geometry, paper_options(), enough);
+  EXPECT_EQ(point(plan, chain(plan).at(1).a), from);
+  EXPECT_EQ(point(plan, chain(plan).at(1).b), to);
 }
 
 TEST(Apportion, SharesByLargestRemainder) {

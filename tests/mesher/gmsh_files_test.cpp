@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "mesher/import.hpp"
+#include "mesher/import_samples.hpp"
 #include "support/errors.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -24,14 +24,51 @@ constexpr std::size_t enough = 100'000;
 
 namespace geo = gmsh::model::geo;
 
-/// gmsh with the paper's square and its groups, meshed coarsely.
-class GmshFiles : public ::testing::Test {
+/// gmsh, and the way of its files through the import.
+class Gmsh : public ::testing::Test {
  protected:
-  GmshFiles() {
+  Gmsh() {
     // its graphics library keeps preferences in the home folder
     setenv("HOME", _folder.path().c_str(), 1);
     gmsh::initialize(0, nullptr, false);
     gmsh::option::setNumber("General.Terminal", 0);
+  }
+  ~Gmsh() override { gmsh::finalize(); }
+
+  static void group(int dimension, const std::vector<int>& entities, int tag,
+                    const std::string& name) {
+    gmsh::model::addPhysicalGroup(dimension, entities, tag);
+    if (!name.empty()) gmsh::model::setPhysicalName(dimension, tag, name);
+  }
+
+  mesh::Mesh through(double version, bool binary, const mesh::MeshOptions& options = {}) const {
+    const std::string path = _folder / "case.msh";
+    gmsh::option::setNumber("Mesh.MshFileVersion", version);
+    gmsh::option::setNumber("Mesh.Binary", binary ? 1 : 0);
+    gmsh::write(path);
+    return mesher::import_msh({path, options, enough});
+  }
+
+  /// Calls with what each of the four formats brings.
+  template <class Check>
+  void each_format(const Check& check) const {
+    for (const double version : {2.2, 4.1}) {
+      for (const bool binary : {false, true}) {
+        SCOPED_TRACE(version);
+        SCOPED_TRACE(binary);
+        check(through(version, binary));
+      }
+    }
+  }
+
+ private:
+  testing::TemporaryFolder _folder;
+};
+
+/// The paper's square and its groups, meshed coarsely.
+class GmshFiles : public Gmsh {
+ protected:
+  GmshFiles() {
     const double x[] = {-1, 1, 1, -1, -1, -0.5, 0.5, 1};
     const double y[] = {-1, -1, 1, 1, 0, 0, 0, 0};
     for (int i = 0; i < 8; ++i) geo::addPoint(x[i], y[i], 0, 0.2, i + 1);
@@ -47,24 +84,6 @@ class GmshFiles : public ::testing::Test {
     group(1, {4, 5, 6, 7, 8, 9}, 3, "dirichlet");
     group(1, {2}, 4, "delaminated:stiffener");
   }
-  ~GmshFiles() override { gmsh::finalize(); }
-
-  static void group(int dimension, const std::vector<int>& entities, int tag,
-                    const std::string& name) {
-    gmsh::model::addPhysicalGroup(dimension, entities, tag);
-    gmsh::model::setPhysicalName(dimension, tag, name);
-  }
-
-  mesh::Mesh through(double version, bool binary) const {
-    const std::string path = _folder / "case.msh";
-    gmsh::option::setNumber("Mesh.MshFileVersion", version);
-    gmsh::option::setNumber("Mesh.Binary", binary ? 1 : 0);
-    gmsh::write(path);
-    return mesher::import_msh({path, enough});
-  }
-
- private:
-  testing::TemporaryFolder _folder;
 };
 
 /// As text gmsh writes 16 digits, so the coordinates agree but for the last.
@@ -139,6 +158,249 @@ TEST_F(GmshFiles, OtherVersionsAreRefused) {
   const auto error = testing::error_of([&] { through(4.0, false); });
   ASSERT_TRUE(error);
   EXPECT_THAT(error->what(), HasSubstr("format 4 is not read"));
+}
+
+void crack(int group, int open_at = 0) {
+  gmsh::plugin::setNumber("Crack", "Dimension", 1);
+  gmsh::plugin::setNumber("Crack", "PhysicalGroup", group);
+  gmsh::plugin::setNumber("Crack", "OpenBoundaryPhysicalGroup", open_at);
+  gmsh::plugin::run("Crack");
+}
+
+std::size_t gmsh_nodes() {
+  std::vector<std::size_t> tags;
+  std::vector<double> xyz, parameters;
+  gmsh::model::mesh::getNodes(tags, xyz, parameters);
+  return tags.size();
+}
+
+/// All interfaces together; 2 means 2 to rounding.
+void expect_lengths(const mesh::Mesh& mesh, const std::map<Kind, double>& expected) {
+  const auto found = testing::lengths(mesh);
+  ASSERT_EQ(found.size(), expected.size());
+  for (const auto& [kind, length] : expected) EXPECT_NEAR(found.at(kind), length, 1e-12);
+}
+
+TEST_F(GmshFiles, LipsOfTheCrackPluginAreMadeOne) {
+  gmsh::model::mesh::generate(2);
+  const std::size_t nodes = gmsh_nodes();
+  crack(4);
+  ASSERT_GT(gmsh_nodes(), nodes);
+  each_format([&](const mesh::Mesh& mesh) {
+    EXPECT_EQ(mesh.node_count(), nodes);
+    EXPECT_THAT(mesh.subdomains, ElementsAre("minus", "plus"));
+    EXPECT_THAT(mesh.inclusions, ElementsAre("stiffener"));
+    ASSERT_EQ(mesh.interfaces.size(), 1U);
+    expect_lengths(mesh, {{Kind::glue, 1}, {Kind::delaminated, 1}});
+    EXPECT_NEAR(testing::area_of(mesh, 0), 2, 1e-12);
+    EXPECT_NEAR(testing::area_of(mesh, 1), 2, 1e-12);
+    EXPECT_THAT(mesh.warnings, ElementsAre(HasSubstr("that lie on another")));
+  });
+}
+
+TEST_F(GmshFiles, OneLipWithLinesIsEnough) {
+  gmsh::model::mesh::generate(2);
+  crack(4);
+  std::vector<int> entities;
+  gmsh::model::getEntitiesForPhysicalGroup(1, 4, entities);
+  ASSERT_EQ(entities.size(), 2U);
+  gmsh::model::removePhysicalGroups({{1, 4}});
+  group(1, {entities[0]}, 4, "crack");
+  each_format([&](const mesh::Mesh& mesh) {
+    expect_lengths(mesh, {{Kind::glue, 1}, {Kind::crack, 1}});
+    EXPECT_EQ(mesh.warnings.size(), 1U);
+  });
+}
+
+TEST_F(GmshFiles, WithoutPhysicalGroupsAdjacencyDecides) {
+  gmsh::model::mesh::generate(2);
+  gmsh::model::removePhysicalGroups();
+  each_format([&](const mesh::Mesh& mesh) {
+    EXPECT_THAT(mesh.subdomains, ElementsAre("1", "2"));
+    expect_lengths(mesh, {{Kind::glue, 2}});
+    EXPECT_THAT(mesh.warnings,
+                ElementsAre(HasSubstr("the file has no physical surface"),
+                            HasSubstr("curves 4, 5, 6, 7, 8, 9 (in no group) lie on the boundary: "
+                                      "taken for dirichlet"),
+                            HasSubstr("curves 1, 2, 3 (in no group) lie between two subdomains: "
+                                      "taken for glue")));
+  });
+}
+
+TEST_F(GmshFiles, ACrackWithoutPhysicalGroupsIsOne) {
+  gmsh::model::mesh::generate(2);
+  crack(4);
+  gmsh::model::removePhysicalGroups();
+  each_format([&](const mesh::Mesh& mesh) {
+    expect_lengths(mesh, {{Kind::glue, 1}, {Kind::crack, 1}});
+  });
+}
+
+TEST_F(GmshFiles, ACurveInTwoGroupsTakesTheKeyword) {
+  group(1, {1, 2, 3}, 9, "sigma");
+  gmsh::model::mesh::generate(2);
+  each_format([&](const mesh::Mesh& mesh) {
+    expect_lengths(mesh, {{Kind::glue, 1}, {Kind::delaminated, 1}});
+    EXPECT_THAT(mesh.warnings, ElementsAre(HasSubstr("curve group 9 \"sigma\" lies between two "
+                                                     "subdomains: taken for glue")));
+  });
+}
+
+TEST_F(GmshFiles, ASurfaceInTwoGroupsIsRefused) {
+  group(2, {1}, 8, "again");
+  gmsh::model::mesh::generate(2);
+  for (const double version : {2.2, 4.1}) {
+    const auto error = testing::error_of([&] { through(version, false); });
+    ASSERT_TRUE(error);
+    EXPECT_THAT(error->what(), HasSubstr("a surface belongs to one subdomain"));
+  }
+}
+
+TEST_F(GmshFiles, OptionsNameTheGroups) {
+  gmsh::model::mesh::generate(2);
+  mesh::MeshOptions options;
+  options.curve_groups = {{4, "crack"}};
+  options.surface_groups = {{1, "lower"}};
+  options.tension = {{"lower", 3}};
+  const mesh::Mesh mesh = through(4.1, true, options);
+  EXPECT_THAT(mesh.subdomains, ElementsAre("lower", "plus"));
+  EXPECT_THAT(mesh.tension, ElementsAre(3, 1));
+  expect_lengths(mesh, {{Kind::glue, 1}, {Kind::crack, 1}});
+}
+
+/// A square with a line from its middle to the right, to its side or not so far.
+class GmshSlit : public Gmsh {
+ protected:
+  void build(double end) {
+    const double x[] = {-1, 1, 1, 1, -1, 0, end};
+    const double y[] = {-1, -1, 0, 1, 1, 0, 0};
+    const bool embedded = end < 1;
+    for (int i = 0; i < (embedded ? 7 : 6); ++i) geo::addPoint(x[i], y[i], 0, 0.2, i + 1);
+    for (int i = 1; i < 6; ++i) geo::addLine(i, i % 5 + 1, i);
+    geo::addLine(6, embedded ? 7 : 3, 6);
+    geo::addCurveLoop({1, 2, 3, 4, 5}, 1);
+    geo::addPlaneSurface({1}, 1);
+    geo::synchronize();
+    gmsh::model::mesh::embed(1, {6}, 2, 1);
+    group(2, {1}, 1, "plate");
+    group(1, {1, 2, 3, 4, 5}, 2, "dirichlet");
+    group(1, {6}, 3, "crack:slit");
+    group(0, {3}, 4, "");
+    gmsh::model::mesh::generate(2);
+  }
+
+  void expect_slit(double length, std::size_t nodes) const {
+    each_format([&](const mesh::Mesh& mesh) {
+      EXPECT_EQ(mesh.node_count(), nodes);
+      EXPECT_THAT(mesh.subdomains, ElementsAre("plate"));
+      ASSERT_EQ(mesh.interfaces.size(), 1U);
+      expect_lengths(mesh, {{Kind::crack, length}});
+      EXPECT_EQ(testing::points_of(mesh, 0).front(), (std::array<double, 2>{0, 0}));
+      EXPECT_NEAR(testing::area_of(mesh, 0), 4, 1e-12);
+    });
+  }
+};
+
+TEST_F(GmshSlit, EmbeddedLineIsASlitDoubledOrNot) {
+  build(0.5);
+  const std::size_t nodes = gmsh_nodes();
+  expect_slit(0.5, nodes);
+  crack(3);
+  ASSERT_GT(gmsh_nodes(), nodes);
+  expect_slit(0.5, nodes);
+}
+
+TEST_F(GmshSlit, CrackOpenAtTheBoundary) {
+  build(1);
+  const std::size_t nodes = gmsh_nodes();
+  crack(3, 4);
+  ASSERT_GT(gmsh_nodes(), nodes);
+  expect_slit(1, nodes);
+}
+
+TEST_F(Gmsh, DiskWithARing) {
+  geo::addPoint(0, 0, 0, 0.2, 1);
+  for (int ring = 0; ring < 2; ++ring) {
+    const double r = ring == 0 ? 0.5 : 1;
+    const int p = 2 + 4 * ring;
+    geo::addPoint(r, 0, 0, 0.2, p);
+    geo::addPoint(0, r, 0, 0.2, p + 1);
+    geo::addPoint(-r, 0, 0, 0.2, p + 2);
+    geo::addPoint(0, -r, 0, 0.2, p + 3);
+    for (int i = 0; i < 4; ++i) geo::addCircleArc(p + i, 1, p + (i + 1) % 4, 1 + 4 * ring + i);
+    geo::addCurveLoop({1 + 4 * ring, 2 + 4 * ring, 3 + 4 * ring, 4 + 4 * ring}, 1 + ring);
+  }
+  geo::addPlaneSurface({1}, 1);
+  geo::addPlaneSurface({2, 1}, 2);
+  geo::synchronize();
+  group(2, {1}, 1, "core");
+  group(2, {2}, 2, "around");
+  group(1, {1, 2, 3, 4}, 3, "delaminated:wire");
+  group(1, {5, 6, 7, 8}, 4, "Dirichlet");
+  for (int i = 1; i <= 4; ++i) gmsh::model::mesh::setTransfiniteCurve(i, 11);
+  gmsh::model::mesh::generate(2);
+  each_format([&](const mesh::Mesh& mesh) {
+    ASSERT_EQ(mesh.interfaces.size(), 1U);
+    const auto& ring = mesh.interfaces[0];
+    ASSERT_EQ(ring.nodes.size(), 41U);
+    EXPECT_EQ(ring.nodes.front(), ring.nodes.back());
+    // 40 chords of the circle
+    const double angle = std::acos(-1.0) / 40;
+    EXPECT_NEAR(testing::lengths(mesh).at(Kind::delaminated), 40 * std::sin(angle), 1e-9);
+    EXPECT_NEAR(testing::area_of(mesh, 0), 40 * 0.125 * std::sin(2 * angle), 1e-9);
+    // counterclockwise as its arcs, the core on its left
+    const auto points = testing::points_of(mesh, 0);
+    EXPECT_GT(points[0][0] * points[1][1] - points[1][0] * points[0][1], 0);
+    EXPECT_THAT(mesh.warnings, IsEmpty());
+  });
+}
+
+/// Two squares side by side, each with curves of its own, in so many pieces.
+class GmshNeighbours : public Gmsh {
+ protected:
+  void build(int left_pieces, int right_pieces) {
+    for (int side = 0; side < 2; ++side) {
+      const double x[] = {0, 1, 1, 0};
+      const double y[] = {0, 0, 1, 1};
+      const int first = 1 + 4 * side;
+      for (int i = 0; i < 4; ++i) geo::addPoint(x[i] + side, y[i], 0, 0.3, first + i);
+      for (int i = 0; i < 4; ++i) geo::addLine(first + i, first + (i + 1) % 4, first + i);
+      geo::addCurveLoop({first, first + 1, first + 2, first + 3}, 1 + side);
+      geo::addPlaneSurface({1 + side}, 1 + side);
+    }
+    geo::synchronize();
+    // curve 2 of the left lies on curve 8 of the right
+    gmsh::model::mesh::setTransfiniteCurve(2, left_pieces + 1);
+    gmsh::model::mesh::setTransfiniteCurve(8, right_pieces + 1);
+    group(2, {1}, 1, "left");
+    group(2, {2}, 2, "right");
+    group(1, {1, 3, 4, 5, 6, 7}, 3, "dirichlet");
+    gmsh::model::mesh::generate(2);
+  }
+};
+
+TEST_F(GmshNeighbours, AreGluedWhereTheirNodesAgree) {
+  build(5, 5);
+  const std::size_t nodes = gmsh_nodes();
+  each_format([&](const mesh::Mesh& mesh) {
+    EXPECT_EQ(mesh.node_count(), nodes - 6);
+    ASSERT_EQ(mesh.interfaces.size(), 1U);
+    EXPECT_EQ(mesh.interfaces[0].nodes.size(), 6U);
+    expect_lengths(mesh, {{Kind::glue, 1}});
+    EXPECT_THAT(mesh.warnings, ElementsAre(HasSubstr("6 nodes that lie on another"),
+                                           HasSubstr("meshed separately: taken for glue")));
+  });
+}
+
+TEST_F(GmshNeighbours, AreRefusedWhereTheyDoNot) {
+  for (const int pieces : {3, 10}) {
+    gmsh::clear();
+    build(5, pieces);
+    const auto error = testing::error_of([&] { through(4.1, false); });
+    ASSERT_TRUE(error);
+    EXPECT_THAT(error->what(), HasSubstr("a node hangs"));
+    EXPECT_THAT(error->what(), HasSubstr("the same Transfinite Curve on both"));
+  }
 }
 
 }  // namespace

@@ -41,7 +41,15 @@ mesh::MesherRequest big_request() {
 }
 
 mesh::MesherRequest paper_request() {
-  return mesh::GenerateRequest{mesh::plan(testing::paper_geometry(), {}, enough), enough};
+  return mesh::GenerateRequest{
+      mesh::plan(testing::paper_geometry(), testing::paper_options(), enough), enough};
+}
+
+/// Options that leave the mesh of a file alone.
+mesh::MeshOptions as_it_is() {
+  mesh::MeshOptions options;
+  options.preset = mesh::Preset::uniform;
+  return options;
 }
 
 void expect_no_children() {
@@ -168,11 +176,11 @@ TEST(Helper, ImportsAFile) {
   for (const auto format : testing::all_formats) {
     const std::string path = folder / "case.msh";
     testing::save(path, testing::write_msh(testing::square_sample(), format));
-    const mesh::Mesh mesh = mesher::run(helper(), mesh::ImportRequest{path, 100}, {});
+    const mesh::Mesh mesh = mesher::run(helper(), mesh::ImportRequest{path, as_it_is(), 100}, {});
     EXPECT_EQ(mesh.triangle_count(), 32U);
     EXPECT_TRUE(testing::throws(
         [&] {
-          mesher::run(helper(), mesh::ImportRequest{path, 10}, {});
+          mesher::run(helper(), mesh::ImportRequest{path, as_it_is(), 10}, {});
         },
         Reason::limit_exceeded));
   }
@@ -184,7 +192,8 @@ TEST(Helper, WarningsOfAnImportArrive) {
   std::swap(sample.triangles[0].nodes[0], sample.triangles[0].nodes[1]);
   const std::string path = folder / "case.msh";
   testing::save(path, testing::write_msh(sample, testing::MshFormat::ascii22));
-  EXPECT_EQ(mesher::run(helper(), mesh::ImportRequest{path, 100}, {}).warnings.size(), 1U);
+  EXPECT_EQ(mesher::run(helper(), mesh::ImportRequest{path, as_it_is(), 100}, {}).warnings.size(),
+            1U);
 }
 
 TEST(Helper, ScriptUnderAMshNameRunsNothing) {
@@ -199,7 +208,7 @@ TEST(Helper, ScriptUnderAMshNameRunsNothing) {
     testing::save(path, content);
     EXPECT_TRUE(testing::throws(
         [&] {
-          mesher::run(helper(), mesh::ImportRequest{path, 100}, {});
+          mesher::run(helper(), mesh::ImportRequest{path, as_it_is(), 100}, {});
         },
         Reason::mesh_invalid));
     EXPECT_FALSE(std::filesystem::exists(trace));

@@ -20,7 +20,7 @@ using testing::MshSample;
 using testing::square_sample;
 
 Mesh import(const MshSample& sample, MshFormat format = MshFormat::ascii41) {
-  return mesher::to_mesh(mesher::read_msh(testing::write_msh(sample, format), 1000));
+  return mesher::to_mesh(mesher::read_msh(testing::write_msh(sample, format), 1000), {});
 }
 
 std::vector<double> x_along(const Mesh& mesh, std::size_t interface = 0) {
@@ -115,7 +115,9 @@ TEST(Import, WithoutADirectionTheHigherNumberIsPlus) {
   std::swap(sample.lines.back().nodes[0], sample.lines.back().nodes[1]);
   const Mesh mesh = import(sample);
   EXPECT_THAT(x_along(mesh), ElementsAre(-1, -0.5, 0, 0.5, 1));
-  EXPECT_THAT(mesh.warnings, ElementsAre(HasSubstr("surface \"b\" is taken for the plus side")));
+  EXPECT_THAT(mesh.warnings,
+              ElementsAre(HasSubstr(
+                  "subdomain \"b\" is taken for its plus side: the lines on it run both ways")));
 }
 
 TEST(Import, WithoutDirichletCurveTheWholeBoundaryIsHeld) {
@@ -138,7 +140,8 @@ TEST(Import, BoundaryWithoutNameIsFreeBesideADirichletCurve) {
   sample.lines.erase(sample.lines.begin(), sample.lines.begin() + 4);
   const Mesh mesh = import(sample);
   EXPECT_EQ(mesh.dirichlet.size(), 12U);
-  EXPECT_THAT(mesh.warnings, IsEmpty());
+  EXPECT_THAT(mesh.warnings, ElementsAre(HasSubstr("4 edges in no curve group, the first at (-1, "
+                                                   "-1), lie on the boundary: taken for neumann")));
 }
 
 TEST(Import, ClockwiseTrianglesAreTurnedAndUnusedNodesDropped) {
@@ -149,14 +152,16 @@ TEST(Import, ClockwiseTrianglesAreTurnedAndUnusedNodesDropped) {
   sample.points.push_back({0, 0, 5});
   const Mesh mesh = import(sample);
   EXPECT_EQ(mesh.node_count(), 25U);
-  EXPECT_THAT(mesh.warnings, ElementsAre(HasSubstr("1 nodes that belong to no triangle"),
-                                         HasSubstr("1 triangles were clockwise")));
+  EXPECT_THAT(mesh.warnings, ElementsAre(HasSubstr("1 node that belongs to no triangle"),
+                                         HasSubstr("1 triangle was clockwise")));
 }
 
-TEST(Import, WithoutPhysicalSurfacesEveryElementarySurfaceIsASubdomain) {
+TEST(Import, AConstantZIsLetGo) {
   MshSample sample = square_sample();
-  for (auto& t : sample.triangles) t.group = 0;
-  EXPECT_THAT(import(sample).subdomains, ElementsAre("21", "22"));
+  for (auto& p : sample.points) p[2] = 0.25;
+  const Mesh mesh = import(sample);
+  EXPECT_EQ(mesh.triangle_count(), 32U);
+  EXPECT_THAT(mesh.warnings, ElementsAre("the mesh lies at z = 0.25: taken for z = 0"));
 }
 
 TEST(Import, PhysicalSurfacesWithoutNameAreCalledByTheirNumber) {
@@ -176,8 +181,8 @@ TEST(Import, ThreeSurfacesGiveTwoInterfaces) {
   const Mesh mesh = import(sample);
   EXPECT_THAT(mesh.subdomains, ElementsAre("minus", "plus", "top"));
   ASSERT_EQ(mesh.interfaces.size(), 2U);
-  EXPECT_EQ(mesh.interfaces[0].name, "interface1");
-  EXPECT_EQ(mesh.interfaces[1].name, "interface2");
+  EXPECT_EQ(mesh.interfaces[0].name, "interface-1");
+  EXPECT_EQ(mesh.interfaces[1].name, "interface-2");
   EXPECT_THAT(x_along(mesh, 0), ElementsAre(-1, -0.5, 0, 0.5, 1));
   EXPECT_THAT(x_along(mesh, 1), ElementsAre(1, 0.5, 0, -0.5, -1));
 }
@@ -186,7 +191,7 @@ TEST(Import, ReadsTheFileOfTheRequest) {
   const testing::TemporaryFolder folder;
   const std::string path = folder / "case.msh";
   testing::save(path, testing::write_msh(square_sample(), MshFormat::binary22));
-  EXPECT_EQ(mesher::import_msh({path, 1000}).triangle_count(), 32U);
+  EXPECT_EQ(mesher::import_msh({path, {}, 1000}).triangle_count(), 32U);
 }
 
 }  // namespace

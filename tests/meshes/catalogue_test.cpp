@@ -29,7 +29,7 @@ class Catalogue : public ::testing::Test {
   store::UploadRef upload(const std::string& content) {
     const std::string part = backend.store->new_upload_path();
     std::ofstream(part, std::ios::binary) << content;
-    const store::UploadRef result{std::string(63, '0') + std::to_string(++_uploads)};
+    const store::UploadRef result{std::string(63, '0') + std::to_string(++_uploads), {}};
     backend.store->keep_upload(part, result.sha256);
     return result;
   }
@@ -112,6 +112,10 @@ TEST_F(Catalogue, RefusesWhatCanBeNoMesh) {
                      Reason::invalid_argument, "options.size"));
   EXPECT_TRUE(throws([&] { backend.catalogue.create(store::UploadRef{std::string(64, 'f')}, ""); },
                      Reason::not_found, "upload"));
+  store::UploadRef wrong = upload("$MeshFormat\n");
+  wrong.options.preset = mesh::Preset::paper;
+  EXPECT_TRUE(throws([&] { backend.catalogue.create(wrong, ""); }, Reason::invalid_argument,
+                     "options.preset"));
   EXPECT_TRUE(throws([&] { backend.catalogue.create(upload("Merge \"x.geo\";"), ""); },
                      Reason::mesh_invalid));
   EXPECT_TRUE(

@@ -23,9 +23,13 @@ TEST(Identity, IsEqualForEqualDefinitions) {
   EXPECT_EQ(identity(paper()), identity(paper()));
   EXPECT_EQ(identity(UploadRef{"ab"}), identity(UploadRef{"ab"}));
   GeometrySource negative_zero = paper();
-  negative_zero.geometry.interface[0][1] = -0.0;
+  negative_zero.geometry.interfaces[0].points[0][1] = -0.0;
   EXPECT_EQ(identity(negative_zero), identity(paper()));
+  // without effect on these presets
   EXPECT_EQ(identity(paper(mesh::Preset::paper, 0.5)), identity(paper()));
+  GeometrySource tip_size = paper(mesh::Preset::uniform, 0.1);
+  tip_size.options.tip_size = 1e-3;
+  EXPECT_EQ(identity(tip_size), identity(paper(mesh::Preset::uniform, 0.1)));
 }
 
 TEST(Identity, IsThatOfTheWholeDefinition) {
@@ -38,11 +42,31 @@ TEST(Identity, IsThatOfTheWholeDefinition) {
       [](mesh::Geometry& g) {
         g.boundary.push_back({-1, 0.5});
       },
-      [](mesh::Geometry& g) { std::swap(g.interface[0], g.interface[1]); },
+      [](mesh::Geometry& g) {
+        auto& points = g.interfaces[0].points;
+        std::swap(points[0], points[1]);
+      },
       // the same points, another division between the lists
       [](mesh::Geometry& g) {
-        g.interface.insert(g.interface.begin(), g.boundary.back());
+        auto& points = g.interfaces[0].points;
+        points.insert(points.begin(), g.boundary.back());
         g.boundary.pop_back();
+      },
+      [](mesh::Geometry& g) { g.interfaces[0].name = "sigma"; },
+      [](mesh::Geometry& g) { g.interfaces[0].shape = mesh::Shape::spline; },
+      [](mesh::Geometry& g) { g.interfaces[0].closed = true; },
+      [](mesh::Geometry& g) { g.interfaces.push_back(g.interfaces[0]); },
+      [](mesh::Geometry& g) {
+        g.neumann = {{{-1, -1}, {1, -1}}};
+      },
+      [](mesh::Geometry& g) {
+        g.regions = {{"stiff", {0, 0.5}, 1}};
+      },
+      [](mesh::Geometry& g) {
+        g.regions = {{"stiff", {0, 0.5}, 2}};
+      },
+      [](mesh::Geometry& g) {
+        g.regions = {{"stiff", {0, -0.5}, 2}};
       },
       [](mesh::Geometry& g) { g.inclusions[0].name = "other"; },
       [](mesh::Geometry& g) {
@@ -57,6 +81,43 @@ TEST(Identity, IsThatOfTheWholeDefinition) {
     GeometrySource source = paper();
     changes[i](source.geometry);
     EXPECT_TRUE(seen.insert(identity(source)).second) << i;
+  }
+}
+
+TEST(Identity, CountsEveryOptionOfAGeometryAndOfAnUpload) {
+  const std::vector<std::function<void(mesh::MeshOptions&)>> changes = {
+      [](mesh::MeshOptions&) {},
+      [](mesh::MeshOptions& o) { o.preset = mesh::Preset::uniform; },
+      [](mesh::MeshOptions& o) { o.size = 0.1; },
+      [](mesh::MeshOptions& o) { o.tip_size = 0.1; },
+      [](mesh::MeshOptions& o) { o.grading = 0.1; },
+      [](mesh::MeshOptions& o) {
+        o.align = {{{0, 0}, {1, 1}}};
+      },
+      [](mesh::MeshOptions& o) {
+        o.align = {{{0, 0}}, {{1, 1}}};
+      },
+      [](mesh::MeshOptions& o) {
+        o.curve_groups = {{1, "crack"}};
+      },
+      [](mesh::MeshOptions& o) {
+        o.surface_groups = {{1, "crack"}};
+      },
+      [](mesh::MeshOptions& o) {
+        o.surface_groups = {{-1, "crack"}};
+      },
+      [](mesh::MeshOptions& o) {
+        o.tension = {{"crack", 1}};
+      },
+      [](mesh::MeshOptions& o) {
+        o.tension = {{"crack", 2}};
+      }};
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    GeometrySource source = paper(mesh::Preset::graded);
+    changes[i](source.options);
+    EXPECT_TRUE(seen.insert(identity(source)).second) << i;
+    EXPECT_TRUE(seen.insert(identity(UploadRef{"ab", source.options})).second) << i;
   }
 }
 

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
+#include "mesh/refine.hpp"
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::meshes {
@@ -69,6 +71,76 @@ TEST(Summary, SeparatesSegmentsOfDifferentInclusions) {
   summarize(anticrack::testing::structured_mesh(options), record);
   ASSERT_EQ(record.interfaces[0].segments.size(), 2U);
   EXPECT_EQ(record.interfaces[0].segments[1].inclusion, 1);
+}
+
+TEST(Summary, MeasuresShapesAndTheBoundary) {
+  mesh::Mesh mesh = example();
+  mesh.tension = {1, 2.5};
+  mesh.bisection_bound = 44;
+  std::erase_if(mesh.dirichlet, [&](const auto& edge) {  // the bottom
+    return mesh.xy[2 * static_cast<std::size_t>(edge[0]) + 1] == -1 &&
+           mesh.xy[2 * static_cast<std::size_t>(edge[1]) + 1] == -1;
+  });
+  store::MeshRecord record;
+  summarize(mesh, record);
+  EXPECT_EQ(record.subdomains[0].tension, 1);
+  EXPECT_EQ(record.subdomains[1].tension, 2.5);
+  for (const store::SubdomainSummary& subdomain : record.subdomains) {
+    EXPECT_NEAR(subdomain.minimum_angle, 45, 1e-9);
+    EXPECT_NEAR(subdomain.shortest_edge, 0.25, 1e-12);
+    EXPECT_NEAR(subdomain.longest_edge, std::sqrt(0.125), 1e-12);
+    EXPECT_FALSE(subdomain.floating);
+  }
+  EXPECT_EQ(record.bisection_bound, 44);
+  EXPECT_NEAR(record.dirichlet_length, 6, 1e-12);
+  EXPECT_NEAR(record.neumann_length, 2, 1e-12);
+  summarize(mesh, record);  // of an attempt before
+  EXPECT_NEAR(record.neumann_length, 2, 1e-12);
+}
+
+TEST(Summary, TellsTheTipsAndHowFineTheMeshIsThere) {
+  const mesh::Mesh fine = mesh::grade(example(), {.h0 = 0.4, .tip_size = 1e-3}, 100'000);
+  store::MeshRecord record;
+  summarize(fine, record);
+  ASSERT_EQ(record.tips.size(), 2U);
+  EXPECT_EQ(record.tips[0].at, (mesh::Point{-0.5, 0}));
+  EXPECT_EQ(record.tips[1].at, (mesh::Point{0.5, 0}));
+  for (const store::TipSummary& tip : record.tips) {
+    EXPECT_EQ(tip.interface, "sigma");
+    EXPECT_LE(tip.smallest_edge, 1e-3);
+    EXPECT_GT(tip.smallest_edge, 0.2e-3);
+  }
+}
+
+TEST(Summary, ASubdomainFloatsWhereOnlyInterfacesHoldAPartOfIt) {
+  mesh::Mesh mesh = example();
+  const auto floating = [&] {
+    store::MeshRecord record;
+    summarize(mesh, record);
+    return std::vector<bool>{record.subdomains[0].floating, record.subdomains[1].floating};
+  };
+  // the upper one keeps the ends of the interface, which the lower one's sides hold
+  std::erase_if(mesh.dirichlet, [&](const auto& edge) {
+    return mesh.xy[2 * static_cast<std::size_t>(edge[0]) + 1] > 0 ||
+           mesh.xy[2 * static_cast<std::size_t>(edge[1]) + 1] > 0;
+  });
+  EXPECT_THAT(floating(), ElementsAre(false, false));
+  // now the bottom alone is held
+  std::erase_if(mesh.dirichlet, [&](const auto& edge) {
+    return mesh.xy[2 * static_cast<std::size_t>(edge[0]) + 1] != -1 ||
+           mesh.xy[2 * static_cast<std::size_t>(edge[1]) + 1] != -1;
+  });
+  EXPECT_THAT(floating(), ElementsAre(false, true));
+  // a slit parts nothing while one can walk around its end, and does when it goes all the way
+  mesh.subdomain.assign(mesh.triangle_count(), 0);
+  mesh.subdomains = {"all", "none"};
+  mesh::Interface whole = mesh.interfaces[0];
+  mesh.interfaces[0].nodes.pop_back();
+  mesh.interfaces[0].kind.pop_back();
+  mesh.interfaces[0].inclusion.pop_back();
+  EXPECT_THAT(floating(), ElementsAre(false, false));
+  mesh.interfaces[0] = whole;
+  EXPECT_THAT(floating(), ElementsAre(true, false));
 }
 
 TEST(MeshBlock, HoldsTheArraysOfTheMesh) {

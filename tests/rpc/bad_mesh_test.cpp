@@ -52,11 +52,45 @@ const std::vector<BadMesh>& bad_meshes() {
       {"InclusionThatTouchesTheBoundary",
        [](auto& request) { move(*part(request).mutable_to(), 1, 0); }, "GEOMETRY_INVALID",
        "geometry.inclusions[0].part.to"},
-      {"InterfaceThatDoesNotCut",
+      {"InterfaceThatSeparatesAndCarriesNothing",
        [](auto& request) {
-         move(*geometry(request).mutable_interface()->mutable_points(1), 0.75, 0);
+         geometry(request).clear_inclusions();
+         move(*geometry(request).mutable_interfaces(0)->mutable_polyline()->mutable_points(1), 0.75,
+              0);
        },
-       "GEOMETRY_INVALID", "geometry.interface"},
+       "GEOMETRY_INVALID", "geometry.interfaces[0].polyline"},
+      {"InterfaceOutside",
+       [](auto& request) {
+         move(*geometry(request).mutable_interfaces(0)->mutable_polyline()->mutable_points(1), 1.5,
+              0);
+       },
+       "GEOMETRY_INVALID", "geometry.interfaces[0].polyline"},
+      {"InterfaceWithoutShape",
+       [](auto& request) { geometry(request).add_interfaces()->set_name("b"); }, "INVALID_ARGUMENT",
+       "geometry.interfaces[1].polyline"},
+      {"TwoRegionsInOneSubdomain",
+       [](auto& request) {
+         for (const char* name : {"a", "b"}) {
+           v1::Region& region = *geometry(request).add_regions();
+           region.set_name(name);
+           move(*region.mutable_at(), 0, 0.5);
+         }
+       },
+       "GEOMETRY_INVALID", "geometry.regions[1].at"},
+      {"NeumannPartOffTheBoundary",
+       [](auto& request) {
+         v1::BoundaryPart& part = *geometry(request).add_neumann();
+         move(*part.mutable_from(), 0, 0.5);
+         move(*part.mutable_to(), 1, 1);
+       },
+       "GEOMETRY_INVALID", "geometry.neumann[0].from"},
+      {"AlignLineOutside",
+       [](auto& request) {
+         v1::Polyline& line = *request.mutable_options()->add_align();
+         move(*line.add_points(), 0, 0.5);
+         move(*line.add_points(), 0, 1.5);
+       },
+       "GEOMETRY_INVALID", "options.align[0]"},
       {"BoundaryOfTwoPoints",
        [](auto& request) { geometry(request).mutable_boundary()->DeleteSubrange(2, 2); },
        "GEOMETRY_INVALID", "geometry.boundary"},
@@ -72,9 +106,20 @@ const std::vector<BadMesh>& bad_meshes() {
        "INVALID_ARGUMENT", "options.size"},
       {"MoreTrianglesThanAllowed", [](auto& request) { request.mutable_options()->set_size(1e-3); },
        "LIMIT_EXCEEDED", "options.size"},
-      {"GradedPreset",
-       [](auto& request) { request.mutable_options()->set_preset(v1::MESH_PRESET_GRADED); },
-       "NOT_IMPLEMENTED", "options.preset", grpc::StatusCode::UNIMPLEMENTED},
+      {"PaperPresetForTwoInterfaces",
+       [](auto& request) {
+         v1::Polyline& line = *geometry(request).add_interfaces()->mutable_polyline();
+         move(*line.add_points(), -1, 0.5);
+         move(*line.add_points(), 1, 0.5);
+         request.mutable_options()->set_preset(v1::MESH_PRESET_PAPER);
+         request.mutable_options()->set_size(0);
+       },
+       "INVALID_ARGUMENT", "options.preset"},
+      {"GroupsForAGeometry",
+       [](auto& request) { (*request.mutable_options()->mutable_curve_groups())[1] = "crack"; },
+       "INVALID_ARGUMENT", "options.curve_groups"},
+      {"GradingAboveOne", [](auto& request) { request.mutable_options()->set_grading(1.5); },
+       "INVALID_ARGUMENT", "options.grading"},
       {"NoSource", [](auto& request) { request.clear_source(); }, "INVALID_ARGUMENT", "geometry"},
       {"UploadThatIsNotThere",
        [](auto& request) {

@@ -18,8 +18,9 @@ v1::CreateMeshRequest paper_mesh(double size) {
   add_point(*geometry.add_boundary(), 1, -1);
   add_point(*geometry.add_boundary(), 1, 1);
   add_point(*geometry.add_boundary(), -1, 1);
-  add_point(*geometry.mutable_interface()->add_points(), -1, 0);
-  add_point(*geometry.mutable_interface()->add_points(), 1, 0);
+  v1::Polyline& interface = *geometry.add_interfaces()->mutable_polyline();
+  add_point(*interface.add_points(), -1, 0);
+  add_point(*interface.add_points(), 1, 0);
   v1::Inclusion& inclusion = *geometry.add_inclusions();
   inclusion.set_name("fibre");
   add_point(*inclusion.mutable_part()->mutable_from(), -0.5, 0);

@@ -57,9 +57,88 @@ TEST(GeometryToDomain, TakesEveryPart) {
   EXPECT_EQ(source.options.preset, mesh::Preset::uniform);
   EXPECT_EQ(source.options.size, 0.1);
   EXPECT_EQ(source.geometry.boundary.size(), 4u);
-  EXPECT_EQ(source.geometry.interface.front(), (mesh::Point{-1, 0}));
+  ASSERT_EQ(source.geometry.interfaces.size(), 1u);
+  EXPECT_EQ(source.geometry.interfaces[0].points.front(), (mesh::Point{-1, 0}));
   ASSERT_EQ(source.geometry.cracks.size(), 1u);
   EXPECT_EQ(source.geometry.cracks[0].part.to, (mesh::Point{0.8, 0}));
+}
+
+TEST(GeometryToDomain, TakesEveryShapeRegionAndBoundaryPart) {
+  v1::CreateMeshRequest request = paper_mesh();
+  v1::Geometry& geometry = *request.mutable_geometry();
+  v1::InterfaceCurve& arc = *geometry.add_interfaces();
+  arc.set_name("arc");
+  arc.mutable_arc()->mutable_from()->set_x(1);
+  arc.mutable_arc()->mutable_through()->set_x(2);
+  arc.mutable_arc()->mutable_to()->set_y(3);
+  v1::InterfaceCurve& spline = *geometry.add_interfaces();
+  spline.set_closed(true);
+  for (int i = 0; i < 4; ++i) spline.mutable_spline()->add_points()->set_x(i);
+  v1::BoundaryPart& neumann = *geometry.add_neumann();
+  neumann.mutable_from()->set_x(-1);
+  neumann.mutable_to()->set_y(1);
+  for (const double tension : {0.0, 2.5, -1.0}) {
+    v1::Region& region = *geometry.add_regions();
+    region.set_name("r");
+    region.mutable_at()->set_x(0.25);
+    region.set_tension(tension);
+  }
+  const mesh::Geometry result = geometry_of(request);
+  ASSERT_EQ(result.interfaces.size(), 3u);
+  EXPECT_EQ(result.interfaces[0].shape, mesh::Shape::polyline);
+  EXPECT_EQ(result.interfaces[1].name, "arc");
+  EXPECT_EQ(result.interfaces[1].shape, mesh::Shape::arc);
+  EXPECT_EQ(result.interfaces[1].points, (std::vector<mesh::Point>{{1, 0}, {2, 0}, {0, 3}}));
+  EXPECT_EQ(result.interfaces[2].shape, mesh::Shape::spline);
+  EXPECT_TRUE(result.interfaces[2].closed);
+  EXPECT_EQ(result.interfaces[2].points.size(), 4u);
+  ASSERT_EQ(result.neumann.size(), 1u);
+  EXPECT_EQ(result.neumann[0].to, (mesh::Point{0, 1}));
+  ASSERT_EQ(result.regions.size(), 3u);
+  EXPECT_EQ(result.regions[0].tension, 1);  // unset
+  EXPECT_EQ(result.regions[1].tension, 2.5);
+  EXPECT_EQ(result.regions[2].tension, -1);  // for the domain to refuse
+  EXPECT_EQ(result.regions[1].at, (mesh::Point{0.25, 0}));
+}
+
+TEST(GeometryToDomain, TakesEveryOption) {
+  v1::CreateMeshRequest request = paper_mesh();
+  request.clear_options();
+  const auto options_of = [&] {
+    return std::get<store::GeometrySource>(to_definition(request)).options;
+  };
+  EXPECT_EQ(options_of().preset, mesh::Preset::graded);
+  EXPECT_EQ(options_of().grading, 0.2);
+  v1::MeshOptions& options = *request.mutable_options();
+  options.set_preset(v1::MESH_PRESET_GRADED);
+  options.set_tip_size(1e-6);
+  options.set_grading(0.125);
+  options.add_align()->add_points()->set_x(4);
+  EXPECT_EQ(options_of().tip_size, 1e-6);
+  EXPECT_EQ(options_of().grading, 0.125);
+  ASSERT_EQ(options_of().align.size(), 1u);
+  EXPECT_EQ(options_of().align[0], (std::vector<mesh::Point>{{4, 0}}));
+  options.set_preset(v1::MESH_PRESET_PAPER);
+  EXPECT_EQ(options_of().preset, mesh::Preset::paper);
+}
+
+TEST(GeometryToDomain, TakesTheOptionsOfAnUpload) {
+  v1::CreateMeshRequest request;
+  request.set_upload("uploads/" + std::string(64, 'a'));
+  v1::MeshOptions& options = *request.mutable_options();
+  options.set_size(0.5);
+  (*options.mutable_curve_groups())[3] = "inclusion:a";
+  (*options.mutable_surface_groups())[7] = "left";
+  (*options.mutable_tension())["left"] = 2;
+  const auto source = std::get<store::UploadRef>(to_definition(request));
+  EXPECT_EQ(source.options.preset, mesh::Preset::graded);
+  EXPECT_EQ(source.options.size, 0.5);
+  EXPECT_EQ(source.options.curve_groups.at(3), "inclusion:a");
+  EXPECT_EQ(source.options.surface_groups.at(7), "left");
+  EXPECT_EQ(source.options.tension.at("left"), 2);
+  (*options.mutable_curve_groups())[3] = "fibre";
+  expect_refused([&] { to_definition(request); }, Reason::invalid_argument,
+                 "options.curve_groups[3]");
 }
 
 TEST(GeometryToDomain, DelaminatesWhatWasAskedFor) {
@@ -102,16 +181,28 @@ TEST(GeometryToDomain, RefusesWhatItsTypesCannotExpress) {
         request.mutable_geometry()->mutable_inclusions(0)->mutable_delaminated_parts();
       },
       Reason::invalid_argument, "geometry.inclusions[0].delaminated_parts.parts");
+  expect_mesh_refused([](auto& request) { request.mutable_geometry()->add_interfaces(); },
+                      Reason::invalid_argument, "geometry.interfaces[1].polyline");
   expect_mesh_refused(
-      [](auto& request) { request.mutable_options()->set_preset(v1::MESH_PRESET_GRADED); },
-      Reason::not_implemented, "options.preset");
+      [](auto& request) {
+        request.mutable_geometry()->add_interfaces()->mutable_arc()->mutable_from();
+      },
+      Reason::invalid_argument, "geometry.interfaces[1].arc.through");
+  expect_mesh_refused([](auto& request) { request.mutable_geometry()->add_regions(); },
+                      Reason::invalid_argument, "geometry.regions[0].at");
+  expect_mesh_refused([](auto& request) { request.mutable_geometry()->add_neumann(); },
+                      Reason::invalid_argument, "geometry.neumann[0].from");
   expect_mesh_refused(
       [](auto& request) { request.mutable_options()->set_preset(static_cast<v1::MeshPreset>(77)); },
       Reason::invalid_argument, "options.preset");
   expect_mesh_refused([](auto& request) { request.set_title(std::string(201, 't')); },
                       Reason::limit_exceeded, "title");
-  expect_mesh_refused([](auto& request) { request.set_upload("uploads/1"); },
-                      Reason::invalid_argument, "options");
+  expect_mesh_refused(
+      [](auto& request) {
+        request.mutable_options()->set_preset(v1::MESH_PRESET_PAPER);
+        request.set_upload("uploads/1");
+      },
+      Reason::invalid_argument, "options.preset");
   expect_mesh_refused(
       [](auto& request) {
         request.clear_options();
@@ -129,10 +220,33 @@ TEST(GeometryToDomain, CountsBeforeItConverts) {
   expect_mesh_refused(
       [](auto& request) {
         for (std::size_t i = 0; i < max_vertices; ++i) {
-          request.mutable_geometry()->mutable_interface()->add_points();
+          request.mutable_geometry()->mutable_interfaces(0)->mutable_polyline()->add_points();
         }
       },
-      Reason::limit_exceeded, "geometry.interface.points");
+      Reason::limit_exceeded, "geometry.interfaces[0]");
+  expect_mesh_refused(
+      [](auto& request) {
+        for (std::size_t i = 0; i < max_interfaces; ++i) {
+          request.mutable_geometry()->add_interfaces();
+        }
+      },
+      Reason::limit_exceeded, "geometry.interfaces");
+  expect_mesh_refused(
+      [](auto& request) {
+        for (std::size_t i = 0; i <= max_vertices; ++i) {
+          auto& options = *request.mutable_options();
+          if (i == 0) options.add_align();
+          options.mutable_align(0)->add_points();
+        }
+      },
+      Reason::limit_exceeded, "options.align");
+  expect_mesh_refused(
+      [](auto& request) {
+        for (std::size_t i = 0; i <= max_regions; ++i) {
+          (*request.mutable_options()->mutable_curve_groups())[static_cast<int>(i)] = "crack";
+        }
+      },
+      Reason::limit_exceeded, "options.curve_groups");
   expect_mesh_refused(
       [](auto& request) {
         for (std::size_t i = 0; i < max_parts; ++i) request.mutable_geometry()->add_cracks();
@@ -146,6 +260,8 @@ TEST(GeometryToDomain, PutsTheDomainsFieldsIntoTheRequest) {
   };
   EXPECT_EQ(path("boundary[2]"), "geometry.boundary[2]");
   EXPECT_EQ(path("inclusions[0].part.from"), "geometry.inclusions[0].part.from");
+  EXPECT_EQ(path("inclusions[0].delaminated_parts[1].to"),
+            "geometry.inclusions[0].delaminated_parts.parts[1].to");
   EXPECT_EQ(path("options.size"), "options.size");
   EXPECT_EQ(path("upload"), "upload");
 }

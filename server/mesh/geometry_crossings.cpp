@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/geometry_crossings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "mesh/geometry_primitives.hpp"
+
+namespace anticrack::mesh {
+namespace {
+
+constexpr double smallest_angle = std::numbers::pi / 180;
+
+class Meetings {
+ public:
+  explicit Meetings(const Network& network) : _network(network), _tolerance(network.tolerance) {}
+
+  void meet(const Chord& s, const Chord& t) {
+    if (!boxes_meet(segment(s), segment(t), _tolerance)) return;
+    if (s.line == t.line) {
+      same_line(s, t);
+    } else if (s.line > t.line) {
+      two_lines(t, s);
+    } else {
+      two_lines(s, t);
+    }
+  }
+
+  Segment segment(const Chord& chord) const {
+    return {_network.points[static_cast<std::size_t>(chord.a)],
+            _network.points[static_cast<std::size_t>(chord.b)]};
+  }
+  std::vector<Crossing> take() { return std::move(_crossings); }
+
+ private:
+  const NetworkLine& line(const Chord& chord) const {
+    return _network.lines[static_cast<std::size_t>(chord.line)];
+  }
+  const Point& point(int i) const { return _network.points[static_cast<std::size_t>(i)]; }
+
+  static int shared(const Chord& s, const Chord& t) {
+    if (s.a == t.a || s.a == t.b) return s.a;
+    if (s.b == t.a || s.b == t.b) return s.b;
+    return -1;
+  }
+  static int other(const Chord& chord, int end) { return chord.a == end ? chord.b : chord.a; }
+
+  bool on_one_another(const Chord& s, const Chord& t, int common) const {
+    return distance(point(other(s, common)), segment(t)) <= _tolerance ||
+           distance(point(other(t, common)), segment(s)) <= _tolerance;
+  }
+  double angle(const Chord& s, const Chord& t, int common) const {
+    const Point& o = point(common);
+    const Point& p = point(other(s, common));
+    const Point& q = point(other(t, common));
+    const double cross = (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
+    const double dot = (p[0] - o[0]) * (q[0] - o[0]) + (p[1] - o[1]) * (q[1] - o[1]);
+    return std::abs(std::atan2(cross, dot));
+  }
+
+  void same_line(const Chord& s, const Chord& t) const {
+    const std::string& field = line(s).field;
+    const int common = shared(s, t);
+    const bool follow = s.b == t.a || t.b == s.a;
+    if (common >= 0 && follow) {
+      const bool both = other(s, common) == other(t, common);
+      if (!both && !on_one_another(s, t, common)) return;
+      refuse(field, field, " folds back on itself at ", show(point(common)));
+    }
+    if (common < 0 && distance(segment(s), segment(t)) > _tolerance) return;
+    refuse(field, field, " crosses or touches itself near ", show(segment(s).a),
+           "; cut it into several interfaces");
+  }
+
+  void two_lines(const Chord& s, const Chord& t) {
+    const int common = shared(s, t);
+    if (s.line == 0) return against_boundary(s, t, common);
+    if (common < 0) {
+      if (distance(segment(s), segment(t)) <= _tolerance) cross(s, t);
+      return;
+    }
+    const std::string& field = line(t).field;
+    if (other(s, common) == other(t, common) || on_one_another(s, t, common)) {
+      refuse(field, field, " and ", line(s).field, " run along each other from ",
+             show(point(common)), " on; leave that stretch out of one of them");
+    }
+    check_angle(s, t, common);
+  }
+
+  void check_angle(const Chord& s, const Chord& t, int common) const {
+    const double between = angle(s, t, common);
+    if (between >= smallest_angle) return;
+    const std::string& field = line(t).field;
+    refuse(field, field, " and ", line(s).field, " meet at ", show(point(common)),
+           " at an angle of ", show(between * 180 / std::numbers::pi),
+           " degrees, nearly along each other; let them meet at more than one degree");
+  }
+
+  /// `s` is the boundary's.
+  void against_boundary(const Chord& s, const Chord& t, int common) const {
+    const NetworkLine& other_line = line(t);
+    const std::string& field = other_line.field;
+    const bool at_its_end =
+        common >= 0 && !other_line.line.closed() &&
+        (common == other_line.stations.front().point || common == other_line.stations.back().point);
+    const bool meets = at_its_end
+                           ? other(s, common) == other(t, common) || on_one_another(s, t, common)
+                           : common >= 0 || distance(segment(s), segment(t)) <= _tolerance;
+    if (meets) {
+      refuse(field, field,
+             " leaves the polygon or touches its boundary in between: the stretch from ",
+             show(segment(t).a), " to ", show(segment(t).b), " meets the boundary's edge ",
+             show(segment(s).a), "-", show(segment(s).b),
+             "; only its two ends may lie on the boundary");
+    }
+    if (at_its_end) check_angle(s, t, common);
+  }
+
+  void cross(const Chord& s, const Chord& t) {
+    Crossing crossing{{s.line, t.line}, {}, {}};
+    const auto [u, v] = meeting_point(segment(s), segment(t));
+    crossing.t = {s.from + u * (s.to - s.from), t.from + v * (t.to - t.from)};
+    const Line& first = line(s).line;
+    const Line& second = line(t).line;
+    refine(first, second, crossing.t);
+    crossing.at = first.straight() ? second.at(crossing.t[1]) : first.at(crossing.t[0]);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Line& on = i == 0 ? first : second;
+      if (on.closed() && crossing.t[i] >= on.spans()) crossing.t[i] -= on.spans();
+    }
+    _crossings.push_back(crossing);
+  }
+
+  /// Newton on c1(t1) = c2(t2). Within their chords the two are nearly straight.
+  static void refine(const Line& first, const Line& second, std::array<double, 2>& t) {
+    for (int i = 0; i < 8; ++i) {
+      const Point p = first.at(t[0]);
+      const Point q = second.at(t[1]);
+      const Point d = first.derivative(t[0]);
+      const Point e = second.derivative(t[1]);
+      const double det = d[1] * e[0] - d[0] * e[1];
+      if (det == 0) return;
+      const Point gap{q[0] - p[0], q[1] - p[1]};
+      const double step0 = (gap[1] * e[0] - gap[0] * e[1]) / det;
+      const double step1 = (d[0] * gap[1] - d[1] * gap[0]) / det;
+      const auto bounded = [](const Line& line, double value) {
+        return line.closed() ? value : std::clamp(value, 0.0, static_cast<double>(line.spans()));
+      };
+      t[0] = bounded(first, t[0] + std::clamp(step0, -0.25, 0.25));
+      t[1] = bounded(second, t[1] + std::clamp(step1, -0.25, 0.25));
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Line& line = k == 0 ? first : second;
+        if (line.closed() && t[k] < 0) t[k] += line.spans();
+        if (line.closed() && t[k] >= line.spans()) t[k] -= line.spans();
+      }
+      if (step0 == 0 && step1 == 0) return;
+    }
+  }
+
+  const Network& _network;
+  double _tolerance;
+  std::vector<Crossing> _crossings;
+};
+
+}  // namespace
+
+std::vector<Crossing> find_crossings(const Network& network) {
+  const double tolerance = network.tolerance;
+  Meetings meetings(network);
+  const std::size_t n = network.chords.size();
+  std::vector<double> low(n);
+  std::vector<double> high(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Segment s = meetings.segment(network.chords[i]);
+    low[i] = std::min(s.a[0], s.b[0]);
+    high[i] = std::max(s.a[0], s.b[0]);
+  }
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return low[i] < low[j]; });
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t s = order[i];
+    for (std::size_t j = i + 1; j < n && low[order[j]] <= high[s] + tolerance; ++j) {
+      meetings.meet(network.chords[s], network.chords[order[j]]);
+    }
+  }
+  return meetings.take();
+}
+
+}  // namespace anticrack::mesh

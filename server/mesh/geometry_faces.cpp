@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/geometry_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include "mesh/geometry_primitives.hpp"
+
+namespace anticrack::mesh {
+namespace {
+
+using Edges = std::span<const std::array<int, 2>>;
+
+/// Half-edge 2e runs along edge e, 2e + 1 against it.
+class Walker {
+ public:
+  Walker(std::span<const Point> points, Edges edges, const std::vector<bool>& used)
+      : _points(points), _edges(edges), _used(used), _next(2 * edges.size(), -1) {
+    link();
+  }
+
+  int start(int half) const {
+    return _edges[static_cast<std::size_t>(half / 2)][static_cast<std::size_t>(half % 2)];
+  }
+  const Point& start_point(int half) const {
+    return _points[static_cast<std::size_t>(start(half))];
+  }
+
+  std::vector<std::vector<int>> loops() const {
+    std::vector<std::vector<int>> all;
+    std::vector<bool> walked(_next.size(), false);
+    for (std::size_t first = 0; first < _next.size(); ++first) {
+      if (walked[first] || !_used[first / 2]) continue;
+      std::vector<int> loop;
+      for (int half = static_cast<int>(first); !walked[static_cast<std::size_t>(half)];
+           half = _next[static_cast<std::size_t>(half)]) {
+        walked[static_cast<std::size_t>(half)] = true;
+        loop.push_back(half);
+      }
+      all.push_back(std::move(loop));
+    }
+    return all;
+  }
+
+  double area(const std::vector<int>& loop) const {
+    const Point& o = start_point(loop.front());
+    double twice = 0;
+    for (const int half : loop) {
+      const Point& a = start_point(half);
+      const Point& b = start_point(half ^ 1);
+      twice += (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+    }
+    return twice / 2;
+  }
+
+  bool holds(const std::vector<int>& loop, const Point& p) const {
+    bool odd = false;
+    for (const int half : loop) {
+      Point a = start_point(half);
+      Point b = start_point(half ^ 1);
+      if ((a[1] > p[1]) == (b[1] > p[1])) continue;
+      if (a[1] > b[1]) std::swap(a, b);
+      if ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > 0) odd = !odd;
+    }
+    return odd;
+  }
+
+  /// For each vertex the connected part it lies in.
+  std::vector<int> parts() const {
+    std::vector<int> root(_points.size());
+    std::iota(root.begin(), root.end(), 0);
+    const auto find = [&](int v) {
+      while (root[static_cast<std::size_t>(v)] != v) {
+        const auto at = static_cast<std::size_t>(v);
+        root[at] = root[static_cast<std::size_t>(root[at])];
+        v = root[at];
+      }
+      return v;
+    };
+    for (std::size_t e = 0; e < _edges.size(); ++e) {
+      if (_used[e]) root[static_cast<std::size_t>(find(_edges[e][0]))] = find(_edges[e][1]);
+    }
+    for (std::size_t v = 0; v < root.size(); ++v) root[v] = find(static_cast<int>(v));
+    return root;
+  }
+
+ private:
+  void link() {
+    struct Spoke {
+      int vertex = 0;
+      double angle = 0;
+      int half = 0;
+    };
+    std::vector<Spoke> spokes;
+    spokes.reserve(_next.size());
+    for (std::size_t h = 0; h < _next.size(); ++h) {
+      if (!_used[h / 2]) continue;
+      const int half = static_cast<int>(h);
+      const Point& a = start_point(half);
+      const Point& b = start_point(half ^ 1);
+      spokes.push_back({start(half), std::atan2(b[1] - a[1], b[0] - a[0]), half});
+    }
+    std::sort(spokes.begin(), spokes.end(), [](const Spoke& a, const Spoke& b) {
+      if (a.vertex != b.vertex) return a.vertex < b.vertex;
+      return a.angle != b.angle ? a.angle < b.angle : a.half < b.half;
+    });
+    for (std::size_t first = 0; first < spokes.size();) {
+      std::size_t end = first;
+      while (end < spokes.size() && spokes[end].vertex == spokes[first].vertex) ++end;
+      // who comes in along a spoke goes on along the next one clockwise
+      for (std::size_t i = first; i < end; ++i) {
+        const std::size_t clockwise = i == first ? end - 1 : i - 1;
+        _next[static_cast<std::size_t>(spokes[i].half ^ 1)] = spokes[clockwise].half;
+      }
+      first = end;
+    }
+  }
+
+  std::span<const Point> _points;
+  Edges _edges;
+  const std::vector<bool>& _used;
+  std::vector<int> _next;
+};
+
+/// Loops that pass no vertex twice, which together walk the half-edges of `loop`.
+std::vector<std::vector<int>> simple_loops(const Walker& walker, const std::vector<int>& loop) {
+  std::vector<std::vector<int>> all;
+  std::vector<int> path;
+  std::unordered_map<int, std::size_t> place;  // on the path, of each vertex it passes
+  for (const int half : loop) {
+    const auto found = place.find(walker.start(half));
+    if (found != place.end()) {
+      const std::size_t from = found->second;
+      all.emplace_back(path.begin() + static_cast<std::ptrdiff_t>(from), path.end());
+      for (const int walked : all.back()) place.erase(walker.start(walked));
+      path.resize(from);
+    }
+    place.emplace(walker.start(half), path.size());
+    path.push_back(half);
+  }
+  all.push_back(std::move(path));
+  return all;
+}
+
+Loop signed_edges(const std::vector<int>& halves) {
+  Loop loop;
+  loop.reserve(halves.size());
+  for (const int half : halves) loop.push_back(half % 2 == 0 ? half / 2 + 1 : -(half / 2 + 1));
+  return loop;
+}
+
+void add_loop(const Walker& walker, const std::vector<int>& halves, bool is_outer, Face& face) {
+  std::vector<std::vector<int>> simple = simple_loops(walker, halves);
+  std::size_t outer = simple.size();
+  if (is_outer) {
+    const auto less = [&](const auto& a, const auto& b) { return walker.area(a) < walker.area(b); };
+    outer = static_cast<std::size_t>(std::max_element(simple.begin(), simple.end(), less) -
+                                     simple.begin());
+  }
+  for (std::size_t i = 0; i < simple.size(); ++i) {
+    if (i == outer) {
+      face.outer = signed_edges(simple[i]);
+    } else {
+      face.holes.push_back(signed_edges(simple[i]));
+    }
+  }
+}
+
+}  // namespace
+
+Arrangement arrange(std::span<const Point> points, Edges edges, const std::vector<bool>& used) {
+  const Walker walker(points, edges, used);
+  const std::vector<std::vector<int>> loops = walker.loops();
+  const std::vector<int> part = walker.parts();
+  const auto part_of = [&](std::size_t loop) {
+    return part[static_cast<std::size_t>(walker.start(loops[loop].front()))];
+  };
+  std::vector<double> area(loops.size());
+  // each connected part has one loop around it, the one with the least area
+  std::vector<std::size_t> around(points.size(), loops.size());
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    area[i] = walker.area(loops[i]);
+    std::size_t& best = around[static_cast<std::size_t>(part_of(i))];
+    if (best == loops.size() || area[i] < area[best]) best = i;
+  }
+  Arrangement result;
+  std::vector<int> face_of(loops.size(), Arrangement::outside);
+  std::vector<std::size_t> loop_of;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (around[static_cast<std::size_t>(part_of(i))] == i) continue;
+    face_of[i] = static_cast<int>(result.faces.size());
+    loop_of.push_back(i);
+    result.faces.emplace_back();
+    result.faces.back().area = area[i];
+    add_loop(walker, loops[i], true, result.faces.back());
+  }
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (around[static_cast<std::size_t>(part_of(i))] != i) continue;
+    // the smallest loop of another part that holds it
+    int home = Arrangement::outside;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t f = 0; f < loop_of.size(); ++f) {
+      const std::size_t j = loop_of[f];
+      if (part_of(j) == part_of(i) || area[j] >= least) continue;
+      if (!walker.holds(loops[j], walker.start_point(loops[i].front()))) continue;
+      home = static_cast<int>(f);
+      least = area[j];
+    }
+    face_of[i] = home;
+    if (home != Arrangement::outside) {
+      add_loop(walker, loops[i], false, result.faces[static_cast<std::size_t>(home)]);
+    }
+  }
+  result.left.assign(edges.size(), Arrangement::outside);
+  result.right.assign(edges.size(), Arrangement::outside);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    for (const int half : loops[i]) {
+      (half % 2 == 0 ? result.left : result.right)[static_cast<std::size_t>(half / 2)] = face_of[i];
+    }
+  }
+  return result;
+}
+
+int face_at(const Arrangement& arrangement, std::span<const Point> points, Edges edges,
+            const Point& p) {
+  int best = Arrangement::outside;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t f = 0; f < arrangement.faces.size(); ++f) {
+    const Face& face = arrangement.faces[f];
+    if (face.area >= least) continue;
+    std::vector<Point> polygon;
+    polygon.reserve(face.outer.size());
+    for (const int edge : face.outer) {
+      const auto& ends = edges[static_cast<std::size_t>(std::abs(edge) - 1)];
+      polygon.push_back(points[static_cast<std::size_t>(edge > 0 ? ends[0] : ends[1])]);
+    }
+    if (!inside(p, polygon)) continue;
+    best = static_cast<int>(f);
+    least = face.area;
+  }
+  return best;
+}
+
+}  // namespace anticrack::mesh

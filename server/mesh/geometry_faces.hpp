@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The faces a planar straight-line graph cuts the plane into (M. de Berg et al., Computational
+// Geometry, chapter 2).
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "mesh/geometry.hpp"
+
+namespace anticrack::mesh {
+
+/// A loop walks edges with the face on its left: +-(edge + 1), the sign negative from end to start.
+using Loop = std::vector<int>;
+
+struct Face {
+  Loop outer;               ///< counterclockwise
+  std::vector<Loop> holes;  ///< clockwise
+  double area = 0;          ///< within `outer`
+};
+
+struct Arrangement {
+  static constexpr int outside = -1;
+
+  std::vector<Face> faces;
+  std::vector<int> left;   ///< per edge: the face on its left, or `outside`; also if not used
+  std::vector<int> right;  ///< and on its right
+};
+
+/// The faces between the used edges, which meet only at their ends. Loops pass a vertex once.
+/// O(e log e), and the edges for every connected part but the first.
+Arrangement arrange(std::span<const Point> points, std::span<const std::array<int, 2>> edges,
+                    const std::vector<bool>& used);
+
+/// The face that holds a point that is on no edge.
+int face_at(const Arrangement& arrangement, std::span<const Point> points,
+            std::span<const std::array<int, 2>> edges, const Point& p);
+
+}  // namespace anticrack::mesh

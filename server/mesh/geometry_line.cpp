@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/geometry_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace anticrack::mesh {
+namespace {
+
+constexpr double largest_turn = std::numbers::pi / 18;
+constexpr int samples_a_span = 32;
+constexpr int samples_an_arc = 256;
+
+Point minus(const Point& a, const Point& b) {
+  return {a[0] - b[0], a[1] - b[1]};
+}
+
+double dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1];
+}
+
+/// Angle from one direction to another, without its sign.
+double turn(const Point& a, const Point& b) {
+  return std::abs(std::atan2(a[0] * b[1] - a[1] * b[0], dot(a, b)));
+}
+
+}  // namespace
+
+Line::Line(Shape shape, bool closed, std::vector<Point> vertices)
+    : _shape(shape), _closed(closed), _vertices(std::move(vertices)) {
+  _spans = static_cast<int>(_vertices.size()) - (closed ? 0 : 1);
+}
+
+Line Line::polyline(std::vector<Point> points, bool closed) {
+  Line line(Shape::polyline, closed, std::move(points));
+  line.sample();
+  return line;
+}
+
+Line Line::arc(const Point& a, const Point& b, const Point& c) {
+  Line line(Shape::arc, false, {a, c});
+  const Point u = minus(b, a);
+  const Point v = minus(c, a);
+  const double twice = 2 * (u[0] * v[1] - u[1] * v[0]);
+  const Point to_centre{(v[1] * dot(u, u) - u[1] * dot(v, v)) / twice,
+                        (u[0] * dot(v, v) - v[0] * dot(u, u)) / twice};
+  line._centre = {a[0] + to_centre[0], a[1] + to_centre[1]};
+  line._radius = std::hypot(to_centre[0], to_centre[1]);
+  line._angle = std::atan2(-to_centre[1], -to_centre[0]);
+  const Point end = minus(c, line._centre);
+  double sweep = std::atan2(end[1], end[0]) - line._angle;
+  const bool left = twice > 0;  // a, b, c counterclockwise
+  while (left && sweep <= 0) sweep += 2 * std::numbers::pi;
+  while (!left && sweep >= 0) sweep -= 2 * std::numbers::pi;
+  line._sweep = sweep;
+  line.sample();
+  return line;
+}
+
+Line Line::spline(std::vector<Point> points, bool closed) {
+  Line line(Shape::spline, closed, std::move(points));
+  const auto n = static_cast<int>(line._vertices.size());
+  // beyond an open end the line goes on as it came
+  const auto point = [&](int i) -> Point {
+    if (closed) return line._vertices[static_cast<std::size_t>((i + n) % n)];
+    const auto mirrored = [&](int end, int next) -> Point {
+      const Point& e = line._vertices[static_cast<std::size_t>(end)];
+      const Point& q = line._vertices[static_cast<std::size_t>(next)];
+      return {2 * e[0] - q[0], 2 * e[1] - q[1]};
+    };
+    if (i < 0) return mirrored(0, 1);
+    if (i >= n) return mirrored(n - 1, n - 2);
+    return line._vertices[static_cast<std::size_t>(i)];
+  };
+  line._out.reserve(static_cast<std::size_t>(line._spans));
+  line._in.reserve(static_cast<std::size_t>(line._spans));
+  for (int k = 0; k < line._spans; ++k) {
+    const std::array<Point, 4> p{point(k - 1), point(k), point(k + 1), point(k + 2)};
+    const double d0 = std::sqrt(distance(p[0], p[1]));
+    const double d1 = std::sqrt(distance(p[1], p[2]));
+    const double d2 = std::sqrt(distance(p[2], p[3]));
+    Point out{};
+    Point in{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      out[i] = d1 * ((p[1][i] - p[0][i]) / d0 - (p[2][i] - p[0][i]) / (d0 + d1) +
+                     (p[2][i] - p[1][i]) / d1);
+      in[i] = d1 * ((p[2][i] - p[1][i]) / d1 - (p[3][i] - p[1][i]) / (d1 + d2) +
+                    (p[3][i] - p[2][i]) / d2);
+    }
+    line._out.push_back(out);
+    line._in.push_back(in);
+  }
+  line.sample();
+  return line;
+}
+
+void Line::sample() {
+  const int each = _shape == Shape::polyline ? 1
+                   : _shape == Shape::arc    ? samples_an_arc
+                                             : samples_a_span;
+  _samples.reserve(static_cast<std::size_t>(_spans * each) + 1);
+  for (int i = 0; i <= _spans * each; ++i) {
+    const double t = static_cast<double>(i) / each;
+    _samples.push_back({t, at(t)});
+    if (i > 0) _length += distance(_samples[_samples.size() - 2].p, _samples.back().p);
+  }
+}
+
+int Line::span_of(double t) const noexcept {
+  return std::clamp(static_cast<int>(std::floor(t)), 0, _spans - 1);
+}
+
+Point Line::vertex(int k) const noexcept {
+  return _vertices[static_cast<std::size_t>(k) % _vertices.size()];
+}
+
+Point Line::at(double t) const noexcept {
+  const int k = span_of(t);
+  const double u = t - k;
+  const Point a = vertex(k);
+  const Point b = vertex(k + 1);
+  if (u <= 0) return a;
+  if (u >= 1) return b;
+  if (_shape == Shape::arc) {
+    const double angle = _angle + u * _sweep;
+    return {_centre[0] + _radius * std::cos(angle), _centre[1] + _radius * std::sin(angle)};
+  }
+  if (_shape == Shape::polyline) return {a[0] + u * (b[0] - a[0]), a[1] + u * (b[1] - a[1])};
+  const Point& out = _out[static_cast<std::size_t>(k)];
+  const Point& in = _in[static_cast<std::size_t>(k)];
+  const double v = 1 - u;
+  Point p{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    p[i] =
+        v * v * (1 + 2 * u) * a[i] + u * u * (1 + 2 * v) * b[i] + u * v * (v * out[i] - u * in[i]);
+  }
+  return p;
+}
+
+Point Line::derivative(double t) const noexcept {
+  const int k = span_of(t);
+  const double u = std::clamp(t - k, 0.0, 1.0);
+  const Point a = vertex(k);
+  const Point b = vertex(k + 1);
+  if (_shape == Shape::polyline) return minus(b, a);
+  if (_shape == Shape::arc) {
+    const double angle = _angle + u * _sweep;
+    return {-_radius * _sweep * std::sin(angle), _radius * _sweep * std::cos(angle)};
+  }
+  const Point& out = _out[static_cast<std::size_t>(k)];
+  const Point& in = _in[static_cast<std::size_t>(k)];
+  Point d{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    d[i] =
+        6 * u * (1 - u) * (b[i] - a[i]) + (1 - u) * (1 - 3 * u) * out[i] + u * (3 * u - 2) * in[i];
+  }
+  return d;
+}
+
+/// The parameter of the point nearest to `p` where the distance has one minimum: golden section,
+/// then Newton on (c - p).c' with a curvature-free slope, which is exact near the line.
+double Line::closest(const Point& p, double low, double high) const noexcept {
+  constexpr double golden = 0.6180339887498949;
+  double a = low;
+  double b = high;
+  for (int i = 0; i < 40; ++i) {
+    const double left = b - golden * (b - a);
+    const double right = a + golden * (b - a);
+    const bool nearer = distance(at(left), p) <= distance(at(right), p);
+    (nearer ? b : a) = nearer ? right : left;
+  }
+  double t = (a + b) / 2;
+  for (int i = 0; i < 3; ++i) {
+    const Point d = derivative(t);
+    const double square = dot(d, d);
+    if (square == 0) break;
+    t = std::clamp(t - dot(minus(at(t), p), d) / square, low, high);
+  }
+  return t;
+}
+
+std::optional<double> Line::locate(const Point& p, double tolerance) const {
+  double best = 0;
+  double off = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < _samples.size(); ++i) {
+    const Segment chord{_samples[i - 1].p, _samples[i].p};
+    // a curve leaves its chord by less than the chord's length
+    const double slack = straight() ? tolerance : tolerance + distance(chord.a, chord.b);
+    if (!boxes_meet(chord, {p, p}, slack)) continue;
+    double t = 0;
+    if (straight()) {
+      t = _samples[i - 1].t + nearest(p, chord);
+    } else {
+      t = closest(p, _samples[i - 1].t, _samples[i].t);
+    }
+    const double d = straight() ? distance(p, chord) : distance(p, at(t));
+    if (d < off) {
+      off = d;
+      best = t;
+    }
+  }
+  if (off > tolerance) return std::nullopt;
+  const double whole = std::round(best);
+  if (distance(p, at(whole)) <= tolerance) best = whole;
+  if (_closed && best >= _spans) best = 0;
+  return best;
+}
+
+double Line::distance_to(const Point& p) const noexcept {
+  double off = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < _samples.size(); ++i) {
+    off = std::min(off, distance(p, Segment{_samples[i - 1].p, _samples[i].p}));
+  }
+  return off;
+}
+
+/// The cumulated number of chords after each of `steps` equal pieces of the parameter.
+std::vector<double> Line::measure(double from, double to, double size, int steps) const {
+  std::vector<double> sum{0};
+  sum.reserve(static_cast<std::size_t>(steps) + 1);
+  Point before = at(from);
+  // a little inside, so that a corner between spans does not count
+  Point direction = derivative(from + 1e-9 * (to - from));
+  for (int i = 1; i <= steps; ++i) {
+    const double t = from + (to - from) * i / steps;
+    const Point here = at(t);
+    const Point heading = derivative(t - 1e-9 * (to - from));
+    sum.push_back(sum.back() +
+                  std::max(distance(before, here) / size, turn(direction, heading) / largest_turn));
+    before = here;
+    direction = heading;
+  }
+  return sum;
+}
+
+double Line::chords_between(double from, double to, double size) const {
+  return measure(from, to, size, 4 * samples_a_span).back();
+}
+
+std::vector<double> Line::cuts_between(double from, double to, double size) const {
+  const double expected = std::ceil(chords_between(from, to, size));
+  const int steps = 4 * samples_a_span + 4 * static_cast<int>(expected);
+  const std::vector<double> sum = measure(from, to, size, steps);
+  const auto pieces = static_cast<int>(std::ceil(sum.back() - 1e-6));
+  std::vector<double> cuts;
+  cuts.reserve(static_cast<std::size_t>(std::max(0, pieces)));
+  std::size_t i = 1;
+  for (int k = 1; k < pieces; ++k) {
+    const double wanted = sum.back() * k / pieces;
+    while (sum[i] < wanted) ++i;
+    const double part = (wanted - sum[i - 1]) / (sum[i] - sum[i - 1]);
+    cuts.push_back(from + (to - from) * (static_cast<double>(i - 1) + part) / steps);
+  }
+  return cuts;
+}
+
+}  // namespace anticrack::mesh

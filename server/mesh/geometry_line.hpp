@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A line of the plane with a parameter: polyline, arc through three points, or centripetal
+// Catmull-Rom spline (E. Catmull, R. Rom 1974; P. Yuksel, S. Schaefer, J. Keyser, Parameterization
+// and applications of Catmull-Rom curves, Computer-Aided Design 43 (2011)). Lengths in the unit of
+// the geometry.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/geometry.hpp"
+#include "mesh/geometry_primitives.hpp"
+
+namespace anticrack::mesh {
+
+/// Span k of a line runs over the parameters [k, k+1]; the ends of the spans are its vertices.
+class Line {
+ public:
+  static Line polyline(std::vector<Point> points, bool closed);
+  /// From a through b to c; the three are not on one straight line.
+  static Line arc(const Point& a, const Point& b, const Point& c);
+  /// At least 3 points, no two consecutive ones equal.
+  static Line spline(std::vector<Point> points, bool closed);
+
+  bool closed() const noexcept { return _closed; }
+  bool straight() const noexcept { return _shape == Shape::polyline; }
+  int spans() const noexcept { return _spans; }
+  double length() const noexcept { return _length; }
+  /// Points at the parameters 0, 1, ...; of a closed line the last is left out.
+  const std::vector<Point>& vertices() const noexcept { return _vertices; }
+
+  Point at(double t) const noexcept;
+  Point derivative(double t) const noexcept;
+
+  /// Where the line passes within `tolerance` of `p`; in [0, spans), of an open line also spans.
+  std::optional<double> locate(const Point& p, double tolerance) const;
+  /// Of `p` from the line; exact for a polyline, else from fine chords.
+  double distance_to(const Point& p) const noexcept;
+  /// How many of the longest chords allowed, of length `size` and a turn of ten degrees, the line
+  /// takes from one parameter to another. Not for polylines.
+  double chords_between(double from, double to, double size) const;
+  /// Parameters strictly between that cut this part of the line into such chords.
+  std::vector<double> cuts_between(double from, double to, double size) const;
+
+ private:
+  struct Sample {
+    double t = 0;
+    Point p{};
+  };
+  Line(Shape shape, bool closed, std::vector<Point> vertices);
+  void sample();
+  int span_of(double t) const noexcept;
+  Point vertex(int k) const noexcept;
+  double closest(const Point& p, double low, double high) const noexcept;
+  std::vector<double> measure(double from, double to, double size, int steps) const;
+
+  Shape _shape = Shape::polyline;
+  bool _closed = false;
+  int _spans = 0;
+  double _length = 0;
+  std::vector<Point> _vertices;
+  std::vector<Point> _out;  ///< spline: derivative at the beginning of each span
+  std::vector<Point> _in;   ///< and at its end
+  Point _centre{};
+  double _radius = 0;
+  double _angle = 0;
+  double _sweep = 0;
+  std::vector<Sample> _samples;
+};
+
+}  // namespace anticrack::mesh

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/geometry_names.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "mesh/geometry_outline.hpp"
+#include "mesh/geometry_primitives.hpp"
+#include "mesh/names.hpp"
+
+namespace anticrack::mesh {
+namespace {
+
+class Names {
+ public:
+  void add(const std::string& name, const std::string& owner, const char* all) {
+    const std::string field = owner + ".name";
+    if (!valid_name(name)) {
+      // what is quoted goes into messages and logs
+      const bool printable =
+          std::all_of(name.begin(), name.end(), [](char c) { return c >= ' ' && c <= '~'; });
+      refuse(field, field, " is ",
+             name.empty()       ? "empty"
+             : !printable       ? "not printable"
+             : name.size() > 64 ? "of " + std::to_string(name.size()) + " characters"
+                                : "\"" + name + "\"",
+             "; a name is ", name_rule);
+    }
+    const auto [entry, added] = _used.emplace(name, owner);
+    if (added) return;
+    refuse(field, field, " \"", name, "\" is already the name of ", entry->second, "; every ", all,
+           " needs its own");
+  }
+
+ private:
+  std::map<std::string, std::string> _used;
+};
+
+void check_count(std::size_t count, const std::string& field) {
+  if (count <= max_vertices) return;
+  throw errors::Error(errors::Reason::limit_exceeded,
+                      field + " has " + std::to_string(count) + " entries; at most " +
+                          std::to_string(max_vertices) + " are taken")
+      .at(field);
+}
+
+}  // namespace
+
+std::vector<std::string> check_names(const Geometry& geometry) {
+  check_count(geometry.inclusions.size(), "inclusions");
+  check_count(geometry.cracks.size(), "cracks");
+  check_count(geometry.regions.size(), "regions");
+  check_count(geometry.neumann.size(), "neumann");
+  Names lines;
+  std::vector<std::string> interfaces;
+  interfaces.reserve(geometry.interfaces.size());
+  for (std::size_t i = 0; i < geometry.interfaces.size(); ++i) {
+    std::string name = geometry.interfaces[i].name;
+    if (name.empty()) name = i == 0 ? "interface" : "interface-" + std::to_string(i + 1);
+    lines.add(name, indexed("interfaces", i), "interface");
+    interfaces.push_back(std::move(name));
+  }
+  Names parts;
+  for (std::size_t i = 0; i < geometry.inclusions.size(); ++i) {
+    parts.add(geometry.inclusions[i].name, indexed("inclusions", i), "inclusion and crack");
+  }
+  for (std::size_t i = 0; i < geometry.cracks.size(); ++i) {
+    parts.add(geometry.cracks[i].name, indexed("cracks", i), "inclusion and crack");
+  }
+  Names regions;
+  for (std::size_t i = 0; i < geometry.regions.size(); ++i) {
+    regions.add(geometry.regions[i].name, indexed("regions", i), "region");
+  }
+  return interfaces;
+}
+
+std::string unused_name(const std::string& name, std::vector<std::string>& used) {
+  std::string candidate = name;
+  for (int k = 2; std::find(used.begin(), used.end(), candidate) != used.end(); ++k) {
+    candidate = name + "-" + std::to_string(k);
+  }
+  used.push_back(candidate);
+  return candidate;
+}
+
+}  // namespace anticrack::mesh

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/geometry_network.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mesh/geometry_crossings.hpp"
+#include "mesh/geometry_primitives.hpp"
+
+namespace anticrack::mesh {
+namespace {
+
+Line polyline_of(const std::vector<Point>& points, bool closed, const std::string& owner,
+                 const std::string& field, double tolerance) {
+  const std::size_t least = closed ? 3 : 2;
+  if (points.size() < least) {
+    refuse(owner, owner, " has ", points.size(), " vertices; a ", (closed ? "closed " : ""),
+           "polyline takes at least ", least);
+  }
+  check_points(points, field);
+  check_distinct(points, field, tolerance);
+  if (distance(points.front(), points.back()) <= tolerance) {
+    refuse(owner, owner, " starts and ends at the same point ", show(points.front()),
+           "; for a closed line set `closed` and leave the last point out");
+  }
+  check_simple(points, closed, owner, field, tolerance);
+  return Line::polyline(points, closed);
+}
+
+Line spline_of(const InterfaceSpec& spec, const std::string& owner, double tolerance) {
+  const std::string field = owner + ".points";
+  if (spec.points.size() < 3) {
+    refuse(owner, owner, " has ", spec.points.size(), " points; a spline takes at least 3");
+  }
+  check_points(spec.points, field);
+  check_distinct(spec.points, field, tolerance);
+  if (distance(spec.points.front(), spec.points.back()) <= tolerance) {
+    refuse(owner, owner, " starts and ends at the same point ", show(spec.points.front()),
+           "; for a closed line set `closed` and leave the last point out");
+  }
+  return Line::spline(spec.points, spec.closed);
+}
+
+Line arc_of(const InterfaceSpec& spec, const std::string& owner, double tolerance) {
+  if (spec.points.size() != 3) {
+    refuse(owner, owner, " has ", spec.points.size(),
+           " points; an arc is given by three: from, through, to");
+  }
+  if (spec.closed) {
+    refuse(owner, owner, " is closed, which an arc cannot be; make the circle a closed spline");
+  }
+  const std::array<const char*, 3> names{".from", ".through", ".to"};
+  for (std::size_t i = 0; i < 3; ++i) check_point(spec.points[i], owner + names[i]);
+  const Point& a = spec.points[0];
+  const Point& b = spec.points[1];
+  const Point& c = spec.points[2];
+  if (distance(a, c) <= tolerance) {
+    refuse(owner + ".to", owner, " starts and ends at the same point ", show(a));
+  }
+  const double off = distance(b, Segment{a, c});
+  // flatter than this, its centre is lost to rounding
+  if (off <= 1e3 * tolerance || distance(b, a) <= tolerance || distance(b, c) <= tolerance) {
+    refuse(owner + ".through", owner, ".through ", show(b), " lies ", show(off),
+           " off the straight line from ", show(a), " to ", show(c),
+           "; that is no arc, give a polyline instead");
+  }
+  return Line::arc(a, b, c);
+}
+
+NetworkLine interface_line(const InterfaceSpec& spec, const std::string& name, double tolerance) {
+  switch (spec.shape) {
+    case Shape::arc:
+      return {name + ".arc", Role::interface, arc_of(spec, name + ".arc", tolerance), {}};
+    case Shape::spline:
+      return {name + ".spline", Role::interface, spline_of(spec, name + ".spline", tolerance), {}};
+    case Shape::polyline:
+      break;
+  }
+  const std::string field = name + ".polyline";
+  return {field,
+          Role::interface,
+          polyline_of(spec.points, spec.closed, field, field + ".points", tolerance),
+          {}};
+}
+
+void check_count(std::size_t count, std::size_t limit, const std::string& field, const char* what) {
+  if (count <= limit) return;
+  throw errors::Error(errors::Reason::limit_exceeded, field + " has " + std::to_string(count) +
+                                                          " " + what + "; at most " +
+                                                          std::to_string(limit) + " are taken")
+      .at(field);
+}
+
+void check_counts(const Geometry& geometry, const MeshOptions& options) {
+  check_count(geometry.interfaces.size(), max_interfaces, "interfaces", "entries");
+  check_count(options.align.size(), max_interfaces, "options.align", "lines");
+  std::size_t vertices = 0;
+  for (const InterfaceSpec& spec : geometry.interfaces) vertices += spec.points.size();
+  check_count(vertices, max_vertices, "interfaces", "vertices");
+  vertices = 0;
+  for (const auto& line : options.align) vertices += line.size();
+  check_count(vertices, max_vertices, "options.align", "vertices");
+}
+
+void add_station(NetworkLine& line, double t, int point) {
+  for (const Station& station : line.stations) {
+    if (station.point == point) return;
+  }
+  const auto after =
+      std::upper_bound(line.stations.begin(), line.stations.end(), t,
+                       [](double value, const Station& station) { return value < station.t; });
+  line.stations.insert(after, {t, point});
+}
+
+int point_at(Network& network, const Point& p, double tolerance) {
+  for (std::size_t i = 0; i < network.points.size(); ++i) {
+    if (distance(network.points[i], p) <= tolerance) return static_cast<int>(i);
+  }
+  network.points.push_back(p);
+  return static_cast<int>(network.points.size()) - 1;
+}
+
+/// Chords between two stations of a line; those of a curve bring points of their own.
+void cut_stretch(Network& network, std::size_t l, const Station& from, const Station& to,
+                 double size, std::size_t max_chords) {
+  const Line& line = network.lines[l].line;
+  Chord chord{static_cast<int>(l), from.point, 0, from.t, 0};
+  const auto add = [&](double t, int point) {
+    chord.to = t;
+    chord.b = point;
+    network.chords.push_back(chord);
+    chord.from = t;
+    chord.a = point;
+  };
+  if (!line.straight()) {
+    if (line.chords_between(from.t, to.t, size) + static_cast<double>(network.chords.size()) >
+        static_cast<double>(max_chords)) {
+      throw errors::Error(errors::Reason::limit_exceeded,
+                          "an edge length of " + show(size) + " cuts the lines into more than " +
+                              std::to_string(max_chords) + " pieces; choose a larger one")
+          .at("options.size");
+    }
+    for (const double t : line.cuts_between(from.t, to.t, size)) {
+      network.points.push_back(line.at(t));
+      add(t, static_cast<int>(network.points.size()) - 1);
+    }
+  }
+  add(to.t, to.point);
+}
+
+void cut_line(Network& network, std::size_t l, double size, std::size_t max_chords) {
+  const std::vector<Station> stations = network.lines[l].stations;
+  const Line& line = network.lines[l].line;
+  for (std::size_t i = 1; i < stations.size(); ++i) {
+    cut_stretch(network, l, stations[i - 1], stations[i], size, max_chords);
+  }
+  if (line.closed()) {
+    Station again = stations.front();
+    again.t += line.spans();
+    cut_stretch(network, l, stations.back(), again, size, max_chords);
+  }
+}
+
+void check_inside(const Network& network, const std::vector<Point>& polygon) {
+  int before = -1;
+  for (const Chord& chord : network.chords) {
+    if (chord.line == before || chord.line == 0) continue;
+    before = chord.line;
+    const Point& a = network.points[static_cast<std::size_t>(chord.a)];
+    const Point& b = network.points[static_cast<std::size_t>(chord.b)];
+    const Point middle{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
+    if (inside(middle, polygon)) continue;
+    const std::string& field = network.lines[static_cast<std::size_t>(chord.line)].field;
+    refuse(field, field, " runs outside the polygon, at ", show(middle),
+           "; it must lie in the membrane");
+  }
+}
+
+}  // namespace
+
+Network lay_lines(const Geometry& geometry, const MeshOptions& options) {
+  const Outline outline = check_outline(geometry.boundary);
+  check_counts(geometry, options);
+  Network network;
+  network.tolerance = outline.tolerance;
+  network.lines.reserve(1 + geometry.interfaces.size() + options.align.size());
+  network.lines.push_back(
+      {"boundary", Role::dirichlet, Line::polyline(outline.boundary, true), {}});
+  for (std::size_t i = 0; i < geometry.interfaces.size(); ++i) {
+    network.lines.push_back(
+        interface_line(geometry.interfaces[i], indexed("interfaces", i), outline.tolerance));
+  }
+  for (std::size_t i = 0; i < options.align.size(); ++i) {
+    const std::string field = indexed("options.align", i);
+    network.lines.push_back(
+        {field,
+         Role::align,
+         polyline_of(options.align[i], false, field, field + ".points", outline.tolerance),
+         {}});
+  }
+  for (std::size_t l = 0; l < network.lines.size(); ++l) {
+    const std::vector<Point> vertices = network.lines[l].line.vertices();
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      const int point = mark(network, vertices[v]);
+      add_station(network.lines[l], static_cast<double>(v), point);
+    }
+  }
+  return network;
+}
+
+int mark(Network& network, const Point& p) {
+  const int point = point_at(network, p, network.tolerance);
+  for (NetworkLine& line : network.lines) {
+    const auto t = line.line.locate(p, network.tolerance);
+    if (t) add_station(line, *t, point);
+  }
+  return point;
+}
+
+double station_of(const NetworkLine& line, int point) noexcept {
+  for (const Station& station : line.stations) {
+    if (station.point == point) return station.t;
+  }
+  return -1;
+}
+
+void cut(Network& network, double size, std::size_t max_chords) {
+  constexpr int rounds = 5;
+  std::size_t known = network.points.size();  // points that are stations
+  for (int round = 0; round < rounds; ++round) {
+    network.chords.clear();
+    network.points.resize(known);
+    for (std::size_t l = 0; l < network.lines.size(); ++l) {
+      cut_line(network, l, size, max_chords);
+    }
+    const std::vector<Crossing> found = find_crossings(network);
+    if (found.empty()) {
+      check_inside(network, network.lines.front().line.vertices());
+      return;
+    }
+    network.points.resize(known);  // a crossing is no end of a chord that is cut anew
+    for (const Crossing& crossing : found) {
+      const int point = point_at(network, crossing.at, network.tolerance);
+      add_station(network.lines[static_cast<std::size_t>(crossing.line[0])], crossing.t[0], point);
+      add_station(network.lines[static_cast<std::size_t>(crossing.line[1])], crossing.t[1], point);
+    }
+    known = network.points.size();
+  }
+  refuse("interfaces",
+         "the lines cross again and again in so small a space that the crossings "
+         "cannot be told apart; let them meet at a larger angle");
+}
+
+}  // namespace anticrack::mesh

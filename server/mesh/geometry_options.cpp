@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/geometry_options.hpp"
+
+#include <cmath>
+
+#include "mesh/geometry_primitives.hpp"
+#include "mesh/names.hpp"
+
+namespace anticrack::mesh {
+namespace {
+
+[[noreturn]] void refuse_option(const std::string& field, const std::string& message) {
+  throw errors::Error(errors::Reason::invalid_argument, message).at(field);
+}
+
+void check_length(double value, const std::string& field, const char* meaning) {
+  if (std::isfinite(value) && value >= 0) return;
+  refuse_option(field, field + " is " + show(value) + "; it is " + meaning +
+                           " above 0, or 0 for the default");
+}
+
+void check_sizes(const MeshOptions& options) {
+  check_length(options.size, "options.size", "an edge length");
+  check_length(options.tip_size, "options.tip_size", "an edge length");
+  if (!(options.grading > 0 && options.grading <= 1)) {
+    refuse_option("options.grading", "options.grading is " + show(options.grading) +
+                                         "; it is an exponent above 0 and at most 1");
+  }
+  if (options.tip_size > 0 && options.preset != Preset::graded) {
+    refuse_option("options.tip_size", "options.tip_size is " + show(options.tip_size) +
+                                          ", but only preset graded knows tips; leave it 0");
+  }
+  if (options.size > 0 && options.tip_size > options.size) {
+    refuse_option("options.tip_size", "options.tip_size is " + show(options.tip_size) +
+                                          ", above options.size " + show(options.size));
+  }
+}
+
+/// What is quoted goes into messages and logs.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text.substr(0, 80)) result += c >= ' ' && c <= '~' ? c : '?';
+  return result + "\"";
+}
+
+void check_curve_group(const std::string& name, const std::string& field) {
+  for (const char* whole : {"dirichlet", "neumann", "crack", "glue"}) {
+    if (name == whole) return;
+  }
+  for (const std::string prefix : {"crack:", "inclusion:", "delaminated:"}) {
+    if (name.starts_with(prefix) && valid_name(name.substr(prefix.size()))) return;
+  }
+  refuse_option(field, field + " is " + quoted(name) +
+                           "; a curve is dirichlet, neumann, glue, crack, crack:NAME, "
+                           "inclusion:NAME or delaminated:NAME, NAME being " +
+                           std::string(name_rule));
+}
+
+void check_subdomain(const std::string& name, const std::string& field) {
+  if (valid_name(name)) return;
+  refuse_option(field, field + " names " + quoted(name) + "; a name is " + std::string(name_rule));
+}
+
+}  // namespace
+
+void check_for_geometry(const MeshOptions& options) {
+  check_sizes(options);
+  if (options.preset == Preset::paper && options.size > 0) {
+    refuse_option("options.size", "options.size is " + show(options.size) +
+                                      ", but preset paper fixes the intervals; leave it 0, or "
+                                      "choose preset uniform");
+  }
+  const auto for_uploads = [](bool empty, const char* field, const char* cure) {
+    if (empty) return;
+    refuse_option(field, std::string(field) + " is for an upload; " + cure);
+  };
+  for_uploads(options.curve_groups.empty(), "options.curve_groups",
+              "say in the geometry where inclusions and cracks lie");
+  for_uploads(options.surface_groups.empty(), "options.surface_groups",
+              "name subdomains by the regions of the geometry");
+  for_uploads(options.tension.empty(), "options.tension",
+              "give tensions in the regions of the geometry");
+}
+
+void check_for_upload(const MeshOptions& options) {
+  check_sizes(options);
+  if (options.preset == Preset::paper) {
+    refuse_option("options.preset",
+                  "preset paper is for a geometry; an upload is taken as it is (uniform) or "
+                  "graded");
+  }
+  if (!options.align.empty()) {
+    refuse_option("options.align",
+                  "options.align is for a geometry; an upload has its edges already");
+  }
+  for (const auto& [tag, name] : options.curve_groups) {
+    check_curve_group(name, "options.curve_groups[" + std::to_string(tag) + "]");
+  }
+  for (const auto& [tag, name] : options.surface_groups) {
+    check_subdomain(name, "options.surface_groups[" + std::to_string(tag) + "]");
+  }
+  for (const auto& [name, tension] : options.tension) {
+    check_subdomain(name, "options.tension");
+    if (std::isfinite(tension) && tension > 0) continue;
+    const std::string field = "options.tension[" + name + "]";
+    refuse_option(field, field + " is " + show(tension) + "; a tension is a number above 0");
+  }
+}
+
+}  // namespace anticrack::mesh

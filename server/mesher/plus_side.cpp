@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/plus_side.hpp"
+
+#include <algorithm>
+
+namespace anticrack::mesher {
+namespace {
+
+bool is_glue(const InterfaceEdge* edge) {
+  return edge->meaning.role == CurveRole::glue;
+}
+
+std::pair<double, double> point(const mesh::Mesh& mesh, std::int32_t node) {
+  const auto i = 2 * static_cast<std::size_t>(node);
+  return {mesh.xy[i], mesh.xy[i + 1]};
+}
+
+/// Twice the area a closed chain walks around, from its first node; positive counterclockwise.
+double turning(const mesh::Mesh& mesh, const Chain& chain) {
+  const auto [x0, y0] = point(mesh, chain.nodes[0]);
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < chain.nodes.size(); ++i) {
+    const auto [xa, ya] = point(mesh, chain.nodes[i]);
+    const auto [xb, yb] = point(mesh, chain.nodes[i + 1]);
+    sum += (xa - x0) * (yb - y0) - (xb - x0) * (ya - y0);
+  }
+  return sum;
+}
+
+/// By place, so that it does not depend on the numbers of nodes.
+bool runs_as_by_rule(const mesh::Mesh& mesh, const Chain& chain) {
+  if (chain.left != chain.right) return chain.left > chain.right;
+  if (chain.closed()) return turning(mesh, chain) > 0;
+  return point(mesh, chain.nodes.front()) < point(mesh, chain.nodes.back());
+}
+
+std::string note(const mesh::Mesh& mesh, const Chain& chain, bool lines_differ) {
+  const std::string why =
+      lines_differ ? "the lines on it run both ways" : "no line of the file lies on it";
+  if (chain.left != chain.right) {
+    return "subdomain \"" + mesh.subdomains[static_cast<std::size_t>(chain.left)] +
+           "\" is taken for its plus side: " + why +
+           "; call the one on that side \"plus\", or let all lines run with it on their left, to "
+           "choose";
+  }
+  return "its plus side is taken to be the left, walked from " + place_of(mesh, chain.nodes[0]) +
+         " to " + place_of(mesh, chain.nodes[1]) + ": " + why +
+         "; let all lines run with the plus side on their left to choose";
+}
+
+}  // namespace
+
+LineDirections::LineDirections(std::span<const CurveEdge> lines) {
+  for (const CurveEdge& line : lines) _directed.insert({line.from, line.to});
+}
+
+LineDirections::Along LineDirections::of(const Chain& chain, bool glue_too) const {
+  bool forwards = false;
+  bool backwards = false;
+  for (std::size_t i = 0; i < chain.edges.size(); ++i) {
+    if (!glue_too && is_glue(chain.edges[i])) continue;
+    forwards |= _directed.contains({chain.nodes[i], chain.nodes[i + 1]});
+    backwards |= _directed.contains({chain.nodes[i + 1], chain.nodes[i]});
+  }
+  if (forwards && backwards) return Along::both;
+  if (forwards) return Along::forwards;
+  return backwards ? Along::backwards : Along::none;
+}
+
+LineDirections::Along LineDirections::of(const Chain& chain) const {
+  const Along along = of(chain, false);
+  return along == Along::none ? of(chain, true) : along;
+}
+
+Oriented orient(Chain chain, const mesh::Mesh& mesh, const LineDirections& directions) {
+  using Along = LineDirections::Along;
+  const auto name = [&](std::int32_t s) { return mesh.subdomains[static_cast<std::size_t>(s)]; };
+  const auto is_plus = [&](std::int32_t s, std::int32_t facing) {
+    return s != facing && (name(s) == "plus" || name(facing) == "minus");
+  };
+  if (is_plus(chain.left, chain.right)) return {std::move(chain), ""};
+  if (is_plus(chain.right, chain.left)) return {reversed(std::move(chain)), ""};
+  const Along along = directions.of(chain);
+  if (along == Along::forwards) return {std::move(chain), ""};
+  if (along == Along::backwards) return {reversed(std::move(chain)), ""};
+  if (!runs_as_by_rule(mesh, chain)) chain = reversed(std::move(chain));
+  const bool silent = std::all_of(chain.edges.begin(), chain.edges.end(), is_glue);
+  std::string told = silent ? "" : note(mesh, chain, along == Along::both);
+  return {std::move(chain), std::move(told)};
+}
+
+}  // namespace anticrack::mesher

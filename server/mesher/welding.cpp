@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/welding.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <tuple>
+#include <utility>
+
+#include "errors/errors.hpp"
+#include "mesh/edges.hpp"
+#include "mesher/union_find.hpp"
+
+namespace anticrack::mesher {
+namespace {
+
+/// Of the extent. gmsh integrates along curves: on one line meshed from either end its nodes are
+/// 3e-12 apart.
+constexpr double same_place = 1e-9;
+/// Of the shortest rim edge: keeps the nodes of a mesh graded below `same_place` apart.
+constexpr double same_place_of_edge = 1e-3;
+/// Radians within which two edges from one node lie on one another. Opened notches are wider.
+constexpr double same_direction = 1e-9;
+/// Bounds what rounding of short edges adds to that.
+constexpr double widest_same_direction = 1e-3;
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw errors::Error(errors::Reason::mesh_invalid, message);
+}
+
+/// Coordinates of the nodes, with what is asked of them.
+class Places {
+ public:
+  Places(std::span<const double> xy, std::span<const std::uint64_t> tags) : _xy(xy), _tags(tags) {
+    double low[2] = {xy[0], xy[1]};
+    double high[2] = {xy[0], xy[1]};
+    for (std::size_t i = 0; i < xy.size(); ++i) {
+      low[i % 2] = std::min(low[i % 2], xy[i]);
+      high[i % 2] = std::max(high[i % 2], xy[i]);
+    }
+    _corner = {low[0], low[1]};
+    _extent = std::max(high[0] - low[0], high[1] - low[1]);
+  }
+
+  double x(std::int32_t node) const { return _xy[2 * static_cast<std::size_t>(node)]; }
+  double y(std::int32_t node) const { return _xy[2 * static_cast<std::size_t>(node) + 1]; }
+  double distance(std::int32_t a, std::int32_t b) const {
+    return std::hypot(x(b) - x(a), y(b) - y(a));
+  }
+  double angle(std::int32_t a, std::int32_t b) const {
+    return std::atan2(y(b) - y(a), x(b) - x(a));
+  }
+  double extent() const { return _extent; }
+
+  /// Cell of a grid whose neighbouring cells hold everything within `same_place`.
+  std::array<std::int64_t, 2> cell(std::int32_t node) const {
+    const double width = 2 * same_place * _extent;
+    return {static_cast<std::int64_t>((x(node) - _corner[0]) / width),
+            static_cast<std::int64_t>((y(node) - _corner[1]) / width)};
+  }
+
+  std::string describe(std::int32_t node) const {
+    std::ostringstream text;
+    text << "node " << _tags[static_cast<std::size_t>(node)] << " (" << x(node) << ", " << y(node)
+         << ")";
+    return text.str();
+  }
+
+ private:
+  std::span<const double> _xy;
+  std::span<const std::uint64_t> _tags;
+  std::array<double, 2> _corner{};
+  double _extent = 0;
+};
+
+/// An edge of one triangle; `low` and `high` stand for all nodes at the same places.
+struct RimEdge {
+  std::int32_t low = 0;
+  std::int32_t high = 0;
+  mesh::EdgeUse use;
+  bool matched = false;
+};
+
+std::vector<RimEdge> rim_of(const mesh::EdgeTable& edges) {
+  std::vector<RimEdge> rim;
+  edges.each([&](std::span<const mesh::EdgeUse> uses) {
+    if (uses.size() == 1) rim.push_back({uses[0].low(), uses[0].high(), uses[0], false});
+  });
+  return rim;
+}
+
+std::vector<std::int32_t> nodes_of(const std::vector<RimEdge>& rim) {
+  std::vector<std::int32_t> nodes;
+  nodes.reserve(2 * rim.size());
+  for (const RimEdge& edge : rim) {
+    nodes.push_back(edge.use.from);
+    nodes.push_back(edge.use.to);
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+/// Puts nodes that lie on one another into one set of `same`.
+void find_coincident(const Places& places, const std::vector<RimEdge>& rim,
+                     const std::vector<std::int32_t>& nodes, std::size_t node_count,
+                     UnionFind& same) {
+  std::vector<double> shortest(node_count, std::numeric_limits<double>::infinity());
+  for (const RimEdge& edge : rim) {
+    const double length = places.distance(edge.use.from, edge.use.to);
+    for (const std::int32_t node : {edge.use.from, edge.use.to}) {
+      double& known = shortest[static_cast<std::size_t>(node)];
+      known = std::min(known, length);
+    }
+  }
+  struct Entry {
+    std::array<std::int64_t, 2> cell{};
+    std::int32_t node = 0;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(nodes.size());
+  for (const std::int32_t node : nodes) entries.push_back({places.cell(node), node});
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return std::tie(a.cell, a.node) < std::tie(b.cell, b.node);
+  });
+  const auto compare = [&](const Entry& entry, std::array<std::int64_t, 2> cell) {
+    auto other =
+        std::lower_bound(entries.begin(), entries.end(), cell,
+                         [](const Entry& e, const auto& wanted) { return e.cell < wanted; });
+    for (; other != entries.end() && other->cell == cell; ++other) {
+      const double bound =
+          std::min(same_place * places.extent(),
+                   same_place_of_edge * std::min(shortest[static_cast<std::size_t>(entry.node)],
+                                                 shortest[static_cast<std::size_t>(other->node)]));
+      if (places.distance(entry.node, other->node) <= bound) same.unite(entry.node, other->node);
+    }
+  };
+  for (const Entry& entry : entries) {
+    // half of the neighbours, the others see this one
+    const auto [i, j] = entry.cell;
+    for (const auto& cell : {std::array{i, j}, std::array{i, j + 1}, std::array{i + 1, j - 1},
+                             std::array{i + 1, j}, std::array{i + 1, j + 1}}) {
+      compare(entry, cell);
+    }
+  }
+}
+
+/// Marks edges that lie on one another in pairs; the rim comes out sorted by (low, high).
+void match(const Places& places, UnionFind& same, std::vector<RimEdge>& rim) {
+  for (RimEdge& edge : rim) {
+    const std::int32_t from = same.find(edge.use.from);
+    const std::int32_t to = same.find(edge.use.to);
+    edge.low = std::min(from, to);
+    edge.high = std::max(from, to);
+  }
+  std::sort(rim.begin(), rim.end(), [](const RimEdge& a, const RimEdge& b) {
+    return std::tie(a.low, a.high, a.use.triangle) < std::tie(b.low, b.high, b.use.triangle);
+  });
+  for (std::size_t i = 1; i < rim.size(); ++i) {
+    RimEdge& a = rim[i - 1];
+    RimEdge& b = rim[i];
+    if (a.low != b.low || a.high != b.high) continue;
+    const bool same_side = same.find(a.use.from) == same.find(b.use.from);
+    if (a.matched || same_side) {
+      refuse("triangles overlap at the edge from " + places.describe(b.use.from) + " to " +
+             places.describe(b.use.to) + ": " +
+             (same_side ? "two lie on the same side of it" : "more than two meet in it") +
+             "; mesh every surface once");
+    }
+    a.matched = b.matched = true;
+  }
+}
+
+/// Edges that start in one place in the same direction, but are no pair: a node hangs.
+void refuse_hanging(const Places& places, UnionFind& same, const std::vector<RimEdge>& rim) {
+  struct Ray {
+    std::int32_t place = 0;
+    double angle = 0;
+    double length = 0;
+    std::int32_t from = 0;
+    std::int32_t to = 0;
+  };
+  std::vector<Ray> rays;
+  rays.reserve(2 * rim.size());
+  for (const RimEdge& edge : rim) {
+    if (edge.matched) continue;
+    const auto [a, b, triangle] = edge.use;
+    const double length = places.distance(a, b);
+    rays.push_back({same.find(a), places.angle(a, b), length, a, b});
+    rays.push_back({same.find(b), places.angle(b, a), length, b, a});
+  }
+  std::sort(rays.begin(), rays.end(), [](const Ray& a, const Ray& b) {
+    return std::tie(a.place, a.angle, a.to) < std::tie(b.place, b.angle, b.to);
+  });
+  const auto check = [&](const Ray& a, const Ray& b, double turn) {
+    const double rounding = same_place * places.extent() / std::min(a.length, b.length);
+    if (turn > std::min(same_direction + rounding, widest_same_direction)) return;
+    const auto& [shorter, longer] = a.length < b.length ? std::tie(a, b) : std::tie(b, a);
+    refuse("the edge from " + places.describe(longer.from) + " to " + places.describe(longer.to) +
+           " lies on that from " + places.describe(shorter.from) + " to " +
+           places.describe(shorter.to) +
+           ", but they do not end in the same place: a node hangs; let both sides have the same "
+           "nodes along their common line (in gmsh: one curve for both surfaces, or Coherence, or "
+           "the same Transfinite Curve on both)");
+  };
+  for (std::size_t first = 0; first < rays.size();) {
+    std::size_t last = first;
+    while (last + 1 < rays.size() && rays[last + 1].place == rays[first].place) {
+      check(rays[last], rays[last + 1], rays[last + 1].angle - rays[last].angle);
+      ++last;
+    }
+    if (last > first) {
+      check(rays[last], rays[first], rays[first].angle + 2 * std::numbers::pi - rays[last].angle);
+    }
+    first = last + 1;
+  }
+}
+
+/// Nodes that lie on one another must do so along an edge.
+void refuse_touching(const Places& places, UnionFind& same, const std::vector<RimEdge>& rim,
+                     const std::vector<std::int32_t>& nodes, std::size_t node_count) {
+  std::vector<bool> met(node_count, false);
+  for (const RimEdge& edge : rim) {
+    if (!edge.matched) continue;
+    met[static_cast<std::size_t>(edge.use.from)] = met[static_cast<std::size_t>(edge.use.to)] =
+        true;
+  }
+  std::vector<std::int32_t> partner(node_count, -1);
+  for (const std::int32_t node : nodes) {
+    const std::int32_t first = same.find(node);
+    if (first == node) continue;
+    partner[static_cast<std::size_t>(node)] = first;
+    partner[static_cast<std::size_t>(first)] = node;
+  }
+  for (const std::int32_t node : nodes) {
+    const std::int32_t other = partner[static_cast<std::size_t>(node)];
+    if (other < 0 || met[static_cast<std::size_t>(node)]) continue;
+    refuse(places.describe(node) + " lies on " + places.describe(other) +
+           ", but no edge of the one on an edge of the other; let both sides have the same nodes "
+           "along their common line (in gmsh: one curve for both surfaces, or Coherence, or the "
+           "same Transfinite Curve on both)");
+  }
+}
+
+Welding number(std::size_t node_count, UnionFind& same) {
+  Welding welding;
+  welding.node.reserve(node_count);
+  for (std::size_t i = 0; i < node_count; ++i) {
+    const auto node = static_cast<std::int32_t>(i);
+    const std::int32_t first = same.find(node);
+    // the first of its place comes before it and has its number already
+    welding.node.push_back(first == node ? static_cast<std::int32_t>(welding.node_count++)
+                                         : welding.node[static_cast<std::size_t>(first)]);
+  }
+  return welding;
+}
+
+}  // namespace
+
+const DoubledEdge* Welding::find(std::int32_t a, std::int32_t b) const noexcept {
+  const auto key = std::pair(std::min(a, b), std::max(a, b));
+  const auto found = std::lower_bound(
+      doubled.begin(), doubled.end(), key,
+      [](const DoubledEdge& e, const auto& wanted) { return std::pair(e.low, e.high) < wanted; });
+  const bool there = found != doubled.end() && std::pair(found->low, found->high) == key;
+  return there ? &*found : nullptr;
+}
+
+Welding weld(std::span<const double> xy, std::span<const std::int32_t> triangles,
+             std::span<const std::uint64_t> tags) {
+  const std::size_t node_count = xy.size() / 2;
+  const Places places(xy, tags);
+  std::vector<RimEdge> rim = rim_of(mesh::EdgeTable(triangles));
+  const std::vector<std::int32_t> nodes = nodes_of(rim);
+  UnionFind same(node_count);
+  find_coincident(places, rim, nodes, node_count, same);
+  match(places, same, rim);
+  refuse_hanging(places, same, rim);
+  refuse_touching(places, same, rim, nodes, node_count);
+
+  Welding welding = number(node_count, same);
+  UnionFind joined(node_count);
+  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
+    joined.unite(triangles[i], triangles[i + 1]);
+    joined.unite(triangles[i], triangles[i + 2]);
+  }
+  for (std::size_t i = 1; i < rim.size(); ++i) {
+    const RimEdge& edge = rim[i];
+    if (!edge.matched || edge.low != rim[i - 1].low || edge.high != rim[i - 1].high) continue;
+    const auto low = welding.node[static_cast<std::size_t>(edge.low)];
+    const auto high = welding.node[static_cast<std::size_t>(edge.high)];
+    welding.doubled.push_back(
+        {low, high, joined.find(edge.use.from) != joined.find(rim[i - 1].use.from)});
+  }
+  // numbers ascend with the first nodes, so the order of the rim is that of the welded edges
+  return welding;
+}
+
+}  // namespace anticrack::mesher

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Geometries of every form, planned and meshed by the real helper, which validates what it gives.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "mesh/edges.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/refine.hpp"
+#include "mesher/helper.hpp"
+
+namespace anticrack {
+namespace {
+
+using mesh::Geometry;
+using mesh::Kind;
+using mesh::Mesh;
+using mesh::MeshOptions;
+using mesh::Part;
+using mesh::Point;
+using mesh::Preset;
+using mesh::Shape;
+using ::testing::UnorderedElementsAre;
+
+constexpr std::size_t enough = 1'000'000;
+
+Mesh make(const Geometry& geometry, const MeshOptions& options) {
+  mesher::HelperOptions helper;
+  helper.executable = mesher::default_executable();
+  return mesher::run(helper, mesh::GenerateRequest{mesh::plan(geometry, options, enough), enough},
+                     {});
+}
+
+MeshOptions uniform(double size) {
+  return {Preset::uniform, size};
+}
+
+Geometry square() {
+  Geometry geometry;
+  geometry.boundary = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  return geometry;
+}
+
+mesh::InterfaceSpec line(const std::string& name, std::vector<Point> points, bool closed = false) {
+  return {name, Shape::polyline, std::move(points), closed};
+}
+
+double distance(const Mesh& mesh, std::int32_t a, std::int32_t b) {
+  const auto i = 2 * static_cast<std::size_t>(a);
+  const auto j = 2 * static_cast<std::size_t>(b);
+  return std::hypot(mesh.xy[j] - mesh.xy[i], mesh.xy[j + 1] - mesh.xy[i + 1]);
+}
+
+std::map<Kind, double> lengths(const Mesh& mesh) {
+  std::map<Kind, double> sums;
+  for (const mesh::Interface& interface : mesh.interfaces) {
+    for (std::size_t i = 0; i < interface.kind.size(); ++i) {
+      sums[interface.kind[i]] += distance(mesh, interface.nodes[i], interface.nodes[i + 1]);
+    }
+  }
+  return sums;
+}
+
+double length(const Mesh& mesh, Kind kind) {
+  return lengths(mesh)[kind];
+}
+
+std::map<std::string, double> areas(const Mesh& mesh) {
+  std::map<std::string, double> sums;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    sums[mesh.subdomains[static_cast<std::size_t>(mesh.subdomain[t])]] += mesh::area(mesh, t);
+  }
+  return sums;
+}
+
+double whole_area(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& [name, area] : areas(mesh)) sum += area;
+  return sum;
+}
+
+double dirichlet_length(const Mesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b] : mesh.dirichlet) sum += distance(mesh, a, b);
+  return sum;
+}
+
+std::vector<Point> tip_points(const Mesh& mesh) {
+  std::vector<Point> found;
+  for (const std::int32_t node : mesh::tips(mesh)) {
+    const auto i = 2 * static_cast<std::size_t>(node);
+    found.push_back({mesh.xy[i], mesh.xy[i + 1]});
+  }
+  return found;
+}
+
+/// What must hold of every graded mesh: the size is reached at every tip, no angle is below the
+/// bound, and equal input gives equal bits.
+void expect_graded(const Geometry& geometry, std::size_t tip_count) {
+  const Mesh mesh = make(geometry, {});
+  const std::vector<std::int32_t> tips = mesh::tips(mesh);
+  EXPECT_EQ(tips.size(), tip_count);
+  EXPECT_GT(mesh.bisection_bound, 0);
+  EXPECT_GE(mesh::minimum_angle(mesh), 0.95 * mesh.bisection_bound);
+  for (const std::int32_t tip : tips) {
+    double smallest = 1;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::int32_t a = mesh.triangles[3 * t + i];
+        const std::int32_t b = mesh.triangles[3 * t + (i + 1) % 3];
+        if (a == tip || b == tip) smallest = std::min(smallest, distance(mesh, a, b));
+      }
+    }
+    EXPECT_LE(smallest, 1.01e-13) << "tip " << tip;
+  }
+  EXPECT_EQ(mesh::encode(make(geometry, {})), mesh::encode(mesh));
+}
+
+TEST(Shapes, SlitInOneSubdomain) {
+  Geometry geometry = square();
+  geometry.interfaces = {line("slit", {{-0.5, 0}, {0, 0.1}, {0.5, 0}})};
+  geometry.cracks = {{"crack", {{-0.5, 0}, {0.5, 0}}}};
+  const Mesh mesh = make(geometry, uniform(0.1));
+  EXPECT_EQ(mesh.subdomains.size(), 1U);
+  EXPECT_NEAR(whole_area(mesh), 4, 1e-12);
+  EXPECT_NEAR(length(mesh, Kind::crack), 2 * std::hypot(0.5, 0.1), 1e-12);
+  EXPECT_NEAR(dirichlet_length(mesh), 8, 1e-12);
+  EXPECT_THAT(tip_points(mesh), UnorderedElementsAre(Point{-0.5, 0}, Point{0.5, 0}));
+  expect_graded(geometry, 2);
+}
+
+TEST(Shapes, CrackFromTheNeumannSide) {
+  Geometry geometry = square();
+  geometry.interfaces = {line("cut", {{1, 0}, {0.25, 0}})};
+  geometry.cracks = {{"crack", {{1, 0}, {0.25, 0}}}};
+  geometry.neumann = {{{1, -1}, {1, 1}}};
+  const Mesh mesh = make(geometry, uniform(0.1));
+  EXPECT_NEAR(dirichlet_length(mesh), 6, 1e-12);
+  EXPECT_THAT(tip_points(mesh), UnorderedElementsAre(Point{0.25, 0}));
+  expect_graded(geometry, 1);
+}
+
+TEST(Shapes, RingThatIsPartlyDelaminated) {
+  Geometry geometry = square();
+  geometry.interfaces = {line("ring", {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}, true)};
+  geometry.inclusions = {{"rim", {{-0.25, -0.5}, {0.5, 0.25}}, {{{0, -0.5}, {0.25, -0.5}}}}};
+  geometry.regions = {{"core", {0, 0}, 2.5}};
+  const Mesh mesh = make(geometry, uniform(0.1));
+  ASSERT_EQ(mesh.subdomains.size(), 2U);
+  EXPECT_NEAR(areas(mesh)["core"], 1, 1e-12);
+  EXPECT_NEAR(whole_area(mesh), 4, 1e-12);
+  const bool core_first = mesh.subdomains[0] == "core";
+  EXPECT_EQ(mesh.tension,
+            core_first ? (std::vector<double>{2.5, 1}) : (std::vector<double>{1, 2.5}));
+  ASSERT_EQ(mesh.interfaces.size(), 1U);
+  EXPECT_EQ(mesh.interfaces[0].nodes.front(), mesh.interfaces[0].nodes.back());
+  EXPECT_NEAR(length(mesh, Kind::delaminated), 0.25, 1e-12);
+  EXPECT_NEAR(length(mesh, Kind::inclusion), 1.25, 1e-12);
+  EXPECT_NEAR(length(mesh, Kind::glue), 2.5, 1e-12);
+  expect_graded(geometry, 4);
+}
+
+TEST(Shapes, ThreeSubdomainsAtACrossPoint) {
+  Geometry geometry = square();
+  geometry.interfaces = {line("across", {{-1, 0}, {1, 0}}), line("up", {{0.25, 0}, {0.25, 1}})};
+  geometry.cracks = {{"crack", {{-0.5, 0}, {-0.25, 0}}}};
+  geometry.regions = {{"low", {0, -0.5}}, {"left", {-0.5, 0.5}}, {"right", {0.5, 0.5}}};
+  const Mesh mesh = make(geometry, uniform(0.1));
+  EXPECT_THAT(mesh.subdomains, UnorderedElementsAre("low", "left", "right"));
+  EXPECT_NEAR(areas(mesh)["low"], 2, 1e-12);
+  EXPECT_NEAR(areas(mesh)["left"], 1.25, 1e-12);
+  EXPECT_NEAR(areas(mesh)["right"], 0.75, 1e-12);
+  EXPECT_NEAR(length(mesh, Kind::glue), 2.75, 1e-12);
+  // glue alone meets in the cross point, so it is no tip
+  EXPECT_THAT(tip_points(mesh), UnorderedElementsAre(Point{-0.5, 0}, Point{-0.25, 0}));
+  expect_graded(geometry, 2);
+}
+
+TEST(Shapes, CrossOfACrackAndAnInclusion) {
+  Geometry geometry = square();
+  geometry.interfaces = {line("across", {{-1, 0}, {1, 0}}), line("up", {{0, -1}, {0, 1}})};
+  geometry.inclusions = {{"rigid", {{0.25, 0}, {0.75, 0}}, {}}};
+  geometry.cracks = {{"crack", {{0, -0.5}, {0, 0.5}}}};
+  const Mesh mesh = make(geometry, uniform(0.1));
+  EXPECT_EQ(mesh.subdomains.size(), 4U);
+  EXPECT_NEAR(whole_area(mesh), 4, 1e-12);
+  EXPECT_NEAR(length(mesh, Kind::inclusion), 0.5, 1e-12);
+  EXPECT_NEAR(length(mesh, Kind::crack), 1, 1e-12);
+  EXPECT_NEAR(length(mesh, Kind::glue), 2.5, 1e-12);
+  EXPECT_THAT(tip_points(mesh), UnorderedElementsAre(Point{0.25, 0}, Point{0.75, 0}, Point{0, -0.5},
+                                                     Point{0, 0.5}, Point{0, 0}));
+  expect_graded(geometry, 5);
+}
+
+TEST(Shapes, InclusionOnAnArc) {
+  Geometry geometry = square();
+  geometry.interfaces = {{"arc", Shape::arc, {{-1, 0}, {0, 0.5}, {1, 0}}, false}};
+  const auto on_arc = [](double angle) {
+    return Point{1.25 * std::sin(angle), -0.75 + 1.25 * std::cos(angle)};
+  };
+  const Part part{on_arc(-0.3), on_arc(0.4)};
+  geometry.inclusions = {{"bow", part, {part}}};
+  const Mesh mesh = make(geometry, uniform(0.02));
+  EXPECT_EQ(mesh.subdomains.size(), 2U);
+  EXPECT_NEAR(whole_area(mesh), 4, 1e-12);
+  EXPECT_NEAR(length(mesh, Kind::delaminated), 1.25 * 0.7, 1e-3);
+  for (const std::int32_t node : mesh.interfaces.at(0).nodes) {
+    const auto i = 2 * static_cast<std::size_t>(node);
+    EXPECT_NEAR(std::hypot(mesh.xy[i], mesh.xy[i + 1] + 0.75), 1.25, 1e-3);
+  }
+  expect_graded(geometry, 2);
+}
+
+TEST(Shapes, EdgesFollowAnAlignedLine) {
+  Geometry geometry = square();
+  geometry.interfaces = {line("across", {{-1, 0}, {1, 0}})};
+  MeshOptions options = uniform(0.1);
+  options.align = {{{-0.75, 0.5}, {0.75, 0.625}}, {{-0.5, -1}, {-0.5, 1}}};
+  const Mesh mesh = make(geometry, options);
+  EXPECT_EQ(mesh.subdomains.size(), 2U);
+  EXPECT_EQ(mesh.interfaces.size(), 1U);
+  EXPECT_EQ(mesh::tips(mesh).size(), 0U);
+  EXPECT_NEAR(dirichlet_length(mesh), 8, 1e-12);
+  double along_first = 0;
+  double along_second = 0;
+  mesh::EdgeTable(mesh.triangles).each([&](std::span<const mesh::EdgeUse> uses) {
+    const auto i = 2 * static_cast<std::size_t>(uses[0].from);
+    const auto j = 2 * static_cast<std::size_t>(uses[0].to);
+    const auto off_first = [&](std::size_t k) {
+      return std::abs(mesh.xy[k]) > 0.75 + 1e-12
+                 ? 1
+                 : std::abs(mesh.xy[k + 1] - 0.5625 - mesh.xy[k] / 12);
+    };
+    const double length = std::hypot(mesh.xy[j] - mesh.xy[i], mesh.xy[j + 1] - mesh.xy[i + 1]);
+    if (std::max(off_first(i), off_first(j)) < 1e-12) along_first += length;
+    if (mesh.xy[i] == -0.5 && mesh.xy[j] == -0.5) along_second += length;
+  });
+  EXPECT_NEAR(along_first, std::hypot(1.5, 0.125), 1e-12);
+  EXPECT_NEAR(along_second, 2, 1e-12);
+}
+
+TEST(Shapes, PartlyDelaminatedInclusion) {
+  Geometry geometry = square();
+  geometry.interfaces = {line("across", {{-1, 0}, {1, 0}})};
+  geometry.inclusions = {{"rigid", {{-0.5, 0}, {0.5, 0}}, {{{-0.25, 0}, {0.125, 0}}}}};
+  const Mesh mesh = make(geometry, uniform(0.1));
+  EXPECT_NEAR(length(mesh, Kind::delaminated), 0.375, 1e-12);
+  EXPECT_NEAR(length(mesh, Kind::inclusion), 0.625, 1e-12);
+  EXPECT_NEAR(length(mesh, Kind::glue), 1, 1e-12);
+  expect_graded(geometry, 4);
+}
+
+TEST(Shapes, TwoInclusionsAHairApart) {
+  Geometry geometry = square();
+  geometry.interfaces = {line("across", {{-1, 0}, {1, 0}})};
+  const Part left{{-0.5, 0}, {0, 0}};
+  const Part right{{1e-6, 0}, {0.5, 0}};
+  geometry.inclusions = {{"left", left, {left}}, {"right", right, {right}}};
+  const Mesh mesh = make(geometry, uniform(0.1));
+  EXPECT_NEAR(length(mesh, Kind::delaminated), 1 - 1e-6, 1e-12);
+  EXPECT_NEAR(whole_area(mesh), 4, 1e-12);
+  EXPECT_GT(mesh::minimum_angle(mesh), 10);
+  expect_graded(geometry, 4);
+}
+
+TEST(Shapes, InclusionOfOneSegment) {
+  Geometry geometry = square();
+  geometry.interfaces = {line("across", {{-1, 0}, {1, 0}})};
+  const Part part{{-0.0625, 0}, {0.0625, 0}};
+  geometry.inclusions = {{"short", part, {part}}};
+  const Mesh mesh = make(geometry, uniform(0.25));
+  const auto& kinds = mesh.interfaces.at(0).kind;
+  EXPECT_EQ(std::count(kinds.begin(), kinds.end(), Kind::delaminated), 1);
+  expect_graded(geometry, 2);
+}
+
+TEST(Shapes, DefaultMeshOfThePapersSquareIsAsLargeAsThePapers) {
+  Geometry geometry = square();
+  geometry.interfaces = {line("interface", {{-1, 0}, {1, 0}})};
+  const Part part{{-0.5, 0}, {0.5, 0}};
+  geometry.inclusions = {{"inclusion", part, {part}}};
+  const std::size_t triangles = make(geometry, {}).triangle_count();
+  EXPECT_GE(triangles, 9'000U);
+  EXPECT_LE(triangles, 11'500U);
+  expect_graded(geometry, 2);
+}
+
+}  // namespace
+}  // namespace anticrack
