@@ -19,6 +19,13 @@ std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
 
+/// Not so where it may open, nor where other conditions of a cross point imply its own.
+bool tied(const ddm::Decomposition& decomposition, std::int32_t i) {
+  const ddm::NodePair& pair = decomposition.pairs[at(i)];
+  return decomposition.subdomains[at(pair.minus)].unknown[at(pair.minus_trace)] ==
+         decomposition.subdomains[at(pair.plus)].unknown[at(pair.plus_trace)];
+}
+
 }  // namespace
 
 PairForces::PairForces(const ddm::Decomposition& decomposition, const VectorXd& lumped_mass)
@@ -49,7 +56,7 @@ PairForces::Knot PairForces::knot_of(const std::vector<std::int32_t>& pairs_of_n
                       std::pair{Side{pair.plus, pair.plus_trace}, 1.0}};
   };
   for (const std::int32_t i : pairs_of_node) {
-    if (_decomposition.pairs[at(i)].contact >= 0) {
+    if (!tied(_decomposition, i)) {
       continue;
     }
     knot.pairs.push_back(i);

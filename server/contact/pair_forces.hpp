@@ -14,7 +14,8 @@ namespace anticrack::contact {
 ///   tied pairs:  S t - g = B'M mu on every side that is not rigid; where that leaves a choice
 ///                (sides tied in a circle around a cross point) the mu with the least mu'M mu, to
 ///                which Algorithm 2 converges as well.
-/// A side held rigid takes any force; a pair of two such sides has mu = 0.
+/// A side held rigid takes any force; a pair of two such sides has mu = 0. So has a pair whose
+/// condition follows from others of its cross point (contact -1, sides not tied).
 /// Lumped mass. Immutable after construction. O(n) a call.
 class PairForces {
  public:

@@ -92,8 +92,13 @@ class Case {
     _state.force = _traces.lumped_mass().cwiseProduct(_state.mu);
     _state.jump = VectorXd::Zero(_traces.pair_count());
     for (Index i = 0; i < _state.jump.size(); ++i) {
-      const std::int32_t contact = pairs[static_cast<std::size_t>(i)].contact;
-      _state.jump[i] = contact >= 0 ? d[contact] : 0;
+      const ddm::NodePair& pair = pairs[static_cast<std::size_t>(i)];
+      // d itself where it is known: the difference of the traces is rounded.
+      _state.jump[i] =
+          pair.contact >= 0
+              ? d[pair.contact]
+              : _state.trace[static_cast<std::size_t>(pair.plus)][pair.plus_trace] -
+                    _state.trace[static_cast<std::size_t>(pair.minus)][pair.minus_trace];
     }
     _sample.energy = energy(_loads, _state);
     _sample.contact_count = contact_count(_traces.decomposition(), _state.mu);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 
 #include "contact/answer.hpp"
@@ -9,7 +10,7 @@
 namespace anticrack::contact {
 namespace {
 
-void expect_refused(const UzawaOptions& options, const char* field) {
+void expect_refused(const SolverOptions& options, const char* field) {
   try {
     check(options, 1000);
     FAIL() << field << " accepted";
@@ -33,21 +34,45 @@ TEST(UzawaOptions, RefusedFieldsAreNamed) {
   for (const double bad : {0.0, -2.0, infinity, nan}) {
     UzawaOptions options = good();
     options.theta = bad;
-    expect_refused(options, "theta");
+    expect_refused(options, "uzawa.theta");
     options = good();
     options.epsilon = bad;
-    expect_refused(options, "epsilon");
+    expect_refused(options, "uzawa.epsilon");
   }
   for (const double bad : {-1e-9, infinity, nan}) {
     UzawaOptions options = good();
     options.p = bad;
-    expect_refused(options, "p");
+    expect_refused(options, "uzawa.p");
   }
   for (const int bad : {0, -5, 1001}) {
     UzawaOptions options = good();
     options.max_iterations = bad;
-    expect_refused(options, "max_iterations");
+    expect_refused(options, "uzawa.max_iterations");
   }
+}
+
+TEST(UzawaOptions, ToleranceOfTheResidualsIsPositive) {
+  UzawaOptions options = good();
+  options.kkt_tolerance = 1e-9;
+  EXPECT_NO_THROW(check(options, 1000));
+  for (const double bad : {0.0, -1e-9, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    options.kkt_tolerance = bad;
+    expect_refused(options, "uzawa.kkt_tolerance");
+  }
+}
+
+TEST(ActiveSetOptions, RefusedFieldsAreNamed) {
+  EXPECT_NO_THROW(check(ActiveSetOptions{}, 1000));
+  for (const double bad : {-1e-12, 0.1, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    expect_refused(ActiveSetOptions{bad, 10}, "active_set.tolerance");
+  }
+  for (const int bad : {0, -1, 1001}) {
+    expect_refused(ActiveSetOptions{0, bad}, "active_set.max_steps");
+  }
+}
+
+TEST(SolverOptions, DefaultToTheActiveSet) {
+  EXPECT_TRUE(std::holds_alternative<ActiveSetOptions>(SolverOptions{}));
 }
 
 TEST(UzawaOptions, AutoThetaAndNoBoundAtAllAreFine) {

@@ -5,51 +5,14 @@
 
 #include <cmath>
 
-#include "contact/solve.hpp"
+#include "contact/membrane.hpp"
 #include "fem/stiffness.hpp"
 #include "support/structured_mesh.hpp"
-#include "support/trace_space.hpp"
 
 namespace anticrack::contact {
 namespace {
 
 using mesh::Kind;
-
-class Recorder : public Observer {
- public:
-  explicit Recorder(int stop_after = 1 << 30) : _stop_after(stop_after) {}
-  bool on_iteration(const Sample& sample) override {
-    samples.push_back(sample);
-    return sample.iteration < _stop_after;
-  }
-  std::vector<Sample> samples;
-
- private:
-  int _stop_after;
-};
-
-struct Membrane {
-  explicit Membrane(mesh::Mesh cut_mesh)
-      : mesh(std::move(cut_mesh)), space(mesh), problem(space.decomposition, space.operators) {}
-
-  Answer solve(const char* force, const UzawaOptions& options, Observer& observer,
-               const char* boundary = "") const {
-    const auto loads = space.condense(fem::Expression{force}, boundary);
-    return solve_uzawa(problem, mesh, loads, options, false, observer);
-  }
-
-  mesh::Mesh mesh;
-  testing::TraceSpace space;
-  TraceProblem problem;
-};
-
-UzawaOptions tight() {
-  UzawaOptions options;
-  options.theta.reset();
-  options.epsilon = 1e-28;
-  options.max_iterations = 200000;
-  return options;
-}
 
 TEST(Uzawa, MultipliersStayInTheirIntervals) {
   const Membrane membrane(testing::structured_mesh());
@@ -216,6 +179,34 @@ TEST(Uzawa, ThetaAboveThetaStarMayConverge) {
     Recorder recorder;
     EXPECT_EQ(membrane.solve(force, options, recorder).status, Status::converged) << force;
   }
+}
+
+TEST(Uzawa, StopsByTheResiduals) {
+  const Membrane membrane(testing::structured_mesh({32, 8, {}, {}, {"bar"}}));
+  int previous = 0;
+  for (const double tolerance : {1e-4, 1e-8, 1e-12}) {
+    UzawaOptions options = tight();
+    options.epsilon = 1;  // would stop at once
+    options.kkt_tolerance = tolerance;
+    Recorder recorder;
+    const Answer answer = membrane.solve("x*y < 0 ? -1 : 1", options, recorder);
+    ASSERT_EQ(answer.status, Status::converged) << answer.reason;
+    const KktResiduals& residuals = answer.kkt_relative;
+    EXPECT_LE(
+        std::max({residuals.equilibrium, residuals.gap, residuals.sign, residuals.complementarity}),
+        tolerance);
+    EXPECT_GT(residuals.gap, 0);
+    EXPECT_GT(answer.iterations, previous);
+    previous = answer.iterations;
+    EXPECT_EQ(static_cast<int>(recorder.samples.size()), answer.iterations);
+  }
+  UzawaOptions options = tight();
+  options.kkt_tolerance = 1e-12;
+  options.max_iterations = 20;
+  Recorder recorder;
+  const Answer answer = membrane.solve("1", options, recorder);
+  EXPECT_EQ(answer.status, Status::not_converged);
+  EXPECT_NE(answer.reason.find("kkt_tolerance"), std::string::npos) << answer.reason;
 }
 
 TEST(Answer, ListsContactIntervalsAndTracesAlongTheInterface) {

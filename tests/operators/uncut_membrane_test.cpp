@@ -51,13 +51,16 @@ void cut_half(mesh::Mesh& mesh, int half, int columns, int rows) {
 void expect_uncut(const mesh::Mesh& mesh) {
   const fem::Load load{"load", fem::Expression{"1 + sin(4*x)*y"}, "0.3*x - y*y"};
   const auto op = MeshOperator::factorise(std::make_shared<const mesh::Mesh>(mesh), 2, {});
-  contact::UzawaOptions options;
-  options.theta.reset();
-  options.epsilon = 1e-30;
-  options.max_iterations = 200000;
+  contact::UzawaOptions uzawa;
+  uzawa.theta.reset();
+  uzawa.epsilon = 1e-30;
+  uzawa.max_iterations = 200000;
   Silent observer;
-  const contact::Answer answer = op->solve(load, options, true, observer);
+  const contact::Answer exact = op->solve(load, contact::ActiveSetOptions{}, true, observer);
+  const contact::Answer answer = op->solve(load, uzawa, true, observer);
   ASSERT_EQ(answer.status, contact::Status::converged) << answer.reason;
+  ASSERT_EQ(exact.status, contact::Status::converged) << exact.reason;
+  EXPECT_EQ(exact.iterations, 1);
 
   const fem::Triangulation whole{mesh.xy, mesh.triangles};
   const Eigen::SparseMatrix<double> stiffness = fem::stiffness(whole);
@@ -88,14 +91,22 @@ void expect_uncut(const mesh::Mesh& mesh) {
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(constrained);
   const Eigen::VectorXd u = solver.solve(right);
 
-  double difference = 0;
-  for (const contact::Field& field : answer.fields) {
-    for (std::size_t i = 0; i < field.nodes.size(); ++i) {
-      difference = std::max(difference, std::abs(field.u[i] - u[field.nodes[i]]));
+  const auto difference_of = [&u](const contact::Answer& of) {
+    double difference = 0;
+    for (const contact::Field& field : of.fields) {
+      for (std::size_t i = 0; i < field.nodes.size(); ++i) {
+        difference = std::max(difference, std::abs(field.u[i] - u[field.nodes[i]]));
+      }
     }
-  }
-  std::printf("[ figures  ] %zu subdomains against the uncut membrane: %.1e in %d iterations\n",
-              mesh.subdomains.size(), difference, answer.iterations);
+    return difference;
+  };
+  const double difference = difference_of(answer);
+  std::printf(
+      "[ figures  ] %zu subdomains against the uncut membrane: %.1e in %d iterations, %.1e by the "
+      "active set\n",
+      mesh.subdomains.size(), difference, answer.iterations, difference_of(exact));
+  EXPECT_LT(difference_of(exact), 1e-13);
+  EXPECT_NEAR(exact.energy, u.dot(stiffness * u) / 2 - force.dot(u), 1e-12);
   EXPECT_LT(difference, 1e-11);
   EXPECT_NEAR(answer.energy, u.dot(stiffness * u) / 2 - force.dot(u), 1e-12);
   EXPECT_TRUE(answer.contact_intervals.empty());

@@ -34,12 +34,12 @@ const operators::MeshOperator& paper_operator() {
   return *op;
 }
 
-Answer solve(const std::string& force, const UzawaOptions& options = {},
+Answer solve(const std::string& force, const contact::SolverOptions& options = UzawaOptions{},
              const std::string& boundary = "") {
   Counter counter;
   const auto begin = std::chrono::steady_clock::now();
-  Answer answer =
-      paper_operator().solve({"case", fem::Expression{force}, boundary}, options, false, counter);
+  Answer answer = paper_operator().solve({"case", fem::Expression{force}, boundary, "", {}, {}},
+                                         options, false, counter);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
   EXPECT_EQ(counter.count, answer.iterations);
   EXPECT_EQ(counter.last.criterion, answer.criterion);
@@ -165,7 +165,8 @@ TEST(PatchTest, ClosedCrackIsReproducedToRounding) {
     options.epsilon = epsilon;
     options.max_iterations = 100000;
     Counter counter;
-    const Answer answer = paper_operator().solve({"patch", 0.0, "-0.7*y"}, options, true, counter);
+    const Answer answer =
+        paper_operator().solve({"patch", 0.0, "-0.7*y", "", {}, {}}, options, true, counter);
     EXPECT_EQ(answer.status, Status::converged) << answer.reason;
     double field = 0, pressure = 0;
     const mesh::Mesh& mesh = paper_operator().mesh();
@@ -221,6 +222,55 @@ TEST(PenaltyBound, IsActiveWhenSmallAndForgottenWhenLarge) {
     previous_distance = std::abs(distance);
   }
   EXPECT_NEAR(with_bound(100).energy, unbounded.energy, 1e-12);
+}
+
+/// The same answers to Algorithm 2's accuracy, in a handful of steps.
+TEST(ActiveSet, AgreesWithUzawaOnThePapersExamples) {
+  UzawaOptions tight;
+  tight.theta.reset();
+  tight.kkt_tolerance = 1e-9;
+  tight.max_iterations = 100000;
+  for (const char* force : {testing::paper_forces[0], testing::paper_forces[1],
+                            testing::paper_forces[2], testing::paper_forces[3], "y > 0 ? -1 : 1"}) {
+    SCOPED_TRACE(force);
+    const Answer uzawa = solve(force, tight);
+    const Answer exact = solve(force, contact::ActiveSetOptions{});
+    ASSERT_EQ(uzawa.status, Status::converged) << uzawa.reason;
+    ASSERT_EQ(exact.status, Status::converged) << exact.reason;
+    EXPECT_LE(exact.iterations, 10);
+    EXPECT_LT(exact.kkt_relative.equilibrium, 1e-12);
+    EXPECT_EQ(exact.kkt.gap + exact.kkt.sign + exact.kkt.complementarity, 0);
+    EXPECT_LT(std::abs(exact.inclusions[0].resultant), 1e-12);
+    EXPECT_NEAR(exact.inclusions[0].displacement, uzawa.inclusions[0].displacement, 1e-7);
+    EXPECT_NEAR(exact.energy, uzawa.energy, 1e-8);
+    EXPECT_NEAR(exact.contact_length, uzawa.contact_length, 1e-9);
+    double jump = 0, pressure = 0, largest = 0;
+    const contact::Trace &a = exact.traces.at(0), &b = uzawa.traces.at(0);
+    for (std::size_t i = 0; i < a.jump.size(); ++i) {
+      jump = std::max(jump, std::abs(a.jump[i] - b.jump[i]));
+      pressure = std::max(pressure, std::abs(a.pressure[i] - b.pressure[i]));
+      largest = std::max(largest, std::abs(a.pressure[i]));
+    }
+    std::printf("[ figures  ] against Algorithm 2: jump %.1e, pressure %.1e of %.2f\n", jump,
+                pressure, largest);
+    EXPECT_LT(jump, 1e-8);
+    EXPECT_LT(pressure, 1e-5 * largest);
+  }
+}
+
+TEST(ActiveSet, ReproducesTheClosedCrackToRounding) {
+  const Answer answer = [] {
+    Counter counter;
+    return paper_operator().solve({"patch", 0.0, "-0.7*y", "", {}, {}}, contact::ActiveSetOptions{},
+                                  false, counter);
+  }();
+  ASSERT_EQ(answer.status, Status::converged);
+  EXPECT_NEAR(answer.inclusions[0].displacement, 0, 1e-13);
+  EXPECT_NEAR(answer.energy, 0.98, 1e-12);
+  const contact::Trace& trace = answer.traces.at(0);
+  for (std::size_t i = 1; i + 1 < trace.pressure.size(); ++i) {
+    EXPECT_NEAR(trace.pressure[i], 0.7, 1e-11) << i;
+  }
 }
 
 }  // namespace

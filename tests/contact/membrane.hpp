@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "contact/solve.hpp"
+#include "support/trace_space.hpp"
+
+namespace anticrack::contact {
+
+class Recorder : public Observer {
+ public:
+  explicit Recorder(int stop_after = 1 << 30) : _stop_after(stop_after) {}
+  bool on_iteration(const Sample& sample) override {
+    samples.push_back(sample);
+    return sample.iteration < _stop_after;
+  }
+  std::vector<Sample> samples;
+
+ private:
+  int _stop_after;
+};
+
+/// A mesh with all that solving on it takes.
+struct Membrane {
+  explicit Membrane(mesh::Mesh cut_mesh)
+      : mesh(std::move(cut_mesh)),
+        space(mesh),
+        problem(space.decomposition, space.operators,
+                ddm::uzawa_obstacle(space.decomposition, mesh).empty()),
+        skeleton(problem) {}
+
+  Answer solve(const fem::Force& force, const UzawaOptions& options, Observer& observer,
+               const char* boundary = "") const {
+    const auto loads = space.condense(force, boundary);
+    return solve_uzawa(problem, mesh, {loads}, options, false, observer);
+  }
+  Answer solve(const char* force, const UzawaOptions& options, Observer& observer,
+               const char* boundary = "") const {
+    return solve(fem::Expression{force}, options, observer, boundary);
+  }
+
+  /// By the active set.
+  Answer exact(const fem::Force& force, const char* boundary = "",
+               const std::vector<char>& start = {}) const {
+    Recorder recorder;
+    const auto loads = space.condense(force, boundary);
+    return solve_active_set(skeleton, mesh, {loads}, {}, true, recorder, start);
+  }
+
+  mesh::Mesh mesh;
+  testing::TraceSpace space;
+  TraceProblem problem;
+  SkeletonProblem skeleton;
+};
+
+/// As near to the fixed point as rounding lets it come.
+inline UzawaOptions tight() {
+  UzawaOptions options;
+  options.theta.reset();
+  options.epsilon = 1e-28;
+  options.max_iterations = 200000;
+  return options;
+}
+
+}  // namespace anticrack::contact
