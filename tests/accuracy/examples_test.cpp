@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <vector>
 
 #include "accuracy/base_meshes.hpp"
@@ -39,12 +38,6 @@ Row solve_examples(mesh::Mesh mesh, double h0) {
   return row;
 }
 
-/// ANTICRACK_FINEST=0.025 goes on to that h0, 270,000 triangles.
-double finest() {
-  const char* text = std::getenv("ANTICRACK_FINEST");
-  return text == nullptr ? 0.05 : std::atof(text);
-}
-
 /// Where the last two values lead, their errors in the ratio of h0^2 `unsaturated`.
 double extrapolated(const std::vector<Row>& rows, double coarse, double fine) {
   const double h = rows.back().h0;
@@ -55,7 +48,7 @@ double extrapolated(const std::vector<Row>& rows, double coarse, double fine) {
 const std::vector<Row>& rows() {
   static const auto made = [] {
     std::vector<Row> sequence;
-    for (double h0 = 0.2; h0 > 0.99 * finest(); h0 /= 2) {
+    for (double h0 = 0.2; h0 > 0.02; h0 /= 2) {
       sequence.push_back(solve_examples(mesh::grade(diagonals(), {h0, m, 0}, 2'000'000), h0));
     }
     return sequence;
@@ -67,6 +60,9 @@ double off(double value, double limit) {
   return std::abs(value - limit) / std::abs(limit);
 }
 
+/// Saturation alone (see `unsaturated`) makes the mean rate of A 1.8 here. In Examples 2 and 4 the
+/// end of the contact moves from node to node besides, which A feels to the same order with either
+/// sign.
 TEST(PaperExamples, ConvergeToValuesThatDoNotDependOnTheMesh) {
   for (std::size_t i = 0; i < 4; ++i) {
     std::printf(
@@ -83,15 +79,48 @@ TEST(PaperExamples, ConvergeToValuesThatDoNotDependOnTheMesh) {
     const double energy = extrapolated(rows(), coarse.energy[i], fine.energy[i]);
     std::printf("[ figures  ] extrapolated     %.8f %.1e  %.8f %.1e\n", a, off(a, a_limits[i]),
                 energy, off(energy, energy_limits[i]));
-    EXPECT_LT(off(a, a_limits[i]), 5e-4);
-    EXPECT_LT(off(energy, energy_limits[i]), 5e-4);
-    for (std::size_t k = 1; k < rows().size(); ++k) {
-      EXPECT_GT(
-          rate(rows()[k - 1].energy[i] - energy_limits[i], rows()[k].energy[i] - energy_limits[i]),
-          1.6);
+    EXPECT_LT(off(a, a_limits[i]), 2e-4);
+    EXPECT_LT(off(energy, energy_limits[i]), 1e-4);
+    const double halvings = static_cast<double>(rows().size() - 1);
+    const double rate_of_a = rate(rows()[0].a[i] - a_limits[i], fine.a[i] - a_limits[i]) / halvings;
+    const double rate_of_energy =
+        rate(rows()[0].energy[i] - energy_limits[i], fine.energy[i] - energy_limits[i]) / halvings;
+    std::printf("[ figures  ] mean rate of A %.2f, of the energy %.2f\n", rate_of_a,
+                rate_of_energy);
+    EXPECT_GT(rate_of_a, 1.5);
+    EXPECT_GT(rate_of_energy, 1.75);
+    EXPECT_LT(off(fine.a[i], a_limits[i]), 4e-4);
+  }
+}
+
+/// With a node near the end of the contact and the mesh graded towards it as well, the rates of A
+/// are those of saturation from one mesh to the next: 1.69 and 1.82.
+TEST(PaperExamples, SecondAndFourthHaveSteadyRatesWhereTheEndOfContactIsResolved) {
+  mesh::Mesh base = diagonals();
+  std::vector<std::int32_t> centres = mesh::tips(base);
+  for (const std::int32_t node : base.interfaces[0].nodes) {
+    double& x = base.xy[2 * static_cast<std::size_t>(node)];
+    if (x == -0.25) {
+      x = -0.171875;
+      centres.push_back(node);
     }
-    EXPECT_LT(fine.triangles, 80'000U * (0.05 / finest()) * (0.05 / finest()));
-    EXPECT_LT(off(fine.a[i], a_limits[i]), 1.5e-3);
+  }
+  std::vector<Row> sequence;
+  for (double h0 = 0.2; h0 > 0.04; h0 /= 2) {
+    sequence.push_back(solve_examples(mesh::grade(base, centres, {h0, m, 0}, 2'000'000), h0));
+    for (const std::size_t i : {1U, 3U}) {
+      const Row& fine = sequence.back();
+      const Row& coarse = sequence[sequence.size() > 1 ? sequence.size() - 2 : 0];
+      const double found = rate(coarse.a[i] - a_limits[i], fine.a[i] - a_limits[i]);
+      std::printf(
+          "[ figures  ] end of contact resolved, h0 = %.2f, %zu triangles, example %zu: A "
+          "%.8f (%.1e), rate %.2f\n",
+          h0, fine.triangles, i + 1, fine.a[i], off(fine.a[i], a_limits[i]), found);
+      if (sequence.size() > 1) {
+        EXPECT_GT(found, 1.6);
+        EXPECT_LT(found, 2.0);
+      }
+    }
   }
 }
 

@@ -13,18 +13,22 @@ class Silent : public contact::Observer {
 
 }  // namespace
 
-contact::Answer solve(const operators::MeshOperator& op, const fem::Force& force,
-                      const std::string& boundary, bool fields) {
-  fem::Load load;
-  load.name = "case";
-  load.force = force;
-  load.boundary_value = boundary;
+contact::Answer solve(const operators::MeshOperator& op, const fem::Load& load, bool fields) {
   Silent silent;
   contact::Answer answer = op.solve(load, contact::ActiveSetOptions{}, fields, silent);
   if (answer.status != contact::Status::converged) {
     throw std::runtime_error("not converged: " + answer.reason);
   }
   return answer;
+}
+
+contact::Answer solve(const operators::MeshOperator& op, const fem::Force& force,
+                      const std::string& boundary, bool fields) {
+  fem::Load load;
+  load.name = "case";
+  load.force = force;
+  load.boundary_value = boundary;
+  return solve(op, load, fields);
 }
 
 std::shared_ptr<const operators::MeshOperator> factorise(mesh::Mesh mesh) {

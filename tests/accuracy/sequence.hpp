@@ -12,7 +12,10 @@
 
 namespace anticrack::accuracy {
 
-/// f and g_D; exact contact (active set). Throws std::runtime_error where it does not converge.
+/// Exact contact (active set). Throws std::runtime_error where it does not converge.
+contact::Answer solve(const operators::MeshOperator& op, const fem::Load& load, bool fields);
+
+/// The same, of a load of f and g_D only.
 contact::Answer solve(const operators::MeshOperator& op, const fem::Force& force,
                       const std::string& boundary = "", bool fields = false);
 
