@@ -97,6 +97,8 @@ std::shared_ptr<const store::Block> result_block(const operators::MeshOperator& 
       const std::string subdomain = std::to_string(i);
       if (!nodes_added) {
         builder.add("fields/" + subdomain + "/nodes", answer.fields[i].nodes);
+        const std::vector<std::int32_t>& triangles = mesh_operator.field_triangles(i);
+        builder.add("fields/" + subdomain + "/triangles", triangles, {triangles.size() / 3, 3});
       }
       builder.add(load + "fields/" + subdomain, answer.fields[i].u);
     }

@@ -151,6 +151,10 @@ const std::vector<contact::TraceGeometry>& MeshOperator::trace_geometry() const 
   return _parts->geometry;
 }
 
+const std::vector<std::int32_t>& MeshOperator::field_triangles(std::size_t subdomain) const {
+  return _parts->decomposition.subdomains.at(subdomain).part.triangles;
+}
+
 double MeshOperator::theta_star() const noexcept {
   return _parts->problem.theta_star(contact::Mass::lumped);
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <stop_token>
 #include <vector>
@@ -39,6 +40,9 @@ class MeshOperator {
   const mesh::Mesh& mesh() const noexcept;
   /// Per interface of the mesh.
   const std::vector<contact::TraceGeometry>& trace_geometry() const noexcept;
+  /// Triangles of a subdomain, (m_i,3) row-major, as indices into Field::nodes of its answers: with
+  /// two sides of a slit in one subdomain a mesh node is there twice, once a side.
+  const std::vector<std::int32_t>& field_triangles(std::size_t subdomain) const;
   /// Memory held, measured, bytes (the mesh included).
   std::size_t bytes() const noexcept;
   /// theta* for lumped mass; 0 where Algorithm 2 does not apply.
