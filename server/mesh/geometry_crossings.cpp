@@ -52,13 +52,23 @@ class Meetings {
     return distance(point(other(s, common)), segment(t)) <= _tolerance ||
            distance(point(other(t, common)), segment(s)) <= _tolerance;
   }
+  /// Of the line where the chord leaves `end`; a curve's tangent, which its chord only comes near.
+  Point direction(const Chord& chord, int end) const {
+    const Line& on = line(chord).line;
+    if (on.straight()) {
+      const Point& o = point(end);
+      const Point& p = point(other(chord, end));
+      return {p[0] - o[0], p[1] - o[1]};
+    }
+    if (end == chord.a) return on.derivative(chord.from);
+    const double to = on.closed() && chord.to >= on.spans() ? chord.to - on.spans() : chord.to;
+    const Point d = on.derivative(to);
+    return {-d[0], -d[1]};
+  }
   double angle(const Chord& s, const Chord& t, int common) const {
-    const Point& o = point(common);
-    const Point& p = point(other(s, common));
-    const Point& q = point(other(t, common));
-    const double cross = (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
-    const double dot = (p[0] - o[0]) * (q[0] - o[0]) + (p[1] - o[1]) * (q[1] - o[1]);
-    return std::abs(std::atan2(cross, dot));
+    const Point p = direction(s, common);
+    const Point q = direction(t, common);
+    return std::abs(std::atan2(p[0] * q[1] - p[1] * q[0], p[0] * q[0] + p[1] * q[1]));
   }
 
   void same_line(const Chord& s, const Chord& t) const {

@@ -97,16 +97,43 @@ Line Line::spline(std::vector<Point> points, bool closed) {
   return line;
 }
 
+int Line::samples_in_span() const noexcept {
+  switch (_shape) {
+    case Shape::arc:
+      return samples_an_arc;
+    case Shape::spline:
+      return samples_a_span;
+    case Shape::polyline:
+      break;
+  }
+  return 1;
+}
+
+Line::Box Line::box_of(std::size_t first, std::size_t last) const noexcept {
+  Box box{{_samples[first].p, _samples[first].p}, 0};
+  for (std::size_t i = first + 1; i <= last; ++i) {
+    const Point& p = _samples[i].p;
+    for (std::size_t k = 0; k < 2; ++k) {
+      box.diagonal.a[k] = std::min(box.diagonal.a[k], p[k]);
+      box.diagonal.b[k] = std::max(box.diagonal.b[k], p[k]);
+    }
+    if (!straight()) box.slack = std::max(box.slack, distance(_samples[i - 1].p, p));
+  }
+  return box;
+}
+
 void Line::sample() {
-  const int each = _shape == Shape::polyline ? 1
-                   : _shape == Shape::arc    ? samples_an_arc
-                                             : samples_a_span;
+  const int each = samples_in_span();
   _samples.reserve(static_cast<std::size_t>(_spans * each) + 1);
   for (int i = 0; i <= _spans * each; ++i) {
     const double t = static_cast<double>(i) / each;
     _samples.push_back({t, at(t)});
     if (i > 0) _length += distance(_samples[_samples.size() - 2].p, _samples.back().p);
   }
+  _boxes.reserve(static_cast<std::size_t>(_spans));
+  const auto step = static_cast<std::size_t>(each);
+  for (std::size_t k = 0; k + 1 < _samples.size(); k += step) _boxes.push_back(box_of(k, k + step));
+  _box = box_of(0, _samples.size() - 1);
 }
 
 int Line::span_of(double t) const noexcept {
@@ -185,21 +212,23 @@ double Line::closest(const Point& p, double low, double high) const noexcept {
 std::optional<double> Line::locate(const Point& p, double tolerance) const {
   double best = 0;
   double off = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < _samples.size(); ++i) {
-    const Segment chord{_samples[i - 1].p, _samples[i].p};
-    // a curve leaves its chord by less than the chord's length
-    const double slack = straight() ? tolerance : tolerance + distance(chord.a, chord.b);
-    if (!boxes_meet(chord, {p, p}, slack)) continue;
-    double t = 0;
-    if (straight()) {
-      t = _samples[i - 1].t + nearest(p, chord);
-    } else {
-      t = closest(p, _samples[i - 1].t, _samples[i].t);
-    }
-    const double d = straight() ? distance(p, chord) : distance(p, at(t));
-    if (d < off) {
-      off = d;
-      best = t;
+  const auto apart = [&](const Box& box) {
+    return !boxes_meet(box.diagonal, {p, p}, tolerance + box.slack);
+  };
+  if (apart(_box)) return std::nullopt;
+  const auto step = static_cast<std::size_t>(samples_in_span());
+  for (std::size_t k = 0; k < _boxes.size(); ++k) {
+    if (apart(_boxes[k])) continue;
+    for (std::size_t i = k * step + 1; i <= (k + 1) * step; ++i) {
+      const Segment chord{_samples[i - 1].p, _samples[i].p};
+      if (!boxes_meet(chord, {p, p}, tolerance + _boxes[k].slack)) continue;
+      const double t = straight() ? _samples[i - 1].t + nearest(p, chord)
+                                  : closest(p, _samples[i - 1].t, _samples[i].t);
+      const double d = straight() ? distance(p, chord) : distance(p, at(t));
+      if (d < off) {
+        off = d;
+        best = t;
+      }
     }
   }
   if (off > tolerance) return std::nullopt;

@@ -49,8 +49,14 @@ class Line {
     double t = 0;
     Point p{};
   };
+  struct Box {
+    Segment diagonal;
+    double slack = 0;  ///< the longest chord of two samples: a curve leaves its chord by less
+  };
   Line(Shape shape, bool closed, std::vector<Point> vertices);
   void sample();
+  int samples_in_span() const noexcept;
+  Box box_of(std::size_t first, std::size_t last) const noexcept;
   int span_of(double t) const noexcept;
   Point vertex(int k) const noexcept;
   double closest(const Point& p, double low, double high) const noexcept;
@@ -67,7 +73,9 @@ class Line {
   double _radius = 0;
   double _angle = 0;
   double _sweep = 0;
-  std::vector<Sample> _samples;
+  std::vector<Sample> _samples;  ///< as many in every span
+  std::vector<Box> _boxes;       ///< of each span
+  Box _box;
 };
 
 }  // namespace anticrack::mesh

@@ -113,12 +113,32 @@ void add_station(NetworkLine& line, double t, int point) {
   line.stations.insert(after, {t, point});
 }
 
-int point_at(Network& network, const Point& p, double tolerance) {
-  for (std::size_t i = 0; i < network.points.size(); ++i) {
-    if (distance(network.points[i], p) <= tolerance) return static_cast<int>(i);
-  }
+int point_at(Network& network, const Point& p) {
+  const int known = network.stations.find(network.points, p, network.tolerance);
+  if (known >= 0) return known;
   network.points.push_back(p);
-  return static_cast<int>(network.points.size()) - 1;
+  const auto point = static_cast<int>(network.points.size()) - 1;
+  network.stations.add(p, point, network.tolerance);
+  return point;
+}
+
+/// Stations at a point on all lines that pass it but one.
+void mark_others(Network& network, const Point& p, int point, std::size_t but) {
+  for (std::size_t l = 0; l < network.lines.size(); ++l) {
+    if (l == but) continue;
+    const auto t = network.lines[l].line.locate(p, network.tolerance);
+    if (t) add_station(network.lines[l], *t, point);
+  }
+}
+
+/// Cells are four tolerances wide.
+std::uint64_t cell(const Point& p, double tolerance, int dx, int dy) {
+  const auto part = [&](double value, int shift) {
+    // far outside the membrane all share one cell
+    const double index = std::clamp(std::floor(value / (4 * tolerance)), -1e18, 1e18) + shift;
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(index));
+  };
+  return part(p[0], dx) * 0x9E3779B97F4A7C15U ^ part(p[1], dy);
 }
 
 /// Chords between two stations of a line; those of a curve bring points of their own.
@@ -202,19 +222,37 @@ Network lay_lines(const Geometry& geometry, const MeshOptions& options) {
   for (std::size_t l = 0; l < network.lines.size(); ++l) {
     const std::vector<Point> vertices = network.lines[l].line.vertices();
     for (std::size_t v = 0; v < vertices.size(); ++v) {
-      const int point = mark(network, vertices[v]);
+      const int point = point_at(network, vertices[v]);
       add_station(network.lines[l], static_cast<double>(v), point);
+      mark_others(network, vertices[v], point, l);
     }
   }
   return network;
 }
 
-int mark(Network& network, const Point& p) {
-  const int point = point_at(network, p, network.tolerance);
-  for (NetworkLine& line : network.lines) {
-    const auto t = line.line.locate(p, network.tolerance);
-    if (t) add_station(line, *t, point);
+int PointIndex::find(const std::vector<Point>& points, const Point& p, double tolerance) const {
+  int best = -1;
+  for (const int dx : {-1, 0, 1}) {
+    for (const int dy : {-1, 0, 1}) {
+      const auto [first, last] = _cells.equal_range(cell(p, tolerance, dx, dy));
+      for (auto entry = first; entry != last; ++entry) {
+        const int number = entry->second;
+        if (distance(points[static_cast<std::size_t>(number)], p) > tolerance) continue;
+        // the first of several, whatever the order of the table
+        if (best < 0 || number < best) best = number;
+      }
+    }
   }
+  return best;
+}
+
+void PointIndex::add(const Point& p, int number, double tolerance) {
+  _cells.emplace(cell(p, tolerance, 0, 0), number);
+}
+
+int mark(Network& network, const Point& p) {
+  const int point = point_at(network, p);
+  mark_others(network, p, point, network.lines.size());
   return point;
 }
 
@@ -239,9 +277,15 @@ void cut(Network& network, double size, std::size_t max_chords) {
       check_inside(network, network.lines.front().line.vertices());
       return;
     }
+    if (found.size() > max_chords) {
+      throw errors::Error(errors::Reason::limit_exceeded,
+                          "the lines cross in " + std::to_string(found.size()) +
+                              " points; at most " + std::to_string(max_chords) + " are taken")
+          .at("interfaces");
+    }
     network.points.resize(known);  // a crossing is no end of a chord that is cut anew
     for (const Crossing& crossing : found) {
-      const int point = point_at(network, crossing.at, network.tolerance);
+      const int point = point_at(network, crossing.at);
       add_station(network.lines[static_cast<std::size_t>(crossing.line[0])], crossing.t[0], point);
       add_station(network.lines[static_cast<std::size_t>(crossing.line[1])], crossing.t[1], point);
     }

@@ -3,7 +3,9 @@
 // All lines of a geometry cut into straight chords that meet only at their ends.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "mesh/geometry.hpp"
@@ -34,9 +36,21 @@ struct Chord {
   double to = 0;
 };
 
+/// Points by the cell of a grid they lie in, to find the one that is within a tolerance.
+class PointIndex {
+ public:
+  /// The number of the point within `tolerance` of `p`, -1 for none.
+  int find(const std::vector<Point>& points, const Point& p, double tolerance) const;
+  void add(const Point& p, int number, double tolerance);
+
+ private:
+  std::unordered_multimap<std::uint64_t, int> _cells;
+};
+
 struct Network {
   std::vector<NetworkLine> lines;  ///< the boundary (counterclockwise), interfaces, align
   std::vector<Point> points;
+  PointIndex stations;        ///< the points that are stations of a line
   double tolerance = 0;       ///< two points nearer to one another are one
   std::vector<Chord> chords;  ///< line by line, each in its order
 };

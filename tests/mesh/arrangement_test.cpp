@@ -94,7 +94,7 @@ TEST(Arrangement, ThreeLinesThroughOnePointHaveItOnce) {
   geometry.interfaces = {polyline("a", {{-1, -0.3}, {1, 0.3}}),
                          polyline("b", {{-0.7, 1}, {0.7, -1}}),
                          polyline("c", {{-1, 0.9}, {1, -0.9}})};
-  const Plan plan = plan_of(geometry);
+  const Plan plan = plan_of(geometry, 0.05);
   expect_consistent(plan, 4);
   EXPECT_EQ(plan.faces.size(), 6U);
   EXPECT_EQ(plan.points.size(), 4U + 6U + 1U);

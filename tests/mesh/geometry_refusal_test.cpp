@@ -1,51 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <limits>
-
-#include "mesh/geometry.hpp"
-#include "support/errors.hpp"
-#include "support/paper_geometry.hpp"
+#include "mesh/refusals.hpp"
 
 namespace anticrack {
 namespace {
 
 using errors::Reason;
 using mesh::Geometry;
-using ::testing::HasSubstr;
-
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-struct Fault {
-  const char* name;
-  std::function<void(Geometry&)> make;
-  std::string field;
-  std::vector<std::string> message;
-  Reason reason = Reason::geometry_invalid;
-};
-
-void PrintTo(const Fault& fault, std::ostream* out) {
-  *out << fault.name;
-}
+using testing::crack;
+using testing::Fault;
+using testing::infinite;
+using testing::nan_value;
 
 class FaultyGeometry : public ::testing::TestWithParam<Fault> {};
 
 TEST_P(FaultyGeometry, IsRefusedWithItsField) {
-  Geometry geometry = testing::paper_geometry();
-  GetParam().make(geometry);
-  const auto error = testing::error_of([&] { mesh::plan(geometry, {}, 1'000'000); });
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->reason(), GetParam().reason) << error->what();
-  ASSERT_EQ(error->fields().size(), 1U);
-  EXPECT_EQ(error->fields()[0].field, GetParam().field) << error->what();
-  for (const std::string& part : GetParam().message) EXPECT_THAT(error->what(), HasSubstr(part));
-}
-
-mesh::CrackSpec crack(const char* name, double from, double to) {
-  return {name, {{from, 0}, {to, 0}}};
+  testing::expect_refused(GetParam());
 }
 
 const Fault faults[] = {
@@ -316,23 +285,6 @@ const Fault faults[] = {
 
 INSTANTIATE_TEST_SUITE_P(Each, FaultyGeometry, ::testing::ValuesIn(faults),
                          [](const auto& case_) { return case_.param.name; });
-
-TEST(MeshOptions, SizeMustBeAnEdgeLength) {
-  for (const double size : {-0.1, nan_value, infinite}) {
-    EXPECT_TRUE(testing::throws(
-        [&] {
-          mesh::plan(testing::paper_geometry(), {.preset = mesh::Preset::uniform, .size = size},
-                     1000);
-        },
-        Reason::invalid_argument, "options.size"));
-  }
-  EXPECT_TRUE(testing::throws(
-      [] {
-        mesh::plan(testing::paper_geometry(), {.preset = mesh::Preset::paper, .size = 0.1},
-                   100'000);
-      },
-      Reason::invalid_argument, "options.size"));
-}
 
 TEST(Geometry, PointsWithinTheToleranceAreOnTheInterface) {
   Geometry geometry = testing::paper_geometry();
