@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ddm/free_boundary.hpp"
 #include "ddm/sides.hpp"
@@ -92,6 +93,7 @@ class Numbering {
     subdomain.interior = subdomain.node.size();
     subdomain.trace = trace.size();
     subdomain.dirichlet = dirichlet.size();
+    subdomain.node.reserve(subdomain.interior + trace.size() + dirichlet.size());
     for (const std::int32_t side : trace) {
       subdomain.node.push_back(_sides.sides[at(side)].node);
     }

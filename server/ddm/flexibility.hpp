@@ -12,6 +12,7 @@ namespace anticrack::ddm {
 /// F = T (T'S T)^-1 T', the answer of one subdomain's traces to forces on them while rigid
 /// inclusions hold some constant. T maps the skeleton unknowns (values of free trace nodes, then
 /// one A_j per inclusion) to the trace: row i has its single 1 in column `skeleton(i)`.
+/// What is rigid may lie on both sides of a slit and at its tips.
 /// F applied to a load is the paper's section 6 in trace space: the K-orthogonal projection of the
 /// unconstrained answer onto K = {constant on gamma}. Without inclusions F = S^-1.
 class Flexibility {

@@ -2,7 +2,9 @@
 #include "ddm/order.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
+#include <utility>
 
 namespace anticrack::ddm {
 namespace {

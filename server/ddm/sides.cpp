@@ -2,6 +2,7 @@
 #include "ddm/sides.hpp"
 
 #include <algorithm>
+#include <span>
 #include <sstream>
 #include <utility>
 

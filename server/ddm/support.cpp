@@ -2,6 +2,8 @@
 #include "ddm/support.hpp"
 
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "ddm/union_find.hpp"
 #include "errors/errors.hpp"

@@ -153,6 +153,7 @@ std::vector<NodeContacts> contacts_by_node(const Sides& sides, Classes& classes)
       classes.unite(equal.upper, equal.lower);
     }
     above.clear();
+    above.reserve(end - begin);
     for (std::size_t i = begin; i < end; ++i) {
       above.push_back({classes.of(ends[i].plus), classes.of(ends[i].minus)});
     }

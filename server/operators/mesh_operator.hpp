@@ -16,13 +16,15 @@
 
 namespace anticrack::operators {
 
-/// Factorised subdomains, Schur complements, interface mass and theta* of one mesh.
+/// Factorised subdomains, Schur complements, the skeleton condensed to the cracks, interface mass
+/// and theta* of one mesh.
 /// Immutable after construction: any number of threads may solve on it at once.
 class MeshOperator {
  public:
   /// Factorises every subdomain (paper: the matrices of Algorithm 2), two at a time where
-  /// `threads` allows. Throws errors::Error: numerical (a subdomain without Dirichlet boundary),
-  /// cancelled. Cost: one sparse Cholesky per subdomain plus O(n_G^3) on its interface nodes.
+  /// `threads` allows. Throws errors::Error: numerical (a part that nothing or
+  /// contact alone holds), cancelled. Cost: one sparse Cholesky per subdomain plus O(n_G^3) on the
+  /// interface nodes.
   static std::shared_ptr<const MeshOperator> factorise(std::shared_ptr<const mesh::Mesh> mesh,
                                                        int threads, std::stop_token stop);
   ~MeshOperator();

@@ -134,6 +134,7 @@ TEST(Slit, WithAnInclusionHoldsItsPlusSideAndTips) {
   EXPECT_EQ(result.skeleton.contacts.size(), 2U);  // the nodes of the bonded edge are tied
   EXPECT_EQ(result.skeleton.unknowns, 1U + 2);
   std::vector<Kind> kinds;
+  kinds.reserve(result.interface_sides[0].size());
   for (const SidePair& sides : result.interface_sides[0]) {
     kinds.push_back(sides.kind);
   }
@@ -147,6 +148,7 @@ TEST(Slit, ThatContinuesAnInclusionIsTiedWhereItBegins) {
   grid.mesh.inclusions = {"bar"};
   const Decomposition result = cut_valid(grid.add({{2, 3}, {7, 3}}, {b, b, d, c, c}, 0));
   std::vector<Kind> kinds;
+  kinds.reserve(result.interface_sides[0].size());
   for (const SidePair& sides : result.interface_sides[0]) {
     kinds.push_back(sides.kind);
   }

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <random>
+#include <set>
 
 #include "ddm/subdomain_operator.hpp"
 #include "ddm_support.hpp"
@@ -63,6 +65,7 @@ class RandomMembrane {
  private:
   static std::vector<std::string> names() {
     std::vector<std::string> result;
+    result.reserve(columns * rows);
     for (int s = 0; s < columns * rows; ++s) {
       result.push_back("block " + std::to_string(s));
     }
@@ -199,6 +202,7 @@ void expect_same_schur(const Decomposition& decomposition, const DoubledMesh& do
   }
   const std::vector<int> position = doubled.position();
   std::vector<int> order;
+  order.reserve(value.size());
   for (const int v : value) {
     order.push_back(position[static_cast<std::size_t>(v)]);
   }

@@ -60,6 +60,7 @@ void MonolithicContact::find_edges() {
   const auto next = [](std::int32_t corner) { return corner / 3 * 3 + (corner % 3 + 1) % 3; };
   for (const mesh::Interface& interface : _mesh.interfaces) {
     auto& edges = _edges.emplace_back();
+    edges.reserve(interface.nodes.size());
     for (std::size_t e = 0; e + 1 < interface.nodes.size(); ++e) {
       const std::int32_t a = interface.nodes[e], b = interface.nodes[e + 1];
       const std::int32_t plus = corner_before.at({a, b}), minus = corner_before.at({b, a});
@@ -104,6 +105,7 @@ void MonolithicContact::double_nodes() {
     }
   }
   std::map<std::int32_t, std::int32_t> number;
+  _dof.reserve(_mesh.triangles.size());
   for (std::size_t i = 0; i < _mesh.triangles.size(); ++i) {
     const auto entry = number.try_emplace(corners.find(static_cast<std::int32_t>(i)), _dofs);
     _dofs += entry.second ? 1 : 0;

@@ -96,6 +96,8 @@ void compare(unsigned seed, Tally& tally) {
     return;
   }
   MonolithicLoad load;
+  load.force.reserve(mesh.triangle_count());
+  load.inclusion_forces.reserve(mesh.inclusions.size());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     load.force.push_back(membrane.uniform(-1, 1));
   }

@@ -27,6 +27,7 @@ class RandomMembrane {
     draw_slits();
     free_boundary();
     move_nodes();
+    _grid.mesh.tension.reserve(_grid.mesh.subdomains.size());
     for (std::size_t s = 0; s < _grid.mesh.subdomains.size(); ++s) {
       _grid.mesh.tension.push_back(uniform(0.3, 3));
     }
@@ -46,6 +47,7 @@ class RandomMembrane {
 
   std::vector<std::string> names() const {
     std::vector<std::string> result;
+    result.reserve(static_cast<std::size_t>(_columns * _rows));
     for (int s = 0; s < _columns * _rows; ++s) {
       result.push_back("part " + std::to_string(s));
     }
