@@ -74,6 +74,11 @@ LoadOnTraces condense_load(const fem::Load& load, const mesh::Mesh& mesh,
     for (const NodalForce& force : placed.subdomains[s]) {
       of_nodes[force.node] += force.value;
     }
+    if (!of_nodes.allFinite()) {
+      throw errors::Error(
+          errors::Reason::invalid_argument,
+          "the load on subdomain \"" + subdomain.name + "\" overflows; scale it down");
+    }
     result.subdomains.push_back(operators[s].condense(
         of_nodes, fem::boundary_values(subdomain.part, load.boundary_value, subdomain.free(),
                                        subdomain.dirichlet)));

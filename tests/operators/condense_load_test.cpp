@@ -222,6 +222,12 @@ TEST_F(CondenseLoad, RefusesWhatTheMeshDoesNotHave) {
   }
 }
 
+TEST_F(CondenseLoad, RefusesALoadThatOverflows) {
+  const fem::Array huge{"sha", false,
+                        std::make_shared<const std::vector<double>>(mesh.node_count(), 1.7e308)};
+  EXPECT_TRUE(throws([&] { condense(of_force(huge)); }, Reason::invalid_argument));
+}
+
 TEST_F(CondenseLoad, WarnsWhereALimitWasMetAndStopsWhenAsked) {
   const fem::Load rough = of_force(fem::Expression{"y > 0 ? 1 : sin(1e5*x*y)/sqrt(abs(x - 0.03))"});
   const LoadOnTraces loads = condense(rough);
