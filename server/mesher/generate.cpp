@@ -41,6 +41,13 @@ struct GmshSession {
   GmshSession& operator=(const GmshSession&) = delete;
 };
 
+[[noreturn]] void gave_up(const std::string& what) {
+  throw errors::Error(errors::Reason::mesher_failed,
+                      "gmsh could not mesh this geometry: " + what +
+                          "; choose another options.size, or remove details far smaller than the "
+                          "rest");
+}
+
 /// gmsh's tags are the plan's indices + 1: of points, curves and faces.
 int tag_of(std::size_t index) {
   return static_cast<int>(index) + 1;
@@ -93,7 +100,7 @@ void build_model(const Plan& plan, const Frame& frame) {
   }
 }
 
-SizeField size_field(const Plan& plan, const Frame& frame) {
+std::vector<SizedCurve> sized_curves(const Plan& plan, const Frame& frame) {
   std::vector<SizedCurve> curves;
   curves.reserve(plan.curves.size());
   for (const PlannedCurve& curve : plan.curves) {
@@ -101,14 +108,26 @@ SizeField size_field(const Plan& plan, const Frame& frame) {
     const Point b = frame.to_gmsh(plan.points[static_cast<std::size_t>(curve.b)]);
     curves.push_back({a, b, std::hypot(b[0] - a[0], b[1] - a[1]) / curve.intervals});
   }
-  return {std::move(curves), plan.growth};
+  return curves;
 }
 
-void choose_options(const SizeField& size) {
+/// gmsh moves points at random, by this part of the box, for its first triangulation. Were that not
+/// far less than the shortest interval, nodes of one line would leave it and make triangles of it.
+/// Below 1e-13 gmsh itself gives up on points in a line.
+double random_factor(const std::vector<SizedCurve>& curves) {
+  constexpr double gmsh_default = 1e-9;
+  double shortest = curves.front().size;
+  for (const SizedCurve& curve : curves) shortest = std::min(shortest, curve.size);
+  return std::clamp(1e-6 * shortest, 1e-13, gmsh_default);
+}
+
+void choose_options(std::vector<SizedCurve> curves, double growth) {
   gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay);
   gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
   gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
   gmsh::option::setNumber("Mesh.RandomSeed", 1);
+  gmsh::option::setNumber("Mesh.RandomFactor", random_factor(curves));
+  const SizeField size(std::move(curves), growth);
   gmsh::model::mesh::setSizeCallback([size](int, int, double x, double y, double) {
     return size({x, y});
   });
@@ -292,13 +311,14 @@ mesh::Mesh generate(const mesh::GenerateRequest& request) {
   const Frame frame(request.plan.points);
   try {
     build_model(request.plan, frame);
-    choose_options(size_field(request.plan, frame));
+    choose_options(sized_curves(request.plan, frame), request.plan.growth);
     gmsh::model::mesh::generate(2);
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::exception& e) {
-    throw errors::Error(errors::Reason::mesher_failed,
-                        std::string("gmsh could not mesh this geometry: ") + e.what());
+  } catch (const std::string& what) {  // as gmsh's interface reports its errors
+    gave_up(what);
+  } catch (const std::exception& error) {
+    gave_up(error.what());
   }
   mesh::Mesh mesh = read_mesh(request.plan, frame);
   if (mesh.triangle_count() > request.max_triangles) {

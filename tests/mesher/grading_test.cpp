@@ -41,8 +41,8 @@ TEST(Grading, OfAnUploadStartsFromItsLongestEdge) {
   const mesh::Mesh fine = graded(base(), options(mesh::Preset::graded), plenty);
   EXPECT_GT(fine.triangle_count(), base().triangle_count());
   EXPECT_LE(mesh::quality(fine).smallest_diameter, 1e-13);
-  // at the corners, 1.1 R from the tips, nothing had to be cut
-  EXPECT_EQ(mesh::quality(fine).largest_diameter, mesh::quality(base()).largest_diameter);
+  // far from the tips one bisection at most, also those that others ask for
+  EXPECT_GE(mesh::quality(fine).largest_diameter, mesh::quality(base()).largest_diameter / 2);
   EXPECT_NEAR(fine.bisection_bound, 45, 1e-9);
 }
 

@@ -30,6 +30,7 @@ inline std::array<double, 2> point_of(const mesh::Mesh& mesh, std::int32_t node)
 /// The points of an interface in order.
 inline std::vector<std::array<double, 2>> points_of(const mesh::Mesh& mesh, std::size_t interface) {
   std::vector<std::array<double, 2>> points;
+  points.reserve(mesh.interfaces[interface].nodes.size());
   for (const std::int32_t node : mesh.interfaces[interface].nodes) {
     points.push_back(point_of(mesh, node));
   }
@@ -88,6 +89,7 @@ void double_nodes(MshSample& sample, const std::vector<std::array<double, 2>>& a
 /// The same for the upper half of `square_sample`, at these x of y = 0.
 inline void open_middle(MshSample& sample, const std::vector<double>& xs) {
   std::vector<std::array<double, 2>> at;
+  at.reserve(xs.size());
   for (const double x : xs) at.push_back({x, 0});
   double_nodes(sample, at, [](double, double y) { return y > 0; });
 }

@@ -83,7 +83,8 @@ std::vector<double> doubles(const Received& block, const std::string& name) {
 TEST(Job, OpensTheCrackOfExampleThree) {
   RunningServer server;
   v1::CreateMeshRequest mesh = paper_mesh();
-  mesh.mutable_options()->Clear();  // the preset "paper"
+  mesh.mutable_options()->Clear();
+  mesh.mutable_options()->set_preset(v1::MESH_PRESET_PAPER);
   const v1::Mesh created = server.create(mesh);
   EXPECT_EQ(created.title(), "section 8");
   v1::CreateJobRequest request = opening_job(created.name());
