@@ -127,7 +127,7 @@ void compare(unsigned seed, Tally& tally) {
   tally.steps = std::max(tally.steps, answer.iterations);
   tally.floating += op->theta_star() == 0 ? 1 : 0;
   tally.equilibrium = std::max(tally.equilibrium, answer.kkt_relative.equilibrium);
-  double u_scale = 0, mu_scale = 0;
+  double u_scale = 0, mu_scale = 1e-3;  // mu is 0 where all cracks are open
   for (const contact::Field& field : answer.fields) {
     for (const double u : field.u) {
       u_scale = std::max(u_scale, std::abs(u));
@@ -148,8 +148,8 @@ void compare(unsigned seed, Tally& tally) {
                  std::abs(answer.inclusions[j].displacement - reference.displacement(j)) / u_scale);
     EXPECT_NEAR(answer.inclusions[j].resultant, load.inclusion_forces[j], 1e-9 * (1 + u_scale));
   }
-  tally.energy = std::max(
-      tally.energy, std::abs(answer.energy - reference.energy()) / std::abs(reference.energy()));
+  tally.energy = std::max(tally.energy, std::abs(answer.energy - reference.energy()) /
+                                            std::max(std::abs(reference.energy()), u_scale));
   EXPECT_LT(tally.u, 1e-9);
   EXPECT_LT(tally.mu, 1e-9);
   EXPECT_LT(tally.displacement, 1e-9);
@@ -160,9 +160,62 @@ void compare(unsigned seed, Tally& tally) {
   EXPECT_EQ(answer.kkt.complementarity, 0);
 }
 
+/// --gtest_random_seed=N repeats a run.
+unsigned first_seed() {
+  const auto given = static_cast<unsigned>(::testing::GTEST_FLAG(random_seed));
+  return given > 0 ? given : std::random_device{}() % 99'000 + 1;
+}
+
+/// Algorithm 2 on the same membranes, to its own accuracy.
+TEST(MonolithicContact, AgreesWithUzawaOnRandomMembranes) {
+  const unsigned seed = first_seed();
+  constexpr unsigned tries = 40;
+  std::printf("[ seed     ] %u to %u\n", seed, seed + tries - 1);
+  int compared = 0, iterations = 0;
+  double worst = 0;
+  for (unsigned k = 0; k < tries && !HasFailure(); ++k) {
+    SCOPED_TRACE("seed " + std::to_string(seed + k));
+    const RandomMembrane membrane(seed + k);
+    std::shared_ptr<const operators::MeshOperator> op;
+    try {
+      op = operators::MeshOperator::factorise(std::make_shared<const mesh::Mesh>(membrane.mesh()),
+                                              1, {});
+    } catch (const errors::Error&) {
+      continue;
+    }
+    if (op->theta_star() == 0) {
+      continue;
+    }
+    const fem::Load load{"random", fem::Expression{"sin(x + 2*y)"}, "", "", {}, {}};
+    contact::UzawaOptions uzawa;
+    uzawa.theta.reset();
+    uzawa.kkt_tolerance = 1e-10;
+    uzawa.max_iterations = 400'000;
+    Silent observer;
+    const contact::Answer iterated = op->solve(load, uzawa, true, observer);
+    const contact::Answer exact = op->solve(load, contact::ActiveSetOptions{}, true, observer);
+    ASSERT_EQ(iterated.status, contact::Status::converged) << iterated.reason;
+    ASSERT_EQ(exact.status, contact::Status::converged) << exact.reason;
+    double difference = 0, scale = 0;
+    for (std::size_t s = 0; s < exact.fields.size(); ++s) {
+      for (std::size_t i = 0; i < exact.fields[s].u.size(); ++i) {
+        scale = std::max(scale, std::abs(exact.fields[s].u[i]));
+        difference = std::max(difference, std::abs(exact.fields[s].u[i] - iterated.fields[s].u[i]));
+      }
+    }
+    EXPECT_LT(difference, 1e-7 * scale);
+    worst = std::max(worst, difference / scale);
+    iterations = std::max(iterations, iterated.iterations);
+    ++compared;
+  }
+  std::printf("[ figures  ] %d compared, at most %d iterations, u %.1e\n", compared, iterations,
+              worst);
+  EXPECT_GT(compared, static_cast<int>(tries) / 4);
+}
+
 TEST(MonolithicContact, AgreesWithTheActiveSetOnRandomMembranes) {
-  const unsigned seed = std::random_device{}() % 1'000'000;
-  constexpr unsigned tries = 120;
+  const unsigned seed = first_seed();
+  constexpr unsigned tries = 300;
   std::printf("[ seed     ] %u to %u\n", seed, seed + tries - 1);
   Tally tally;
   for (unsigned k = 0; k < tries && !HasFailure(); ++k) {
