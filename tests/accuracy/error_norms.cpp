@@ -85,7 +85,7 @@ double energy_error(const mesh::Mesh& mesh, const contact::Answer& answer,
   return energy_distance(mesh, exact, [&](std::size_t t, const std::array<Complex, 3>& corner) {
     const std::vector<double>& values = u[at(mesh.subdomain[t])];
     const auto value = [&](std::size_t i) { return values[at(mesh.triangles[3 * t + i])]; };
-    // grad u_h = (du_1 i(corner_2 - corner_0)* ...) / 2 area, written as u_x - i u_y.
+    // u_x - i u_y of the linear function with increments da along a and db along b.
     const Complex a = corner[1] - corner[0], b = corner[2] - corner[0];
     const double da = value(1) - value(0), db = value(2) - value(0);
     const double doubled = std::imag(std::conj(a) * b);

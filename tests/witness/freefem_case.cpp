@@ -61,7 +61,8 @@ void write_mesh(const std::filesystem::path& path, const mesh::Mesh& mesh,
     label[at(edge.a - 1)] = label[at(edge.b - 1)] = edge.label;
   }
   std::ofstream file = create(path);
-  const auto& [xy, triangles] = std::tie(subdomain.part.xy, subdomain.part.triangles);
+  const std::vector<double>& xy = subdomain.part.xy;
+  const std::vector<std::int32_t>& triangles = subdomain.part.triangles;
   file << xy.size() / 2 << ' ' << triangles.size() / 3 << ' ' << edges.size() << '\n';
   for (std::size_t i = 0; i < label.size(); ++i) {
     file << xy[2 * i] << ' ' << xy[2 * i + 1] << ' ' << label[i] << '\n';
@@ -103,8 +104,8 @@ Answer read_answer(const std::filesystem::path& path, const ddm::Decomposition& 
 }  // namespace
 
 std::optional<std::string> freefem() {
-  for (const std::string path : {"/usr/bin/FreeFem++", "/usr/local/bin/FreeFem++"}) {
-    if (access(path.c_str(), X_OK) == 0) {
+  for (const char* path : {"/usr/bin/FreeFem++", "/usr/local/bin/FreeFem++"}) {
+    if (access(path, X_OK) == 0) {
       return path;
     }
   }
