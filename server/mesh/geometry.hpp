@@ -16,7 +16,8 @@ namespace anticrack::mesh {
 
 using Point = std::array<double, 2>;
 
-/// From one point of an interface to another; either order.
+/// From one point of an interface to another; either order, but on a closed interface the part is
+/// what lies between them in the interface's order.
 struct Part {
   Point from{};
   Point to{};
@@ -96,8 +97,9 @@ struct PlannedInterface {
   std::vector<int> curves;
 };
 
-/// A face of the arrangement of all curves: a subdomain. Curves are +-(index + 1), the sign
-/// negative where the loop walks from b to a.
+/// A face of the arrangement of all curves. Faces that only align lines part are one subdomain and
+/// have one name and tension; those of a subdomain follow each other. Curves are +-(index + 1), the
+/// sign negative where the loop walks from b to a.
 struct PlannedFace {
   std::string name;
   double tension = 1;

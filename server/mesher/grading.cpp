@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/grading.hpp"
 
-#include <algorithm>
-#include <map>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -21,17 +19,19 @@ constexpr double sound_angle = 10;
 /// How far rounding of midpoints may push an angle below the bound at the smallest tip size.
 constexpr double angle_slack = 0.05;
 
-/// mesh::Grading's fields as the user knows them.
-const std::map<std::string, std::string> option_of{
-    {"h0", "options.size"}, {"m", "options.grading"}, {"tip_size", "options.tip_size"}};
+/// A field of mesh::Grading as the user knows it.
+std::string option_of(const std::string& field) {
+  if (field == "h0") return "options.size";
+  if (field == "m") return "options.grading";
+  return "options." + field;
+}
 
 [[noreturn]] void rethrow_in_options(const errors::Error& error) {
   errors::Error renamed(error.reason(), error.what());
   for (const errors::FieldViolation& violation : error.fields()) {
-    const auto option = option_of.find(violation.field);
-    renamed.at(option == option_of.end() ? violation.field : option->second);
+    renamed.at(option_of(violation.field));
   }
-  throw renamed;
+  throw errors::Error(renamed);
 }
 
 [[noreturn]] void refuse_count(std::size_t base_triangles, const mesh::GradingSpec& spec,

@@ -89,8 +89,10 @@ double dirichlet_length(const Mesh& mesh) {
 }
 
 std::vector<Point> tip_points(const Mesh& mesh) {
+  const std::vector<std::int32_t> tips = mesh::tips(mesh);
   std::vector<Point> found;
-  for (const std::int32_t node : mesh::tips(mesh)) {
+  found.reserve(tips.size());
+  for (const std::int32_t node : tips) {
     const auto i = 2 * static_cast<std::size_t>(node);
     found.push_back({mesh.xy[i], mesh.xy[i + 1]});
   }
