@@ -35,11 +35,7 @@ MatrixXd join(const ddm::Decomposition& decomposition,
 }
 
 Eigen::LLT<MatrixXd> factorise(const MatrixXd& h) {
-  Eigen::LLT<MatrixXd> cholesky;
-  if (h.size() == 0) {
-    return cholesky;
-  }
-  cholesky.compute(h);
+  Eigen::LLT<MatrixXd> cholesky(h);
   if (cholesky.info() != Eigen::Success) {
     throw errors::Error(errors::Reason::numerical,
                         "the stiffness of the joined subdomains is not positive definite to "
