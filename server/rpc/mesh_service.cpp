@@ -48,7 +48,8 @@ grpc::ServerUnaryReactor* MeshService::CreateMesh(grpc::CallbackServerContext* c
     try {
       *response = from_domain(_backend.catalogue.create(definition, request->title()));
     } catch (const Error& error) {
-      throw below_mesh_request(error);
+      const bool about_file = error.fields().empty() && error.reason() == Reason::mesh_invalid;
+      throw below_mesh_request(about_file ? Error(error).at("upload") : error);
     }
   });
 }
