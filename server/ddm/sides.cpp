@@ -6,9 +6,9 @@
 #include <sstream>
 #include <utility>
 
-#include "ddm/union_find.hpp"
 #include "errors/errors.hpp"
 #include "mesh/edges.hpp"
+#include "mesh/union_find.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -132,7 +132,7 @@ class Neighbourhood {
   const mesh::Mesh& _mesh;
   std::vector<std::int32_t> _triangles;
   mesh::EdgeTable _table;
-  UnionFind _fans;
+  mesh::UnionFind _fans;
 };
 
 void require_two_faces(const mesh::Mesh& mesh, const CutEdge& edge, Neighbourhood& around) {

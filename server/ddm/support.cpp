@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "ddm/union_find.hpp"
 #include "errors/errors.hpp"
+#include "mesh/union_find.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -15,8 +15,8 @@ std::size_t at(std::int32_t i) {
   return static_cast<std::size_t>(i);
 }
 
-UnionFind connected_parts(const Subdomain& subdomain) {
-  UnionFind parts(subdomain.node.size());
+mesh::UnionFind connected_parts(const Subdomain& subdomain) {
+  mesh::UnionFind parts(subdomain.node.size());
   for (std::size_t t = 0; t < subdomain.part.triangle_count(); ++t) {
     const std::int32_t* corner = &subdomain.part.triangles[3 * t];
     parts.unite(corner[0], corner[1]);
@@ -38,7 +38,7 @@ struct PartNodes {
   std::vector<std::int32_t> trace;
 };
 
-PartNodes nodes_of_parts(const Subdomain& subdomain, UnionFind& parts) {
+PartNodes nodes_of_parts(const Subdomain& subdomain, mesh::UnionFind& parts) {
   PartNodes result{std::vector<char>(subdomain.node.size(), 0),
                    std::vector<std::int32_t>(subdomain.node.size(), -1)};
   for (std::size_t i = subdomain.interior; i < subdomain.node.size(); ++i) {
@@ -53,8 +53,8 @@ PartNodes nodes_of_parts(const Subdomain& subdomain, UnionFind& parts) {
 }
 
 /// Joins what is tied: the unknowns of w, and the ground as the last member.
-void join(const Subdomain& subdomain, UnionFind& parts, const PartNodes& nodes, std::int32_t ground,
-          UnionFind& held) {
+void join(const Subdomain& subdomain, mesh::UnionFind& parts, const PartNodes& nodes,
+          std::int32_t ground, mesh::UnionFind& held) {
   for (std::size_t i = 0; i < subdomain.trace; ++i) {
     const std::size_t part = at(parts.find(static_cast<std::int32_t>(subdomain.interior + i)));
     held.unite(subdomain.unknown[i],
@@ -66,9 +66,9 @@ void join(const Subdomain& subdomain, UnionFind& parts, const PartNodes& nodes, 
 
 void find_floating_parts(Decomposition& decomposition) {
   const auto ground = static_cast<std::int32_t>(decomposition.skeleton.unknowns);
-  UnionFind held(decomposition.skeleton.unknowns + 1);
+  mesh::UnionFind held(decomposition.skeleton.unknowns + 1);
   for (Subdomain& subdomain : decomposition.subdomains) {
-    UnionFind parts = connected_parts(subdomain);
+    mesh::UnionFind parts = connected_parts(subdomain);
     const PartNodes nodes = nodes_of_parts(subdomain, parts);
     for (std::size_t i = 0; i < subdomain.node.size(); ++i) {
       if (parts.find(static_cast<std::int32_t>(i)) != static_cast<std::int32_t>(i) ||

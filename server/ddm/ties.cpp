@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "ddm/order.hpp"
-#include "ddm/union_find.hpp"
 #include "errors/errors.hpp"
+#include "mesh/union_find.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -111,7 +111,7 @@ class Classes {
   }
 
   std::int32_t _inclusions;
-  UnionFind _sets;
+  mesh::UnionFind _sets;
 };
 
 /// Every end of an edge that may open, those of one node next to one another.
@@ -168,7 +168,7 @@ std::vector<NodeContacts> contacts_by_node(const Sides& sides, Classes& classes)
 /// Contacts in the order of the couples, so that they follow the cracks.
 void number_contacts(const mesh::Mesh& mesh, const std::vector<NodeContacts>& nodes,
                      Classes& classes, Ties& ties) {
-  UnionFind trees(mesh.inclusions.size() + ties.unknown.size());
+  mesh::UnionFind trees(mesh.inclusions.size() + ties.unknown.size());
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> number;
   for (const NodeContacts& node : nodes) {
     for (const Above& contact : node.above) {

@@ -100,7 +100,7 @@ void check_for_upload(const MeshOptions& options) {
     check_subdomain(name, "options.surface_groups[" + std::to_string(tag) + "]");
   }
   for (const auto& [name, tension] : options.tension) {
-    check_subdomain(name, "options.tension");
+    // Which subdomains there are, the import knows: an unnamed one is called by its number.
     if (std::isfinite(tension) && tension > 0) continue;
     const std::string field = "options.tension[" + name + "]";
     refuse_option(field, field + " is " + show(tension) + "; a tension is a number above 0");

@@ -12,7 +12,7 @@
 
 #include "errors/errors.hpp"
 #include "mesh/edges.hpp"
-#include "mesher/union_find.hpp"
+#include "mesh/union_find.hpp"
 
 namespace anticrack::mesher {
 namespace {
@@ -107,7 +107,7 @@ std::vector<std::int32_t> nodes_of(const std::vector<RimEdge>& rim) {
 /// Puts nodes that lie on one another into one set of `same`.
 void find_coincident(const Places& places, const std::vector<RimEdge>& rim,
                      const std::vector<std::int32_t>& nodes, std::size_t node_count,
-                     UnionFind& same) {
+                     mesh::UnionFind& same) {
   std::vector<double> shortest(node_count, std::numeric_limits<double>::infinity());
   for (const RimEdge& edge : rim) {
     const double length = places.distance(edge.use.from, edge.use.to);
@@ -149,7 +149,7 @@ void find_coincident(const Places& places, const std::vector<RimEdge>& rim,
 }
 
 /// Marks edges that lie on one another in pairs; the rim comes out sorted by (low, high).
-void match(const Places& places, UnionFind& same, std::vector<RimEdge>& rim) {
+void match(const Places& places, mesh::UnionFind& same, std::vector<RimEdge>& rim) {
   for (RimEdge& edge : rim) {
     const std::int32_t from = same.find(edge.use.from);
     const std::int32_t to = same.find(edge.use.to);
@@ -175,7 +175,7 @@ void match(const Places& places, UnionFind& same, std::vector<RimEdge>& rim) {
 }
 
 /// Edges that start in one place in the same direction, but are no pair: a node hangs.
-void refuse_hanging(const Places& places, UnionFind& same, const std::vector<RimEdge>& rim) {
+void refuse_hanging(const Places& places, mesh::UnionFind& same, const std::vector<RimEdge>& rim) {
   struct Ray {
     std::int32_t place = 0;
     double angle = 0;
@@ -220,7 +220,7 @@ void refuse_hanging(const Places& places, UnionFind& same, const std::vector<Rim
 }
 
 /// Nodes that lie on one another must do so along an edge.
-void refuse_touching(const Places& places, UnionFind& same, const std::vector<RimEdge>& rim,
+void refuse_touching(const Places& places, mesh::UnionFind& same, const std::vector<RimEdge>& rim,
                      const std::vector<std::int32_t>& nodes, std::size_t node_count) {
   std::vector<bool> met(node_count, false);
   for (const RimEdge& edge : rim) {
@@ -245,7 +245,7 @@ void refuse_touching(const Places& places, UnionFind& same, const std::vector<Ri
   }
 }
 
-Welding number(std::size_t node_count, UnionFind& same) {
+Welding number(std::size_t node_count, mesh::UnionFind& same) {
   Welding welding;
   welding.node.reserve(node_count);
   for (std::size_t i = 0; i < node_count; ++i) {
@@ -275,14 +275,14 @@ Welding weld(std::span<const double> xy, std::span<const std::int32_t> triangles
   const Places places(xy, tags);
   std::vector<RimEdge> rim = rim_of(mesh::EdgeTable(triangles));
   const std::vector<std::int32_t> nodes = nodes_of(rim);
-  UnionFind same(node_count);
+  mesh::UnionFind same(node_count);
   find_coincident(places, rim, nodes, node_count, same);
   match(places, same, rim);
   refuse_hanging(places, same, rim);
   refuse_touching(places, same, rim, nodes, node_count);
 
   Welding welding = number(node_count, same);
-  UnionFind joined(node_count);
+  mesh::UnionFind joined(node_count);
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
     joined.unite(triangles[i], triangles[i + 1]);
     joined.unite(triangles[i], triangles[i + 2]);

@@ -12,7 +12,7 @@
 #include "mesh/edges.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
-#include "mesher/union_find.hpp"
+#include "mesh/union_find.hpp"
 
 namespace anticrack::meshes {
 
@@ -90,7 +90,7 @@ void find_floating(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
     }
   }
   std::sort(cuts.begin(), cuts.end());
-  mesher::UnionFind parts(mesh.triangle_count());
+  mesh::UnionFind parts(mesh.triangle_count());
   edges.each([&](std::span<const mesh::EdgeUse> uses) {
     const EdgeKey edge{uses[0].low(), uses[0].high()};
     if (uses.size() != 2 || std::binary_search(cuts.begin(), cuts.end(), edge)) return;

@@ -77,7 +77,7 @@ int part_count(const v1::Geometry& geometry) {
 }
 
 std::string indexed(const char* list, int i) {
-  return list + ("[" + std::to_string(i) + "]");
+  return std::string(list) + "[" + std::to_string(i) + "]";
 }
 
 int vertex_count(const v1::InterfaceCurve& curve) {

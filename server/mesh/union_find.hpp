@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace anticrack::ddm {
+namespace anticrack::mesh {
 
 /// Disjoint sets of 0..n-1. The smallest member stands for its set, whatever the order in which
 /// they were united. O(log n) a call, amortised.
@@ -36,4 +36,4 @@ class UnionFind {
   std::vector<std::int32_t> _parent;
 };
 
-}  // namespace anticrack::ddm
+}  // namespace anticrack::mesh
