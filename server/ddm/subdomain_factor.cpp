@@ -136,6 +136,9 @@ Eigen::VectorXd triangular_solve(int system, const cholmod_factor& factor,
 SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior, Ordering ordering,
                                  std::span<const std::int32_t> floating)
     : _interior(interior), _held(floating.begin(), floating.end()) {
+  if (stiffness.rows() == 0) {
+    return;  // u is prescribed in every node; CHOLMOD refuses empty matrices
+  }
   Sparse inner = stiffness.topLeftCorner(interior, interior).triangularView<Eigen::Lower>();
   std::vector<int> permutation = interior_first(inner, stiffness.rows(), ordering);
   inner.resize(0, 0);
@@ -156,6 +159,9 @@ SubdomainFactor::SubdomainFactor(SubdomainFactor&&) noexcept = default;
 SubdomainFactor& SubdomainFactor::operator=(SubdomainFactor&&) noexcept = default;
 
 SubdomainFactor::Forward SubdomainFactor::forward(const Eigen::VectorXd& f) const {
+  if (!_factor) {
+    return {};
+  }
   const cholmod_factor& factor = *_factor->cholesky;
   const Eigen::Map<const Eigen::VectorXi> permutation(static_cast<const int*>(factor.Perm),
                                                       f.size());
@@ -166,6 +172,9 @@ SubdomainFactor::Forward SubdomainFactor::forward(const Eigen::VectorXd& f) cons
 
 Eigen::VectorXd SubdomainFactor::recover(const Eigen::VectorXd& z_interior,
                                          const Eigen::VectorXd& trace_values) const {
+  if (!_factor) {
+    return {};
+  }
   const cholmod_factor& factor = *_factor->cholesky;
   Eigen::VectorXd z(_interior + trace());
   z << z_interior, _trace_factor.transpose().triangularView<Eigen::Upper>() * trace_values;
@@ -199,6 +208,9 @@ Eigen::MatrixXd SubdomainFactor::schur() const {
 }
 
 std::size_t SubdomainFactor::bytes() const noexcept {
+  if (!_factor) {
+    return 0;
+  }
   const cholmod_factor& factor = *_factor->cholesky;
   const std::size_t integers = factor.ssize + 3 * (factor.nsuper + 1) + 2 * factor.n;
   return sizeof(double) * (factor.xsize + static_cast<std::size_t>(_trace_factor.size())) +

@@ -22,7 +22,7 @@ constexpr double paper_growth = 0.057;
 /// A fiftieth of the diagonal when nothing is graded. Graded, the square of the paper with its
 /// inclusion ends at about as many triangles as the paper's mesh has.
 constexpr double uniform_divisions = 50;
-constexpr double graded_divisions = 19;
+constexpr double graded_divisions = 20.3;
 
 /// Curves a plan may have: everything that is done with them is nearly quadratic.
 constexpr std::size_t max_curves = 50'000;

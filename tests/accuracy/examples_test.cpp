@@ -147,7 +147,9 @@ TEST(PaperExamples, ThirdIsAsGoodOnTheMeshesOfTheService) {
     std::size_t triangles;
     double tolerance;
   };
-  for (const Aim& aim : {Aim{0.105, 20'000, 4e-3}, Aim{0.05, 80'000, 1e-3}}) {
+  constexpr double chosen = 0;  // what a case gets that says nothing
+  for (const Aim& aim :
+       {Aim{chosen, 12'000, 5e-3}, Aim{0.105, 20'000, 4e-3}, Aim{0.05, 80'000, 1e-3}}) {
     const Row row = solve_examples(generated(aim.h0), aim.h0);
     std::printf("[ figures  ] generated, h0 = %.3f, %zu triangles:", row.h0, row.triangles);
     for (std::size_t i = 0; i < 4; ++i) {

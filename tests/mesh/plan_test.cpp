@@ -159,7 +159,7 @@ TEST(Plan, GradedIsTheDefault) {
   MeshOptions options;
   const Plan standard = mesh::plan(paper_geometry(), options, enough);
   expect_consistent(standard, 4);
-  EXPECT_DOUBLE_EQ(standard.grading.h0, std::sqrt(8.0) / 19);
+  EXPECT_DOUBLE_EQ(standard.grading.h0, std::sqrt(8.0) / 20.3);
   EXPECT_EQ(standard.grading.m, 0.2);
   EXPECT_EQ(standard.grading.tip_size, 0);
   options.size = 0.25;

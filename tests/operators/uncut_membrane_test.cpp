@@ -137,5 +137,29 @@ TEST(UncutMembrane, IsOneSubdomainWithoutInterface) {
   expect_uncut(mesh);
 }
 
+TEST(UncutMembrane, MayHaveNoFreeNode) {
+  auto square = std::make_shared<mesh::Mesh>();
+  square->xy = {0, 0, 1, 0, 1, 1, 0, 1};
+  square->triangles = {0, 1, 2, 0, 2, 3};
+  square->subdomain = {0, 0};
+  square->subdomains = {"square"};
+  square->dirichlet = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  Silent observer;
+  const auto op = MeshOperator::factorise(square, 1, {});
+  for (const contact::SolverOptions& method :
+       {contact::SolverOptions(contact::ActiveSetOptions{}),
+        contact::SolverOptions(contact::UzawaOptions{})}) {
+    const contact::Answer answer =
+        op->solve({"slope", fem::Force(0.0), "2*x"}, method, true, observer);
+    EXPECT_EQ(answer.status, contact::Status::converged);
+    EXPECT_NEAR(answer.energy, 2, 1e-15);  // |grad u|^2 / 2
+    ASSERT_EQ(answer.fields.size(), 1U);
+    for (std::size_t i = 0; i < answer.fields[0].u.size(); ++i) {
+      EXPECT_EQ(answer.fields[0].u[i],
+                2 * square->xy[2 * static_cast<std::size_t>(answer.fields[0].nodes[i])]);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace anticrack::operators
