@@ -4,10 +4,10 @@
 // front of the arrays.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <map>
-#include <regex>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -34,11 +34,13 @@ struct ReadVtu {
 };
 
 inline std::string attribute_of(const std::string& element, const std::string& name) {
-  std::smatch found;
-  if (!std::regex_search(element, found, std::regex(" " + name + "=\"([^\"]*)\""))) {
+  const std::string before = " " + name + "=\"";
+  const std::size_t begin = element.find(before);
+  const std::size_t end = element.find('"', begin + before.size());
+  if (begin == std::string::npos || end == std::string::npos) {
     throw std::runtime_error("no attribute " + name + " in " + element);
   }
-  return found[1];
+  return element.substr(begin + before.size(), end - begin - before.size());
 }
 
 inline std::string array_at(const std::string& data, std::size_t offset) {
@@ -60,10 +62,14 @@ inline ReadVtu read_vtu(const std::string& file) {
   const std::string xml = file.substr(0, cut);
   ReadVtu result;
   std::vector<std::string> open;
-  const std::regex tag("<(/?)([A-Za-z]+)([^>]*?)(/?)>");
-  for (std::sregex_iterator i(xml.begin(), xml.end(), tag), last; i != last; ++i) {
-    const std::string name = (*i)[2], attributes = (*i)[3];
-    if ((*i)[1] == "/") {
+  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
+    const std::string tag = xml.substr(at + 1, xml.find('>', at) - at - 1);
+    if (tag.starts_with("?")) continue;
+    const bool closes = tag.starts_with("/"), empty = tag.ends_with("/");
+    const std::size_t name_end = std::min(tag.find(' '), tag.size() - (empty ? 1 : 0));
+    const std::string name = tag.substr(closes ? 1 : 0, name_end - (closes ? 1 : 0));
+    const std::string attributes = tag.substr(name_end);
+    if (closes) {
       if (open.empty() || open.back() != name) throw std::runtime_error("</" + name + ">");
       open.pop_back();
       continue;
@@ -82,7 +88,7 @@ inline ReadVtu read_vtu(const std::string& file) {
           std::stoul(attribute_of(attributes, "NumberOfComponents")),
           array_at(data, std::stoul(attribute_of(attributes, "offset")))};
     }
-    if ((*i)[4] != "/") open.push_back(name);
+    if (!empty) open.push_back(name);
   }
   if (open != std::vector<std::string>{"VTKFile"}) throw std::runtime_error("unclosed elements");
   return result;
