@@ -47,7 +47,8 @@ struct Mesh {
   std::vector<Interface> interfaces;
   std::vector<std::array<std::int32_t, 2>> dirichlet;  ///< edges of the boundary where u = g_D
   std::vector<std::string> warnings;                   ///< what an import repaired or assumed
-  /// Degrees: no bisection of the mesh this one was refined from has a smaller angle. 0: not refined
+  /// Degrees: no bisection of the mesh this one was refined from has a smaller angle. 0: not
+  /// refined
   double bisection_bound = 0;
 
   std::size_t node_count() const noexcept { return xy.size() / 2; }

@@ -146,9 +146,8 @@ TEST(UncutMembrane, MayHaveNoFreeNode) {
   square->dirichlet = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
   Silent observer;
   const auto op = MeshOperator::factorise(square, 1, {});
-  for (const contact::SolverOptions& method :
-       {contact::SolverOptions(contact::ActiveSetOptions{}),
-        contact::SolverOptions(contact::UzawaOptions{})}) {
+  for (const contact::SolverOptions& method : {contact::SolverOptions(contact::ActiveSetOptions{}),
+                                               contact::SolverOptions(contact::UzawaOptions{})}) {
     const contact::Answer answer =
         op->solve({"slope", fem::Force(0.0), "2*x"}, method, true, observer);
     EXPECT_EQ(answer.status, contact::Status::converged);
