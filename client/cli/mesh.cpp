@@ -40,7 +40,7 @@ int show(const Globals& globals, const v1::Mesh& mesh) {
 
 /// Waits until the server is done with it; throws what it failed of.
 v1::Mesh wait_for(Session& session, const std::string& name) {
-  const v1::Mesh mesh = client::wait_for_mesh(
+  v1::Mesh mesh = client::wait_for_mesh(
       session.connection(), name,
       [&](const v1::Mesh& now) {
         if (!client::settled(now.state())) {

@@ -10,7 +10,6 @@ namespace anticrack::figures {
 namespace {
 
 using results::InterfaceLine;
-using results::Kind;
 using results::Mesh;
 using results::MeshPlan;
 

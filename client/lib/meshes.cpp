@@ -125,7 +125,7 @@ std::string upload_array(Connection& connection, std::span<const double> values,
       connection, v1::UploadMeshRequest::CONTENT_ARRAY,
       [bytes] {
         return [rest = bytes]() mutable {
-          const std::string chunk(rest.substr(0, chunk_bytes));
+          std::string chunk(rest.substr(0, chunk_bytes));
           rest.remove_prefix(chunk.size());
           return chunk;
         };

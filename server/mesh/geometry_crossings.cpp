@@ -65,9 +65,7 @@ class Meetings {
     const Point d = on.derivative(to);
     return {-d[0], -d[1]};
   }
-  double angle(const Chord& s, const Chord& t, int common) const {
-    const Point p = direction(s, common);
-    const Point q = direction(t, common);
+  static double angle(const Point& p, const Point& q) {
     return std::abs(std::atan2(p[0] * q[1] - p[1] * q[0], p[0] * q[0] + p[1] * q[1]));
   }
 
@@ -101,12 +99,20 @@ class Meetings {
   }
 
   void check_angle(const Chord& s, const Chord& t, int common) const {
-    const double between = angle(s, t, common);
+    check_angle(s, t, point(common), angle(direction(s, common), direction(t, common)));
+  }
+  void check_angle(const Chord& s, const Chord& t, const Point& at, double between) const {
     if (between >= smallest_angle) return;
     const std::string& field = line(t).field;
-    refuse(field, field, " and ", line(s).field, " meet at ", show(point(common)),
-           " at an angle of ", show(between * 180 / std::numbers::pi),
+    refuse(field, field, " and ", line(s).field, " meet at ", show(at), " at an angle of ",
+           show(between * 180 / std::numbers::pi),
            " degrees, nearly along each other; let them meet at more than one degree");
+  }
+  /// Of two lines that pass through a point, whichever way they are walked.
+  void check_passing(const Chord& s, const Chord& t, const Point& at, const Point& d,
+                     const Point& e) const {
+    const double between = angle(d, e);
+    check_angle(s, t, at, std::min(between, std::numbers::pi - between));
   }
 
   /// `s` is the boundary's.
@@ -135,7 +141,7 @@ class Meetings {
     crossing.t = {s.from + u * (s.to - s.from), t.from + v * (t.to - t.from)};
     const Line& first = line(s).line;
     const Line& second = line(t).line;
-    refine(first, second, crossing.t);
+    refine(s, t, crossing.t);
     crossing.at = first.straight() ? second.at(crossing.t[1]) : first.at(crossing.t[0]);
     for (std::size_t i = 0; i < 2; ++i) {
       const Line& on = i == 0 ? first : second;
@@ -144,15 +150,18 @@ class Meetings {
     _crossings.push_back(crossing);
   }
 
-  /// Newton on c1(t1) = c2(t2). Within their chords the two are nearly straight.
-  static void refine(const Line& first, const Line& second, std::array<double, 2>& t) {
+  /// Newton on c1(t1) = c2(t2). Within their chords the two are nearly straight. Where they run
+  /// along each other its steps would be rounding over rounding: that is refused first.
+  void refine(const Chord& s, const Chord& other, std::array<double, 2>& t) const {
+    const Line& first = line(s).line;
+    const Line& second = line(other).line;
     for (int i = 0; i < 8; ++i) {
       const Point p = first.at(t[0]);
       const Point q = second.at(t[1]);
       const Point d = first.derivative(t[0]);
       const Point e = second.derivative(t[1]);
+      check_passing(s, other, p, d, e);
       const double det = d[1] * e[0] - d[0] * e[1];
-      if (det == 0) return;
       const Point gap{q[0] - p[0], q[1] - p[1]};
       const double step0 = (gap[1] * e[0] - gap[0] * e[1]) / det;
       const double step1 = (d[0] * gap[1] - d[1] * gap[0]) / det;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double largest_turn = std::numbers::pi / 18;
 constexpr int samples_a_span = 32;
-constexpr int samples_an_arc = 256;
+constexpr int samples_half_an_arc = 128;
 
 Point minus(const Point& a, const Point& b) {
   return {a[0] - b[0], a[1] - b[1]};
@@ -41,7 +41,7 @@ Line Line::polyline(std::vector<Point> points, bool closed) {
 }
 
 Line Line::arc(const Point& a, const Point& b, const Point& c) {
-  Line line(Shape::arc, false, {a, c});
+  Line line(Shape::arc, false, {a, b, c});
   const Point u = minus(b, a);
   const Point v = minus(c, a);
   const double twice = 2 * (u[0] * v[1] - u[1] * v[0]);
@@ -49,13 +49,15 @@ Line Line::arc(const Point& a, const Point& b, const Point& c) {
                         (u[0] * dot(v, v) - v[0] * dot(u, u)) / twice};
   line._centre = {a[0] + to_centre[0], a[1] + to_centre[1]};
   line._radius = std::hypot(to_centre[0], to_centre[1]);
-  line._angle = std::atan2(-to_centre[1], -to_centre[0]);
-  const Point end = minus(c, line._centre);
-  double sweep = std::atan2(end[1], end[0]) - line._angle;
   const bool left = twice > 0;  // a, b, c counterclockwise
-  while (left && sweep <= 0) sweep += 2 * std::numbers::pi;
-  while (!left && sweep >= 0) sweep -= 2 * std::numbers::pi;
-  line._sweep = sweep;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point spoke = minus(line._vertices[i], line._centre);
+    double& angle = line._angles[i];
+    angle = std::atan2(spoke[1], spoke[0]);
+    if (i == 0) continue;
+    while (left && angle <= line._angles[i - 1]) angle += 2 * std::numbers::pi;
+    while (!left && angle >= line._angles[i - 1]) angle -= 2 * std::numbers::pi;
+  }
   line.sample();
   return line;
 }
@@ -100,7 +102,7 @@ Line Line::spline(std::vector<Point> points, bool closed) {
 int Line::samples_in_span() const noexcept {
   switch (_shape) {
     case Shape::arc:
-      return samples_an_arc;
+      return samples_half_an_arc;
     case Shape::spline:
       return samples_a_span;
     case Shape::polyline:
@@ -144,6 +146,15 @@ Point Line::vertex(int k) const noexcept {
   return _vertices[static_cast<std::size_t>(k) % _vertices.size()];
 }
 
+double Line::sweep(int k) const noexcept {
+  const auto span = static_cast<std::size_t>(k);
+  return _angles[span + 1] - _angles[span];
+}
+
+double Line::angle_at(int k, double u) const noexcept {
+  return _angles[static_cast<std::size_t>(k)] + u * sweep(k);
+}
+
 Point Line::at(double t) const noexcept {
   const int k = span_of(t);
   const double u = t - k;
@@ -152,7 +163,7 @@ Point Line::at(double t) const noexcept {
   if (u <= 0) return a;
   if (u >= 1) return b;
   if (_shape == Shape::arc) {
-    const double angle = _angle + u * _sweep;
+    const double angle = angle_at(k, u);
     return {_centre[0] + _radius * std::cos(angle), _centre[1] + _radius * std::sin(angle)};
   }
   if (_shape == Shape::polyline) return {a[0] + u * (b[0] - a[0]), a[1] + u * (b[1] - a[1])};
@@ -174,8 +185,9 @@ Point Line::derivative(double t) const noexcept {
   const Point b = vertex(k + 1);
   if (_shape == Shape::polyline) return minus(b, a);
   if (_shape == Shape::arc) {
-    const double angle = _angle + u * _sweep;
-    return {-_radius * _sweep * std::sin(angle), _radius * _sweep * std::cos(angle)};
+    const double angle = angle_at(k, u);
+    const double speed = _radius * sweep(k);
+    return {-speed * std::sin(angle), speed * std::cos(angle)};
   }
   const Point& out = _out[static_cast<std::size_t>(k)];
   const Point& in = _in[static_cast<std::size_t>(k)];

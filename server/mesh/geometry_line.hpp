@@ -6,6 +6,7 @@
 // the geometry.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@ namespace anticrack::mesh {
 class Line {
  public:
   static Line polyline(std::vector<Point> points, bool closed);
-  /// From a through b to c; the three are not on one straight line.
+  /// From a through b to c, all three vertices; they are not on one straight line.
   static Line arc(const Point& a, const Point& b, const Point& c);
   /// At least 3 points, no two consecutive ones equal.
   static Line spline(std::vector<Point> points, bool closed);
@@ -59,6 +60,8 @@ class Line {
   Box box_of(std::size_t first, std::size_t last) const noexcept;
   int span_of(double t) const noexcept;
   Point vertex(int k) const noexcept;
+  double sweep(int k) const noexcept;
+  double angle_at(int k, double u) const noexcept;
   double closest(const Point& p, double low, double high) const noexcept;
   std::vector<double> measure(double from, double to, double size, int steps) const;
 
@@ -71,10 +74,9 @@ class Line {
   std::vector<Point> _in;   ///< and at its end
   Point _centre{};
   double _radius = 0;
-  double _angle = 0;
-  double _sweep = 0;
-  std::vector<Sample> _samples;  ///< as many in every span
-  std::vector<Box> _boxes;       ///< of each span
+  std::array<double, 3> _angles{};  ///< arc: of its vertices seen from the centre
+  std::vector<Sample> _samples;     ///< as many in every span
+  std::vector<Box> _boxes;          ///< of each span
   Box _box;
 };
 
