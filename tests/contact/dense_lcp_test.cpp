@@ -120,7 +120,7 @@ TEST(DenseLcp, LeavesACycle) {
   s << 4, 5, -5, 5, 9, -5, -5, -5, 7;
   int fell_back = 0;
   for (int k = 0; k < 343; ++k) {
-    const VectorXd r = Eigen::Vector3d(k % 7 - 3, k / 7 % 7 - 3, k / 49 - 3);
+    const VectorXd r = Eigen::Vector3i(k % 7 - 3, k / 7 % 7 - 3, k / 49 - 3).cast<double>();
     const LcpAnswer answer = solve(s, r);
     expect_solution(s, r, answer);
     fell_back += answer.fell_back ? 1 : 0;
