@@ -47,7 +47,7 @@ class RandomMembrane {
 
   std::vector<std::string> names() const {
     std::vector<std::string> result;
-    result.reserve(static_cast<std::size_t>(_columns * _rows));
+    result.reserve(static_cast<std::size_t>(_columns) * static_cast<std::size_t>(_rows));
     for (int s = 0; s < _columns * _rows; ++s) {
       result.push_back("part " + std::to_string(s));
     }
