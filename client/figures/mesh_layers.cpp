@@ -6,14 +6,14 @@
 #include <cstdint>
 #include <limits>
 
+#include "figures/outer_edges.hpp"
+
 namespace anticrack::figures {
 namespace {
 
 using results::InterfaceLine;
 using results::Mesh;
 using results::MeshPlan;
-
-using Edge = std::pair<std::int32_t, std::int32_t>;
 
 constexpr double pixels = 1500;  // of a panel, about
 
@@ -68,26 +68,6 @@ void add_triangles(const Mesh& mesh, const Window& window, MeshLayers& to) {
       ++to.triangle_count;
     }
   }
-}
-
-/// Edges of one triangle only, in order.
-std::vector<Edge> outer_edges(const Mesh& mesh) {
-  std::vector<Edge> edges;
-  edges.reserve(mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      edges.push_back(std::minmax<std::int32_t>(
-          {mesh.triangles[3 * t + c], mesh.triangles[3 * t + (c + 1) % 3]}));
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  std::vector<Edge> outer;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const bool shared =
-        (i > 0 && edges[i - 1] == edges[i]) || (i + 1 < edges.size() && edges[i + 1] == edges[i]);
-    if (!shared) outer.push_back(edges[i]);
-  }
-  return outer;
 }
 
 void add_boundary(const Mesh& mesh, MeshLayers& to) {

@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "figures/outer_edges.hpp"
+
 namespace anticrack::figures {
 namespace {
 
@@ -43,22 +45,10 @@ Cut cut_open(const Load& load) {
 
 /// Nodes on the boundary of the membrane, whatever holds there.
 std::vector<bool> outer_nodes(const Mesh& mesh) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
-  edges.reserve(mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      edges.push_back(std::minmax<std::int32_t>(
-          {mesh.triangles[3 * t + c], mesh.triangles[3 * t + (c + 1) % 3]}));
-    }
-  }
-  std::sort(edges.begin(), edges.end());
   std::vector<bool> outer(mesh.node_count(), false);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const bool shared =
-        (i > 0 && edges[i - 1] == edges[i]) || (i + 1 < edges.size() && edges[i + 1] == edges[i]);
-    if (shared) continue;
-    outer[static_cast<std::size_t>(edges[i].first)] = true;
-    outer[static_cast<std::size_t>(edges[i].second)] = true;
+  for (const Edge& edge : outer_edges(mesh)) {
+    outer[static_cast<std::size_t>(edge.first)] = true;
+    outer[static_cast<std::size_t>(edge.second)] = true;
   }
   return outer;
 }

@@ -81,15 +81,7 @@ TEST(ActiveSet, AgreesWithUzawaOnThePapersExamples) {
 }
 
 TEST(ActiveSet, AgreesWithUzawaOnSeveralInclusionsAndCracks) {
-  const auto kind = [](double x) {
-    if (x > -0.875 && x < -0.5) return Kind::inclusion;
-    if (x > -0.25 && x < 0.125) return Kind::crack;
-    if (x > 0.25 && x < 0.5) return Kind::delaminated;
-    if (x > 0.5 && x < 0.75) return Kind::inclusion;
-    return Kind::glue;
-  };
-  const auto inclusion = [](double x) { return x < 0 ? 0 : 1; };
-  const Membrane membrane(testing::structured_mesh({64, 16, kind, inclusion, {"bonded", "half"}}));
+  const Membrane membrane(several_inclusions_and_a_crack());
   expect_as_uzawa(membrane, "y > 0 ? 1 + x : -1 + 3*x");
   expect_as_uzawa(membrane, "sin(9*x)*(y > 0 ? 1 : -1)");
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/solve.hpp"
+#include "support/structured_mesh.hpp"
 #include "support/trace_space.hpp"
 
 namespace anticrack::contact {
@@ -54,6 +55,20 @@ struct Membrane {
   TraceProblem problem;
   SkeletonProblem skeleton;
 };
+
+/// A crack between two inclusions, one bonded, one half delaminated: all kinds at once.
+inline mesh::Mesh several_inclusions_and_a_crack() {
+  using mesh::Kind;
+  const auto kind = [](double x) {
+    if (x > -0.875 && x < -0.5) return Kind::inclusion;
+    if (x > -0.25 && x < 0.125) return Kind::crack;
+    if (x > 0.25 && x < 0.5) return Kind::delaminated;
+    if (x > 0.5 && x < 0.75) return Kind::inclusion;
+    return Kind::glue;
+  };
+  const auto inclusion = [](double x) { return x < 0 ? 0 : 1; };
+  return testing::structured_mesh({64, 16, kind, inclusion, {"bonded", "half"}});
+}
 
 /// As near to the fixed point as rounding lets it come.
 inline UzawaOptions tight() {

@@ -90,17 +90,8 @@ TEST(Uzawa, ConvergesToTheConditionsOfContact) {
   }
 }
 
-/// A crack between two inclusions, one bonded, one half delaminated: all kinds at once.
 TEST(Uzawa, SolvesSeveralInclusionsAndCracksTogether) {
-  const auto kind = [](double x) {
-    if (x > -0.875 && x < -0.5) return Kind::inclusion;
-    if (x > -0.25 && x < 0.125) return Kind::crack;
-    if (x > 0.25 && x < 0.5) return Kind::delaminated;
-    if (x > 0.5 && x < 0.75) return Kind::inclusion;
-    return Kind::glue;
-  };
-  const auto inclusion = [](double x) { return x < 0 ? 0 : 1; };
-  const Membrane membrane(testing::structured_mesh({64, 16, kind, inclusion, {"bonded", "half"}}));
+  const Membrane membrane(several_inclusions_and_a_crack());
   Recorder recorder;
   const Answer answer = membrane.solve("y > 0 ? 1 + x : -1 + 3*x", tight(), recorder);
   ASSERT_EQ(answer.status, Status::converged) << answer.reason;

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "rpc/from_domain.hpp"
+#include "rpc/refusals.hpp"
+#include "rpc/requests.hpp"
+#include "rpc/to_domain.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+using anticrack::testing::opening_job;
+using errors::Error;
+using errors::Reason;
+
+constexpr JobLimits limits{10, 1'000};
+
+void expect_job_refused(const std::function<void(v1::Job&)>& spoil, Reason reason,
+                        const std::string& field) {
+  v1::Job job = opening_job("meshes/a").job();
+  spoil(job);
+  expect_refused([&] { to_spec(job, limits); }, reason, field);
+}
+
+contact::UzawaOptions uzawa_of(const store::JobSpec& spec) {
+  return std::get<contact::UzawaOptions>(spec.solver);
+}
+
+TEST(JobToDomain, TakesTheActiveSetUnlessAskedOtherwise) {
+  v1::Job job = opening_job("meshes/a").job();
+  const store::JobSpec spec = to_spec(job, {10, 1'000'000});
+  EXPECT_EQ(spec.mesh, "a");
+  const auto defaults = std::get<contact::ActiveSetOptions>(spec.solver);
+  EXPECT_EQ(defaults.tolerance, contact::ActiveSetOptions().tolerance);
+  EXPECT_EQ(defaults.max_steps, contact::ActiveSetOptions().max_steps);
+  job.mutable_solver()->mutable_active_set()->set_tolerance(0);
+  const auto exact = std::get<contact::ActiveSetOptions>(to_spec(job, {10, 50}).solver);
+  EXPECT_EQ(exact.tolerance, 0);
+  EXPECT_EQ(exact.max_steps, 50);
+  job.mutable_solver()->mutable_active_set()->set_max_steps(7);
+  EXPECT_EQ(std::get<contact::ActiveSetOptions>(to_spec(job, limits).solver).max_steps, 7);
+}
+
+TEST(JobToDomain, TakesTheDefaultsOfThePaper) {
+  v1::Job job = opening_job("meshes/a").job();
+  job.mutable_solver()->mutable_uzawa();
+  const contact::UzawaOptions uzawa = uzawa_of(to_spec(job, {10, 1'000'000}));
+  EXPECT_EQ(uzawa.theta, 2.0);
+  EXPECT_EQ(uzawa.epsilon, 1e-12);
+  EXPECT_EQ(uzawa.p, 1e5);
+  EXPECT_EQ(uzawa.max_iterations, 20'000);
+  EXPECT_EQ(uzawa.mass, contact::Mass::lumped);
+  EXPECT_FALSE(uzawa.kkt_tolerance);
+  EXPECT_EQ(uzawa_of(to_spec(job, limits)).max_iterations, 1'000);
+}
+
+TEST(JobToDomain, TakesWhatIsSet) {
+  v1::Job job = opening_job("meshes/a").job();
+  job.set_title("t");
+  job.set_fields(true);
+  v1::Uzawa& uzawa = *job.mutable_solver()->mutable_uzawa();
+  uzawa.set_theta_auto(true);
+  uzawa.set_epsilon(0);
+  uzawa.set_p(0);
+  uzawa.set_max_iterations(7);
+  uzawa.set_mass(v1::MASS_CONSISTENT);
+  uzawa.set_kkt_tolerance(1e-9);
+  v1::LoadCase& regions = *job.add_load_cases();
+  (*regions.mutable_force()->mutable_per_region()->mutable_values())["plus"] = 3;
+  regions.set_boundary_value("x");
+  regions.set_traction("y");
+  v1::PointForce& point = *regions.add_point_forces();
+  point.mutable_at()->set_x(0.5);
+  point.mutable_at()->set_y(-0.25);
+  point.set_value(4);
+  (*regions.mutable_inclusion_forces())["fibre"] = -5;
+  job.add_load_cases()->mutable_force()->set_constant(-2);
+  job.add_load_cases();
+  const std::string sha256(64, 'c');
+  v1::Force::Array& array = *job.add_load_cases()->mutable_force()->mutable_array();
+  array.set_upload("uploads/" + sha256);
+  array.set_per_triangle(true);
+  const store::JobSpec spec = to_spec(job, limits);
+  EXPECT_TRUE(spec.fields);
+  const contact::UzawaOptions options = uzawa_of(spec);
+  EXPECT_FALSE(options.theta.has_value());
+  EXPECT_EQ(options.epsilon, 0);
+  EXPECT_EQ(options.p, 0);
+  EXPECT_EQ(options.max_iterations, 7);
+  EXPECT_EQ(options.mass, contact::Mass::consistent);
+  EXPECT_EQ(options.kkt_tolerance, 1e-9);
+  ASSERT_EQ(spec.loads.size(), 5u);
+  EXPECT_EQ(std::get<fem::Expression>(spec.loads[0].force).text, "y > 0 ? 1 : -1");
+  EXPECT_EQ(std::get<fem::PerRegion>(spec.loads[1].force).values.at("plus"), 3);
+  EXPECT_EQ(spec.loads[1].boundary_value, "x");
+  EXPECT_EQ(spec.loads[1].traction, "y");
+  ASSERT_EQ(spec.loads[1].point_forces.size(), 1u);
+  EXPECT_EQ(spec.loads[1].point_forces[0].x, 0.5);
+  EXPECT_EQ(spec.loads[1].point_forces[0].y, -0.25);
+  EXPECT_EQ(spec.loads[1].point_forces[0].value, 4);
+  EXPECT_EQ(spec.loads[1].inclusion_forces.at("fibre"), -5);
+  EXPECT_EQ(std::get<double>(spec.loads[2].force), -2);
+  EXPECT_EQ(std::get<double>(spec.loads[3].force), 0);
+  EXPECT_EQ(std::get<fem::Array>(spec.loads[4].force).upload, sha256);
+  EXPECT_TRUE(std::get<fem::Array>(spec.loads[4].force).per_triangle);
+  EXPECT_FALSE(std::get<fem::Array>(spec.loads[4].force).values);
+}
+
+/// A client reads back what it asked for, defaults filled in.
+TEST(JobFromDomain, TellsTheWholeJobAgain) {
+  v1::Job job = opening_job("meshes/a").job();
+  job.mutable_solver()->mutable_active_set()->set_tolerance(1e-10);
+  job.mutable_solver()->mutable_active_set()->set_max_steps(9);
+  v1::LoadCase& load = *job.mutable_load_cases(0);
+  load.set_boundary_value("x");
+  load.set_traction("y");
+  v1::PointForce& point = *load.add_point_forces();
+  point.mutable_at()->set_x(0.5);
+  point.set_value(4);
+  (*load.mutable_inclusion_forces())["fibre"] = -5;
+  load.mutable_force()->mutable_array()->set_upload("uploads/" + std::string(64, 'c'));
+  load.mutable_force()->mutable_array()->set_per_triangle(true);
+  store::JobRecord record;
+  record.id = "b";
+  record.spec = to_spec(job, limits);
+  const v1::Job told = from_domain(record, {});
+  EXPECT_EQ(told.solver().SerializeAsString(), job.solver().SerializeAsString());
+  EXPECT_EQ(told.load_cases(0).SerializeAsString(), load.SerializeAsString());
+
+  job.mutable_solver()->mutable_uzawa()->set_kkt_tolerance(1e-9);
+  record.spec = to_spec(job, limits);
+  EXPECT_EQ(from_domain(record, {}).solver().uzawa().kkt_tolerance(), 1e-9);
+}
+
+TEST(AnswerFromDomain, TellsWarningsAndWhatJustTouches) {
+  store::CaseRecord record;
+  record.status = store::CaseStatus::converged;
+  record.answer.weakly_active = 3;
+  record.answer.warnings = {"inexact \xff"};
+  const v1::LoadCaseAnswer told = from_domain(record, "a", {});
+  EXPECT_EQ(told.weakly_active(), 3);
+  EXPECT_EQ(told.theta(), 0);
+  ASSERT_EQ(told.warnings_size(), 1);
+  EXPECT_EQ(told.warnings(0), "inexact ?");
+}
+
+TEST(JobToDomain, RefusesWhatItsTypesCannotExpress) {
+  expect_job_refused([](auto& job) { job.clear_mesh(); }, Reason::invalid_argument, "job.mesh");
+  expect_job_refused([](auto& job) { job.set_title(std::string(201, 't')); },
+                     Reason::limit_exceeded, "job.title");
+  expect_job_refused(
+      [](auto& job) {
+        for (int i = 0; i < 10; ++i) job.add_load_cases();
+      },
+      Reason::limit_exceeded, "job.load_cases");
+  expect_job_refused(
+      [](auto& job) {
+        job.mutable_load_cases(0)->mutable_force()->set_expression(std::string(max_job_bytes, '1'));
+      },
+      Reason::limit_exceeded, "job");
+  expect_job_refused(
+      [](auto& job) {
+        auto& values = *job.mutable_load_cases(0)->mutable_force()->mutable_per_region();
+        for (std::size_t i = 0; i <= fem::max_named_forces; ++i) {
+          (*values.mutable_values())[std::to_string(i)] = 1;
+        }
+      },
+      Reason::limit_exceeded, "job.load_cases[0].force.per_region");
+  expect_job_refused(
+      [](auto& job) {
+        for (std::size_t i = 0; i <= fem::max_named_forces; ++i) {
+          (*job.mutable_load_cases(0)->mutable_inclusion_forces())[std::to_string(i)] = 1;
+        }
+      },
+      Reason::limit_exceeded, "job.load_cases[0].inclusion_forces");
+  expect_job_refused(
+      [](auto& job) {
+        for (std::size_t i = 0; i <= fem::max_point_forces; ++i) {
+          job.mutable_load_cases(0)->add_point_forces();
+        }
+      },
+      Reason::limit_exceeded, "job.load_cases[0].point_forces");
+  expect_job_refused([](auto& job) { job.mutable_load_cases(0)->add_point_forces(); },
+                     Reason::invalid_argument, "job.load_cases[0].point_forces[0].at");
+  expect_job_refused(
+      [](auto& job) {
+        job.mutable_load_cases(0)->mutable_force()->mutable_array()->set_upload("uploads/1");
+      },
+      Reason::invalid_argument, "job.load_cases[0].force.array.upload");
+  expect_job_refused(
+      [](auto& job) { job.mutable_solver()->mutable_uzawa()->set_theta_auto(false); },
+      Reason::invalid_argument, "job.solver.uzawa.theta_auto");
+  expect_job_refused(
+      [](auto& job) { job.mutable_solver()->mutable_uzawa()->set_mass(static_cast<v1::Mass>(9)); },
+      Reason::invalid_argument, "job.solver.uzawa.mass");
+}
+
+TEST(JobToDomain, TakesRequestIdsLikeUuids) {
+  require_request_id("");
+  require_request_id("123e4567-e89b-12d3-a456-426614174000");
+  EXPECT_THROW(require_request_id("a b"), Error);
+  EXPECT_THROW(require_request_id(std::string(65, 'a')), Error);
+}
+
+}  // namespace
+}  // namespace anticrack::rpc
