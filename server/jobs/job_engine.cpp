@@ -210,6 +210,11 @@ void JobEngine::stop(std::chrono::milliseconds grace) {
   state.changed.wait(lock, idle);
 }
 
+bool JobEngine::idle() const {
+  const std::lock_guard lock(_state->mutex);
+  return _state->announced == _state->created;
+}
+
 EngineMetrics JobEngine::metrics() const {
   const std::lock_guard lock(_state->mutex);
   EngineMetrics metrics;

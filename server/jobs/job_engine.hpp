@@ -70,6 +70,8 @@ class JobEngine {
   /// returns when all workers are idle. Idempotent.
   void stop(std::chrono::milliseconds grace);
 
+  /// Every job has ended, and its end event is in its log.
+  bool idle() const;
   EngineMetrics metrics() const;
   const EngineOptions& options() const noexcept;
 

@@ -25,6 +25,8 @@ class Feed {
   virtual void start(std::function<void()> /*wake*/) {}
   /// `response` is clear.
   virtual Next next(Response& response) = 0;
+  /// True when all that will ever be sent is there already: a server that stops lets it be read.
+  virtual bool ending() const noexcept { return false; }
   /// Nothing was sent for a while: true when `response` was filled with a sign of life.
   virtual bool heartbeat(Response& /*response*/) { return false; }
 };

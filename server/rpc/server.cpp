@@ -30,8 +30,8 @@ constexpr std::array service_names{"anticrack.v1.MeshService", "anticrack.v1.Sol
 constexpr int max_receive_bytes = 4 << 20;
 /// What a client may have under way on one stream: a chunk. 20 MB/s at 50 ms.
 constexpr int receive_window_bytes = 1 << 20;
-/// Streams of ours that do not take their end by then are broken off.
-constexpr auto stream_patience = 300ms;
+/// Streams of ours that have not taken their end by then are broken off.
+constexpr auto stream_patience = 2s;
 /// Health and reflection streams are not ours and hold Shutdown to its deadline.
 constexpr auto shutdown_patience = 300ms;
 
@@ -78,8 +78,7 @@ struct Server::State {
 
   void wait_for_jobs(SteadyClock::time_point deadline) const {
     while (SteadyClock::now() < deadline) {
-      const jobs::EngineMetrics metrics = backend.engine.metrics();
-      if (metrics.jobs_running + metrics.jobs_queued == 0) return;
+      if (backend.engine.idle()) return;
       std::this_thread::sleep_for(20ms);
     }
   }
@@ -133,7 +132,8 @@ void Server::drain(std::chrono::milliseconds grace) {
     _state->set_serving(false);
     _state->hub.close();
     _state->wait_for_jobs(SteadyClock::now() + grace);
-    _state->hub.drain(draining_error(), stream_patience, SteadyClock::now() + 2 * stream_patience);
+    _state->hub.drain(draining_error(), stream_patience,
+                      SteadyClock::now() + stream_patience + shutdown_patience);
     _state->server->Shutdown(std::chrono::system_clock::now() + shutdown_patience);
     _state->server->Wait();
   });

@@ -37,8 +37,9 @@ class Server {
 
   /// Health says NOT_SERVING; new meshes, jobs, watches and transfers are refused (UNAVAILABLE);
   /// running jobs go on for at most `grace`, watched; then watches and transfers end with
-  /// UNAVAILABLE and a retry delay, whoever does not take it is broken off, and the server shuts
-  /// down, about a second later at the latest. Idempotent: a second call waits for the first.
+  /// UNAVAILABLE and a retry delay (a watch whose job ended sends the rest first), whoever does not
+  /// take it is broken off, and the server shuts down, three seconds later at the latest.
+  /// Idempotent: a second call waits for the first.
   void drain(std::chrono::milliseconds grace);
 
  private:

@@ -32,7 +32,8 @@ class Stream {
   virtual void wake() noexcept = 0;
   /// Time passed: send a heartbeat, give up on a peer that stalls.
   virtual void tick(SteadyClock::time_point now) noexcept = 0;
-  /// Finish the call with this error as soon as the transport allows it.
+  /// Finish the call with this error as soon as the transport allows it; what is about to end by
+  /// itself (Feed::ending) may do so.
   virtual void end(const errors::Error& error) noexcept = 0;
   /// Break the call off without waiting for the peer.
   virtual void abort() noexcept = 0;

@@ -32,6 +32,7 @@ class WatchFeed final : public Feed<v1::WatchJobResponse> {
 
   void start(std::function<void()> wake) override;
   Next next(v1::WatchJobResponse& response) override;
+  bool ending() const noexcept override;
   bool heartbeat(v1::WatchJobResponse& response) override;
 
  private:

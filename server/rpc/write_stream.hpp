@@ -38,7 +38,8 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
       const std::weak_ptr<Stream> weak = _self;
       _feed->start([&hub = _hub, weak] { hub.wake(weak); });
     } catch (...) {
-      end(current_error("stream"));
+      const std::lock_guard lock(_mutex);
+      _end = to_status(current_error("stream"));
     }
     run();
   }
@@ -83,7 +84,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
     grpc::Status status = to_status(error);
     {
       const std::lock_guard lock(_mutex);
-      if (!_end) _end = std::move(status);
+      if (!_asked_to_end) _asked_to_end = std::move(status);
     }
     drive();
   }
@@ -124,6 +125,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
         const std::lock_guard lock(_mutex);
         _again = false;
         heartbeat = std::exchange(_heartbeat_due, false);
+        if (!_end && _asked_to_end && !_feed->ending()) _end = _asked_to_end;
         ending = _end.has_value();
       }
       if (!ending && produce(heartbeat)) {
@@ -188,6 +190,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
   bool _heartbeat_due = false;
   SteadyClock::time_point _last_write = SteadyClock::now();
   std::optional<grpc::Status> _end;
+  std::optional<grpc::Status> _asked_to_end;
 };
 
 /// A stream that was refused before it began.

@@ -86,6 +86,23 @@ TEST(Drain, RefusesNewWorkAndLetsOldWorkEnd) {
   drain.join();
 }
 
+TEST(Drain, AWatchOfAnEndedJobSendsTheRestFirst) {
+  RunningServer server;
+  const std::string job = server.create(endless_job(server.create(paper_mesh(0.05)).name())).name();
+  Context context;
+  const auto watch = server.jobs->WatchJob(&context, request_for(job));
+  ASSERT_TRUE(eventually([&] { return server.info().metrics().iterations() > 20'000; }));
+  EXPECT_TRUE(server.cancel(job).ok());
+  std::thread drain([&] { server.server().drain(10min); });
+  ASSERT_TRUE(eventually([&] { return !server.try_create(opening_job("meshes/0")).ok(); }));
+  v1::WatchJobResponse event;
+  while (watch->Read(&event)) {
+  }
+  EXPECT_TRUE(watch->Finish().ok());
+  EXPECT_TRUE(event.has_ended());
+  drain.join();
+}
+
 TEST(Drain, DoesNotWaitForWhoDoesNotRead) {
   RunningServer server;
   const std::string job = server.create(endless_job(server.create(paper_mesh(0.05)).name())).name();
