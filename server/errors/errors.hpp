@@ -29,6 +29,11 @@ enum class Reason {
   offset_out_of_range,  ///< past the end of a block
   busy,                 ///< a queue or budget is full now; try again after retry_delay
   draining,             ///< the server is stopping
+  disk_full,            ///< no space, or the disk budget is spent; try again after retry_delay
+  result_expired,       ///< the result was removed by age or by the disk budget
+  timed_out,            ///< a job waited or ran longer than it may
+  unauthenticated,      ///< nobody this server knows
+  permission_denied,    ///< known, but only an administrator may
   not_implemented,      ///< in the API, not in this version
   cancelled,            ///< asked to stop
   mesher_failed,        ///< the helper crashed, timed out or ran out of memory

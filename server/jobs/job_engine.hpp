@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,17 +17,32 @@
 namespace anticrack::jobs {
 
 struct EngineOptions {
-  int threads = 2;                 ///< load cases solved at once
-  int max_load_cases = 10'000;     ///< a job
+  int threads = 2;              ///< that solve
+  int columns = 32;             ///< load cases of one mesh that iterate or are condensed together
+  int max_load_cases = 10'000;  ///< a job
   int max_iterations = 1'000'000;  ///< a load case
   std::size_t max_expression_bytes = 4096;
-  int max_queued_jobs = 1'000;              ///< then `busy` with a retry delay
-  int max_kept_jobs = 10'000;               ///< ended ones; the oldest go first
+  // Admission: beyond one of these `busy` with a retry delay.
+  int max_queued_jobs = 1'000;                    ///< that have not started
+  int max_queued_cases = 100'000;                 ///< of one mesh, started or not, not ended
+  std::uint64_t max_queued_bytes = 256ULL << 20;  ///< of all specs of jobs that have not ended
+  std::chrono::milliseconds queue_time{24 * 3600'000};  ///< longest a job may wait; then it fails
+  std::chrono::milliseconds run_time{24 * 3600'000};    ///< longest a job may run
+  std::chrono::milliseconds ageing{30'000};  ///< waiting this long is worth one class of priority
+  /// What a solver thread gives one mesh before it looks at the others.
+  std::chrono::milliseconds turn{50};
   std::size_t event_log_bytes = 16u << 20;  ///< a job
+  /// Event logs of ended jobs together; the oldest go first, the newest never.
+  std::uint64_t max_log_bytes = std::uint64_t{256} << 20;
   /// Traces, fields and history of one job; load cases that would come after it is reached fail.
   std::uint64_t max_result_bytes = std::uint64_t{2} << 30;
-  /// Results and event logs of ended jobs together; the oldest jobs go first, never the newest.
-  std::uint64_t max_kept_bytes = std::uint64_t{4} << 30;
+  // Retention of ended jobs:
+  int max_kept_jobs = 10'000;                               ///< records; the oldest are erased
+  std::chrono::milliseconds result_ttl{7 * 24 * 3600'000};  ///< then the result expires; 0: never
+  std::uint64_t result_budget = std::uint64_t{4} << 30;     ///< bytes; the oldest results expire
+  std::chrono::milliseconds upload_ttl{7 * 24 * 3600'000};  ///< of uploads nothing refers to
+  /// Told of each job that ended, without a lock, before its watchers are.
+  std::function<void(const store::JobRecord&)> ended = {};
 };
 
 struct EngineMetrics {
@@ -34,43 +50,64 @@ struct EngineMetrics {
   std::uint64_t jobs_ended = 0;
   std::uint64_t load_cases_ended = 0;
   std::uint64_t iterations = 0;
+  std::uint64_t results_expired = 0;
   int jobs_queued = 0;   ///< now, those waiting for a mesh included
   int jobs_running = 0;  ///< now
+  int columns = 0;       ///< load cases on solver threads now
+  std::uint64_t queued_bytes = 0;
+  std::chrono::duration<double> oldest_wait{0};  ///< of the jobs that have not started
+};
+
+/// What a client asks for.
+struct Submission {
+  store::JobSpec spec;
+  std::string owner;
+  std::string request_id;  ///< empty: not idempotent
 };
 
 /// Owns the worker threads. A job waits for its mesh on a thread of the (small) preparation pool,
-/// never on a solver thread, so an expensive factorisation starves nobody. Load cases of one job
-/// are independent and run on as many solver threads as are free, in order.
+/// never on a solver thread, so an expensive factorisation starves nobody. Solver threads take
+/// turns over the meshes that have work, the most urgent first (schedule.hpp); in a turn the load
+/// cases of one mesh, of whatever job, run together: as columns of a UzawaBlock that join and leave
+/// at iteration boundaries, or condensed in one block and solved by the active set. Cancel and time
+/// limits take effect within one iteration or step, also while queued, meshing or factorising. What
+/// the store cannot take at a job's end (a full disk) is kept and tried again: the job stays
+/// RUNNING, phase "writing the result", until it is written, cancelled or the server stops.
 /// Thread-safe; no method but the destructor and `stop` blocks on a solve.
 class JobEngine {
  public:
+  /// Queues the jobs the store has unfinished; those that had started with attempt + 1.
   JobEngine(EngineOptions options, store::Store& store, meshes::MeshCatalogue& catalogue);
   /// stop(0s).
   ~JobEngine();
 
   /// Checks the job (errors::Error with "load_cases[i]...." or "solver...." at fault: no load case,
   /// duplicate or empty name, bad expression or parameter; not_found for the mesh and for an
-  /// uploaded array; busy; draining) and queues it. Same non-empty request id: the same job.
-  store::JobRecord submit(const store::JobSpec& spec, const std::string& request_id);
+  /// uploaded array; busy; disk_full; draining) and queues it. When it returns the job is on the
+  /// disk. Same owner and non-empty request id: the same job.
+  store::JobRecord submit(const Submission& submission);
 
   store::JobRecord get(const std::string& id) const;  ///< live state; throws not_found
-  std::vector<store::JobRecord> list(const std::string& after, std::size_t count) const;
+  std::vector<store::JobRecord> list(const store::Page& page) const;
 
   /// Effective within one iteration, also while queued, meshing or factorising. Idempotent.
   store::JobRecord cancel(const std::string& id);
   void erase(const std::string& id);  ///< throws not_found, in_use (not ended)
 
-  /// The job's event log, to read and listen to; throws not_found.
+  /// The job's event log, to read and listen to; throws not_found. The events of attempt n have
+  /// sequence numbers above (n-1) 2^40, so that they grow over restarts; of a job that ended before
+  /// this start of the server, or whose log went, there is the end event alone, above all others.
   std::shared_ptr<EventLog> events(const std::string& id) const;
 
-  /// Throws not_found, not_ready (not ended, or no load case has an answer).
-  std::shared_ptr<const store::Block> result(const std::string& id) const;
+  /// Throws not_found, not_ready (not ended, or no load case has an answer), result_expired.
+  std::shared_ptr<const store::BlockSource> result(const std::string& id) const;
 
-  /// Refuses new jobs, lets running load cases go on for at most `grace`, then cancels them;
-  /// returns when all workers are idle. Idempotent.
+  /// Refuses new jobs and starts no more; lets running jobs go on for at most `grace`; what has not
+  /// ended then is left to the store as queued, for the next start, without an end event. Returns
+  /// when all workers are idle. Idempotent.
   void stop(std::chrono::milliseconds grace);
 
-  /// Every job has ended, and its end event is in its log.
+  /// No job runs, and the end events of those that did are in their logs.
   bool idle() const;
   EngineMetrics metrics() const;
   const EngineOptions& options() const noexcept;

@@ -20,7 +20,10 @@ namespace anticrack::meshes {
 struct CatalogueOptions {
   mesher::HelperOptions helper;
   std::size_t max_triangles = 4'000'000;
-  std::size_t max_pending = 64;  ///< meshes waiting for the mesher, then `busy`
+  std::size_t max_pending = 64;     ///< meshes waiting for the mesher, then `busy`
+  std::size_t max_meshes = 10'000;  ///< records; then limit_exceeded: delete some
+  /// Told of each mesh the helper made or failed to make, without a lock.
+  std::function<void(const store::MeshRecord&)> meshed = {};
 };
 
 /// A mesh on its way to READY: phases for whoever waits.
@@ -37,12 +40,26 @@ class MeshCatalogue {
   /// Checks the definition (errors::Error: geometry_invalid, invalid_argument, not_found for an
   /// upload, busy) and returns its record: the one that is there already for the same definition,
   /// or a new one, `pending`. A failed one is tried again. Does not block.
-  store::MeshRecord create(const store::MeshDefinition& definition, const std::string& title);
+  /// Owners share triangulations and operators of equal meshes, but no records.
+  store::MeshRecord create(const store::MeshDefinition& definition, const std::string& title,
+                           const std::string& owner);
 
   store::MeshRecord get(const std::string& id) const;  ///< throws not_found
-  std::vector<store::MeshRecord> list(const std::string& after, std::size_t count) const;
-  /// Throws not_found, not_ready (not meshed).
-  std::shared_ptr<const store::Block> read(const std::string& id) const;
+  std::vector<store::MeshRecord> list(const store::Page& page) const;
+  /// Throws not_found, not_ready (not meshed). O(m): reads the triangulation.
+  std::shared_ptr<const store::BlockSource> read(const std::string& id) const;
+
+  /// Has the operators made in the background, as creating does; with `pin` they are kept in memory
+  /// until evicted. Returns at once. Throws not_found, busy, the mesh's error if it failed.
+  store::MeshRecord warm(const std::string& id, bool pin);
+  /// Frees the operators; the definition and the triangulation stay. Nothing to do is no error.
+  /// Throws not_found, in_use (a running job or a factorisation holds them).
+  store::MeshRecord evict(const std::string& id);
+  /// Throws not_found, in_use (being prepared, or a job that has not ended uses it).
+  void erase(const std::string& id);
+  /// A job that has not ended uses the mesh: erase() refuses until the last of them lets go. Throws
+  /// not_found.
+  std::shared_ptr<void> use(const std::string& id);
 
   /// Meshes and factorises if need be, and returns the pinned operator. Blocks; `listener` hears of
   /// each phase on the calling thread. Throws the mesh's error if it failed; busy when the memory
@@ -55,7 +72,9 @@ class MeshCatalogue {
   /// True when prepare() would not block: operators in memory.
   bool ready(const std::string& id) const;
 
+  bool pinned(const std::string& id) const;
   std::uint64_t meshings() const noexcept;  ///< runs of the helper so far
+  int pending() const;                      ///< meshes waiting for the mesher or in it
 
  private:
   struct State;

@@ -7,19 +7,26 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <stop_token>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "contact/answer.hpp"
+#include "errors/errors.hpp"
 #include "fem/load.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::operators {
 
+class PreparedLoad;
+class UzawaBlock;
+
 /// Factorised subdomains, Schur complements, the skeleton condensed to the cracks, interface mass
 /// and theta* of one mesh.
 /// Immutable after construction: any number of threads may solve on it at once.
-class MeshOperator {
+class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
  public:
   /// Factorises every subdomain (paper: the matrices of Algorithm 2), two at a time where
   /// `threads` allows. Throws errors::Error: numerical (a part that nothing or
@@ -39,6 +46,19 @@ class MeshOperator {
   contact::Answer solve(const fem::Load& load, const contact::SolverOptions& options, bool fields,
                         contact::Observer& observer, const std::stop_token& stop = {}) const;
 
+  /// Condenses several loads with one pass over the factors: forward solves in blocks of columns.
+  /// Entry i belongs to loads[i]; what is wrong with one load is its entry (as `solve` throws it)
+  /// and no other's. The numbers of a load do not depend on its neighbours beyond rounding (1e-14).
+  std::vector<std::variant<PreparedLoad, errors::Error>> prepare(
+      std::span<const fem::Load* const> loads, const std::stop_token& stop = {}) const;
+
+  /// `solve` from a prepared load.
+  contact::Answer solve(const PreparedLoad& load, const contact::SolverOptions& options,
+                        bool fields, contact::Observer& observer) const;
+
+  /// Why Algorithm 2 does not apply to this mesh; empty where it does.
+  const std::string& uzawa_obstacle() const noexcept;
+
   const mesh::Mesh& mesh() const noexcept;
   /// Per interface of the mesh.
   const std::vector<contact::TraceGeometry>& trace_geometry() const noexcept;
@@ -54,6 +74,58 @@ class MeshOperator {
   struct Parts;
   explicit MeshOperator(std::unique_ptr<const Parts> parts);
   std::unique_ptr<const Parts> _parts;
+};
+
+/// A load condensed on one mesh. Keeps the mesh's operators alive.
+class PreparedLoad {
+ public:
+  PreparedLoad(PreparedLoad&&) noexcept;
+  PreparedLoad& operator=(PreparedLoad&&) noexcept;
+  ~PreparedLoad();
+
+ private:
+  friend class MeshOperator;
+  friend class UzawaBlock;
+  struct Data;
+  explicit PreparedLoad(std::unique_ptr<Data> data);
+  std::unique_ptr<Data> _data;
+};
+
+/// Load cases of one mesh that iterate Algorithm 2 together, one column each: a matrix product
+/// where each alone would cost matrix-vector products. Columns join and leave between two
+/// iterations; each has its own theta, p, stopping rule and observer. The numbers of a column do
+/// not depend on the others beyond rounding (1e-12 of a converged answer). One object belongs to
+/// one thread at a time.
+class UzawaBlock {
+ public:
+  /// Throws errors::Error (not_implemented) where Algorithm 2 does not apply to the mesh.
+  UzawaBlock(std::shared_ptr<const MeshOperator> mesh_operator, contact::Mass mass, int capacity);
+  ~UzawaBlock();
+  UzawaBlock(const UzawaBlock&) = delete;
+  UzawaBlock& operator=(const UzawaBlock&) = delete;
+
+  int columns() const noexcept;  ///< under way
+  int capacity() const noexcept;
+
+  /// The place of the column, below capacity(), until it has ended. `options.mass` is the block's.
+  /// The observer outlives the column.
+  int add(PreparedLoad load, const contact::UzawaOptions& options, bool fields,
+          contact::Observer& observer);
+  /// One iteration of every column: O(n_G^2 columns) as one product, no allocation. Each observer
+  /// hears of its column; one that says no ends it as cancelled.
+  void step();
+
+  struct Ended {
+    int place = 0;
+    contact::Answer answer;
+  };
+  /// The columns that ended in the last step, in the order of their places, which are free now. May
+  /// cost a backward solve each (traces, fields).
+  std::vector<Ended> take_ended();
+
+ private:
+  struct State;
+  std::unique_ptr<State> _state;
 };
 
 /// Upper estimate of bytes() before factorising. O(m).

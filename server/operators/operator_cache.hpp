@@ -3,6 +3,7 @@
 // Factorised meshes in memory, under a byte budget.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -18,7 +19,10 @@ struct CacheMetrics {
   std::uint64_t hits = 0;
   std::uint64_t joins = 0;  ///< callers that waited for a factorisation under way
   std::uint64_t evictions = 0;
-  std::uint64_t bytes = 0;  ///< held now
+  std::uint64_t bytes = 0;   ///< held now, what is being factorised counted by its estimate
+  std::uint64_t budget = 0;  ///< bytes
+  std::uint64_t pinned = 0;  ///< of `bytes`, what cannot be evicted now
+  int entries = 0;           ///< meshes
 };
 
 /// Contract:
@@ -28,14 +32,19 @@ struct CacheMetrics {
 /// 3. Before a factorisation its estimate is reserved: unpinned entries go, least recently used
 ///    first; where that is not enough: errors::Error (busy, or limit_exceeded when the estimate
 ///    alone is over the budget). After it the measured size replaces the estimate.
-/// 4. A joiner's stop ends its wait; the factorisation itself stops when nobody waits any more.
+///    The budget is kept: at no moment do measured and reserved bytes together exceed it.
+/// 4. `pin` keeps an entry until `unpin` or `evict`, also without a holder.
+/// 5. Evicted memory goes back to the system (glibc keeps freed pages otherwise: malloc_trim).
+/// 6. A joiner's stop ends its wait; the factorisation itself stops when nobody waits any more.
 /// Thread-safe. Locks are never held while factorising.
 class OperatorCache {
  public:
   using Factorise = std::function<std::shared_ptr<const MeshOperator>(
       std::shared_ptr<const mesh::Mesh>, std::stop_token)>;
+  /// Told of each factorisation that succeeded, without a lock: how long it took.
+  using Listener = std::function<void(std::chrono::duration<double>)>;
 
-  OperatorCache(std::uint64_t budget_bytes, Factorise factorise);
+  OperatorCache(std::uint64_t budget_bytes, Factorise factorise, Listener factorised = {});
   /// Stops factorisations nobody waits for any more and waits until they have stopped.
   ~OperatorCache();
 
@@ -48,8 +57,11 @@ class OperatorCache {
   /// The operator when it is in memory (a hit), else null. Does not block.
   std::shared_ptr<const MeshOperator> find(const std::string& key);
   bool contains(const std::string& key) const;
-  /// Drops an entry. False when it is pinned or not there.
-  bool evict(const std::string& key);
+  /// Keeps an entry that is in memory; false when it is not there.
+  bool pin(const std::string& key);
+  enum class Eviction { done, not_there, in_use };
+  /// Drops an entry, a pinned one too; not one that somebody holds or that is being factorised.
+  Eviction evict(const std::string& key);
   CacheMetrics metrics() const;
 
  private:

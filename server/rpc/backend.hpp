@@ -36,9 +36,11 @@ struct Limits {
   std::uint64_t memory_budget_bytes = 0;
   std::chrono::seconds meshing_time{600};
   /// A reader that does not read holds about 4 MiB of the transport's buffers.
-  int watchers = 256;
+  int watchers = 2'000;
   /// Uploads and block reads under way.
-  int transfers = 32;
+  int transfers = 64;
+  /// Of the two, how many one identity (or, without one, one peer address) may hold.
+  int streams_a_client = 1'024;
   /// Creations that wait to be checked; each holds its request of at most 4 MiB.
   int waiting_creations = 128;
 };

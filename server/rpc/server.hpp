@@ -9,15 +9,40 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "access/tokens.hpp"
 #include "rpc/backend.hpp"
 
 namespace anticrack::rpc {
 
+/// PEM texts.
+struct Tls {
+  std::string certificate;  ///< of the server, with those between it and the root
+  std::string key;
+  std::string client_roots;  ///< empty: clients need no certificate; else mutual TLS
+};
+
+/// Who is let in. Without tokens and client certificates everybody is an administrator: right for
+/// one's own machine only. Health and reflection are open to all.
+struct Security {
+  std::optional<Tls> tls;           ///< none: nothing is encrypted
+  access::TokenTable tokens;        ///< "authorization: Bearer TOKEN"
+  std::vector<std::string> admins;  ///< common names of client certificates with that role
+};
+
+/// What is told of every call that ended: "/anticrack.v1.SolveService/GetJob", its gRPC code.
+using CallListener =
+    std::function<void(const std::string& method, int code, std::chrono::duration<double>)>;
+
 struct ServerOptions {
   std::string listen = "127.0.0.1:7433";  ///< HOST:PORT (port 0 picks one) or unix:PATH
+  Security security;
+  CallListener call_ended;  ///< quick, does not throw
   Limits limits;
   std::chrono::milliseconds heartbeat{10'000};  ///< of a watch where nothing happens
   std::chrono::milliseconds stall{60'000};  ///< then a peer that does not read or send is cut off
@@ -35,12 +60,22 @@ class Server {
   /// HOST:PORT with the real port, or unix:PATH.
   const std::string& address() const noexcept;
 
+  /// Health says NOT_SERVING from now on; all else goes on. For balancers, which take a moment to
+  /// send no more.
+  void announce_stop();
   /// Health says NOT_SERVING; new meshes, jobs, watches and transfers are refused (UNAVAILABLE);
   /// running jobs go on for at most `grace`, watched; then watches and transfers end with
   /// UNAVAILABLE and a retry delay (a watch whose job ended sends the rest first), whoever does not
   /// take it is broken off, and the server shuts down, three seconds later at the latest.
   /// Idempotent: a second call waits for the first.
   void drain(std::chrono::milliseconds grace);
+
+  struct Metrics {
+    int watchers = 0;
+    int transfers = 0;
+    std::uint64_t largest_lag = 0;  ///< events the slowest watcher is behind
+  };
+  Metrics metrics() const;
 
  private:
   struct State;

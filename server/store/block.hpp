@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,12 +22,26 @@ struct ArrayLayout {
   std::uint64_t offset = 0;
 };
 
-/// Immutable once built and shared; chunks are cut out of `bytes` without a copy.
+/// Immutable once built and shared.
 struct Block {
   std::vector<ArrayLayout> arrays;
   std::vector<std::byte> bytes;
   std::string sha256;
 };
+
+/// A block wherever it lies, read piece by piece: a large result is never in memory as a whole.
+/// Thread-safe. Stays readable while it is held, also when the store has erased it since.
+class BlockSource {
+ public:
+  virtual ~BlockSource() = default;
+  virtual const std::vector<ArrayLayout>& arrays() const noexcept = 0;
+  virtual std::uint64_t size() const noexcept = 0;  ///< bytes
+  virtual const std::string& sha256() const noexcept = 0;
+  /// Fills `bytes` from `offset` on; all of them lie in the block. Throws errors::Error (storage).
+  virtual void read(std::uint64_t offset, std::span<std::byte> bytes) const = 0;
+};
+
+std::shared_ptr<const BlockSource> in_memory(std::shared_ptr<const Block> block);
 
 class BlockBuilder {
  public:

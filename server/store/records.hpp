@@ -69,7 +69,8 @@ struct InterfaceSummary {
 };
 
 struct MeshRecord {
-  std::string id;  ///< first 16 digits of the definition's hash
+  std::string id;     ///< first 16 digits of the hash of definition and owner
+  std::string owner;  ///< identity that made it; empty on a server that asks for none
   std::string title;
   MeshDefinition definition;
   MeshState state = MeshState::pending;
@@ -101,6 +102,9 @@ constexpr bool ended(JobState state) noexcept {
   return state >= JobState::succeeded;
 }
 
+/// Who goes first. What waits long is treated as more urgent (jobs/schedule.hpp).
+enum class Priority { interactive, normal, bulk };
+
 enum class CaseStatus { pending, running, converged, not_converged, failed, cancelled };
 
 /// A load case's answer without its arrays, which are in the result block.
@@ -118,10 +122,22 @@ struct JobSpec {
   std::vector<fem::Load> loads;
   contact::SolverOptions solver;
   bool fields = false;
+  Priority priority = Priority::normal;
+  std::chrono::milliseconds queue_time_limit{0};  ///< from creation to start; 0: the server's
+  std::chrono::milliseconds run_time_limit{0};    ///< from start to end; 0: the server's
+};
+
+/// A step of a job's way: it passed into `state`, or into another phase of it.
+struct Step {
+  Clock::time_point time;
+  JobState state = JobState::queued;
+  std::string detail;  ///< e.g. "meshing"
 };
 
 struct JobRecord {
   std::string id;
+  std::string owner;       ///< as MeshRecord::owner
+  std::string request_id;  ///< empty: none
   JobSpec spec;
   JobState state = JobState::queued;
   std::optional<errors::Error> error;
@@ -130,7 +146,8 @@ struct JobRecord {
   std::optional<Clock::time_point> ended;
   std::vector<CaseRecord> cases;  ///< one per load
   std::uint64_t result_bytes = 0;
-  int attempt = 1;
+  int attempt = 1;             ///< counts restarts of the server while it ran
+  std::vector<Step> timeline;  ///< of this attempt and those before, at most a few dozen
 };
 
 }  // namespace anticrack::store

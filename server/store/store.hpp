@@ -1,7 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What outlives a request. One interface; the implementation of this version keeps records and
-// blocks in memory and uploads as files.
+// What outlives a request, a restart and a crash: records in SQLite, meshes, results and uploads as
+// files beside it.
+//
+//   DATA/anticrack.db (+ -wal, -shm)   records; PRAGMA user_version is the schema's version
+//   DATA/meshes/SHA256                 mesh::encode of a triangulation
+//   DATA/results/SHA256                a result block, its layout in front
+//   DATA/uploads/SHA256                what a client uploaded
+//   DATA/*/part-XXXXXX                 being written; removed at the next start
+//
+// A file is written under a temporary name, flushed, renamed, its folder flushed; only then a
+// record refers to it. A record is changed in a transaction (WAL, synchronous=FULL). So at any
+// moment, also after `kill -9` or a full disk, every record is whole and every file a record
+// refers to is there. Files no record refers to are removed at the next start.
 #pragma once
 
 #include <cstdint>
@@ -16,49 +27,92 @@
 
 namespace anticrack::store {
 
+/// Newest first, `count` records after the one with id `after` (empty: from the start); of `owner`
+/// alone where one is given.
+struct Page {
+  std::string after;
+  std::size_t count = 0;
+  std::optional<std::string> owner;
+};
+
+/// Bytes on the disk.
+struct Usage {
+  std::uint64_t meshes = 0;
+  std::uint64_t results = 0;
+  std::uint64_t uploads = 0;
+  std::uint64_t database = 0;
+  std::uint64_t total() const { return meshes + results + uploads + database; }
+};
+
+/// What retention (jobs/retention.hpp) decides on.
+struct EndedJob {
+  std::string id;
+  Clock::time_point ended;
+  std::uint64_t result_bytes = 0;  ///< 0: none, or expired
+};
+
+struct StoreOptions {
+  std::string folder;             ///< made, for its owner alone, where it is missing
+  std::uint64_t disk_budget = 0;  ///< bytes for all of it; 0: the disk's size is the limit
+};
+
 /// Contract:
-/// 1. Every method may be called from any thread and is atomic.
-/// 2. A method that writes has either written all or, when it throws errors::Error (storage),
-///    nothing.
-/// 3. Lists are newest first and stable under insertion: `after` is the id of the last record of
-///    the previous page (empty: from the start); an unknown one throws not_found.
+/// 1. Every method may be called from any thread and is atomic. Writers may wait for the disk.
+/// 2. A method that writes returns when what it wrote is on the disk; when it throws errors::Error
+///    (disk_full with a retry delay: no space, or budget; storage: any other failure of the disk)
+///    it has written nothing, and the same call may succeed later. Nothing but a bad disk makes the
+///    store unusable.
+/// 3. Lists are stable under insertion; an unknown `after` throws not_found.
 /// 4. Ids are unique for ever; an erased id does not come back by itself.
 class Store {
  public:
   virtual ~Store() = default;
 
   virtual void put(const MeshRecord& record) = 0;  ///< inserts or replaces
+  /// The same with the triangulation, whose encoding has the hash record.sha256.
+  virtual void put(const MeshRecord& record, const mesh::Mesh& triangulation) = 0;
   virtual std::optional<MeshRecord> mesh(const std::string& id) const = 0;
-  virtual std::vector<MeshRecord> meshes(const std::string& after, std::size_t count) const = 0;
+  virtual std::vector<MeshRecord> meshes(const Page& page) const = 0;
+  virtual std::size_t mesh_count() const = 0;
+  /// And its triangulation, where no other record has the same. Throws not_found.
   virtual void erase_mesh(const std::string& id) = 0;
+  /// Shared among all who hold it at the same time, else read from the disk and checked: null where
+  /// there is none; storage where the file does not have its hash.
+  virtual std::shared_ptr<const mesh::Mesh> triangulation(const std::string& sha256) const = 0;
 
-  /// The triangulation of a mesh record that has one, and its block for ReadMesh.
-  virtual void put_triangulation(const std::string& id, std::shared_ptr<const mesh::Mesh> mesh,
-                                 std::shared_ptr<const Block> block) = 0;
-  virtual std::shared_ptr<const mesh::Mesh> triangulation(const std::string& id) const = 0;
-  virtual std::shared_ptr<const Block> mesh_block(const std::string& id) const = 0;
-
-  /// Inserts the job, or returns the one that was made with this (non-empty) request id before;
-  /// throws request_id_reused when that one had another fingerprint.
-  virtual JobRecord create(const JobRecord& record, const std::string& request_id,
-                           const std::string& fingerprint) = 0;
-  virtual void put(const JobRecord& record) = 0;  ///< replaces
+  /// Inserts the job, or returns the one its owner made with the same (non-empty) request id
+  /// before; throws request_id_reused when that one had another fingerprint.
+  virtual JobRecord create(const JobRecord& record, const std::string& fingerprint) = 0;
+  virtual void put(const JobRecord& record) = 0;  ///< replaces; throws not_found
+  /// The end of a job: its last record and its result (null: none), both or neither.
+  virtual void finish(const JobRecord& record, std::shared_ptr<const Block> result) = 0;
   virtual std::optional<JobRecord> job(const std::string& id) const = 0;
-  virtual std::vector<JobRecord> jobs(const std::string& after, std::size_t count) const = 0;
-  virtual void erase_job(const std::string& id) = 0;  ///< and its result
+  virtual std::vector<JobRecord> jobs(const Page& page) const = 0;
+  virtual std::vector<JobRecord> unfinished() const = 0;  ///< oldest first: to be queued at a start
+  virtual std::vector<EndedJob> ended() const = 0;        ///< oldest end first
+  /// Null where the job has none. The file is not read as a whole.
+  virtual std::shared_ptr<const BlockSource> result(const std::string& job) const = 0;
+  /// Removes the result of an ended job and sets its state to `expired`; throws not_found.
+  virtual void expire(const std::string& job) = 0;
+  virtual void erase_job(const std::string& id) = 0;  ///< and its result; throws not_found
 
-  virtual void put_result(const std::string& job, std::shared_ptr<const Block> block) = 0;
-  virtual std::shared_ptr<const Block> result(const std::string& job) const = 0;
+  /// Where the upload with this hash lies that `owner` made; empty where there is none.
+  virtual std::optional<std::string> upload_path(const std::string& sha256,
+                                                 const std::string& owner) const = 0;
+  /// A fresh file to receive an upload of `bytes`; `keep_upload` moves it to its place.
+  virtual std::string new_upload_path(std::uint64_t bytes) = 0;
+  virtual void keep_upload(const std::string& path, const std::string& sha256,
+                           const std::string& owner) = 0;
+  /// Removes uploads made before `before` that no unfinished job and no mesh without a
+  /// triangulation refers to; returns how many.
+  virtual std::size_t expire_uploads(Clock::time_point before) = 0;
 
-  /// Where the upload with this hash lies; empty where there is none.
-  virtual std::optional<std::string> upload_path(const std::string& sha256) const = 0;
-  /// A fresh file to receive an upload; `keep_upload` moves it to its place, atomically.
-  virtual std::string new_upload_path() = 0;
-  virtual void keep_upload(const std::string& path, const std::string& sha256) = 0;
+  virtual Usage usage() const = 0;
 };
 
-/// Records in memory, uploads below `folder` (made if missing, left-over parts removed).
-/// Throws errors::Error (storage) when the folder cannot be written.
-std::unique_ptr<Store> make_memory_store(const std::string& folder);
+/// Opens or makes the folder; brings an older schema up to date (in one transaction, a copy of the
+/// database beside it until it is done). Throws errors::Error (storage): the folder cannot be
+/// written, the database is damaged, or a newer anticrack wrote it.
+std::unique_ptr<Store> open(const StoreOptions& options);
 
 }  // namespace anticrack::store

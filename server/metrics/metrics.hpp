@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The server as Prometheus sees it: text over HTTP on a port of its own. Names begin with
+// "anticrack_", units are base units, counters end in "_total"; no label names a job, mesh or user.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "jobs/job_engine.hpp"
+#include "operators/operator_cache.hpp"
+#include "store/records.hpp"
+#include "store/store.hpp"
+
+namespace anticrack::metrics {
+
+/// What is read at each scrape.
+struct Snapshot {
+  jobs::EngineMetrics engine;
+  operators::CacheMetrics cache;
+  store::Usage disk;
+  std::uint64_t meshings = 0;
+  int pending_meshes = 0;
+  int watchers = 0;
+  int transfers = 0;
+  std::uint64_t largest_lag = 0;
+  bool ready = false;
+};
+
+/// Counts and times what happens between scrapes. Thread-safe; every method is quick and throws
+/// nothing.
+class Metrics {
+ public:
+  Metrics(const std::string& version, const std::string& build);
+  ~Metrics();
+
+  void call_ended(const std::string& method, int code, std::chrono::duration<double> time) noexcept;
+  /// By its timeline: waiting, meshing, factorising, solving, writing; by state and reason.
+  void job_ended(const store::JobRecord& job) noexcept;
+  void meshed(const store::MeshRecord& mesh) noexcept;
+  void factorised(std::chrono::duration<double> time) noexcept;
+
+  /// Serves /metrics at HOST:PORT (port 0 picks one) and returns the address. `read` is called at
+  /// each scrape, on the HTTP server's thread, until stop(). Throws errors::Error
+  /// (invalid_argument, field "metrics-listen").
+  std::string listen(const std::string& address, std::function<Snapshot()> read);
+  void stop();
+
+ private:
+  struct State;
+  std::unique_ptr<State> _state;
+};
+
+}  // namespace anticrack::metrics
