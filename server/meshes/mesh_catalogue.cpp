@@ -257,8 +257,9 @@ void MeshCatalogue::erase(const std::string& id) {
   Preparation& preparation = _state->preparation;
   MeshIndex& index = preparation.index();
   auto lock = preparation.lock();
+  preparation.wait_for_end(lock, id);
   LiveMesh& mesh = index.known(id);
-  if (mesh.scheduled() || mesh.running || mesh.waiting > 0 || mesh.claimed) {
+  if (mesh.scheduled() || mesh.waiting > 0 || mesh.claimed) {
     throw in_use(id, "it is being prepared; wait until it is READY");
   }
   if (!mesh.users.expired()) {

@@ -106,6 +106,13 @@ void Preparation::wait_for_claim(std::unique_lock<std::mutex>& lock, const std::
   });
 }
 
+void Preparation::wait_for_end(std::unique_lock<std::mutex>& lock, const std::string& id) {
+  _changed.wait(lock, [&] {
+    const LiveMesh* mesh = _index.find(id);
+    return mesh == nullptr || !mesh->running || !mesh->ending;
+  });
+}
+
 std::shared_ptr<const mesh::Mesh> Preparation::triangulate(const std::string& id) {
   std::string twin;
   {
@@ -259,7 +266,7 @@ Preparation::Operator Preparation::prepare(const std::string& id, const PhaseLis
   try {
     listener(MeshState::factorizing);
   } catch (...) {
-    end_factorizing(id, {});
+    end_factorizing(id, {}, false);
     throw;
   }
   return factorize(id, nullptr, true, stop);

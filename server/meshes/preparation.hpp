@@ -52,6 +52,8 @@ class Preparation {
   void notify() { _changed.notify_all(); }
   /// Waits until nobody is making or erasing the mesh.
   void wait_for_claim(std::unique_lock<std::mutex>& lock, const std::string& id);
+  /// Waits until a run in the background that has told how it ended is over: soon.
+  void wait_for_end(std::unique_lock<std::mutex>& lock, const std::string& id);
 
   // Without it:
   /// The record with the state of this moment. Throws errors::Error (not_found).
@@ -72,7 +74,7 @@ class Preparation {
   void recover();
   store::MeshRecord stored(const std::string& id) const;
   static void begin_factorizing(LiveMesh& mesh);
-  void end_factorizing(const std::string& id, const Outcome& outcome);
+  void end_factorizing(const std::string& id, const Outcome& outcome, bool last_step);
   bool write_outcome(const std::string& id, const Outcome& outcome);
   Operator load(const std::string& id, std::shared_ptr<const mesh::Mesh> mesh,
                 const std::stop_token& stop);

@@ -48,7 +48,7 @@ bool Preparation::write_outcome(const std::string& id, const Outcome& outcome) {
 }
 
 /// The first of those who wait together records the outcome and how long it took.
-void Preparation::end_factorizing(const std::string& id, const Outcome& outcome) {
+void Preparation::end_factorizing(const std::string& id, const Outcome& outcome, bool last_step) {
   std::unique_lock lock(_mutex);
   LiveMesh& mesh = _index.known(id);  // it is not erased before the count is down again
   Outcome told = outcome;
@@ -70,6 +70,7 @@ void Preparation::end_factorizing(const std::string& id, const Outcome& outcome)
     }
     ++mesh.version;
   }
+  mesh.ending = mesh.ending || last_step;
   if (--mesh.factorizing == 0) {
     mesh.undecided = false;
   }
@@ -99,8 +100,8 @@ Preparation::Operator Preparation::load(const std::string& id,
   return result;
 }
 
-/// Ends what begin_factorizing began. Without `hold` the operators are let go before anybody is
-/// told that they are there, and null is returned.
+/// Ends what begin_factorizing began. Without `hold` (the last step of a run in the background) the
+/// operators are let go before anybody is told that they are there, and null is returned.
 Preparation::Operator Preparation::factorize(const std::string& id,
                                              std::shared_ptr<const mesh::Mesh> mesh, bool hold,
                                              const std::stop_token& stop) {
@@ -124,7 +125,7 @@ Preparation::Operator Preparation::factorize(const std::string& id,
   if (!hold) {
     result.reset();
   }
-  end_factorizing(id, outcome);
+  end_factorizing(id, outcome, !hold);
   if (error) {
     throw Error(*error);
   }
