@@ -41,14 +41,12 @@ TEST(Log, LetsNoValueForgeALineOrAKey) {
   const auto attack = [] {
     info("mesh made", {{"title", "x\" state=\"READY\n2026 error all lost {0} %v"}});
   };
-  EXPECT_THAT(
-      written("info", Format::text, attack),
-      ::testing::EndsWith(R"(title="x\" state=\"READY\n2026 error all lost {0} %v")"
-                          "\n"));
-  EXPECT_THAT(
-      written("info", Format::json, attack),
-      ::testing::EndsWith(R"("title":"x\" state=\"READY\n2026 error all lost {0} %v"})"
-                          "\n"));
+  EXPECT_THAT(written("info", Format::text, attack),
+              ::testing::EndsWith(R"(title="x\" state=\"READY\n2026 error all lost {0} %v")"
+                                  "\n"));
+  EXPECT_THAT(written("info", Format::json, attack),
+              ::testing::EndsWith(R"("title":"x\" state=\"READY\n2026 error all lost {0} %v"})"
+                                  "\n"));
 }
 
 TEST(Log, WritesNothingBelowItsLevel) {
@@ -57,7 +55,8 @@ TEST(Log, WritesNothingBelowItsLevel) {
     warn("b");
     error("c");
   };
-  EXPECT_THAT(written("warn", Format::text, all), MatchesRegex("[^\n]* warning b\n[^\n]* error c\n"));
+  EXPECT_THAT(written("warn", Format::text, all),
+              MatchesRegex("[^\n]* warning b\n[^\n]* error c\n"));
   EXPECT_EQ(written("off", Format::json, all), "");
 }
 
