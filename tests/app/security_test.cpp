@@ -145,7 +145,8 @@ TEST_F(Security, WarnsOfACertificateThatRunsOut) {
   const std::string key = path("b/server.key");
   const auto make = [&](const std::string& days) {
     anticrack::testing::Process openssl({"/usr/bin/openssl", "req", "-x509", "-new", "-key", key,
-                                         "-subj", "/CN=x", "-days", days, "-out", path("brief.crt")});
+                                         "-subj", "/CN=x", "-days", days, "-out",
+                                         path("brief.crt")});
     EXPECT_EQ(openssl.wait(), 0) << openssl.error();
     Config config;
     config.tls_certificate = path("brief.crt");
