@@ -33,6 +33,16 @@ std::string_view name(Reason reason) noexcept {
       return "BUSY";
     case Reason::draining:
       return "DRAINING";
+    case Reason::disk_full:
+      return "DISK_FULL";
+    case Reason::result_expired:
+      return "RESULT_EXPIRED";
+    case Reason::timed_out:
+      return "TIMED_OUT";
+    case Reason::unauthenticated:
+      return "UNAUTHENTICATED";
+    case Reason::permission_denied:
+      return "PERMISSION_DENIED";
     case Reason::not_implemented:
       return "NOT_IMPLEMENTED";
     case Reason::cancelled:

@@ -115,4 +115,9 @@ std::string identity(const store::MeshDefinition& definition) {
   return hash.finish();
 }
 
+std::string identity(const store::MeshDefinition& definition, const std::string& owner) {
+  const std::string own = identity(definition);
+  return owner.empty() ? own : CanonicalHash().add(own).add(owner).finish();
+}
+
 }  // namespace anticrack::meshes

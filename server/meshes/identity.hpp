@@ -12,4 +12,8 @@ namespace anticrack::meshes {
 /// definition).
 std::string identity(const store::MeshDefinition& definition);
 
+/// Hash of the definition and who owns the mesh: what its id is cut from. An empty owner gives the
+/// definition's.
+std::string identity(const store::MeshDefinition& definition, const std::string& owner);
+
 }  // namespace anticrack::meshes

@@ -8,6 +8,8 @@
 #include "errors/errors.hpp"
 #include "meshes/identity.hpp"
 #include "meshes/preparation.hpp"
+#include "meshes/summary.hpp"
+#include "meshes/triangulation.hpp"
 
 namespace anticrack::meshes {
 
@@ -28,6 +30,24 @@ Error queue_full(std::size_t pending) {
   return error.retry_after(retry_delay);
 }
 
+Error too_many(std::size_t count) {
+  return {Reason::limit_exceeded,
+          "the server keeps " + std::to_string(count) + " meshes and no more: delete some"};
+}
+
+Error in_use(const std::string& id, const std::string& by) {
+  return {Reason::in_use, "meshes/" + id + " is in use: " + by};
+}
+
+void check_title(const std::string& title) {
+  if (title.size() > max_title_bytes) {
+    throw Error(Reason::invalid_argument, "a title of " + std::to_string(title.size()) +
+                                              " bytes: use at most " +
+                                              std::to_string(max_title_bytes))
+        .at("title");
+  }
+}
+
 }  // namespace
 
 struct MeshCatalogue::State {
@@ -45,20 +65,77 @@ struct MeshCatalogue::State {
 
   /// Of a mesh's operators in the cache; empty when it cannot have any.
   std::string key(const std::string& id) const {
-    const std::optional<MeshRecord> record = store.mesh(id);
-    return record && record->state != MeshState::failed ? record->sha256 : std::string();
+    const auto lock = preparation.lock();
+    const LiveMesh* mesh = preparation.index().find(id);
+    return mesh != nullptr && mesh->stage == Stage::meshed ? mesh->sha256 : std::string();
   }
 
   /// Refuses what no run of the mesher could make a mesh of.
-  void check(const store::MeshDefinition& definition) const {
+  void check(const store::MeshDefinition& definition, const std::string& owner) const {
     if (const auto* source = std::get_if<store::GeometrySource>(&definition)) {
       mesh::plan(source->geometry, source->options, options.max_triangles);
     } else {
       const auto& upload = std::get<store::UploadRef>(definition);
       mesh::check_for_upload(upload.options);
-      mesher::require_msh(preparation.require_upload(upload));
+      mesher::require_msh(require_upload(store, upload, owner));
     }
   }
+
+  // With the lock held:
+  void schedule(const std::string& id) {
+    if (preparation.index().queued() >= options.max_pending) {
+      throw queue_full(options.max_pending);
+    }
+    preparation.index().schedule(id);
+    preparation.notify();
+  }
+
+  /// What is there already of a mesh that is asked for again; its preparation goes on where it was
+  /// cut short. False: it is to be made.
+  bool resume(const std::string& id) {
+    LiveMesh* mesh = preparation.index().find(id);
+    if (mesh == nullptr || mesh->stage == Stage::failed) {
+      return false;
+    }
+    if (mesh->stage == Stage::pending && !mesh->scheduled()) {
+      schedule(id);
+    }
+    return true;
+  }
+
+  /// Makes room in the index for a mesh that is to be made, and keeps others from making it.
+  void claim(const std::string& id, const std::string& definition) {
+    MeshIndex& index = preparation.index();
+    if (index.queued() + claims >= options.max_pending) {
+      throw queue_full(options.max_pending);
+    }
+    if (index.find(id) == nullptr && index.size() >= options.max_meshes) {
+      throw too_many(options.max_meshes);
+    }
+    LiveMesh& mesh = index.add(id);
+    mesh.definition = definition;
+    mesh.claimed = true;
+    ++claims;
+  }
+
+  /// The record that was claimed is on the disk, or (null) could not be written.
+  void end_claim(const std::string& id, const MeshRecord* record) {
+    MeshIndex& index = preparation.index();
+    LiveMesh& mesh = index.add(id);
+    mesh.claimed = false;
+    --claims;
+    if (record != nullptr) {
+      mesh.stage = record->sha256.empty() ? Stage::pending : Stage::meshed;
+      mesh.error.reset();
+      ++mesh.version;
+      index.schedule(id);
+    } else if (mesh.stage == Stage::absent) {
+      index.remove(id);
+    }
+    preparation.notify();
+  }
+
+  std::size_t claims = 0;  ///< meshes on their way into the queue; guarded by the lock
 };
 
 MeshCatalogue::MeshCatalogue(CatalogueOptions options, store::Store& store,
@@ -67,65 +144,158 @@ MeshCatalogue::MeshCatalogue(CatalogueOptions options, store::Store& store,
 
 MeshCatalogue::~MeshCatalogue() = default;
 
-MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition,
-                                 const std::string& title) {
-  if (title.size() > max_title_bytes) {
-    throw Error(Reason::invalid_argument, "a title of " + std::to_string(title.size()) +
-                                              " bytes: use at most " +
-                                              std::to_string(max_title_bytes))
-        .at("title");
-  }
-  _state->check(definition);
-  const std::string id = identity(definition).substr(0, id_digits);
-
+MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const std::string& title,
+                                 const std::string& owner) {
+  check_title(title);
+  _state->check(definition, owner);
+  const std::string id = identity(definition, owner).substr(0, id_digits);
   Preparation& preparation = _state->preparation;
+  {
+    auto lock = preparation.lock();
+    preparation.wait_for_claim(lock, id);
+    if (_state->resume(id)) {
+      lock.unlock();
+      return get(id);
+    }
+    _state->claim(id, identity(definition));
+  }
+  MeshRecord record;
+  try {
+    if (std::optional<MeshRecord> failed = _state->store.mesh(id)) {
+      record = std::move(*failed);
+      record.error.reset();
+    } else {
+      record.id = id;
+      record.owner = owner;
+      record.title = title;
+      record.definition = definition;
+      record.created = store::Clock::now();
+    }
+    // A failed one that was meshed has only its operators to be made again.
+    record.state = record.sha256.empty() ? MeshState::pending : MeshState::evicted;
+    _state->store.put(record);
+  } catch (...) {
+    const auto lock = preparation.lock();
+    _state->end_claim(id, nullptr);
+    throw;
+  }
   const auto lock = preparation.lock();
-  std::optional<MeshRecord> record = _state->store.mesh(id);
-  if (record && record->state != MeshState::failed) {
-    return preparation.seen_now(std::move(*record));
-  }
-  if (preparation.full()) {
-    throw queue_full(_state->options.max_pending);
-  }
-  if (!record) {
-    record.emplace();
-    record->id = id;
-    record->title = title;
-    record->definition = definition;
-    record->created = store::Clock::now();
-  }
-  record->error.reset();
-  // A failed one that was meshed has only its operators to be made again.
-  record->state = _state->store.triangulation(id) ? MeshState::evicted : MeshState::pending;
-  _state->store.put(*record);
-  preparation.schedule(id);
-  return preparation.seen_now(std::move(*record));
+  _state->end_claim(id, &record);
+  return seen(preparation.index().known(id), std::move(record), false);
 }
 
 MeshRecord MeshCatalogue::get(const std::string& id) const {
-  const auto lock = _state->preparation.lock();
-  return _state->preparation.seen_now(_state->preparation.stored(id));
+  return _state->preparation.record(id);
 }
 
-std::vector<MeshRecord> MeshCatalogue::list(const std::string& after, std::size_t count) const {
+std::vector<MeshRecord> MeshCatalogue::list(const store::Page& page) const {
+  std::vector<MeshRecord> records = _state->store.meshes(page);
   const auto lock = _state->preparation.lock();
-  std::vector<MeshRecord> records = _state->store.meshes(after, count);
   for (MeshRecord& record : records) {
-    record = _state->preparation.seen_now(std::move(record));
+    if (const LiveMesh* mesh = _state->preparation.index().find(record.id)) {
+      record = seen(*mesh, std::move(record), _state->cache.contains(mesh->sha256));
+    }
   }
   return records;
 }
 
-std::shared_ptr<const store::Block> MeshCatalogue::read(const std::string& id) const {
+std::shared_ptr<const store::BlockSource> MeshCatalogue::read(const std::string& id) const {
   const MeshRecord record = get(id);
-  std::shared_ptr<const store::Block> block = _state->store.mesh_block(id);
-  if (!block) {
+  if (record.sha256.empty()) {
     throw Error(Reason::not_ready,
                 record.error
                     ? "meshes/" + id + " failed: " + record.error->what()
                     : "meshes/" + id + " is not meshed yet: wait until its state is READY");
   }
-  return block;
+  const std::shared_ptr<const mesh::Mesh> mesh = _state->store.triangulation(record.sha256);
+  if (!mesh) {
+    get(id);  // throws where it was erased meanwhile
+    throw Error(Reason::storage, "the triangulation of meshes/" + id + " is missing");
+  }
+  return store::in_memory(std::make_shared<const store::Block>(mesh_block(*mesh)));
+}
+
+MeshRecord MeshCatalogue::warm(const std::string& id, bool pin) {
+  {
+    const auto lock = _state->preparation.lock();
+    LiveMesh& mesh = _state->preparation.index().known(id);
+    if (mesh.stage == Stage::failed) {
+      throw Error(*mesh.error);
+    }
+    const bool there = mesh.stage == Stage::meshed &&
+                       (pin ? _state->cache.pin(mesh.sha256) : _state->cache.contains(mesh.sha256));
+    // Operators that another mesh brought to memory have to be looked at for this one as well. A
+    // thread that is at it already might be past the point where it pins.
+    const bool done = there && mesh.operators.bytes > 0;
+    if (!done && (pin ? !mesh.queued : !mesh.scheduled())) {
+      _state->schedule(id);
+    }
+    mesh.pin = mesh.pin || (pin && !there);
+  }
+  return get(id);
+}
+
+MeshRecord MeshCatalogue::evict(const std::string& id) {
+  std::string sha256;
+  bool held = false;
+  {
+    const auto lock = _state->preparation.lock();
+    LiveMesh& mesh = _state->preparation.index().known(id);
+    mesh.pin = false;
+    held = mesh.undecided;
+    sha256 = mesh.sha256;
+  }
+  using Eviction = operators::OperatorCache::Eviction;
+  held = held || (!sha256.empty() && _state->cache.evict(sha256) == Eviction::in_use);
+  if (held) {
+    throw in_use(id, "a job or a factorisation holds its operators; wait for it or cancel it");
+  }
+  return get(id);
+}
+
+void MeshCatalogue::erase(const std::string& id) {
+  Preparation& preparation = _state->preparation;
+  MeshIndex& index = preparation.index();
+  auto lock = preparation.lock();
+  preparation.wait_for_end(lock, id);
+  LiveMesh& mesh = index.known(id);
+  if (mesh.scheduled() || mesh.waiting > 0 || mesh.claimed) {
+    throw in_use(id, "it is being prepared; wait until it is READY");
+  }
+  if (!mesh.users.expired()) {
+    throw in_use(id, "a job that has not ended needs it; wait for it or cancel it");
+  }
+  const Stage stage = std::exchange(mesh.stage, Stage::absent);
+  mesh.claimed = true;
+  lock.unlock();
+  try {
+    _state->store.erase_mesh(id);
+  } catch (...) {
+    lock.lock();
+    mesh.stage = stage;
+    mesh.claimed = false;
+    preparation.notify();
+    throw;
+  }
+  lock.lock();
+  const std::string orphan = index.shared(id) ? std::string() : mesh.sha256;
+  index.remove(id);
+  preparation.notify();
+  lock.unlock();
+  if (!orphan.empty()) {
+    _state->cache.evict(orphan);
+  }
+}
+
+std::shared_ptr<void> MeshCatalogue::use(const std::string& id) {
+  const auto lock = _state->preparation.lock();
+  LiveMesh& mesh = _state->preparation.index().known(id);
+  std::shared_ptr<void> user = mesh.users.lock();
+  if (!user) {
+    user = std::make_shared<char>();
+    mesh.users = user;
+  }
+  return user;
 }
 
 std::shared_ptr<const operators::MeshOperator> MeshCatalogue::prepare(const std::string& id,
@@ -144,8 +314,18 @@ bool MeshCatalogue::ready(const std::string& id) const {
   return !key.empty() && _state->cache.contains(key);
 }
 
+bool MeshCatalogue::pinned(const std::string& id) const {
+  const std::string key = _state->key(id);
+  return !key.empty() && _state->cache.pinned(key);
+}
+
 std::uint64_t MeshCatalogue::meshings() const noexcept {
   return _state->preparation.meshings();
+}
+
+int MeshCatalogue::pending() const {
+  const auto lock = _state->preparation.lock();
+  return _state->preparation.index().pending();
 }
 
 }  // namespace anticrack::meshes

@@ -3,10 +3,9 @@
 
 #include <new>
 #include <utility>
-#include <variant>
 
-#include "meshes/summary.hpp"
-#include "store/digest.hpp"
+#include "meshes/lasting.hpp"
+#include "meshes/triangulation.hpp"
 
 namespace anticrack::meshes {
 
@@ -16,28 +15,38 @@ using errors::Error;
 using errors::Reason;
 using store::MeshRecord;
 using store::MeshState;
-using Steady = std::chrono::steady_clock;
 
 constexpr int thread_count = 2;  // so that one large mesh does not hold up the small ones
-
-double seconds_since(Steady::time_point start) {
-  return std::chrono::duration<double>(Steady::now() - start).count();
-}
-
-bool waits_for_mesher(MeshState state) {
-  return state == MeshState::pending || state == MeshState::meshing;
-}
-
-/// An error that the same mesh would meet again, however long one waits.
-bool lasting(const Error& error) {
-  return error.reason() != Reason::busy && error.reason() != Reason::cancelled;
-}
+constexpr std::size_t records_a_page = 100;
 
 }  // namespace
+
+/// A call of prepare(): the mesh is not erased meanwhile, so that references to it stay good.
+class Preparation::Visit {
+ public:
+  Visit(Preparation& host, const std::string& id) : _host(host) {
+    const std::lock_guard lock(_host._mutex);
+    _mesh = &_host._index.known(id);
+    ++_mesh->waiting;
+  }
+  ~Visit() {
+    const std::lock_guard lock(_host._mutex);
+    --_mesh->waiting;
+  }
+  Visit(const Visit&) = delete;
+  Visit& operator=(const Visit&) = delete;
+
+  LiveMesh& mesh() const { return *_mesh; }
+
+ private:
+  Preparation& _host;
+  LiveMesh* _mesh = nullptr;
+};
 
 Preparation::Preparation(CatalogueOptions options, store::Store& store,
                          operators::OperatorCache& cache)
     : _options(std::move(options)), _store(store), _cache(cache) {
+  recover();
   for (int i = 0; i < thread_count; ++i) {
     _threads.emplace_back([this] { work(); });
   }
@@ -48,6 +57,26 @@ Preparation::~Preparation() {
   _threads.clear();  // joins
 }
 
+void Preparation::recover() {
+  std::vector<std::string> unmeshed;
+  store::Page page{{}, records_a_page, {}};
+  for (;;) {
+    const std::vector<MeshRecord> records = _store.meshes(page);
+    for (const MeshRecord& record : records) {
+      if (_index.add(record).stage == Stage::pending) {
+        unmeshed.push_back(record.id);
+      }
+    }
+    if (records.size() < records_a_page) {
+      break;
+    }
+    page.after = records.back().id;
+  }
+  for (auto id = unmeshed.rbegin(); id != unmeshed.rend(); ++id) {
+    _index.schedule(*id);
+  }
+}
+
 MeshRecord Preparation::stored(const std::string& id) const {
   std::optional<MeshRecord> record = _store.mesh(id);
   if (!record) {
@@ -56,227 +85,191 @@ MeshRecord Preparation::stored(const std::string& id) const {
   return std::move(*record);
 }
 
-MeshRecord Preparation::seen_now(MeshRecord record) const {
-  if (!waits_for_mesher(record.state) && record.state != MeshState::failed) {
-    const auto live = _live.find(record.id);
-    const bool factorizing =
-        live != _live.end() && (live->second.scheduled || live->second.factorizing > 0);
-    // The cache has an operator a moment before the record has what is known of it.
-    const bool ready = record.operator_bytes > 0 && _cache.contains(record.sha256);
-    record.state = ready         ? MeshState::ready
-                   : factorizing ? MeshState::factorizing
-                                 : MeshState::evicted;
-  }
-  return record;
-}
-
-void Preparation::schedule(const std::string& id) {
-  if (Live& live = _live[id]; live.scheduled) {
-    live.again = true;  // its failure can be seen before its thread is done with it
-  } else {
-    enqueue(id);
-  }
-}
-
-void Preparation::enqueue(const std::string& id) {
-  _live[id].scheduled = true;
-  _queue.push_back(id);
-  _changed.notify_all();
-}
-
-void Preparation::release(const std::string& id) {
-  Live& live = _live[id];
-  live.scheduled = false;
-  if (std::exchange(live.again, false)) {
-    enqueue(id);
-  }
-  forget_if_idle(id);
-  _changed.notify_all();
-}
-
-void Preparation::put(const MeshRecord& record) {
-  _store.put(record);
-  _changed.notify_all();
-}
-
-void Preparation::forget_if_idle(const std::string& id) {
-  const auto live = _live.find(id);
-  if (live != _live.end() && !live->second.scheduled && live->second.factorizing == 0) {
-    _live.erase(live);
-  }
-}
-
-void Preparation::begin_factorizing(MeshRecord record) {
-  Live& live = _live[record.id];
-  if (live.factorizing == 0) {
-    record.state = MeshState::factorizing;
-    put(record);
-    live.since = Steady::now();
-  }
-  ++live.factorizing;
-}
-
-/// The first of those who wait together records the outcome and how long it took.
-void Preparation::end_factorizing(const std::string& id, const Operator& result,
-                                  const std::optional<Error>& error) {
-  const std::lock_guard lock(_mutex);
-  Live& live = _live[id];
-  --live.factorizing;
-  if (MeshRecord record = stored(id); record.state == MeshState::factorizing) {
-    if (result) {
-      record.state = MeshState::ready;
-      record.operator_bytes = result->bytes();
-      record.theta_star = result->theta_star();
-      record.factorize_seconds = seconds_since(live.since);
-      put(record);
-    } else if (error && lasting(*error)) {
-      record.state = MeshState::failed;
-      record.error = error;
-      put(record);
-    } else if (live.factorizing == 0) {
-      record.state = MeshState::evicted;
-      put(record);
+MeshRecord Preparation::record(const std::string& id) const {
+  for (;;) {
+    std::unique_lock lock(_mutex);
+    const std::uint64_t version = _index.known(id).version;
+    lock.unlock();
+    MeshRecord record = stored(id);
+    lock.lock();
+    // Else the record may be older than what the index says.
+    if (const LiveMesh& mesh = _index.known(id); mesh.version == version) {
+      return seen(mesh, std::move(record), _cache.contains(mesh.sha256));
     }
   }
-  forget_if_idle(id);
 }
 
-Preparation::Operator Preparation::factorize(const std::string& id, const std::string& sha256,
-                                             const std::stop_token& stop) {
-  try {
-    Operator result = _cache.acquire(sha256, _store.triangulation(id), stop);
-    end_factorizing(id, result, std::nullopt);
-    return result;
-  } catch (const Error& error) {
-    end_factorizing(id, nullptr, error);
-    throw;
-  } catch (const std::exception& thrown) {
-    const Error error(Reason::internal, std::string("factorising failed: ") + thrown.what());
-    end_factorizing(id, nullptr, error);
-    throw Error(error);
-  }
+void Preparation::wait_for_claim(std::unique_lock<std::mutex>& lock, const std::string& id) {
+  _changed.wait(lock, [&] {
+    const LiveMesh* mesh = _index.find(id);
+    return mesh == nullptr || !mesh->claimed;
+  });
 }
 
-std::string Preparation::require_upload(const store::UploadRef& upload) const {
-  const std::optional<std::string> path = _store.upload_path(upload.sha256);
-  if (!path) {
-    throw Error(Reason::not_found,
-                "there is no uploads/" + upload.sha256 + ": upload the file first")
-        .at("upload");
-  }
-  return *path;
+void Preparation::wait_for_end(std::unique_lock<std::mutex>& lock, const std::string& id) {
+  _changed.wait(lock, [&] {
+    const LiveMesh* mesh = _index.find(id);
+    return mesh == nullptr || !mesh->running || !mesh->ending;
+  });
 }
 
-void Preparation::triangulate(const std::string& id) {
-  MeshRecord record;
+std::shared_ptr<const mesh::Mesh> Preparation::triangulate(const std::string& id) {
+  std::string twin;
   {
     const std::lock_guard lock(_mutex);
-    record = stored(id);
-    record.state = MeshState::meshing;
-    put(record);
+    LiveMesh& mesh = _index.known(id);
+    mesh.meshing = true;
+    twin = _index.twin(id);
+    _changed.notify_all();
   }
-  const auto start = Steady::now();
-  mesh::MesherRequest request;
-  if (const auto* source = std::get_if<store::GeometrySource>(&record.definition)) {
-    request =
-        mesh::GenerateRequest{mesh::plan(source->geometry, source->options, _options.max_triangles),
-                              _options.max_triangles};
-  } else {
-    const auto& upload = std::get<store::UploadRef>(record.definition);
-    request = mesh::ImportRequest{require_upload(upload), upload.options, _options.max_triangles};
+  const MeshRecord record = stored(id);
+  std::optional<Triangulation> made;
+  if (!twin.empty()) {
+    made = copy_of(twin, record, _store);
   }
-  ++_meshings;
-  auto mesh = std::make_shared<const mesh::Mesh>(
-      mesher::run(_options.helper, request, _stopping.get_token()));
-  record.mesh_seconds = seconds_since(start);
-  record.sha256 = store::Sha256().add(mesh::encode(*mesh)).finish();
-  summarize(*mesh, record);
-  auto block = std::make_shared<const store::Block>(mesh_block(*mesh));
-  _store.put_triangulation(id, std::move(mesh), std::move(block));
-  const std::lock_guard lock(_mutex);
-  begin_factorizing(std::move(record));
+  const bool copied = made.has_value();
+  if (!copied) {
+    ++_meshings;
+    made = meshes::triangulate(record, _options, _store, _stopping.get_token());
+  }
+  _store.put(made->record, *made->mesh);
+  {
+    const std::lock_guard lock(_mutex);
+    LiveMesh& mesh = _index.known(id);
+    mesh.stage = Stage::meshed;
+    mesh.sha256 = made->record.sha256;
+    mesh.meshing = false;
+    ++mesh.version;
+    begin_factorizing(mesh);
+    _changed.notify_all();
+  }
+  if (!copied && _options.meshed) {
+    _options.meshed(made->record);
+  }
+  return std::move(made->mesh);
 }
 
 void Preparation::prepare_in_background(const std::string& id) {
-  if (!_store.triangulation(id)) {
-    triangulate(id);
-  } else {
+  Stage stage = Stage::absent;
+  {
     const std::lock_guard lock(_mutex);
-    begin_factorizing(stored(id));
+    LiveMesh& mesh = _index.known(id);
+    stage = mesh.stage;
+    if (stage == Stage::meshed) {
+      begin_factorizing(mesh);
+    }
   }
-  factorize(id, stored(id).sha256, _stopping.get_token());
+  if (stage != Stage::failed) {
+    std::shared_ptr<const mesh::Mesh> mesh = stage == Stage::pending ? triangulate(id) : nullptr;
+    factorize(id, std::move(mesh), false, _stopping.get_token());
+  }
 }
 
-void Preparation::fail(const std::string& id, const Error& error) {
-  const std::lock_guard lock(_mutex);
-  MeshRecord record = stored(id);
-  if (waits_for_mesher(record.state)) {  // else end_factorizing has recorded it
-    const bool failed = lasting(error);
-    record.state = failed ? MeshState::failed : MeshState::pending;
-    record.error = failed ? std::optional<Error>(error) : std::nullopt;
-    put(record);
+/// A run that ended before the mesh had a triangulation. (Of what comes later end_factorizing has
+/// told.)
+void Preparation::set_back(const std::string& id, Error error) {
+  {
+    const std::lock_guard lock(_mutex);
+    if (_index.known(id).stage != Stage::pending) {
+      return;
+    }
+  }
+  std::optional<MeshRecord> failed;
+  if (lasting(error)) {
+    try {
+      failed = stored(id);
+      failed->state = MeshState::failed;
+      failed->error = error;
+      _store.put(*failed);
+    } catch (const Error& disk) {
+      failed.reset();
+      error = disk;
+    }
+  }
+  {
+    const std::lock_guard lock(_mutex);
+    LiveMesh& mesh = _index.known(id);
+    mesh.meshing = false;
+    mesh.ending = true;
+    if (failed) {
+      mesh.stage = Stage::failed;
+      mesh.error = std::move(error);
+    } else {
+      ++mesh.setbacks;
+      mesh.setback = std::move(error);
+    }
+    ++mesh.version;
+    _changed.notify_all();
+  }
+  if (failed && _options.meshed) {
+    _options.meshed(*failed);
   }
 }
 
 void Preparation::work() {
   const std::stop_token stop = _stopping.get_token();
   std::unique_lock lock(_mutex);
-  while (_changed.wait(lock, stop, [&] { return !_queue.empty(); }) && !stop.stop_requested()) {
-    const std::string id = std::move(_queue.front());
-    _queue.pop_front();
+  while (_changed.wait(lock, stop, [&] { return _index.any_queued(); }) && !stop.stop_requested()) {
+    const std::string id = _index.take();
     lock.unlock();
     try {
       prepare_in_background(id);
     } catch (const Error& error) {
-      fail(id, error);
+      set_back(id, error);
     } catch (const std::bad_alloc&) {
-      fail(id, Error(Reason::limit_exceeded, "not enough memory for this mesh: make it coarser"));
+      set_back(id,
+               Error(Reason::limit_exceeded, "not enough memory for this mesh: make it coarser"));
     } catch (const std::exception& error) {
-      fail(id, Error(Reason::internal, std::string("meshing failed: ") + error.what()));
+      set_back(id, Error(Reason::internal, std::string("meshing failed: ") + error.what()));
     }
     lock.lock();
-    release(id);
+    _index.release(id);
+    _changed.notify_all();
   }
 }
 
 Preparation::Operator Preparation::prepare(const std::string& id, const PhaseListener& listener,
                                            const std::stop_token& stop) {
+  const Visit visit(*this, id);
+  LiveMesh& mesh = visit.mesh();
   std::unique_lock lock(_mutex);
-  MeshRecord record = stored(id);
-  while (waits_for_mesher(record.state)) {
-    if (!_live[id].scheduled) {
-      enqueue(id);  // its preparation was cut short
+  while (mesh.stage == Stage::pending) {
+    if (!mesh.scheduled()) {
+      _index.schedule(id);  // its preparation was cut short
+      _changed.notify_all();
     }
-    const MeshState state = record.state;
+    const bool meshing = mesh.meshing;
+    const int setbacks = mesh.setbacks;
     lock.unlock();
-    listener(state);
+    listener(meshing ? MeshState::meshing : MeshState::pending);
     lock.lock();
     const bool changed = _changed.wait(lock, stop, [&] {
-      record = stored(id);
-      return record.state != state;
+      return mesh.stage != Stage::pending || mesh.meshing != meshing || mesh.setbacks != setbacks;
     });
     if (!changed) {
       throw Error(Reason::cancelled, "stopped while waiting for meshes/" + id);
     }
+    if (mesh.stage == Stage::pending && mesh.setbacks != setbacks) {
+      throw Error(*mesh.setback);
+    }
   }
-  if (record.state == MeshState::failed) {
-    throw Error(*record.error);
+  if (mesh.stage == Stage::failed) {
+    throw Error(*mesh.error);
   }
-  if (record.operator_bytes > 0) {
-    if (Operator ready = _cache.find(record.sha256)) {
+  if (mesh.operators.bytes > 0) {
+    if (Operator ready = _cache.find(mesh.sha256)) {
       return ready;
     }
   }
-  const std::string sha256 = record.sha256;
-  begin_factorizing(std::move(record));
+  begin_factorizing(mesh);
   lock.unlock();
   try {
     listener(MeshState::factorizing);
   } catch (...) {
-    end_factorizing(id, nullptr, std::nullopt);
+    end_factorizing(id, {}, false);
     throw;
   }
-  return factorize(id, sha256, stop);
+  return factorize(id, nullptr, true, stop);
 }
 
 }  // namespace anticrack::meshes

@@ -4,33 +4,38 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
-#include <unordered_map>
 #include <vector>
 
 #include "errors/errors.hpp"
 #include "meshes/mesh_catalogue.hpp"
+#include "meshes/mesh_index.hpp"
 #include "operators/operator_cache.hpp"
 #include "store/store.hpp"
 
 namespace anticrack::meshes {
 
 /// Meshing is done by the threads of this object alone, one run of the helper a mesh. Factorising
-/// is shared through the cache: a caller that comes meanwhile joins. A record's state in the store
-/// is the last step that was completed or begun; `seen_now` says what is true of the operators.
+/// is shared through the cache: a caller that comes meanwhile joins.
+///
+/// The mutex guards the index and is never held while the store is asked or written. A record has
+/// one writer at a time: whoever claimed it (to make or to erase it), else the thread that runs it
+/// while it is pending, else the first of those who factorise it together. The index follows the
+/// disk: a stage is entered when the record that says so has been written. Of the states of a mesh
+/// the disk knows PENDING, EVICTED (meshed) and FAILED; the others are what goes on in memory.
 class Preparation {
  public:
   using Operator = std::shared_ptr<const operators::MeshOperator>;
 
+  /// Reads all records. What an earlier run of the server left unmeshed is scheduled at once,
+  /// oldest first.
   Preparation(CatalogueOptions options, store::Store& store, operators::OperatorCache& cache);
   /// Stops what is under way.
   ~Preparation();
@@ -38,46 +43,46 @@ class Preparation {
   Preparation(const Preparation&) = delete;
   Preparation& operator=(const Preparation&) = delete;
 
-  /// Held while a record is read, changed and put.
   std::unique_lock<std::mutex> lock() const { return std::unique_lock(_mutex); }
 
   // With the lock held:
-  /// Throws errors::Error (not_found).
-  store::MeshRecord stored(const std::string& id) const;
-  /// The record with the state the operators are in at this moment.
-  store::MeshRecord seen_now(store::MeshRecord record) const;
-  bool full() const { return _queue.size() >= _options.max_pending; }
-  /// Has a mesh prepared in the background, once more where that is about to end.
-  void schedule(const std::string& id);
+  MeshIndex& index() noexcept { return _index; }
+  const MeshIndex& index() const noexcept { return _index; }
+  /// Wakes all who wait for a change of the index.
+  void notify() { _changed.notify_all(); }
+  /// Waits until nobody is making or erasing the mesh.
+  void wait_for_claim(std::unique_lock<std::mutex>& lock, const std::string& id);
+  /// Waits until a run in the background that has told how it ended is over: soon.
+  void wait_for_end(std::unique_lock<std::mutex>& lock, const std::string& id);
 
   // Without it:
+  /// The record with the state of this moment. Throws errors::Error (not_found).
+  store::MeshRecord record(const std::string& id) const;
   /// MeshCatalogue::prepare.
   Operator prepare(const std::string& id, const PhaseListener& listener,
                    const std::stop_token& stop);
-  /// Path of an upload. Throws errors::Error (not_found).
-  std::string require_upload(const store::UploadRef& upload) const;
   std::uint64_t meshings() const noexcept { return _meshings; }
 
  private:
-  /// What is going on with a mesh.
-  struct Live {
-    bool scheduled = false;  ///< in the queue, or in the hands of a thread of this object
-    bool again = false;      ///< to be queued when that thread lets go of it
-    int factorizing = 0;     ///< callers that wait for its operators
-    std::chrono::steady_clock::time_point since;
+  class Visit;
+  /// What came of a factorisation; neither: it was stopped, or something passing was in the way.
+  struct Outcome {
+    std::optional<Measured> measured;
+    std::optional<errors::Error> failure;
   };
 
-  void put(const store::MeshRecord& record);
-  void enqueue(const std::string& id);
-  void release(const std::string& id);
-  void forget_if_idle(const std::string& id);
-  void begin_factorizing(store::MeshRecord record);
-  void end_factorizing(const std::string& id, const Operator& result,
-                       const std::optional<errors::Error>& error);
-  Operator factorize(const std::string& id, const std::string& sha256, const std::stop_token& stop);
-  void triangulate(const std::string& id);
+  void recover();
+  store::MeshRecord stored(const std::string& id) const;
+  static void begin_factorizing(LiveMesh& mesh);
+  void end_factorizing(const std::string& id, const Outcome& outcome, bool last_step);
+  bool write_outcome(const std::string& id, const Outcome& outcome);
+  Operator load(const std::string& id, std::shared_ptr<const mesh::Mesh> mesh,
+                const std::stop_token& stop);
+  Operator factorize(const std::string& id, std::shared_ptr<const mesh::Mesh> mesh, bool hold,
+                     const std::stop_token& stop);
+  std::shared_ptr<const mesh::Mesh> triangulate(const std::string& id);
   void prepare_in_background(const std::string& id);
-  void fail(const std::string& id, const errors::Error& error);
+  void set_back(const std::string& id, errors::Error error);
   void work();
 
   const CatalogueOptions _options;
@@ -87,9 +92,8 @@ class Preparation {
   std::stop_source _stopping;
 
   mutable std::mutex _mutex;
-  std::condition_variable_any _changed;  ///< a record, or the queue
-  std::deque<std::string> _queue;
-  std::unordered_map<std::string, Live> _live;
+  std::condition_variable_any _changed;  ///< the index
+  MeshIndex _index;
 
   std::vector<std::jthread> _threads;
 };

@@ -17,6 +17,10 @@ TEST(Signals, AreWaitedForWhicheverThreadGetsThem) {
   ::raise(SIGINT);
   EXPECT_EQ(signals.wait(), SIGINT);
   ::raise(SIGPIPE);  // ignored
+  ::raise(SIGHUP);
+  EXPECT_EQ(signals.wait_for(std::chrono::milliseconds(1)), std::nullopt);
+  ::raise(SIGTERM);
+  EXPECT_EQ(signals.wait_for(std::chrono::hours(1)), SIGTERM);
 }
 
 TEST(Signals, LetWorkEnd) {

@@ -45,14 +45,30 @@ TEST(Integers, KeepTheirRange) {
   }
 }
 
-TEST(Times, AreSecondsWithFractions) {
+TEST(Times, AreReadWithEveryUnit) {
   EXPECT_EQ(to_time("3").count(), 3000);
   EXPECT_EQ(to_time("0.25s").count(), 250);
-  EXPECT_EQ(from_time(std::chrono::milliseconds(3000)), "3");
-  EXPECT_EQ(from_time(std::chrono::milliseconds(3005)), "3.005");
-  for (const char* text : {"", "-1", "3m", "86401", "nan"}) {
+  EXPECT_EQ(to_time("90s"), std::chrono::seconds(90));
+  EXPECT_EQ(to_time("1.5 m"), std::chrono::seconds(90));
+  EXPECT_EQ(to_time("12h"), std::chrono::hours(12));
+  EXPECT_EQ(to_time("30d"), std::chrono::hours(30 * 24));
+}
+
+TEST(Times, OfOtherFormsAreRefused) {
+  for (const char* text : {"", "s", "-1", "3w", "1h30m", "31d", "2592001", "nan"}) {
     EXPECT_THROW(to_time(text), std::invalid_argument) << text;
   }
+}
+
+TEST(Times, AreWrittenSoThatTheyAreReadBack) {
+  for (const std::int64_t time : {0LL, 1LL, 999LL, 3000LL, 3005LL, 60'000LL, 61'000LL, 5400'000LL,
+                                  43'200'000LL, 604'800'000LL}) {
+    EXPECT_EQ(to_time(from_time(std::chrono::milliseconds(time))).count(), time);
+  }
+  EXPECT_EQ(from_time(std::chrono::milliseconds(3000)), "3");
+  EXPECT_EQ(from_time(std::chrono::milliseconds(3005)), "3.005");
+  EXPECT_EQ(from_time(std::chrono::hours(7 * 24)), "7d");
+  EXPECT_EQ(from_time(std::chrono::minutes(90)), "90m");
 }
 
 TEST(Nearest, CountsEdits) {

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshes/mesh_index.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "meshes/identity.hpp"
+
+namespace anticrack::meshes {
+
+namespace {
+
+using errors::Error;
+using errors::Reason;
+using store::MeshRecord;
+using store::MeshState;
+
+Error unknown(const std::string& id) {
+  return {Reason::not_found, "there is no meshes/" + id + ": create it first"};
+}
+
+MeshState state_of(const LiveMesh& mesh, const MeshRecord& record, bool in_memory) {
+  if (record.state == MeshState::failed) {
+    return MeshState::failed;
+  }
+  if (record.sha256.empty()) {
+    return mesh.meshing ? MeshState::meshing : MeshState::pending;
+  }
+  // The cache has an operator a moment before it is known what was measured of it.
+  if (in_memory && mesh.operators.bytes > 0 && !mesh.undecided) {
+    return MeshState::ready;
+  }
+  return mesh.scheduled() || mesh.factorizing > 0 ? MeshState::factorizing : MeshState::evicted;
+}
+
+}  // namespace
+
+MeshRecord seen(const LiveMesh& mesh, MeshRecord record, bool in_memory) {
+  record.state = state_of(mesh, record, in_memory);
+  if (mesh.operators.bytes > 0) {
+    record.operator_bytes = mesh.operators.bytes;
+    record.theta_star = mesh.operators.theta_star;
+    record.factorize_seconds = mesh.operators.seconds;
+  }
+  return record;
+}
+
+LiveMesh& MeshIndex::add(const MeshRecord& record) {
+  LiveMesh& mesh = _meshes[record.id];
+  mesh.stage = record.state == MeshState::failed ? Stage::failed
+               : record.sha256.empty()           ? Stage::pending
+                                                 : Stage::meshed;
+  mesh.definition = identity(record.definition);
+  mesh.sha256 = record.sha256;
+  mesh.error = record.error;
+  mesh.operators = {record.operator_bytes, record.theta_star, record.factorize_seconds};
+  return mesh;
+}
+
+LiveMesh* MeshIndex::find(const std::string& id) {
+  const auto found = _meshes.find(id);
+  return found == _meshes.end() ? nullptr : &found->second;
+}
+
+const LiveMesh* MeshIndex::find(const std::string& id) const {
+  const auto found = _meshes.find(id);
+  return found == _meshes.end() ? nullptr : &found->second;
+}
+
+LiveMesh& MeshIndex::known(const std::string& id) {
+  LiveMesh* mesh = find(id);
+  if (mesh == nullptr || mesh->stage == Stage::absent) {
+    throw unknown(id);
+  }
+  return *mesh;
+}
+
+const LiveMesh& MeshIndex::known(const std::string& id) const {
+  const LiveMesh* mesh = find(id);
+  if (mesh == nullptr || mesh->stage == Stage::absent) {
+    throw unknown(id);
+  }
+  return *mesh;
+}
+
+void MeshIndex::schedule(const std::string& id) {
+  LiveMesh& mesh = _meshes.at(id);
+  if (mesh.running) {
+    mesh.again = true;  // its failure can be seen before its thread is done with it
+  } else if (!mesh.queued) {
+    mesh.queued = true;
+    _queue.push_back(id);
+  }
+}
+
+std::string MeshIndex::take() {
+  std::string id = std::move(_queue.front());
+  _queue.pop_front();
+  LiveMesh& mesh = _meshes.at(id);
+  mesh.queued = false;
+  mesh.running = true;
+  return id;
+}
+
+void MeshIndex::release(const std::string& id) {
+  LiveMesh& mesh = _meshes.at(id);
+  mesh.running = false;
+  mesh.ending = false;
+  mesh.meshing = false;
+  if (std::exchange(mesh.again, false)) {
+    schedule(id);
+  } else {
+    mesh.pin = false;
+  }
+}
+
+int MeshIndex::pending() const {
+  return static_cast<int>(std::count_if(_meshes.begin(), _meshes.end(), [](const auto& item) {
+    return item.second.stage == Stage::pending && item.second.scheduled();
+  }));
+}
+
+std::string MeshIndex::twin(const std::string& id) const {
+  const std::string& definition = _meshes.at(id).definition;
+  const auto twin = std::find_if(_meshes.begin(), _meshes.end(), [&](const auto& item) {
+    return item.second.definition == definition && item.first != id &&
+           item.second.stage == Stage::meshed;
+  });
+  return twin == _meshes.end() ? std::string() : twin->first;
+}
+
+bool MeshIndex::shared(const std::string& id) const {
+  const std::string& sha256 = _meshes.at(id).sha256;
+  return std::any_of(_meshes.begin(), _meshes.end(), [&](const auto& item) {
+    return item.second.sha256 == sha256 && item.first != id;
+  });
+}
+
+}  // namespace anticrack::meshes

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshes/triangulation.hpp"
+
+#include <chrono>
+#include <utility>
+#include <variant>
+
+#include "errors/errors.hpp"
+#include "mesh/codec.hpp"
+#include "meshes/summary.hpp"
+#include "store/digest.hpp"
+
+namespace anticrack::meshes {
+
+namespace {
+
+mesh::MesherRequest request_for(const store::MeshRecord& record, const CatalogueOptions& options,
+                                const store::Store& store) {
+  if (const auto* source = std::get_if<store::GeometrySource>(&record.definition)) {
+    return mesh::GenerateRequest{
+        mesh::plan(source->geometry, source->options, options.max_triangles),
+        options.max_triangles};
+  }
+  const auto& upload = std::get<store::UploadRef>(record.definition);
+  return mesh::ImportRequest{require_upload(store, upload, record.owner), upload.options,
+                             options.max_triangles};
+}
+
+}  // namespace
+
+std::string require_upload(const store::Store& store, const store::UploadRef& upload,
+                           const std::string& owner) {
+  std::optional<std::string> path = store.upload_path(upload.sha256, owner);
+  if (!path) {
+    throw errors::Error(errors::Reason::not_found,
+                        "there is no uploads/" + upload.sha256 + ": upload the file first")
+        .at("upload");
+  }
+  return std::move(*path);
+}
+
+Triangulation triangulate(store::MeshRecord record, const CatalogueOptions& options,
+                          const store::Store& store, const std::stop_token& stop) {
+  const auto start = std::chrono::steady_clock::now();
+  auto mesh = std::make_shared<const mesh::Mesh>(
+      mesher::run(options.helper, request_for(record, options, store), stop));
+  record.mesh_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  record.sha256 = store::Sha256().add(mesh::encode(*mesh)).finish();
+  record.state = store::MeshState::evicted;
+  summarize(*mesh, record);
+  return {std::move(mesh), std::move(record)};
+}
+
+std::optional<Triangulation> copy_of(const std::string& twin, store::MeshRecord record,
+                                     const store::Store& store) {
+  std::optional<store::MeshRecord> copy = store.mesh(twin);
+  if (!copy || copy->sha256.empty()) {
+    return std::nullopt;
+  }
+  std::shared_ptr<const mesh::Mesh> mesh = store.triangulation(copy->sha256);
+  if (!mesh) {
+    return std::nullopt;
+  }
+  copy->id = std::move(record.id);
+  copy->owner = std::move(record.owner);
+  copy->title = std::move(record.title);
+  copy->created = record.created;
+  copy->state = store::MeshState::evicted;
+  copy->error.reset();
+  return Triangulation{std::move(mesh), std::move(*copy)};
+}
+
+}  // namespace anticrack::meshes

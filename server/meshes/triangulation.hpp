@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// From a mesh's definition to its triangulation and what is told of it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "mesh/mesh.hpp"
+#include "meshes/mesh_catalogue.hpp"
+#include "store/store.hpp"
+
+namespace anticrack::meshes {
+
+struct Triangulation {
+  std::shared_ptr<const mesh::Mesh> mesh;
+  store::MeshRecord record;  ///< with all that is known once meshed; not in the store yet
+};
+
+/// Where the upload lies that `owner` made. Throws errors::Error (not_found, at "upload").
+std::string require_upload(const store::Store& store, const store::UploadRef& upload,
+                           const std::string& owner);
+
+/// Runs the helper: seconds to minutes. Throws as mesher::run, mesh::plan and require_upload do.
+Triangulation triangulate(store::MeshRecord record, const CatalogueOptions& options,
+                          const store::Store& store, const std::stop_token& stop);
+
+/// The triangulation of another mesh of the same definition; none where that has gone. O(m).
+std::optional<Triangulation> copy_of(const std::string& twin, store::MeshRecord record,
+                                     const store::Store& store);
+
+}  // namespace anticrack::meshes

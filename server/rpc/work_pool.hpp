@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Where calls do what takes longer than gRPC's few threads may be held: the disk, and checks of
+// large requests.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace anticrack::rpc {
+
+/// A few threads that take tasks in order: one that waits for the disk holds up no other, and the
+/// store writes what several wait for in one go. Thread-safe.
+class WorkPool {
+ public:
+  explicit WorkPool(int threads);
+  /// Finishes what was posted.
+  ~WorkPool();
+
+  /// `task` must not throw.
+  void post(std::function<void()> task);
+  /// Tasks that have not begun.
+  std::size_t waiting() const;
+
+ private:
+  void run();
+
+  mutable std::mutex _mutex;
+  std::condition_variable _changed;
+  std::deque<std::function<void()>> _tasks;
+  bool _stopping = false;
+  std::vector<std::thread> _threads;
+};
+
+}  // namespace anticrack::rpc
