@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "casefile/geometry.hpp"
+#include "casefile/job_section.hpp"
 #include "casefile/load_section.hpp"
 #include "casefile/mesh_section.hpp"
 #include "casefile/overrides.hpp"
@@ -75,7 +76,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
     out << table << '\n';
     result.text = out.str();
   }
-  const Section root(table, "", {"title", "geometry", "mesh", "solver", "load", "output"});
+  const Section root(table, "", {"title", "geometry", "mesh", "solver", "load", "job", "output"});
   if (const auto title = root.text("title")) {
     result.mesh.set_title(*title);
     result.job.set_title(*title);
@@ -84,6 +85,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
   read_mesh(root, result);
   *result.job.mutable_solver() = read_solver(root, result.spots);
   read_loads(root, result);
+  read_job(root, result.job, result.spots);
   if (const auto output = root.section("output", {"fields"})) {
     result.job.set_fields(output->boolean("fields").value_or(false));
     result.spots["fields"] = output->spot_of("fields");

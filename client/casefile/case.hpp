@@ -26,6 +26,8 @@
 //                                       | "node"}; boundary_value, traction = "expression in x, y";
 //                                       point_forces = [{at = [x, y], value = number}];
 //                                       inclusion_forces = {inclusion = number}
+//     [job]                             priority = "interactive" | "normal" | "bulk";
+//                                       queue_timeout, run_timeout = seconds | "10min" | "2h"
 //     [output]                          fields = true | false
 //
 // Shapes and types are checked here; what they mean, and every range, is the server's to judge: its

@@ -8,6 +8,7 @@
 
 #include "casefile/nearest.hpp"
 #include "cli/commands.hpp"
+#include "cli/connection_flags.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/report.hpp"
 #include "cli/text.hpp"
@@ -31,7 +32,8 @@ std::string unknown_command(CLI::App& app, int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word.rfind('-', 0) == 0) {
-      i += word == "--server" ? 1 : 0;
+      const CLI::Option* option = app.get_option_no_throw(word);
+      i += option != nullptr && option->get_items_expected_max() > 0 ? 1 : 0;
       continue;
     }
     std::vector<std::string> commands;
@@ -59,9 +61,7 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough();  // --json and the others may also stand behind the command
   app.set_version_flag("-v,--version", "anticrack " ANTICRACK_VERSION);
-  app.add_option("--server", globals.server,
-                 "HOST:PORT or unix:PATH of anticrackd (default: localhost:7433)")
-      ->envname("ANTICRACK_SERVER");
+  add_connection_flags(app, globals.connection);
   app.add_flag(
       "--local", globals.local,
       "Start a private anticrackd for this one command and stop it after; goes before --server");
@@ -87,7 +87,7 @@ int run_command_line(int argc, char** argv) {
     return exit_usage;
   }
   if (globals.local) {
-    globals.server.clear();  // a server named in the environment is not meant
+    globals.connection = {};  // what the environment names is not meant
   }
   return guarded(globals, chosen);
 }

@@ -10,6 +10,7 @@
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/follow.hpp"
+#include "cli/job_text.hpp"
 #include "cli/json.hpp"
 #include "cli/progress.hpp"
 #include "cli/submit.hpp"
@@ -31,35 +32,8 @@ struct JobOptions {
   std::string full() const { return full_name("jobs/", name); }
 };
 
-std::string text_of(const v1::Job& job) {
-  std::string text = sanitise(job.name()) + " on " + sanitise(job.mesh()) + ": " +
-                     std::string(word(job.state())) + "\n";
-  if (!job.title().empty()) {
-    text += sanitise(job.title()) + "\n";
-  }
-  if (job.has_error()) {
-    text += sanitise(job.error().message()) + "\n";
-  }
-  std::vector<std::vector<std::string>> rows{
-      {"load", "status", "iterations", "criterion", "energy"}};
-  std::string remarks;
-  for (const v1::LoadCaseAnswer& answer : job.answers()) {
-    const bool answered = answer.status() == v1::LoadCaseAnswer::STATUS_CONVERGED ||
-                          answer.status() == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED;
-    rows.push_back({sanitise(answer.name()), std::string(word(answer.status())),
-                    std::to_string(answer.iterations()),
-                    answered ? number(answer.criterion(), 2, true) : "-",
-                    answered ? number(answer.energy()) : "-"});
-    const std::string& remark = answer.has_error() ? answer.error().message() : answer.reason();
-    if (!remark.empty()) {
-      remarks += sanitise(answer.name()) + ": " + sanitise(remark) + "\n";
-    }
-  }
-  return text + table(rows, {1}) + remarks;
-}
-
 int show(const Globals& globals, const v1::Job& job, int exit_code = exit_ok) {
-  print_document(globals.json ? to_json(job) : text_of(job));
+  print_document(globals.json ? to_json(job) : job_text(job));
   return exit_code;
 }
 
@@ -131,6 +105,9 @@ int fetch_result(const JobOptions& options, const Globals& globals) {
   results::check_writable(output);
   Session session(globals);
   const v1::Job job = client::get_job(session.connection(), options.full(), session.stop());
+  if (job.state() == v1::Job::STATE_EXPIRED) {
+    throw client::Error(client::Code::failed_precondition, expired_text(job));
+  }
   const results::Result result = fetch(session, job);
   results::write(output, result);
   print_document(globals.json ? answers_json(result, output)
@@ -165,9 +142,7 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
       add("submit", "Submit a case and return at once", "client/examples/paper.toml",
           [&globals](const JobOptions& o) { return submit_case(o, globals); });
   submit_command->add_option("CASE", options->case_file, "The case, a TOML file")->required();
-  submit_command->add_option("--set", options->overrides, "Override a key of the case")
-      ->allow_extra_args(false)
-      ->type_name("KEY=VALUE");
+  add_case_flags(*submit_command, options->overrides);
 
   CLI::App* list_command = add("list", "List the newest jobs", "--limit 10",
                                [&globals](const JobOptions& o) { return list(o, globals); });
@@ -194,12 +169,7 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
             [&globals](const JobOptions& o) {
               Session session(globals);
               client::delete_job(session.connection(), o.full(), session.stop());
-              if (globals.json) {
-                print_document(
-                    JsonWriter().begin_object().value("deleted", o.full()).end_object().text());
-              } else {
-                say(globals, o.full() + ": deleted");
-              }
+              tell_deleted(globals, o.full());
               return exit_ok;
             });
 }

@@ -13,10 +13,15 @@ constexpr std::size_t widest_bar = 40;
 constexpr std::size_t narrowest_bar = 8;
 constexpr std::size_t status_width = 13;  // "not converged"
 
+std::string attempt_of(const JobProgress& progress) {
+  return progress.attempt > 1 ? ", attempt " + std::to_string(progress.attempt) : "";
+}
+
 std::string head_of(const JobProgress& progress) {
   std::string text = progress.job.empty() ? "job" : progress.job;
   text += ": ";
   text += word(progress.state);
+  text += attempt_of(progress);
   if (!progress.detail.empty()) {
     text += " (" + progress.detail + ")";
   }
@@ -133,7 +138,7 @@ std::vector<std::string> frame(const JobProgress& progress, std::size_t width, s
 
 std::vector<std::string> PlainLog::lines(const JobProgress& progress) {
   std::vector<std::string> lines;
-  std::string head = progress.job + ": " + std::string(word(progress.state));
+  std::string head = progress.job + ": " + std::string(word(progress.state)) + attempt_of(progress);
   if (!progress.detail.empty()) {
     head += " (" + progress.detail + ")";
   }
@@ -143,6 +148,10 @@ std::vector<std::string> PlainLog::lines(const JobProgress& progress) {
   if (head != _head) {
     lines.push_back(head);
     _head = std::move(head);
+  }
+  if (progress.attempt != _attempt) {
+    _cases.clear();  // the iterations begin anew
+    _attempt = progress.attempt;
   }
   _cases.resize(progress.cases.size());
   for (std::size_t i = 0; i < _cases.size(); ++i) {

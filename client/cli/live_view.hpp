@@ -31,6 +31,7 @@ class PlainLog {
     std::int32_t strides = 0;
   };
   std::string _head;
+  std::int32_t _attempt = 0;
   std::vector<Seen> _cases;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-//   anticrack mesh create | upload | list | show
+//   anticrack mesh create | upload | list | show | warm | evict | delete
 #include "client/meshes.hpp"
 
 #include <CLI/CLI.hpp>
@@ -30,6 +30,7 @@ struct MeshOptions {
   std::string folder;
   std::vector<std::string> overrides;
   bool no_wait = false;
+  bool pin = false;
   int limit = 50;
 };
 
@@ -130,6 +131,27 @@ int list(const MeshOptions& options, const Globals& globals) {
   return exit_ok;
 }
 
+int warm(const MeshOptions& options, const Globals& globals) {
+  Session session(globals);
+  const v1::Mesh mesh = client::warm_mesh(session.connection(), full_name("meshes/", options.name),
+                                          options.pin, session.stop());
+  return show(globals, options.no_wait ? mesh : wait_for(session, mesh.name()));
+}
+
+int evict(const MeshOptions& options, const Globals& globals) {
+  Session session(globals);
+  return show(globals, client::evict_mesh(session.connection(), full_name("meshes/", options.name),
+                                          session.stop()));
+}
+
+int delete_mesh(const MeshOptions& options, const Globals& globals) {
+  Session session(globals);
+  const std::string name = full_name("meshes/", options.name);
+  client::delete_mesh(session.connection(), name, session.stop());
+  tell_deleted(globals, name);
+  return exit_ok;
+}
+
 }  // namespace
 
 void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
@@ -186,6 +208,22 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
       "Example:\n  anticrack mesh show plate.msh -o figures\n"
       "  anticrack mesh show meshes/0123456789abcdef");
   on(show_command, [&globals](const MeshOptions& o) { return show_mesh(o, globals); });
+
+  const auto add_named = [&](const std::string& name, const std::string& help,
+                             const std::string& example, const auto& action) {
+    CLI::App* command = group->add_subcommand(name, help);
+    command->add_option("MESH", options->name, "meshes/ID")->required();
+    command->footer("Example:\n  anticrack mesh " + name + " meshes/0123456789abcdef" + example);
+    on(command, [&globals, action](const MeshOptions& o) { return action(o, globals); });
+    return command;
+  };
+  CLI::App* warm_command =
+      add_named("warm", "Factorise a mesh now, so that the next job need not wait", " --pin", warm);
+  warm_command->add_flag("--pin", options->pin,
+                         "Keep it in memory until it is evicted (administrators)");
+  warm_command->add_flag("--no-wait", options->no_wait, "Do not wait until it is factorised");
+  add_named("evict", "Free the memory of a mesh; the next job factorises again", "", evict);
+  add_named("delete", "Delete a mesh that no unfinished job uses", "", delete_mesh);
 }
 
 }  // namespace anticrack::cli

@@ -36,6 +36,11 @@ std::string head(const v1::Mesh& mesh) {
   if (!mesh.title().empty()) {
     text += sanitise(mesh.title()) + "\n";
   }
+  if (!mesh.owner().empty() || mesh.pinned()) {
+    text += mesh.owner().empty() ? "" : "of " + sanitise(mesh.owner());
+    text += mesh.owner().empty() || !mesh.pinned() ? "" : ", ";
+    text += mesh.pinned() ? "kept in memory until it is evicted\n" : "\n";
+  }
   if (mesh.has_error()) {
     text += sanitise(mesh.error().message()) + "\n";
   }

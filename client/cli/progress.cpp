@@ -42,6 +42,11 @@ void JobProgress::apply(const v1::WatchJobResponse& event) {
 
 void JobProgress::apply(const v1::Job& job_now) {
   job = sanitise(job_now.name());
+  if (job_now.attempt() > attempt && attempt > 0) {
+    cases.clear();  // the server stopped meanwhile and runs it anew
+    ended_count = 0;
+  }
+  attempt = std::max(attempt, job_now.attempt());
   if (state != job_now.state()) {
     detail.clear();
   }

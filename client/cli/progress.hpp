@@ -28,10 +28,11 @@ struct CaseProgress {
 struct JobProgress {
   std::string job;
   v1::Job::State state = v1::Job::STATE_UNSPECIFIED;
-  std::string detail;       ///< phase, e.g. "meshing"
-  std::string notice;       ///< e.g. that the connection is lost; empty when all is well
-  bool active_set = false;  ///< a handful of steps, no criterion; else iterations of Algorithm 2
-  double target = 1e-12;    ///< of the criterion; 0: something else ends the iteration
+  std::string detail;        ///< phase, e.g. "meshing"
+  std::string notice;        ///< e.g. that the connection is lost; empty when all is well
+  std::int32_t attempt = 0;  ///< of the server at the job; 0 before the first snapshot
+  bool active_set = false;   ///< a handful of steps, no criterion; else iterations of Algorithm 2
+  double target = 1e-12;     ///< of the criterion; 0: something else ends the iteration
   std::vector<CaseProgress> cases;
   std::size_t ended_count = 0;
 

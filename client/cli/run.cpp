@@ -12,6 +12,7 @@
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/follow.hpp"
+#include "cli/job_text.hpp"
 #include "cli/json.hpp"
 #include "cli/progress.hpp"
 #include "cli/submit.hpp"
@@ -66,6 +67,9 @@ std::vector<std::string> causes(const v1::Job& job) {
   if (job.state() == v1::Job::STATE_CANCELLED) {
     return {job.name() + " was cancelled"};
   }
+  if (job.state() == v1::Job::STATE_EXPIRED) {
+    return {expired_text(job)};
+  }
   std::vector<std::string> lines;
   if (job.has_error()) {
     lines.push_back(job.name() + " failed: " + job.error().message());
@@ -116,7 +120,10 @@ void tell_warnings(Session& session, const v1::Job& job) {
 
 int run(const RunOptions& options, const Globals& globals) {
   const auto begin = std::chrono::steady_clock::now();
-  const casefile::Case the_case = casefile::read_case(options.case_file, options.overrides);
+  casefile::Case the_case = casefile::read_case(options.case_file, options.overrides);
+  if (the_case.job.priority() == v1::Job::PRIORITY_UNSPECIFIED) {
+    the_case.job.set_priority(v1::Job::PRIORITY_INTERACTIVE);  // somebody waits for it
+  }
   const fs::path output = options.output.empty()
                               ? fs::path(options.case_file).filename().replace_extension(".h5")
                               : fs::path(options.output);
@@ -136,7 +143,7 @@ int run(const RunOptions& options, const Globals& globals) {
   const int job_code = followed.how == Followed::How::cancelled
                            ? exit_interrupted
                            : exit_code_of(followed.job.state());
-  if (followed.job.result_bytes() == 0) {
+  if (followed.job.result_bytes() == 0 || followed.job.state() == v1::Job::STATE_EXPIRED) {
     return finish_without_results(globals, followed.job, job_code);
   }
   results::Result result = fetch(session, followed.job);
@@ -161,12 +168,7 @@ void add_run(CLI::App& app, const Globals& globals, Command& chosen) {
   command->add_option("CASE", options->case_file, "The case, a TOML file")->required();
   command->add_option("-o,--output", options->output,
                       "Result file, HDF5 (default: CASE.h5 in this folder)");
-  command
-      ->add_option("--set", options->overrides,
-                   "Override a key of the case, for example solver.theta=1.7 or "
-                   "load.0.f=1; again for more")
-      ->allow_extra_args(false)
-      ->type_name("KEY=VALUE");
+  add_case_flags(*command, options->overrides);
   command->footer(
       "Ctrl-C detaches and prints the command that attaches again; a second Ctrl-C within two\n"
       "seconds cancels the job. With --local the first one cancels.\n\n"

@@ -34,6 +34,13 @@ std::vector<std::string> feature_lines(const v1::ServerInfo& info) {
   return lines;
 }
 
+std::string seconds(const google::protobuf::Duration& time) {
+  constexpr std::int64_t hour = 3600;
+  return time.seconds() >= hour && time.seconds() % hour == 0
+             ? std::to_string(time.seconds() / hour) + " h"
+             : std::to_string(time.seconds()) + " s";
+}
+
 std::string text_of(const v1::ServerInfo& info, const std::string& address) {
   const v1::ServerMetrics& metrics = info.metrics();
   const v1::ServerLimits& limits = info.limits();
@@ -61,7 +68,15 @@ std::string text_of(const v1::ServerInfo& info, const std::string& address) {
       {"limits", std::to_string(limits.mesh_triangles()) + " triangles a mesh, uploads of " +
                      bytes(limits.upload_bytes()) + ", " + std::to_string(limits.load_cases()) +
                      " load cases a job, " + std::to_string(limits.iterations()) +
-                     " iterations a load case"}};
+                     " iterations a load case"},
+      {"queue", std::to_string(limits.queued_jobs()) + " jobs, " +
+                    std::to_string(limits.queued_cases()) + " load cases a mesh, " +
+                    bytes(limits.queued_bytes())},
+      {"times", "a job waits at most " + seconds(limits.queue_time()) + " and runs at most " +
+                    seconds(limits.run_time()) + "; results are kept " +
+                    (limits.result_ttl().seconds() > 0 ? "for " + seconds(limits.result_ttl())
+                                                       : std::string("without a limit of time")) +
+                    " within " + bytes(limits.disk_budget_bytes()) + " on the disk"}};
   rows.insert(rows.end(), counters.begin(), counters.end());
   return table(rows, {1});
 }

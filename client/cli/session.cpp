@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cli/json.hpp"
 #include "cli/text.hpp"
 
 namespace anticrack::cli {
@@ -28,20 +29,29 @@ void print_document(std::string_view text) {
   }
 }
 
+void tell_deleted(const Globals& globals, const std::string& name) {
+  if (globals.json) {
+    print_document(JsonWriter().begin_object().value("deleted", name).end_object().text());
+  } else {
+    say(globals, name + ": deleted");
+  }
+}
+
 Session::Session(const Globals& globals) : _globals(globals) {
-  client::ConnectionOptions options;
-  options.notice = [this](const std::string& message) { notice(message); };
+  const auto tell = [this](const std::string& message) { notice(message); };
   if (globals.local) {
     _local.emplace(_signals.first());
+    client::ConnectionOptions options;
     options.address = _local->address();
-  } else if (!globals.server.empty()) {
-    options.address = globals.server;
+    options.notice = tell;
+    _connection.emplace(std::move(options));
+  } else {
+    _connection.emplace(connection_options(globals.connection, tell));
   }
-  _connection.emplace(std::move(options));
 }
 
 std::string Session::server_option() const {
-  return _globals.server.empty() ? "" : " --server " + _globals.server;
+  return as_flags(_globals.connection);
 }
 
 void Session::notice(const std::string& message) {

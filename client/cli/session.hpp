@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "cli/connection_flags.hpp"
 #include "cli/local_server.hpp"
 #include "cli/signals.hpp"
 #include "client/connection.hpp"
@@ -17,7 +18,7 @@ namespace anticrack::cli {
 
 /// Options of every command.
 struct Globals {
-  std::string server;  ///< empty: client::default_address
+  ConnectionFlags connection;
   bool local = false;
   bool json = false;
 };
@@ -29,16 +30,19 @@ void say(const Globals& globals, std::string_view line);
 /// The one document of --json, or what a command was asked to show.
 void print_document(std::string_view text);
 
+/// That a resource is gone.
+void tell_deleted(const Globals& globals, const std::string& name);
+
 class Session {
  public:
-  /// Throws LocalServerError.
+  /// Throws LocalServerError, and client::Error for credentials that cannot be used.
   explicit Session(const Globals& globals);
 
   client::Connection& connection() noexcept { return *_connection; }
   Signals& signals() noexcept { return _signals; }
   std::stop_token stop() const noexcept { return _signals.first(); }
   const Globals& globals() const noexcept { return _globals; }
-  /// What names this server at the end of a command line; empty where not needed.
+  /// What leads to this server at the end of a command line; empty where not needed.
   std::string server_option() const;
 
   /// Who is told of retries; empty: standard error, each message once.

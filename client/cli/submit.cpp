@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/submit.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <map>
 #include <optional>
 #include <utility>
@@ -75,6 +77,31 @@ void upload_forces(Session& session, const casefile::Case& the_case, v1::Job& jo
 }
 
 }  // namespace
+
+void add_case_flags(CLI::App& command, std::vector<std::string>& overrides) {
+  command
+      .add_option("--set", overrides,
+                  "Override a key of the case, for example solver.theta=1.7 or load.0.f=1; again "
+                  "for more")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+  const auto add = [&](const std::string& flag, const std::string& key, const std::string& type,
+                       const std::string& help) {
+    command
+        .add_option_function<std::string>(
+            flag,
+            // Quoted, so that it is a text and nothing else of TOML.
+            [&overrides, key](const std::string& value) {
+              overrides.push_back(key + "='" + value + "'");
+            },
+            help + "; the same as --set " + key + "=" + type)
+        ->type_name(type);
+  };
+  add("--priority", "job.priority", "CLASS", "interactive, normal or bulk");
+  add("--queue-timeout", "job.queue_timeout", "TIME",
+      "Fail if it has not started after, e.g. 10min");
+  add("--run-timeout", "job.run_timeout", "TIME", "Stop if it has not ended after, e.g. 2h");
+}
 
 v1::Mesh create_mesh(Session& session, const casefile::Case& the_case) {
   if (the_case.mesh_file && !std::filesystem::is_regular_file(*the_case.mesh_file)) {

@@ -14,7 +14,15 @@
 #include "cli/session.hpp"
 #include "results/result.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace anticrack::cli {
+
+/// --set, and the flags of what stands in [job], which are overrides as well. For commands that
+/// submit a case.
+void add_case_flags(CLI::App& command, std::vector<std::string>& overrides);
 
 /// Uploads the case's .msh if it has one, and creates its mesh. A refusal names the lines of the
 /// case it is about.

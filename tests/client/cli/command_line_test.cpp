@@ -48,6 +48,9 @@ TEST(CommandLine, HelpOfEveryCommandHasAnExample) {
                                                        {"mesh", "upload"},
                                                        {"mesh", "list"},
                                                        {"mesh", "show"},
+                                                       {"mesh", "warm"},
+                                                       {"mesh", "evict"},
+                                                       {"mesh", "delete"},
                                                        {"job", "submit"},
                                                        {"job", "list"},
                                                        {"job", "show"},
@@ -77,8 +80,10 @@ TEST(CommandLine, SuggestsTheCommandThatWasMeant) {
   const Ran typo = run({"rnu", "case.toml"});
   EXPECT_EQ(typo.code, exit_usage);
   EXPECT_THAT(typo.error, HasSubstr("unknown command rnu; did you mean run?"));
-  EXPECT_THAT(run({"--server", "here", "job", "wacth"}).error,
-              HasSubstr("unknown command wacth; did you mean watch?"));
+  for (const char* flag : {"--server", "--ca", "--token-file", "--retry-for"}) {
+    EXPECT_THAT(run({flag, "1", "--json", "job", "wacth"}).error,
+                HasSubstr("unknown command wacth; did you mean watch?"));
+  }
 }
 
 TEST(CommandLine, RefusesWrongUsage) {
@@ -88,6 +93,7 @@ TEST(CommandLine, RefusesWrongUsage) {
                                              {"mesh"},
                                              {"show", "a", "b"},
                                              {"run", "a", "--sett", "x=1"},
+                                             {"server", "--retry-for", "soon"},
                                              {"job", "list", "--limit", "0"}}) {
     const Ran wrong = run(arguments);
     EXPECT_EQ(wrong.code, exit_usage);
@@ -123,6 +129,25 @@ TEST(CommandLine, ReportsErrorsAsOneJsonDocument) {
   const auto& error = document.fields().at("error").struct_value().fields();
   EXPECT_EQ(error.at("code").string_value(), "CASE");
   EXPECT_THAT(error.at("message").string_value(), HasSubstr("no-such-case.toml"));
+}
+
+TEST(CommandLine, NamesTheCredentialThatCannotBeUsed) {
+  const Ran missing = run({"server", "--ca", "no-such-file.pem"});
+  EXPECT_EQ(missing.code, exit_usage);
+  EXPECT_THAT(missing.error, HasSubstr("--ca: no-such-file.pem"));
+  const Ran open =
+      run({"server", "--server", "far.example:7433", "--token-file", EXAMPLES "/arc.toml"});
+  EXPECT_EQ(open.code, exit_usage);
+  EXPECT_THAT(open.error, HasSubstr("arc.toml is no token"));
+}
+
+TEST(CommandLine, AFlagOfAJobIsTheKeyOfTheCase) {
+  const Ran wrong = run({"run", EXAMPLES "/paper-1.toml", "--priority", "bulky"});
+  EXPECT_EQ(wrong.code, exit_usage);
+  EXPECT_THAT(wrong.error, HasSubstr("job.priority"));
+  EXPECT_THAT(wrong.error, HasSubstr("did you mean bulk?"));
+  EXPECT_THAT(run({"job", "submit", EXAMPLES "/paper-1.toml", "--run-timeout", "0"}).error,
+              HasSubstr("job.run_timeout"));
 }
 
 TEST(CommandLine, AnUnreachableServerIsItsOwnExitCode) {

@@ -44,6 +44,24 @@ TEST(JobProgress, IsNotSetBackByOldEvents) {
   EXPECT_EQ(progress.ended_count, 1U);
 }
 
+TEST(JobProgress, BeginsAnewWithAnotherAttempt) {
+  JobProgress progress;
+  v1::WatchJobResponse first = snapshot(2);
+  first.mutable_snapshot()->mutable_job()->set_attempt(1);
+  progress.apply(first);
+  progress.apply(sample(0, 7, 1e-3, 12));
+  progress.apply(load_ended(1, 9, 1e-13));
+  progress.apply(first);
+  EXPECT_EQ(progress.cases[0].iteration, 7) << "the same attempt, watched again";
+
+  v1::WatchJobResponse second = snapshot(2);
+  second.mutable_snapshot()->mutable_job()->set_attempt(2);
+  progress.apply(second);
+  EXPECT_EQ(progress.ended_count, 0U);
+  progress.apply(sample(0, 1, 0.5, 1));
+  EXPECT_EQ(progress.cases[0].iteration, 1);
+}
+
 TEST(JobProgress, TellsThePhaseUntilTheStateChanges) {
   JobProgress progress;
   v1::WatchJobResponse phase;

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/connection_flags.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdlib>
+#include <utility>
+
+#include "casefile/duration.hpp"
+
+namespace anticrack::cli {
+
+void add_connection_flags(CLI::App& app, ConnectionFlags& flags) {
+  app.add_option("--server", flags.server,
+                 "HOST:PORT or unix:PATH of anticrackd (default: localhost:7433)")
+      ->envname("ANTICRACK_SERVER");
+  app.add_flag("--tls", flags.credentials.tls,
+               "Encrypt, and know the server by the roots of this system");
+  const auto add_file = [&app](const char* flag, std::filesystem::path& path, const char* variable,
+                               const char* help) {
+    app.add_option(flag, path, help)->type_name("FILE")->envname(variable);
+  };
+  add_file("--ca", flags.credentials.ca, "ANTICRACK_CA",
+           "Encrypt, and know the server by this authority's certificate, PEM");
+  add_file("--cert", flags.credentials.certificate, "ANTICRACK_CERT",
+           "Certificate of this client, PEM; for servers that want one");
+  add_file("--key", flags.credentials.key, "ANTICRACK_KEY", "Private key of --cert, PEM");
+  add_file("--token-file", flags.credentials.token, "ANTICRACK_TOKEN_FILE",
+           "Holds the token of this client; the variable ANTICRACK_TOKEN may hold it instead");
+  app.add_option_function<std::string>(
+         "--retry-for",
+         [&flags](const std::string& text) {
+           flags.retry_for = casefile::parse_duration(text);
+           if (!flags.retry_for) {
+             throw CLI::ValidationError("--retry-for",
+                                        text + " is no time; write 30s, 10min or 2h");
+           }
+         },
+         "How long a server that is gone is tried again (default: 5min, 3s if it was never there)")
+      ->type_name("TIME");
+}
+
+client::ConnectionOptions connection_options(const ConnectionFlags& flags,
+                                             std::function<void(const std::string&)> notice) {
+  client::ConnectionOptions options;
+  if (!flags.server.empty()) {
+    options.address = flags.server;
+  }
+  client::CredentialFiles files = flags.credentials;
+  if (const char* token = std::getenv("ANTICRACK_TOKEN")) {
+    files.token_text = token;
+  }
+  options.credentials = client::read_credentials(files, options.address);
+  if (flags.retry_for) {
+    options.retry.patience = *flags.retry_for;
+    options.first_contact = *flags.retry_for;
+  }
+  options.notice = std::move(notice);
+  return options;
+}
+
+std::string as_flags(const ConnectionFlags& flags) {
+  const client::CredentialFiles& files = flags.credentials;
+  std::string text = flags.server.empty() ? "" : " --server " + flags.server;
+  text += files.tls ? " --tls" : "";
+  const auto add = [&text](const char* flag, const std::filesystem::path& path) {
+    text += path.empty() ? std::string() : std::string(" ") + flag + " " + path.string();
+  };
+  add("--ca", files.ca);
+  add("--cert", files.certificate);
+  add("--key", files.key);
+  add("--token-file", files.token);
+  return text;
+}
+
+}  // namespace anticrack::cli

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/job_text.hpp"
+
+#include <google/protobuf/util/time_util.h>
+
+#include <vector>
+
+#include "cli/progress.hpp"
+#include "cli/text.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+using google::protobuf::util::TimeUtil;
+
+std::string_view name_of(v1::Job::Priority priority) {
+  switch (priority) {
+    case v1::Job::PRIORITY_INTERACTIVE:
+      return "interactive";
+    case v1::Job::PRIORITY_BULK:
+      return "bulk";
+    default:
+      return "normal";
+  }
+}
+
+// What is not as usual, in one line.
+std::string circumstances(const v1::Job& job) {
+  std::string text = "priority " + std::string(name_of(job.priority()));
+  if (!job.owner().empty()) {
+    text += ", of " + sanitise(job.owner());
+  }
+  if (job.attempt() > 1) {
+    text += ", attempt " + std::to_string(job.attempt()) + ": the server stopped while it ran";
+  }
+  const auto add_limit = [&text](const char* name, const google::protobuf::Duration& time) {
+    if (TimeUtil::DurationToMilliseconds(time) > 0) {
+      text += std::string(", ") + name + " at most " +
+              number(static_cast<double>(TimeUtil::DurationToMilliseconds(time)) / 1000) + " s";
+    }
+  };
+  add_limit("waits", job.queue_timeout());
+  add_limit("runs", job.run_timeout());
+  return text + "\n";
+}
+
+std::string answers(const v1::Job& job) {
+  std::vector<std::vector<std::string>> rows{
+      {"load", "status", "iterations", "criterion", "energy"}};
+  std::string remarks;
+  for (const v1::LoadCaseAnswer& answer : job.answers()) {
+    const bool answered = answer.status() == v1::LoadCaseAnswer::STATUS_CONVERGED ||
+                          answer.status() == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED;
+    rows.push_back({sanitise(answer.name()), std::string(word(answer.status())),
+                    std::to_string(answer.iterations()),
+                    answered ? number(answer.criterion(), 2, true) : "-",
+                    answered ? number(answer.energy()) : "-"});
+    const std::string& remark = answer.has_error() ? answer.error().message() : answer.reason();
+    if (!remark.empty()) {
+      remarks += sanitise(answer.name()) + ": " + sanitise(remark) + "\n";
+    }
+  }
+  return table(rows, {1}) + remarks;
+}
+
+// Seconds since it was created: what a person wants to know is what took how long.
+std::string timeline(const v1::Job& job) {
+  if (job.timeline().empty()) {
+    return "";
+  }
+  const auto& begin = job.has_create_time() ? job.create_time() : job.timeline(0).time();
+  const bool again = job.timeline(job.timeline_size() - 1).attempt() > 1;
+  std::vector<std::vector<std::string>> rows{{"seconds", "state"}};
+  for (const v1::Job::Step& step : job.timeline()) {
+    const auto since = TimeUtil::DurationToMilliseconds(step.time() - begin);
+    std::string what(word(step.state()));
+    what += step.detail().empty() ? "" : " (" + sanitise(step.detail()) + ")";
+    what += again ? ", attempt " + std::to_string(step.attempt()) : "";
+    rows.push_back({number(static_cast<double>(since) / 1000, 6), what});
+  }
+  return "\ncreated " + TimeUtil::ToString(begin) + "\n" + table(rows, {1});
+}
+
+}  // namespace
+
+std::string expired_text(const v1::Job& job) {
+  return "the results of " + sanitise(job.name()) +
+         " were removed by age or by the server's disk budget; run the case again, and fetch in "
+         "time (see anticrack server)";
+}
+
+std::string job_text(const v1::Job& job) {
+  std::string text = sanitise(job.name()) + " on " + sanitise(job.mesh()) + ": " +
+                     std::string(word(job.state())) + "\n";
+  if (!job.title().empty()) {
+    text += sanitise(job.title()) + "\n";
+  }
+  if (job.has_error()) {
+    text += sanitise(job.error().message()) + "\n";
+  }
+  if (job.state() == v1::Job::STATE_EXPIRED) {
+    text += expired_text(job) + "\n";
+  }
+  return text + circumstances(job) + answers(job) + timeline(job);
+}
+
+}  // namespace anticrack::cli

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A job for people. Pure.
+#pragma once
+
+#include <string>
+
+#include "anticrack/v1/solve.pb.h"
+
+namespace anticrack::cli {
+
+/// State, owner, attempt, the answers so far and what happened when.
+std::string job_text(const v1::Job& job);
+
+/// Of an expired job: that its results are gone, and what to do.
+std::string expired_text(const v1::Job& job);
+
+}  // namespace anticrack::cli

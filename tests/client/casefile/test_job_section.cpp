@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "client/casefile/sample_case.hpp"
+
+namespace anticrack::casefile {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(JobSection, BecomesPriorityAndTimes) {
+  const Case plain = parse(sample_text);
+  EXPECT_EQ(plain.job.priority(), v1::Job::PRIORITY_UNSPECIFIED);
+  EXPECT_FALSE(plain.job.has_run_timeout());
+
+  const Case the_case = parse(sample_text + R"([job]
+priority = "bulk"
+queue_timeout = 90.5
+run_timeout = "2h"
+)");
+  EXPECT_EQ(the_case.job.priority(), v1::Job::PRIORITY_BULK);
+  EXPECT_EQ(the_case.job.queue_timeout().seconds(), 90);
+  EXPECT_EQ(the_case.job.queue_timeout().nanos(), 500'000'000);
+  EXPECT_EQ(the_case.job.run_timeout().seconds(), 7200);
+  EXPECT_EQ(the_case.locate("job.run_timeout")->line, 24U);
+}
+
+TEST(JobSection, NamesWhatIsWrong) {
+  EXPECT_THAT(complaint(sample_text + "[job]\npriority = \"blk\"\n"),
+              HasSubstr("did you mean bulk?"));
+  EXPECT_THAT(complaint(sample_text + "[job]\nprioriy = \"bulk\"\n"),
+              HasSubstr("did you mean priority?"));
+  for (const char* bad : {"0", "-3", "true", "\"soon\"", "\"400d\""}) {
+    EXPECT_THAT(complaint(sample_text + "[job]\nrun_timeout = " + bad + "\n"),
+                HasSubstr("plate.toml:22: job.run_timeout: "))
+        << bad;
+  }
+}
+
+TEST(JobSection, IsOverridden) {
+  EXPECT_EQ(parse(sample_text, {"job.priority=interactive"}).job.priority(),
+            v1::Job::PRIORITY_INTERACTIVE);
+  EXPECT_EQ(parse(sample_text, {"job.queue_timeout='90'"}).job.queue_timeout().seconds(), 90);
+}
+
+}  // namespace
+}  // namespace anticrack::casefile

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/job_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace anticrack::cli {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+v1::Job sample_job() {
+  v1::Job job;
+  job.set_name("jobs/1");
+  job.set_mesh("meshes/2");
+  job.set_state(v1::Job::STATE_SUCCEEDED);
+  job.mutable_create_time()->set_seconds(1'000);
+  return job;
+}
+
+void add_step(v1::Job& job, std::int64_t seconds, v1::Job::State state, const std::string& detail,
+              int attempt = 1) {
+  v1::Job::Step& step = *job.add_timeline();
+  step.mutable_time()->set_seconds(seconds);
+  step.set_state(state);
+  step.set_detail(detail);
+  step.set_attempt(attempt);
+}
+
+TEST(JobText, TellsWhoseJobItIsAndHowUrgent) {
+  v1::Job job = sample_job();
+  EXPECT_THAT(job_text(job), HasSubstr("priority normal\n"));
+  job.set_owner("ada\x1b[2J");
+  job.set_priority(v1::Job::PRIORITY_BULK);
+  job.mutable_run_timeout()->set_seconds(90);
+  EXPECT_THAT(job_text(job), HasSubstr("priority bulk, of ada?[2J, runs at most 90 s"));
+}
+
+TEST(JobText, TellsWhatHappenedWhen) {
+  v1::Job job = sample_job();
+  add_step(job, 1'000, v1::Job::STATE_QUEUED, "");
+  add_step(job, 1'003, v1::Job::STATE_WAITING_FOR_MESH, "meshing");
+  EXPECT_THAT(job_text(job), HasSubstr("created 1970-01-01T00:16:40Z"));
+  EXPECT_THAT(job_text(job), HasSubstr("\n3        waiting for the mesh (meshing)\n"));
+  EXPECT_THAT(job_text(job), Not(HasSubstr("attempt")));
+  job.set_attempt(2);
+  add_step(job, 1'010, v1::Job::STATE_RUNNING, "", 2);
+  EXPECT_THAT(job_text(job), HasSubstr("attempt 2: the server stopped while it ran"));
+  EXPECT_THAT(job_text(job), HasSubstr("\n10       running, attempt 2\n"));
+}
+
+TEST(JobText, OfExpiredResultsGivesTheCure) {
+  v1::Job job = sample_job();
+  job.set_state(v1::Job::STATE_EXPIRED);
+  EXPECT_THAT(job_text(job), HasSubstr("run the case again"));
+}
+
+}  // namespace
+}  // namespace anticrack::cli
