@@ -19,24 +19,47 @@ struct Config {
   std::uint64_t memory_budget = 0;  ///< 0: default_memory_budget()
   int threads = 0;                  ///< 0: as many as processors
   std::string log_level = "info";
+  std::string log_format = "text";
+  std::string metrics_listen;                ///< empty: no metrics
+  std::chrono::milliseconds drain_delay{0};  ///< not ready any more, but serving
   std::chrono::milliseconds drain_time{3'000};
+
+  // Paths; empty: none.
+  std::string tls_certificate;
+  std::string tls_key;
+  std::string tls_client_roots;
+  std::string tokens;
+  std::string admins;  ///< comma separated
 
   std::string mesher;  ///< empty: beside the executable
   std::chrono::milliseconds meshing_time{600'000};
   std::uint64_t mesher_memory = 6ULL << 30;
   std::uint64_t mesh_triangles = 4'000'000;
   int pending_meshes = 64;
+  int kept_meshes = 10'000;
   std::uint64_t upload_limit = 256ULL << 20;
 
   int load_cases = 1'000;
   int iterations = 1'000'000;
   int expression_bytes = 4'096;
+  int columns = 32;
   int queued_jobs = 1'000;
-  int kept_jobs = 10'000;
-  std::uint64_t kept_bytes = 4ULL << 30;
+  int queued_cases = 100'000;
+  std::uint64_t queued_bytes = 256ULL << 20;
+  std::chrono::milliseconds queue_time{std::chrono::hours(24)};
+  std::chrono::milliseconds run_time{std::chrono::hours(24)};
+  std::uint64_t result_limit = 2ULL << 30;
   std::uint64_t event_log = 8ULL << 20;
-  int watchers = 256;
-  int transfers = 32;
+
+  int kept_jobs = 10'000;
+  std::chrono::milliseconds result_ttl{std::chrono::hours(7 * 24)};
+  std::uint64_t result_budget = 4ULL << 30;
+  std::chrono::milliseconds upload_ttl{std::chrono::hours(7 * 24)};
+  std::uint64_t disk_budget = 0;  ///< 0: as much as there is
+
+  int watchers = 2'000;
+  int transfers = 64;
+  int streams_a_client = 1'024;
 };
 
 /// Says where (file and line, or flag), the bad value and the cure, in one line.
@@ -70,9 +93,12 @@ struct Setting {
   std::string where;  ///< "FILE:LINE" or "--FLAG"
 };
 
-/// Defaults, overridden by `file`, overridden by `command_line`; what was left to be found out is.
+/// Defaults, overridden by `file`, overridden by `command_line`; what was left to be found out is,
+/// and what contradicts itself, or is open to strangers without saying so, is refused.
 /// Throws ConfigError.
 Config make_config(const std::vector<Setting>& file, const std::vector<Setting>& command_line);
+
+bool has_tls(const Config& config);
 
 /// As a TOML file that gives the same configuration.
 std::string to_toml(const Config& config);

@@ -72,9 +72,9 @@ void require_local(const ListenAddress& address, bool allow_remote) {
   if (allow_remote || is_local(address)) return;
   throw ConfigError(
       "listen: " + address.text +
-      " is beyond this machine, and this server neither encrypts nor asks who calls: "
-      "use a loopback address or unix:PATH (through ssh -L or a TLS proxy), or accept "
-      "that with --allow-insecure-remote");
+      " is beyond this machine, and nothing would be encrypted: give tls-certificate and tls-key "
+      "(deploy/make-certificates makes some for a trial), use a loopback address or unix:PATH, or "
+      "accept that with --allow-insecure-remote");
 }
 
 void clear_stale_socket(const ListenAddress& address) {

@@ -20,7 +20,8 @@ ListenAddress parse_listen_address(const std::string& text);
 /// True for unix sockets, 127.0.0.0/8, ::1 and localhost.
 bool is_local(const ListenAddress& address);
 
-/// Throws ConfigError unless the address is local or `allow_remote`: there is no TLS yet.
+/// Throws ConfigError unless the address is local or `allow_remote`: with TLS, or because somebody
+/// said so.
 void require_local(const ListenAddress& address, bool allow_remote);
 
 /// Makes room for a unix socket: a socket file nobody answers on is removed. Throws ConfigError

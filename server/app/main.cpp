@@ -1,64 +1,85 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // anticrackd: configuration, signals, and the service between them.
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
 #include <sys/stat.h>
 
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "app/command_line.hpp"
 #include "app/config_file.hpp"
+#include "app/notify.hpp"
 #include "app/service.hpp"
 #include "app/signals.hpp"
 #include "errors/errors.hpp"
+#include "log/log.hpp"
 #include "rpc/version.hpp"
 
 namespace {
 
+using namespace anticrack;
+
 constexpr int usage_error = 2;
 
-void log_to_stderr(const std::string& level) {
-  const auto logger = spdlog::stderr_logger_mt("anticrackd");
-  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
-  logger->set_level(spdlog::level::from_str(level));
-  spdlog::set_default_logger(logger);
+/// The first signal; meanwhile systemd's watchdog, where there is one, hears that all is well.
+int wait_for_signal(const app::Signals& signals, const app::Service& service) {
+  const std::optional<std::chrono::milliseconds> interval = app::watchdog_interval();
+  if (!interval) return signals.wait();
+  for (;;) {
+    if (const std::optional<int> number = signals.wait_for(*interval)) return *number;
+    service.check_alive();
+    app::notify_alive();
+  }
 }
 
-int serve(const anticrack::app::Config& config) {
+int serve(const app::Config& config) {
   ::umask(0077);
-  const anticrack::app::Signals signals;
-  auto service = std::make_unique<anticrack::app::Service>(config);
+  const app::Signals signals;
+  auto service = std::make_unique<app::Service>(config);
   std::cout << "anticrackd listening on " << service->address() << std::endl;
-  spdlog::info("anticrackd {} listening on {}, data in {}", anticrack::rpc::version(),
-               service->address(), config.data_dir);
-  const int number = signals.wait();
-  spdlog::info("signal {}: stopping; once more to stop at once", number);
+  log::info(
+      "started",
+      {{"version", rpc::version()}, {"address", service->address()}, {"data", config.data_dir}});
+  app::notify_ready("listening on " + service->address());
+  const int number = wait_for_signal(signals, *service);
+  log::info("stopping", {{"signal", std::to_string(number)}, {"again", "stops at once"}});
+  app::notify_stopping("draining; jobs that do not end are queued again at the next start");
   signals.run_unless_interrupted([&] {
     service->drain();
     service.reset();
   });
-  spdlog::info("stopped");
+  log::info("stopped");
   return 0;
 }
 
+int start(const app::Config& config) {
+  const bool json = config.log_format == "json";
+  log::start(config.log_level, json ? log::Format::json : log::Format::text);
+  try {
+    return serve(config);
+  } catch (const std::exception& error) {
+    // As text main says it in words.
+    if (json) log::error("refused to start", {{"message", error.what()}});
+    throw;
+  }
+}
+
 int run(int argc, char** argv) {
-  using namespace anticrack::app;
-  const CommandLine line = parse_command_line(argc, argv, anticrack::rpc::version());
+  const app::CommandLine line = app::parse_command_line(argc, argv, rpc::version());
   if (line.text) {
     std::cout << *line.text;
     return 0;
   }
-  const std::vector<Setting> file =
-      line.config_file.empty() ? std::vector<Setting>{} : read_config_file(line.config_file);
-  const Config config = make_config(file, line.settings);
+  const std::vector<app::Setting> file = line.config_file.empty()
+                                             ? std::vector<app::Setting>{}
+                                             : app::read_config_file(line.config_file);
+  const app::Config config = app::make_config(file, line.settings);
   if (line.check_config) {
-    std::cout << to_toml(config);
+    std::cout << app::to_toml(config);
     return 0;
   }
-  log_to_stderr(config.log_level);
-  return serve(config);
+  return start(config);
 }
 
 }  // namespace
@@ -66,7 +87,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
-  } catch (const anticrack::app::ConfigError& error) {
+  } catch (const app::ConfigError& error) {
     std::cerr << "anticrackd: " << error.what() << "\n";
     return usage_error;
   } catch (const std::exception& error) {

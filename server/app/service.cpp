@@ -3,85 +3,80 @@
 
 #include <unistd.h>
 
-#include <algorithm>
+#include <atomic>
+#include <thread>
 #include <utility>
 
 #include "app/data_folder.hpp"
+#include "app/events.hpp"
 #include "app/listen_address.hpp"
-#include "jobs/job_engine.hpp"
-#include "meshes/mesh_catalogue.hpp"
+#include "app/options.hpp"
+#include "app/security.hpp"
+#include "log/log.hpp"
+#include "metrics/metrics.hpp"
 #include "operators/mesh_operator.hpp"
-#include "operators/operator_cache.hpp"
-#include "rpc/server.hpp"
-#include "store/store.hpp"
+#include "rpc/version.hpp"
 
 namespace anticrack::app {
-namespace {
-
-meshes::CatalogueOptions catalogue_options(const Config& config) {
-  meshes::CatalogueOptions options;
-  options.helper.executable = config.mesher.empty() ? mesher::default_executable() : config.mesher;
-  options.helper.time_limit = std::chrono::ceil<std::chrono::seconds>(config.meshing_time);
-  options.helper.memory_limit = config.mesher_memory;
-  options.max_triangles = config.mesh_triangles;
-  options.max_pending = static_cast<std::size_t>(config.pending_meshes);
-  if (::access(options.helper.executable.c_str(), X_OK) != 0) {
-    throw ConfigError("mesher: " + options.helper.executable +
-                      " is no program; say where anticrack-mesher is with --mesher PATH");
-  }
-  return options;
-}
-
-jobs::EngineOptions engine_options(const Config& config) {
-  jobs::EngineOptions options;
-  options.threads = config.threads;
-  options.max_load_cases = config.load_cases;
-  options.max_iterations = config.iterations;
-  options.max_expression_bytes = static_cast<std::size_t>(config.expression_bytes);
-  options.max_queued_jobs = config.queued_jobs;
-  options.max_kept_jobs = config.kept_jobs;
-  options.max_kept_bytes = config.kept_bytes;
-  options.event_log_bytes = config.event_log;
-  return options;
-}
-
-rpc::ServerOptions server_options(const Config& config) {
-  rpc::ServerOptions options;
-  options.listen = config.listen;
-  options.limits.upload_bytes = config.upload_limit;
-  options.limits.mesh_triangles = config.mesh_triangles;
-  options.limits.memory_budget_bytes = config.memory_budget;
-  options.limits.meshing_time = std::chrono::ceil<std::chrono::seconds>(config.meshing_time);
-  options.limits.watchers = config.watchers;
-  options.limits.transfers = config.transfers;
-  return options;
-}
-
-operators::OperatorCache::Factorise factorise(const Config& config) {
-  const int threads = std::min(config.threads, 2);  // one for each subdomain
-  return [threads](std::shared_ptr<const mesh::Mesh> mesh, std::stop_token stop) {
-    return operators::MeshOperator::factorise(std::move(mesh), threads, std::move(stop));
-  };
-}
-
-}  // namespace
 
 struct Service::Parts {
   explicit Parts(const Config& config)
       : address(parse_listen_address(config.listen)),
+        drain_delay(config.drain_delay),
         drain_time(config.drain_time),
+        metrics(rpc::version(), rpc::build()),
         folder(config.data_dir),
-        store(store::make_memory_store(config.data_dir)),
-        cache(config.memory_budget, factorise(config)),
-        catalogue(catalogue_options(config), *store, cache),
-        engine(engine_options(config), *store, catalogue) {
+        store(store::open(store_options(config))),
+        cache(config.memory_budget, factorise_function(config),
+              [this](std::chrono::duration<double> time) { factorised(metrics, time); }),
+        catalogue(told_of_meshes(catalogue_options(config)), *store, cache),
+        engine(told_of_jobs(engine_options(config)), *store, catalogue) {}
+
+  void listen(const Config& config, rpc::Security security) {
     clear_stale_socket(address);
-    server = std::make_unique<rpc::Server>(server_options(config),
-                                           rpc::Backend{engine, catalogue, cache, *store});
+    rpc::ServerOptions options = server_options(config);
+    options.security = std::move(security);
+    options.call_ended = [this](const std::string& method, int code,
+                                std::chrono::duration<double> time) {
+      metrics.call_ended(method, code, time);
+    };
+    server = std::make_unique<rpc::Server>(options, rpc::Backend{engine, catalogue, cache, *store});
+    ready = true;
+    if (config.metrics_listen.empty()) return;
+    const std::string where = metrics.listen(config.metrics_listen, [this] { return snapshot(); });
+    log::info("metrics", {{"url", "http://" + where + "/metrics"}});
+  }
+
+  metrics::Snapshot snapshot() const {
+    const rpc::Server::Metrics calls = server->metrics();
+    metrics::Snapshot now;
+    now.engine = engine.metrics();
+    now.cache = cache.metrics();
+    now.disk = store->usage();
+    now.meshings = catalogue.meshings();
+    now.pending_meshes = catalogue.pending();
+    now.watchers = calls.watchers;
+    now.transfers = calls.transfers;
+    now.largest_lag = calls.largest_lag;
+    now.ready = ready;
+    return now;
+  }
+
+  meshes::CatalogueOptions told_of_meshes(meshes::CatalogueOptions options) {
+    options.meshed = [this](const store::MeshRecord& mesh) { meshed(metrics, mesh); };
+    return options;
+  }
+
+  jobs::EngineOptions told_of_jobs(jobs::EngineOptions options) {
+    options.ended = [this](const store::JobRecord& job) { job_ended(metrics, job); };
+    return options;
   }
 
   ListenAddress address;
+  std::chrono::milliseconds drain_delay;
   std::chrono::milliseconds drain_time;
+  std::atomic<bool> ready{false};
+  metrics::Metrics metrics;
   DataFolder folder;
   std::unique_ptr<store::Store> store;
   operators::OperatorCache cache;
@@ -92,10 +87,14 @@ struct Service::Parts {
 
 Service::Service(const Config& config) {
   operators::require_threadsafe_blas();
+  LoadedSecurity access = load_security(config);
+  for (const std::string& warning : access.warnings) log::warn("security", {{"warning", warning}});
   _parts = std::make_unique<Parts>(config);
+  _parts->listen(config, std::move(access.security));
 }
 
 Service::~Service() {
+  _parts->metrics.stop();
   _parts->server.reset();
   if (!_parts->address.socket_path.empty()) ::unlink(_parts->address.socket_path.c_str());
 }
@@ -104,8 +103,16 @@ const std::string& Service::address() const noexcept {
   return _parts->server->address();
 }
 
+void Service::check_alive() const {
+  _parts->snapshot();
+}
+
 void Service::drain() {
+  _parts->ready = false;
+  _parts->server->announce_stop();
+  std::this_thread::sleep_for(_parts->drain_delay);
   _parts->server->drain(_parts->drain_time);
+  _parts->engine.stop(std::chrono::milliseconds(0));
 }
 
 }  // namespace anticrack::app

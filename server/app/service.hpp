@@ -14,12 +14,17 @@ class Service {
  public:
   /// Everything up to listening. Throws ConfigError or errors::Error.
   explicit Service(const Config& config);
-  /// Cancels what still runs.
+  /// Stops at once: metrics first, then calls, jobs, meshes, operators, the store. Jobs that have
+  /// not ended are queued again at the next start.
   ~Service();
 
   /// HOST:PORT with the real port, or unix:PATH.
   const std::string& address() const noexcept;
-  /// Stops gently within the configuration's drain-time and a little.
+  /// Returns once every part has answered a question that takes its lock: one that is stuck keeps
+  /// it waiting, and so keeps systemd's watchdog from hearing of it.
+  void check_alive() const;
+  /// Not ready any more, and serving on for drain-delay; then stops gently within drain-time and a
+  /// little.
   void drain();
 
  private:

@@ -50,6 +50,7 @@ Signals::Signals() {
   _reader = ends[0];
   signal_writer = ends[1];
   set_action(SIGPIPE, SIG_IGN);
+  set_action(SIGHUP, SIG_IGN);
   set_action(SIGTERM, anticrack_note_signal);
   set_action(SIGINT, anticrack_note_signal);
 }
@@ -67,6 +68,14 @@ int Signals::wait() const {
     if (errno != EINTR) fail("cannot read signals");
   }
   return number;
+}
+
+std::optional<int> Signals::wait_for(std::chrono::milliseconds time) const {
+  pollfd descriptor{_reader, POLLIN, 0};
+  const int ready = ::poll(&descriptor, 1, static_cast<int>(time.count()));
+  if (ready < 0 && errno != EINTR) fail("cannot wait for signals");
+  if (ready <= 0 || (descriptor.revents & POLLIN) == 0) return std::nullopt;
+  return wait();
 }
 
 void Signals::run_unless_interrupted(const std::function<void()>& work) const {

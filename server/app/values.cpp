@@ -26,6 +26,13 @@ constexpr std::array<Unit, 9> units{{{"", 1},
                                      {"Gi", 1ULL << 30},
                                      {"Ti", 1ULL << 40}}};
 
+struct TimeUnit {
+  std::string_view name;
+  std::int64_t seconds;
+};
+
+constexpr std::array<TimeUnit, 4> time_units{{{"d", 86'400}, {"h", 3'600}, {"m", 60}, {"s", 1}}};
+
 /// Reads a number that is not negative from the start of `text` and returns what comes after it,
 /// blanks removed; false where there is none.
 bool split_number(std::string_view text, double& number, std::string_view& rest) {
@@ -76,21 +83,32 @@ std::int64_t to_integer(const std::string& text, std::int64_t least, std::int64_
 }
 
 std::chrono::milliseconds to_time(const std::string& text) {
-  constexpr double day = 86'400;
+  constexpr double longest = 30 * 86'400.0;
   double number = 0;
   std::string_view rest;
-  if (!split_number(text, number, rest) || (!rest.empty() && rest != "s") || number > day) {
-    throw std::invalid_argument(
-        "\"" + text + "\" is no time in seconds between 0 and 86400; write e.g. 3 or 0.5");
+  if (split_number(text, number, rest)) {
+    if (rest.empty()) rest = "s";
+    for (const TimeUnit& unit : time_units) {
+      const double seconds = number * static_cast<double>(unit.seconds);
+      if (rest == unit.name && seconds <= longest) {
+        return std::chrono::milliseconds(std::llround(seconds * 1000));
+      }
+    }
   }
-  return std::chrono::milliseconds(std::llround(number * 1000));
+  throw std::invalid_argument(
+      "\"" + text + "\" is no time of at most 30 days; write e.g. 0.5, 90s, 5m, 12h or 7d");
 }
 
 std::string from_time(std::chrono::milliseconds time) {
   const auto whole = time.count() / 1000;
   const auto rest = time.count() % 1000;
-  if (rest == 0) return std::to_string(whole);
-  return std::to_string(whole) + "." + std::to_string(1000 + rest).substr(1);
+  if (rest != 0) return std::to_string(whole) + "." + std::to_string(1000 + rest).substr(1);
+  for (const TimeUnit& unit : time_units) {
+    if (unit.seconds > 1 && whole != 0 && whole % unit.seconds == 0) {
+      return std::to_string(whole / unit.seconds) + std::string(unit.name);
+    }
+  }
+  return std::to_string(whole);
 }
 
 bool to_flag(const std::string& text) {

@@ -19,8 +19,9 @@ std::string from_bytes(std::uint64_t bytes);
 /// An integer within [least, most].
 std::int64_t to_integer(const std::string& text, std::int64_t least, std::int64_t most);
 
-/// Seconds, with or without an "s": "3", "0.5", "90s". Not negative, at most a day.
+/// "90s", "5m", "12h", "7d"; a bare number is seconds: "3", "0.5". Not negative, at most 30 days.
 std::chrono::milliseconds to_time(const std::string& text);
+/// The shortest text that to_time reads back exactly.
 std::string from_time(std::chrono::milliseconds time);
 
 /// "true" or "false".

@@ -158,15 +158,15 @@ Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
   }
   answer.energy = load_case.sample().energy;
   answer.kkt = load_case.sample().kkt;
-  answer.kkt_relative = relative_residuals(problem.traces().decomposition(), loads.subdomains,
-                                           load_case.state(), answer.kkt);
+  const TraceState& state = load_case.state();
+  answer.kkt_relative = relative_residuals(problem.traces().decomposition(), state.mu, state.jump,
+                                           scales_of(loads.subdomains, state), answer.kkt);
   answer.weakly_active = solution.weakly_active;
   answer.closed = solution.closed;
   if (!std::isfinite(answer.energy)) {
     answer.warnings.emplace_back("the energy is beyond the range of double; scale the load down");
   }
-  describe(problem.traces(), mesh, loads.subdomains, loads.inclusion_forces, load_case.state(),
-           fields, answer);
+  describe(problem.traces(), mesh, loads.subdomains, loads.inclusion_forces, state, fields, answer);
   return answer;
 }
 

@@ -42,9 +42,10 @@ TraceProblem::TraceProblem(const ddm::Decomposition& decomposition,
   }
 }
 
-void TraceProblem::apply_mass(Mass mass, const Eigen::VectorXd& mu, Eigen::VectorXd& force) const {
+void TraceProblem::apply_mass(Mass mass, const Eigen::Ref<const Eigen::MatrixXd>& mu,
+                              Eigen::Ref<Eigen::MatrixXd> force) const {
   if (mass == Mass::lumped) {
-    force.noalias() = _lumped.cwiseProduct(mu);
+    force.noalias() = _lumped.asDiagonal() * mu;
   } else {
     force.noalias() = _consistent * mu;
   }

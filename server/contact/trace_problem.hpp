@@ -37,8 +37,9 @@ class TraceProblem {
   /// Diagonal of the lumped interface mass: the length that belongs to each pair.
   const Eigen::VectorXd& lumped_mass() const noexcept { return _lumped; }
 
-  /// force = M mu. No allocation.
-  void apply_mass(Mass mass, const Eigen::VectorXd& mu, Eigen::VectorXd& force) const;
+  /// force = M mu, column by column. No allocation.
+  void apply_mass(Mass mass, const Eigen::Ref<const Eigen::MatrixXd>& mu,
+                  Eigen::Ref<Eigen::MatrixXd> force) const;
 
   /// theta* = 2 / lambda_max(M^1/2 (F1 + F2) M^1/2): the iteration contracts for every load when
   /// 0 < theta < theta* (Theorem 4). Infinite when there is no interface, 0 where Algorithm 2 does

@@ -18,11 +18,11 @@ double ratio(double value, double scale) {
   return value == 0 ? 0 : value / scale;
 }
 
-double largest(const VectorXd& values) {
+}  // namespace
+
+double largest(const ConstVectorRef& values) {
   return values.size() == 0 ? 0 : values.lpNorm<Eigen::Infinity>();
 }
-
-}  // namespace
 
 std::vector<VectorXd> fluxes(const std::vector<ddm::SubdomainOperator>& operators,
                              std::span<const ddm::CondensedLoad> loads,
@@ -46,8 +46,8 @@ double energy(std::span<const ddm::CondensedLoad> loads, const TraceState& state
   return std::isnan(total) && !std::isnan(constant) ? constant : total;
 }
 
-KktResiduals contact_residuals(const ddm::Decomposition& decomposition, const VectorXd& mu,
-                               const VectorXd& jump) {
+KktResiduals contact_residuals(const ddm::Decomposition& decomposition, const ConstVectorRef& mu,
+                               const ConstVectorRef& jump) {
   KktResiduals result;
   for (Index i = 0; i < mu.size(); ++i) {
     if (decomposition.pairs[at(i)].unilateral()) {
@@ -68,43 +68,52 @@ double equilibrium_residual(const ddm::Decomposition& decomposition, const Trace
     residual[at(pair.minus)][pair.minus_trace] += state.force[i];
     residual[at(pair.plus)][pair.plus_trace] -= state.force[i];
   }
+  VectorXd on_inclusion(state.displacement.size());
+  return largest_unbalanced(decomposition, residual, on_inclusion);
+}
+
+double largest_unbalanced(const ddm::Decomposition& decomposition, std::span<const VectorXd> forces,
+                          VectorXd& on_inclusion) {
   double worst = 0;
-  VectorXd on_inclusion = VectorXd::Zero(state.displacement.size());
-  for (std::size_t s = 0; s < residual.size(); ++s) {
+  on_inclusion.setZero();
+  for (std::size_t s = 0; s < forces.size(); ++s) {
     const std::vector<std::int32_t>& rigid = decomposition.subdomains[s].rigid;
-    for (Index k = 0; k < residual[s].size(); ++k) {
+    for (Index k = 0; k < forces[s].size(); ++k) {
       if (rigid[at(k)] < 0) {
-        worst = std::max(worst, std::abs(residual[s][k]));
+        worst = std::max(worst, std::abs(forces[s][k]));
       } else {
-        on_inclusion[rigid[at(k)]] += residual[s][k];
+        on_inclusion[rigid[at(k)]] += forces[s][k];
       }
     }
   }
   return std::max(worst, largest(on_inclusion));
 }
 
-KktResiduals relative_residuals(const ddm::Decomposition& decomposition,
-                                std::span<const ddm::CondensedLoad> loads, const TraceState& state,
-                                const KktResiduals& absolute) {
-  double force = largest(state.force), displacement = 0;
+Scales scales_of(std::span<const ddm::CondensedLoad> loads, const TraceState& state) {
+  Scales result{largest(state.force), 0, largest(state.mu)};
   for (std::size_t s = 0; s < loads.size(); ++s) {
-    force = std::max(force, largest(loads[s].g));
-    displacement = std::max(displacement, largest(state.trace[s]));
+    result.force = std::max(result.force, largest(loads[s].g));
+    result.trace = std::max(result.trace, largest(state.trace[s]));
   }
-  const double mu = largest(state.mu);
-  KktResiduals result{ratio(absolute.equilibrium, force), ratio(absolute.gap, displacement),
-                      ratio(absolute.sign, mu), 0};
-  for (Index i = 0; i < state.mu.size(); ++i) {
+  return result;
+}
+
+KktResiduals relative_residuals(const ddm::Decomposition& decomposition, const ConstVectorRef& mu,
+                                const ConstVectorRef& jump, const Scales& scales,
+                                const KktResiduals& absolute) {
+  KktResiduals result{ratio(absolute.equilibrium, scales.force), ratio(absolute.gap, scales.trace),
+                      ratio(absolute.sign, scales.mu), 0};
+  for (Index i = 0; i < mu.size(); ++i) {
     if (decomposition.pairs[at(i)].unilateral()) {
       result.complementarity =
           std::max(result.complementarity,
-                   std::abs(ratio(state.mu[i], mu)) * std::abs(ratio(state.jump[i], displacement)));
+                   std::abs(ratio(mu[i], scales.mu)) * std::abs(ratio(jump[i], scales.trace)));
     }
   }
   return result;
 }
 
-int contact_count(const ddm::Decomposition& decomposition, const VectorXd& mu) {
+int contact_count(const ddm::Decomposition& decomposition, const ConstVectorRef& mu) {
   int count = 0;
   for (Index i = 0; i < mu.size(); ++i) {
     count += decomposition.pairs[at(i)].unilateral() && mu[i] > 0 ? 1 : 0;

@@ -29,20 +29,36 @@ std::vector<Eigen::VectorXd> fluxes(const std::vector<ddm::SubdomainOperator>& o
 /// Pi = sum_i (t'S t/2 - g't + constant), of a state with fluxes. O(n_G).
 double energy(std::span<const ddm::CondensedLoad> loads, const TraceState& state);
 
+using ConstVectorRef = Eigen::Ref<const Eigen::VectorXd>;
+
+/// max |v_i|, 0 without entries.
+double largest(const ConstVectorRef& values);
+
 /// gap, sign and complementarity; `equilibrium` is left 0. O(n_G), no allocation.
-KktResiduals contact_residuals(const ddm::Decomposition& decomposition, const Eigen::VectorXd& mu,
-                               const Eigen::VectorXd& jump);
+KktResiduals contact_residuals(const ddm::Decomposition& decomposition, const ConstVectorRef& mu,
+                               const ConstVectorRef& jump);
 /// max |(S t - g - B'M mu)_i|, summed over the nodes an inclusion holds rigid. O(n_G).
 double equilibrium_residual(const ddm::Decomposition& decomposition, const TraceState& state);
+/// The same of forces S t - g - B'M mu that are at hand, per subdomain. `on_inclusion` is
+/// workspace, one entry per inclusion. No allocation.
+double largest_unbalanced(const ddm::Decomposition& decomposition,
+                          std::span<const Eigen::VectorXd> forces, Eigen::VectorXd& on_inclusion);
 
-/// The residuals relative to: the largest condensed load or pair force |g|, |M mu| (equilibrium),
-/// the largest trace |t| (gap), the largest |mu| (sign), the product of the last two
-/// (complementarity, formed without overflow). 0 where the residual is 0.
-KktResiduals relative_residuals(const ddm::Decomposition& decomposition,
-                                std::span<const ddm::CondensedLoad> loads, const TraceState& state,
+/// What residuals are relative to.
+struct Scales {
+  double force = 0;  ///< largest condensed load or pair force: |g|, |M mu|
+  double trace = 0;  ///< largest |t|
+  double mu = 0;     ///< largest |mu|
+};
+Scales scales_of(std::span<const ddm::CondensedLoad> loads, const TraceState& state);
+
+/// The residuals relative to: force (equilibrium), trace (gap), mu (sign), the product of the last
+/// two (complementarity, formed without overflow). 0 where the residual is 0. No allocation.
+KktResiduals relative_residuals(const ddm::Decomposition& decomposition, const ConstVectorRef& mu,
+                                const ConstVectorRef& jump, const Scales& scales,
                                 const KktResiduals& absolute);
 
 /// Crack nodes with mu > 0.
-int contact_count(const ddm::Decomposition& decomposition, const Eigen::VectorXd& mu);
+int contact_count(const ddm::Decomposition& decomposition, const ConstVectorRef& mu);
 
 }  // namespace anticrack::contact

@@ -11,20 +11,16 @@
 
 namespace anticrack::contact {
 
-/// What one iteration of Algorithm 2 leaves behind.
+/// What one iteration of Algorithm 2 tells of a column.
 struct Iterate {
-  int number = 0;                      ///< 1 for the paper's k = 0
-  std::vector<Eigen::VectorXd> trace;  ///< of u_{i,k}, per subdomain
-  Eigen::VectorXd displacement;        ///< A_k, per inclusion
-  Eigen::VectorXd mu;                  ///< mu_k, per pair: what u_k was computed from
-  Eigen::VectorXd jump;                ///< u+ - u-, per pair
-  double criterion = 1;                ///< step 3; 1 in the first iteration
-  double energy = 0;                   ///< Pi_1 + Pi_2
-  bool turned = false;  ///< the change of mu points against the change before (in the M product)
+  int number = 0;        ///< 1 for the paper's k = 0
+  double criterion = 1;  ///< step 3; 1 in the first iteration
+  double energy = 0;     ///< Pi_1 + Pi_2
+  bool turned = false;   ///< the change of mu points against the change before (in the M product)
 };
 
-/// Algorithm 2 of the paper in trace space, one iteration a call. With B_i the signed incidence of
-/// pairs and traces of subdomain i (-1 minus side, +1 plus side):
+/// Algorithm 2 of the paper in trace space, for many loads at once, a column each. With B_i the
+/// signed incidence of pairs and traces of subdomain i (-1 minus side, +1 plus side):
 ///
 ///   t_i = F_i (g_i + B_i'M mu_k),   mu_{k+1} = P(mu_k + theta (t_minus - t_plus))
 ///
@@ -32,43 +28,76 @@ struct Iterate {
 /// section 6 projection, so w_k, y_k^0, y_k and A_k = -c_k/b_k of the paper are inside it.
 /// Norms and energies need no further product: t'S t = t'(g + B'M mu) as t = F(g + B'M mu), and the
 /// same holds for the change of t.
-/// One object belongs to one thread. O(n_G^2) an iteration, no allocation.
+/// F_i times all columns is one product of matrices, so the columns under way are the first ones;
+/// who they are is the caller's business (UzawaBlock). Nothing goes from one column to another.
+/// All memory is allocated on construction: O(n_G capacity). One object belongs to one thread.
 class Uzawa {
  public:
-  /// `loads`: one per subdomain. Keeps references to both. mu_0 = 0. Every subdomain must have a
-  /// flexibility, and every inclusion its rigid sides in one subdomain (ddm::uzawa_obstacle).
-  Uzawa(const TraceProblem& problem, std::span<const ddm::CondensedLoad> loads, double theta,
-        double p, Mass mass);
+  /// Keeps a reference to the problem. Every subdomain must have a flexibility, and every inclusion
+  /// its rigid sides in one subdomain (ddm::uzawa_obstacle).
+  Uzawa(const TraceProblem& problem, Mass mass, int capacity);
 
-  /// Computes the next iterate.
-  const Iterate& step();
-  const Iterate& iterate() const noexcept { return _iterate; }
+  /// Puts a load at the beginning of the iteration, mu_0 = 0, into a column. `loads`, one per
+  /// subdomain, stay the caller's while the column is used.
+  void start(int column, std::span<const ddm::CondensedLoad> loads, double theta, double p);
+  /// Computes the next iterate of the first `columns` columns. O(n_G^2 columns), no allocation.
+  void step(int columns);
+  /// Two columns change places. O(n_G), no allocation.
+  void exchange(int a, int b);
 
+  const Iterate& iterate(int column) const { return _columns[index(column)].iterate; }
+  /// Of u_{i,k}, per subdomain.
+  Eigen::MatrixXd::ConstColXpr trace(int column, std::size_t subdomain) const {
+    return _sides[subdomain].trace.col(column);
+  }
+  /// mu_k, per pair: what u_k was computed from.
+  Eigen::MatrixXd::ConstColXpr mu(int column) const { return _mu.col(column); }
+  /// u+ - u-, per pair.
+  Eigen::MatrixXd::ConstColXpr jump(int column) const { return _jump.col(column); }
+  /// A_k of an inclusion.
+  double displacement(int column, std::size_t inclusion) const {
+    const Held& held = _inclusions[inclusion];
+    return _sides[held.subdomain].trace(held.trace, column);
+  }
+
+  /// equilibrium_residual of the iterate. O(n_G^2), no allocation.
+  double equilibrium(int column);
+  /// What its residuals are relative to. O(n_G), no allocation.
+  Scales scales(int column) const;
   /// The iterate with its forces and fluxes. O(n_G^2).
-  TraceState state() const;
+  TraceState state(int column) const;
 
  private:
-  struct Side {  // workspace of one subdomain
-    Eigen::VectorXd force, previous_force, previous_trace, reduced, skeleton;
+  struct Column {
+    std::span<const ddm::CondensedLoad> loads;
+    double theta = 0;
+    double p = 0;
+    Iterate iterate;
   };
-  struct Held {  // where A_j is found: subdomain and skeleton column
-    std::size_t subdomain;
-    Eigen::Index column;
+  struct Side {                    // one subdomain: (trace, capacity), (skeleton, capacity)
+    Eigen::MatrixXd trace, force;  // g + B'M mu
+    Eigen::MatrixXd previous_trace, previous_force, reduced, skeleton;  // within a step only
+  };
+  struct Held {  // a trace node at which A_j is found
+    std::size_t subdomain = 0;
+    Eigen::Index trace = 0;
   };
 
-  void update_multipliers();
-  void apply_forces();
-  void solve_sides();
+  static std::size_t index(int column) noexcept { return static_cast<std::size_t>(column); }
+  void update_multipliers(int column);
+  void apply_forces(int columns);
+  void solve_side(std::size_t subdomain, int columns);
+  void measure(std::size_t subdomain, int column);
+  void measure_jump(int column);
 
   const TraceProblem& _problem;
-  std::span<const ddm::CondensedLoad> _loads;
-  double _theta;
-  double _p;
-  Mass _mass;
-  Iterate _iterate;
+  const Mass _mass;
+  std::vector<Column> _columns;
   std::vector<Side> _sides;
   std::vector<Held> _inclusions;
-  Eigen::VectorXd _pair_force, _change, _previous_change;
+  Eigen::MatrixXd _mu, _jump, _pair_force, _change;  // (pairs, capacity)
+  std::vector<Eigen::VectorXd> _unbalanced;          // workspace of equilibrium(), per subdomain
+  Eigen::VectorXd _on_inclusion;
 };
 
 }  // namespace anticrack::contact

@@ -1,25 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ddm/flexibility.hpp"
 
+#include <cblas.h>
+
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 #include "errors/errors.hpp"
 
 namespace anticrack::ddm {
+namespace {
+
+/// y = a x. BLAS: Eigen's products are compiled for the oldest x86-64, BLAS picks its kernels for
+/// the machine. One column is bound by memory, and half of a symmetric matrix is half the memory.
+void multiply(const Eigen::MatrixXd& a, const Eigen::Ref<const Eigen::MatrixXd>& x,
+              Eigen::Ref<Eigen::MatrixXd> y) {
+  const int size = static_cast<int>(a.rows()), columns = static_cast<int>(x.cols());
+  if (size == 0 || columns == 0) {
+    return;
+  }
+  if (columns == 1) {
+    cblas_dsymv(CblasColMajor, CblasLower, size, 1, a.data(), size, x.data(), 1, 0, y.data(), 1);
+    return;
+  }
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size, columns, size, 1, a.data(), size,
+              x.data(), static_cast<int>(x.outerStride()), 0, y.data(),
+              static_cast<int>(y.outerStride()));
+}
+
+}  // namespace
 
 Flexibility::Flexibility(const Eigen::MatrixXd& schur, std::span<const std::int32_t> rigid)
     : _column(rigid.size()) {
   Eigen::Index size = 0;
+  std::int32_t inclusions = 0;
   for (std::size_t i = 0; i < rigid.size(); ++i) {
+    inclusions = std::max(inclusions, rigid[i] + 1);
     if (rigid[i] < 0) {
       _column[i] = size++;
-    } else if (_inclusion_column.size() <= static_cast<std::size_t>(rigid[i])) {
-      _inclusion_column.resize(static_cast<std::size_t>(rigid[i]) + 1, -1);
     }
   }
+  std::vector<Eigen::Index> inclusion_column(static_cast<std::size_t>(inclusions), -1);
   for (std::size_t i = 0; i < rigid.size(); ++i) {
     if (rigid[i] >= 0) {
-      Eigen::Index& column = _inclusion_column[static_cast<std::size_t>(rigid[i])];
+      Eigen::Index& column = inclusion_column[static_cast<std::size_t>(rigid[i])];
       if (column < 0) {
         column = size++;
       }
@@ -43,28 +67,30 @@ Flexibility::Flexibility(const Eigen::MatrixXd& schur, std::span<const std::int3
                         "the mesh has triangles that are degenerate, or is badly scaled");
   }
   _inverse = cholesky.solve(Eigen::MatrixXd::Identity(size, size));
+  // One column is multiplied by a triangle, several by the whole: they must be the same matrix.
+  _inverse.triangularView<Eigen::StrictlyUpper>() = _inverse.transpose();
 }
 
-void Flexibility::apply(const Eigen::VectorXd& rhs, Eigen::VectorXd& reduced,
-                        Eigen::VectorXd& skeleton, Eigen::VectorXd& trace) const {
+void Flexibility::apply(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
+                        Eigen::Ref<Eigen::MatrixXd> reduced, Eigen::Ref<Eigen::MatrixXd> skeleton,
+                        Eigen::Ref<Eigen::MatrixXd> trace) const {
   reduced.setZero();
-  for (Eigen::Index i = 0; i < rhs.size(); ++i) {
-    reduced[_column[static_cast<std::size_t>(i)]] += rhs[i];
+  for (Eigen::Index j = 0; j < rhs.cols(); ++j) {
+    for (Eigen::Index i = 0; i < rhs.rows(); ++i) {
+      reduced(_column[static_cast<std::size_t>(i)], j) += rhs(i, j);
+    }
   }
-  skeleton.noalias() = _inverse * reduced;
-  for (Eigen::Index i = 0; i < trace.size(); ++i) {
-    trace[i] = skeleton[_column[static_cast<std::size_t>(i)]];
+  multiply(_inverse, reduced, skeleton);
+  for (Eigen::Index j = 0; j < trace.cols(); ++j) {
+    for (Eigen::Index i = 0; i < trace.rows(); ++i) {
+      trace(i, j) = skeleton(_column[static_cast<std::size_t>(i)], j);
+    }
   }
-}
-
-Eigen::Index Flexibility::inclusion_column(std::int32_t inclusion) const noexcept {
-  const auto i = static_cast<std::size_t>(inclusion);
-  return i < _inclusion_column.size() ? _inclusion_column[i] : -1;
 }
 
 std::size_t Flexibility::bytes() const noexcept {
   return sizeof(double) * static_cast<std::size_t>(_inverse.size()) +
-         sizeof(Eigen::Index) * (_column.capacity() + _inclusion_column.capacity());
+         sizeof(Eigen::Index) * _column.capacity();
 }
 
 }  // namespace anticrack::ddm

@@ -20,21 +20,19 @@ class Flexibility {
   /// `rigid`: per trace node the inclusion that holds it, or -1. O(n_G^3).
   Flexibility(const Eigen::MatrixXd& schur, std::span<const std::int32_t> rigid);
 
-  /// t = F rhs; `reduced` and `skeleton` are workspace of size skeleton_size(); on return
-  /// `skeleton` holds the free values and the A_j. No allocation. O(skeleton_size()^2).
-  void apply(const Eigen::VectorXd& rhs, Eigen::VectorXd& reduced, Eigen::VectorXd& skeleton,
-             Eigen::VectorXd& trace) const;
+  /// t = F rhs, column by column, as one product of matrices; `reduced` and `skeleton` are
+  /// workspace with skeleton_size() rows and as many columns. A column's bits may depend on how
+  /// many there are, never on what is in the others. No allocation. O(skeleton_size()^2 columns).
+  void apply(const Eigen::Ref<const Eigen::MatrixXd>& rhs, Eigen::Ref<Eigen::MatrixXd> reduced,
+             Eigen::Ref<Eigen::MatrixXd> skeleton, Eigen::Ref<Eigen::MatrixXd> trace) const;
 
-  /// Column of A_j in the skeleton, or -1 when inclusion j's plus side is not here.
-  Eigen::Index inclusion_column(std::int32_t inclusion) const noexcept;
   Eigen::Index trace_size() const noexcept { return static_cast<Eigen::Index>(_column.size()); }
   Eigen::Index skeleton_size() const noexcept { return _inverse.rows(); }
   std::size_t bytes() const noexcept;
 
  private:
-  std::vector<Eigen::Index> _column;            // of each trace node
-  std::vector<Eigen::Index> _inclusion_column;  // of each inclusion up to the last one held
-  Eigen::MatrixXd _inverse;                     // (T'S T)^-1
+  std::vector<Eigen::Index> _column;  // of each trace node
+  Eigen::MatrixXd _inverse;           // (T'S T)^-1, symmetric to the bit
 };
 
 }  // namespace anticrack::ddm

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ddm/subdomain_factor.hpp"
 
+#include <cblas.h>
+
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -187,13 +189,25 @@ Eigen::VectorXd SubdomainFactor::recover(const Eigen::VectorXd& z_interior,
 }
 
 Eigen::VectorXd SubdomainFactor::apply_schur(const Eigen::VectorXd& trace_values) const {
-  const Eigen::VectorXd half =
-      _trace_factor.transpose().triangularView<Eigen::Upper>() * trace_values;
-  Eigen::VectorXd result = _trace_factor.triangularView<Eigen::Lower>() * half;
-  for (const std::int32_t trace : _held) {
-    result[trace] -= _rho * trace_values[trace];
-  }
+  Eigen::VectorXd result(trace_values.size());
+  apply_schur(trace_values, result);
   return result;
+}
+
+void SubdomainFactor::apply_schur(const Eigen::Ref<const Eigen::VectorXd>& trace_values,
+                                  Eigen::Ref<Eigen::VectorXd> result) const {
+  result = trace_values;
+  const int size = static_cast<int>(trace());
+  if (size == 0) {
+    return;
+  }
+  for (const CBLAS_TRANSPOSE transposed : {CblasTrans, CblasNoTrans}) {
+    cblas_dtrmv(CblasColMajor, CblasLower, transposed, CblasNonUnit, size, _trace_factor.data(),
+                size, result.data(), 1);
+  }
+  for (const std::int32_t held : _held) {
+    result[held] -= _rho * trace_values[held];
+  }
 }
 
 Eigen::MatrixXd SubdomainFactor::schur() const {

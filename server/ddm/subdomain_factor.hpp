@@ -51,6 +51,9 @@ class SubdomainFactor {
 
   /// S t, O(n_G^2).
   Eigen::VectorXd apply_schur(const Eigen::VectorXd& trace) const;
+  /// The same into `result`, of the size of `trace` and not part of it. No allocation.
+  void apply_schur(const Eigen::Ref<const Eigen::VectorXd>& trace,
+                   Eigen::Ref<Eigen::VectorXd> result) const;
   /// S, dense, O(n_G^3).
   Eigen::MatrixXd schur() const;
 

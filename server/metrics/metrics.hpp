@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The server as Prometheus sees it: text over HTTP on a port of its own. Names begin with
-// "anticrack_", units are base units, counters end in "_total"; no label names a job, mesh or user.
+// "anticrack_" (but for the process_* every program has), units are base units, counters end in
+// "_total"; no label names a job, mesh or user.
 #pragma once
 
 #include <chrono>

@@ -87,4 +87,20 @@ LoadOnTraces condense_load(const fem::Load& load, const mesh::Mesh& mesh,
   return result;
 }
 
+std::vector<std::variant<LoadOnTraces, errors::Error>> condense_loads(
+    std::span<const fem::Load* const> loads, const mesh::Mesh& mesh,
+    const ddm::Decomposition& decomposition, std::span<const ddm::SubdomainOperator> operators,
+    const std::stop_token& stop) {
+  std::vector<std::variant<LoadOnTraces, errors::Error>> result;
+  result.reserve(loads.size());
+  for (const fem::Load* load : loads) {
+    try {
+      result.emplace_back(condense_load(*load, mesh, decomposition, operators, stop));
+    } catch (const errors::Error& error) {
+      result.emplace_back(error);
+    }
+  }
+  return result;
+}
+
 }  // namespace anticrack::operators

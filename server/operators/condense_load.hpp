@@ -4,10 +4,12 @@
 #include <span>
 #include <stop_token>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "ddm/decomposition.hpp"
 #include "ddm/subdomain_operator.hpp"
+#include "errors/errors.hpp"
 #include "fem/load.hpp"
 #include "mesh/mesh.hpp"
 
@@ -32,5 +34,11 @@ LoadOnTraces condense_load(const fem::Load& load, const mesh::Mesh& mesh,
                            const ddm::Decomposition& decomposition,
                            std::span<const ddm::SubdomainOperator> operators,
                            const std::stop_token& stop);
+
+/// Several loads; what is wrong with one is its entry.
+std::vector<std::variant<LoadOnTraces, errors::Error>> condense_loads(
+    std::span<const fem::Load* const> loads, const mesh::Mesh& mesh,
+    const ddm::Decomposition& decomposition, std::span<const ddm::SubdomainOperator> operators,
+    const std::stop_token& stop);
 
 }  // namespace anticrack::operators

@@ -9,16 +9,10 @@
 #include <optional>
 #include <string>
 #include <thread>
-#include <variant>
 
-#include "contact/skeleton_problem.hpp"
-#include "contact/solve.hpp"
-#include "contact/trace_problem.hpp"
 #include "ddm/blas.hpp"
-#include "ddm/decomposition.hpp"
-#include "ddm/subdomain_operator.hpp"
 #include "errors/errors.hpp"
-#include "operators/condense_load.hpp"
+#include "operators/mesh_parts.hpp"
 
 namespace anticrack::operators {
 namespace {
@@ -96,24 +90,21 @@ std::size_t bytes_of(const ddm::Decomposition& decomposition) {
 
 }  // namespace
 
-struct MeshOperator::Parts {
-  Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads, const std::stop_token& stop)
-      : mesh(std::move(cut_mesh)),
-        decomposition(ddm::cut(*mesh)),
-        operators(factorise_subdomains(decomposition.subdomains, threads, stop)),
-        uzawa_obstacle(ddm::uzawa_obstacle(decomposition, *mesh)),
-        problem(decomposition, operators, uzawa_obstacle.empty()),
-        skeleton(problem),
-        geometry(contact::trace_geometry(decomposition, *mesh)) {}
+MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads,
+                           const std::stop_token& stop)
+    : mesh(std::move(cut_mesh)),
+      decomposition(ddm::cut(*mesh)),
+      operators(factorise_subdomains(decomposition.subdomains, threads, stop)),
+      uzawa_obstacle(ddm::uzawa_obstacle(decomposition, *mesh)),
+      problem(decomposition, operators, uzawa_obstacle.empty()),
+      skeleton(problem),
+      geometry(contact::trace_geometry(decomposition, *mesh)) {}
 
-  std::shared_ptr<const mesh::Mesh> mesh;
-  ddm::Decomposition decomposition;
-  std::vector<ddm::SubdomainOperator> operators;
-  std::string uzawa_obstacle;
-  contact::TraceProblem problem;      // refers to the decomposition and the operators
-  contact::SkeletonProblem skeleton;  // refers to the problem
-  std::vector<contact::TraceGeometry> geometry;
-};
+void MeshOperator::Parts::require_uzawa() const {
+  if (!uzawa_obstacle.empty()) {
+    throw errors::Error(errors::Reason::not_implemented, uzawa_obstacle).at("uzawa");
+  }
+}
 
 MeshOperator::MeshOperator(std::unique_ptr<const Parts> parts) : _parts(std::move(parts)) {}
 MeshOperator::~MeshOperator() = default;
@@ -126,25 +117,8 @@ std::shared_ptr<const MeshOperator> MeshOperator::factorise(std::shared_ptr<cons
   return std::shared_ptr<const MeshOperator>(new MeshOperator(std::move(parts)));
 }
 
-contact::Answer MeshOperator::solve(const fem::Load& load, const contact::SolverOptions& options,
-                                    bool fields, contact::Observer& observer,
-                                    const std::stop_token& stop) const {
-  const auto* uzawa = std::get_if<contact::UzawaOptions>(&options);
-  if (uzawa != nullptr && !_parts->uzawa_obstacle.empty()) {
-    throw errors::Error(errors::Reason::not_implemented, _parts->uzawa_obstacle).at("uzawa");
-  }
-  const LoadOnTraces condensed =
-      condense_load(load, *_parts->mesh, _parts->decomposition, _parts->operators, stop);
-  const contact::CaseLoads loads{condensed.subdomains, condensed.inclusion_forces};
-  contact::Answer answer =
-      uzawa != nullptr
-          ? contact::solve_uzawa(_parts->problem, *_parts->mesh, loads, *uzawa, fields, observer)
-          : contact::solve_active_set(_parts->skeleton, *_parts->mesh, loads,
-                                      std::get<contact::ActiveSetOptions>(options), fields,
-                                      observer);
-  answer.warnings.insert(answer.warnings.end(), condensed.warnings.begin(),
-                         condensed.warnings.end());
-  return answer;
+const std::string& MeshOperator::uzawa_obstacle() const noexcept {
+  return _parts->uzawa_obstacle;
 }
 
 const mesh::Mesh& MeshOperator::mesh() const noexcept {

@@ -71,6 +71,7 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   double theta_star() const noexcept;
 
  private:
+  friend class UzawaBlock;
   struct Parts;
   explicit MeshOperator(std::unique_ptr<const Parts> parts);
   std::unique_ptr<const Parts> _parts;

@@ -7,47 +7,21 @@
 #include <optional>
 #include <system_error>
 #include <thread>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "errors/errors.hpp"
-#include "operators/eviction.hpp"
+#include "operators/cache_entries.hpp"
+#include "operators/freed_memory.hpp"
 
 namespace anticrack::operators {
-
-namespace {
 
 using errors::Error;
 using errors::Reason;
 using Operator = std::shared_ptr<const MeshOperator>;
+using Operators = std::vector<Operator>;
 
-constexpr std::chrono::milliseconds retry_delay{1000};
-
-std::string mebibytes(std::uint64_t bytes) {
-  return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MiB";
-}
-
-Error stopped() {
-  return {Reason::cancelled, "stopped while waiting for the mesh's operators"};
-}
-
-Error too_large(std::uint64_t estimate, std::uint64_t budget) {
-  return {Reason::limit_exceeded, "the operators of this mesh need about " + mebibytes(estimate) +
-                                      ", more than the memory budget of " + mebibytes(budget) +
-                                      ": use a coarser mesh or a server with a larger budget"};
-}
-
-Error full(std::uint64_t estimate, std::uint64_t held, std::uint64_t budget) {
-  Error error(Reason::busy, "the operators of this mesh need about " + mebibytes(estimate) +
-                                "; running jobs and factorisations hold " + mebibytes(held) +
-                                " of the memory budget of " + mebibytes(budget) +
-                                ": try again when one has ended");
-  return error.retry_after(retry_delay);
-}
-
-/// One factorisation and those who wait for it. Guarded by the cache's mutex, except `mesh` and
-/// `stop`, which do not change.
+/// Guarded by the cache's mutex, except `mesh` and `stop`, which do not change.
 struct Flight {
   std::shared_ptr<const mesh::Mesh> mesh;
   std::stop_source stop;
@@ -60,84 +34,54 @@ struct Flight {
   std::optional<Error> error;
 };
 
-/// Either an operator or a flight.
-struct Entry {
-  Operator ready;
-  std::shared_ptr<Flight> flight;
-  std::uint64_t bytes = 0;  ///< measured, or the estimate while in flight
-  std::uint64_t last_use = 0;
+namespace {
 
-  /// With the mutex held nobody can get at the operator but through a copy that counts already.
-  bool pinned() const { return !ready || ready.use_count() > 1; }
-};
+constexpr std::chrono::milliseconds retry_delay{1000};
+
+Error stopped() {
+  return {Reason::cancelled, "stopped while waiting for the mesh's operators"};
+}
+
+/// Call without a lock: it takes as long as there are pages to be given back.
+void release(Operators operators) {
+  if (!operators.empty()) {
+    operators.clear();
+    return_freed_memory();
+  }
+}
 
 }  // namespace
 
 struct OperatorCache::State {
-  State(std::uint64_t budget_bytes, Factorise factorise_mesh)
-      : budget(budget_bytes), factorise(std::move(factorise_mesh)) {}
+  State(std::uint64_t budget, Factorise factorise_mesh, Listener listener)
+      : factorise(std::move(factorise_mesh)), factorised(std::move(listener)), entries(budget) {}
 
-  const std::uint64_t budget;
   const Factorise factorise;
+  const Listener factorised;
 
   mutable std::mutex mutex;
-  using Entries = std::unordered_map<std::string, Entry>;
-  Entries entries;
+  CacheEntries entries;
   std::vector<std::jthread> finished;  ///< threads of flights that are over, to be joined
-  std::uint64_t clock = 0;
-  CacheMetrics counters;  ///< but `bytes`
+  CacheMetrics counters;               ///< factorizations, hits and joins
 
-  std::uint64_t held() const {
-    std::uint64_t sum = 0;
-    for (const auto& [key, entry] : entries) {
-      sum += entry.bytes;
-    }
-    return sum;
+  Operator hit(const std::string& key) {
+    Operator ready = entries.use(key);
+    counters.hits += ready ? 1 : 0;
+    return ready;
   }
 
-  Operator hit(Entries::iterator found) {
-    if (found == entries.end() || !found->second.ready) {
-      return nullptr;
-    }
-    ++counters.hits;
-    found->second.last_use = ++clock;
-    return found->second.ready;
-  }
-
-  /// Removes what has to go for `estimate` more bytes; the operators themselves are freed by the
-  /// caller, without the lock.
-  std::vector<Operator> make_room(std::uint64_t estimate) {
-    std::vector<Candidate> candidates;
-    std::vector<std::string> keys;
-    std::uint64_t pinned_bytes = 0;
-    for (const auto& [key, entry] : entries) {
-      candidates.push_back({entry.bytes, entry.last_use, entry.pinned()});
-      keys.push_back(key);
-      pinned_bytes += entry.pinned() ? entry.bytes : 0;
-    }
-    const auto chosen = evictions(candidates, estimate, budget);
-    if (!chosen) {
-      throw estimate > budget ? too_large(estimate, budget) : full(estimate, pinned_bytes, budget);
-    }
-    std::vector<Operator> evicted;
-    for (const std::size_t index : *chosen) {
-      const auto entry = entries.find(keys[index]);
-      evicted.push_back(std::move(entry->second.ready));
-      entries.erase(entry);
-      ++counters.evictions;
-    }
-    return evicted;
-  }
-
+  /// Reserves, and starts the thread that frees what had to go and factorises.
   std::shared_ptr<Flight> take_off(const std::string& key, std::shared_ptr<const mesh::Mesh> mesh,
                                    std::uint64_t estimate) {
     auto flight = std::make_shared<Flight>();
     flight->mesh = std::move(mesh);
-    Entry& entry = entries[key];
-    entry.flight = flight;
-    entry.bytes = estimate;
+    Operators evicted = entries.make_room(estimate);
+    entries.reserve(key, flight, estimate);
     try {
-      flight->thread = std::jthread([this, key, flight] { fly(key, *flight); });
+      flight->thread = std::jthread([this, key, flight, gone = std::move(evicted)]() mutable {
+        release(std::move(gone));
+        fly(key, *flight);
+      });
     } catch (const std::system_error& error) {
       entries.erase(key);
       throw Error(Reason::busy, std::string("no thread to factorise this mesh: ") + error.what())
@@ -147,11 +91,20 @@ struct OperatorCache::State {
     return flight;
   }
 
+  Operator make(const Flight& flight) const {
+    const auto start = std::chrono::steady_clock::now();
+    Operator result = factorise(flight.mesh, flight.stop.get_token());
+    if (factorised) {
+      factorised(std::chrono::steady_clock::now() - start);
+    }
+    return result;
+  }
+
   void fly(const std::string& key, Flight& flight) {
     Operator result;
     std::optional<Error> error;
     try {
-      result = factorise(flight.mesh, flight.stop.get_token());
+      result = make(flight);
     } catch (const Error& thrown) {
       error = thrown;
     } catch (const std::bad_alloc&) {
@@ -160,26 +113,32 @@ struct OperatorCache::State {
     } catch (const std::exception& thrown) {
       error = Error(Reason::internal, std::string("factorising failed: ") + thrown.what());
     }
-    const std::lock_guard lock(mutex);
-    if (result) {
-      Entry& entry = entries.at(key);
-      entry.bytes = result->bytes();
-      entry.last_use = ++clock;
-      entry.flight.reset();
-      entry.ready = flight.waiters > 0 ? result : std::move(result);
-    } else {
-      entries.erase(key);
+    if (!result) {
+      return_freed_memory();  // of what was stopped or failed half-way
     }
-    flight.result = std::move(result);
-    flight.error = std::move(error);
-    flight.done = true;
-    finished.push_back(std::move(flight.thread));
-    flight.ended.notify_all();
+    const std::uint64_t bytes = result ? result->bytes() : 0;
+    Operators evicted;
+    {
+      const std::lock_guard lock(mutex);
+      if (result) {
+        flight.result = flight.waiters > 0 ? result : nullptr;
+        evicted = entries.land(key, std::move(result), bytes);
+      } else {
+        entries.erase(key);
+      }
+      flight.error = std::move(error);
+      flight.done = true;
+      finished.push_back(std::move(flight.thread));
+      flight.ended.notify_all();
+    }
+    release(std::move(evicted));
   }
 };
 
-OperatorCache::OperatorCache(std::uint64_t budget_bytes, Factorise factorise)
-    : _state(std::make_unique<State>(budget_bytes, std::move(factorise))) {}
+OperatorCache::OperatorCache(std::uint64_t budget_bytes, Factorise factorise, Listener factorised)
+    : _state(std::make_unique<State>(budget_bytes, std::move(factorise), std::move(factorised))) {
+  map_large_blocks();
+}
 
 OperatorCache::~OperatorCache() {
   std::vector<std::jthread> threads;
@@ -187,12 +146,10 @@ OperatorCache::~OperatorCache() {
   {
     const std::lock_guard lock(_state->mutex);
     threads = std::move(_state->finished);
-    for (auto& [key, entry] : _state->entries) {
-      if (entry.flight) {
-        entry.flight->abandoned = true;
-        stops.push_back(entry.flight->stop);
-        threads.push_back(std::move(entry.flight->thread));
-      }
+    for (const std::shared_ptr<Flight>& flight : _state->entries.flights()) {
+      flight->abandoned = true;
+      stops.push_back(flight->stop);
+      threads.push_back(std::move(flight->thread));
     }
   }
   for (std::stop_source& stop : stops) {
@@ -204,24 +161,21 @@ OperatorCache::~OperatorCache() {
 std::shared_ptr<const MeshOperator> OperatorCache::acquire(const std::string& key,
                                                            std::shared_ptr<const mesh::Mesh> mesh,
                                                            std::stop_token stop) {
-  // Both are destroyed after the lock is released: joining and freeing take time.
-  std::vector<std::jthread> finished;
-  std::vector<Operator> evicted;
+  std::vector<std::jthread> finished;  // joined after the lock is released
   std::optional<std::uint64_t> estimate;
   std::shared_ptr<Flight> flight;
 
   std::unique_lock lock(_state->mutex);
   finished = std::exchange(_state->finished, {});
   while (!flight) {
-    const auto found = _state->entries.find(key);
-    if (Operator ready = _state->hit(found)) {
+    if (Operator ready = _state->hit(key)) {
       return ready;
     }
     if (stop.stop_requested()) {
       throw stopped();
     }
-    if (found != _state->entries.end()) {
-      const std::shared_ptr<Flight> other = found->second.flight;
+    if (const CacheEntry* found = _state->entries.find(key)) {
+      const std::shared_ptr<Flight> other = found->flight;
       if (other->abandoned) {
         other->ended.wait(lock, stop, [&] { return other->done; });
         continue;
@@ -233,7 +187,6 @@ std::shared_ptr<const MeshOperator> OperatorCache::acquire(const std::string& ke
       estimate = estimate_bytes(*mesh);
       lock.lock();
     } else {
-      evicted = _state->make_room(*estimate);
       flight = _state->take_off(key, mesh, *estimate);
     }
   }
@@ -259,32 +212,51 @@ std::shared_ptr<const MeshOperator> OperatorCache::acquire(const std::string& ke
 
 std::shared_ptr<const MeshOperator> OperatorCache::find(const std::string& key) {
   const std::lock_guard lock(_state->mutex);
-  return _state->hit(_state->entries.find(key));
+  return _state->hit(key);
 }
 
 bool OperatorCache::contains(const std::string& key) const {
   const std::lock_guard lock(_state->mutex);
-  const auto found = _state->entries.find(key);
-  return found != _state->entries.end() && found->second.ready;
+  const CacheEntry* entry = std::as_const(_state->entries).find(key);
+  return entry != nullptr && entry->ready;
 }
 
-bool OperatorCache::evict(const std::string& key) {
-  Operator evicted;
+bool OperatorCache::pin(const std::string& key) {
   const std::lock_guard lock(_state->mutex);
-  const auto found = _state->entries.find(key);
-  if (found == _state->entries.end() || found->second.pinned()) {
+  CacheEntry* entry = _state->entries.find(key);
+  if (entry == nullptr || !entry->ready) {
     return false;
   }
-  evicted = std::move(found->second.ready);
-  _state->entries.erase(found);
-  ++_state->counters.evictions;
+  entry->kept = true;
   return true;
+}
+
+bool OperatorCache::pinned(const std::string& key) const {
+  const std::lock_guard lock(_state->mutex);
+  const CacheEntry* entry = std::as_const(_state->entries).find(key);
+  return entry != nullptr && entry->kept;
+}
+
+OperatorCache::Eviction OperatorCache::evict(const std::string& key) {
+  Operators evicted;
+  {
+    const std::lock_guard lock(_state->mutex);
+    if (_state->entries.find(key) == nullptr) {
+      return Eviction::not_there;
+    }
+    evicted.push_back(_state->entries.take(key));
+  }
+  if (!evicted.front()) {
+    return Eviction::in_use;
+  }
+  release(std::move(evicted));
+  return Eviction::done;
 }
 
 CacheMetrics OperatorCache::metrics() const {
   const std::lock_guard lock(_state->mutex);
   CacheMetrics metrics = _state->counters;
-  metrics.bytes = _state->held();
+  _state->entries.measure(metrics);
   return metrics;
 }
 

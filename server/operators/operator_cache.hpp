@@ -32,16 +32,21 @@ struct CacheMetrics {
 /// 3. Before a factorisation its estimate is reserved: unpinned entries go, least recently used
 ///    first; where that is not enough: errors::Error (busy, or limit_exceeded when the estimate
 ///    alone is over the budget). After it the measured size replaces the estimate.
-///    The budget is kept: at no moment do measured and reserved bytes together exceed it.
-/// 4. `pin` keeps an entry until `unpin` or `evict`, also without a holder.
-/// 5. Evicted memory goes back to the system (glibc keeps freed pages otherwise: malloc_trim).
+///    The budget is kept: at no moment do measured and reserved bytes together exceed it. Should a
+///    measured size exceed its estimate (estimate_bytes is an upper bound: a bug in it), unpinned
+///    entries go at once; what is over even then is kept for those who wait, counted as it is, and
+///    nothing more is admitted until the whole is within the budget again.
+/// 4. `pin` keeps an entry until `evict`, also without a holder.
+/// 5. Evicted memory is freed before what it made room for is factorised, and goes back to the
+///    system (freed_memory.hpp).
 /// 6. A joiner's stop ends its wait; the factorisation itself stops when nobody waits any more.
 /// Thread-safe. Locks are never held while factorising.
 class OperatorCache {
  public:
   using Factorise = std::function<std::shared_ptr<const MeshOperator>(
       std::shared_ptr<const mesh::Mesh>, std::stop_token)>;
-  /// Told of each factorisation that succeeded, without a lock: how long it took.
+  /// Told of each factorisation that succeeded, without a lock and before anybody gets the
+  /// operator: how long it took. Must not throw.
   using Listener = std::function<void(std::chrono::duration<double>)>;
 
   OperatorCache(std::uint64_t budget_bytes, Factorise factorise, Listener factorised = {});
@@ -59,6 +64,7 @@ class OperatorCache {
   bool contains(const std::string& key) const;
   /// Keeps an entry that is in memory; false when it is not there.
   bool pin(const std::string& key);
+  bool pinned(const std::string& key) const;  ///< by `pin`
   enum class Eviction { done, not_there, in_use };
   /// Drops an entry, a pinned one too; not one that somebody holds or that is being factorised.
   Eviction evict(const std::string& key);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 
 namespace anticrack::jobs {
@@ -42,7 +43,14 @@ struct Limits {
   /// Of the two, how many one identity (or, without one, one peer address) may hold.
   int streams_a_client = 1'024;
   /// Creations that wait to be checked; each holds its request of at most 4 MiB.
-  int waiting_creations = 128;
+  std::size_t waiting_creations = 128;
+  /// Any other calls that wait for the disk.
+  std::size_t waiting_calls = 4'096;
+  // Of the layers below:
+  std::size_t meshes = 10'000;
+  std::size_t pending_meshes = 64;
+  std::uint64_t disk_budget_bytes = 0;
+  std::uint64_t mesher_memory_bytes = 0;
 };
 
 }  // namespace anticrack::rpc

@@ -9,22 +9,23 @@
 
 namespace anticrack::rpc {
 
-void require_offset(const store::Block& block, std::uint64_t offset) {
-  if (offset <= block.bytes.size()) return;
+void require_offset(const store::BlockSource& block, std::uint64_t offset) {
+  if (offset <= block.size()) return;
   throw errors::Error(errors::Reason::offset_out_of_range,
                       "offset " + std::to_string(offset) + " is past the end of " +
-                          std::to_string(block.bytes.size()) + " bytes")
+                          std::to_string(block.size()) + " bytes")
       .at("offset")
-      .with("size", std::to_string(block.bytes.size()));
+      .with("size", std::to_string(block.size()));
 }
 
-v1::BlockChunk chunk_of(const store::Block& block, std::uint64_t offset) {
-  const std::span<const std::byte> bytes = std::span(block.bytes).subspan(offset);
-  const auto piece = bytes.first(std::min(bytes.size(), max_chunk_bytes));
+v1::BlockChunk chunk_of(const store::BlockSource& block, std::uint64_t offset) {
   v1::BlockChunk chunk;
   chunk.set_offset(offset);
-  chunk.set_data(piece.data(), piece.size());
-  chunk.set_crc32c(store::crc32c(piece));
+  std::string& data = *chunk.mutable_data();
+  data.resize(std::min<std::uint64_t>(block.size() - offset, max_chunk_bytes));
+  const auto bytes = std::as_writable_bytes(std::span(data));
+  block.read(offset, bytes);
+  chunk.set_crc32c(store::crc32c(bytes));
   return chunk;
 }
 

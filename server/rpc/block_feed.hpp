@@ -19,19 +19,21 @@ namespace anticrack::rpc {
 constexpr std::size_t max_chunk_bytes = 1u << 20;
 
 /// Throws errors::Error (offset_out_of_range) where `offset` lies past the end.
-void require_offset(const store::Block& block, std::uint64_t offset);
+void require_offset(const store::BlockSource& block, std::uint64_t offset);
 
-/// The bytes from `offset` on, at most max_chunk_bytes, with their checksum.
-v1::BlockChunk chunk_of(const store::Block& block, std::uint64_t offset);
+/// The bytes from `offset` on, at most max_chunk_bytes, with their checksum. Throws errors::Error
+/// (storage).
+v1::BlockChunk chunk_of(const store::BlockSource& block, std::uint64_t offset);
 
-/// `Response` has `layout` and `chunk`.
+/// Reads a chunk when it is to be sent: a large block is never in memory as a whole. `next` waits
+/// for the disk. `Response` has `layout` and `chunk`.
 template <class Response>
 class BlockFeed final : public Feed<Response> {
  public:
   using Next = typename Feed<Response>::Next;
 
   /// Throws errors::Error (offset_out_of_range).
-  BlockFeed(std::shared_ptr<const store::Block> block, std::uint64_t offset)
+  BlockFeed(std::shared_ptr<const store::BlockSource> block, std::uint64_t offset)
       : _block(std::move(block)), _offset(offset) {
     require_offset(*_block, offset);
   }
@@ -42,14 +44,14 @@ class BlockFeed final : public Feed<Response> {
       _layout_sent = true;
       return Next::message;
     }
-    if (_offset >= _block->bytes.size()) return Next::end;
+    if (_offset >= _block->size()) return Next::end;
     *response.mutable_chunk() = chunk_of(*_block, _offset);
     _offset += response.chunk().data().size();
     return Next::message;
   }
 
  private:
-  const std::shared_ptr<const store::Block> _block;
+  const std::shared_ptr<const store::BlockSource> _block;
   std::uint64_t _offset;
   bool _layout_sent = false;
 };

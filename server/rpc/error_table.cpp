@@ -91,13 +91,21 @@ grpc::StatusCode code(Reason reason) noexcept {
     case Reason::not_ready:
     case Reason::in_use:
     case Reason::numerical:
+    case Reason::result_expired:
       return grpc::StatusCode::FAILED_PRECONDITION;
     case Reason::sequence_trimmed:
     case Reason::offset_out_of_range:
       return grpc::StatusCode::OUT_OF_RANGE;
     case Reason::busy:
     case Reason::storage:
+    case Reason::disk_full:
       return grpc::StatusCode::RESOURCE_EXHAUSTED;
+    case Reason::timed_out:
+      return grpc::StatusCode::DEADLINE_EXCEEDED;
+    case Reason::unauthenticated:
+      return grpc::StatusCode::UNAUTHENTICATED;
+    case Reason::permission_denied:
+      return grpc::StatusCode::PERMISSION_DENIED;
     case Reason::draining:
       return grpc::StatusCode::UNAVAILABLE;
     case Reason::not_implemented:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 namespace anticrack::rpc {
@@ -27,6 +28,8 @@ class Feed {
   virtual Next next(Response& response) = 0;
   /// True when all that will ever be sent is there already: a server that stops lets it be read.
   virtual bool ending() const noexcept { return false; }
+  /// Events there are and were not sent yet. From any thread.
+  virtual std::uint64_t lag() const noexcept { return 0; }
   /// Nothing was sent for a while: true when `response` was filled with a sign of life.
   virtual bool heartbeat(Response& /*response*/) { return false; }
 };

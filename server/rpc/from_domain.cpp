@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/from_domain.hpp"
 
+#include <algorithm>
 #include <string>
 #include <variant>
 
@@ -164,6 +165,35 @@ void set_kkt(const contact::Answer& answer, v1::KktResiduals& to) {
   to.set_complementarity_relative(answer.kkt_relative.complementarity);
 }
 
+v1::Job::Priority from_priority(store::Priority priority) {
+  switch (priority) {
+    case store::Priority::interactive:
+      return v1::Job::PRIORITY_INTERACTIVE;
+    case store::Priority::normal:
+      return v1::Job::PRIORITY_NORMAL;
+    case store::Priority::bulk:
+      return v1::Job::PRIORITY_BULK;
+  }
+  return v1::Job::PRIORITY_UNSPECIFIED;
+}
+
+/// A job that is queued again was started once more, by the next start of the server.
+void add_timeline(const store::JobRecord& record, v1::Job& to) {
+  int attempt = 1;
+  for (const store::Step& step : record.timeline) {
+    const bool first = to.timeline().empty();
+    if (!first && step.state == store::JobState::queued &&
+        to.timeline().rbegin()->state() != v1::Job::STATE_QUEUED) {
+      attempt = std::min(attempt + 1, record.attempt);
+    }
+    v1::Job::Step& into = *to.add_timeline();
+    *into.mutable_time() = to_timestamp(step.time);
+    into.set_state(from_domain(step.state));
+    into.set_detail(printable(step.detail, 200));
+    into.set_attempt(attempt);
+  }
+}
+
 bool has_answer(store::CaseStatus status) {
   return status == store::CaseStatus::converged || status == store::CaseStatus::not_converged ||
          status == store::CaseStatus::cancelled;
@@ -171,7 +201,7 @@ bool has_answer(store::CaseStatus status) {
 
 }  // namespace
 
-v1::Mesh from_domain(const store::MeshRecord& record) {
+v1::Mesh from_domain(const store::MeshRecord& record, bool pinned) {
   v1::Mesh mesh;
   mesh.set_name(mesh_name(record.id));
   mesh.set_title(record.title);
@@ -198,6 +228,8 @@ v1::Mesh from_domain(const store::MeshRecord& record) {
   mesh.set_theta_star(record.theta_star);
   mesh.set_mesh_seconds(record.mesh_seconds);
   mesh.set_factorize_seconds(record.factorize_seconds);
+  mesh.set_owner(record.owner);
+  mesh.set_pinned(pinned);
   return mesh;
 }
 
@@ -266,6 +298,13 @@ v1::Job from_domain(const store::JobRecord& record, const InterfaceNames& interf
   }
   *job.mutable_solver() = from_solver(record.spec.solver);
   job.set_fields(record.spec.fields);
+  job.set_priority(from_priority(record.spec.priority));
+  if (record.spec.queue_time_limit.count() > 0) {
+    *job.mutable_queue_timeout() = to_duration(record.spec.queue_time_limit);
+  }
+  if (record.spec.run_time_limit.count() > 0) {
+    *job.mutable_run_timeout() = to_duration(record.spec.run_time_limit);
+  }
   job.set_name(job_name(record.id));
   job.set_state(from_domain(record.state));
   if (record.error) *job.mutable_error() = to_message(*record.error);
@@ -277,17 +316,19 @@ v1::Job from_domain(const store::JobRecord& record, const InterfaceNames& interf
   }
   job.set_result_bytes(record.result_bytes);
   job.set_attempt(record.attempt);
+  job.set_owner(record.owner);
+  add_timeline(record, job);
   if (job.ByteSizeLong() > max_job_message_bytes) {
     for (v1::LoadCaseAnswer& answer : *job.mutable_answers()) answer.clear_contact_intervals();
   }
   return job;
 }
 
-v1::BlockLayout layout_of(const store::Block& block) {
+v1::BlockLayout layout_of(const store::BlockSource& block) {
   v1::BlockLayout layout;
-  layout.set_size(block.bytes.size());
-  layout.set_sha256(block.sha256);
-  for (const store::ArrayLayout& array : block.arrays) {
+  layout.set_size(block.size());
+  layout.set_sha256(block.sha256());
+  for (const store::ArrayLayout& array : block.arrays()) {
     v1::ArrayLayout& to = *layout.add_arrays();
     to.set_name(array.name);
     to.set_type(array.type == store::ArrayType::float64 ? v1::ArrayLayout::TYPE_FLOAT64

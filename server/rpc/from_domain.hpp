@@ -19,7 +19,8 @@ namespace anticrack::rpc {
 /// A job's message is kept below this, so that it fits in gRPC's 4 MiB with what is around it.
 constexpr std::size_t max_job_message_bytes = 3u << 20;
 
-v1::Mesh from_domain(const store::MeshRecord& record);
+/// `pinned`: its operators stay in memory.
+v1::Mesh from_domain(const store::MeshRecord& record, bool pinned);
 
 /// Names of a mesh's interfaces, by index.
 using InterfaceNames = std::vector<std::string>;
@@ -34,7 +35,7 @@ v1::Job::State from_domain(store::JobState state) noexcept;
 v1::LoadCaseAnswer from_domain(const store::CaseRecord& record, const std::string& name,
                                const InterfaceNames& interfaces);
 
-v1::BlockLayout layout_of(const store::Block& block);
+v1::BlockLayout layout_of(const store::BlockSource& block);
 
 /// Appends one entry to every array.
 void append(v1::Samples& samples, std::int32_t load_case, const contact::Sample& sample);

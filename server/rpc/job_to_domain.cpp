@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -111,6 +114,48 @@ contact::SolverOptions to_options(const v1::Solver& solver, int iteration_limit)
   return to_options(solver.active_set(), iteration_limit);
 }
 
+store::Priority to_priority(v1::Job::Priority priority) {
+  switch (priority) {
+    case v1::Job::PRIORITY_UNSPECIFIED:
+    case v1::Job::PRIORITY_NORMAL:
+      return store::Priority::normal;
+    case v1::Job::PRIORITY_INTERACTIVE:
+      return store::Priority::interactive;
+    case v1::Job::PRIORITY_BULK:
+      return store::Priority::bulk;
+    default:
+      throw Error(Reason::invalid_argument,
+                  "priority " + std::to_string(priority) +
+                      " is unknown; use interactive (1), normal (2) or bulk (3)")
+          .at("job.priority");
+  }
+}
+
+/// 0 where it is unset: the server's. What is not 0 is rounded up to milliseconds, so that it does
+/// not become that.
+std::chrono::milliseconds to_time_limit(const google::protobuf::Duration& duration,
+                                        std::chrono::milliseconds longest,
+                                        const std::string& field) {
+  constexpr std::int64_t second = 1'000'000'000;
+  if (duration.seconds() < 0 || duration.nanos() < 0 || duration.nanos() >= second) {
+    throw Error(Reason::invalid_argument,
+                "the time is no duration of at least 0 s with 0 to 999999999 ns")
+        .at(field);
+  }
+  const auto limit = std::chrono::floor<std::chrono::seconds>(longest).count();
+  const std::int64_t milliseconds =
+      duration.seconds() > limit
+          ? std::numeric_limits<std::int64_t>::max()  // a product would overflow
+          : 1000 * duration.seconds() + (duration.nanos() + 999'999) / 1'000'000;
+  if (milliseconds > longest.count()) {
+    throw Error(Reason::limit_exceeded, "a time of " + std::to_string(duration.seconds()) +
+                                            " s: at most " + std::to_string(limit) +
+                                            " s are allowed (see GetServerInfo)")
+        .at(field);
+  }
+  return std::chrono::milliseconds(milliseconds);
+}
+
 }  // namespace
 
 store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
@@ -132,6 +177,10 @@ store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
   spec.title = job.title();
   spec.mesh = mesh_id(job.mesh(), "job.mesh");
   spec.fields = job.fields();
+  spec.priority = to_priority(job.priority());
+  spec.queue_time_limit =
+      to_time_limit(job.queue_timeout(), limits.queue_time, "job.queue_timeout");
+  spec.run_time_limit = to_time_limit(job.run_timeout(), limits.run_time, "job.run_timeout");
   spec.solver = to_options(job.solver(), limits.iterations);
   spec.loads.reserve(static_cast<std::size_t>(job.load_cases_size()));
   for (int i = 0; i < job.load_cases_size(); ++i) {

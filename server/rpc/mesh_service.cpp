@@ -9,44 +9,34 @@
 #include "rpc/names.hpp"
 #include "rpc/pages.hpp"
 #include "rpc/to_domain.hpp"
+#include "rpc/unary.hpp"
 #include "rpc/upload_stream.hpp"
+#include "rpc/visible.hpp"
 #include "rpc/write_stream.hpp"
 
 namespace anticrack::rpc {
-namespace {
 
+using access::Identity;
 using errors::Error;
 using errors::Reason;
 
-grpc::ServerUnaryReactor* refuse(grpc::CallbackServerContext* context, const char* method) {
-  return answer(context, method, [method] {
-    throw Error(Reason::not_implemented,
-                std::string(method) + " is not in this version; GetServerInfo lists what is")
-        .at("name")
-        .with("method", method);
-  });
+v1::Mesh MeshService::to_answer(const store::MeshRecord& record) const {
+  return from_domain(record, _edge.backend.catalogue.pinned(record.id));
 }
 
-}  // namespace
-
-MeshService::MeshService(const Backend& backend, const Limits& limits, const Admission& admission,
-                         StreamHub& hub, WorkThread& work)
-    : _backend(backend), _limits(limits), _admission(admission), _hub(hub), _work(work) {}
-
 grpc::ServerReadReactor<v1::UploadMeshRequest>* MeshService::UploadMesh(
-    grpc::CallbackServerContext* /*context*/, v1::UploadMeshResponse* response) {
-  return receive_upload(_hub, _work, _backend.store, _limits.upload_bytes, response);
+    grpc::CallbackServerContext* context, v1::UploadMeshResponse* response) {
+  return receive_upload(_edge, context, response);
 }
 
 grpc::ServerUnaryReactor* MeshService::CreateMesh(grpc::CallbackServerContext* context,
                                                   const v1::CreateMeshRequest* request,
                                                   v1::Mesh* response) {
-  const auto limit = static_cast<std::size_t>(_limits.waiting_creations);
-  return answer_on(_work, limit, context, "CreateMesh", [this, request, response] {
-    _admission.require_open();
+  return create(_edge, context, "CreateMesh", [this, request, response](const Identity& who) {
+    _edge.admission.require_open();
     const store::MeshDefinition definition = to_definition(*request);
     try {
-      *response = from_domain(_backend.catalogue.create(definition, request->title()));
+      *response = to_answer(_edge.backend.catalogue.create(definition, request->title(), who.name));
     } catch (const Error& error) {
       const bool about_file = error.fields().empty() && error.reason() == Reason::mesh_invalid;
       throw below_mesh_request(about_file ? Error(error).at("upload") : error);
@@ -57,50 +47,68 @@ grpc::ServerUnaryReactor* MeshService::CreateMesh(grpc::CallbackServerContext* c
 grpc::ServerUnaryReactor* MeshService::GetMesh(grpc::CallbackServerContext* context,
                                                const v1::GetMeshRequest* request,
                                                v1::Mesh* response) {
-  return answer(context, "GetMesh", [&] {
-    *response = from_domain(_backend.catalogue.get(mesh_id(request->name(), "name")));
+  return look_up(_edge, context, "GetMesh", [this, request, response](const Identity& who) {
+    *response = to_answer(visible_mesh(_edge.backend, who, mesh_id(request->name(), "name")));
   });
 }
 
 grpc::ServerUnaryReactor* MeshService::ListMeshes(grpc::CallbackServerContext* context,
                                                   const v1::ListMeshesRequest* request,
                                                   v1::ListMeshesResponse* response) {
-  return answer(context, "ListMeshes", [&] {
+  return look_up(_edge, context, "ListMeshes", [this, request, response](const Identity& who) {
     response->set_next_page_token(fill_page(
         to_page(request->page_size(), request->page_token()),
         [&](const std::string& after, std::size_t count) {
-          return _backend.catalogue.list(after, count);
+          return _edge.backend.catalogue.list({after, count, owner_filter(who)});
         },
         [&](const store::MeshRecord& record) {
-          return (*response->add_meshes() = from_domain(record)).ByteSizeLong();
+          return (*response->add_meshes() = to_answer(record)).ByteSizeLong();
         }));
   });
 }
 
 grpc::ServerWriteReactor<v1::ReadMeshResponse>* MeshService::ReadMesh(
     grpc::CallbackServerContext* context, const v1::ReadMeshRequest* request) {
-  return stream<v1::ReadMeshResponse>(context, _hub, StreamKind::transfer, "ReadMesh", [&] {
-    return std::make_unique<BlockFeed<v1::ReadMeshResponse>>(
-        _backend.catalogue.read(mesh_id(request->name(), "name")), request->offset());
-  });
+  return stream<v1::ReadMeshResponse>(_edge, context, StreamKind::transfer, "ReadMesh",
+                                      [this, request](const Identity& who) {
+                                        const std::string id = mesh_id(request->name(), "name");
+                                        visible_mesh(_edge.backend, who, id);
+                                        return std::make_unique<BlockFeed<v1::ReadMeshResponse>>(
+                                            _edge.backend.catalogue.read(id), request->offset());
+                                      });
 }
 
 grpc::ServerUnaryReactor* MeshService::DeleteMesh(grpc::CallbackServerContext* context,
-                                                  const v1::DeleteMeshRequest* /*request*/,
+                                                  const v1::DeleteMeshRequest* request,
                                                   google::protobuf::Empty* /*response*/) {
-  return refuse(context, "DeleteMesh");
+  return change(_edge, context, "DeleteMesh", [this, request](const Identity& who) {
+    const std::string id = mesh_id(request->name(), "name");
+    visible_mesh(_edge.backend, who, id);
+    _edge.backend.catalogue.erase(id);
+  });
 }
 
 grpc::ServerUnaryReactor* MeshService::WarmMesh(grpc::CallbackServerContext* context,
-                                                const v1::WarmMeshRequest* /*request*/,
-                                                v1::Mesh* /*response*/) {
-  return refuse(context, "WarmMesh");
+                                                const v1::WarmMeshRequest* request,
+                                                v1::Mesh* response) {
+  return change(_edge, context, "WarmMesh", [this, request, response](const Identity& who) {
+    _edge.admission.require_open();
+    if (request->pin()) access::require_admin(who, "pin a mesh in memory");
+    const std::string id = mesh_id(request->name(), "name");
+    visible_mesh(_edge.backend, who, id);
+    *response = to_answer(_edge.backend.catalogue.warm(id, request->pin()));
+  });
 }
 
 grpc::ServerUnaryReactor* MeshService::EvictMesh(grpc::CallbackServerContext* context,
-                                                 const v1::EvictMeshRequest* /*request*/,
-                                                 v1::Mesh* /*response*/) {
-  return refuse(context, "EvictMesh");
+                                                 const v1::EvictMeshRequest* request,
+                                                 v1::Mesh* response) {
+  return change(_edge, context, "EvictMesh", [this, request, response](const Identity& who) {
+    access::require_admin(who, "evict a mesh");
+    const std::string id = mesh_id(request->name(), "name");
+    visible_mesh(_edge.backend, who, id);
+    *response = to_answer(_edge.backend.catalogue.evict(id));
+  });
 }
 
 }  // namespace anticrack::rpc

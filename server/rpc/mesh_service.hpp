@@ -4,18 +4,15 @@
 #include <grpcpp/grpcpp.h>
 
 #include "anticrack/v1/mesh.grpc.pb.h"
-#include "rpc/backend.hpp"
-#include "rpc/stream_hub.hpp"
-#include "rpc/unary.hpp"
-#include "rpc/work_thread.hpp"
+#include "rpc/edge.hpp"
+#include "store/records.hpp"
 
 namespace anticrack::rpc {
 
 /// Translates, calls the catalogue, maps the status. See mesh.proto for the methods.
 class MeshService final : public v1::MeshService::CallbackService {
  public:
-  MeshService(const Backend& backend, const Limits& limits, const Admission& admission,
-              StreamHub& hub, WorkThread& work);
+  explicit MeshService(Edge& edge) : _edge(edge) {}
 
   grpc::ServerReadReactor<v1::UploadMeshRequest>* UploadMesh(
       grpc::CallbackServerContext* context, v1::UploadMeshResponse* response) override;
@@ -40,11 +37,9 @@ class MeshService final : public v1::MeshService::CallbackService {
                                       v1::Mesh* response) override;
 
  private:
-  const Backend _backend;
-  const Limits _limits;
-  const Admission& _admission;
-  StreamHub& _hub;
-  WorkThread& _work;
+  v1::Mesh to_answer(const store::MeshRecord& record) const;
+
+  Edge& _edge;
 };
 
 }  // namespace anticrack::rpc

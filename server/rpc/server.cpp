@@ -7,16 +7,15 @@
 
 #include <array>
 #include <mutex>
-#include <thread>
 
 #include "errors/errors.hpp"
 #include "jobs/job_engine.hpp"
+#include "rpc/call_meter.hpp"
+#include "rpc/edge.hpp"
 #include "rpc/mesh_service.hpp"
 #include "rpc/server_service.hpp"
 #include "rpc/solve_service.hpp"
-#include "rpc/stream_hub.hpp"
-#include "rpc/unary.hpp"
-#include "rpc/work_thread.hpp"
+#include "rpc/tls.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -26,8 +25,6 @@ using namespace std::chrono_literals;
 constexpr std::array service_names{"anticrack.v1.MeshService", "anticrack.v1.SolveService",
                                    "anticrack.v1.ServerService"};
 
-/// gRPC's own default; what is larger travels in chunks.
-constexpr int max_receive_bytes = 4 << 20;
 /// What a client may have under way on one stream: a chunk. 20 MB/s at 50 ms.
 constexpr int receive_window_bytes = 1 << 20;
 /// Streams of ours that have not taken their end by then are broken off.
@@ -48,7 +45,7 @@ void set_arguments(grpc::ServerBuilder& builder) {
   // without it.
   builder.AddChannelArgument(GRPC_ARG_HTTP2_BDP_PROBE, 0);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_STREAM_LOOKAHEAD_BYTES, receive_window_bytes);
-  builder.SetMaxReceiveMessageSize(max_receive_bytes);
+  builder.SetMaxReceiveMessageSize(max_message_bytes);
 }
 
 std::string bound_address(const std::string& listen, int port) {
@@ -63,12 +60,8 @@ void Admission::require_open() const {
 }
 
 struct Server::State {
-  State(const ServerOptions& options, const Backend& to)
-      : backend(to),
-        hub({options.limits.watchers, options.limits.transfers, options.heartbeat, options.stall}),
-        meshes(backend, options.limits, admission, hub, work),
-        solves(backend, options.limits, admission, hub, work),
-        info(backend, options.limits, hub) {}
+  State(const ServerOptions& options, const Backend& backend)
+      : edge(options, backend), meshes(edge), solves(edge), info(edge, options.security) {}
 
   void set_serving(bool serving) {
     grpc::HealthCheckServiceInterface* health = server->GetHealthCheckService();
@@ -76,17 +69,7 @@ struct Server::State {
     for (const char* name : service_names) health->SetServingStatus(name, serving);
   }
 
-  void wait_for_jobs(SteadyClock::time_point deadline) const {
-    while (SteadyClock::now() < deadline) {
-      if (backend.engine.idle()) return;
-      std::this_thread::sleep_for(20ms);
-    }
-  }
-
-  const Backend backend;
-  Admission admission;
-  StreamHub hub;
-  WorkThread work;
+  Edge edge;
   MeshService meshes;
   SolveService solves;
   ServerService info;
@@ -102,10 +85,11 @@ Server::Server(const ServerOptions& options, const Backend& backend)
   grpc::ServerBuilder builder;
   set_arguments(builder);
   int port = 0;
-  builder.AddListeningPort(options.listen, grpc::InsecureServerCredentials(), &port);
+  builder.AddListeningPort(options.listen, server_credentials(options.security.tls), &port);
   builder.RegisterService(&_state->meshes);
   builder.RegisterService(&_state->solves);
   builder.RegisterService(&_state->info);
+  builder.experimental().SetInterceptorCreators(call_meters(options.call_ended));
   _state->server = builder.BuildAndStart();
   if (!_state->server || port == 0) {
     throw errors::Error(errors::Reason::invalid_argument,
@@ -126,17 +110,26 @@ const std::string& Server::address() const noexcept {
   return _state->address;
 }
 
+void Server::announce_stop() {
+  _state->set_serving(false);
+}
+
 void Server::drain(std::chrono::milliseconds grace) {
   std::call_once(_state->drained, [&] {
-    _state->admission.close();
+    _state->edge.admission.close();
     _state->set_serving(false);
-    _state->hub.close();
-    _state->wait_for_jobs(SteadyClock::now() + grace);
-    _state->hub.drain(draining_error(), stream_patience,
-                      SteadyClock::now() + stream_patience + shutdown_patience);
+    _state->edge.hub.close();
+    _state->edge.backend.engine.stop(grace);
+    _state->edge.hub.drain(draining_error(), stream_patience,
+                           SteadyClock::now() + stream_patience + shutdown_patience);
     _state->server->Shutdown(std::chrono::system_clock::now() + shutdown_patience);
     _state->server->Wait();
   });
+}
+
+Server::Metrics Server::metrics() const {
+  const StreamCounts counts = _state->edge.hub.counts();
+  return {counts.watchers, counts.transfers, _state->edge.hub.largest_lag()};
 }
 
 }  // namespace anticrack::rpc

@@ -52,7 +52,7 @@ struct ServerOptions {
 class Server {
  public:
   /// Listens and serves when it returns. Throws errors::Error (invalid_argument, field "listen")
-  /// when it cannot.
+  /// when it cannot, and as server_credentials() does (rpc/tls.hpp).
   Server(const ServerOptions& options, const Backend& backend);
   /// drain(0s).
   ~Server();
@@ -64,10 +64,10 @@ class Server {
   /// send no more.
   void announce_stop();
   /// Health says NOT_SERVING; new meshes, jobs, watches and transfers are refused (UNAVAILABLE);
-  /// running jobs go on for at most `grace`, watched; then watches and transfers end with
-  /// UNAVAILABLE and a retry delay (a watch whose job ended sends the rest first), whoever does not
-  /// take it is broken off, and the server shuts down, three seconds later at the latest.
-  /// Idempotent: a second call waits for the first.
+  /// the engine is stopped: running jobs go on for at most `grace`, watched; then watches and
+  /// transfers end with UNAVAILABLE and a retry delay (a watch whose job ended sends the rest
+  /// first), whoever does not take it is broken off, and the server shuts down, three seconds later
+  /// at the latest. Idempotent: a second call waits for the first.
   void drain(std::chrono::milliseconds grace);
 
   struct Metrics {

@@ -15,7 +15,9 @@ namespace {
 
 constexpr std::array features{
     "active_set",
+    "batching",
     "boundary_value",
+    "durable",
     "fields",
     "force.array",
     "force.constant",
@@ -25,6 +27,8 @@ constexpr std::array features{
     "mass.consistent",
     "mass.lumped",
     "mesh.align",
+    "mesh.delete",
+    "mesh.evict",
     "mesh.geometry",
     "mesh.graded",
     "mesh.groups",
@@ -33,7 +37,10 @@ constexpr std::array features{
     "mesh.paper",
     "mesh.tension",
     "mesh.uniform",
+    "mesh.warm",
     "point_forces",
+    "priority",
+    "timeouts",
     "traction",
     "uzawa",
     "uzawa.kkt_tolerance",
@@ -51,6 +58,19 @@ v1::ServerLimits to_message(const Limits& limits, const jobs::EngineOptions& eng
   to.set_queued_jobs(engine.max_queued_jobs);
   to.set_kept_jobs(engine.max_kept_jobs);
   to.set_watchers(limits.watchers);
+  to.set_transfers(limits.transfers);
+  to.set_streams_a_client(limits.streams_a_client);
+  to.set_queued_cases(engine.max_queued_cases);
+  to.set_queued_bytes(engine.max_queued_bytes);
+  *to.mutable_queue_time() = to_duration(engine.queue_time);
+  *to.mutable_run_time() = to_duration(engine.run_time);
+  *to.mutable_result_ttl() = to_duration(engine.result_ttl);
+  to.set_result_bytes(engine.max_result_bytes);
+  to.set_meshes(static_cast<std::int32_t>(limits.meshes));
+  to.set_pending_meshes(static_cast<std::int32_t>(limits.pending_meshes));
+  to.set_disk_budget_bytes(limits.disk_budget_bytes);
+  to.set_mesher_memory_bytes(limits.mesher_memory_bytes);
+  to.set_message_bytes(max_message_bytes);
   to.set_event_log_bytes(engine.event_log_bytes);
   *to.mutable_meshing_time() = to_duration(limits.meshing_time);
   return to;
@@ -75,23 +95,29 @@ v1::ServerMetrics to_message(const jobs::EngineMetrics& engine,
 
 }  // namespace
 
-ServerService::ServerService(const Backend& backend, const Limits& limits, const StreamHub& hub)
-    : _backend(backend), _limits(limits), _hub(hub) {}
+ServerService::ServerService(const Edge& edge, const Security& security)
+    : _edge(edge), _features(features.begin(), features.end()) {
+  // What this server was told to do, beside what all of this version can.
+  if (security.tls) _features.emplace_back("tls");
+  if (security.tls && !security.tls->client_roots.empty()) _features.emplace_back("tls.mutual");
+  if (!security.tokens.empty()) _features.emplace_back("tokens");
+}
 
 grpc::ServerUnaryReactor* ServerService::GetServerInfo(grpc::CallbackServerContext* context,
                                                        const v1::GetServerInfoRequest* /*request*/,
                                                        v1::ServerInfo* response) {
-  return answer(context, "GetServerInfo", [&] {
+  return answer(_edge, context, "GetServerInfo", [&](const access::Identity&) {
     response->set_version(version());
     response->set_build(build());
     *response->mutable_start_time() = to_timestamp(_start);
-    const jobs::EngineOptions& engine = _backend.engine.options();
+    const Backend& backend = _edge.backend;
+    const jobs::EngineOptions& engine = backend.engine.options();
     response->set_threads(engine.threads);
-    *response->mutable_limits() = to_message(_limits, engine);
-    *response->mutable_metrics() = to_message(_backend.engine.metrics(), _backend.cache.metrics());
-    response->mutable_metrics()->set_meshings(_backend.catalogue.meshings());
-    response->mutable_metrics()->set_watchers(_hub.watchers());
-    for (const char* feature : features) response->add_features(feature);
+    *response->mutable_limits() = to_message(_edge.limits, engine);
+    *response->mutable_metrics() = to_message(backend.engine.metrics(), backend.cache.metrics());
+    response->mutable_metrics()->set_meshings(backend.catalogue.meshings());
+    response->mutable_metrics()->set_watchers(_edge.hub.counts().watchers);
+    response->mutable_features()->Add(_features.begin(), _features.end());
   });
 }
 

@@ -4,25 +4,25 @@
 #include <grpcpp/grpcpp.h>
 
 #include <chrono>
+#include <string>
+#include <vector>
 
 #include "anticrack/v1/server.grpc.pb.h"
-#include "rpc/backend.hpp"
-#include "rpc/stream_hub.hpp"
+#include "rpc/edge.hpp"
 
 namespace anticrack::rpc {
 
 class ServerService final : public v1::ServerService::CallbackService {
  public:
-  ServerService(const Backend& backend, const Limits& limits, const StreamHub& hub);
+  ServerService(const Edge& edge, const Security& security);
 
   grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,
                                           const v1::GetServerInfoRequest* request,
                                           v1::ServerInfo* response) override;
 
  private:
-  const Backend _backend;
-  const Limits _limits;
-  const StreamHub& _hub;
+  const Edge& _edge;
+  std::vector<std::string> _features;
   const std::chrono::system_clock::time_point _start = std::chrono::system_clock::now();
 };
 

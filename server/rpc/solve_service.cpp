@@ -9,31 +9,32 @@
 #include "rpc/names.hpp"
 #include "rpc/pages.hpp"
 #include "rpc/to_domain.hpp"
+#include "rpc/unary.hpp"
+#include "rpc/visible.hpp"
 #include "rpc/watch_feed.hpp"
 #include "rpc/write_stream.hpp"
 
 namespace anticrack::rpc {
 
-SolveService::SolveService(const Backend& backend, const Limits& limits, const Admission& admission,
-                           StreamHub& hub, WorkThread& work)
-    : _backend(backend), _limits(limits), _admission(admission), _hub(hub), _work(work) {}
+using access::Identity;
 
 v1::Job SolveService::to_answer(const store::JobRecord& record) const {
-  return from_domain(record, interface_names(_backend.catalogue, record.spec.mesh));
+  return from_domain(record, interface_names(_edge.backend.catalogue, record.spec.mesh));
 }
 
 grpc::ServerUnaryReactor* SolveService::CreateJob(grpc::CallbackServerContext* context,
                                                   const v1::CreateJobRequest* request,
                                                   v1::Job* response) {
-  const auto limit = static_cast<std::size_t>(_limits.waiting_creations);
-  return answer_on(_work, limit, context, "CreateJob", [this, request, response] {
-    _admission.require_open();
-    const jobs::EngineOptions& options = _backend.engine.options();
+  return create(_edge, context, "CreateJob", [this, request, response](const Identity& who) {
+    _edge.admission.require_open();
+    const jobs::EngineOptions& options = _edge.backend.engine.options();
     require_request_id(request->request_id());
-    const store::JobSpec spec =
-        to_spec(request->job(), {options.max_load_cases, options.max_iterations});
+    store::JobSpec spec = to_spec(request->job(), {options.max_load_cases, options.max_iterations,
+                                                   options.queue_time, options.run_time});
     try {
-      *response = to_answer(_backend.engine.submit(spec, request->request_id()));
+      visible_mesh(_edge.backend, who, spec.mesh);
+      *response = to_answer(
+          _edge.backend.engine.submit({std::move(spec), who.name, request->request_id()}));
     } catch (const errors::Error& error) {
       throw below_job_request(error);
     }
@@ -43,19 +44,19 @@ grpc::ServerUnaryReactor* SolveService::CreateJob(grpc::CallbackServerContext* c
 grpc::ServerUnaryReactor* SolveService::GetJob(grpc::CallbackServerContext* context,
                                                const v1::GetJobRequest* request,
                                                v1::Job* response) {
-  return answer(context, "GetJob", [&] {
-    *response = to_answer(_backend.engine.get(job_id(request->name(), "name")));
+  return look_up(_edge, context, "GetJob", [this, request, response](const Identity& who) {
+    *response = to_answer(visible_job(_edge.backend, who, job_id(request->name(), "name")));
   });
 }
 
 grpc::ServerUnaryReactor* SolveService::ListJobs(grpc::CallbackServerContext* context,
                                                  const v1::ListJobsRequest* request,
                                                  v1::ListJobsResponse* response) {
-  return answer(context, "ListJobs", [&] {
+  return look_up(_edge, context, "ListJobs", [this, request, response](const Identity& who) {
     response->set_next_page_token(fill_page(
         to_page(request->page_size(), request->page_token()),
         [&](const std::string& after, std::size_t count) {
-          return _backend.engine.list(after, count);
+          return _edge.backend.engine.list({after, count, owner_filter(who)});
         },
         [&](const store::JobRecord& record) {
           return (*response->add_jobs() = to_answer(record)).ByteSizeLong();
@@ -66,32 +67,43 @@ grpc::ServerUnaryReactor* SolveService::ListJobs(grpc::CallbackServerContext* co
 grpc::ServerUnaryReactor* SolveService::CancelJob(grpc::CallbackServerContext* context,
                                                   const v1::CancelJobRequest* request,
                                                   v1::Job* response) {
-  return answer(context, "CancelJob", [&] {
-    *response = to_answer(_backend.engine.cancel(job_id(request->name(), "name")));
+  return change(_edge, context, "CancelJob", [this, request, response](const Identity& who) {
+    const std::string id = job_id(request->name(), "name");
+    visible_job(_edge.backend, who, id);
+    *response = to_answer(_edge.backend.engine.cancel(id));
   });
 }
 
 grpc::ServerUnaryReactor* SolveService::DeleteJob(grpc::CallbackServerContext* context,
                                                   const v1::DeleteJobRequest* request,
                                                   google::protobuf::Empty* /*response*/) {
-  return answer(context, "DeleteJob",
-                [&] { _backend.engine.erase(job_id(request->name(), "name")); });
+  return change(_edge, context, "DeleteJob", [this, request](const Identity& who) {
+    const std::string id = job_id(request->name(), "name");
+    visible_job(_edge.backend, who, id);
+    _edge.backend.engine.erase(id);
+  });
 }
 
 grpc::ServerWriteReactor<v1::WatchJobResponse>* SolveService::WatchJob(
     grpc::CallbackServerContext* context, const v1::WatchJobRequest* request) {
-  return stream<v1::WatchJobResponse>(context, _hub, StreamKind::watch, "WatchJob", [&] {
-    return std::make_unique<WatchFeed>(_backend.engine, _backend.catalogue,
-                                       job_id(request->name(), "name"), request->after_sequence());
-  });
+  return stream<v1::WatchJobResponse>(
+      _edge, context, StreamKind::watch, "WatchJob", [this, request](const Identity& who) {
+        std::string id = job_id(request->name(), "name");
+        visible_job(_edge.backend, who, id);
+        return std::make_unique<WatchFeed>(_edge.backend, _edge.watch_groups, std::move(id),
+                                           request->after_sequence());
+      });
 }
 
 grpc::ServerWriteReactor<v1::ReadResultResponse>* SolveService::ReadResult(
     grpc::CallbackServerContext* context, const v1::ReadResultRequest* request) {
-  return stream<v1::ReadResultResponse>(context, _hub, StreamKind::transfer, "ReadResult", [&] {
-    return std::make_unique<BlockFeed<v1::ReadResultResponse>>(
-        _backend.engine.result(job_id(request->name(), "name")), request->offset());
-  });
+  return stream<v1::ReadResultResponse>(
+      _edge, context, StreamKind::transfer, "ReadResult", [this, request](const Identity& who) {
+        const std::string id = job_id(request->name(), "name");
+        visible_job(_edge.backend, who, id);
+        return std::make_unique<BlockFeed<v1::ReadResultResponse>>(_edge.backend.engine.result(id),
+                                                                   request->offset());
+      });
 }
 
 }  // namespace anticrack::rpc

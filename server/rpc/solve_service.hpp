@@ -4,10 +4,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include "anticrack/v1/solve.grpc.pb.h"
-#include "rpc/backend.hpp"
-#include "rpc/stream_hub.hpp"
-#include "rpc/unary.hpp"
-#include "rpc/work_thread.hpp"
+#include "rpc/edge.hpp"
 #include "store/records.hpp"
 
 namespace anticrack::rpc {
@@ -15,8 +12,7 @@ namespace anticrack::rpc {
 /// Translates, calls the job engine, maps the status. See solve.proto for the methods.
 class SolveService final : public v1::SolveService::CallbackService {
  public:
-  SolveService(const Backend& backend, const Limits& limits, const Admission& admission,
-               StreamHub& hub, WorkThread& work);
+  explicit SolveService(Edge& edge) : _edge(edge) {}
 
   grpc::ServerUnaryReactor* CreateJob(grpc::CallbackServerContext* context,
                                       const v1::CreateJobRequest* request,
@@ -40,11 +36,7 @@ class SolveService final : public v1::SolveService::CallbackService {
  private:
   v1::Job to_answer(const store::JobRecord& record) const;
 
-  const Backend _backend;
-  const Limits _limits;
-  const Admission& _admission;
-  StreamHub& _hub;
-  WorkThread& _work;
+  Edge& _edge;
 };
 
 }  // namespace anticrack::rpc

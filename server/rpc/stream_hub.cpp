@@ -17,6 +17,11 @@ std::chrono::milliseconds tick_interval(const StreamLimits& limits) {
   return std::clamp(shortest, std::chrono::milliseconds(5), std::chrono::milliseconds(1000));
 }
 
+Error full(const std::string& what) {
+  return Error(Reason::busy, std::string(what) + "; try again later")
+      .retry_after(std::chrono::seconds(1));
+}
+
 }  // namespace
 
 StreamHub::StreamHub(StreamLimits limits) : _limits(limits), _thread([this] { run(); }) {}
@@ -30,19 +35,23 @@ StreamHub::~StreamHub() {
   _thread.join();
 }
 
-void StreamHub::add(StreamKind kind, const std::shared_ptr<Stream>& stream) {
+void StreamHub::add(StreamKind kind, const std::string& client,
+                    const std::shared_ptr<Stream>& stream) {
   const std::lock_guard lock(_mutex);
   if (_closed) throw draining_error();
-  int& count = kind == StreamKind::watch ? _watchers : _transfers;
-  const int limit = kind == StreamKind::watch ? _limits.watchers : _limits.transfers;
-  if (count >= limit) {
-    throw Error(Reason::busy, std::string(kind == StreamKind::watch ? "watches" : "transfers") +
-                                  " open: " + std::to_string(count) +
-                                  ", as many as this server allows; try again later")
-        .retry_after(std::chrono::seconds(1));
+  const int count = count_of(kind);
+  if (count >= (kind == StreamKind::watch ? _limits.watchers : _limits.transfers)) {
+    throw full(std::string(kind == StreamKind::watch ? "watches" : "transfers") +
+               " open: " + std::to_string(count) + ", as many as this server allows");
   }
-  _entries.emplace(stream.get(), Entry{kind, stream});
-  ++count;
+  const auto held = _clients.find(client);
+  if (held != _clients.end() && held->second >= _limits.a_client) {
+    throw full("you have " + std::to_string(held->second) +
+               " watches and transfers open, as many as this server allows a client");
+  }
+  _entries.emplace(stream.get(), Entry{kind, client, stream});
+  ++_clients[client];
+  ++count_of(kind);
 }
 
 void StreamHub::remove(const Stream& stream) noexcept {
@@ -50,18 +59,20 @@ void StreamHub::remove(const Stream& stream) noexcept {
     const std::lock_guard lock(_mutex);
     const auto entry = _entries.find(&stream);
     if (entry == _entries.end()) return;
-    --(entry->second.kind == StreamKind::watch ? _watchers : _transfers);
+    --count_of(entry->second.kind);
+    const auto client = _clients.find(entry->second.client);
+    if (--client->second == 0) _clients.erase(client);
     _entries.erase(entry);
   }
   _changed.notify_all();
 }
 
-void StreamHub::wake(const std::weak_ptr<Stream>& stream) {
-  const std::shared_ptr<Stream> target = stream.lock();
-  if (!target || target->_queued.exchange(true)) return;
+void StreamHub::wake(const std::weak_ptr<Wakeable>& target) {
+  const std::shared_ptr<Wakeable> held = target.lock();
+  if (!held || held->_queued.exchange(true)) return;
   {
     const std::lock_guard lock(_mutex);
-    _woken.push_back(stream);
+    _woken.push_back(target);
   }
   _changed.notify_all();
 }
@@ -80,9 +91,15 @@ void StreamHub::drain(const Error& error, std::chrono::milliseconds patience,
   wait_until_empty(deadline);
 }
 
-int StreamHub::watchers() const {
+StreamCounts StreamHub::counts() const {
   const std::lock_guard lock(_mutex);
-  return _watchers;
+  return _counts;
+}
+
+std::uint64_t StreamHub::largest_lag() const {
+  std::uint64_t largest = 0;
+  for (const auto& stream : streams()) largest = std::max(largest, stream->lag());
+  return largest;
 }
 
 std::vector<std::shared_ptr<Stream>> StreamHub::streams() const {
@@ -103,21 +120,35 @@ bool StreamHub::wait_until_empty(SteadyClock::time_point deadline) {
 void StreamHub::run() {
   const auto interval = tick_interval(_limits);
   auto next_tick = SteadyClock::now() + interval;
+  auto next_late = SteadyClock::time_point::max();
+  std::vector<std::weak_ptr<Wakeable>> late;  // whose time has not come
   for (;;) {
-    std::deque<std::weak_ptr<Stream>> woken;
+    std::vector<std::weak_ptr<Wakeable>> woken;
     {
       std::unique_lock lock(_mutex);
-      _changed.wait_until(lock, next_tick, [this] { return _stopping || !_woken.empty(); });
+      _changed.wait_until(lock, std::min(next_tick, next_late),
+                          [this] { return _stopping || !_woken.empty(); });
       if (_stopping) return;
       woken.swap(_woken);
     }
-    for (const auto& entry : woken) {
-      if (const auto stream = entry.lock()) {
-        stream->_queued = false;  // before the wake: what comes meanwhile is not lost
-        stream->wake();
-      }
+    auto now = SteadyClock::now();
+    if (now >= next_late) {
+      woken.insert(woken.end(), late.begin(), late.end());
+      late.clear();
+      next_late = SteadyClock::time_point::max();
     }
-    const auto now = SteadyClock::now();
+    for (auto& entry : woken) {
+      const auto target = entry.lock();
+      if (!target) continue;
+      if (const auto time = target->not_before(); time > now) {
+        next_late = std::min(next_late, time);
+        late.push_back(std::move(entry));
+        continue;
+      }
+      target->_queued = false;  // before the wake: what comes meanwhile is not lost
+      target->wake();
+    }
+    now = SteadyClock::now();
     if (now < next_tick) continue;
     next_tick = now + interval;
     for (const auto& stream : streams()) stream->tick(now);

@@ -6,6 +6,7 @@
 // the request. What the values mean is checked below, by the domain.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 
 #include "anticrack/v1/mesh.pb.h"
@@ -34,6 +35,8 @@ store::MeshDefinition to_definition(const v1::CreateMeshRequest& request);
 struct JobLimits {
   int load_cases = 0;
   int iterations = 0;
+  std::chrono::milliseconds queue_time{0};
+  std::chrono::milliseconds run_time{0};
 };
 
 store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits);

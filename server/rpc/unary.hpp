@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Unary methods: run something that may throw errors::Error, answer with its status.
+// Unary methods: find out who calls, run something that may throw errors::Error, answer with its
+// status. `work` is given the caller: void(const access::Identity&).
 #pragma once
 
 #include <grpcpp/grpcpp.h>
 
-#include <atomic>
+#include <cstddef>
 #include <utility>
 
+#include "rpc/edge.hpp"
 #include "rpc/error_table.hpp"
-#include "rpc/work_thread.hpp"
 
 namespace anticrack::rpc {
 
@@ -23,42 +24,55 @@ grpc::Status status_of(const char* method, Work&& work) noexcept {
   }
 }
 
-/// On gRPC's thread: for what only looks something up.
+/// On gRPC's thread: for what is in memory.
 template <class Work>
-grpc::ServerUnaryReactor* answer(grpc::CallbackServerContext* context, const char* method,
-                                 Work&& work) noexcept {
+grpc::ServerUnaryReactor* answer(const Edge& edge, grpc::CallbackServerContext* context,
+                                 const char* method, Work&& work) noexcept {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  reactor->Finish(status_of(method, std::forward<Work>(work)));
+  reactor->Finish(status_of(method, [&] { work(edge.authentication.identify(*context)); }));
   return reactor;
 }
 
-/// On the work thread: for what checks or sorts through much. Refuses when `limit` calls wait
-/// there.
+/// On one of the edge's pools. Refuses when `limit` calls wait there.
 template <class Work>
-grpc::ServerUnaryReactor* answer_on(WorkThread& thread, std::size_t limit,
+grpc::ServerUnaryReactor* answer_on(const Edge& edge, WorkPool& pool, std::size_t limit,
                                     grpc::CallbackServerContext* context, const char* method,
                                     Work work) noexcept {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   const grpc::Status posted = status_of(method, [&] {
-    if (thread.waiting() >= limit) {
-      throw errors::Error(errors::Reason::busy, "too many requests wait to be checked")
+    // Here and not on the pool: a stranger takes no place in its queue.
+    const access::Identity who = edge.authentication.identify(*context);
+    if (pool.waiting() >= limit) {
+      throw errors::Error(errors::Reason::busy,
+                          "too many calls wait to be taken up; try again later")
           .retry_after(std::chrono::seconds(1));
     }
-    thread.post([reactor, method, work] { reactor->Finish(status_of(method, work)); });
+    pool.post(
+        [reactor, method, work, who] { reactor->Finish(status_of(method, [&] { work(who); })); });
   });
   if (!posted.ok()) reactor->Finish(posted);
   return reactor;
 }
 
-/// Whether the server still takes new meshes and jobs.
-class Admission {
- public:
-  void close() noexcept { _closed = true; }
-  /// Throws errors::Error (draining).
-  void require_open() const;
+template <class Work>
+grpc::ServerUnaryReactor* look_up(Edge& edge, grpc::CallbackServerContext* context,
+                                  const char* method, Work work) noexcept {
+  return answer_on(edge, edge.lookups, edge.limits.waiting_calls, context, method, std::move(work));
+}
 
- private:
-  std::atomic<bool> _closed{false};
-};
+template <class Work>
+grpc::ServerUnaryReactor* change(Edge& edge, grpc::CallbackServerContext* context,
+                                 const char* method, Work work) noexcept {
+  return answer_on(edge, edge.changes, edge.limits.waiting_calls, context, method, std::move(work));
+}
+
+/// As change(), with a bound of their own, because their requests are large: a cancel still gets
+/// through when these are refused.
+template <class Work>
+grpc::ServerUnaryReactor* create(Edge& edge, grpc::CallbackServerContext* context,
+                                 const char* method, Work work) noexcept {
+  return answer_on(edge, edge.changes, edge.limits.waiting_creations, context, method,
+                   std::move(work));
+}
 
 }  // namespace anticrack::rpc

@@ -22,7 +22,8 @@ using errors::Error;
 using errors::Reason;
 
 Error storage_error(const std::string& what) {
-  return Error(Reason::storage,
+  const bool full = errno == ENOSPC || errno == EDQUOT;
+  return Error(full ? Reason::disk_full : Reason::storage,
                what + ": " + std::generic_category().message(errno) + "; the upload is dropped")
       .retry_after(std::chrono::seconds(10));
 }
@@ -95,8 +96,8 @@ class UploadReceiver::File {
   int _descriptor;
 };
 
-UploadReceiver::UploadReceiver(store::Store& store, std::uint64_t max_bytes)
-    : _store(store), _max_bytes(max_bytes) {}
+UploadReceiver::UploadReceiver(store::Store& store, std::string owner, std::uint64_t max_bytes)
+    : _store(store), _owner(std::move(owner)), _max_bytes(max_bytes) {}
 
 UploadReceiver::~UploadReceiver() = default;
 
@@ -147,7 +148,7 @@ void UploadReceiver::begin(const v1::UploadMeshRequest::Header& header) {
   _announced_bytes = header.size();
   _announced_sha256 = header.sha256();
   _is_array = array;
-  _file = std::make_unique<File>(_store.new_upload_path());
+  _file = std::make_unique<File>(_store.new_upload_path(header.size()));
 }
 
 void UploadReceiver::append(const std::string& chunk) {
@@ -188,7 +189,7 @@ std::string UploadReceiver::complete() {
   }
   file->close();
   require_content(file->path(), _is_array);
-  _store.keep_upload(file->path(), sha256);
+  _store.keep_upload(file->path(), sha256, _owner);
   file->release();
   return sha256;
 }

@@ -17,18 +17,19 @@ namespace anticrack::rpc {
 /// destroyed before complete(), the temporary file is gone. Not thread-safe.
 class UploadReceiver {
  public:
-  UploadReceiver(store::Store& store, std::uint64_t max_bytes);
+  /// The upload will belong to `owner`.
+  UploadReceiver(store::Store& store, std::string owner, std::uint64_t max_bytes);
   UploadReceiver(const UploadReceiver&) = delete;
   UploadReceiver& operator=(const UploadReceiver&) = delete;
   ~UploadReceiver();
 
   /// Nothing is stored before a header within the limits, nor a byte more than it announced.
-  /// Throws errors::Error: invalid_argument, limit_exceeded, storage.
+  /// Throws errors::Error: invalid_argument, limit_exceeded, disk_full, storage.
   void accept(const v1::UploadMeshRequest& request);
 
   /// The upload's sha256, when it is all there and is what was announced: a .msh begins with
   /// $MeshFormat, an array is finite values of 8 bytes.
-  /// Throws errors::Error: invalid_argument, mesh_invalid, storage.
+  /// Throws errors::Error: invalid_argument, mesh_invalid, disk_full, storage.
   std::string complete();
 
  private:
@@ -38,6 +39,7 @@ class UploadReceiver {
   void append(const std::string& chunk);
 
   store::Store& _store;
+  const std::string _owner;
   const std::uint64_t _max_bytes;
   std::unique_ptr<File> _file;
   store::Sha256 _hash;

@@ -17,12 +17,13 @@ class RefusedUpload final : public grpc::ServerReadReactor<v1::UploadMeshRequest
 
 }  // namespace
 
-UploadStream::UploadStream(StreamHub& hub, WorkThread& work, store::Store& store,
-                           std::uint64_t max_bytes, v1::UploadMeshResponse* response)
-    : _hub(hub), _work(work), _receiver(store, max_bytes), _response(response) {}
+UploadStream::UploadStream(Edge& edge, std::string owner, v1::UploadMeshResponse* response)
+    : _edge(edge),
+      _receiver(edge.backend.store, std::move(owner), edge.limits.upload_bytes),
+      _response(response) {}
 
-void UploadStream::start() {
-  _hub.add(StreamKind::transfer, shared_from_this());
+void UploadStream::start(const std::string& client) {
+  _edge.hub.add(StreamKind::transfer, client, shared_from_this());
   _self = shared_from_this();
   {
     const std::lock_guard lock(_mutex);
@@ -39,7 +40,7 @@ void UploadStream::OnReadDone(bool ok) noexcept {
     ++_operations;
   }
   try {
-    _work.post([self = shared_from_this(), ok] {
+    _edge.changes.post([self = shared_from_this(), ok] {
       self->take(ok);
       self->leave();
     });
@@ -54,14 +55,14 @@ void UploadStream::OnCancel() noexcept {
 }
 
 void UploadStream::OnDone() noexcept {
-  _hub.remove(*this);
+  _edge.hub.remove(*this);
   const auto self = std::move(_self);
 }
 
 void UploadStream::tick(SteadyClock::time_point now) noexcept {
   {
     const std::lock_guard lock(_mutex);
-    if (_operations > 0 || now - _last_read <= _hub.limits().stall) return;
+    if (_operations > 0 || now - _last_read <= _edge.hub.limits().stall) return;
   }
   end(errors::Error(errors::Reason::cancelled, "no chunk came for too long; upload again"));
 }
@@ -118,11 +119,11 @@ void UploadStream::leave() noexcept {
 }
 
 grpc::ServerReadReactor<v1::UploadMeshRequest>* receive_upload(
-    StreamHub& hub, WorkThread& work, store::Store& store, std::uint64_t max_bytes,
-    v1::UploadMeshResponse* response) noexcept {
+    Edge& edge, grpc::CallbackServerContext* context, v1::UploadMeshResponse* response) noexcept {
   try {
-    auto upload = std::make_shared<UploadStream>(hub, work, store, max_bytes, response);
-    upload->start();
+    const access::Identity who = edge.authentication.identify(*context);
+    auto upload = std::make_shared<UploadStream>(edge, who.name, response);
+    upload->start(client_of(who, *context));
     return upload.get();
   } catch (...) {
     return new RefusedUpload(to_status(current_error("UploadMesh")));

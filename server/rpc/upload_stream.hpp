@@ -5,32 +5,29 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 
 #include "anticrack/v1/mesh.pb.h"
-#include "rpc/stream_hub.hpp"
+#include "rpc/edge.hpp"
 #include "rpc/upload_receiver.hpp"
-#include "rpc/work_thread.hpp"
 
 namespace anticrack::rpc {
 
-/// Each message is hashed and written on the work thread: a disk that makes writers wait must not
-/// hold one of gRPC's two threads. The next one is read when that is done, so a fast client is held
-/// back by the transport.
-/// `Finish` exactly once, never while an operation is being started (`_operations`); a read that is
-/// pending then completes with ok = false.
+/// Each message is hashed and written on the pool for changes: a disk that makes writers wait must
+/// not hold one of gRPC's two threads. The next one is read when that is done, so a fast client is
+/// held back by the transport. `Finish` exactly once, never while an operation is being started
+/// (`_operations`); a read that is pending then completes with ok = false.
 class UploadStream final : public grpc::ServerReadReactor<v1::UploadMeshRequest>,
                            public Stream,
                            public std::enable_shared_from_this<UploadStream> {
  public:
-  UploadStream(StreamHub& hub, WorkThread& work, store::Store& store, std::uint64_t max_bytes,
-               v1::UploadMeshResponse* response);
+  UploadStream(Edge& edge, std::string owner, v1::UploadMeshResponse* response);
 
   /// Gives the stream to the hub (which may refuse: errors::Error) and begins to read.
-  void start();
+  void start(const std::string& client);
 
   void OnReadDone(bool ok) noexcept override;
   void OnCancel() noexcept override;
@@ -47,8 +44,7 @@ class UploadStream final : public grpc::ServerReadReactor<v1::UploadMeshRequest>
   void finish(grpc::Status status) noexcept;
   void leave() noexcept;
 
-  StreamHub& _hub;
-  WorkThread& _work;
+  Edge& _edge;
   UploadReceiver _receiver;
   v1::UploadMeshRequest _request;
   v1::UploadMeshResponse* const _response;
@@ -61,9 +57,8 @@ class UploadStream final : public grpc::ServerReadReactor<v1::UploadMeshRequest>
   std::optional<grpc::Status> _end;
 };
 
-/// The reactor of UploadMesh.
+/// The reactor of UploadMesh: finds out who calls, then receives.
 grpc::ServerReadReactor<v1::UploadMeshRequest>* receive_upload(
-    StreamHub& hub, WorkThread& work, store::Store& store, std::uint64_t max_bytes,
-    v1::UploadMeshResponse* response) noexcept;
+    Edge& edge, grpc::CallbackServerContext* context, v1::UploadMeshResponse* response) noexcept;
 
 }  // namespace anticrack::rpc

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/watch_feed.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
 #include "errors/errors.hpp"
+#include "jobs/job_engine.hpp"
+#include "meshes/mesh_catalogue.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -23,12 +26,11 @@ bool is_complete(const jobs::EventLog& log) {
 
 }  // namespace
 
-WatchFeed::WatchFeed(const jobs::JobEngine& engine, const meshes::MeshCatalogue& catalogue,
-                     std::string id, std::uint64_t after)
-    : _engine(engine),
+WatchFeed::WatchFeed(const Backend& backend, WatchGroups& groups, std::string id,
+                     std::uint64_t after)
+    : _backend(backend),
       _id(std::move(id)),
-      _log(engine.events(_id)),
-      _catalogue(catalogue),
+      _group(groups.of(_backend.engine.events(_id))),
       _cursor(after),
       _from_earliest(after == 0) {
   try {
@@ -39,8 +41,12 @@ WatchFeed::WatchFeed(const jobs::JobEngine& engine, const meshes::MeshCatalogue&
   }
 }
 
+WatchFeed::~WatchFeed() {
+  if (_member) _group->leave(*_member);
+}
+
 void WatchFeed::start(std::function<void()> wake) {
-  _listener = _log->listen(std::move(wake));
+  _member = _group->join(std::move(wake));
 }
 
 WatchFeed::Next WatchFeed::next(v1::WatchJobResponse& response) {
@@ -52,13 +58,19 @@ WatchFeed::Next WatchFeed::next(v1::WatchJobResponse& response) {
   }
   const std::vector<jobs::NumberedEvent> events = read();
   if (events.empty())
-    return is_complete(*_log) && _cursor == _log->latest() ? Next::end : Next::wait;
+    return is_complete(_group->log()) && _cursor == _group->log().latest() ? Next::end : Next::wait;
   fill(events, response);
   return Next::message;
 }
 
 bool WatchFeed::ending() const noexcept {
-  return is_complete(*_log);
+  return is_complete(_group->log());
+}
+
+std::uint64_t WatchFeed::lag() const noexcept {
+  const std::uint64_t latest = _group->log().latest();
+  const std::uint64_t cursor = _cursor;
+  return latest > cursor ? latest - cursor : 0;
 }
 
 bool WatchFeed::heartbeat(v1::WatchJobResponse& response) {
@@ -69,25 +81,29 @@ bool WatchFeed::heartbeat(v1::WatchJobResponse& response) {
 }
 
 void WatchFeed::fill_snapshot(v1::WatchJobResponse& response) {
-  const store::JobRecord record = _engine.get(_id);
+  const store::JobRecord record = _backend.engine.get(_id);
   for (const fem::Load& load : record.spec.loads) _load_names.push_back(load.name);
-  _interfaces = interface_names(_catalogue, record.spec.mesh);
+  _interfaces = interface_names(_backend.catalogue, record.spec.mesh);
   _state = from_domain(record.state);
   v1::WatchJobResponse::Snapshot& snapshot = *response.mutable_snapshot();
   *snapshot.mutable_job() = from_domain(record, _interfaces);
-  snapshot.set_earliest_sequence(_log->earliest());
-  snapshot.set_latest_sequence(_log->latest());
+  snapshot.set_earliest_sequence(_group->log().earliest());
+  snapshot.set_latest_sequence(_group->log().latest());
   response.set_sequence(_cursor);
 }
 
 std::vector<jobs::NumberedEvent> WatchFeed::read() {
+  const jobs::EventLog& log = _group->log();
   for (;;) {
-    if (_from_earliest) _cursor = _log->earliest() - 1;
+    if (_from_earliest) _cursor = log.earliest() - 1;
+    const std::uint64_t cursor = _cursor;
+    const std::uint64_t target = _group->target();
+    const std::uint64_t ahead = target > cursor ? target - cursor : 0;
     try {
-      return _log->read(_cursor, max_batch);
+      return log.read(cursor, std::min<std::uint64_t>(ahead, max_batch));
     } catch (const errors::Error&) {
-      // The log was trimmed between the two lines above; who asked for no place misses nothing.
-      if (!_from_earliest || _log->earliest() - 1 == _cursor) throw;
+      // The log was trimmed between the lines above; who asked for no place misses nothing.
+      if (!_from_earliest || log.earliest() - 1 == cursor) throw;
     }
   }
 }
@@ -110,7 +126,7 @@ void WatchFeed::fill(const std::vector<jobs::NumberedEvent>& events,
       response.mutable_phase()->set_detail(_detail);
     } else if (const auto* ended = std::get_if<jobs::CaseEvent>(&event.event)) {
       if (_interfaces.empty()) {  // the mesh was not meshed yet when the watch began
-        _interfaces = interface_names(_catalogue, _engine.get(_id).spec.mesh);
+        _interfaces = interface_names(_backend.catalogue, _backend.engine.get(_id).spec.mesh);
       }
       const auto index = static_cast<std::size_t>(ended->load_case);
       const std::string name = index < _load_names.size() ? _load_names[index] : "";
@@ -118,7 +134,8 @@ void WatchFeed::fill(const std::vector<jobs::NumberedEvent>& events,
       *response.mutable_load_case_ended()->mutable_answer() =
           from_domain(*ended->record, name, _interfaces);
     } else if (const auto* end = std::get_if<jobs::EndEvent>(&event.event)) {
-      if (_interfaces.empty()) _interfaces = interface_names(_catalogue, end->job->spec.mesh);
+      if (_interfaces.empty())
+        _interfaces = interface_names(_backend.catalogue, end->job->spec.mesh);
       *response.mutable_ended() = from_domain(*end->job, _interfaces);
       _ended = true;
     }

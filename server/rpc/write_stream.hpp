@@ -5,65 +5,71 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "rpc/edge.hpp"
 #include "rpc/error_table.hpp"
 #include "rpc/feed.hpp"
-#include "rpc/stream_hub.hpp"
 
 namespace anticrack::rpc {
 
 /// One write in flight, `Finish` exactly once and never while a write is pending.
 /// Whoever holds `_driving` is the only one to use the feed and to start an operation: the thread
 /// in run(), or the write in flight, which hands it to OnWriteDone. Operations are started with no
-/// lock held. The call itself keeps the object alive until OnDone; the hub's thread may hold it a
-/// little longer.
+/// lock held. The call itself keeps the object alive until OnDone; the hub's thread and the pool
+/// may hold it a little longer.
+/// gRPC's threads never run the feed: a watch is driven by the hub's thread, a transfer, which
+/// reads the disk, by the pool for lookups; there both begin.
 template <class Response>
 class WriteStream final : public grpc::ServerWriteReactor<Response>,
                           public Stream,
                           public std::enable_shared_from_this<WriteStream<Response>> {
  public:
-  WriteStream(grpc::CallbackServerContext* context, StreamHub& hub,
-              std::unique_ptr<Feed<Response>> feed)
-      : _context(context), _hub(hub), _feed(std::move(feed)) {}
+  using MakeFeed = std::function<std::unique_ptr<Feed<Response>>()>;
+
+  WriteStream(grpc::CallbackServerContext* context, Edge& edge, StreamKind kind, MakeFeed make_feed)
+      : _context(context), _edge(edge), _kind(kind), _make_feed(std::move(make_feed)) {}
 
   /// Gives the stream to the hub (which may refuse: errors::Error) and begins to send.
-  void start(StreamKind kind) {
-    _hub.add(kind, this->shared_from_this());
+  void start(const std::string& client) {
+    _edge.hub.add(_kind, client, this->shared_from_this());
     _self = this->shared_from_this();
     try {
-      const std::weak_ptr<Stream> weak = _self;
-      _feed->start([&hub = _hub, weak] { hub.wake(weak); });
+      _edge.lookups.post([self = _self] { self->open(); });
     } catch (...) {
-      const std::lock_guard lock(_mutex);
-      _end = to_status(current_error("stream"));
+      fail(to_status(current_error("stream")));
+      run();
     }
-    run();
   }
 
   void OnWriteDone(bool ok) noexcept override {
     {
       const std::lock_guard lock(_mutex);
       _writing = false;
+      _driving = false;
       if (!ok && !_end) _end = grpc::Status::CANCELLED;
     }
-    run();
+    schedule();
   }
 
   void OnCancel() noexcept override {
-    {
-      const std::lock_guard lock(_mutex);
-      if (!_end) _end = grpc::Status::CANCELLED;
-    }
-    drive();
+    fail(grpc::Status::CANCELLED);
+    schedule();
   }
 
   void OnDone() noexcept override {
-    _hub.remove(*this);
-    _feed.reset();
+    _edge.hub.remove(*this);
+    std::unique_ptr<Feed<Response>> feed;
+    {
+      const std::lock_guard lock(_mutex);
+      feed = std::move(_feed);
+    }
+    feed.reset();
     const auto self = std::move(_self);
   }
 
@@ -73,11 +79,11 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
     bool stalled = false;
     {
       const std::lock_guard lock(_mutex);
-      stalled = _writing && now - _last_write > _hub.limits().stall;
-      if (!_driving && now - _last_write > _hub.limits().heartbeat) _heartbeat_due = true;
+      stalled = _writing && now - _last_write > _edge.hub.limits().stall;
+      if (!_driving && now - _last_write > _edge.hub.limits().heartbeat) _heartbeat_due = true;
       if (!stalled && !_heartbeat_due) return;
     }
-    stalled ? abort() : drive();
+    stalled ? abort() : schedule();
   }
 
   void end(const errors::Error& error) noexcept override {
@@ -86,7 +92,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
       const std::lock_guard lock(_mutex);
       if (!_asked_to_end) _asked_to_end = std::move(status);
     }
-    drive();
+    schedule();
   }
 
   void abort() noexcept override {
@@ -100,10 +106,49 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
       const std::lock_guard lock(_mutex);
       _aborting = false;
     }
-    drive();
+    schedule();
+  }
+
+  std::uint64_t lag() const noexcept override {
+    const std::lock_guard lock(_mutex);
+    return _feed ? _feed->lag() : 0;
   }
 
  private:
+  /// On the pool, with `_driving` held.
+  void open() noexcept {
+    try {
+      std::unique_ptr<Feed<Response>> feed = _make_feed();
+      {
+        const std::lock_guard lock(_mutex);
+        _feed = std::move(feed);
+      }
+      const std::weak_ptr<Wakeable> weak = _self;
+      _feed->start([&hub = _edge.hub, weak] { hub.wake(weak); });
+    } catch (...) {
+      fail(to_status(current_error("stream")));
+    }
+    run();
+  }
+
+  void fail(grpc::Status status) noexcept {
+    const std::lock_guard lock(_mutex);
+    if (!_end) _end = std::move(status);
+  }
+
+  void schedule() noexcept {
+    try {
+      const auto self = this->shared_from_this();
+      if (_kind == StreamKind::watch) {
+        _edge.hub.wake(self);
+      } else {
+        _edge.lookups.post([self] { self->drive(); });
+      }
+    } catch (...) {  // no memory for a queue's entry
+      drive();
+    }
+  }
+
   void drive() noexcept {
     {
       const std::lock_guard lock(_mutex);
@@ -125,7 +170,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
         const std::lock_guard lock(_mutex);
         _again = false;
         heartbeat = std::exchange(_heartbeat_due, false);
-        if (!_end && _asked_to_end && !_feed->ending()) _end = _asked_to_end;
+        if (!_end && _asked_to_end && !(_feed && _feed->ending())) _end = _asked_to_end;
         ending = _end.has_value();
       }
       if (!ending && produce(heartbeat)) {
@@ -170,19 +215,20 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
     } catch (...) {
       status = to_status(current_error("stream"));
     }
-    const std::lock_guard lock(_mutex);
-    if (!_end) _end = std::move(status);
+    fail(std::move(status));
     return false;
   }
 
   grpc::CallbackServerContext* const _context;
-  StreamHub& _hub;
-  std::unique_ptr<Feed<Response>> _feed;
+  Edge& _edge;
+  const StreamKind _kind;
+  const MakeFeed _make_feed;
+  std::unique_ptr<Feed<Response>> _feed;  ///< set and reset under the lock
   Response _response;
   std::shared_ptr<WriteStream> _self;
 
-  std::mutex _mutex;
-  bool _driving = true;  ///< until start() lets go
+  mutable std::mutex _mutex;
+  bool _driving = true;  ///< until open() lets go
   bool _again = false;
   bool _writing = false;
   bool _finished = false;
@@ -201,14 +247,17 @@ class RefusedStream final : public grpc::ServerWriteReactor<Response> {
   void OnDone() noexcept override { delete this; }
 };
 
-/// The reactor of a streaming method: what `make_feed` returns, or its error.
+/// The reactor of a streaming method: finds out who calls, then sends what `make_feed` returns
+/// (unique_ptr<Feed<Response>>(const access::Identity&), called on the pool), or its error.
 template <class Response, class MakeFeed>
-grpc::ServerWriteReactor<Response>* stream(grpc::CallbackServerContext* context, StreamHub& hub,
+grpc::ServerWriteReactor<Response>* stream(Edge& edge, grpc::CallbackServerContext* context,
                                            StreamKind kind, const char* method,
                                            MakeFeed make_feed) noexcept {
   try {
-    auto call = std::make_shared<WriteStream<Response>>(context, hub, make_feed());
-    call->start(kind);
+    const access::Identity who = edge.authentication.identify(*context);
+    auto call = std::make_shared<WriteStream<Response>>(
+        context, edge, kind, [make_feed, who] { return make_feed(who); });
+    call->start(client_of(who, *context));
     return call.get();
   } catch (...) {
     return new RefusedStream<Response>(to_status(current_error(method)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "store/block.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <stdexcept>
 #include <utility>
@@ -44,7 +45,26 @@ void append(Block& block, std::string name, ArrayType type, std::span<const T> v
   block.arrays.push_back({std::move(name), type, std::move(shape), offset});
 }
 
+class MemoryBlock final : public BlockSource {
+ public:
+  explicit MemoryBlock(std::shared_ptr<const Block> block) : _block(std::move(block)) {}
+  const std::vector<ArrayLayout>& arrays() const noexcept override { return _block->arrays; }
+  std::uint64_t size() const noexcept override { return _block->bytes.size(); }
+  const std::string& sha256() const noexcept override { return _block->sha256; }
+  void read(std::uint64_t offset, std::span<std::byte> bytes) const override {
+    const std::span<const std::byte> all(_block->bytes);
+    std::ranges::copy(all.subspan(offset, bytes.size()), bytes.begin());
+  }
+
+ private:
+  std::shared_ptr<const Block> _block;
+};
+
 }  // namespace
+
+std::shared_ptr<const BlockSource> in_memory(std::shared_ptr<const Block> block) {
+  return std::make_shared<MemoryBlock>(std::move(block));
+}
 
 void BlockBuilder::add(std::string name, std::span<const double> values,
                        std::vector<std::uint64_t> shape) {

@@ -18,12 +18,13 @@ TEST(Uzawa, MultipliersStayInTheirIntervals) {
   const Membrane membrane(testing::structured_mesh());
   const auto loads = membrane.space.condense(fem::Expression{"x < 0 ? 1 : -1"});
   constexpr double p = 0.1;
-  Uzawa uzawa(membrane.problem, loads, 1.5, p, Mass::lumped);
+  Uzawa uzawa(membrane.problem, Mass::lumped, 1);
+  uzawa.start(0, loads, 1.5, p);
   bool at_lower = false, at_upper = false, below_zero = false;
   for (int k = 0; k < 60; ++k) {
-    const Iterate& iterate = uzawa.step();
+    uzawa.step(1);
     for (std::size_t i = 0; i < membrane.space.decomposition.pairs.size(); ++i) {
-      const double mu = iterate.mu[static_cast<Eigen::Index>(i)];
+      const double mu = uzawa.mu(0)[static_cast<Eigen::Index>(i)];
       const bool unilateral = membrane.space.decomposition.pairs[i].unilateral();
       ASSERT_LE(mu, p);
       ASSERT_GE(mu, unilateral ? 0 : -p);
@@ -40,11 +41,12 @@ TEST(Uzawa, MultipliersStayInTheirIntervals) {
 TEST(Uzawa, FirstIterateIsWithoutMultipliersAndItsCriterionOne) {
   const Membrane membrane(testing::structured_mesh());
   const auto loads = membrane.space.condense(1.0);
-  Uzawa uzawa(membrane.problem, loads, 1.5, 1e5, Mass::lumped);
-  const Iterate& iterate = uzawa.step();
-  EXPECT_EQ(iterate.number, 1);
-  EXPECT_EQ(iterate.criterion, 1);
-  EXPECT_EQ(iterate.mu.norm(), 0);
+  Uzawa uzawa(membrane.problem, Mass::lumped, 1);
+  uzawa.start(0, loads, 1.5, 1e5);
+  uzawa.step(1);
+  EXPECT_EQ(uzawa.iterate(0).number, 1);
+  EXPECT_EQ(uzawa.iterate(0).criterion, 1);
+  EXPECT_EQ(uzawa.mu(0).norm(), 0);
 }
 
 /// The criterion of step 3 from whole fields: |u_k - u_{k-1}|_V^2 / |u_k|_V^2 with the interior.
@@ -52,15 +54,17 @@ TEST(Uzawa, CriterionAndEnergyAreThoseOfTheFieldsWithPrescribedValues) {
   const Membrane membrane(testing::structured_mesh());
   const fem::Force force = fem::Expression{"1 + x"};
   const auto loads = membrane.space.condense(force, "x*y + 0.2");
-  Uzawa uzawa(membrane.problem, loads, 1.5, 1e5, Mass::consistent);
+  Uzawa uzawa(membrane.problem, Mass::consistent, 1);
+  uzawa.start(0, loads, 1.5, 1e5);
   std::vector<Eigen::VectorXd> previous(2);
   for (int k = 1; k <= 20; ++k) {
-    const Iterate& iterate = uzawa.step();
+    uzawa.step(1);
+    const Iterate& iterate = uzawa.iterate(0);
     double criterion = k == 1 ? 1 : 0, energy = 0;
     for (std::size_t s = 0; s < 2; ++s) {
       const ddm::Subdomain& subdomain = membrane.space.decomposition.subdomains[s];
       const Eigen::SparseMatrix<double> stiffness = fem::stiffness(subdomain.part);
-      const Eigen::VectorXd u = membrane.space.operators[s].recover(loads[s], iterate.trace[s]);
+      const Eigen::VectorXd u = membrane.space.operators[s].recover(loads[s], uzawa.trace(0, s));
       const double norm = u.dot(stiffness * u);
       energy += norm / 2 - u.dot(fem::load_vector(subdomain.part, force, subdomain.name));
       if (k > 1) {

@@ -58,13 +58,17 @@ class Door {
 struct BackendOptions {
   std::uint64_t memory_budget = std::uint64_t{1} << 30;
   std::size_t max_pending = 64;
+  std::size_t max_meshes = 10'000;
+  std::string data_folder = {};  ///< of the store; empty: below the backend's own folder
+  std::function<void(const store::MeshRecord&)> meshed = {};
   bool mesher_hangs = false;  ///< a program in its place that does nothing until it is killed
 };
 
 class Backend {
  public:
   explicit Backend(const BackendOptions& options = {})
-      : store(store::make_memory_store(folder.path())),
+      : store(store::open(
+            {options.data_folder.empty() ? (folder / "data").string() : options.data_folder, 0})),
         cache(options.memory_budget,
               [this](std::shared_ptr<const mesh::Mesh> mesh, std::stop_token stop) {
                 door.pass(stop);
@@ -76,7 +80,7 @@ class Backend {
   static store::MeshDefinition definition(double size = 0.1) {
     return store::GeometrySource{paper_geometry(), {mesh::Preset::uniform, size}};
   }
-  std::string create(double size = 0.1) { return catalogue.create(definition(size), "").id; }
+  std::string create(double size = 0.1) { return catalogue.create(definition(size), "", "").id; }
 
   TemporaryFolder folder;
   Door door;  ///< of the factorisation
@@ -89,6 +93,8 @@ class Backend {
     meshes::CatalogueOptions result;
     result.helper.executable = ANTICRACK_MESHER;
     result.max_pending = options.max_pending;
+    result.max_meshes = options.max_meshes;
+    result.meshed = options.meshed;
     if (options.mesher_hangs) {
       result.helper.executable = (folder / "hanging-mesher").string();
       std::ofstream(result.helper.executable) << "#!/bin/sh\nexec sleep 3600\n";

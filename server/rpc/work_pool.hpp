@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where calls do what takes longer than gRPC's few threads may be held: files, and checks of large
-// requests.
+// Where calls do what takes longer than gRPC's few threads may be held: the disk, and checks of
+// large requests.
 #pragma once
 
 #include <condition_variable>
@@ -10,15 +10,17 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 namespace anticrack::rpc {
 
-/// One thread, tasks in order. Thread-safe.
-class WorkThread {
+/// A few threads that take tasks in order: one that waits for the disk holds up no other, and the
+/// store writes what several wait for in one go. Thread-safe.
+class WorkPool {
  public:
-  WorkThread();
+  explicit WorkPool(int threads);
   /// Finishes what was posted.
-  ~WorkThread();
+  ~WorkPool();
 
   /// `task` must not throw.
   void post(std::function<void()> task);
@@ -32,7 +34,7 @@ class WorkThread {
   std::condition_variable _changed;
   std::deque<std::function<void()>> _tasks;
   bool _stopping = false;
-  std::thread _thread;
+  std::vector<std::thread> _threads;
 };
 
 }  // namespace anticrack::rpc

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rpc/work_thread.hpp"
+#include "rpc/work_pool.hpp"
 
 #include <utility>
 
 namespace anticrack::rpc {
 
-WorkThread::WorkThread() : _thread([this] { run(); }) {}
+WorkPool::WorkPool(int threads) {
+  for (int i = 0; i < threads; ++i) _threads.emplace_back([this] { run(); });
+}
 
-WorkThread::~WorkThread() {
+WorkPool::~WorkPool() {
   {
     const std::lock_guard lock(_mutex);
     _stopping = true;
   }
-  _changed.notify_one();
-  _thread.join();
+  _changed.notify_all();
+  for (std::thread& thread : _threads) thread.join();
 }
 
-void WorkThread::post(std::function<void()> task) {
+void WorkPool::post(std::function<void()> task) {
   {
     const std::lock_guard lock(_mutex);
     _tasks.push_back(std::move(task));
@@ -24,12 +26,12 @@ void WorkThread::post(std::function<void()> task) {
   _changed.notify_one();
 }
 
-std::size_t WorkThread::waiting() const {
+std::size_t WorkPool::waiting() const {
   const std::lock_guard lock(_mutex);
   return _tasks.size();
 }
 
-void WorkThread::run() {
+void WorkPool::run() {
   std::unique_lock lock(_mutex);
   for (;;) {
     _changed.wait(lock, [this] { return _stopping || !_tasks.empty(); });

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "access/tokens.hpp"
+
+#include <openssl/crypto.h>
+
+#include <algorithm>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "errors/errors.hpp"
+#include "store/digest.hpp"
+
+namespace anticrack::access {
+namespace {
+
+using Hash = std::array<std::uint8_t, 32>;
+
+constexpr std::size_t max_name_bytes = 64;
+constexpr std::string_view blanks = " \t\r";
+
+errors::Error bad_line(const std::string& origin, std::size_t line, const std::string& what) {
+  return {errors::Reason::invalid_argument,
+          std::string(origin) + ", line " + std::to_string(line) + ": " + what};
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (;;) {
+    const std::size_t begin = line.find_first_not_of(blanks);
+    if (begin == std::string_view::npos) return words;
+    line.remove_prefix(begin);
+    const std::size_t length = std::min(line.find_first_of(blanks), line.size());
+    words.push_back(line.substr(0, length));
+    line.remove_prefix(length);
+  }
+}
+
+bool is_alphanumeric(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+bool is_name(std::string_view text) {
+  return !text.empty() && text.size() <= max_name_bytes && is_alphanumeric(text.front()) &&
+         std::all_of(text.begin(), text.end(), [](char c) {
+           return is_alphanumeric(c) || c == '_' || c == '.' || c == '@' || c == '-';
+         });
+}
+
+std::optional<Role> to_role(std::string_view text) {
+  if (text == "user") return Role::user;
+  if (text == "admin") return Role::admin;
+  return std::nullopt;
+}
+
+int digit_of(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  return -1;
+}
+
+std::optional<Hash> to_hash(std::string_view text) {
+  Hash hash{};
+  if (text.size() != 2 * hash.size()) return std::nullopt;
+  for (std::size_t i = 0; i < hash.size(); ++i) {
+    const int high = digit_of(text[2 * i]);
+    const int low = digit_of(text[2 * i + 1]);
+    if (high < 0 || low < 0) return std::nullopt;
+    hash[i] = static_cast<std::uint8_t>(16 * high + low);
+  }
+  return hash;
+}
+
+}  // namespace
+
+TokenTable TokenTable::parse(std::string_view text, const std::string& origin) {
+  TokenTable table;
+  std::map<std::string, Role, std::less<>> roles;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    line = line.substr(0, line.find('#'));
+    const std::vector<std::string_view> words = words_of(line);
+    if (words.empty()) continue;
+    // What stands there may be a token by mistake: errors never repeat it.
+    if (words.size() != 3) {
+      throw bad_line(origin, number,
+                     std::to_string(words.size()) + " words; write NAME ROLE SHA256");
+    }
+    if (!is_name(words[0])) {
+      throw bad_line(origin, number,
+                     "the name must begin with a letter or digit and go on with letters, digits "
+                     "and any of _.@-, at most 64 of them");
+    }
+    const std::optional<Role> role = to_role(words[1]);
+    if (!role) throw bad_line(origin, number, "the role must be user or admin");
+    const std::optional<Hash> hash = to_hash(words[2]);
+    if (!hash) {
+      throw bad_line(origin, number,
+                     "the third word must be the token's SHA-256 in 64 lower-case hexadecimal "
+                     "digits: printf %s TOKEN | sha256sum");
+    }
+    const auto [known, fresh] = roles.emplace(words[0], *role);
+    if (!fresh && known->second != *role) {
+      throw bad_line(origin, number, "\"" + known->first + "\" has another role further up");
+    }
+    for (const Entry& entry : table._entries) {
+      if (entry.hash == *hash) {
+        throw bad_line(origin, number,
+                       "the same token stands further up, for \"" + entry.identity.name + "\"");
+      }
+    }
+    table._entries.push_back({*hash, {known->first, *role}});
+  }
+  return table;
+}
+
+std::optional<Identity> TokenTable::find(std::string_view token) const {
+  store::Sha256 digest;
+  digest.add(std::as_bytes(std::span(token)));
+  const std::optional<Hash> hash = to_hash(digest.finish());
+  const Entry* found = nullptr;
+  for (const Entry& entry : _entries) {  // all of them: how long it takes tells nothing
+    if (CRYPTO_memcmp(entry.hash.data(), hash->data(), hash->size()) == 0) found = &entry;
+  }
+  if (found == nullptr) return std::nullopt;
+  return found->identity;
+}
+
+}  // namespace anticrack::access

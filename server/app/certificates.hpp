@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace anticrack::app {
+
+/// Days until the first certificate of `certificate` (PEM) runs out; negative where it has. Throws
+/// ConfigError: not a certificate, not a key (or one with a passphrase), or they do not belong
+/// together. Without this gRPC would say no more than that it cannot listen.
+int check_certificate(const std::string& certificate, const std::string& key);
+
+/// Throws ConfigError unless `roots` (PEM) begins with a certificate.
+void check_roots(const std::string& roots);
+
+}  // namespace anticrack::app

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/events.hpp"
+
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "errors/errors.hpp"
+#include "log/log.hpp"
+#include "metrics/phases.hpp"
+
+namespace anticrack::app {
+namespace {
+
+using metrics::Phase;
+
+std::string seconds(std::chrono::duration<double> time) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.3f", time.count());
+  return text.data();
+}
+
+std::string reason(const std::optional<errors::Error>& error) {
+  return error ? std::string(errors::name(error->reason())) : std::string();
+}
+
+std::string message(const std::optional<errors::Error>& error) {
+  return error ? std::string(error->what()) : std::string();
+}
+
+/// A line that cannot be written is no reason to fail.
+template <class Action>
+void quietly(const Action& action) noexcept {
+  try {
+    action();
+  } catch (const std::exception&) {
+  }
+}
+
+void log_job(const store::JobRecord& job) {
+  const metrics::PhaseTimes times = metrics::phase_times(job);
+  const auto in = [&](Phase phase) { return seconds(times[static_cast<std::size_t>(phase)]); };
+  log::info("job ended", {{"job", "jobs/" + job.id},
+                          {"mesh", "meshes/" + job.spec.mesh},
+                          {"request_id", job.request_id},
+                          {"owner", job.owner},
+                          {"state", std::string(metrics::name(job.state))},
+                          {"reason", reason(job.error)},
+                          {"message", message(job.error)},
+                          {"attempt", std::to_string(job.attempt)},
+                          {"load_cases", std::to_string(job.cases.size())},
+                          {"result_bytes", std::to_string(job.result_bytes)},
+                          {"queued_seconds", in(Phase::queued)},
+                          {"waiting_seconds", in(Phase::waiting)},
+                          {"meshing_seconds", in(Phase::meshing)},
+                          {"factorizing_seconds", in(Phase::factorizing)},
+                          {"solving_seconds", in(Phase::solving)},
+                          {"writing_seconds", in(Phase::writing)}});
+}
+
+void log_mesh(const store::MeshRecord& mesh) {
+  if (mesh.error) {
+    log::warn("mesh failed", {{"mesh", "meshes/" + mesh.id},
+                              {"owner", mesh.owner},
+                              {"reason", reason(mesh.error)},
+                              {"message", message(mesh.error)}});
+  } else {
+    log::info("mesh made",
+              {{"mesh", "meshes/" + mesh.id},
+               {"owner", mesh.owner},
+               {"triangles", std::to_string(mesh.triangle_count)},
+               {"seconds", seconds(std::chrono::duration<double>(mesh.mesh_seconds))}});
+  }
+}
+
+}  // namespace
+
+void job_ended(metrics::Metrics& metrics, const store::JobRecord& job) noexcept {
+  metrics.job_ended(job);
+  quietly([&] { log_job(job); });
+}
+
+void meshed(metrics::Metrics& metrics, const store::MeshRecord& mesh) noexcept {
+  metrics.meshed(mesh);
+  quietly([&] { log_mesh(mesh); });
+}
+
+void factorised(metrics::Metrics& metrics, std::chrono::duration<double> time) noexcept {
+  metrics.factorised(time);
+  quietly([&] { log::info("factorised", {{"seconds", seconds(time)}}); });
+}
+
+}  // namespace anticrack::app

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/config.hpp"
+#include "rpc/server.hpp"
+
+namespace anticrack::app {
+
+struct LoadedSecurity {
+  rpc::Security security;
+  /// What is allowed, and not wise; for the log.
+  std::vector<std::string> warnings;
+};
+
+/// Reads certificates, key and tokens, once: what changes in the files takes effect at the next
+/// start. Throws ConfigError.
+LoadedSecurity load_security(const Config& config);
+
+/// "ann, bob" -> {"ann", "bob"}; empty names are left out.
+std::vector<std::string> split_names(const std::string& names);
+
+}  // namespace anticrack::app

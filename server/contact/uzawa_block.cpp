@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/uzawa_block.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "contact/answer_parts.hpp"
+#include "contact/trace_state.hpp"
+#include "contact/uzawa_reasons.hpp"
+#include "errors/errors.hpp"
+
+namespace anticrack::contact {
+namespace {
+
+constexpr double safety = 0.97;  // of theta*, for `auto`
+constexpr int equilibrium_period = 64;
+
+}  // namespace
+
+UzawaBlock::UzawaBlock(const TraceProblem& problem, const mesh::Mesh& mesh, Mass mass, int capacity)
+    : _problem(problem),
+      _mesh(mesh),
+      _mass(mass),
+      _uzawa(problem, mass, capacity),
+      _cases(static_cast<std::size_t>(capacity)) {
+  for (int c = 0; c < capacity; ++c) {
+    column(c).place = c;
+  }
+}
+
+int UzawaBlock::add(const CaseLoads& loads, const UzawaOptions& options, bool fields,
+                    Observer& observer) {
+  if (_running + _ended == capacity()) {
+    throw errors::Error(errors::Reason::internal,
+                        "a block of " + std::to_string(capacity()) +
+                            " columns is full; take the columns that have ended first");
+  }
+  if (options.mass != _mass) {
+    throw errors::Error(errors::Reason::internal,
+                        "a load case with another interface mass than the block's");
+  }
+  const int c = _running;
+  exchange(c, _running + _ended);  // the first that has ended goes behind the last
+  Case& joining = column(c);
+  joining = {joining.place, loads, options, fields, &observer, 0, {}, {}, End::running};
+  // Without an interface there is nothing to relax: any theta will do.
+  const double theta_star = _problem.theta_star(_mass);
+  joining.theta = options.theta.value_or(std::isfinite(theta_star) ? safety * theta_star : 1.0);
+  _uzawa.start(c, loads.subdomains, joining.theta, options.p);
+  ++_running;
+  return joining.place;
+}
+
+void UzawaBlock::exchange(int a, int b) {
+  _uzawa.exchange(a, b);
+  std::swap(column(a), column(b));
+}
+
+void UzawaBlock::step() {
+  _uzawa.step(_running);
+  // Backwards: what takes the place of a column that ends has been seen already.
+  for (int c = _running - 1; c >= 0; --c) {
+    observe(c);
+    if (column(c).end != End::running) {
+      --_running;
+      ++_ended;
+      exchange(c, _running);
+    }
+  }
+}
+
+void UzawaBlock::observe(int c) {
+  Case& seen = column(c);
+  const Iterate& iterate = _uzawa.iterate(c);
+  const ddm::Decomposition& decomposition = _problem.decomposition();
+  Sample& sample = seen.sample;
+  const double equilibrium = sample.kkt.equilibrium;
+  sample.iteration = iterate.number;
+  sample.criterion = iterate.criterion;
+  sample.energy = iterate.energy;
+  sample.contact_count = contact_count(decomposition, _uzawa.mu(c));
+  sample.kkt = contact_residuals(decomposition, _uzawa.mu(c), _uzawa.jump(c));
+  sample.kkt.equilibrium = equilibrium;
+
+  seen.end = judge(c);
+  if (seen.end != End::running || iterate.number == 1 || iterate.number % equilibrium_period == 0) {
+    sample.kkt.equilibrium = _uzawa.equilibrium(c);
+  }
+  if (!seen.observer->on_iteration(sample)) {
+    seen.end = End::cancelled;
+  }
+}
+
+UzawaBlock::End UzawaBlock::judge(int c) {
+  Case& seen = column(c);
+  const Iterate& iterate = _uzawa.iterate(c);
+  if (!std::isfinite(iterate.criterion) || !std::isfinite(iterate.energy)) {
+    return End::overflow;
+  }
+  if (seen.options.kkt_tolerance ? within_tolerance(c) : iterate.criterion < seen.options.epsilon) {
+    return End::converged;
+  }
+  if (seen.theta > _problem.theta_star(_mass) &&
+      seen.monitor.add(iterate.criterion, iterate.turned)) {
+    return End::oscillation;
+  }
+  return iterate.number >= seen.options.max_iterations ? End::limit : End::running;
+}
+
+/// Whether all relative residuals are below the tolerance; equilibrium, the dear one, comes last.
+bool UzawaBlock::within_tolerance(int c) {
+  KktResiduals& absolute = column(c).sample.kkt;
+  const double tolerance = *column(c).options.kkt_tolerance;
+  const Scales scales = _uzawa.scales(c);
+  if (absolute.gap > tolerance * scales.trace || absolute.sign > tolerance * scales.mu ||
+      absolute.complementarity > tolerance * scales.mu * scales.trace) {
+    return false;
+  }
+  absolute.equilibrium = _uzawa.equilibrium(c);
+  const KktResiduals relative =
+      relative_residuals(_problem.decomposition(), _uzawa.mu(c), _uzawa.jump(c), scales, absolute);
+  return std::max({relative.equilibrium, relative.gap, relative.sign, relative.complementarity}) <=
+         tolerance;
+}
+
+std::vector<UzawaBlock::Ended> UzawaBlock::take_ended() {
+  std::vector<Ended> ended;
+  ended.reserve(static_cast<std::size_t>(_ended));
+  for (int c = _running; c < _running + _ended; ++c) {
+    ended.push_back({column(c).place, answer(c)});
+  }
+  _ended = 0;
+  std::sort(ended.begin(), ended.end(),
+            [](const Ended& a, const Ended& b) { return a.place < b.place; });
+  return ended;
+}
+
+Answer UzawaBlock::answer(int c) {
+  const Case& ended = column(c);
+  const TraceState state = _uzawa.state(c);
+  Answer answer;
+  answer.theta = ended.theta;
+  answer.theta_star = _problem.theta_star(_mass);
+  answer.iterations = ended.sample.iteration;
+  answer.criterion = ended.sample.criterion;
+  answer.energy = ended.sample.energy;
+  answer.kkt = ended.sample.kkt;
+  answer.kkt_relative = relative_residuals(_problem.decomposition(), state.mu, state.jump,
+                                           scales_of(ended.loads.subdomains, state), answer.kkt);
+  switch (ended.end) {
+    case End::running:
+      break;
+    case End::converged:
+      answer.status = Status::converged;
+      break;
+    case End::cancelled:
+      answer.status = Status::cancelled;
+      break;
+    case End::overflow:
+      answer.reason = overflow_reason(answer);
+      break;
+    case End::oscillation:
+      answer.reason = oscillation_reason(answer);
+      break;
+    case End::limit:
+      answer.reason = limit_reason(answer, ended.options);
+      break;
+  }
+  describe(_problem, _mesh, ended.loads.subdomains, ended.loads.inclusion_forces, state,
+           ended.fields, answer);
+  return answer;
+}
+
+}  // namespace anticrack::contact

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "log/escape.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace anticrack::log {
+namespace {
+
+struct Character {
+  std::uint32_t code = 0;
+  std::size_t bytes = 1;
+  bool valid = false;
+};
+
+/// The UTF-8 sequence at the start of `text`, which is not empty. What is invalid is one byte long.
+Character first_character(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(text[i]) & 0xFFU; };
+  const std::uint32_t lead = byte(0);
+  if (lead < 0x80) return {lead, 1, true};
+  const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4 || text.size() < bytes) return {};
+  std::uint32_t code = lead & (0x7FU >> bytes);
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return {};
+    code = (code << 6) | (byte(i) & 0x3F);
+  }
+  constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
+  if (code < least[bytes] || code > 0x10FFFF || surrogate) return {};
+  return {code, bytes, true};
+}
+
+/// Control characters, line and paragraph separators, and what turns the writing direction.
+bool is_hidden(std::uint32_t code) {
+  return code < 0x20 || (code >= 0x7F && code < 0xA0) || (code >= 0x200E && code <= 0x200F) ||
+         (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF;
+}
+
+void append_code(std::string& text, std::uint32_t code) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  text += "\\u";
+  for (int shift = 12; shift >= 0; shift -= 4) text += digits[(code >> shift) & 0xF];
+}
+
+bool is_plain(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+         std::string_view("-_./:+@,").find(c) != std::string_view::npos;
+}
+
+}  // namespace
+
+std::string escape(std::string_view value) {
+  const bool cut = value.size() > longest_value;
+  if (cut) value = value.substr(0, longest_value);
+  std::string result;
+  result.reserve(value.size() + 16);
+  while (!value.empty()) {
+    const Character character = first_character(value);
+    if (!character.valid) {
+      append_code(result, 0xFFFD);
+    } else if (character.code == '\n') {
+      result += "\\n";
+    } else if (character.code == '\t') {
+      result += "\\t";
+    } else if (is_hidden(character.code)) {
+      append_code(result, character.code);
+    } else {
+      if (character.code == '"' || character.code == '\\') result += '\\';
+      result += value.substr(0, character.bytes);
+    }
+    value.remove_prefix(character.bytes);
+  }
+  return cut ? result + "..." : result;
+}
+
+std::string quote_if_needed(std::string_view value) {
+  if (!value.empty() && value.size() <= longest_value &&
+      std::all_of(value.begin(), value.end(), is_plain)) {
+    return std::string(value);
+  }
+  return std::string("\"") + escape(value) + "\"";
+}
+
+}  // namespace anticrack::log

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "metrics/pulled.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+
+namespace anticrack::metrics {
+namespace {
+
+using prometheus::ClientMetric;
+using prometheus::MetricFamily;
+using prometheus::MetricType;
+
+MetricFamily counter(std::string name, std::string help, double value) {
+  ClientMetric metric;
+  metric.counter.value = value;
+  return {std::move(name), std::move(help), MetricType::Counter, {metric}};
+}
+
+MetricFamily counter(std::string name, std::string help, std::uint64_t value) {
+  return counter(std::move(name), std::move(help), static_cast<double>(value));
+}
+
+MetricFamily gauge(std::string name, std::string help, double value) {
+  ClientMetric metric;
+  metric.gauge.value = value;
+  return {std::move(name), std::move(help), MetricType::Gauge, {metric}};
+}
+
+MetricFamily gauge(std::string name, std::string help, std::uint64_t value) {
+  return gauge(std::move(name), std::move(help), static_cast<double>(value));
+}
+
+MetricFamily disk_family(const store::Usage& disk) {
+  MetricFamily family{
+      "anticrack_disk_bytes", "Bytes of the data folder, by kind.", MetricType::Gauge, {}};
+  for (const auto& [kind, bytes] : {std::pair{"meshes", disk.meshes},
+                                    {"results", disk.results},
+                                    {"uploads", disk.uploads},
+                                    {"database", disk.database}}) {
+    ClientMetric metric;
+    metric.label = {{"kind", kind}};
+    metric.gauge.value = static_cast<double>(bytes);
+    family.metric.push_back(std::move(metric));
+  }
+  return family;
+}
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
+}
+
+double resident_bytes() {
+  double all = 0;
+  double resident = 0;
+  std::ifstream("/proc/self/statm") >> all >> resident;
+  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+std::uint64_t open_descriptors() {
+  std::error_code ignored;
+  std::uint64_t count = 0;
+  for (auto entry = std::filesystem::directory_iterator("/proc/self/fd", ignored);
+       entry != std::filesystem::directory_iterator(); entry.increment(ignored)) {
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+std::vector<MetricFamily> server_families(const Snapshot& now) {
+  const jobs::EngineMetrics& engine = now.engine;
+  const operators::CacheMetrics& cache = now.cache;
+  return {
+      counter("anticrack_jobs_created_total", "Jobs acknowledged.", engine.jobs_created),
+      counter("anticrack_load_cases_ended_total", "Load cases ended, however.",
+              engine.load_cases_ended),
+      counter("anticrack_iterations_total", "Iterations of all load cases.", engine.iterations),
+      counter("anticrack_results_expired_total", "Results removed by age or by the budget.",
+              engine.results_expired),
+      gauge("anticrack_jobs_queued", "Jobs that have not started.",
+            static_cast<double>(engine.jobs_queued)),
+      gauge("anticrack_jobs_running", "Jobs that run.", static_cast<double>(engine.jobs_running)),
+      gauge("anticrack_batch_columns", "Load cases on solver threads now.",
+            static_cast<double>(engine.columns)),
+      gauge("anticrack_queue_bytes", "Bytes of the definitions of jobs that have not ended.",
+            engine.queued_bytes),
+      gauge("anticrack_queue_oldest_wait_seconds", "Longest wait of those that have not started.",
+            engine.oldest_wait.count()),
+      counter("anticrack_factorizations_total", "Factorisations begun.", cache.factorizations),
+      counter("anticrack_cache_hits_total", "Operators found in memory.", cache.hits),
+      counter("anticrack_cache_joins_total", "Callers that waited for a factorisation under way.",
+              cache.joins),
+      counter("anticrack_cache_evictions_total", "Operators dropped from memory.", cache.evictions),
+      gauge("anticrack_cache_bytes", "Bytes of operators, held or reserved.", cache.bytes),
+      gauge("anticrack_cache_pinned_bytes", "Of these, bytes that cannot be evicted now.",
+            cache.pinned),
+      gauge("anticrack_cache_budget_bytes", "Most bytes operators may take.", cache.budget),
+      gauge("anticrack_cache_meshes", "Meshes whose operators are in memory.",
+            static_cast<double>(cache.entries)),
+      counter("anticrack_meshings_total", "Runs of the mesher.", now.meshings),
+      gauge("anticrack_meshes_pending", "Meshes that wait for the mesher or are in it.",
+            static_cast<double>(now.pending_meshes)),
+      disk_family(now.disk),
+      gauge("anticrack_watchers", "Watches that are open.", static_cast<double>(now.watchers)),
+      gauge("anticrack_watch_lag_events", "Events the slowest watcher is behind.", now.largest_lag),
+      gauge("anticrack_transfers", "Uploads and downloads under way.",
+            static_cast<double>(now.transfers)),
+      gauge("anticrack_ready", "1 while new work is taken.", now.ready ? 1.0 : 0.0),
+  };
+}
+
+std::vector<MetricFamily> process_families(double started) {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  rlimit files{};
+  ::getrlimit(RLIMIT_NOFILE, &files);
+  return {
+      gauge("process_resident_memory_bytes", "Resident memory size in bytes.", resident_bytes()),
+      counter("process_cpu_seconds_total", "User and system CPU time spent in seconds.",
+              seconds(usage.ru_utime) + seconds(usage.ru_stime)),
+      gauge("process_start_time_seconds", "Start time since 1970 in seconds.", started),
+      gauge("process_open_fds", "Open file descriptors.", open_descriptors()),
+      gauge("process_max_fds", "Most open file descriptors.", static_cast<double>(files.rlim_cur)),
+  };
+}
+
+}  // namespace anticrack::metrics

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the types of mesh_operator.hpp hold; for this folder alone.
+#pragma once
+
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "contact/skeleton_problem.hpp"
+#include "contact/solve.hpp"
+#include "contact/trace_problem.hpp"
+#include "ddm/decomposition.hpp"
+#include "ddm/subdomain_operator.hpp"
+#include "operators/condense_load.hpp"
+#include "operators/mesh_operator.hpp"
+
+namespace anticrack::operators {
+
+struct MeshOperator::Parts {
+  Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads, const std::stop_token& stop);
+
+  /// Throws errors::Error (not_implemented) where Algorithm 2 does not apply.
+  void require_uzawa() const;
+
+  std::shared_ptr<const mesh::Mesh> mesh;
+  ddm::Decomposition decomposition;
+  std::vector<ddm::SubdomainOperator> operators;
+  std::string uzawa_obstacle;
+  contact::TraceProblem problem;      // refers to the decomposition and the operators
+  contact::SkeletonProblem skeleton;  // refers to the problem
+  std::vector<contact::TraceGeometry> geometry;
+};
+
+struct PreparedLoad::Data {
+  std::shared_ptr<const MeshOperator> mesh_operator;
+  LoadOnTraces condensed;
+
+  contact::CaseLoads loads() const { return {condensed.subdomains, condensed.inclusion_forces}; }
+  /// What every answer to the load is told.
+  void add_warnings(contact::Answer& answer) const;
+};
+
+}  // namespace anticrack::operators

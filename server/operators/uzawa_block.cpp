@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/uzawa_block.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "errors/errors.hpp"
+#include "operators/mesh_parts.hpp"
+
+namespace anticrack::operators {
+
+struct UzawaBlock::State {
+  State(std::shared_ptr<const MeshOperator> of_mesh, const contact::TraceProblem& problem,
+        contact::Mass mass, int capacity)
+      : mesh_operator(std::move(of_mesh)),
+        columns(problem, mesh_operator->mesh(), mass, capacity),
+        loads(static_cast<std::size_t>(capacity)) {}
+
+  std::shared_ptr<const MeshOperator> mesh_operator;
+  contact::UzawaBlock columns;                     // refers to the operator and to the loads
+  std::vector<std::optional<PreparedLoad>> loads;  // by place
+};
+
+UzawaBlock::UzawaBlock(std::shared_ptr<const MeshOperator> mesh_operator, contact::Mass mass,
+                       int capacity) {
+  const MeshOperator::Parts& parts = *mesh_operator->_parts;
+  parts.require_uzawa();
+  _state = std::make_unique<State>(std::move(mesh_operator), parts.problem, mass, capacity);
+}
+
+UzawaBlock::~UzawaBlock() = default;
+
+int UzawaBlock::columns() const noexcept {
+  return _state->columns.columns();
+}
+
+int UzawaBlock::capacity() const noexcept {
+  return _state->columns.capacity();
+}
+
+int UzawaBlock::add(PreparedLoad load, const contact::UzawaOptions& options, bool fields,
+                    contact::Observer& observer) {
+  if (!load._data || load._data->mesh_operator != _state->mesh_operator) {
+    throw errors::Error(errors::Reason::internal, "a load that was prepared on another mesh");
+  }
+  // What the column refers to does not move with the PreparedLoad.
+  const int place = _state->columns.add(load._data->loads(), options, fields, observer);
+  _state->loads[static_cast<std::size_t>(place)] = std::move(load);
+  return place;
+}
+
+void UzawaBlock::step() {
+  _state->columns.step();
+}
+
+std::vector<UzawaBlock::Ended> UzawaBlock::take_ended() {
+  std::vector<Ended> ended;
+  for (contact::UzawaBlock::Ended& one : _state->columns.take_ended()) {
+    std::optional<PreparedLoad>& load = _state->loads[static_cast<std::size_t>(one.place)];
+    load->_data->add_warnings(one.answer);
+    load.reset();
+    ended.push_back({one.place, std::move(one.answer)});
+  }
+  return ended;
+}
+
+}  // namespace anticrack::operators

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What every method stands on.
+#pragma once
+
+#include <atomic>
+
+#include "rpc/authentication.hpp"
+#include "rpc/backend.hpp"
+#include "rpc/server.hpp"
+#include "rpc/stream_hub.hpp"
+#include "rpc/watch_group.hpp"
+#include "rpc/work_pool.hpp"
+
+namespace anticrack::rpc {
+
+/// Of one request: gRPC's own default; what is larger travels in chunks.
+constexpr int max_message_bytes = 4 << 20;
+
+/// Whether the server still takes new meshes and jobs.
+class Admission {
+ public:
+  void close() noexcept { _closed = true; }
+  /// Throws errors::Error (draining).
+  void require_open() const;
+
+ private:
+  std::atomic<bool> _closed{false};
+};
+
+/// Outlives every call. gRPC's threads run GetServerInfo and pass everything else on, because what
+/// asks the store may wait for a writer:
+///   lookups  what reads records, blocks and the beginning of a watch
+///   changes  what waits for the disk: creations, uploads, deletions, cancels
+///   hub      the messages of all watches, so that they together take one processor at most
+struct Edge {
+  Edge(const ServerOptions& options, const Backend& to)
+      : backend(to),
+        limits(options.limits),
+        authentication(options.security),
+        hub({limits.watchers, limits.transfers, limits.streams_a_client, options.heartbeat,
+             options.stall}),
+        watch_groups(hub) {}
+
+  const Backend backend;
+  const Limits limits;
+  const Authentication authentication;
+  Admission admission;
+  StreamHub hub;
+  WatchGroups watch_groups;
+  WorkPool lookups{2};
+  WorkPool changes{4};
+};
+
+}  // namespace anticrack::rpc

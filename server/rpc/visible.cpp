@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rpc/visible.hpp"
+
+#include "errors/errors.hpp"
+#include "jobs/job_engine.hpp"
+#include "meshes/mesh_catalogue.hpp"
+#include "rpc/names.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+using errors::Error;
+using errors::Reason;
+
+template <class Get>
+auto visible(const access::Identity& who, const std::string& name, Get get) {
+  try {
+    auto record = get();
+    if (access::may_see(who, record.owner)) return record;
+  } catch (const Error& error) {
+    if (error.reason() != Reason::not_found) throw;
+  }
+  throw Error(Reason::not_found, "there is no " + name);
+}
+
+}  // namespace
+
+store::MeshRecord visible_mesh(const Backend& backend, const access::Identity& who,
+                               const std::string& id) {
+  return visible(who, mesh_name(id), [&] { return backend.catalogue.get(id); });
+}
+
+store::JobRecord visible_job(const Backend& backend, const access::Identity& who,
+                             const std::string& id) {
+  return visible(who, job_name(id), [&] { return backend.engine.get(id); });
+}
+
+std::optional<std::string> owner_filter(const access::Identity& who) {
+  if (who.role == access::Role::admin) return std::nullopt;
+  return who.name;
+}
+
+}  // namespace anticrack::rpc

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Records through the eyes of who asks: another's is not_found, in the very words in which one that
+// does not exist is.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "access/identity.hpp"
+#include "rpc/backend.hpp"
+#include "store/records.hpp"
+
+namespace anticrack::rpc {
+
+store::MeshRecord visible_mesh(const Backend& backend, const access::Identity& who,
+                               const std::string& id);
+store::JobRecord visible_job(const Backend& backend, const access::Identity& who,
+                             const std::string& id);
+
+/// What Page::owner is to be: an administrator sees all.
+std::optional<std::string> owner_filter(const access::Identity& who);
+
+}  // namespace anticrack::rpc

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How many bytes the store's files take, and whether more may come.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <mutex>
+
+namespace anticrack::store {
+
+enum class FileKind { mesh, result, upload };
+
+/// Thread-safe; the lock is held for additions only.
+class DiskUsage {
+ public:
+  /// `budget` 0: none.
+  explicit DiskUsage(std::uint64_t budget) : _budget(budget) {}
+  DiskUsage(const DiskUsage&) = delete;
+  DiskUsage& operator=(const DiskUsage&) = delete;
+
+  void add(FileKind kind, std::uint64_t bytes);
+  void remove(FileKind kind, std::uint64_t bytes);
+  std::uint64_t bytes(FileKind kind) const;
+
+  /// Bytes that are about to be written, counted until it goes out of scope. Keep it until what was
+  /// written has been added.
+  class Reservation {
+   public:
+    Reservation(DiskUsage& usage, std::uint64_t bytes) : _usage(&usage), _bytes(bytes) {}
+    Reservation(Reservation&& other) noexcept : _usage(other._usage), _bytes(other._bytes) {
+      other._usage = nullptr;
+    }
+    Reservation& operator=(Reservation&&) = delete;
+    ~Reservation();
+
+   private:
+    DiskUsage* _usage;
+    std::uint64_t _bytes;
+  };
+  /// Throws errors::Error (disk_full) where `bytes` more do not fit, `others` being what is not
+  /// counted here (the database).
+  Reservation reserve(std::uint64_t bytes, std::uint64_t others);
+
+ private:
+  const std::uint64_t _budget;
+  mutable std::mutex _mutex;
+  std::array<std::uint64_t, 3> _bytes{};
+  std::uint64_t _reserved = 0;
+};
+
+}  // namespace anticrack::store

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <set>
+#include <utility>
+#include <variant>
+
+#include "store/digest.hpp"
+#include "store/durable_store.hpp"
+#include "store/record_codec.hpp"
+#include "store/record_parts.hpp"
+#include "store/result_file.hpp"
+
+namespace anticrack::store {
+
+using errors::Error;
+using errors::Reason;
+
+namespace {
+
+std::set<std::string> uploads_of(const JobSpec& spec) {
+  std::set<std::string> uploads;
+  for (const fem::Load& load : spec.loads) {
+    if (const auto* array = std::get_if<fem::Array>(&load.force)) {
+      uploads.insert(array->upload);
+    }
+  }
+  return uploads;
+}
+
+void bind_end(Statement& statement, const JobRecord& record) {
+  if (ended(record.state)) {
+    statement.bind(disk::to_disk(record.ended.value_or(record.created)));
+  } else {
+    statement.bind_null();
+  }
+}
+
+void insert(Connection& connection, const JobRecord& record, const std::string& fingerprint,
+            const std::string& bytes) {
+  {
+    Statement statement = connection.prepare(
+        "INSERT INTO jobs (id, owner, request, fingerprint, ended, result, result_bytes, record) "
+        "VALUES (?, ?, ?, ?, ?, '', 0, ?)");
+    statement.bind(std::string_view(record.id))
+        .bind(std::string_view(record.owner))
+        .bind(std::string_view(record.request_id))
+        .bind(std::string_view(fingerprint));
+    bind_end(statement, record);
+    statement.bind_blob(bytes).run();
+  }
+  for (const std::string& upload : uploads_of(record.spec)) {
+    connection.prepare("INSERT INTO job_uploads SELECT number, ? FROM jobs WHERE id = ?")
+        .bind(std::string_view(upload))
+        .bind(std::string_view(record.id))
+        .run();
+  }
+}
+
+/// The job the owner made with this request id before.
+std::optional<std::string> find_request(Connection& connection, const JobRecord& record,
+                                        const std::string& fingerprint) {
+  if (record.request_id.empty()) {
+    return std::nullopt;
+  }
+  Statement select = connection.prepare(
+      "SELECT fingerprint, id, record FROM jobs WHERE owner = ? AND request = ? AND request <> ''");
+  if (!select.bind(std::string_view(record.owner))
+           .bind(std::string_view(record.request_id))
+           .step()) {
+    return std::nullopt;
+  }
+  if (select.text(0) != fingerprint) {
+    throw Error(Reason::request_id_reused,
+                "request id \"" + record.request_id + "\" was used for jobs/" + select.text(1) +
+                    ", which is another job: make a new request id for each job")
+        .at("request_id");
+  }
+  return select.text(2);
+}
+
+/// Name of the result's file; empty: none.
+std::string result_name(Connection& connection, const std::string& job) {
+  Statement select = connection.prepare("SELECT result FROM jobs WHERE id = ?");
+  if (!select.bind(std::string_view(job)).step()) {
+    throw unknown("jobs", job);
+  }
+  return select.text(0);
+}
+
+void end(Connection& connection, const JobRecord& record, const std::string& result,
+         std::uint64_t result_bytes, const std::string& bytes) {
+  Statement update = connection.prepare(
+      "UPDATE jobs SET ended = ?, result = ?, result_bytes = ?, record = ? WHERE id = ?");
+  bind_end(update, record);
+  update.bind(std::string_view(result))
+      .bind(static_cast<std::int64_t>(result_bytes))
+      .bind_blob(bytes)
+      .bind(std::string_view(record.id))
+      .run();
+}
+
+std::vector<JobRecord> decoded(const std::vector<std::string>& rows) {
+  std::vector<JobRecord> records;
+  records.reserve(rows.size());
+  for (const std::string& bytes : rows) {
+    records.push_back(decode_job_record(bytes));
+  }
+  return records;
+}
+
+}  // namespace
+
+JobRecord DurableStore::create(const JobRecord& record, const std::string& fingerprint) {
+  const std::string bytes = encode(record);
+  std::optional<std::string> existing;
+  _writer.run([&](Connection& connection) {
+    existing = find_request(connection, record, fingerprint);
+    if (!existing) {
+      insert(connection, record, fingerprint, bytes);
+    }
+  });
+  return existing ? decode_job_record(*existing) : record;
+}
+
+void DurableStore::put(const JobRecord& record) {
+  const std::string bytes = encode(record);
+  _writer.run([&](Connection& connection) {
+    Statement update = connection.prepare("UPDATE jobs SET ended = ?, record = ? WHERE id = ?");
+    bind_end(update, record);
+    update.bind_blob(bytes).bind(std::string_view(record.id)).run();
+    if (connection.changes() == 0) {
+      throw unknown("jobs", record.id);
+    }
+  });
+}
+
+DurableStore::NewResult DurableStore::write_result(const Block& block, const std::string& header) {
+  return {Sha256().add(header).finish(), block.bytes.size(),
+          _results.write({std::as_bytes(std::span(header)), block.bytes})};
+}
+
+void DurableStore::finish(const JobRecord& record, std::shared_ptr<const Block> result) {
+  const std::string bytes = encode(record);
+  std::optional<DiskUsage::Reservation> reservation;
+  std::optional<NewResult> file;
+  if (result) {
+    const std::string header = result_header(*result);
+    reservation.emplace(reserve(header.size() + result->bytes.size()));
+    file.emplace(write_result(*result, header));
+  }
+  _writer.run([&](Connection& connection) {
+    if (const std::string before = result_name(connection, record.id); !before.empty()) {
+      _unreferenced.push_back({FileKind::result, before});
+    }
+    if (file) {
+      _unreferenced.push_back({FileKind::result, file->name});
+      _results.rename(file->part.path(), file->name);
+      file->part.release();
+      _results.flush_names();
+    }
+    end(connection, record, file ? file->name : "", file ? file->bytes : 0, bytes);
+  });
+}
+
+std::optional<JobRecord> DurableStore::job(const std::string& id) const {
+  const auto bytes = record("SELECT record FROM jobs WHERE id = ?", id);
+  return bytes ? std::optional(decode_job_record(*bytes)) : std::nullopt;
+}
+
+std::vector<JobRecord> DurableStore::jobs(const Page& asked) const {
+  return decoded(page("jobs", asked));
+}
+
+std::vector<JobRecord> DurableStore::unfinished() const {
+  return decoded(records("SELECT record FROM jobs WHERE ended IS NULL ORDER BY number"));
+}
+
+std::vector<EndedJob> DurableStore::ended() const {
+  return reading([](Connection& connection) {
+    Statement select = connection.prepare(
+        "SELECT id, ended, result_bytes FROM jobs WHERE ended IS NOT NULL ORDER BY ended, number");
+    std::vector<EndedJob> jobs;
+    while (select.step()) {
+      jobs.push_back({select.text(0), disk::time_of(select.integer(1)),
+                      static_cast<std::uint64_t>(select.integer(2))});
+    }
+    return jobs;
+  });
+}
+
+std::shared_ptr<const BlockSource> DurableStore::result(const std::string& job) const {
+  const char* const sql = "SELECT result FROM jobs WHERE id = ?";
+  std::optional<std::string> name = record(sql, job);
+  while (name && !name->empty()) {
+    const std::string path = _results.path(*name);
+    if (Descriptor file = open_to_read(path)) {
+      return open_result(std::move(file), path);
+    }
+    const std::optional<std::string> now = record(sql, job);  // it may have expired just now
+    if (now == name) {
+      throw Error(Reason::storage, "the result of jobs/" + job + " is not in " + path +
+                                       ": delete the job and run it again");
+    }
+    name = now;
+  }
+  return nullptr;
+}
+
+void DurableStore::expire(const std::string& job) {
+  _writer.run([&](Connection& connection) {
+    const std::string result = result_name(connection, job);
+    std::string bytes;
+    {
+      Statement select = connection.prepare("SELECT record FROM jobs WHERE id = ?");
+      select.bind(std::string_view(job)).step();
+      bytes = select.text(0);
+    }
+    JobRecord record = decode_job_record(bytes);
+    if (!store::ended(record.state)) {
+      throw Error(Reason::in_use, "jobs/" + job + " has not ended: cancel it first");
+    }
+    record.state = JobState::expired;
+    record.result_bytes = 0;
+    end(connection, record, "", 0, encode(record));
+    if (!result.empty()) {
+      _unreferenced.push_back({FileKind::result, result});
+    }
+  });
+}
+
+void DurableStore::erase_job(const std::string& id) {
+  _writer.run([&](Connection& connection) {
+    if (const std::string result = result_name(connection, id); !result.empty()) {
+      _unreferenced.push_back({FileKind::result, result});
+    }
+    connection.prepare("DELETE FROM job_uploads WHERE job = (SELECT number FROM jobs WHERE id = ?)")
+        .bind(std::string_view(id))
+        .run();
+    connection.prepare("DELETE FROM jobs WHERE id = ?").bind(std::string_view(id)).run();
+  });
+}
+
+}  // namespace anticrack::store

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "store/durable_store.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "store/schema.hpp"
+
+namespace anticrack::store {
+
+namespace {
+
+using errors::Error;
+using errors::Reason;
+
+std::string made(const std::string& folder) {
+  make_folder(folder);
+  return folder;
+}
+
+std::string database_path(const std::string& folder) {
+  return folder + "/anticrack.db";
+}
+
+Connection open_writer(const std::string& folder) {
+  Connection connection(database_path(folder));
+  {
+    Statement mode = connection.prepare("PRAGMA journal_mode = WAL");
+    if (!mode.step() || mode.text(0) != "wal") {
+      throw Error(Reason::storage, "the file system of " + folder +
+                                       " cannot share memory between programs (SQLite's WAL): "
+                                       "put the data folder on a local disk");
+    }
+  }
+  connection.execute(
+      "PRAGMA synchronous = FULL; PRAGMA temp_store = MEMORY; "
+      "PRAGMA journal_size_limit = 67108864");
+  require_sound(connection);
+  migrate(connection, schema_steps());
+  flush(folder);
+  return connection;
+}
+
+Connection open_reader(const std::string& folder) {
+  Connection connection(database_path(folder));
+  connection.execute("PRAGMA query_only = ON; PRAGMA temp_store = MEMORY");
+  return connection;
+}
+
+bool is_referenced(Connection& connection, FileKind kind, const std::string& sha256) {
+  const char* sql = "";
+  switch (kind) {
+    case FileKind::mesh:
+      sql = "SELECT 1 FROM meshes WHERE sha256 = ? AND sha256 <> '' LIMIT 1";
+      break;
+    case FileKind::result:
+      sql = "SELECT 1 FROM jobs WHERE result = ? AND result <> '' LIMIT 1";
+      break;
+    case FileKind::upload:
+      sql = "SELECT 1 FROM uploads WHERE sha256 = ? LIMIT 1";
+      break;
+  }
+  return connection.prepare(sql).bind(std::string_view(sha256)).step();
+}
+
+}  // namespace
+
+Error unknown(const std::string& collection, const std::string& id) {
+  return {Reason::not_found, "there is no " + collection + "/" + id};
+}
+
+DurableStore::DurableStore(const StoreOptions& options)
+    : _folder(made(options.folder)),
+      _usage(options.disk_budget),
+      _meshes(_folder + "/meshes", FileKind::mesh, _usage),
+      _results(_folder + "/results", FileKind::result, _usage),
+      _uploads(_folder + "/uploads", FileKind::upload, _usage),
+      _writer(open_writer(_folder),
+              [this](Connection& connection) { remove_unreferenced(connection); }),
+      _reader(open_reader(_folder)) {
+  for (const FileKind kind : {FileKind::mesh, FileKind::result, FileKind::upload}) {
+    files(kind).sweep(
+        [&](const std::string& sha256) { return is_referenced(_reader, kind, sha256); });
+  }
+}
+
+Files& DurableStore::files(FileKind kind) {
+  switch (kind) {
+    case FileKind::mesh:
+      return _meshes;
+    case FileKind::result:
+      return _results;
+    case FileKind::upload:
+      break;
+  }
+  return _uploads;
+}
+
+std::uint64_t DurableStore::database_bytes() const {
+  std::uint64_t bytes = 0;
+  for (const char* suffix : {"", "-wal", "-shm"}) {
+    bytes += file_size(database_path(_folder) + suffix).value_or(0);
+  }
+  return bytes;
+}
+
+DiskUsage::Reservation DurableStore::reserve(std::uint64_t bytes) {
+  return _usage.reserve(bytes, database_bytes());
+}
+
+void DurableStore::remove_unreferenced(Connection& connection) {
+  while (!_unreferenced.empty()) {
+    const auto& [kind, sha256] = _unreferenced.back();
+    if (!is_referenced(connection, kind, sha256)) {
+      if (kind == FileKind::mesh) {
+        _triangulations.forget(sha256);
+      }
+      files(kind).remove(sha256);
+    }
+    _unreferenced.pop_back();
+  }
+}
+
+std::vector<std::string> DurableStore::records(const std::string& sql) const {
+  return reading([&](Connection& connection) {
+    std::vector<std::string> rows;
+    Statement select = connection.prepare(sql);
+    while (select.step()) {
+      rows.push_back(select.text(0));
+    }
+    return rows;
+  });
+}
+
+std::optional<std::string> DurableStore::record(const std::string& sql,
+                                                const std::string& id) const {
+  return reading([&](Connection& connection) {
+    Statement select = connection.prepare(sql);
+    return select.bind(std::string_view(id)).step() ? std::optional(select.text(0)) : std::nullopt;
+  });
+}
+
+std::vector<std::string> DurableStore::page(const std::string& table, const Page& page) const {
+  const std::string of_owner = page.owner ? " AND owner = ?" : "";
+  return reading([&](Connection& connection) {
+    std::int64_t before = std::numeric_limits<std::int64_t>::max();
+    if (!page.after.empty()) {
+      Statement select =
+          connection.prepare("SELECT number FROM " + table + " WHERE id = ?" + of_owner);
+      select.bind(std::string_view(page.after));
+      if (page.owner) {
+        select.bind(std::string_view(*page.owner));
+      }
+      if (!select.step()) {
+        throw unknown(table, page.after);
+      }
+      before = select.integer(0);
+    }
+    Statement select = connection.prepare("SELECT record FROM " + table + " WHERE number < ?" +
+                                          of_owner + " ORDER BY number DESC LIMIT ?");
+    select.bind(before);
+    if (page.owner) {
+      select.bind(std::string_view(*page.owner));
+    }
+    constexpr std::size_t most = std::numeric_limits<std::int64_t>::max();
+    select.bind(static_cast<std::int64_t>(std::min(page.count, most)));
+    std::vector<std::string> rows;
+    while (select.step()) {
+      rows.push_back(select.text(0));
+    }
+    return rows;
+  });
+}
+
+Usage DurableStore::usage() const {
+  return {_usage.bytes(FileKind::mesh), _usage.bytes(FileKind::result),
+          _usage.bytes(FileKind::upload), database_bytes()};
+}
+
+std::unique_ptr<Store> open(const StoreOptions& options) {
+  return std::make_unique<DurableStore>(options);
+}
+
+}  // namespace anticrack::store

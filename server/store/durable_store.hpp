@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The store. Three kinds of threads meet here:
+//   - writers: files are written under temporary names by the thread that brings them; names are
+//     given and taken, and records changed, by one thread at a time (GroupCommit);
+//   - readers: one connection under a mutex; WAL lets them read while a writer waits for the disk;
+//   - holders of what was read, who need no lock.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "store/disk_usage.hpp"
+#include "store/files.hpp"
+#include "store/group_commit.hpp"
+#include "store/sqlite.hpp"
+#include "store/store.hpp"
+#include "store/triangulations.hpp"
+#include "store/upload_parts.hpp"
+
+namespace anticrack::store {
+
+class DurableStore final : public Store {
+ public:
+  explicit DurableStore(const StoreOptions& options);
+
+  void put(const MeshRecord& record) override;
+  void put(const MeshRecord& record, const mesh::Mesh& triangulation) override;
+  std::optional<MeshRecord> mesh(const std::string& id) const override;
+  std::vector<MeshRecord> meshes(const Page& page) const override;
+  std::size_t mesh_count() const override;
+  void erase_mesh(const std::string& id) override;
+  std::shared_ptr<const mesh::Mesh> triangulation(const std::string& sha256) const override;
+
+  JobRecord create(const JobRecord& record, const std::string& fingerprint) override;
+  void put(const JobRecord& record) override;
+  void finish(const JobRecord& record, std::shared_ptr<const Block> result) override;
+  std::optional<JobRecord> job(const std::string& id) const override;
+  std::vector<JobRecord> jobs(const Page& page) const override;
+  std::vector<JobRecord> unfinished() const override;
+  std::vector<EndedJob> ended() const override;
+  std::shared_ptr<const BlockSource> result(const std::string& job) const override;
+  void expire(const std::string& job) override;
+  void erase_job(const std::string& id) override;
+
+  std::optional<std::string> upload_path(const std::string& sha256,
+                                         const std::string& owner) const override;
+  std::string new_upload_path(std::uint64_t bytes) override;
+  void keep_upload(const std::string& path, const std::string& sha256,
+                   const std::string& owner) override;
+  std::size_t expire_uploads(Clock::time_point before) override;
+
+  Usage usage() const override;
+
+ private:
+  struct FileName {
+    FileKind kind;
+    std::string sha256;
+  };
+  struct NewResult {
+    std::string name;  ///< of the file
+    std::uint64_t bytes;
+    Part part;
+  };
+
+  Files& files(FileKind kind);
+  std::uint64_t database_bytes() const;
+  DiskUsage::Reservation reserve(std::uint64_t bytes);
+  void remove_unreferenced(Connection& connection);
+  void save(Connection& connection, const MeshRecord& record, const std::string& bytes);
+  NewResult write_result(const Block& block, const std::string& header);
+
+  template <class Read>
+  auto reading(Read&& read) const {
+    const std::lock_guard lock(_reader_mutex);
+    return read(_reader);
+  }
+  /// Bytes of records: the first column of all rows.
+  std::vector<std::string> records(const std::string& sql) const;
+  std::optional<std::string> record(const std::string& sql, const std::string& id) const;
+  std::vector<std::string> page(const std::string& table, const Page& page) const;
+
+  const std::string _folder;
+  DiskUsage _usage;
+  Files _meshes;
+  Files _results;
+  Files _uploads;
+  UploadParts _parts;
+  mutable Triangulations _triangulations;
+  /// Files that a record ceased to refer to, or did not come to. Of the thread that commits.
+  std::vector<FileName> _unreferenced;
+  GroupCommit _writer;
+  mutable std::mutex _reader_mutex;
+  mutable Connection _reader;
+};
+
+/// errors::Error (not_found).
+errors::Error unknown(const std::string& collection, const std::string& id);
+
+}  // namespace anticrack::store

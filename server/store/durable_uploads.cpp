@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <utility>
+
+#include "store/durable_store.hpp"
+#include "store/record_parts.hpp"
+
+namespace anticrack::store {
+
+using errors::Error;
+using errors::Reason;
+
+std::optional<std::string> DurableStore::upload_path(const std::string& sha256,
+                                                     const std::string& owner) const {
+  const bool kept = reading([&](Connection& connection) {
+    return connection.prepare("SELECT 1 FROM uploads WHERE sha256 = ? AND owner = ?")
+        .bind(std::string_view(sha256))
+        .bind(std::string_view(owner))
+        .step();
+  });
+  return kept ? std::optional(_uploads.path(sha256)) : std::nullopt;
+}
+
+std::string DurableStore::new_upload_path(std::uint64_t bytes) {
+  _parts.forget_lost();
+  DiskUsage::Reservation reservation = reserve(bytes);
+  std::string path = _uploads.new_part();
+  _parts.add(path, std::move(reservation));
+  return path;
+}
+
+void DurableStore::keep_upload(const std::string& path, const std::string& sha256,
+                               const std::string& owner) {
+  if (!is_sha256(sha256)) {
+    throw Error(Reason::invalid_argument,
+                "\"" + sha256 + "\" is no sha256: give its 64 lower-case hexadecimal digits");
+  }
+  if (!_uploads.is_part(path)) {
+    throw Error(Reason::internal, path + " is no upload on its way");
+  }
+  std::optional<Part> copy;
+  if (_parts.unflushed(path)) {
+    copy.emplace(_uploads.copy(path));
+  } else {
+    _parts.mark_unflushed(path);
+    flush(path);
+    _parts.mark_flushed(path);
+  }
+  const std::string& flushed = copy ? copy->path() : path;
+  const std::int64_t now = disk::to_disk(Clock::now());
+  // A link, so that the upload is still there when this fails and is tried again.
+  _writer.run([&](Connection& connection) {
+    _unreferenced.push_back({FileKind::upload, sha256});
+    _uploads.link(flushed, sha256);
+    _uploads.flush_names();
+    connection.prepare("INSERT OR REPLACE INTO uploads (sha256, owner, created) VALUES (?, ?, ?)")
+        .bind(std::string_view(sha256))
+        .bind(std::string_view(owner))
+        .bind(now)
+        .run();
+  });
+  _parts.forget(path);
+  const Part done(path);
+}
+
+std::size_t DurableStore::expire_uploads(Clock::time_point before) {
+  std::size_t removed = 0;
+  _writer.run([&](Connection& connection) {
+    Statement erase = connection.prepare(
+        "DELETE FROM uploads WHERE created < ? "
+        "AND NOT EXISTS (SELECT 1 FROM job_uploads r JOIN jobs j ON j.number = r.job "
+        "                WHERE r.upload = uploads.sha256 AND j.ended IS NULL) "
+        "AND NOT EXISTS (SELECT 1 FROM meshes m "
+        "                WHERE m.upload = uploads.sha256 AND m.upload <> '' AND m.sha256 = '') "
+        "RETURNING sha256");
+    erase.bind(disk::to_disk(before));
+    while (erase.step()) {
+      _unreferenced.push_back({FileKind::upload, erase.text(0)});
+      ++removed;
+    }
+  });
+  return removed;
+}
+
+}  // namespace anticrack::store

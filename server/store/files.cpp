@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "store/files.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "store/disk_errors.hpp"
+
+namespace anticrack::store {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view part_prefix = "part-";
+
+constexpr std::size_t copy_bytes = std::size_t{1} << 20U;
+
+void write_all(const Descriptor& file, const std::string& path, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(file.get(), bytes.data(), bytes.size());
+    if (count < 0 && errno != EINTR) {
+      throw disk_error("write " + path, errno);
+    }
+    bytes = bytes.subspan(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  }
+}
+
+Descriptor open_to_write(const std::string& path) {
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  if (!file) {
+    throw disk_error("open " + path, errno);
+  }
+  return file;
+}
+
+void flush(const Descriptor& file, const std::string& path) {
+  if (::fsync(file.get()) != 0) {
+    throw disk_error("flush " + path, errno);
+  }
+}
+
+}  // namespace
+
+bool is_sha256(const std::string& text) noexcept {
+  return text.size() == 64 && std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+         });
+}
+
+void make_folder(const std::string& path) {
+  std::error_code code;
+  if (fs::is_directory(path, code)) {
+    return;
+  }
+  const fs::path parent = fs::absolute(path).parent_path();
+  fs::create_directories(parent, code);
+  if (code || (::mkdir(path.c_str(), S_IRWXU) != 0 && errno != EEXIST)) {
+    throw disk_error("make the folder " + path, code ? code.value() : errno);
+  }
+  flush(parent.string());
+}
+
+void flush(const std::string& path) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file) {
+    throw disk_error("flush " + path, errno);
+  }
+  flush(file, path);
+}
+
+std::optional<std::uint64_t> file_size(const std::string& path) noexcept {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) {
+    return std::nullopt;
+  }
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+Descriptor::~Descriptor() {
+  if (_number >= 0) {
+    const int code = errno;
+    ::close(_number);
+    errno = code;  // of the call that failed, which is yet to be reported
+  }
+}
+
+Descriptor open_to_read(const std::string& path) {
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file && errno != ENOENT) {
+    throw disk_error("open " + path, errno);
+  }
+  return file;
+}
+
+std::uint64_t file_size(const Descriptor& file, const std::string& path) {
+  struct stat status {};
+  if (::fstat(file.get(), &status) != 0) {
+    throw disk_error("read " + path, errno);
+  }
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+void read_at(const Descriptor& file, const std::string& path, std::uint64_t offset,
+             std::span<std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count =
+        ::pread(file.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count == 0) {
+      throw errors::Error(errors::Reason::storage,
+                          path + " is cut off: restore the data folder from a backup");
+    }
+    if (count < 0 && errno != EINTR) {
+      throw disk_error("read " + path, errno);
+    }
+    const auto done = static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+    offset += done;
+    bytes = bytes.subspan(done);
+  }
+}
+
+std::optional<std::vector<std::byte>> read_file(const std::string& path) {
+  const Descriptor file = open_to_read(path);
+  if (!file) {
+    return std::nullopt;
+  }
+  std::vector<std::byte> bytes(static_cast<std::size_t>(file_size(file, path)));
+  read_at(file, path, 0, bytes);
+  return bytes;
+}
+
+Part::~Part() {
+  if (!_path.empty()) {
+    ::unlink(_path.c_str());  // else the next start does it
+  }
+}
+
+Files::Files(std::string folder, FileKind kind, DiskUsage& usage)
+    : _folder(std::move(folder)), _kind(kind), _usage(usage) {
+  make_folder(_folder);
+}
+
+bool Files::is_part(const std::string& path) const {
+  return path.starts_with(_folder + "/" + std::string(part_prefix)) &&
+         path.find('/', _folder.size() + 1) == std::string::npos;
+}
+
+std::string Files::new_part() const {
+  std::string path = _folder + "/" + std::string(part_prefix) + "XXXXXX";
+  if (!Descriptor(::mkostemp(path.data(), O_CLOEXEC))) {
+    throw disk_error("make a file in " + _folder, errno);
+  }
+  return path;
+}
+
+Part Files::write(const Pieces& pieces) const {
+  Part part(new_part());
+  const Descriptor file = open_to_write(part.path());
+  for (const std::span<const std::byte> piece : pieces) {
+    write_all(file, part.path(), piece);
+  }
+  flush(file, part.path());
+  return part;
+}
+
+Part Files::copy(const std::string& original) const {
+  const Descriptor from = open_to_read(original);
+  if (!from) {
+    throw disk_error("read " + original, ENOENT);
+  }
+  Part part(new_part());
+  const Descriptor to = open_to_write(part.path());
+  std::vector<std::byte> buffer(copy_bytes);
+  const std::uint64_t bytes = file_size(from, original);
+  for (std::uint64_t offset = 0; offset < bytes; offset += buffer.size()) {
+    buffer.resize(static_cast<std::size_t>(std::min<std::uint64_t>(copy_bytes, bytes - offset)));
+    read_at(from, original, offset, buffer);
+    write_all(to, part.path(), buffer);
+  }
+  flush(to, part.path());
+  return part;
+}
+
+void Files::rename(const std::string& part, const std::string& sha256) {
+  const std::string final_path = path(sha256);
+  const std::uint64_t replaced = file_size(final_path).value_or(0);
+  const std::uint64_t bytes = file_size(part).value_or(0);
+  if (::rename(part.c_str(), final_path.c_str()) != 0) {
+    throw disk_error("rename " + part, errno);
+  }
+  _usage.add(_kind, bytes);
+  _usage.remove(_kind, replaced);
+}
+
+void Files::link(const std::string& part, const std::string& sha256) {
+  if (::link(part.c_str(), path(sha256).c_str()) == 0) {
+    _usage.add(_kind, file_size(part).value_or(0));
+  } else if (errno != EEXIST) {
+    throw disk_error("link " + part, errno);
+  }
+}
+
+void Files::remove(const std::string& sha256) {
+  const std::optional<std::uint64_t> bytes = file_size(path(sha256));
+  if (!bytes) {
+    return;
+  }
+  if (::unlink(path(sha256).c_str()) != 0) {
+    throw disk_error("remove " + path(sha256), errno);
+  }
+  _usage.remove(_kind, *bytes);
+}
+
+void Files::sweep(const std::function<bool(const std::string& sha256)>& wanted) {
+  std::error_code code;
+  std::vector<std::string> unwanted;
+  for (fs::directory_iterator entry(_folder, code), end; !code && entry != end;
+       entry.increment(code)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with(part_prefix) || (is_sha256(name) && !wanted(name))) {
+      unwanted.push_back(name);
+    } else {
+      _usage.add(_kind, file_size(entry->path().string()).value_or(0));
+    }
+  }
+  if (code) {
+    throw disk_error("list " + _folder, code.value());
+  }
+  for (const std::string& name : unwanted) {
+    if (::unlink(path(name).c_str()) != 0 && errno != ENOENT) {
+      throw disk_error("remove " + path(name), errno);
+    }
+  }
+}
+
+}  // namespace anticrack::store

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Files in one folder, each under a sha256. "part-XXXXXX" is on its way.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "store/disk_usage.hpp"
+
+namespace anticrack::store {
+
+/// A hash becomes part of a path: nothing but its own 64 lower-case digits may pass.
+bool is_sha256(const std::string& text) noexcept;
+
+/// Makes the folder, for its owner alone, where it is missing. Throws errors::Error (storage).
+void make_folder(const std::string& path);
+/// Flushes a file, or the names in a folder, to the disk. Throws as disk_error does.
+void flush(const std::string& path);
+std::optional<std::uint64_t> file_size(const std::string& path) noexcept;
+
+/// An open file, closed at the end of the scope.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) noexcept : _number(number) {}
+  ~Descriptor();
+  Descriptor(Descriptor&& other) noexcept : _number(other._number) { other._number = -1; }
+  Descriptor& operator=(Descriptor&&) = delete;
+  int get() const noexcept { return _number; }
+  explicit operator bool() const noexcept { return _number >= 0; }
+
+ private:
+  int _number;
+};
+
+/// Opens a file to be read; none where there is no such file. Throws as disk_error does.
+Descriptor open_to_read(const std::string& path);
+/// Throws as disk_error does.
+std::uint64_t file_size(const Descriptor& file, const std::string& path);
+/// Fills `bytes` from `offset` on. Throws errors::Error (storage), also where the file is shorter.
+void read_at(const Descriptor& file, const std::string& path, std::uint64_t offset,
+             std::span<std::byte> bytes);
+/// The whole file; none where there is no such file.
+std::optional<std::vector<std::byte>> read_file(const std::string& path);
+
+/// A file under a temporary name, removed at the end of the scope unless it has got its own.
+class Part {
+ public:
+  explicit Part(std::string path) : _path(std::move(path)) {}
+  ~Part();
+  Part(Part&& other) noexcept : _path(std::move(other._path)) { other._path.clear(); }
+  Part& operator=(Part&&) = delete;
+  const std::string& path() const noexcept { return _path; }
+  void release() noexcept { _path.clear(); }
+
+ private:
+  std::string _path;
+};
+
+/// Any thread may write parts; names are given and taken by one thread at a time.
+class Files {
+ public:
+  using Pieces = std::vector<std::span<const std::byte>>;
+
+  Files(std::string folder, FileKind kind, DiskUsage& usage);
+
+  std::string path(const std::string& sha256) const { return _folder + "/" + sha256; }
+  bool is_part(const std::string& path) const;
+  /// A new empty file.
+  std::string new_part() const;
+  /// A new file with these bytes, on the disk. Throws as disk_error does.
+  Part write(const Pieces& pieces) const;
+  /// A copy of a part, on the disk.
+  Part copy(const std::string& part) const;
+  /// Gives a part its name; what had the name before has the same content. Not yet on the disk.
+  void rename(const std::string& part, const std::string& sha256);
+  /// The same, and the part stays.
+  void link(const std::string& part, const std::string& sha256);
+  /// Flushes names that were given.
+  void flush_names() const { flush(_folder); }
+  /// Nothing to do where there is no such file. Throws as disk_error does.
+  void remove(const std::string& sha256);
+  /// Removes parts and what is not `wanted`, and counts the bytes of the rest.
+  void sweep(const std::function<bool(const std::string& sha256)>& wanted);
+
+ private:
+  std::string _folder;
+  FileKind _kind;
+  DiskUsage& _usage;
+};
+
+}  // namespace anticrack::store

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Changes that come together share one transaction, and so one wait for the disk.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "errors/errors.hpp"
+#include "store/sqlite.hpp"
+
+namespace anticrack::store {
+
+/// The thread that finds nobody at work does its own change and all that came meanwhile; the others
+/// wait. The lock guards the queue alone; the connection belongs to the thread at work.
+class GroupCommit {
+ public:
+  using Change = std::function<void(Connection&)>;
+  /// Called by the thread at work after a transaction, when all of the past is settled: after a
+  /// COMMIT that failed in flushing the log may hold it whole, and a crash would bring it to life,
+  /// until another transaction has overwritten it.
+  using Settled = std::function<void(Connection&)>;
+
+  GroupCommit(Connection connection, Settled settled)
+      : _connection(std::move(connection)), _settled(std::move(settled)) {}
+
+  /// Runs the change; returns when it is on the disk. Throws errors::Error: what the change threw,
+  /// or why it could not be committed; nothing of it is there then. A change may be run only once
+  /// and by another thread, in a transaction of its own as far as it can tell.
+  void run(const Change& change);
+
+ private:
+  struct Entry {
+    const Change* change;
+    std::optional<errors::Error> error{};
+    bool done = false;
+  };
+  using Entries = std::vector<Entry*>;
+
+  Entries take();
+  void commit(const Entries& entries);
+  bool apply(const Entries& entries);
+
+  Connection _connection;
+  Settled _settled;
+  bool _in_doubt = false;  ///< a COMMIT failed in flushing and nothing was committed since
+  std::mutex _mutex;
+  std::condition_variable _changed;
+  std::deque<Entry*> _waiting;
+  bool _at_work = false;
+};
+
+}  // namespace anticrack::store

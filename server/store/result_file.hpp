@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A result on the disk: magic and version (8 bytes), length of the header and its CRC-32C (4 bytes
+// each), the header (ResultHeader of records.proto: layout, length and hash of the bytes), the
+// bytes. Its name is the hash of all before the bytes, which says what the bytes are.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "store/block.hpp"
+#include "store/files.hpp"
+
+namespace anticrack::store {
+
+/// All before the bytes of a block. Throws std::length_error for a layout beyond 16 MB.
+std::string result_header(const Block& block);
+
+/// The result in a file, which it keeps open. Throws errors::Error (storage) where it is none.
+std::shared_ptr<const BlockSource> open_result(Descriptor file, const std::string& path);
+
+}  // namespace anticrack::store

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// SQLite with scopes instead of calls to remember. A connection belongs to one thread at a time.
+#pragma once
+
+#include <sqlite3.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "errors/errors.hpp"
+
+namespace anticrack::store {
+
+class Connection;
+
+/// A statement of a connection, which keeps it compiled. Reset at the end of the scope: one that is
+/// left in the middle would keep its transaction, and an error of the disk, alive.
+class Statement {
+ public:
+  Statement(Connection& connection, sqlite3_stmt* statement) noexcept
+      : _connection(connection), _statement(statement) {}
+  ~Statement();
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  /// The next parameter, from the first on. Texts must outlive the statement.
+  Statement& bind(std::int64_t value);
+  Statement& bind(std::string_view text);
+  Statement& bind_blob(std::string_view bytes);
+  Statement& bind_null();
+
+  /// True where there is a row (another one).
+  bool step();
+  /// To the end.
+  void run();
+
+  std::int64_t integer(int column);
+  std::string text(int column);  ///< of a text or of a blob
+
+ private:
+  Statement& checked(int code);
+
+  Connection& _connection;
+  sqlite3_stmt* _statement;
+  int _bound = 0;
+};
+
+/// Throws errors::Error from every call: disk_full where there is no space, storage for any other
+/// failure of the disk and for a damaged file, internal for a bug; std::bad_alloc.
+class Connection {
+ public:
+  /// Opens or makes the file.
+  explicit Connection(std::string path);
+
+  Statement prepare(const std::string& sql);
+  /// Statements without parameters and without rows.
+  void execute(const std::string& sql);
+  /// The first column of the first row of a query.
+  std::int64_t integer(const std::string& sql);
+
+  bool in_transaction() const noexcept;
+  int changes() const noexcept;  ///< rows the last statement changed
+  std::int64_t total_changes() const noexcept;
+  const std::string& path() const noexcept { return _path; }
+  errors::Error error(int code) const;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const noexcept { sqlite3_close_v2(database); }
+  };
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const noexcept { sqlite3_finalize(statement); }
+  };
+
+  std::string _path;
+  std::unique_ptr<sqlite3, Close> _database;
+  std::unordered_map<std::string, std::unique_ptr<sqlite3_stmt, Finalize>> _statements;
+};
+
+/// Rolled back at the end of the scope unless it was committed.
+class Transaction {
+ public:
+  explicit Transaction(Connection& connection);
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  void commit();
+
+ private:
+  Connection& _connection;
+};
+
+}  // namespace anticrack::store

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "store/disk_usage.hpp"
+#include "store/files.hpp"
+
+namespace anticrack::store {
+
+/// Uploads on their way: how many bytes each may take, and which could not be flushed. Who receives
+/// an upload removes its file when it is given up, so what has no file is forgotten. Thread-safe.
+class UploadParts {
+ public:
+  void add(const std::string& path, DiskUsage::Reservation reservation) {
+    const std::lock_guard lock(_mutex);
+    _reserved.emplace(path, std::move(reservation));
+  }
+  void forget_lost() {
+    const std::lock_guard lock(_mutex);
+    std::erase_if(_reserved, [](const auto& item) { return !file_size(item.first); });
+    std::erase_if(_unflushed, [](const auto& path) { return !file_size(path); });
+  }
+  void forget(const std::string& path) {
+    const std::lock_guard lock(_mutex);
+    _reserved.erase(path);
+    _unflushed.erase(path);
+  }
+  /// The system may have dropped what it could not write, and would call the next flush a success:
+  /// the bytes have to be written again.
+  void mark_unflushed(const std::string& path) {
+    const std::lock_guard lock(_mutex);
+    _unflushed.insert(path);
+  }
+  void mark_flushed(const std::string& path) {
+    const std::lock_guard lock(_mutex);
+    _unflushed.erase(path);
+  }
+  bool unflushed(const std::string& path) const {
+    const std::lock_guard lock(_mutex);
+    return _unflushed.contains(path);
+  }
+
+ private:
+  mutable std::mutex _mutex;
+  std::map<std::string, DiskUsage::Reservation> _reserved;
+  std::set<std::string> _unflushed;
+};
+
+}  // namespace anticrack::store

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "log/log.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace anticrack::log {
+namespace {
+
+using ::testing::MatchesRegex;
+
+std::string written(const std::string& level, Format format, const std::function<void()>& action) {
+  ::testing::internal::CaptureStderr();
+  start(level, format);
+  action();
+  return ::testing::internal::GetCapturedStderr();
+}
+
+TEST(Log, WritesTextForPeople) {
+  EXPECT_THAT(written("info", Format::text,
+                      [] {
+                        info("job ended", {{"job", "jobs/ab12"}, {"title", "a b"}});
+                      }),
+              MatchesRegex("20[0-9-]+T[0-9:]+\\.[0-9]+[+-][0-9]+:[0-9]+ info job ended "
+                           "job=jobs/ab12 title=\"a b\"\n"));
+}
+
+TEST(Log, WritesJsonForMachines) {
+  EXPECT_THAT(written("info", Format::json,
+                      [] {
+                        error("job ended", {{"job", "jobs/ab12"}, {"state", "FAILED"}});
+                      }),
+              MatchesRegex(R"(\{"time":"20[0-9T:.+-]+","level":"error","event":"job ended",)"
+                           R"("job":"jobs/ab12","state":"FAILED"\})"
+                           "\n"));
+}
+
+TEST(Log, LetsNoValueForgeALineOrAKey) {
+  const auto attack = [] {
+    info("mesh made", {{"title", "x\" state=\"READY\n2026 error all lost {0} %v"}});
+  };
+  EXPECT_THAT(written("info", Format::text, attack),
+              ::testing::EndsWith(R"(title="x\" state=\"READY\n2026 error all lost {0} %v")"
+                                  "\n"));
+  EXPECT_THAT(written("info", Format::json, attack),
+              ::testing::EndsWith(R"("title":"x\" state=\"READY\n2026 error all lost {0} %v"})"
+                                  "\n"));
+}
+
+TEST(Log, WritesNothingBelowItsLevel) {
+  const auto all = [] {
+    info("a");
+    warn("b");
+    error("c");
+  };
+  EXPECT_THAT(written("warn", Format::text, all),
+              MatchesRegex("[^\n]* warning b\n[^\n]* error c\n"));
+  EXPECT_EQ(written("off", Format::json, all), "");
+}
+
+}  // namespace
+}  // namespace anticrack::log

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What Prometheus gets when it asks over HTTP.
+#include <curl/curl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "metrics/metrics.hpp"
+#include "support/errors.hpp"
+#include "support/process.hpp"
+
+namespace anticrack::metrics {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::size_t append(const char* data, std::size_t size, std::size_t count, void* text) {
+  static_cast<std::string*>(text)->append(data, size * count);
+  return size * count;
+}
+
+/// The body of a GET; empty where there is no answer with 200.
+std::string get(const std::string& url) {
+  const std::unique_ptr<CURL, decltype(&curl_easy_cleanup)> curl(curl_easy_init(),
+                                                                 &curl_easy_cleanup);
+  std::string body;
+  curl_easy_setopt(curl.get(), CURLOPT_URL, url.c_str());
+  curl_easy_setopt(curl.get(), CURLOPT_NOPROXY, "*");
+  curl_easy_setopt(curl.get(), CURLOPT_FAILONERROR, 1L);
+  curl_easy_setopt(curl.get(), CURLOPT_WRITEFUNCTION, append);
+  curl_easy_setopt(curl.get(), CURLOPT_WRITEDATA, &body);
+  return curl_easy_perform(curl.get()) == CURLE_OK ? body : "";
+}
+
+store::JobRecord ended_job(store::JobState state) {
+  const store::Clock::time_point begin{std::chrono::seconds(1'000'000)};
+  store::JobRecord job;
+  job.id = "secret-job";
+  job.owner = "secret-owner";
+  job.state = state;
+  job.created = begin;
+  job.started = begin + std::chrono::seconds(2);
+  job.ended = begin + std::chrono::seconds(5);
+  job.spec.priority = store::Priority::bulk;
+  job.timeline = {{begin, store::JobState::queued, ""},
+                  {*job.started, store::JobState::running, ""}};
+  if (state == store::JobState::failed) {
+    job.error.emplace(errors::Reason::numerical, "secret-message");
+  }
+  return job;
+}
+
+class Exposition : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    _address = _metrics.listen("127.0.0.1:0", [this] {
+      Snapshot now;
+      now.engine.iterations = ++_reads;
+      now.cache.hits = 7;
+      now.disk.results = 4096;
+      now.ready = true;
+      return now;
+    });
+  }
+
+  std::string scrape() const { return get("http://" + _address + "/metrics"); }
+  void let_everything_happen() {
+    _metrics.call_ended("/anticrack.v1.SolveService/GetJob", 5, std::chrono::milliseconds(20));
+    _metrics.job_ended(ended_job(store::JobState::succeeded));
+    _metrics.job_ended(ended_job(store::JobState::failed));
+    store::MeshRecord mesh;
+    mesh.mesh_seconds = 1.5;
+    _metrics.meshed(mesh);
+    mesh.error.emplace(errors::Reason::mesher_failed, "secret-message");
+    _metrics.meshed(mesh);
+    _metrics.factorised(std::chrono::seconds(3));
+  }
+
+  Metrics _metrics{"1.2.3", "GNU 12"};
+  std::atomic<std::uint64_t> _reads{0};
+  std::string _address;
+};
+
+TEST_F(Exposition, TellsWhatHappened) {
+  let_everything_happen();
+  const std::string text = scrape();
+  for (const char* line : {
+           "anticrack_build_info{build=\"GNU 12\",version=\"1.2.3\"} 1",
+           "anticrack_rpc_handled_total{code=\"NOT_FOUND\","
+           "method=\"/anticrack.v1.SolveService/GetJob\"} 1",
+           "anticrack_rpc_duration_seconds_bucket{method=\"/anticrack.v1.SolveService/GetJob\","
+           "le=\"0.03\"} 1",
+           "anticrack_jobs_ended_total{state=\"SUCCEEDED\"} 1",
+           "anticrack_jobs_ended_total{state=\"CANCELLED\"} 0",
+           "anticrack_job_failures_total{reason=\"NUMERICAL\"} 1",
+           "anticrack_queue_wait_seconds_sum{priority=\"BULK\"} 4",
+           "anticrack_job_phase_seconds_sum{phase=\"solving\"} 6",
+           "anticrack_meshing_seconds_sum 1.5",
+           "anticrack_mesh_failures_total{reason=\"MESHER_FAILED\"} 1",
+           "anticrack_factorization_seconds_count 1",
+           "anticrack_cache_hits_total 7",
+           "anticrack_disk_bytes{kind=\"results\"} 4096",
+           "anticrack_ready 1",
+       }) {
+    EXPECT_THAT(text, HasSubstr(line + std::string("\n")));
+  }
+  EXPECT_THAT(text, ::testing::ContainsRegex("process_resident_memory_bytes [1-9]"));
+  EXPECT_THAT(text, Not(HasSubstr("secret"))) << "no label names a job, an owner or a message";
+}
+
+TEST_F(Exposition, ReadsAnewAtEachScrape) {
+  EXPECT_THAT(scrape(), HasSubstr("anticrack_iterations_total 1\n"));
+  EXPECT_THAT(scrape(), HasSubstr("anticrack_iterations_total 2\n"));
+}
+
+TEST_F(Exposition, PleasesPromtool) {
+  let_everything_happen();
+  anticrack::testing::Process lint({PROMTOOL, "check", "metrics"}, {}, scrape());
+  EXPECT_EQ(lint.wait(), 0) << lint.error() << lint.output();
+}
+
+TEST_F(Exposition, HoldsNoMoreMethodsThanThereAre) {
+  for (int i = 0; i < 1000; ++i) _metrics.call_ended("/made/up" + std::to_string(i), 12, {});
+  const std::string text = scrape();
+  EXPECT_THAT(text,
+              HasSubstr("anticrack_rpc_handled_total{code=\"UNIMPLEMENTED\",method=\"other\"}"));
+  EXPECT_THAT(text, Not(HasSubstr("/made/up999")));
+}
+
+TEST_F(Exposition, CountsFromManyThreads) {
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([this] {
+      for (int k = 0; k < 250; ++k) _metrics.job_ended(ended_job(store::JobState::cancelled));
+    });
+  }
+  EXPECT_FALSE(scrape().empty());
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_THAT(scrape(), HasSubstr("anticrack_jobs_ended_total{state=\"CANCELLED\"} 1000\n"));
+}
+
+TEST_F(Exposition, EndsWithStop) {
+  EXPECT_FALSE(scrape().empty());
+  _metrics.stop();
+  const std::uint64_t reads = _reads;
+  EXPECT_EQ(scrape(), "");
+  EXPECT_EQ(_reads, reads);
+  let_everything_happen();  // still allowed
+}
+
+TEST_F(Exposition, SaysWhereItCannotListen) {
+  Metrics other("1", "1");
+  for (const std::string& address :
+       {_address, std::string("203.0.113.1:1"), std::string("9464"), _address + ",127.0.0.1:0"}) {
+    EXPECT_TRUE(
+        anticrack::testing::throws([&] { other.listen(address, [] { return Snapshot(); }); },
+                                   errors::Reason::invalid_argument, "metrics-listen"))
+        << address;
+  }
+}
+
+TEST(ExpositionOfABrokenServer, LeavesOutWhatCannotBeRead) {
+  Metrics metrics("1", "1");
+  const std::string address = metrics.listen(
+      "127.0.0.1:0", []() -> Snapshot { throw errors::Error(errors::Reason::storage, "broken"); });
+  const std::string text = get("http://" + address + "/metrics");
+  EXPECT_THAT(text, HasSubstr("process_resident_memory_bytes"));
+  EXPECT_THAT(text, Not(HasSubstr("anticrack_ready")));
+}
+
+}  // namespace
+}  // namespace anticrack::metrics
