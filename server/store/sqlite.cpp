@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "store/sqlite.hpp"
 
+#include <cerrno>
 #include <new>
 #include <utility>
 
@@ -77,6 +78,10 @@ Connection::Connection(std::string path) : _path(std::move(path)) {
   if (code != SQLITE_OK) {
     throw error(code);
   }
+  if (sqlite3_db_readonly(database, "main") != 0) {
+    // SQLite's way out when it may not, or just now cannot, open the file for writing.
+    throw error(SQLITE_READONLY);
+  }
   sqlite3_busy_timeout(database, 5000);  // of a backup tool, or the other connection's checkpoint
 }
 
@@ -120,6 +125,8 @@ std::int64_t Connection::total_changes() const noexcept {
 }
 
 Error Connection::error(int code) const {
+  // Of the system call that failed. SQLite keeps it for some of its errors only.
+  const int of_system = errno;
   // Of the last call as well, but more exact than what it returned.
   const std::string what = "the database " + _path + ": " + sqlite3_errmsg(_database.get()) + " (" +
                            sqlite3_errstr(code) + ")";
@@ -130,7 +137,7 @@ Error Connection::error(int code) const {
       return disk_full(what);
     case SQLITE_IOERR:
     case SQLITE_CANTOPEN:
-      if (no_space(sqlite3_system_errno(_database.get()))) {
+      if (no_space(of_system) || no_space(sqlite3_system_errno(_database.get()))) {
         return disk_full(what);
       }
       return {Reason::storage, what + "; check that the data folder is there, writable and sound"};
