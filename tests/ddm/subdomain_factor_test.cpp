@@ -108,6 +108,30 @@ TEST(SubdomainFactor, OfASubdomainWithoutInterfaceHasAnEmptyTrace) {
   EXPECT_LT((matrix * u - f).norm(), 1e-12 * f.norm());
 }
 
+/// More columns than are solved at once.
+TEST(SubdomainFactor, SolvesColumnsTogetherAsItSolvesEachAlone) {
+  const Sparse matrix = grid(23, 17);
+  const SubdomainFactor factor(matrix, 23 * 16, Ordering::amd);
+  const Eigen::Index n = matrix.rows(), columns = columns_at_once(n) + 7;
+  const Eigen::MatrixXd f = random_vector(n * columns).reshaped(n, columns);
+  const SubdomainFactor::Forward together = factor.forward(f);
+  ASSERT_EQ(together.z_interior.cols(), columns);
+  ASSERT_EQ(together.g.cols(), columns);
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    const SubdomainFactor::Forward alone = factor.forward(f.col(j));
+    EXPECT_LT((together.z_interior.col(j) - alone.z_interior).norm(), 1e-14 * f.col(j).norm());
+    EXPECT_LT((together.g.col(j) - alone.g).norm(), 1e-14 * f.col(j).norm());
+  }
+  EXPECT_EQ(factor.forward(f.leftCols(0)).g.cols(), 0);
+}
+
+TEST(SubdomainFactor, SolvesFewerColumnsAtOnceTheLongerTheyAre) {
+  EXPECT_EQ(columns_at_once(0), 32);
+  EXPECT_EQ(columns_at_once(1000), 32);
+  EXPECT_EQ(columns_at_once(1'000'000), 8);
+  EXPECT_EQ(columns_at_once(1'000'000'000), 1);
+}
+
 /// Two grids that share nothing: the elimination tree has two roots, and a postordering would put
 /// the interface nodes of the first before the interior of the second.
 TEST(SubdomainFactor, KeepsTheInterfaceLastWhenTheSubdomainFallsApart) {

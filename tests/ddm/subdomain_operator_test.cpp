@@ -63,6 +63,33 @@ struct Upper {
   }
 };
 
+/// With prescribed values and without, in one block.
+TEST(SubdomainOperator, CondensesLoadsTogetherAsEachAlone) {
+  const Upper upper(2.5);
+  const std::vector<Field> boundaries = {
+      zero, [](double x, double y) { return x - 0.3 * y; }, zero,
+      [](double x, double y) { return std::exp(x) * std::cos(3 * y); }};
+  Eigen::MatrixXd loads(index(upper.subdomain.node.size()), 4);
+  Eigen::MatrixXd dirichlet(index(upper.subdomain.dirichlet), 4);
+  for (Eigen::Index j = 0; j < 4; ++j) {
+    loads.col(j) = static_cast<double>(j + 1) * upper.load(force);
+    dirichlet.col(j) = at_nodes(upper.subdomain.part, boundaries[static_cast<std::size_t>(j)])
+                           .tail(index(upper.subdomain.dirichlet));
+  }
+  const std::vector<CondensedLoad> together = upper.factorised.condense(loads, dirichlet);
+  ASSERT_EQ(together.size(), 4U);
+  for (Eigen::Index j = 0; j < 4; ++j) {
+    const CondensedLoad& a = together[static_cast<std::size_t>(j)];
+    const CondensedLoad b = upper.factorised.condense(loads.col(j), dirichlet.col(j)).front();
+    EXPECT_LT((a.z_interior - b.z_interior).norm(), 1e-14 * b.z_interior.norm());
+    EXPECT_LT((a.g - b.g).norm(), 1e-14 * b.g.norm());
+    EXPECT_LE((a.g_boundary - b.g_boundary).norm(), 1e-14 * b.g_boundary.norm());
+    EXPECT_EQ(a.dirichlet, b.dirichlet);
+    EXPECT_NEAR(a.energy_constant, b.energy_constant, 1e-13 * std::abs(b.energy_constant));
+    EXPECT_NEAR(a.norm_constant, b.norm_constant, 1e-13 * b.norm_constant);
+  }
+}
+
 TEST(SubdomainOperator, EnergyAndNormAreThoseOfTheFieldWithPrescribedValues) {
   for (const double tension : {1.0, 2.5}) {
     const Upper upper(tension);

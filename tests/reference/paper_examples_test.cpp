@@ -87,6 +87,37 @@ TEST(PaperExamples, TakeAboutAsManyIterationsAsMeasured) {
   }
 }
 
+/// As columns of one block that join while others are under way.
+TEST(PaperExamples, TakeTheSameIterationsTogether) {
+  constexpr int expected[] = {287, 310, 339, 411}, joins[] = {0, 0, 30, 101};
+  const auto& op = paper_operator();
+  operators::UzawaBlock block(op.shared_from_this(), contact::Mass::lumped, 4);
+  Counter counters[4];
+  std::size_t next = 0, ended = 0;
+  for (int k = 0; ended < 4; ++k) {
+    for (; next < 4 && joins[next] == k; ++next) {
+      const fem::Load load{"case", fem::Expression{testing::paper_forces[next]}, "", "", {}, {}};
+      const fem::Load* const one[] = {&load};
+      const int place =
+          block.add(std::get<operators::PreparedLoad>(std::move(op.prepare(one).front())),
+                    UzawaOptions{}, false, counters[next]);
+      ASSERT_EQ(place, static_cast<int>(next));
+    }
+    block.step();
+    for (const operators::UzawaBlock::Ended& one : block.take_ended()) {
+      const auto i = static_cast<std::size_t>(one.place);
+      EXPECT_EQ(one.answer.status, Status::converged);
+      EXPECT_EQ(one.answer.iterations, expected[i]);
+      EXPECT_EQ(counters[i].count, expected[i]);
+      const Answer alone = solve(testing::paper_forces[i]);
+      EXPECT_EQ(alone.iterations, expected[i]);
+      EXPECT_NEAR(one.answer.energy, alone.energy, 1e-12 * std::abs(alone.energy));
+      EXPECT_NEAR(one.answer.inclusions[0].displacement, alone.inclusions[0].displacement, 1e-12);
+      ++ended;
+    }
+  }
+}
+
 TEST(PaperExamples, FirstTouchesInTheMiddle) {
   const Answer answer = solve(testing::paper_forces[0]);
   ASSERT_EQ(answer.contact_intervals.size(), 1U);
