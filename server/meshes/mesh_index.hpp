@@ -52,9 +52,11 @@ struct LiveMesh {
   std::optional<errors::Error> setback;  ///< why the last of them did
 
   // For those who wait:
-  int waiting = 0;         ///< calls of prepare()
-  int factorizing = 0;     ///< threads that wait for its operators
-  bool undecided = false;  ///< none of these has told yet what came of it
+  int waiting = 0;          ///< calls of prepare()
+  bool undecided = false;   ///< those who wait together for its operators know nothing yet
+  std::uint64_t round = 0;  ///< number of that round
+  int factorizing = 0;      ///< threads in it
+  bool writing = false;     ///< what came of one is on its way to the disk
   std::chrono::steady_clock::time_point since;
   std::weak_ptr<void> users;  ///< jobs that have not ended
 
