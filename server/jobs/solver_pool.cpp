@@ -118,9 +118,16 @@ void SolverPool::iterate(Lock& lock, const Mesh& mesh, Lane lane) {
 }
 
 void SolverPool::admit(Lock& lock, const Mesh& mesh, Lane lane, std::shared_ptr<BlockRun>& block) {
+  const bool under_way = block && block->columns() > 0;
+  if (under_way && _core.idle_solvers > 0) {
+    if (mesh->waiting[index(lane)] > 0) {
+      _core.solvers.notify_one();  // for another thread, which has nothing else to do
+    }
+    return;
+  }
   const int room = block ? block->free() : std::max(1, _core.options.columns);
   // A start waits for the disk: where columns wait meanwhile, one start at a time.
-  const int max_starts = block && block->columns() > 0 ? 1 : std::numeric_limits<int>::max();
+  const int max_starts = under_way ? 1 : std::numeric_limits<int>::max();
   const std::vector<Task> tasks = take(lock, mesh, lane, room, max_starts);
   if (tasks.empty()) {
     return;
