@@ -103,7 +103,51 @@ void add_load(store::CanonicalHash& hash, const fem::Load& load) {
   HashForce::add_named(hash, load.inclusion_forces);
 }
 
+void check_time(std::chrono::milliseconds wanted, std::chrono::milliseconds longest,
+                const char* field) {
+  if (wanted.count() < 0) {
+    throw Error(Reason::invalid_argument, std::to_string(wanted.count()) +
+                                              " ms is no time limit: give a positive one, or none")
+        .at(field);
+  }
+  if (wanted > longest) {
+    throw Error(Reason::limit_exceeded, std::to_string(wanted.count()) +
+                                            " ms is longer than this server allows, " +
+                                            std::to_string(longest.count()) + " ms")
+        .at(field);
+  }
+}
+
+struct BytesOfForce {
+  std::uint64_t operator()(double /*constant*/) const { return 0; }
+  std::uint64_t operator()(const fem::Expression& expression) const {
+    return expression.text.size();
+  }
+  std::uint64_t operator()(const fem::PerRegion& regions) const { return named(regions.values); }
+  std::uint64_t operator()(const fem::Array& array) const { return array.upload.size(); }
+
+  static std::uint64_t named(const std::map<std::string, double>& values) {
+    constexpr std::uint64_t node = 96;
+    std::uint64_t bytes = node * values.size();
+    for (const auto& [name, value] : values) {
+      bytes += name.size();
+    }
+    return bytes;
+  }
+};
+
 }  // namespace
+
+std::uint64_t bytes_of(const store::JobSpec& spec) {
+  std::uint64_t bytes = sizeof(spec) + spec.title.size() + spec.mesh.size();
+  for (const fem::Load& load : spec.loads) {
+    bytes += sizeof(load) + load.name.size() + load.boundary_value.size() + load.traction.size() +
+             std::visit(BytesOfForce{}, load.force) +
+             load.point_forces.size() * sizeof(fem::PointForce) +
+             BytesOfForce::named(load.inclusion_forces);
+  }
+  return bytes;
+}
 
 void check(const store::JobSpec& spec, const EngineOptions& options) {
   if (spec.title.size() > max_title_bytes) {
@@ -137,11 +181,16 @@ void check(const store::JobSpec& spec, const EngineOptions& options) {
     error.below("solver");
     throw;
   }
+  check_time(spec.queue_time_limit, options.queue_time, "queue_timeout");
+  check_time(spec.run_time_limit, options.run_time, "run_timeout");
 }
 
 std::string fingerprint(const store::JobSpec& spec) {
   store::CanonicalHash hash;
   hash.add(spec.title).add(spec.mesh).add(std::uint64_t{spec.fields});
+  hash.add(static_cast<std::uint64_t>(spec.priority));
+  hash.add(static_cast<std::uint64_t>(spec.queue_time_limit.count()));
+  hash.add(static_cast<std::uint64_t>(spec.run_time_limit.count()));
   hash.add(std::uint64_t{spec.solver.index()});
   std::visit(HashSolver{hash}, spec.solver);
   hash.add(std::uint64_t{spec.loads.size()});

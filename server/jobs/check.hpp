@@ -3,6 +3,7 @@
 // What can be said of a job before any work is done on it.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "jobs/job_engine.hpp"
@@ -12,10 +13,13 @@ namespace anticrack::jobs {
 
 /// Throws errors::Error (invalid_argument, expression_invalid, limit_exceeded) for the first thing
 /// that is wrong, with its path in the job: "title", "load_cases", "load_cases[i].name",
-/// "load_cases[i].force.expression", "solver.uzawa.theta", ...
+/// "load_cases[i].force.expression", "solver.uzawa.theta", "queue_timeout", "run_timeout", ...
 void check(const store::JobSpec& spec, const EngineOptions& options);
 
 /// Hash of all that makes a job, its title included: equal for equal requests only.
 std::string fingerprint(const store::JobSpec& spec);
+
+/// Memory of a job's spec, about.
+std::uint64_t bytes_of(const store::JobSpec& spec);
 
 }  // namespace anticrack::jobs

@@ -73,7 +73,8 @@ Error trimmed(std::uint64_t after, std::uint64_t earliest, std::uint64_t latest)
 }  // namespace
 
 struct EventLog::State {
-  explicit State(std::size_t limit) : byte_limit(limit) {}
+  State(std::size_t limit, std::uint64_t base)
+      : byte_limit(limit), earliest(base + 1), latest(base) {}
 
   const std::size_t byte_limit;
 
@@ -81,8 +82,9 @@ struct EventLog::State {
   SampleQueue samples;
   std::deque<Kept> others;
   std::size_t other_bytes = 0;
-  std::uint64_t earliest = 1;
-  std::uint64_t latest = 0;
+  std::uint64_t earliest;
+  std::uint64_t latest;
+  bool ended = false;
   /// Replaced, never changed, so that the writer can walk it without the lock.
   std::shared_ptr<const Wakes> wakes = std::make_shared<const Wakes>();
 
@@ -124,7 +126,8 @@ class EventLog::Listener {
   std::shared_ptr<Wake> _wake;
 };
 
-EventLog::EventLog(std::size_t byte_limit) : _state(std::make_shared<State>(byte_limit)) {}
+EventLog::EventLog(std::size_t byte_limit, std::uint64_t base)
+    : _state(std::make_shared<State>(byte_limit, base)) {}
 
 EventLog::~EventLog() = default;
 
@@ -132,6 +135,10 @@ void EventLog::append(Event event) {
   std::shared_ptr<const Wakes> wakes;
   {
     const std::lock_guard lock(_state->mutex);
+    if (_state->ended) {
+      return;
+    }
+    _state->ended = std::holds_alternative<EndEvent>(event);
     if (const auto* sample = std::get_if<SampleEvent>(&event)) {
       _state->samples.push_back(*sample);
     } else {

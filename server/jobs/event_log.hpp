@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The events of one job, numbered from 1 without gaps, in a log of bounded size that any number of
+// The events of one job, numbered without gaps, in a log of bounded size that any number of
 // watchers read, each with its own cursor.
 #pragma once
 
@@ -50,13 +50,15 @@ struct NumberedEvent {
 class EventLog {
  public:
   /// `byte_limit`: the oldest events go when the log is larger (the end event never).
-  explicit EventLog(std::size_t byte_limit);
+  /// `base`: the first event has the number after it.
+  explicit EventLog(std::size_t byte_limit, std::uint64_t base = 0);
   ~EventLog();
 
+  /// Nothing comes after the end event: what is appended then is dropped.
   void append(Event event);
 
   std::uint64_t earliest() const;  ///< sequence of the oldest event kept; latest()+1 when none is
-  std::uint64_t latest() const;    ///< 0 before the first
+  std::uint64_t latest() const;    ///< the base before the first
   std::size_t bytes() const;       ///< held now, at most about the limit
 
   /// Up to `count` events after `after`, in order. Empty when there is none yet.

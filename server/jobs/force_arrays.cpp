@@ -14,8 +14,9 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-std::string path_of(const store::Store& store, const std::string& sha256) {
-  std::optional<std::string> path = store.upload_path(sha256);
+std::string path_of(const store::Store& store, const std::string& sha256,
+                    const std::string& owner) {
+  std::optional<std::string> path = store.upload_path(sha256, owner);
   if (!path) {
     throw Error(Reason::not_found,
                 "there is no uploads/" + sha256 + "; upload the values of the force first");
@@ -35,18 +36,20 @@ auto at_field(const std::string& field, const Call& call) {
 
 }  // namespace
 
-void require_arrays(const std::vector<fem::Load>& loads, const store::Store& store) {
+void require_arrays(const std::vector<fem::Load>& loads, const store::Store& store,
+                    const std::string& owner) {
   std::set<std::string> seen;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     const auto* array = std::get_if<fem::Array>(&loads[i].force);
     if (array != nullptr && seen.insert(array->upload).second) {
       at_field("load_cases[" + std::to_string(i) + "].force.array",
-               [&] { return store::array_length(path_of(store, array->upload)); });
+               [&] { return store::array_length(path_of(store, array->upload, owner)); });
     }
   }
 }
 
-ForceArrays::ForceArrays(const std::vector<fem::Load>& loads) {
+ForceArrays::ForceArrays(const std::vector<fem::Load>& loads, std::string owner)
+    : _owner(std::move(owner)) {
   for (const fem::Load& load : loads) {
     if (const auto* array = std::get_if<fem::Array>(&load.force)) {
       ++_entries[array->upload].cases_left;
@@ -69,7 +72,8 @@ ForceArrays::Values ForceArrays::take(const std::string& sha256, const store::St
   const bool last = --entry.cases_left == 0;
   Values values = entry.in_use.lock();
   if (!values) {
-    values = std::make_shared<const std::vector<double>>(store::read_array(path_of(store, sha256)));
+    values = std::make_shared<const std::vector<double>>(
+        store::read_array(path_of(store, sha256, _owner)));
     entry.in_use = values;
   }
   const std::size_t bytes = values->size() * sizeof(double);

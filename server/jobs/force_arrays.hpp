@@ -15,8 +15,9 @@
 namespace anticrack::jobs {
 
 /// Throws errors::Error at "load_cases[i].force.array": not_found where the store has no such
-/// upload, invalid_argument where it is no array.
-void require_arrays(const std::vector<fem::Load>& loads, const store::Store& store);
+/// upload of this owner, invalid_argument where it is no array.
+void require_arrays(const std::vector<fem::Load>& loads, const store::Store& store,
+                    const std::string& owner);
 
 /// Reads each upload when its first load case is solved and shares the values among all; they are
 /// let go with the last case that names them, or when `max_kept_bytes` are kept already (the next
@@ -25,7 +26,7 @@ class ForceArrays {
  public:
   static constexpr std::size_t max_kept_bytes = std::size_t{512} << 20;
 
-  explicit ForceArrays(const std::vector<fem::Load>& loads);
+  ForceArrays(const std::vector<fem::Load>& loads, std::string owner);
 
   /// The load, with values where its force is an array. To be called once for each load case.
   /// Throws errors::Error at "force.array" as require_arrays does, and where a value is not finite.
@@ -41,6 +42,7 @@ class ForceArrays {
 
   Values take(const std::string& sha256, const store::Store& store);
 
+  const std::string _owner;
   std::mutex _mutex;
   std::map<std::string, Entry> _entries;  ///< by sha256
   std::size_t _kept_bytes = 0;

@@ -2,13 +2,17 @@
 #include "jobs/job_engine.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <random>
+#include <optional>
 #include <utility>
 
 #include "errors/errors.hpp"
 #include "jobs/check.hpp"
-#include "jobs/engine_state.hpp"
+#include "jobs/ending_thread.hpp"
+#include "jobs/engine_core.hpp"
+#include "jobs/intake.hpp"
+#include "jobs/preparation_pool.hpp"
+#include "jobs/solver_pool.hpp"
+#include "jobs/time_limits.hpp"
 
 namespace anticrack::jobs {
 
@@ -17,104 +21,89 @@ namespace {
 using errors::Error;
 using errors::Reason;
 using store::JobRecord;
-using JobPtr = std::shared_ptr<LiveJob>;
-
-constexpr std::chrono::milliseconds retry_delay{1000};
-
-/// Unique across restarts as well, so it cannot be a counter.
-std::string new_id() {
-  std::random_device random;
-  std::string id;
-  for (int i = 0; i < 2; ++i) {
-    char digits[9];
-    std::snprintf(digits, sizeof digits, "%08x", random());
-    id += digits;
-  }
-  return id;
-}
+using store::JobState;
 
 Error unknown(const std::string& id) {
   return {Reason::not_found, "there is no jobs/" + id};
 }
 
-Error queue_full(int limit) {
-  return Error(Reason::busy,
-               "the queue is full (" + std::to_string(limit) + " jobs): try again in a while")
-      .retry_after(retry_delay);
-}
-
 }  // namespace
 
+struct JobEngine::State {
+  /// The threads start when the jobs of the last start are queued.
+  State(EngineOptions options, store::Store& store, meshes::MeshCatalogue& catalogue)
+      : core(std::move(options), store, catalogue) {
+    recover(core);
+    pools.emplace(core);
+  }
+
+  /// The live job, null where it has ended or there never was one.
+  JobPtr live(const std::string& id) const {
+    const std::lock_guard lock(core.mutex);
+    const auto found = core.jobs.find(id);
+    return found == core.jobs.end() ? nullptr : found->second;
+  }
+
+  struct Pools {
+    explicit Pools(EngineCore& core)
+        : ending(core), limits(core), preparation(core), solvers(core) {}
+    EndingThread ending;
+    TimeLimits limits;
+    PreparationPool preparation;
+    SolverPool solvers;
+  };
+
+  EngineCore core;
+  std::optional<Pools> pools;
+};
+
 JobEngine::JobEngine(EngineOptions options, store::Store& store, meshes::MeshCatalogue& catalogue)
-    : _state(std::make_unique<State>(options, store, catalogue)) {}
+    : _state(std::make_unique<State>(std::move(options), store, catalogue)) {}
 
 JobEngine::~JobEngine() {
   stop(std::chrono::milliseconds(0));
+  EngineCore& core = _state->core;
+  {
+    const std::lock_guard lock(core.mutex);
+    core.quitting = true;
+  }
+  for (auto* changed : {&core.solvers, &core.preparers, &core.ending, &core.limits}) {
+    changed->notify_all();
+  }
+  _state->pools.reset();
 }
 
-JobRecord JobEngine::submit(const store::JobSpec& spec, const std::string& request_id) {
-  State& state = *_state;
-  check(spec, state.options);
-  try {
-    state.catalogue.get(spec.mesh);
-  } catch (Error& error) {
-    error.at("mesh");
-    throw;
-  }
-  require_arrays(spec.loads, state.store);
-  JobRecord record;
-  record.id = new_id();
-  record.spec = spec;
-  record.created = store::Clock::now();
-  record.cases.resize(spec.loads.size());
-  const std::string print = fingerprint(spec);
-
-  State::Lock lock(state.mutex);
-  const std::string id = state.store.create(record, request_id, print).id;
-  if (id != record.id) {
-    lock.unlock();
-    return get(id);
-  }
-  // Only now is it known to be new: the same request again is answered when full as well.
-  const bool full = state.queue.size() >= static_cast<std::size_t>(state.options.max_queued_jobs);
-  if (state.draining || full) {
-    state.store.erase_job(id);
-    throw state.draining ? Error(Reason::draining, "the server is stopping: submit to another one")
-                         : queue_full(state.options.max_queued_jobs);
-  }
-  auto job = std::make_shared<LiveJob>(++state.created, record, state.options.event_log_bytes);
-  state.jobs.emplace(id, job);
-  state.queue.add(std::move(job));
-  state.changed.notify_all();
-  return record;
+JobRecord JobEngine::submit(const Submission& submission) {
+  TakenIn taken = take_in(_state->core, submission);
+  return taken.is_new ? std::move(taken.record) : get(taken.record.id);
 }
 
 JobRecord JobEngine::get(const std::string& id) const {
   std::optional<JobSnapshot> snapshot;
   {
-    const std::lock_guard lock(_state->mutex);
-    if (const auto found = _state->jobs.find(id); found != _state->jobs.end()) {
+    const std::lock_guard lock(_state->core.mutex);
+    if (const auto found = _state->core.jobs.find(id); found != _state->core.jobs.end()) {
       snapshot.emplace(*found->second);
     }
   }
   if (snapshot) {
     return snapshot->record();
   }
-  std::optional<JobRecord> record = _state->store.job(id);
+  std::optional<JobRecord> record = _state->core.store.job(id);
   if (!record) {
     throw unknown(id);
   }
   return std::move(*record);
 }
 
-std::vector<JobRecord> JobEngine::list(const std::string& after, std::size_t count) const {
-  std::vector<JobRecord> records = _state->store.jobs(after, count);
+std::vector<JobRecord> JobEngine::list(const store::Page& page) const {
+  std::vector<JobRecord> records = _state->core.store.jobs(page);
   for (JobRecord& record : records) {
     std::optional<JobSnapshot> snapshot;
-    {
-      const std::lock_guard lock(_state->mutex);
-      const auto found = _state->jobs.find(record.id);
-      if (found != _state->jobs.end() && !found->second->final_record) {
+    if (!store::ended(record.state)) {
+      const std::lock_guard lock(_state->core.mutex);
+      const auto found = _state->core.jobs.find(record.id);
+      if (found != _state->core.jobs.end()) {
         snapshot.emplace(*found->second);
       }
     }
@@ -126,109 +115,115 @@ std::vector<JobRecord> JobEngine::list(const std::string& after, std::size_t cou
 }
 
 JobRecord JobEngine::cancel(const std::string& id) {
-  JobPtr job;
-  {
-    const std::lock_guard lock(_state->mutex);
-    if (const auto found = _state->jobs.find(id);
-        found != _state->jobs.end() && !found->second->final_record) {
-      job = found->second;
-    }
-  }
-  if (job) {
-    _state->cancel(job);
+  if (const JobPtr job = _state->live(id)) {
+    _state->core.stop(job, Stop::cancelled);
   }
   return get(id);
 }
 
 void JobEngine::erase(const std::string& id) {
-  {
-    const std::lock_guard lock(_state->mutex);
-    const auto found = _state->jobs.find(id);
-    if (found != _state->jobs.end()) {
-      if (!found->second->final_record) {
-        throw Error(Reason::in_use, "jobs/" + id + " has not ended: cancel it first");
-      }
-      _state->jobs.erase(found);
-      std::erase_if(_state->kept, [&](const auto& kept) { return kept.id == id; });
-    }
+  if (_state->live(id)) {
+    throw Error(Reason::in_use, "jobs/" + id + " has not ended: cancel it first");
   }
-  _state->store.erase_job(id);
+  EngineCore& core = _state->core;
+  core.store.erase_job(id);
+  const std::lock_guard lock(core.mutex);
+  core.retention.remove(id);
+  core.logs.remove(id);
 }
 
 std::shared_ptr<EventLog> JobEngine::events(const std::string& id) const {
-  const std::lock_guard lock(_state->mutex);
-  const auto found = _state->jobs.find(id);
-  if (found == _state->jobs.end()) {
+  const EngineCore& core = _state->core;
+  {
+    const std::lock_guard lock(core.mutex);
+    if (const auto found = core.jobs.find(id); found != core.jobs.end()) {
+      return found->second->log;
+    }
+    if (std::shared_ptr<EventLog> log = core.logs.find(id)) {
+      return log;
+    }
+  }
+  const std::optional<JobRecord> record = core.store.job(id);
+  if (!record) {
     throw unknown(id);
   }
-  return found->second->log;
+  return end_alone(*record);
 }
 
-std::shared_ptr<const store::Block> JobEngine::result(const std::string& id) const {
-  {
-    const std::lock_guard lock(_state->mutex);
-    const auto found = _state->jobs.find(id);
-    if (found != _state->jobs.end() && !found->second->final_record) {
-      throw Error(Reason::not_ready, "jobs/" + id + " has not ended: wait for it");
-    }
+std::shared_ptr<const store::BlockSource> JobEngine::result(const std::string& id) const {
+  const std::optional<JobRecord> record = _state->core.store.job(id);
+  if (!record) {
+    throw unknown(id);
   }
-  std::shared_ptr<const store::Block> block = _state->store.result(id);
+  if (_state->live(id) || !store::ended(record->state)) {
+    throw Error(Reason::not_ready, "jobs/" + id + " has not ended: wait for it");
+  }
+  if (record->state == JobState::expired) {
+    throw Error(Reason::result_expired,
+                "the result of jobs/" + id +
+                    " was removed, by its age or to make room for others: submit the job again");
+  }
+  std::shared_ptr<const store::BlockSource> block = _state->core.store.result(id);
   if (!block) {
-    if (!_state->store.job(id)) {
-      throw unknown(id);
-    }
     throw Error(Reason::not_ready, "jobs/" + id + " ended and no load case has an answer");
   }
   return block;
 }
 
 void JobEngine::stop(std::chrono::milliseconds grace) {
-  State& state = *_state;
-  const auto unended = [&](bool with_running) {
-    std::vector<JobPtr> jobs;
-    for (const auto& [id, job] : state.jobs) {
-      if (!job->final_record && (with_running || job->state != store::JobState::running)) {
-        jobs.push_back(job);
-      }
-    }
-    return jobs;
-  };
-  const auto cancel_all = [&](State::Lock& lock, const std::vector<JobPtr>& jobs) {
-    lock.unlock();
+  EngineCore& core = _state->core;
+  const auto interrupt = [&](const std::vector<JobPtr>& jobs) {
     for (const JobPtr& job : jobs) {
-      state.cancel(job);
+      core.stop(job, Stop::interrupted);
     }
-    lock.lock();
   };
-  const auto idle = [&] { return state.announced == state.created; };
-
-  State::Lock lock(state.mutex);
-  state.draining = true;
-  cancel_all(lock, unended(false));
-  state.changed.wait_for(lock, grace, idle);
-  cancel_all(lock, unended(true));
-  state.changed.wait(lock, idle);
+  EngineCore::Lock lock(core.mutex);
+  core.draining = true;
+  const auto waiting =
+      core.select([](const LiveJob& job) { return job.state != JobState::running; });
+  lock.unlock();
+  interrupt(waiting);
+  lock.lock();
+  core.settled.wait_for(lock, grace, [&] { return core.live == 0 && core.not_announced == 0; });
+  const auto running = core.select([](const LiveJob& job) { return !job.ending; });
+  lock.unlock();
+  interrupt(running);
+  lock.lock();
+  core.interrupting = true;
+  core.ending.notify_one();
+  core.settled.wait(lock, [&] { return core.live == 0 && core.not_announced == 0; });
 }
 
 bool JobEngine::idle() const {
-  const std::lock_guard lock(_state->mutex);
-  return _state->announced == _state->created;
+  const std::lock_guard lock(_state->core.mutex);
+  return _state->core.running == 0 && _state->core.not_announced == 0;
 }
 
 EngineMetrics JobEngine::metrics() const {
-  const std::lock_guard lock(_state->mutex);
+  const EngineCore& core = _state->core;
+  const std::lock_guard lock(core.mutex);
   EngineMetrics metrics;
-  metrics.jobs_created = _state->created;
-  metrics.jobs_ended = _state->ended;
-  metrics.load_cases_ended = _state->cases_ended;
-  metrics.iterations = _state->iterations;
-  metrics.jobs_queued = static_cast<int>(_state->queue.size());
-  metrics.jobs_running = _state->running;
+  metrics.jobs_created = core.created;
+  metrics.jobs_ended = core.ended;
+  metrics.load_cases_ended = core.cases_ended;
+  metrics.iterations = core.iterations;
+  metrics.results_expired = core.results_expired;
+  metrics.jobs_queued = static_cast<int>(core.admission.jobs());
+  metrics.jobs_running = core.running;
+  metrics.columns = core.columns;
+  metrics.queued_bytes = core.admission.bytes();
+  const auto now = EngineCore::Clock::now();
+  for (const auto& [number, job] : core.numbers) {
+    if (job->state != JobState::running) {
+      metrics.oldest_wait =
+          std::max<std::chrono::duration<double>>(metrics.oldest_wait, now - job->since);
+    }
+  }
   return metrics;
 }
 
 const EngineOptions& JobEngine::options() const noexcept {
-  return _state->options;
+  return _state->core.options;
 }
 
 }  // namespace anticrack::jobs

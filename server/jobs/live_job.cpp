@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/live_job.hpp"
 
+#include <utility>
+#include <variant>
+
+#include "jobs/check.hpp"
+#include "jobs/ended_logs.hpp"
+
 namespace anticrack::jobs {
 
 namespace {
@@ -10,6 +16,8 @@ using store::CaseRecord;
 using store::CaseStatus;
 using store::JobRecord;
 using store::JobState;
+
+constexpr std::size_t max_steps = 48;
 
 /// The error with another message and other fields, the metadata kept.
 Error retold(const Error& error, const std::string& message,
@@ -32,62 +40,94 @@ Error case_failed(const store::JobSpec& spec, std::size_t index, const Error& er
   return retold(error, "load case \"" + spec.loads[index].name + "\": " + error.what(), fields);
 }
 
+Lane lane_of(const contact::SolverOptions& solver) {
+  const auto* uzawa = std::get_if<contact::UzawaOptions>(&solver);
+  if (uzawa == nullptr) {
+    return Lane::active_set;
+  }
+  return uzawa->mass == contact::Mass::lumped ? Lane::lumped : Lane::consistent;
+}
+
+JobRecord without_spec(JobRecord record) {
+  record.spec = {};
+  return record;
+}
+
 }  // namespace
 
-LiveJob::LiveJob(std::uint64_t submission, const JobRecord& record, std::size_t event_log_bytes)
+LiveJob::LiveJob(std::uint64_t submission, JobRecord record, std::size_t event_log_bytes,
+                 std::shared_ptr<void> mesh_in_use)
     : number(submission),
-      id(record.id),
-      spec(std::make_shared<const store::JobSpec>(record.spec)),
-      created(record.created),
-      log(std::make_shared<EventLog>(event_log_bytes)),
-      arrays(record.spec.loads),
-      cases(record.spec.loads.size()) {}
+      created(without_spec(record)),
+      spec(std::make_shared<const store::JobSpec>(std::move(record.spec))),
+      spec_bytes(bytes_of(*spec)),
+      lane(lane_of(spec->solver)),
+      since(std::chrono::steady_clock::now()),
+      log(std::make_shared<EventLog>(event_log_bytes, sequence_base(created.attempt))),
+      arrays(spec->loads, created.owner),
+      timeline(created.timeline),
+      mesh_use(std::move(mesh_in_use)),
+      cases(spec->loads.size()) {}
 
-JobSnapshot::JobSnapshot(const LiveJob& job)
-    : id(job.id),
-      spec(job.spec),
-      created(job.created),
-      state(job.state),
-      started(job.started),
-      final_record(job.final_record) {
-  if (!final_record) {
-    for (const LiveCase& live : job.cases) {
-      running.push_back(live.running);
-      cases.push_back(live.record);
-    }
+void add_step(std::vector<store::Step>& timeline, JobState state, std::string detail) {
+  if (timeline.size() >= max_steps) {
+    timeline.erase(timeline.begin() + 1);  // the first says when it was queued
+  }
+  timeline.push_back({store::Clock::now(), state, std::move(detail)});
+}
+
+JobSnapshot::JobSnapshot(const LiveJob& job) : _spec(job.spec) {
+  _head.id = job.created.id;
+  _head.owner = job.created.owner;
+  _head.request_id = job.created.request_id;
+  _head.created = job.created.created;
+  _head.attempt = job.created.attempt;
+  _head.state = job.state;
+  _head.started = job.started;
+  _head.timeline = job.timeline;
+  for (const LiveCase& live : job.cases) {
+    _running.push_back(live.running);
+    _cases.push_back(live.record);
   }
 }
 
 JobRecord JobSnapshot::record() const {
-  if (final_record) {
-    return *final_record;
-  }
-  JobRecord result;
-  result.id = id;
-  result.spec = *spec;
-  result.state = state;
-  result.created = created;
-  result.started = started;
-  result.cases.resize(cases.size());
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (cases[i]) {
-      result.cases[i] = *cases[i];
-    } else if (running[i]) {
+  JobRecord result = _head;
+  result.spec = *_spec;
+  result.cases.resize(_cases.size());
+  for (std::size_t i = 0; i < _cases.size(); ++i) {
+    if (_cases[i]) {
+      result.cases[i] = *_cases[i];
+    } else if (_running[i]) {
       result.cases[i].status = CaseStatus::running;
     }
   }
   return result;
 }
 
-Outcome outcome(const store::JobSpec& spec, const std::vector<LiveCase>& cases) {
+Outcome conclude(LiveJob& job) {
+  const bool failed = job.why == Stop::failed;
+  const auto unsolved = std::make_shared<CaseRecord>();
+  unsolved->status = failed ? CaseStatus::failed : CaseStatus::cancelled;
+  unsolved->error = job.failure;
+  bool complete = true;
+  for (LiveCase& live : job.cases) {
+    if (!live.record || (failed && live.record->status == CaseStatus::cancelled)) {
+      live.record = unsolved;
+      complete = false;
+    }
+  }
+  if (failed && !complete) {
+    return {JobState::failed, job.failure};
+  }
   Outcome result;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const CaseRecord& record = *cases[i].record;
+  for (std::size_t i = 0; i < job.cases.size(); ++i) {
+    const CaseRecord& record = *job.cases[i].record;
     if (record.status == CaseStatus::cancelled) {
       return {JobState::cancelled, std::nullopt};
     }
     if (record.status == CaseStatus::failed && !result.error) {
-      result = {JobState::failed, case_failed(spec, i, *record.error)};
+      result = {JobState::failed, case_failed(*job.spec, i, *record.error)};
     }
   }
   return result;

@@ -3,6 +3,7 @@
 // A job while the server works on it.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "contact/answer.hpp"
 #include "jobs/event_log.hpp"
 #include "jobs/force_arrays.hpp"
+#include "jobs/schedule.hpp"
 #include "operators/mesh_operator.hpp"
 #include "store/records.hpp"
 
@@ -33,45 +35,71 @@ struct LiveCase {
   std::unique_ptr<SolvedCase> solved;
 };
 
+/// Why a job is not to go on.
+enum class Stop {
+  none,
+  cancelled,
+  failed,       ///< LiveJob::failure says of what: its mesh, a time limit
+  interrupted,  ///< the server stops: the job is left to the store for the next start
+};
+
 /// The first part does not change; the engine's mutex guards the second, but for what is said
 /// there.
 struct LiveJob {
-  LiveJob(std::uint64_t submission, const store::JobRecord& record, std::size_t event_log_bytes);
+  LiveJob(std::uint64_t submission, store::JobRecord record, std::size_t event_log_bytes,
+          std::shared_ptr<void> mesh_in_use);
 
-  const std::uint64_t number;  ///< in the order of submission
-  const std::string id;
+  const std::uint64_t number;      ///< in the order of submission
+  const store::JobRecord created;  ///< as it was submitted or recovered, without the spec
   const std::shared_ptr<const store::JobSpec> spec;
-  const store::Clock::time_point created;
+  const std::uint64_t spec_bytes;
+  const Lane lane;
+  const std::chrono::steady_clock::time_point since;  ///< when this server had it
   const std::shared_ptr<EventLog> log;
   ForceArrays arrays;
   std::stop_source stop;
 
+  const std::string& id() const noexcept { return created.id; }
+
   store::JobState state = store::JobState::queued;
   std::optional<store::Clock::time_point> started;
-  /// Set before the job runs, reset by the thread that ends it.
+  std::vector<store::Step> timeline;
+  std::shared_ptr<void> mesh_use;  ///< let go when the job has ended
+  /// Set when the job starts, reset by the thread that ends it.
   std::shared_ptr<const operators::MeshOperator> mesh_operator;
   std::vector<LiveCase> cases;
   std::size_t next_case = 0;       ///< first one that no thread has taken
-  int active = 0;                  ///< threads at work on it
+  int active = 0;                  ///< cases taken and not ended, and one for a start under way
   std::uint64_t result_bytes = 0;  ///< of the answers so far
-  bool ending = false;
-  std::shared_ptr<const store::JobRecord> final_record;  ///< once it has ended
-  std::chrono::steady_clock::time_point not_before;      ///< its mesh is not to be tried earlier
+  Stop why = Stop::none;
+  std::optional<errors::Error> failure;
+  bool ending = false;   ///< nothing of it is left to solve
+  bool refused = false;  ///< ending, and the store could not take it yet
 };
 
+using JobPtr = std::shared_ptr<LiveJob>;
+
+/// A load case on its way.
+struct Task {
+  JobPtr job;
+  std::size_t index = 0;
+  std::chrono::steady_clock::time_point taken;
+};
+
+/// Appends a step of now, and lets go of old ones where there are many.
+void add_step(std::vector<store::Step>& timeline, store::JobState state, std::string detail);
+
 /// A job's record at one moment, cheap to take under a lock.
-struct JobSnapshot {
+class JobSnapshot {
+ public:
   explicit JobSnapshot(const LiveJob& job);
   store::JobRecord record() const;
 
-  std::string id;
-  std::shared_ptr<const store::JobSpec> spec;
-  store::Clock::time_point created;
-  store::JobState state;
-  std::optional<store::Clock::time_point> started;
-  std::vector<bool> running;
-  std::vector<std::shared_ptr<const store::CaseRecord>> cases;
-  std::shared_ptr<const store::JobRecord> final_record;
+ private:
+  store::JobRecord _head;
+  std::shared_ptr<const store::JobSpec> _spec;
+  std::vector<bool> _running;
+  std::vector<std::shared_ptr<const store::CaseRecord>> _cases;
 };
 
 struct Outcome {
@@ -79,9 +107,11 @@ struct Outcome {
   std::optional<errors::Error> error;
 };
 
-/// How a job ended whose cases ended like this: cancelled where one was cancelled, failed where one
-/// failed, with the error of the first (by index) and the path of its field, else succeeded.
-Outcome outcome(const store::JobSpec& spec, const std::vector<LiveCase>& cases);
+/// How a job ends; gives the cases that have no answer the record that says why: they are cancelled
+/// or fail with the job. Cancelled where a case was cancelled, failed where one failed, with the
+/// error of the first (by index) and the path of its field, else succeeded. With the engine's mutex
+/// held.
+Outcome conclude(LiveJob& job);
 
 /// A mesh's error as a job's, at field "mesh".
 errors::Error mesh_failed(const std::string& mesh, const errors::Error& error);

@@ -1,16 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which results expire and which records go: the policy, without threads or locks.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <string>
 #include <vector>
+
+#include "store/store.hpp"
 
 namespace anticrack::jobs {
 
-/// How many of the ended jobs have to go, the oldest first, so that at most `max_count` with at
-/// most `max_bytes` together are left. `bytes` is oldest first. The newest stays whatever its size,
-/// or nobody could read its result. O(n).
-std::size_t jobs_to_drop(const std::vector<std::uint64_t>& bytes, std::size_t max_count,
-                         std::uint64_t max_bytes);
+struct RetentionLimits {
+  std::size_t jobs = 10'000;         ///< records
+  std::chrono::milliseconds ttl{0};  ///< of results; 0: for ever
+  std::uint64_t bytes = 4ULL << 30;  ///< of results
+};
+
+struct Expiry {
+  std::vector<std::string> expire;  ///< jobs whose results go
+  std::vector<std::string> erase;   ///< jobs whose records go, and their results
+};
+
+/// The ended jobs the store has, oldest end first. Not thread-safe.
+class Retention {
+ public:
+  explicit Retention(const RetentionLimits& limits) : _limits(limits) {}
+
+  void add(store::EndedJob job);
+  void remove(const std::string& id);
+  void expired(const std::string& id);  ///< has no result any more
+
+  /// What has to go at `now`: the oldest first, each in one of the two lists. The newest record
+  /// stays, and the newest result whatever its size unless it is too old, or nobody could read it.
+  /// O(n).
+  Expiry due(store::Clock::time_point now) const;
+
+ private:
+  RetentionLimits _limits;
+  std::deque<store::EndedJob> _jobs;
+  std::uint64_t _bytes = 0;
+};
 
 }  // namespace anticrack::jobs

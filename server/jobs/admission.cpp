@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/admission.hpp"
+
+#include <algorithm>
+
+#include "errors/errors.hpp"
+
+namespace anticrack::jobs {
+
+namespace {
+
+using errors::Error;
+using errors::Reason;
+
+constexpr std::chrono::milliseconds shortest_delay{1'000};
+constexpr std::chrono::milliseconds delay_per_job{50};
+constexpr std::chrono::milliseconds longest_delay{60'000};
+
+void require_possible(std::uint64_t value, std::uint64_t limit, const char* what) {
+  if (value > limit) {
+    throw Error(Reason::limit_exceeded, "the job has " + std::to_string(value) + " " + what +
+                                            " and the queue takes " + std::to_string(limit) +
+                                            " at most: split the job")
+        .at("load_cases");
+  }
+}
+
+}  // namespace
+
+std::chrono::milliseconds Admission::retry_delay() const noexcept {
+  const auto jobs = static_cast<std::int64_t>(std::min<std::size_t>(_jobs, 1'000'000));
+  return std::min(longest_delay, shortest_delay + delay_per_job * jobs);
+}
+
+void Admission::check(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes) const {
+  require_possible(cases, _limits.cases, "load cases");
+  require_possible(bytes, _limits.bytes, "bytes of load cases");
+  const auto full = [&](const std::string& what) {
+    Error error(Reason::busy, "the queue is full (" + what + "): try again in a while");
+    return error.retry_after(retry_delay());
+  };
+  if (_jobs >= _limits.jobs) {
+    throw full(std::to_string(_jobs) + " jobs wait, at most " + std::to_string(_limits.jobs));
+  }
+  const auto found = _cases.find(mesh);
+  const std::uint64_t waiting = found == _cases.end() ? 0 : found->second;
+  if (waiting + cases > _limits.cases) {
+    throw full(std::to_string(waiting) + " load cases of meshes/" + mesh +
+               " have not ended, at most " + std::to_string(_limits.cases));
+  }
+  if (_bytes + bytes > _limits.bytes) {
+    throw full(std::to_string(_bytes) + " bytes of jobs that have not ended, at most " +
+               std::to_string(_limits.bytes));
+  }
+}
+
+void Admission::add(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes) {
+  _cases[mesh] += cases;
+  _bytes += bytes;
+  ++_jobs;
+}
+
+void Admission::cases_ended(const std::string& mesh, std::uint64_t count) {
+  const auto found = _cases.find(mesh);
+  if (found != _cases.end() && (found->second -= count) == 0) {
+    _cases.erase(found);
+  }
+}
+
+}  // namespace anticrack::jobs

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Whether a job is taken in: the policy, without threads or locks.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+
+namespace anticrack::jobs {
+
+struct AdmissionLimits {
+  std::size_t jobs = 1'000;            ///< that have not started
+  std::uint64_t cases = 100'000;       ///< of one mesh, of jobs started or not, not ended
+  std::uint64_t bytes = 256ULL << 20;  ///< of the specs of jobs that have not ended
+};
+
+/// Counts what is admitted and not ended. Not thread-safe.
+class Admission {
+ public:
+  explicit Admission(const AdmissionLimits& limits) : _limits(limits) {}
+
+  /// Throws errors::Error: limit_exceeded where the job alone is over a bound, else busy with a
+  /// retry delay that grows with the queue. A job that passes is counted with `add`.
+  void check(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes) const;
+  void add(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes);
+
+  void started() noexcept { --_jobs; }
+  /// Back among those that have not started.
+  void requeued() noexcept { ++_jobs; }
+  void cases_ended(const std::string& mesh, std::uint64_t count);
+  void ended(std::uint64_t bytes) noexcept { _bytes -= bytes; }
+
+  std::size_t jobs() const noexcept { return _jobs; }
+  std::uint64_t bytes() const noexcept { return _bytes; }
+  std::chrono::milliseconds retry_delay() const noexcept;
+
+ private:
+  AdmissionLimits _limits;
+  std::size_t _jobs = 0;
+  std::uint64_t _bytes = 0;
+  std::unordered_map<std::string, std::uint64_t> _cases;  ///< by mesh
+};
+
+}  // namespace anticrack::jobs

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/block_run.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+namespace anticrack::jobs {
+
+BlockRun::BlockRun(const std::shared_ptr<const operators::MeshOperator>& mesh_operator,
+                   contact::Mass mass, int capacity, std::atomic<std::uint64_t>& iterations)
+    : _capacity(capacity),
+      _iterations(iterations),
+      _places(static_cast<std::size_t>(capacity)),
+      _block(mesh_operator, mass, capacity) {}
+
+void BlockRun::add(const Task& task, operators::PreparedLoad load) {
+  auto column = std::make_unique<Column>(Column{task, Recorder(task, _iterations)});
+  const store::JobSpec& spec = *task.job->spec;
+  const int place = _block.add(std::move(load), std::get<contact::UzawaOptions>(spec.solver),
+                               spec.fields, column->recorder);
+  _places[static_cast<std::size_t>(place)] = std::move(column);
+  ++_columns;
+}
+
+std::vector<EndedCase> BlockRun::step() {
+  std::vector<EndedCase> ended;
+  try {
+    _block.step();
+    for (operators::UzawaBlock::Ended& result : _block.take_ended()) {
+      const std::unique_ptr<Column> column =
+          std::move(_places[static_cast<std::size_t>(result.place)]);
+      --_columns;
+      if (!column->abandoned) {
+        ended.push_back({column->task, outcome_of(*column, std::move(result.answer))});
+      }
+    }
+  } catch (...) {
+    for (EndedCase& other : end_all(std::current_exception())) {
+      ended.push_back(std::move(other));
+    }
+  }
+  return ended;
+}
+
+CaseOutcome BlockRun::outcome_of(Column& column, contact::Answer answer) {
+  try {
+    return solved_case(column.task, std::move(answer), column.recorder.take_history());
+  } catch (...) {
+    return failed_case(column.task, std::current_exception());
+  }
+}
+
+std::vector<EndedCase> BlockRun::end_all(const std::exception_ptr& failure) {
+  std::vector<EndedCase> ended;
+  for (std::unique_ptr<Column>& column : _places) {
+    if (column && !column->abandoned) {
+      ended.push_back({column->task, failed_case(column->task, failure)});
+    }
+    column.reset();
+  }
+  _columns = 0;
+  _broken = true;
+  return ended;
+}
+
+store::Priority BlockRun::priority() const noexcept {
+  store::Priority best = store::Priority::bulk;
+  for (const std::unique_ptr<Column>& column : _places) {
+    best = column ? std::min(best, column->task.job->spec->priority) : best;
+  }
+  return best;
+}
+
+std::vector<Task> BlockRun::abandon_stopped() {
+  std::vector<Task> tasks;
+  for (const std::unique_ptr<Column>& column : _places) {
+    if (column && !column->abandoned && column->task.job->why != Stop::none) {
+      column->abandoned = true;
+      column->recorder.give_up();
+      tasks.push_back(column->task);
+    }
+  }
+  return tasks;
+}
+
+}  // namespace anticrack::jobs

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/case_outcome.hpp"
+
+#include <chrono>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "errors/errors.hpp"
+
+namespace anticrack::jobs {
+
+namespace {
+
+using errors::Error;
+using errors::Reason;
+using store::CaseStatus;
+
+CaseStatus status_of(contact::Status status) {
+  switch (status) {
+    case contact::Status::converged:
+      return CaseStatus::converged;
+    case contact::Status::not_converged:
+      return CaseStatus::not_converged;
+    case contact::Status::cancelled:
+      return CaseStatus::cancelled;
+  }
+  return CaseStatus::failed;
+}
+
+contact::Answer without_arrays(const contact::Answer& answer) {
+  contact::Answer result;
+  result.status = answer.status;
+  result.reason = answer.reason;
+  result.iterations = answer.iterations;
+  result.criterion = answer.criterion;
+  result.theta = answer.theta;
+  result.theta_star = answer.theta_star;
+  result.energy = answer.energy;
+  result.kkt = answer.kkt;
+  result.kkt_relative = answer.kkt_relative;
+  result.weakly_active = answer.weakly_active;
+  result.warnings = answer.warnings;
+  result.inclusions = answer.inclusions;
+  result.contact_length = answer.contact_length;
+  result.contact_intervals = answer.contact_intervals;
+  return result;
+}
+
+Error placed(Error error, std::size_t index) {
+  const std::string path = "load_cases[" + std::to_string(index) + "]";
+  if (error.fields().empty()) {
+    error.at(path);
+  } else if (error.fields().front().field == "uzawa") {
+    error.below("solver");
+  } else {
+    error.below(path);
+  }
+  return error;
+}
+
+Error error_of(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const Error& error) {
+    return error;
+  } catch (const std::bad_alloc&) {
+    return {Reason::limit_exceeded, "not enough memory for this load case"};
+  } catch (const std::exception& error) {
+    return {Reason::internal, std::string("solving failed: ") + error.what()};
+  }
+}
+
+std::shared_ptr<store::CaseRecord> new_record(const Task& task, CaseStatus status) {
+  auto record = std::make_shared<store::CaseRecord>();
+  record->status = status;
+  const auto elapsed = std::chrono::steady_clock::now() - task.taken;
+  record->seconds = std::chrono::duration<double>(elapsed).count();
+  return record;
+}
+
+}  // namespace
+
+Recorder::Recorder(const Task& task, std::atomic<std::uint64_t>& iterations)
+    : _load_case(static_cast<std::int32_t>(task.index)),
+      _log(task.job->log),
+      _stop(task.job->stop.get_token()),
+      _iterations(iterations) {}
+
+bool Recorder::on_iteration(const contact::Sample& sample) {
+  if (_given_up) {
+    return false;
+  }
+  _history.push_back(sample);
+  _log->append(SampleEvent{_load_case, sample});
+  _iterations.fetch_add(1, std::memory_order_relaxed);
+  return !_stop.stop_requested();
+}
+
+std::uint64_t bytes_of(const SolvedCase& solved) {
+  std::uint64_t bytes = solved.history.size() * sizeof(contact::Sample);
+  for (const contact::Trace& trace : solved.answer.traces) {
+    bytes += trace.jump.size() * (4 * sizeof(double) + sizeof(std::int32_t));
+  }
+  for (const contact::Field& field : solved.answer.fields) {
+    bytes += field.u.size() * (sizeof(double) + sizeof(std::int32_t));
+  }
+  return bytes;
+}
+
+CaseOutcome solved_case(const Task& task, contact::Answer answer,
+                        std::vector<contact::Sample> history) {
+  auto record = new_record(task, status_of(answer.status));
+  record->answer = without_arrays(answer);
+  std::unique_ptr<SolvedCase> solved;
+  if (record->status != CaseStatus::cancelled) {
+    solved = std::make_unique<SolvedCase>(SolvedCase{std::move(answer), std::move(history)});
+  }
+  return {std::move(record), std::move(solved)};
+}
+
+CaseOutcome failed_case(const Task& task, const std::exception_ptr& failure) {
+  const Error error = error_of(failure);
+  if (error.reason() == Reason::cancelled) {
+    return cancelled_case(task);
+  }
+  auto record = new_record(task, CaseStatus::failed);
+  record->error = placed(error, task.index);
+  return {std::move(record), nullptr};
+}
+
+CaseOutcome refused_case(const Task& task, std::uint64_t max_result_bytes) {
+  auto record = new_record(task, CaseStatus::failed);
+  record->error = placed(
+      Error(Reason::limit_exceeded, "the results of the load cases before are over " +
+                                        std::to_string(max_result_bytes) +
+                                        " bytes, the limit of a job: split the job, or leave its "
+                                        "fields out"),
+      task.index);
+  return {std::move(record), nullptr};
+}
+
+CaseOutcome cancelled_case(const Task& task) {
+  return {new_record(task, CaseStatus::cancelled), nullptr};
+}
+
+}  // namespace anticrack::jobs

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What is due when, without threads or locks.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace anticrack::jobs {
+
+enum class Due {
+  queue_time,  ///< the job has waited as long as it may
+  run_time,    ///< it has run as long as it may
+  start,       ///< its start failed and is to be tried again
+};
+
+/// At most one time of each kind for each job, by its number. Not thread-safe.
+class Deadlines {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  using Entry = std::pair<std::uint64_t, Due>;
+
+  /// Replaces the one of the same job and kind.
+  void set(std::uint64_t job, Due due, Time time) {
+    clear(job, due);
+    _times.emplace(Entry{job, due}, time);
+    _order.emplace(time, Entry{job, due});
+  }
+  void clear(std::uint64_t job, Due due) {
+    const auto found = _times.find({job, due});
+    if (found != _times.end()) {
+      _order.erase({found->second, found->first});
+      _times.erase(found);
+    }
+  }
+  void clear(std::uint64_t job) {
+    for (const Due due : {Due::queue_time, Due::run_time, Due::start}) {
+      clear(job, due);
+    }
+  }
+
+  std::optional<Time> next() const {
+    return _order.empty() ? std::nullopt : std::optional<Time>(_order.begin()->first);
+  }
+  /// Takes out what is due at `now`, earliest first.
+  std::vector<Entry> take(Time now) {
+    std::vector<Entry> due;
+    while (!_order.empty() && _order.begin()->first <= now) {
+      due.push_back(_order.begin()->second);
+      _times.erase(_order.begin()->second);
+      _order.erase(_order.begin());
+    }
+    return due;
+  }
+
+ private:
+  std::map<Entry, Time> _times;
+  std::set<std::pair<Time, Entry>> _order;
+};
+
+}  // namespace anticrack::jobs

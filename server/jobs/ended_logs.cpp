@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/ended_logs.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace anticrack::jobs {
+
+std::shared_ptr<EventLog> end_alone(const store::JobRecord& record) {
+  constexpr std::size_t any_size = 1;  // the end event stays whatever the limit
+  auto log = std::make_shared<EventLog>(any_size, sequence_base(record.attempt + 1));
+  log->append(EndEvent{std::make_shared<const store::JobRecord>(record)});
+  return log;
+}
+
+void EndedLogs::add(const std::string& job, std::shared_ptr<EventLog> log) {
+  const std::uint64_t bytes = log->bytes();
+  _logs[job] = {std::move(log), bytes};
+  _order.push_back(job);
+  _bytes += bytes;
+  while (_bytes > _max_bytes && _order.size() > 1) {
+    remove(std::string(_order.front()));
+  }
+}
+
+void EndedLogs::remove(const std::string& job) {
+  const auto found = _logs.find(job);
+  if (found != _logs.end()) {
+    _bytes -= found->second.bytes;
+    _logs.erase(found);
+    _order.erase(std::find(_order.begin(), _order.end(), job));
+  }
+}
+
+std::shared_ptr<EventLog> EndedLogs::find(const std::string& job) const {
+  const auto found = _logs.find(job);
+  return found == _logs.end() ? nullptr : found->second.log;
+}
+
+}  // namespace anticrack::jobs

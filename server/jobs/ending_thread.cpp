@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/ending_thread.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "errors/errors.hpp"
+#include "jobs/result_block.hpp"
+
+namespace anticrack::jobs {
+
+namespace {
+
+using errors::Error;
+using errors::Reason;
+using store::JobState;
+
+constexpr std::chrono::milliseconds retry_write{1'000};
+constexpr std::chrono::minutes sweep_every{1};
+constexpr const char* writing = "writing the result";
+
+/// Whether the same call may succeed later.
+bool is_of_the_disk(const Error& error) {
+  return error.reason() == Reason::disk_full || error.reason() == Reason::storage;
+}
+
+void set_state(store::JobRecord& record, JobState state, const std::optional<Error>& error) {
+  record.state = state;
+  record.error = error;
+  record.timeline.back().state = state;
+}
+
+}  // namespace
+
+EndingThread::EndingThread(EngineCore& core) : _core(core), _thread([this] { work(); }) {}
+
+EndingThread::~EndingThread() {
+  _thread.join();
+}
+
+void EndingThread::work() {
+  Lock lock(_core.mutex);
+  while (!_core.quitting) {
+    if (!_core.to_end.empty()) {
+      const JobPtr job = std::move(_core.to_end.front());
+      _core.to_end.pop_front();
+      _swept = false;
+      write(lock, conclude_job(lock, job));
+    } else if (next_waiting(lock)) {
+      continue;
+    } else if (!_swept || Clock::now() >= _next_sweep) {
+      sweep(lock);
+    } else {
+      Clock::time_point next = _next_sweep;
+      for (const End& end : _waiting) {
+        next = std::min(next, end.next_try);
+      }
+      _core.ending.wait_until(lock, next);
+    }
+  }
+}
+
+EndingThread::End EndingThread::conclude_job(Lock& lock, const JobPtr& job) {
+  const Outcome outcome = conclude(*job);
+  if (job->state == JobState::running) {
+    add_step(job->timeline, JobState::running, writing);
+  }
+  End end{job, {}, nullptr};
+  const JobSnapshot snapshot(*job);
+  lock.unlock();
+  end.record = snapshot.record();
+  end.record.ended = store::Clock::now();
+  add_step(end.record.timeline, outcome.state, {});
+  set_state(end.record, outcome.state, outcome.error);
+  try {
+    if (job->mesh_operator) {
+      end.result = result_block(*job->mesh_operator, job->cases);
+    }
+    end.record.result_bytes = end.result ? end.result->bytes.size() : 0;
+  } catch (const std::exception&) {
+    set_state(end.record, JobState::failed,
+              Error(Reason::limit_exceeded,
+                    "not enough memory for the result: split the job, or "
+                    "leave its fields out"));
+  }
+  job->mesh_operator.reset();  // however long the disk takes
+  lock.lock();
+  return end;
+}
+
+void EndingThread::write(Lock& lock, End end) {
+  if (end.job->refused && end.job->why == Stop::cancelled) {
+    set_state(end.record, JobState::cancelled, std::nullopt);
+    end.record.result_bytes = 0;
+    end.result.reset();
+  }
+  lock.unlock();
+  bool written = false;
+  try {
+    _core.store.finish(end.record, end.result);
+    written = true;
+  } catch (const Error& error) {
+    if (!is_of_the_disk(error) && end.result) {
+      // No later try would do better.
+      set_state(end.record, JobState::failed,
+                Error(error.reason(), std::string("the result was lost: ") + error.what()));
+      end.record.result_bytes = 0;
+      end.result.reset();
+    }
+  } catch (const std::exception&) {
+    written = false;  // no memory: as good as no disk
+  }
+  lock.lock();
+  if (written) {
+    announce(lock, end);
+  } else if (_core.interrupting) {
+    leave_to_next_start(lock, end);
+  } else {
+    keep(lock, std::move(end));
+  }
+}
+
+void EndingThread::announce(Lock& lock, const End& end) {
+  const JobPtr& job = end.job;
+  lock.unlock();
+  const auto record = std::make_shared<const store::JobRecord>(end.record);
+  if (_core.options.ended) {
+    _core.options.ended(*record);
+  }
+  job->mesh_use.reset();
+  lock.lock();
+  _core.running -= job->state == JobState::running ? 1 : 0;
+  job->state = record->state;
+  _core.retention.add({job->id(), *record->ended, record->result_bytes});
+  _core.logs.add(job->id(), job->log);
+  _core.jobs.erase(job->id());
+  ++_core.ended;  // before the end event: who sees that finds the job counted
+  lock.unlock();
+  job->log->append(EndEvent{record});
+  lock.lock();
+  --_core.not_announced;
+  _core.settled.notify_all();
+}
+
+void EndingThread::keep(Lock& lock, End end) {
+  const JobPtr job = end.job;
+  end.next_try = Clock::now() + retry_write;
+  const bool first = !std::exchange(job->refused, true);
+  _waiting.push_back(std::move(end));
+  if (first) {
+    const PhaseEvent phase{job->state, writing};
+    lock.unlock();
+    job->log->append(phase);
+    lock.lock();
+  }
+}
+
+void EndingThread::leave_to_next_start(Lock& /*held*/, const End& end) {
+  _core.running -= end.job->state == JobState::running ? 1 : 0;
+  end.job->state = JobState::queued;
+  --_core.not_announced;
+  _core.settled.notify_all();
+}
+
+bool EndingThread::next_waiting(Lock& lock) {
+  const auto now = Clock::now();
+  const auto due = std::find_if(_waiting.begin(), _waiting.end(), [&](const End& end) {
+    const bool cancelled =
+        end.job->why == Stop::cancelled && end.record.state != JobState::cancelled;
+    return _core.interrupting || cancelled || end.next_try <= now;
+  });
+  if (due == _waiting.end()) {
+    return false;
+  }
+  End end = std::move(*due);
+  _waiting.erase(due);
+  if (_core.interrupting) {
+    leave_to_next_start(lock, end);
+  } else {
+    write(lock, std::move(end));
+  }
+  return true;
+}
+
+void EndingThread::sweep(Lock& lock) {
+  _swept = true;
+  const Expiry expiry = _core.retention.due(store::Clock::now());
+  const bool uploads = Clock::now() >= _next_sweep;
+  if (uploads) {
+    _next_sweep = Clock::now() + sweep_every;
+  }
+  lock.unlock();
+  std::vector<std::string> expired, erased;
+  const auto gone = [](const auto& remove) {
+    try {
+      remove();
+      return true;
+    } catch (const Error& error) {
+      return error.reason() == Reason::not_found;  // erased by a client in this moment
+    }
+  };
+  for (const std::string& id : expiry.expire) {
+    if (gone([&] { _core.store.expire(id); })) {
+      expired.push_back(id);
+    }
+  }
+  for (const std::string& id : expiry.erase) {
+    if (gone([&] { _core.store.erase_job(id); })) {
+      erased.push_back(id);
+    }
+  }
+  if (uploads && _core.options.upload_ttl.count() > 0) {
+    gone([&] { _core.store.expire_uploads(store::Clock::now() - _core.options.upload_ttl); });
+  }
+  lock.lock();
+  for (const std::string& id : expired) {
+    _core.retention.expired(id);
+  }
+  _core.results_expired += expired.size();
+  for (const std::string& id : erased) {
+    _core.retention.remove(id);
+    _core.logs.remove(id);
+  }
+}
+
+}  // namespace anticrack::jobs

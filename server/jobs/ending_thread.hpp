@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The thread that writes the ends of jobs, and removes what is too old.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <thread>
+
+#include "jobs/engine_core.hpp"
+
+namespace anticrack::jobs {
+
+/// Takes the jobs that have nothing left to solve, writes record and result to the store and tells
+/// the watchers. What the store cannot take is kept and tried again every second, without holding
+/// up other jobs, until it is written, the job is cancelled (then it ends without a result) or the
+/// engine stops (then the next start runs it again). After ends and once a minute results expire
+/// and records go as jobs/retention.hpp says.
+class EndingThread {
+ public:
+  explicit EndingThread(EngineCore& core);
+  /// Joins the thread; EngineCore::quitting must be set.
+  ~EndingThread();
+  EndingThread(const EndingThread&) = delete;
+  EndingThread& operator=(const EndingThread&) = delete;
+
+ private:
+  using Lock = EngineCore::Lock;
+  using Clock = EngineCore::Clock;
+
+  /// A job's end on its way to the disk.
+  struct End {
+    JobPtr job;
+    store::JobRecord record;
+    std::shared_ptr<const store::Block> result;
+    Clock::time_point next_try{};
+  };
+
+  void work();
+  End conclude_job(Lock& lock, const JobPtr& job);
+  void write(Lock& lock, End end);
+  void announce(Lock& lock, const End& end);
+  void keep(Lock& lock, End end);
+  void leave_to_next_start(Lock& lock, const End& end);
+  bool next_waiting(Lock& lock);
+  void sweep(Lock& lock);
+
+  EngineCore& _core;
+  std::deque<End> _waiting;  ///< for the store; of this thread alone
+  bool _swept = false;       ///< since the last end
+  Clock::time_point _next_sweep{};
+  std::thread _thread;
+};
+
+}  // namespace anticrack::jobs

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/engine_core.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace anticrack::jobs {
+
+namespace {
+
+using errors::Error;
+using store::JobState;
+
+/// Meshes that are prepared ahead: each pins memory.
+constexpr std::size_t prepared_limit = 3;
+
+std::size_t index(Lane lane) {
+  return static_cast<std::size_t>(lane);
+}
+
+}  // namespace
+
+EngineCore::EngineCore(EngineOptions engine_options, store::Store& records,
+                       meshes::MeshCatalogue& mesh_catalogue)
+    : options(std::move(engine_options)),
+      store(records),
+      catalogue(mesh_catalogue),
+      schedule(options.ageing, prepared_limit),
+      admission({static_cast<std::size_t>(std::max(0, options.max_queued_jobs)),
+                 static_cast<std::uint64_t>(std::max(0, options.max_queued_cases)),
+                 options.max_queued_bytes}),
+      retention({static_cast<std::size_t>(std::max(0, options.max_kept_jobs)), options.result_ttl,
+                 options.result_budget}),
+      logs(options.max_log_bytes) {}
+
+std::optional<PhaseEvent> EngineCore::add(const JobPtr& job) {
+  std::shared_ptr<MeshWork>& mesh = meshes[job->spec->mesh];
+  if (!mesh) {
+    mesh = std::make_shared<MeshWork>(job->spec->mesh);
+  }
+  jobs.emplace(job->id(), job);
+  numbers.emplace(job->number, job);
+  ++live;
+  mesh->jobs.emplace(job->number, job);
+  mesh->waiting[index(job->lane)] += job->cases.size();
+  offer(job);
+  if (mesh->phase.empty()) {
+    return std::nullopt;
+  }
+  job->state = JobState::waiting_for_mesh;
+  add_step(job->timeline, job->state, mesh->phase);
+  return PhaseEvent{job->state, mesh->phase};
+}
+
+void EngineCore::offer(const JobPtr& job) {
+  schedule.add({job->number, job->spec->mesh, job->lane, job->spec->priority, job->since});
+  preparers.notify_one();
+  solvers.notify_all();
+}
+
+void EngineCore::settle(const JobPtr& job) {
+  if (job->ending || job->active > 0 || job->next_case < job->cases.size()) {
+    return;
+  }
+  job->ending = true;
+  leave(job);
+  --live;
+  if (job->why == Stop::interrupted) {
+    running -= job->state == JobState::running ? 1 : 0;
+    job->state = JobState::queued;
+    job->mesh_operator.reset();
+  } else {
+    ++not_announced;
+    to_end.push_back(job);
+    ending.notify_one();
+  }
+  settled.notify_all();
+}
+
+void EngineCore::leave(const JobPtr& job) {
+  const auto unsolved = static_cast<std::uint64_t>(
+      std::count_if(job->cases.begin(), job->cases.end(),
+                    [](const LiveCase& live_case) { return !live_case.record; }));
+  admission.cases_ended(job->spec->mesh, unsolved);
+  admission.ended(job->spec_bytes);
+  if (job->state != JobState::running) {
+    admission.started();
+  }
+  deadlines.clear(job->number);
+  numbers.erase(job->number);
+  const std::shared_ptr<MeshWork> mesh = meshes.at(job->spec->mesh);
+  mesh->jobs.erase(job->number);
+  release(mesh);
+}
+
+void EngineCore::release(const std::shared_ptr<MeshWork>& mesh) {
+  if (!mesh->jobs.empty() || mesh->threads > 0 || !mesh->blocks.empty() || mesh->preparing ||
+      mesh->looking) {
+    return;
+  }
+  schedule.let_go(mesh->id);
+  meshes.erase(mesh->id);
+}
+
+void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
+  if (cases.empty()) {
+    return;
+  }
+  for (EndedCase& ended_case : cases) {
+    LiveJob& job = *ended_case.task.job;
+    if (ended_case.outcome.solved && job.result_bytes > options.max_result_bytes) {
+      ended_case.outcome = refused_case(ended_case.task, options.max_result_bytes);
+    }
+    job.result_bytes += ended_case.outcome.solved ? bytes_of(*ended_case.outcome.solved) : 0;
+  }
+  lock.unlock();
+  for (const EndedCase& ended_case : cases) {
+    ended_case.task.job->log->append(
+        CaseEvent{static_cast<std::int32_t>(ended_case.task.index), ended_case.outcome.record});
+  }
+  lock.lock();
+  for (EndedCase& ended_case : cases) {
+    const JobPtr& job = ended_case.task.job;
+    LiveCase& live_case = job->cases[ended_case.task.index];
+    live_case.running = false;
+    live_case.record = std::move(ended_case.outcome.record);
+    live_case.solved = std::move(ended_case.outcome.solved);
+    --job->active;
+    ++cases_ended;
+    admission.cases_ended(job->spec->mesh, 1);
+    settle(job);
+  }
+}
+
+std::vector<EndedCase> EngineCore::take_stopped(MeshWork& mesh) {
+  std::vector<EndedCase> stopped;
+  for (const std::shared_ptr<BlockRun>& block : mesh.blocks) {
+    if (!block->iterating) {
+      for (const Task& task : block->abandon_stopped()) {
+        stopped.push_back({task, cancelled_case(task)});
+      }
+    }
+  }
+  std::erase_if(mesh.prepared, [&](const PreparedCase& prepared) {
+    const LiveJob& job = *prepared.task.job;
+    if (job.why == Stop::none) {
+      return false;
+    }
+    schedule.unpark(mesh.id, Lane::active_set, job.spec->priority);
+    stopped.push_back({prepared.task, cancelled_case(prepared.task)});
+    return true;
+  });
+  return stopped;
+}
+
+void EngineCore::stop(const JobPtr& job, Stop why, const std::optional<Error>& failure) {
+  std::optional<std::stop_source> preparation;
+  std::vector<EndedCase> stopped;
+  Lock lock(mutex);
+  if (job->ending) {
+    if (job->refused && why == Stop::cancelled) {
+      job->why = why;
+      ending.notify_one();
+    }
+    return;
+  }
+  if (job->why != Stop::none) {
+    return;
+  }
+  job->why = why;
+  job->failure = failure;
+  schedule.remove(job->number);
+  const std::shared_ptr<MeshWork> mesh = meshes.at(job->spec->mesh);
+  mesh->waiting[index(job->lane)] -= job->cases.size() - job->next_case;
+  job->next_case = job->cases.size();
+  stopped = take_stopped(*mesh);
+  settle(job);
+  if (mesh->preparing && mesh->jobs.empty()) {
+    preparation = mesh->preparing;
+  }
+  lock.unlock();
+  job->stop.request_stop();
+  if (preparation) {
+    preparation->request_stop();
+  }
+  lock.lock();
+  deliver(lock, std::move(stopped));
+}
+
+}  // namespace anticrack::jobs

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the engine's threads share: its jobs, where each stands, and the one mutex.
+//
+// A job goes this way: the schedule (its load cases wait) -> solver threads (blocks, prepared
+// cases) -> `to_end`, the ending thread's. LiveJob::active counts its load cases between the first
+// and the last step. The classes that own threads are SolverPool, PreparationPool, EndingThread and
+// TimeLimits; each works on this with the mutex, and does what takes long without it.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "errors/errors.hpp"
+#include "jobs/admission.hpp"
+#include "jobs/block_run.hpp"
+#include "jobs/deadlines.hpp"
+#include "jobs/ended_logs.hpp"
+#include "jobs/job_engine.hpp"
+#include "jobs/live_job.hpp"
+#include "jobs/retention.hpp"
+#include "jobs/schedule.hpp"
+
+namespace anticrack::jobs {
+
+/// A load case condensed for the active set, which any thread may solve.
+struct PreparedCase {
+  Task task;
+  operators::PreparedLoad load;
+};
+
+/// A mesh that jobs use.
+struct MeshWork {
+  explicit MeshWork(std::string mesh) : id(std::move(mesh)) {}
+
+  const std::string id;
+  std::map<std::uint64_t, JobPtr> jobs;  ///< that wait or run, by number
+  std::shared_ptr<const operators::MeshOperator> mesh_operator;
+  std::optional<std::stop_source> preparing;
+  bool looking = false;                             ///< a solver thread asks the catalogue for it
+  std::string phase;                                ///< of its preparation, told to the jobs
+  int threads = 0;                                  ///< that have a turn on it
+  std::array<std::uint64_t, lane_count> waiting{};  ///< load cases that nobody has taken
+  std::vector<std::shared_ptr<BlockRun>> blocks;    ///< all, those put down included
+  std::array<std::deque<std::shared_ptr<BlockRun>>, lane_count> parked;  ///< put down
+  std::deque<PreparedCase> prepared;
+};
+
+/// The mutex guards everything but the constants and `iterations`. It is never held over I/O, a
+/// solve, an event (listeners may come back to the engine) or a stop request.
+class EngineCore {
+ public:
+  using Lock = std::unique_lock<std::mutex>;
+  using Clock = std::chrono::steady_clock;
+
+  EngineCore(EngineOptions engine_options, store::Store& records, meshes::MeshCatalogue& meshes);
+
+  const EngineOptions options;
+  store::Store& store;
+  meshes::MeshCatalogue& catalogue;
+  std::atomic<std::uint64_t> iterations{0};
+
+  mutable std::mutex mutex;
+  std::condition_variable solvers, preparers, ending, limits;  ///< work for each kind of thread
+  std::condition_variable settled;                             ///< fewer jobs live or end
+  bool draining = false;                                       ///< no job starts any more
+  bool interrupting = false;  ///< what the store does not take at once is left to the next start
+  bool quitting = false;
+  int idle_solvers = 0;
+
+  Schedule schedule;
+  Admission admission;
+  Deadlines deadlines;
+  Retention retention;
+  EndedLogs logs;
+  std::unordered_map<std::string, JobPtr> jobs;  ///< that have not ended, by id
+  std::unordered_map<std::uint64_t, JobPtr> numbers;
+  std::unordered_map<std::string, std::shared_ptr<MeshWork>> meshes;
+  std::deque<JobPtr> to_end;
+
+  std::uint64_t last_number = 0;
+  std::uint64_t created = 0;
+  std::uint64_t ended = 0;
+  std::uint64_t cases_ended = 0;
+  std::uint64_t results_expired = 0;
+  int live = 0;           ///< jobs that are not in the ending thread's hands
+  int not_announced = 0;  ///< jobs in its hands
+  int running = 0;        ///< jobs that started and have not ended
+  int columns = 0;        ///< load cases on solver threads
+
+  // With the lock held:
+
+  /// Takes in a job that the store has; counted by `admission` already. Its first phase is returned
+  /// where its mesh is being prepared: to be told without the lock.
+  std::optional<PhaseEvent> add(const JobPtr& job);
+  /// Puts a job's waiting cases into the schedule.
+  void offer(const JobPtr& job);
+  /// To be called whenever a job has lost a case or is to stop: hands it on when nothing is left.
+  void settle(const JobPtr& job);
+  /// Lets go of the mesh's operator where nothing needs it.
+  void release(const std::shared_ptr<MeshWork>& mesh);
+  /// Tells of the cases and counts them as ended. Lets go of the lock meanwhile.
+  void deliver(Lock& lock, std::vector<EndedCase> cases);
+  /// The jobs that `wanted` says yes to.
+  template <class Wanted>
+  std::vector<JobPtr> select(const Wanted& wanted) const {
+    std::vector<JobPtr> selected;
+    for (const auto& [id, job] : jobs) {
+      if (wanted(*job)) {
+        selected.push_back(job);
+      }
+    }
+    return selected;
+  }
+
+  // Without the lock:
+
+  /// Stops a job wherever it is. The first reason counts; one that only waits for the disk can be
+  /// cancelled.
+  void stop(const JobPtr& job, Stop why, const std::optional<errors::Error>& failure = {});
+
+ private:
+  /// Load cases of stopped jobs that no thread iterates: put down, or prepared.
+  std::vector<EndedCase> take_stopped(MeshWork& mesh);
+  void leave(const JobPtr& job);
+};
+
+}  // namespace anticrack::jobs

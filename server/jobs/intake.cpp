@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/intake.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <random>
+#include <utility>
+
+#include "errors/errors.hpp"
+#include "jobs/check.hpp"
+#include "jobs/job_start.hpp"
+
+namespace anticrack::jobs {
+
+namespace {
+
+using errors::Error;
+using errors::Reason;
+using store::JobRecord;
+using store::JobState;
+
+/// Unique across restarts as well, so it cannot be a counter.
+std::string new_id() {
+  std::random_device random;
+  std::string id;
+  for (int i = 0; i < 2; ++i) {
+    char digits[9];
+    std::snprintf(digits, sizeof digits, "%08x", random());
+    id += digits;
+  }
+  return id;
+}
+
+JobRecord new_record(const Submission& submission) {
+  JobRecord record;
+  record.id = new_id();
+  record.owner = submission.owner;
+  record.request_id = submission.request_id;
+  record.spec = submission.spec;
+  record.created = store::Clock::now();
+  record.cases.resize(submission.spec.loads.size());
+  record.timeline.push_back({record.created, JobState::queued, {}});
+  return record;
+}
+
+std::shared_ptr<void> use(EngineCore& core, const std::string& mesh) {
+  try {
+    return core.catalogue.use(mesh);
+  } catch (Error& error) {
+    error.at("mesh");
+    throw;
+  }
+}
+
+/// A place in the queue, given back unless the job takes it.
+class Place {
+ public:
+  /// Throws errors::Error (draining, limit_exceeded, busy).
+  Place(EngineCore& core, const store::JobSpec& spec)
+      : _core(core), _mesh(spec.mesh), _cases(spec.loads.size()), _bytes(bytes_of(spec)) {
+    const std::lock_guard lock(core.mutex);
+    if (core.draining) {
+      throw Error(Reason::draining, "the server is stopping: submit to another one");
+    }
+    core.admission.check(_mesh, _cases, _bytes);
+    core.admission.add(_mesh, _cases, _bytes);
+  }
+  ~Place() {
+    if (!_taken) {
+      const std::lock_guard lock(_core.mutex);
+      _core.admission.started();
+      _core.admission.cases_ended(_mesh, _cases);
+      _core.admission.ended(_bytes);
+    }
+  }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+
+  void take() noexcept { _taken = true; }
+
+ private:
+  EngineCore& _core;
+  const std::string _mesh;
+  const std::uint64_t _cases;
+  const std::uint64_t _bytes;
+  bool _taken = false;
+};
+
+/// With the lock held.
+std::optional<PhaseEvent> queue(EngineCore& core, const JobPtr& job,
+                                EngineCore::Clock::time_point deadline) {
+  core.deadlines.set(job->number, Due::queue_time, deadline);
+  core.limits.notify_one();
+  return core.add(job);
+}
+
+}  // namespace
+
+TakenIn take_in(EngineCore& core, const Submission& submission) {
+  check(submission.spec, core.options);
+  const JobRecord record = new_record(submission);
+  std::shared_ptr<void> mesh_use;
+  std::optional<Place> place;
+  std::optional<Error> refusal;
+  try {
+    mesh_use = use(core, record.spec.mesh);
+    require_arrays(record.spec.loads, core.store, record.owner);
+    place.emplace(core, record.spec);
+  } catch (const Error& error) {
+    if (record.request_id.empty()) {
+      throw;
+    }
+    refusal = error;  // of a new job; the same request again is answered nevertheless
+  }
+  JobRecord stored = core.store.create(record, fingerprint(record.spec));
+  if (stored.id != record.id) {
+    return {std::move(stored), false};
+  }
+  if (refusal) {
+    core.store.erase_job(record.id);
+    throw Error(*refusal);
+  }
+  std::optional<PhaseEvent> phase;
+  std::shared_ptr<EventLog> log;
+  {
+    const std::lock_guard lock(core.mutex);
+    ++core.created;
+    if (core.draining) {
+      return {std::move(stored), true};  // kept for the next start
+    }
+    auto job = std::make_shared<LiveJob>(++core.last_number, record, core.options.event_log_bytes,
+                                         std::move(mesh_use));
+    place->take();
+    log = job->log;
+    phase = queue(core, job, job->since + queue_limit(*job, core.options));
+  }
+  if (phase) {
+    log->append(std::move(*phase));
+  }
+  return {std::move(stored), true};
+}
+
+void recover(EngineCore& core) {
+  for (store::EndedJob& job : core.store.ended()) {
+    core.retention.add(std::move(job));
+  }
+  for (JobRecord& record : core.store.unfinished()) {
+    if (record.state == JobState::running) {
+      ++record.attempt;
+    }
+    const bool waits_since_it_was_made = !record.started;
+    record.state = JobState::queued;
+    record.started.reset();
+    record.cases.assign(record.spec.loads.size(), {});
+    add_step(record.timeline, JobState::queued, "the server was started");
+    std::shared_ptr<void> mesh_use;
+    std::optional<Error> gone;
+    try {
+      core.store.put(record);
+    } catch (const Error&) {
+      // A full disk: its start will write the same.
+    }
+    try {
+      mesh_use = use(core, record.spec.mesh);
+    } catch (const Error& error) {
+      gone = mesh_failed(record.spec.mesh, error);
+    }
+    const auto waited = waits_since_it_was_made ? store::Clock::now() - record.created
+                                                : store::Clock::duration::zero();
+    const auto job = std::make_shared<LiveJob>(++core.last_number, std::move(record),
+                                               core.options.event_log_bytes, std::move(mesh_use));
+    {
+      const std::lock_guard lock(core.mutex);
+      core.admission.add(job->spec->mesh, job->cases.size(), job->spec_bytes);
+      queue(core, job,
+            job->since + queue_limit(*job, core.options) -
+                std::chrono::duration_cast<EngineCore::Clock::duration>(waited));
+    }
+    if (gone) {
+      core.stop(job, Stop::failed, gone);
+    }
+  }
+}
+
+}  // namespace anticrack::jobs

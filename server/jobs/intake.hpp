@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How jobs come in: from clients, and from the last start of the server.
+#pragma once
+
+#include "jobs/engine_core.hpp"
+
+namespace anticrack::jobs {
+
+struct TakenIn {
+  store::JobRecord record;
+  bool is_new = false;  ///< else made by the same request before
+};
+
+/// JobEngine::submit, without the lock.
+TakenIn take_in(EngineCore& core, const Submission& submission);
+
+/// Queues what the store has unfinished, and tells retention of what has ended. To be called once,
+/// before there are threads.
+void recover(EngineCore& core);
+
+}  // namespace anticrack::jobs

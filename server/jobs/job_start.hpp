@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include "jobs/engine_core.hpp"
+
+namespace anticrack::jobs {
+
+/// Starts a job that waits in the schedule: RUNNING on the disk first, so that after a crash it is
+/// the next attempt, then in its log. A start the store does not take is tried again in a while.
+/// Lets go of the lock meanwhile, and has the job out of the schedule.
+void start_job(EngineCore& core, EngineCore::Lock& lock,
+               std::shared_ptr<const operators::MeshOperator> mesh_operator, const JobPtr& job);
+
+/// The longest a job may wait, or run: its own limit, or the server's.
+std::chrono::milliseconds queue_limit(const LiveJob& job, const EngineOptions& options);
+std::chrono::milliseconds run_limit(const LiveJob& job, const EngineOptions& options);
+
+}  // namespace anticrack::jobs

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/preparation_pool.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include "errors/errors.hpp"
+
+namespace anticrack::jobs {
+
+namespace {
+
+using errors::Error;
+using errors::Reason;
+using store::JobState;
+using store::MeshState;
+
+constexpr int preparation_threads = 2;
+constexpr std::chrono::milliseconds shortest_retry{100};
+constexpr const char* waiting_for_memory = "waiting for memory to factorise";
+
+std::string phase_of(MeshState state) {
+  switch (state) {
+    case MeshState::pending:
+      return "waiting for the mesher";
+    case MeshState::meshing:
+      return "meshing";
+    default:
+      return "factorising";
+  }
+}
+
+}  // namespace
+
+PreparationPool::PreparationPool(EngineCore& core) : _core(core) {
+  for (int i = 0; i < preparation_threads; ++i) {
+    _threads.emplace_back([this] { work(); });
+  }
+}
+
+PreparationPool::~PreparationPool() {
+  for (std::thread& thread : _threads) {
+    thread.join();
+  }
+}
+
+void PreparationPool::work() {
+  Lock lock(_core.mutex);
+  while (!_core.quitting) {
+    const auto now = EngineCore::Clock::now();
+    if (const auto mesh = _core.schedule.next_to_prepare(now)) {
+      prepare(lock, Mesh(_core.meshes.at(*mesh)));
+    } else if (const auto retry = _core.schedule.next_retry(now)) {
+      _core.preparers.wait_until(lock, *retry);
+    } else {
+      _core.preparers.wait(lock);
+    }
+  }
+}
+
+void PreparationPool::tell(MeshWork& mesh, const std::string& phase) {
+  std::vector<std::shared_ptr<EventLog>> logs;
+  {
+    const std::lock_guard lock(_core.mutex);
+    if (mesh.phase == phase) {
+      return;
+    }
+    mesh.phase = phase;
+    for (const auto& [number, job] : mesh.jobs) {
+      job->state = JobState::waiting_for_mesh;
+      add_step(job->timeline, job->state, phase);
+      logs.push_back(job->log);
+    }
+  }
+  for (const std::shared_ptr<EventLog>& log : logs) {
+    log->append(PhaseEvent{JobState::waiting_for_mesh, phase});
+  }
+}
+
+void PreparationPool::prepare(Lock& lock, const Mesh& mesh) {
+  mesh->preparing.emplace();
+  const std::stop_token stop = mesh->preparing->get_token();
+  // A mesh that waits for memory is tried every second, perhaps for hours: that is told once.
+  const bool retry = mesh->phase == waiting_for_memory;
+  lock.unlock();
+  std::shared_ptr<const operators::MeshOperator> mesh_operator;
+  std::optional<Error> failure;
+  try {
+    mesh_operator = _core.catalogue.prepare(
+        mesh->id,
+        [&](MeshState state) {
+          if (!retry) {
+            tell(*mesh, phase_of(state));
+          }
+        },
+        stop);
+  } catch (const Error& error) {
+    failure = error;
+  } catch (const std::exception& error) {
+    failure = Error(Reason::internal, error.what());
+  }
+  const bool busy = failure && failure->reason() == Reason::busy;
+  const bool stopped = failure && failure->reason() == Reason::cancelled;
+  if (busy) {
+    tell(*mesh, waiting_for_memory);
+  }
+
+  lock.lock();
+  mesh->preparing.reset();
+  std::vector<JobPtr> failed;
+  if (busy) {
+    const auto delay = std::max(shortest_retry, failure->retry_delay());
+    _core.schedule.again(mesh->id, EngineCore::Clock::now() + delay);
+  } else {
+    mesh->phase.clear();
+    if (mesh_operator) {
+      mesh->mesh_operator = std::move(mesh_operator);
+      _core.schedule.prepared(mesh->id);
+      _core.solvers.notify_all();
+    } else if (stopped) {
+      _core.schedule.let_go(mesh->id);
+    } else {
+      // Not at once, for jobs that come while the others are being failed.
+      _core.schedule.again(mesh->id, EngineCore::Clock::now() + shortest_retry);
+      for (const auto& [number, job] : mesh->jobs) {
+        failed.push_back(job);
+      }
+    }
+  }
+  _core.release(mesh);
+  _core.preparers.notify_all();
+  if (!failed.empty()) {
+    lock.unlock();
+    for (const JobPtr& job : failed) {
+      _core.stop(job, Stop::failed, mesh_failed(mesh->id, *failure));
+    }
+    lock.lock();
+  }
+}
+
+}  // namespace anticrack::jobs

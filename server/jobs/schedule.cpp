@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/schedule.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace anticrack::jobs {
+
+namespace {
+
+constexpr int nothing = std::numeric_limits<int>::max();
+
+std::size_t class_of(store::Priority priority) {
+  return static_cast<std::size_t>(priority);
+}
+
+}  // namespace
+
+bool Schedule::Work::empty() const {
+  return std::all_of(jobs.begin(), jobs.end(),
+                     [](const auto& waiting) { return waiting.empty(); }) &&
+         std::all_of(parked.begin(), parked.end(), [](int count) { return count == 0; });
+}
+
+bool Schedule::Mesh::empty() const {
+  return std::all_of(lanes.begin(), lanes.end(), [](const Work& work) { return work.empty(); });
+}
+
+int Schedule::urgency(std::size_t priority, Time since, Time now) const {
+  const auto waited = std::chrono::duration_cast<std::chrono::milliseconds>(now - since);
+  const auto aged = _ageing.count() > 0 ? waited / _ageing : std::int64_t{0};
+  return static_cast<int>(std::max<std::int64_t>(0, static_cast<std::int64_t>(priority) - aged));
+}
+
+int Schedule::urgency(const Mesh& mesh, const Work& work, Time now) const {
+  int best = nothing;
+  for (std::size_t priority = 0; priority < work.jobs.size(); ++priority) {
+    const auto& jobs = work.jobs[priority];
+    if (work.parked[priority] > 0) {
+      best = std::min(best, urgency(priority, mesh.served, now));
+    }
+    if (!jobs.empty()) {
+      best = std::min(best, urgency(priority, std::max(jobs.begin()->second, mesh.served), now));
+    }
+  }
+  return best;
+}
+
+void Schedule::add(const Waiting& job) {
+  _jobs[job.number] = job;
+  Mesh& mesh = _meshes[job.mesh];
+  mesh.lanes[static_cast<std::size_t>(job.lane)].jobs[class_of(job.priority)].emplace(job.number,
+                                                                                      job.since);
+  if (mesh.stage == Stage::absent) {
+    mesh.stage = Stage::unknown;  // it may have come meanwhile
+  }
+}
+
+void Schedule::remove(std::uint64_t number) {
+  const auto found = _jobs.find(number);
+  if (found == _jobs.end()) {
+    return;
+  }
+  const Waiting job = found->second;
+  _jobs.erase(found);
+  _meshes.at(job.mesh).lanes[static_cast<std::size_t>(job.lane)].jobs[class_of(job.priority)].erase(
+      number);
+  forget_if_empty(job.mesh);
+}
+
+std::optional<std::uint64_t> Schedule::next_job(const std::string& mesh, Lane lane,
+                                                Time now) const {
+  const auto found = _meshes.find(mesh);
+  if (found == _meshes.end()) {
+    return std::nullopt;
+  }
+  const Jobs& jobs = found->second.lanes[static_cast<std::size_t>(lane)].jobs;
+  std::optional<std::pair<int, std::uint64_t>> best;
+  for (std::size_t priority = 0; priority < jobs.size(); ++priority) {
+    if (jobs[priority].empty()) {
+      continue;
+    }
+    const auto& [number, since] = *jobs[priority].begin();
+    const std::pair<int, std::uint64_t> key{urgency(priority, since, now), number};
+    best = best ? std::min(*best, key) : key;
+  }
+  return best ? std::optional(best->second) : std::nullopt;
+}
+
+void Schedule::park(const std::string& mesh, Lane lane, store::Priority priority) {
+  ++_meshes[mesh].lanes[static_cast<std::size_t>(lane)].parked[class_of(priority)];
+}
+
+void Schedule::unpark(const std::string& mesh, Lane lane, store::Priority priority) {
+  --_meshes.at(mesh).lanes[static_cast<std::size_t>(lane)].parked[class_of(priority)];
+}
+
+std::size_t Schedule::unused_meshes() const {
+  return static_cast<std::size_t>(
+      std::count_if(_meshes.begin(), _meshes.end(), [](const auto& entry) {
+        return entry.second.stage == Stage::preparing ||
+               (entry.second.stage == Stage::ready && entry.second.unused);
+      }));
+}
+
+std::optional<std::string> Schedule::next_to_prepare(Time now) {
+  if (unused_meshes() >= _prepared_limit) {
+    return std::nullopt;
+  }
+  Mesh* best = nullptr;
+  const std::string* name = nullptr;
+  std::pair<int, std::uint64_t> best_key;
+  for (auto& [id, mesh] : _meshes) {
+    const bool waits = mesh.stage == Stage::unknown || mesh.stage == Stage::absent;
+    if (!waits || mesh.not_before > now) {
+      continue;
+    }
+    for (const Work& work : mesh.lanes) {
+      for (std::size_t priority = 0; priority < work.jobs.size(); ++priority) {
+        if (work.jobs[priority].empty()) {
+          continue;
+        }
+        const auto& [number, since] = *work.jobs[priority].begin();
+        const std::pair<int, std::uint64_t> key{urgency(priority, since, now), number};
+        if (best == nullptr || key < best_key) {
+          best = &mesh;
+          name = &id;
+          best_key = key;
+        }
+      }
+    }
+  }
+  if (best == nullptr) {
+    return std::nullopt;
+  }
+  best->stage = Stage::preparing;
+  return *name;
+}
+
+void Schedule::prepared(const std::string& mesh) {
+  Mesh& entry = _meshes[mesh];
+  entry.unused = entry.stage == Stage::preparing;
+  entry.stage = Stage::ready;
+}
+
+void Schedule::again(const std::string& mesh, Time not_before) {
+  Mesh& entry = _meshes[mesh];
+  entry.stage = Stage::absent;
+  entry.not_before = not_before;
+  forget_if_empty(mesh);
+}
+
+void Schedule::absent(const std::string& mesh) {
+  _meshes[mesh].stage = Stage::absent;
+  forget_if_empty(mesh);
+}
+
+void Schedule::let_go(const std::string& mesh) {
+  _meshes[mesh].stage = Stage::unknown;
+  forget_if_empty(mesh);
+}
+
+void Schedule::forget_if_empty(const std::string& mesh) {
+  const auto found = _meshes.find(mesh);
+  if (found == _meshes.end() || !found->second.empty()) {
+    return;
+  }
+  const Stage stage = found->second.stage;
+  if (stage == Stage::unknown || stage == Stage::absent) {
+    _meshes.erase(found);
+  }
+}
+
+std::optional<Schedule::Time> Schedule::next_retry(Time now) const {
+  std::optional<Time> earliest;
+  for (const auto& [id, mesh] : _meshes) {
+    if (mesh.not_before > now && (!earliest || mesh.not_before < *earliest)) {
+      earliest = mesh.not_before;
+    }
+  }
+  return earliest;
+}
+
+std::optional<Turn> Schedule::next_turn(Time now) {
+  std::tuple<int, std::uint64_t, std::uint64_t> best_key;
+  std::optional<Turn> best;
+  for (const auto& [id, mesh] : _meshes) {
+    if (!mesh.has_turns()) {
+      continue;
+    }
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const Work& work = mesh.lanes[lane];
+      const int urgent = urgency(mesh, work, now);
+      const std::tuple key{urgent, mesh.last_turn, work.last_turn};
+      if (urgent != nothing && (!best || key < best_key)) {
+        best = Turn{id, static_cast<Lane>(lane), mesh.stage == Stage::unknown};
+        best_key = key;
+      }
+    }
+  }
+  if (best) {
+    Mesh& mesh = _meshes.at(best->mesh);
+    if (best->probe) {
+      mesh.stage = Stage::looking;
+    } else {
+      mesh.unused = false;
+      mesh.served = now;
+      mesh.last_turn = mesh.lanes[static_cast<std::size_t>(best->lane)].last_turn = ++_turns;
+    }
+  }
+  return best;
+}
+
+void Schedule::served(const std::string& mesh, Time now) {
+  const auto found = _meshes.find(mesh);
+  if (found != _meshes.end()) {
+    found->second.served = now;
+  }
+}
+
+bool Schedule::others(const std::string& mesh, Lane lane) const {
+  for (const auto& [id, entry] : _meshes) {
+    if (!entry.has_turns()) {
+      continue;
+    }
+    for (std::size_t i = 0; i < lane_count; ++i) {
+      const Work& work = entry.lanes[i];
+      const bool own = id == mesh && static_cast<Lane>(i) == lane;
+      const bool there =
+          own ? std::any_of(work.parked.begin(), work.parked.end(), [](int n) { return n > 0; })
+              : !work.empty();
+      if (there) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace anticrack::jobs

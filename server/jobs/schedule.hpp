@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Who is next: the policy, without threads or locks.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_map>
+
+#include "store/records.hpp"
+
+namespace anticrack::jobs {
+
+/// Load cases that can run together: of one mesh and one lane.
+enum class Lane { active_set, lumped, consistent };
+constexpr std::size_t lane_count = 3;
+
+/// A job with load cases that nobody has taken.
+struct Waiting {
+  std::uint64_t number = 0;  ///< in the order of submission
+  std::string mesh;
+  Lane lane = Lane::active_set;
+  store::Priority priority = store::Priority::normal;
+  std::chrono::steady_clock::time_point since;
+};
+
+/// What a solver thread does next.
+struct Turn {
+  std::string mesh;
+  Lane lane = Lane::active_set;
+  /// The operator is not known here: it may be in memory, and nobody has looked. Answered by
+  /// `prepared` or `absent`.
+  bool probe = false;
+};
+
+/// Contract:
+/// 1. Urgency is the class of a job's priority, 0 the most urgent; waiting `ageing` long is worth
+///    one class, up to class 0. What waits for a turn on a mesh has waited since the mesh's last
+///    turn at most, so that many old jobs on one mesh are no more urgent than one on another.
+/// 2. Turns: the most urgent first; at equal urgency the mesh whose turn is longest ago, on it the
+///    lane whose turn is longest ago.
+/// 3. On a mesh and lane: the most urgent job, at equal urgency the oldest.
+/// 4. A job waits for its mesh without holding up another: only meshes that are ready, or that
+///    nobody has looked for, have turns.
+/// 5. One preparation at a time per mesh, the mesh of the most urgent job first; at most
+///    `prepared_limit` meshes are being prepared or are prepared and had no turn: each pins memory.
+/// Not thread-safe. Choosing is O(meshes), the rest O(log jobs).
+class Schedule {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  Schedule(std::chrono::milliseconds ageing, std::size_t prepared_limit)
+      : _ageing(ageing), _prepared_limit(prepared_limit) {}
+
+  void add(const Waiting& job);
+  void remove(std::uint64_t number);  ///< nothing to do is no error
+  /// The job whose load case is taken next.
+  std::optional<std::uint64_t> next_job(const std::string& mesh, Lane lane, Time now) const;
+
+  /// Work of a lane that was begun and put down: it is there to be taken up as well.
+  void park(const std::string& mesh, Lane lane, store::Priority priority);
+  void unpark(const std::string& mesh, Lane lane, store::Priority priority);
+
+  /// The mesh to prepare, which is `preparing` until `prepared`, `again` or `absent`.
+  std::optional<std::string> next_to_prepare(Time now);
+  void prepared(const std::string& mesh);
+  void again(const std::string& mesh, Time not_before);
+  void absent(const std::string& mesh);
+  /// The operator is let go: the mesh is to be prepared again for the next job.
+  void let_go(const std::string& mesh);
+  /// When the next mesh that was put back may be tried; empty when none is held back at `now`.
+  std::optional<Time> next_retry(Time now) const;
+
+  /// Takes a turn; empty when no mesh has any.
+  std::optional<Turn> next_turn(Time now);
+  /// The turn ended now.
+  void served(const std::string& mesh, Time now);
+  /// There is a turn for another mesh or lane, or work of this lane that was put down.
+  bool others(const std::string& mesh, Lane lane) const;
+
+ private:
+  /// By class and number: the first of each class is the one that waits longest.
+  using Jobs = std::array<std::map<std::uint64_t, Time>, 3>;
+
+  struct Work {
+    Jobs jobs;
+    std::array<int, 3> parked{};  ///< by class
+    std::uint64_t last_turn = 0;
+    bool empty() const;
+  };
+  enum class Stage { unknown, looking, absent, preparing, ready };
+  struct Mesh {
+    Stage stage = Stage::unknown;
+    bool unused = false;  ///< prepared, and had no turn
+    Time not_before{};
+    Time served{};
+    std::uint64_t last_turn = 0;
+    std::array<Work, lane_count> lanes;
+    bool empty() const;
+    bool has_turns() const { return stage == Stage::ready || stage == Stage::unknown; }
+  };
+
+  int urgency(std::size_t priority, Time since, Time now) const;
+  int urgency(const Mesh& mesh, const Work& work, Time now) const;
+  void forget_if_empty(const std::string& mesh);
+  std::size_t unused_meshes() const;
+
+  std::chrono::milliseconds _ageing;
+  std::size_t _prepared_limit;
+  std::uint64_t _turns = 0;
+  std::map<std::string, Mesh> _meshes;
+  std::unordered_map<std::uint64_t, Waiting> _jobs;
+};
+
+}  // namespace anticrack::jobs

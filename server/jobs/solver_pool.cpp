@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/solver_pool.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <utility>
+
+#include "jobs/condensing.hpp"
+#include "jobs/job_start.hpp"
+
+namespace anticrack::jobs {
+
+namespace {
+
+using Clock = EngineCore::Clock;
+
+std::size_t index(Lane lane) {
+  return static_cast<std::size_t>(lane);
+}
+
+contact::Mass mass_of(Lane lane) {
+  return lane == Lane::consistent ? contact::Mass::consistent : contact::Mass::lumped;
+}
+
+}  // namespace
+
+SolverPool::SolverPool(EngineCore& core) : _core(core) {
+  for (int i = 0; i < std::max(1, core.options.threads); ++i) {
+    _threads.emplace_back([this] { work(); });
+  }
+}
+
+SolverPool::~SolverPool() {
+  for (std::thread& thread : _threads) {
+    thread.join();
+  }
+}
+
+void SolverPool::work() {
+  Lock lock(_core.mutex);
+  while (!_core.quitting) {
+    const std::optional<Turn> turn = _core.schedule.next_turn(Clock::now());
+    if (!turn) {
+      ++_core.idle_solvers;
+      _core.solvers.wait(lock);
+      --_core.idle_solvers;
+      continue;
+    }
+    const Mesh mesh = _core.meshes.at(turn->mesh);
+    if (turn->probe) {
+      look_for(lock, mesh);
+      continue;
+    }
+    _core.preparers.notify_one();  // one mesh fewer is prepared ahead
+    ++mesh->threads;
+    if (turn->lane == Lane::active_set) {
+      solve_exactly(lock, mesh);
+    } else {
+      iterate(lock, mesh, turn->lane);
+    }
+    --mesh->threads;
+    _core.schedule.served(mesh->id, Clock::now());
+    _core.release(mesh);
+  }
+}
+
+void SolverPool::look_for(Lock& lock, const Mesh& mesh) {
+  mesh->looking = true;
+  lock.unlock();
+  std::shared_ptr<const operators::MeshOperator> found;
+  try {
+    found = _core.catalogue.find(mesh->id);
+  } catch (const std::exception&) {
+    found = nullptr;  // a preparation thread will hear what is wrong
+  }
+  lock.lock();
+  mesh->looking = false;
+  if (found) {
+    mesh->mesh_operator = std::move(found);
+    _core.schedule.prepared(mesh->id);
+    _core.solvers.notify_all();
+  } else {
+    _core.schedule.absent(mesh->id);
+    _core.preparers.notify_one();
+  }
+  _core.release(mesh);
+}
+
+bool SolverPool::turn_is_over(const MeshWork& mesh, Lane lane, Clock::time_point begin) const {
+  return Clock::now() - begin >= _core.options.turn && _core.schedule.others(mesh.id, lane);
+}
+
+void SolverPool::iterate(Lock& lock, const Mesh& mesh, Lane lane) {
+  const auto begin = Clock::now();
+  std::shared_ptr<BlockRun> block;
+  auto& parked = mesh->parked[index(lane)];
+  if (!parked.empty()) {
+    block = std::move(parked.front());
+    parked.pop_front();
+    _core.schedule.unpark(mesh->id, lane, block->parked_as);
+  }
+  for (;;) {
+    admit(lock, mesh, lane, block);
+    if (!block || block->columns() == 0) {
+      break;
+    }
+    _core.deliver(lock, step(lock, *block));
+    if (turn_is_over(*mesh, lane, begin)) {
+      block->parked_as = block->priority();
+      _core.schedule.park(mesh->id, lane, block->parked_as);
+      parked.push_back(std::move(block));
+      _core.solvers.notify_one();
+      return;
+    }
+  }
+  std::erase(mesh->blocks, block);
+}
+
+void SolverPool::admit(Lock& lock, const Mesh& mesh, Lane lane, std::shared_ptr<BlockRun>& block) {
+  const int room = block ? block->free() : std::max(1, _core.options.columns);
+  // A start waits for the disk: where columns wait meanwhile, one start at a time.
+  const int max_starts = block && block->columns() > 0 ? 1 : std::numeric_limits<int>::max();
+  const std::vector<Task> tasks = take(lock, mesh, lane, room, max_starts);
+  if (tasks.empty()) {
+    return;
+  }
+  _core.columns += static_cast<int>(tasks.size());
+  lock.unlock();
+  Condensed condensed;
+  try {
+    if (!block) {
+      block =
+          std::make_shared<BlockRun>(mesh->mesh_operator, mass_of(lane), room, _core.iterations);
+    }
+    condensed = condense(*mesh->mesh_operator, tasks, _core.store);
+  } catch (...) {  // the mesh has no block: none of its cases can be solved like this
+    for (const Task& task : tasks) {
+      condensed.ended.push_back({task, failed_case(task, std::current_exception())});
+    }
+  }
+  lock.lock();
+  _core.columns -= static_cast<int>(tasks.size());
+  if (!condensed.prepared.empty()) {
+    if (std::find(mesh->blocks.begin(), mesh->blocks.end(), block) == mesh->blocks.end()) {
+      mesh->blocks.push_back(block);
+    }
+    block->iterating = true;
+    lock.unlock();
+    for (PreparedCase& prepared : condensed.prepared) {
+      try {
+        block->add(prepared.task, std::move(prepared.load));
+      } catch (...) {
+        condensed.ended.push_back(
+            {prepared.task, failed_case(prepared.task, std::current_exception())});
+      }
+    }
+    lock.lock();
+    block->iterating = false;
+  }
+  _core.deliver(lock, std::move(condensed.ended));
+}
+
+std::vector<EndedCase> SolverPool::step(Lock& lock, BlockRun& block) {
+  std::vector<EndedCase> ended;
+  for (const Task& task : block.abandon_stopped()) {
+    ended.push_back({task, cancelled_case(task)});
+  }
+  const int columns = block.columns();
+  block.iterating = true;
+  _core.columns += columns;
+  lock.unlock();
+  for (EndedCase& ended_case : block.step()) {
+    ended.push_back(std::move(ended_case));
+  }
+  lock.lock();
+  _core.columns -= columns;
+  block.iterating = false;
+  return ended;
+}
+
+void SolverPool::solve_exactly(Lock& lock, const Mesh& mesh) {
+  const auto begin = Clock::now();
+  do {
+    if (mesh->prepared.empty()) {
+      const std::vector<Task> tasks =
+          take(lock, mesh, Lane::active_set, std::max(1, _core.options.columns),
+               std::numeric_limits<int>::max());
+      if (tasks.empty()) {
+        return;
+      }
+      _core.columns += static_cast<int>(tasks.size());
+      lock.unlock();
+      Condensed condensed = condense(*mesh->mesh_operator, tasks, _core.store);
+      lock.lock();
+      _core.columns -= static_cast<int>(tasks.size());
+      for (PreparedCase& prepared : condensed.prepared) {
+        if (prepared.task.job->why == Stop::none) {
+          _core.schedule.park(mesh->id, Lane::active_set, prepared.task.job->spec->priority);
+          mesh->prepared.push_back(std::move(prepared));
+        } else {
+          condensed.ended.push_back({prepared.task, cancelled_case(prepared.task)});
+        }
+      }
+      _core.solvers.notify_all();
+      _core.deliver(lock, std::move(condensed.ended));
+      continue;
+    }
+    const PreparedCase prepared = std::move(mesh->prepared.front());
+    mesh->prepared.pop_front();
+    _core.schedule.unpark(mesh->id, Lane::active_set, prepared.task.job->spec->priority);
+    ++_core.columns;
+    lock.unlock();
+    std::vector<EndedCase> ended;
+    ended.push_back(solve(prepared));
+    lock.lock();
+    --_core.columns;
+    _core.deliver(lock, std::move(ended));
+  } while (!turn_is_over(*mesh, Lane::active_set, begin));
+}
+
+EndedCase SolverPool::solve(const PreparedCase& prepared) {
+  const Task& task = prepared.task;
+  try {
+    const store::JobSpec& spec = *task.job->spec;
+    Recorder recorder(task, _core.iterations);
+    contact::Answer answer =
+        task.job->mesh_operator->solve(prepared.load, spec.solver, spec.fields, recorder);
+    return {task, solved_case(task, std::move(answer), recorder.take_history())};
+  } catch (...) {
+    return {task, failed_case(task, std::current_exception())};
+  }
+}
+
+std::vector<Task> SolverPool::take(Lock& lock, const Mesh& mesh, Lane lane, int room,
+                                   int max_starts) {
+  std::vector<Task> tasks;
+  std::vector<EndedCase> refused;
+  const std::uint64_t waiting = mesh->waiting[index(lane)];
+  const std::uint64_t shares = static_cast<std::uint64_t>(_core.idle_solvers) + 1;
+  const std::uint64_t wanted =
+      std::min(static_cast<std::uint64_t>(std::max(0, room)), (waiting + shares - 1) / shares);
+  while (tasks.size() < wanted) {
+    const auto next = _core.schedule.next_job(mesh->id, lane, Clock::now());
+    if (!next) {
+      break;
+    }
+    const JobPtr job = _core.numbers.at(*next);
+    if (job->state != store::JobState::running) {
+      if (max_starts-- == 0) {
+        break;
+      }
+      start_job(_core, lock, mesh->mesh_operator, job);
+      continue;
+    }
+    Task task{job, job->next_case++, Clock::now()};
+    --mesh->waiting[index(lane)];
+    ++job->active;
+    job->cases[task.index].running = true;
+    if (job->next_case == job->cases.size()) {
+      _core.schedule.remove(job->number);
+    }
+    if (job->result_bytes > _core.options.max_result_bytes) {
+      refused.push_back({task, refused_case(task, _core.options.max_result_bytes)});
+    } else {
+      tasks.push_back(std::move(task));
+    }
+  }
+  _core.deliver(lock, std::move(refused));
+  return tasks;
+}
+
+}  // namespace anticrack::jobs

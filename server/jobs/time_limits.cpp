@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/time_limits.hpp"
+
+#include <string>
+
+#include "errors/errors.hpp"
+#include "jobs/job_start.hpp"
+
+namespace anticrack::jobs {
+
+namespace {
+
+using errors::Error;
+using errors::Reason;
+
+std::string seconds(std::chrono::milliseconds time) {
+  const auto milliseconds = time.count();
+  return milliseconds % 1000 == 0 ? std::to_string(milliseconds / 1000) + " s"
+                                  : std::to_string(milliseconds) + " ms";
+}
+
+Error waited_too_long(std::chrono::milliseconds limit) {
+  return Error(Reason::timed_out, "the job waited " + seconds(limit) +
+                                      " without being started, as long as it may: submit it again "
+                                      "later, or with a longer queue time-out")
+      .at("queue_timeout");
+}
+
+Error ran_too_long(std::chrono::milliseconds limit) {
+  return Error(Reason::timed_out, "the job ran " + seconds(limit) +
+                                      ", as long as it may: split it, loosen its stopping rule, or "
+                                      "submit it with a longer run time-out")
+      .at("run_timeout");
+}
+
+}  // namespace
+
+TimeLimits::TimeLimits(EngineCore& core) : _core(core), _thread([this] { work(); }) {}
+
+TimeLimits::~TimeLimits() {
+  _thread.join();
+}
+
+void TimeLimits::work() {
+  EngineCore::Lock lock(_core.mutex);
+  while (!_core.quitting) {
+    const auto due = _core.deadlines.take(EngineCore::Clock::now());
+    for (const Deadlines::Entry& entry : due) {
+      act(lock, entry);
+    }
+    if (!due.empty()) {
+      continue;
+    }
+    if (const auto next = _core.deadlines.next()) {
+      _core.limits.wait_until(lock, *next);
+    } else {
+      _core.limits.wait(lock);
+    }
+  }
+}
+
+void TimeLimits::act(EngineCore::Lock& lock, const Deadlines::Entry& entry) {
+  const auto found = _core.numbers.find(entry.first);
+  if (found == _core.numbers.end()) {
+    return;  // it ended while another was dealt with
+  }
+  const JobPtr job = found->second;
+  if (entry.second == Due::start) {
+    if (job->why == Stop::none) {
+      _core.offer(job);
+    }
+    return;
+  }
+  const Error error = entry.second == Due::queue_time
+                          ? waited_too_long(queue_limit(*job, _core.options))
+                          : ran_too_long(run_limit(*job, _core.options));
+  lock.unlock();
+  _core.stop(job, Stop::failed, error);
+  lock.lock();
+}
+
+}  // namespace anticrack::jobs
