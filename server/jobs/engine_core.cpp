@@ -33,7 +33,7 @@ EngineCore::EngineCore(EngineOptions engine_options, store::Store& records,
                  options.result_budget}),
       logs(options.max_log_bytes) {}
 
-std::optional<PhaseEvent> EngineCore::add(const JobPtr& job) {
+void EngineCore::add(const JobPtr& job) {
   std::shared_ptr<MeshWork>& mesh = meshes[job->spec->mesh];
   if (!mesh) {
     mesh = std::make_shared<MeshWork>(job->spec->mesh);
@@ -44,12 +44,11 @@ std::optional<PhaseEvent> EngineCore::add(const JobPtr& job) {
   mesh->jobs.emplace(job->number, job);
   mesh->waiting[index(job->lane)] += job->cases.size();
   offer(job);
-  if (mesh->phase.empty()) {
-    return std::nullopt;
+  if (!mesh->phase.empty()) {
+    job->state = JobState::waiting_for_mesh;
+    add_step(job->timeline, job->state, mesh->phase);
+    job->log->append(PhaseEvent{job->state, mesh->phase});  // nobody listens yet
   }
-  job->state = JobState::waiting_for_mesh;
-  add_step(job->timeline, job->state, mesh->phase);
-  return PhaseEvent{job->state, mesh->phase};
 }
 
 void EngineCore::offer(const JobPtr& job) {
@@ -95,7 +94,7 @@ void EngineCore::leave(const JobPtr& job) {
 
 void EngineCore::release(const std::shared_ptr<MeshWork>& mesh) {
   if (!mesh->jobs.empty() || mesh->threads > 0 || !mesh->blocks.empty() || mesh->preparing ||
-      mesh->looking) {
+      mesh->looking || !meshes.contains(mesh->id) || meshes.at(mesh->id) != mesh) {
     return;
   }
   schedule.let_go(mesh->id);

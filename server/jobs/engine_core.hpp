@@ -101,9 +101,8 @@ class EngineCore {
 
   // With the lock held:
 
-  /// Takes in a job that the store has; counted by `admission` already. Its first phase is returned
-  /// where its mesh is being prepared: to be told without the lock.
-  std::optional<PhaseEvent> add(const JobPtr& job);
+  /// Takes in a job that the store has, that nobody knows yet; counted by `admission` already.
+  void add(const JobPtr& job);
   /// Puts a job's waiting cases into the schedule.
   void offer(const JobPtr& job);
   /// To be called whenever a job has lost a case or is to stop: hands it on when nothing is left.

@@ -88,11 +88,10 @@ class Place {
 };
 
 /// With the lock held.
-std::optional<PhaseEvent> queue(EngineCore& core, const JobPtr& job,
-                                EngineCore::Clock::time_point deadline) {
+void queue(EngineCore& core, const JobPtr& job, EngineCore::Clock::time_point deadline) {
   core.deadlines.set(job->number, Due::queue_time, deadline);
   core.limits.notify_one();
-  return core.add(job);
+  core.add(job);
 }
 
 }  // namespace
@@ -121,22 +120,13 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
     core.store.erase_job(record.id);
     throw Error(*refusal);
   }
-  std::optional<PhaseEvent> phase;
-  std::shared_ptr<EventLog> log;
-  {
-    const std::lock_guard lock(core.mutex);
-    ++core.created;
-    if (core.draining) {
-      return {std::move(stored), true};  // kept for the next start
-    }
-    auto job = std::make_shared<LiveJob>(++core.last_number, record, core.options.event_log_bytes,
-                                         std::move(mesh_use));
+  const EngineCore::Lock lock(core.mutex);
+  ++core.created;
+  if (!core.draining) {  // else it is kept for the next start
+    const auto job = std::make_shared<LiveJob>(++core.last_number, record,
+                                               core.options.event_log_bytes, std::move(mesh_use));
+    queue(core, job, job->since + queue_limit(*job, core.options));
     place->take();
-    log = job->log;
-    phase = queue(core, job, job->since + queue_limit(*job, core.options));
-  }
-  if (phase) {
-    log->append(std::move(*phase));
   }
   return {std::move(stored), true};
 }

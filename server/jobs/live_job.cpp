@@ -48,8 +48,9 @@ Lane lane_of(const contact::SolverOptions& solver) {
   return uzawa->mass == contact::Mass::lumped ? Lane::lumped : Lane::consistent;
 }
 
-JobRecord without_spec(JobRecord record) {
+JobRecord without_lists(JobRecord record) {
   record.spec = {};
+  record.cases.clear();
   return record;
 }
 
@@ -58,7 +59,7 @@ JobRecord without_spec(JobRecord record) {
 LiveJob::LiveJob(std::uint64_t submission, JobRecord record, std::size_t event_log_bytes,
                  std::shared_ptr<void> mesh_in_use)
     : number(submission),
-      created(without_spec(record)),
+      created(without_lists(record)),
       spec(std::make_shared<const store::JobSpec>(std::move(record.spec))),
       spec_bytes(bytes_of(*spec)),
       lane(lane_of(spec->solver)),

@@ -50,7 +50,7 @@ struct LiveJob {
           std::shared_ptr<void> mesh_in_use);
 
   const std::uint64_t number;      ///< in the order of submission
-  const store::JobRecord created;  ///< as it was submitted or recovered, without the spec
+  const store::JobRecord created;  ///< as it was submitted or recovered, without its lists
   const std::shared_ptr<const store::JobSpec> spec;
   const std::uint64_t spec_bytes;
   const Lane lane;

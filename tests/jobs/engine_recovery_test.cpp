@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the next start makes of what the last one left.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "jobs/engine_support.hpp"
+#include "support/errors.hpp"
+
+namespace anticrack::jobs {
+namespace {
+
+using anticrack::testing::Backend;
+using anticrack::testing::eventually;
+using anticrack::testing::throws;
+using errors::Reason;
+using store::JobRecord;
+using store::JobState;
+using namespace std::chrono_literals;
+
+/// A job whose first load case takes a while and whose second is quick.
+store::JobSpec long_job(const std::string& mesh) {
+  store::JobSpec spec = short_job(mesh);
+  spec.loads.push_back({"second", 1.0, ""});
+  uzawa_of(spec).theta = 1e-3;
+  uzawa_of(spec).epsilon = 1e-300;
+  uzawa_of(spec).max_iterations = 2'000;
+  return spec;
+}
+
+TEST(EngineRecovery, RunsWhatRanAgainWithTheSameNumbers) {
+  Backend backend;
+  const std::string mesh = ready_mesh(backend);
+  std::string id, queued;
+  std::uint64_t latest = 0;
+  {
+    JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
+    id = engine.submit({long_job(mesh), "alice", "request"}).id;
+    ASSERT_TRUE(eventually([&] { return engine.metrics().iterations > 10; }));
+    queued = engine.submit({short_job(mesh), "", ""}).id;
+    engine.stop(0ms);
+    latest = engine.events(id)->latest();
+  }
+  ASSERT_FALSE(store::ended(backend.store->job(id)->state));
+  JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
+  const JobRecord record = ended(engine, id);
+  EXPECT_EQ(record.state, JobState::succeeded);
+  EXPECT_EQ(record.attempt, 2);
+  EXPECT_EQ(record.owner, "alice");
+  EXPECT_GT(engine.events(id)->earliest(), latest);
+  EXPECT_EQ(engine.events(id)->earliest(), (std::uint64_t{1} << 40U) + 1);
+  EXPECT_EQ(engine.submit({long_job(mesh), "alice", "request"}).id, id);
+  EXPECT_EQ(ended(engine, queued).attempt, 1);
+
+  const std::string alone = engine.submit({long_job(mesh), "", ""}).id;
+  const JobRecord reference = ended(engine, alone);
+  for (const char* name : {"loads/0/traces/0/jump", "loads/1/traces/0/pressure"}) {
+    EXPECT_EQ(array<double>(*engine.result(id), name), array<double>(*engine.result(alone), name));
+  }
+  EXPECT_EQ(record.cases[0].answer.iterations, reference.cases[0].answer.iterations);
+}
+
+TEST(EngineRecovery, KnowsEndedJobsByTheirEndAlone) {
+  anticrack::testing::TemporaryFolder folder;
+  anticrack::testing::BackendOptions options;
+  options.data_folder = (folder / "data").string();
+  std::string id;
+  {
+    Engine test({}, options);
+    id = test.submit(short_job(test.ready_mesh()), "request", "alice");
+    test.ended(id);
+  }
+  Engine test({}, options);  // the store is opened again, too
+  const auto log = test.engine.events(id);
+  EXPECT_EQ(log->earliest(), (std::uint64_t{1} << 40U) + 1);
+  EXPECT_EQ(test.ended(id).state, JobState::succeeded);
+  EXPECT_TRUE(array<double>(*test.engine.result(id), "loads/0/traces/0/jump"));
+  const std::string mesh = test.engine.get(id).spec.mesh;
+  EXPECT_EQ(test.submit(short_job(mesh), "request", "alice"), id);
+  EXPECT_NE(test.submit(short_job(mesh), "request", "bob"), id);
+  EXPECT_EQ(test.engine.list({"", 10, "alice"}).size(), 1U);
+}
+
+TEST(EngineRecovery, FailsTheJobOfAMeshThatIsGone) {
+  Backend backend;
+  const std::string mesh = ready_mesh(backend);
+  std::string id;
+  {
+    JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
+    id = engine.submit({endless_job(mesh), "", ""}).id;
+    ASSERT_TRUE(eventually([&] { return engine.metrics().iterations > 0; }));
+    engine.stop(0ms);
+  }
+  backend.catalogue.erase(mesh);
+  JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
+  const JobRecord record = ended(engine, id);
+  EXPECT_EQ(record.state, JobState::failed);
+  ASSERT_TRUE(record.error);
+  EXPECT_EQ(record.error->reason(), Reason::not_found);
+  EXPECT_EQ(record.error->fields().at(0).field, "mesh");
+}
+
+TEST(EngineRecovery, AMeshIsKeptWhileAJobNeedsIt) {
+  Engine test(one_thread());
+  const std::string mesh = test.ready_mesh();
+  const std::string id = test.submit(endless_job(mesh));
+  ASSERT_TRUE(test.iterating(id));
+  EXPECT_TRUE(throws([&] { test.backend.catalogue.erase(mesh); }, Reason::in_use));
+  test.engine.cancel(id);
+  test.ended(id);
+  EXPECT_NO_THROW(test.backend.catalogue.erase(mesh));
+}
+
+}  // namespace
+}  // namespace anticrack::jobs

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Time limits at every stage of a job's life.
+#include <gtest/gtest.h>
+
+#include "jobs/engine_support.hpp"
+#include "support/errors.hpp"
+
+namespace anticrack::jobs {
+namespace {
+
+using anticrack::testing::BackendOptions;
+using anticrack::testing::throws;
+using errors::Reason;
+using store::CaseStatus;
+using store::JobRecord;
+using store::JobState;
+using namespace std::chrono_literals;
+
+void expect_timed_out(const JobRecord& record, const std::string& field) {
+  EXPECT_EQ(record.state, JobState::failed);
+  ASSERT_TRUE(record.error);
+  EXPECT_EQ(record.error->reason(), Reason::timed_out);
+  EXPECT_EQ(record.error->fields().at(0).field, field);
+  for (const store::CaseRecord& ended : record.cases) {
+    EXPECT_EQ(ended.status, CaseStatus::failed);
+    ASSERT_TRUE(ended.error);
+    EXPECT_EQ(ended.error->reason(), Reason::timed_out);
+  }
+}
+
+store::JobSpec waits_briefly(store::JobSpec spec) {
+  spec.queue_time_limit = 20ms;
+  return spec;
+}
+
+store::JobSpec runs_briefly(store::JobSpec spec) {
+  spec.run_time_limit = 200ms;
+  return spec;
+}
+
+TEST(EngineTime, EndsWhileAJobIsQueued) {
+  Engine test(one_thread());
+  const std::string mesh = test.ready_mesh();
+  const std::string running = test.submit(endless_job(mesh));
+  ASSERT_TRUE(test.iterating(running));
+  const JobRecord record = test.ended(test.submit(waits_briefly(short_job(mesh))));
+  expect_timed_out(record, "queue_timeout");
+  EXPECT_FALSE(record.started);
+  EXPECT_EQ(test.state(running), JobState::running);
+}
+
+TEST(EngineTime, EndsWhileTheMeshIsMade) {
+  BackendOptions hanging;
+  hanging.mesher_hangs = true;
+  Engine test({}, hanging);
+  expect_timed_out(test.ended(test.submit(waits_briefly(short_job(test.backend.create())))),
+                   "queue_timeout");
+}
+
+TEST(EngineTime, EndsWhileFactorising) {
+  Engine test;
+  test.backend.door.shut();
+  expect_timed_out(test.ended(test.submit(waits_briefly(short_job(test.backend.create())))),
+                   "queue_timeout");
+  test.backend.door.open();
+}
+
+TEST(EngineTime, EndsWhileIterating) {
+  Engine test(one_thread());
+  const JobRecord record = test.ended(test.submit(runs_briefly(endless_job(test.ready_mesh()))));
+  expect_timed_out(record, "run_timeout");
+  EXPECT_TRUE(record.started);
+}
+
+TEST(EngineTime, EndsWhileALoadIsIntegrated) {
+  Engine test(one_thread());
+  store::JobSpec spec = runs_briefly(short_job(test.ready_mesh()));
+  spec.solver = contact::ActiveSetOptions{};
+  spec.loads.resize(1000, spec.loads[0]);  // hours
+  for (std::size_t i = 0; i < spec.loads.size(); ++i) {
+    spec.loads[i].name = std::to_string(i);
+    spec.loads[i].force =
+        fem::Expression{"sin(1e5*x*y)/sqrt(abs(x - 0.03)) + 1e-9*" + std::to_string(i)};
+  }
+  const JobRecord record = test.ended(test.submit(spec));
+  EXPECT_EQ(record.state, JobState::failed);
+  EXPECT_EQ(record.cases.back().error->reason(), Reason::timed_out);
+}
+
+TEST(EngineTime, LeavesTheLoadCasesThatEnded) {
+  EngineOptions options = one_thread();
+  options.columns = 2;
+  Engine test(options);
+  store::JobSpec spec = endless_job(test.ready_mesh());
+  spec.run_time_limit = 3s;
+  spec.loads.insert(spec.loads.begin(), {"at rest", 0.0, ""});  // ends in its first iterations
+  const std::string id = test.submit(spec);
+  const JobRecord record = test.ended(id);
+  EXPECT_EQ(record.state, JobState::failed);
+  EXPECT_EQ(record.error->reason(), Reason::timed_out);
+  EXPECT_EQ(record.cases[0].status, CaseStatus::converged);
+  EXPECT_EQ(record.cases[1].status, CaseStatus::failed);
+  EXPECT_TRUE(array<double>(*test.engine.result(id), "loads/0/traces/0/jump"));
+}
+
+TEST(EngineTime, IsTheServersWhereTheJobNamesNone) {
+  EngineOptions options = one_thread();
+  options.run_time = 200ms;
+  Engine test(options);
+  const std::string mesh = test.ready_mesh();
+  expect_timed_out(test.ended(test.submit(endless_job(mesh))), "run_timeout");
+  store::JobSpec longer = short_job(mesh);
+  longer.run_time_limit = 201ms;
+  EXPECT_TRUE(throws([&] { test.submit(longer); }, Reason::limit_exceeded, "run_timeout"));
+}
+
+}  // namespace
+}  // namespace anticrack::jobs

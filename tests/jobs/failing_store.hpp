@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A store whose disk is full for a while.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "store/store.hpp"
+
+namespace anticrack::testing {
+
+/// Passes everything on to a real store, but for writes of jobs while they are to fail.
+class FailingStore final : public store::Store {
+ public:
+  explicit FailingStore(store::Store& real) : _real(real) {}
+
+  std::atomic<bool> put_fails{false};
+  std::atomic<bool> finish_fails{false};
+  std::atomic<int> failures{0};
+
+  void put(const store::MeshRecord& record) override { _real.put(record); }
+  void put(const store::MeshRecord& record, const mesh::Mesh& triangulation) override {
+    _real.put(record, triangulation);
+  }
+  std::optional<store::MeshRecord> mesh(const std::string& id) const override {
+    return _real.mesh(id);
+  }
+  std::vector<store::MeshRecord> meshes(const store::Page& page) const override {
+    return _real.meshes(page);
+  }
+  std::size_t mesh_count() const override { return _real.mesh_count(); }
+  void erase_mesh(const std::string& id) override { _real.erase_mesh(id); }
+  std::shared_ptr<const mesh::Mesh> triangulation(const std::string& sha256) const override {
+    return _real.triangulation(sha256);
+  }
+
+  store::JobRecord create(const store::JobRecord& record, const std::string& print) override {
+    return _real.create(record, print);
+  }
+  void put(const store::JobRecord& record) override {
+    fail(put_fails);
+    _real.put(record);
+  }
+  void finish(const store::JobRecord& record, std::shared_ptr<const store::Block> result) override {
+    fail(finish_fails);
+    _real.finish(record, std::move(result));
+  }
+  std::optional<store::JobRecord> job(const std::string& id) const override {
+    return _real.job(id);
+  }
+  std::vector<store::JobRecord> jobs(const store::Page& page) const override {
+    return _real.jobs(page);
+  }
+  std::vector<store::JobRecord> unfinished() const override { return _real.unfinished(); }
+  std::vector<store::EndedJob> ended() const override { return _real.ended(); }
+  std::shared_ptr<const store::BlockSource> result(const std::string& id) const override {
+    return _real.result(id);
+  }
+  void expire(const std::string& id) override { _real.expire(id); }
+  void erase_job(const std::string& id) override { _real.erase_job(id); }
+
+  std::optional<std::string> upload_path(const std::string& sha256,
+                                         const std::string& owner) const override {
+    return _real.upload_path(sha256, owner);
+  }
+  std::string new_upload_path(std::uint64_t bytes) override { return _real.new_upload_path(bytes); }
+  void keep_upload(const std::string& path, const std::string& sha256,
+                   const std::string& owner) override {
+    _real.keep_upload(path, sha256, owner);
+  }
+  std::size_t expire_uploads(store::Clock::time_point before) override {
+    return _real.expire_uploads(before);
+  }
+  store::Usage usage() const override { return _real.usage(); }
+
+ private:
+  void fail(const std::atomic<bool>& fails) {
+    if (fails) {
+      ++failures;
+      throw errors::Error(errors::Reason::disk_full, "no space left");
+    }
+  }
+
+  store::Store& _real;
+};
+
+}  // namespace anticrack::testing
