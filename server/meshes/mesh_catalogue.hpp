@@ -22,7 +22,7 @@ struct CatalogueOptions {
   std::size_t max_triangles = 4'000'000;
   std::size_t max_pending = 64;     ///< meshes waiting for the mesher, then `busy`
   std::size_t max_meshes = 10'000;  ///< records; then limit_exceeded: delete some
-  /// Told of each mesh the helper made or failed to make, without a lock.
+  /// Told of each mesh the helper made or failed to make, without a lock. Must not throw.
   std::function<void(const store::MeshRecord&)> meshed = {};
 };
 
@@ -31,6 +31,11 @@ using PhaseListener = std::function<void(store::MeshState)>;
 
 /// Owns the preparation thread(s): new meshes are meshed and factorised in the background, in
 /// order. Thread-safe.
+///
+/// The disk knows a mesh as PENDING, EVICTED (meshed) or FAILED. What an earlier run of the server
+/// left unmeshed is scheduled at its start, oldest first; the rest is as it was, without operators.
+/// A mesh the disk has no room for is PENDING again, and who waits for it is told; it is tried
+/// again when somebody creates, warms or prepares it.
 class MeshCatalogue {
  public:
   MeshCatalogue(CatalogueOptions options, store::Store& store, operators::OperatorCache& cache);
@@ -38,8 +43,9 @@ class MeshCatalogue {
   ~MeshCatalogue();
 
   /// Checks the definition (errors::Error: geometry_invalid, invalid_argument, not_found for an
-  /// upload, busy) and returns its record: the one that is there already for the same definition,
-  /// or a new one, `pending`. A failed one is tried again. Does not block.
+  /// upload, busy, limit_exceeded, disk_full) and returns its record: the one that is there already
+  /// for the same definition, or a new one, `pending`, which is on the disk then. A failed one is
+  /// tried again. Does not wait for the mesher.
   /// Owners share triangulations and operators of equal meshes, but no records.
   store::MeshRecord create(const store::MeshDefinition& definition, const std::string& title,
                            const std::string& owner);
@@ -63,7 +69,8 @@ class MeshCatalogue {
 
   /// Meshes and factorises if need be, and returns the pinned operator. Blocks; `listener` hears of
   /// each phase on the calling thread. Throws the mesh's error if it failed; busy when the memory
-  /// budget is held by others; cancelled on `stop`, which ends this wait alone.
+  /// budget is held by others; disk_full or storage when the disk did not take the mesh; cancelled
+  /// on `stop`, which ends this wait alone.
   std::shared_ptr<const operators::MeshOperator> prepare(const std::string& id,
                                                          const PhaseListener& listener,
                                                          std::stop_token stop);
@@ -72,9 +79,9 @@ class MeshCatalogue {
   /// True when prepare() would not block: operators in memory.
   bool ready(const std::string& id) const;
 
-  bool pinned(const std::string& id) const;
-  std::uint64_t meshings() const noexcept;  ///< runs of the helper so far
-  int pending() const;                      ///< meshes waiting for the mesher or in it
+  bool pinned(const std::string& id) const;  ///< by warm(), of whichever owner of an equal mesh
+  std::uint64_t meshings() const noexcept;   ///< runs of the helper so far
+  int pending() const;                       ///< meshes waiting for the mesher or in it
 
  private:
   struct State;

@@ -30,7 +30,7 @@ MeshState state_of(const LiveMesh& mesh, const MeshRecord& record, bool in_memor
   if (in_memory && mesh.operators.bytes > 0 && !mesh.undecided) {
     return MeshState::ready;
   }
-  return mesh.scheduled() || mesh.factorizing > 0 ? MeshState::factorizing : MeshState::evicted;
+  return mesh.scheduled() || mesh.undecided ? MeshState::factorizing : MeshState::evicted;
 }
 
 }  // namespace

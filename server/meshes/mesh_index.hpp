@@ -44,7 +44,7 @@ struct LiveMesh {
   // In the background:
   bool queued = false;
   bool running = false;  ///< in the hands of a thread
-  bool ending = false;   ///< that thread has told how it ended, and does no more
+  bool ending = false;   ///< that thread has told how it ended, and soon lets go of it
   bool again = false;    ///< to be queued when it lets go of it
   bool meshing = false;
   bool pin = false;                      ///< to be pinned once its operators are there
@@ -52,9 +52,11 @@ struct LiveMesh {
   std::optional<errors::Error> setback;  ///< why the last of them did
 
   // For those who wait:
-  int waiting = 0;         ///< calls of prepare()
-  int factorizing = 0;     ///< threads that wait for its operators
-  bool undecided = false;  ///< none of these has told yet what came of it
+  int waiting = 0;          ///< calls of prepare()
+  bool undecided = false;   ///< those who wait together for its operators know nothing yet
+  std::uint64_t round = 0;  ///< number of that round
+  int factorizing = 0;      ///< threads in it
+  bool writing = false;     ///< what came of one is on its way to the disk
   std::chrono::steady_clock::time_point since;
   std::weak_ptr<void> users;  ///< jobs that have not ended
 

@@ -113,7 +113,7 @@ void Preparation::wait_for_end(std::unique_lock<std::mutex>& lock, const std::st
   });
 }
 
-std::shared_ptr<const mesh::Mesh> Preparation::triangulate(const std::string& id) {
+Preparation::Meshed Preparation::triangulate(const std::string& id) {
   std::string twin;
   {
     const std::lock_guard lock(_mutex);
@@ -133,6 +133,7 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(const std::string& id
     made = meshes::triangulate(record, _options, _store, _stopping.get_token());
   }
   _store.put(made->record, *made->mesh);
+  std::uint64_t round = 0;
   {
     const std::lock_guard lock(_mutex);
     LiveMesh& mesh = _index.known(id);
@@ -140,28 +141,31 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(const std::string& id
     mesh.sha256 = made->record.sha256;
     mesh.meshing = false;
     ++mesh.version;
-    begin_factorizing(mesh);
+    round = begin_factorizing(mesh);
     _changed.notify_all();
   }
   if (!copied && _options.meshed) {
     _options.meshed(made->record);
   }
-  return std::move(made->mesh);
+  return {std::move(made->mesh), round};
 }
 
 void Preparation::prepare_in_background(const std::string& id) {
   Stage stage = Stage::absent;
+  Meshed meshed;
   {
     const std::lock_guard lock(_mutex);
     LiveMesh& mesh = _index.known(id);
     stage = mesh.stage;
     if (stage == Stage::meshed) {
-      begin_factorizing(mesh);
+      meshed.round = begin_factorizing(mesh);
     }
   }
+  if (stage == Stage::pending) {
+    meshed = triangulate(id);
+  }
   if (stage != Stage::failed) {
-    std::shared_ptr<const mesh::Mesh> mesh = stage == Stage::pending ? triangulate(id) : nullptr;
-    factorize(id, std::move(mesh), false, _stopping.get_token());
+    factorize(id, meshed.round, std::move(meshed.mesh), false, _stopping.get_token());
   }
 }
 
@@ -261,15 +265,15 @@ Preparation::Operator Preparation::prepare(const std::string& id, const PhaseLis
       return ready;
     }
   }
-  begin_factorizing(mesh);
+  const std::uint64_t round = begin_factorizing(mesh);
   lock.unlock();
   try {
     listener(MeshState::factorizing);
   } catch (...) {
-    end_factorizing(id, {}, false);
+    end_factorizing(id, round, {}, false);
     throw;
   }
-  return factorize(id, nullptr, true, stop);
+  return factorize(id, round, nullptr, true, stop);
 }
 
 }  // namespace anticrack::meshes

@@ -71,16 +71,26 @@ class Preparation {
     std::optional<errors::Error> failure;
   };
 
+  struct Meshed {
+    std::shared_ptr<const mesh::Mesh> mesh;
+    std::uint64_t round = 0;
+  };
+
   void recover();
   store::MeshRecord stored(const std::string& id) const;
-  static void begin_factorizing(LiveMesh& mesh);
-  void end_factorizing(const std::string& id, const Outcome& outcome, bool last_step);
+  /// The round of those who wait together for its operators.
+  static std::uint64_t begin_factorizing(LiveMesh& mesh);
+  void end_factorizing(const std::string& id, std::uint64_t round, Outcome outcome, bool last_step);
+  bool record_outcome(std::unique_lock<std::mutex>& lock, const std::string& id,
+                      const Outcome& outcome);
   bool write_outcome(const std::string& id, const Outcome& outcome);
   Operator load(const std::string& id, std::shared_ptr<const mesh::Mesh> mesh,
                 const std::stop_token& stop);
-  Operator factorize(const std::string& id, std::shared_ptr<const mesh::Mesh> mesh, bool hold,
+  Operator factorize(const std::string& id, std::uint64_t round,
+                     std::shared_ptr<const mesh::Mesh> mesh, bool hold,
                      const std::stop_token& stop);
-  std::shared_ptr<const mesh::Mesh> triangulate(const std::string& id);
+  /// And begins a round.
+  Meshed triangulate(const std::string& id);
   void prepare_in_background(const std::string& id);
   void set_back(const std::string& id, errors::Error error);
   void work();

@@ -20,13 +20,21 @@ using Steady = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds retry_delay{1000};
 
+double seconds_since(Steady::time_point start) {
+  return std::chrono::duration<double>(Steady::now() - start).count();
+}
+
 }  // namespace
 
-void Preparation::begin_factorizing(LiveMesh& mesh) {
-  if (mesh.factorizing++ == 0) {
+std::uint64_t Preparation::begin_factorizing(LiveMesh& mesh) {
+  if (!mesh.undecided) {
     mesh.undecided = true;
+    mesh.factorizing = 0;
     mesh.since = Steady::now();
+    ++mesh.round;
   }
+  ++mesh.factorizing;
+  return mesh.round;
 }
 
 bool Preparation::write_outcome(const std::string& id, const Outcome& outcome) {
@@ -47,31 +55,46 @@ bool Preparation::write_outcome(const std::string& id, const Outcome& outcome) {
   }
 }
 
-/// The first of those who wait together records the outcome and how long it took.
-void Preparation::end_factorizing(const std::string& id, const Outcome& outcome, bool last_step) {
+bool Preparation::record_outcome(std::unique_lock<std::mutex>& lock, const std::string& id,
+                                 const Outcome& outcome) {
+  LiveMesh& mesh = _index.known(id);
+  mesh.writing = true;
+  lock.unlock();
+  const bool written = write_outcome(id, outcome);
+  lock.lock();
+  mesh.writing = false;
+  ++mesh.version;
+  _changed.notify_all();
+  return written;
+}
+
+/// The first of those who wait together decides the round, and records how long it took.
+void Preparation::end_factorizing(const std::string& id, std::uint64_t round, Outcome outcome,
+                                  bool last_step) {
   std::unique_lock lock(_mutex);
-  LiveMesh& mesh = _index.known(id);  // it is not erased before the count is down again
-  Outcome told = outcome;
-  const bool first = (told.measured || told.failure) && std::exchange(mesh.undecided, false);
-  if (first) {
-    if (told.measured) {
-      told.measured->seconds = std::chrono::duration<double>(Steady::now() - mesh.since).count();
-    }
-    lock.unlock();
-    const bool written = write_outcome(id, told);
-    lock.lock();
-    // What was measured is true whether or not there is room on the disk to keep it. A failure
-    // that could not be written is told to those who wait, and met again.
-    if (told.measured) {
-      mesh.operators = *told.measured;
-    } else if (written) {
-      mesh.stage = Stage::failed;
-      mesh.error = told.failure;
-    }
-    ++mesh.version;
-  }
+  LiveMesh& mesh = _index.known(id);  // it is not erased before this is over
   mesh.ending = mesh.ending || last_step;
-  if (--mesh.factorizing == 0) {
+  const auto decides = [&] {
+    return mesh.undecided && mesh.round == round && (outcome.measured || outcome.failure);
+  };
+  // One writes at a time, so that an older outcome does not overwrite a newer.
+  _changed.wait(lock, [&] { return !mesh.writing || !decides(); });
+  if (decides() && outcome.measured) {
+    // True whether or not there is room on the disk to keep it, and to be seen by whoever gets the
+    // operators.
+    outcome.measured->seconds = seconds_since(mesh.since);
+    mesh.operators = *outcome.measured;
+    mesh.undecided = false;
+    record_outcome(lock, id, outcome);
+  } else if (decides()) {
+    // Where it cannot be written it is told to those who wait, and met again.
+    if (record_outcome(lock, id, outcome)) {
+      mesh.stage = Stage::failed;
+      mesh.error = outcome.failure;
+    }
+    mesh.undecided = false;
+  }
+  if (mesh.round == round && --mesh.factorizing == 0) {
     mesh.undecided = false;
   }
   _changed.notify_all();
@@ -102,7 +125,7 @@ Preparation::Operator Preparation::load(const std::string& id,
 
 /// Ends what begin_factorizing began. Without `hold` (the last step of a run in the background) the
 /// operators are let go before anybody is told that they are there, and null is returned.
-Preparation::Operator Preparation::factorize(const std::string& id,
+Preparation::Operator Preparation::factorize(const std::string& id, std::uint64_t round,
                                              std::shared_ptr<const mesh::Mesh> mesh, bool hold,
                                              const std::stop_token& stop) {
   Operator result;
@@ -125,7 +148,7 @@ Preparation::Operator Preparation::factorize(const std::string& id,
   if (!hold) {
     result.reset();
   }
-  end_factorizing(id, outcome, !hold);
+  end_factorizing(id, round, std::move(outcome), !hold);
   if (error) {
     throw Error(*error);
   }

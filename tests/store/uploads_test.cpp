@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gtest/gtest.h>
-
-#include <fstream>
 #include <iterator>
 
-#include "store/digest.hpp"
-#include "store/store.hpp"
-#include "support/errors.hpp"
-#include "support/temporary_folder.hpp"
+#include "store/store_fixture.hpp"
 
 namespace anticrack::store {
 namespace {
 
-using anticrack::testing::TemporaryFolder;
 using anticrack::testing::throws;
 using errors::Reason;
 
@@ -21,65 +14,92 @@ std::string content(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(Uploads, AreFoundUnderTheirHash) {
-  const TemporaryFolder folder;
-  const auto store = make_memory_store(folder.path());
-  const std::string text = "$MeshFormat";
-  const std::string hash = Sha256().add(text).finish();
-  EXPECT_FALSE(store->upload_path(hash));
+class StoredUploads : public StoreTest {
+ protected:
+  static constexpr Clock::time_point for_ever = Clock::time_point::max();
+};
 
-  const std::string part = store->new_upload_path();
-  std::ofstream(part, std::ios::binary) << text;
-  EXPECT_FALSE(store->upload_path(hash));
-  store->keep_upload(part, hash);
-  ASSERT_TRUE(store->upload_path(hash));
-  EXPECT_EQ(content(*store->upload_path(hash)), text);
+TEST_F(StoredUploads, AreFoundByWhoMadeThem) {
+  const std::string hash = upload("$MeshFormat", "ann");
+  ASSERT_TRUE(store->upload_path(hash, "ann"));
+  EXPECT_EQ(content(*store->upload_path(hash, "ann")), "$MeshFormat");
+  EXPECT_FALSE(store->upload_path(hash, "bob"));
+  EXPECT_FALSE(store->upload_path(hash, ""));
+  EXPECT_EQ(upload("$MeshFormat", "bob"), hash);
+  EXPECT_TRUE(store->upload_path(hash, "bob"));
+  EXPECT_EQ(files("uploads"), 1U);
+  reopen();
+  EXPECT_TRUE(store->upload_path(hash, "ann"));
+  EXPECT_EQ(store->usage().uploads, 11U);
+}
+
+TEST_F(StoredUploads, LoseTheirPartsAtTheNextStart) {
+  const std::string part = store->new_upload_path(10);
+  EXPECT_NE(part, store->new_upload_path(10));
+  ASSERT_TRUE(std::filesystem::exists(part));
+  reopen();
   EXPECT_FALSE(std::filesystem::exists(part));
 }
 
-TEST(Uploads, OutliveTheStoreAndLeftOverPartsDoNot) {
-  const TemporaryFolder folder;
-  const std::string hash(64, 'a');
-  std::string part;
-  {
-    const auto store = make_memory_store(folder.path());
-    store->keep_upload(store->new_upload_path(), hash);
-    part = store->new_upload_path();
-    ASSERT_TRUE(std::filesystem::exists(part));
-  }
-  const auto store = make_memory_store(folder.path());
-  EXPECT_TRUE(store->upload_path(hash));
-  EXPECT_FALSE(std::filesystem::exists(part));
-}
-
-TEST(Uploads, NeverLeaveTheirFolder) {
-  const TemporaryFolder folder;
-  const auto store = make_memory_store(folder.path());
+TEST_F(StoredUploads, NeverLeaveTheirFolder) {
   std::ofstream(folder / "secret") << "x";
-  EXPECT_FALSE(store->upload_path("../secret"));
-  EXPECT_FALSE(store->upload_path(""));
-  EXPECT_FALSE(store->upload_path(std::string(64, 'A')));
-  const std::string part = store->new_upload_path();
-  EXPECT_TRUE(throws([&] { store->keep_upload(part, "../stolen"); }, Reason::invalid_argument));
-  EXPECT_FALSE(std::filesystem::exists(folder / "stolen"));
-}
-
-TEST(Uploads, GetFreshFiles) {
-  const TemporaryFolder folder;
-  const auto store = make_memory_store(folder.path());
-  EXPECT_NE(store->new_upload_path(), store->new_upload_path());
-}
-
-TEST(Uploads, SayWhenTheFolderCannotBeWritten) {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "file") << "x";
-  EXPECT_TRUE(throws([&] { make_memory_store((folder / "file").string()); }, Reason::storage));
-  const auto store = make_memory_store(folder.path());
+  EXPECT_FALSE(store->upload_path("../secret", ""));
+  const std::string part = store->new_upload_path(1);
+  EXPECT_TRUE(throws([&] { store->keep_upload(part, "../stolen", ""); }, Reason::invalid_argument));
+  const std::string hash(64, 'a');
+  EXPECT_TRUE(throws([&] { store->keep_upload((folder / "secret").string(), hash, ""); },
+                     Reason::internal));
   EXPECT_TRUE(
-      throws([&] { store->keep_upload((folder / "nothing").string(), std::string(64, 'a')); },
-             Reason::storage));
-  std::filesystem::remove_all(folder / "uploads");
-  EXPECT_TRUE(throws([&] { store->new_upload_path(); }, Reason::storage));
+      throws([&] { store->keep_upload(part + "/../../../secret", hash, ""); }, Reason::internal));
+  EXPECT_FALSE(std::filesystem::exists(folder / "stolen"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "secret"));
+}
+
+TEST_F(StoredUploads, SayWhenTheirPartIsGone) {
+  const std::string part = store->new_upload_path(1);
+  std::filesystem::remove(part);
+  EXPECT_TRUE(throws([&] { store->keep_upload(part, std::string(64, 'a'), ""); }, Reason::storage));
+  EXPECT_FALSE(store->upload_path(std::string(64, 'a'), ""));
+}
+
+TEST_F(StoredUploads, ExpireByAge) {
+  const std::string hash = upload("old", "ann");
+  upload("old", "bob");
+  EXPECT_EQ(store->expire_uploads(Clock::time_point{}), 0U);
+  EXPECT_EQ(store->expire_uploads(for_ever), 2U);
+  EXPECT_FALSE(store->upload_path(hash, "ann"));
+  EXPECT_EQ(files("uploads"), 0U);
+  EXPECT_EQ(store->usage().uploads, 0U);
+}
+
+TEST_F(StoredUploads, StayWhileAJobNeedsThem) {
+  const std::string hash = upload("array");
+  JobRecord record = job_record("j");
+  record.spec.loads.push_back({"load", fem::Array{hash, false, nullptr}});
+  record.spec.loads.push_back({"again", fem::Array{hash, true, nullptr}});
+  store->create(record, "");
+  reopen();
+  EXPECT_EQ(store->expire_uploads(for_ever), 0U);
+  store->finish(ended_record("j"), nullptr);
+  EXPECT_EQ(store->expire_uploads(for_ever), 1U);
+
+  upload("array");
+  record.id = "k";
+  store->create(record, "");
+  store->erase_job("k");
+  EXPECT_EQ(store->expire_uploads(for_ever), 1U);
+}
+
+TEST_F(StoredUploads, StayUntilTheirMeshIsMade) {
+  const std::string hash = upload("msh");
+  MeshRecord record = meshed_record("m", strip(2));
+  const std::string sha256 = std::exchange(record.sha256, "");
+  record.definition = UploadRef{hash, {}};
+  store->put(record);
+  EXPECT_EQ(store->expire_uploads(for_ever), 0U);
+  record.sha256 = sha256;
+  store->put(record, strip(2));
+  EXPECT_EQ(store->expire_uploads(for_ever), 1U);
 }
 
 }  // namespace

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "store/record_fields.hpp"
+#include "store/store_fixture.hpp"
+
+namespace anticrack::store {
+namespace {
+
+using anticrack::testing::AnyValue;
+using anticrack::testing::Listing;
+using anticrack::testing::throws;
+using errors::Reason;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+class StoredJobs : public StoreTest {};
+
+TEST_F(StoredJobs, ComeBackWholeAfterAnotherStart) {
+  auto record = AnyValue(3).make<JobRecord>();
+  record.id = "j";
+  record.request_id.clear();
+  store->create(record, "print");
+  EXPECT_EQ(Listing::of(*store->job("j")), Listing::of(record));
+  reopen();
+  EXPECT_EQ(Listing::of(*store->job("j")), Listing::of(record));
+  record.attempt = 17;
+  record.timeline.push_back(
+      {Clock::time_point(std::chrono::nanoseconds(5)), JobState::running, "x"});
+  store->put(record);
+  reopen();
+  EXPECT_EQ(Listing::of(*store->job("j")), Listing::of(record));
+  EXPECT_FALSE(store->job("other"));
+}
+
+TEST_F(StoredJobs, AreListedNewestFirstAndStablyUnderInsertion) {
+  for (const char* id : {"a", "b", "c", "d"}) create(id);
+  EXPECT_THAT(jobs({"", 2, {}}), ElementsAre("d", "c"));
+  create("e");
+  store->put(job_record("b"));  // a change is no insertion
+  EXPECT_THAT(jobs({"c", 2, {}}), ElementsAre("b", "a"));
+  store->erase_job("e");
+  reopen();
+  create("f");
+  EXPECT_THAT(jobs({"", 9, {}}), ElementsAre("f", "d", "c", "b", "a"));
+  EXPECT_THAT(jobs({"a", 2, {}}), IsEmpty());
+  EXPECT_THAT(jobs({"", 0, {}}), IsEmpty());
+  EXPECT_TRUE(throws([&] { jobs({"gone", 2, {}}); }, Reason::not_found));
+}
+
+TEST_F(StoredJobs, AreListedByOwner) {
+  create("a", "ann");
+  create("b", "bob");
+  create("c", "ann");
+  create("d", "");
+  EXPECT_THAT(jobs({"", 9, "ann"}), ElementsAre("c", "a"));
+  EXPECT_THAT(jobs({"c", 9, "ann"}), ElementsAre("a"));
+  EXPECT_THAT(jobs({"", 9, ""}), ElementsAre("d"));
+  EXPECT_THAT(jobs({"", 9, "nobody"}), IsEmpty());
+  // A page of one's own does not tell whose the others are.
+  EXPECT_TRUE(throws([&] { jobs({"b", 9, "ann"}); }, Reason::not_found));
+}
+
+TEST_F(StoredJobs, AreMadeOnceForARequest) {
+  EXPECT_EQ(create("a", "ann", "request", "print").id, "a");
+  EXPECT_EQ(create("b", "ann", "request", "print").id, "a");
+  EXPECT_FALSE(store->job("b"));
+  reopen();
+  EXPECT_EQ(create("c", "ann", "request", "print").id, "a");
+  EXPECT_TRUE(throws([&] { create("d", "ann", "request", "other"); }, Reason::request_id_reused,
+                     "request_id"));
+  EXPECT_FALSE(store->job("d"));
+  EXPECT_EQ(create("e", "bob", "request", "other").id, "e");
+  EXPECT_EQ(create("f", "ann", "", "print").id, "f");
+  EXPECT_EQ(create("g", "ann", "", "print").id, "g");
+  store->erase_job("a");
+  EXPECT_EQ(create("h", "ann", "request", "other").id, "h");
+}
+
+TEST_F(StoredJobs, AnswerARepeatedRequestWithWhatBecameOfIt) {
+  create("a", "ann", "request", "print");
+  JobRecord record = *store->job("a");
+  record.state = JobState::running;
+  store->put(record);
+  EXPECT_EQ(create("b", "ann", "request", "print").state, JobState::running);
+}
+
+TEST_F(StoredJobs, DoNotComeBackWhenErased) {
+  create("a");
+  store->erase_job("a");
+  EXPECT_FALSE(store->job("a"));
+  EXPECT_TRUE(throws([&] { store->put(job_record("a")); }, Reason::not_found));
+  EXPECT_TRUE(throws([&] { store->finish(ended_record("a"), block(1)); }, Reason::not_found));
+  EXPECT_TRUE(throws([&] { store->expire("a"); }, Reason::not_found));
+  EXPECT_TRUE(throws([&] { store->erase_job("a"); }, Reason::not_found));
+  EXPECT_FALSE(store->job("a"));
+  EXPECT_EQ(store->result("a"), nullptr);
+  EXPECT_EQ(files("results"), 0U);
+}
+
+TEST_F(StoredJobs, AreUnfinishedUntilTheyEnd) {
+  for (const char* id : {"a", "b", "c"}) create(id);
+  end("d", nullptr);
+  JobRecord running = job_record("b");
+  running.state = JobState::running;
+  store->put(running);
+  store->finish(ended_record("a"), nullptr);
+  reopen();
+  std::vector<std::string> ids;
+  for (const JobRecord& record : store->unfinished()) ids.push_back(record.id);
+  EXPECT_THAT(ids, ElementsAre("b", "c"));
+}
+
+TEST_F(StoredJobs, EndWithTheirResults) {
+  end("late", block(1), 20);
+  end("early", block(2, 3), 10);
+  end("empty", nullptr, 15);
+  create("open");
+  reopen();
+  std::vector<std::string> ids;
+  std::vector<std::uint64_t> bytes;
+  for (const EndedJob& job : store->ended()) {
+    ids.push_back(job.id);
+    bytes.push_back(job.result_bytes);
+  }
+  EXPECT_THAT(ids, ElementsAre("early", "empty", "late"));
+  EXPECT_THAT(bytes, ElementsAre(24, 0, 40));
+  EXPECT_EQ(store->ended()[0].ended, Clock::time_point(std::chrono::seconds(10)));
+  EXPECT_EQ(values(*store->result("early")), std::vector<double>(3, 2.0));
+  EXPECT_EQ(store->result("empty"), nullptr);
+  EXPECT_EQ(store->result("open"), nullptr);
+  EXPECT_EQ(store->result("nobody"), nullptr);
+}
+
+TEST_F(StoredJobs, GiveTheirResultPieceByPiece) {
+  BlockBuilder builder;
+  builder.add("u", std::vector<double>{1, 2, 3, 4, 5, 6}, {2, 3});
+  builder.add("contact", std::vector<std::int32_t>{7, 8});
+  const auto written = std::make_shared<const Block>(builder.finish());
+  end("j", written);
+  const auto memory = in_memory(written);
+  const auto disk = store->result("j");
+  for (const auto& source : {memory, disk}) {
+    EXPECT_EQ(source->sha256(), written->sha256);
+    ASSERT_EQ(source->size(), written->bytes.size());
+    ASSERT_EQ(source->arrays().size(), 2U);
+    EXPECT_EQ(source->arrays()[0].name, "u");
+    EXPECT_EQ(source->arrays()[0].type, ArrayType::float64);
+    EXPECT_THAT(source->arrays()[0].shape, ElementsAre(2, 3));
+    EXPECT_EQ(source->arrays()[1].type, ArrayType::int32);
+    EXPECT_EQ(source->arrays()[1].offset, 48U);
+    std::vector<double> piece(2);
+    source->read(16, std::as_writable_bytes(std::span(piece)));
+    EXPECT_THAT(piece, ElementsAre(3, 4));
+  }
+}
+
+TEST_F(StoredJobs, LetAReaderFinishWhatExpires) {
+  end("j", block(3));
+  const auto held = store->result("j");
+  store->expire("j");
+  EXPECT_EQ(store->job("j")->state, JobState::expired);
+  EXPECT_EQ(store->job("j")->result_bytes, 0U);
+  EXPECT_EQ(store->result("j"), nullptr);
+  EXPECT_EQ(store->ended()[0].result_bytes, 0U);
+  EXPECT_EQ(files("results"), 0U);
+  EXPECT_EQ(store->usage().results, 0U);
+  EXPECT_EQ(values(*held), std::vector<double>(5, 3.0));
+  reopen();
+  EXPECT_EQ(store->job("j")->state, JobState::expired);
+}
+
+TEST_F(StoredJobs, DoNotExpireBeforeTheyEnd) {
+  create("j");
+  EXPECT_TRUE(throws([&] { store->expire("j"); }, Reason::in_use));
+  EXPECT_EQ(store->job("j")->state, JobState::queued);
+}
+
+TEST_F(StoredJobs, ShareEqualResultsUntilTheLastGoes) {
+  end("a", block(1));
+  end("b", block(1));
+  end("c", block(1, 5, "another name"));  // the same bytes, but not the same result
+  EXPECT_EQ(files("results"), 2U);
+  EXPECT_EQ(store->result("c")->arrays()[0].name, "another name");
+  store->expire("a");
+  EXPECT_EQ(files("results"), 2U);
+  EXPECT_EQ(values(*store->result("b")), std::vector<double>(5, 1.0));
+  store->erase_job("b");
+  EXPECT_EQ(files("results"), 1U);
+  store->erase_job("c");
+  EXPECT_EQ(files("results"), 0U);
+  EXPECT_EQ(store->usage().results, 0U);
+}
+
+TEST_F(StoredJobs, ReplaceTheirResult) {
+  end("j", block(1));
+  store->finish(ended_record("j"), block(2));
+  EXPECT_EQ(files("results"), 1U);
+  EXPECT_EQ(values(*store->result("j")), std::vector<double>(5, 2.0));
+  store->put(ended_record("j"));  // the record alone
+  EXPECT_EQ(values(*store->result("j")), std::vector<double>(5, 2.0));
+}
+
+TEST_F(StoredJobs, SayWhenAResultIsDamagedOrLost) {
+  end("j", block(1));
+  std::filesystem::path path;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "results")) path = entry;
+  const auto size = std::filesystem::file_size(path);
+  std::filesystem::resize_file(path, size - 1);
+  EXPECT_TRUE(throws([&] { store->result("j"); }, Reason::storage));
+  std::filesystem::resize_file(path, 10);
+  EXPECT_TRUE(throws([&] { store->result("j"); }, Reason::storage));
+  std::ofstream(path) << std::string(size, 'x');
+  EXPECT_TRUE(throws([&] { store->result("j"); }, Reason::storage));
+  std::filesystem::remove(path);
+  EXPECT_TRUE(throws([&] { store->result("j"); }, Reason::storage));
+  EXPECT_TRUE(store->job("j"));
+}
+
+}  // namespace
+}  // namespace anticrack::store

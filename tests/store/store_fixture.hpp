@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "mesh/codec.hpp"
+#include "store/digest.hpp"
+#include "store/store.hpp"
+#include "support/errors.hpp"
+#include "support/grid_mesh.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace anticrack::store {
+
+inline JobRecord job_record(const std::string& id, const std::string& owner = {}) {
+  JobRecord record;
+  record.id = id;
+  record.owner = owner;
+  return record;
+}
+
+inline JobRecord ended_record(const std::string& id, int second = 1) {
+  JobRecord record = job_record(id);
+  record.state = JobState::succeeded;
+  record.ended = Clock::time_point(std::chrono::seconds(second));
+  return record;
+}
+
+inline MeshRecord mesh_record(const std::string& id, const std::string& owner = {}) {
+  MeshRecord record;
+  record.id = id;
+  record.owner = owner;
+  return record;
+}
+
+/// n x 1 squares.
+inline mesh::Mesh strip(int n) {
+  return anticrack::testing::GridMesh(n, 1, {"strip"}, [](int, int) { return 0; }).mesh;
+}
+
+inline MeshRecord meshed_record(const std::string& id, const mesh::Mesh& mesh) {
+  MeshRecord record = mesh_record(id);
+  record.sha256 = Sha256().add(mesh::encode(mesh)).finish();
+  return record;
+}
+
+inline std::shared_ptr<const Block> block(double value, std::size_t count = 5,
+                                          const std::string& name = "u") {
+  BlockBuilder builder;
+  builder.add(name, std::vector<double>(count, value));
+  return std::make_shared<const Block>(builder.finish());
+}
+
+inline std::vector<double> values(const BlockSource& source) {
+  std::vector<double> read(source.size() / sizeof(double));
+  source.read(0, std::as_writable_bytes(std::span(read)));
+  return read;
+}
+
+class StoreTest : public ::testing::Test {
+ protected:
+  void reopen(std::uint64_t disk_budget = 0) {
+    store.reset();
+    store = open({folder.path(), disk_budget});
+  }
+  JobRecord create(const std::string& id, const std::string& owner = {},
+                   const std::string& request = {}, const std::string& fingerprint = {}) {
+    JobRecord record = job_record(id, owner);
+    record.request_id = request;
+    return store->create(record, fingerprint);
+  }
+  /// A job that has ended with a result.
+  void end(const std::string& id, std::shared_ptr<const Block> result, int second = 1) {
+    create(id);
+    store->finish(ended_record(id, second), std::move(result));
+  }
+  std::string upload(const std::string& text, const std::string& owner = {}) {
+    const std::string part = store->new_upload_path(text.size());
+    std::ofstream(part, std::ios::binary) << text;
+    const std::string sha256 = Sha256().add(text).finish();
+    store->keep_upload(part, sha256, owner);
+    return sha256;
+  }
+  std::size_t files(const std::string& name) const {
+    std::size_t count = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder / name)) {
+      ++count;
+    }
+    return count;
+  }
+  std::vector<std::string> jobs(const Page& page) const {
+    std::vector<std::string> ids;
+    for (const JobRecord& record : store->jobs(page)) ids.push_back(record.id);
+    return ids;
+  }
+  std::vector<std::string> meshes(const Page& page) const {
+    std::vector<std::string> ids;
+    for (const MeshRecord& record : store->meshes(page)) ids.push_back(record.id);
+    return ids;
+  }
+
+  anticrack::testing::TemporaryFolder folder;
+  std::unique_ptr<Store> store = open({folder.path(), 0});
+};
+
+}  // namespace anticrack::store

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thread>
+
+#include "store/store_fixture.hpp"
+
+namespace anticrack::store {
+namespace {
+
+using ::testing::Each;
+
+class StoreThreads : public StoreTest {
+ protected:
+  static constexpr int workers = 4;
+
+  /// work(index) in as many threads.
+  template <class Work>
+  static void together(const Work& work) {
+    std::vector<std::thread> threads;
+    for (int i = 0; i < workers; ++i) threads.emplace_back([&work, i] { work(i); });
+    for (std::thread& thread : threads) thread.join();
+  }
+};
+
+TEST_F(StoreThreads, MakeOneJobOfARequest) {
+  constexpr int rounds = 20;
+  std::vector<std::vector<std::string>> answers(workers);
+  together([&](int t) {
+    for (int round = 0; round < rounds; ++round) {
+      const std::string request = std::to_string(round);
+      answers[t].push_back(create(request + "-" + std::to_string(t), "", request, "print").id);
+      store->jobs({"", 5, {}});
+    }
+  });
+  EXPECT_THAT(answers, Each(answers[0]));
+  EXPECT_EQ(jobs({"", 1000, {}}).size(), static_cast<std::size_t>(rounds));
+}
+
+TEST_F(StoreThreads, EachGetTheErrorOfTheirOwnChange) {
+  together([&](int t) {
+    for (int round = 0; round < 20; ++round) {
+      const std::string id = std::to_string(t) + "-" + std::to_string(round);
+      create(id);
+      EXPECT_TRUE(anticrack::testing::throws([&] { create(id); }, errors::Reason::internal));
+      EXPECT_TRUE(anticrack::testing::throws([&] { store->put(job_record("nobody")); },
+                                             errors::Reason::not_found));
+    }
+  });
+  EXPECT_EQ(jobs({"", 1000, {}}).size(), 20U * workers);
+}
+
+TEST_F(StoreThreads, ShareAResultThatComesAndGoes) {
+  together([&](int t) {
+    const std::string id = std::to_string(t);
+    for (int round = 0; round < 15; ++round) {
+      create(id);
+      store->finish(ended_record(id), block(1));
+      const auto result = store->result(id);
+      ASSERT_NE(result, nullptr);
+      EXPECT_EQ(values(*result), std::vector<double>(5, 1.0));
+      store->result(std::to_string((t + 1) % workers));
+      store->expire(id);
+      EXPECT_EQ(store->result(id), nullptr);
+      store->erase_job(id);
+    }
+  });
+  EXPECT_EQ(files("results"), 0U);
+  EXPECT_EQ(store->usage().results, 0U);
+}
+
+TEST_F(StoreThreads, ShareATriangulationThatComesAndGoes) {
+  const mesh::Mesh mesh = strip(4);
+  together([&](int t) {
+    const MeshRecord record = meshed_record(std::to_string(t), mesh);
+    for (int round = 0; round < 15; ++round) {
+      store->put(record, mesh);
+      const auto read = store->triangulation(record.sha256);
+      ASSERT_NE(read, nullptr);
+      EXPECT_EQ(read->xy, mesh.xy);
+      EXPECT_GE(store->mesh_count(), 1U);
+      store->erase_mesh(record.id);
+    }
+  });
+  EXPECT_EQ(files("meshes"), 0U);
+}
+
+TEST_F(StoreThreads, ShareAnUploadThatComesAndGoes) {
+  together([&](int t) {
+    const std::string owner = std::to_string(t);
+    for (int round = 0; round < 15; ++round) {
+      const std::string hash = upload("the same", owner);
+      store->upload_path(hash, owner);
+      store->expire_uploads(Clock::time_point::max());
+      store->usage();
+    }
+  });
+  EXPECT_EQ(files("uploads"), 0U);
+  EXPECT_EQ(store->usage().uploads, 0U);
+}
+
+}  // namespace
+}  // namespace anticrack::store
