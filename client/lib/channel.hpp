@@ -33,8 +33,11 @@ struct Connection::State {
   std::atomic<bool> met = false;  ///< the server has answered once
 };
 
+/// Puts the token of the connection, if any, on a call that is about to start.
+void authorise(const Connection::State& state, grpc::ClientContext& context);
+
 /// The error of a call that ended with `status`, which is not OK. UNAVAILABLE without a word from
-/// the server gets the address and the cure into its message.
+/// the server, and a refusal of who we are, get the cure into their messages.
 Error error_of(const Connection::State& state, const grpc::Status& status);
 
 /// Waits before the next try of a call, or gives up.
@@ -63,6 +66,7 @@ grpc::Status try_call(const Connection::State& state, Stub& stub,
                       grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
                       const Request& request, Response& response, const std::stop_token& stop) {
   grpc::ClientContext context;
+  authorise(state, context);
   context.set_deadline(std::chrono::system_clock::now() + state.options.deadline);
   const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
   return (stub.*method)(&context, request, &response);
@@ -81,6 +85,26 @@ Response call(Connection::State& state, Stub& stub,
       return response;
     }
     retries.wait(error_of(state, status), stop);
+  }
+}
+
+/// The same for a delete, where NOT_FOUND after a lost answer means that it went through.
+template <class Stub, class Request, class Response>
+void call_delete(Connection::State& state, Stub& stub,
+                 grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+                 const Request& request, const std::stop_token& stop) {
+  Retries retries(state);
+  bool lost = false;
+  while (true) {
+    Response response;
+    const grpc::Status status = try_call(state, stub, method, request, response, stop);
+    if (status.ok() || (lost && status.error_code() == grpc::StatusCode::NOT_FOUND)) {
+      retries.succeeded();
+      return;
+    }
+    const Error error = error_of(state, status);
+    lost = lost || is_lost_connection(error);
+    retries.wait(error, stop);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "client/channel.hpp"
+#include "client/failure_text.hpp"
 
 namespace anticrack::client {
 namespace {
@@ -14,7 +15,14 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-std::shared_ptr<grpc::Channel> make_channel(const std::string& address, bool bulk) {
+std::shared_ptr<grpc::ChannelCredentials> credentials_of(const Credentials& credentials) {
+  if (!credentials.tls) {
+    return grpc::InsecureChannelCredentials();
+  }
+  return grpc::SslCredentials({credentials.roots, credentials.key, credentials.certificate});
+}
+
+std::shared_ptr<grpc::Channel> make_channel(const ConnectionOptions& options, bool bulk) {
   grpc::ChannelArguments arguments;
   // Heartbeats come every 10 s; a stream silent for longer may hang on a dead connection. Shorter
   // periods are taken for abuse by the server ("too many pings").
@@ -26,17 +34,17 @@ std::shared_ptr<grpc::Channel> make_channel(const std::string& address, bool bul
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2'000);
   // Channels of equal arguments share one connection.
   arguments.SetInt("anticrack.bulk", bulk ? 1 : 0);
-  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+  return grpc::CreateCustomChannel(options.address, credentials_of(options.credentials), arguments);
 }
 
 }  // namespace
 
 Connection::State::State(ConnectionOptions chosen) : options(std::move(chosen)) {
-  const auto channel = make_channel(options.address, false);
+  const auto channel = make_channel(options, false);
   meshes = v1::MeshService::NewStub(channel);
   jobs = v1::SolveService::NewStub(channel);
   server = v1::ServerService::NewStub(channel);
-  const auto bulk = make_channel(options.address, true);
+  const auto bulk = make_channel(options, true);
   bulk_meshes = v1::MeshService::NewStub(bulk);
   bulk_jobs = v1::SolveService::NewStub(bulk);
 }
@@ -50,21 +58,29 @@ const std::string& Connection::address() const noexcept {
   return _state->options.address;
 }
 
+void authorise(const Connection::State& state, grpc::ClientContext& context) {
+  // Not as call credentials: gRPC sends those over TLS only, and a trial on the own machine, or a
+  // unix socket, needs none.
+  if (!state.options.credentials.token.empty()) {
+    context.AddMetadata("authorization", "Bearer " + state.options.credentials.token);
+  }
+}
+
 Error error_of(const Connection::State& state, const grpc::Status& status) {
   const int code = static_cast<int>(status.error_code());
   Error error = decode_error(code, status.error_message(), status.error_details());
+  const ConnectionOptions& options = state.options;
   if (error.code() == Code::unavailable && error.details().reason.empty()) {
-    // gRPC tells the cause after its own story.
-    const std::string story = status.error_message();
-    const std::size_t cause = story.rfind(": ");
-    return Error(error.code(), "cannot reach the server at " + state.options.address + " (" +
-                                   (cause == std::string::npos ? story : story.substr(cause + 2)) +
-                                   "); start anticrackd, name its address with --server, or use "
-                                   "--local");
+    return Error(error.code(),
+                 unreachable_text(options.address, options.credentials, status.error_message()));
+  }
+  if (error.code() == Code::unauthenticated || error.code() == Code::permission_denied) {
+    return Error(error.code(), refused_text(error.code(), error.what(), options.credentials),
+                 error.details());
   }
   if (error.code() == Code::deadline_exceeded) {
     return Error(error.code(),
-                 "the server at " + state.options.address + " did not answer in time (" +
+                 "the server at " + options.address + " did not answer in time (" +
                      status.error_message() + ")",
                  error.details());
   }
@@ -84,18 +100,16 @@ void Retries::wait(const Error& error, const std::stop_token& stop) {
   }
   const auto failing = std::chrono::duration_cast<milliseconds>(now - *_failing_since);
   const bool lost = is_lost_connection(error);
-  auto delay = _backoff.next(error, failing);
-  if (delay && lost && !_state.met && failing + *delay > _state.options.first_contact) {
-    delay.reset();
-  }
+  const milliseconds patience =
+      lost && !_state.met ? _state.options.first_contact : _state.options.retry.patience;
+  const auto delay = _backoff.next(error, failing, patience);
   if (!delay) {
     // Of a lost connection the first cause tells most ("connection refused"); later ones are
     // gRPC's own attempts getting in each other's way.
     throw lost && is_lost_connection(*_first_error) ? *_first_error : error;
   }
   if (_state.options.notice) {
-    _state.options.notice(lost ? "no connection to " + _state.options.address + ", trying again"
-                               : std::string(error.what()) + "; trying again");
+    _state.options.notice(retry_text(error, _state.options.address, patience));
   }
   sleep(*delay, stop);
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "client/credentials.hpp"
 #include "client/retry.hpp"
 
 namespace anticrack::client {
@@ -17,11 +18,13 @@ inline constexpr std::string_view default_address = "localhost:7433";
 
 struct ConnectionOptions {
   std::string address{default_address};        ///< HOST:PORT or unix:PATH
+  Credentials credentials;                     ///< none: unencrypted, as nobody
   std::chrono::milliseconds deadline{30'000};  ///< of one try of a unary call
   RetryPolicy retry;                           ///< once the server has answered
   /// Patience before the first answer: a wrong address should not take a minute to say so.
   std::chrono::milliseconds first_contact{3'000};
-  /// Told, for people, when a call is about to be tried again. May be empty.
+  /// Told, for people, when a call is about to be tried again, or a watch begins anew. May be
+  /// empty.
   std::function<void(const std::string&)> notice;
 };
 

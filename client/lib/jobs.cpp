@@ -39,7 +39,7 @@ void delete_job(Connection& connection, const std::string& name, const std::stop
   Connection::State& state = connection.state();
   v1::DeleteJobRequest request;
   request.set_name(name);
-  call(state, *state.jobs, &v1::SolveService::Stub::DeleteJob, request, stop);
+  call_delete(state, *state.jobs, &v1::SolveService::Stub::DeleteJob, request, stop);
 }
 
 bool ended(v1::Job::State state) {

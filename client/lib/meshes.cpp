@@ -69,6 +69,7 @@ grpc::Status upload_once(Connection::State& state, const Begin& begin,
                          const v1::UploadMeshRequest::Header& header, std::string& upload,
                          const std::stop_token& stop) {
   grpc::ClientContext context;
+  authorise(state, context);
   const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
   v1::UploadMeshResponse response;
   const auto writer = state.bulk_meshes->UploadMesh(&context, &response);
@@ -150,6 +151,29 @@ v1::ListMeshesResponse list_meshes(Connection& connection, const v1::ListMeshesR
                                    const std::stop_token& stop) {
   Connection::State& state = connection.state();
   return call(state, *state.meshes, &v1::MeshService::Stub::ListMeshes, request, stop);
+}
+
+v1::Mesh warm_mesh(Connection& connection, const std::string& name, bool pin,
+                   const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  v1::WarmMeshRequest request;
+  request.set_name(name);
+  request.set_pin(pin);
+  return call(state, *state.meshes, &v1::MeshService::Stub::WarmMesh, request, stop);
+}
+
+v1::Mesh evict_mesh(Connection& connection, const std::string& name, const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  v1::EvictMeshRequest request;
+  request.set_name(name);
+  return call(state, *state.meshes, &v1::MeshService::Stub::EvictMesh, request, stop);
+}
+
+void delete_mesh(Connection& connection, const std::string& name, const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  v1::DeleteMeshRequest request;
+  request.set_name(name);
+  call_delete(state, *state.meshes, &v1::MeshService::Stub::DeleteMesh, request, stop);
 }
 
 bool settled(v1::Mesh::State state) {

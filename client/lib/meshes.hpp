@@ -35,6 +35,16 @@ v1::Mesh get_mesh(Connection& connection, const std::string& name,
 v1::ListMeshesResponse list_meshes(Connection& connection, const v1::ListMeshesRequest& request,
                                    const std::stop_token& stop = {});
 
+/// Has it factorised in the background; `pin`: and kept in memory until it is evicted.
+v1::Mesh warm_mesh(Connection& connection, const std::string& name, bool pin,
+                   const std::stop_token& stop = {});
+
+/// Frees its factors; the next job makes them again.
+v1::Mesh evict_mesh(Connection& connection, const std::string& name,
+                    const std::stop_token& stop = {});
+
+void delete_mesh(Connection& connection, const std::string& name, const std::stop_token& stop = {});
+
 /// Whether the server is done with a mesh: READY, EVICTED or FAILED.
 bool settled(v1::Mesh::State state);
 

@@ -29,6 +29,7 @@ Block read_block(Connection::State& state, Stub& stub,
     request.set_name(name);
     request.set_offset(receiver.offset());
     grpc::ClientContext context;
+    authorise(state, context);
     const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
     const auto reader = (stub.*method)(&context, request);
     try {

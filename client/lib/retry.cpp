@@ -29,7 +29,8 @@ Backoff::Backoff(RetryPolicy policy, std::uint32_t seed)
     : _policy(policy), _delay(policy.first), _random(seed) {}
 
 std::optional<std::chrono::milliseconds> Backoff::next(const Error& error,
-                                                       std::chrono::milliseconds failing) {
+                                                       std::chrono::milliseconds failing,
+                                                       std::chrono::milliseconds patience) {
   if (!may_retry(error)) {
     return std::nullopt;
   }
@@ -37,10 +38,25 @@ std::optional<std::chrono::milliseconds> Backoff::next(const Error& error,
   const auto delay =
       std::max(std::chrono::milliseconds(upper_half(_random)), error.details().retry_delay);
   _delay = std::min(2 * _delay, _policy.longest);
-  if (failing + delay > _policy.patience) {
+  if (failing + delay > patience) {
     return std::nullopt;
   }
   return delay;
+}
+
+std::string retry_text(const Error& error, const std::string& address,
+                       std::chrono::milliseconds patience) {
+  if (!is_lost_connection(error)) {
+    return std::string(error.what()) + "; trying again";
+  }
+  constexpr std::int64_t minute = 60'000;
+  const std::int64_t time = patience.count();
+  const std::string limit = time >= minute && time % minute == 0
+                                ? std::to_string(time / minute) + " min"
+                                : std::to_string((time + 999) / 1000) + " s";
+  const std::string who =
+      error.details().reason.empty() ? "server " + address + " gone" : std::string(error.what());
+  return who + ", trying again for up to " + limit;
 }
 
 }  // namespace anticrack::client

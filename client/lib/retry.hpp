@@ -1,29 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// When a failed call is tried again, and after how long. Pure: the caller sleeps.
+// When a failed call is tried again, and after how long: one policy for all calls, since all can be
+// repeated. CreateJob has its request id, meshes and uploads are named by their content, a watch
+// goes on behind a number, a read at an offset; cancelling, warming and evicting twice is
+// cancelling, warming and evicting; a delete that had gone through says NOT_FOUND. Pure: the caller
+// sleeps.
+//
+//   UNAVAILABLE                              lost: a killed or draining server reached directly
+//   UNKNOWN "Stream removed"                 lost: the same behind haproxy
+//   INTERNAL "RST_STREAM"                    lost: the same behind nginx
+//   RESOURCE_EXHAUSTED with a retry delay    refused for now: not before that delay
+//   anything else                            stands
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 #include <optional>
 #include <random>
+#include <string>
 
 #include "client/error.hpp"
 
 namespace anticrack::client {
 
-/// Whether the connection was lost rather than the call refused. A killed server is UNAVAILABLE
-/// when reached directly, UNKNOWN "Stream removed" behind haproxy, INTERNAL "RST_STREAM" behind
-/// nginx.
+/// Whether the connection was lost rather than the call refused.
 bool is_lost_connection(const Error& error);
 
 /// is_lost_connection, or a refusal that names a delay after which to try again (queue full).
 bool may_retry(const Error& error);
 
 struct RetryPolicy {
-  std::chrono::milliseconds first{100};        ///< delay before the second try
-  std::chrono::milliseconds longest{3'000};    ///< bound of the doubling delay
-  std::chrono::milliseconds patience{60'000};  ///< give up when failing for longer than this
+  std::chrono::milliseconds first{100};         ///< delay before the second try
+  std::chrono::milliseconds longest{3'000};     ///< bound of the doubling delay
+  std::chrono::milliseconds patience{300'000};  ///< give up when failing for longer than this
 };
 
 /// Delays that double, each drawn from its upper half so that many clients do not return at once.
@@ -31,9 +40,11 @@ class Backoff {
  public:
   explicit Backoff(RetryPolicy policy, std::uint32_t seed = std::random_device{}());
 
-  /// Delay before the next try, after having failed for `failing` with `error`; empty: give up.
+  /// Delay before the next try, after having failed for `failing` with `error`; empty: give up,
+  /// the try would come after more than `patience`.
   std::optional<std::chrono::milliseconds> next(const Error& error,
-                                                std::chrono::milliseconds failing);
+                                                std::chrono::milliseconds failing,
+                                                std::chrono::milliseconds patience);
   /// A try went well.
   void reset() noexcept { _delay = _policy.first; }
 
@@ -42,5 +53,9 @@ class Backoff {
   std::chrono::milliseconds _delay;
   std::minstd_rand _random;
 };
+
+/// What people are told before a wait; the same words as long as the cause is the same.
+std::string retry_text(const Error& error, const std::string& address,
+                       std::chrono::milliseconds patience);
 
 }  // namespace anticrack::client

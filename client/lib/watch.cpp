@@ -39,6 +39,7 @@ v1::Job watch_job(Connection& connection, const std::string& name, std::uint64_t
     request.set_name(name);
     request.set_after_sequence(position.after);
     grpc::ClientContext context;  // no deadline: a job may take days, heartbeats tell it lives
+    authorise(state, context);
     const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
     const auto reader = state.jobs->WatchJob(&context, request);
     v1::WatchJobResponse message;
@@ -56,6 +57,10 @@ v1::Job watch_job(Connection& connection, const std::string& name, std::uint64_t
       throw Interrupted();
     }
     if (status.error_code() == grpc::StatusCode::OUT_OF_RANGE && position.after != 0) {
+      if (state.options.notice) {
+        state.options.notice("the events after number " + std::to_string(position.after) +
+                             " are no longer there; starting again from the earliest");
+      }
       position.after = 0;
       continue;
     }

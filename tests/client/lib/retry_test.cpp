@@ -34,26 +34,41 @@ TEST(Backoff, DoublesUpToABoundWithJitterInTheUpperHalf) {
   Backoff backoff(policy, 1);
   const Error lost(Code::unavailable, "gone");
   for (const int full : {100, 200, 400, 800, 1000, 1000}) {
-    const auto delay = backoff.next(lost, milliseconds(0));
+    const auto delay = backoff.next(lost, milliseconds(0), policy.patience);
     ASSERT_TRUE(delay.has_value());
     EXPECT_GE(delay->count(), full / 2);
     EXPECT_LE(delay->count(), full);
   }
   backoff.reset();
-  EXPECT_LE(backoff.next(lost, milliseconds(0))->count(), 100);
+  EXPECT_LE(backoff.next(lost, milliseconds(0), policy.patience)->count(), 100);
 }
 
 TEST(Backoff, WaitsAtLeastWhatTheServerAsks) {
   Backoff backoff(RetryPolicy{}, 1);
-  EXPECT_EQ(backoff.next(busy(milliseconds(5000)), milliseconds(0)), milliseconds(5000));
+  EXPECT_EQ(backoff.next(busy(milliseconds(5000)), milliseconds(0), milliseconds(60'000)),
+            milliseconds(5000));
 }
 
 TEST(Backoff, GivesUpWithItsPatienceOrWithoutHope) {
   const RetryPolicy policy{milliseconds(100), milliseconds(1000), milliseconds(500)};
   const Error lost(Code::unavailable, "gone");
-  EXPECT_TRUE(Backoff(policy, 1).next(lost, milliseconds(300)).has_value());
-  EXPECT_FALSE(Backoff(policy, 1).next(lost, milliseconds(500)).has_value());
-  EXPECT_FALSE(Backoff(policy, 1).next(Error(Code::not_found, "no"), milliseconds(0)).has_value());
+  const auto next = [&](const Error& error, int failing) {
+    return Backoff(policy, 1).next(error, milliseconds(failing), policy.patience);
+  };
+  EXPECT_TRUE(next(lost, 300).has_value());
+  EXPECT_FALSE(next(lost, 500).has_value());
+  EXPECT_FALSE(next(Error(Code::not_found, "no"), 0).has_value());
+  EXPECT_FALSE(next(busy(milliseconds(501)), 0).has_value()) << "would come too late";
+}
+
+TEST(RetryText, SaysWhoIsGoneAndForHowLongItIsTried) {
+  const Error lost(Code::unavailable, "gone");
+  EXPECT_EQ(retry_text(lost, "here:1", milliseconds(300'000)),
+            "server here:1 gone, trying again for up to 5 min");
+  EXPECT_EQ(retry_text(lost, "here:1", milliseconds(1'500)),
+            "server here:1 gone, trying again for up to 2 s");
+  EXPECT_EQ(retry_text(busy(milliseconds(10)), "here:1", milliseconds(0)),
+            "queue full; trying again");
 }
 
 }  // namespace

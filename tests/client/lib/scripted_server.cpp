@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "anticrack/v1/error.pb.h"
 #include "anticrack/v1/mesh.grpc.pb.h"
 #include "anticrack/v1/solve.grpc.pb.h"
 
@@ -15,9 +16,22 @@ namespace anticrack::client {
 namespace {
 
 grpc::Status status_of(const Ending& ending) {
-  return ending.code == Code::ok
-             ? grpc::Status::OK
-             : grpc::Status(static_cast<grpc::StatusCode>(ending.code), ending.message);
+  if (ending.code == Code::ok) {
+    return grpc::Status::OK;
+  }
+  const auto code = static_cast<grpc::StatusCode>(ending.code);
+  if (ending.retry_delay.count() == 0) {
+    return {code, ending.message};
+  }
+  v1::RetryInfo retry;
+  const auto milliseconds = static_cast<std::int64_t>(ending.retry_delay.count());
+  retry.mutable_retry_delay()->set_seconds(milliseconds / 1000);
+  retry.mutable_retry_delay()->set_nanos(
+      static_cast<std::int32_t>(milliseconds % 1000 * 1'000'000));
+  v1::Status details;
+  details.add_details()->set_type_url("type.googleapis.com/google.rpc.RetryInfo");
+  details.mutable_details(0)->set_value(retry.SerializeAsString());
+  return {code, ending.message, details.SerializeAsString()};
 }
 
 template <class Script>
@@ -49,8 +63,9 @@ class Jobs : public v1::SolveService::Service {
  public:
   explicit Jobs(ScriptedServer& script) : _script(script) {}
 
-  grpc::Status CreateJob(grpc::ServerContext*, const v1::CreateJobRequest* request,
+  grpc::Status CreateJob(grpc::ServerContext* context, const v1::CreateJobRequest* request,
                          v1::Job* job) override {
+    note(*context);
     const std::size_t call = created.add(*request);
     *job = request->job();
     job->set_name("jobs/1");
@@ -59,6 +74,7 @@ class Jobs : public v1::SolveService::Service {
 
   grpc::Status WatchJob(grpc::ServerContext* context, const v1::WatchJobRequest* request,
                         grpc::ServerWriter<v1::WatchJobResponse>* writer) override {
+    note(*context);
     const WatchScript& script = script_of_call(_script.watches, watched.add(*request));
     for (const v1::WatchJobResponse& message : script.messages) {
       writer->Write(message);
@@ -69,8 +85,15 @@ class Jobs : public v1::SolveService::Service {
     return status_of(script.ending);
   }
 
-  grpc::Status ReadResult(grpc::ServerContext*, const v1::ReadResultRequest* request,
+  grpc::Status DeleteJob(grpc::ServerContext* context, const v1::DeleteJobRequest* request,
+                         google::protobuf::Empty*) override {
+    note(*context);
+    return status_of(script_of_call(_script.deletions, deleted.add(*request)));
+  }
+
+  grpc::Status ReadResult(grpc::ServerContext* context, const v1::ReadResultRequest* request,
                           grpc::ServerWriter<v1::ReadResultResponse>* writer) override {
+    note(*context);
     const ReadScript& script = script_of_call(_script.reads, read.add(*request));
     for (const v1::ReadResultResponse& message : script.messages) {
       writer->Write(message);
@@ -81,10 +104,31 @@ class Jobs : public v1::SolveService::Service {
   Record<v1::CreateJobRequest> created;
   Record<v1::WatchJobRequest> watched;
   Record<v1::ReadResultRequest> read;
+  Record<v1::DeleteJobRequest> deleted;
+  Record<std::string> authorizations;
 
  private:
+  void note(const grpc::ServerContext& context) {
+    const auto found = context.client_metadata().find("authorization");
+    authorizations.add(found == context.client_metadata().end()
+                           ? std::string()
+                           : std::string(found->second.data(), found->second.size()));
+  }
+
   ScriptedServer& _script;
 };
+
+std::shared_ptr<grpc::ServerCredentials> credentials_of(const ServerTls& tls) {
+  if (tls.certificate.empty()) {
+    return grpc::InsecureServerCredentials();
+  }
+  grpc::SslServerCredentialsOptions options(
+      tls.client_roots.empty() ? GRPC_SSL_DONT_REQUEST_CLIENT_CERTIFICATE
+                               : GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY);
+  options.pem_root_certs = tls.client_roots;
+  options.pem_key_cert_pairs = {{tls.key, tls.certificate}};
+  return grpc::SslServerCredentials(options);
+}
 
 class Meshes : public v1::MeshService::Service {
  public:
@@ -114,9 +158,10 @@ struct ScriptedServer::Services {
   int port = 0;
 };
 
-ScriptedServer::ScriptedServer() : _services(std::make_unique<Services>(*this)) {
+ScriptedServer::ScriptedServer(const ServerTls& tls)
+    : _services(std::make_unique<Services>(*this)) {
   grpc::ServerBuilder builder;
-  builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &_services->port);
+  builder.AddListeningPort("127.0.0.1:0", credentials_of(tls), &_services->port);
   builder.RegisterService(&_services->jobs);
   builder.RegisterService(&_services->meshes);
   _services->server = builder.BuildAndStart();
@@ -139,6 +184,10 @@ std::vector<v1::ReadResultRequest> ScriptedServer::read() const {
 
 std::vector<v1::CreateJobRequest> ScriptedServer::created() const {
   return _services->jobs.created.all();
+}
+
+std::vector<std::string> ScriptedServer::authorizations() const {
+  return _services->jobs.authorizations.all();
 }
 
 std::string ScriptedServer::uploaded() const {

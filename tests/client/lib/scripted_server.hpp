@@ -3,6 +3,7 @@
 // A gRPC server that fails on cue: what a real one does only when it is killed at the right moment.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
@@ -21,6 +22,7 @@ namespace anticrack::client {
 struct Ending {
   Code code = Code::ok;
   std::string message;
+  std::chrono::milliseconds retry_delay{0};  ///< asked for where above 0
 };
 
 /// What one stream of WatchJob sends, and how it ends.
@@ -36,10 +38,17 @@ struct ReadScript {
   Ending ending;
 };
 
+/// PEM texts of a server with TLS; `client_roots`: who is asked for a certificate, empty: nobody.
+struct ServerTls {
+  std::string certificate, key, client_roots;
+};
+
 /// Plays one script a call, in order; the last one again and again. Records what it was asked.
 class ScriptedServer {
  public:
-  ScriptedServer();
+  ScriptedServer() : ScriptedServer(ServerTls()) {}
+  /// Without a certificate: unencrypted.
+  explicit ScriptedServer(const ServerTls& tls);
   ~ScriptedServer();
   ScriptedServer(const ScriptedServer&) = delete;
   ScriptedServer& operator=(const ScriptedServer&) = delete;
@@ -47,10 +56,13 @@ class ScriptedServer {
   std::vector<WatchScript> watches;
   std::vector<ReadScript> reads;
   std::vector<Ending> creations;  ///< of CreateJob
+  std::vector<Ending> deletions;  ///< of DeleteJob
 
   std::vector<v1::WatchJobRequest> watched() const;
   std::vector<v1::ReadResultRequest> read() const;
   std::vector<v1::CreateJobRequest> created() const;
+  /// "authorization" of every call of SolveService, empty where there was none.
+  std::vector<std::string> authorizations() const;
   /// Bytes of the last upload and its header.
   std::string uploaded() const;
   v1::UploadMeshRequest::Header upload_header() const;

@@ -33,6 +33,22 @@ TEST(CreateJob, IsNotRepeatedWhenRefused) {
   EXPECT_EQ(server.created().size(), 1U);
 }
 
+TEST(DeleteJob, ThatWentThroughUnheardIsNoError) {
+  ScriptedServer server;
+  server.deletions = {{Code::unavailable, "gone"}, {Code::not_found, "no such job"}};
+  Connection connection(server.options());
+  EXPECT_NO_THROW(delete_job(connection, "jobs/1"));
+  EXPECT_THROW(delete_job(connection, "jobs/1"), Error) << "this one had not been there";
+}
+
+TEST(CreateJob, WaitsOutAQueueThatIsFull) {
+  ScriptedServer server;
+  server.creations = {{Code::resource_exhausted, "queue full", std::chrono::milliseconds(1)}, {}};
+  Connection connection(server.options());
+  EXPECT_EQ(create_job(connection, {}, make_uuid()).name(), "jobs/1");
+  EXPECT_EQ(server.created().size(), 2U);
+}
+
 TEST(Connection, TellsThatItTriesAgain) {
   ScriptedServer server;
   server.creations = {{Code::unavailable, "gone"}, {}};

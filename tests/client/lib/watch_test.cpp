@@ -80,11 +80,15 @@ TEST(Watch, StartsOverWhereTheServerKeepsTheEventNoLonger) {
   ScriptedServer server;
   server.watches = {{{}, {Code::out_of_range, "trimmed"}},
                     {{snapshot_event(0), sample_event(9), ended_event(10)}, {}}};
-  Connection connection(server.options());
+  ConnectionOptions options = server.options();
+  std::vector<std::string> notices;
+  options.notice = [&notices](const std::string& message) { notices.push_back(message); };
+  Connection connection(options);
   Seen seen;
   watch_job(connection, "jobs/1", 5, std::ref(seen));
   EXPECT_THAT(asked_after(server), ElementsAre(5, 0));
   EXPECT_THAT(seen.numbers, ElementsAre(9, 10));
+  EXPECT_THAT(notices, ElementsAre(testing::HasSubstr("starting again from the earliest")));
   EXPECT_EQ(seen.snapshots, 1);
 }
 
