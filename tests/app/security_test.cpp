@@ -148,6 +148,7 @@ std::string with_end(const std::string& certificate, long seconds_from_now) {
   BIO* in = BIO_new_mem_buf(certificate.data(), static_cast<int>(certificate.size()));
   X509* changed = PEM_read_bio_X509(in, nullptr, nullptr, nullptr);
   X509_gmtime_adj(X509_getm_notAfter(changed), seconds_from_now);
+  i2d_re_X509_tbs(changed, nullptr);  // or the encoding of before is written
   BIO* out = BIO_new(BIO_s_mem());
   PEM_write_bio_X509(out, changed);
   char* text = nullptr;
