@@ -6,6 +6,7 @@
 #include <signal.h>
 
 #include <memory>
+#include <sstream>
 
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -17,6 +18,7 @@ using anticrack::testing::Process;
 using anticrack::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 class DaemonsEnd : public ::testing::Test {
  protected:
@@ -60,11 +62,10 @@ TEST_F(DaemonsEnd, IsLoggedAsJson) {
   const std::string log = daemon->error();
   EXPECT_THAT(log, HasSubstr(R"("event":"metrics","url":"http://127.0.0.1:)"));
   EXPECT_THAT(log, HasSubstr(R"("event":"stopped"})"));
-  std::size_t lines = 0;
-  for (std::size_t begin = 0; begin < log.size(); begin = log.find('\n', begin) + 1, ++lines) {
-    EXPECT_EQ(log.compare(begin, 9, "{\"time\":\""), 0) << log;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_THAT(line, StartsWith("{\"time\":\""));
   }
-  EXPECT_GE(lines, 4u);
 }
 
 TEST_F(DaemonsEnd, SaysInTheLogWhyItDidNotStart) {
