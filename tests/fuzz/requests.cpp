@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Every unary request as it comes from the wire: the first byte chooses the message, the rest are
+// its bytes. What a handler does with it before it waits for anything is done: translation, the
+// plan of a geometry, the check of loads and solver, and what the store keeps of it.
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "anticrack/v1/mesh.pb.h"
+#include "anticrack/v1/solve.pb.h"
+#include "errors/errors.hpp"
+#include "fem/load.hpp"
+#include "fuzz/input.hpp"
+#include "mesh/codec.hpp"
+#include "rpc/names.hpp"
+#include "rpc/to_domain.hpp"
+#include "store/record_codec.hpp"
+
+namespace {
+
+using namespace anticrack;
+
+constexpr std::size_t max_triangles = 10'000;
+constexpr std::size_t max_expression_bytes = 4'096;
+
+template <class Record, class Decode>
+void check_record(const Record& record, const Decode& decode) {
+  const std::string bytes = store::encode(record);
+  fuzz::require(store::encode(decode(bytes)) == bytes, "the record comes back as another");
+}
+
+void plan(const store::GeometrySource& source) {
+  mesh::MesherRequest request = mesh::GenerateRequest{
+      mesh::plan(source.geometry, source.options, max_triangles), max_triangles};
+  const mesh::Bytes bytes = mesh::encode(request);
+  fuzz::require(mesh::encode(mesh::decode_request(bytes)) == bytes,
+                "the helper's request comes back as another");
+}
+
+void take(const v1::CreateMeshRequest& request) {
+  store::MeshRecord record;
+  record.title = request.title();
+  record.definition = rpc::to_definition(request);
+  check_record(record, store::decode_mesh_record);
+  try {
+    if (const auto* source = std::get_if<store::GeometrySource>(&record.definition)) {
+      plan(*source);
+    } else {
+      mesh::check_for_upload(std::get<store::UploadRef>(record.definition).options);
+    }
+  } catch (const errors::Error& error) {
+    throw rpc::below_mesh_request(error);
+  }
+}
+
+void take(const v1::CreateJobRequest& request) {
+  using namespace std::chrono_literals;
+  rpc::require_request_id(request.request_id());
+  store::JobRecord record;
+  record.request_id = request.request_id();
+  record.spec = rpc::to_spec(request.job(), {100, 100'000, 1h, 1h});
+  check_record(record, store::decode_job_record);
+  try {
+    for (const fem::Load& load : record.spec.loads) fem::check(load, max_expression_bytes);
+  } catch (const errors::Error& error) {
+    throw rpc::below_job_request(error);
+  }
+}
+
+template <class Request>
+void take_mesh(const Request& request) {
+  const std::string id = rpc::mesh_id(request.name(), "name");
+  fuzz::require(rpc::mesh_name(id) == request.name(), "a mesh has two names");
+}
+
+template <class Request>
+void take_job(const Request& request) {
+  const std::string id = rpc::job_id(request.name(), "name");
+  fuzz::require(rpc::job_name(id) == request.name(), "a job has two names");
+}
+
+template <class Request>
+void take_page(const Request& request) {
+  const rpc::Page page = rpc::to_page(request.page_size(), request.page_token());
+  fuzz::require(page.size > 0 && page.size <= rpc::max_page_size, "a page without bound");
+}
+
+template <class Request, class Take>
+void parsed(const std::string& bytes, const Take& take) {
+  Request request;
+  if (request.ParseFromString(bytes)) take(request);
+}
+
+void dispatch(int which, const std::string& bytes) {
+  const auto mesh_name = [](const auto& request) { take_mesh(request); };
+  const auto job_name = [](const auto& request) { take_job(request); };
+  const auto page = [](const auto& request) { take_page(request); };
+  const auto whole = [](const auto& request) { take(request); };
+  switch (which) {
+    case 0:
+      return parsed<v1::CreateMeshRequest>(bytes, whole);
+    case 1:
+      return parsed<v1::CreateJobRequest>(bytes, whole);
+    case 2:
+      return parsed<v1::GetMeshRequest>(bytes, mesh_name);
+    case 3:
+      return parsed<v1::ReadMeshRequest>(bytes, mesh_name);
+    case 4:
+      return parsed<v1::DeleteMeshRequest>(bytes, mesh_name);
+    case 5:
+      return parsed<v1::WarmMeshRequest>(bytes, mesh_name);
+    case 6:
+      return parsed<v1::EvictMeshRequest>(bytes, mesh_name);
+    case 7:
+      return parsed<v1::GetJobRequest>(bytes, job_name);
+    case 8:
+      return parsed<v1::CancelJobRequest>(bytes, job_name);
+    case 9:
+      return parsed<v1::DeleteJobRequest>(bytes, job_name);
+    case 10:
+      return parsed<v1::WatchJobRequest>(bytes, job_name);
+    case 11:
+      return parsed<v1::ReadResultRequest>(bytes, job_name);
+    case 12:
+      return parsed<v1::ListMeshesRequest>(bytes, page);
+    default:
+      return parsed<v1::ListJobsRequest>(bytes, page);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::Pieces pieces(fuzz::text_of(data, size));
+  const int which = pieces.selector() % 14;
+  try {
+    dispatch(which, pieces.rest());
+  } catch (const errors::Error& error) {
+    fuzz::require(error.reason() != errors::Reason::internal, error.what());
+  }
+  return 0;
+}

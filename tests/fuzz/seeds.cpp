@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// fuzz_seeds EXAMPLES FOLDER: writes what the binary formats' fuzzers begin with, as today's code
+// writes them, to FOLDER/TARGET/NAME. EXAMPLES: the folder of the client's example cases.
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "anticrack/v1/mesh.pb.h"
+#include "anticrack/v1/solve.pb.h"
+#include "casefile/case.hpp"
+#include "fuzz/input.hpp"
+#include "fuzz/small_result.hpp"
+#include "mesh/codec.hpp"
+#include "mesher/grading.hpp"
+#include "mesher/import.hpp"
+#include "mesher/msh_writer.hpp"
+#include "results/file.hpp"
+#include "rpc/to_domain.hpp"
+#include "store/digest.hpp"
+#include "store/record_codec.hpp"
+
+namespace {
+
+using namespace anticrack;
+using fuzz::as_piece;
+namespace fs = std::filesystem;
+
+fs::path root;
+
+void save(const std::string& target, const std::string& name, const std::string& bytes) {
+  fs::create_directories(root / target);
+  std::ofstream(root / target / name, std::ios::binary) << bytes;
+}
+
+/// With the byte before it by which a target chooses.
+std::string chosen(int selector, const std::string& bytes) {
+  return std::string(1, static_cast<char>(selector)) + bytes;
+}
+
+std::string text_of(const mesh::Bytes& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void save_mesh_request(const std::string& name, const v1::CreateMeshRequest& request) {
+  save("requests", name + "-mesh", chosen(0, request.SerializeAsString()));
+  store::MeshRecord record;
+  record.id = "0123456789abcdef";
+  record.owner = "somebody";
+  record.definition = rpc::to_definition(request);
+  record.error = errors::Error(errors::Reason::mesh_invalid, "wrong").at("upload").with("a", "b");
+  record.subdomains = {{"minus", 10, 20, 2, 1, true, 45, 0.1, 0.2}};
+  record.interfaces = {{"sigma", 2, 11, {{mesh::Kind::delaminated, 0, 0.5, 1.5, 5}}}};
+  record.inclusions = {"fibre"};
+  record.warnings = {"one"};
+  record.tips = {{{0.5, 0}, "sigma", 1e-9}};
+  save("records", name + "-mesh", chosen(0, store::encode(record)));
+  if (const auto* source = std::get_if<store::GeometrySource>(&record.definition)) {
+    const mesh::MesherRequest wanted =
+        mesh::GenerateRequest{mesh::plan(source->geometry, source->options, 1'000'000), 1'000'000};
+    save("mesher_codec", name + "-generate", chosen(0, text_of(mesh::encode(wanted))));
+  }
+}
+
+void save_job_request(const std::string& name, const v1::Job& job) {
+  using namespace std::chrono_literals;
+  v1::CreateJobRequest request;
+  *request.mutable_job() = job;
+  request.mutable_job()->set_mesh("meshes/0123456789abcdef");
+  request.set_request_id("123e4567-e89b-42d3-a456-426614174000");
+  save("requests", name + "-job", chosen(1, request.SerializeAsString()));
+  store::JobRecord record;
+  record.id = "fedcba9876543210";
+  record.request_id = request.request_id();
+  record.spec = rpc::to_spec(request.job(), {1'000, 1'000'000, 24h, 24h});
+  record.cases.resize(record.spec.loads.size());
+  record.timeline = {{store::Clock::now(), store::JobState::running, "meshing"}};
+  save("records", name + "-job", chosen(1, store::encode(record)));
+}
+
+void save_cases(const fs::path& examples) {
+  for (const auto& entry : fs::directory_iterator(examples)) {
+    if (entry.path().extension() != ".toml") continue;
+    const casefile::Case example = casefile::read_case(entry.path());
+    const std::string name = entry.path().stem();
+    save("case_file", name, example.text);
+    save("case_file", name + "-set", "#set mesh.size=0.1\n#set title=another\n" + example.text);
+    save_mesh_request(name, example.mesh);
+    save_job_request(name, example.job);
+  }
+}
+
+template <class Request>
+void save_name(int selector, const std::string& name) {
+  Request request;
+  request.set_name(name);
+  save("requests", "name-" + std::to_string(selector),
+       chosen(selector, request.SerializeAsString()));
+}
+
+template <class Request>
+void save_page(int selector) {
+  Request request;
+  request.set_page_size(10);
+  request.set_page_token("0123456789abcdef");
+  save("requests", "page-" + std::to_string(selector),
+       chosen(selector, request.SerializeAsString()));
+}
+
+void save_small_requests() {
+  const std::string mesh = "meshes/0123456789abcdef";
+  const std::string job = "jobs/0123456789abcdef";
+  save_name<v1::GetMeshRequest>(2, mesh);
+  save_name<v1::ReadMeshRequest>(3, mesh);
+  save_name<v1::DeleteMeshRequest>(4, mesh);
+  save_name<v1::WarmMeshRequest>(5, mesh);
+  save_name<v1::EvictMeshRequest>(6, mesh);
+  save_name<v1::GetJobRequest>(7, job);
+  save_name<v1::CancelJobRequest>(8, job);
+  save_name<v1::DeleteJobRequest>(9, job);
+  save_name<v1::WatchJobRequest>(10, job);
+  save_name<v1::ReadResultRequest>(11, job);
+  save_page<v1::ListMeshesRequest>(12);
+  save_page<v1::ListJobsRequest>(13);
+}
+
+void save_meshes() {
+  int number = 0;
+  for (const auto format : testing::all_formats) {
+    for (const char* middle : {"delaminated:stiffener", "crack", "inclusion:i", ""}) {
+      const std::string bytes = testing::write_msh(testing::square_sample(middle), format);
+      save("msh_file", std::to_string(number++), bytes);
+    }
+  }
+  const std::string bytes =
+      testing::write_msh(testing::square_sample(), testing::MshFormat::ascii41);
+  mesh::Mesh mesh = mesher::import_msh(bytes, mesh::MeshOptions{}, 1'000);
+  save("mesher_codec", "mesh", chosen(2, text_of(mesh::encode(mesh))));
+  save("mesher_codec", "import",
+       chosen(0, text_of(mesh::encode(mesh::MesherRequest(mesh::ImportRequest{"", {}, 1'000})))));
+  save("mesher_codec", "reply", chosen(1, text_of(mesh::encode(mesh::MesherReply(mesh)))));
+  save("mesher_codec", "refusal",
+       chosen(1, text_of(mesh::encode(mesh::MesherReply(
+                     errors::Error(errors::Reason::mesh_invalid, "wrong").at("upload"))))));
+}
+
+std::string upload(v1::UploadMeshRequest::Content content, const std::string& bytes) {
+  v1::UploadMeshRequest first;
+  first.mutable_header()->set_size(bytes.size());
+  first.mutable_header()->set_sha256(store::Sha256().add(bytes).finish());
+  first.mutable_header()->set_content(content);
+  std::string stream = as_piece(first.SerializeAsString());
+  const std::size_t half = bytes.size() / 2;
+  for (const std::string& part : {bytes.substr(0, half), bytes.substr(half)}) {
+    v1::UploadMeshRequest chunk;
+    chunk.set_chunk(part);
+    stream += as_piece(chunk.SerializeAsString());
+  }
+  return stream;
+}
+
+void save_uploads() {
+  const double values[] = {1, 2.5, -3};
+  const std::string array(reinterpret_cast<const char*>(values), sizeof values);
+  const std::string msh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  for (const int selector : {0, 1}) {
+    const std::string at = std::to_string(selector);
+    save("upload", "array-" + at,
+         chosen(selector, upload(v1::UploadMeshRequest::CONTENT_ARRAY, array)));
+    save("upload", "msh-" + at, chosen(selector, upload(v1::UploadMeshRequest::CONTENT_MSH, msh)));
+  }
+}
+
+/// A block as the server streams it, of columns of numbers.
+class Block {
+ public:
+  template <class T>
+  void add(const std::string& name, const std::vector<T>& values, std::uint64_t columns = 0) {
+    while (_bytes.size() % 8 != 0) _bytes.push_back('\0');
+    auto& array = *_layout.add_arrays();
+    array.set_name(name);
+    array.set_type(sizeof(T) == 8 ? v1::ArrayLayout::TYPE_FLOAT64 : v1::ArrayLayout::TYPE_INT32);
+    array.set_offset(_bytes.size());
+    array.add_shape(columns == 0 ? values.size() : values.size() / columns);
+    if (columns != 0) array.add_shape(columns);
+    _bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+  }
+
+  /// As result_stream takes it: with the chunk as a message, or its data alone.
+  std::string stream(bool data_alone) {
+    _layout.set_size(_bytes.size());
+    _layout.set_sha256(store::Sha256().add(_bytes).finish());
+    v1::BlockChunk chunk;
+    chunk.set_data(_bytes);
+    chunk.set_crc32c(store::crc32c(std::as_bytes(std::span(_bytes))));
+    return as_piece(_layout.SerializeAsString()) +
+           as_piece(data_alone ? _bytes : chunk.SerializeAsString());
+  }
+
+ private:
+  v1::BlockLayout _layout;
+  std::string _bytes;
+};
+
+void add_load(Block& block, const std::string& at, const results::Load& load) {
+  for (std::size_t i = 0; i < load.traces.size(); ++i) {
+    const std::string trace = at + "traces/" + std::to_string(i) + "/";
+    block.add(trace + "u_minus", load.traces[i].u_minus);
+    block.add(trace + "u_plus", load.traces[i].u_plus);
+    block.add(trace + "jump", load.traces[i].jump);
+    block.add(trace + "pressure", load.traces[i].pressure);
+    block.add(trace + "contact", load.traces[i].contact);
+  }
+  const results::History& history = load.history;
+  block.add(at + "history/iteration", history.iteration);
+  block.add(at + "history/criterion", history.criterion);
+  block.add(at + "history/energy", history.energy);
+  block.add(at + "history/contact_count", history.contact_count);
+  block.add(at + "history/kkt_equilibrium", history.kkt_equilibrium);
+  block.add(at + "history/kkt_gap", history.kkt_gap);
+  block.add(at + "history/kkt_sign", history.kkt_sign);
+  block.add(at + "history/kkt_complementarity", history.kkt_complementarity);
+  for (std::size_t i = 0; i < load.fields.size(); ++i) {
+    block.add(at + "fields/" + std::to_string(i), load.fields[i].u);
+  }
+}
+
+void save_result() {
+  const results::Result result = fuzz::small_result();
+  Block mesh;
+  mesh.add("nodes", result.mesh.xy, 2);
+  mesh.add("triangles", result.mesh.triangles, 3);
+  mesh.add("subdomain", result.mesh.subdomain);
+  mesh.add("boundary", result.mesh.boundary, 2);
+  Block answer;
+  for (std::size_t i = 0; i < result.interfaces.size(); ++i) {
+    const results::Interface& interface = result.interfaces[i];
+    const std::string at = "interfaces/" + std::to_string(i) + "/";
+    answer.add(at + "s", interface.s);
+    answer.add(at + "x", interface.x);
+    answer.add(at + "y", interface.y);
+    answer.add(at + "kind",
+               std::vector<std::int32_t>(interface.node_count(), 3));  // delaminated everywhere
+  }
+  for (std::size_t i = 0; i < result.loads.size(); ++i) {
+    add_load(answer, "loads/" + std::to_string(i) + "/", result.loads[i]);
+  }
+  for (std::size_t i = 0; i < result.loads[0].fields.size(); ++i) {
+    const std::string at = "fields/" + std::to_string(i);
+    answer.add(at + "/nodes", result.loads[0].fields[i].nodes);
+    answer.add(at + "/triangles", result.loads[0].fields[i].triangles, 3);
+  }
+  for (const bool corrected : {false, true}) {
+    save("result_stream", corrected ? "corrected" : "plain",
+         chosen(corrected ? 1 : 0, mesh.stream(corrected) + answer.stream(corrected)));
+  }
+  fs::create_directories(root / "result_file");
+  results::write(root / "result_file" / "small", result);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::cerr << "usage: fuzz_seeds EXAMPLES FOLDER\n";
+    return 2;
+  }
+  try {
+    root = argv[2];
+    save_cases(argv[1]);
+    save_small_requests();
+    save_meshes();
+    save_uploads();
+    save_result();
+  } catch (const std::exception& error) {
+    std::cerr << "fuzz_seeds: " << error.what() << '\n';
+    return 1;
+  }
+}
