@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <exception>
 #include <thread>
 #include <utility>
 
@@ -103,8 +104,12 @@ const std::string& Service::address() const noexcept {
   return _parts->server->address();
 }
 
-void Service::check_alive() const {
-  _parts->snapshot();
+void Service::check_alive() const noexcept {
+  try {
+    _parts->snapshot();
+  } catch (const std::exception&) {
+    // An error is an answer too: a bad disk is no reason to be killed.
+  }
 }
 
 void Service::drain() {

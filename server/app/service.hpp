@@ -22,7 +22,7 @@ class Service {
   const std::string& address() const noexcept;
   /// Returns once every part has answered a question that takes its lock: one that is stuck keeps
   /// it waiting, and so keeps systemd's watchdog from hearing of it.
-  void check_alive() const;
+  void check_alive() const noexcept;
   /// Not ready any more, and serving on for drain-delay; then stops gently within drain-time and a
   /// little.
   void drain();

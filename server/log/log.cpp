@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "log/log.hpp"
 
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <memory>
+#include <utility>
 
 #include "log/escape.hpp"
 
@@ -48,6 +50,30 @@ std::string json_members(std::string_view event, const Fields& fields) {
   return line;
 }
 
+/// The text of a line that was given to spdlog itself, escaped: where the pattern says %*.
+class EscapedText : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm& /*time*/,
+              spdlog::memory_buf_t& line) override {
+    const std::string text =
+        escape(std::string_view(message.payload.data(), message.payload.size()));
+    line.append(text.data(), text.data() + text.size());
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<EscapedText>();
+  }
+};
+
+std::shared_ptr<spdlog::logger> make_logger(const std::string& level, const std::string& pattern) {
+  auto logger = std::make_shared<spdlog::logger>("anticrackd",
+                                                 std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  auto formatter = std::make_unique<spdlog::pattern_formatter>();
+  formatter->add_flag<EscapedText>('*').set_pattern(pattern);
+  logger->set_formatter(std::move(formatter));
+  logger->set_level(spdlog::level::from_str(level));
+  return logger;
+}
+
 void write(spdlog::level::level_enum level, std::string_view event, const Fields& fields) {
   const Logger& logger = current();
   if (!logger.to || !logger.to->should_log(level)) return;
@@ -59,13 +85,13 @@ void write(spdlog::level::level_enum level, std::string_view event, const Fields
 }  // namespace
 
 void start(const std::string& level, Format format) {
-  auto sink = std::make_shared<spdlog::sinks::stderr_sink_mt>();
-  auto logger = std::make_shared<spdlog::logger>("anticrackd", std::move(sink));
-  logger->set_pattern(format == Format::json
-                          ? R"({"time":"%Y-%m-%dT%H:%M:%S.%e%z","level":"%l",%v})"
-                          : "%Y-%m-%dT%H:%M:%S.%e%z %l %v");
-  logger->set_level(spdlog::level::from_str(level));
-  current() = {std::move(logger), format};
+  const bool json = format == Format::json;
+  const std::string json_begin = R"({"time":"%Y-%m-%dT%H:%M:%S.%e%z","level":"%l",)";
+  const std::string text_begin = "%Y-%m-%dT%H:%M:%S.%e%z %l ";
+  current() = {make_logger(level, json ? json_begin + "%v}" : text_begin + "%v"), format};
+  // What a library says goes the same way, in the same form.
+  spdlog::set_default_logger(
+      make_logger(level, json ? json_begin + R"("event":"%*"})" : text_begin + "%*"));
 }
 
 void info(std::string_view event, const Fields& fields) {

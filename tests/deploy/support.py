@@ -54,6 +54,12 @@ class Daemon:
             time.sleep(0.01)
         return found.group(1)
 
+    def terminate(self):
+        self._process.terminate()
+
+    def wait(self):
+        return self._process.wait()
+
     def __enter__(self):
         return self
 

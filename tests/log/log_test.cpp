@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <spdlog/spdlog.h>
 
 #include <functional>
 
@@ -47,6 +48,18 @@ TEST(Log, LetsNoValueForgeALineOrAKey) {
   EXPECT_THAT(written("info", Format::json, attack),
               ::testing::EndsWith(R"("title":"x\" state=\"READY\n2026 error all lost {0} %v"})"
                                   "\n"));
+}
+
+TEST(Log, TakesWhatLibrariesSayTheSameWay) {
+  const auto library = [] { spdlog::error("broken \"{}\"", "a\nb"); };
+  EXPECT_THAT(written("info", Format::json, library),
+              MatchesRegex(R"(\{"time":"20[0-9T:.+-]+","level":"error",)"
+                           R"("event":"broken \\"a\\nb\\""\})"
+                           "\n"));
+  EXPECT_THAT(written("info", Format::text, library),
+              ::testing::EndsWith(R"( error broken \"a\nb\")"
+                                  "\n"));
+  EXPECT_EQ(written("off", Format::text, library), "");
 }
 
 TEST(Log, WritesNothingBelowItsLevel) {
