@@ -38,8 +38,10 @@ Connection open_writer(const std::string& folder) {
       "PRAGMA journal_size_limit = 67108864");
   require_sound(connection);
   migrate(connection, schema_steps());
-  // What can only be read shows now: SQLite would take it for as long as the connection lives.
-  const Transaction probe(connection);
+  {
+    // What can only be read shows now: SQLite would take it for as long as the connection lives.
+    const Transaction probe(connection);
+  }
   flush(folder);
   return connection;
 }
