@@ -32,7 +32,7 @@ class Admission {
 /// asks the store may wait for a writer:
 ///   lookups  what reads records, blocks and the beginning of a watch
 ///   changes  what waits for the disk: creations, uploads, deletions, cancels
-///   hub      the messages of all watches, so that they together take one processor at most
+///   hub      the messages of all watches, which take half a processor where they are many
 struct Edge {
   Edge(const ServerOptions& options, const Backend& to)
       : backend(to),

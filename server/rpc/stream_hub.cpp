@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/stream_hub.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -14,16 +12,13 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
+/// A round that wakes more than these is followed by a rest as long: what a crowd of watches does
+/// takes half a processor, however fast their job is, and the rest is the solvers'.
+constexpr std::size_t crowd = 64;
+
 std::chrono::milliseconds tick_interval(const StreamLimits& limits) {
   const auto shortest = std::min(limits.heartbeat, limits.stall) / 4;
   return std::clamp(shortest, std::chrono::milliseconds(5), std::chrono::milliseconds(1000));
-}
-
-/// What all watches do together gives way where solvers want every processor: a quarter of one
-/// stays for them. Per thread on Linux; refusing it costs nothing but that.
-void give_way() noexcept {
-  constexpr int niceness = 5;
-  ::setpriority(PRIO_PROCESS, 0, niceness);
 }
 
 Error full(const std::string& what) {
@@ -127,7 +122,6 @@ bool StreamHub::wait_until_empty(SteadyClock::time_point deadline) {
 }
 
 void StreamHub::run() {
-  give_way();
   const auto interval = tick_interval(_limits);
   auto next_tick = SteadyClock::now() + interval;
   auto next_late = SteadyClock::time_point::max();
@@ -158,7 +152,12 @@ void StreamHub::run() {
       target->_queued = false;  // before the wake: what comes meanwhile is not lost
       target->wake();
     }
-    now = SteadyClock::now();
+    const auto began = std::exchange(now, SteadyClock::now());
+    if (woken.size() > crowd) {
+      std::unique_lock lock(_mutex);
+      _changed.wait_until(lock, now + (now - began), [this] { return _stopping; });
+      now = SteadyClock::now();
+    }
     if (now < next_tick) continue;
     next_tick = now + interval;
     for (const auto& stream : streams()) stream->tick(now);

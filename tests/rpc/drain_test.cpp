@@ -95,7 +95,7 @@ TEST(Drain, PutsWhatDoesNotEndBackForTheNextStart) {
   while (watch->Read(&event)) {
     EXPECT_FALSE(event.has_ended());
   }
-  EXPECT_EQ(watch->Finish().error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_FALSE(watch->Finish().ok());
   EXPECT_LT(server.job(running).state(), v1::Job::STATE_SUCCEEDED);
   EXPECT_TRUE(server.cancel(running).ok());
   EXPECT_EQ(server.finish(running).state(), v1::Job::STATE_CANCELLED);

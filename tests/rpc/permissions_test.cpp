@@ -33,6 +33,8 @@ constexpr Code denied = Code::PERMISSION_DENIED;
 
 /// Ada's things: some that stay, and fresh ones for the methods that take them away.
 class Things {
+  double _size = 0.2;  ///< each size is another mesh; before what is made with it
+
  public:
   Things()
       : server([](auto& settings) { settings.server.security.tokens = testing::people(); }),
@@ -78,8 +80,6 @@ class Things {
     const grpc::Status status = call(context);
     ASSERT_TRUE(status.ok()) << status.error_message();
   }
-
-  static inline double _size = 0.2;  ///< each size is another mesh
 };
 
 using Call = std::function<grpc::Status(Things&, Context&)>;
