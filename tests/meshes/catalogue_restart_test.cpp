@@ -91,6 +91,26 @@ TEST_F(Restart, FindsAFailedMeshWithItsError) {
   EXPECT_EQ(backend.catalogue.meshings(), 0U);
 }
 
+TEST_F(Restart, MeshesWhatTheDiskHadNoRoomFor) {
+  std::string id;
+  options.disk_budget = 1;
+  {
+    Backend backend(options);
+    id = backend.create(0.2);
+    EXPECT_TRUE(
+        throws([&] { backend.catalogue.prepare(id, [](MeshState) {}, {}); }, Reason::disk_full));
+    EXPECT_TRUE(reaches(backend, id, MeshState::pending));
+    EXPECT_FALSE(backend.catalogue.get(id).error);
+    EXPECT_TRUE(eventually([&] { return backend.catalogue.pending() == 0; }));
+    const std::uint64_t before = backend.catalogue.meshings();
+    EXPECT_EQ(backend.create(0.2), id);
+    EXPECT_TRUE(eventually([&] { return backend.catalogue.meshings() == before + 1; }));
+  }
+  options.disk_budget = 0;
+  Backend backend(options);
+  EXPECT_TRUE(reaches(backend, id, MeshState::ready));
+}
+
 TEST_F(Restart, TellsWhoWaitsThatTheDiskRefusesAndTriesAgainLater) {
   Backend backend(options);
   const std::filesystem::path meshes = folder / "data/meshes";

@@ -61,7 +61,8 @@ struct BackendOptions {
   std::uint64_t memory_budget = std::uint64_t{1} << 30;
   std::size_t max_pending = 64;
   std::size_t max_meshes = 10'000;
-  std::string data_folder = {};  ///< of the store; empty: below the backend's own folder
+  std::string data_folder = {};   ///< of the store; empty: below the backend's own folder
+  std::uint64_t disk_budget = 0;  ///< as store::StoreOptions
   std::function<void(const store::MeshRecord&)> meshed = {};
   bool mesher_hangs = false;  ///< a program in its place that does nothing until it is killed
 };
@@ -70,7 +71,8 @@ class Backend {
  public:
   explicit Backend(const BackendOptions& options = {})
       : store(store::open(
-            {options.data_folder.empty() ? (folder / "data").string() : options.data_folder, 0})),
+            {options.data_folder.empty() ? (folder / "data").string() : options.data_folder,
+             options.disk_budget})),
         cache(options.memory_budget,
               [this](std::shared_ptr<const mesh::Mesh> mesh, std::stop_token stop) {
                 door.pass(stop);
