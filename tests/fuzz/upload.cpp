@@ -10,6 +10,7 @@
 #include "anticrack/v1/mesh.pb.h"
 #include "errors/errors.hpp"
 #include "fuzz/input.hpp"
+#include "fuzz/quiet_protobuf.hpp"
 #include "rpc/upload_receiver.hpp"
 #include "store/store.hpp"
 #include "support/temporary_folder.hpp"
