@@ -147,12 +147,11 @@ class Reader {
   void add_name(int dimension, int tag, const std::string& name) {
     auto& names = dimension == 1 ? _file.curve_names : _file.surface_names;
     const char* what = dimension == 1 ? "curves" : "surfaces";
-    for (const auto& [other, known] : names) {
-      if (!name.empty() && known == name) {
-        _in.fail("physical " + std::string(what) + " " + std::to_string(other) + " and " +
-                 std::to_string(tag) + " are both named \"" + printable(name) +
-                 "\"; give each its own name, or make them one group");
-      }
+    const auto [known, fresh] = _tag_of.emplace(std::pair(dimension, name), tag);
+    if (!name.empty() && !fresh) {
+      _in.fail("physical " + std::string(what) + " " + std::to_string(known->second) + " and " +
+               std::to_string(tag) + " are both named \"" + printable(name) +
+               "\"; give each its own name, or make them one group");
     }
     if (!names.emplace(tag, name).second) {
       _in.fail("physical " + std::string(what) + " " + std::to_string(tag) + " has two names");
@@ -375,6 +374,7 @@ class Reader {
   bool _version4 = false;
   std::set<std::string> _seen;
   std::map<std::pair<std::size_t, int>, std::vector<int>> _groups;
+  std::map<std::pair<int, std::string>, int> _tag_of;  ///< a name's physical tag, by dimension
   MshFile _file;
 };
 

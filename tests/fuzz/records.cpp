@@ -5,6 +5,7 @@
 
 #include "errors/errors.hpp"
 #include "fuzz/input.hpp"
+#include "fuzz/quiet_protobuf.hpp"
 #include "store/record_codec.hpp"
 
 namespace {

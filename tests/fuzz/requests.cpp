@@ -12,6 +12,7 @@
 #include "errors/errors.hpp"
 #include "fem/load.hpp"
 #include "fuzz/input.hpp"
+#include "fuzz/quiet_protobuf.hpp"
 #include "mesh/codec.hpp"
 #include "rpc/names.hpp"
 #include "rpc/to_domain.hpp"

@@ -13,6 +13,7 @@
 #include "client/block.hpp"
 #include "client/error.hpp"
 #include "fuzz/input.hpp"
+#include "fuzz/quiet_protobuf.hpp"
 #include "fuzz/small_result.hpp"
 #include "results/assemble.hpp"
 #include "store/digest.hpp"

@@ -22,7 +22,7 @@
 #include "mesher/grading.hpp"
 #include "mesher/import.hpp"
 #include "mesher/msh_writer.hpp"
-#include "results/file.hpp"
+#include "results/result.hpp"
 #include "rpc/to_domain.hpp"
 #include "store/digest.hpp"
 #include "store/record_codec.hpp"
@@ -261,8 +261,6 @@ void save_result() {
     save("result_stream", corrected ? "corrected" : "plain",
          chosen(corrected ? 1 : 0, mesh.stream(corrected) + answer.stream(corrected)));
   }
-  fs::create_directories(root / "result_file");
-  results::write(root / "result_file" / "small", result);
 }
 
 }  // namespace

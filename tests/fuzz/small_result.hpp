@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The result the seeds of result_stream and result_file are of: tests/support's, small.
+// The result the seeds of result_stream are of: tests/support's, small.
 #pragma once
 
 #include "support/sample_result.hpp"

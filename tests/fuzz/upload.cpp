@@ -2,8 +2,7 @@
 //
 // An upload, message by message, into a real store. A piece is a message of the stream. An odd
 // first byte corrects size and hash of the headers, so that whole uploads are reached.
-#include <stdlib.h>
-
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "anticrack/v1/mesh.pb.h"
 #include "errors/errors.hpp"
 #include "fuzz/input.hpp"
+#include "fuzz/quiet_protobuf.hpp"
 #include "rpc/upload_receiver.hpp"
 #include "store/store.hpp"
 #include "support/temporary_folder.hpp"
@@ -22,10 +22,14 @@ using namespace anticrack;
 constexpr std::uint64_t max_bytes = 1U << 16;
 const std::string owner = "somebody";
 
+const testing::TemporaryFolder& the_folder() {
+  static const testing::TemporaryFolder folder;
+  return folder;
+}
+
 /// One for all inputs: opening one makes a database.
 store::Store& the_store() {
-  static const testing::TemporaryFolder folder;
-  static const auto store = store::open({folder.path(), 0});
+  static const auto store = store::open({the_folder().path(), 0});
   return *store;
 }
 
@@ -53,13 +57,11 @@ void correct(std::vector<v1::UploadMeshRequest>& list) {
   }
 }
 
-/// Parts of uploads that are not whole do not stay.
-void require_no_parts() {
-  static const std::string folder =
-      std::filesystem::path(the_store().new_upload_path(1)).parent_path();
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    fuzz::require(!entry.path().filename().string().starts_with("part-"), "a part is left behind");
-  }
+/// Neither parts of uploads that are not whole stay, nor what has expired.
+void require_nothing_left() {
+  the_store().expire_uploads(store::Clock::now() + std::chrono::hours(1));
+  const std::filesystem::directory_iterator left(the_folder() / "uploads");
+  fuzz::require(left == std::filesystem::directory_iterator(), "a file is left behind");
 }
 
 }  // namespace
@@ -79,6 +81,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const errors::Error& error) {
     fuzz::require(error.reason() != errors::Reason::internal, error.what());
   }
-  require_no_parts();
+  require_nothing_left();
   return 0;
 }
