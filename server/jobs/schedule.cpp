@@ -88,6 +88,19 @@ std::optional<std::uint64_t> Schedule::next_job(const std::string& mesh, Lane la
   return best ? std::optional(best->second) : std::nullopt;
 }
 
+std::optional<store::Priority> Schedule::most_urgent(const std::string& mesh, Lane lane) const {
+  const auto found = _meshes.find(mesh);
+  if (found != _meshes.end()) {
+    const Jobs& jobs = found->second.lanes[static_cast<std::size_t>(lane)].jobs;
+    for (std::size_t priority = 0; priority < jobs.size(); ++priority) {
+      if (!jobs[priority].empty()) {
+        return static_cast<store::Priority>(priority);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 void Schedule::park(const std::string& mesh, Lane lane, store::Priority priority) {
   ++_meshes[mesh].lanes[static_cast<std::size_t>(lane)].parked[class_of(priority)];
 }

@@ -62,6 +62,8 @@ class Schedule {
   void remove(std::uint64_t number);  ///< nothing to do is no error
   /// The job whose load case is taken next.
   std::optional<std::uint64_t> next_job(const std::string& mesh, Lane lane, Time now) const;
+  /// The priority of the most urgent job there, however long it has waited.
+  std::optional<store::Priority> most_urgent(const std::string& mesh, Lane lane) const;
 
   /// Work of a lane that was begun and put down: it is there to be taken up as well.
   void park(const std::string& mesh, Lane lane, store::Priority priority);

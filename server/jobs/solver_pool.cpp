@@ -91,11 +91,19 @@ bool SolverPool::turn_is_over(const MeshWork& mesh, Lane lane, Clock::time_point
   return Clock::now() - begin >= _core.options.turn && _core.schedule.others(mesh.id, lane);
 }
 
+bool SolverPool::overtaken(const MeshWork& mesh, Lane lane, const BlockRun& block) const {
+  const auto waiting = _core.schedule.most_urgent(mesh.id, lane);
+  return waiting && block.free() == 0 && *waiting < block.priority();
+}
+
 void SolverPool::iterate(Lock& lock, const Mesh& mesh, Lane lane) {
   const auto begin = Clock::now();
   std::shared_ptr<BlockRun> block;
   auto& parked = mesh->parked[index(lane)];
-  if (!parked.empty()) {
+  const bool all_overtaken = std::all_of(
+      parked.begin(), parked.end(),
+      [&](const std::shared_ptr<BlockRun>& other) { return overtaken(*mesh, lane, *other); });
+  if (!parked.empty() && !all_overtaken) {
     block = std::move(parked.front());
     parked.pop_front();
     _core.schedule.unpark(mesh->id, lane, block->parked_as);
@@ -106,7 +114,10 @@ void SolverPool::iterate(Lock& lock, const Mesh& mesh, Lane lane) {
       break;
     }
     _core.deliver(lock, step(lock, *block));
-    if (turn_is_over(*mesh, lane, begin)) {
+    const bool leave =
+        turn_is_over(*mesh, lane, begin) ||
+        (Clock::now() - begin >= _core.options.turn && overtaken(*mesh, lane, *block));
+    if (leave) {
       block->parked_as = block->priority();
       _core.schedule.park(mesh->id, lane, block->parked_as);
       parked.push_back(std::move(block));

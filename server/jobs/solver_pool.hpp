@@ -15,8 +15,9 @@ namespace anticrack::jobs {
 /// Each thread takes turns over the meshes and lanes that have work (schedule.hpp). In a turn it
 /// takes up what was put down there, or begins anew; a turn that has lasted EngineOptions::turn
 /// ends as soon as something else waits, and what is under way is put down for any thread to take
-/// up. Of the load cases that wait on a lane it takes no more than its share: the other shares are
-/// those of the threads that are idle.
+/// up. A load case more urgent than those of a full block has a block of its own, in turn with
+/// that. Of the load cases that wait on a lane a thread takes no more than its share: the other
+/// shares are those of the threads that are idle.
 class SolverPool {
  public:
   explicit SolverPool(EngineCore& core);
@@ -41,6 +42,8 @@ class SolverPool {
   /// Cases of the most urgent jobs, which are started where they were not.
   std::vector<Task> take(Lock& lock, const Mesh& mesh, Lane lane, int room, int max_starts);
   bool turn_is_over(const MeshWork& mesh, Lane lane, EngineCore::Clock::time_point begin) const;
+  /// A load case waits that is more urgent than all of a block that has no place for it.
+  bool overtaken(const MeshWork& mesh, Lane lane, const BlockRun& block) const;
 
   EngineCore& _core;
   std::vector<std::thread> _threads;

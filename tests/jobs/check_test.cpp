@@ -53,6 +53,30 @@ class Check : public ::testing::Test {
   EngineOptions options;
 };
 
+TEST_F(Check, BoundsTheTimeLimits) {
+  using std::chrono::milliseconds;
+  options.queue_time = milliseconds(1000);
+  options.run_time = milliseconds(2000);
+  JobSpec spec = good();
+  spec.queue_time_limit = milliseconds(1000);
+  spec.run_time_limit = milliseconds(2000);
+  EXPECT_NO_THROW(check(spec, options));
+  EXPECT_TRUE(refuses([](JobSpec& bad) { bad.queue_time_limit = milliseconds(1001); },
+                      "queue_timeout", Reason::limit_exceeded));
+  EXPECT_TRUE(refuses([](JobSpec& bad) { bad.run_time_limit = milliseconds(2001); }, "run_timeout",
+                      Reason::limit_exceeded));
+  EXPECT_TRUE(refuses([](JobSpec& bad) { bad.run_time_limit = milliseconds(-1); }, "run_timeout"));
+}
+
+TEST_F(Check, CountsTheBytesOfAJob) {
+  JobSpec spec = good();
+  const std::uint64_t before = bytes_of(spec);
+  std::get<fem::Expression>(spec.loads[1].force).text += std::string(1000, ' ');
+  EXPECT_GE(bytes_of(spec), before + 1000);
+  spec.loads[3].point_forces.resize(1001);
+  EXPECT_GE(bytes_of(spec), before + 1000 + 1000 * sizeof(fem::PointForce));
+}
+
 TEST_F(Check, AcceptsAGoodJob) {
   EXPECT_NO_THROW(check(good(), options));
   JobSpec spec = good();
@@ -126,6 +150,9 @@ TEST(Fingerprint, IsThatOfTheWholeJob) {
       [](JobSpec& spec) { spec.title += "!"; },
       [](JobSpec& spec) { spec.mesh = "other"; },
       [](JobSpec& spec) { spec.fields = true; },
+      [](JobSpec& spec) { spec.priority = store::Priority::bulk; },
+      [](JobSpec& spec) { spec.queue_time_limit = std::chrono::milliseconds(1); },
+      [](JobSpec& spec) { spec.run_time_limit = std::chrono::milliseconds(1); },
       [](JobSpec& spec) { active_set(spec).tolerance = 1e-9; },
       [](JobSpec& spec) { active_set(spec).max_steps = 7; },
       [](JobSpec& spec) { uzawa(spec); },

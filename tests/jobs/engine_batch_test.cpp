@@ -169,6 +169,20 @@ TEST(EngineBatch, MeshesTakeTurnsOnOneThread) {
   EXPECT_EQ(test.ended(busy).state, JobState::cancelled);
 }
 
+TEST(EngineBatch, AMoreUrgentJobNeedsNoPlaceInAFullBlock) {
+  Engine test(one_thread());
+  const std::string mesh = test.ready_mesh();
+  store::JobSpec bulk = endless_job(mesh);
+  bulk.priority = store::Priority::bulk;
+  const std::string busy = test.submit(bulk);
+  ASSERT_TRUE(test.iterating(busy));
+  EXPECT_EQ(test.ended(test.submit(short_job(mesh))).state, JobState::succeeded);
+  EXPECT_EQ(test.state(busy), JobState::running);
+  const auto log = test.engine.events(busy);
+  const std::uint64_t latest = log->latest();
+  EXPECT_TRUE(eventually([&] { return log->latest() > latest; }));
+}
+
 TEST(EngineBatch, TheMoreUrgentJobStartsFirst) {
   Engine test(one_thread());
   const std::string mesh = test.ready_mesh();

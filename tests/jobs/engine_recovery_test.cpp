@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <future>
 #include <optional>
+#include <thread>
 
 #include "jobs/engine_support.hpp"
 #include "support/errors.hpp"
@@ -26,7 +28,7 @@ store::JobSpec long_job(const std::string& mesh) {
   spec.loads.push_back({"second", 1.0, ""});
   uzawa_of(spec).theta = 1e-3;
   uzawa_of(spec).epsilon = 1e-300;
-  uzawa_of(spec).max_iterations = 2'000;
+  uzawa_of(spec).max_iterations = 20'000;
   return spec;
 }
 
@@ -38,9 +40,27 @@ TEST(EngineRecovery, RunsWhatRanAgainWithTheSameNumbers) {
   {
     JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
     id = engine.submit({long_job(mesh), "alice", "request"}).id;
-    ASSERT_TRUE(eventually([&] { return engine.metrics().iterations > 10; }));
+    // It does not get further than its first samples before the engine is stopping.
+    std::promise<void> begun, stopping;
+    int events = 0;
+    const auto listener = engine.events(id)->listen([&] {
+      if (++events == 5) {
+        begun.set_value();
+        stopping.get_future().wait();
+      }
+    });
+    begun.get_future().wait();
     queued = engine.submit({short_job(mesh), "", ""}).id;
-    engine.stop(0ms);
+    std::thread stopper([&] { engine.stop(0ms); });
+    EXPECT_TRUE(eventually([&] {
+      return throws(
+          [&] {
+            engine.cancel(engine.submit({short_job(mesh), "", ""}).id);
+          },
+          Reason::draining);
+    }));
+    stopping.set_value();
+    stopper.join();
     latest = engine.events(id)->latest();
   }
   ASSERT_FALSE(store::ended(backend.store->job(id)->state));

@@ -123,7 +123,9 @@ TEST_F(ScheduleTest, OnAMeshTheMostUrgentJobThenTheOldest) {
   const auto older = add("a");
   const auto newer = add("a");
   EXPECT_EQ(next("a"), older);
+  EXPECT_EQ(schedule.most_urgent("a", Lane::lumped), Priority::normal);
   const auto urgent = add("a", Priority::interactive);
+  EXPECT_EQ(schedule.most_urgent("a", Lane::lumped), Priority::interactive);
   EXPECT_EQ(next("a"), urgent);
   schedule.remove(urgent);
   schedule.remove(older);
@@ -133,6 +135,7 @@ TEST_F(ScheduleTest, OnAMeshTheMostUrgentJobThenTheOldest) {
   now += 30s;  // both the first: the oldest
   EXPECT_EQ(next("a"), bulk);
   EXPECT_EQ(schedule.next_job("a", Lane::consistent, now), std::nullopt);
+  EXPECT_EQ(schedule.most_urgent("a", Lane::consistent), std::nullopt);
   EXPECT_EQ(schedule.next_job("unknown", Lane::lumped, now), std::nullopt);
 }
 
