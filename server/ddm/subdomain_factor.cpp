@@ -117,23 +117,35 @@ Eigen::MatrixXd trailing_block(const cholmod_factor& factor, Eigen::Index size) 
   return block;
 }
 
-Eigen::VectorXd triangular_solve(int system, const cholmod_factor& factor,
-                                 Eigen::VectorXd& right_hand_side) {
+/// Columns of the answer follow each other.
+DensePtr triangular_solve(int system, const cholmod_factor& factor,
+                          Eigen::MatrixXd& right_hand_sides) {
   cholmod_dense b{};
-  b.nrow = b.nzmax = b.d = static_cast<std::size_t>(right_hand_side.size());
-  b.ncol = 1;
-  b.x = right_hand_side.data();
+  b.nrow = b.d = static_cast<std::size_t>(right_hand_sides.rows());
+  b.ncol = static_cast<std::size_t>(right_hand_sides.cols());
+  b.nzmax = static_cast<std::size_t>(right_hand_sides.size());
+  b.x = right_hand_sides.data();
   b.xtype = CHOLMOD_REAL;
   b.dtype = CHOLMOD_DOUBLE;
   cholmod_common& context = cholmod_context();
   // CHOLMOD takes the factor without const but only reads a supernodal one.
-  const DensePtr x(cholmod_solve(system, const_cast<cholmod_factor*>(&factor), &b, &context));
+  DensePtr x(cholmod_solve(system, const_cast<cholmod_factor*>(&factor), &b, &context));
   require_success(context, "a triangular solve");
-  return Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(x->x),
-                                           right_hand_side.size());
+  return x;
+}
+
+Eigen::Map<const Eigen::MatrixXd> view(const cholmod_dense& matrix) {
+  return {static_cast<const double*>(matrix.x), static_cast<Eigen::Index>(matrix.nrow),
+          static_cast<Eigen::Index>(matrix.ncol)};
 }
 
 }  // namespace
+
+Eigen::Index columns_at_once(Eigen::Index rows) noexcept {
+  constexpr Eigen::Index most = 32, bytes = Eigen::Index{64} << 20;
+  const Eigen::Index column = static_cast<Eigen::Index>(sizeof(double)) * rows;
+  return std::clamp<Eigen::Index>(bytes / std::max<Eigen::Index>(column, 1), 1, most);
+}
 
 SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior, Ordering ordering,
                                  std::span<const std::int32_t> floating)
@@ -160,16 +172,29 @@ SubdomainFactor::~SubdomainFactor() = default;
 SubdomainFactor::SubdomainFactor(SubdomainFactor&&) noexcept = default;
 SubdomainFactor& SubdomainFactor::operator=(SubdomainFactor&&) noexcept = default;
 
-SubdomainFactor::Forward SubdomainFactor::forward(const Eigen::VectorXd& f) const {
+SubdomainFactor::Forward SubdomainFactor::forward(
+    const Eigen::Ref<const Eigen::MatrixXd>& f) const {
+  Forward result{Eigen::MatrixXd(_interior, f.cols()), Eigen::MatrixXd(trace(), f.cols())};
   if (!_factor) {
-    return {};
+    return result;
   }
   const cholmod_factor& factor = *_factor->cholesky;
   const Eigen::Map<const Eigen::VectorXi> permutation(static_cast<const int*>(factor.Perm),
-                                                      f.size());
-  Eigen::VectorXd ordered = f(permutation);
-  const Eigen::VectorXd z = triangular_solve(CHOLMOD_L, factor, ordered);
-  return {z.head(_interior), _trace_factor.triangularView<Eigen::Lower>() * z.tail(trace())};
+                                                      f.rows());
+  const Eigen::Index block = columns_at_once(f.rows());
+  for (Eigen::Index first = 0; first < f.cols(); first += block) {
+    const Eigen::Index width = std::min(block, f.cols() - first);
+    Eigen::MatrixXd ordered = f.middleCols(first, width)(permutation, Eigen::all);
+    const DensePtr solved = triangular_solve(CHOLMOD_L, factor, ordered);
+    result.z_interior.middleCols(first, width) = view(*solved).topRows(_interior);
+    result.g.middleCols(first, width) = view(*solved).bottomRows(trace());
+  }
+  if (result.g.size() > 0) {
+    const int size = static_cast<int>(trace()), columns = static_cast<int>(f.cols());
+    cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, size, columns, 1,
+                _trace_factor.data(), size, result.g.data(), size);
+  }
+  return result;
 }
 
 Eigen::VectorXd SubdomainFactor::recover(const Eigen::VectorXd& z_interior,
@@ -178,13 +203,13 @@ Eigen::VectorXd SubdomainFactor::recover(const Eigen::VectorXd& z_interior,
     return {};
   }
   const cholmod_factor& factor = *_factor->cholesky;
-  Eigen::VectorXd z(_interior + trace());
+  Eigen::MatrixXd z(_interior + trace(), 1);
   z << z_interior, _trace_factor.transpose().triangularView<Eigen::Upper>() * trace_values;
-  const Eigen::VectorXd ordered = triangular_solve(CHOLMOD_Lt, factor, z);
-  Eigen::VectorXd u(ordered.size());
+  const DensePtr ordered = triangular_solve(CHOLMOD_Lt, factor, z);
+  Eigen::VectorXd u(z.rows());
   const Eigen::Map<const Eigen::VectorXi> permutation(static_cast<const int*>(factor.Perm),
-                                                      ordered.size());
-  u(permutation) = ordered;
+                                                      z.rows());
+  u(permutation) = view(*ordered).col(0);
   return u;
 }
 

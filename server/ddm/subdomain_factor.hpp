@@ -11,6 +11,10 @@
 
 namespace anticrack::ddm {
 
+/// How many right-hand sides with `rows` entries are solved together, at least one: enough for most
+/// of what products of matrices gain over products with vectors, in at most 64 MiB.
+Eigen::Index columns_at_once(Eigen::Index rows) noexcept;
+
 /// Fill-reducing order of the interior.
 enum class Ordering {
   amd,  ///< approximate minimum degree: the soonest first answer
@@ -38,12 +42,12 @@ class SubdomainFactor {
   SubdomainFactor(SubdomainFactor&&) noexcept;
   SubdomainFactor& operator=(SubdomainFactor&&) noexcept;
 
-  struct Forward {
-    Eigen::VectorXd z_interior;  ///< L_II^-1 P f_I, in the factor's order
-    Eigen::VectorXd g;           ///< condensed load f_G - K_GI K_II^-1 f_I
+  struct Forward {               // a column for each of f
+    Eigen::MatrixXd z_interior;  ///< L_II^-1 P f_I, in the factor's order
+    Eigen::MatrixXd g;           ///< condensed load f_G - K_GI K_II^-1 f_I
   };
-  /// One forward solve, O(nnz(L)).
-  Forward forward(const Eigen::VectorXd& f) const;
+  /// Forward solves, O(nnz(L)) each, columns_at_once() together.
+  Forward forward(const Eigen::Ref<const Eigen::MatrixXd>& f) const;
 
   /// u with trace t and interior K_II^-1 (f_I - K_IG t), f the load of `z_interior`: one backward
   /// solve of L' x = [z_I; L_GG' t], O(nnz(L)). Shape (interior + trace).

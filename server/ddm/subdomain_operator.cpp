@@ -10,6 +10,10 @@ Eigen::Index index(std::size_t i) {
   return static_cast<Eigen::Index>(i);
 }
 
+std::size_t index_of(Eigen::Index i) {
+  return static_cast<std::size_t>(i);
+}
+
 std::size_t bytes_of(const Eigen::SparseMatrix<double>& matrix) {
   return static_cast<std::size_t>(matrix.nonZeros()) * (sizeof(double) + sizeof(int)) +
          static_cast<std::size_t>(matrix.cols() + 1) * sizeof(int);
@@ -34,32 +38,45 @@ SubdomainOperator::SubdomainOperator(const Subdomain& subdomain,
   }
 }
 
-CondensedLoad SubdomainOperator::condense(const Eigen::VectorXd& load,
-                                          const Eigen::VectorXd& dirichlet) const {
-  const Eigen::Index free = _free_dirichlet.rows();
-  CondensedLoad result;
-  result.dirichlet = dirichlet;
-  if (dirichlet.isZero(0.0)) {
-    SubdomainFactor::Forward forward = _factor.forward(load.head(free));
-    result.z_interior = std::move(forward.z_interior);
-    result.g = std::move(forward.g);
-    result.g_boundary = Eigen::VectorXd::Zero(result.g.size());
-    result.norm_constant = result.z_interior.squaredNorm();
-    result.energy_constant = -result.norm_constant / 2;
-    return result;
+std::vector<CondensedLoad> SubdomainOperator::condense(
+    const Eigen::Ref<const Eigen::MatrixXd>& loads,
+    const Eigen::Ref<const Eigen::MatrixXd>& dirichlet) const {
+  const Eigen::Index free = _free_dirichlet.rows(), columns = loads.cols();
+  Eigen::Index solves = columns;
+  std::vector<Eigen::Index> boundary(index_of(columns), -1);  // the column of g_D alone
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    boundary[index_of(j)] = dirichlet.col(j).isZero(0.0) ? -1 : solves++;
   }
-  const Eigen::VectorXd lift = -(_free_dirichlet * dirichlet);
-  const SubdomainFactor::Forward boundary = _factor.forward(lift);
-  SubdomainFactor::Forward total = _factor.forward(load.head(free) + lift);
-  const double boundary_energy = dirichlet.dot(_dirichlet_dirichlet * dirichlet);
-  const double interior_energy = total.z_interior.squaredNorm();
-  result.g_boundary = boundary.g;
-  result.norm_constant =
-      interior_energy - 2 * total.z_interior.dot(boundary.z_interior) + boundary_energy;
-  result.energy_constant =
-      (boundary_energy - interior_energy) / 2 - load.tail(dirichlet.size()).dot(dirichlet);
-  result.z_interior = std::move(total.z_interior);
-  result.g = std::move(total.g);
+  Eigen::MatrixXd right_hand_sides(free, solves);
+  right_hand_sides.leftCols(columns) = loads.topRows(free);
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    if (const Eigen::Index b = boundary[index_of(j)]; b >= 0) {
+      right_hand_sides.col(b) = -(_free_dirichlet * dirichlet.col(j));
+      right_hand_sides.col(j) += right_hand_sides.col(b);
+    }
+  }
+  const SubdomainFactor::Forward forward = _factor.forward(right_hand_sides);
+  std::vector<CondensedLoad> result(index_of(columns));
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    CondensedLoad& load = result[index_of(j)];
+    load.dirichlet = dirichlet.col(j);
+    load.z_interior = forward.z_interior.col(j);
+    load.g = forward.g.col(j);
+    const double interior_energy = load.z_interior.squaredNorm();
+    const Eigen::Index b = boundary[index_of(j)];
+    if (b < 0) {
+      load.g_boundary = Eigen::VectorXd::Zero(load.g.size());
+      load.norm_constant = interior_energy;
+      load.energy_constant = -interior_energy / 2;
+      continue;
+    }
+    const double boundary_energy = load.dirichlet.dot(_dirichlet_dirichlet * load.dirichlet);
+    load.g_boundary = forward.g.col(b);
+    load.norm_constant =
+        interior_energy - 2 * load.z_interior.dot(forward.z_interior.col(b)) + boundary_energy;
+    load.energy_constant = (boundary_energy - interior_energy) / 2 -
+                           loads.col(j).tail(dirichlet.rows()).dot(load.dirichlet);
+  }
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/SparseCore>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "ddm/decomposition.hpp"
 #include "ddm/flexibility.hpp"
@@ -31,9 +32,10 @@ class SubdomainOperator {
   /// Throws errors::Error as SubdomainFactor does.
   explicit SubdomainOperator(const Subdomain& subdomain, Ordering ordering = Ordering::amd);
 
-  /// `load`: int f phi_i for all nodes of the subdomain; `dirichlet`: g_D in its Dirichlet nodes.
-  /// One forward solve, two when g_D is not zero.
-  CondensedLoad condense(const Eigen::VectorXd& load, const Eigen::VectorXd& dirichlet) const;
+  /// A load a column. `loads`: int f phi_i for all nodes of the subdomain; `dirichlet`: g_D in its
+  /// Dirichlet nodes. One forward solve each, two where g_D is not zero, in blocks.
+  std::vector<CondensedLoad> condense(const Eigen::Ref<const Eigen::MatrixXd>& loads,
+                                      const Eigen::Ref<const Eigen::MatrixXd>& dirichlet) const;
 
   /// u on all nodes of the subdomain, in its numbering. One backward solve.
   Eigen::VectorXd recover(const CondensedLoad& load, const Eigen::VectorXd& trace) const;

@@ -36,8 +36,8 @@ struct Attributes {
   Attributes& operator=(const Attributes&) = delete;
 };
 
-/// Standard descriptors a parent may have closed must not become the child's end: dup2 to 0 and 1
-/// would overwrite it.
+/// Standard descriptors a parent may have closed must not become what the child gets: dup2 to 0 and
+/// 1 would overwrite it.
 Descriptor above_standard(Descriptor descriptor) {
   if (descriptor.get() > STDERR_FILENO) return descriptor;
   Descriptor moved(fcntl(descriptor.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
@@ -85,7 +85,8 @@ int Descriptor::release() noexcept {
   return std::exchange(_value, -1);
 }
 
-Child::Child(const std::string& executable, const std::vector<std::string>& arguments) {
+Child::Child(const std::string& executable, const std::vector<std::string>& arguments,
+             Descriptor file) {
   int ends[2] = {-1, -1};
   // close-on-exec from the start: a spawn in another thread must not inherit it
   check(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0 ? errno : 0, "socketpair");
@@ -93,12 +94,20 @@ Child::Child(const std::string& executable, const std::vector<std::string>& argu
   Descriptor theirs(ends[1]);
   ours = above_standard(std::move(ours));
   theirs = above_standard(std::move(theirs));
+  const bool has_file = !file.empty();
+  if (has_file) file = above_standard(std::move(file));
   check(fcntl(ours.get(), F_SETFL, O_NONBLOCK) != 0 ? errno : 0, "fcntl");
 
   FileActions actions;
   check(posix_spawn_file_actions_adddup2(&actions.value, theirs.get(), STDIN_FILENO), "dup2");
   check(posix_spawn_file_actions_adddup2(&actions.value, theirs.get(), STDOUT_FILENO), "dup2");
-  check(posix_spawn_file_actions_addclosefrom_np(&actions.value, STDERR_FILENO + 1), "closefrom");
+  int first_closed = STDERR_FILENO + 1;
+  if (has_file) {
+    // last, as it may take the number `theirs` has; on itself it only takes off close-on-exec
+    check(posix_spawn_file_actions_adddup2(&actions.value, file.get(), file_descriptor), "dup2");
+    first_closed = file_descriptor + 1;
+  }
+  check(posix_spawn_file_actions_addclosefrom_np(&actions.value, first_closed), "closefrom");
 
   Attributes attributes;
   sigset_t none;

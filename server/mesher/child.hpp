@@ -20,6 +20,7 @@ class Descriptor {
   Descriptor(Descriptor&& other) noexcept : _value(other.release()) {}
   Descriptor& operator=(Descriptor&& other) noexcept;
   int get() const noexcept { return _value; }
+  bool empty() const noexcept { return _value < 0; }
   void reset() noexcept;
 
  private:
@@ -28,15 +29,19 @@ class Descriptor {
 };
 
 /// A child process in its own process group, its standard input and output on the other end of
-/// socket(); its standard error is the parent's. It inherits no other descriptor and a minimal
-/// environment. Killed and reaped on destruction at the latest.
+/// socket(); its standard error is the parent's. It inherits at most one other descriptor and a
+/// minimal environment. Killed and reaped on destruction at the latest.
 ///
 /// A socket and not a pair of pipes: MSG_NOSIGNAL keeps a helper that died from raising SIGPIPE in
 /// the server.
 class Child {
  public:
-  /// Throws std::system_error, for a missing executable too.
-  Child(const std::string& executable, const std::vector<std::string>& arguments);
+  /// Where the child finds its file.
+  static constexpr int file_descriptor = 3;
+
+  /// `file`: becomes the child's `file_descriptor`; the parent may close its own right after. An
+  /// empty one: the child gets none. Throws std::system_error, for a missing executable too.
+  Child(const std::string& executable, const std::vector<std::string>& arguments, Descriptor file);
   ~Child();
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;

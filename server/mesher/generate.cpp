@@ -17,6 +17,7 @@
 #include "errors/errors.hpp"
 #include "mesh/edges.hpp"
 #include "mesher/frame.hpp"
+#include "mesher/sanitized.hpp"
 #include "mesher/size_field.hpp"
 
 namespace anticrack::mesher {
@@ -28,18 +29,6 @@ using mesh::Point;
 
 constexpr int triangle_type = 2;
 constexpr int frontal_delaunay = 6;
-
-/// Frees gmsh's model also when meshing throws.
-struct GmshSession {
-  GmshSession() {
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::option::setNumber("General.NumThreads", 1);
-  }
-  ~GmshSession() { gmsh::finalize(); }
-  GmshSession(const GmshSession&) = delete;
-  GmshSession& operator=(const GmshSession&) = delete;
-};
 
 [[noreturn]] void gave_up(const std::string& what) {
   throw errors::Error(errors::Reason::mesher_failed,
@@ -306,8 +295,20 @@ mesh::Mesh read_mesh(const Plan& plan, const Frame& frame) {
 
 }  // namespace
 
-mesh::Mesh generate(const mesh::GenerateRequest& request) {
-  const GmshSession session;
+Gmsh::Gmsh() {
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::option::setNumber("General.NumThreads", 1);
+  // it would ask what kind of file the standard output is, which the filter takes amiss
+  gmsh::option::setNumber("General.ProgressMeterStep", 0);
+}
+
+Gmsh::~Gmsh() {
+  // it would remove files, and the process ends anyway; a sanitizer looks for leaks then
+  if (sanitized) gmsh::finalize();
+}
+
+mesh::Mesh generate(const Gmsh& /*its presence is needed*/, const mesh::GenerateRequest& request) {
   const Frame frame(request.plan.points);
   try {
     build_model(request.plan, frame);

@@ -8,10 +8,20 @@
 
 namespace anticrack::mesher {
 
+/// gmsh, ready for a model. Making it looks for files (preferences), using it does not.
+/// One a process: gmsh is global.
+class Gmsh {
+ public:
+  Gmsh();
+  ~Gmsh();
+  Gmsh(const Gmsh&) = delete;
+  Gmsh& operator=(const Gmsh&) = delete;
+};
+
 /// Meshes every face of the plan; it is not graded yet. Faces of one name are one subdomain. The
 /// nodes of every planned curve lie exactly at a + (b-a) k/n. The same request gives the same mesh.
-/// One call a process: gmsh is global. Throws errors::Error: limit_exceeded (more triangles than
-/// asked for), mesher_failed (gmsh gave up).
-mesh::Mesh generate(const mesh::GenerateRequest& request);
+/// One call a process. Throws errors::Error: limit_exceeded (more triangles than asked for),
+/// mesher_failed (gmsh gave up).
+mesh::Mesh generate(const Gmsh& gmsh, const mesh::GenerateRequest& request);
 
 }  // namespace anticrack::mesher

@@ -28,9 +28,6 @@ using errors::Error;
 using errors::Reason;
 
 constexpr std::string_view msh_token = "$MeshFormat";
-/// The standard descriptors alone: gmsh's graphics library would write its preferences to the home
-/// folder and to /etc. Reading a .msh takes one more.
-constexpr int standard_files = 3;
 /// Processor time beyond the wall time, so that the wall clock, whose message is better, wins.
 constexpr std::chrono::seconds cpu_slack{10};
 /// A triangle with its three nodes, interface and boundary edges takes less; names and warnings
@@ -67,6 +64,8 @@ std::string ending(int status, const HelperOptions& options) {
     case SIGXCPU:
       return "the mesher was stopped by " + name + ", its limit of processor time; choose a " +
              "coarser mesh or raise the time limit";
+    case SIGSYS:
+      return "the mesher was stopped by " + name + ": it tried a system call it may not use";
     case SIGKILL:
       return "the mesher was killed (" + name + "), perhaps because the machine ran out of " +
              "memory; choose a coarser mesh";
@@ -99,16 +98,18 @@ class StopSignal {
 /// One conversation with a helper: the request in, the reply out, in the time there is.
 class Conversation {
  public:
+  /// `kind`: "import" of `file`, or "generate" without one.
   Conversation(const HelperOptions& options, std::stop_token stop, std::size_t most_bytes,
-               bool reads_file)
+               const char* kind, Descriptor file)
       : _options(options),
         _stop(std::move(stop)),
         _wake(_stop),
         _deadline(Clock::now() + options.time_limit),
         _most_bytes(most_bytes),
-        _child(options.executable, {std::to_string(options.memory_limit),
-                                    std::to_string((options.time_limit + cpu_slack).count()),
-                                    std::to_string(standard_files + (reads_file ? 1 : 0))}) {}
+        _child(options.executable,
+               {std::to_string(options.memory_limit),
+                std::to_string((options.time_limit + cpu_slack).count()), kind},
+               std::move(file)) {}
 
   mesh::Bytes exchange(std::span<const std::byte> request) {
     mesh::Bytes reply;
@@ -171,10 +172,11 @@ class Conversation {
 };
 
 mesh::Bytes converse(const HelperOptions& options, const mesh::MesherRequest& request,
-                     std::stop_token stop) {
+                     Descriptor file, std::stop_token stop) {
   try {
-    Conversation conversation(options, std::move(stop), most_reply_bytes(request),
-                              std::holds_alternative<mesh::ImportRequest>(request));
+    const char* kind = file.empty() ? "generate" : "import";
+    Conversation conversation(options, std::move(stop), most_reply_bytes(request), kind,
+                              std::move(file));
     return conversation.exchange(mesh::encode(request));
   } catch (const std::system_error& error) {
     throw failed("cannot run the mesher \"" + options.executable + "\": " + error.code().message() +
@@ -182,38 +184,13 @@ mesh::Bytes converse(const HelperOptions& options, const mesh::MesherRequest& re
   }
 }
 
-mesh::MesherReply understand(std::span<const std::byte> bytes) {
-  try {
-    return mesh::decode_reply(bytes);
-  } catch (const Error& error) {
-    throw failed(std::string("the mesher's answer makes no sense: ") + error.what());
-  }
-}
-
-}  // namespace
-
-mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
-               std::stop_token stop) {
-  if (stop.stop_requested()) throw Error(Reason::cancelled, "meshing was cancelled");
-  if (const auto* import = std::get_if<mesh::ImportRequest>(&request)) require_msh(import->path);
-  mesh::MesherReply reply = understand(converse(options, request, std::move(stop)));
-  if (auto* error = std::get_if<Error>(&reply)) throw std::move(*error);
-  mesh::Mesh mesh = std::get<mesh::Mesh>(std::move(reply));
-  try {
-    mesh::validate(mesh);
-  } catch (const Error& error) {
-    // the user drew no triangles, so they are no field of his to mend
-    if (std::holds_alternative<mesh::ImportRequest>(request)) throw;
-    throw failed(std::string("the mesh made of this geometry is not usable: ") + error.what() +
-                 "; choose preset uniform, or remove details far smaller than the rest");
-  }
-  return mesh;
-}
-
-void require_msh(const std::string& path) {
-  const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+/// The file, found to begin as a .msh does. What is checked is what is read: through the
+/// descriptor, whatever happens to the path.
+Descriptor open_msh(const std::string& path) {
+  Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   char start[msh_token.size() + 1] = {};
-  const ssize_t n = file.get() < 0 ? -1 : read(file.get(), start, sizeof start);
+  // leaves the offset, which the child shares, at the beginning
+  const ssize_t n = file.empty() ? -1 : pread(file.get(), start, sizeof start, 0);
   if (n < 0) {
     throw Error(Reason::mesh_invalid,
                 "the mesh file cannot be read: " + std::generic_category().message(errno));
@@ -229,6 +206,43 @@ void require_msh(const std::string& path) {
                 "the file does not begin with $MeshFormat, so it is no .msh file; save the mesh "
                 "as MSH 4.1 or 2.2 (gmsh case.geo -2 -o case.msh)");
   }
+  return file;
+}
+
+mesh::MesherReply understand(std::span<const std::byte> bytes) {
+  try {
+    return mesh::decode_reply(bytes);
+  } catch (const Error& error) {
+    throw failed(std::string("the mesher's answer makes no sense: ") + error.what());
+  }
+}
+
+}  // namespace
+
+mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
+               std::stop_token stop) {
+  if (stop.stop_requested()) throw Error(Reason::cancelled, "meshing was cancelled");
+  Descriptor file;
+  if (const auto* import = std::get_if<mesh::ImportRequest>(&request)) {
+    file = open_msh(import->path);
+  }
+  mesh::MesherReply reply =
+      understand(converse(options, request, std::move(file), std::move(stop)));
+  if (auto* error = std::get_if<Error>(&reply)) throw std::move(*error);
+  mesh::Mesh mesh = std::get<mesh::Mesh>(std::move(reply));
+  try {
+    mesh::validate(mesh);
+  } catch (const Error& error) {
+    // the user drew no triangles, so they are no field of his to mend
+    if (std::holds_alternative<mesh::ImportRequest>(request)) throw;
+    throw failed(std::string("the mesh made of this geometry is not usable: ") + error.what() +
+                 "; choose preset uniform, or remove details far smaller than the rest");
+  }
+  return mesh;
+}
+
+void require_msh(const std::string& path) {
+  open_msh(path);
 }
 
 std::string default_executable() {

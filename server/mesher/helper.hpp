@@ -3,6 +3,10 @@
 // Runs the helper process anticrack-mesher, the only place that sees gmsh: its state is global
 // (two threads in one process gave 21 bad meshes of 40), it runs shell commands out of any file
 // it takes for a script, and it may crash. This library does not link gmsh.
+//
+// The helper has limits of memory, time and descriptors (limits.hpp) and may then use only the
+// system calls that computing takes (syscall_filter.hpp): no file can be opened, no program
+// started, no connection made. The .msh to import is opened here and handed over.
 #pragma once
 
 #include <chrono>
@@ -23,7 +27,8 @@ struct HelperOptions {
 
 /// Sends the request to a fresh helper process and returns its mesh, validated.
 /// Blocks; `stop` kills the helper. Throws errors::Error: what the helper found wrong with the
-/// request; mesher_failed (crash, time or memory limit: says which); cancelled.
+/// request; mesher_failed (crash, forbidden system call, time or memory limit: says which);
+/// cancelled.
 /// Thread-safe: each call has its own process.
 mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
                std::stop_token stop);

@@ -3,15 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <utility>
 
 #include "errors/errors.hpp"
 #include "mesher/curve_groups.hpp"
 #include "mesher/edge_roles.hpp"
-#include "mesher/helper.hpp"
 #include "mesher/interface_chains.hpp"
 #include "mesher/plane_mesh.hpp"
 #include "mesher/plus_side.hpp"
@@ -219,12 +216,9 @@ Mesh to_mesh(const MshFile& file, const mesh::MeshOptions& options) {
   return mesh;
 }
 
-Mesh import_msh(const mesh::ImportRequest& request) {
-  require_msh(request.path);
-  std::ifstream in(request.path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (in.bad()) refuse("the mesh file cannot be read to its end");
-  return to_mesh(read_msh(bytes, request.max_triangles), request.options);
+Mesh import_msh(std::string_view bytes, const mesh::MeshOptions& options,
+                std::size_t max_triangles) {
+  return to_mesh(read_msh(bytes, max_triangles), options);
 }
 
 }  // namespace anticrack::mesher

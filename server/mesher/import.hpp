@@ -7,16 +7,20 @@
 // assumed is told in Mesh::warnings.
 #pragma once
 
-#include "mesh/codec.hpp"
+#include <cstddef>
+#include <string_view>
+
+#include "mesh/geometry.hpp"
 #include "mesh/mesh.hpp"
 #include "mesher/msh_file.hpp"
 
 namespace anticrack::mesher {
 
-/// Reads the file of the request; the base mesh, not graded. Throws errors::Error: mesh_invalid,
+/// From the bytes of a file; the base mesh, not graded. Throws errors::Error: mesh_invalid,
 /// limit_exceeded, and invalid_argument at "options.curve_groups[TAG]",
 /// "options.surface_groups[TAG]" or "options.tension[NAME]" for options that do not fit the file.
-mesh::Mesh import_msh(const mesh::ImportRequest& request);
+mesh::Mesh import_msh(std::string_view bytes, const mesh::MeshOptions& options,
+                      std::size_t max_triangles);
 
 /// Understands what was read. The result satisfies mesh::validate. Interfaces are called
 /// "interface" (the only one) or "interface-1", "interface-2", ...; inclusions are numbered along

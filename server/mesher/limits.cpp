@@ -9,16 +9,10 @@
 #include <cerrno>
 #include <system_error>
 
+#include "mesher/sanitized.hpp"
+
 namespace anticrack::mesher {
 namespace {
-
-/// A sanitizer's shadow is larger than any memory limit, and it reads /proc and writes reports at
-/// the end.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool sanitized = true;
-#else
-constexpr bool sanitized = false;
-#endif
 
 [[noreturn]] void fail(const char* what) {
   throw std::system_error(errno, std::system_category(), what);
@@ -41,7 +35,7 @@ void restrict_process(const Limits& limits) {
   limit(RLIMIT_CORE, 0, "RLIMIT_CORE");
   if (!sanitized) {
     limit(RLIMIT_AS, limits.memory_bytes, "RLIMIT_AS");
-    limit(RLIMIT_NOFILE, limits.open_files, "RLIMIT_NOFILE");
+    limit(RLIMIT_NOFILE, 0, "RLIMIT_NOFILE");
     // a write beyond the next limit is to fail, not to kill
     if (signal(SIGXFSZ, SIG_IGN) == SIG_ERR) fail("SIGXFSZ");
     limit(RLIMIT_FSIZE, 0, "RLIMIT_FSIZE");

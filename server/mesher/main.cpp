@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// anticrack-mesher MEMORY_BYTES CPU_SECONDS OPEN_FILES: one mesh::MesherRequest on standard input,
-// one mesh::MesherReply on standard output, and an end.
+// anticrack-mesher MEMORY_BYTES CPU_SECONDS generate|import: one mesh::MesherRequest of that kind
+// on standard input, one mesh::MesherReply on standard output, and an end. The .msh to import is
+// open as descriptor 3. Input is read under the limits and the filter only.
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,12 +13,16 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <utility>
+#include <variant>
 
 #include "mesh/codec.hpp"
+#include "mesher/child.hpp"
 #include "mesher/generate.hpp"
 #include "mesher/grading.hpp"
 #include "mesher/import.hpp"
 #include "mesher/limits.hpp"
+#include "mesher/syscall_filter.hpp"
 
 namespace {
 
@@ -30,14 +35,15 @@ std::optional<std::uint64_t> number(std::string_view text) {
   return value;
 }
 
-mesh::Bytes read_all(int descriptor) {
+mesh::Bytes read_all(int descriptor, const char* name) {
+  constexpr std::size_t step = 1U << 18;
   mesh::Bytes bytes;
   std::size_t used = 0;
   for (;;) {
-    bytes.resize(used + 65536);
+    bytes.resize(used + step);
     const ssize_t n = read(descriptor, bytes.data() + used, bytes.size() - used);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw std::system_error(errno, std::system_category(), "standard input");
+    if (n < 0) throw std::system_error(errno, std::system_category(), name);
     used += static_cast<std::size_t>(n);
     if (n == 0) break;
   }
@@ -54,14 +60,32 @@ void write_all(int descriptor, const mesh::Bytes& bytes) {
   }
 }
 
-mesh::MesherReply answer(std::uint64_t memory) {
+template <class Wanted>
+Wanted request() {
+  mesh::MesherRequest any = mesh::decode_request(read_all(STDIN_FILENO, "standard input"));
+  if (auto* wanted = std::get_if<Wanted>(&any)) return std::move(*wanted);
+  throw errors::Error(errors::Reason::internal, "the request is not of the kind announced");
+}
+
+mesh::Mesh generated() {
+  const mesher::Gmsh gmsh;
+  mesher::forbid_system_calls();
+  const auto wanted = request<mesh::GenerateRequest>();
+  return mesher::graded(mesher::generate(gmsh, wanted), wanted.plan.grading, wanted.max_triangles);
+}
+
+mesh::Mesh imported() {
+  mesher::forbid_system_calls();
+  const auto wanted = request<mesh::ImportRequest>();
+  const mesh::Bytes file = read_all(mesher::Child::file_descriptor, "the mesh file");
+  const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+  return mesher::graded(mesher::import_msh(text, wanted.options, wanted.max_triangles),
+                        wanted.options, wanted.max_triangles);
+}
+
+mesh::MesherReply answer(bool import, std::uint64_t memory) {
   try {
-    const mesh::MesherRequest request = mesh::decode_request(read_all(STDIN_FILENO));
-    if (const auto* wanted = std::get_if<mesh::GenerateRequest>(&request)) {
-      return mesher::graded(mesher::generate(*wanted), wanted->plan.grading, wanted->max_triangles);
-    }
-    const auto& file = std::get<mesh::ImportRequest>(request);
-    return mesher::graded(mesher::import_msh(file), file.options, file.max_triangles);
+    return import ? imported() : generated();
   } catch (const errors::Error& error) {
     return error;
   } catch (const std::bad_alloc&) {
@@ -77,16 +101,18 @@ mesh::MesherReply answer(std::uint64_t memory) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::optional<std::uint64_t> values[3];
-  for (int i = 0; i < 3 && argc == 4; ++i) values[i] = number(argv[i + 1]);
-  if (!values[0] || !values[1] || !values[2]) {
-    std::cerr << "usage: anticrack-mesher MEMORY_BYTES CPU_SECONDS OPEN_FILES\n"
+  const std::string_view kind = argc == 4 ? argv[3] : "";
+  const bool import = kind == "import";
+  const auto memory = argc == 4 ? number(argv[1]) : std::nullopt;
+  const auto seconds = argc == 4 ? number(argv[2]) : std::nullopt;
+  if (!memory || !seconds || (!import && kind != "generate")) {
+    std::cerr << "usage: anticrack-mesher MEMORY_BYTES CPU_SECONDS generate|import\n"
                  "Meshes the one request on its standard input; the server starts it.\n";
     return 2;
   }
   try {
-    mesher::restrict_process({*values[0], *values[1], *values[2]});
-    write_all(STDOUT_FILENO, mesh::encode(answer(*values[0])));
+    mesher::restrict_process({*memory, *seconds});
+    write_all(STDOUT_FILENO, mesh::encode(answer(import, *memory)));
   } catch (const std::exception& error) {
     std::cerr << "anticrack-mesher: " << error.what() << '\n';
     return 1;

@@ -44,7 +44,7 @@ struct LiveMesh {
   // In the background:
   bool queued = false;
   bool running = false;  ///< in the hands of a thread
-  bool ending = false;   ///< that thread has told how it ended, and does no more
+  bool ending = false;   ///< that thread has told how it ended, and soon lets go of it
   bool again = false;    ///< to be queued when it lets go of it
   bool meshing = false;
   bool pin = false;                      ///< to be pinned once its operators are there

@@ -74,7 +74,7 @@ class Preparation {
   void recover();
   store::MeshRecord stored(const std::string& id) const;
   static void begin_factorizing(LiveMesh& mesh);
-  void end_factorizing(const std::string& id, const Outcome& outcome, bool last_step);
+  void end_factorizing(const std::string& id, Outcome outcome, bool last_step);
   bool write_outcome(const std::string& id, const Outcome& outcome);
   Operator load(const std::string& id, std::shared_ptr<const mesh::Mesh> mesh,
                 const std::stop_token& stop);

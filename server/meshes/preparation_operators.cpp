@@ -20,6 +20,10 @@ using Steady = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds retry_delay{1000};
 
+double seconds_since(Steady::time_point start) {
+  return std::chrono::duration<double>(Steady::now() - start).count();
+}
+
 }  // namespace
 
 void Preparation::begin_factorizing(LiveMesh& mesh) {
@@ -48,29 +52,28 @@ bool Preparation::write_outcome(const std::string& id, const Outcome& outcome) {
 }
 
 /// The first of those who wait together records the outcome and how long it took.
-void Preparation::end_factorizing(const std::string& id, const Outcome& outcome, bool last_step) {
+void Preparation::end_factorizing(const std::string& id, Outcome outcome, bool last_step) {
   std::unique_lock lock(_mutex);
-  LiveMesh& mesh = _index.known(id);  // it is not erased before the count is down again
-  Outcome told = outcome;
-  const bool first = (told.measured || told.failure) && std::exchange(mesh.undecided, false);
+  LiveMesh& mesh = _index.known(id);  // it is not erased before this is over
+  mesh.ending = mesh.ending || last_step;
+  const bool first = (outcome.measured || outcome.failure) && std::exchange(mesh.undecided, false);
   if (first) {
-    if (told.measured) {
-      told.measured->seconds = std::chrono::duration<double>(Steady::now() - mesh.since).count();
+    if (outcome.measured) {
+      // True whether or not there is room on the disk to keep it, and to be seen by whoever gets
+      // the operators.
+      outcome.measured->seconds = seconds_since(mesh.since);
+      mesh.operators = *outcome.measured;
     }
     lock.unlock();
-    const bool written = write_outcome(id, told);
+    const bool written = write_outcome(id, outcome);
     lock.lock();
-    // What was measured is true whether or not there is room on the disk to keep it. A failure
-    // that could not be written is told to those who wait, and met again.
-    if (told.measured) {
-      mesh.operators = *told.measured;
-    } else if (written) {
+    // A failure that could not be written is told to those who wait, and met again.
+    if (outcome.failure && written) {
       mesh.stage = Stage::failed;
-      mesh.error = told.failure;
+      mesh.error = outcome.failure;
     }
     ++mesh.version;
   }
-  mesh.ending = mesh.ending || last_step;
   if (--mesh.factorizing == 0) {
     mesh.undecided = false;
   }
@@ -125,7 +128,7 @@ Preparation::Operator Preparation::factorize(const std::string& id,
   if (!hold) {
     result.reset();
   }
-  end_factorizing(id, outcome, !hold);
+  end_factorizing(id, std::move(outcome), !hold);
   if (error) {
     throw Error(*error);
   }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "metrics/metrics.hpp"
 
-#include <prometheus/collectable.h>
-#include <prometheus/exposer.h>
+#include <prometheus/text_serializer.h>
 
 #include <iterator>
 #include <mutex>
@@ -11,6 +10,7 @@
 
 #include "errors/errors.hpp"
 #include "metrics/families.hpp"
+#include "metrics/http_page.hpp"
 #include "metrics/pulled.hpp"
 
 namespace anticrack::metrics {
@@ -20,29 +20,10 @@ double seconds_since_1970() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-/// Reads the snapshot at each scrape.
-class Pulled : public prometheus::Collectable {
- public:
-  Pulled(double started, std::function<Snapshot()> read)
-      : _started(started), _read(std::move(read)) {}
-
-  /// Under C code of the HTTP server, which no exception may pass: then those families are missing,
-  /// and an alert on their absence tells.
-  std::vector<prometheus::MetricFamily> Collect() const override {
-    std::vector<prometheus::MetricFamily> families;
-    try {
-      families = process_families(_started);
-      std::vector<prometheus::MetricFamily> more = server_families(_read());
-      std::move(more.begin(), more.end(), std::back_inserter(families));
-    } catch (const std::exception&) {
-    }
-    return families;
-  }
-
- private:
-  double _started;
-  std::function<Snapshot()> _read;
-};
+void append(std::vector<prometheus::MetricFamily>& all,
+            std::vector<prometheus::MetricFamily> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(all));
+}
 
 /// What counts must never be the reason that something else fails.
 template <class Action>
@@ -58,11 +39,23 @@ void quietly(const Action& action) noexcept {
 struct Metrics::State {
   State(const std::string& version, const std::string& build) : families(version, build) {}
 
+  /// What cannot be read is left out, and an alert on its absence tells.
+  std::string page(const std::function<Snapshot()>& read) const noexcept {
+    std::vector<prometheus::MetricFamily> all;
+    quietly([&] {
+      append(all, families.registry()->Collect());
+      append(all, process_families(started));
+      append(all, server_families(read()));
+    });
+    std::string text;
+    quietly([&] { text = prometheus::TextSerializer().Serialize(all); });
+    return text;
+  }
+
   const double started = seconds_since_1970();
   Families families;
   std::mutex mutex;  ///< of what follows
-  std::shared_ptr<Pulled> pulled;
-  std::unique_ptr<prometheus::Exposer> exposer;
+  std::unique_ptr<HttpPage> http;
 };
 
 Metrics::Metrics(const std::string& version, const std::string& build)
@@ -90,35 +83,23 @@ void Metrics::factorised(std::chrono::duration<double> time) noexcept {
 }
 
 std::string Metrics::listen(const std::string& address, std::function<Snapshot()> read) {
-  const std::size_t colon = address.rfind(':');
-  // The HTTP library would take a comma for a second address.
-  if (colon == std::string::npos || address.find_first_of(", ") != std::string::npos) {
-    throw errors::Error(errors::Reason::invalid_argument,
-                        "\"" + address + "\" is not HOST:PORT to serve metrics on")
-        .at("metrics-listen");
-  }
   const std::lock_guard lock(_state->mutex);
   try {
-    // Whoever sends nothing holds one of two threads, so not for long.
-    _state->exposer = std::make_unique<prometheus::Exposer>(std::vector<std::string>{
-        "listening_ports", address, "num_threads", "2", "request_timeout_ms", "5000"});
+    _state->http = std::make_unique<HttpPage>(
+        address, "/metrics", "text/plain; version=0.0.4; charset=utf-8",
+        [state = _state.get(), read = std::move(read)] { return state->page(read); });
   } catch (const std::exception& problem) {
-    throw errors::Error(errors::Reason::invalid_argument,
-                        "cannot serve metrics on " + address +
-                            "; is the port taken, or the address another machine's? (" +
-                            problem.what() + ")")
+    throw errors::Error(
+        errors::Reason::invalid_argument,
+        "cannot serve metrics on " + address + ": " + problem.what() + "; give another HOST:PORT")
         .at("metrics-listen");
   }
-  _state->pulled = std::make_shared<Pulled>(_state->started, std::move(read));
-  _state->exposer->RegisterCollectable(_state->families.registry());
-  _state->exposer->RegisterCollectable(_state->pulled);
-  return address.substr(0, colon + 1) + std::to_string(_state->exposer->GetListeningPorts().at(0));
+  return _state->http->address();
 }
 
 void Metrics::stop() {
   const std::lock_guard lock(_state->mutex);
-  _state->exposer.reset();  // joins its threads
-  _state->pulled.reset();
+  _state->http.reset();
 }
 
 }  // namespace anticrack::metrics

@@ -13,7 +13,7 @@
 #include "contact/trace_problem.hpp"
 #include "ddm/decomposition.hpp"
 #include "ddm/subdomain_operator.hpp"
-#include "operators/condense_load.hpp"
+#include "operators/condense_loads.hpp"
 #include "operators/mesh_operator.hpp"
 
 namespace anticrack::operators {

@@ -19,7 +19,7 @@ void PreparedLoad::Data::add_warnings(contact::Answer& answer) const {
 
 std::vector<std::variant<PreparedLoad, errors::Error>> MeshOperator::prepare(
     std::span<const fem::Load* const> loads, const std::stop_token& stop) const {
-  std::vector<std::variant<LoadOnTraces, errors::Error>> condensed =
+  std::vector<CondensedOutcome> condensed =
       condense_loads(loads, *_parts->mesh, _parts->decomposition, _parts->operators, stop);
   std::vector<std::variant<PreparedLoad, errors::Error>> prepared;
   prepared.reserve(condensed.size());

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <openssl/pem.h>
+#include <openssl/x509.h>
 
 #include <filesystem>
 #include <fstream>
@@ -141,20 +143,37 @@ TEST_F(Security, ChecksThatCertificateAndKeyBelongTogether) {
   EXPECT_THAT(problem_of(config), HasSubstr("tls-client-roots: holds no certificate"));
 }
 
-TEST_F(Security, WarnsOfACertificateThatRunsOut) {
-  const std::string key = path("b/server.key");
-  const auto make = [&](const std::string& days) {
-    anticrack::testing::Process openssl({"/usr/bin/openssl", "req", "-x509", "-new", "-key", key,
-                                         "-subj", "/CN=x", "-days", days, "-out", path("brief.crt")});
-    EXPECT_EQ(openssl.wait(), 0) << openssl.error();
-    Config config;
-    config.tls_certificate = path("brief.crt");
-    config.tls_key = key;
-    return load_security(config).warnings;
-  };
-  EXPECT_THAT(make("5"), ElementsAre(HasSubstr("runs out in")));
-  EXPECT_THAT(make("-5"), ElementsAre(HasSubstr("has run out")));
-  EXPECT_THAT(make("60"), IsEmpty());
+/// The certificate of the same key with other dates, which the command openssl refuses to make.
+std::string with_end(const std::string& certificate, long seconds_from_now) {
+  BIO* in = BIO_new_mem_buf(certificate.data(), static_cast<int>(certificate.size()));
+  X509* changed = PEM_read_bio_X509(in, nullptr, nullptr, nullptr);
+  X509_gmtime_adj(X509_getm_notAfter(changed), seconds_from_now);
+  i2d_re_X509_tbs(changed, nullptr);  // or the encoding of before is written
+  BIO* out = BIO_new(BIO_s_mem());
+  PEM_write_bio_X509(out, changed);
+  char* text = nullptr;
+  const long size = BIO_get_mem_data(out, &text);
+  std::string result(text, static_cast<std::size_t>(size));
+  BIO_free(out);
+  X509_free(changed);
+  BIO_free(in);
+  return result;
+}
+
+TEST_F(Security, KnowsWhenACertificateRunsOut) {
+  const Config files = with_tls();
+  const rpc::Tls tls = *load_security(files).security.tls;
+  constexpr long day = 86'400;
+  EXPECT_EQ(check_certificate(with_end(tls.certificate, 5 * day + day / 2), tls.key), 5);
+  EXPECT_EQ(check_certificate(with_end(tls.certificate, day / 2), tls.key), 0);
+  EXPECT_LT(check_certificate(with_end(tls.certificate, -day / 2), tls.key), 0);
+  EXPECT_LT(check_certificate(with_end(tls.certificate, -5 * day), tls.key), 0);
+
+  Config config = files;
+  config.tls_certificate = write("brief.crt", with_end(tls.certificate, 5 * day));
+  EXPECT_THAT(load_security(config).warnings, ElementsAre(HasSubstr("runs out in")));
+  config.tls_certificate = write("old.crt", with_end(tls.certificate, -5 * day));
+  EXPECT_THAT(load_security(config).warnings, ElementsAre(HasSubstr("has run out")));
 }
 
 TEST(Names, AreSplitAtCommas) {

@@ -23,12 +23,6 @@ using store::JobRecord;
 using store::JobState;
 using namespace std::chrono_literals;
 
-EngineOptions one_thread() {
-  EngineOptions options;
-  options.threads = 1;
-  return options;
-}
-
 void expect_cancelled(const JobRecord& record) {
   EXPECT_EQ(record.state, JobState::cancelled);
   EXPECT_TRUE(record.ended);
@@ -154,7 +148,13 @@ TEST(EngineCancel, MayComeFromManyAtOnce) {
   EXPECT_EQ(test.engine.metrics().jobs_ended, 1U);
 }
 
-TEST(EngineStop, EndsEveryJobAndTellsItsWatchers) {
+bool has_ended(const EventLog& log) {
+  const std::uint64_t latest = log.latest();
+  return latest >= log.earliest() &&
+         std::holds_alternative<EndEvent>(log.read(latest - 1, 1).at(0).event);
+}
+
+TEST(EngineStop, LeavesWhatHasNotEndedToTheNextStart) {
   Engine test(one_thread());
   const std::string mesh = test.ready_mesh();
   test.backend.door.shut();
@@ -163,17 +163,21 @@ TEST(EngineStop, EndsEveryJobAndTellsItsWatchers) {
   const std::string queued = test.submit(short_job(mesh));
   const std::string factorising = test.submit(short_job(test.backend.create(0.3)));
   ASSERT_TRUE(eventually([&] { return test.told(factorising, "factorising"); }));
+  EXPECT_FALSE(test.engine.idle());
   test.engine.stop(0ms);
+  EXPECT_TRUE(test.engine.idle());
   for (const std::string& id : {running, queued, factorising}) {
-    EXPECT_EQ(test.state(id), JobState::cancelled);
-    const auto log = test.engine.events(id);
-    const auto last = log->read(log->latest() - 1, 1);
-    EXPECT_TRUE(std::holds_alternative<EndEvent>(last.at(0).event));
+    EXPECT_EQ(test.state(id), JobState::queued);
+    EXPECT_FALSE(has_ended(*test.engine.events(id)));
+    EXPECT_FALSE(store::ended(test.backend.store->job(id)->state));
   }
+  EXPECT_EQ(test.backend.store->unfinished().size(), 3U);
   EXPECT_TRUE(throws([&] { test.submit(short_job(mesh)); }, Reason::draining));
-  EXPECT_EQ(test.engine.list("", 10).size(), 3U);
+  EXPECT_EQ(test.list().size(), 3U);
   test.engine.stop(0ms);
-  EXPECT_EQ(test.engine.metrics().jobs_ended, 3U);
+  EXPECT_EQ(test.engine.metrics().jobs_ended, 0U);
+  EXPECT_EQ(test.engine.metrics().jobs_queued, 0);
+  EXPECT_EQ(test.engine.metrics().jobs_running, 0);
 }
 
 TEST(EngineStop, LetsRunningJobsFinishInTheGraceTheyHave) {
@@ -198,9 +202,13 @@ TEST(EngineStop, LetsRunningJobsFinishInTheGraceTheyHave) {
   started.get_future().wait();
   const std::string queued = test.submit(short_job(mesh));
   std::thread stopper([&] { test.engine.stop(10min); });
-  EXPECT_EQ(test.ended(queued).state, JobState::cancelled);
+  // Once it refuses jobs it is stopping.
+  EXPECT_TRUE(eventually([&] {
+    return throws([&] { test.engine.cancel(test.submit(short_job(mesh))); }, Reason::draining);
+  }));
   stopping.set_value();
   stopper.join();
+  EXPECT_EQ(test.state(queued), JobState::queued);
   EXPECT_EQ(test.state(running), JobState::succeeded);
   // The same request is answered by a stopped engine, too.
   EXPECT_EQ(test.submit(spec, "request"), running);

@@ -17,12 +17,6 @@ using anticrack::testing::throws;
 using errors::Reason;
 using store::JobState;
 
-EngineOptions one_thread() {
-  EngineOptions options;
-  options.threads = 1;
-  return options;
-}
-
 TEST(EngineLimits, TheQueueIsBoundedButKnowsItsRequests) {
   EngineOptions options = one_thread();
   options.max_queued_jobs = 2;
@@ -38,7 +32,7 @@ TEST(EngineLimits, TheQueueIsBoundedButKnowsItsRequests) {
   EXPECT_GT(error->retry_delay().count(), 0);
   EXPECT_EQ(test.submit(short_job(mesh), "request"), last);
   EXPECT_TRUE(throws([&] { test.submit(short_job(mesh), "other request"); }, Reason::busy));
-  EXPECT_EQ(test.engine.list("", 10).size(), 3U);
+  EXPECT_EQ(test.list().size(), 3U);
   test.engine.cancel(running);
   test.ended(last);
   EXPECT_EQ(test.ended(test.submit(short_job(mesh), "other request")).state, JobState::succeeded);
@@ -54,27 +48,94 @@ TEST(EngineLimits, TheOldestEndedJobsGo) {
     ids.push_back(test.submit(short_job(mesh), "request " + std::to_string(i)));
     test.ended(ids.back());
   }
+  EXPECT_TRUE(
+      eventually([&] { return throws([&] { test.engine.get(ids[1]); }, Reason::not_found); }));
   EXPECT_TRUE(throws([&] { test.engine.get(ids[0]); }, Reason::not_found));
-  EXPECT_TRUE(throws([&] { test.engine.events(ids[1]); }, Reason::not_found));
+  EXPECT_TRUE(throws([&] { test.engine.events(ids[0]); }, Reason::not_found));
   EXPECT_TRUE(throws([&] { test.engine.result(ids[1]); }, Reason::not_found));
   EXPECT_NE(test.engine.result(ids[2]), nullptr);
-  EXPECT_EQ(test.engine.list("", 10).size(), 2U);
+  EXPECT_EQ(test.list().size(), 2U);
   // "A client that later gets NOT_FOUND for its job may submit again with the same request id."
   EXPECT_NE(test.submit(short_job(mesh), "request 0"), ids[0]);
 }
 
-TEST(EngineLimits, ResultsAreBoundedInBytes) {
+TEST(EngineLimits, TheOldestResultsExpireOverTheirBudget) {
   EngineOptions options;
-  options.max_kept_bytes = 1;
+  options.result_budget = 1;
+  Engine test(options);
+  const std::string mesh = test.ready_mesh();
+  const std::string first = test.submit(short_job(mesh), "first");
+  test.ended(first);
+  EXPECT_NE(test.engine.result(first), nullptr);  // the newest stays
+  const std::string second = test.submit(short_job(mesh));
+  test.ended(second);
+  ASSERT_TRUE(test.reaches(first, JobState::expired));
+  EXPECT_TRUE(throws([&] { test.engine.result(first); }, Reason::result_expired));
+  EXPECT_NE(test.engine.result(second), nullptr);
+  EXPECT_TRUE(eventually([&] { return test.engine.metrics().results_expired == 1; }));
+  EXPECT_EQ(test.engine.get(first).cases.at(0).status, store::CaseStatus::converged);
+  EXPECT_EQ(test.submit(short_job(mesh), "first"), first);
+}
+
+TEST(EngineLimits, ResultsExpireByTheirAge) {
+  EngineOptions options;
+  options.result_ttl = std::chrono::milliseconds(1);
   Engine test(options);
   const std::string mesh = test.ready_mesh();
   const std::string first = test.submit(short_job(mesh));
   test.ended(first);
-  EXPECT_NE(test.engine.result(first), nullptr);
-  const std::string second = test.submit(short_job(mesh));
+  test.ended(test.submit(short_job(mesh)));  // or a minute later
+  EXPECT_TRUE(test.reaches(first, JobState::expired));
+}
+
+TEST(EngineLimits, LogsOfEndedJobsAreBoundedInBytes) {
+  EngineOptions options;
+  options.max_log_bytes = 1;
+  Engine test(options);
+  const std::string mesh = test.ready_mesh();
+  const std::string first = test.submit(short_job(mesh));
+  test.ended(first);
+  EXPECT_GT(test.events(first).size(), 3U);
+  test.ended(test.submit(short_job(mesh)));
+  const auto log = test.engine.events(first);
+  EXPECT_EQ(log->earliest(), log->latest());
+  EXPECT_EQ(log->earliest(), (std::uint64_t{1} << 40U) + 1);
+  const auto last = log->read(log->earliest() - 1, 10);
+  ASSERT_EQ(last.size(), 1U);
+  EXPECT_EQ(std::get<EndEvent>(last[0].event).job->id, first);
+}
+
+TEST(EngineLimits, CasesAndBytesOfTheQueueAreBounded) {
+  EngineOptions options = one_thread();
+  options.max_queued_cases = 3;
+  options.max_queued_bytes = 100'000;
+  Engine test(options);
+  const std::string mesh = test.ready_mesh();
+  const std::string other = test.ready_mesh(0.25);
+  store::JobSpec spec = endless_job(mesh);
+  spec.loads.push_back({"second", 1.0, ""});
+  const std::string first = test.submit(spec);
+  EXPECT_TRUE(throws([&] { test.submit(spec); }, Reason::busy));
+  store::JobSpec large = short_job(other);
+  large.loads[0].force = fem::PerRegion{};
+  auto& values = std::get<fem::PerRegion>(large.loads[0].force).values;
+  for (int i = 0; i < 500; ++i) {
+    values[std::to_string(i)] = 1;
+  }
+  const std::string second = test.submit(large);  // on another mesh
+  EXPECT_TRUE(throws([&] { test.submit(large); }, Reason::busy));
+  store::JobSpec possible_never = short_job(other);
+  possible_never.loads.resize(4, possible_never.loads[0]);
+  for (std::size_t i = 0; i < 4; ++i) {
+    possible_never.loads[i].name = std::to_string(i);
+  }
+  EXPECT_TRUE(throws([&] { test.submit(possible_never); }, Reason::limit_exceeded, "load_cases"));
+  EXPECT_GT(test.engine.metrics().queued_bytes, 0U);
+  test.engine.cancel(first);
+  test.ended(first);
   test.ended(second);
-  EXPECT_NE(test.engine.result(second), nullptr);
-  EXPECT_TRUE(throws([&] { test.engine.get(first); }, Reason::not_found));
+  EXPECT_EQ(test.engine.metrics().queued_bytes, 0U);
+  EXPECT_EQ(test.ended(test.submit(short_job(mesh))).state, JobState::succeeded);
 }
 
 TEST(EngineLimits, LoadCasesPastTheBytesOfAResultFail) {
@@ -126,7 +187,7 @@ TEST(EngineErase, TakesEndedJobsOnly) {
   test.engine.erase(id);
   EXPECT_TRUE(throws([&] { test.engine.get(id); }, Reason::not_found));
   EXPECT_TRUE(throws([&] { test.engine.erase(id); }, Reason::not_found));
-  EXPECT_TRUE(test.engine.list("", 10).empty());
+  EXPECT_TRUE(test.list().empty());
   EXPECT_GT(log->latest(), 0U);  // whoever watches it may finish
 }
 
@@ -189,7 +250,8 @@ TEST(EngineSchedule, AJobWaitsForMemoryThatAnotherHolds) {
   {
     Engine measure;
     const std::string mesh = measure.ready_mesh(0.2);
-    larger = operators::estimate_bytes(*measure.backend.store->triangulation(mesh));
+    larger = operators::estimate_bytes(
+        *measure.backend.store->triangulation(measure.backend.catalogue.get(mesh).sha256));
   }
   BackendOptions tight;
   tight.memory_budget = larger;

@@ -3,11 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -42,41 +43,66 @@ inline store::JobSpec endless_job(const std::string& mesh) {
   return spec;
 }
 
+/// Waits for the last event, so nothing of the job is left to happen.
+inline store::JobRecord ended(const JobEngine& engine, const std::string& id) {
+  const std::shared_ptr<EventLog> log = engine.events(id);
+  std::shared_ptr<const store::JobRecord> record;
+  EXPECT_TRUE(anticrack::testing::eventually([&] {
+    if (log->latest() < log->earliest()) {
+      return false;
+    }
+    const auto last = log->read(log->latest() - 1, 1);
+    const auto* end = std::get_if<EndEvent>(&last.at(0).event);
+    record = end == nullptr ? nullptr : end->job;
+    return record != nullptr;
+  }));
+  return record ? *record : store::JobRecord();
+}
+
+inline bool reaches(const JobEngine& engine, const std::string& id, store::JobState state) {
+  return anticrack::testing::eventually([&] { return engine.get(id).state == state; });
+}
+
+/// A mesh whose operators are in memory and held by nobody.
+inline std::string ready_mesh(anticrack::testing::Backend& backend, double size = 0.1) {
+  const std::string id = backend.create(size);
+  EXPECT_TRUE(anticrack::testing::eventually([&] { return backend.catalogue.ready(id); }));
+  return id;
+}
+
+inline EngineOptions unlimited(EngineOptions options = {}) {
+  options.max_iterations = std::numeric_limits<int>::max();
+  return options;
+}
+
+/// One load case at a time: what waits behind an endless one waits for good.
+inline EngineOptions one_thread() {
+  EngineOptions options;
+  options.threads = 1;
+  options.columns = 1;
+  return options;
+}
+
 class Engine {
  public:
   explicit Engine(EngineOptions options = {},
                   const anticrack::testing::BackendOptions& backend_options = {})
-      : backend(backend_options), engine(unlimited(options), *backend.store, backend.catalogue) {}
+      : backend(backend_options),
+        engine(unlimited(std::move(options)), *backend.store, backend.catalogue) {}
 
-  std::string submit(const store::JobSpec& spec, const std::string& request_id = {}) {
-    return engine.submit(spec, request_id).id;
+  std::string submit(const store::JobSpec& spec, const std::string& request_id = {},
+                     const std::string& owner = {}) {
+    return engine.submit({spec, owner, request_id}).id;
+  }
+  std::vector<store::JobRecord> list(std::size_t count = 100) const {
+    return engine.list({"", count, {}});
   }
   store::JobState state(const std::string& id) const { return engine.get(id).state; }
-  bool reaches(const std::string& id, store::JobState state_wanted) const {
-    return anticrack::testing::eventually([&] { return state(id) == state_wanted; });
+  bool reaches(const std::string& id, store::JobState wanted) const {
+    return jobs::reaches(engine, id, wanted);
   }
-  /// Waits for the last event, so nothing of the job is left to happen.
-  store::JobRecord ended(const std::string& id) const {
-    const std::shared_ptr<EventLog> log = engine.events(id);
-    std::shared_ptr<const store::JobRecord> record;
-    EXPECT_TRUE(anticrack::testing::eventually([&] {
-      const std::uint64_t latest = log->latest();
-      if (latest == 0) {
-        return false;
-      }
-      const auto last = log->read(latest - 1, 1);
-      const auto* end = std::get_if<EndEvent>(&last.at(0).event);
-      record = end == nullptr ? nullptr : end->job;
-      return record != nullptr;
-    }));
-    return record ? *record : store::JobRecord();
-  }
-  /// A mesh whose operators are in memory and held by nobody.
-  std::string ready_mesh(double size = 0.1) {
-    const std::string id = backend.create(size);
-    EXPECT_TRUE(anticrack::testing::eventually([&] { return backend.catalogue.ready(id); }));
-    return id;
-  }
+  store::JobRecord ended(const std::string& id) const { return jobs::ended(engine, id); }
+  std::string ready_mesh(double size = 0.1) { return jobs::ready_mesh(backend, size); }
   std::vector<NumberedEvent> events(const std::string& id) const {
     return engine.events(id)->read(0, SIZE_MAX);
   }
@@ -96,25 +122,19 @@ class Engine {
 
   anticrack::testing::Backend backend;
   JobEngine engine;
-
- private:
-  static EngineOptions unlimited(EngineOptions options) {
-    options.max_iterations = std::numeric_limits<int>::max();
-    return options;
-  }
 };
 
 /// The array of a block; none where it has no such array.
 template <class T>
-std::optional<std::vector<T>> array(const store::Block& block, const std::string& name) {
-  for (const store::ArrayLayout& layout : block.arrays) {
+std::optional<std::vector<T>> array(const store::BlockSource& block, const std::string& name) {
+  for (const store::ArrayLayout& layout : block.arrays()) {
     if (layout.name == name) {
       std::uint64_t count = 1;
       for (const std::uint64_t extent : layout.shape) {
         count *= extent;
       }
       std::vector<T> values(count);
-      std::memcpy(values.data(), block.bytes.data() + layout.offset, count * sizeof(T));
+      block.read(layout.offset, std::as_writable_bytes(std::span(values)));
       return values;
     }
   }

@@ -129,6 +129,29 @@ TEST(EventLog, NeverDropsTheEnd) {
   EXPECT_EQ(std::get<EndEvent>(events[0].event).job->id, "job");
 }
 
+TEST(EventLog, TakesNothingAfterTheEnd) {
+  EventLog log(roomy);
+  log.append(end_event());
+  log.append(sample(0, 1));
+  EXPECT_EQ(log.latest(), 1U);
+}
+
+TEST(EventLog, NumbersItsEventsAboveItsBase) {
+  constexpr std::uint64_t base = std::uint64_t{1} << 40U;
+  EventLog log(roomy, base);
+  EXPECT_EQ(log.earliest(), base + 1);
+  EXPECT_EQ(log.latest(), base);
+  EXPECT_THAT(log.read(base, 10), IsEmpty());
+  EXPECT_TRUE(throws([&] { log.read(5, 10); }, Reason::sequence_trimmed));
+  for (int i = 1; i <= 9; ++i) {
+    log.append(mixed(i));
+  }
+  const auto events = log.read(base + 3, 10);
+  ASSERT_EQ(events.size(), 6U);
+  EXPECT_EQ(events[0].sequence, base + 4);
+  EXPECT_EQ(number_of(events[0].event), 4);
+}
+
 TEST(EventLog, WakesItsListenersUntilTheyAreGone) {
   EventLog log(roomy);
   int first = 0;

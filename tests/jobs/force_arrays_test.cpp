@@ -20,13 +20,13 @@ class Arrays : public ::testing::Test {
  protected:
   /// An upload of `count` values under a made-up hash.
   std::string upload(char digit, std::size_t count) {
-    const std::string part = store->new_upload_path();
+    const std::string part = store->new_upload_path(count * sizeof(double));
     const std::vector<double> values(count, 1.5);
     std::ofstream(part, std::ios::binary)
         .write(reinterpret_cast<const char*>(values.data()),
                static_cast<std::streamsize>(count * sizeof(double)));
     const std::string hash(64, digit);
-    store->keep_upload(part, hash);
+    store->keep_upload(part, hash, owner);
     return hash;
   }
   static fem::Load of(const std::string& hash) {
@@ -38,18 +38,20 @@ class Arrays : public ::testing::Test {
     return std::get<fem::Array>(load.force).values;
   }
 
+  const std::string owner = "alice";
   anticrack::testing::TemporaryFolder folder;
-  std::unique_ptr<store::Store> store = store::make_memory_store(folder.path());
+  std::unique_ptr<store::Store> store = store::open({(folder / "data").string(), 0});
 };
 
 TEST_F(Arrays, AreReadOnceAndGoWithTheLastCase) {
   const std::string hash = upload('a', 5);
   const std::vector<fem::Load> loads{of(hash), fem::Load{}, of(hash), of(hash)};
-  ForceArrays arrays(loads);
+  ForceArrays arrays(loads, owner);
   const fem::Load first = arrays.resolve(loads[0], *store);
   ASSERT_TRUE(values(first));
   EXPECT_EQ(*values(first), std::vector<double>(5, 1.5));
-  std::filesystem::remove(*store->upload_path(hash));  // would be missed if it were read again
+  std::filesystem::remove(
+      *store->upload_path(hash, owner));  // would be missed if it were read again
   EXPECT_EQ(values(arrays.resolve(loads[2], *store)), values(first));
   EXPECT_EQ(std::get<double>(arrays.resolve(loads[1], *store).force), 0.0);
   const std::weak_ptr<const std::vector<double>> left = values(arrays.resolve(loads[3], *store));
@@ -58,21 +60,23 @@ TEST_F(Arrays, AreReadOnceAndGoWithTheLastCase) {
 
 TEST_F(Arrays, AreLookedForBeforeTheyAreNeeded) {
   const std::string good = upload('a', 1), empty = upload('c', 0);
-  EXPECT_NO_THROW(require_arrays({of(good), fem::Load{}}, *store));
+  EXPECT_NO_THROW(require_arrays({of(good), fem::Load{}}, *store, owner));
   EXPECT_TRUE(throws(
       [&] {
-        require_arrays({of(good), of(std::string(64, 'b'))}, *store);
+        require_arrays({of(good), of(std::string(64, 'b'))}, *store, owner);
       },
       Reason::not_found, "load_cases[1].force.array"));
-  EXPECT_TRUE(throws([&] { require_arrays({of(empty)}, *store); }, Reason::invalid_argument,
+  EXPECT_TRUE(throws([&] { require_arrays({of(empty)}, *store, owner); }, Reason::invalid_argument,
+                     "load_cases[0].force.array"));
+  EXPECT_TRUE(throws([&] { require_arrays({of(good)}, *store, "bob"); }, Reason::not_found,
                      "load_cases[0].force.array"));
 }
 
 TEST_F(Arrays, ThatWentMeanwhileFailTheirCase) {
   const std::vector<fem::Load> loads{of(upload('a', 1))};
-  ForceArrays arrays(loads);
-  std::filesystem::remove(*store->upload_path(std::string(64, 'a')));
-  EXPECT_TRUE(throws([&] { arrays.resolve(loads[0], *store); }, Reason::not_found, "force.array"));
+  ForceArrays arrays(loads, owner);
+  std::filesystem::remove(*store->upload_path(std::string(64, 'a'), owner));
+  EXPECT_TRUE(throws([&] { arrays.resolve(loads[0], *store); }, Reason::storage, "force.array"));
 }
 
 }  // namespace

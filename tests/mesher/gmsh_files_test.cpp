@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "mesher/import_samples.hpp"
@@ -46,7 +48,9 @@ class Gmsh : public ::testing::Test {
     gmsh::option::setNumber("Mesh.MshFileVersion", version);
     gmsh::option::setNumber("Mesh.Binary", binary ? 1 : 0);
     gmsh::write(path);
-    return mesher::import_msh({path, options, enough});
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    return mesher::import_msh(bytes, options, enough);
   }
 
   /// Calls with what each of the four formats brings.

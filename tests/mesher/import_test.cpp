@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "mesher/msh_writer.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/errors.hpp"
 
 namespace anticrack {
 namespace {
@@ -187,11 +187,11 @@ TEST(Import, ThreeSurfacesGiveTwoInterfaces) {
   EXPECT_THAT(x_along(mesh, 1), ElementsAre(1, 0.5, 0, -0.5, -1));
 }
 
-TEST(Import, ReadsTheFileOfTheRequest) {
-  const testing::TemporaryFolder folder;
-  const std::string path = folder / "case.msh";
-  testing::save(path, testing::write_msh(square_sample(), MshFormat::binary22));
-  EXPECT_EQ(mesher::import_msh({path, {}, 1000}).triangle_count(), 32U);
+TEST(Import, HoldsTheBoundOfTriangles) {
+  const std::string bytes = testing::write_msh(square_sample(), MshFormat::binary22);
+  EXPECT_EQ(mesher::import_msh(bytes, {}, 32).triangle_count(), 32U);
+  EXPECT_TRUE(
+      testing::throws([&] { mesher::import_msh(bytes, {}, 31); }, errors::Reason::limit_exceeded));
 }
 
 }  // namespace

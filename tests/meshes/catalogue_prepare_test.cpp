@@ -32,9 +32,6 @@ class Prepare : public ::testing::Test {
   bool reaches(const std::string& id, MeshState wanted) {
     return eventually([&] { return state(id) == wanted; });
   }
-  bool evict(const std::string& id) {
-    return backend.cache.evict(backend.catalogue.get(id).sha256);
-  }
 
   Backend backend;
 };
@@ -59,9 +56,9 @@ TEST_F(Prepare, SharesTheWorkWithTheBackgroundAndOthers) {
 TEST_F(Prepare, SaysEvictedWhenTheFactorsAreGoneAndMakesThemAgain) {
   const std::string id = backend.create();
   ASSERT_TRUE(reaches(id, MeshState::ready));
-  ASSERT_TRUE(eventually([&] { return evict(id); }));
+  EXPECT_EQ(backend.catalogue.evict(id).state, MeshState::evicted);
   EXPECT_EQ(state(id), MeshState::evicted);
-  EXPECT_EQ(backend.catalogue.list("", 1).at(0).state, MeshState::evicted);
+  EXPECT_EQ(backend.catalogue.list({{}, 1, {}}).at(0).state, MeshState::evicted);
   EXPECT_FALSE(backend.catalogue.ready(id));
   EXPECT_EQ(backend.catalogue.find(id), nullptr);
 
@@ -72,7 +69,7 @@ TEST_F(Prepare, SaysEvictedWhenTheFactorsAreGoneAndMakesThemAgain) {
   EXPECT_EQ(state(id), MeshState::ready);
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
   EXPECT_EQ(backend.cache.metrics().factorizations, 2U);
-  EXPECT_FALSE(evict(id));  // held here
+  EXPECT_TRUE(throws([&] { backend.catalogue.evict(id); }, Reason::in_use));  // held here
 
   heard.clear();
   backend.catalogue.prepare(id, [&](MeshState phase) { heard.push_back(phase); }, {});
@@ -118,7 +115,7 @@ TEST_F(Prepare, ObeysAStopWhileFactorisingAndLeavesTheOthersAlone) {
 TEST_F(Prepare, SaysEvictedAgainAfterTheOnlyCallerStopped) {
   const std::string id = backend.create();
   ASSERT_TRUE(reaches(id, MeshState::ready));
-  ASSERT_TRUE(eventually([&] { return evict(id); }));
+  EXPECT_EQ(backend.catalogue.evict(id).state, MeshState::evicted);
   backend.door.shut();
   std::stop_source stop;
   auto caller = std::async(std::launch::async, [&] { return prepare(id, stop.get_token()); });
@@ -191,7 +188,7 @@ TEST(PrepareFailure, OfTheFactorisationFailsTheMesh) {
   ASSERT_TRUE(eventually([&] { return backend.catalogue.get(id).state == MeshState::failed; }));
   EXPECT_EQ(backend.catalogue.get(id).error->reason(), Reason::limit_exceeded);
   EXPECT_NE(backend.catalogue.read(id), nullptr);  // the triangulation is good
-  EXPECT_EQ(backend.catalogue.create(Backend::definition(), "").state, MeshState::factorizing);
+  EXPECT_EQ(backend.catalogue.create(Backend::definition(), "", "").state, MeshState::factorizing);
   EXPECT_TRUE(eventually([&] { return backend.catalogue.get(id).state == MeshState::failed; }));
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
 }

@@ -2,8 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include <mutex>
 #include <thread>
+#include <vector>
 
 #include "support/backend.hpp"
 #include "support/errors.hpp"
@@ -25,23 +26,11 @@ class Catalogue : public ::testing::Test {
   bool reaches(const std::string& id, MeshState state) {
     return eventually([&] { return backend.catalogue.get(id).state == state; });
   }
-  /// An upload with this content.
-  store::UploadRef upload(const std::string& content) {
-    const std::string part = backend.store->new_upload_path();
-    std::ofstream(part, std::ios::binary) << content;
-    const store::UploadRef result{std::string(63, '0') + std::to_string(++_uploads), {}};
-    backend.store->keep_upload(part, result.sha256);
-    return result;
-  }
-
   Backend backend;
-
- private:
-  int _uploads = 0;
 };
 
 TEST_F(Catalogue, MakesAMeshReadyInTheBackground) {
-  const MeshRecord created = backend.catalogue.create(Backend::definition(), "a title");
+  const MeshRecord created = backend.catalogue.create(Backend::definition(), "a title", "");
   EXPECT_EQ(created.state, MeshState::pending);
   EXPECT_EQ(created.id.size(), 16U);
   ASSERT_TRUE(reaches(created.id, MeshState::ready));
@@ -73,20 +62,20 @@ TEST_F(Catalogue, ReadsTheMeshOnceThereIsOne) {
   ASSERT_TRUE(reaches(id, MeshState::ready));
   const auto block = backend.catalogue.read(id);
   const MeshRecord record = backend.catalogue.get(id);
-  EXPECT_EQ(block->arrays[0].shape[0], record.node_count);
-  EXPECT_EQ(block->arrays[1].shape[0], record.triangle_count);
+  EXPECT_EQ(block->arrays()[0].shape[0], record.node_count);
+  EXPECT_EQ(block->arrays()[1].shape[0], record.triangle_count);
   EXPECT_TRUE(throws([&] { backend.catalogue.read("unknown"); }, Reason::not_found));
 }
 
 TEST_F(Catalogue, GivesTheSameMeshForTheSameDefinition) {
-  const MeshRecord first = backend.catalogue.create(Backend::definition(), "first");
+  const MeshRecord first = backend.catalogue.create(Backend::definition(), "first", "");
   ASSERT_TRUE(reaches(first.id, MeshState::ready));
-  const MeshRecord again = backend.catalogue.create(Backend::definition(), "second");
+  const MeshRecord again = backend.catalogue.create(Backend::definition(), "second", "");
   EXPECT_EQ(again.id, first.id);
   EXPECT_EQ(again.title, "first");
   EXPECT_EQ(again.state, MeshState::ready);
   EXPECT_NE(backend.create(0.3), first.id);
-  EXPECT_EQ(backend.catalogue.list("", 10).size(), 2U);
+  EXPECT_EQ(backend.catalogue.list({{}, 10, {}}).size(), 2U);
 }
 
 TEST_F(Catalogue, MakesOneMeshOfADefinitionThatManyThreadsSend) {
@@ -107,50 +96,53 @@ TEST_F(Catalogue, MakesOneMeshOfADefinitionThatManyThreadsSend) {
 TEST_F(Catalogue, RefusesWhatCanBeNoMesh) {
   auto source = std::get<store::GeometrySource>(Backend::definition());
   source.geometry.inclusions[0].part.from = {-0.5, 0.3};
-  EXPECT_TRUE(throws([&] { backend.catalogue.create(source, ""); }, Reason::geometry_invalid));
-  EXPECT_TRUE(throws([&] { backend.catalogue.create(Backend::definition(-1), ""); },
+  EXPECT_TRUE(throws([&] { backend.catalogue.create(source, "", ""); }, Reason::geometry_invalid));
+  EXPECT_TRUE(throws([&] { backend.catalogue.create(Backend::definition(-1), "", ""); },
                      Reason::invalid_argument, "options.size"));
-  EXPECT_TRUE(throws([&] { backend.catalogue.create(store::UploadRef{std::string(64, 'f')}, ""); },
-                     Reason::not_found, "upload"));
-  store::UploadRef wrong = upload("$MeshFormat\n");
+  EXPECT_TRUE(
+      throws([&] { backend.catalogue.create(store::UploadRef{std::string(64, 'f')}, "", ""); },
+             Reason::not_found, "upload"));
+  store::UploadRef wrong = backend.upload("$MeshFormat\n");
   wrong.options.preset = mesh::Preset::paper;
-  EXPECT_TRUE(throws([&] { backend.catalogue.create(wrong, ""); }, Reason::invalid_argument,
+  EXPECT_TRUE(throws([&] { backend.catalogue.create(wrong, "", ""); }, Reason::invalid_argument,
                      "options.preset"));
-  EXPECT_TRUE(throws([&] { backend.catalogue.create(upload("Merge \"x.geo\";"), ""); },
+  EXPECT_TRUE(throws([&] { backend.catalogue.create(backend.upload("Merge \"x.geo\";"), "", ""); },
                      Reason::mesh_invalid));
   EXPECT_TRUE(
-      throws([&] { backend.catalogue.create(Backend::definition(), std::string(201, 'x')); },
+      throws([&] { backend.catalogue.create(Backend::definition(), std::string(201, 'x'), ""); },
              Reason::invalid_argument, "title"));
-  EXPECT_TRUE(backend.catalogue.list("", 10).empty());
+  EXPECT_TRUE(backend.catalogue.list({{}, 10, {}}).empty());
   EXPECT_TRUE(throws([&] { backend.catalogue.get("unknown"); }, Reason::not_found));
   EXPECT_FALSE(backend.catalogue.ready("unknown"));
 }
 
 TEST_F(Catalogue, KeepsTheErrorOfAMeshThatFailedAndTriesItAgain) {
-  const store::MeshDefinition truncated = upload("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n9");
-  const std::string id = backend.catalogue.create(truncated, "").id;
+  const store::MeshDefinition truncated =
+      backend.upload("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n9");
+  const std::string id = backend.catalogue.create(truncated, "", "").id;
   ASSERT_TRUE(reaches(id, MeshState::failed));
   EXPECT_EQ(backend.catalogue.get(id).error->reason(), Reason::mesh_invalid);
   EXPECT_TRUE(throws([&] { backend.catalogue.read(id); }, Reason::not_ready));
   EXPECT_TRUE(
       throws([&] { backend.catalogue.prepare(id, [](MeshState) {}, {}); }, Reason::mesh_invalid));
+  EXPECT_TRUE(throws([&] { backend.catalogue.warm(id, true); }, Reason::mesh_invalid));
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
 
-  EXPECT_TRUE(eventually([&] {
-    const MeshRecord again = backend.catalogue.create(truncated, "");
-    return again.id == id && backend.catalogue.meshings() >= 2;
-  }));
+  const MeshRecord again = backend.catalogue.create(truncated, "", "");
+  EXPECT_EQ(again.id, id);
+  EXPECT_EQ(again.state, MeshState::pending);
+  EXPECT_TRUE(eventually([&] { return backend.catalogue.meshings() == 2; }));
   EXPECT_TRUE(reaches(id, MeshState::failed));
 }
 
 TEST_F(Catalogue, ListsNewestFirst) {
   const std::string first = backend.create(0.25);
   const std::string second = backend.create(0.3);
-  const auto page = backend.catalogue.list("", 1);
+  const auto page = backend.catalogue.list({{}, 1, {}});
   ASSERT_EQ(page.size(), 1U);
   EXPECT_EQ(page[0].id, second);
-  EXPECT_EQ(backend.catalogue.list(second, 5).at(0).id, first);
-  EXPECT_TRUE(throws([&] { backend.catalogue.list("unknown", 5); }, Reason::not_found));
+  EXPECT_EQ(backend.catalogue.list({second, 5, {}}).at(0).id, first);
+  EXPECT_TRUE(throws([&] { backend.catalogue.list({"unknown", 5, {}}); }, Reason::not_found));
 }
 
 TEST(CatalogueQueue, IsBusyWhenTooManyWait) {
@@ -168,8 +160,45 @@ TEST(CatalogueQueue, IsBusyWhenTooManyWait) {
   ASSERT_TRUE(error);
   EXPECT_EQ(error->reason(), Reason::busy);
   EXPECT_GT(error->retry_delay().count(), 0);
-  EXPECT_EQ(backend.catalogue.list("", 10).size(), 3U);
+  EXPECT_EQ(backend.catalogue.list({{}, 10, {}}).size(), 3U);
   EXPECT_EQ(backend.create(0.4), waiting);  // no new one
+  EXPECT_EQ(backend.catalogue.pending(), 3);
+}
+
+TEST(CatalogueQueue, KeepsNoMoreMeshesThanItMay) {
+  BackendOptions options;
+  options.max_meshes = 2;
+  Backend backend(options);
+  const std::string first = backend.create(0.3);
+  backend.create(0.35);
+  EXPECT_TRUE(throws([&] { backend.create(0.4); }, Reason::limit_exceeded));
+  EXPECT_EQ(backend.create(0.3), first);  // no new one
+  ASSERT_TRUE(eventually([&] { return backend.catalogue.get(first).state == MeshState::ready; }));
+  backend.catalogue.erase(first);
+  EXPECT_FALSE(backend.create(0.4).empty());
+}
+
+TEST(CatalogueMeshed, TellsOfEachMeshTheHelperMadeOrDidNot) {
+  std::mutex mutex;
+  std::vector<MeshRecord> told;
+  BackendOptions options;
+  options.meshed = [&](const MeshRecord& record) {
+    const std::lock_guard lock(mutex);
+    told.push_back(record);
+  };
+  Backend backend(options);
+  const std::string good = backend.create();
+  ASSERT_TRUE(eventually([&] { return backend.catalogue.get(good).state == MeshState::ready; }));
+  const std::string bad = backend.catalogue.create(backend.upload("$MeshFormat\n"), "", "").id;
+  ASSERT_TRUE(eventually([&] {
+    const std::lock_guard lock(mutex);
+    return told.size() == 2;
+  }));
+  EXPECT_EQ(told[0].id, good);
+  EXPECT_FALSE(told[0].error);
+  EXPECT_GT(told[0].mesh_seconds, 0);
+  EXPECT_EQ(told[1].id, bad);
+  EXPECT_TRUE(told[1].error);
 }
 
 }  // namespace

@@ -121,5 +121,13 @@ TEST(Identity, CountsEveryOptionOfAGeometryAndOfAnUpload) {
   }
 }
 
+TEST(Identity, TellsOwnersApart) {
+  EXPECT_EQ(identity(paper(), ""), identity(paper()));
+  EXPECT_EQ(identity(paper(), "ann"), identity(paper(), "ann"));
+  EXPECT_NE(identity(paper(), "ann"), identity(paper()));
+  EXPECT_NE(identity(paper(), "ann"), identity(paper(), "bob"));
+  EXPECT_NE(identity(paper(), "ann"), identity(UploadRef{"ab"}, "ann"));
+}
+
 }  // namespace
 }  // namespace anticrack::meshes

@@ -146,6 +146,24 @@ TEST_F(Exposition, CountsFromManyThreads) {
   EXPECT_THAT(scrape(), HasSubstr("anticrack_jobs_ended_total{state=\"CANCELLED\"} 1000\n"));
 }
 
+TEST_F(Exposition, IsOnePageToBeRead) {
+  EXPECT_EQ(get("http://" + _address + "/"), "");
+  EXPECT_EQ(get("http://" + _address + "/metrics/../secret"), "");
+  EXPECT_NE(get("http://" + _address + "/metrics?x=y"), "");
+}
+
+TEST_F(Exposition, IsNotHeldUpByWhoeverSaysNothing) {
+  std::vector<std::unique_ptr<CURL, decltype(&curl_easy_cleanup)>> silent;
+  for (int i = 0; i < 8; ++i) {
+    silent.emplace_back(curl_easy_init(), &curl_easy_cleanup);
+    curl_easy_setopt(silent.back().get(), CURLOPT_URL, ("http://" + _address).c_str());
+    curl_easy_setopt(silent.back().get(), CURLOPT_NOPROXY, "*");
+    curl_easy_setopt(silent.back().get(), CURLOPT_CONNECT_ONLY, 1L);
+    ASSERT_EQ(curl_easy_perform(silent.back().get()), CURLE_OK);
+  }
+  EXPECT_THAT(scrape(), HasSubstr("anticrack_ready 1"));
+}
+
 TEST_F(Exposition, EndsWithStop) {
   EXPECT_FALSE(scrape().empty());
   _metrics.stop();
@@ -157,8 +175,8 @@ TEST_F(Exposition, EndsWithStop) {
 
 TEST_F(Exposition, SaysWhereItCannotListen) {
   Metrics other("1", "1");
-  for (const std::string& address :
-       {_address, std::string("203.0.113.1:1"), std::string("9464"), _address + ",127.0.0.1:0"}) {
+  for (const std::string& address : {_address, std::string("203.0.113.1:1"), std::string("9464"),
+                                     std::string("127.0.0.1:http")}) {
     EXPECT_TRUE(
         anticrack::testing::throws([&] { other.listen(address, [] { return Snapshot(); }); },
                                    errors::Reason::invalid_argument, "metrics-listen"))

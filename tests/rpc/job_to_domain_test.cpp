@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdint>
 #include <functional>
 
 #include "rpc/from_domain.hpp"
@@ -41,6 +43,52 @@ TEST(JobToDomain, TakesTheActiveSetUnlessAskedOtherwise) {
   EXPECT_EQ(exact.max_steps, 50);
   job.mutable_solver()->mutable_active_set()->set_max_steps(7);
   EXPECT_EQ(std::get<contact::ActiveSetOptions>(to_spec(job, limits).solver).max_steps, 7);
+}
+
+TEST(JobToDomain, TakesPriorityAndTimes) {
+  using std::chrono::milliseconds;
+  const JobLimits timed{10, 1'000, milliseconds(60'500), milliseconds(1'000)};
+  v1::Job job = opening_job("meshes/a").job();
+  EXPECT_EQ(to_spec(job, timed).priority, store::Priority::normal);
+  EXPECT_EQ(to_spec(job, timed).queue_time_limit.count(), 0);
+  job.set_priority(v1::Job::PRIORITY_BULK);
+  job.mutable_queue_timeout()->set_seconds(60);
+  job.mutable_queue_timeout()->set_nanos(500'000'000);
+  job.mutable_run_timeout()->set_nanos(1);
+  const store::JobSpec spec = to_spec(job, timed);
+  EXPECT_EQ(spec.priority, store::Priority::bulk);
+  EXPECT_EQ(spec.queue_time_limit, milliseconds(60'500));
+  EXPECT_EQ(spec.run_time_limit, milliseconds(1));  // not 0, which is the server's
+  job.set_priority(v1::Job::PRIORITY_INTERACTIVE);
+  EXPECT_EQ(to_spec(job, timed).priority, store::Priority::interactive);
+}
+
+TEST(JobToDomain, RefusesTimesAndPrioritiesThereAreNot) {
+  const auto expect = [](const std::function<void(v1::Job&)>& spoil, Reason reason,
+                         const std::string& field) {
+    v1::Job job = opening_job("meshes/a").job();
+    spoil(job);
+    const JobLimits timed{10, 1'000, std::chrono::seconds(60), std::chrono::seconds(60)};
+    expect_refused([&] { to_spec(job, timed); }, reason, field);
+  };
+  expect([](v1::Job& job) { job.set_priority(static_cast<v1::Job::Priority>(9)); },
+         Reason::invalid_argument, "job.priority");
+  expect([](v1::Job& job) { job.mutable_queue_timeout()->set_seconds(-1); },
+         Reason::invalid_argument, "job.queue_timeout");
+  expect([](v1::Job& job) { job.mutable_run_timeout()->set_nanos(1'000'000'000); },
+         Reason::invalid_argument, "job.run_timeout");
+  expect([](v1::Job& job) { job.mutable_run_timeout()->set_nanos(-1); }, Reason::invalid_argument,
+         "job.run_timeout");
+  expect([](v1::Job& job) { job.mutable_queue_timeout()->set_seconds(61); }, Reason::limit_exceeded,
+         "job.queue_timeout");
+  expect([](v1::Job& job) { job.mutable_run_timeout()->set_seconds(INT64_MAX); },
+         Reason::limit_exceeded, "job.run_timeout");
+  expect(
+      [](v1::Job& job) {
+        job.mutable_run_timeout()->set_seconds(60);
+        job.mutable_run_timeout()->set_nanos(1);
+      },
+      Reason::limit_exceeded, "job.run_timeout");
 }
 
 TEST(JobToDomain, TakesTheDefaultsOfThePaper) {

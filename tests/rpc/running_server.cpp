@@ -15,21 +15,37 @@ Context::Context() {
   set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(2));
 }
 
+Context::Context(const std::string& token) : Context() {
+  if (!token.empty()) AddMetadata("authorization", "Bearer " + token);
+}
+
 RunningServer::RunningServer(const std::function<void(Settings&)>& adjust) {
-  Settings settings;
-  settings.engine.max_iterations = 2'000'000'000;
-  settings.catalogue.helper.executable = ANTICRACK_MESHER;
-  settings.server.listen = "127.0.0.1:0";
-  if (adjust) adjust(settings);
+  _settings.engine.max_iterations = 2'000'000'000;
+  _settings.catalogue.helper.executable = ANTICRACK_MESHER;
+  _settings.server.listen = "127.0.0.1:0";
+  if (adjust) adjust(_settings);
   operators::require_threadsafe_blas();
-  _store = store::make_memory_store(_folder.path());
+  start();
+}
+
+RunningServer::~RunningServer() {
+  stop();
+}
+
+void RunningServer::restart() {
+  stop();
+  start();
+}
+
+void RunningServer::start() {
+  _store = store::open({_folder.path()});
   _cache = std::make_unique<operators::OperatorCache>(
       std::uint64_t{1} << 30, [](std::shared_ptr<const mesh::Mesh> mesh, std::stop_token stop) {
         return operators::MeshOperator::factorise(std::move(mesh), 2, std::move(stop));
       });
-  _catalogue = std::make_unique<meshes::MeshCatalogue>(settings.catalogue, *_store, *_cache);
-  _engine = std::make_unique<jobs::JobEngine>(settings.engine, *_store, *_catalogue);
-  _server = std::make_unique<rpc::Server>(settings.server,
+  _catalogue = std::make_unique<meshes::MeshCatalogue>(_settings.catalogue, *_store, *_cache);
+  _engine = std::make_unique<jobs::JobEngine>(_settings.engine, *_store, *_catalogue);
+  _server = std::make_unique<rpc::Server>(_settings.server,
                                           rpc::Backend{*_engine, *_catalogue, *_cache, *_store});
   const auto shared = channel();
   meshes = v1::MeshService::NewStub(shared);
@@ -37,25 +53,27 @@ RunningServer::RunningServer(const std::function<void(Settings&)>& adjust) {
   servers = v1::ServerService::NewStub(shared);
 }
 
-RunningServer::~RunningServer() {
+void RunningServer::stop() {
   _server.reset();
   _engine.reset();
   _catalogue.reset();
+  _cache.reset();
+  _store.reset();
 }
 
 std::size_t RunningServer::upload_files() const {
   std::size_t count = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(_folder.path())) {
+  for (const auto& entry : std::filesystem::directory_iterator(_folder / "uploads")) {
     if (entry.is_regular_file()) ++count;
   }
   return count;
 }
 
-std::shared_ptr<grpc::Channel> RunningServer::channel() const {
+std::shared_ptr<grpc::Channel> RunningServer::channel(
+    const std::shared_ptr<grpc::ChannelCredentials>& credentials) const {
   grpc::ChannelArguments arguments;
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-  return grpc::CreateCustomChannel(_server->address(), grpc::InsecureChannelCredentials(),
-                                   arguments);
+  return grpc::CreateCustomChannel(_server->address(), credentials, arguments);
 }
 
 v1::Mesh RunningServer::create(const v1::CreateMeshRequest& request) {

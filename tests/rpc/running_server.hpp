@@ -26,6 +26,7 @@ struct Settings {
   meshes::CatalogueOptions catalogue;
   jobs::EngineOptions engine;
   rpc::ServerOptions server;
+  std::shared_ptr<grpc::ChannelCredentials> credentials = grpc::InsecureChannelCredentials();
 };
 
 class RunningServer {
@@ -36,12 +37,17 @@ class RunningServer {
   RunningServer(const RunningServer&) = delete;
   RunningServer& operator=(const RunningServer&) = delete;
 
+  /// All of it ends and starts again on the same folder, on another port.
+  void restart();
+
   rpc::Server& server() { return *_server; }
   jobs::JobEngine& engine() { return *_engine; }
   /// Files of uploads, finished or not.
   std::size_t upload_files() const;
   /// A channel of its own.
-  std::shared_ptr<grpc::Channel> channel() const;
+  std::shared_ptr<grpc::Channel> channel() const { return channel(_settings.credentials); }
+  std::shared_ptr<grpc::Channel> channel(
+      const std::shared_ptr<grpc::ChannelCredentials>& credentials) const;
 
   /// Calls that must succeed; gtest failures otherwise.
   v1::Mesh create(const v1::CreateMeshRequest& request);
@@ -73,6 +79,10 @@ class RunningServer {
   std::unique_ptr<v1::ServerService::Stub> servers;
 
  private:
+  void start();
+  void stop();
+
+  Settings _settings;
   TemporaryFolder _folder;
   std::unique_ptr<store::Store> _store;
   std::unique_ptr<operators::OperatorCache> _cache;
@@ -84,6 +94,8 @@ class RunningServer {
 /// A context that ends a call that hangs, so that a test fails instead of standing still.
 struct Context : grpc::ClientContext {
   Context();
+  /// With "authorization: Bearer TOKEN" where the token is not empty.
+  explicit Context(const std::string& token);
 };
 
 }  // namespace anticrack::testing

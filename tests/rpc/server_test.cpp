@@ -11,6 +11,7 @@
 #include "rpc/details.hpp"
 #include "rpc/requests.hpp"
 #include "rpc/running_server.hpp"
+#include "support/eventually.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -136,20 +137,68 @@ TEST(Server, ListensOnAUnixSocket) {
   EXPECT_FALSE(server.info().version().empty());
 }
 
-TEST(Server, SaysWhichMethodsItDoesNotHave) {
-  RunningServer server;
-  v1::Mesh mesh;
-  google::protobuf::Empty empty;
-  v1::DeleteMeshRequest remove;
-  v1::WarmMeshRequest warm;
-  v1::EvictMeshRequest evict;
-  Context a, b, c;
-  for (const grpc::Status& status :
-       {server.meshes->DeleteMesh(&a, remove, &empty), server.meshes->WarmMesh(&b, warm, &mesh),
-        server.meshes->EvictMesh(&c, evict, &mesh)}) {
-    expect_error(status, grpc::StatusCode::UNIMPLEMENTED, "NOT_IMPLEMENTED", "name");
+TEST(Server, ListsEveryLimit) {
+  RunningServer server([](auto& settings) {
+    settings.server.limits.memory_budget_bytes = 1;
+    settings.server.limits.disk_budget_bytes = 1;
+    settings.server.limits.mesher_memory_bytes = 1;
+  });
+  const v1::ServerLimits limits = server.info().limits();
+  const google::protobuf::Reflection& values = *limits.GetReflection();
+  const google::protobuf::Descriptor& fields = *limits.GetDescriptor();
+  for (int i = 0; i < fields.field_count(); ++i) {
+    // proto3 has no field where the value is 0: forgotten, or without a bound.
+    EXPECT_TRUE(values.HasField(limits, fields.field(i))) << fields.field(i)->name();
   }
-  EXPECT_FALSE(server.info().version().empty());
+}
+
+TEST(Server, StopsBeingReadyWhenAStopIsAnnouncedAndServesOn) {
+  RunningServer server;
+  server.server().announce_stop();
+  std::string answer;
+  EXPECT_TRUE(call(server, "/grpc.health.v1.Health/Check", "", answer).ok());
+  EXPECT_EQ(answer, "\x08\x02");
+  EXPECT_FALSE(server.create(paper_mesh()).name().empty());
+}
+
+TEST(Server, WarmsEvictsAndDeletesMeshes) {
+  RunningServer server;
+  const std::string name = server.create(paper_mesh()).name();
+  ASSERT_EQ(server.settle(name).state(), v1::Mesh::STATE_READY);
+  EXPECT_FALSE(server.mesh(name).pinned());
+  const auto until_free = [](const auto& attempt) {
+    grpc::Status status;  // whoever made it READY may still hold it for a moment
+    EXPECT_TRUE(anticrack::testing::eventually([&] {
+      status = attempt();
+      return status.error_code() != grpc::StatusCode::FAILED_PRECONDITION;
+    }));
+    return status;
+  };
+  v1::WarmMeshRequest warm;
+  warm.set_name(name);
+  warm.set_pin(true);
+  v1::Mesh mesh;
+  Context first;
+  ASSERT_TRUE(server.meshes->WarmMesh(&first, warm, &mesh).ok());
+  ASSERT_TRUE(anticrack::testing::eventually([&] { return server.mesh(name).pinned(); }));
+  v1::EvictMeshRequest evict;
+  evict.set_name(name);
+  const grpc::Status evicted = until_free([&] {
+    Context context;
+    return server.meshes->EvictMesh(&context, evict, &mesh);
+  });
+  EXPECT_TRUE(evicted.ok()) << evicted.error_message();
+  EXPECT_EQ(mesh.state(), v1::Mesh::STATE_EVICTED);
+  EXPECT_FALSE(mesh.pinned());
+  v1::DeleteMeshRequest remove;
+  remove.set_name(name);
+  google::protobuf::Empty empty;
+  const auto erase = [&] {
+    Context context;
+    return server.meshes->DeleteMesh(&context, remove, &empty);
+  };
+  EXPECT_TRUE(until_free(erase).ok());
+  expect_error(erase(), grpc::StatusCode::NOT_FOUND, "NOT_FOUND", "");
 }
 
 TEST(Server, SurvivesARequestLargerThanAMessageMayBe) {

@@ -56,13 +56,13 @@ class Recorded final : public Stream {
 };
 
 StreamLimits limits() {
-  return {2, 1, 20ms, 1000ms};
+  return {2, 1, 3, 20ms, 1000ms};
 }
 
 TEST(StreamHub, WakesAndTicksOnItsOwnThread) {
   StreamHub hub(limits());
   const auto stream = std::make_shared<Recorded>(hub, false);
-  hub.add(StreamKind::watch, stream);
+  hub.add(StreamKind::watch, "client", stream);
   hub.wake(stream);
   stream->wait_for_wake();
   stream->wait_for_tick();
@@ -74,20 +74,78 @@ TEST(StreamHub, RefusesMoreThanItsLimitOfAKind) {
   const auto a = std::make_shared<Recorded>(hub, false);
   const auto b = std::make_shared<Recorded>(hub, false);
   const auto c = std::make_shared<Recorded>(hub, false);
-  hub.add(StreamKind::watch, a);
-  hub.add(StreamKind::watch, b);
-  EXPECT_EQ(hub.watchers(), 2);
+  hub.add(StreamKind::watch, "client", a);
+  hub.add(StreamKind::watch, "client", b);
+  EXPECT_EQ(hub.counts().watchers, 2);
   try {
-    hub.add(StreamKind::watch, c);
+    hub.add(StreamKind::watch, "client", c);
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_EQ(error.reason(), Reason::busy);
     EXPECT_GT(error.retry_delay().count(), 0);
   }
-  hub.add(StreamKind::transfer, c);
+  hub.add(StreamKind::transfer, "client", c);
   hub.remove(*a);
-  hub.add(StreamKind::watch, a);
-  EXPECT_EQ(hub.watchers(), 2);
+  hub.add(StreamKind::watch, "client", a);
+  EXPECT_EQ(hub.counts().watchers, 2);
+}
+
+TEST(StreamHub, RefusesMoreThanAClientMayHold) {
+  StreamHub hub({5, 5, 2, 20ms, 1000ms});
+  const auto a = std::make_shared<Recorded>(hub, false);
+  const auto b = std::make_shared<Recorded>(hub, false);
+  const auto c = std::make_shared<Recorded>(hub, false);
+  hub.add(StreamKind::watch, "ada", a);
+  hub.add(StreamKind::transfer, "ada", b);
+  try {
+    hub.add(StreamKind::watch, "ada", c);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.reason(), Reason::busy);
+    EXPECT_GT(error.retry_delay().count(), 0);
+  }
+  hub.add(StreamKind::watch, "bob", c);
+  EXPECT_EQ(hub.counts().transfers, 1);
+  hub.remove(*c);
+  hub.remove(*a);
+  hub.add(StreamKind::watch, "ada", c);
+  EXPECT_EQ(hub.counts().watchers, 1);
+  EXPECT_THROW(hub.add(StreamKind::watch, "ada", a), Error);
+}
+
+/// Not before its time, whoever wakes it.
+class Late final : public Wakeable {
+ public:
+  void wake() noexcept override {
+    {
+      const std::lock_guard lock(_mutex);
+      early = early || SteadyClock::now() < time;
+      ++_wakes;
+    }
+    _changed.notify_all();
+  }
+  SteadyClock::time_point not_before() const noexcept override { return time; }
+  int wait() {
+    std::unique_lock lock(_mutex);
+    EXPECT_TRUE(_changed.wait_for(lock, 60s, [&] { return _wakes > 0; }));
+    return _wakes;
+  }
+
+  const SteadyClock::time_point time = SteadyClock::now() + 30ms;
+  bool early = false;
+
+ private:
+  std::mutex _mutex;
+  std::condition_variable _changed;
+  int _wakes = 0;
+};
+
+TEST(StreamHub, KeepsAWakeUntilItsTime) {
+  StreamHub hub(limits());
+  const auto late = std::make_shared<Late>();
+  hub.wake(late);
+  EXPECT_GE(late->wait(), 1);
+  EXPECT_FALSE(late->early);
 }
 
 TEST(StreamHub, ToleratesAWakeOfWhatIsGone) {
@@ -95,26 +153,26 @@ TEST(StreamHub, ToleratesAWakeOfWhatIsGone) {
   std::weak_ptr<Stream> gone;
   {
     const auto stream = std::make_shared<Recorded>(hub, false);
-    hub.add(StreamKind::watch, stream);
+    hub.add(StreamKind::watch, "client", stream);
     gone = stream;
     hub.wake(gone);
     hub.remove(*stream);
   }
   hub.wake(gone);
-  EXPECT_EQ(hub.watchers(), 0);
+  EXPECT_EQ(hub.counts().watchers, 0);
 }
 
 TEST(StreamHub, DrainEndsAndThenBreaksOff) {
   StreamHub hub(limits());
   const auto willing = std::make_shared<Recorded>(hub, false);
   const auto stubborn = std::make_shared<Recorded>(hub, true);
-  hub.add(StreamKind::watch, willing);
-  hub.add(StreamKind::transfer, stubborn);
+  hub.add(StreamKind::watch, "client", willing);
+  hub.add(StreamKind::transfer, "client", stubborn);
   hub.drain(draining_error(), 10ms, SteadyClock::now() + 60s);
   EXPECT_EQ(willing->ended_with, Reason::draining);
   EXPECT_EQ(stubborn->ended_with, Reason::draining);
-  EXPECT_EQ(hub.watchers(), 0);
-  EXPECT_THROW(hub.add(StreamKind::watch, willing), Error);
+  EXPECT_EQ(hub.counts().watchers, 0);
+  EXPECT_THROW(hub.add(StreamKind::watch, "client", willing), Error);
 }
 
 }  // namespace

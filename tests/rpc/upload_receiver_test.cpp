@@ -36,7 +36,7 @@ class UploadReceiverTest : public ::testing::Test {
  protected:
   std::size_t files() const {
     std::size_t count = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(_folder.path())) {
+    for (const auto& entry : std::filesystem::directory_iterator(_folder / "uploads")) {
       if (entry.is_regular_file()) ++count;
     }
     return count;
@@ -46,7 +46,7 @@ class UploadReceiverTest : public ::testing::Test {
   void expect_refused(const std::vector<v1::UploadMeshRequest>& requests, Reason reason,
                       const std::string& field) {
     try {
-      UploadReceiver receiver(*_store, 10'000);
+      UploadReceiver receiver(*_store, "ada", 10'000);
       for (const auto& request : requests) receiver.accept(request);
       receiver.complete();
       ADD_FAILURE() << "accepted; expected " << field;
@@ -59,19 +59,20 @@ class UploadReceiverTest : public ::testing::Test {
   }
 
   anticrack::testing::TemporaryFolder _folder;
-  std::unique_ptr<store::Store> _store = store::make_memory_store(_folder.path());
+  std::unique_ptr<store::Store> _store = store::open({_folder.path()});
 };
 
 TEST_F(UploadReceiverTest, KeepsWhatWasSent) {
   const std::string content = small_msh();
-  UploadReceiver receiver(*_store, 10'000);
+  UploadReceiver receiver(*_store, "ada", 10'000);
   receiver.accept(header_of(content));
   receiver.accept(chunk_of(content.substr(0, 20)));
   receiver.accept(chunk_of(content.substr(20)));
   const std::string sha256 = receiver.complete();
   EXPECT_EQ(sha256, store::Sha256().add(content).finish());
-  const auto path = _store->upload_path(sha256);
+  const auto path = _store->upload_path(sha256, "ada");
   ASSERT_TRUE(path);
+  EXPECT_FALSE(_store->upload_path(sha256, "bob"));
   std::ostringstream kept;
   kept << std::ifstream(*path).rdbuf();
   EXPECT_EQ(kept.str(), content);
@@ -80,7 +81,7 @@ TEST_F(UploadReceiverTest, KeepsWhatWasSent) {
 
 TEST_F(UploadReceiverTest, LeavesNothingBehindWhenItIsDropped) {
   {
-    UploadReceiver receiver(*_store, 10'000);
+    UploadReceiver receiver(*_store, "ada", 10'000);
     receiver.accept(header_of(small_msh()));
     receiver.accept(chunk_of("$Mesh"));
     EXPECT_EQ(files(), 1u);
@@ -131,11 +132,11 @@ std::string bytes_of(const std::vector<double>& values) {
 
 TEST_F(UploadReceiverTest, KeepsArrays) {
   const std::string content = bytes_of({1, -2.5, 1e300});
-  UploadReceiver receiver(*_store, 10'000);
+  UploadReceiver receiver(*_store, "ada", 10'000);
   receiver.accept(array_header_of(content));
   receiver.accept(chunk_of(content.substr(0, 5)));
   receiver.accept(chunk_of(content.substr(5)));
-  EXPECT_TRUE(_store->upload_path(receiver.complete()));
+  EXPECT_TRUE(_store->upload_path(receiver.complete(), "ada"));
 }
 
 TEST_F(UploadReceiverTest, TakesNothingElseForAnArray) {
@@ -154,7 +155,7 @@ TEST_F(UploadReceiverTest, TakesNothingElseForAnArray) {
 }
 
 TEST_F(UploadReceiverTest, RefusesLargeChunks) {
-  UploadReceiver receiver(*_store, 10'000'000);
+  UploadReceiver receiver(*_store, "ada", 10'000'000);
   v1::UploadMeshRequest header = header_of(small_msh());
   header.mutable_header()->set_size(5'000'000);
   receiver.accept(header);

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -17,6 +18,7 @@
 #include "meshes/mesh_catalogue.hpp"
 #include "operators/mesh_operator.hpp"
 #include "operators/operator_cache.hpp"
+#include "store/digest.hpp"
 #include "store/store.hpp"
 #include "support/paper_geometry.hpp"
 #include "support/temporary_folder.hpp"
@@ -81,6 +83,15 @@ class Backend {
     return store::GeometrySource{paper_geometry(), {mesh::Preset::uniform, size}};
   }
   std::string create(double size = 0.1) { return catalogue.create(definition(size), "", "").id; }
+
+  /// An upload with this content.
+  store::UploadRef upload(const std::string& content, const std::string& owner = {}) {
+    const std::string part = store->new_upload_path(content.size());
+    std::ofstream(part, std::ios::binary) << content;
+    store::UploadRef result{store::Sha256().add(content).finish(), {}};
+    store->keep_upload(part, result.sha256, owner);
+    return result;
+  }
 
   TemporaryFolder folder;
   Door door;  ///< of the factorisation

@@ -26,9 +26,11 @@ struct TraceSpace {
     std::vector<ddm::CondensedLoad> loads;
     for (std::size_t s = 0; s < operators.size(); ++s) {
       const ddm::Subdomain& subdomain = decomposition.subdomains[s];
-      loads.push_back(operators[s].condense(
-          fem::load_vector(subdomain.part, force, subdomain.name),
-          fem::boundary_values(subdomain.part, boundary, subdomain.free(), subdomain.dirichlet)));
+      loads.push_back(operators[s]
+                          .condense(fem::load_vector(subdomain.part, force, subdomain.name),
+                                    fem::boundary_values(subdomain.part, boundary, subdomain.free(),
+                                                         subdomain.dirichlet))
+                          .front());
     }
     return loads;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "operators/condense_load.hpp"
+#include "operators/condense_loads.hpp"
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,13 @@ class CondenseLoad : public ::testing::Test {
     }
   }
   LoadOnTraces condense(const fem::Load& load, const std::stop_token& stop = {}) const {
-    return condense_load(load, mesh, decomposition, operators, stop);
+    const fem::Load* const one[] = {&load};
+    CondensedOutcome outcome =
+        std::move(condense_loads(one, mesh, decomposition, operators, stop).front());
+    if (const auto* error = std::get_if<errors::Error>(&outcome)) {
+      throw errors::Error(*error);
+    }
+    return std::get<LoadOnTraces>(std::move(outcome));
   }
   double placed_sum(const PlacedForces& placed) const {
     double sum = 0;

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "metrics/http_page.hpp"
+
+#include <microhttpd.h>
+#include <netdb.h>
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace anticrack::metrics {
+namespace {
+
+constexpr unsigned most_connections = 32;
+constexpr unsigned connection_seconds = 10;
+
+struct FreeAddresses {
+  void operator()(addrinfo* list) const { ::freeaddrinfo(list); }
+};
+
+struct DestroyResponse {
+  void operator()(MHD_Response* response) const { MHD_destroy_response(response); }
+};
+
+struct StopDaemon {
+  void operator()(MHD_Daemon* daemon) const { MHD_stop_daemon(daemon); }
+};
+
+std::unique_ptr<addrinfo, FreeAddresses> resolve(std::string host, const std::string& port) {
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
+  addrinfo* list = nullptr;
+  if (const int problem = ::getaddrinfo(host.c_str(), port.c_str(), &hints, &list); problem != 0) {
+    throw std::runtime_error(::gai_strerror(problem));
+  }
+  return std::unique_ptr<addrinfo, FreeAddresses>(list);
+}
+
+MHD_Result respond(MHD_Connection* connection, unsigned status, const std::string& body,
+                   const std::string& type) {
+  // MHD copies the body and does not change it, whatever its signature says.
+  const std::unique_ptr<MHD_Response, DestroyResponse> response(MHD_create_response_from_buffer(
+      body.size(), const_cast<char*>(body.data()), MHD_RESPMEM_MUST_COPY));
+  if (!response) return MHD_NO;
+  MHD_add_response_header(response.get(), MHD_HTTP_HEADER_CONTENT_TYPE, type.c_str());
+  return MHD_queue_response(connection, status, response.get());
+}
+
+}  // namespace
+
+struct HttpPage::State {
+  std::string path;
+  std::string content_type;
+  std::function<std::string()> make;
+  std::string address;
+  std::unique_ptr<MHD_Daemon, StopDaemon> daemon;  ///< the first to go
+
+  static MHD_Result answer(void* self, MHD_Connection* connection, const char* url,
+                           const char* method, const char* /*version*/, const char* /*upload*/,
+                           std::size_t* upload_bytes, void** seen) {
+    // Called first when the header is there; a response then would close the connection.
+    if (*seen == nullptr) {
+      *seen = self;
+      return MHD_YES;
+    }
+    if (*upload_bytes != 0) {  // whatever somebody sends along is dropped
+      *upload_bytes = 0;
+      return MHD_YES;
+    }
+    const State& page = *static_cast<const State*>(self);
+    const std::string_view verb = method;
+    if (verb != MHD_HTTP_METHOD_GET && verb != MHD_HTTP_METHOD_HEAD) {
+      return respond(connection, MHD_HTTP_METHOD_NOT_ALLOWED, "GET only\n", "text/plain");
+    }
+    if (page.path != url) {
+      return respond(connection, MHD_HTTP_NOT_FOUND, "there is only " + page.path + "\n",
+                     "text/plain");
+    }
+    return respond(connection, MHD_HTTP_OK, page.make(), page.content_type);
+  }
+};
+
+HttpPage::HttpPage(const std::string& address, std::string path, std::string content_type,
+                   std::function<std::string()> make)
+    : _state(std::make_unique<State>()) {
+  _state->path = std::move(path);
+  _state->content_type = std::move(content_type);
+  _state->make = std::move(make);
+
+  const std::size_t colon = address.rfind(':');
+  if (colon == std::string::npos) throw std::runtime_error("not HOST:PORT");
+  const auto where = resolve(address.substr(0, colon), address.substr(colon + 1));
+  const unsigned family = where->ai_family == AF_INET6 ? MHD_USE_IPv6 : 0;
+  errno = 0;
+  _state->daemon.reset(MHD_start_daemon(
+      MHD_USE_AUTO | MHD_USE_INTERNAL_POLLING_THREAD | family, 0, nullptr, nullptr, &State::answer,
+      _state.get(), MHD_OPTION_SOCK_ADDR, where->ai_addr, MHD_OPTION_CONNECTION_LIMIT,
+      most_connections, MHD_OPTION_CONNECTION_TIMEOUT, connection_seconds, MHD_OPTION_END));
+  if (!_state->daemon) throw std::runtime_error(std::generic_category().message(errno));
+  const MHD_DaemonInfo* port = MHD_get_daemon_info(_state->daemon.get(), MHD_DAEMON_INFO_BIND_PORT);
+  _state->address = address.substr(0, colon + 1) + std::to_string(port->port);
+}
+
+HttpPage::~HttpPage() = default;
+
+const std::string& HttpPage::address() const noexcept {
+  return _state->address;
+}
+
+}  // namespace anticrack::metrics

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "operators/condense_loads.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "errors/errors.hpp"
+#include "fem/load_vector.hpp"
+#include "fem/traction.hpp"
+#include "operators/known_names.hpp"
+#include "operators/place_forces.hpp"
+
+namespace anticrack::operators {
+namespace {
+
+void require_known_regions(const fem::Load& load, const mesh::Mesh& mesh) {
+  if (const auto* regions = std::get_if<fem::PerRegion>(&load.force)) {
+    for (const auto& [name, value] : regions->values) {
+      index_of(mesh.subdomains, name, "subdomain", "force.per_region[" + name + "]");
+    }
+  }
+}
+
+void require_array_fits(const fem::Load& load, const mesh::Mesh& mesh) {
+  const auto* array = std::get_if<fem::Array>(&load.force);
+  if (array == nullptr) {
+    return;
+  }
+  const std::size_t wanted = array->per_triangle ? mesh.triangle_count() : mesh.node_count();
+  const char* what = array->per_triangle ? " triangles" : " nodes";
+  const std::size_t given = array->values ? array->values->size() : 0;
+  if (given != wanted) {
+    throw errors::Error(errors::Reason::invalid_argument,
+                        "the array of the force has " + std::to_string(given) +
+                            " values, but the mesh has " + std::to_string(wanted) + what +
+                            ": give one value for each, in the order of ReadMesh")
+        .at("force.array");
+  }
+}
+
+std::string inexact(const std::string& what, const std::string& subdomain, double relative_error) {
+  std::ostringstream message;
+  message.precision(2);
+  message << what << " on subdomain \"" << subdomain << "\" may be wrong by " << relative_error
+          << " of its integral (wanted: " << fem::load_tolerance
+          << "): it is too rough for the limit of evaluations";
+  return message.str();
+}
+
+/// Loads that are condensed together.
+class Block {
+ public:
+  Block(std::span<const fem::Load* const> loads, const mesh::Mesh& mesh,
+        const ddm::Decomposition& decomposition, std::stop_token stop)
+      : _loads(loads),
+        _decomposition(decomposition),
+        _stop(std::move(stop)),
+        _placed(loads.size()),
+        _outcomes(loads.size()) {
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      attempt(i, [&](LoadOnTraces& result) {
+        require_known_regions(*loads[i], mesh);
+        require_array_fits(*loads[i], mesh);
+        _placed[i] = place_forces(*loads[i], mesh, decomposition);
+        result.subdomains.reserve(decomposition.subdomains.size());
+        result.inclusion_forces = _placed[i].inclusions;
+      });
+    }
+  }
+
+  void condense_on(std::size_t s, const ddm::SubdomainOperator& subdomain_operator) {
+    const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
+    const auto columns = static_cast<Eigen::Index>(_loads.size());
+    Eigen::MatrixXd of_nodes(static_cast<Eigen::Index>(subdomain.node.size()), columns);
+    Eigen::MatrixXd dirichlet(static_cast<Eigen::Index>(subdomain.dirichlet), columns);
+    std::vector<std::size_t> sound;
+    for (std::size_t i = 0; i < _loads.size(); ++i) {
+      attempt(i, [&](LoadOnTraces& result) {
+        const auto column = static_cast<Eigen::Index>(sound.size());
+        of_nodes.col(column) = integrate(i, s, result);
+        dirichlet.col(column) = fem::boundary_values(subdomain.part, _loads[i]->boundary_value,
+                                                     subdomain.free(), subdomain.dirichlet);
+        sound.push_back(i);
+      });
+    }
+    const auto width = static_cast<Eigen::Index>(sound.size());
+    try {
+      std::vector<ddm::CondensedLoad> condensed =
+          subdomain_operator.condense(of_nodes.leftCols(width), dirichlet.leftCols(width));
+      for (std::size_t k = 0; k < sound.size(); ++k) {
+        std::get<LoadOnTraces>(_outcomes[sound[k]]).subdomains.push_back(std::move(condensed[k]));
+      }
+    } catch (const errors::Error& error) {  // out of memory: nobody's fault, everybody's end
+      for (const std::size_t i : sound) {
+        _outcomes[i] = error;
+      }
+    }
+  }
+
+  std::vector<CondensedOutcome> take() { return std::move(_outcomes); }
+
+ private:
+  /// What is wrong with a load ends it and no other.
+  template <class Work>
+  void attempt(std::size_t i, const Work& work) {
+    if (auto* result = std::get_if<LoadOnTraces>(&_outcomes[i])) {
+      try {
+        if (_stop.stop_requested()) {
+          throw errors::Error(errors::Reason::cancelled, "stopped while loads were integrated");
+        }
+        work(*result);
+      } catch (const errors::Error& error) {
+        _outcomes[i] = error;
+      }
+    }
+  }
+
+  Eigen::VectorXd integrate(std::size_t i, std::size_t s, LoadOnTraces& result) const {
+    const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
+    const fem::Load& load = *_loads[i];
+    double error = 0;
+    Eigen::VectorXd of_nodes =
+        fem::load_vector(subdomain.part, load.force, subdomain.name,
+                         {subdomain.node, subdomain.triangle, _stop, &error});
+    if (error > fem::load_tolerance) {
+      result.warnings.push_back(inexact("the force", subdomain.name, error));
+    }
+    if (!load.traction.empty() && !subdomain.neumann.empty()) {
+      error = fem::add_traction(subdomain.part, subdomain.neumann, load.traction, of_nodes, _stop);
+      if (error > fem::load_tolerance) {
+        result.warnings.push_back(inexact("the traction", subdomain.name, error));
+      }
+    }
+    for (const NodalForce& force : _placed[i].subdomains[s]) {
+      of_nodes[force.node] += force.value;
+    }
+    if (!of_nodes.allFinite()) {
+      throw errors::Error(
+          errors::Reason::invalid_argument,
+          "the load on subdomain \"" + subdomain.name + "\" overflows; scale it down");
+    }
+    return of_nodes;
+  }
+
+  std::span<const fem::Load* const> _loads;
+  const ddm::Decomposition& _decomposition;
+  std::stop_token _stop;
+  std::vector<PlacedForces> _placed;
+  std::vector<CondensedOutcome> _outcomes;
+};
+
+/// Nodes of the largest subdomain: the rows of what is solved at once.
+Eigen::Index most_nodes(const ddm::Decomposition& decomposition) {
+  std::size_t most = 0;
+  for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
+    most = std::max(most, subdomain.node.size());
+  }
+  return static_cast<Eigen::Index>(most);
+}
+
+}  // namespace
+
+std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> loads,
+                                             const mesh::Mesh& mesh,
+                                             const ddm::Decomposition& decomposition,
+                                             std::span<const ddm::SubdomainOperator> operators,
+                                             const std::stop_token& stop) {
+  const auto at_once = static_cast<std::size_t>(ddm::columns_at_once(most_nodes(decomposition)));
+  std::vector<CondensedOutcome> result;
+  result.reserve(loads.size());
+  for (std::size_t first = 0; first < loads.size(); first += at_once) {
+    Block block(loads.subspan(first, std::min(at_once, loads.size() - first)), mesh, decomposition,
+                stop);
+    for (std::size_t s = 0; s < operators.size(); ++s) {
+      block.condense_on(s, operators[s]);
+    }
+    for (CondensedOutcome& outcome : block.take()) {
+      result.push_back(std::move(outcome));
+    }
+  }
+  return result;
+}
+
+}  // namespace anticrack::operators

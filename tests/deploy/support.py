@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The real server as a process, and where things are."""
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import time
+import unittest
+
+ANTICRACKD = os.environ["ANTICRACKD"]
+DEPLOY = pathlib.Path(os.environ["DEPLOY"])
+SERVER = pathlib.Path(os.environ["SERVER"])
+
+
+def run(*command, **options):
+    """The ended process; its output is text."""
+    return subprocess.run([str(word) for word in command], text=True, capture_output=True, check=False, **options)
+
+
+class FolderTest(unittest.TestCase):
+    """A test with a folder of its own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="anticrack-test-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+
+class Daemon:
+    """anticrackd on a free port, stopped at the end of the scope."""
+
+    def __init__(self, folder, *flags):
+        self._log = open(folder / "daemon.log", "w+", encoding="utf-8")
+        command = [ANTICRACKD, "--listen", "127.0.0.1:0", "--data-dir", folder / "data", *flags]
+        self._process = subprocess.Popen([str(word) for word in command], text=True,
+                                         stdout=subprocess.PIPE, stderr=self._log)
+        # One line or, when it does not start, the end of its output.
+        line = self._process.stdout.readline()
+        if not line:
+            self._process.wait()
+            raise RuntimeError("anticrackd did not start: " + self.log())
+        self.port = int(line.rsplit(":", 1)[1])
+
+    def log(self):
+        return pathlib.Path(self._log.name).read_text(encoding="utf-8")
+
+    def metrics_url(self):
+        """Of a daemon with --metrics-listen; the log says where once it is started."""
+        limit = time.monotonic() + 120
+        while not (found := re.search(r"url=(http://\S+)", self.log())):
+            if time.monotonic() > limit:
+                raise RuntimeError("no metrics: " + self.log())
+            time.sleep(0.01)
+        return found.group(1)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._process.terminate()
+        self._process.wait()
+        self._process.stdout.close()
+        self._log.close()

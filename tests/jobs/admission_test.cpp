@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/admission.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/errors.hpp"
+
+namespace anticrack::jobs {
+namespace {
+
+using anticrack::testing::error_of;
+using anticrack::testing::throws;
+using errors::Reason;
+
+TEST(Admission, BoundsTheJobsThatHaveNotStarted) {
+  Admission admission({2, 100, 1000});
+  admission.add("a", 1, 1);
+  admission.add("b", 1, 1);
+  EXPECT_TRUE(throws([&] { admission.check("c", 1, 1); }, Reason::busy));
+  admission.started();
+  EXPECT_NO_THROW(admission.check("c", 1, 1));
+}
+
+TEST(Admission, BoundsTheCasesOfAMesh) {
+  Admission admission({10, 100, 1000});
+  admission.add("a", 60, 1);
+  admission.started();
+  EXPECT_NO_THROW(admission.check("a", 40, 1));
+  EXPECT_NO_THROW(admission.check("b", 100, 1));
+  EXPECT_TRUE(throws([&] { admission.check("a", 41, 1); }, Reason::busy));
+  admission.cases_ended("a", 1);
+  EXPECT_NO_THROW(admission.check("a", 41, 1));
+}
+
+TEST(Admission, BoundsTheBytes) {
+  Admission admission({10, 100, 1000});
+  admission.add("a", 1, 600);
+  EXPECT_NO_THROW(admission.check("b", 1, 400));
+  EXPECT_TRUE(throws([&] { admission.check("b", 1, 401); }, Reason::busy));
+  admission.ended(600);
+  EXPECT_NO_THROW(admission.check("b", 1, 401));
+  EXPECT_EQ(admission.bytes(), 0U);
+}
+
+TEST(Admission, SaysWhatCouldNeverPass) {
+  const Admission admission({10, 100, 1000});
+  EXPECT_TRUE(throws([&] { admission.check("a", 101, 1); }, Reason::limit_exceeded, "load_cases"));
+  EXPECT_TRUE(throws([&] { admission.check("a", 1, 1001); }, Reason::limit_exceeded, "load_cases"));
+}
+
+TEST(Admission, DelaysLongerTheLongerTheQueue) {
+  Admission admission({1, 100'000, 1'000'000});
+  admission.add("a", 1, 1);
+  const auto error = error_of([&] { admission.check("a", 1, 1); });
+  ASSERT_TRUE(error);
+  const auto one = error->retry_delay();
+  EXPECT_GT(one.count(), 0);
+  for (int i = 0; i < 100; ++i) {
+    admission.add("a", 1, 1);
+  }
+  EXPECT_GT(admission.retry_delay(), one);
+  for (int i = 0; i < 100'000; ++i) {
+    admission.add("a", 1, 1);
+  }
+  EXPECT_LE(admission.retry_delay(), std::chrono::minutes(1));
+}
+
+}  // namespace
+}  // namespace anticrack::jobs

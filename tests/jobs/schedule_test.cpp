@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/schedule.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace anticrack::jobs {
+namespace {
+
+using store::Priority;
+using namespace std::chrono_literals;
+
+class ScheduleTest : public ::testing::Test {
+ protected:
+  std::uint64_t add(const std::string& mesh, Priority priority = Priority::normal,
+                    Lane lane = Lane::lumped) {
+    schedule.add({++_number, mesh, lane, priority, now});
+    return _number;
+  }
+  /// A mesh whose operator is in memory.
+  void ready(const std::string& mesh) { schedule.prepared(mesh); }
+  /// The mesh of the next turn; empty when there is none.
+  std::string turn() {
+    const auto turn = schedule.next_turn(now);
+    EXPECT_FALSE(turn && turn->probe);
+    return turn ? turn->mesh : "";
+  }
+  std::optional<std::uint64_t> next(const std::string& mesh) {
+    return schedule.next_job(mesh, Lane::lumped, now);
+  }
+
+  Schedule::Time now = std::chrono::steady_clock::time_point(1000h);
+  Schedule schedule{30s, 2};
+
+ private:
+  std::uint64_t _number = 0;
+};
+
+TEST_F(ScheduleTest, HasNoTurnWithoutWork) {
+  EXPECT_FALSE(schedule.next_turn(now));
+  ready("a");
+  EXPECT_FALSE(schedule.next_turn(now));
+  const auto job = add("a");
+  EXPECT_EQ(turn(), "a");
+  schedule.remove(job);
+  EXPECT_FALSE(schedule.next_turn(now));
+}
+
+TEST_F(ScheduleTest, TheMoreUrgentClassGoesFirst) {
+  for (const char* mesh : {"a", "b", "c"}) {
+    ready(mesh);
+  }
+  add("a", Priority::bulk);
+  add("b", Priority::normal);
+  const auto urgent = add("c", Priority::interactive);
+  EXPECT_EQ(turn(), "c");
+  EXPECT_EQ(turn(), "c");
+  schedule.remove(urgent);
+  EXPECT_EQ(turn(), "b");
+}
+
+TEST_F(ScheduleTest, WaitingIsWorthAClass) {
+  ready("a");
+  ready("b");
+  add("a", Priority::bulk);
+  now += 29s;
+  add("b", Priority::normal);
+  EXPECT_EQ(turn(), "b");
+  now += 1s;  // the bulk job is as urgent now, and its mesh had no turn yet
+  EXPECT_EQ(turn(), "a");
+}
+
+TEST_F(ScheduleTest, NothingIsMoreUrgentThanTheFirstClass) {
+  ready("old");
+  ready("new");
+  add("old", Priority::bulk);
+  now += 1h;
+  add("new", Priority::interactive);
+  EXPECT_EQ(turn(), "new");  // by name: neither had a turn
+  EXPECT_EQ(turn(), "old");
+  EXPECT_EQ(turn(), "new");  // the bulk job has waited since its turn only
+  EXPECT_EQ(turn(), "new");
+  now += 1min;
+  schedule.served("new", now);
+  EXPECT_EQ(turn(), "old");
+}
+
+TEST_F(ScheduleTest, AThousandJobsOnOneMeshDoNotStarveOneOnAnother) {
+  ready("many");
+  ready("one");
+  for (int i = 0; i < 1000; ++i) {
+    add("many");
+  }
+  now += 10min;
+  EXPECT_EQ(turn(), "many");
+  schedule.served("many", now);
+  add("one");
+  EXPECT_EQ(turn(), "one");
+  EXPECT_EQ(turn(), "many");
+  EXPECT_EQ(turn(), "one");
+  EXPECT_EQ(turn(), "many");
+}
+
+TEST_F(ScheduleTest, LanesOfAMeshTakeTurnsWithinItsTurns) {
+  ready("a");
+  ready("b");
+  add("a", Priority::normal, Lane::active_set);
+  add("a", Priority::normal, Lane::lumped);
+  add("b", Priority::normal, Lane::lumped);
+  std::vector<std::string> order;
+  for (int i = 0; i < 4; ++i) {
+    const auto turn = schedule.next_turn(now);
+    ASSERT_TRUE(turn);
+    order.push_back(turn->mesh + (turn->lane == Lane::lumped ? " lumped" : " exact"));
+  }
+  EXPECT_EQ(order, (std::vector<std::string>{"a exact", "b lumped", "a lumped", "b lumped"}));
+}
+
+TEST_F(ScheduleTest, OnAMeshTheMostUrgentJobThenTheOldest) {
+  ready("a");
+  const auto bulk = add("a", Priority::bulk);
+  const auto older = add("a");
+  const auto newer = add("a");
+  EXPECT_EQ(next("a"), older);
+  const auto urgent = add("a", Priority::interactive);
+  EXPECT_EQ(next("a"), urgent);
+  schedule.remove(urgent);
+  schedule.remove(older);
+  EXPECT_EQ(next("a"), newer);
+  now += 31s;  // normal has become the first class, bulk the second
+  EXPECT_EQ(next("a"), newer);
+  now += 30s;  // both the first: the oldest
+  EXPECT_EQ(next("a"), bulk);
+  EXPECT_EQ(schedule.next_job("a", Lane::consistent, now), std::nullopt);
+  EXPECT_EQ(schedule.next_job("unknown", Lane::lumped, now), std::nullopt);
+}
+
+TEST_F(ScheduleTest, LooksOnceForAMeshThatMayBeThere) {
+  add("a");
+  auto turn = schedule.next_turn(now);
+  ASSERT_TRUE(turn);
+  EXPECT_TRUE(turn->probe);
+  EXPECT_FALSE(schedule.next_turn(now));        // somebody looks
+  EXPECT_FALSE(schedule.next_to_prepare(now));  // nor is it prepared meanwhile
+  schedule.absent("a");
+  EXPECT_FALSE(schedule.next_turn(now));
+  EXPECT_EQ(schedule.next_to_prepare(now), "a");
+  EXPECT_FALSE(schedule.next_turn(now));
+  schedule.prepared("a");
+  turn = schedule.next_turn(now);
+  ASSERT_TRUE(turn);
+  EXPECT_FALSE(turn->probe);
+}
+
+TEST_F(ScheduleTest, AMeshThatIsPreparedHoldsUpNobody) {
+  add("slow", Priority::interactive);
+  EXPECT_EQ(schedule.next_to_prepare(now), "slow");
+  ready("fast");
+  add("fast", Priority::bulk);
+  EXPECT_EQ(turn(), "fast");
+}
+
+TEST_F(ScheduleTest, PreparesInOrderOncePerMeshAndNoMoreAheadThanItsLimit) {
+  add("a");
+  add("a");
+  add("b", Priority::bulk);
+  add("c");
+  EXPECT_EQ(schedule.next_to_prepare(now), "a");
+  EXPECT_EQ(schedule.next_to_prepare(now), "c");
+  EXPECT_FALSE(schedule.next_to_prepare(now));
+  schedule.prepared("a");
+  EXPECT_FALSE(schedule.next_to_prepare(now));  // it has had no turn
+  EXPECT_EQ(turn(), "a");
+  EXPECT_EQ(schedule.next_to_prepare(now), "b");
+}
+
+TEST_F(ScheduleTest, TriesAMeshAgainWhenItsTimeHasCome) {
+  add("a");
+  EXPECT_EQ(schedule.next_to_prepare(now), "a");
+  schedule.again("a", now + 1s);
+  EXPECT_FALSE(schedule.next_to_prepare(now));
+  EXPECT_EQ(schedule.next_retry(now), now + 1s);
+  EXPECT_EQ(schedule.next_retry(now + 1s), std::nullopt);
+  EXPECT_EQ(schedule.next_to_prepare(now + 1s), "a");
+}
+
+TEST_F(ScheduleTest, ForgetsAMeshThatIsLetGo) {
+  ready("a");
+  const auto job = add("a");
+  EXPECT_EQ(turn(), "a");
+  schedule.remove(job);
+  schedule.let_go("a");
+  add("a");
+  const auto turn = schedule.next_turn(now);
+  ASSERT_TRUE(turn);
+  EXPECT_TRUE(turn->probe);
+}
+
+TEST_F(ScheduleTest, WorkThatWasPutDownHasTurns) {
+  ready("a");
+  schedule.park("a", Lane::lumped, Priority::normal);
+  EXPECT_TRUE(schedule.others("a", Lane::lumped));
+  EXPECT_TRUE(schedule.others("b", Lane::lumped));
+  EXPECT_EQ(turn(), "a");
+  schedule.unpark("a", Lane::lumped, Priority::normal);
+  EXPECT_FALSE(schedule.next_turn(now));
+}
+
+TEST_F(ScheduleTest, KnowsWhetherATurnKeepsOthersWaiting) {
+  ready("a");
+  add("a");
+  EXPECT_FALSE(schedule.others("a", Lane::lumped));  // its own cases
+  EXPECT_TRUE(schedule.others("a", Lane::active_set));
+  add("b");
+  EXPECT_TRUE(schedule.others("a", Lane::lumped));  // may be there: nobody has looked
+  schedule.next_to_prepare(now);
+  EXPECT_FALSE(schedule.others("a", Lane::lumped));
+  schedule.prepared("b");
+  EXPECT_TRUE(schedule.others("a", Lane::lumped));
+}
+
+}  // namespace
+}  // namespace anticrack::jobs

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a catalogue finds on the disk, and what it does when the disk refuses.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "meshes/lasting.hpp"
+#include "support/backend.hpp"
+#include "support/errors.hpp"
+#include "support/eventually.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace anticrack::meshes {
+namespace {
+
+using anticrack::testing::Backend;
+using anticrack::testing::BackendOptions;
+using anticrack::testing::eventually;
+using anticrack::testing::TemporaryFolder;
+using anticrack::testing::throws;
+using errors::Reason;
+using store::MeshRecord;
+using store::MeshState;
+
+class Restart : public ::testing::Test {
+ protected:
+  Restart() { options.data_folder = (folder / "data").string(); }
+  static bool reaches(Backend& backend, const std::string& id, MeshState state) {
+    return eventually([&] { return backend.catalogue.get(id).state == state; });
+  }
+
+  TemporaryFolder folder;
+  BackendOptions options;
+};
+
+TEST_F(Restart, FindsMeshesEvictedAndMakesTheirOperatorsAgain) {
+  MeshRecord before;
+  {
+    Backend backend(options);
+    const std::string id = backend.catalogue.create(Backend::definition(), "a title", "ann").id;
+    ASSERT_TRUE(reaches(backend, id, MeshState::ready));
+    before = backend.catalogue.get(id);
+  }
+  Backend backend(options);
+  const MeshRecord after = backend.catalogue.get(before.id);
+  EXPECT_EQ(after.state, MeshState::evicted);
+  EXPECT_EQ(after.title, "a title");
+  EXPECT_EQ(after.owner, "ann");
+  EXPECT_EQ(after.sha256, before.sha256);
+  EXPECT_EQ(after.operator_bytes, before.operator_bytes);
+  EXPECT_EQ(after.theta_star, before.theta_star);
+  EXPECT_EQ(backend.catalogue.read(before.id)->arrays()[0].shape[0], before.node_count);
+  EXPECT_NE(backend.catalogue.prepare(before.id, [](MeshState) {}, {}), nullptr);
+  EXPECT_EQ(backend.catalogue.get(before.id).state, MeshState::ready);
+  EXPECT_EQ(backend.catalogue.create(Backend::definition(), "", "ann").id, before.id);
+  EXPECT_EQ(backend.catalogue.meshings(), 0U);
+}
+
+TEST_F(Restart, MeshesWhatWasNotMeshed) {
+  std::string meshing;
+  std::string waiting;
+  options.mesher_hangs = true;
+  {
+    Backend backend(options);
+    meshing = backend.create(0.2);
+    backend.create(0.25);
+    ASSERT_TRUE(eventually([&] { return backend.catalogue.meshings() == 2; }));
+    waiting = backend.create(0.3);
+  }
+  options.mesher_hangs = false;
+  Backend backend(options);
+  EXPECT_TRUE(reaches(backend, meshing, MeshState::ready));
+  EXPECT_TRUE(reaches(backend, waiting, MeshState::ready));
+  EXPECT_EQ(backend.catalogue.meshings(), 3U);
+}
+
+TEST_F(Restart, FindsAFailedMeshWithItsError) {
+  std::string id;
+  {
+    Backend backend(options);
+    id = backend.catalogue.create(backend.upload("$MeshFormat\n"), "", "").id;
+    ASSERT_TRUE(reaches(backend, id, MeshState::failed));
+  }
+  Backend backend(options);
+  const MeshRecord record = backend.catalogue.get(id);
+  EXPECT_EQ(record.state, MeshState::failed);
+  ASSERT_TRUE(record.error);
+  EXPECT_TRUE(
+      throws([&] { backend.catalogue.prepare(id, [](MeshState) {}, {}); }, record.error->reason()));
+  EXPECT_EQ(backend.catalogue.meshings(), 0U);
+}
+
+TEST_F(Restart, TellsWhoWaitsThatTheDiskRefusesAndTriesAgainLater) {
+  Backend backend(options);
+  const std::filesystem::path meshes = folder / "data/meshes";
+  const std::filesystem::path away = folder / "away";
+  std::filesystem::rename(meshes, away);
+  const std::string id = backend.create(0.2);
+  const auto prepare = [&] { return backend.catalogue.prepare(id, [](MeshState) {}, {}); };
+  EXPECT_TRUE(throws(prepare, Reason::storage));
+  EXPECT_TRUE(reaches(backend, id, MeshState::pending));
+  EXPECT_FALSE(backend.catalogue.get(id).error);
+  EXPECT_TRUE(eventually([&] { return backend.catalogue.pending() == 0; }));
+
+  std::filesystem::rename(away, meshes);
+  EXPECT_EQ(backend.create(0.2), id);
+  EXPECT_NE(prepare(), nullptr);
+  EXPECT_EQ(backend.catalogue.get(id).state, MeshState::ready);
+}
+
+TEST_F(Restart, TriesAgainForWhoAsksForTheOperators) {
+  Backend backend(options);
+  const std::filesystem::path meshes = folder / "data/meshes";
+  const std::filesystem::path away = folder / "away";
+  std::filesystem::rename(meshes, away);
+  const std::string id = backend.create(0.2);
+  ASSERT_TRUE(eventually(
+      [&] { return backend.catalogue.meshings() == 1 && backend.catalogue.pending() == 0; }));
+  std::filesystem::rename(away, meshes);
+  EXPECT_NE(backend.catalogue.prepare(id, [](MeshState) {}, {}), nullptr);
+  EXPECT_EQ(backend.catalogue.meshings(), 2U);
+}
+
+TEST(Lasting, IsNoErrorOfTheMoment) {
+  for (const Reason passing :
+       {Reason::busy, Reason::cancelled, Reason::disk_full, Reason::storage}) {
+    EXPECT_FALSE(lasting({passing, ""}));
+  }
+  for (const Reason certain : {Reason::mesh_invalid, Reason::mesher_failed, Reason::numerical,
+                               Reason::limit_exceeded, Reason::internal}) {
+    EXPECT_TRUE(lasting({certain, ""}));
+  }
+}
+
+}  // namespace
+}  // namespace anticrack::meshes

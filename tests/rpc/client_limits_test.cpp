@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What one client can take from the others, and what abuse of uploads leaves behind: nothing.
+#include <gtest/gtest.h>
+
+#include "rpc/authentication.hpp"
+#include "rpc/details.hpp"
+#include "rpc/people.hpp"
+#include "rpc/requests.hpp"
+#include "rpc/running_server.hpp"
+#include "support/eventually.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+using anticrack::testing::Context;
+using anticrack::testing::eventually;
+using anticrack::testing::expect_error;
+using anticrack::testing::other_token;
+using anticrack::testing::owner_token;
+using anticrack::testing::RunningServer;
+using anticrack::testing::small_msh;
+
+TEST(ClientLimits, AMachineIsOneClientWhateverItsConnections) {
+  EXPECT_EQ(without_port("ipv4:10.0.0.1:4711"), "ipv4:10.0.0.1");
+  EXPECT_EQ(without_port("ipv6:%5B::1%5D:4711"), "ipv6:%5B::1%5D");
+  EXPECT_EQ(without_port("unix:"), "unix:");
+}
+
+/// An upload that is begun.
+class Upload {
+ public:
+  Upload(RunningServer& server, const std::string& token, const std::string& content)
+      : _context(token), _writer(server.meshes->UploadMesh(&_context, &_response)) {
+    v1::UploadMeshRequest part;
+    part.mutable_header()->set_size(content.size());
+    part.mutable_header()->set_sha256(store::Sha256().add(content).finish());
+    _writer->Write(part);
+  }
+  bool send(const std::string& chunk) {
+    v1::UploadMeshRequest part;
+    part.set_chunk(chunk);
+    return _writer->Write(part);
+  }
+  grpc::Status finish() {
+    _writer->WritesDone();
+    return _writer->Finish();
+  }
+  grpc::Status drop() {
+    _context.TryCancel();
+    return _writer->Finish();
+  }
+  const std::string& name() const { return _response.upload(); }
+
+ private:
+  Context _context;
+  v1::UploadMeshResponse _response;
+  std::unique_ptr<grpc::ClientWriter<v1::UploadMeshRequest>> _writer;
+};
+
+TEST(ClientLimits, HalfOpenStreamsOfOneHoldNobodyElseOff) {
+  constexpr int cap = 8;
+  RunningServer server([](auto& settings) {
+    settings.server.security.tokens = anticrack::testing::people();
+    settings.server.limits.streams_a_client = cap;
+  });
+  std::vector<std::unique_ptr<Upload>> held;
+  for (int i = 0; i < cap; ++i) {
+    held.push_back(std::make_unique<Upload>(server, owner_token, small_msh()));
+  }
+  ASSERT_TRUE(eventually([&] { return server.server().metrics().transfers == cap; }));
+  for (int i = 0; i < 200; ++i) {
+    expect_error(Upload(server, owner_token, small_msh()).finish(),
+                 grpc::StatusCode::RESOURCE_EXHAUSTED, "BUSY", "");
+  }
+  EXPECT_EQ(server.server().metrics().transfers, cap);
+  Upload other(server, other_token, small_msh());
+  other.send(small_msh());
+  EXPECT_TRUE(other.finish().ok());
+  for (const auto& upload : held) upload->drop();
+  EXPECT_TRUE(eventually([&] { return server.server().metrics().transfers == 0; }));
+  EXPECT_TRUE(eventually([&] { return server.upload_files() == 1; }));
+}
+
+TEST(ClientLimits, TwoUploadsOfTheSameAtOnceAreOne) {
+  RunningServer server;
+  const std::string content = small_msh();
+  Upload first(server, "", content);
+  Upload second(server, "", content);
+  for (const char c : content) {
+    ASSERT_TRUE(first.send(std::string(1, c)));
+    ASSERT_TRUE(second.send(std::string(1, c)));
+  }
+  EXPECT_TRUE(first.finish().ok());
+  EXPECT_TRUE(second.finish().ok());
+  EXPECT_EQ(first.name(), second.name());
+  EXPECT_EQ(server.upload_files(), 1u);
+}
+
+TEST(ClientLimits, AnUploadIsNotSpoiledByAForgeryOfItsName) {
+  RunningServer server;
+  const std::string content = small_msh();
+  std::string forged = content;
+  forged.back() = ' ';
+  Upload honest(server, "", content);
+  Upload forgery(server, "", content);
+  forgery.send(forged);
+  honest.send(content);
+  expect_error(forgery.finish(), grpc::StatusCode::INVALID_ARGUMENT, "INVALID_ARGUMENT",
+               "header.sha256");
+  EXPECT_TRUE(honest.finish().ok());
+  Upload late(server, "", content);  // what is there already is not replaced either
+  late.send(forged);
+  EXPECT_FALSE(late.finish().ok());
+  v1::CreateMeshRequest request;
+  request.set_upload(honest.name());
+  EXPECT_FALSE(server.create(request).name().empty());
+  EXPECT_TRUE(eventually([&] { return server.upload_files() == 1; }));
+}
+
+TEST(ClientLimits, ChunksWithoutEndStopAtWhatWasAnnounced) {
+  RunningServer server;
+  Upload upload(server, "", small_msh());
+  while (upload.send(small_msh())) {
+  }
+  expect_error(upload.finish(), grpc::StatusCode::INVALID_ARGUMENT, "INVALID_ARGUMENT",
+               "header.size");
+  EXPECT_TRUE(eventually([&] { return server.upload_files() == 0; }));
+}
+
+}  // namespace
+}  // namespace anticrack::rpc
