@@ -18,6 +18,7 @@
 #include "service/daemon.hpp"
 #include "service/stored_data.hpp"
 #include "service/workload.hpp"
+#include "support/eventually.hpp"
 
 namespace anticrack::service_test {
 namespace {
@@ -43,10 +44,15 @@ struct Run {
   std::vector<Work> works = mixed_work();
   std::atomic<bool> done = false;
   std::atomic<int> retries = 0;
+  std::atomic<int> heard = 0;  ///< jobs acknowledged and events of watches
   std::mutex mutex;
   std::vector<Acknowledged> jobs;
   std::vector<std::string> complaints;
 
+  bool failed() {
+    const std::lock_guard lock(mutex);
+    return !complaints.empty();
+  }
   void complain(const std::string& text) {
     const std::lock_guard lock(mutex);
     complaints.push_back(text);
@@ -54,6 +60,10 @@ struct Run {
   void acknowledge(const Acknowledged& job) {
     const std::lock_guard lock(mutex);
     jobs.push_back(job);
+    ++heard;
+  }
+  void watch(client::Connection& connection, const std::string& name) {
+    client::watch_job(connection, name, 0, [this](const v1::WatchJobResponse&) { ++heard; });
   }
 };
 
@@ -74,21 +84,27 @@ void be_a_client(Run& run, client::ConnectionOptions options, unsigned seed) {
       run.acknowledge({job.name(), id, index});
       open.push_back(job.name());
       if (open.size() > most_open) {
-        wait_for_end(connection, open.front());
+        run.watch(connection, open.front());
         open.erase(open.begin());
       }
     }
-    for (const std::string& name : open) wait_for_end(connection, name);
+    for (const std::string& name : open) run.watch(connection, name);
   } catch (const std::exception& error) {
     run.complain(std::string("a client failed: ") + error.what());
   }
 }
 
-void kill_again_and_again(Daemon& daemon, const Options& options, std::minstd_rand& random) {
+void kill_again_and_again(Daemon& daemon, Run& run, const Options& options,
+                          std::minstd_rand& random) {
   std::exponential_distribution<double> pause(1.0 / options.pause);
   for (int kill = 1; kill <= options.kills; ++kill) {
-    // Some fall into the start itself, where the server recovers from the last one.
-    if (random() % 8 != 0) daemon.wait_until_ready();
+    // Some fall into the start itself, where the server recovers from the last one; before the
+    // others the clients are back at work, however slow the machine is.
+    if (random() % 8 != 0) {
+      const int before = run.heard;
+      daemon.wait_until_ready();
+      anticrack::testing::eventually([&] { return run.heard > before || run.failed(); });
+    }
     std::this_thread::sleep_for(milliseconds(static_cast<int>(pause(random))));
     daemon.kill();
     daemon.launch();
@@ -164,7 +180,7 @@ int drive(const Options& options) {
   }
   std::exception_ptr failure;
   try {
-    kill_again_and_again(daemon, options, random);
+    kill_again_and_again(daemon, run, options, random);
   } catch (...) {
     failure = std::current_exception();
   }
