@@ -25,6 +25,8 @@ struct Connection::State {
   explicit State(ConnectionOptions chosen);
 
   ConnectionOptions options;
+  std::shared_ptr<grpc::Channel> channel;
+  std::shared_ptr<grpc::Channel> bulk;  ///< of bulk reads
   std::unique_ptr<v1::MeshService::Stub> meshes;
   std::unique_ptr<v1::SolveService::Stub> jobs;
   std::unique_ptr<v1::ServerService::Stub> server;
@@ -43,7 +45,8 @@ Error error_of(const Connection::State& state, const grpc::Status& status);
 /// Waits before the next try of a call, or gives up.
 class Retries {
  public:
-  explicit Retries(Connection::State& state);
+  /// `channel`: that of the call.
+  Retries(Connection::State& state, grpc::Channel& channel);
 
   /// Returns when it is time to try again; throws `error` when it is no use, Interrupted on `stop`.
   void wait(const Error& error, const std::stop_token& stop);
@@ -52,6 +55,7 @@ class Retries {
 
  private:
   Connection::State& _state;
+  grpc::Channel& _channel;
   Backoff _backoff;
   std::optional<std::chrono::steady_clock::time_point> _failing_since;
   std::optional<Error> _first_error;  ///< since then
@@ -76,7 +80,7 @@ template <class Stub, class Request, class Response>
 Response call(Connection::State& state, Stub& stub,
               grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
               const Request& request, const std::stop_token& stop) {
-  Retries retries(state);
+  Retries retries(state, *state.channel);
   while (true) {
     Response response;
     const grpc::Status status = try_call(state, stub, method, request, response, stop);
@@ -93,7 +97,7 @@ template <class Stub, class Request, class Response>
 void call_delete(Connection::State& state, Stub& stub,
                  grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
                  const Request& request, const std::stop_token& stop) {
-  Retries retries(state);
+  Retries retries(state, *state.channel);
   bool lost = false;
   while (true) {
     Response response;

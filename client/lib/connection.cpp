@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "client/connection.hpp"
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <string_view>
@@ -28,23 +29,39 @@ std::shared_ptr<grpc::Channel> make_channel(const ConnectionOptions& options, bo
   // periods are taken for abuse by the server ("too many pings").
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
-  // gRPC's own back-off reaches minutes; ours decides.
+  // gRPC's own back-off reaches minutes; ours decides, so its connection is to be tried as often.
+  const auto longest =
+      static_cast<int>(std::clamp<std::int64_t>(options.retry.longest.count(), 100, 1'000));
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 1'000);
-  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2'000);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, longest);
   // Channels of equal arguments share one connection.
   arguments.SetInt("anticrack.bulk", bulk ? 1 : 0);
   return grpc::CreateCustomChannel(options.address, credentials_of(options.credentials), arguments);
 }
 
+// At most for `time`. gRPC works at a connection while somebody waits on the channel and hardly at
+// all while everybody sleeps: a sleeping client finds its server again seconds late.
+void wait_for_connection(grpc::Channel& channel, milliseconds time, const std::stop_token& stop) {
+  constexpr milliseconds slice{50};  // a stop has to be heard
+  const auto end = std::chrono::system_clock::now() + time;
+  while (!stop.stop_requested()) {
+    const auto next = std::min(end, std::chrono::system_clock::now() + slice);
+    if (channel.WaitForConnected(next) || next == end) {
+      return;
+    }
+  }
+  throw Interrupted();
+}
+
 }  // namespace
 
 Connection::State::State(ConnectionOptions chosen) : options(std::move(chosen)) {
-  const auto channel = make_channel(options, false);
+  channel = make_channel(options, false);
   meshes = v1::MeshService::NewStub(channel);
   jobs = v1::SolveService::NewStub(channel);
   server = v1::ServerService::NewStub(channel);
-  const auto bulk = make_channel(options, true);
+  bulk = make_channel(options, true);
   bulk_meshes = v1::MeshService::NewStub(bulk);
   bulk_jobs = v1::SolveService::NewStub(bulk);
 }
@@ -87,7 +104,8 @@ Error error_of(const Connection::State& state, const grpc::Status& status) {
   return error;
 }
 
-Retries::Retries(Connection::State& state) : _state(state), _backoff(state.options.retry) {}
+Retries::Retries(Connection::State& state, grpc::Channel& channel)
+    : _state(state), _channel(channel), _backoff(state.options.retry) {}
 
 void Retries::wait(const Error& error, const std::stop_token& stop) {
   if (stop.stop_requested()) {
@@ -111,7 +129,11 @@ void Retries::wait(const Error& error, const std::stop_token& stop) {
   if (_state.options.notice) {
     _state.options.notice(retry_text(error, _state.options.address, patience));
   }
-  sleep(*delay, stop);
+  if (lost && _channel.GetState(false) != GRPC_CHANNEL_READY) {
+    wait_for_connection(_channel, *delay, stop);
+  } else {
+    sleep(*delay, stop);  // a proxy keeps its connection to us and loses the server's
+  }
 }
 
 void Retries::succeeded() {

@@ -92,7 +92,7 @@ std::string upload(Connection& connection, v1::UploadMeshRequest::Content conten
   Connection::State& state = connection.state();
   v1::UploadMeshRequest::Header header = header_of(begin);
   header.set_content(content);
-  Retries retries(state);
+  Retries retries(state, *state.bulk);
   while (true) {
     std::string name;
     const grpc::Status status = upload_once(state, begin, header, name, stop);

@@ -22,7 +22,7 @@ Block read_block(Connection::State& state, Stub& stub,
                                                                                const Request&),
                  const std::string& name, const std::stop_token& stop) {
   BlockReceiver receiver;
-  Retries retries(state);
+  Retries retries(state, *state.bulk);
   int damaged = 0;
   while (true) {
     Request request;

@@ -31,7 +31,7 @@ bool may_retry(const Error& error);
 
 struct RetryPolicy {
   std::chrono::milliseconds first{100};         ///< delay before the second try
-  std::chrono::milliseconds longest{3'000};     ///< bound of the doubling delay
+  std::chrono::milliseconds longest{1'000};     ///< bound of the doubling delay
   std::chrono::milliseconds patience{300'000};  ///< give up when failing for longer than this
 };
 

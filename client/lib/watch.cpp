@@ -32,7 +32,7 @@ v1::Job watch_job(Connection& connection, const std::string& name, std::uint64_t
                   const std::function<void(const v1::WatchJobResponse&)>& event,
                   const std::stop_token& stop) {
   Connection::State& state = connection.state();
-  Retries retries(state);
+  Retries retries(state, *state.channel);
   Position position{after_sequence, std::nullopt};
   while (true) {
     v1::WatchJobRequest request;

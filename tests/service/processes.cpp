@@ -29,6 +29,19 @@ bool is_ended(v1::Job::State state) {
 
 }  // namespace
 
+std::unique_ptr<anticrack::testing::Process> start_client(
+    const std::string& address, const std::vector<std::string>& arguments) {
+  std::vector<std::string> argv = {ANTICRACK, "--server", address};
+  argv.insert(argv.end(), arguments.begin(), arguments.end());
+  return std::make_unique<anticrack::testing::Process>(argv);
+}
+
+Ended run_client(const std::string& address, const std::vector<std::string>& arguments) {
+  const auto process = start_client(address, arguments);
+  const int code = process->wait(std::chrono::seconds(300)).value_or(-1);
+  return {code, process->output(), process->error()};
+}
+
 Server::Server(const std::vector<std::string>& options) {
   std::vector<std::string> argv = {ANTICRACKD, "--listen", "127.0.0.1:0", "--data-dir",
                                    _folder / "data"};
@@ -45,15 +58,11 @@ Server::Server(const std::vector<std::string>& options) {
 
 std::unique_ptr<anticrack::testing::Process> Server::start_client(
     const std::vector<std::string>& arguments) const {
-  std::vector<std::string> argv = {ANTICRACK, "--server", _address};
-  argv.insert(argv.end(), arguments.begin(), arguments.end());
-  return std::make_unique<anticrack::testing::Process>(argv);
+  return service_test::start_client(_address, arguments);
 }
 
 Ended Server::client(const std::vector<std::string>& arguments) const {
-  const auto process = start_client(arguments);
-  const int code = process->wait(std::chrono::seconds(300)).value_or(-1);
-  return {code, process->output(), process->error()};
+  return run_client(_address, arguments);
 }
 
 v1::ServerInfo Server::info() const {

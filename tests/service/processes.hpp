@@ -24,6 +24,12 @@ struct Ended {
   std::string error;
 };
 
+/// Runs `anticrack --server ADDRESS ...` to its end.
+Ended run_client(const std::string& address, const std::vector<std::string>& arguments);
+/// Starts it and lets it run.
+std::unique_ptr<anticrack::testing::Process> start_client(
+    const std::string& address, const std::vector<std::string>& arguments);
+
 /// anticrackd on a free loopback port with a data folder of its own.
 class Server {
  public:

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Many clients that submit and watch for a while: no error but documented backpressure, every job
+// ends, the server's memory stays within bounds; latencies are told, not judged.
+#include <grpcpp/generic/generic_stub.h>
+#include <grpcpp/grpcpp.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <mutex>
+#include <random>
+#include <thread>
+
+#include "client/uuid.hpp"
+#include "service/daemon.hpp"
+#include "service/workload.hpp"
+
+namespace anticrack::service_test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+struct Options {
+  int seconds = 60;
+  int clients = 200;
+  int channels = 8;
+  unsigned seed = 1;
+  std::uint64_t memory = 2'048;  ///< MiB the server may come to hold
+};
+
+struct Run {
+  std::vector<Work> works;
+  std::atomic<bool> done = false;
+  std::atomic<std::uint64_t> jobs = 0;
+  std::atomic<std::uint64_t> waits = 0;  ///< for a queue that was full
+  std::mutex mutex;
+  std::vector<std::string> complaints;
+
+  void complain(const std::string& text) {
+    const std::lock_guard lock(mutex);
+    complaints.push_back(text);
+  }
+};
+
+void be_a_client(Run& run, client::Connection& connection, unsigned seed) {
+  std::minstd_rand random(seed);
+  try {
+    while (!run.done) {
+      const Work& work = run.works[random() % run.works.size()];
+      const v1::Job job =
+          wait_for_end(connection, submit(connection, work, client::make_uuid()).name());
+      if (job.state() != v1::Job::STATE_SUCCEEDED) {
+        run.complain("a job ended in another state: " + job.ShortDebugString());
+      }
+      ++run.jobs;
+    }
+  } catch (const std::exception& error) {
+    run.complain(std::string("a client failed: ") + error.what());
+  }
+}
+
+/// The standard health service, whose messages are small enough to be written by hand.
+bool healthy(grpc::GenericStub& stub) {
+  grpc::ClientContext context;
+  grpc::CompletionQueue queue;
+  const grpc::Slice nothing;
+  const grpc::ByteBuffer request(&nothing, 1);
+  grpc::ByteBuffer response;
+  grpc::Status status;
+  const auto call =
+      stub.PrepareUnaryCall(&context, "/grpc.health.v1.Health/Check", request, &queue);
+  call->StartCall();
+  call->Finish(&response, &status, &queue);
+  void* tag = nullptr;
+  bool fine = false;
+  queue.Next(&tag, &fine);
+  std::vector<grpc::Slice> slices;
+  if (!status.ok() || !response.Dump(&slices).ok()) return false;
+  std::string bytes;
+  for (const grpc::Slice& slice : slices) bytes.append(slice.begin(), slice.end());
+  return bytes == "\x08\x01";  // status: SERVING
+}
+
+void tell(const char* what, std::vector<double> times) {
+  if (times.empty()) return;
+  std::sort(times.begin(), times.end());
+  const auto at = [&](double part) {
+    return times[static_cast<std::size_t>(part * static_cast<double>(times.size() - 1))];
+  };
+  std::printf("%s: %zu calls, p50 %.2f ms, p99 %.2f ms, longest %.2f ms\n", what, times.size(),
+              at(0.5), at(0.99), times.back());
+}
+
+/// "VmRSS" or "VmHWM" of a process, MiB.
+std::uint64_t memory_of(int process, const std::string& key) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/status");
+  for (std::string word; file >> word;) {
+    std::uint64_t kibibytes = 0;
+    if (word == key + ":" && file >> kibibytes) return kibibytes / 1024;
+  }
+  return 0;
+}
+
+/// Asks for a job and for the server's health, over and over, until the time is up.
+void probe(Run& run, const Daemon& daemon, const std::string& job, int seconds) {
+  client::Connection connection(daemon.connection());
+  grpc::GenericStub health(
+      grpc::CreateChannel(daemon.address(), grpc::InsecureChannelCredentials()));
+  std::vector<double> gets;
+  std::vector<double> checks;
+  const auto end = Clock::now() + std::chrono::seconds(seconds);
+  while (Clock::now() < end) {
+    const auto begin = Clock::now();
+    client::get_job(connection, job);
+    const auto middle = Clock::now();
+    if (!healthy(health)) run.complain("the server said it was not healthy");
+    gets.push_back(Milliseconds(middle - begin).count());
+    checks.push_back(Milliseconds(Clock::now() - middle).count());
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  tell("GetJob", gets);
+  tell("health check", checks);
+}
+
+int drive(const Options& options) {
+  Run run;
+  const std::vector<std::string> coarse{"mesh.preset=uniform", "mesh.size=0.1"};
+  run.works = {work("paper.toml", iterations(300)), work("paper-3.toml", iterations(1'000)),
+               work("slit.toml", coarse), work("arc.toml", coarse)};
+  // A queue shorter than the clients are many, so that some of them are turned away.
+  Daemon daemon({"--log-level", "error", "--queued-jobs",
+                 std::to_string(std::max(options.clients / 4, 1)), "--kept-jobs", "2000"});
+  client::ConnectionOptions chosen = daemon.connection();
+  chosen.notice = [&run](const std::string&) { ++run.waits; };
+  std::vector<std::unique_ptr<client::Connection>> connections;
+  for (int i = 0; i < options.channels; ++i) {
+    connections.push_back(std::make_unique<client::Connection>(chosen));
+  }
+  // The meshes are made before the clock starts; the first job is the one that is asked for.
+  std::string first;
+  for (const Work& work : run.works) {
+    first = submit(*connections.front(), work, client::make_uuid()).name();
+    wait_for_end(*connections.front(), first);
+  }
+  const int server = daemon.process().id();
+  const std::uint64_t begin = memory_of(server, "VmRSS");
+  std::minstd_rand random(options.seed);
+  std::vector<std::thread> clients;
+  for (int i = 0; i < options.clients; ++i) {
+    client::Connection& connection = *connections[static_cast<std::size_t>(i) % connections.size()];
+    clients.emplace_back(be_a_client, std::ref(run), std::ref(connection), random());
+  }
+  try {
+    probe(run, daemon, first, options.seconds);
+  } catch (const std::exception& error) {
+    run.complain(std::string("GetJob failed: ") + error.what());
+  }
+  run.done = true;
+  for (std::thread& thread : clients) thread.join();
+
+  const std::uint64_t peak = memory_of(server, "VmHWM");
+  std::printf("%llu jobs, %llu times turned away; the server held %llu MiB, at most %llu MiB\n",
+              static_cast<unsigned long long>(run.jobs.load()),
+              static_cast<unsigned long long>(run.waits.load()),
+              static_cast<unsigned long long>(begin), static_cast<unsigned long long>(peak));
+  if (run.jobs == 0) run.complain("no job ended");
+  if (peak > options.memory) run.complain("the server came to hold too much memory");
+  const v1::ServerMetrics metrics = client::server_info(*connections.front()).metrics();
+  if (metrics.jobs_queued() + metrics.jobs_running() != 0) {
+    run.complain("some job has not ended");
+  }
+  if (daemon.stop() != 0) run.complain("anticrackd did not stop well");
+  for (const std::string& complaint : run.complaints) {
+    std::fprintf(stderr, "anticrack-load: %s\n", complaint.c_str());
+  }
+  return run.complaints.empty() ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace anticrack::service_test
+
+int main(int argc, char** argv) {
+  anticrack::service_test::Options options;
+  CLI::App app("Lets many clients submit and watch for a while.", "anticrack-load");
+  app.add_option("--seconds", options.seconds, "How long")->capture_default_str();
+  app.add_option("--clients", options.clients, "How many")->capture_default_str();
+  app.add_option("--channels", options.channels, "That they share")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--seed", options.seed, "Of the jobs they choose")->capture_default_str();
+  app.add_option("--memory", options.memory, "What the server may come to hold, MiB")
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return anticrack::service_test::drive(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "anticrack-load: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a stop and a start of the server mean for jobs, clients and results.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include "client/uuid.hpp"
+#include "service/daemon.hpp"
+#include "service/stored_data.hpp"
+#include "service/workload.hpp"
+#include "support/eventually.hpp"
+
+namespace anticrack::service_test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr int long_run = 100'000;
+
+std::vector<std::string> run_long(const std::string& output) {
+  std::vector<std::string> arguments = {"run", example("paper-3.toml"), "-o", output};
+  for (const std::string& override_text : iterations(long_run)) {
+    arguments.insert(arguments.end(), {"--set", override_text});
+  }
+  return arguments;
+}
+
+/// Waits until the only job iterates.
+std::string iterating_job(client::Connection& connection) {
+  std::string name;
+  EXPECT_TRUE(anticrack::testing::eventually([&] {
+    const v1::ListJobsResponse response = client::list_jobs(connection, {});
+    if (response.jobs_size() != 1 || response.jobs(0).state() != v1::Job::STATE_RUNNING) {
+      return false;
+    }
+    name = response.jobs(0).name();
+    return true;
+  }));
+  return name;
+}
+
+TEST(Restart, AClientsRunOutlivesAStopAndAKill) {
+  Daemon daemon({"--drain-time", "0"});
+  client::Connection connection(daemon.connection());
+  const std::string output = (daemon.folder() / "out.h5").string();
+  const auto run = start_client(daemon.address(), run_long(output));
+  const std::string name = iterating_job(connection);
+
+  EXPECT_EQ(daemon.stop(), 0);
+  daemon.start();
+  ASSERT_TRUE(anticrack::testing::eventually([&] {
+    return client::get_job(connection, name).attempt() >= 2;
+  })) << "what had not ended begins anew";
+  daemon.kill();
+  daemon.start();
+
+  EXPECT_EQ(run->wait(std::chrono::seconds(300)), 3) << run->output() << run->error();
+  EXPECT_THAT(run->output(), HasSubstr("trying again"));
+  const v1::Job job = client::get_job(connection, name);
+  EXPECT_EQ(job.answers(0).iterations(), long_run);
+  EXPECT_EQ(run_client(daemon.address(), {"show", output}).code, 0);
+  EXPECT_EQ(client::list_jobs(connection, {}).jobs_size(), 1) << "nothing was submitted twice";
+  EXPECT_EQ(daemon.stop(), 0);
+  EXPECT_THAT(flaws_of(daemon.data()), IsEmpty());
+}
+
+TEST(Restart, ASecondSigtermDoesNotWaitForJobs) {
+  Daemon daemon({"--drain-time", "3600"});
+  client::Connection connection(daemon.connection());
+  Work endless = work("paper-3.toml", {"solver.theta=1e-7", "solver.epsilon=1e-300",
+                                       "solver.max_iterations=1000000"});
+  submit(connection, endless, client::make_uuid());
+  const std::string name = iterating_job(connection);
+  daemon.process().signal(SIGTERM);
+  ASSERT_TRUE(daemon.process().wait_for_error("stopping"));
+  daemon.stop();  // throws where it goes on
+  daemon.start();
+  EXPECT_TRUE(anticrack::testing::eventually([&] {
+    return client::get_job(connection, name).state() == v1::Job::STATE_RUNNING;
+  })) << "the next start takes it up";
+  client::cancel_job(connection, name);
+  EXPECT_EQ(wait_for_end(connection, name).state(), v1::Job::STATE_CANCELLED);
+}
+
+TEST(Restart, ExpiredResultsSaySoAndGiveTheCure) {
+  Daemon daemon({"--result-ttl", "1"});
+  client::Connection connection(daemon.connection());
+  const Work quick = work("slit.toml", {"mesh.preset=uniform", "mesh.size=0.2"});
+  const std::string name = submit(connection, quick, client::make_uuid()).name();
+  wait_for_end(connection, name);
+  ASSERT_TRUE(anticrack::testing::eventually(
+      [&] { return client::get_job(connection, name).state() == v1::Job::STATE_EXPIRED; }));
+  const Ended fetch = daemon.client({"job", "fetch", name, "-o", daemon.folder() / "late.h5"});
+  EXPECT_EQ(fetch.code, 2);
+  EXPECT_THAT(fetch.error, HasSubstr("run the case again"));
+  EXPECT_THAT(daemon.client({"job", "show", name}).output, HasSubstr("expired"));
+}
+
+TEST(Restart, OneFolderHasOneServer) {
+  Daemon daemon;
+  EXPECT_THROW(Daemon(daemon.data(), {}), std::runtime_error);
+  client::Connection connection(daemon.connection());
+  EXPECT_NO_THROW(client::server_info(connection)) << "the first one goes on";
+}
+
+}  // namespace
+}  // namespace anticrack::service_test
