@@ -2,6 +2,7 @@
 #include "contact/uzawa.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace anticrack::contact {
 namespace {
@@ -21,34 +22,42 @@ double ratio(double value, double scale) {
 
 Uzawa::Uzawa(const TraceProblem& problem, Mass mass, int capacity)
     : _problem(problem), _mass(mass), _columns(index(capacity)) {
-  _mu = _jump = _pair_force = _change = MatrixXd::Zero(problem.pair_count(), capacity);
-  for (const ddm::SubdomainOperator& subdomain : problem.operators()) {
-    const ddm::Flexibility& flexibility = *subdomain.flexibility();
-    const MatrixXd trace = MatrixXd::Zero(flexibility.trace_size(), capacity);
+  const ddm::Decomposition& decomposition = problem.decomposition();
+  Index rows = 0;
+  for (std::size_t s = 0; s < problem.operators().size(); ++s) {
+    const ddm::Flexibility& flexibility = *problem.operators()[s].flexibility();
     const MatrixXd skeleton = MatrixXd::Zero(flexibility.skeleton_size(), capacity);
-    _sides.push_back({trace, trace, trace, trace, skeleton, skeleton});
+    _sides.push_back({rows, flexibility.trace_size(), skeleton, skeleton});
     _unbalanced.emplace_back(flexibility.trace_size());
-  }
-  for (std::size_t s = 0; s < _sides.size(); ++s) {
-    const std::vector<std::int32_t>& rigid = problem.decomposition().subdomains[s].rigid;
+    const std::vector<std::int32_t>& rigid = decomposition.subdomains[s].rigid;
     for (std::size_t i = 0; i < rigid.size(); ++i) {
       if (rigid[i] >= 0) {
-        _inclusions.resize(std::max(_inclusions.size(), at(rigid[i]) + 1));
-        _inclusions[at(rigid[i])] = {s, static_cast<Index>(i)};
+        _inclusion_row.resize(std::max(_inclusion_row.size(), at(rigid[i]) + 1));
+        _inclusion_row[at(rigid[i])] = rows + static_cast<Index>(i);
       }
     }
+    rows += flexibility.trace_size();
   }
-  _on_inclusion.resize(static_cast<Index>(_inclusions.size()));
+  _pairs.reserve(decomposition.pairs.size());
+  for (const ddm::NodePair& pair : decomposition.pairs) {
+    const auto row = [this](std::int32_t subdomain, std::int32_t trace) {
+      return _sides[at(subdomain)].first + trace;
+    };
+    _pairs.push_back(
+        {row(pair.minus, pair.minus_trace), row(pair.plus, pair.plus_trace), pair.unilateral()});
+  }
+  _mu = _jump = _pair_force = _change = MatrixXd::Zero(problem.pair_count(), capacity);
+  _g = _trace = _force = _previous_trace = _previous_force = MatrixXd::Zero(rows, capacity);
+  _on_inclusion.resize(static_cast<Index>(_inclusion_row.size()));
 }
 
 void Uzawa::start(int column, std::span<const ddm::CondensedLoad> loads, double theta, double p) {
   _columns[index(column)] = {loads, theta, p, {}};
-  for (MatrixXd* values : {&_mu, &_jump, &_pair_force, &_change}) {
+  for (MatrixXd* values : {&_mu, &_jump, &_pair_force, &_change, &_trace, &_force}) {
     values->col(column).setZero();
   }
-  for (Side& side : _sides) {
-    side.trace.col(column).setZero();
-    side.force.col(column).setZero();
+  for (std::size_t s = 0; s < _sides.size(); ++s) {
+    _g.col(column).segment(_sides[s].first, _sides[s].size) = loads[s].g;
   }
 }
 
@@ -57,31 +66,20 @@ void Uzawa::exchange(int a, int b) {
     return;
   }
   std::swap(_columns[index(a)], _columns[index(b)]);
-  for (MatrixXd* values : {&_mu, &_jump, &_pair_force, &_change}) {
+  for (MatrixXd* values : {&_mu, &_jump, &_pair_force, &_change, &_g, &_trace, &_force}) {
     values->col(a).swap(values->col(b));
-  }
-  for (Side& side : _sides) {
-    side.trace.col(a).swap(side.trace.col(b));
-    side.force.col(a).swap(side.force.col(b));
   }
 }
 
 void Uzawa::step(int columns) {
   for (int c = 0; c < columns; ++c) {
     update_multipliers(c);
-    Iterate& iterate = _columns[index(c)].iterate;
-    ++iterate.number;
-    iterate.criterion = iterate.number == 1 ? 1 : 0;
-    iterate.energy = 0;
+    ++_columns[index(c)].iterate.number;
   }
   apply_forces(columns);
-  for (std::size_t s = 0; s < _sides.size(); ++s) {
-    solve_side(s, columns);
-    for (int c = 0; c < columns; ++c) {
-      measure(s, c);
-    }
-  }
+  solve_sides(columns);
   for (int c = 0; c < columns; ++c) {
+    measure(c);
     measure_jump(c);
   }
 }
@@ -89,15 +87,13 @@ void Uzawa::step(int columns) {
 /// Changes nothing before the first iteration: there mu and the jump are zero.
 void Uzawa::update_multipliers(int c) {
   Column& column = _columns[index(c)];
-  const auto& pairs = _problem.decomposition().pairs;
+  const Eigen::VectorXd& mass = _problem.lumped_mass();
   auto mu = _mu.col(c), change = _change.col(c);
   const auto jump = _jump.col(c);
-  const Eigen::VectorXd& mass = _problem.lumped_mass();
   double turn = 0;
   for (Index i = 0; i < mu.size(); ++i) {
-    const bool unilateral = pairs[static_cast<std::size_t>(i)].unilateral();
-    const double next =
-        std::clamp(mu[i] - column.theta * jump[i], unilateral ? 0.0 : -column.p, column.p);
+    const double lower = _pairs[static_cast<std::size_t>(i)].unilateral ? 0.0 : -column.p;
+    const double next = std::clamp(mu[i] - column.theta * jump[i], lower, column.p);
     const double step = next - mu[i];
     turn += mass[i] * step * change[i];
     change[i] = step;
@@ -108,81 +104,81 @@ void Uzawa::update_multipliers(int c) {
 
 void Uzawa::apply_forces(int columns) {
   _problem.apply_mass(_mass, _mu.leftCols(columns), _pair_force.leftCols(columns));
+  _previous_force.leftCols(columns) = _force.leftCols(columns);
+  _force.leftCols(columns) = _g.leftCols(columns);
+  for (int c = 0; c < columns; ++c) {
+    auto force = _force.col(c);
+    const auto of_pair = _pair_force.col(c);
+    for (Index i = 0; i < of_pair.size(); ++i) {
+      const Pair& pair = _pairs[static_cast<std::size_t>(i)];
+      force[pair.minus] -= of_pair[i];
+      force[pair.plus] += of_pair[i];
+    }
+  }
+}
+
+void Uzawa::solve_sides(int columns) {
+  _previous_trace.leftCols(columns) = _trace.leftCols(columns);
   for (std::size_t s = 0; s < _sides.size(); ++s) {
     Side& side = _sides[s];
-    side.previous_force.leftCols(columns) = side.force.leftCols(columns);
-    for (int c = 0; c < columns; ++c) {
-      side.force.col(c) = _columns[index(c)].loads[s].g;
-    }
-  }
-  const auto& pairs = _problem.decomposition().pairs;
-  for (int c = 0; c < columns; ++c) {
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const double force = _pair_force(static_cast<Index>(i), c);
-      _sides[at(pairs[i].minus)].force(pairs[i].minus_trace, c) -= force;
-      _sides[at(pairs[i].plus)].force(pairs[i].plus_trace, c) += force;
-    }
+    _problem.operators()[s].flexibility()->apply(
+        _force.block(side.first, 0, side.size, columns), side.reduced.leftCols(columns),
+        side.skeleton.leftCols(columns), _trace.block(side.first, 0, side.size, columns));
   }
 }
 
-void Uzawa::solve_side(std::size_t s, int columns) {
-  Side& side = _sides[s];
-  side.previous_trace.leftCols(columns) = side.trace.leftCols(columns);
-  _problem.operators()[s].flexibility()->apply(
-      side.force.leftCols(columns), side.reduced.leftCols(columns), side.skeleton.leftCols(columns),
-      side.trace.leftCols(columns));
-}
-
-void Uzawa::measure(std::size_t s, int c) {
-  const Side& side = _sides[s];
-  const ddm::CondensedLoad& load = _columns[index(c)].loads[s];
-  Iterate& iterate = _columns[index(c)].iterate;
-  const auto trace = side.trace.col(c), force = side.force.col(c);
-  const double trace_energy = trace.dot(force);  // t'S t
-  iterate.energy += trace_energy / 2 - load.g.dot(trace) + load.energy_constant;
-  if (iterate.number > 1) {
-    const double norm = trace_energy - 2 * load.g_boundary.dot(trace) + load.norm_constant;
-    const double change =
-        (trace - side.previous_trace.col(c)).dot(force - side.previous_force.col(c));  // d'S d
-    iterate.criterion = std::max(iterate.criterion, ratio(std::max(change, 0.0), norm));
+void Uzawa::measure(int c) {
+  Column& column = _columns[index(c)];
+  Iterate& iterate = column.iterate;
+  iterate.energy = 0;
+  iterate.criterion = iterate.number == 1 ? 1 : 0;
+  for (std::size_t s = 0; s < _sides.size(); ++s) {
+    const Index first = _sides[s].first, size = _sides[s].size;
+    const ddm::CondensedLoad& load = column.loads[s];
+    const auto trace = _trace.col(c).segment(first, size);
+    const auto force = _force.col(c).segment(first, size);
+    const double trace_energy = trace.dot(force);  // t'S t
+    iterate.energy += trace_energy / 2 - load.g.dot(trace) + load.energy_constant;
+    if (iterate.number > 1) {
+      const double norm = trace_energy - 2 * load.g_boundary.dot(trace) + load.norm_constant;
+      const double change = (trace - _previous_trace.col(c).segment(first, size))
+                                .dot(force - _previous_force.col(c).segment(first, size));  // d'S d
+      iterate.criterion = std::max(iterate.criterion, ratio(std::max(change, 0.0), norm));
+    }
   }
 }
 
 void Uzawa::measure_jump(int c) {
-  const auto& pairs = _problem.decomposition().pairs;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const ddm::NodePair& pair = pairs[i];
-    _jump(static_cast<Index>(i), c) = _sides[at(pair.plus)].trace(pair.plus_trace, c) -
-                                      _sides[at(pair.minus)].trace(pair.minus_trace, c);
+  const auto trace = _trace.col(c);
+  auto jump = _jump.col(c);
+  for (Index i = 0; i < jump.size(); ++i) {
+    const Pair& pair = _pairs[static_cast<std::size_t>(i)];
+    jump[i] = trace[pair.plus] - trace[pair.minus];
   }
 }
 
 double Uzawa::equilibrium(int column) {
   for (std::size_t s = 0; s < _sides.size(); ++s) {
-    _problem.operators()[s].factor().apply_schur(_sides[s].trace.col(column), _unbalanced[s]);
-    _unbalanced[s] -= _sides[s].force.col(column);
+    _problem.operators()[s].factor().apply_schur(trace(column, s), _unbalanced[s]);
+    _unbalanced[s] -= _force.col(column).segment(_sides[s].first, _sides[s].size);
   }
   return largest_unbalanced(_problem.decomposition(), _unbalanced, _on_inclusion);
 }
 
 Scales Uzawa::scales(int column) const {
-  Scales result{largest(_pair_force.col(column)), 0, largest(_mu.col(column))};
-  for (std::size_t s = 0; s < _sides.size(); ++s) {
-    result.force = std::max(result.force, largest(_columns[index(column)].loads[s].g));
-    result.trace = std::max(result.trace, largest(_sides[s].trace.col(column)));
-  }
-  return result;
+  return {std::max(largest(_pair_force.col(column)), largest(_g.col(column))),
+          largest(_trace.col(column)), largest(_mu.col(column))};
 }
 
 TraceState Uzawa::state(int column) const {
   const std::span<const ddm::CondensedLoad> loads = _columns[index(column)].loads;
   TraceState state;
-  for (const Side& side : _sides) {
-    state.trace.emplace_back(side.trace.col(column));
+  for (std::size_t s = 0; s < _sides.size(); ++s) {
+    state.trace.emplace_back(trace(column, s));
   }
   state.flux = fluxes(_problem.operators(), loads, state.trace);
-  state.displacement.resize(static_cast<Index>(_inclusions.size()));
-  for (std::size_t j = 0; j < _inclusions.size(); ++j) {
+  state.displacement.resize(static_cast<Index>(_inclusion_row.size()));
+  for (std::size_t j = 0; j < _inclusion_row.size(); ++j) {
     state.displacement[static_cast<Index>(j)] = displacement(column, j);
   }
   state.mu = _mu.col(column);

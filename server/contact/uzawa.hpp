@@ -47,8 +47,9 @@ class Uzawa {
 
   const Iterate& iterate(int column) const { return _columns[index(column)].iterate; }
   /// Of u_{i,k}, per subdomain.
-  Eigen::MatrixXd::ConstColXpr trace(int column, std::size_t subdomain) const {
-    return _sides[subdomain].trace.col(column);
+  Eigen::Ref<const Eigen::VectorXd> trace(int column, std::size_t subdomain) const {
+    const Side& side = _sides[subdomain];
+    return _trace.col(column).segment(side.first, side.size);
   }
   /// mu_k, per pair: what u_k was computed from.
   Eigen::MatrixXd::ConstColXpr mu(int column) const { return _mu.col(column); }
@@ -56,8 +57,7 @@ class Uzawa {
   Eigen::MatrixXd::ConstColXpr jump(int column) const { return _jump.col(column); }
   /// A_k of an inclusion.
   double displacement(int column, std::size_t inclusion) const {
-    const Held& held = _inclusions[inclusion];
-    return _sides[held.subdomain].trace(held.trace, column);
+    return _trace(_inclusion_row[inclusion], column);
   }
 
   /// equilibrium_residual of the iterate. O(n_G^2), no allocation.
@@ -74,28 +74,32 @@ class Uzawa {
     double p = 0;
     Iterate iterate;
   };
-  struct Side {                    // one subdomain: (trace, capacity), (skeleton, capacity)
-    Eigen::MatrixXd trace, force;  // g + B'M mu
-    Eigen::MatrixXd previous_trace, previous_force, reduced, skeleton;  // within a step only
+  struct Side {  // one subdomain: its rows, workspace (skeleton, capacity)
+    Eigen::Index first = 0, size = 0;
+    Eigen::MatrixXd reduced, skeleton;
   };
-  struct Held {  // a trace node at which A_j is found
-    std::size_t subdomain = 0;
-    Eigen::Index trace = 0;
+  struct Pair {  // rows of its sides
+    Eigen::Index minus = 0, plus = 0;
+    bool unilateral = false;
   };
 
   static std::size_t index(int column) noexcept { return static_cast<std::size_t>(column); }
   void update_multipliers(int column);
   void apply_forces(int columns);
-  void solve_side(std::size_t subdomain, int columns);
-  void measure(std::size_t subdomain, int column);
+  void solve_sides(int columns);
+  void measure(int column);
   void measure_jump(int column);
 
   const TraceProblem& _problem;
   const Mass _mass;
   std::vector<Column> _columns;
   std::vector<Side> _sides;
-  std::vector<Held> _inclusions;
+  std::vector<Pair> _pairs;
+  std::vector<Eigen::Index> _inclusion_row;          // one at which A_j is found
   Eigen::MatrixXd _mu, _jump, _pair_force, _change;  // (pairs, capacity)
+  // (traces of all subdomains below each other, capacity); force is g + B'M mu.
+  Eigen::MatrixXd _g, _trace, _force;
+  Eigen::MatrixXd _previous_trace, _previous_force;  // within a step only
   std::vector<Eigen::VectorXd> _unbalanced;          // workspace of equilibrium(), per subdomain
   Eigen::VectorXd _on_inclusion;
 };

@@ -76,14 +76,18 @@ void Flexibility::apply(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
                         Eigen::Ref<Eigen::MatrixXd> trace) const {
   reduced.setZero();
   for (Eigen::Index j = 0; j < rhs.cols(); ++j) {
-    for (Eigen::Index i = 0; i < rhs.rows(); ++i) {
-      reduced(_column[static_cast<std::size_t>(i)], j) += rhs(i, j);
+    const auto given = rhs.col(j);
+    auto sums = reduced.col(j);
+    for (Eigen::Index i = 0; i < given.size(); ++i) {
+      sums[_column[static_cast<std::size_t>(i)]] += given[i];
     }
   }
   multiply(_inverse, reduced, skeleton);
   for (Eigen::Index j = 0; j < trace.cols(); ++j) {
-    for (Eigen::Index i = 0; i < trace.rows(); ++i) {
-      trace(i, j) = skeleton(_column[static_cast<std::size_t>(i)], j);
+    const auto values = skeleton.col(j);
+    auto wanted = trace.col(j);
+    for (Eigen::Index i = 0; i < wanted.size(); ++i) {
+      wanted[i] = values[_column[static_cast<std::size_t>(i)]];
     }
   }
 }
