@@ -99,26 +99,17 @@ void queue(EngineCore& core, const JobPtr& job, EngineCore::Clock::time_point de
 TakenIn take_in(EngineCore& core, const Submission& submission) {
   check(submission.spec, core.options);
   const JobRecord record = new_record(submission);
-  std::shared_ptr<void> mesh_use;
-  std::optional<Place> place;
-  std::optional<Error> refusal;
-  try {
-    mesh_use = use(core, record.spec.mesh);
-    require_arrays(record.spec.loads, core.store, record.owner);
-    place.emplace(core, record.spec);
-  } catch (const Error& error) {
-    if (record.request_id.empty()) {
-      throw;
-    }
-    refusal = error;  // of a new job; the same request again is answered nevertheless
+  const std::string print = fingerprint(record.spec);
+  // First: the same request again is answered however full the queue, and though its mesh is gone.
+  if (auto made = core.store.created_before(record, print)) {
+    return {std::move(*made), false};
   }
-  JobRecord stored = core.store.create(record, fingerprint(record.spec));
+  std::shared_ptr<void> mesh_use = use(core, record.spec.mesh);
+  require_arrays(record.spec.loads, core.store, record.owner);
+  Place place(core, record.spec);
+  JobRecord stored = core.store.create(record, print);
   if (stored.id != record.id) {
-    return {std::move(stored), false};
-  }
-  if (refusal) {
-    core.store.erase_job(record.id);
-    throw Error(*refusal);
+    return {std::move(stored), false};  // made by the same request in this moment
   }
   const EngineCore::Lock lock(core.mutex);
   ++core.created;
@@ -126,7 +117,7 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
     const auto job = std::make_shared<LiveJob>(++core.last_number, record,
                                                core.options.event_log_bytes, std::move(mesh_use));
     queue(core, job, job->since + queue_limit(*job, core.options));
-    place->take();
+    place.take();
   }
   return {std::move(stored), true};
 }

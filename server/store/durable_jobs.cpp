@@ -121,6 +121,13 @@ JobRecord DurableStore::create(const JobRecord& record, const std::string& finge
   return existing ? decode_job_record(*existing) : record;
 }
 
+std::optional<JobRecord> DurableStore::created_before(const JobRecord& record,
+                                                      const std::string& fingerprint) const {
+  const auto existing = reading(
+      [&](Connection& connection) { return find_request(connection, record, fingerprint); });
+  return existing ? std::optional(decode_job_record(*existing)) : std::nullopt;
+}
+
 void DurableStore::put(const JobRecord& record) {
   const std::string bytes = encode(record);
   _writer.run([&](Connection& connection) {

@@ -36,6 +36,8 @@ class DurableStore final : public Store {
   std::shared_ptr<const mesh::Mesh> triangulation(const std::string& sha256) const override;
 
   JobRecord create(const JobRecord& record, const std::string& fingerprint) override;
+  std::optional<JobRecord> created_before(const JobRecord& record,
+                                          const std::string& fingerprint) const override;
   void put(const JobRecord& record) override;
   void finish(const JobRecord& record, std::shared_ptr<const Block> result) override;
   std::optional<JobRecord> job(const std::string& id) const override;

@@ -83,6 +83,9 @@ class Store {
   /// Inserts the job, or returns the one its owner made with the same (non-empty) request id
   /// before; throws request_id_reused when that one had another fingerprint.
   virtual JobRecord create(const JobRecord& record, const std::string& fingerprint) = 0;
+  /// What `create` would return in place of this record, without inserting anything; empty: none.
+  virtual std::optional<JobRecord> created_before(const JobRecord& record,
+                                                  const std::string& fingerprint) const = 0;
   virtual void put(const JobRecord& record) = 0;  ///< replaces; throws not_found
   /// The end of a job: its last record and its result (null: none), both or neither.
   virtual void finish(const JobRecord& record, std::shared_ptr<const Block> result) = 0;

@@ -42,6 +42,10 @@ class FailingStore final : public store::Store {
   store::JobRecord create(const store::JobRecord& record, const std::string& print) override {
     return _real.create(record, print);
   }
+  std::optional<store::JobRecord> created_before(const store::JobRecord& record,
+                                                 const std::string& print) const override {
+    return _real.created_before(record, print);
+  }
   void put(const store::JobRecord& record) override {
     fail(put_fails);
     _real.put(record);

@@ -83,6 +83,21 @@ TEST_F(StoredJobs, AnswerARepeatedRequestWithWhatBecameOfIt) {
   EXPECT_EQ(create("b", "ann", "request", "print").state, JobState::running);
 }
 
+TEST_F(StoredJobs, TellOfARepeatedRequestWithoutMakingAny) {
+  create("a", "ann", "request", "print");
+  JobRecord again = job_record("b");
+  again.owner = "ann";
+  again.request_id = "request";
+  EXPECT_EQ(store->created_before(again, "print").value().id, "a");
+  EXPECT_TRUE(throws([&] { store->created_before(again, "other"); }, Reason::request_id_reused,
+                     "request_id"));
+  again.owner = "bob";
+  EXPECT_FALSE(store->created_before(again, "print"));
+  again.request_id = "";
+  EXPECT_FALSE(store->created_before(again, "print"));
+  EXPECT_FALSE(store->job("b"));
+}
+
 TEST_F(StoredJobs, DoNotComeBackWhenErased) {
   create("a");
   store->erase_job("a");
