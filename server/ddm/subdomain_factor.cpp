@@ -117,6 +117,10 @@ Eigen::MatrixXd trailing_block(const cholmod_factor& factor, Eigen::Index size) 
   return block;
 }
 
+/// BLAS rounds differently for other numbers of columns, not for other columns beside one. Every
+/// solve has as many, zeros if need be, so that a load's bits do not depend on its company.
+constexpr Eigen::Index block_width = 8;
+
 /// Columns of the answer follow each other.
 DensePtr triangular_solve(int system, const cholmod_factor& factor,
                           Eigen::MatrixXd& right_hand_sides) {
@@ -181,18 +185,20 @@ SubdomainFactor::Forward SubdomainFactor::forward(
   const cholmod_factor& factor = *_factor->cholesky;
   const Eigen::Map<const Eigen::VectorXi> permutation(static_cast<const int*>(factor.Perm),
                                                       f.rows());
-  const Eigen::Index block = columns_at_once(f.rows());
-  for (Eigen::Index first = 0; first < f.cols(); first += block) {
-    const Eigen::Index width = std::min(block, f.cols() - first);
-    Eigen::MatrixXd ordered = f.middleCols(first, width)(permutation, Eigen::all);
+  const int size = static_cast<int>(trace());
+  Eigen::MatrixXd ordered(f.rows(), block_width), g(trace(), block_width);
+  for (Eigen::Index first = 0; first < f.cols(); first += block_width) {
+    const Eigen::Index width = std::min(block_width, f.cols() - first);
+    ordered.leftCols(width) = f.middleCols(first, width)(permutation, Eigen::all);
+    ordered.rightCols(block_width - width).setZero();
     const DensePtr solved = triangular_solve(CHOLMOD_L, factor, ordered);
-    result.z_interior.middleCols(first, width) = view(*solved).topRows(_interior);
-    result.g.middleCols(first, width) = view(*solved).bottomRows(trace());
-  }
-  if (result.g.size() > 0) {
-    const int size = static_cast<int>(trace()), columns = static_cast<int>(f.cols());
-    cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, size, columns, 1,
-                _trace_factor.data(), size, result.g.data(), size);
+    result.z_interior.middleCols(first, width) = view(*solved).topLeftCorner(_interior, width);
+    if (size > 0) {
+      g = view(*solved).bottomRows(trace());
+      cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, size,
+                  static_cast<int>(block_width), 1, _trace_factor.data(), size, g.data(), size);
+      result.g.middleCols(first, width) = g.leftCols(width);
+    }
   }
   return result;
 }

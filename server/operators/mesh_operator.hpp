@@ -48,7 +48,7 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
 
   /// Condenses several loads with one pass over the factors: forward solves in blocks of columns.
   /// Entry i belongs to loads[i]; what is wrong with one load is its entry (as `solve` throws it)
-  /// and no other's. The numbers of a load do not depend on its neighbours beyond rounding (1e-14).
+  /// and no other's. The bits of a load's numbers do not depend on its neighbours.
   std::vector<std::variant<PreparedLoad, errors::Error>> prepare(
       std::span<const fem::Load* const> loads, const std::stop_token& stop = {}) const;
 
