@@ -64,7 +64,8 @@ Pem make(const std::string& name, const Pem* authority) {
     const Certificate issuer(PEM_read_bio_X509(of_certificate.get(), nullptr, nullptr, nullptr),
                              &X509_free);
     X509_set_issuer_name(x509, X509_get_subject_name(issuer.get()));
-    add_extension(x509, NID_subject_alt_name, "DNS:" + name);
+    const bool is_address = name.find_first_not_of("0123456789.") == std::string::npos;
+    add_extension(x509, NID_subject_alt_name, (is_address ? "IP:" : "DNS:") + name);
     need(X509_sign(x509, signer.get(), EVP_sha256()) > 0, "a certificate");
   }
   const Bio out(BIO_new(BIO_s_mem()), &BIO_free);

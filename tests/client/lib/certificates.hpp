@@ -14,7 +14,7 @@ struct Pem {
 
 /// An authority; valid for a day.
 Pem make_authority(const std::string& name);
-/// A certificate for `name`, as common name and as DNS name, signed by the authority.
+/// A certificate for `name`, as common name and as DNS name or IPv4 address, signed by the authority.
 Pem make_certificate(const std::string& name, const Pem& authority);
 
 }  // namespace anticrack::client
