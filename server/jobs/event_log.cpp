@@ -170,6 +170,11 @@ std::size_t EventLog::bytes() const {
   return _state->bytes();
 }
 
+bool EventLog::complete() const {
+  const std::lock_guard lock(_state->mutex);
+  return _state->ended;
+}
+
 std::vector<NumberedEvent> EventLog::read(std::uint64_t after, std::size_t count) const {
   std::vector<NumberedEvent> events;
   const std::lock_guard lock(_state->mutex);

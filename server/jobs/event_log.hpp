@@ -60,6 +60,7 @@ class EventLog {
   std::uint64_t earliest() const;  ///< sequence of the oldest event kept; latest()+1 when none is
   std::uint64_t latest() const;    ///< the base before the first
   std::size_t bytes() const;       ///< held now, at most about the limit
+  bool complete() const;           ///< the end event is in it: latest() stays what it is
 
   /// Up to `count` events after `after`, in order. Empty when there is none yet.
   /// Throws errors::Error (sequence_trimmed, metadata earliest_sequence and latest_sequence) when

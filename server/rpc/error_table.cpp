@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/error_table.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <array>
 #include <new>
 #include <string>
 
+#include "log/log.hpp"
 #include "rpc/text.hpp"
 
 namespace anticrack::rpc {
@@ -75,6 +74,10 @@ v1::Status build(const errors::Error& error, const Budget& budget) {
   return status;
 }
 
+void log_unexpected(std::string_view where, std::string_view what) {
+  log::error("unexpected error", {{"in", std::string(where)}, {"error", std::string(what)}});
+}
+
 }  // namespace
 
 grpc::StatusCode code(Reason reason) noexcept {
@@ -139,16 +142,16 @@ errors::Error current_error(std::string_view where) {
     throw;
   } catch (const errors::Error& error) {
     if (error.reason() != Reason::internal) return error;
-    spdlog::error("{}: {}", where, printable(error.what(), 2000));
+    log_unexpected(where, error.what());
     return error;
   } catch (const std::bad_alloc&) {
-    spdlog::error("{}: out of memory", where);
+    log_unexpected(where, "out of memory");
     return errors::Error(Reason::busy, "the server is out of memory; try again later")
         .retry_after(std::chrono::seconds(5));
   } catch (const std::exception& error) {
-    spdlog::error("{}: {}", where, printable(error.what(), 2000));
+    log_unexpected(where, error.what());
   } catch (...) {
-    spdlog::error("{}: exception of an unknown type", where);
+    log_unexpected(where, "an exception of an unknown type");
   }
   return {Reason::internal, "internal error; the server's log says more"};
 }

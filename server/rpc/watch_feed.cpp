@@ -10,21 +10,6 @@
 #include "meshes/mesh_catalogue.hpp"
 
 namespace anticrack::rpc {
-namespace {
-
-/// True when the end event is in the log: nothing comes after it.
-bool is_complete(const jobs::EventLog& log) {
-  const std::uint64_t latest = log.latest();
-  if (latest == 0) return false;
-  try {
-    const auto last = log.read(latest - 1, 1);
-    return !last.empty() && std::holds_alternative<jobs::EndEvent>(last.front().event);
-  } catch (const errors::Error&) {
-    return false;  // trimmed since: so there are later ones, and the end event never goes
-  }
-}
-
-}  // namespace
 
 WatchFeed::WatchFeed(const Backend& backend, WatchGroups& groups, std::string id,
                      std::uint64_t after)
@@ -57,14 +42,16 @@ WatchFeed::Next WatchFeed::next(v1::WatchJobResponse& response) {
     return Next::message;
   }
   const std::vector<jobs::NumberedEvent> events = read();
-  if (events.empty())
-    return is_complete(_group->log()) && _cursor == _group->log().latest() ? Next::end : Next::wait;
+  if (events.empty()) {
+    const jobs::EventLog& log = _group->log();
+    return log.complete() && _cursor == log.latest() ? Next::end : Next::wait;
+  }
   fill(events, response);
   return Next::message;
 }
 
 bool WatchFeed::ending() const noexcept {
-  return is_complete(_group->log());
+  return _group->log().complete();
 }
 
 std::uint64_t WatchFeed::lag() const noexcept {

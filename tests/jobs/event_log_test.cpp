@@ -131,9 +131,12 @@ TEST(EventLog, NeverDropsTheEnd) {
 
 TEST(EventLog, TakesNothingAfterTheEnd) {
   EventLog log(roomy);
-  log.append(end_event());
   log.append(sample(0, 1));
-  EXPECT_EQ(log.latest(), 1U);
+  EXPECT_FALSE(log.complete());
+  log.append(end_event());
+  EXPECT_TRUE(log.complete());
+  log.append(sample(0, 2));
+  EXPECT_EQ(log.latest(), 2U);
 }
 
 TEST(EventLog, NumbersItsEventsAboveItsBase) {

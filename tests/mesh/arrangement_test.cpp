@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Plans of more than one line: junctions, slits, rings, curves, regions, Neumann parts.
+// Plans of more than one line: junctions, slits, rings, curves.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,63 +8,29 @@
 #include <numbers>
 #include <set>
 
-#include "mesh/geometry.hpp"
-#include "mesh/plan_checks.hpp"
+#include "mesh/plans.hpp"
 #include "support/errors.hpp"
-#include "support/paper_geometry.hpp"
 
 namespace anticrack {
 namespace {
 
 using mesh::Geometry;
-using mesh::InterfaceSpec;
 using mesh::Kind;
-using mesh::MeshOptions;
 using mesh::Plan;
 using mesh::Point;
 using mesh::Role;
 using mesh::Shape;
 using testing::areas;
+using testing::chain_names;
 using testing::count;
+using testing::enough;
 using testing::expect_consistent;
 using testing::length;
+using testing::length_of;
+using testing::plan_of;
 using testing::point;
-
-constexpr std::size_t enough = 4'000'000;
-
-Geometry square() {
-  Geometry geometry = testing::paper_geometry();
-  geometry.interfaces.clear();
-  geometry.inclusions.clear();
-  return geometry;
-}
-
-InterfaceSpec polyline(const char* name, std::vector<Point> points, bool closed = false) {
-  return {name, Shape::polyline, std::move(points), closed};
-}
-
-MeshOptions uniform(double size) {
-  MeshOptions options;
-  options.preset = mesh::Preset::uniform;
-  options.size = size;
-  return options;
-}
-
-Plan plan_of(const Geometry& geometry, double size = 0.25) {
-  return mesh::plan(geometry, uniform(size), enough);
-}
-
-std::vector<std::string> chain_names(const Plan& plan) {
-  std::vector<std::string> names;
-  for (const auto& chain : plan.interfaces) names.push_back(chain.name);
-  return names;
-}
-
-double length_of(const Plan& plan, Role role) {
-  double sum = 0;
-  for (const auto& c : plan.curves) sum += c.role == role ? length(plan, c) : 0;
-  return sum;
-}
+using testing::polyline;
+using testing::square;
 
 TEST(Arrangement, NoInterfaceIsOneSubdomain) {
   const Plan plan = plan_of(square());
@@ -274,84 +240,6 @@ TEST(Arrangement, AnInterfaceMayEndOnACurve) {
   const Plan plan = plan_of(geometry, 0.1);
   expect_consistent(plan, 4);
   EXPECT_EQ(plan.faces.size(), 3U);
-}
-
-TEST(Arrangement, AlignLinesPartNoSubdomains) {
-  Geometry geometry = square();
-  geometry.interfaces = {polyline("a", {{-1, 0}, {1, 0}})};
-  MeshOptions options = uniform(0.25);
-  options.align = {{{-0.5, -1}, {-0.5, 1}}, {{0.25, 0.25}, {0.5, 0.5}}, {{0.5, -0.5}, {0.5, 0}}};
-  const Plan plan = mesh::plan(geometry, options, enough);
-  expect_consistent(plan, 4);
-  EXPECT_EQ(plan.faces.size(), 4U);
-  EXPECT_DOUBLE_EQ(areas(plan).at("omega1"), 2);
-  EXPECT_DOUBLE_EQ(areas(plan).at("omega2"), 2);
-  EXPECT_EQ(areas(plan).size(), 2U);
-  EXPECT_EQ(plan.interfaces.size(), 1U);
-  EXPECT_DOUBLE_EQ(length_of(plan, Role::align), 2 + std::hypot(0.25, 0.25) + 0.5);
-}
-
-TEST(Arrangement, GlueBetweenFacesOfOneSubdomainIsNoInterface) {
-  // the interface's free end and the align line cut a corner off, but both are omega1
-  Geometry geometry = square();
-  geometry.interfaces = {polyline("a", {{-1, 0}, {0.5, 0}})};
-  geometry.cracks = {{"c", {{-0.5, 0}, {0, 0}}}};
-  MeshOptions options = uniform(0.25);
-  options.align = {{{0.5, 0}, {0.5, 1}}};
-  const Plan plan = mesh::plan(geometry, options, enough);
-  expect_consistent(plan, 4);
-  EXPECT_EQ(areas(plan).size(), 1U);
-  EXPECT_EQ(count(plan, Kind::glue), 0);
-  EXPECT_EQ(count(plan, Kind::crack), 1);
-}
-
-TEST(Arrangement, NeumannPartsOfTheBoundary) {
-  for (const bool clockwise : {false, true}) {
-    Geometry geometry = square();
-    if (clockwise) std::reverse(geometry.boundary.begin(), geometry.boundary.end());
-    geometry.neumann = {{{1, -0.5}, {0.5, 1}}, {{-0.25, -1}, {0.25, -1}}};
-    const Plan plan = plan_of(geometry);
-    expect_consistent(plan, 4);
-    EXPECT_DOUBLE_EQ(length_of(plan, Role::neumann), 1.5 + 0.5 + 0.5);
-    // round the corner where the polygon begins
-    geometry.neumann = {{{-1, 0}, {0, -1}}};
-    EXPECT_DOUBLE_EQ(length_of(plan_of(geometry), Role::neumann), 2);
-    geometry.neumann = {{{0.25, -1}, {0.25, -1}}};
-    EXPECT_DOUBLE_EQ(length_of(plan_of(geometry), Role::neumann), 8);
-    EXPECT_EQ(length_of(plan_of(geometry), Role::dirichlet), 0);
-  }
-}
-
-TEST(Arrangement, ACrackMayLeaveThroughTheNeumannBoundary) {
-  Geometry geometry = square();
-  geometry.interfaces = {polyline("a", {{-1, 0}, {1, 0}})};
-  geometry.cracks = {{"c", {{0, 0}, {1, 0}}}};
-  geometry.neumann = {{{1, -1}, {1, 1}}};
-  expect_consistent(plan_of(geometry), 4);
-  // two parts that meet there
-  geometry.neumann = {{{1, 0}, {1, 1}}, {{1, -1}, {1, 0}}};
-  expect_consistent(plan_of(geometry), 4);
-  for (const mesh::Part& part :
-       {mesh::Part{{1, -1}, {1, 0}}, mesh::Part{{1, 0}, {1, 1}}, mesh::Part{{-1, 1}, {-1, -1}}}) {
-    geometry.neumann = {part};
-    EXPECT_TRUE(testing::throws([&] { plan_of(geometry); }, errors::Reason::geometry_invalid,
-                                "cracks[0].part.to"));
-  }
-}
-
-TEST(Arrangement, RegionsNameWhatHoldsThem) {
-  Geometry geometry = square();
-  geometry.interfaces = {polyline("a", {{-1, 0}, {1, 0}}), polyline("b", {{0, 0}, {0, 1}})};
-  geometry.regions = {{"right", {0.5, 0.5}, 3}, {"omega1", {-0.5, 0.5}, 2}};
-  const Plan plan = plan_of(geometry);
-  expect_consistent(plan, 4);
-  const auto sums = areas(plan);
-  EXPECT_DOUBLE_EQ(sums.at("right"), 1);
-  EXPECT_DOUBLE_EQ(sums.at("omega1"), 1);
-  EXPECT_EQ(sums.size(), 3U);
-  for (const auto& face : plan.faces) {
-    EXPECT_EQ(face.tension, face.name == "right" ? 3 : face.name == "omega1" ? 2 : 1);
-  }
 }
 
 Geometry varied() {

@@ -104,13 +104,15 @@ TEST(Drain, PutsWhatDoesNotEndBackForTheNextStart) {
 
 TEST(Drain, AWatchOfAnEndedJobSendsTheRestFirst) {
   RunningServer server;
-  const std::string job = server.create(endless_job(server.create(paper_mesh(0.05)).name())).name();
+  const std::string mesh = server.create(paper_mesh(0.05)).name();
+  const std::string job = server.create(endless_job(mesh)).name();
   Context context;
   const auto watch = server.jobs->WatchJob(&context, request_for(job));
   ASSERT_TRUE(eventually([&] { return server.info().metrics().iterations() > 20'000; }));
   EXPECT_TRUE(server.cancel(job).ok());
+  ASSERT_TRUE(eventually([&] { return server.job(job).state() == v1::Job::STATE_CANCELLED; }));
   std::thread drain([&] { server.server().drain(10min); });
-  ASSERT_TRUE(eventually([&] { return !server.try_create(opening_job("meshes/0")).ok(); }));
+  ASSERT_TRUE(eventually([&] { return !server.try_create(opening_job(mesh)).ok(); }));
   v1::WatchJobResponse event;
   while (watch->Read(&event)) {
   }

@@ -41,6 +41,7 @@ class RunningServer {
   void restart();
 
   rpc::Server& server() { return *_server; }
+  rpc::Backend backend() { return {*_engine, *_catalogue, *_cache, *_store}; }
   jobs::JobEngine& engine() { return *_engine; }
   /// Files of uploads, finished or not.
   std::size_t upload_files() const;

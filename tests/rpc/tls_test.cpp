@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "errors/errors.hpp"
-#include "rpc/certificates.hpp"
 #include "rpc/details.hpp"
 #include "rpc/people.hpp"
 #include "rpc/requests.hpp"
 #include "rpc/running_server.hpp"
+#include "support/certificates.hpp"
 
 namespace anticrack::rpc {
 namespace {

@@ -7,12 +7,14 @@
 #include <fstream>
 
 #include "client/error.hpp"
-#include "client/lib/certificates.hpp"
+#include "support/certificates.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace anticrack::client {
 namespace {
 
+using anticrack::testing::Authority;
+using anticrack::testing::Pem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
@@ -44,10 +46,10 @@ TEST_F(CredentialsTest, NothingGivenIsNothing) {
 }
 
 TEST_F(CredentialsTest, AnyCertificateMeansTls) {
-  const Pem authority = make_authority("us");
-  const Pem mine = make_certificate("me", authority);
+  Authority authority;
+  const Pem mine = authority.issue("me");
   CredentialFiles files;
-  files.ca = write("ca.pem", authority.certificate);
+  files.ca = write("ca.pem", authority.root());
   EXPECT_TRUE(read_credentials(files, "far.example:1").tls);
   files = {};
   files.certificate = write("me.pem", mine.certificate);
@@ -59,8 +61,8 @@ TEST_F(CredentialsTest, AnyCertificateMeansTls) {
 }
 
 TEST_F(CredentialsTest, NamesTheFileThatIsWrong) {
-  const Pem authority = make_authority("us");
-  const Pem mine = make_certificate("me", authority);
+  Authority authority;
+  const Pem mine = authority.issue("me");
   CredentialFiles files;
   files.ca = "/nonexistent/ca.pem";
   EXPECT_THAT(complaint(files), AllOf(HasSubstr("--ca"), HasSubstr("/nonexistent/ca.pem")));
@@ -71,7 +73,7 @@ TEST_F(CredentialsTest, NamesTheFileThatIsWrong) {
   EXPECT_THAT(complaint(files), HasSubstr("--cert needs --key"));
   files.key = write("me.key", mine.certificate);
   EXPECT_THAT(complaint(files), HasSubstr("me.key holds no private key"));
-  files.key = write("other.key", authority.key);
+  files.key = write("other.key", authority.issue("other").key);
   EXPECT_THAT(complaint(files), HasSubstr("other.key is not the key of the certificate"));
   files.certificate.clear();
   EXPECT_THAT(complaint(files), HasSubstr("--key needs --cert"));

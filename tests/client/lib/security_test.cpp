@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "client/jobs.hpp"
-#include "client/lib/certificates.hpp"
 #include "client/lib/scripted_server.hpp"
+#include "support/certificates.hpp"
 
 namespace anticrack::client {
 namespace {
 
+using anticrack::testing::Authority;
+using anticrack::testing::Pem;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -40,15 +42,15 @@ class TlsTest : public ::testing::Test {
     return options;
   }
 
-  const Pem _authority = make_authority("us");
+  Authority _authority;
   // An address: gRPC's resolver of names (c-ares) never frees a few bytes of its own.
-  const Pem _server = make_certificate("127.0.0.1", _authority);
+  const Pem _server = _authority.issue("server");
 };
 
 TEST_F(TlsTest, EncryptsAndBringsTheToken) {
   ScriptedServer server({_server.certificate, _server.key, ""});
   server.creations = {{}};
-  ConnectionOptions options = to(server, "127.0.0.1", _authority.certificate);
+  ConnectionOptions options = to(server, "127.0.0.1", _authority.root());
   options.credentials.token = "abc";
   EXPECT_EQ(complaint(options), "");
   EXPECT_THAT(server.authorizations(), ElementsAre("Bearer abc"));
@@ -57,16 +59,16 @@ TEST_F(TlsTest, EncryptsAndBringsTheToken) {
 TEST_F(TlsTest, AnswersToItsOwnAuthorityOnly) {
   ScriptedServer server({_server.certificate, _server.key, ""});
   server.creations = {{}};
-  EXPECT_THAT(complaint(to(server, "127.0.0.1", make_authority("them").certificate)),
+  EXPECT_THAT(complaint(to(server, "127.0.0.1", Authority().root())),
               AllOf(HasSubstr("is not signed by"), HasSubstr("ca.pem")));
   EXPECT_TRUE(server.created().empty());
 }
 
 TEST_F(TlsTest, AnswersUnderItsOwnNameOnly) {
-  const Pem elsewhere = make_certificate("elsewhere", _authority);
+  const Pem elsewhere = _authority.issue("elsewhere", 1, "DNS:elsewhere");
   ScriptedServer server({elsewhere.certificate, elsewhere.key, ""});
   server.creations = {{}};
-  EXPECT_THAT(complaint(to(server, "127.0.0.1", _authority.certificate)),
+  EXPECT_THAT(complaint(to(server, "127.0.0.1", _authority.root())),
               HasSubstr("is for another name than 127.0.0.1"));
   EXPECT_TRUE(server.created().empty());
 }
@@ -78,18 +80,17 @@ TEST_F(TlsTest, SaysWhichSideSpeaksNone) {
   EXPECT_THAT(complaint(plain), HasSubstr("If it wants TLS, add --ca FILE"));
 
   ScriptedServer without;
-  EXPECT_THAT(complaint(to(without, "127.0.0.1", _authority.certificate)),
-              HasSubstr("speaks no TLS"));
+  EXPECT_THAT(complaint(to(without, "127.0.0.1", _authority.root())), HasSubstr("speaks no TLS"));
 }
 
 TEST_F(TlsTest, ShowsItsOwnCertificateWhereItIsAsked) {
-  ScriptedServer server({_server.certificate, _server.key, _authority.certificate});
+  ScriptedServer server({_server.certificate, _server.key, _authority.root()});
   server.creations = {{}};
-  ConnectionOptions options = to(server, "127.0.0.1", _authority.certificate);
+  ConnectionOptions options = to(server, "127.0.0.1", _authority.root());
   EXPECT_NE(complaint(options), "");
   EXPECT_TRUE(server.created().empty()) << "nobody without a certificate gets in";
 
-  const Pem mine = make_certificate("me", _authority);
+  const Pem mine = _authority.issue("me");
   options.credentials.certificate = mine.certificate;
   options.credentials.key = mine.key;
   EXPECT_EQ(complaint(options), "");

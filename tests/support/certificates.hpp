@@ -21,8 +21,11 @@ class Authority {
  public:
   Authority();
   const std::string& root() const { return _root; }
-  /// For `name` at localhost and 127.0.0.1, valid from two days ago to now + `days`.
-  Pem issue(const std::string& name, int days = 1);
+  /// For `name` at `hosts` (as OpenSSL writes alternative names), valid from two days ago to
+  /// now + `days`.
+  Pem issue(const std::string& name, int days = 1, const std::string& hosts = here);
+
+  static constexpr const char* here = "DNS:localhost,IP:127.0.0.1";
 
  private:
   template <class Object, void (*free)(Object*)>
@@ -34,7 +37,7 @@ class Authority {
 
   static Key new_key();
   /// Signed by the authority; by itself while it has no certificate yet.
-  Certificate sign(const std::string& name, EVP_PKEY* key, int days);
+  Certificate sign(const std::string& name, EVP_PKEY* key, int days, const std::string& hosts);
 
   Key _key;
   Certificate _certificate;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rpc/certificates.hpp"
+#include "support/certificates.hpp"
 
 #include <openssl/pem.h>
 #include <openssl/x509v3.h>
@@ -38,13 +38,13 @@ std::string pem_of(Write write) {
 }  // namespace
 
 Authority::Authority() : _key(new_key()) {
-  _certificate = sign("authority of a test", _key.get(), 1);
+  _certificate = sign("authority of a test", _key.get(), 1, "");
   _root = pem_of([&](BIO* bio) { return PEM_write_bio_X509(bio, _certificate.get()); });
 }
 
-Pem Authority::issue(const std::string& name, int days) {
+Pem Authority::issue(const std::string& name, int days, const std::string& hosts) {
   const Key key = new_key();
-  const Certificate certificate = sign(name, key.get(), days);
+  const Certificate certificate = sign(name, key.get(), days, hosts);
   return {pem_of([&](BIO* bio) { return PEM_write_bio_X509(bio, certificate.get()); }),
           pem_of([&](BIO* bio) {
             return PEM_write_bio_PrivateKey(bio, key.get(), nullptr, nullptr, 0, nullptr, nullptr);
@@ -57,7 +57,8 @@ Authority::Key Authority::new_key() {
   return key;
 }
 
-Authority::Certificate Authority::sign(const std::string& name, EVP_PKEY* key, int days) {
+Authority::Certificate Authority::sign(const std::string& name, EVP_PKEY* key, int days,
+                                       const std::string& hosts) {
   Certificate certificate(X509_new());
   X509* to = certificate.get();
   X509* issuer = _certificate ? _certificate.get() : to;
@@ -73,7 +74,7 @@ Authority::Certificate Authority::sign(const std::string& name, EVP_PKEY* key, i
   }
   X509_set_issuer_name(to, X509_get_subject_name(issuer));
   extend(to, issuer, NID_basic_constraints, _certificate ? "CA:FALSE" : "critical,CA:TRUE");
-  if (_certificate) extend(to, issuer, NID_subject_alt_name, "DNS:localhost,IP:127.0.0.1");
+  if (_certificate) extend(to, issuer, NID_subject_alt_name, hosts.c_str());
   require(X509_sign(to, _key.get(), EVP_sha256()) > 0);
   return certificate;
 }

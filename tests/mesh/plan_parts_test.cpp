@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a plan says of the parts of a membrane: align lines, regions, the boundary under traction.
+#include <gtest/gtest.h>
+
+#include "mesh/plans.hpp"
+#include "support/errors.hpp"
+
+namespace anticrack {
+namespace {
+
+using mesh::Geometry;
+using mesh::Kind;
+using mesh::MeshOptions;
+using mesh::Plan;
+using mesh::Role;
+using testing::areas;
+using testing::count;
+using testing::enough;
+using testing::expect_consistent;
+using testing::length_of;
+using testing::plan_of;
+using testing::polyline;
+using testing::square;
+using testing::uniform;
+
+TEST(PlanParts, AlignLinesPartNoSubdomains) {
+  Geometry geometry = square();
+  geometry.interfaces = {polyline("a", {{-1, 0}, {1, 0}})};
+  MeshOptions options = uniform(0.25);
+  options.align = {{{-0.5, -1}, {-0.5, 1}}, {{0.25, 0.25}, {0.5, 0.5}}, {{0.5, -0.5}, {0.5, 0}}};
+  const Plan plan = mesh::plan(geometry, options, enough);
+  expect_consistent(plan, 4);
+  EXPECT_EQ(plan.faces.size(), 4U);
+  EXPECT_DOUBLE_EQ(areas(plan).at("omega1"), 2);
+  EXPECT_DOUBLE_EQ(areas(plan).at("omega2"), 2);
+  EXPECT_EQ(areas(plan).size(), 2U);
+  EXPECT_EQ(plan.interfaces.size(), 1U);
+  EXPECT_DOUBLE_EQ(length_of(plan, Role::align), 2 + std::hypot(0.25, 0.25) + 0.5);
+}
+
+TEST(PlanParts, GlueBetweenFacesOfOneSubdomainIsNoInterface) {
+  // the interface's free end and the align line cut a corner off, but both are omega1
+  Geometry geometry = square();
+  geometry.interfaces = {polyline("a", {{-1, 0}, {0.5, 0}})};
+  geometry.cracks = {{"c", {{-0.5, 0}, {0, 0}}}};
+  MeshOptions options = uniform(0.25);
+  options.align = {{{0.5, 0}, {0.5, 1}}};
+  const Plan plan = mesh::plan(geometry, options, enough);
+  expect_consistent(plan, 4);
+  EXPECT_EQ(areas(plan).size(), 1U);
+  EXPECT_EQ(count(plan, Kind::glue), 0);
+  EXPECT_EQ(count(plan, Kind::crack), 1);
+}
+
+TEST(PlanParts, NeumannPartsOfTheBoundary) {
+  for (const bool clockwise : {false, true}) {
+    Geometry geometry = square();
+    if (clockwise) std::reverse(geometry.boundary.begin(), geometry.boundary.end());
+    geometry.neumann = {{{1, -0.5}, {0.5, 1}}, {{-0.25, -1}, {0.25, -1}}};
+    const Plan plan = plan_of(geometry);
+    expect_consistent(plan, 4);
+    EXPECT_DOUBLE_EQ(length_of(plan, Role::neumann), 1.5 + 0.5 + 0.5);
+    // round the corner where the polygon begins
+    geometry.neumann = {{{-1, 0}, {0, -1}}};
+    EXPECT_DOUBLE_EQ(length_of(plan_of(geometry), Role::neumann), 2);
+    geometry.neumann = {{{0.25, -1}, {0.25, -1}}};
+    EXPECT_DOUBLE_EQ(length_of(plan_of(geometry), Role::neumann), 8);
+    EXPECT_EQ(length_of(plan_of(geometry), Role::dirichlet), 0);
+  }
+}
+
+TEST(PlanParts, ACrackMayLeaveThroughTheNeumannBoundary) {
+  Geometry geometry = square();
+  geometry.interfaces = {polyline("a", {{-1, 0}, {1, 0}})};
+  geometry.cracks = {{"c", {{0, 0}, {1, 0}}}};
+  geometry.neumann = {{{1, -1}, {1, 1}}};
+  expect_consistent(plan_of(geometry), 4);
+  // two parts that meet there
+  geometry.neumann = {{{1, 0}, {1, 1}}, {{1, -1}, {1, 0}}};
+  expect_consistent(plan_of(geometry), 4);
+  for (const mesh::Part& part :
+       {mesh::Part{{1, -1}, {1, 0}}, mesh::Part{{1, 0}, {1, 1}}, mesh::Part{{-1, 1}, {-1, -1}}}) {
+    geometry.neumann = {part};
+    EXPECT_TRUE(testing::throws([&] { plan_of(geometry); }, errors::Reason::geometry_invalid,
+                                "cracks[0].part.to"));
+  }
+}
+
+TEST(PlanParts, RegionsNameWhatHoldsThem) {
+  Geometry geometry = square();
+  geometry.interfaces = {polyline("a", {{-1, 0}, {1, 0}}), polyline("b", {{0, 0}, {0, 1}})};
+  geometry.regions = {{"right", {0.5, 0.5}, 3}, {"omega1", {-0.5, 0.5}, 2}};
+  const Plan plan = plan_of(geometry);
+  expect_consistent(plan, 4);
+  const auto sums = areas(plan);
+  EXPECT_DOUBLE_EQ(sums.at("right"), 1);
+  EXPECT_DOUBLE_EQ(sums.at("omega1"), 1);
+  EXPECT_EQ(sums.size(), 3U);
+  for (const auto& face : plan.faces) {
+    EXPECT_EQ(face.tension, face.name == "right" ? 3 : face.name == "omega1" ? 2 : 1);
+  }
+}
+
+}  // namespace
+}  // namespace anticrack
