@@ -39,7 +39,18 @@ struct Run {
   std::atomic<std::uint64_t> jobs = 0;
   std::atomic<std::uint64_t> waits = 0;  ///< for a queue that was full
   std::mutex mutex;
+  std::string latest;  ///< job that ended: older ones are erased when many more were made since
   std::vector<std::string> complaints;
+
+  void ended(const std::string& job) {
+    ++jobs;
+    const std::lock_guard lock(mutex);
+    latest = job;
+  }
+  std::string latest_job() {
+    const std::lock_guard lock(mutex);
+    return latest;
+  }
 
   void complain(const std::string& text) {
     const std::lock_guard lock(mutex);
@@ -57,7 +68,7 @@ void be_a_client(Run& run, client::Connection& connection, unsigned seed) {
       if (job.state() != v1::Job::STATE_SUCCEEDED) {
         run.complain("a job ended in another state: " + job.ShortDebugString());
       }
-      ++run.jobs;
+      run.ended(job.name());
     }
   } catch (const std::exception& error) {
     run.complain(std::string("a client failed: ") + error.what());
@@ -106,8 +117,8 @@ std::uint64_t memory_of(int process, const std::string& key) {
   return 0;
 }
 
-/// Asks for a job and for the server's health, over and over, until the time is up.
-void probe(Run& run, const Daemon& daemon, const std::string& job, int seconds) {
+/// Asks for the latest job and for the server's health, over and over, until the time is up.
+void probe(Run& run, const Daemon& daemon, int seconds) {
   client::Connection connection(daemon.connection());
   grpc::GenericStub health(
       grpc::CreateChannel(daemon.address(), grpc::InsecureChannelCredentials()));
@@ -116,7 +127,7 @@ void probe(Run& run, const Daemon& daemon, const std::string& job, int seconds) 
   const auto end = Clock::now() + std::chrono::seconds(seconds);
   while (Clock::now() < end) {
     const auto begin = Clock::now();
-    client::get_job(connection, job);
+    client::get_job(connection, run.latest_job());
     const auto middle = Clock::now();
     if (!healthy(health)) run.complain("the server said it was not healthy");
     gets.push_back(Milliseconds(middle - begin).count());
@@ -141,11 +152,9 @@ int drive(const Options& options) {
   for (int i = 0; i < options.channels; ++i) {
     connections.push_back(std::make_unique<client::Connection>(chosen));
   }
-  // The meshes are made before the clock starts; the first job is the one that is asked for.
-  std::string first;
-  for (const Work& work : run.works) {
-    first = submit(*connections.front(), work, client::make_uuid()).name();
-    wait_for_end(*connections.front(), first);
+  for (const Work& work : run.works) {  // the meshes are made before the clock starts
+    run.latest = submit(*connections.front(), work, client::make_uuid()).name();
+    wait_for_end(*connections.front(), run.latest);
   }
   const int server = daemon.process().id();
   const std::uint64_t begin = memory_of(server, "VmRSS");
@@ -156,7 +165,7 @@ int drive(const Options& options) {
     clients.emplace_back(be_a_client, std::ref(run), std::ref(connection), random());
   }
   try {
-    probe(run, daemon, first, options.seconds);
+    probe(run, daemon, options.seconds);
   } catch (const std::exception& error) {
     run.complain(std::string("GetJob failed: ") + error.what());
   }

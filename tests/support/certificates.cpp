@@ -37,8 +37,8 @@ std::string pem_of(Write write) {
 
 }  // namespace
 
-Authority::Authority() : _key(new_key()) {
-  _certificate = sign("authority of a test", _key.get(), 1, "");
+Authority::Authority(const std::string& name) : _key(new_key()) {
+  _certificate = sign(name, _key.get(), 1, "");
   _root = pem_of([&](BIO* bio) { return PEM_write_bio_X509(bio, _certificate.get()); });
 }
 

@@ -19,7 +19,7 @@ struct Pem {
 /// A private certificate authority.
 class Authority {
  public:
-  Authority();
+  explicit Authority(const std::string& name = "authority of a test");
   const std::string& root() const { return _root; }
   /// For `name` at `hosts` (as OpenSSL writes alternative names), valid from two days ago to
   /// now + `days`.
