@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "contact/answer.hpp"
+#include "contact/sweep_columns.hpp"
 #include "store/records.hpp"
 
 namespace anticrack::jobs {
@@ -33,12 +34,18 @@ struct CaseEvent {
   std::shared_ptr<const store::CaseRecord> record;
 };
 
+/// Consecutive rows of a sweep have ended.
+struct RowsEvent {
+  std::uint64_t first_row = 0;
+  std::shared_ptr<const contact::SweepColumns> rows;
+};
+
 /// The job ended: always the last event.
 struct EndEvent {
   std::shared_ptr<const store::JobRecord> job;
 };
 
-using Event = std::variant<SampleEvent, PhaseEvent, CaseEvent, EndEvent>;
+using Event = std::variant<SampleEvent, PhaseEvent, CaseEvent, RowsEvent, EndEvent>;
 
 struct NumberedEvent {
   std::uint64_t sequence = 0;

@@ -21,6 +21,8 @@ struct EngineOptions {
   int columns = 32;             ///< load cases of one mesh that iterate or are condensed together
   int max_load_cases = 10'000;  ///< a job
   int max_iterations = 1'000'000;  ///< a load case
+  std::uint64_t max_sweep_rows = 10'000'000;
+  int max_sweep_basis = 256;  ///< loads that are combined
   std::size_t max_expression_bytes = 4096;
   // Admission: beyond one of these `busy` with a retry delay.
   int max_queued_jobs = 1'000;                    ///< that have not started

@@ -4,6 +4,7 @@
 // neither Eigen nor CHOLMOD.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "contact/answer.hpp"
+#include "contact/sweep_columns.hpp"
 #include "errors/errors.hpp"
 #include "fem/load.hpp"
 #include "mesh/mesh.hpp"
@@ -21,6 +23,7 @@
 namespace anticrack::operators {
 
 class PreparedLoad;
+class LoadBasis;
 class UzawaBlock;
 
 /// Factorised subdomains, Schur complements, the skeleton condensed to the cracks, interface mass
@@ -56,6 +59,30 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   contact::Answer solve(const PreparedLoad& load, const contact::SolverOptions& options,
                         bool fields, contact::Observer& observer) const;
 
+  /// Condenses loads whose combinations are to be solved: once per mesh, O(N) each and
+  /// O(n_G^2 + N m) for what pairs of them say of the energy. Throws errors::Error as `solve` does,
+  /// with "load_cases[j]." before the path of the field.
+  std::shared_ptr<const LoadBasis> basis(std::span<const fem::Load* const> loads,
+                                         const std::stop_token& stop = {}) const;
+
+  /// Rows `first` to first + rows.size() of a sweep, row k the load sum_j c_kj f_j, coefficients
+  /// (rows, loads) row-major. Each starts from the contact of the one before, the first from that
+  /// of `start` (empty: all closed), which becomes the last one's; the numbers do not depend on it
+  /// (DenseLcp). O(m c) and a few steps of O(c^3) or less a row, no allocation in a row.
+  /// Returns false where `stop` was requested between two rows.
+  bool sweep(const LoadBasis& basis, std::span<const double> coefficients,
+             const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
+             std::vector<char>& start, const std::stop_token& stop = {}) const;
+  /// The same for loads prepared one by one.
+  bool sweep(std::span<const PreparedLoad> loads, const contact::ActiveSetOptions& options,
+             contact::SweepColumns& rows, std::vector<char>& start,
+             const std::stop_token& stop = {}) const;
+  /// A row as a load of its own, for its traces. O(N m).
+  PreparedLoad combine(const LoadBasis& basis, std::span<const double> coefficients) const;
+
+  /// Contacts of the sweeps' rows: interface, and index of the node in its trace_geometry().
+  const std::vector<std::array<std::int32_t, 2>>& contact_nodes() const noexcept;
+
   /// Why Algorithm 2 does not apply to this mesh; empty where it does.
   const std::string& uzawa_obstacle() const noexcept;
 
@@ -90,6 +117,23 @@ class PreparedLoad {
   struct Data;
   explicit PreparedLoad(std::unique_ptr<Data> data);
   std::unique_ptr<Data> _data;
+};
+
+/// Loads f_1 ... f_m of one mesh, condensed. Immutable: any number of threads may sweep over it at
+/// once. Keeps the mesh's operators alive.
+class LoadBasis {
+ public:
+  ~LoadBasis();
+  std::size_t size() const noexcept;   ///< m
+  std::size_t bytes() const noexcept;  ///< memory held
+  /// Of all of them, as they stand in an answer.
+  const std::vector<std::string>& warnings() const noexcept;
+
+ private:
+  friend class MeshOperator;
+  struct Data;
+  explicit LoadBasis(std::unique_ptr<const Data> data);
+  std::unique_ptr<const Data> _data;
 };
 
 /// Load cases of one mesh that iterate Algorithm 2 together, one column each: a matrix product

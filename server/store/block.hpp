@@ -12,7 +12,7 @@
 
 namespace anticrack::store {
 
-enum class ArrayType { float64, int32 };
+enum class ArrayType { float64, int32, uint8 };
 
 /// One array: little-endian, row-major, at an offset that is a multiple of 8.
 struct ArrayLayout {
@@ -48,6 +48,8 @@ class BlockBuilder {
   /// `shape` empty: (values.size()). Throws std::invalid_argument where the shape does not fit.
   void add(std::string name, std::span<const double> values, std::vector<std::uint64_t> shape = {});
   void add(std::string name, std::span<const std::int32_t> values,
+           std::vector<std::uint64_t> shape = {});
+  void add(std::string name, std::span<const std::uint8_t> values,
            std::vector<std::uint64_t> shape = {});
   /// Computes the hash. The builder is empty after.
   Block finish();

@@ -115,6 +115,28 @@ struct CaseRecord {
   double seconds = 0;
 };
 
+/// Many load cases answered in columns: rows of a matrix that is an upload, row-major f64.
+struct SweepSpec {
+  enum class Cases {
+    combinations,  ///< (rows, loads): row k is the load sum_j c_kj loads[j]
+    nodal_forces,  ///< (rows, nodes of the mesh): row k is f on the nodes, linear between
+  };
+  Cases cases = Cases::combinations;
+  std::string upload;                   ///< sha256 of the matrix's bytes
+  std::uint64_t rows = 0;               ///< known when the job is taken in
+  std::vector<std::uint32_t> traces{};  ///< rows whose traces are kept, ascending
+};
+
+/// Of a sweep that has ended; its columns are in the result block.
+struct SweepRecord {
+  std::uint64_t converged = 0;
+  std::uint64_t not_converged = 0;
+  std::uint64_t failed = 0;
+  int most_steps = 0;
+  double worst_kkt = 0;  ///< relative, over the rows that converged
+  double seconds = 0;    ///< on solver threads, added up
+};
+
 /// What a client asked for.
 struct JobSpec {
   std::string title;
@@ -122,6 +144,7 @@ struct JobSpec {
   std::vector<fem::Load> loads;
   contact::SolverOptions solver;
   bool fields = false;
+  std::optional<SweepSpec> sweep{};  ///< loads are its basis
   Priority priority = Priority::normal;
   std::chrono::milliseconds queue_time_limit{0};  ///< from creation to start; 0: the server's
   std::chrono::milliseconds run_time_limit{0};    ///< from start to end; 0: the server's
@@ -144,7 +167,8 @@ struct JobRecord {
   Clock::time_point created;
   std::optional<Clock::time_point> started;
   std::optional<Clock::time_point> ended;
-  std::vector<CaseRecord> cases;  ///< one per load
+  std::vector<CaseRecord> cases;  ///< one per load; none of a sweep
+  SweepRecord sweep;              ///< of a sweep
   std::uint64_t result_bytes = 0;
   int attempt = 1;             ///< counts restarts of the server while it ran
   std::vector<Step> timeline;  ///< of this attempt and those before, at most a few dozen
