@@ -12,31 +12,31 @@
 
 namespace anticrack::rpc {
 
-WatchFeed::WatchFeed(const Backend &backend, WatchGroups &groups,
-                     std::string id, std::uint64_t after)
-    : _backend(backend), _id(std::move(id)),
-      _group(groups.of(_backend.engine.events(_id))), _cursor(after),
+WatchFeed::WatchFeed(const Backend& backend, WatchGroups& groups, std::string id,
+                     std::uint64_t after)
+    : _backend(backend),
+      _id(std::move(id)),
+      _group(groups.of(_backend.engine.events(_id))),
+      _cursor(after),
       _from_earliest(after == 0) {
   try {
     read();
-  } catch (errors::Error &error) {
+  } catch (errors::Error& error) {
     error.at("after_sequence");
     throw;
   }
 }
 
 WatchFeed::~WatchFeed() {
-  if (_member)
-    _group->leave(*_member);
+  if (_member) _group->leave(*_member);
 }
 
 void WatchFeed::start(std::function<void()> wake) {
   _member = _group->join(std::move(wake));
 }
 
-WatchFeed::Next WatchFeed::next(v1::WatchJobResponse &response) {
-  if (_ended)
-    return Next::end;
+WatchFeed::Next WatchFeed::next(v1::WatchJobResponse& response) {
+  if (_ended) return Next::end;
   if (!_snapshot_sent) {
     fill_snapshot(response);
     _snapshot_sent = true;
@@ -44,17 +44,19 @@ WatchFeed::Next WatchFeed::next(v1::WatchJobResponse &response) {
   }
   const jobs::NumberedBatch batch = read();
   if (batch.last == _cursor) {
-    const jobs::EventLog &log = _group->log();
+    const jobs::EventLog& log = _group->log();
     return log.complete() && _cursor == log.latest() ? Next::end : Next::wait;
   }
-  std::visit([&](const auto &events) { fill(events, response); }, batch.events);
+  std::visit([&](const auto& events) { fill(events, response); }, batch.events);
   _from_earliest = false;
   _cursor = batch.last;
   response.set_sequence(batch.last);
   return Next::message;
 }
 
-bool WatchFeed::ending() const noexcept { return _group->log().complete(); }
+bool WatchFeed::ending() const noexcept {
+  return _group->log().complete();
+}
 
 std::uint64_t WatchFeed::lag() const noexcept {
   const std::uint64_t latest = _group->log().latest();
@@ -62,20 +64,19 @@ std::uint64_t WatchFeed::lag() const noexcept {
   return latest > cursor ? latest - cursor : 0;
 }
 
-bool WatchFeed::heartbeat(v1::WatchJobResponse &response) {
+bool WatchFeed::heartbeat(v1::WatchJobResponse& response) {
   response.set_sequence(_cursor);
   response.mutable_heartbeat()->set_state(_state);
   response.mutable_heartbeat()->set_detail(_detail);
   return true;
 }
 
-void WatchFeed::fill_snapshot(v1::WatchJobResponse &response) {
+void WatchFeed::fill_snapshot(v1::WatchJobResponse& response) {
   const store::JobRecord record = _backend.engine.get(_id);
-  for (const fem::Load &load : record.spec.loads)
-    _load_names.push_back(load.name);
+  for (const fem::Load& load : record.spec.loads) _load_names.push_back(load.name);
   _interfaces = interface_names(_backend.catalogue, record.spec.mesh);
   _state = from_domain(record.state);
-  v1::WatchJobResponse::Snapshot &snapshot = *response.mutable_snapshot();
+  v1::WatchJobResponse::Snapshot& snapshot = *response.mutable_snapshot();
   *snapshot.mutable_job() = from_domain(record, _interfaces);
   snapshot.set_earliest_sequence(_group->log().earliest());
   snapshot.set_latest_sequence(_group->log().latest());
@@ -83,43 +84,36 @@ void WatchFeed::fill_snapshot(v1::WatchJobResponse &response) {
 }
 
 jobs::NumberedBatch WatchFeed::read() {
-  const jobs::EventLog &log = _group->log();
+  const jobs::EventLog& log = _group->log();
   for (;;) {
-    if (_from_earliest)
-      _cursor = log.earliest() - 1;
+    if (_from_earliest) _cursor = log.earliest() - 1;
     const std::uint64_t cursor = _cursor;
     const std::uint64_t target = _group->target();
     const std::uint64_t ahead = target > cursor ? target - cursor : 0;
     try {
-      return log.batch(
-          cursor, std::min<std::uint64_t>(ahead, _group->samples_a_message()));
-    } catch (const errors::Error &) {
+      return log.batch(cursor, std::min<std::uint64_t>(ahead, _group->samples_a_message()));
+    } catch (const errors::Error&) {
       // The log was trimmed between the lines above; who asked for no place
       // misses nothing.
-      if (!_from_earliest || log.earliest() - 1 == cursor)
-        throw;
+      if (!_from_earliest || log.earliest() - 1 == cursor) throw;
     }
   }
 }
 
-void WatchFeed::fill(const std::vector<jobs::SampleRun> &samples,
-                     v1::WatchJobResponse &response) {
+void WatchFeed::fill(const std::vector<jobs::SampleRun>& samples, v1::WatchJobResponse& response) {
   append(*response.mutable_samples(), samples);
 }
 
-void WatchFeed::fill(const jobs::PhaseEvent &phase,
-                     v1::WatchJobResponse &response) {
+void WatchFeed::fill(const jobs::PhaseEvent& phase, v1::WatchJobResponse& response) {
   _state = from_domain(phase.state);
   _detail = phase.detail;
   response.mutable_phase()->set_state(_state);
   response.mutable_phase()->set_detail(_detail);
 }
 
-void WatchFeed::fill(const jobs::CaseEvent &ended,
-                     v1::WatchJobResponse &response) {
-  if (_interfaces.empty()) { // the mesh was not meshed yet when the watch began
-    _interfaces =
-        interface_names(_backend.catalogue, _backend.engine.get(_id).spec.mesh);
+void WatchFeed::fill(const jobs::CaseEvent& ended, v1::WatchJobResponse& response) {
+  if (_interfaces.empty()) {  // the mesh was not meshed yet when the watch began
+    _interfaces = interface_names(_backend.catalogue, _backend.engine.get(_id).spec.mesh);
   }
   const auto index = static_cast<std::size_t>(ended.load_case);
   const std::string name = index < _load_names.size() ? _load_names[index] : "";
@@ -128,31 +122,26 @@ void WatchFeed::fill(const jobs::CaseEvent &ended,
       from_domain(*ended.record, name, _interfaces);
 }
 
-void WatchFeed::fill(const jobs::RowsEvent &rows,
-                     v1::WatchJobResponse &response) {
+void WatchFeed::fill(const jobs::RowsEvent& rows, v1::WatchJobResponse& response) {
   append(*response.mutable_sweep_rows(), rows, 0, rows.rows->rows());
 }
 
-void WatchFeed::fill(const jobs::EndEvent &end,
-                     v1::WatchJobResponse &response) {
-  if (_interfaces.empty())
-    _interfaces = interface_names(_backend.catalogue, end.job->spec.mesh);
+void WatchFeed::fill(const jobs::EndEvent& end, v1::WatchJobResponse& response) {
+  if (_interfaces.empty()) _interfaces = interface_names(_backend.catalogue, end.job->spec.mesh);
   *response.mutable_ended() = from_domain(*end.job, _interfaces);
   _ended = true;
 }
 
-InterfaceNames interface_names(const meshes::MeshCatalogue &catalogue,
-                               const std::string &mesh_id) {
+InterfaceNames interface_names(const meshes::MeshCatalogue& catalogue, const std::string& mesh_id) {
   InterfaceNames names;
   try {
-    for (const store::InterfaceSummary &interface :
-         catalogue.get(mesh_id).interfaces) {
+    for (const store::InterfaceSummary& interface : catalogue.get(mesh_id).interfaces) {
       names.push_back(interface.name);
     }
-  } catch (const errors::Error &) {
-    names.clear(); // the mesh was deleted since; its answers stay readable
+  } catch (const errors::Error&) {
+    names.clear();  // the mesh was deleted since; its answers stay readable
   }
   return names;
 }
 
-} // namespace anticrack::rpc
+}  // namespace anticrack::rpc

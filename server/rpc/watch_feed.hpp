@@ -26,29 +26,27 @@ namespace anticrack::rpc {
 /// Messages: the snapshot; then events in order, consecutive samples packed as
 /// columns; last the end.
 class WatchFeed final : public Feed<v1::WatchJobResponse> {
-public:
+ public:
   /// `id` of the job; `after` as WatchJobRequest.after_sequence.
   /// Throws errors::Error: not_found, sequence_trimmed (trimmed already, or in
   /// the future). To be made and used where the store may be waited for.
-  WatchFeed(const Backend &backend, WatchGroups &groups, std::string id,
-            std::uint64_t after);
+  WatchFeed(const Backend& backend, WatchGroups& groups, std::string id, std::uint64_t after);
   ~WatchFeed() override;
 
   void start(std::function<void()> wake) override;
-  Next next(v1::WatchJobResponse &response) override;
+  Next next(v1::WatchJobResponse& response) override;
   bool ending() const noexcept override;
   std::uint64_t lag() const noexcept override;
-  bool heartbeat(v1::WatchJobResponse &response) override;
+  bool heartbeat(v1::WatchJobResponse& response) override;
 
-private:
-  void fill_snapshot(v1::WatchJobResponse &response);
+ private:
+  void fill_snapshot(v1::WatchJobResponse& response);
   jobs::NumberedBatch read();
-  void fill(const std::vector<jobs::SampleRun> &samples,
-            v1::WatchJobResponse &response);
-  void fill(const jobs::PhaseEvent &phase, v1::WatchJobResponse &response);
-  void fill(const jobs::CaseEvent &ended, v1::WatchJobResponse &response);
-  void fill(const jobs::RowsEvent &rows, v1::WatchJobResponse &response);
-  void fill(const jobs::EndEvent &end, v1::WatchJobResponse &response);
+  void fill(const std::vector<jobs::SampleRun>& samples, v1::WatchJobResponse& response);
+  void fill(const jobs::PhaseEvent& phase, v1::WatchJobResponse& response);
+  void fill(const jobs::CaseEvent& ended, v1::WatchJobResponse& response);
+  void fill(const jobs::RowsEvent& rows, v1::WatchJobResponse& response);
+  void fill(const jobs::EndEvent& end, v1::WatchJobResponse& response);
 
   const Backend _backend;
   const std::string _id;
@@ -56,9 +54,8 @@ private:
   std::optional<WatchGroup::Wakes::iterator> _member;
   InterfaceNames _interfaces;
   std::vector<std::string> _load_names;
-  std::atomic<std::uint64_t> _cursor; ///< written by whoever drives the feed
-  bool _from_earliest =
-      false; ///< nothing delivered yet, and no place asked for
+  std::atomic<std::uint64_t> _cursor;  ///< written by whoever drives the feed
+  bool _from_earliest = false;         ///< nothing delivered yet, and no place asked for
   bool _snapshot_sent = false;
   bool _ended = false;
   v1::Job::State _state = v1::Job::STATE_UNSPECIFIED;
@@ -67,7 +64,6 @@ private:
 
 /// Names of the interfaces of a mesh; empty where it is not known (any more) or
 /// not meshed.
-InterfaceNames interface_names(const meshes::MeshCatalogue &catalogue,
-                               const std::string &mesh_id);
+InterfaceNames interface_names(const meshes::MeshCatalogue& catalogue, const std::string& mesh_id);
 
-} // namespace anticrack::rpc
+}  // namespace anticrack::rpc

@@ -5,14 +5,13 @@
 
 namespace anticrack::rpc {
 
-WatchGroup::WatchGroup(StreamHub &hub, std::shared_ptr<jobs::EventLog> log)
+WatchGroup::WatchGroup(StreamHub& hub, std::shared_ptr<jobs::EventLog> log)
     : _hub(hub), _log(std::move(log)), _target(_log->latest()) {}
 
-void WatchGroup::start(const std::shared_ptr<WatchGroup> &group) {
+void WatchGroup::start(const std::shared_ptr<WatchGroup>& group) {
   const std::weak_ptr<Wakeable> weak = group;
-  group->_listener =
-      group->_log->listen([&hub = group->_hub, weak] { hub.wake(weak); });
-  group->_hub.wake(weak); // for what came before the listener
+  group->_listener = group->_log->listen([&hub = group->_hub, weak] { hub.wake(weak); });
+  group->_hub.wake(weak);  // for what came before the listener
 }
 
 WatchGroup::Wakes::iterator WatchGroup::join(std::function<void()> wake) {
@@ -30,23 +29,19 @@ void WatchGroup::wake() noexcept {
   _samples_a_message = rpc::samples_a_message(_hub.counts().watchers);
   _target = _log->latest();
   const std::lock_guard lock(_mutex);
-  for (const auto &member : _wakes)
-    member();
+  for (const auto& member : _wakes) member();
 }
 
-std::shared_ptr<WatchGroup>
-WatchGroups::of(const std::shared_ptr<jobs::EventLog> &log) {
+std::shared_ptr<WatchGroup> WatchGroups::of(const std::shared_ptr<jobs::EventLog>& log) {
   const std::lock_guard lock(_mutex);
   if (const auto found = _groups.find(log.get()); found != _groups.end()) {
-    if (auto group = found->second.lock())
-      return group;
+    if (auto group = found->second.lock()) return group;
   }
-  std::erase_if(_groups,
-                [](const auto &entry) { return entry.second.expired(); });
+  std::erase_if(_groups, [](const auto& entry) { return entry.second.expired(); });
   auto group = std::make_shared<WatchGroup>(_hub, log);
   WatchGroup::start(group);
   _groups[log.get()] = group;
   return group;
 }
 
-} // namespace anticrack::rpc
+}  // namespace anticrack::rpc

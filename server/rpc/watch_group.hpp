@@ -26,22 +26,22 @@ constexpr std::size_t max_samples_a_message = 4096;
 constexpr std::size_t samples_a_message(int watches) noexcept {
   constexpr std::size_t together = 64 * max_samples_a_message;
   constexpr std::size_t least = 512;
-  return std::clamp(together / static_cast<std::size_t>(std::max(watches, 1)),
-                    least, max_samples_a_message);
+  return std::clamp(together / static_cast<std::size_t>(std::max(watches, 1)), least,
+                    max_samples_a_message);
 }
 
 /// Works in rounds on the hub's thread, `pace` apart: a round looks how far the
 /// log is and wakes the members, who send no more than that. So a fast job's
 /// samples travel many a message. Thread-safe.
 class WatchGroup final : public Wakeable {
-public:
+ public:
   static constexpr std::chrono::milliseconds pace{10};
   using Wakes = std::list<std::function<void()>>;
 
-  WatchGroup(StreamHub &hub, std::shared_ptr<jobs::EventLog> log);
+  WatchGroup(StreamHub& hub, std::shared_ptr<jobs::EventLog> log);
 
   /// Listens; to be called once, before anybody joins.
-  static void start(const std::shared_ptr<WatchGroup> &group);
+  static void start(const std::shared_ptr<WatchGroup>& group);
 
   /// `wake` is called at each round until leave(); it must be quick, and not
   /// join or leave.
@@ -52,34 +52,32 @@ public:
   std::uint64_t target() const noexcept { return _target; }
   /// And so many in a message.
   std::size_t samples_a_message() const noexcept { return _samples_a_message; }
-  const jobs::EventLog &log() const noexcept { return *_log; }
+  const jobs::EventLog& log() const noexcept { return *_log; }
 
   void wake() noexcept override;
-  SteadyClock::time_point not_before() const noexcept override {
-    return _last_round + pace;
-  }
+  SteadyClock::time_point not_before() const noexcept override { return _last_round + pace; }
 
-private:
-  StreamHub &_hub;
+ private:
+  StreamHub& _hub;
   const std::shared_ptr<jobs::EventLog> _log;
   std::atomic<std::uint64_t> _target;
   std::atomic<std::size_t> _samples_a_message{max_samples_a_message};
-  SteadyClock::time_point _last_round{}; ///< the hub's thread only
-  std::mutex _mutex;                     ///< lock order: group before hub
+  SteadyClock::time_point _last_round{};  ///< the hub's thread only
+  std::mutex _mutex;                      ///< lock order: group before hub
   Wakes _wakes;
   std::shared_ptr<jobs::EventLog::Listener> _listener;
 };
 
 /// The groups there are, each as long as somebody watches. Thread-safe.
 class WatchGroups {
-public:
-  explicit WatchGroups(StreamHub &hub) : _hub(hub) {}
-  std::shared_ptr<WatchGroup> of(const std::shared_ptr<jobs::EventLog> &log);
+ public:
+  explicit WatchGroups(StreamHub& hub) : _hub(hub) {}
+  std::shared_ptr<WatchGroup> of(const std::shared_ptr<jobs::EventLog>& log);
 
-private:
-  StreamHub &_hub;
+ private:
+  StreamHub& _hub;
   std::mutex _mutex;
-  std::unordered_map<const jobs::EventLog *, std::weak_ptr<WatchGroup>> _groups;
+  std::unordered_map<const jobs::EventLog*, std::weak_ptr<WatchGroup>> _groups;
 };
 
-} // namespace anticrack::rpc
+}  // namespace anticrack::rpc
