@@ -7,20 +7,18 @@
 
 namespace anticrack::jobs {
 
-BlockRun::BlockRun(
-    const std::shared_ptr<const operators::MeshOperator> &mesh_operator,
-    contact::Mass mass, int capacity, std::atomic<std::uint64_t> &iterations)
-    : _capacity(capacity), _iterations(iterations),
+BlockRun::BlockRun(const std::shared_ptr<const operators::MeshOperator>& mesh_operator,
+                   contact::Mass mass, int capacity, std::atomic<std::uint64_t>& iterations)
+    : _capacity(capacity),
+      _iterations(iterations),
       _places(static_cast<std::size_t>(capacity)),
       _block(mesh_operator, mass, capacity) {}
 
-void BlockRun::add(const Task &task, operators::PreparedLoad load) {
-  auto column =
-      std::make_unique<Column>(Column{task, History(task, _iterations)});
-  const store::JobSpec &spec = *task.job->spec;
-  const int place =
-      _block.add(std::move(load), std::get<contact::UzawaOptions>(spec.solver),
-                 spec.fields, column->history);
+void BlockRun::add(const Task& task, operators::PreparedLoad load) {
+  auto column = std::make_unique<Column>(Column{task, History(task, _iterations)});
+  const store::JobSpec& spec = *task.job->spec;
+  const int place = _block.add(std::move(load), std::get<contact::UzawaOptions>(spec.solver),
+                               spec.fields, column->history);
   _places[static_cast<std::size_t>(place)] = std::move(column);
   ++_columns;
 }
@@ -30,17 +28,16 @@ std::vector<EndedCase> BlockRun::step() {
   try {
     _block.step();
     tell();
-    for (operators::UzawaBlock::Ended &result : _block.take_ended()) {
+    for (operators::UzawaBlock::Ended& result : _block.take_ended()) {
       const std::unique_ptr<Column> column =
           std::move(_places[static_cast<std::size_t>(result.place)]);
       --_columns;
       if (!column->abandoned) {
-        ended.push_back(
-            {column->task, outcome_of(*column, std::move(result.answer))});
+        ended.push_back({column->task, outcome_of(*column, std::move(result.answer))});
       }
     }
   } catch (...) {
-    for (EndedCase &other : end_all(std::current_exception())) {
+    for (EndedCase& other : end_all(std::current_exception())) {
       ended.push_back(std::move(other));
     }
   }
@@ -48,14 +45,14 @@ std::vector<EndedCase> BlockRun::step() {
 }
 
 void BlockRun::tell() {
-  EventLog *log = nullptr;
+  EventLog* log = nullptr;
   const auto flush = [&] {
     if (log != nullptr) {
       log->append(_untold);
     }
     _untold.clear();
   };
-  for (const std::unique_ptr<Column> &column : _places) {
+  for (const std::unique_ptr<Column>& column : _places) {
     if (!column) {
       continue;
     }
@@ -68,7 +65,7 @@ void BlockRun::tell() {
   flush();
 }
 
-CaseOutcome BlockRun::outcome_of(Column &column, contact::Answer answer) {
+CaseOutcome BlockRun::outcome_of(Column& column, contact::Answer answer) {
   try {
     return solved_case(column.task, std::move(answer), column.history.take_history());
   } catch (...) {
@@ -76,9 +73,9 @@ CaseOutcome BlockRun::outcome_of(Column &column, contact::Answer answer) {
   }
 }
 
-std::vector<EndedCase> BlockRun::end_all(const std::exception_ptr &failure) {
+std::vector<EndedCase> BlockRun::end_all(const std::exception_ptr& failure) {
   std::vector<EndedCase> ended;
-  for (std::unique_ptr<Column> &column : _places) {
+  for (std::unique_ptr<Column>& column : _places) {
     if (column && !column->abandoned) {
       ended.push_back({column->task, failed_case(column->task, failure)});
     }
@@ -91,7 +88,7 @@ std::vector<EndedCase> BlockRun::end_all(const std::exception_ptr &failure) {
 
 store::Priority BlockRun::priority() const noexcept {
   store::Priority best = store::Priority::bulk;
-  for (const std::unique_ptr<Column> &column : _places) {
+  for (const std::unique_ptr<Column>& column : _places) {
     best = column ? std::min(best, column->task.job->spec->priority) : best;
   }
   return best;
@@ -99,7 +96,7 @@ store::Priority BlockRun::priority() const noexcept {
 
 std::vector<Task> BlockRun::abandon_stopped() {
   std::vector<Task> tasks;
-  for (const std::unique_ptr<Column> &column : _places) {
+  for (const std::unique_ptr<Column>& column : _places) {
     if (column && !column->abandoned && column->task.job->why != Stop::none) {
       column->abandoned = true;
       column->history.give_up();
@@ -109,4 +106,4 @@ std::vector<Task> BlockRun::abandon_stopped() {
   return tasks;
 }
 
-} // namespace anticrack::jobs
+}  // namespace anticrack::jobs

@@ -22,59 +22,52 @@ struct EndedCase {
   CaseOutcome outcome;
 };
 
-/// A block of columns. While it is `iterating` it belongs to the thread that
-/// works on it; at other times (put down, or while its thread condenses loads
-/// for it) its columns can be abandoned by whoever holds the engine's mutex:
-/// their jobs need not wait for the next iteration.
+/// A block of columns. While it is `iterating` it belongs to the thread that works on it; at other
+/// times (put down, or while its thread condenses loads for it) its columns can be abandoned by
+/// whoever holds the engine's mutex: their jobs need not wait for the next iteration.
 class BlockRun {
-public:
-  /// Throws errors::Error (not_implemented, at "uzawa") where Algorithm 2 does
-  /// not apply.
-  BlockRun(const std::shared_ptr<const operators::MeshOperator> &mesh_operator,
-           contact::Mass mass, int capacity,
-           std::atomic<std::uint64_t> &iterations);
+ public:
+  /// Throws errors::Error (not_implemented, at "uzawa") where Algorithm 2 does not apply.
+  BlockRun(const std::shared_ptr<const operators::MeshOperator>& mesh_operator, contact::Mass mass,
+           int capacity, std::atomic<std::uint64_t>& iterations);
 
   // For the thread that works on it, without the lock:
 
-  /// There must be a free place. Throws what UzawaBlock::add throws; the task
-  /// is the caller's then.
-  void add(const Task &task, operators::PreparedLoad load);
-  /// One iteration; what ended in it. Never throws: a block that breaks down
-  /// ends all its columns.
+  /// There must be a free place. Throws what UzawaBlock::add throws; the task is the caller's then.
+  void add(const Task& task, operators::PreparedLoad load);
+  /// One iteration; what ended in it. Never throws: a block that breaks down ends all its columns.
   std::vector<EndedCase> step();
 
   // With the engine's mutex held, or by the thread that works on it:
 
   bool iterating = false;
-  store::Priority parked_as =
-      store::Priority::normal; ///< in the schedule, while it is put down
+  store::Priority parked_as = store::Priority::normal;  ///< in the schedule, while it is put down
   int columns() const noexcept { return _columns; }
   int free() const noexcept { return _broken ? 0 : _capacity - _columns; }
-  store::Priority priority() const noexcept; ///< of its most urgent column
-  /// Gives up the columns of jobs that are to stop, which run out in the next
-  /// step; returns their tasks. Only while it is not iterating.
+  store::Priority priority() const noexcept;  ///< of its most urgent column
+  /// Gives up the columns of jobs that are to stop, which run out in the next step; returns their
+  /// tasks. Only while it is not iterating.
   std::vector<Task> abandon_stopped();
 
-private:
+ private:
   struct Column {
     Task task;
     History history;
     bool abandoned = false;
   };
 
-  /// Has the jobs' logs told of the iteration: those of one job's columns that
-  /// lie together at once.
+  /// Tells the jobs' logs of the iteration, at once for columns of one job that lie together.
   void tell();
-  static CaseOutcome outcome_of(Column &column, contact::Answer answer);
-  std::vector<EndedCase> end_all(const std::exception_ptr &failure);
+  static CaseOutcome outcome_of(Column& column, contact::Answer answer);
+  std::vector<EndedCase> end_all(const std::exception_ptr& failure);
 
   const int _capacity;
-  std::atomic<std::uint64_t> &_iterations;
-  std::vector<std::unique_ptr<Column>> _places; ///< by the block's places
+  std::atomic<std::uint64_t>& _iterations;
+  std::vector<std::unique_ptr<Column>> _places;  ///< by the block's places
   int _columns = 0;
-  bool _broken = false; ///< takes no more columns
+  bool _broken = false;  ///< takes no more columns
   std::vector<SampleEvent> _untold;
   operators::UzawaBlock _block;
 };
 
-} // namespace anticrack::jobs
+}  // namespace anticrack::jobs

@@ -18,17 +18,17 @@ using store::CaseStatus;
 
 CaseStatus status_of(contact::Status status) {
   switch (status) {
-  case contact::Status::converged:
-    return CaseStatus::converged;
-  case contact::Status::not_converged:
-    return CaseStatus::not_converged;
-  case contact::Status::cancelled:
-    return CaseStatus::cancelled;
+    case contact::Status::converged:
+      return CaseStatus::converged;
+    case contact::Status::not_converged:
+      return CaseStatus::not_converged;
+    case contact::Status::cancelled:
+      return CaseStatus::cancelled;
   }
   return CaseStatus::failed;
 }
 
-contact::Answer without_arrays(const contact::Answer &answer) {
+contact::Answer without_arrays(const contact::Answer& answer) {
   contact::Answer result;
   result.status = answer.status;
   result.reason = answer.reason;
@@ -59,20 +59,19 @@ Error placed(Error error, std::size_t index) {
   return error;
 }
 
-Error error_of(const std::exception_ptr &failure) {
+Error error_of(const std::exception_ptr& failure) {
   try {
     std::rethrow_exception(failure);
-  } catch (const Error &error) {
+  } catch (const Error& error) {
     return error;
-  } catch (const std::bad_alloc &) {
+  } catch (const std::bad_alloc&) {
     return {Reason::limit_exceeded, "not enough memory for this load case"};
-  } catch (const std::exception &error) {
+  } catch (const std::exception& error) {
     return {Reason::internal, std::string("solving failed: ") + error.what()};
   }
 }
 
-std::shared_ptr<store::CaseRecord> new_record(const Task &task,
-                                              CaseStatus status) {
+std::shared_ptr<store::CaseRecord> new_record(const Task& task, CaseStatus status) {
   auto record = std::make_shared<store::CaseRecord>();
   record->status = status;
   const auto elapsed = std::chrono::steady_clock::now() - task.taken;
@@ -80,13 +79,15 @@ std::shared_ptr<store::CaseRecord> new_record(const Task &task,
   return record;
 }
 
-} // namespace
+}  // namespace
 
-History::History(const Task &task, std::atomic<std::uint64_t> &iterations)
-    : _load_case(static_cast<std::int32_t>(task.index)), _log(task.job->log),
-      _stop(task.job->stop.get_token()), _iterations(iterations) {}
+History::History(const Task& task, std::atomic<std::uint64_t>& iterations)
+    : _load_case(static_cast<std::int32_t>(task.index)),
+      _log(task.job->log),
+      _stop(task.job->stop.get_token()),
+      _iterations(iterations) {}
 
-bool History::on_iteration(const contact::Sample &sample) {
+bool History::on_iteration(const contact::Sample& sample) {
   if (_given_up) {
     return false;
   }
@@ -95,41 +96,40 @@ bool History::on_iteration(const contact::Sample &sample) {
   return !_stop.stop_requested();
 }
 
-void History::append_new(std::vector<SampleEvent> &to) {
+void History::append_new(std::vector<SampleEvent>& to) {
   for (; _appended < _samples.size(); ++_appended) {
     to.push_back({_load_case, _samples[_appended]});
   }
 }
 
-bool Recorder::on_iteration(const contact::Sample &sample) {
+bool Recorder::on_iteration(const contact::Sample& sample) {
   log().append(SampleEvent{load_case(), sample});
   return History::on_iteration(sample);
 }
 
-std::uint64_t bytes_of(const SolvedCase &solved) {
+std::uint64_t bytes_of(const SolvedCase& solved) {
   std::uint64_t bytes = solved.history.size() * sizeof(contact::Sample);
-  for (const contact::Trace &trace : solved.answer.traces) {
+  for (const contact::Trace& trace : solved.answer.traces) {
     bytes += trace.jump.size() * (4 * sizeof(double) + sizeof(std::int32_t));
   }
-  for (const contact::Field &field : solved.answer.fields) {
+  for (const contact::Field& field : solved.answer.fields) {
     bytes += field.u.size() * (sizeof(double) + sizeof(std::int32_t));
   }
   return bytes;
 }
 
-CaseOutcome solved_case(const Task &task, contact::Answer answer,
+CaseOutcome solved_case(const Task& task, contact::Answer answer,
                         std::vector<contact::Sample> history) {
   auto record = new_record(task, status_of(answer.status));
   record->answer = without_arrays(answer);
   std::unique_ptr<SolvedCase> solved;
   if (record->status != CaseStatus::cancelled) {
-    solved = std::make_unique<SolvedCase>(
-        SolvedCase{std::move(answer), std::move(history)});
+    solved = std::make_unique<SolvedCase>(SolvedCase{std::move(answer), std::move(history)});
   }
   return {std::move(record), std::move(solved)};
 }
 
-CaseOutcome failed_case(const Task &task, const std::exception_ptr &failure) {
+CaseOutcome failed_case(const Task& task, const std::exception_ptr& failure) {
   const Error error = error_of(failure);
   if (error.reason() == Reason::cancelled) {
     return cancelled_case(task);
@@ -139,20 +139,19 @@ CaseOutcome failed_case(const Task &task, const std::exception_ptr &failure) {
   return {std::move(record), nullptr};
 }
 
-CaseOutcome refused_case(const Task &task, std::uint64_t max_result_bytes) {
+CaseOutcome refused_case(const Task& task, std::uint64_t max_result_bytes) {
   auto record = new_record(task, CaseStatus::failed);
   record->error = placed(
-      Error(Reason::limit_exceeded,
-            "the results of the load cases before are over " +
-                std::to_string(max_result_bytes) +
-                " bytes, the limit of a job: split the job, or leave its "
-                "fields out"),
+      Error(Reason::limit_exceeded, "the results of the load cases before are over " +
+                                        std::to_string(max_result_bytes) +
+                                        " bytes, the limit of a job: split the job, or leave its "
+                                        "fields out"),
       task.index);
   return {std::move(record), nullptr};
 }
 
-CaseOutcome cancelled_case(const Task &task) {
+CaseOutcome cancelled_case(const Task& task) {
   return {new_record(task, CaseStatus::cancelled), nullptr};
 }
 
-} // namespace anticrack::jobs
+}  // namespace anticrack::jobs

@@ -17,29 +17,29 @@ namespace anticrack::jobs {
 
 struct CaseOutcome {
   std::shared_ptr<const store::CaseRecord> record;
-  std::unique_ptr<SolvedCase> solved; ///< converged and not_converged only
+  std::unique_ptr<SolvedCase> solved;  ///< converged and not_converged only
 };
 
-/// Keeps a load case's history, and stops it when its job is to stop. One
-/// object belongs to the thread that solves.
+/// Keeps a load case's history, and stops it when its job is to stop. One object belongs to the
+/// thread that solves.
 class History : public contact::Observer {
-public:
-  History(const Task &task, std::atomic<std::uint64_t> &iterations);
-  bool on_iteration(const contact::Sample &sample) override;
+ public:
+  History(const Task& task, std::atomic<std::uint64_t>& iterations);
+  bool on_iteration(const contact::Sample& sample) override;
   /// The load case has ended for its job: nothing more is kept of it.
   void give_up() noexcept { _given_up = true; }
   std::vector<contact::Sample> take_history() { return std::move(_samples); }
 
-  EventLog &log() const noexcept { return *_log; }
+  EventLog& log() const noexcept { return *_log; }
   std::int32_t load_case() const noexcept { return _load_case; }
   /// Appends what came since the last call.
-  void append_new(std::vector<SampleEvent> &to);
+  void append_new(std::vector<SampleEvent>& to);
 
-private:
+ private:
   const std::int32_t _load_case;
   const std::shared_ptr<EventLog> _log;
   const std::stop_token _stop;
-  std::atomic<std::uint64_t> &_iterations;
+  std::atomic<std::uint64_t>& _iterations;
   std::vector<contact::Sample> _samples;
   std::size_t _appended = 0;
   bool _given_up = false;
@@ -47,22 +47,22 @@ private:
 
 /// A history that tells its job's log of each sample as it comes.
 class Recorder final : public History {
-public:
+ public:
   using History::History;
-  bool on_iteration(const contact::Sample &sample) override;
+  bool on_iteration(const contact::Sample& sample) override;
 };
 
 /// Memory of an answer's arrays.
-std::uint64_t bytes_of(const SolvedCase &solved);
+std::uint64_t bytes_of(const SolvedCase& solved);
 
-CaseOutcome solved_case(const Task &task, contact::Answer answer,
+CaseOutcome solved_case(const Task& task, contact::Answer answer,
                         std::vector<contact::Sample> history);
-/// What is thrown while a load case is solved, as its end: nothing but a stop
-/// is lost. The error has its place in the job ("load_cases[i]...", or
-/// "solver.uzawa" where the method cannot solve on this mesh).
-CaseOutcome failed_case(const Task &task, const std::exception_ptr &failure);
+/// What is thrown while a load case is solved, as its end: nothing but a stop is lost. The error
+/// has its place in the job ("load_cases[i]...", or "solver.uzawa" where the method cannot solve on
+/// this mesh).
+CaseOutcome failed_case(const Task& task, const std::exception_ptr& failure);
 /// The end of a load case whose job's result is large enough already.
-CaseOutcome refused_case(const Task &task, std::uint64_t max_result_bytes);
-CaseOutcome cancelled_case(const Task &task);
+CaseOutcome refused_case(const Task& task, std::uint64_t max_result_bytes);
+CaseOutcome cancelled_case(const Task& task);
 
-} // namespace anticrack::jobs
+}  // namespace anticrack::jobs

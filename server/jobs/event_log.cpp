@@ -17,9 +17,8 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-/// A wake function that can be switched off. The recursive mutex makes
-/// switching off wait for a call on another thread, but not for the call it
-/// comes from.
+/// A wake function that can be switched off. The recursive mutex makes switching off wait for a
+/// call on another thread, but not for the call it comes from.
 struct Wake {
   explicit Wake(std::function<void()> function) : call(std::move(function)) {}
 
@@ -48,40 +47,39 @@ struct Kept {
   std::size_t bytes = 0;
 };
 
-template <class T> std::size_t bytes_of(const std::vector<T> &values) {
+template <class T>
+std::size_t bytes_of(const std::vector<T>& values) {
   return values.size() * sizeof(T);
 }
 
-std::size_t bytes_of(const store::CaseRecord &record) {
-  return sizeof(record) + record.answer.reason.size() +
-         bytes_of(record.answer.inclusions) +
+std::size_t bytes_of(const store::CaseRecord& record) {
+  return sizeof(record) + record.answer.reason.size() + bytes_of(record.answer.inclusions) +
          bytes_of(record.answer.contact_intervals);
 }
 
-std::size_t bytes_of(const contact::SweepColumns &rows) {
-  return sizeof(rows) + bytes_of(rows.status) + bytes_of(rows.steps) +
-         bytes_of(rows.energy) + bytes_of(rows.contact_length) +
-         bytes_of(rows.kkt) + bytes_of(rows.displacement) +
+std::size_t bytes_of(const contact::SweepColumns& rows) {
+  return sizeof(rows) + bytes_of(rows.status) + bytes_of(rows.steps) + bytes_of(rows.energy) +
+         bytes_of(rows.contact_length) + bytes_of(rows.kkt) + bytes_of(rows.displacement) +
          bytes_of(rows.contact);
 }
 
-std::size_t bytes_of(const Event &event) {
+std::size_t bytes_of(const Event& event) {
   std::size_t bytes = sizeof(Kept);
-  if (const auto *phase = std::get_if<PhaseEvent>(&event)) {
+  if (const auto* phase = std::get_if<PhaseEvent>(&event)) {
     bytes += phase->detail.size();
-  } else if (const auto *ended = std::get_if<CaseEvent>(&event)) {
+  } else if (const auto* ended = std::get_if<CaseEvent>(&event)) {
     bytes += bytes_of(*ended->record);
-  } else if (const auto *rows = std::get_if<RowsEvent>(&event)) {
+  } else if (const auto* rows = std::get_if<RowsEvent>(&event)) {
     bytes += bytes_of(*rows->rows);
   }
   return bytes;
 }
 
-Batch as_batch(const Event &event) {
+Batch as_batch(const Event& event) {
   return std::visit(
-      []<class Kind>(const Kind &kind) -> Batch {
+      []<class Kind>(const Kind& kind) -> Batch {
         if constexpr (std::is_same_v<Kind, SampleEvent>) {
-          return {}; // samples are kept apart
+          return {};  // samples are kept apart
         } else {
           return kind;
         }
@@ -89,21 +87,18 @@ Batch as_batch(const Event &event) {
       event);
 }
 
-Error trimmed(std::uint64_t after, std::uint64_t earliest,
-              std::uint64_t latest) {
-  const std::string range = "the log holds " + std::to_string(earliest) +
-                            " to " + std::to_string(latest);
-  Error error(
-      Reason::sequence_trimmed,
-      after > latest
-          ? "there is no event " + std::to_string(after) + " yet: " + range
-          : "event " + std::to_string(after + 1) + " is no longer kept: " +
-                range + "; continue after " + std::to_string(earliest - 1));
+Error trimmed(std::uint64_t after, std::uint64_t earliest, std::uint64_t latest) {
+  const std::string range =
+      "the log holds " + std::to_string(earliest) + " to " + std::to_string(latest);
+  Error error(Reason::sequence_trimmed,
+              after > latest ? "there is no event " + std::to_string(after) + " yet: " + range
+                             : "event " + std::to_string(after + 1) + " is no longer kept: " +
+                                   range + "; continue after " + std::to_string(earliest - 1));
   return error.with("earliest_sequence", std::to_string(earliest))
       .with("latest_sequence", std::to_string(latest));
 }
 
-} // namespace
+}  // namespace
 
 struct EventLog::State {
   State(std::size_t limit, std::uint64_t base)
@@ -123,9 +118,10 @@ struct EventLog::State {
 
   std::size_t bytes() const { return samples.bytes() + other_bytes; }
 
-  /// Calls `add(*this)` unless the log is complete, then lets the oldest go and
-  /// wakes the listeners.
-  template <class Add> void append(const Add &add) {
+  /// Calls `add(*this)` unless the log is complete, then lets the oldest go and wakes the
+  /// listeners.
+  template <class Add>
+  void append(const Add& add) {
     std::shared_ptr<const Wakes> to_wake;
     {
       const std::lock_guard lock(mutex);
@@ -136,13 +132,12 @@ struct EventLog::State {
       trim();
       to_wake = wakes;
     }
-    for (const std::shared_ptr<Wake> &wake : *to_wake) {
+    for (const std::shared_ptr<Wake>& wake : *to_wake) {
       (*wake)();
     }
   }
 
-  /// The newest event stays whatever its size: the end event is always the
-  /// newest.
+  /// The newest event stays whatever its size: the end event is always the newest.
   void trim() {
     while (bytes() > byte_limit && earliest < latest) {
       if (!others.empty() && others.front().numbered.sequence == earliest) {
@@ -152,10 +147,8 @@ struct EventLog::State {
       } else {
         const std::uint64_t too_many =
             (bytes() - byte_limit - 1) / SamplePage::bytes_per_sample + 1;
-        const std::uint64_t next =
-            others.empty() ? latest : others.front().numbered.sequence;
-        const std::uint64_t count =
-            std::min({too_many, next - earliest, latest - earliest});
+        const std::uint64_t next = others.empty() ? latest : others.front().numbered.sequence;
+        const std::uint64_t count = std::min({too_many, next - earliest, latest - earliest});
         samples.pop_front(count);
         earliest += count;
       }
@@ -169,30 +162,26 @@ struct EventLog::State {
   }
 
   NumberedBatch batch(std::uint64_t after, std::size_t count) const {
-    const auto other =
-        std::lower_bound(others.begin(), others.end(), after + 1,
-                         [](const Kept &kept, std::uint64_t sequence) {
-                           return kept.numbered.sequence < sequence;
-                         });
-    const std::uint64_t next =
-        other == others.end() ? latest + 1 : other->numbered.sequence;
+    const auto other = std::lower_bound(
+        others.begin(), others.end(), after + 1,
+        [](const Kept& kept, std::uint64_t sequence) { return kept.numbered.sequence < sequence; });
+    const std::uint64_t next = other == others.end() ? latest + 1 : other->numbered.sequence;
     if (count > 0 && next == after + 1 && next <= latest) {
       return {next, as_batch(other->numbered.event)};
     }
     const std::size_t size = std::min<std::uint64_t>(count, next - 1 - after);
-    // Between the earliest event and this one lie as many samples as there are
-    // numbers not taken.
+    // Between the earliest event and this one lie as many samples as there are numbers not taken.
     const auto before = static_cast<std::size_t>(other - others.begin());
     return {after + size, samples.runs(after + 1 - earliest - before, size)};
   }
 };
 
 class EventLog::Listener {
-public:
+ public:
   Listener(std::weak_ptr<State> log, std::shared_ptr<Wake> wake)
       : _log(std::move(log)), _wake(std::move(wake)) {}
-  Listener(const Listener &) = delete;
-  Listener &operator=(const Listener &) = delete;
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
 
   ~Listener() {
     if (const std::shared_ptr<State> log = _log.lock()) {
@@ -204,7 +193,7 @@ public:
     _wake->close();
   }
 
-private:
+ private:
   std::weak_ptr<State> _log;
   std::shared_ptr<Wake> _wake;
 };
@@ -215,12 +204,12 @@ EventLog::EventLog(std::size_t byte_limit, std::uint64_t base)
 EventLog::~EventLog() = default;
 
 void EventLog::append(Event event) {
-  if (const auto *sample = std::get_if<SampleEvent>(&event)) {
+  if (const auto* sample = std::get_if<SampleEvent>(&event)) {
     append({sample, 1});
     return;
   }
   const std::size_t bytes = bytes_of(event);
-  _state->append([&](State &log) {
+  _state->append([&](State& log) {
     log.ended = std::holds_alternative<EndEvent>(event);
     log.others.push_back({{log.latest + 1, std::move(event)}, bytes});
     log.other_bytes += bytes;
@@ -232,7 +221,7 @@ void EventLog::append(std::span<const SampleEvent> samples) {
   if (samples.empty()) {
     return;
   }
-  _state->append([&](State &log) {
+  _state->append([&](State& log) {
     log.samples.push_back(samples);
     log.latest += samples.size();
   });
@@ -264,20 +253,18 @@ NumberedBatch EventLog::batch(std::uint64_t after, std::size_t count) const {
   return _state->batch(after, count);
 }
 
-std::vector<NumberedEvent> EventLog::read(std::uint64_t after,
-                                          std::size_t count) const {
+std::vector<NumberedEvent> EventLog::read(std::uint64_t after, std::size_t count) const {
   std::vector<NumberedEvent> events;
   const std::lock_guard lock(_state->mutex);
   _state->require_kept(after);
-  const std::size_t size =
-      std::min<std::uint64_t>(count, _state->latest - after);
+  const std::size_t size = std::min<std::uint64_t>(count, _state->latest - after);
   events.reserve(size);
   while (events.size() < size) {
     const NumberedBatch next = _state->batch(after, size - events.size());
     std::visit(
-        [&]<class Kind>(const Kind &kind) {
+        [&]<class Kind>(const Kind& kind) {
           if constexpr (std::is_same_v<Kind, std::vector<SampleRun>>) {
-            for (const SampleRun &run : kind) {
+            for (const SampleRun& run : kind) {
               for (std::size_t i = 0; i < run.count; ++i) {
                 events.push_back({++after, run[i]});
               }
@@ -291,8 +278,7 @@ std::vector<NumberedEvent> EventLog::read(std::uint64_t after,
   return events;
 }
 
-std::shared_ptr<EventLog::Listener>
-EventLog::listen(std::function<void()> wake) {
+std::shared_ptr<EventLog::Listener> EventLog::listen(std::function<void()> wake) {
   auto entry = std::make_shared<Wake>(std::move(wake));
   auto listener = std::make_shared<Listener>(_state, entry);
   const std::lock_guard lock(_state->mutex);
@@ -302,4 +288,4 @@ EventLog::listen(std::function<void()> wake) {
   return listener;
 }
 
-} // namespace anticrack::jobs
+}  // namespace anticrack::jobs

@@ -72,8 +72,8 @@ class EventLog {
 
   std::uint64_t earliest() const;  ///< sequence of the oldest event kept; latest()+1 when none is
   std::uint64_t latest() const;    ///< the base before the first
-  /// Held now, at most about the limit. What an event shares with others (a record, the rows of a
-  /// sweep) counts in full, because the log may be the last to hold it.
+  /// Held now, at most about the limit. What an event shares with others (a case's record,
+  /// the rows of a sweep) counts in full, because the log may be the last to hold it.
   std::size_t bytes() const;
   bool complete() const;  ///< the end event is in it: latest() stays what it is
 
@@ -82,7 +82,8 @@ class EventLog {
   /// Throws errors::Error (sequence_trimmed, metadata earliest_sequence and latest_sequence) when
   /// event after+1 is no longer kept, or `after` is larger than latest().
   NumberedBatch batch(std::uint64_t after, std::size_t count) const;
-  /// The same events one by one, with up to `count` of what follows. Empty when there is none yet.
+  /// Up to `count` events after `after` one by one, in order. Empty when there is none yet. Throws
+  /// like batch().
   std::vector<NumberedEvent> read(std::uint64_t after, std::size_t count) const;
 
   /// `wake` is called, on the writer's thread and with no lock of the log held, after each append

@@ -91,10 +91,9 @@ jobs::NumberedBatch WatchFeed::read() {
     const std::uint64_t target = _group->target();
     const std::uint64_t ahead = target > cursor ? target - cursor : 0;
     try {
-      return log.batch(cursor, std::min<std::uint64_t>(ahead, _group->samples_a_message()));
+      return log.batch(cursor, std::min<std::uint64_t>(ahead, max_batch));
     } catch (const errors::Error&) {
-      // The log was trimmed between the lines above; who asked for no place
-      // misses nothing.
+      // The log was trimmed between the lines above; who asked for no place misses nothing.
       if (!_from_earliest || log.earliest() - 1 == cursor) throw;
     }
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -20,16 +21,19 @@
 
 namespace anticrack::rpc {
 
-/// A cursor, no queue: what the watcher has not taken stays in the job's log,
-/// is sent in rounds with the other watches of the job, and a watcher that
-/// falls behind its trimming ends with OUT_OF_RANGE instead of a silent gap.
-/// Messages: the snapshot; then events in order, consecutive samples packed as
-/// columns; last the end.
+/// A cursor, no queue: what the watcher has not taken stays in the job's log, is sent in rounds
+/// with the other watches of the job, and a watcher that falls behind its trimming ends with
+/// OUT_OF_RANGE instead of a silent gap. Messages: the snapshot; then events in order, consecutive
+/// samples packed as columns; last the end.
 class WatchFeed final : public Feed<v1::WatchJobResponse> {
  public:
+  /// Samples a message: some 55 kB. Larger ones were not faster (memory of that size goes back to
+  /// the system and comes again with each), and every peer that does not read holds one.
+  static constexpr std::size_t max_batch = 1024;
+
   /// `id` of the job; `after` as WatchJobRequest.after_sequence.
-  /// Throws errors::Error: not_found, sequence_trimmed (trimmed already, or in
-  /// the future). To be made and used where the store may be waited for.
+  /// Throws errors::Error: not_found, sequence_trimmed (trimmed already, or in the future).
+  /// To be made and used where the store may be waited for.
   WatchFeed(const Backend& backend, WatchGroups& groups, std::string id, std::uint64_t after);
   ~WatchFeed() override;
 
@@ -62,8 +66,7 @@ class WatchFeed final : public Feed<v1::WatchJobResponse> {
   std::string _detail;
 };
 
-/// Names of the interfaces of a mesh; empty where it is not known (any more) or
-/// not meshed.
+/// Names of the interfaces of a mesh; empty where it is not known (any more) or not meshed.
 InterfaceNames interface_names(const meshes::MeshCatalogue& catalogue, const std::string& mesh_id);
 
 }  // namespace anticrack::rpc

@@ -26,7 +26,6 @@ void WatchGroup::leave(Wakes::iterator member) {
 
 void WatchGroup::wake() noexcept {
   _last_round = SteadyClock::now();
-  _samples_a_message = rpc::samples_a_message(_hub.counts().watchers);
   _target = _log->latest();
   const std::lock_guard lock(_mutex);
   for (const auto& member : _wakes) member();

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// All watches of one job, behind one listener: a job's thread pays for an event
-// one flag, however many watch.
+// All watches of one job, behind one listener: a job's thread pays for an event one flag, however
+// many watch.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <list>
@@ -19,20 +17,9 @@
 
 namespace anticrack::rpc {
 
-/// Some 220 kB: few writes for a fast job. Where many watch, fewer: a peer that
-/// does not read holds a message's memory, and all of them together shall hold
-/// no more than 64 large ones, or what the smallest take.
-constexpr std::size_t max_samples_a_message = 4096;
-constexpr std::size_t samples_a_message(int watches) noexcept {
-  constexpr std::size_t together = 64 * max_samples_a_message;
-  constexpr std::size_t least = 512;
-  return std::clamp(together / static_cast<std::size_t>(std::max(watches, 1)), least,
-                    max_samples_a_message);
-}
-
-/// Works in rounds on the hub's thread, `pace` apart: a round looks how far the
-/// log is and wakes the members, who send no more than that. So a fast job's
-/// samples travel many a message. Thread-safe.
+/// Works in rounds on the hub's thread, `pace` apart: a round looks how far the log is and wakes
+/// the members, who send no more than that. So a fast job's samples travel many a message.
+/// Thread-safe.
 class WatchGroup final : public Wakeable {
  public:
   static constexpr std::chrono::milliseconds pace{10};
@@ -43,15 +30,12 @@ class WatchGroup final : public Wakeable {
   /// Listens; to be called once, before anybody joins.
   static void start(const std::shared_ptr<WatchGroup>& group);
 
-  /// `wake` is called at each round until leave(); it must be quick, and not
-  /// join or leave.
+  /// `wake` is called at each round until leave(); it must be quick, and not join or leave.
   Wakes::iterator join(std::function<void()> wake);
   void leave(Wakes::iterator member);
 
   /// Events up to here may be sent.
   std::uint64_t target() const noexcept { return _target; }
-  /// And so many in a message.
-  std::size_t samples_a_message() const noexcept { return _samples_a_message; }
   const jobs::EventLog& log() const noexcept { return *_log; }
 
   void wake() noexcept override;
@@ -61,7 +45,6 @@ class WatchGroup final : public Wakeable {
   StreamHub& _hub;
   const std::shared_ptr<jobs::EventLog> _log;
   std::atomic<std::uint64_t> _target;
-  std::atomic<std::size_t> _samples_a_message{max_samples_a_message};
   SteadyClock::time_point _last_round{};  ///< the hub's thread only
   std::mutex _mutex;                      ///< lock order: group before hub
   Wakes _wakes;

@@ -41,7 +41,7 @@ TEST(WatchFeed, IsEndingFromTheEndOfTheJobOnWhateverWasRead) {
   const rpc::Backend backend = server.backend();
   WatchFeed feed(backend, groups, id, 0);
   feed.start([] {});
-  ASSERT_TRUE(eventually([&] { return feed.lag() > 2 * max_samples_a_message; }));
+  ASSERT_TRUE(eventually([&] { return feed.lag() > 2 * WatchFeed::max_batch; }));
   EXPECT_FALSE(feed.ending());
   EXPECT_TRUE(server.cancel(job.name()).ok());
   EXPECT_TRUE(eventually([&] { return feed.ending(); }));

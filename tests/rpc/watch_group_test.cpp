@@ -20,15 +20,6 @@ struct WatchGroupTest : ::testing::Test {
   std::shared_ptr<jobs::EventLog> log = std::make_shared<jobs::EventLog>(std::size_t{1} << 20);
 };
 
-TEST(SamplesAMessage, AreFewerWhereManyWatch) {
-  EXPECT_EQ(samples_a_message(0), max_samples_a_message);
-  EXPECT_EQ(samples_a_message(1), max_samples_a_message);
-  EXPECT_EQ(samples_a_message(64), max_samples_a_message);
-  EXPECT_LT(samples_a_message(65), max_samples_a_message);
-  EXPECT_EQ(samples_a_message(2'000), 512u);
-  EXPECT_EQ(samples_a_message(100'000), 512u);
-}
-
 TEST_F(WatchGroupTest, IsOneForAJobAndGoesWithItsLastWatch) {
   auto first = groups.of(log);
   EXPECT_EQ(groups.of(log), first);

@@ -4,7 +4,7 @@
 #include "rpc/details.hpp"
 #include "rpc/requests.hpp"
 #include "rpc/running_server.hpp"
-#include "rpc/watch_group.hpp"
+#include "rpc/watch_feed.hpp"
 #include "support/eventually.hpp"
 
 namespace anticrack::rpc {
@@ -36,7 +36,7 @@ std::vector<int> iterations(const Events& events) {
     EXPECT_EQ(samples.criterion_size(), samples.iteration_size());
     EXPECT_EQ(samples.load_case_size(), samples.iteration_size());
     EXPECT_EQ(samples.kkt_equilibrium_size(), samples.iteration_size());
-    EXPECT_LE(samples.iteration_size(), static_cast<int>(max_samples_a_message));
+    EXPECT_LE(samples.iteration_size(), static_cast<int>(WatchFeed::max_batch));
     result.insert(result.end(), samples.iteration().begin(), samples.iteration().end());
   }
   return result;
