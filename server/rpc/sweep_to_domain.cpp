@@ -12,22 +12,6 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-/// The load cases are the basis of coefficients, and nothing besides.
-void require_basis(const v1::Job& job) {
-  if (job.sweep().has_coefficients() && job.load_cases().empty()) {
-    throw Error(Reason::invalid_argument,
-                "the sweep combines the job's load cases, of which there are none: give at least "
-                "one")
-        .at("job.load_cases");
-  }
-  if (job.sweep().has_nodal_forces() && !job.load_cases().empty()) {
-    throw Error(Reason::invalid_argument,
-                "a sweep over nodal_forces has no load cases besides; leave them out, or give "
-                "coefficients to combine them")
-        .at("job.load_cases");
-  }
-}
-
 std::string packed_sha256(const std::string& packed, const std::string& field) {
   if (packed.size() > max_packed_bytes) {
     throw Error(Reason::limit_exceeded,
@@ -81,7 +65,6 @@ store::SweepSpec to_sweep(const v1::Job& job, const JobLimits& limits) {
                 "the sweep has no cases; set coefficients or nodal_forces")
         .at(field);
   }
-  require_basis(job);
   if (sweep.traces_size() > limits.load_cases) {
     throw Error(Reason::limit_exceeded, "traces of " + std::to_string(sweep.traces_size()) +
                                             " rows: at most " + std::to_string(limits.load_cases) +

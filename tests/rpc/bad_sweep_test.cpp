@@ -69,9 +69,9 @@ const std::vector<BadSweep>& bad_sweeps() {
          job.mutable_sweep()->add_traces(1);
          job.mutable_sweep()->add_traces(0);
        },
-       "INVALID_ARGUMENT", "job.sweep.traces"},
+       "INVALID_ARGUMENT", "job.sweep.traces[1]"},
       {"TracesOfARowThatIsNotThere", [](auto& job) { job.mutable_sweep()->add_traces(2); },
-       "INVALID_ARGUMENT", "job.sweep.traces", grpc::StatusCode::INVALID_ARGUMENT, true},
+       "INVALID_ARGUMENT", "job.sweep.traces[0]", grpc::StatusCode::INVALID_ARGUMENT, true},
       {"PartOfARow",
        [](auto& job) {
          coefficients(job).set_packed(packed({1, 2, 3, 4}));
@@ -105,6 +105,7 @@ TEST(BadSweep, IsRefusedAndTheServerServesOn) {
   EXPECT_EQ(good.state(), v1::Job::STATE_SUCCEEDED);
 }
 
+/// What only the mesh can tell fails the job.
 TEST(BadSweep, OverNodesHasAValueForEach) {
   RunningServer server;
   const v1::Mesh mesh = server.settle(server.create(paper_mesh()).name());
@@ -112,8 +113,12 @@ TEST(BadSweep, OverNodesHasAValueForEach) {
   request.mutable_job()->clear_load_cases();
   request.mutable_job()->mutable_sweep()->mutable_nodal_forces()->set_packed(
       packed(std::vector<double>(mesh.node_count() + 1, 1.0)));
-  expect_error(server.try_create(request), grpc::StatusCode::INVALID_ARGUMENT, "INVALID_ARGUMENT",
-               "job.sweep.nodal_forces");
+  const v1::Job job = server.finish(server.create(request).name());
+  EXPECT_EQ(job.state(), v1::Job::STATE_FAILED);
+  const grpc::Status status(static_cast<grpc::StatusCode>(job.error().code()),
+                            job.error().message(), job.error().SerializeAsString());
+  expect_error(status, grpc::StatusCode::INVALID_ARGUMENT, "INVALID_ARGUMENT",
+               "sweep.nodal_forces");
 }
 
 TEST(BadSweep, OfAnothersUploadIsAsIfItDidNotExist) {

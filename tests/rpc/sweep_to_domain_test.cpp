@@ -116,11 +116,6 @@ TEST(SweepToDomain, RefusesWhatItsTypesCannotExpress) {
        Reason::invalid_argument, "job.sweep.coefficients.upload"},
       {"AnotherCollection", [](auto& job) { nodal_forces(job).set_upload("meshes/" + sha256); },
        Reason::invalid_argument, "job.sweep.nodal_forces.upload"},
-      {"NoBasis", [](auto& job) { job.clear_load_cases(); }, Reason::invalid_argument,
-       "job.load_cases"},
-      {"NodalWithABasis",
-       [](auto& job) { job.mutable_sweep()->mutable_nodal_forces()->set_packed(packed({1})); },
-       Reason::invalid_argument, "job.load_cases"},
       {"TooManyTraces",
        [](auto& job) {
          for (std::uint32_t row = 0; row < 11; ++row) job.mutable_sweep()->add_traces(row);
