@@ -210,8 +210,8 @@ void EventLog::append(Event event) {
   }
   const std::size_t bytes = bytes_of(event);
   _state->append([&](State& log) {
-    log.ended = std::holds_alternative<EndEvent>(event);
     log.others.push_back({{log.latest + 1, std::move(event)}, bytes});
+    log.ended = std::holds_alternative<EndEvent>(log.others.back().numbered.event);
     log.other_bytes += bytes;
     ++log.latest;
   });

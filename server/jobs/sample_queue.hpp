@@ -21,15 +21,16 @@ class SampleQueue {
   std::size_t size() const noexcept { return _size; }
   std::size_t bytes() const noexcept { return _size * SamplePage::bytes_per_sample; }
 
+  /// All of them, or none where there is no memory (std::bad_alloc).
   void push_back(std::span<const SampleEvent> events) {
+    while (_begin + _size + events.size() > _pages.size() * SamplePage::capacity) {
+      _pages.push_back(std::make_shared_for_overwrite<SamplePage>());
+    }
     while (!events.empty()) {
       const std::size_t position = _begin + _size;
-      if (position == _pages.size() * SamplePage::capacity) {
-        _pages.push_back(std::make_shared_for_overwrite<SamplePage>());
-      }
       const std::size_t place = position % SamplePage::capacity;
       const std::size_t count = std::min(events.size(), SamplePage::capacity - place);
-      write(events.first(count), *_pages.back(), place);
+      write(events.first(count), *_pages[position / SamplePage::capacity], place);
       _size += count;
       events = events.subspan(count);
     }

@@ -15,7 +15,7 @@ namespace anticrack::rpc {
 /// answered often, and a matrix of a megabyte would travel each time.
 v1::Sweep from_domain(const store::SweepSpec& sweep);
 
-/// How it ended; `rows` are known before that, so that progress can be told.
+/// How it ended. Rows are counted before that, so that progress can be told.
 v1::SweepAnswer from_domain(const store::SweepSpec& sweep, const store::SweepRecord& record);
 
 v1::LoadCaseAnswer::Status from_domain(contact::Status status) noexcept;
