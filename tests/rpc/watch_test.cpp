@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "rpc/details.hpp"
 #include "rpc/requests.hpp"
 #include "rpc/running_server.hpp"
@@ -19,6 +21,7 @@ using anticrack::testing::expect_error;
 using anticrack::testing::opening_job;
 using anticrack::testing::paper_mesh;
 using anticrack::testing::RunningServer;
+using anticrack::testing::sweep_job;
 using Events = std::vector<v1::WatchJobResponse>;
 
 v1::WatchJobRequest request_for(const std::string& job, std::uint64_t after = 0) {
@@ -81,6 +84,47 @@ TEST(Watch, ResumesExactlyWhereItIsTold) {
     EXPECT_EQ(before.size() + tail.size(), every.size());
     EXPECT_EQ(tail, std::vector<int>(every.end() - static_cast<long>(tail.size()), every.end()));
   }
+}
+
+/// Every row of a sweep in the events, in the order told.
+std::vector<std::uint64_t> rows(const Events& events) {
+  std::vector<std::uint64_t> result;
+  for (const auto& event : events) {
+    const v1::SweepRows& some = event.sweep_rows();
+    EXPECT_EQ(some.energy_size(), some.status_size());
+    EXPECT_EQ(some.displacement_size(), some.status_size());
+    for (int i = 0; i < some.status_size(); ++i) {
+      result.push_back(some.first_row() + static_cast<std::uint64_t>(i));
+    }
+  }
+  return result;
+}
+
+TEST(Watch, ResumesBetweenTheRowsOfASweep) {
+  constexpr std::size_t count = 600;
+  std::vector<double> coefficients;
+  for (std::size_t row = 0; row < count; ++row) {
+    coefficients.insert(coefficients.end(), {1.0, 0.01 * static_cast<double>(row), 0.5});
+  }
+  RunningServer server;
+  const std::string job =
+      server.create(sweep_job(server.create(paper_mesh()).name(), coefficients)).name();
+  Events all;
+  ASSERT_TRUE(server.watch(job, 0, all).ok());
+  std::vector<std::uint64_t> every = rows(all);
+  const auto pieces = std::count_if(all.begin(), all.end(),
+                                    [](const auto& event) { return event.has_sweep_rows(); });
+  EXPECT_GT(pieces, 1);
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    Events rest;
+    ASSERT_TRUE(server.watch(job, all[i].sequence(), rest).ok());
+    std::vector<std::uint64_t> told = rows({all.begin(), all.begin() + static_cast<long>(i) + 1});
+    for (const std::uint64_t row : rows(rest)) told.push_back(row);
+    EXPECT_EQ(told, every);
+  }
+  std::sort(every.begin(), every.end());
+  ASSERT_EQ(every.size(), count);
+  for (std::size_t row = 0; row < count; ++row) EXPECT_EQ(every[row], row);
 }
 
 TEST(Watch, TakesUpAgainInMidIteration) {
