@@ -27,7 +27,11 @@ std::string rows_of(const SweepProgress& sweep) {
 std::string pace_of(const SweepProgress& sweep) {
   std::string text;
   if (std::isfinite(sweep.rate())) {
-    text += "  " + number(sweep.rate(), 3) + " rows/s";
+    constexpr double whole_from = 10;
+    text += "  " +
+            (sweep.rate() < whole_from ? number(sweep.rate(), 2)
+                                       : std::to_string(std::llround(sweep.rate()))) +
+            " rows/s";
   }
   if (std::isfinite(sweep.seconds_left()) && sweep.done() < sweep.total) {
     text += "  " + time_text(sweep.seconds_left()) + " left";
