@@ -67,7 +67,7 @@ std::string sweep_answer(const v1::Job& job) {
   const v1::SweepAnswer& answer = job.sweep_answer();
   std::string text = "sweep of " + std::to_string(answer.rows()) +
                      " rows: " + std::to_string(answer.converged()) + " converged, " +
-                     std::to_string(answer.not_converged()) + " did not, " +
+                     std::to_string(answer.not_converged()) + " did not converge, " +
                      std::to_string(answer.failed()) + " failed\n";
   if (answer.converged() > 0) {
     text += "at most " + std::to_string(answer.most_steps()) + " steps, KKT residuals at most " +

@@ -69,18 +69,39 @@ void add_matrix(Session& session, const SweepInput& input, v1::Job& job) {
   matrix.set_packed(first, input.bytes());
 }
 
-void save_csv(const std::string& csv, const results::Sweep& sweep, const Globals& globals) {
+void save_csv(const fs::path& csv, const results::Sweep& sweep, const Globals& globals) {
   if (csv.empty()) {
     return;
   }
   const std::string text = sweep_csv(sweep);
   results::replace_file(csv, std::as_bytes(std::span(text)));
-  say(globals, "Rows: " + csv);
+  say(globals, "Rows: " + csv.string());
 }
 
-int follow_sweep(Session& session, const SweepOptions& options, const casefile::Case& the_case,
-                 SweepInput input, const fs::path& output) {
-  const auto begin = std::chrono::steady_clock::now();
+/// Where the answers go; empty: not there.
+struct Targets {
+  fs::path result;
+  fs::path csv;
+};
+
+Targets check_targets(const SweepOptions& options) {
+  Targets targets;
+  if (!options.detach) {
+    targets.result = result_file(options.case_file, options.output);
+  }
+  if (!options.csv.empty()) {
+    targets.csv = options.csv;
+    results::check_writable(targets.csv);
+    if (fs::absolute(targets.csv) == fs::absolute(targets.result)) {
+      throw casefile::Error({"", "--csv " + options.csv, 0},
+                            "this is the result file too; name another one");
+    }
+  }
+  return targets;
+}
+
+int follow_sweep(Session& session, const Targets& targets, const casefile::Case& the_case,
+                 SweepInput input, std::chrono::steady_clock::time_point begin) {
   const Globals& globals = session.globals();
   const Followed followed =
       submit_and_follow(session, the_case, [&](v1::Job& job) { add_matrix(session, input, job); });
@@ -96,20 +117,17 @@ int follow_sweep(Session& session, const SweepOptions& options, const casefile::
   if (!input.nodal) {
     result->sweep->coefficients = std::move(input.values);
   }
-  save(output, *result, session);
-  save_csv(options.csv, *result->sweep, globals);
-  print_answers(globals, *result, output);
+  save(targets.result, *result, session);
+  save_csv(targets.csv, *result->sweep, globals);
+  print_answers(globals, *result, targets.result);
   return job_code != exit_ok ? job_code : exit_code_of(*result);
 }
 
 int sweep(const SweepOptions& options, const Globals& globals) {
+  const auto begin = std::chrono::steady_clock::now();
   casefile::Case the_case = read_case(options, globals);
   SweepInput input = read_sweep_input(options.files, the_case);
-  const fs::path output =
-      options.detach ? fs::path() : result_file(options.case_file, options.output);
-  if (!options.csv.empty()) {
-    results::check_writable(options.csv);
-  }
+  const Targets targets = check_targets(options);
   Session session(globals);
   make_sweep(input, client::server_info(session.connection(), session.stop()).limits(), the_case);
   check_mesh(session, the_case, input);
@@ -121,7 +139,7 @@ int sweep(const SweepOptions& options, const Globals& globals) {
   if (!the_case.job.title().empty()) {
     say(globals, the_case.job.title());
   }
-  return follow_sweep(session, options, the_case, std::move(input), output);
+  return follow_sweep(session, targets, the_case, std::move(input), begin);
 }
 
 void add_options(CLI::App& command, SweepOptions& options) {
