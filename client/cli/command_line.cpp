@@ -38,7 +38,9 @@ std::string unknown_command(CLI::App& app, int argc, char** argv) {
     }
     std::vector<std::string> commands;
     for (const CLI::App* command : level->get_subcommands({})) {
-      commands.push_back(command->get_name());
+      if (!command->get_name().empty()) {  // else it is a group of options
+        commands.push_back(command->get_name());
+      }
     }
     if (commands.empty()) {
       break;

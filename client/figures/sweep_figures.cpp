@@ -80,12 +80,14 @@ std::string extent(const SweepAxis& axis) {
 }
 
 std::string panel(const SweepAxis& axis, const std::string& head, const std::string& label,
-                  const std::string& plots, const Place& place) {
+                  const std::string& plots, bool several, const Place& place) {
   std::string text = margins(place, 0.12, 0.96, 0.2, 0.9) + axes() + caption(head, place);
-  text += extent(axis) + "set offsets 0, 0, graph 0.08, graph 0.08\nset autoscale y\n";
+  text += extent(axis) + "set offsets 0, 0, graph " + (several ? "0.3" : "0.08") +
+          ", graph 0.08\nset autoscale y\n";
   text += below(figures::quoted(axis.label), 0.045, place);
   text += "set ylabel " + figures::quoted(label) + " noenhanced\n";
-  text += "set key top right Left reverse noenhanced samplen 2.5\n";
+  // Above the curves, where the offset leaves room for it.
+  text += "set key top center horizontal maxrows 2 Left reverse noenhanced samplen 2.5\n";
   return text + "plot " + plots + "\nunset label\nset offsets\nset autoscale x\n";
 }
 
@@ -109,12 +111,12 @@ std::string sweep_script(const Result& result, const SweepAxis& axis,
       data, title_of(result),
       [&](Format) {
         const std::string contact = panel(axis, "length in contact", "contact length [-]", lengths,
-                                          inclusions == 0 ? Place{0, 0, 1, 0.93} : lower);
+                                          false, inclusions == 0 ? Place{0, 0, 1, 0.93} : lower);
         if (inclusions == 0) return contact;
         return panel(axis,
                      "displacement A of the inclusion" + std::string(inclusions > 1 ? "s" : "") +
                          ",  " + counted_rows(sweep),
-                     "A [-]", displacements, upper) +
+                     "A [-]", displacements, inclusions > 1, upper) +
                contact;
       },
       single, outputs);
@@ -155,12 +157,12 @@ std::string contact_script(const Result& result, const SweepAxis& axis, const Co
                 number(place.y + 0.01 * place.height) +
                 " center bottom vertical maxrows 1 Left reverse noenhanced samplen 2.5\n";
         text +=
-            "plot $contact using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid 1 noborder "
-            "linecolor palette notitle";
+            "plot $contact using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid 1 border "
+            "linewidth 0.3 linecolor palette notitle";  // the border hides the seams of Cairo
         text += std::string(", keyentry with boxes fillstyle solid 1 noborder linecolor ") +
                 open_shade + " title 'open'";
         text += ", keyentry with boxes fillstyle solid 1 noborder linecolor " + blue +
-                (map.shades ? " title 'closed (paler: in some of the rows)'" : " title 'closed'");
+                (map.shades ? " title 'closed (pale: in some rows)'" : " title 'closed'");
         return text + "\nunset label\n";
       },
       single, outputs);

@@ -90,7 +90,7 @@ TEST(ContactMap, CoversTheCrackOncePerRow) {
 
 TEST(ContactMap, OfManyRowsHasShades) {
   const results::Result result = sample_sweep(1000);
-  const ContactMap map = contact_map(result, sweep_axis(*result.sweep), 0, 20);
+  const ContactMap map = contact_map(result, sweep_axis(*result.sweep), 0, 7);
   EXPECT_TRUE(map.shades);
   std::set<double> heights;
   bool between = false;
@@ -98,7 +98,7 @@ TEST(ContactMap, OfManyRowsHasShades) {
     heights.insert(box.low);
     between = between || (box.closed > 0 && box.closed < 1);
   }
-  EXPECT_EQ(heights.size(), 20U);
+  EXPECT_EQ(heights.size(), 7U);
   EXPECT_TRUE(between);
 }
 
