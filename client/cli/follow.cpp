@@ -18,7 +18,10 @@ namespace {
 /// The progress of a job on a terminal or in a log.
 class View {
  public:
-  explicit View(Session& session) : _session(session) {
+  View(Session& session, std::uint64_t rows) : _session(session) {
+    if (rows > 0) {
+      _progress.sweep.emplace().total = rows;
+    }
     std::FILE* stream = people(session.globals());
     if (is_terminal(stream) && !session.globals().quiet) {
       _painter = std::make_unique<Painter>(stream, [this](Size size) {
@@ -60,8 +63,9 @@ class View {
   std::unique_ptr<Painter> _painter;  // last: its thread uses the others
 };
 
-v1::Job watch(Session& session, const std::string& name, const std::stop_token& stop) {
-  View view(session);
+v1::Job watch(Session& session, const std::string& name, std::uint64_t rows,
+              const std::stop_token& stop) {
+  View view(session, rows);
   return client::watch_job(
       session.connection(), name, 0,
       [&view](const v1::WatchJobResponse& event) {
@@ -74,10 +78,10 @@ v1::Job watch(Session& session, const std::string& name, const std::stop_token& 
 
 }  // namespace
 
-Followed follow(Session& session, const v1::Job& job) {
+Followed follow(Session& session, const v1::Job& job, std::uint64_t rows) {
   const Globals& globals = session.globals();
   try {
-    return {Followed::How::ended, watch(session, job.name(), session.signals().first())};
+    return {Followed::How::ended, watch(session, job.name(), rows, session.signals().first())};
   } catch (const client::Interrupted&) {
     // Detached; what that means is decided below.
   }
@@ -92,7 +96,7 @@ Followed follow(Session& session, const v1::Job& job) {
   }
   say(globals, "Cancelling " + job.name());
   client::cancel_job(session.connection(), job.name());
-  v1::Job last = watch(session, job.name(), {});
+  v1::Job last = watch(session, job.name(), rows, {});
   const bool in_time = last.state() == v1::Job::STATE_CANCELLED;
   return {in_time ? Followed::How::cancelled : Followed::How::ended, std::move(last)};
 }

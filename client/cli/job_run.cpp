@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string counted_cases(const v1::Job& job) {
+std::string counted_cases(const v1::Job& job, std::uint64_t rows) {
   if (job.has_sweep()) {
-    return "a sweep of " + std::to_string(job.sweep_answer().rows()) + " rows";
+    return "a sweep of " + std::to_string(rows) + (rows == 1 ? " row" : " rows");
   }
   return std::to_string(job.load_cases_size()) +
          (job.load_cases_size() == 1 ? " load case" : " load cases");
@@ -79,15 +79,15 @@ fs::path result_file(const std::string& case_file, const std::string& output) {
   return file;
 }
 
-Followed submit_and_follow(Session& session, const casefile::Case& the_case,
-                           const Prepare& prepare) {
+Followed submit_and_follow(Session& session, const casefile::Case& the_case, const Prepare& prepare,
+                           std::uint64_t rows) {
   constexpr int tries = 3;
   const std::string request_id = client::make_uuid();
   for (int attempt = 1;; ++attempt) {
     const v1::Job job = submit(session, the_case, request_id, prepare);
-    say(session.globals(), job.name() + " on " + job.mesh() + ": " + counted_cases(job));
+    say(session.globals(), job.name() + " on " + job.mesh() + ": " + counted_cases(job, rows));
     try {
-      return follow(session, job);
+      return follow(session, job, rows);
     } catch (const client::Error& error) {
       if (error.code() != client::Code::not_found || attempt == tries) {
         throw;

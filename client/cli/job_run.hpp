@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,9 +21,9 @@ namespace anticrack::cli {
 std::filesystem::path result_file(const std::string& case_file, const std::string& output);
 
 /// Submits a case and shows its progress. A server that comes back without its jobs is handed the
-/// same job, under the same id, again.
+/// same job, under the same id, again. `rows`: of a sweep.
 Followed submit_and_follow(Session& session, const casefile::Case& the_case,
-                           const Prepare& prepare = {});
+                           const Prepare& prepare = {}, std::uint64_t rows = 0);
 
 /// What the shell is told of a job that was followed, before one looks at its answers. Prints the
 /// job for --json where the command detached from it.

@@ -103,8 +103,8 @@ Targets check_targets(const SweepOptions& options) {
 int follow_sweep(Session& session, const Targets& targets, const casefile::Case& the_case,
                  SweepInput input, std::chrono::steady_clock::time_point begin) {
   const Globals& globals = session.globals();
-  const Followed followed =
-      submit_and_follow(session, the_case, [&](v1::Job& job) { add_matrix(session, input, job); });
+  const Followed followed = submit_and_follow(
+      session, the_case, [&](v1::Job& job) { add_matrix(session, input, job); }, input.rows);
   const int job_code = exit_code_of(globals, followed);
   if (followed.how == Followed::How::detached) {
     return job_code;
