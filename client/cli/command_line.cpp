@@ -38,7 +38,9 @@ std::string unknown_command(CLI::App& app, int argc, char** argv) {
     }
     std::vector<std::string> commands;
     for (const CLI::App* command : level->get_subcommands({})) {
-      commands.push_back(command->get_name());
+      if (!command->get_name().empty()) {  // else it is a group of options
+        commands.push_back(command->get_name());
+      }
     }
     if (commands.empty()) {
       break;
@@ -67,8 +69,10 @@ int run_command_line(int argc, char** argv) {
       "Start a private anticrackd for this one command and stop it after; goes before --server");
   app.add_flag("--json", globals.json,
                "One JSON document on standard output, everything else on standard error");
+  app.add_flag("--quiet", globals.quiet, "Plain lines instead of the live view of a job");
   app.footer(footer);
   add_run(app, globals, chosen);
+  add_sweep(app, globals, chosen);
   add_mesh(app, globals, chosen);
   add_job(app, globals, chosen);
   add_files(app, globals, chosen);

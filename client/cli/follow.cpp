@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/follow.hpp"
 
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -17,9 +18,12 @@ namespace {
 /// The progress of a job on a terminal or in a log.
 class View {
  public:
-  explicit View(Session& session) : _session(session) {
+  View(Session& session, std::uint64_t rows) : _session(session) {
+    if (rows > 0) {
+      _progress.sweep.emplace().total = rows;
+    }
     std::FILE* stream = people(session.globals());
-    if (is_terminal(stream)) {
+    if (is_terminal(stream) && !session.globals().quiet) {
       _painter = std::make_unique<Painter>(stream, [this](Size size) {
         const std::lock_guard lock(_mutex);
         return frame(_progress, size.width, size.height - 1);
@@ -59,22 +63,25 @@ class View {
   std::unique_ptr<Painter> _painter;  // last: its thread uses the others
 };
 
-v1::Job watch(Session& session, const std::string& name, const std::stop_token& stop) {
-  View view(session);
+v1::Job watch(Session& session, const std::string& name, std::uint64_t rows,
+              const std::stop_token& stop) {
+  View view(session, rows);
   return client::watch_job(
       session.connection(), name, 0,
       [&view](const v1::WatchJobResponse& event) {
-        view.change([&event](JobProgress& progress) { progress.apply(event); });
+        const std::chrono::duration<double> now =
+            std::chrono::steady_clock::now().time_since_epoch();
+        view.change([&](JobProgress& progress) { progress.apply(event, now.count()); });
       },
       stop);
 }
 
 }  // namespace
 
-Followed follow(Session& session, const v1::Job& job) {
+Followed follow(Session& session, const v1::Job& job, std::uint64_t rows) {
   const Globals& globals = session.globals();
   try {
-    return {Followed::How::ended, watch(session, job.name(), session.signals().first())};
+    return {Followed::How::ended, watch(session, job.name(), rows, session.signals().first())};
   } catch (const client::Interrupted&) {
     // Detached; what that means is decided below.
   }
@@ -89,7 +96,7 @@ Followed follow(Session& session, const v1::Job& job) {
   }
   say(globals, "Cancelling " + job.name());
   client::cancel_job(session.connection(), job.name());
-  v1::Job last = watch(session, job.name(), {});
+  v1::Job last = watch(session, job.name(), rows, {});
   const bool in_time = last.state() == v1::Job::STATE_CANCELLED;
   return {in_time ? Followed::How::cancelled : Followed::How::ended, std::move(last)};
 }
