@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Our solver in process, on a mesh of the benchmarks: first answer from nothing but the mesh,
+// further load cases, both methods, memory.
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "benchmarks/figures.hpp"
+#include "benchmarks/our_mesh.hpp"
+#include "ddm/decomposition.hpp"
+#include "operators/mesh_operator.hpp"
+
+namespace anticrack::benchmarks {
+namespace {
+
+using operators::MeshOperator;
+using Operator = std::shared_ptr<const MeshOperator>;
+
+struct Options {
+  std::string mesh;
+  int threads = 1;
+  int repetitions = 5;
+  int loads = 5;
+  int block = 32;
+  bool uzawa = false;
+  double theta = 0;      ///< 0: that of the mesh
+  int most = 1'000'000;  ///< iterations
+};
+
+class Nobody : public contact::Observer {
+ public:
+  bool on_iteration(const contact::Sample&) override { return true; }
+};
+
+/// A, energy and iterations of load cases 0, 1, ...
+struct Answers {
+  std::vector<double> displacement, energy, iterations;
+
+  void add(const contact::Answer& answer) {
+    if (answer.status != contact::Status::converged) {
+      throw std::runtime_error(std::string("a load case did not converge: ") + answer.reason);
+    }
+    displacement.push_back(answer.inclusions.at(0).displacement);
+    energy.push_back(answer.energy);
+    iterations.push_back(answer.iterations);
+  }
+  void put(Figures& figures) const {
+    figures.set("displacement", displacement);
+    figures.set("energy", energy);
+    figures.set("iterations", iterations);
+  }
+};
+
+/// From an unfactorised mesh, each time anew. The last one's operators stay.
+Operator first_answers(const Options& options, const std::shared_ptr<const mesh::Mesh>& mesh,
+                       const fem::Load& load, Figures& figures) {
+  Times first, cut, factorise;
+  Operator op;
+  Nobody nobody;
+  reset_peak_memory();
+  const std::uint64_t before = peak_memory();
+  for (int i = 0; i < options.repetitions; ++i) {
+    op.reset();
+    {
+      const Stopwatch watch;
+      const ddm::Decomposition parts = ddm::cut(*mesh);
+      watch.stop(cut);
+    }
+    const Stopwatch watch;
+    op = MeshOperator::factorise(mesh, options.threads, {});
+    watch.stop(factorise);
+    op->solve(load, contact::ActiveSetOptions{}, false, nobody);
+    watch.stop(first);
+  }
+  figures.set("first", first);
+  figures.set("cut", cut);  // is part of factorising, told apart
+  figures.set("factorise", factorise);
+  figures.set("memory_mesh", static_cast<double>(before));
+  figures.set("memory_peak", static_cast<double>(peak_memory()));
+  figures.set("operator_bytes", static_cast<double>(op->bytes()));
+  return op;
+}
+
+void further_loads(const Options& options, const MeshOperator& op,
+                   const std::vector<fem::Load>& loads, Figures& figures) {
+  Times alone;
+  Answers answers;
+  Nobody nobody;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(options.loads); ++k) {
+    const Stopwatch watch;
+    const contact::Answer answer = op.solve(loads[k], contact::ActiveSetOptions{}, false, nobody);
+    watch.stop(alone);
+    answers.add(answer);
+  }
+  figures.set("further", alone);
+  answers.put(figures);
+}
+
+/// The same in blocks: condensed together, then each on the contacts.
+void blocks(const Options& options, const MeshOperator& op, const std::vector<fem::Load>& loads,
+            Figures& figures) {
+  std::vector<const fem::Load*> block;
+  for (int k = 0; k < options.block; ++k) block.push_back(&loads[static_cast<std::size_t>(k)]);
+  Times whole, condensing;
+  Answers answers;
+  Nobody nobody;
+  for (int i = 0; i < options.repetitions; ++i) {
+    answers = {};
+    const Stopwatch watch;
+    const auto prepared = op.prepare(block);
+    watch.stop(condensing, static_cast<double>(block.size()));
+    for (const auto& load : prepared) {
+      answers.add(op.solve(std::get<operators::PreparedLoad>(load), contact::ActiveSetOptions{},
+                           false, nobody));
+    }
+    watch.stop(whole, static_cast<double>(block.size()));
+  }
+  Figures result;
+  result.set("columns", static_cast<double>(block.size()));
+  result.set("per_load", whole);
+  result.set("condensing_per_load", condensing);
+  answers.put(result);
+  figures.set("block", result);
+}
+
+void uzawa(const Options& options, const MeshOperator& op, const std::vector<fem::Load>& loads,
+           Figures& figures) {
+  contact::UzawaOptions how;
+  how.theta = options.theta > 0 ? std::optional<double>(options.theta) : std::nullopt;
+  how.max_iterations = options.most;
+  Times per_load, per_iteration;
+  Answers answers;
+  Nobody nobody;
+  double theta = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(options.loads); ++k) {
+    const Stopwatch watch;
+    const contact::Answer answer = op.solve(loads[k], how, false, nobody);
+    watch.stop(per_load);
+    watch.stop(per_iteration, answer.iterations);
+    theta = answer.theta;
+    answers.add(answer);
+  }
+  Figures result;
+  result.set("per_load", per_load);
+  result.set("per_iteration", per_iteration);
+  result.set("theta", theta);
+  result.set("theta_star", op.theta_star());
+  answers.put(result);
+  figures.set("uzawa", result);
+}
+
+void run(const Options& options) {
+  const PlainMesh plain = read_plain_mesh(options.mesh);
+  const std::shared_ptr<const mesh::Mesh> mesh = to_mesh(plain);
+  std::vector<fem::Load> loads;
+  for (int k = 0; k < std::max(options.loads, options.block); ++k) {
+    loads.push_back(nodal_load(plain, k));
+  }
+  const ddm::Decomposition parts = ddm::cut(*mesh);
+  std::size_t unknowns = 0;
+  for (const ddm::Subdomain& part : parts.subdomains) unknowns += part.free();
+
+  Figures figures;
+  figures.set("triangles", static_cast<double>(plain.triangle_count()));
+  figures.set("unknowns", static_cast<double>(unknowns));
+  figures.set("contacts", static_cast<double>(parts.skeleton.contacts.size()));
+  figures.set("threads", options.threads);
+  const Operator op = first_answers(options, mesh, loads.front(), figures);
+  further_loads(options, *op, loads, figures);
+  if (options.block > 0) blocks(options, *op, loads, figures);
+  if (options.uzawa) uzawa(options, *op, loads, figures);
+  figures.print();
+}
+
+}  // namespace
+}  // namespace anticrack::benchmarks
+
+int main(int argc, char** argv) {
+  anticrack::benchmarks::Options options;
+  CLI::App app("Our solver on a mesh of the benchmarks.", "bench_ours");
+  app.add_option("--mesh", options.mesh, "Written by bench_meshes")->required();
+  app.add_option("--threads", options.threads, "To factorise with")->check(CLI::Range(1, 1024));
+  app.add_option("--repetitions", options.repetitions, "Of what is done anew")
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--loads", options.loads, "Load cases alone")->check(CLI::Range(1, 100'000));
+  app.add_option("--block", options.block, "Load cases at once; 0: leave it out")
+      ->check(CLI::Range(0, 1024));
+  app.add_flag("--uzawa", options.uzawa, "Algorithm 2 too");
+  app.add_option("--theta", options.theta, "Of Algorithm 2; unset: 0.97 theta*");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    anticrack::benchmarks::run(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bench_ours: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
