@@ -2,6 +2,7 @@
 #include <numeric>
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "benchmarks/peers/dense_active_set.hpp"
 #include "benchmarks/peers/petsc.hpp"
@@ -81,8 +82,9 @@ class SchurPeer : public Peer {
     _matrix = symmetric_matrix(_system);
     require(MatSetOption(_matrix, MAT_SPD, PETSC_TRUE), "MatSetOption");
     require(MatGetFactor(_matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &_factor), "MatGetFactor");
-    require(MatMumpsSetIcntl(_factor, 7, ordering), "ICNTL(7)");
-    require(MatMumpsSetIcntl(_factor, 14, 30), "ICNTL(14)");
+    // Before the analysis MUMPS hears of options of the database only.
+    require(PetscOptionsSetValue(nullptr, "-mat_mumps_icntl_7", std::to_string(ordering).c_str()),
+            "ICNTL(7)");
     IS trace = nullptr;
     require(ISCreateStride(PETSC_COMM_SELF, _size, _system.interior(), 1, &trace), "ISCreate");
     require(MatFactorSetSchurIS(_factor, trace), "MatFactorSetSchurIS");
