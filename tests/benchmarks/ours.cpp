@@ -28,7 +28,7 @@ struct Options {
   int repetitions = 5;
   int loads = 5;
   int block = 32;
-  bool uzawa = false;
+  int uzawa_loads = 0;
   double theta = 0;      ///< 0: that of the mesh
   int most = 1'000'000;  ///< iterations
 };
@@ -46,6 +46,9 @@ struct Answers {
     if (answer.status != contact::Status::converged) {
       throw std::runtime_error(std::string("a load case did not converge: ") + answer.reason);
     }
+    keep(answer);
+  }
+  void keep(const contact::Answer& answer) {
     displacement.push_back(answer.inclusions.at(0).displacement);
     energy.push_back(answer.energy);
     iterations.push_back(answer.iterations);
@@ -137,19 +140,21 @@ void uzawa(const Options& options, const MeshOperator& op, const std::vector<fem
   Times per_load, per_iteration;
   Answers answers;
   Nobody nobody;
-  double theta = 0;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(options.loads); ++k) {
+  double theta = 0, converged = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(options.uzawa_loads); ++k) {
     const Stopwatch watch;
     const contact::Answer answer = op.solve(loads[k], how, false, nobody);
     watch.stop(per_load);
     watch.stop(per_iteration, answer.iterations);
     theta = answer.theta;
-    answers.add(answer);
+    answers.keep(answer);
+    converged += answer.status == contact::Status::converged ? 1 : 0;
   }
   Figures result;
   result.set("per_load", per_load);
   result.set("per_iteration", per_iteration);
   result.set("theta", theta);
+  result.set("converged", converged);
   result.set("theta_star", op.theta_star());
   answers.put(result);
   figures.set("uzawa", result);
@@ -159,7 +164,7 @@ void run(const Options& options) {
   const PlainMesh plain = read_plain_mesh(options.mesh);
   const std::shared_ptr<const mesh::Mesh> mesh = to_mesh(plain);
   std::vector<fem::Load> loads;
-  for (int k = 0; k < std::max(options.loads, options.block); ++k) {
+  for (int k = 0; k < std::max({options.loads, options.block, options.uzawa_loads}); ++k) {
     loads.push_back(nodal_load(plain, k));
   }
   const ddm::Decomposition parts = ddm::cut(*mesh);
@@ -174,7 +179,7 @@ void run(const Options& options) {
   const Operator op = first_answers(options, mesh, loads.front(), figures);
   further_loads(options, *op, loads, figures);
   if (options.block > 0) blocks(options, *op, loads, figures);
-  if (options.uzawa) uzawa(options, *op, loads, figures);
+  if (options.uzawa_loads > 0) uzawa(options, *op, loads, figures);
   figures.print();
 }
 
@@ -191,7 +196,10 @@ int main(int argc, char** argv) {
   app.add_option("--loads", options.loads, "Load cases alone")->check(CLI::Range(1, 100'000));
   app.add_option("--block", options.block, "Load cases at once; 0: leave it out")
       ->check(CLI::Range(0, 1024));
-  app.add_flag("--uzawa", options.uzawa, "Algorithm 2 too");
+  app.add_option("--uzawa-loads", options.uzawa_loads, "Load cases by Algorithm 2")
+      ->check(CLI::Range(0, 100'000));
+  app.add_option("--most", options.most, "Iterations of Algorithm 2")
+      ->check(CLI::Range(1, 1'000'000));
   app.add_option("--theta", options.theta, "Of Algorithm 2; unset: 0.97 theta*");
   CLI11_PARSE(app, argc, argv);
   try {
