@@ -40,10 +40,12 @@ Made make(const std::string& helper, const mesh::MeshOptions& options) {
   return made;
 }
 
-/// A graded mesh of about so many triangles: a size h makes about c / h^2, and c is found by trying
-/// coarser meshes first, which cost little. Its tips alone take more than a thousand.
-Made graded(const std::string& helper, double triangles) {
+/// A mesh of about so many triangles: a size h makes about c / h^2, and c is found by trying
+/// coarser meshes first, which cost little. The tips of a graded one alone take more than a
+/// thousand.
+Made of_triangles(const std::string& helper, mesh::Preset preset, double triangles) {
   mesh::MeshOptions options;
+  options.preset = preset;
   options.size = 0.2;
   double wanted = std::min(triangles, 4'000.0);
   Made made = make(helper, options);
@@ -78,7 +80,7 @@ Figures describe(const std::string& name, const PlainMesh& plain, const Made& ma
 struct Options {
   std::string helper, folder;
   bool paper = false;
-  std::vector<double> triangles;
+  std::vector<double> graded, uniform;
 };
 
 void run(const Options& options) {
@@ -89,10 +91,15 @@ void run(const Options& options) {
     all.push_back(describe(name, plain, made));
   };
   if (options.paper) keep("paper", make(options.helper, testing::paper_options()));
-  for (const double triangles : options.triangles) {
-    keep("graded-" + std::to_string(static_cast<long long>(triangles)),
-         graded(options.helper, triangles));
-  }
+  const auto keep_all = [&](const std::string& stem, mesh::Preset preset,
+                            const std::vector<double>& counts) {
+    for (const double triangles : counts) {
+      keep(stem + std::to_string(static_cast<long long>(triangles)),
+           of_triangles(options.helper, preset, triangles));
+    }
+  };
+  keep_all("graded-", mesh::Preset::graded, options.graded);
+  keep_all("uniform-", mesh::Preset::uniform, options.uniform);
   Figures figures;
   figures.set("meshes", all);
   figures.print();
@@ -107,8 +114,10 @@ int main(int argc, char** argv) {
   app.add_option("--helper", options.helper, "Path of anticrack-mesher")->required();
   app.add_option("--folder", options.folder, "Where they are written")->required();
   app.add_flag("--paper", options.paper, "The paper's mesh");
-  app.add_option("--graded", options.triangles, "Graded meshes of about so many triangles")
+  app.add_option("--graded", options.graded, "Graded meshes of about so many triangles")
       ->check(CLI::Range(2'000.0, 9e6));
+  app.add_option("--uniform", options.uniform, "Uniform meshes of about so many triangles")
+      ->check(CLI::Range(100.0, 9e6));
   CLI11_PARSE(app, argc, argv);
   try {
     anticrack::benchmarks::run(options);

@@ -26,8 +26,8 @@ class Session:
     def mesh(self, name):
         """Path of a mesh, made when first asked for."""
         if name not in self._meshes:
-            size = name.split("-")[1:]
-            what = ["--graded", size[0]] if size else ["--paper"]
+            preset, _, triangles = name.partition("-")
+            what = ["--" + preset] + ([triangles] if triangles else [])
             made = self.programs.figures("bench_meshes", [
                 "--helper", self.programs.path("anticrack-mesher", "build the whole project"),
                 "--folder", self.folder] + what)
@@ -79,7 +79,8 @@ def _seconds(lines):
 
 
 def peer_freefem(session):
-    """Algorithm 2 with the same theta, loads and stop as ours: the same iterates."""
+    """Algorithm 2 with the same theta, loads and stop as ours: the same iterates. On the first mesh
+    only: FreeFEM++ cannot read a mesh graded down to 1e-13."""
     program = freefem()
     name = session.sizes.meshes[0]
     star = session.programs.figures("bench_ours", [
