@@ -40,6 +40,8 @@ struct Config {
   std::uint64_t upload_limit = 256ULL << 20;
 
   int load_cases = 1'000;
+  std::uint64_t max_sweep_rows = 10'000'000;
+  int max_sweep_basis = 256;
   int iterations = 1'000'000;
   int expression_bytes = 4'096;
   int columns = 32;

@@ -164,7 +164,7 @@ std::vector<Key> mesh_keys() {
             million),
       count("kept-meshes", "Meshes kept; beyond it one has to be deleted first",
             &Config::kept_meshes, 1, million),
-      bytes("upload-limit", "Size of an uploaded .msh", &Config::upload_limit, 1),
+      bytes("upload-limit", "Size of an uploaded .msh or array", &Config::upload_limit, 1),
       bytes("memory-budget",
             "For all factorised meshes together, e.g. 2GiB; default: half of memory",
             &Config::memory_budget, 1 << 20),
@@ -178,6 +178,9 @@ std::vector<Key> job_keys() {
       count("columns", "Load cases of one mesh that iterate together", &Config::columns, 1, 4'096),
       // All of a job's answers, and the layout of its results, must fit in a message of 4 MiB.
       count("load-cases", "Load cases of one job", &Config::load_cases, 1, 4'000),
+      count("max-sweep-rows", "Rows of one sweep", &Config::max_sweep_rows, 1, 1000 * million),
+      count("max-sweep-basis", "Load cases that one sweep combines", &Config::max_sweep_basis, 1,
+            4'000),
       count("iterations", "Iterations of one load case", &Config::iterations, 1, 1000 * million),
       count("expression-bytes", "Length of an expression", &Config::expression_bytes, 1, 65'536),
       bytes("result-limit", "Answers of one job, with their history", &Config::result_limit,

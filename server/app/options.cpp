@@ -34,6 +34,8 @@ jobs::EngineOptions engine_options(const Config& config) {
   options.threads = config.threads;
   options.columns = config.columns;
   options.max_load_cases = config.load_cases;
+  options.max_sweep_rows = config.max_sweep_rows;
+  options.max_sweep_basis = config.max_sweep_basis;
   options.max_iterations = config.iterations;
   options.max_expression_bytes = static_cast<std::size_t>(config.expression_bytes);
   options.max_queued_jobs = config.queued_jobs;

@@ -104,9 +104,10 @@ struct Answer {
   std::string reason;  ///< for not_converged: what happened and what to change
   int iterations = 0;
   double criterion = 1;
-  double theta = 0;       ///< used
-  double theta_star = 0;  ///< 2 / lambda_max(M^1/2 (F1+F2) M^1/2), Theorem 4
-  double energy = 0;      ///< Pi(u)
+  double theta = 0;  ///< used
+  /// 2 / lambda_max(M^1/2 (F1+F2) M^1/2), Theorem 4; 0 of the active set, which does without.
+  double theta_star = 0;
+  double energy = 0;  ///< Pi(u)
   KktResiduals kkt;
   KktResiduals kkt_relative;
   int weakly_active = 0;     ///< active set: crack nodes with neither jump nor pressure

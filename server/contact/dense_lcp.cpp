@@ -15,9 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-// What is below this times the load is rounding: neither opens nor closes a node.
-constexpr double rounding = 256 * epsilon;
+constexpr double rounding = lcp_rounding;
 
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
@@ -42,10 +40,8 @@ class OpenFactor {
     const auto n = static_cast<Index>(_nodes.size());
     if (n > 0) {
       _cholesky.compute(matrix(_nodes, _nodes));
-      // A pivot is what is left of a diagonal of 1.
       _regular = _cholesky.info() == Eigen::Success &&
-                 _cholesky.matrixLLT().diagonal().array().square().minCoeff() >
-                     64 * epsilon * static_cast<double>(n);
+                 regular_pivot(_cholesky.matrixLLT().diagonal().array().square().minCoeff(), n);
     }
   }
 

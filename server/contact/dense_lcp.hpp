@@ -4,10 +4,20 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace anticrack::contact {
+
+/// What is below this times the load is rounding: neither opens nor closes a node.
+constexpr double lcp_rounding = 256 * std::numeric_limits<double>::epsilon();
+
+/// Whether S on n nodes is regular to rounding, from the smallest squared pivot of its Cholesky
+/// factor: what is left of a diagonal of 1.
+constexpr bool regular_pivot(double smallest, Eigen::Index n) {
+  return smallest > 64 * std::numeric_limits<double>::epsilon() * static_cast<double>(n);
+}
 
 /// A node that is closed has d = 0, one that is open has lambda = 0.
 struct LcpStep {
@@ -79,6 +89,9 @@ class DenseLcp {
   /// positive definite there. For iterative refinement. O(c^3).
   Eigen::VectorXd solve_open(const std::vector<char>& closed, const Eigen::VectorXd& b) const;
 
+  /// 1 / sqrt(S_ii), and S with it on both sides: what the steps compute with.
+  const Eigen::VectorXd& scale() const noexcept { return _scale; }
+  const Eigen::MatrixXd& scaled_matrix() const noexcept { return _matrix; }
   Eigen::Index size() const noexcept { return _matrix.rows(); }
   std::size_t bytes() const noexcept;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/skeleton_problem.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -90,6 +91,34 @@ SkeletonProblem::Reduced SkeletonProblem::reduce(const VectorXd& h) const {
   result.r = _closed_to_open.transpose() * on_roots - forest().sign().cwiseProduct(on_hung);
   result.magnitude = _closed_to_open.cwiseAbs().transpose() * size_on_roots + size_on_hung;
   return result;
+}
+
+SkeletonProblem::Reduced SkeletonProblem::reduce_refined(const VectorXd& h) const {
+  Reduced result = reduce(h);
+  const VectorXd closed = VectorXd::Zero(forest().contact_count());
+  // r of the residual is r of h, for any q, but of smaller terms.
+  const Reduced correction = reduce(h - apply(forest().expand(result.q, closed)));
+  result.q += correction.q;
+  result.r = correction.r;
+  return result;
+}
+
+VectorXd SkeletonProblem::apply(const VectorXd& w) const {
+  std::vector<VectorXd> forces = scatter(w);
+  for (std::size_t s = 0; s < forces.size(); ++s) {
+    forces[s] = _traces.operators()[s].factor().apply_schur(forces[s]);
+  }
+  return gather(forces);
+}
+
+VectorXd SkeletonProblem::response(std::int32_t unknown) const {
+  MatrixXd path = VectorXd::Unit(forest().unknowns(), unknown);
+  forest().accumulate(path);
+  const std::vector<Index>& roots = forest().roots();
+  const Index root =
+      std::lower_bound(roots.begin(), roots.end(), forest().root(unknown)) - roots.begin();
+  return _closed_to_open.row(root).transpose() -
+         forest().sign().cwiseProduct(VectorXd(path.col(0)(forest().hung())));
 }
 
 VectorXd SkeletonProblem::unknowns(const Reduced& load, const VectorXd& d) const {

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "contact/dense_lcp.hpp"
@@ -33,6 +34,15 @@ class SkeletonProblem {
   /// O(n^2).
   Reduced reduce(const Eigen::VectorXd& h) const;
 
+  /// The same with a step of iterative refinement at d = 0, after which q and r are right to
+  /// rounding of h. O(n^2).
+  Reduced reduce_refined(const Eigen::VectorXd& h) const;
+
+  /// K w. O(n^2).
+  Eigen::VectorXd apply(const Eigen::VectorXd& w) const;
+  /// What unit jumps of the contacts do to one of the unknowns: w[unknown] = (that for d = 0) +
+  /// response'd. O(n).
+  Eigen::VectorXd response(std::int32_t unknown) const;
   /// w for jumps d, shape (unknowns). O(n c).
   Eigen::VectorXd unknowns(const Reduced& load, const Eigen::VectorXd& d) const;
   /// Adds to q of the load and to d what brings the residual h - K w to zero with d unchanged on

@@ -135,7 +135,6 @@ Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
       problem.lcp().solve(load_case.reduced().r, load_case.reduced().magnitude,
                           {options.tolerance, options.max_steps}, start, on_step);
   Answer answer;
-  answer.theta_star = problem.traces().theta_star(Mass::lumped);
   answer.iterations = solution.steps;
   answer.criterion = load_case.sample().criterion;
   switch (solution.status) {

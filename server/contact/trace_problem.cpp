@@ -35,11 +35,24 @@ TraceProblem::TraceProblem(const ddm::Decomposition& decomposition,
       _forest(decomposition.skeleton),
       _lumped(fem::lumped_mass(decomposition.edges, decomposition.pairs.size())),
       _consistent(fem::consistent_mass(decomposition.edges, decomposition.pairs.size())),
-      _pair_forces(decomposition, _lumped) {
-  if (uzawa) {
-    _theta_star_lumped = contact::theta_star(decomposition, operators, root(_lumped));
-    _theta_star_consistent = contact::theta_star(decomposition, operators, root(_consistent));
+      _pair_forces(decomposition, _lumped),
+      _uzawa(uzawa) {}
+
+double TraceProblem::theta_star(Mass mass) const {
+  if (!_uzawa) {
+    return 0;
   }
+  if (mass == Mass::lumped) {
+    return _theta_star_lumped.get(
+        [this] { return contact::theta_star(_decomposition, _operators, root(_lumped)); });
+  }
+  return _theta_star_consistent.get(
+      [this] { return contact::theta_star(_decomposition, _operators, root(_consistent)); });
+}
+
+bool TraceProblem::knows_theta_star(Mass mass) const noexcept {
+  const auto& value = mass == Mass::lumped ? _theta_star_lumped : _theta_star_consistent;
+  return !_uzawa || value.known() != nullptr;
 }
 
 void TraceProblem::apply_mass(Mass mass, const Eigen::Ref<const Eigen::MatrixXd>& mu,

@@ -9,6 +9,7 @@
 #include "contact/forest.hpp"
 #include "contact/pair_forces.hpp"
 #include "ddm/decomposition.hpp"
+#include "ddm/lazy.hpp"
 #include "ddm/subdomain_operator.hpp"
 
 namespace anticrack::contact {
@@ -16,15 +17,13 @@ namespace anticrack::contact {
 /// The contact problem on the interfaces alone. Multipliers mu, one per node pair, act on the
 /// traces as forces M mu: down on the minus side, up on the plus side. Keeps references: the
 /// decomposition and the operators (one per subdomain, same order) must outlive it.
-/// Immutable after construction, safe to share among threads; stays where it is (parts of it refer
-/// to each other).
+/// Safe to share among threads; stays where it is (parts of it refer to each other).
 class TraceProblem {
  public:
   TraceProblem(const TraceProblem&) = delete;
   TraceProblem& operator=(const TraceProblem&) = delete;
 
-  /// `uzawa`: Algorithm 2 applies (ddm::uzawa_obstacle is empty); without, theta* is not computed.
-  /// Throws errors::Error (numerical) when theta* cannot be computed.
+  /// `uzawa`: Algorithm 2 applies (ddm::uzawa_obstacle is empty).
   TraceProblem(const ddm::Decomposition& decomposition,
                const std::vector<ddm::SubdomainOperator>& operators, bool uzawa = true);
 
@@ -43,10 +42,12 @@ class TraceProblem {
 
   /// theta* = 2 / lambda_max(M^1/2 (F1 + F2) M^1/2): the iteration contracts for every load when
   /// 0 < theta < theta* (Theorem 4). Infinite when there is no interface, 0 where Algorithm 2 does
-  /// not apply.
-  double theta_star(Mass mass) const noexcept {
-    return mass == Mass::lumped ? _theta_star_lumped : _theta_star_consistent;
-  }
+  /// not apply. Computed when it is first asked for, with the flexibilities, O(n_G^3): at a large
+  /// interface that is more than all else, and the active set does without. Throws errors::Error
+  /// (numerical) when it cannot be computed.
+  double theta_star(Mass mass) const;
+  /// Whether theta_star() has it at hand.
+  bool knows_theta_star(Mass mass) const noexcept;
 
  private:
   const ddm::Decomposition& _decomposition;
@@ -55,8 +56,8 @@ class TraceProblem {
   Eigen::VectorXd _lumped;
   Eigen::SparseMatrix<double> _consistent;
   PairForces _pair_forces;
-  double _theta_star_lumped = 0;
-  double _theta_star_consistent = 0;
+  bool _uzawa;
+  ddm::Lazy<double> _theta_star_lumped, _theta_star_consistent;
 };
 
 }  // namespace anticrack::contact

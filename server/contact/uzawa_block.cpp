@@ -23,6 +23,7 @@ UzawaBlock::UzawaBlock(const TraceProblem& problem, const mesh::Mesh& mesh, Mass
     : _problem(problem),
       _mesh(mesh),
       _mass(mass),
+      _theta_star(problem.theta_star(mass)),
       _uzawa(problem, mass, capacity),
       _cases(static_cast<std::size_t>(capacity)) {
   for (int c = 0; c < capacity; ++c) {
@@ -46,8 +47,7 @@ int UzawaBlock::add(const CaseLoads& loads, const UzawaOptions& options, bool fi
   Case& joining = column(c);
   joining = {joining.place, loads, options, fields, &observer, 0, {}, {}, End::running};
   // Without an interface there is nothing to relax: any theta will do.
-  const double theta_star = _problem.theta_star(_mass);
-  joining.theta = options.theta.value_or(std::isfinite(theta_star) ? safety * theta_star : 1.0);
+  joining.theta = options.theta.value_or(std::isfinite(_theta_star) ? safety * _theta_star : 1.0);
   _uzawa.start(c, loads.subdomains, joining.theta, options.p);
   ++_running;
   return joining.place;
@@ -102,8 +102,7 @@ UzawaBlock::End UzawaBlock::judge(int c) {
   if (seen.options.kkt_tolerance ? within_tolerance(c) : iterate.criterion < seen.options.epsilon) {
     return End::converged;
   }
-  if (seen.theta > _problem.theta_star(_mass) &&
-      seen.monitor.add(iterate.criterion, iterate.turned)) {
+  if (seen.theta > _theta_star && seen.monitor.add(iterate.criterion, iterate.turned)) {
     return End::oscillation;
   }
   return iterate.number >= seen.options.max_iterations ? End::limit : End::running;
@@ -142,7 +141,7 @@ Answer UzawaBlock::answer(int c) {
   const TraceState state = _uzawa.state(c);
   Answer answer;
   answer.theta = ended.theta;
-  answer.theta_star = _problem.theta_star(_mass);
+  answer.theta_star = _theta_star;
   answer.iterations = ended.sample.iteration;
   answer.criterion = ended.sample.criterion;
   answer.energy = ended.sample.energy;

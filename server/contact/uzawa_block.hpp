@@ -15,7 +15,8 @@ namespace anticrack::contact {
 /// iterations give the same bits.
 class UzawaBlock {
  public:
-  /// Keeps references to problem and mesh. Allocates everything that step() needs.
+  /// Keeps references to problem and mesh. Allocates everything that step() needs, and has theta*
+  /// computed where it is not known yet: throws errors::Error as TraceProblem::theta_star does.
   UzawaBlock(const TraceProblem& problem, const mesh::Mesh& mesh, Mass mass, int capacity);
 
   int columns() const noexcept { return _running; }
@@ -62,6 +63,7 @@ class UzawaBlock {
   const TraceProblem& _problem;
   const mesh::Mesh& _mesh;
   const Mass _mass;
+  const double _theta_star;
   Uzawa _uzawa;
   // Columns of _uzawa and their cases: those under way, those that have ended, free ones.
   std::vector<Case> _cases;

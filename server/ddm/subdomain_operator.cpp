@@ -32,10 +32,14 @@ SubdomainOperator::SubdomainOperator(const Subdomain& subdomain,
       _free_dirichlet(
           stiffness.topRightCorner(index(subdomain.free()), index(subdomain.dirichlet))),
       _dirichlet_dirichlet(
-          stiffness.bottomRightCorner(index(subdomain.dirichlet), index(subdomain.dirichlet))) {
-  if (subdomain.floating.empty()) {
-    _flexibility.emplace(_factor.schur(), subdomain.rigid);
-  }
+          stiffness.bottomRightCorner(index(subdomain.dirichlet), index(subdomain.dirichlet))),
+      _floats(!subdomain.floating.empty()),
+      _rigid(subdomain.rigid),
+      _flexibility(std::make_unique<const Lazy<Flexibility>>()) {}
+
+const Flexibility* SubdomainOperator::flexibility() const {
+  return _floats ? nullptr
+                 : &_flexibility->get([this] { return Flexibility(_factor.schur(), _rigid); });
 }
 
 std::vector<CondensedLoad> SubdomainOperator::condense(
@@ -62,6 +66,8 @@ std::vector<CondensedLoad> SubdomainOperator::condense(
     load.dirichlet = dirichlet.col(j);
     load.z_interior = forward.z_interior.col(j);
     load.g = forward.g.col(j);
+    load.dirichlet_force = _dirichlet_dirichlet * load.dirichlet;
+    load.on_dirichlet = loads.col(j).tail(dirichlet.rows());
     const double interior_energy = load.z_interior.squaredNorm();
     const Eigen::Index b = boundary[index_of(j)];
     if (b < 0) {
@@ -70,12 +76,13 @@ std::vector<CondensedLoad> SubdomainOperator::condense(
       load.energy_constant = -interior_energy / 2;
       continue;
     }
-    const double boundary_energy = load.dirichlet.dot(_dirichlet_dirichlet * load.dirichlet);
+    const double boundary_energy = load.dirichlet.dot(load.dirichlet_force);
+    load.z_boundary = forward.z_interior.col(b);
     load.g_boundary = forward.g.col(b);
     load.norm_constant =
-        interior_energy - 2 * load.z_interior.dot(forward.z_interior.col(b)) + boundary_energy;
-    load.energy_constant = (boundary_energy - interior_energy) / 2 -
-                           loads.col(j).tail(dirichlet.rows()).dot(load.dirichlet);
+        interior_energy - 2 * load.z_interior.dot(load.z_boundary) + boundary_energy;
+    load.energy_constant =
+        (boundary_energy - interior_energy) / 2 - load.on_dirichlet.dot(load.dirichlet);
   }
   return result;
 }
@@ -88,8 +95,10 @@ Eigen::VectorXd SubdomainOperator::recover(const CondensedLoad& load,
 }
 
 std::size_t SubdomainOperator::bytes() const noexcept {
-  return _factor.bytes() + (_flexibility ? _flexibility->bytes() : 0) + bytes_of(_free_dirichlet) +
-         bytes_of(_dirichlet_dirichlet);
+  const Flexibility* flexibility = _flexibility->known();
+  return _factor.bytes() + (flexibility != nullptr ? flexibility->bytes() : 0) +
+         bytes_of(_free_dirichlet) + bytes_of(_dirichlet_dirichlet) +
+         _rigid.capacity() * sizeof(std::int32_t);
 }
 
 }  // namespace anticrack::ddm

@@ -4,11 +4,13 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <cstddef>
-#include <optional>
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "ddm/decomposition.hpp"
 #include "ddm/flexibility.hpp"
+#include "ddm/lazy.hpp"
 #include "ddm/subdomain_factor.hpp"
 
 namespace anticrack::ddm {
@@ -22,11 +24,16 @@ struct CondensedLoad {
   Eigen::VectorXd g;           ///< f_G - K_GI K_II^-1 f_I, f_I and f_G including -K_.D g_D
   Eigen::VectorXd g_boundary;  ///< the part of g that comes from g_D
   Eigen::VectorXd dirichlet;   ///< g_D in the Dirichlet nodes
+  // What the constants of combinations take (products):
+  Eigen::VectorXd z_boundary;       ///< the part of z_interior from g_D; empty where g_D = 0
+  Eigen::VectorXd dirichlet_force;  ///< K_DD g_D
+  Eigen::VectorXd on_dirichlet;     ///< int f phi_i of the Dirichlet nodes
   double energy_constant = 0;
   double norm_constant = 0;
 };
 
-/// One subdomain, factorised: everything the methods need of it. Immutable after construction.
+/// One subdomain, factorised: everything the methods need of it. Any number of threads may use it
+/// at once.
 class SubdomainOperator {
  public:
   /// Throws errors::Error as SubdomainFactor does.
@@ -41,10 +48,11 @@ class SubdomainOperator {
   Eigen::VectorXd recover(const CondensedLoad& load, const Eigen::VectorXd& trace) const;
 
   const SubdomainFactor& factor() const noexcept { return _factor; }
-  /// Null where a part of the subdomain floats: forces alone do not tell where it goes.
-  const Flexibility* flexibility() const noexcept {
-    return _flexibility ? &*_flexibility : nullptr;
-  }
+  /// Null where a part of the subdomain floats: forces alone do not tell where it goes. Computed
+  /// when it is first asked for, O(n_G^3): the active set does without. Throws errors::Error as
+  /// Flexibility does.
+  const Flexibility* flexibility() const;
+  /// Of what is there by now.
   std::size_t bytes() const noexcept;
 
  private:
@@ -52,9 +60,11 @@ class SubdomainOperator {
                     Ordering ordering);
 
   SubdomainFactor _factor;
-  std::optional<Flexibility> _flexibility;
   Eigen::SparseMatrix<double> _free_dirichlet;       // [K_ID; K_GD]
   Eigen::SparseMatrix<double> _dirichlet_dirichlet;  // K_DD
+  bool _floats = false;
+  std::vector<std::int32_t> _rigid;
+  std::unique_ptr<const Lazy<Flexibility>> _flexibility;
 };
 
 }  // namespace anticrack::ddm

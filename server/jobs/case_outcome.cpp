@@ -59,18 +59,6 @@ Error placed(Error error, std::size_t index) {
   return error;
 }
 
-Error error_of(const std::exception_ptr& failure) {
-  try {
-    std::rethrow_exception(failure);
-  } catch (const Error& error) {
-    return error;
-  } catch (const std::bad_alloc&) {
-    return {Reason::limit_exceeded, "not enough memory for this load case"};
-  } catch (const std::exception& error) {
-    return {Reason::internal, std::string("solving failed: ") + error.what()};
-  }
-}
-
 std::shared_ptr<store::CaseRecord> new_record(const Task& task, CaseStatus status) {
   auto record = std::make_shared<store::CaseRecord>();
   record->status = status;
@@ -95,6 +83,18 @@ bool Recorder::on_iteration(const contact::Sample& sample) {
   _log->append(SampleEvent{_load_case, sample});
   _iterations.fetch_add(1, std::memory_order_relaxed);
   return !_stop.stop_requested();
+}
+
+Error error_of(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const Error& error) {
+    return error;
+  } catch (const std::bad_alloc&) {
+    return {Reason::limit_exceeded, "not enough memory to solve it: submit less at a time"};
+  } catch (const std::exception& error) {
+    return {Reason::internal, std::string("solving failed: ") + error.what()};
+  }
 }
 
 std::uint64_t bytes_of(const SolvedCase& solved) {

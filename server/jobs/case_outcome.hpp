@@ -44,6 +44,9 @@ std::uint64_t bytes_of(const SolvedCase& solved);
 
 CaseOutcome solved_case(const Task& task, contact::Answer answer,
                         std::vector<contact::Sample> history);
+/// What was thrown, whatever it is.
+errors::Error error_of(const std::exception_ptr& failure);
+
 /// What is thrown while a load case is solved, as its end: nothing but a stop is lost. The error
 /// has its place in the job ("load_cases[i]...", or "solver.uzawa" where the method cannot solve on
 /// this mesh).

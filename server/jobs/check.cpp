@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "errors/errors.hpp"
+#include "jobs/sweep_check.hpp"
 #include "store/canonical.hpp"
 
 namespace anticrack::jobs {
@@ -52,6 +53,19 @@ void check_names(const std::vector<fem::Load>& loads) {
                   "two load cases are named \"" + name + "\": give each its own name")
           .at(path_of(i) + ".name");
     }
+  }
+}
+
+void check_count(std::size_t loads, const EngineOptions& options) {
+  if (loads == 0) {
+    throw Error(Reason::invalid_argument, "the job has no load case: give at least one")
+        .at("load_cases");
+  }
+  if (loads > static_cast<std::size_t>(options.max_load_cases)) {
+    throw Error(Reason::limit_exceeded, std::to_string(loads) + " load cases: a job may have " +
+                                            std::to_string(options.max_load_cases) +
+                                            ", so split it")
+        .at("load_cases");
   }
 }
 
@@ -146,6 +160,9 @@ std::uint64_t bytes_of(const store::JobSpec& spec) {
              load.point_forces.size() * sizeof(fem::PointForce) +
              BytesOfForce::named(load.inclusion_forces);
   }
+  if (spec.sweep) {
+    bytes += spec.sweep->upload.size() + spec.sweep->traces.size() * sizeof(std::uint32_t);
+  }
   return bytes;
 }
 
@@ -156,15 +173,10 @@ void check(const store::JobSpec& spec, const EngineOptions& options) {
                                               std::to_string(max_title_bytes))
         .at("title");
   }
-  if (spec.loads.empty()) {
-    throw Error(Reason::invalid_argument, "the job has no load case: give at least one")
-        .at("load_cases");
-  }
-  if (spec.loads.size() > static_cast<std::size_t>(options.max_load_cases)) {
-    throw Error(Reason::limit_exceeded,
-                std::to_string(spec.loads.size()) + " load cases: a job may have " +
-                    std::to_string(options.max_load_cases) + ", so split it")
-        .at("load_cases");
+  if (spec.sweep) {
+    check_sweep(spec, options);
+  } else {
+    check_count(spec.loads.size(), options);
   }
   check_names(spec.loads);
   for (std::size_t i = 0; i < spec.loads.size(); ++i) {
@@ -196,6 +208,13 @@ std::string fingerprint(const store::JobSpec& spec) {
   hash.add(std::uint64_t{spec.loads.size()});
   for (const fem::Load& load : spec.loads) {
     add_load(hash, load);
+  }
+  if (spec.sweep) {  // not its rows: they follow from the upload and the mesh
+    hash.add(static_cast<std::uint64_t>(spec.sweep->cases)).add(spec.sweep->upload);
+    hash.add(std::uint64_t{spec.sweep->traces.size()});
+    for (const std::uint32_t row : spec.sweep->traces) {
+      hash.add(std::uint64_t{row});
+    }
   }
   return hash.finish();
 }

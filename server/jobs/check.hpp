@@ -13,7 +13,8 @@ namespace anticrack::jobs {
 
 /// Throws errors::Error (invalid_argument, expression_invalid, limit_exceeded) for the first thing
 /// that is wrong, with its path in the job: "title", "load_cases", "load_cases[i].name",
-/// "load_cases[i].force.expression", "solver.uzawa.theta", "queue_timeout", "run_timeout", ...
+/// "load_cases[i].force.expression", "solver.uzawa.theta", "queue_timeout", "run_timeout",
+/// "sweep.traces[i]", ... Says nothing of a sweep's matrix.
 void check(const store::JobSpec& spec, const EngineOptions& options);
 
 /// Hash of all that makes a job, its title included: equal for equal requests only.

@@ -9,6 +9,7 @@
 
 #include "errors/errors.hpp"
 #include "jobs/result_block.hpp"
+#include "jobs/sweep_result.hpp"
 
 namespace anticrack::jobs {
 
@@ -76,7 +77,11 @@ EndingThread::End EndingThread::conclude_job(Lock& lock, const JobPtr& job) {
   add_step(end.record.timeline, outcome.state, {});
   set_state(end.record, outcome.state, outcome.error);
   try {
-    if (job->mesh_operator) {
+    if (job->sweep) {
+      const auto unsolved = outcome.state == JobState::failed ? store::CaseStatus::failed
+                                                              : store::CaseStatus::cancelled;
+      end.result = sweep_result(*job->mesh_operator, *job->sweep, unsolved);
+    } else if (job->mesh_operator) {
       end.result = result_block(*job->mesh_operator, job->cases);
     }
     end.record.result_bytes = end.result ? end.result->bytes.size() : 0;
@@ -87,6 +92,10 @@ EndingThread::End EndingThread::conclude_job(Lock& lock, const JobPtr& job) {
                     "leave its fields out"));
   }
   job->mesh_operator.reset();  // however long the disk takes
+  if (job->sweep) {
+    job->sweep->basis.reset();
+    job->sweep->chunks.clear();
+  }
   lock.lock();
   return end;
 }

@@ -42,7 +42,7 @@ void EngineCore::add(const JobPtr& job) {
   numbers.emplace(job->number, job);
   ++live;
   mesh->jobs.emplace(job->number, job);
-  mesh->waiting[index(job->lane)] += job->cases.size();
+  mesh->waiting[index(job->lane)] += job->units;
   offer(job);
   if (!mesh->phase.empty()) {
     job->state = JobState::waiting_for_mesh;
@@ -57,8 +57,16 @@ void EngineCore::offer(const JobPtr& job) {
   solvers.notify_all();
 }
 
+void EngineCore::begin_sweep(const JobPtr& job, SweepPlan plan) {
+  job->sweep = std::make_unique<LiveSweep>(std::move(plan));
+  std::uint64_t& waiting = meshes.at(job->spec->mesh)->waiting[index(job->lane)];
+  waiting -= job->units;
+  job->units = job->sweep->chunks.size();
+  waiting += job->units;
+}
+
 void EngineCore::settle(const JobPtr& job) {
-  if (job->ending || job->active > 0 || job->next_case < job->cases.size()) {
+  if (job->ending || job->active > 0 || job->next_unit < job->units) {
     return;
   }
   job->ending = true;
@@ -68,6 +76,8 @@ void EngineCore::settle(const JobPtr& job) {
     running -= job->state == JobState::running ? 1 : 0;
     job->state = JobState::queued;
     job->mesh_operator.reset();
+    job->sweep.reset();
+    job->sweep_record = {};
   } else {
     ++not_announced;
     to_end.push_back(job);
@@ -77,10 +87,7 @@ void EngineCore::settle(const JobPtr& job) {
 }
 
 void EngineCore::leave(const JobPtr& job) {
-  const auto unsolved = static_cast<std::uint64_t>(
-      std::count_if(job->cases.begin(), job->cases.end(),
-                    [](const LiveCase& live_case) { return !live_case.record; }));
-  admission.cases_ended(job->spec->mesh, unsolved);
+  admission.cases_ended(job->spec->mesh, std::exchange(job->queued_cases, 0));
   admission.ended(job->spec_bytes);
   if (job->state != JobState::running) {
     admission.started();
@@ -126,9 +133,27 @@ void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
     live_case.solved = std::move(ended_case.outcome.solved);
     --job->active;
     ++cases_ended;
+    --job->queued_cases;
     admission.cases_ended(job->spec->mesh, 1);
     settle(job);
   }
+}
+
+void EngineCore::deliver(Lock& lock, EndedChunk chunk) {
+  const JobPtr job = chunk.task.job;
+  const std::size_t place = chunk.task.index;
+  lock.unlock();
+  if (chunk.failure) {
+    stop(job, Stop::failed, chunk.failure);
+  } else if (chunk.solved.columns) {
+    job->log->append(RowsEvent{job->sweep->plan.first_row(place), chunk.solved.columns});
+  }
+  lock.lock();
+  cases_ended += chunk.record.converged + chunk.record.not_converged;
+  jobs::add(job->sweep_record, chunk.record);
+  job->sweep->chunks[place] = std::move(chunk.solved);
+  --job->active;
+  settle(job);
 }
 
 std::vector<EndedCase> EngineCore::take_stopped(MeshWork& mesh) {
@@ -170,8 +195,8 @@ void EngineCore::stop(const JobPtr& job, Stop why, const std::optional<Error>& f
   job->failure = failure;
   schedule.remove(job->number);
   const std::shared_ptr<MeshWork> mesh = meshes.at(job->spec->mesh);
-  mesh->waiting[index(job->lane)] -= job->cases.size() - job->next_case;
-  job->next_case = job->cases.size();
+  mesh->waiting[index(job->lane)] -= job->units - job->next_unit;
+  job->next_unit = job->units;
   stopped = take_stopped(*mesh);
   settle(job);
   if (mesh->preparing && mesh->jobs.empty()) {

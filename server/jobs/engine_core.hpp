@@ -2,10 +2,11 @@
 //
 // What the engine's threads share: its jobs, where each stands, and the one mutex.
 //
-// A job goes this way: the schedule (its load cases wait) -> solver threads (blocks, prepared
-// cases) -> `to_end`, the ending thread's. LiveJob::active counts its load cases between the first
-// and the last step. The classes that own threads are SolverPool, PreparationPool, EndingThread and
-// TimeLimits; each works on this with the mutex, and does what takes long without it.
+// A job goes this way: the schedule (its units wait: load cases, or chunks of its sweep) -> solver
+// threads (blocks, prepared cases) -> `to_end`, the ending thread's. LiveJob::active counts its
+// units between the first and the last step. The classes that own threads are SolverPool,
+// PreparationPool, EndingThread and TimeLimits; each works on this with the mutex, and does what
+// takes long without it.
 #pragma once
 
 #include <array>
@@ -31,6 +32,7 @@
 #include "jobs/live_job.hpp"
 #include "jobs/retention.hpp"
 #include "jobs/schedule.hpp"
+#include "jobs/sweep_chunk.hpp"
 
 namespace anticrack::jobs {
 
@@ -51,7 +53,7 @@ struct MeshWork {
   bool looking = false;                             ///< a solver thread asks the catalogue for it
   std::string phase;                                ///< of its preparation, told to the jobs
   int threads = 0;                                  ///< that have a turn on it
-  std::array<std::uint64_t, lane_count> waiting{};  ///< load cases that nobody has taken
+  std::array<std::uint64_t, lane_count> waiting{};  ///< units that nobody has taken
   std::vector<std::shared_ptr<BlockRun>> blocks;    ///< all, those put down included
   std::array<std::deque<std::shared_ptr<BlockRun>>, lane_count> parked;  ///< put down
   std::deque<PreparedCase> prepared;
@@ -92,25 +94,29 @@ class EngineCore {
   std::uint64_t last_number = 0;
   std::uint64_t created = 0;
   std::uint64_t ended = 0;
-  std::uint64_t cases_ended = 0;
+  std::uint64_t cases_ended = 0;  ///< rows of sweeps included
   std::uint64_t results_expired = 0;
   int live = 0;           ///< jobs that are not in the ending thread's hands
   int not_announced = 0;  ///< jobs in its hands
   int running = 0;        ///< jobs that started and have not ended
-  int columns = 0;        ///< load cases on solver threads
+  int columns = 0;        ///< load cases on solver threads, one for a chunk
 
   // With the lock held:
 
   /// Takes in a job that the store has, that nobody knows yet; counted by `admission` already.
   void add(const JobPtr& job);
-  /// Puts a job's waiting cases into the schedule.
+  /// Puts a job's waiting units into the schedule.
   void offer(const JobPtr& job);
+  /// The chunks of a sweep that starts are known: they are its units from now on.
+  void begin_sweep(const JobPtr& job, SweepPlan plan);
   /// To be called whenever a job has lost a case or is to stop: hands it on when nothing is left.
   void settle(const JobPtr& job);
   /// Lets go of the mesh's operator where nothing needs it.
   void release(const std::shared_ptr<MeshWork>& mesh);
   /// Tells of the cases and counts them as ended. Lets go of the lock meanwhile.
   void deliver(Lock& lock, std::vector<EndedCase> cases);
+  /// Tells of the rows of a chunk and counts it as ended. Lets go of the lock meanwhile.
+  void deliver(Lock& lock, EndedChunk chunk);
   /// The jobs that `wanted` says yes to.
   template <class Wanted>
   std::vector<JobPtr> select(const Wanted& wanted) const {

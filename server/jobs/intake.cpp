@@ -10,6 +10,7 @@
 #include "errors/errors.hpp"
 #include "jobs/check.hpp"
 #include "jobs/job_start.hpp"
+#include "jobs/sweep_check.hpp"
 
 namespace anticrack::jobs {
 
@@ -39,7 +40,7 @@ JobRecord new_record(const Submission& submission) {
   record.request_id = submission.request_id;
   record.spec = submission.spec;
   record.created = store::Clock::now();
-  record.cases.resize(submission.spec.loads.size());
+  record.cases.resize(case_count(submission.spec));
   record.timeline.push_back({record.created, JobState::queued, {}});
   return record;
 }
@@ -57,8 +58,8 @@ std::shared_ptr<void> use(EngineCore& core, const std::string& mesh) {
 class Place {
  public:
   /// Throws errors::Error (draining, limit_exceeded, busy).
-  Place(EngineCore& core, const store::JobSpec& spec)
-      : _core(core), _mesh(spec.mesh), _cases(spec.loads.size()), _bytes(bytes_of(spec)) {
+  Place(EngineCore& core, const store::JobSpec& spec, std::uint64_t cases)
+      : _core(core), _mesh(spec.mesh), _cases(cases), _bytes(bytes_of(spec)) {
     const std::lock_guard lock(core.mutex);
     if (core.draining) {
       throw Error(Reason::draining, "the server is stopping: submit to another one");
@@ -87,6 +88,14 @@ class Place {
   bool _taken = false;
 };
 
+/// Rows of nodal forces are known once the mesh is, when the job starts.
+void measure(store::SweepSpec& sweep, const JobRecord& record, const EngineCore& core) {
+  const std::uint64_t values = find_matrix(sweep, core.store, record.owner).values;
+  sweep.rows = sweep.cases == store::SweepSpec::Cases::combinations
+                   ? rows_of(sweep, values, record.spec.loads.size(), core.options.max_sweep_rows)
+                   : 0;
+}
+
 /// With the lock held.
 void queue(EngineCore& core, const JobPtr& job, EngineCore::Clock::time_point deadline) {
   core.deadlines.set(job->number, Due::queue_time, deadline);
@@ -98,7 +107,7 @@ void queue(EngineCore& core, const JobPtr& job, EngineCore::Clock::time_point de
 
 TakenIn take_in(EngineCore& core, const Submission& submission) {
   check(submission.spec, core.options);
-  const JobRecord record = new_record(submission);
+  JobRecord record = new_record(submission);
   const std::string print = fingerprint(record.spec);
   // First: the same request again is answered however full the queue, and though its mesh is gone.
   if (auto made = core.store.created_before(record, print)) {
@@ -106,7 +115,11 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   }
   std::shared_ptr<void> mesh_use = use(core, record.spec.mesh);
   require_arrays(record.spec.loads, core.store, record.owner);
-  Place place(core, record.spec);
+  if (record.spec.sweep) {
+    measure(*record.spec.sweep, record, core);
+  }
+  const std::uint64_t cases = queued_cases(record.spec, core.store, record.owner);
+  Place place(core, record.spec, cases);
   JobRecord stored = core.store.create(record, print);
   if (stored.id != record.id) {
     return {std::move(stored), false};  // made by the same request in this moment
@@ -114,7 +127,7 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   const EngineCore::Lock lock(core.mutex);
   ++core.created;
   if (!core.draining) {  // else it is kept for the next start
-    const auto job = std::make_shared<LiveJob>(++core.last_number, record,
+    const auto job = std::make_shared<LiveJob>(++core.last_number, record, cases,
                                                core.options.event_log_bytes, std::move(mesh_use));
     queue(core, job, job->since + queue_limit(*job, core.options));
     place.take();
@@ -133,7 +146,8 @@ void recover(EngineCore& core) {
     const bool waits_since_it_was_made = !record.started;
     record.state = JobState::queued;
     record.started.reset();
-    record.cases.assign(record.spec.loads.size(), {});
+    record.cases.assign(case_count(record.spec), {});
+    record.sweep = {};
     add_step(record.timeline, JobState::queued, "the server was started");
     std::shared_ptr<void> mesh_use;
     std::optional<Error> gone;
@@ -149,11 +163,12 @@ void recover(EngineCore& core) {
     }
     const auto waited = waits_since_it_was_made ? store::Clock::now() - record.created
                                                 : store::Clock::duration::zero();
-    const auto job = std::make_shared<LiveJob>(++core.last_number, std::move(record),
+    const std::uint64_t cases = queued_cases(record.spec, core.store, record.owner);
+    const auto job = std::make_shared<LiveJob>(++core.last_number, std::move(record), cases,
                                                core.options.event_log_bytes, std::move(mesh_use));
     {
       const std::lock_guard lock(core.mutex);
-      core.admission.add(job->spec->mesh, job->cases.size(), job->spec_bytes);
+      core.admission.add(job->spec->mesh, cases, job->spec_bytes);
       queue(core, job,
             job->since + queue_limit(*job, core.options) -
                 std::chrono::duration_cast<EngineCore::Clock::duration>(waited));

@@ -2,18 +2,76 @@
 #include "jobs/job_start.hpp"
 
 #include <exception>
+#include <optional>
 #include <utility>
+
+#include "errors/errors.hpp"
+#include "jobs/case_outcome.hpp"
+#include "jobs/sweep_check.hpp"
+#include "jobs/sweep_chunk.hpp"
+#include "jobs/sweep_plan.hpp"
 
 namespace anticrack::jobs {
 
 namespace {
 
+using errors::Error;
 using store::JobState;
 
 constexpr std::chrono::milliseconds retry_start{1'000};
 
 std::chrono::milliseconds limit(std::chrono::milliseconds own, std::chrono::milliseconds server) {
   return own.count() > 0 ? own : server;
+}
+
+/// What a sweep makes of its mesh and matrix; empty: the job has none.
+std::optional<SweepPlan> plan_of(const EngineCore& core, const LiveJob& job,
+                                 const operators::MeshOperator& mesh_operator) {
+  const std::optional<store::SweepSpec>& sweep = job.spec->sweep;
+  if (!sweep) {
+    return std::nullopt;
+  }
+  return plan_sweep(*job.spec, find_matrix(*sweep, core.store, job.created.owner), mesh_operator,
+                    core.options);
+}
+
+/// False where the store could not take it.
+bool store_start(EngineCore& core, const JobSnapshot& snapshot,
+                 const std::optional<SweepPlan>& plan) {
+  try {
+    store::JobRecord record = snapshot.record();
+    record.state = JobState::running;
+    record.started = store::Clock::now();
+    if (plan) {
+      record.spec.sweep->rows = plan->rows;
+    }
+    add_step(record.timeline, JobState::running, {});
+    core.store.put(record);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+/// The job runs, in this phase.
+void tell(EngineCore::Lock& lock, LiveJob& job, const char* phase) {
+  add_step(job.timeline, JobState::running, phase);
+  lock.unlock();
+  job.log->append(PhaseEvent{JobState::running, phase});
+  lock.lock();
+}
+
+/// The loads that a sweep combines: before any thread takes a chunk, so that none waits for another
+/// here. Without the lock.
+void condense(EngineCore& core, const JobPtr& job) {
+  try {
+    job->sweep->basis = condense_basis(*job, *job->mesh_operator, core.store);
+  } catch (...) {
+    const Error error = error_of(std::current_exception());
+    if (error.reason() != errors::Reason::cancelled) {
+      core.stop(job, Stop::failed, error);
+    }
+  }
 }
 
 }  // namespace
@@ -32,15 +90,13 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
   ++job->active;  // nobody ends it before its first event is out
   const JobSnapshot snapshot(*job);
   lock.unlock();
-  bool stored = true;
+  std::optional<SweepPlan> plan;
+  bool stored = false;
   try {
-    store::JobRecord record = snapshot.record();
-    record.state = JobState::running;
-    record.started = store::Clock::now();
-    add_step(record.timeline, JobState::running, {});
-    core.store.put(record);
-  } catch (const std::exception&) {
-    stored = false;
+    plan = plan_of(core, *job, *mesh_operator);
+    stored = store_start(core, snapshot, plan);
+  } catch (...) {
+    core.stop(job, Stop::failed, error_of(std::current_exception()));
   }
   lock.lock();
   if (!stored) {
@@ -57,14 +113,20 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
   job->state = JobState::running;
   job->started = store::Clock::now();
   job->mesh_operator = std::move(mesh_operator);
-  add_step(job->timeline, JobState::running, {});
+  if (plan && job->why == Stop::none) {
+    core.begin_sweep(job, std::move(*plan));
+  }
   core.deadlines.clear(job->number, Due::queue_time);
   core.deadlines.set(job->number, Due::run_time,
                      EngineCore::Clock::now() + run_limit(*job, core.options));
   core.limits.notify_one();
-  lock.unlock();
-  job->log->append(PhaseEvent{JobState::running, {}});
-  lock.lock();
+  if (job->sweep && !job->spec->loads.empty()) {
+    tell(lock, *job, "condensing the load cases");
+    lock.unlock();
+    condense(core, job);
+    lock.lock();
+  }
+  tell(lock, *job, "");
   --job->active;
   if (job->why == Stop::none) {
     core.offer(job);

@@ -40,8 +40,11 @@ Error case_failed(const store::JobSpec& spec, std::size_t index, const Error& er
   return retold(error, "load case \"" + spec.loads[index].name + "\": " + error.what(), fields);
 }
 
-Lane lane_of(const contact::SolverOptions& solver) {
-  const auto* uzawa = std::get_if<contact::UzawaOptions>(&solver);
+Lane lane_of(const store::JobSpec& spec) {
+  if (spec.sweep) {
+    return Lane::sweep;
+  }
+  const auto* uzawa = std::get_if<contact::UzawaOptions>(&spec.solver);
   if (uzawa == nullptr) {
     return Lane::active_set;
   }
@@ -54,21 +57,50 @@ JobRecord without_lists(JobRecord record) {
   return record;
 }
 
+Outcome conclude_sweep(LiveJob& job) {
+  store::SweepRecord& record = job.sweep_record;
+  const std::uint64_t rows = job.sweep ? job.sweep->plan.rows : job.spec->sweep->rows;
+  const std::uint64_t solved = record.converged + record.not_converged;
+  if (job.why == Stop::none || (job.sweep && solved == rows)) {
+    return {};
+  }
+  if (job.why == Stop::failed) {
+    record.failed = rows - solved;
+    return {JobState::failed, job.failure};
+  }
+  return {JobState::cancelled, std::nullopt};
+}
+
 }  // namespace
 
-LiveJob::LiveJob(std::uint64_t submission, JobRecord record, std::size_t event_log_bytes,
-                 std::shared_ptr<void> mesh_in_use)
+LiveJob::LiveJob(std::uint64_t submission, JobRecord record, std::uint64_t cases_in_queue,
+                 std::size_t event_log_bytes, std::shared_ptr<void> mesh_in_use)
     : number(submission),
       created(without_lists(record)),
       spec(std::make_shared<const store::JobSpec>(std::move(record.spec))),
       spec_bytes(bytes_of(*spec)),
-      lane(lane_of(spec->solver)),
+      lane(lane_of(*spec)),
       since(std::chrono::steady_clock::now()),
       log(std::make_shared<EventLog>(event_log_bytes, sequence_base(created.attempt))),
       arrays(spec->loads, created.owner),
       timeline(created.timeline),
       mesh_use(std::move(mesh_in_use)),
-      cases(spec->loads.size()) {}
+      cases(case_count(*spec)),
+      units(spec->sweep ? 1 : cases.size()),
+      queued_cases(cases_in_queue) {}
+
+Task take_unit(const JobPtr& job) {
+  Task task{job, job->next_unit++, std::chrono::steady_clock::now()};
+  ++job->active;
+  if (task.index < job->cases.size()) {
+    job->cases[task.index].running = true;
+  }
+  return task;
+}
+
+std::size_t case_count(const store::JobSpec& spec) {
+  return spec.sweep ? 0 : spec.loads.size();
+}
 
 void add_step(std::vector<store::Step>& timeline, JobState state, std::string detail) {
   if (timeline.size() >= max_steps) {
@@ -86,6 +118,8 @@ JobSnapshot::JobSnapshot(const LiveJob& job) : _spec(job.spec) {
   _head.state = job.state;
   _head.started = job.started;
   _head.timeline = job.timeline;
+  _head.sweep = job.sweep_record;
+  _rows = job.sweep ? job.sweep->plan.rows : 0;
   for (const LiveCase& live : job.cases) {
     _running.push_back(live.running);
     _cases.push_back(live.record);
@@ -95,6 +129,9 @@ JobSnapshot::JobSnapshot(const LiveJob& job) : _spec(job.spec) {
 JobRecord JobSnapshot::record() const {
   JobRecord result = _head;
   result.spec = *_spec;
+  if (_rows > 0) {
+    result.spec.sweep->rows = _rows;
+  }
   result.cases.resize(_cases.size());
   for (std::size_t i = 0; i < _cases.size(); ++i) {
     if (_cases[i]) {
@@ -107,6 +144,9 @@ JobRecord JobSnapshot::record() const {
 }
 
 Outcome conclude(LiveJob& job) {
+  if (job.spec->sweep) {
+    return conclude_sweep(job);
+  }
   const bool failed = job.why == Stop::failed;
   const auto unsolved = std::make_shared<CaseRecord>();
   unsolved->status = failed ? CaseStatus::failed : CaseStatus::cancelled;

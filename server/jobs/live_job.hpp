@@ -15,6 +15,7 @@
 #include "contact/answer.hpp"
 #include "jobs/event_log.hpp"
 #include "jobs/force_arrays.hpp"
+#include "jobs/live_sweep.hpp"
 #include "jobs/schedule.hpp"
 #include "operators/mesh_operator.hpp"
 #include "store/records.hpp"
@@ -43,11 +44,13 @@ enum class Stop {
   interrupted,  ///< the server stops: the job is left to the store for the next start
 };
 
-/// The first part does not change; the engine's mutex guards the second, but for what is said
-/// there.
+/// A job is solved in units: its load cases, or the chunks of its sweep, of which there is one
+/// until the job starts and they are known. The first part does not change; the engine's mutex
+/// guards the second, but for what is said there.
 struct LiveJob {
-  LiveJob(std::uint64_t submission, store::JobRecord record, std::size_t event_log_bytes,
-          std::shared_ptr<void> mesh_in_use);
+  /// `cases_in_queue`: what `admission` counted for it.
+  LiveJob(std::uint64_t submission, store::JobRecord record, std::uint64_t cases_in_queue,
+          std::size_t event_log_bytes, std::shared_ptr<void> mesh_in_use);
 
   const std::uint64_t number;      ///< in the order of submission
   const store::JobRecord created;  ///< as it was submitted or recovered, without its lists
@@ -67,9 +70,13 @@ struct LiveJob {
   std::shared_ptr<void> mesh_use;  ///< let go when the job has ended
   /// Set when the job starts, reset by the thread that ends it.
   std::shared_ptr<const operators::MeshOperator> mesh_operator;
-  std::vector<LiveCase> cases;
-  std::size_t next_case = 0;       ///< first one that no thread has taken
-  int active = 0;                  ///< cases taken and not ended, and one for a start under way
+  std::vector<LiveCase> cases;       ///< none of a sweep
+  std::unique_ptr<LiveSweep> sweep;  ///< once it has started
+  store::SweepRecord sweep_record;   ///< of the rows that ended so far
+  std::size_t units = 0;
+  std::size_t next_unit = 0;       ///< first one that no thread has taken
+  int active = 0;                  ///< units taken and not ended, and one for a start under way
+  std::uint64_t queued_cases = 0;  ///< that admission counts still
   std::uint64_t result_bytes = 0;  ///< of the answers so far
   Stop why = Stop::none;
   std::optional<errors::Error> failure;
@@ -79,12 +86,18 @@ struct LiveJob {
 
 using JobPtr = std::shared_ptr<LiveJob>;
 
-/// A load case on its way.
+/// A unit on its way.
 struct Task {
   JobPtr job;
   std::size_t index = 0;
   std::chrono::steady_clock::time_point taken;
 };
+
+/// The next unit, which there must be. With the engine's mutex held.
+Task take_unit(const JobPtr& job);
+
+/// The entries of JobRecord::cases.
+std::size_t case_count(const store::JobSpec& spec);
 
 /// Appends a step of now, and lets go of old ones where there are many.
 void add_step(std::vector<store::Step>& timeline, store::JobState state, std::string detail);
@@ -100,6 +113,7 @@ class JobSnapshot {
   std::shared_ptr<const store::JobSpec> _spec;
   std::vector<bool> _running;
   std::vector<std::shared_ptr<const store::CaseRecord>> _cases;
+  std::uint64_t _rows = 0;  ///< of a sweep that has started
 };
 
 struct Outcome {
@@ -109,8 +123,8 @@ struct Outcome {
 
 /// How a job ends; gives the cases that have no answer the record that says why: they are cancelled
 /// or fail with the job. Cancelled where a case was cancelled, failed where one failed, with the
-/// error of the first (by index) and the path of its field, else succeeded. With the engine's mutex
-/// held.
+/// error of the first (by index) and the path of its field, else succeeded. A sweep is cancelled or
+/// fails where rows of it were not solved. With the engine's mutex held.
 Outcome conclude(LiveJob& job);
 
 /// A mesh's error as a job's, at field "mesh".

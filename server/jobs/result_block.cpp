@@ -4,38 +4,13 @@
 #include <cstdint>
 #include <string>
 
+#include "jobs/trace_arrays.hpp"
+
 namespace anticrack::jobs {
 
 namespace {
 
 using store::BlockBuilder;
-
-void add_geometry(BlockBuilder& builder, const std::vector<contact::TraceGeometry>& interfaces) {
-  for (std::size_t i = 0; i < interfaces.size(); ++i) {
-    const std::string path = "interfaces/" + std::to_string(i) + "/";
-    std::vector<std::int32_t> kinds;
-    kinds.reserve(interfaces[i].kind.size());
-    for (const mesh::Kind kind : interfaces[i].kind) {
-      kinds.push_back(static_cast<std::int32_t>(kind));
-    }
-    builder.add(path + "s", interfaces[i].s);
-    builder.add(path + "x", interfaces[i].x);
-    builder.add(path + "y", interfaces[i].y);
-    builder.add(path + "kind", kinds);
-  }
-}
-
-void add_traces(BlockBuilder& builder, const std::string& load,
-                const std::vector<contact::Trace>& traces) {
-  for (std::size_t i = 0; i < traces.size(); ++i) {
-    const std::string path = load + "traces/" + std::to_string(i) + "/";
-    builder.add(path + "u_minus", traces[i].u_minus);
-    builder.add(path + "u_plus", traces[i].u_plus);
-    builder.add(path + "jump", traces[i].jump);
-    builder.add(path + "pressure", traces[i].pressure);
-    builder.add(path + "contact", traces[i].contact);
-  }
-}
 
 template <class Value, class Get>
 void add_column(BlockBuilder& builder, const std::string& name,
@@ -91,7 +66,7 @@ std::shared_ptr<const store::Block> result_block(const operators::MeshOperator& 
     }
     const contact::Answer& answer = cases[l].solved->answer;
     const std::string load = "loads/" + std::to_string(l) + "/";
-    add_traces(builder, load, answer.traces);
+    add_traces(builder, load + "traces/", answer.traces);
     add_history(builder, load, cases[l].solved->history);
     for (std::size_t i = 0; i < answer.fields.size(); ++i) {
       const std::string subdomain = std::to_string(i);

@@ -17,9 +17,9 @@
 
 namespace anticrack::jobs {
 
-/// Load cases that can run together: of one mesh and one lane.
-enum class Lane { active_set, lumped, consistent };
-constexpr std::size_t lane_count = 3;
+/// What can run together: load cases, or chunks of sweeps, of one mesh and one lane.
+enum class Lane { active_set, lumped, consistent, sweep };
+constexpr std::size_t lane_count = 4;
 
 /// A job with load cases that nobody has taken.
 struct Waiting {

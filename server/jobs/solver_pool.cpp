@@ -56,6 +56,8 @@ void SolverPool::work() {
     ++mesh->threads;
     if (turn->lane == Lane::active_set) {
       solve_exactly(lock, mesh);
+    } else if (turn->lane == Lane::sweep) {
+      sweep(lock, mesh);
     } else {
       iterate(lock, mesh, turn->lane);
     }
@@ -250,6 +252,23 @@ EndedCase SolverPool::solve(const PreparedCase& prepared) {
   }
 }
 
+void SolverPool::sweep(Lock& lock, const Mesh& mesh) {
+  const auto begin = Clock::now();
+  do {
+    const std::vector<Task> tasks =
+        take(lock, mesh, Lane::sweep, 1, std::numeric_limits<int>::max());
+    if (tasks.empty()) {
+      return;
+    }
+    ++_core.columns;
+    lock.unlock();
+    EndedChunk chunk = solve_chunk(tasks.front(), _core.iterations);
+    lock.lock();
+    --_core.columns;
+    _core.deliver(lock, std::move(chunk));
+  } while (!turn_is_over(*mesh, Lane::sweep, begin));
+}
+
 std::vector<Task> SolverPool::take(Lock& lock, const Mesh& mesh, Lane lane, int room,
                                    int max_starts) {
   std::vector<Task> tasks;
@@ -271,11 +290,9 @@ std::vector<Task> SolverPool::take(Lock& lock, const Mesh& mesh, Lane lane, int 
       start_job(_core, lock, mesh->mesh_operator, job);
       continue;
     }
-    Task task{job, job->next_case++, Clock::now()};
+    Task task = take_unit(job);
     --mesh->waiting[index(lane)];
-    ++job->active;
-    job->cases[task.index].running = true;
-    if (job->next_case == job->cases.size()) {
+    if (job->next_unit == job->units) {
       _core.schedule.remove(job->number);
     }
     if (job->result_bytes > _core.options.max_result_bytes) {

@@ -34,12 +34,13 @@ class SolverPool {
   void look_for(Lock& lock, const Mesh& mesh);
   void iterate(Lock& lock, const Mesh& mesh, Lane lane);
   void solve_exactly(Lock& lock, const Mesh& mesh);
+  void sweep(Lock& lock, const Mesh& mesh);
 
   void admit(Lock& lock, const Mesh& mesh, Lane lane, std::shared_ptr<BlockRun>& block);
   std::vector<EndedCase> step(Lock& lock, BlockRun& block);
   EndedCase solve(const PreparedCase& prepared);
 
-  /// Cases of the most urgent jobs, which are started where they were not.
+  /// Units of the most urgent jobs, which are started where they were not.
   std::vector<Task> take(Lock& lock, const Mesh& mesh, Lane lane, int room, int max_starts);
   bool turn_is_over(const MeshWork& mesh, Lane lane, EngineCore::Clock::time_point begin) const;
   /// A load case waits that is more urgent than all of a block that has no place for it.

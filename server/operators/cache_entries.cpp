@@ -39,6 +39,11 @@ bool pinned(const CacheEntry& entry) {
   return entry.kept || entry.in_use();
 }
 
+/// An operator grows: by what Algorithm 2 alone needs, and by bases of sweeps.
+std::uint64_t bytes_of(const CacheEntry& entry) {
+  return entry.ready ? entry.ready->bytes() : entry.estimate;
+}
+
 }  // namespace
 
 CacheEntry* CacheEntries::find(const std::string& key) {
@@ -64,15 +69,13 @@ void CacheEntries::reserve(const std::string& key, std::shared_ptr<Flight> fligh
                            std::uint64_t estimate) {
   CacheEntry& entry = _entries[key];
   entry.flight = std::move(flight);
-  entry.bytes = estimate;
+  entry.estimate = estimate;
 }
 
-std::vector<CacheEntries::Operator> CacheEntries::land(const std::string& key, Operator result,
-                                                       std::uint64_t bytes) {
+std::vector<CacheEntries::Operator> CacheEntries::land(const std::string& key, Operator result) {
   CacheEntry& entry = _entries.at(key);
   entry.ready = std::move(result);
   entry.flight.reset();
-  entry.bytes = bytes;
   entry.last_use = ++_clock;
   std::vector<Operator> evicted;
   // As near to the budget as those in use allow.
@@ -113,7 +116,7 @@ CacheEntries::Operator CacheEntries::take(const std::string& key) {
 void CacheEntries::measure(CacheMetrics& metrics) const {
   metrics.bytes = 0;
   for (const auto& [key, entry] : _entries) {
-    metrics.bytes += entry.bytes;
+    metrics.bytes += bytes_of(entry);
   }
   metrics.budget = _budget;
   metrics.pinned = pinned_bytes();
@@ -124,7 +127,7 @@ void CacheEntries::measure(CacheMetrics& metrics) const {
 std::uint64_t CacheEntries::pinned_bytes() const {
   std::uint64_t bytes = 0;
   for (const auto& [key, entry] : _entries) {
-    bytes += pinned(entry) ? entry.bytes : 0;
+    bytes += pinned(entry) ? bytes_of(entry) : 0;
   }
   return bytes;
 }
@@ -134,7 +137,7 @@ bool CacheEntries::evict(std::uint64_t wanted, std::uint64_t budget,
   std::vector<Candidate> candidates;
   std::vector<std::string> keys;
   for (const auto& [key, entry] : _entries) {
-    candidates.push_back({entry.bytes, entry.last_use, pinned(entry)});
+    candidates.push_back({bytes_of(entry), entry.last_use, pinned(entry)});
     keys.push_back(key);
   }
   const auto chosen = evictions(candidates, wanted, budget);

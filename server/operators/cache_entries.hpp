@@ -22,7 +22,7 @@ struct Flight;
 struct CacheEntry {
   std::shared_ptr<const MeshOperator> ready;
   std::shared_ptr<Flight> flight;
-  std::uint64_t bytes = 0;  ///< measured, or the estimate while in flight
+  std::uint64_t estimate = 0;  ///< counts in flight; an operator is measured
   std::uint64_t last_use = 0;
   bool kept = false;  ///< pinned without a holder
 
@@ -42,9 +42,9 @@ class CacheEntries {
   Operator use(const std::string& key);
   /// A flight for which make_room was called.
   void reserve(const std::string& key, std::shared_ptr<Flight> flight, std::uint64_t estimate);
-  /// The flight of `key` has ended with this operator of `bytes`. Returns what has to go where they
-  /// are more than was reserved.
-  std::vector<Operator> land(const std::string& key, Operator result, std::uint64_t bytes);
+  /// The flight of `key` has ended with this operator. Returns what has to go where it is more than
+  /// was reserved.
+  std::vector<Operator> land(const std::string& key, Operator result);
   void erase(const std::string& key) { _entries.erase(key); }
   /// The flights under way.
   std::vector<std::shared_ptr<Flight>> flights() const;

@@ -98,6 +98,7 @@ MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threa
       uzawa_obstacle(ddm::uzawa_obstacle(decomposition, *mesh)),
       problem(decomposition, operators, uzawa_obstacle.empty()),
       skeleton(problem),
+      sweep_geometry(skeleton, mesh->inclusions.size()),
       geometry(contact::trace_geometry(decomposition, *mesh)) {}
 
 void MeshOperator::Parts::require_uzawa() const {
@@ -133,8 +134,13 @@ const std::vector<std::int32_t>& MeshOperator::field_triangles(std::size_t subdo
   return _parts->decomposition.subdomains.at(subdomain).part.triangles;
 }
 
-double MeshOperator::theta_star() const noexcept {
+double MeshOperator::theta_star() const {
   return _parts->problem.theta_star(contact::Mass::lumped);
+}
+
+double MeshOperator::known_theta_star() const noexcept {
+  const contact::TraceProblem& problem = _parts->problem;
+  return problem.knows_theta_star(contact::Mass::lumped) ? theta_star() : 0;
 }
 
 std::size_t MeshOperator::bytes() const noexcept {
@@ -142,7 +148,7 @@ std::size_t MeshOperator::bytes() const noexcept {
   for (const ddm::SubdomainOperator& subdomain : _parts->operators) {
     bytes += subdomain.bytes();
   }
-  return bytes + _parts->skeleton.bytes();
+  return bytes + _parts->skeleton.bytes() + _parts->sweep_geometry.bytes() + _parts->bases.bytes();
 }
 
 void require_threadsafe_blas() {

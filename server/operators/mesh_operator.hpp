@@ -26,9 +26,10 @@ class PreparedLoad;
 class LoadBasis;
 class UzawaBlock;
 
-/// Factorised subdomains, Schur complements, the skeleton condensed to the cracks, interface mass
-/// and theta* of one mesh.
-/// Immutable after construction: any number of threads may solve on it at once.
+/// Factorised subdomains, Schur complements, the skeleton condensed to the cracks and interface
+/// mass of one mesh; what Algorithm 2 alone needs, and condensed bases of sweeps, from when they
+/// are first asked for. Any number of threads may solve on it at once, with the same answers
+/// whatever else was asked.
 class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
  public:
   /// Factorises every subdomain (paper: the matrices of Algorithm 2), two at a time where
@@ -59,16 +60,22 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   contact::Answer solve(const PreparedLoad& load, const contact::SolverOptions& options,
                         bool fields, contact::Observer& observer) const;
 
-  /// Condenses loads whose combinations are to be solved: once per mesh, O(N) each and
-  /// O(n_G^2 + N m) for what pairs of them say of the energy. Throws errors::Error as `solve` does,
-  /// with "load_cases[j]." before the path of the field.
+  /// Condenses loads whose combinations are to be solved: O(N) each and O(n_G^2 + N m) for what
+  /// pairs of them say of the energy; N m numbers meanwhile. The last few bases are kept
+  /// (BasisCache): loads that are the same but for their names, arrays by the hash of their upload,
+  /// are condensed once, also where several threads ask at once. Throws errors::Error as `solve`
+  /// does, with "load_cases[j]." before the path of the field; limit_exceeded where the loads take
+  /// more memory than max_basis_bytes together.
   std::shared_ptr<const LoadBasis> basis(std::span<const fem::Load* const> loads,
                                          const std::stop_token& stop = {}) const;
 
   /// Rows `first` to first + rows.size() of a sweep, row k the load sum_j c_kj f_j, coefficients
   /// (rows, loads) row-major. Each starts from the contact of the one before, the first from that
   /// of `start` (empty: all closed), which becomes the last one's; the numbers do not depend on it
-  /// (DenseLcp). O(m c) and a few steps of O(c^3) or less a row, no allocation in a row.
+  /// (DenseLcp). O(m c) and a few steps of O(c^3) or less a row, no allocation in a row. What the
+  /// numbers of a row are and when it is not_converged: contact::SweepSolver.
+  /// `rows` has its width from mesh() and contact_nodes(). Throws errors::Error (internal) for
+  /// another shape, and for a basis of another mesh.
   /// Returns false where `stop` was requested between two rows.
   bool sweep(const LoadBasis& basis, std::span<const double> coefficients,
              const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
@@ -77,10 +84,12 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   bool sweep(std::span<const PreparedLoad> loads, const contact::ActiveSetOptions& options,
              contact::SweepColumns& rows, std::vector<char>& start,
              const std::stop_token& stop = {}) const;
-  /// A row as a load of its own, for its traces. O(N m).
+  /// A row as a load of its own, for its traces; not for fields, which solve() refuses then
+  /// (internal). O((trace + Dirichlet nodes) m).
   PreparedLoad combine(const LoadBasis& basis, std::span<const double> coefficients) const;
 
-  /// Contacts of the sweeps' rows: interface, and index of the node in its trace_geometry().
+  /// Contacts of the sweeps' rows: interface, and index of the node in its trace_geometry(), for
+  /// every node there that may open (one where interfaces cross is there once on each).
   const std::vector<std::array<std::int32_t, 2>>& contact_nodes() const noexcept;
 
   /// Why Algorithm 2 does not apply to this mesh; empty where it does.
@@ -92,15 +101,22 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// Triangles of a subdomain, (m_i,3) row-major, as indices into Field::nodes of its answers: with
   /// two sides of a slit in one subdomain a mesh node is there twice, once a side.
   const std::vector<std::int32_t>& field_triangles(std::size_t subdomain) const;
-  /// Memory held, measured, bytes (the mesh included).
+  /// Memory held now, measured, bytes (the mesh included).
   std::size_t bytes() const noexcept;
-  /// theta* for lumped mass; 0 where Algorithm 2 does not apply.
-  double theta_star() const noexcept;
+  /// theta* for lumped mass; 0 where Algorithm 2 does not apply. Computed when it is first asked
+  /// for, here or by Algorithm 2: O(n_G^3), at a large interface more than all else. Throws
+  /// errors::Error (numerical) when it cannot be computed.
+  double theta_star() const;
+  /// The same where it is known already, else 0. Does not wait.
+  double known_theta_star() const noexcept;
 
  private:
   friend class UzawaBlock;
   struct Parts;
   explicit MeshOperator(std::unique_ptr<const Parts> parts);
+  /// Throws errors::Error (internal) unless the load is of this mesh, and has fields if asked for.
+  void require_prepared(const PreparedLoad& load, bool fields) const;
+  void require_shape(const contact::SweepColumns& rows, std::span<const char> start) const;
   std::unique_ptr<const Parts> _parts;
 };
 
@@ -173,7 +189,10 @@ class UzawaBlock {
   std::unique_ptr<State> _state;
 };
 
-/// Upper estimate of bytes() before factorising. O(m).
+/// Of the condensed loads of a basis while it is made.
+constexpr std::size_t max_basis_bytes = std::size_t{4} << 30;
+
+/// Upper estimate of bytes() before factorising, cached bases apart. O(m).
 std::size_t estimate_bytes(const mesh::Mesh& mesh);
 
 /// Throws errors::Error (internal) unless BLAS is the pthread build of OpenBLAS, and sets it to one

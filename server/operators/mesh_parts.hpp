@@ -10,9 +10,11 @@
 
 #include "contact/skeleton_problem.hpp"
 #include "contact/solve.hpp"
+#include "contact/sweep_solver.hpp"
 #include "contact/trace_problem.hpp"
 #include "ddm/decomposition.hpp"
 #include "ddm/subdomain_operator.hpp"
+#include "operators/basis_cache.hpp"
 #include "operators/condense_loads.hpp"
 #include "operators/mesh_operator.hpp"
 
@@ -30,16 +32,24 @@ struct MeshOperator::Parts {
   std::string uzawa_obstacle;
   contact::TraceProblem problem;      // refers to the decomposition and the operators
   contact::SkeletonProblem skeleton;  // refers to the problem
+  contact::SweepGeometry sweep_geometry;
   std::vector<contact::TraceGeometry> geometry;
+  mutable BasisCache bases;
 };
 
 struct PreparedLoad::Data {
   std::shared_ptr<const MeshOperator> mesh_operator;
   LoadOnTraces condensed;
+  bool has_interior = true;  ///< not so of a combination: no field can be recovered
 
   contact::CaseLoads loads() const { return {condensed.subdomains, condensed.inclusion_forces}; }
   /// What every answer to the load is told.
   void add_warnings(contact::Answer& answer) const;
+};
+
+struct LoadBasis::Data {
+  std::shared_ptr<const MeshOperator> mesh_operator;
+  std::shared_ptr<const CondensedBasis> basis;
 };
 
 }  // namespace anticrack::operators

@@ -116,13 +116,12 @@ struct OperatorCache::State {
     if (!result) {
       return_freed_memory();  // of what was stopped or failed half-way
     }
-    const std::uint64_t bytes = result ? result->bytes() : 0;
     Operators evicted;
     {
       const std::lock_guard lock(mutex);
       if (result) {
         flight.result = flight.waiters > 0 ? result : nullptr;
-        evicted = entries.land(key, std::move(result), bytes);
+        evicted = entries.land(key, std::move(result));
       } else {
         entries.erase(key);
       }

@@ -35,7 +35,8 @@ struct CacheMetrics {
 ///    The budget is kept: at no moment do measured and reserved bytes together exceed it. Should a
 ///    measured size exceed its estimate (estimate_bytes is an upper bound: a bug in it), unpinned
 ///    entries go at once; what is over even then is kept for those who wait, counted as it is, and
-///    nothing more is admitted until the whole is within the budget again.
+///    nothing more is admitted until the whole is within the budget again. The same holds where an
+///    operator grows in use (theta*, bases of sweeps): it counts as large as it is now.
 /// 4. `pin` keeps an entry until `evict`, also without a holder.
 /// 5. Evicted memory is freed before what it made room for is factorised, and goes back to the
 ///    system (freed_memory.hpp).

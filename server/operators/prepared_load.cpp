@@ -17,6 +17,16 @@ void PreparedLoad::Data::add_warnings(contact::Answer& answer) const {
                          condensed.warnings.end());
 }
 
+void MeshOperator::require_prepared(const PreparedLoad& load, bool fields) const {
+  if (!load._data || load._data->mesh_operator.get() != this) {
+    throw errors::Error(errors::Reason::internal, "a load that was prepared on another mesh");
+  }
+  if (fields && !load._data->has_interior) {
+    throw errors::Error(errors::Reason::internal,
+                        "a combination of loads has no fields; prepare it as a load of its own");
+  }
+}
+
 std::vector<std::variant<PreparedLoad, errors::Error>> MeshOperator::prepare(
     std::span<const fem::Load* const> loads, const std::stop_token& stop) const {
   std::vector<CondensedOutcome> condensed =
@@ -25,6 +35,9 @@ std::vector<std::variant<PreparedLoad, errors::Error>> MeshOperator::prepare(
   prepared.reserve(condensed.size());
   for (auto& one : condensed) {
     if (auto* load = std::get_if<LoadOnTraces>(&one)) {
+      for (ddm::CondensedLoad& on_subdomain : load->subdomains) {
+        on_subdomain.z_boundary.resize(0);  // as long as the interior, and for a basis alone
+      }
       prepared.emplace_back(PreparedLoad(std::make_unique<PreparedLoad::Data>(
           PreparedLoad::Data{shared_from_this(), std::move(*load)})));
     } else {
@@ -54,9 +67,7 @@ contact::Answer MeshOperator::solve(const PreparedLoad& load, const contact::Sol
   if (uzawa != nullptr) {
     _parts->require_uzawa();
   }
-  if (!load._data || load._data->mesh_operator.get() != this) {
-    throw errors::Error(errors::Reason::internal, "a load that was prepared on another mesh");
-  }
+  require_prepared(load, fields);
   const contact::CaseLoads loads = load._data->loads();
   contact::Answer answer =
       uzawa != nullptr

@@ -40,9 +40,7 @@ int UzawaBlock::capacity() const noexcept {
 
 int UzawaBlock::add(PreparedLoad load, const contact::UzawaOptions& options, bool fields,
                     contact::Observer& observer) {
-  if (!load._data || load._data->mesh_operator != _state->mesh_operator) {
-    throw errors::Error(errors::Reason::internal, "a load that was prepared on another mesh");
-  }
+  _state->mesh_operator->require_prepared(load, fields);
   // What the column refers to does not move with the PreparedLoad.
   const int place = _state->columns.add(load._data->loads(), options, fields, observer);
   _state->loads[static_cast<std::size_t>(place)] = std::move(load);

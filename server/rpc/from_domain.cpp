@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "rpc/error_table.hpp"
+#include "rpc/from_sweep.hpp"
 #include "rpc/names.hpp"
 #include "rpc/text.hpp"
 
@@ -133,6 +134,18 @@ void add_timeline(const store::JobRecord& record, v1::Job& to) {
   }
 }
 
+v1::ArrayLayout::Type from_type(store::ArrayType type) {
+  switch (type) {
+    case store::ArrayType::float64:
+      return v1::ArrayLayout::TYPE_FLOAT64;
+    case store::ArrayType::int32:
+      return v1::ArrayLayout::TYPE_INT32;
+    case store::ArrayType::uint8:
+      return v1::ArrayLayout::TYPE_UINT8;
+  }
+  return v1::ArrayLayout::TYPE_UNSPECIFIED;
+}
+
 bool has_answer(store::CaseStatus status) {
   return status == store::CaseStatus::converged || status == store::CaseStatus::not_converged ||
          status == store::CaseStatus::cancelled;
@@ -221,6 +234,10 @@ v1::Job from_domain(const store::JobRecord& record, const InterfaceNames& interf
   for (std::size_t i = 0; i < record.cases.size() && i < record.spec.loads.size(); ++i) {
     *job.add_answers() = from_domain(record.cases[i], record.spec.loads[i].name, interfaces);
   }
+  if (record.spec.sweep) {
+    *job.mutable_sweep() = from_domain(*record.spec.sweep);
+    *job.mutable_sweep_answer() = from_domain(*record.spec.sweep, record.sweep);
+  }
   job.set_result_bytes(record.result_bytes);
   job.set_attempt(record.attempt);
   job.set_owner(record.owner);
@@ -238,8 +255,7 @@ v1::BlockLayout layout_of(const store::BlockSource& block) {
   for (const store::ArrayLayout& array : block.arrays()) {
     v1::ArrayLayout& to = *layout.add_arrays();
     to.set_name(array.name);
-    to.set_type(array.type == store::ArrayType::float64 ? v1::ArrayLayout::TYPE_FLOAT64
-                                                        : v1::ArrayLayout::TYPE_INT32);
+    to.set_type(from_type(array.type));
     to.mutable_shape()->Add(array.shape.begin(), array.shape.end());
     to.set_offset(array.offset);
   }

@@ -156,6 +156,11 @@ std::chrono::milliseconds to_time_limit(const google::protobuf::Duration& durati
   return std::chrono::milliseconds(milliseconds);
 }
 
+std::size_t packed_bytes(const v1::Job& job) {
+  const v1::Sweep::Matrix* matrix = matrix_of(job.sweep()).matrix;
+  return matrix == nullptr ? 0 : matrix->packed().size();
+}
+
 }  // namespace
 
 store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
@@ -166,7 +171,7 @@ store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
                     std::to_string(limits.load_cases) + "; make several jobs of it")
         .at("job.load_cases");
   }
-  const std::size_t bytes = job.ByteSizeLong();
+  const std::size_t bytes = job.ByteSizeLong() - packed_bytes(job);
   if (bytes > max_job_bytes) {
     throw Error(Reason::limit_exceeded, "the job has " + std::to_string(bytes) +
                                             " bytes: at most " + std::to_string(max_job_bytes) +
@@ -186,6 +191,7 @@ store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
   for (int i = 0; i < job.load_cases_size(); ++i) {
     spec.loads.push_back(to_load(job.load_cases(i), "job.load_cases[" + std::to_string(i) + "]"));
   }
+  if (job.has_sweep()) spec.sweep = to_sweep(job, limits);
   return spec;
 }
 

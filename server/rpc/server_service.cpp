@@ -40,6 +40,7 @@ constexpr std::array features{
     "mesh.warm",
     "point_forces",
     "priority",
+    "sweep",
     "timeouts",
     "traction",
     "uzawa",
@@ -72,6 +73,8 @@ v1::ServerLimits to_message(const Limits& limits, const jobs::EngineOptions& eng
   to.set_mesher_memory_bytes(limits.mesher_memory_bytes);
   to.set_message_bytes(max_message_bytes);
   to.set_event_log_bytes(engine.event_log_bytes);
+  to.set_sweep_rows(engine.max_sweep_rows);
+  to.set_sweep_basis(engine.max_sweep_basis);
   *to.mutable_meshing_time() = to_duration(limits.meshing_time);
   return to;
 }

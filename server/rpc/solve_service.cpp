@@ -3,11 +3,13 @@
 
 #include <memory>
 
+#include "jobs/check.hpp"
 #include "jobs/job_engine.hpp"
 #include "rpc/block_feed.hpp"
 #include "rpc/from_domain.hpp"
 #include "rpc/names.hpp"
 #include "rpc/pages.hpp"
+#include "rpc/sweep_upload.hpp"
 #include "rpc/to_domain.hpp"
 #include "rpc/unary.hpp"
 #include "rpc/visible.hpp"
@@ -33,6 +35,10 @@ grpc::ServerUnaryReactor* SolveService::CreateJob(grpc::CallbackServerContext* c
                                                    options.queue_time, options.run_time});
     try {
       visible_mesh(_edge.backend, who, spec.mesh);
+      if (has_packed_matrix(request->job())) {
+        jobs::check(spec, options);  // what is refused leaves nothing on the disk
+        keep_packed_matrix(request->job(), _edge.backend.store, who.name);
+      }
       *response = to_answer(
           _edge.backend.engine.submit({std::move(spec), who.name, request->request_id()}));
     } catch (const errors::Error& error) {

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <string>
 
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
@@ -26,8 +27,11 @@ constexpr std::size_t max_interfaces = 1'000;
 constexpr std::size_t max_regions = 1'000;
 constexpr std::size_t max_title_bytes = 200;
 constexpr std::size_t max_request_id_bytes = 64;
-/// A job's own bytes come back in every answer about it, which must stay below 4 MiB.
+/// A job's own bytes come back in every answer about it, which must stay below 4 MiB; but for a
+/// matrix that came with it.
 constexpr std::size_t max_job_bytes = 1u << 20;
+/// Of a matrix that comes with the job; a larger one is uploaded before.
+constexpr std::size_t max_packed_bytes = 1u << 20;
 
 store::MeshDefinition to_definition(const v1::CreateMeshRequest& request);
 
@@ -40,6 +44,17 @@ struct JobLimits {
 };
 
 store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits);
+
+/// The sweep of a job that has one, its rows not counted yet. A matrix that came with the job is
+/// named by its hash; keep_packed_matrix() makes it the upload of that name.
+store::SweepSpec to_sweep(const v1::Job& job, const JobLimits& limits);
+
+/// A sweep's matrix and its path in the job.
+struct MatrixOf {
+  const v1::Sweep::Matrix* matrix = nullptr;  ///< null: none is set
+  std::string field;                          ///< "sweep.coefficients"; "sweep" where none is set
+};
+MatrixOf matrix_of(const v1::Sweep& sweep);
 
 /// Throws unless `title` is at most max_title_bytes.
 void require_title(const std::string& title, const char* field);

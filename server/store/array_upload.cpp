@@ -78,6 +78,18 @@ void require_array(const std::string& path) {
   read_pieces(path, array_length(path), [](std::span<const double>) {});
 }
 
+std::vector<double> read_array_part(const std::string& path, std::uint64_t first,
+                                    std::size_t count) {
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(first * sizeof(double)));
+  std::vector<double> values(count);
+  if (!file.read(reinterpret_cast<char*>(values.data()),
+                 static_cast<std::streamsize>(count * sizeof(double)))) {
+    throw unreadable(path);
+  }
+  return values;
+}
+
 std::vector<double> read_array(const std::string& path) {
   const std::size_t count = array_length(path);
   std::vector<double> values;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,11 @@ std::size_t array_length(const std::string& path);
 /// Throws as array_length does, and invalid_argument with the index of the first value that is not
 /// finite. Reads the file in pieces.
 void require_array(const std::string& path);
+
+/// `count` values from index `first` on, whatever they are; nothing else is read. Throws storage
+/// where the file is shorter.
+std::vector<double> read_array_part(const std::string& path, std::uint64_t first,
+                                    std::size_t count);
 
 /// The values, all finite. Throws as require_array does.
 std::vector<double> read_array(const std::string& path);

@@ -28,6 +28,38 @@ bool fits(const std::vector<std::uint64_t>& shape, std::uint64_t count) {
   return product == count;
 }
 
+std::size_t bytes_of(ArrayType type) {
+  switch (type) {
+    case ArrayType::float64:
+      return sizeof(double);
+    case ArrayType::int32:
+      return sizeof(std::int32_t);
+    case ArrayType::uint8:
+      break;
+  }
+  return sizeof(std::uint8_t);
+}
+
+/// Throws std::length_error where it does not fit into a std::size_t.
+std::size_t bytes_of(ArrayType type, const std::vector<std::uint64_t>& shape) {
+  std::size_t bytes = bytes_of(type);
+  for (const std::uint64_t extent : shape) {
+    if (__builtin_mul_overflow(bytes, extent, &bytes)) {
+      throw std::length_error("an array of a block is larger than any memory");
+    }
+  }
+  return bytes;
+}
+
+/// Bytes for an array at the end of the block.
+std::span<std::byte> extend(Block& block, std::string name, ArrayType type,
+                            std::vector<std::uint64_t> shape, std::size_t bytes) {
+  const std::size_t offset = (block.bytes.size() + alignment - 1) / alignment * alignment;
+  block.bytes.resize(offset + bytes);
+  block.arrays.push_back({std::move(name), type, std::move(shape), offset});
+  return std::span(block.bytes).subspan(offset);
+}
+
 template <class T>
 void append(Block& block, std::string name, ArrayType type, std::span<const T> values,
             std::vector<std::uint64_t> shape) {
@@ -38,11 +70,10 @@ void append(Block& block, std::string name, ArrayType type, std::span<const T> v
     throw std::invalid_argument("array " + name + ": its shape does not hold " +
                                 std::to_string(values.size()) + " values");
   }
-  const std::size_t offset = (block.bytes.size() + alignment - 1) / alignment * alignment;
-  block.bytes.resize(offset);
   const std::span<const std::byte> bytes = std::as_bytes(values);
-  block.bytes.insert(block.bytes.end(), bytes.begin(), bytes.end());
-  block.arrays.push_back({std::move(name), type, std::move(shape), offset});
+  const std::span<std::byte> room =
+      extend(block, std::move(name), type, std::move(shape), bytes.size());
+  std::ranges::copy(bytes, room.begin());
 }
 
 class MemoryBlock final : public BlockSource {
@@ -74,6 +105,17 @@ void BlockBuilder::add(std::string name, std::span<const double> values,
 void BlockBuilder::add(std::string name, std::span<const std::int32_t> values,
                        std::vector<std::uint64_t> shape) {
   append(_block, std::move(name), ArrayType::int32, values, std::move(shape));
+}
+
+void BlockBuilder::add(std::string name, std::span<const std::uint8_t> values,
+                       std::vector<std::uint64_t> shape) {
+  append(_block, std::move(name), ArrayType::uint8, values, std::move(shape));
+}
+
+std::span<std::byte> BlockBuilder::add_zeros(std::string name, ArrayType type,
+                                             std::vector<std::uint64_t> shape) {
+  const std::size_t bytes = bytes_of(type, shape);
+  return extend(_block, std::move(name), type, std::move(shape), bytes);
 }
 
 Block BlockBuilder::finish() {

@@ -51,6 +51,12 @@ class BlockBuilder {
            std::vector<std::uint64_t> shape = {});
   void add(std::string name, std::span<const std::uint8_t> values,
            std::vector<std::uint64_t> shape = {});
+  /// An array of zeros, to be filled until anything else is called: what is put together from many
+  /// pieces need not be in memory twice. Throws std::length_error for a shape beyond all memory.
+  std::span<std::byte> add_zeros(std::string name, ArrayType type,
+                                 std::vector<std::uint64_t> shape);
+  /// Room for so many bytes, so that the arrays are not moved as the block grows.
+  void reserve(std::size_t bytes) { _block.bytes.reserve(bytes); }
   /// Computes the hash. The builder is empty after.
   Block finish();
 

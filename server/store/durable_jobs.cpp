@@ -23,6 +23,9 @@ std::set<std::string> uploads_of(const JobSpec& spec) {
       uploads.insert(array->upload);
     }
   }
+  if (spec.sweep) {
+    uploads.insert(spec.sweep->upload);
+  }
   return uploads;
 }
 

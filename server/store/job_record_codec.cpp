@@ -19,6 +19,7 @@ constexpr std::array priorities{Priority::interactive, Priority::normal, Priorit
 constexpr std::array statuses{contact::Status::converged, contact::Status::not_converged,
                               contact::Status::cancelled};
 constexpr std::array masses{contact::Mass::lumped, contact::Mass::consistent};
+constexpr std::array sweep_cases{SweepSpec::Cases::combinations, SweepSpec::Cases::nodal_forces};
 
 static void write(const fem::Force& force, Load& out) {
   if (const auto* constant = std::get_if<double>(&force)) {
@@ -116,6 +117,34 @@ static contact::SolverOptions solver_of(const JobSpec& in) {
   throw damaged_record("a job without a solver");
 }
 
+static void write(const SweepSpec& sweep, Sweep& out) {
+  out.set_cases(number(sweep_cases, sweep.cases));
+  out.set_upload(sweep.upload);
+  out.set_rows(sweep.rows);
+  out.mutable_traces()->Assign(sweep.traces.begin(), sweep.traces.end());
+}
+
+static SweepSpec read(const Sweep& in) {
+  return {choice(sweep_cases, in.cases()),
+          in.upload(),
+          in.rows(),
+          {in.traces().begin(), in.traces().end()}};
+}
+
+static void write(const SweepRecord& sweep, SweepAnswer& out) {
+  out.set_converged(sweep.converged);
+  out.set_not_converged(sweep.not_converged);
+  out.set_failed(sweep.failed);
+  out.set_most_steps(sweep.most_steps);
+  out.set_worst_kkt(sweep.worst_kkt);
+  out.set_seconds(sweep.seconds);
+}
+
+static SweepRecord read(const SweepAnswer& in) {
+  return {in.converged(),  in.not_converged(), in.failed(),
+          in.most_steps(), in.worst_kkt(),     in.seconds()};
+}
+
 static void write(const store::JobSpec& spec, JobSpec& out) {
   out.set_title(spec.title);
   out.set_mesh(spec.mesh);
@@ -127,6 +156,9 @@ static void write(const store::JobSpec& spec, JobSpec& out) {
     write(std::get<contact::UzawaOptions>(spec.solver), *out.mutable_uzawa());
   }
   out.set_fields(spec.fields);
+  if (spec.sweep) {
+    write(*spec.sweep, *out.mutable_sweep());
+  }
   out.set_priority(number(priorities, spec.priority));
   out.set_queue_time_limit_ms(spec.queue_time_limit.count());
   out.set_run_time_limit_ms(spec.run_time_limit.count());
@@ -139,6 +171,9 @@ static store::JobSpec read(const JobSpec& in) {
   spec.loads = read_all(in.loads());
   spec.solver = solver_of(in);
   spec.fields = in.fields();
+  if (in.has_sweep()) {
+    spec.sweep = read(in.sweep());
+  }
   spec.priority = choice(priorities, in.priority());
   spec.queue_time_limit = milliseconds(in.queue_time_limit_ms());
   spec.run_time_limit = milliseconds(in.run_time_limit_ms());
@@ -265,6 +300,7 @@ std::string encode(const JobRecord& record) {
     out.set_ended_ns(disk::to_disk(*record.ended));
   }
   disk::write_all(record.cases, *out.mutable_cases());
+  disk::write(record.sweep, *out.mutable_sweep());
   out.set_result_bytes(record.result_bytes);
   out.set_attempt(record.attempt);
   disk::write_all(record.timeline, *out.mutable_timeline());
@@ -291,6 +327,7 @@ JobRecord decode_job_record(std::string_view bytes) {
     record.ended = disk::time_of(in.ended_ns());
   }
   record.cases = disk::read_all(in.cases());
+  record.sweep = disk::read(in.sweep());
   record.result_bytes = in.result_bytes();
   record.attempt = in.attempt();
   record.timeline = disk::read_all(in.timeline());

@@ -19,7 +19,7 @@ using errors::Reason;
 
 static_assert(std::endian::native == std::endian::little, "lengths are little-endian");
 
-constexpr std::array types{ArrayType::float64, ArrayType::int32};
+constexpr std::array types{ArrayType::float64, ArrayType::int32, ArrayType::uint8};
 constexpr std::string_view magic("ACRES\0\0\1", 8);  // the last: the version
 constexpr std::size_t lengths = 2 * sizeof(std::uint32_t);
 constexpr std::size_t max_header = std::size_t{16} << 20U;

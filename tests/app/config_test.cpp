@@ -51,6 +51,8 @@ queued-bytes = "2MiB"
 columns = 13
 kept-meshes = 14
 streams-a-client = 15
+max-sweep-rows = 16
+max-sweep-basis = 17
 )",
                                                  "c.toml"),
                                     {});
@@ -78,6 +80,8 @@ streams-a-client = 15
   EXPECT_EQ(config.queued_cases, 11);
   EXPECT_EQ(config.queued_bytes, 2ull << 20);
   EXPECT_EQ(config.columns, 13);
+  EXPECT_EQ(config.max_sweep_rows, 16u);
+  EXPECT_EQ(config.max_sweep_basis, 17);
   EXPECT_EQ(config.kept_meshes, 14);
   EXPECT_EQ(config.streams_a_client, 15);
 }

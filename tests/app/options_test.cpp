@@ -29,6 +29,8 @@ Config distinct() {
   config.threads = 203;
   config.columns = 204;
   config.load_cases = 205;
+  config.max_sweep_rows = 214;
+  config.max_sweep_basis = 215;
   config.iterations = 206;
   config.expression_bytes = 207;
   config.queued_jobs = 208;
@@ -55,6 +57,8 @@ TEST(Options, OfTheEngineAreTheConfigurations) {
   EXPECT_EQ(options.columns, 204);
   EXPECT_EQ(options.max_load_cases, 205);
   EXPECT_EQ(options.max_iterations, 206);
+  EXPECT_EQ(options.max_sweep_rows, 214u);
+  EXPECT_EQ(options.max_sweep_basis, 215);
   EXPECT_EQ(options.max_expression_bytes, 207u);
   EXPECT_EQ(options.max_queued_jobs, 208);
   EXPECT_EQ(options.max_queued_cases, 209);

@@ -97,6 +97,32 @@ void save_cases(const fs::path& examples) {
   }
 }
 
+v1::Job sweep_job(v1::Sweep sweep, int load_cases) {
+  v1::Job job;
+  for (int i = 0; i < load_cases; ++i) {
+    v1::LoadCase& load = *job.add_load_cases();
+    load.set_name("basis " + std::to_string(i));
+    load.mutable_force()->set_constant(1.5);
+  }
+  *job.mutable_sweep() = std::move(sweep);
+  return job;
+}
+
+void save_sweeps() {
+  const double values[] = {1, -0.5, 0, 2};
+  v1::Sweep packed;
+  packed.mutable_coefficients()->set_packed(values, sizeof values);
+  packed.add_traces(0);
+  packed.add_traces(1);
+  save_job_request("sweep-packed", sweep_job(packed, 2));
+  v1::Sweep uploaded;
+  uploaded.mutable_coefficients()->set_upload("uploads/" + std::string(64, 'a'));
+  save_job_request("sweep-uploaded", sweep_job(uploaded, 1));
+  v1::Sweep nodal;
+  nodal.mutable_nodal_forces()->set_packed(values, sizeof values);
+  save_job_request("sweep-nodal", sweep_job(nodal, 0));
+}
+
 template <class Request>
 void save_name(int selector, const std::string& name) {
   Request request;
@@ -273,6 +299,7 @@ int main(int argc, char** argv) {
   try {
     root = argv[2];
     save_cases(argv[1]);
+    save_sweeps();
     save_small_requests();
     save_meshes();
     save_uploads();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/requests.hpp"
 
+#include <cstdio>
+
 namespace anticrack::testing {
 namespace {
 
@@ -38,6 +40,33 @@ v1::CreateJobRequest opening_job(const std::string& mesh) {
   load.set_name("opening");
   load.mutable_force()->set_expression("y > 0 ? 1 : -1");
   return request;
+}
+
+std::string packed(const std::vector<double>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
+}
+
+v1::CreateJobRequest sweep_job(const std::string& mesh, const std::vector<double>& coefficients) {
+  v1::CreateJobRequest request = opening_job(mesh);
+  v1::Job& job = *request.mutable_job();
+  v1::LoadCase& slope = *job.add_load_cases();
+  slope.set_name("slope");
+  slope.mutable_force()->set_expression("x");
+  v1::LoadCase& push = *job.add_load_cases();
+  push.set_name("push");
+  (*push.mutable_inclusion_forces())["fibre"] = 1;
+  job.mutable_sweep()->mutable_coefficients()->set_packed(packed(coefficients));
+  return request;
+}
+
+v1::LoadCase row_alone(const std::string& name, const double* row) {
+  char force[100];
+  std::snprintf(force, sizeof force, "(%.17g) * (y > 0 ? 1 : -1) + (%.17g) * x", row[0], row[1]);
+  v1::LoadCase load;
+  load.set_name(name);
+  load.mutable_force()->set_expression(force);
+  (*load.mutable_inclusion_forces())["fibre"] = row[2];
+  return load;
 }
 
 v1::CreateJobRequest endless_job(const std::string& mesh) {

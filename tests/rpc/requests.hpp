@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
@@ -16,6 +17,16 @@ v1::CreateMeshRequest paper_mesh(double size = 0.2);
 
 /// One load case "opening" (Example 3: f = 1 above the interface, -1 below) on the mesh.
 v1::CreateJobRequest opening_job(const std::string& mesh);
+
+/// f64, little-endian, as they lie in memory.
+std::string packed(const std::vector<double>& values);
+
+/// A sweep over combinations of three load cases, a row after the other: "opening", "slope" (f = x)
+/// and "push" (a force of 1 on the inclusion).
+v1::CreateJobRequest sweep_job(const std::string& mesh, const std::vector<double>& coefficients);
+
+/// The plain load case that such a row stands for.
+v1::LoadCase row_alone(const std::string& name, const double* row);
 
 /// A job that iterates until it is cancelled.
 v1::CreateJobRequest endless_job(const std::string& mesh);

@@ -46,6 +46,8 @@ TEST(Server, TellsWhatItIsAndAllows) {
   RunningServer server([](auto& settings) {
     settings.engine.threads = 3;
     settings.engine.max_load_cases = 17;
+    settings.engine.max_sweep_rows = 5'000'000'000;
+    settings.engine.max_sweep_basis = 18;
     settings.server.limits.upload_bytes = 12'345;
     settings.server.limits.watchers = 5;
     settings.server.limits.meshing_time = std::chrono::seconds(99);
@@ -56,6 +58,8 @@ TEST(Server, TellsWhatItIsAndAllows) {
   EXPECT_GT(info.start_time().seconds(), 0);
   EXPECT_EQ(info.threads(), 3);
   EXPECT_EQ(info.limits().load_cases(), 17);
+  EXPECT_EQ(info.limits().sweep_rows(), 5'000'000'000u);
+  EXPECT_EQ(info.limits().sweep_basis(), 18);
   EXPECT_EQ(info.limits().upload_bytes(), 12'345u);
   EXPECT_EQ(info.limits().watchers(), 5);
   EXPECT_EQ(info.limits().meshing_time().seconds(), 99);
@@ -63,6 +67,7 @@ TEST(Server, TellsWhatItIsAndAllows) {
   EXPECT_GT(info.limits().queued_jobs(), 0);
   EXPECT_THAT(info.features(), ::testing::Contains("uzawa"));
   EXPECT_THAT(info.features(), ::testing::Contains("active_set"));
+  EXPECT_THAT(info.features(), ::testing::Contains("sweep"));
 }
 
 TEST(Server, CountsWhatItDoes) {

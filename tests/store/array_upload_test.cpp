@@ -57,6 +57,17 @@ TEST_F(ArrayUpload, NamesTheValueThatIsNotFinite) {
   }
 }
 
+TEST_F(ArrayUpload, IsReadInPartWhateverItHolds) {
+  std::vector<double> values = {0, 1, 2, std::nan(""), 4, HUGE_VAL};
+  const std::string path = file(values);
+  EXPECT_EQ(read_array_part(path, 1, 2), (std::vector<double>{1, 2}));
+  EXPECT_EQ(read_array_part(path, 4, 2), (std::vector<double>{4, HUGE_VAL}));
+  EXPECT_TRUE(std::isnan(read_array_part(path, 3, 1).at(0)));
+  EXPECT_TRUE(throws([&] { read_array_part(path, 5, 2); }, Reason::storage));
+  EXPECT_TRUE(throws([&] { read_array_part(path, 1'000'000, 1); }, Reason::storage));
+  EXPECT_TRUE(throws([&] { read_array_part("/nowhere/at/all", 0, 1); }, Reason::storage));
+}
+
 TEST_F(ArrayUpload, IsNoMshAndNoFractionOfAValue) {
   for (const std::string& bytes : {std::string("$MeshFormat\n2.2 0 8"), std::string("$MeshFormat"),
                                    std::string(), std::string(15, 'x')}) {

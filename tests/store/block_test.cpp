@@ -73,6 +73,29 @@ TEST(Block, RefusesAShapeThatDoesNotFit) {
   EXPECT_TRUE(builder.finish().arrays.empty());
 }
 
+TEST(Block, HoldsBytesAndArraysThatAreFilledLater) {
+  BlockBuilder builder;
+  const std::vector<std::uint8_t> flags = {1, 0, 1, 1, 0, 1};
+  const std::vector<double> halves = {0.5, 1.5};
+  builder.reserve(100);
+  builder.add("flags", flags, {2, 3});
+  const auto bytes = builder.add_zeros("halves", ArrayType::float64, {3, 1});
+  ASSERT_EQ(bytes.size(), 3 * sizeof(double));
+  std::memcpy(bytes.data() + sizeof(double), halves.data(), sizeof(double) * halves.size());
+  EXPECT_TRUE(builder.add_zeros("none", ArrayType::uint8, {0, 7}).empty());
+  EXPECT_EQ(builder.add_zeros("integers", ArrayType::int32, {2}).size(), 8U);
+  EXPECT_THROW(builder.add_zeros("vast", ArrayType::float64, {UINT64_MAX / 4, 2}),
+               std::length_error);
+  const Block block = builder.finish();
+  ASSERT_EQ(block.arrays.size(), 4U);
+  EXPECT_EQ(block.arrays[0].type, ArrayType::uint8);
+  EXPECT_EQ(values<std::uint8_t>(block, 0), flags);
+  EXPECT_EQ(block.arrays[1].offset, 8U);
+  EXPECT_THAT(values<double>(block, 1), ElementsAre(0, 0.5, 1.5));
+  EXPECT_THAT(values<std::int32_t>(block, 3), ElementsAre(0, 0));
+  EXPECT_EQ(block.bytes.size(), 8 + 24 + 8U);
+}
+
 TEST(Block, LeavesTheBuilderEmpty) {
   BlockBuilder builder;
   builder.add("a", std::vector<double>{1});

@@ -149,6 +149,7 @@ TEST_F(StoredJobs, GiveTheirResultPieceByPiece) {
   BlockBuilder builder;
   builder.add("u", std::vector<double>{1, 2, 3, 4, 5, 6}, {2, 3});
   builder.add("contact", std::vector<std::int32_t>{7, 8});
+  builder.add("flags", std::vector<std::uint8_t>{1, 0, 1});
   const auto written = std::make_shared<const Block>(builder.finish());
   end("j", written);
   const auto memory = in_memory(written);
@@ -156,7 +157,9 @@ TEST_F(StoredJobs, GiveTheirResultPieceByPiece) {
   for (const auto& source : {memory, disk}) {
     EXPECT_EQ(source->sha256(), written->sha256);
     ASSERT_EQ(source->size(), written->bytes.size());
-    ASSERT_EQ(source->arrays().size(), 2U);
+    ASSERT_EQ(source->arrays().size(), 3U);
+    EXPECT_EQ(source->arrays()[2].type, ArrayType::uint8);
+    EXPECT_THAT(source->arrays()[2].shape, ElementsAre(3));
     EXPECT_EQ(source->arrays()[0].name, "u");
     EXPECT_EQ(source->arrays()[0].type, ArrayType::float64);
     EXPECT_THAT(source->arrays()[0].shape, ElementsAre(2, 3));

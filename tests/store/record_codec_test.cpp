@@ -35,6 +35,17 @@ TEST(RecordCodec, GivesBackWhatNobodyFilledIn) {
   EXPECT_EQ(Listing::of(decode_job_record(encode(JobRecord{}))), Listing::of(JobRecord{}));
 }
 
+TEST(RecordCodec, ReadsAJobFromBeforeThereWereSweeps) {
+  auto record = AnyValue(3).make<JobRecord>();
+  record.spec.sweep.reset();
+  record.sweep = {};
+  const std::string bytes = encode(record);
+  const std::string empty_sweep("\x72\0", 2);  // the last field, number 14, of length 0
+  ASSERT_TRUE(bytes.ends_with(empty_sweep));
+  const JobRecord back = decode_job_record(bytes.substr(0, bytes.size() - empty_sweep.size()));
+  EXPECT_EQ(Listing::of(back), Listing::of(record));
+}
+
 TEST(RecordCodec, KeepsNoArrays) {
   JobRecord record;
   record.spec.loads.push_back({"load", fem::Array{"hash", true, nullptr}});

@@ -53,10 +53,12 @@ ANTICRACK_FIELDS(contact::ActiveSetOptions, a, b)
 ANTICRACK_FIELDS(contact::KktResiduals, a, b, c, d)
 ANTICRACK_FIELDS(contact::InclusionAnswer, a, b, c, d)
 ANTICRACK_FIELDS(contact::ContactInterval, a, b, c)
-ANTICRACK_FIELDS(store::JobSpec, a, b, c, d, e, f, g, h)
+ANTICRACK_FIELDS(store::SweepSpec, a, b, c, d)
+ANTICRACK_FIELDS(store::SweepRecord, a, b, c, d, e, f)
+ANTICRACK_FIELDS(store::JobSpec, a, b, c, d, e, f, g, h, i)
 ANTICRACK_FIELDS(store::Step, a, b, c)
 ANTICRACK_FIELDS(store::CaseRecord, a, b, c, d)
-ANTICRACK_FIELDS(store::JobRecord, a, b, c, d, e, f, g, h, i, j, k, l, m)
+ANTICRACK_FIELDS(store::JobRecord, a, b, c, d, e, f, g, h, i, j, k, l, m, n)
 #undef ANTICRACK_FIELDS
 // clang-format on
 
@@ -173,6 +175,7 @@ class AnyValue {
   static std::uint64_t count(store::JobState) { return 7; }
   static std::uint64_t count(store::CaseStatus) { return 6; }
   static std::uint64_t count(store::Priority) { return 3; }
+  static std::uint64_t count(store::SweepSpec::Cases) { return 2; }
 
   std::mt19937_64 _random;
 };

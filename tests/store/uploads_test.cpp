@@ -90,6 +90,18 @@ TEST_F(StoredUploads, StayWhileAJobNeedsThem) {
   EXPECT_EQ(store->expire_uploads(for_ever), 1U);
 }
 
+TEST_F(StoredUploads, StayWhileASweepNeedsThem) {
+  const std::string matrix = upload("matrix");
+  JobRecord record = job_record("j");
+  record.spec.sweep.emplace().upload = matrix;
+  store->create(record, "");
+  reopen();
+  EXPECT_EQ(store->expire_uploads(for_ever), 0U);
+  store->finish(ended_record("j"), nullptr);
+  EXPECT_EQ(store->expire_uploads(for_ever), 1U);
+  EXPECT_FALSE(store->upload_path(matrix, ""));
+}
+
 TEST_F(StoredUploads, StayUntilTheirMeshIsMade) {
   const std::string hash = upload("msh");
   MeshRecord record = meshed_record("m", strip(2));

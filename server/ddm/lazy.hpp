@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <optional>
+
+namespace anticrack::ddm {
+
+/// A value that is computed when it is first asked for, and once: others that ask meanwhile wait
+/// for it. Thread-safe; stays where it is.
+template <class Value>
+class Lazy {
+ public:
+  /// Where compute() throws nothing is kept, and the next who asks tries again.
+  template <class Compute>
+  const Value& get(const Compute& compute) const {
+    if (const Value* value = known()) {
+      return *value;
+    }
+    const std::lock_guard lock(_mutex);
+    if (!_value) {
+      _value.emplace(compute());
+      _known.store(&*_value, std::memory_order_release);
+    }
+    return *_value;
+  }
+
+  /// Null until it is there. Does not wait.
+  const Value* known() const noexcept { return _known.load(std::memory_order_acquire); }
+
+ private:
+  mutable std::mutex _mutex;
+  mutable std::optional<Value> _value;
+  mutable std::atomic<const Value*> _known{nullptr};
+};
+
+}  // namespace anticrack::ddm

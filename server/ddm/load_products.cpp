@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ddm/load_products.hpp"
+
+#include <algorithm>
+
+namespace anticrack::ddm {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// A list of vectors as a matrix, some rows at a time: all of it would double the loads' memory.
+/// Empty vectors are zero.
+template <VectorXd CondensedLoad::*part>
+class Columns {
+ public:
+  explicit Columns(std::span<const CondensedLoad* const> loads) : _loads(loads) {
+    for (const CondensedLoad* load : loads) {
+      _rows = std::max(_rows, (load->*part).size());
+    }
+  }
+  Index rows() const { return _rows; }
+  MatrixXd block(Index first, Index count) const {
+    MatrixXd result = MatrixXd::Zero(count, static_cast<Index>(_loads.size()));
+    for (Index j = 0; j < result.cols(); ++j) {
+      const VectorXd& column = _loads[static_cast<std::size_t>(j)]->*part;
+      if (column.size() > 0) {
+        result.col(j) = column.segment(first, count);
+      }
+    }
+    return result;
+  }
+
+ private:
+  std::span<const CondensedLoad* const> _loads;
+  Index _rows = 0;
+};
+
+/// (loads, loads): a_i'b_j.
+template <VectorXd CondensedLoad::*a, VectorXd CondensedLoad::*b>
+MatrixXd inner(std::span<const CondensedLoad* const> loads) {
+  constexpr Index at_once = 2048;
+  const Columns<a> left(loads);
+  const Columns<b> right(loads);
+  const auto m = static_cast<Index>(loads.size());
+  MatrixXd result = MatrixXd::Zero(m, m);
+  const Index rows = std::min(left.rows(), right.rows());
+  for (Index first = 0; first < rows; first += at_once) {
+    const Index count = std::min(at_once, rows - first);
+    const MatrixXd l = left.block(first, count), r = right.block(first, count);
+    result.noalias() += l.transpose() * r;
+  }
+  return result;
+}
+
+MatrixXd symmetric(const MatrixXd& matrix) {
+  return (matrix + matrix.transpose()) / 2;
+}
+
+}  // namespace
+
+LoadProducts products(std::span<const CondensedLoad* const> loads) {
+  const MatrixXd interior = inner<&CondensedLoad::z_interior, &CondensedLoad::z_interior>(loads);
+  const MatrixXd mixed = inner<&CondensedLoad::z_interior, &CondensedLoad::z_boundary>(loads);
+  const MatrixXd boundary =
+      inner<&CondensedLoad::dirichlet, &CondensedLoad::dirichlet_force>(loads);
+  const MatrixXd work = inner<&CondensedLoad::on_dirichlet, &CondensedLoad::dirichlet>(loads);
+  return {symmetric((boundary - interior) / 2 - work), symmetric(interior - 2 * mixed + boundary)};
+}
+
+CondensedLoad combine(std::span<const CondensedLoad* const> loads, const LoadProducts& products,
+                      const Eigen::Ref<const VectorXd>& coefficients) {
+  CondensedLoad result;
+  for (Index j = 0; j < coefficients.size(); ++j) {
+    const CondensedLoad& load = *loads[static_cast<std::size_t>(j)];
+    if (j == 0) {
+      result.g = result.g_boundary = VectorXd::Zero(load.g.size());
+      result.dirichlet = VectorXd::Zero(load.dirichlet.size());
+    }
+    result.g += coefficients[j] * load.g;
+    result.g_boundary += coefficients[j] * load.g_boundary;
+    result.dirichlet += coefficients[j] * load.dirichlet;
+  }
+  result.energy_constant = coefficients.dot(products.energy * coefficients);
+  result.norm_constant = coefficients.dot(products.norm * coefficients);
+  return result;
+}
+
+}  // namespace anticrack::ddm

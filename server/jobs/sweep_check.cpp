@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/sweep_check.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "errors/errors.hpp"
+#include "store/array_upload.hpp"
+
+namespace anticrack::jobs {
+
+namespace {
+
+using errors::Error;
+using errors::Reason;
+using store::SweepSpec;
+
+constexpr std::uint64_t combinations_a_case = 256;
+constexpr std::uint64_t forces_a_case = (1U << 20U) / sizeof(double);
+
+std::uint64_t parts(std::uint64_t whole, std::uint64_t part) {
+  return std::max<std::uint64_t>(1, (whole + part - 1) / part);
+}
+
+bool combines(const SweepSpec& sweep) {
+  return sweep.cases == SweepSpec::Cases::combinations;
+}
+
+std::string trace_path(std::size_t index) {
+  return "sweep.traces[" + std::to_string(index) + "]";
+}
+
+void check_loads(const SweepSpec& sweep, std::size_t loads, std::size_t max_basis) {
+  if (!combines(sweep)) {
+    if (loads != 0) {
+      throw Error(Reason::invalid_argument,
+                  "the sweep brings its own loads as nodal forces, so "
+                  "the " +
+                      std::to_string(loads) +
+                      " load cases would not be solved: leave them out, "
+                      "or give coefficients to combine them with")
+          .at("load_cases");
+    }
+    return;
+  }
+  if (loads == 0) {
+    throw Error(Reason::invalid_argument,
+                "the sweep combines load cases and the job has none: give at least one, or nodal "
+                "forces in place of coefficients")
+        .at("load_cases");
+  }
+  if (loads > max_basis) {
+    throw Error(Reason::limit_exceeded,
+                std::to_string(loads) + " load cases: a sweep may combine " +
+                    std::to_string(max_basis) + ", so combine fewer, or sweep over nodal forces")
+        .at("load_cases");
+  }
+}
+
+void check_traces(const SweepSpec& sweep, std::size_t max_traces) {
+  const std::vector<std::uint32_t>& traces = sweep.traces;
+  if (traces.size() > max_traces) {
+    throw Error(Reason::limit_exceeded, "traces of " + std::to_string(traces.size()) +
+                                            " rows: a job may keep those of " +
+                                            std::to_string(max_traces))
+        .at("sweep.traces");
+  }
+  for (std::size_t i = 1; i < traces.size(); ++i) {
+    if (traces[i] <= traces[i - 1]) {
+      throw Error(Reason::invalid_argument, "row " + std::to_string(traces[i]) + " after row " +
+                                                std::to_string(traces[i - 1]) +
+                                                ": give the rows in ascending order, each once")
+          .at(trace_path(i));
+    }
+  }
+}
+
+}  // namespace
+
+const char* matrix_field(const SweepSpec& sweep) {
+  return combines(sweep) ? "sweep.coefficients" : "sweep.nodal_forces";
+}
+
+void check_sweep(const store::JobSpec& spec, const EngineOptions& options) {
+  const SweepSpec& sweep = *spec.sweep;
+  check_loads(sweep, spec.loads.size(), static_cast<std::size_t>(options.max_sweep_basis));
+  if (!std::holds_alternative<contact::ActiveSetOptions>(spec.solver)) {
+    throw Error(Reason::invalid_argument,
+                "a sweep is solved by the active set: ask for that, or submit the rows as load "
+                "cases of a job")
+        .at("solver.uzawa");
+  }
+  if (spec.fields) {
+    throw Error(Reason::invalid_argument,
+                "a sweep keeps no fields: leave them out, and solve the rows of interest as load "
+                "cases of a job")
+        .at("fields");
+  }
+  check_traces(sweep, static_cast<std::size_t>(options.max_load_cases));
+}
+
+MatrixFile find_matrix(const SweepSpec& sweep, const store::Store& store,
+                       const std::string& owner) {
+  try {
+    std::optional<std::string> path = store.upload_path(sweep.upload, owner);
+    if (!path) {
+      throw Error(Reason::not_found,
+                  "there is no uploads/" + sweep.upload + "; upload the matrix of the sweep first");
+    }
+    const std::uint64_t values = store::array_length(*path);
+    return {std::move(*path), values};
+  } catch (Error& error) {
+    error.at(matrix_field(sweep));
+    throw;
+  }
+}
+
+std::uint64_t rows_of(const SweepSpec& sweep, std::uint64_t values, std::uint64_t columns,
+                      std::uint64_t max_rows) {
+  const std::string what = combines(sweep) ? " load cases" : " nodes of the mesh";
+  if (values == 0 || values % columns != 0) {
+    throw Error(Reason::invalid_argument, "the matrix has " + std::to_string(values) +
+                                              " values, which is no number of rows of " +
+                                              std::to_string(columns) +
+                                              ": give a value for each of the " +
+                                              std::to_string(columns) + what + " in every row")
+        .at(matrix_field(sweep));
+  }
+  const std::uint64_t rows = values / columns;
+  if (rows > max_rows) {
+    throw Error(Reason::limit_exceeded, std::to_string(rows) + " rows: a sweep may have " +
+                                            std::to_string(max_rows) + ", so split it")
+        .at(matrix_field(sweep));
+  }
+  const auto beyond = std::lower_bound(sweep.traces.begin(), sweep.traces.end(), rows);
+  if (beyond != sweep.traces.end()) {
+    throw Error(Reason::invalid_argument, "there is no row " + std::to_string(*beyond) +
+                                              ": the rows are 0 to " + std::to_string(rows - 1))
+        .at(trace_path(static_cast<std::size_t>(beyond - sweep.traces.begin())));
+  }
+  return rows;
+}
+
+std::uint64_t queued_cases(const store::JobSpec& spec, const store::Store& store,
+                           const std::string& owner) {
+  if (!spec.sweep) {
+    return spec.loads.size();
+  }
+  try {
+    const std::uint64_t values = find_matrix(*spec.sweep, store, owner).values;
+    return combines(*spec.sweep) ? parts(values, combinations_a_case * spec.loads.size())
+                                 : parts(values, forces_a_case);
+  } catch (const Error&) {
+    return 1;  // it will fail when it starts
+  }
+}
+
+}  // namespace anticrack::jobs

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/sweep_chunk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "jobs/case_outcome.hpp"
+#include "store/array_upload.hpp"
+
+namespace anticrack::jobs {
+
+namespace {
+
+using contact::SweepColumns;
+using errors::Error;
+using errors::Reason;
+
+/// Thrown where the job is to stop.
+Error stopped() {
+  return {Reason::cancelled, "the job was stopped"};
+}
+
+/// Stops a solve with its job; nobody is told of the steps of a row.
+class StopOnly final : public contact::Observer {
+ public:
+  explicit StopOnly(std::stop_token stop) : _stop(std::move(stop)) {}
+  bool on_iteration(const contact::Sample& /*sample*/) override { return !_stop.stop_requested(); }
+
+ private:
+  const std::stop_token _stop;
+};
+
+/// Rows [first, first + count) of a job's matrix.
+class ChunkRows {
+ public:
+  explicit ChunkRows(const Task& task)
+      : _job(*task.job),
+        _plan(_job.sweep->plan),
+        _first(_plan.first_row(task.index)),
+        _count(_plan.rows_in(task.index)),
+        _stop(_job.stop.get_token()),
+        _columns(std::make_shared<SweepColumns>(_count,
+                                                _job.mesh_operator->mesh().inclusions.size(),
+                                                _job.mesh_operator->contact_nodes().size())) {}
+
+  SweepChunk combinations() {
+    const std::vector<double> values = read(_first, _count);
+    const operators::LoadBasis& basis = *_job.sweep->basis;
+    require_complete(mesh_operator().sweep(basis, values, options(), *_columns, _start, _stop));
+    return {_columns, traces([&](std::size_t row) {
+              const auto coefficients = std::span(values).subspan(row * _plan.columns);
+              return mesh_operator().combine(basis, coefficients.first(_plan.columns));
+            })};
+  }
+
+  SweepChunk nodal_forces() {
+    std::vector<operators::PreparedLoad> loads = prepare();
+    require_complete(mesh_operator().sweep(loads, options(), *_columns, _start, _stop));
+    return {_columns, traces([&](std::size_t row) { return std::move(loads[row]); })};
+  }
+
+ private:
+  const operators::MeshOperator& mesh_operator() const { return *_job.mesh_operator; }
+  const contact::ActiveSetOptions& options() const {
+    return std::get<contact::ActiveSetOptions>(_job.spec->solver);
+  }
+
+  static void require_complete(bool complete) {
+    if (!complete) {
+      throw stopped();
+    }
+  }
+
+  Error in_row(std::uint64_t row, const std::string& what, Reason reason) const {
+    return Error(reason, "row " + std::to_string(row) + " of the matrix: " + what)
+        .at(matrix_field(*_job.spec->sweep));
+  }
+
+  std::vector<double> read(std::uint64_t row, std::size_t rows) const {
+    std::vector<double> values =
+        store::read_array_part(_plan.matrix, row * _plan.columns, rows * _plan.columns);
+    const auto bad = std::find_if(values.begin(), values.end(),
+                                  [](double value) { return !std::isfinite(value); });
+    if (bad != values.end()) {
+      const auto index = static_cast<std::size_t>(bad - values.begin());
+      throw in_row(row + index / _plan.columns,
+                   "column " + std::to_string(index % _plan.columns) + " is " +
+                       std::to_string(*bad) + "; all values must be finite",
+                   Reason::invalid_argument);
+    }
+    return values;
+  }
+
+  std::vector<operators::PreparedLoad> prepare() const {
+    std::vector<fem::Load> loads(_count);
+    std::vector<const fem::Load*> pointers;
+    for (std::size_t i = 0; i < _count; ++i) {
+      auto values = std::make_shared<const std::vector<double>>(read(_first + i, 1));
+      loads[i].force = fem::Array{{}, false, std::move(values)};
+      pointers.push_back(&loads[i]);
+    }
+    std::vector<operators::PreparedLoad> prepared;
+    for (auto& entry : mesh_operator().prepare(pointers, _stop)) {
+      if (const auto* error = std::get_if<Error>(&entry)) {
+        throw error->reason() == Reason::cancelled
+            ? *error
+            : in_row(_first + prepared.size(), error->what(), error->reason());
+      }
+      prepared.push_back(std::move(std::get<operators::PreparedLoad>(entry)));
+    }
+    return prepared;
+  }
+
+  /// `load(i)`: the load of row _first + i.
+  template <class Load>
+  std::vector<RowTraces> traces(const Load& load) const {
+    const std::vector<std::uint32_t>& rows = _job.spec->sweep->traces;
+    std::vector<RowTraces> result;
+    StopOnly observer(_stop);
+    auto row = std::lower_bound(rows.begin(), rows.end(), _first);
+    for (; row != rows.end() && *row < _first + _count; ++row) {
+      const operators::PreparedLoad prepared = load(static_cast<std::size_t>(*row - _first));
+      contact::Answer answer = mesh_operator().solve(prepared, _job.spec->solver, false, observer);
+      require_complete(answer.status != contact::Status::cancelled);
+      result.push_back({*row, std::move(answer.traces)});
+    }
+    return result;
+  }
+
+  const LiveJob& _job;
+  const SweepPlan& _plan;
+  const std::uint64_t _first;
+  const std::size_t _count;
+  const std::stop_token _stop;
+  std::shared_ptr<SweepColumns> _columns;
+  std::vector<char> _start;  ///< empty: every chunk begins with all contacts closed
+};
+
+store::SweepRecord record_of(const SweepColumns& columns) {
+  store::SweepRecord record;
+  for (std::size_t i = 0; i < columns.rows(); ++i) {
+    record.most_steps = std::max(record.most_steps, columns.steps[i]);
+    if (columns.status[i] == contact::Status::converged) {
+      ++record.converged;
+      record.worst_kkt = std::max(record.worst_kkt, columns.kkt[i]);
+    } else {
+      ++record.not_converged;
+    }
+  }
+  return record;
+}
+
+std::uint64_t steps_of(const SweepColumns& columns) {
+  std::uint64_t steps = 0;
+  for (const std::int32_t count : columns.steps) {
+    steps += static_cast<std::uint64_t>(count);
+  }
+  return steps;
+}
+
+}  // namespace
+
+std::shared_ptr<const operators::LoadBasis> condense_basis(
+    LiveJob& job, const operators::MeshOperator& mesh_operator, const store::Store& store) {
+  std::vector<fem::Load> loads;
+  std::vector<const fem::Load*> pointers;
+  loads.reserve(job.spec->loads.size());
+  for (const fem::Load& load : job.spec->loads) {
+    try {
+      loads.push_back(job.arrays.resolve(load, store));
+    } catch (Error& error) {
+      error.below("load_cases[" + std::to_string(loads.size()) + "]");
+      throw;
+    }
+    pointers.push_back(&loads.back());
+  }
+  return mesh_operator.basis(pointers, job.stop.get_token());
+}
+
+EndedChunk solve_chunk(const Task& task, std::atomic<std::uint64_t>& iterations) {
+  EndedChunk ended{task, {}, {}, {}};
+  try {
+    ChunkRows rows(task);
+    ended.solved = task.job->sweep->basis ? rows.combinations() : rows.nodal_forces();
+    const SweepColumns& columns = *ended.solved.columns;
+    ended.record = record_of(columns);
+    const auto elapsed = std::chrono::steady_clock::now() - task.taken;
+    ended.record.seconds = std::chrono::duration<double>(elapsed).count();
+    iterations.fetch_add(steps_of(columns), std::memory_order_relaxed);
+  } catch (...) {
+    const Error error = error_of(std::current_exception());
+    if (error.reason() != Reason::cancelled) {
+      ended.failure = error;
+    }
+  }
+  return ended;
+}
+
+void add(store::SweepRecord& sum, const store::SweepRecord& rows) {
+  sum.converged += rows.converged;
+  sum.not_converged += rows.not_converged;
+  sum.failed += rows.failed;
+  sum.most_steps = std::max(sum.most_steps, rows.most_steps);
+  sum.worst_kkt = std::max(sum.worst_kkt, rows.worst_kkt);
+  sum.seconds += rows.seconds;
+}
+
+}  // namespace anticrack::jobs

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/sweep_plan.hpp"
+
+#include <utility>
+
+#include "errors/errors.hpp"
+
+namespace anticrack::jobs {
+
+namespace {
+
+using errors::Error;
+using errors::Reason;
+using store::SweepSpec;
+
+constexpr std::size_t most_combinations = 256;
+constexpr std::size_t fewest_combinations = 16;
+/// A row costs more than its contacts, in proportion.
+constexpr std::size_t contacts_a_chunk = std::size_t{1} << 15U;
+/// Loads are condensed in blocks of 32 columns: more would not make a row cheaper.
+constexpr std::size_t most_forces = 32;
+constexpr std::size_t force_bytes_a_chunk = std::size_t{64} << 20U;
+
+/// Of the arrays of sweep_result.hpp.
+std::uint64_t result_bytes(const operators::MeshOperator& mesh_operator, std::uint64_t rows,
+                           std::uint64_t traces) {
+  constexpr std::uint64_t a_row = 2 * sizeof(std::int32_t) + 3 * sizeof(double);
+  constexpr std::uint64_t a_node = 3 * sizeof(double) + sizeof(std::int32_t);
+  constexpr std::uint64_t a_trace_node = 4 * sizeof(double) + sizeof(std::int32_t);
+  constexpr std::uint64_t alignment = 8;
+  const std::uint64_t contacts = mesh_operator.contact_nodes().size();
+  const std::uint64_t interfaces = mesh_operator.trace_geometry().size();
+  std::uint64_t nodes = 0;
+  for (const contact::TraceGeometry& interface : mesh_operator.trace_geometry()) {
+    nodes += interface.s.size();
+  }
+  return rows * (a_row + sizeof(double) * mesh_operator.mesh().inclusions.size() + contacts) +
+         contacts * 2 * sizeof(std::int32_t) + nodes * (a_node + traces * a_trace_node) +
+         alignment * (8 + interfaces * (4 + 5 * traces));
+}
+
+}  // namespace
+
+std::size_t chunk_rows(SweepSpec::Cases cases, std::size_t nodes, std::size_t contacts) {
+  if (cases == SweepSpec::Cases::combinations) {
+    return std::clamp(contacts_a_chunk / std::max<std::size_t>(1, contacts), fewest_combinations,
+                      most_combinations);
+  }
+  return std::clamp(force_bytes_a_chunk / (sizeof(double) * nodes), std::size_t{1}, most_forces);
+}
+
+SweepPlan plan_sweep(const store::JobSpec& spec, MatrixFile matrix,
+                     const operators::MeshOperator& mesh_operator, const EngineOptions& options) {
+  const SweepSpec& sweep = *spec.sweep;
+  const std::size_t nodes = mesh_operator.mesh().xy.size() / 2;
+  SweepPlan plan;
+  plan.columns = sweep.cases == SweepSpec::Cases::combinations ? spec.loads.size() : nodes;
+  plan.rows = rows_of(sweep, matrix.values, plan.columns, options.max_sweep_rows);
+  plan.matrix = std::move(matrix.path);
+  plan.chunk_rows = chunk_rows(sweep.cases, nodes, mesh_operator.contact_nodes().size());
+  plan.result_bytes = result_bytes(mesh_operator, plan.rows, sweep.traces.size());
+  if (plan.result_bytes > options.max_result_bytes) {
+    throw Error(Reason::limit_exceeded, "the answers to " + std::to_string(plan.rows) +
+                                            " rows take " + std::to_string(plan.result_bytes) +
+                                            " bytes on this mesh and a job's result may have " +
+                                            std::to_string(options.max_result_bytes) +
+                                            ": split the matrix, or keep fewer traces")
+        .at(matrix_field(sweep));
+  }
+  return plan;
+}
+
+}  // namespace anticrack::jobs

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How a sweep is cut into the pieces that solver threads take.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "jobs/job_engine.hpp"
+#include "jobs/sweep_check.hpp"
+#include "operators/mesh_operator.hpp"
+
+namespace anticrack::jobs {
+
+/// Known once the mesh is. A chunk is a run of rows that one thread solves, from the first on with
+/// nothing but the rows themselves: the numbers do not depend on who solves what.
+struct SweepPlan {
+  std::string matrix;  ///< path of its file
+  std::uint64_t rows = 0;
+  std::size_t columns = 0;
+  std::size_t chunk_rows = 1;
+  std::uint64_t result_bytes = 0;  ///< of the result block, its arrays' alignment included
+
+  std::size_t chunks() const noexcept {
+    return static_cast<std::size_t>((rows + chunk_rows - 1) / chunk_rows);
+  }
+  std::uint64_t first_row(std::size_t chunk) const noexcept { return chunk * chunk_rows; }
+  std::size_t rows_in(std::size_t chunk) const noexcept {
+    return static_cast<std::size_t>(std::min<std::uint64_t>(chunk_rows, rows - first_row(chunk)));
+  }
+};
+
+/// Rows of a chunk: about what a thread solves in some milliseconds, long against the lock and the
+/// event it costs, short against a turn.
+std::size_t chunk_rows(store::SweepSpec::Cases cases, std::size_t nodes, std::size_t contacts);
+
+/// Throws errors::Error as rows_of does, and limit_exceeded at matrix_field where the columns of
+/// the answers would be larger than a result may be.
+SweepPlan plan_sweep(const store::JobSpec& spec, MatrixFile matrix,
+                     const operators::MeshOperator& mesh_operator, const EngineOptions& options);
+
+}  // namespace anticrack::jobs

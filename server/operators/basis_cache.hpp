@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "contact/sweep_solver.hpp"
+#include "ddm/load_products.hpp"
+#include "operators/condense_loads.hpp"
+
+namespace anticrack::operators {
+
+/// Loads of one mesh, condensed and reduced to what rows of a sweep are made of. Says nothing of
+/// the mesh: whoever uses it keeps that.
+struct CondensedBasis {
+  contact::SweepLoads reduced;
+  std::vector<LoadOnTraces> loads;          ///< without z_interior and z_boundary
+  std::vector<ddm::LoadProducts> products;  ///< per subdomain
+  std::vector<std::string> warnings;        ///< of all loads, each once
+
+  std::size_t bytes() const noexcept;
+};
+
+/// The bases of one mesh that were used last: at most 8, and 64 MiB with their keys; the least
+/// recently used one goes first, and one that is too large alone is not kept. Thread-safe; the lock
+/// is never held while a basis is made.
+class BasisCache {
+ public:
+  using Basis = std::shared_ptr<const CondensedBasis>;
+  static constexpr std::size_t most_bases = 8;
+  static constexpr std::size_t most_bytes = std::size_t{64} << 20;
+
+  /// The basis of `key`, made where it is not there. Of several that ask at once the first makes
+  /// it; the others get the same, or the same error. One whose maker was stopped is made by the
+  /// next. Throws what `make` throws, and errors::Error (cancelled) when stopped while waiting.
+  Basis get(const std::string& key, const std::stop_token& stop,
+            const std::function<Basis()>& make);
+
+  /// Of the bases kept.
+  std::size_t bytes() const noexcept { return _bytes; }
+
+ private:
+  struct Flight;
+  struct Entry {
+    std::string key;
+    Basis basis;
+    std::size_t bytes = 0;
+  };
+  using Entries = std::list<Entry>;
+
+  void keep(const std::string& key, const Basis& basis, Entries& evicted);
+
+  std::mutex _mutex;
+  std::condition_variable_any _landed;
+  Entries _entries;  // used last first; so few that looking through them is nothing
+  std::unordered_map<std::string, std::shared_ptr<Flight>> _flights;
+  std::atomic<std::size_t> _bytes{0};
+};
+
+}  // namespace anticrack::operators

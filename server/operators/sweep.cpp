@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Sweeps of a MeshOperator: bases of loads, and rows that are combinations of them.
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "contact/sweep_solver.hpp"
+#include "errors/errors.hpp"
+#include "operators/load_key.hpp"
+#include "operators/mesh_parts.hpp"
+
+namespace anticrack::operators {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+void require_memory(std::size_t loads, const ddm::Decomposition& decomposition) {
+  std::size_t nodes = 0;
+  for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
+    nodes += subdomain.node.size();
+  }
+  if (nodes > 0 && loads > max_basis_bytes / sizeof(double) / nodes) {
+    throw errors::Error(errors::Reason::limit_exceeded,
+                        std::to_string(loads) + " loads on " + std::to_string(nodes) +
+                            " nodes are more than " + std::to_string(max_basis_bytes >> 20U) +
+                            " MiB: combine fewer loads, or take a coarser mesh");
+  }
+}
+
+/// Throws the first error, with the number of its load.
+std::vector<LoadOnTraces> sound(std::vector<CondensedOutcome> outcomes) {
+  std::vector<LoadOnTraces> loads;
+  loads.reserve(outcomes.size());
+  for (std::size_t j = 0; j < outcomes.size(); ++j) {
+    if (auto* error = std::get_if<errors::Error>(&outcomes[j])) {
+      throw errors::Error(error->below("load_cases[" + std::to_string(j) + "]"));
+    }
+    loads.push_back(std::get<LoadOnTraces>(std::move(outcomes[j])));
+  }
+  return loads;
+}
+
+/// The loads on one subdomain.
+std::vector<const ddm::CondensedLoad*> on_subdomain(const std::vector<LoadOnTraces>& loads,
+                                                    std::size_t subdomain) {
+  std::vector<const ddm::CondensedLoad*> result;
+  result.reserve(loads.size());
+  for (const LoadOnTraces& load : loads) {
+    result.push_back(&load.subdomains[subdomain]);
+  }
+  return result;
+}
+
+/// Takes what pairs of loads say of the energy, then lets go of their interiors.
+CondensedBasis basis_of(std::vector<LoadOnTraces> loads, const contact::SkeletonProblem& skeleton,
+                        std::size_t inclusions) {
+  CondensedBasis result;
+  const auto m = static_cast<Index>(loads.size());
+  MatrixXd constants = MatrixXd::Zero(m, m);
+  for (std::size_t s = 0; s < skeleton.traces().operators().size(); ++s) {
+    result.products.push_back(ddm::products(on_subdomain(loads, s)));
+    constants += result.products.back().energy;
+  }
+  std::vector<contact::CaseLoads> cases;
+  for (LoadOnTraces& load : loads) {
+    for (ddm::CondensedLoad& part : load.subdomains) {
+      part.z_interior.resize(0);
+      part.z_boundary.resize(0);
+    }
+    cases.push_back({load.subdomains, load.inclusion_forces});
+    for (const std::string& warning : load.warnings) {
+      if (std::find(result.warnings.begin(), result.warnings.end(), warning) ==
+          result.warnings.end()) {
+        result.warnings.push_back(warning);
+      }
+    }
+  }
+  result.reduced = contact::reduce(skeleton, inclusions, cases, constants);
+  result.loads = std::move(loads);
+  return result;
+}
+
+}  // namespace
+
+LoadBasis::LoadBasis(std::unique_ptr<const Data> data) : _data(std::move(data)) {}
+LoadBasis::~LoadBasis() = default;
+
+std::size_t LoadBasis::size() const noexcept {
+  return _data->basis->loads.size();
+}
+
+std::size_t LoadBasis::bytes() const noexcept {
+  return _data->basis->bytes();
+}
+
+const std::vector<std::string>& LoadBasis::warnings() const noexcept {
+  return _data->basis->warnings;
+}
+
+std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* const> loads,
+                                                     const std::stop_token& stop) const {
+  if (loads.empty()) {
+    throw errors::Error(errors::Reason::invalid_argument, "a sweep combines at least one load")
+        .at("load_cases");
+  }
+  require_memory(loads.size(), _parts->decomposition);
+  const auto make = [&]() -> BasisCache::Basis {
+    return std::make_shared<const CondensedBasis>(basis_of(
+        sound(condense_loads(loads, *_parts->mesh, _parts->decomposition, _parts->operators, stop)),
+        _parts->skeleton, _parts->mesh->inclusions.size()));
+  };
+  const std::optional<std::string> key = key_of(loads);
+  return std::shared_ptr<const LoadBasis>(new LoadBasis(std::make_unique<const LoadBasis::Data>(
+      LoadBasis::Data{shared_from_this(), key ? _parts->bases.get(*key, stop, make) : make()})));
+}
+
+void MeshOperator::require_shape(const contact::SweepColumns& rows,
+                                 std::span<const char> start) const {
+  const auto contacts = static_cast<std::size_t>(_parts->skeleton.lcp().size());
+  if (rows.inclusions != _parts->mesh->inclusions.size() ||
+      rows.contacts != contact_nodes().size() || (!start.empty() && start.size() != contacts)) {
+    throw errors::Error(errors::Reason::internal, "rows of a sweep on another mesh");
+  }
+}
+
+bool MeshOperator::sweep(const LoadBasis& basis, std::span<const double> coefficients,
+                         const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
+                         std::vector<char>& start, const std::stop_token& stop) const {
+  const std::size_t m = basis.size();
+  require_shape(rows, start);
+  if (basis._data->mesh_operator.get() != this || coefficients.size() != rows.rows() * m) {
+    throw errors::Error(errors::Reason::internal, "coefficients of another basis");
+  }
+  contact::SweepSolver solver(_parts->skeleton, _parts->sweep_geometry, options, start);
+  std::size_t row = 0;
+  for (; row < rows.rows() && !stop.stop_requested(); ++row) {
+    solver.solve(basis._data->basis->reduced, coefficients.subspan(row * m, m), row, rows);
+  }
+  start = solver.closed();
+  return row == rows.rows();
+}
+
+bool MeshOperator::sweep(std::span<const PreparedLoad> loads,
+                         const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
+                         std::vector<char>& start, const std::stop_token& stop) const {
+  require_shape(rows, start);
+  if (loads.size() != rows.rows()) {
+    throw errors::Error(errors::Reason::internal, "as many rows as loads");
+  }
+  constexpr double once[] = {1.0};
+  contact::SweepSolver solver(_parts->skeleton, _parts->sweep_geometry, options, start);
+  std::size_t row = 0;
+  for (; row < rows.rows() && !stop.stop_requested(); ++row) {
+    require_prepared(loads[row], false);
+    const contact::CaseLoads parts[] = {loads[row]._data->loads()};
+    MatrixXd constant = MatrixXd::Zero(1, 1);
+    for (const ddm::CondensedLoad& part : parts[0].subdomains) {
+      constant(0, 0) += part.energy_constant;
+    }
+    solver.solve(
+        contact::reduce(_parts->skeleton, _parts->mesh->inclusions.size(), parts, constant), once,
+        row, rows);
+  }
+  start = solver.closed();
+  return row == rows.rows();
+}
+
+PreparedLoad MeshOperator::combine(const LoadBasis& basis,
+                                   std::span<const double> coefficients) const {
+  if (basis._data->mesh_operator.get() != this || coefficients.size() != basis.size()) {
+    throw errors::Error(errors::Reason::internal, "coefficients of another basis");
+  }
+  const CondensedBasis& condensed = *basis._data->basis;
+  const Eigen::Map<const Eigen::VectorXd> c(coefficients.data(),
+                                            static_cast<Index>(coefficients.size()));
+  auto data = std::make_unique<PreparedLoad::Data>();
+  data->mesh_operator = shared_from_this();
+  data->has_interior = false;
+  data->condensed.warnings = condensed.warnings;
+  for (std::size_t s = 0; s < condensed.products.size(); ++s) {
+    data->condensed.subdomains.push_back(
+        ddm::combine(on_subdomain(condensed.loads, s), condensed.products[s], c));
+  }
+  data->condensed.inclusion_forces.resize(_parts->mesh->inclusions.size(), 0);
+  for (std::size_t j = 0; j < coefficients.size(); ++j) {
+    const std::vector<double>& forces = condensed.loads[j].inclusion_forces;
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      data->condensed.inclusion_forces[i] += coefficients[j] * forces[i];
+    }
+  }
+  return PreparedLoad(std::move(data));
+}
+
+const std::vector<std::array<std::int32_t, 2>>& MeshOperator::contact_nodes() const noexcept {
+  return _parts->sweep_geometry.nodes;
+}
+
+}  // namespace anticrack::operators

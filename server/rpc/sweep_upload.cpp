@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rpc/sweep_upload.hpp"
+
+#include "errors/errors.hpp"
+#include "rpc/block_feed.hpp"
+#include "rpc/to_domain.hpp"
+#include "rpc/upload_receiver.hpp"
+#include "store/digest.hpp"
+
+namespace anticrack::rpc {
+
+static_assert(max_packed_bytes <= max_chunk_bytes, "it is one chunk");
+
+bool has_packed_matrix(const v1::Job& job) {
+  const v1::Sweep::Matrix* matrix = matrix_of(job.sweep()).matrix;
+  return matrix != nullptr && matrix->has_packed();
+}
+
+void keep_packed_matrix(const v1::Job& job, store::Store& store, const std::string& owner) {
+  const auto [matrix, field] = matrix_of(job.sweep());
+  const std::string& packed = matrix->packed();
+  v1::UploadMeshRequest header;
+  header.mutable_header()->set_size(packed.size());
+  header.mutable_header()->set_sha256(store::Sha256().add(packed).finish());
+  header.mutable_header()->set_content(v1::UploadMeshRequest::CONTENT_ARRAY);
+  v1::UploadMeshRequest values;
+  values.set_chunk(packed);
+  UploadReceiver receiver(store, owner, max_packed_bytes);
+  try {
+    receiver.accept(header);
+    receiver.accept(values);
+    receiver.complete();
+  } catch (const errors::Error& error) {
+    if (error.fields().empty()) throw;  // the disk's, not the matrix's
+    throw errors::Error(error.reason(), error.what()).at(field + ".packed");
+  }
+}
+
+}  // namespace anticrack::rpc

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A sweep's matrix that came with the job.
+#pragma once
+
+#include <string>
+
+#include "anticrack/v1/solve.pb.h"
+#include "store/store.hpp"
+
+namespace anticrack::rpc {
+
+bool has_packed_matrix(const v1::Job& job);
+
+/// Keeps it as an upload of `owner`, as if it had been uploaded before: from there on the two ways
+/// are one. The same again changes nothing but the upload's age. `job` has a packed matrix and was
+/// taken by to_spec(). Blocks on the disk.
+/// Throws errors::Error with the path in the job: invalid_argument (a value that is not finite);
+/// disk_full and storage without one.
+void keep_packed_matrix(const v1::Job& job, store::Store& store, const std::string& owner);
+
+}  // namespace anticrack::rpc

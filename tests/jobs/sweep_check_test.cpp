@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/sweep_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+#include "jobs/check.hpp"
+#include "jobs/sweep_plan.hpp"
+#include "jobs/sweep_support.hpp"
+#include "support/errors.hpp"
+
+namespace anticrack::jobs {
+namespace {
+
+using anticrack::testing::Backend;
+using anticrack::testing::throws;
+using errors::Reason;
+using store::JobSpec;
+using Cases = store::SweepSpec::Cases;
+
+const std::string hash(64, 'a');
+
+class SweepCheck : public ::testing::Test {
+ protected:
+  ::testing::AssertionResult refuses(const std::function<void(JobSpec&)>& spoil,
+                                     const std::string& field,
+                                     Reason reason = Reason::invalid_argument) {
+    JobSpec spec = combinations("mesh", hash);
+    spoil(spec);
+    return throws([&] { check(spec, options); }, reason, field);
+  }
+  EngineOptions options;
+};
+
+TEST_F(SweepCheck, AcceptsBothKinds) {
+  JobSpec spec = combinations("mesh", hash);
+  spec.sweep->traces = {0, 7, 8, UINT32_MAX};
+  EXPECT_NO_THROW(check(spec, options));
+  EXPECT_NO_THROW(check(nodal_forces("mesh", hash), options));
+}
+
+TEST_F(SweepCheck, BoundsTheBasis) {
+  EXPECT_TRUE(refuses([](JobSpec& bad) { bad.loads.clear(); }, "load_cases"));
+  options.max_sweep_basis = 2;
+  EXPECT_TRUE(refuses([](JobSpec&) {}, "load_cases", Reason::limit_exceeded));
+  EXPECT_TRUE(refuses([](JobSpec& bad) { bad.sweep->cases = Cases::nodal_forces; }, "load_cases"));
+  options.max_sweep_basis = 3;
+  EXPECT_TRUE(refuses([](JobSpec& bad) { bad.loads[1].name = "one"; }, "load_cases[1].name"));
+  EXPECT_TRUE(refuses([](JobSpec& bad) { bad.loads[2].force = fem::Expression{"y +"}; },
+                      "load_cases[2].force.expression", Reason::expression_invalid));
+}
+
+TEST_F(SweepCheck, IsForTheActiveSetWithoutFields) {
+  EXPECT_TRUE(refuses([](JobSpec& bad) { bad.solver = contact::UzawaOptions(); }, "solver.uzawa"));
+  EXPECT_TRUE(refuses([](JobSpec& bad) { bad.fields = true; }, "fields"));
+}
+
+TEST_F(SweepCheck, WantsTracesAscendingAndFew) {
+  const auto traces = [](const std::vector<std::uint32_t>& rows) {
+    return [rows](JobSpec& bad) { bad.sweep->traces = rows; };
+  };
+  EXPECT_TRUE(refuses(traces({1, 2, 2}), "sweep.traces[2]"));
+  EXPECT_TRUE(refuses(traces({5, 4}), "sweep.traces[1]"));
+  options.max_load_cases = 2;
+  EXPECT_TRUE(refuses(traces({1, 2, 3}), "sweep.traces", Reason::limit_exceeded));
+}
+
+TEST_F(SweepCheck, CountsWholeRows) {
+  store::SweepSpec sweep;
+  sweep.traces = {0, 3};
+  EXPECT_EQ(rows_of(sweep, 12, 3, 4), 4U);
+  EXPECT_TRUE(
+      throws([&] { rows_of(sweep, 13, 3, 4); }, Reason::invalid_argument, "sweep.coefficients"));
+  EXPECT_TRUE(
+      throws([&] { rows_of(sweep, 15, 3, 4); }, Reason::limit_exceeded, "sweep.coefficients"));
+  EXPECT_TRUE(
+      throws([&] { rows_of(sweep, 9, 3, 4); }, Reason::invalid_argument, "sweep.traces[1]"));
+  sweep.cases = Cases::nodal_forces;
+  EXPECT_TRUE(
+      throws([&] { rows_of(sweep, 13, 3, 4); }, Reason::invalid_argument, "sweep.nodal_forces"));
+}
+
+TEST_F(SweepCheck, FindsTheMatrixOfItsOwner) {
+  Backend backend;
+  store::SweepSpec sweep;
+  sweep.upload = upload(backend, {1, 2, 3}, "ann");
+  EXPECT_EQ(find_matrix(sweep, *backend.store, "ann").values, 3U);
+  EXPECT_TRUE(throws([&] { find_matrix(sweep, *backend.store, "bob"); }, Reason::not_found,
+                     "sweep.coefficients"));
+  sweep.cases = Cases::nodal_forces;
+  sweep.upload = backend.upload("odd", "ann").sha256;
+  EXPECT_TRUE(throws([&] { find_matrix(sweep, *backend.store, "ann"); }, Reason::invalid_argument,
+                     "sweep.nodal_forces"));
+}
+
+TEST_F(SweepCheck, CountsInTheQueueByItsMatrix) {
+  Backend backend;
+  const auto cost = [&](const JobSpec& spec) { return queued_cases(spec, *backend.store, ""); };
+  const std::string matrix = upload(backend, std::vector<double>(3 * 257));
+  EXPECT_EQ(cost(combinations("mesh", upload(backend, {1, 2, 3}))), 1U);
+  EXPECT_EQ(cost(combinations("mesh", matrix)), 2U);
+  EXPECT_EQ(cost(nodal_forces("mesh", matrix)), 1U);
+  EXPECT_EQ(cost(nodal_forces("mesh", upload(backend, std::vector<double>((1U << 17U) + 1)))), 2U);
+  EXPECT_EQ(cost(combinations("mesh", hash)), 1U);  // it is not there
+  JobSpec plain = combinations("mesh", hash);
+  plain.sweep.reset();
+  EXPECT_EQ(cost(plain), 3U);
+}
+
+TEST_F(SweepCheck, IsAnotherJobWithAnotherSweep) {
+  std::set<std::string> prints;
+  JobSpec spec = combinations("mesh", hash);
+  const auto add = [&] { return prints.insert(fingerprint(spec)).second; };
+  EXPECT_TRUE(add());
+  spec.sweep->traces = {1};
+  EXPECT_TRUE(add());
+  spec.sweep->traces = {2};
+  EXPECT_TRUE(add());
+  spec.sweep->cases = Cases::nodal_forces;
+  EXPECT_TRUE(add());
+  spec.sweep->upload = std::string(64, 'b');
+  EXPECT_TRUE(add());
+  spec.sweep->rows = 5;  // says nothing that the upload does not
+  EXPECT_FALSE(add());
+  const std::uint64_t bytes = bytes_of(spec);
+  spec.sweep->traces.resize(100);
+  EXPECT_GE(bytes_of(spec), bytes + 90 * sizeof(std::uint32_t));
+  spec.sweep.reset();
+  EXPECT_TRUE(add());
+}
+
+TEST(SweepPlan, HasLargeChunksOfCheapRows) {
+  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 0), 256U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 80), 256U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 512), 64U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 100'000), 16U);
+  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 4000, 80), 32U);
+  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 1'000'000, 80), 8U);
+  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 100'000'000, 80), 1U);
+}
+
+TEST(SweepPlan, CoversEveryRowOnce) {
+  SweepPlan plan;
+  plan.rows = 600;
+  plan.chunk_rows = 256;
+  ASSERT_EQ(plan.chunks(), 3U);
+  std::uint64_t row = 0;
+  for (std::size_t chunk = 0; chunk < plan.chunks(); ++chunk) {
+    EXPECT_EQ(plan.first_row(chunk), row);
+    row += plan.rows_in(chunk);
+  }
+  EXPECT_EQ(row, 600U);
+}
+
+}  // namespace
+}  // namespace anticrack::jobs

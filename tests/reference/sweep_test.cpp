@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Rows of sweeps against the plain active set of the same load: all four kinds, random geometries,
+// loads of every sort, combinations with zeros and signs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "errors/errors.hpp"
+#include "operators/mesh_operator.hpp"
+#include "reference/random_membrane.hpp"
+
+namespace anticrack::reference {
+namespace {
+
+using contact::ActiveSetOptions;
+using contact::Answer;
+using contact::Status;
+using contact::SweepColumns;
+using operators::LoadBasis;
+using operators::MeshOperator;
+
+class Silent : public contact::Observer {
+ public:
+  bool on_iteration(const contact::Sample&) override { return true; }
+};
+
+Answer plain(const MeshOperator& op, const fem::Load& load) {
+  Silent silent;
+  return op.solve(load, ActiveSetOptions{}, false, silent);
+}
+
+std::string text(double value) {
+  char digits[40];
+  std::snprintf(digits, sizeof digits, "%.17g", value);
+  return digits;
+}
+
+/// Loads of all sorts, polynomials so that quadrature is right to rounding, of which a combination
+/// can be written down as a load.
+class Loads {
+ public:
+  static constexpr std::size_t count = 4;
+
+  explicit Loads(RandomMembrane& membrane) {
+    for (double& value : _numbers) {
+      value = membrane.uniform(-2, 2);
+    }
+    const mesh::Mesh& mesh = membrane.mesh();
+    _inclusion = mesh.inclusions.empty() ? "" : mesh.inclusions[0];
+    for (std::size_t j = 0; j < count; ++j) {
+      std::vector<double> unit(count, 0);
+      unit[j] = 1;
+      loads.push_back(combined(unit));
+    }
+  }
+
+  fem::Load combined(std::span<const double> c) const {
+    fem::Load load;
+    load.force = fem::Expression{text(c[0] * _numbers[0]) + "*x*y + " + text(c[0]) + " + " +
+                                 text(c[1] * _numbers[1]) + " + " + text(c[3]) + "*(x - y)"};
+    load.boundary_value =
+        text(c[0]) + "*(0.3*x - 0.1*y + 2) + " + text(c[2] * _numbers[2]) + "*y*y";
+    load.traction = text(c[1]) + "*(x - y) + " + text(c[2]);
+    load.point_forces = {{1.3, 1.2, c[2] * _numbers[3]}, {0.4, 2.1, c[3] * _numbers[4]}};
+    if (!_inclusion.empty()) {
+      load.inclusion_forces[_inclusion] = c[3] * _numbers[5] + c[1];
+    }
+    return load;
+  }
+
+  std::vector<fem::Load> loads;
+
+ private:
+  double _numbers[6] = {};
+  std::string _inclusion;
+};
+
+/// What the differences of a load's numbers are relative to: rounding is relative to the terms a
+/// number is the sum of, and these are what each load of the basis gives alone.
+struct Scale {
+  double energy = 0, trace = 0;
+
+  void add(double coefficient, const Answer& alone) {
+    energy += coefficient * coefficient * std::abs(alone.energy);
+    for (const contact::Trace& along : alone.traces) {
+      for (std::size_t i = 0; i < along.u_minus.size(); ++i) {
+        trace = std::max({trace, std::abs(coefficient * along.u_minus[i]),
+                          std::abs(coefficient * along.u_plus[i])});
+      }
+    }
+  }
+};
+
+struct Tally {
+  int rows = 0, not_converged = 0, undecided = 0, open = 0, closed = 0, refused = 0;
+  double energy = 0, displacement = 0, length = 0, kkt = 0;
+};
+
+void compare(const MeshOperator& op, const SweepColumns& rows, std::size_t row,
+             const Answer& wanted, const Scale& scale, Tally& tally) {
+  ++tally.rows;
+  ASSERT_EQ(rows.status[row], wanted.status);
+  EXPECT_LE(rows.kkt[row], 1e-11);
+  tally.kkt = std::max(tally.kkt, rows.kkt[row]);
+  if (wanted.status != Status::converged) {
+    ++tally.not_converged;
+    EXPECT_EQ(rows.energy[row], 0);
+    return;
+  }
+  EXPECT_GE(rows.steps[row], 1);
+  double largest = 0;
+  for (const contact::Trace& trace : wanted.traces) {
+    for (const double pressure : trace.pressure) {
+      largest = std::max(largest, std::abs(pressure));
+    }
+  }
+  bool all_decided = true;
+  for (std::size_t n = 0; n < rows.contacts; ++n) {
+    const auto c = static_cast<std::size_t>(op.contact_nodes()[n][0]);
+    const auto i = static_cast<std::size_t>(op.contact_nodes()[n][1]);
+    const bool in_contact = rows.contact[row * rows.contacts + n] != 0;
+    ++(in_contact ? tally.closed : tally.open);
+    if (in_contact != (wanted.traces[c].contact[i] != 0)) {
+      const bool noise = std::abs(wanted.traces[c].pressure[i]) <= 1e-10 * largest &&
+                         wanted.traces[c].jump[i] <= 1e-10 * scale.trace;
+      EXPECT_TRUE(noise) << "interface " << c << ", node " << i;
+      all_decided = false;
+      ++tally.undecided;
+    }
+  }
+  const auto difference = [](double a, double b, double size) {
+    return a == b ? 0 : std::abs(a - b) / size;
+  };
+  tally.energy = std::max(tally.energy, difference(rows.energy[row], wanted.energy, scale.energy));
+  for (std::size_t j = 0; j < rows.inclusions; ++j) {
+    tally.displacement =
+        std::max(tally.displacement, difference(rows.displacement[row * rows.inclusions + j],
+                                                wanted.inclusions[j].displacement, scale.trace));
+  }
+  if (all_decided) {
+    tally.length = std::max(tally.length, difference(rows.contact_length[row],
+                                                     wanted.contact_length, wanted.contact_length));
+  }
+}
+
+TEST(Sweep, RowsAreThePlainAnswersOfTheirLoads) {
+  Tally tally;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    RandomMembrane membrane(seed);
+    std::shared_ptr<const MeshOperator> op;
+    try {
+      op = MeshOperator::factorise(std::make_shared<const mesh::Mesh>(membrane.mesh()), 1, {});
+    } catch (const errors::Error&) {
+      ++tally.refused;
+      continue;
+    }
+    const Loads loads(membrane);
+    std::vector<const fem::Load*> pointers;
+    for (const fem::Load& load : loads.loads) {
+      pointers.push_back(&load);
+    }
+    std::shared_ptr<const LoadBasis> basis;
+    try {
+      basis = op->basis(pointers);
+    } catch (const errors::Error& error) {
+      ADD_FAILURE() << error.what();
+      continue;
+    }
+    constexpr std::size_t count = 12, m = Loads::count;
+    std::vector<double> coefficients;
+    for (std::size_t k = 0; k < count * m; ++k) {
+      coefficients.push_back(k < m || k % 7 == 0 ? 0 : membrane.uniform(-2, 2));
+    }
+    SweepColumns rows(count, membrane.mesh().inclusions.size(), op->contact_nodes().size());
+    std::vector<char> start;
+    ASSERT_TRUE(op->sweep(*basis, coefficients, {}, rows, start));
+    std::vector<Answer> alone;
+    for (const fem::Load& load : loads.loads) {
+      alone.push_back(plain(*op, load));
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      SCOPED_TRACE("row " + std::to_string(k));
+      const std::span<const double> row(coefficients.data() + k * m, m);
+      Scale scale;
+      for (std::size_t j = 0; j < m; ++j) {
+        scale.add(row[j], alone[j]);
+      }
+      compare(*op, rows, k, plain(*op, loads.combined(row)), scale, tally);
+    }
+  }
+  std::printf(
+      "[ figures  ] %d rows, %d not converged, %d membranes refused, nodes: %d closed, %d open, %d "
+      "undecided; energy %.1e, A %.1e, length %.1e, kkt %.1e\n",
+      tally.rows, tally.not_converged, tally.refused, tally.closed, tally.open, tally.undecided,
+      tally.energy, tally.displacement, tally.length, tally.kkt);
+  EXPECT_LT(tally.energy, 1e-11);
+  EXPECT_LT(tally.displacement, 1e-11);
+  EXPECT_LT(tally.length, 1e-11);
+}
+
+}  // namespace
+}  // namespace anticrack::reference

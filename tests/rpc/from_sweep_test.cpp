@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rpc/from_sweep.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "rpc/from_domain.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+using ::testing::ElementsAre;
+
+/// Rows that tell their number: 100 + k, 200 + k, ...
+jobs::RowsEvent event_of(std::uint64_t first_row, std::size_t rows, std::size_t inclusions) {
+  auto columns = std::make_shared<contact::SweepColumns>(rows, inclusions, 1);
+  for (std::size_t k = 0; k < rows; ++k) {
+    const auto number = static_cast<double>(k);
+    columns->status[k] = contact::Status::converged;
+    columns->steps[k] = static_cast<std::int32_t>(k);
+    columns->energy[k] = 100 + number;
+    columns->contact_length[k] = 200 + number;
+    columns->kkt[k] = 300 + number;
+    for (std::size_t i = 0; i < inclusions; ++i) {
+      columns->displacement[k * inclusions + i] = 1000 * static_cast<double>(i + 1) + number;
+    }
+  }
+  return {first_row, columns};
+}
+
+TEST(FromSweep, TellsRowsFromThePlaceOn) {
+  v1::SweepRows rows;
+  append(rows, event_of(40, 5, 2), 1, 2);
+  EXPECT_EQ(rows.first_row(), 41u);
+  EXPECT_THAT(rows.steps(), ElementsAre(1, 2));
+  EXPECT_THAT(rows.energy(), ElementsAre(101, 102));
+  EXPECT_THAT(rows.contact_length(), ElementsAre(201, 202));
+  EXPECT_THAT(rows.kkt(), ElementsAre(301, 302));
+  EXPECT_THAT(rows.displacement(), ElementsAre(1001, 2001, 1002, 2002));
+  EXPECT_THAT(rows.status(), ElementsAre(v1::LoadCaseAnswer::STATUS_CONVERGED,
+                                         v1::LoadCaseAnswer::STATUS_CONVERGED));
+}
+
+TEST(FromSweep, TellsNoMoreThanThereIs) {
+  v1::SweepRows rows;
+  append(rows, event_of(0, 3, 1), 2, 100);
+  EXPECT_EQ(rows.first_row(), 2u);
+  EXPECT_THAT(rows.steps(), ElementsAre(2));
+  append(rows, event_of(0, 3, 1), 3, 1);
+  EXPECT_EQ(rows.steps_size(), 1);
+}
+
+TEST(FromSweep, GoesOnWhereTheMessageEnds) {
+  v1::SweepRows rows;
+  append(rows, event_of(10, 2, 1), 0, 2);
+  append(rows, event_of(12, 2, 1), 0, 1);
+  EXPECT_EQ(rows.first_row(), 10u);
+  EXPECT_THAT(rows.steps(), ElementsAre(0, 1, 0));
+  EXPECT_THAT(rows.displacement(), ElementsAre(1000, 1001, 1000));
+}
+
+TEST(FromSweep, TellsRowsOfAMeshWithoutInclusions) {
+  v1::SweepRows rows;
+  append(rows, event_of(0, 2, 0), 0, 2);
+  EXPECT_EQ(rows.status_size(), 2);
+  EXPECT_EQ(rows.displacement_size(), 0);
+}
+
+TEST(FromSweep, FitsAsManyRowsInAMessageAsItMayHold) {
+  for (const std::size_t inclusions : {0, 1, 30}) {
+    const std::size_t count = rows_a_message(inclusions);
+    jobs::RowsEvent event = event_of(std::uint64_t{1} << 60, count, inclusions);
+    auto widest = std::make_shared<contact::SweepColumns>(*event.rows);
+    widest->steps.assign(count, 2'000'000'000);
+    event.rows = widest;
+    v1::WatchJobResponse response;
+    response.set_sequence(~std::uint64_t{0});
+    append(*response.mutable_sweep_rows(), event, 0, count);
+    EXPECT_LE(response.ByteSizeLong(), max_rows_message_bytes);
+    EXPECT_GT(response.ByteSizeLong(), max_rows_message_bytes * 9 / 10);
+  }
+  EXPECT_EQ(rows_a_message(10'000'000), 1u);
+}
+
+TEST(FromSweep, TellsHowARowEnded) {
+  EXPECT_EQ(from_domain(contact::Status::converged), v1::LoadCaseAnswer::STATUS_CONVERGED);
+  EXPECT_EQ(from_domain(contact::Status::not_converged), v1::LoadCaseAnswer::STATUS_NOT_CONVERGED);
+  EXPECT_EQ(from_domain(contact::Status::cancelled), v1::LoadCaseAnswer::STATUS_CANCELLED);
+}
+
+TEST(FromSweep, TellsTheSweepOfAJobAndHowItEnded) {
+  store::JobRecord record;
+  EXPECT_FALSE(from_domain(record, {}).has_sweep());
+  EXPECT_FALSE(from_domain(record, {}).has_sweep_answer());
+  record.spec.sweep.emplace();
+  record.spec.sweep->upload = std::string(64, 'a');
+  record.spec.sweep->rows = 7;
+  record.spec.sweep->traces = {2, 5};
+  record.sweep.converged = 4;
+  record.sweep.not_converged = 2;
+  record.sweep.failed = 1;
+  record.sweep.most_steps = 9;
+  record.sweep.worst_kkt = 1e-13;
+  record.sweep.seconds = 1.5;
+  const v1::Job job = from_domain(record, {});
+  EXPECT_EQ(job.sweep().coefficients().upload(), "uploads/" + std::string(64, 'a'));
+  EXPECT_THAT(job.sweep().traces(), ElementsAre(2u, 5u));
+  EXPECT_EQ(job.sweep_answer().rows(), 7u);
+  EXPECT_EQ(job.sweep_answer().converged(), 4u);
+  EXPECT_EQ(job.sweep_answer().not_converged(), 2u);
+  EXPECT_EQ(job.sweep_answer().failed(), 1u);
+  EXPECT_EQ(job.sweep_answer().most_steps(), 9);
+  EXPECT_EQ(job.sweep_answer().worst_kkt(), 1e-13);
+  EXPECT_EQ(job.sweep_answer().solve_time().seconds(), 1);
+  EXPECT_EQ(job.sweep_answer().solve_time().nanos(), 500'000'000);
+
+  record.spec.sweep->cases = store::SweepSpec::Cases::nodal_forces;
+  EXPECT_EQ(from_domain(record, {}).sweep().nodal_forces().upload(),
+            "uploads/" + std::string(64, 'a'));
+}
+
+TEST(FromSweep, TellsArraysOfBytes) {
+  store::BlockBuilder builder;
+  const std::vector<std::uint8_t> closed{1, 0, 1, 1, 0, 0};
+  builder.add("sweep/contact", closed, {2, 3});
+  const auto block = store::in_memory(std::make_shared<const store::Block>(builder.finish()));
+  const v1::BlockLayout layout = layout_of(*block);
+  ASSERT_EQ(layout.arrays_size(), 1);
+  EXPECT_EQ(layout.arrays(0).type(), v1::ArrayLayout::TYPE_UINT8);
+  EXPECT_THAT(layout.arrays(0).shape(), ElementsAre(2u, 3u));
+}
+
+}  // namespace
+}  // namespace anticrack::rpc

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rpc/received.hpp"
+
+#include <span>
+
+#include "store/digest.hpp"
+
+namespace anticrack::testing {
+namespace {
+
+template <class Response, class Reader>
+grpc::Status receive(Reader& reader, std::uint64_t offset, Received& to) {
+  Response response;
+  while (reader.Read(&response)) {
+    if (response.has_layout()) {
+      to.layout = response.layout();
+      EXPECT_EQ(to.chunks, 0);
+      continue;
+    }
+    const v1::BlockChunk& chunk = response.chunk();
+    EXPECT_EQ(chunk.offset(), offset + to.bytes.size());
+    EXPECT_LE(chunk.data().size(), 1u << 20);
+    EXPECT_EQ(store::crc32c(std::as_bytes(std::span(chunk.data()))), chunk.crc32c());
+    to.bytes += chunk.data();
+    ++to.chunks;
+  }
+  return reader.Finish();
+}
+
+}  // namespace
+
+grpc::Status read_result(RunningServer& server, const std::string& job, std::uint64_t offset,
+                         Received& to) {
+  Context context;
+  v1::ReadResultRequest request;
+  request.set_name(job);
+  request.set_offset(offset);
+  const auto reader = server.jobs->ReadResult(&context, request);
+  return receive<v1::ReadResultResponse>(*reader, offset, to);
+}
+
+grpc::Status read_mesh(RunningServer& server, const std::string& mesh, std::uint64_t offset,
+                       Received& to) {
+  Context context;
+  v1::ReadMeshRequest request;
+  request.set_name(mesh);
+  request.set_offset(offset);
+  const auto reader = server.meshes->ReadMesh(&context, request);
+  return receive<v1::ReadMeshResponse>(*reader, offset, to);
+}
+
+const v1::ArrayLayout* find_array(const Received& block, const std::string& name) {
+  for (const v1::ArrayLayout& array : block.layout.arrays()) {
+    if (array.name() == name) return &array;
+  }
+  return nullptr;
+}
+
+std::vector<double> doubles(const Received& block, const std::string& name) {
+  return values_of<double>(block, name, v1::ArrayLayout::TYPE_FLOAT64);
+}
+
+}  // namespace anticrack::testing

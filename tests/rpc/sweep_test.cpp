@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Sweeps from submission to result, against the same load cases solved one by one.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "rpc/details.hpp"
+#include "rpc/received.hpp"
+#include "rpc/requests.hpp"
+#include "rpc/running_server.hpp"
+#include "store/digest.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+using anticrack::testing::doubles;
+using anticrack::testing::expect_error;
+using anticrack::testing::opening_job;
+using anticrack::testing::packed;
+using anticrack::testing::paper_mesh;
+using anticrack::testing::read_mesh;
+using anticrack::testing::read_result;
+using anticrack::testing::Received;
+using anticrack::testing::row_alone;
+using anticrack::testing::RunningServer;
+using anticrack::testing::sweep_job;
+using anticrack::testing::values_of;
+using ::testing::Each;
+using ::testing::ElementsAre;
+
+constexpr double tolerance = 1e-9;
+constexpr std::size_t basis = 3;
+
+/// Opening, closing and both, with and without a push.
+const std::vector<double> coefficients{1,    0,   0,    -1, 0,    0,   0.3, 2, 0,    -0.3, 2,  0.1,
+                                       0.01, 1.5, -0.2, 0,  -2.5, 0.4, 0,   0, -0.7, 1,    -1, 1};
+constexpr std::size_t rows = 8;
+
+/// What a watch told of a sweep's rows, by row.
+struct Watched {
+  std::vector<int> times = std::vector<int>(rows, 0);
+  std::vector<std::int32_t> status = std::vector<std::int32_t>(rows, 0);
+  std::vector<double> energy = std::vector<double>(rows, 0);
+  std::vector<double> displacement = std::vector<double>(rows, 0);
+  v1::Job ended;
+};
+
+Watched watch(RunningServer& server, const std::string& job) {
+  Watched told;
+  std::vector<v1::WatchJobResponse> events;
+  EXPECT_TRUE(server.watch(job, 0, events).ok());
+  for (const v1::WatchJobResponse& event : events) {
+    if (event.has_ended()) told.ended = event.ended();
+    if (!event.has_sweep_rows()) continue;
+    const v1::SweepRows& some = event.sweep_rows();
+    for (int i = 0; i < some.status_size(); ++i) {
+      const std::size_t row = some.first_row() + static_cast<std::size_t>(i);
+      if (row >= rows) {
+        ADD_FAILURE() << "row " << row;
+        return told;
+      }
+      ++told.times[row];
+      told.status[row] = some.status(i);
+      told.energy[row] = some.energy(i);
+      told.displacement[row] = some.displacement(i);
+    }
+  }
+  return told;
+}
+
+/// The rows one by one.
+v1::Job solve_alone(RunningServer& server, const std::string& mesh, Received& block) {
+  v1::CreateJobRequest request = opening_job(mesh);
+  request.mutable_job()->clear_load_cases();
+  for (std::size_t row = 0; row < rows; ++row) {
+    *request.mutable_job()->add_load_cases() =
+        row_alone("row " + std::to_string(row), &coefficients[basis * row]);
+  }
+  v1::Job job = server.finish(server.create(request).name());
+  EXPECT_EQ(job.answers_size(), static_cast<int>(rows));
+  EXPECT_TRUE(read_result(server, job.name(), 0, block).ok());
+  return job;
+}
+
+/// The columns of the block against the answers of the plain job, and the contact of each row
+/// against its traces.
+void expect_columns(const Received& sweep, const v1::Job& alone, const Received& traces) {
+  const auto displacement = doubles(sweep, "sweep/displacement");
+  const auto energy = doubles(sweep, "sweep/energy");
+  const auto contact_length = doubles(sweep, "sweep/contact_length");
+  std::vector<std::uint64_t> shape;
+  const auto contact =
+      values_of<std::uint8_t>(sweep, "sweep/contact", v1::ArrayLayout::TYPE_UINT8, &shape);
+  ASSERT_THAT(shape, ElementsAre(rows, ::testing::Gt(0u)));
+  const std::size_t contacts = shape[1];
+  const auto nodes =
+      values_of<std::int32_t>(sweep, "sweep/contact_nodes", v1::ArrayLayout::TYPE_INT32, &shape);
+  ASSERT_THAT(shape, ElementsAre(contacts, 2u));
+  ASSERT_EQ(energy.size(), rows);
+  ASSERT_EQ(contact_length.size(), rows);
+  ASSERT_EQ(displacement.size(), rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    SCOPED_TRACE(row);
+    const v1::LoadCaseAnswer& answer = alone.answers(static_cast<int>(row));
+    EXPECT_NEAR(displacement[row], answer.inclusions(0).displacement(), tolerance);
+    EXPECT_NEAR(energy[row], answer.energy(), tolerance);
+    EXPECT_NEAR(contact_length[row], answer.contact_length(), tolerance);
+    const auto closed = values_of<std::int32_t>(
+        traces, "loads/" + std::to_string(row) + "/traces/0/contact", v1::ArrayLayout::TYPE_INT32);
+    for (std::size_t c = 0; c < contacts; ++c) {
+      EXPECT_EQ(nodes[2 * c], 0);
+      EXPECT_EQ(static_cast<std::int32_t>(contact[row * contacts + c]),
+                closed.at(static_cast<std::size_t>(nodes[2 * c + 1])));
+    }
+  }
+}
+
+void expect_near(const std::vector<double>& left, const std::vector<double>& right) {
+  ASSERT_EQ(left.size(), right.size());
+  for (std::size_t i = 0; i < left.size(); ++i) EXPECT_NEAR(left[i], right[i], tolerance) << i;
+}
+
+TEST(Sweep, AnswersEveryRowAsAJobOfItsOwn) {
+  RunningServer server;
+  const std::string mesh = server.create(paper_mesh()).name();
+  v1::CreateJobRequest request = sweep_job(mesh, coefficients);
+  request.mutable_job()->mutable_sweep()->add_traces(1);
+  request.mutable_job()->mutable_sweep()->add_traces(6);
+  const v1::Job created = server.create(request);
+  EXPECT_EQ(created.sweep_answer().rows(), rows);
+  EXPECT_EQ(created.sweep().coefficients().upload(),
+            "uploads/" + store::Sha256().add(packed(coefficients)).finish());
+  const Watched told = watch(server, created.name());
+
+  ASSERT_EQ(told.ended.state(), v1::Job::STATE_SUCCEEDED) << told.ended.error().message();
+  EXPECT_EQ(told.ended.answers_size(), 0);
+  EXPECT_EQ(told.ended.sweep_answer().converged(), rows);
+  EXPECT_EQ(told.ended.sweep_answer().not_converged() + told.ended.sweep_answer().failed(), 0u);
+  EXPECT_GT(told.ended.sweep_answer().most_steps(), 0);
+  EXPECT_LT(told.ended.sweep_answer().worst_kkt(), tolerance);
+  EXPECT_THAT(told.times, Each(1));
+  EXPECT_THAT(told.status, Each(v1::LoadCaseAnswer::STATUS_CONVERGED));
+
+  Received block, traces;
+  ASSERT_TRUE(read_result(server, created.name(), 0, block).ok());
+  EXPECT_EQ(block.layout.sha256(), store::Sha256().add(block.bytes).finish());
+  EXPECT_EQ(doubles(block, "sweep/energy"), told.energy);
+  EXPECT_EQ(doubles(block, "sweep/displacement"), told.displacement);
+  EXPECT_EQ(values_of<std::int32_t>(block, "sweep/status", v1::ArrayLayout::TYPE_INT32),
+            told.status);
+  const v1::Job alone = solve_alone(server, mesh, traces);
+  expect_columns(block, alone, traces);
+  for (const std::string row : {"1", "6"}) {
+    for (const std::string name : {"u_minus", "u_plus", "jump", "pressure"}) {
+      SCOPED_TRACE(row + " " + name);
+      expect_near(doubles(block, "traces/" + row + "/0/" + name),
+                  doubles(traces, "loads/" + row + "/traces/0/" + name));
+    }
+  }
+}
+
+TEST(Sweep, OfAnUploadIsTheSame) {
+  RunningServer server;
+  const std::string mesh = server.create(paper_mesh()).name();
+  v1::CreateJobRequest request = sweep_job(mesh, coefficients);
+  request.set_request_id("123e4567-e89b-12d3-a456-426614174000");
+  const v1::Job first = server.create(request);
+  const std::string upload = first.sweep().coefficients().upload();
+  request.mutable_job()->mutable_sweep()->mutable_coefficients()->set_upload(upload);
+  EXPECT_EQ(server.create(request).name(), first.name());
+  EXPECT_EQ(server.upload_files(), 1u);
+  request.mutable_job()->mutable_sweep()->mutable_coefficients()->set_packed(packed({1, 2, 3}));
+  expect_error(server.try_create(request), grpc::StatusCode::INVALID_ARGUMENT, "REQUEST_ID_REUSED",
+               "request_id");
+}
+
+/// f = c0 + c1 x + c2 y is linear, so that its values on the nodes say all of it.
+TEST(Sweep, OverNodalForcesIsTheSweepOverTheFunctionsTheyAreOf) {
+  RunningServer server;
+  const v1::Mesh mesh = server.settle(server.create(paper_mesh()).name());
+  Received triangulation;
+  ASSERT_TRUE(read_mesh(server, mesh.name(), 0, triangulation).ok());
+  const auto nodes = doubles(triangulation, "nodes");
+  const double cases[][3] = {{1, 0, 0}, {0, 1, 2}, {0.1, -2, 1}, {-1, 0.5, -3}};
+  std::vector<double> forces;
+  v1::CreateJobRequest alone = opening_job(mesh.name());
+  alone.mutable_job()->clear_load_cases();
+  for (const auto& c : cases) {
+    for (std::size_t node = 0; node < nodes.size() / 2; ++node) {
+      forces.push_back(c[0] + c[1] * nodes[2 * node] + c[2] * nodes[2 * node + 1]);
+    }
+    v1::LoadCase& load = *alone.mutable_job()->add_load_cases();
+    load.set_name("case " + std::to_string(alone.job().load_cases_size()));
+    load.mutable_force()->set_expression(std::to_string(c[0]) + " + x * (" + std::to_string(c[1]) +
+                                         ") + y * (" + std::to_string(c[2]) + ")");
+  }
+  v1::CreateJobRequest request = sweep_job(mesh.name(), {});
+  request.mutable_job()->clear_load_cases();
+  request.mutable_job()->mutable_sweep()->mutable_nodal_forces()->set_packed(packed(forces));
+  const v1::Job swept = server.finish(server.create(request).name());
+  ASSERT_EQ(swept.state(), v1::Job::STATE_SUCCEEDED) << swept.error().message();
+  EXPECT_EQ(swept.sweep_answer().converged(), std::size(cases));
+  Received block;
+  ASSERT_TRUE(read_result(server, swept.name(), 0, block).ok());
+  const v1::Job plain = server.finish(server.create(alone).name());
+  std::vector<double> displacement, energy;
+  for (const v1::LoadCaseAnswer& answer : plain.answers()) {
+    displacement.push_back(answer.inclusions(0).displacement());
+    energy.push_back(answer.energy());
+  }
+  expect_near(doubles(block, "sweep/displacement"), displacement);
+  expect_near(doubles(block, "sweep/energy"), energy);
+}
+
+}  // namespace
+}  // namespace anticrack::rpc

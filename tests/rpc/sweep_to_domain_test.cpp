@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "rpc/from_domain.hpp"
+#include "rpc/refusals.hpp"
+#include "rpc/requests.hpp"
+#include "rpc/to_domain.hpp"
+#include "store/digest.hpp"
+
+namespace anticrack::rpc {
+namespace {
+
+using anticrack::testing::packed;
+using anticrack::testing::sweep_job;
+using errors::Reason;
+using ::testing::ElementsAre;
+
+constexpr JobLimits limits{10, 1'000};
+const std::string sha256(64, 'c');
+
+v1::Job good_sweep() {
+  return sweep_job("meshes/a", {1, 2, 3}).job();
+}
+
+TEST(SweepToDomain, NamesAPackedMatrixByItsHash) {
+  v1::Job job = good_sweep();
+  job.mutable_sweep()->add_traces(3);
+  job.mutable_sweep()->add_traces(5);
+  const store::JobSpec spec = to_spec(job, limits);
+  ASSERT_TRUE(spec.sweep);
+  EXPECT_EQ(spec.sweep->cases, store::SweepSpec::Cases::combinations);
+  EXPECT_EQ(spec.sweep->upload, store::Sha256().add(packed({1, 2, 3})).finish());
+  EXPECT_THAT(spec.sweep->traces, ElementsAre(3u, 5u));
+  EXPECT_EQ(spec.loads.size(), 3u);
+}
+
+TEST(SweepToDomain, TakesAnUpload) {
+  v1::Job job = good_sweep();
+  job.mutable_sweep()->mutable_coefficients()->set_upload("uploads/" + sha256);
+  EXPECT_EQ(to_spec(job, limits).sweep->upload, sha256);
+}
+
+TEST(SweepToDomain, TakesNodalForces) {
+  v1::Job job = good_sweep();
+  job.clear_load_cases();
+  job.mutable_sweep()->mutable_nodal_forces()->set_upload("uploads/" + sha256);
+  const store::JobSpec spec = to_spec(job, limits);
+  EXPECT_EQ(spec.sweep->cases, store::SweepSpec::Cases::nodal_forces);
+  EXPECT_EQ(spec.sweep->upload, sha256);
+  EXPECT_TRUE(spec.loads.empty());
+}
+
+TEST(SweepToDomain, HasNoneWhereNoneWasAskedFor) {
+  v1::Job job = good_sweep();
+  job.clear_sweep();
+  EXPECT_FALSE(to_spec(job, limits).sweep);
+}
+
+TEST(SweepToDomain, TakesAMatrixOfAMegabyteInAJobThatWouldBeTooLargeWithoutIt) {
+  v1::Job job = good_sweep();
+  std::string& matrix = *job.mutable_sweep()->mutable_coefficients()->mutable_packed();
+  matrix.assign(max_packed_bytes, '\0');
+  job.mutable_load_cases(0)->mutable_force()->set_expression(std::string(1'000, '1'));
+  EXPECT_EQ(to_spec(job, limits).sweep->upload, store::Sha256().add(matrix).finish());
+}
+
+TEST(SweepToDomain, ComesBackAsTheUpload) {
+  store::JobRecord record;
+  record.spec = to_spec(good_sweep(), limits);
+  const v1::Job told = from_domain(record, {});
+  EXPECT_EQ(told.sweep().coefficients().upload(),
+            "uploads/" + store::Sha256().add(packed({1, 2, 3})).finish());
+  EXPECT_EQ(told.load_cases_size(), 3);
+  EXPECT_EQ(to_spec(told, limits).sweep->upload, record.spec.sweep->upload);
+}
+
+struct BadSweep {
+  const char* name;
+  std::function<void(v1::Job&)> spoil;
+  Reason reason;
+  const char* field;
+};
+
+v1::Sweep::Matrix& coefficients(v1::Job& job) {
+  return *job.mutable_sweep()->mutable_coefficients();
+}
+
+v1::Sweep::Matrix& nodal_forces(v1::Job& job) {
+  job.clear_load_cases();
+  return *job.mutable_sweep()->mutable_nodal_forces();
+}
+
+TEST(SweepToDomain, RefusesWhatItsTypesCannotExpress) {
+  const std::vector<BadSweep> all{
+      {"NoCases", [](auto& job) { job.mutable_sweep()->Clear(); }, Reason::invalid_argument,
+       "job.sweep"},
+      {"NoSource", [](auto& job) { coefficients(job).Clear(); }, Reason::invalid_argument,
+       "job.sweep.coefficients"},
+      {"NodalNoSource", [](auto& job) { nodal_forces(job).Clear(); }, Reason::invalid_argument,
+       "job.sweep.nodal_forces"},
+      {"Empty", [](auto& job) { coefficients(job).set_packed(""); }, Reason::invalid_argument,
+       "job.sweep.coefficients.packed"},
+      {"HalfAValue", [](auto& job) { coefficients(job).set_packed(std::string(12, '\0')); },
+       Reason::invalid_argument, "job.sweep.coefficients.packed"},
+      {"TooLarge",
+       [](auto& job) { coefficients(job).set_packed(std::string(max_packed_bytes + 8, '\0')); },
+       Reason::limit_exceeded, "job.sweep.coefficients.packed"},
+      {"NodalHalfAValue", [](auto& job) { nodal_forces(job).set_packed("1234567"); },
+       Reason::invalid_argument, "job.sweep.nodal_forces.packed"},
+      {"NoUpload", [](auto& job) { coefficients(job).set_upload(""); }, Reason::invalid_argument,
+       "job.sweep.coefficients.upload"},
+      {"NoHash", [](auto& job) { coefficients(job).set_upload("uploads/1"); },
+       Reason::invalid_argument, "job.sweep.coefficients.upload"},
+      {"AnotherCollection", [](auto& job) { nodal_forces(job).set_upload("meshes/" + sha256); },
+       Reason::invalid_argument, "job.sweep.nodal_forces.upload"},
+      {"TooManyTraces",
+       [](auto& job) {
+         for (std::uint32_t row = 0; row < 11; ++row) job.mutable_sweep()->add_traces(row);
+       },
+       Reason::limit_exceeded, "job.sweep.traces"},
+      {"TooLargeBesidesItsMatrix",
+       [](auto& job) {
+         job.mutable_load_cases(0)->mutable_force()->set_expression(
+             std::string(max_job_bytes, '1'));
+       },
+       Reason::limit_exceeded, "job"},
+  };
+  for (const BadSweep& bad : all) {
+    SCOPED_TRACE(bad.name);
+    v1::Job job = good_sweep();
+    bad.spoil(job);
+    expect_refused([&] { to_spec(job, limits); }, bad.reason, bad.field);
+  }
+}
+
+}  // namespace
+}  // namespace anticrack::rpc
