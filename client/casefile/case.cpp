@@ -63,7 +63,7 @@ std::optional<Spot> Case::locate(const std::string& field) const {
 }
 
 Case parse_case(const std::string& text, const std::filesystem::path& path,
-                const std::vector<std::string>& overrides) {
+                const std::vector<std::string>& overrides, Loads loads) {
   Case result;
   result.path = path;
   result.text = text;
@@ -84,7 +84,9 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
   }
   read_mesh(root, result);
   *result.job.mutable_solver() = read_solver(root, result.spots);
-  read_loads(root, result);
+  if (loads == Loads::needed || root.find("load")) {
+    read_loads(root, result);
+  }
   read_job(root, result.job, result.spots);
   if (const auto output = root.section("output", {"fields"})) {
     result.job.set_fields(output->boolean("fields").value_or(false));
@@ -116,7 +118,8 @@ Case mesh_file_case(const std::filesystem::path& file, const std::string& title,
   return result;
 }
 
-Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+               Loads loads) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (std::filesystem::is_directory(path) || !file || !(text << file.rdbuf())) {
@@ -125,7 +128,7 @@ Case read_case(const std::filesystem::path& path, const std::vector<std::string>
       throw Error({"", path.string(), 0}, "cannot be read; name a case, a TOML file");
     }
   }
-  return parse_case(text.str(), path, overrides);
+  return parse_case(text.str(), path, overrides, loads);
 }
 
 }  // namespace anticrack::casefile

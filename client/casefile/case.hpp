@@ -68,12 +68,16 @@ struct Case {
   std::optional<Spot> locate(const std::string& field) const;
 };
 
+/// Whether a case is nothing without a [[load]].
+enum class Loads { needed, optional };
+
 /// Reads a case and applies the overrides ("key=value") in order. Throws Error.
-Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
+               Loads loads = Loads::needed);
 
 /// The same for a text; `path` names it in errors and is where the files it names are relative to.
 Case parse_case(const std::string& text, const std::filesystem::path& path,
-                const std::vector<std::string>& overrides = {});
+                const std::vector<std::string>& overrides = {}, Loads loads = Loads::needed);
 
 /// A mesh from a .msh file and nothing else; the overrides are keys of [mesh], "mesh.preset=...".
 Case mesh_file_case(const std::filesystem::path& file, const std::string& title,

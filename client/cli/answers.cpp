@@ -6,6 +6,7 @@
 
 #include "cli/exit_codes.hpp"
 #include "cli/json.hpp"
+#include "cli/sweep_text.hpp"
 #include "cli/text.hpp"
 
 namespace anticrack::cli {
@@ -81,6 +82,9 @@ std::vector<std::string> remarks_on(const results::Load& load) {
 }  // namespace
 
 std::string answers_table(const results::Result& result) {
+  if (result.sweep) {
+    return sweep_table(*result.sweep);
+  }
   const std::vector<std::string> inclusions = inclusions_of(result);
   std::vector<std::string> head{"load", "status", "iterations", "criterion"};
   for (const std::string& name : inclusions) {
@@ -114,6 +118,9 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
       .value("factorize_seconds", result.timings.factorize_seconds)
       .value("solve_seconds", result.timings.solve_seconds)
       .value("total_seconds", result.timings.total_seconds);
+  if (result.sweep) {
+    add_sweep(*result.sweep, json);
+  }
   json.begin_array("answers");
   for (const results::Load& load : result.loads) {
     json.begin_object()
@@ -150,6 +157,9 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
 }
 
 int exit_code_of(const results::Result& result) {
+  if (result.sweep) {
+    return exit_code_of(*result.sweep);
+  }
   const auto some = [&](auto... statuses) {
     return std::any_of(result.loads.begin(), result.loads.end(), [&](const results::Load& load) {
       return ((load.status == statuses) || ...);

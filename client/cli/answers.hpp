@@ -12,9 +12,11 @@ namespace anticrack::cli {
 
 /// A head row, a row of units ("-": dimensionless), one row per load case; below it, why load cases
 /// did not converge or failed. A column "A" per inclusion, with its name where there are several.
+/// Of a sweep how its rows ended, and what they span.
 std::string answers_table(const results::Result& result);
 
-/// {title, file, job, mesh, timings, answers: [one per load case]}.
+/// {title, file, job, mesh, timings, answers: [one per load case]}; of a sweep also {sweep: {rows,
+/// converged, ...}}, and the answers are those of the rows whose traces were kept.
 std::string answers_json(const results::Result& result, const std::filesystem::path& file);
 
 /// exit_ok, exit_job_failed (failed or cancelled load cases) or exit_not_converged.

@@ -19,6 +19,7 @@ namespace anticrack::cli {
 using Command = std::function<int()>;
 
 void add_run(CLI::App& app, const Globals& globals, Command& chosen);
+void add_sweep(CLI::App& app, const Globals& globals, Command& chosen);
 void add_mesh(CLI::App& app, const Globals& globals, Command& chosen);
 void add_job(CLI::App& app, const Globals& globals, Command& chosen);
 void add_files(CLI::App& app, const Globals& globals, Command& chosen);  ///< show, plot, export

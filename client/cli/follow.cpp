@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/follow.hpp"
 
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -19,7 +20,7 @@ class View {
  public:
   explicit View(Session& session) : _session(session) {
     std::FILE* stream = people(session.globals());
-    if (is_terminal(stream)) {
+    if (is_terminal(stream) && !session.globals().quiet) {
       _painter = std::make_unique<Painter>(stream, [this](Size size) {
         const std::lock_guard lock(_mutex);
         return frame(_progress, size.width, size.height - 1);
@@ -64,7 +65,9 @@ v1::Job watch(Session& session, const std::string& name, const std::stop_token& 
   return client::watch_job(
       session.connection(), name, 0,
       [&view](const v1::WatchJobResponse& event) {
-        view.change([&event](JobProgress& progress) { progress.apply(event); });
+        const std::chrono::duration<double> now =
+            std::chrono::steady_clock::now().time_since_epoch();
+        view.change([&](JobProgress& progress) { progress.apply(event, now.count()); });
       },
       stop);
 }

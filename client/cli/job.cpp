@@ -41,12 +41,21 @@ int submit_case(const JobOptions& options, const Globals& globals) {
   const casefile::Case the_case = casefile::read_case(options.case_file, options.overrides);
   Session session(globals);
   const v1::Job job = submit(session, the_case, client::make_uuid());
-  if (globals.json) {
-    return show(globals, job);
-  }
-  say(globals, job.name());
-  say(globals, "To watch it: anticrack job watch " + job.name() + session.server_option());
+  tell_submitted(session, job);
   return exit_ok;
+}
+
+// "3/4": of the load cases of a job, or of the rows of a sweep.
+std::string ended_text(const v1::Job& job) {
+  if (job.has_sweep()) {
+    const v1::SweepAnswer& sweep = job.sweep_answer();
+    return std::to_string(sweep.converged() + sweep.not_converged() + sweep.failed()) + "/" +
+           std::to_string(sweep.rows()) + " rows";
+  }
+  const auto ended_cases =
+      std::count_if(job.answers().begin(), job.answers().end(),
+                    [](const v1::LoadCaseAnswer& answer) { return ended(answer.status()); });
+  return std::to_string(ended_cases) + "/" + std::to_string(job.load_cases_size());
 }
 
 int list(const JobOptions& options, const Globals& globals) {
@@ -60,11 +69,7 @@ int list(const JobOptions& options, const Globals& globals) {
   }
   std::vector<std::vector<std::string>> rows{{"job", "state", "ended", "mesh", "title"}};
   for (const v1::Job& job : response.jobs()) {
-    const auto ended_cases =
-        std::count_if(job.answers().begin(), job.answers().end(),
-                      [](const v1::LoadCaseAnswer& answer) { return ended(answer.status()); });
-    rows.push_back({sanitise(job.name()), std::string(word(job.state())),
-                    std::to_string(ended_cases) + "/" + std::to_string(job.load_cases_size()),
+    rows.push_back({sanitise(job.name()), std::string(word(job.state())), ended_text(job),
                     sanitise(job.mesh()), sanitise(job.title())});
   }
   print_document(table(rows, {1, 3, 4}));
@@ -76,9 +81,12 @@ int list(const JobOptions& options, const Globals& globals) {
 
 // As exit_code_of a result, from a job's own answers.
 int exit_code_of_answers(const v1::Job& job) {
-  const bool all_converged = std::all_of(
-      job.answers().begin(), job.answers().end(),
-      [](const auto& answer) { return answer.status() == v1::LoadCaseAnswer::STATUS_CONVERGED; });
+  const bool all_converged =
+      job.has_sweep()
+          ? job.sweep_answer().converged() == job.sweep_answer().rows()
+          : std::all_of(job.answers().begin(), job.answers().end(), [](const auto& answer) {
+              return answer.status() == v1::LoadCaseAnswer::STATUS_CONVERGED;
+            });
   const int code = exit_code_of(job.state());
   return code == exit_ok && !all_converged ? exit_not_converged : code;
 }

@@ -63,6 +63,19 @@ std::string answers(const v1::Job& job) {
   return table(rows, {1}) + remarks;
 }
 
+std::string sweep_answer(const v1::Job& job) {
+  const v1::SweepAnswer& answer = job.sweep_answer();
+  std::string text = "sweep of " + std::to_string(answer.rows()) +
+                     " rows: " + std::to_string(answer.converged()) + " converged, " +
+                     std::to_string(answer.not_converged()) + " did not converge, " +
+                     std::to_string(answer.failed()) + " failed\n";
+  if (answer.converged() > 0) {
+    text += "at most " + std::to_string(answer.most_steps()) + " steps, KKT residuals at most " +
+            number(answer.worst_kkt(), 2) + "\n";
+  }
+  return text;
+}
+
 // Seconds since it was created: what a person wants to know is what took how long.
 std::string timeline(const v1::Job& job) {
   if (job.timeline().empty()) {
@@ -101,7 +114,8 @@ std::string job_text(const v1::Job& job) {
   if (job.state() == v1::Job::STATE_EXPIRED) {
     text += expired_text(job) + "\n";
   }
-  return text + circumstances(job) + answers(job) + timeline(job);
+  return text + circumstances(job) + (job.has_sweep() ? sweep_answer(job) : answers(job)) +
+         timeline(job);
 }
 
 }  // namespace anticrack::cli

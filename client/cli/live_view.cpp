@@ -2,6 +2,7 @@
 #include "cli/live_view.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cli/text.hpp"
 
@@ -17,6 +18,39 @@ std::string attempt_of(const JobProgress& progress) {
   return progress.attempt > 1 ? ", attempt " + std::to_string(progress.attempt) : "";
 }
 
+std::string rows_of(const SweepProgress& sweep) {
+  return std::to_string(sweep.done()) +
+         (sweep.total > 0 ? " of " + std::to_string(sweep.total) : std::string()) + " rows";
+}
+
+// "  10300 rows/s  5 s left  3 not converged"; what is not known is left out.
+std::string pace_of(const SweepProgress& sweep) {
+  std::string text;
+  if (std::isfinite(sweep.rate())) {
+    constexpr double whole_from = 10;
+    text += "  " +
+            (sweep.rate() < whole_from ? number(sweep.rate(), 2)
+                                       : std::to_string(std::llround(sweep.rate()))) +
+            " rows/s";
+  }
+  if (std::isfinite(sweep.seconds_left()) && sweep.done() < sweep.total) {
+    text += "  " + time_text(sweep.seconds_left()) + " left";
+  }
+  if (sweep.not_converged() > 0) {
+    text += "  " + std::to_string(sweep.not_converged()) + " not converged";
+  }
+  if (sweep.failed() > 0) {
+    text += "  " + std::to_string(sweep.failed()) + " failed";
+  }
+  return text;
+}
+
+double fraction_of(const SweepProgress& sweep) {
+  return sweep.total > 0 && sweep.done() <= sweep.total
+             ? static_cast<double>(sweep.done()) / static_cast<double>(sweep.total)
+             : 0;
+}
+
 std::string head_of(const JobProgress& progress) {
   std::string text = progress.job.empty() ? "job" : progress.job;
   text += ": ";
@@ -24,6 +58,9 @@ std::string head_of(const JobProgress& progress) {
   text += attempt_of(progress);
   if (!progress.detail.empty()) {
     text += " (" + progress.detail + ")";
+  }
+  if (progress.sweep) {
+    text += ", " + rows_of(*progress.sweep);
   }
   if (progress.cases.size() > 1) {
     text += ", " + std::to_string(progress.ended_count) + " of " +
@@ -38,6 +75,17 @@ std::string head_of(const JobProgress& progress) {
 std::string bar(double fraction, std::size_t width) {
   const auto full = static_cast<std::size_t>(fraction * static_cast<double>(width));
   return "[" + std::string(full, '#') + std::string(width - full, '-') + "]";
+}
+
+// A narrow terminal has no room for the bar.
+std::string sweep_line(const SweepProgress& sweep, std::size_t width) {
+  const std::string pace = pace_of(sweep);
+  constexpr std::size_t around_bar = 4;  // two spaces and two brackets
+  const std::size_t used = columns_of(pace) + around_bar;
+  if (sweep.total == 0 || used + narrowest_bar > width) {
+    return fit(pace, width);
+  }
+  return "  " + bar(fraction_of(sweep), std::min(widest_bar, width - used)) + pace;
 }
 
 std::string numbers(const CaseProgress& progress, bool active_set, bool labels) {
@@ -118,6 +166,10 @@ std::vector<std::string> frame(const JobProgress& progress, std::size_t width, s
   // The last column stays empty: a terminal may wrap when it is written.
   const std::size_t room = std::max<std::size_t>(width, 2) - 1;
   std::vector<std::string> lines{fit(head_of(progress), room)};
+  if (progress.sweep) {
+    lines.push_back(sweep_line(*progress.sweep, room));
+    return lines;
+  }
   const std::size_t case_lines = std::max<std::size_t>(height, 3) - 1;
   const bool all = progress.cases.size() <= case_lines;
   const auto shown = shown_cases(progress, all ? case_lines : case_lines - 1);
@@ -136,6 +188,18 @@ std::vector<std::string> frame(const JobProgress& progress, std::size_t width, s
   return lines;
 }
 
+void PlainLog::add_sweep_line(const SweepProgress& sweep, std::vector<std::string>& lines) {
+  constexpr std::uint64_t first = 1000;
+  // Ten lines of a sweep; where its end is not known, one each time there are twice as many rows.
+  const std::uint64_t due = sweep.total > 0 ? _rows + std::max<std::uint64_t>(sweep.total / 10, 1)
+                                            : std::max(2 * _rows, first);
+  const bool finished = sweep.total > 0 && sweep.done() >= sweep.total && _rows < sweep.total;
+  if (sweep.done() >= due || finished) {
+    lines.push_back(rows_of(sweep) + pace_of(sweep));
+    _rows = sweep.done();
+  }
+}
+
 std::vector<std::string> PlainLog::lines(const JobProgress& progress) {
   std::vector<std::string> lines;
   std::string head = progress.job + ": " + std::string(word(progress.state)) + attempt_of(progress);
@@ -151,7 +215,11 @@ std::vector<std::string> PlainLog::lines(const JobProgress& progress) {
   }
   if (progress.attempt != _attempt) {
     _cases.clear();  // the iterations begin anew
+    _rows = 0;
     _attempt = progress.attempt;
+  }
+  if (progress.sweep) {
+    add_sweep_line(*progress.sweep, lines);
   }
   _cases.resize(progress.cases.size());
   for (std::size_t i = 0; i < _cases.size(); ++i) {

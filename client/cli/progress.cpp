@@ -8,7 +8,7 @@
 
 namespace anticrack::cli {
 
-void JobProgress::apply(const v1::WatchJobResponse& event) {
+void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
   notice.clear();
   switch (event.event_case()) {
     case v1::WatchJobResponse::kSnapshot:
@@ -35,6 +35,11 @@ void JobProgress::apply(const v1::WatchJobResponse& event) {
     case v1::WatchJobResponse::kEnded:
       apply(event.ended());
       break;
+    case v1::WatchJobResponse::kSweepRows:
+      if (sweep) {
+        sweep->apply(event.sweep_rows(), seconds);
+      }
+      break;
     case v1::WatchJobResponse::EVENT_NOT_SET:
       break;  // an event of a later version
   }
@@ -45,6 +50,9 @@ void JobProgress::apply(const v1::Job& job_now) {
   if (job_now.attempt() > attempt && attempt > 0) {
     cases.clear();  // the server stopped meanwhile and runs it anew
     ended_count = 0;
+    if (sweep) {
+      sweep->restart();
+    }
   }
   attempt = std::max(attempt, job_now.attempt());
   if (state != job_now.state()) {
@@ -56,6 +64,10 @@ void JobProgress::apply(const v1::Job& job_now) {
   target = active_set || uzawa.has_kkt_tolerance() ? 0
            : uzawa.has_epsilon()                   ? uzawa.epsilon()
                                                    : 1e-12;
+  if (job_now.has_sweep()) {
+    apply_sweep(job_now);
+    return;  // its load cases are not solved one by one
+  }
   cases.resize(static_cast<std::size_t>(job_now.load_cases_size()));
   for (std::size_t i = 0; i < cases.size(); ++i) {
     cases[i].name = sanitise(job_now.load_cases(static_cast<int>(i)).name());
@@ -63,6 +75,13 @@ void JobProgress::apply(const v1::Job& job_now) {
   for (int i = 0; i < job_now.answers_size(); ++i) {
     apply(static_cast<std::size_t>(i), job_now.answers(i));
   }
+}
+
+void JobProgress::apply_sweep(const v1::Job& job_now) {
+  if (!sweep) {
+    sweep.emplace();
+  }
+  sweep->apply(job_now.sweep_answer());
 }
 
 void JobProgress::apply(const v1::Samples& samples) {

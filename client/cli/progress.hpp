@@ -6,11 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "anticrack/v1/solve.pb.h"
+#include "cli/sweep_progress.hpp"
 
 namespace anticrack::cli {
 
@@ -33,13 +35,16 @@ struct JobProgress {
   std::int32_t attempt = 0;  ///< of the server at the job; 0 before the first snapshot
   bool active_set = false;   ///< a handful of steps, no criterion; else iterations of Algorithm 2
   double target = 1e-12;     ///< of the criterion; 0: something else ends the iteration
-  std::vector<CaseProgress> cases;
+  std::vector<CaseProgress> cases;     ///< none of a sweep
+  std::optional<SweepProgress> sweep;  ///< of a sweep
   std::size_t ended_count = 0;
 
-  void apply(const v1::WatchJobResponse& event);
+  /// `seconds`: when it came, on any clock that does not go back.
+  void apply(const v1::WatchJobResponse& event, double seconds = 0);
 
  private:
   void apply(const v1::Job& job_now);
+  void apply_sweep(const v1::Job& job_now);
   void apply(const v1::Samples& samples);
   void apply(std::size_t index, const v1::LoadCaseAnswer& answer);
 };

@@ -68,7 +68,8 @@ std::string text_of(const v1::ServerInfo& info, const std::string& address) {
       {"limits", std::to_string(limits.mesh_triangles()) + " triangles a mesh, uploads of " +
                      bytes(limits.upload_bytes()) + ", " + std::to_string(limits.load_cases()) +
                      " load cases a job, " + std::to_string(limits.iterations()) +
-                     " iterations a load case"},
+                     " iterations a load case, sweeps of " + std::to_string(limits.sweep_rows()) +
+                     " rows and " + std::to_string(limits.sweep_basis()) + " loads"},
       {"queue", std::to_string(limits.queued_jobs()) + " jobs, " +
                     std::to_string(limits.queued_cases()) + " load cases a mesh, " +
                     bytes(limits.queued_bytes())},

@@ -21,6 +21,7 @@ struct Globals {
   ConnectionFlags connection;
   bool local = false;
   bool json = false;
+  bool quiet = false;  ///< plain lines also on a terminal
 };
 
 /// Where people are told what goes on: standard output, with --json standard error.

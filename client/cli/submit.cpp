@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/exit_codes.hpp"
+#include "cli/json.hpp"
 #include "cli/to_result.hpp"
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
@@ -118,14 +119,28 @@ v1::Mesh create_mesh(Session& session, const casefile::Case& the_case) {
   });
 }
 
-v1::Job submit(Session& session, const casefile::Case& the_case, const std::string& request_id) {
+v1::Job submit(Session& session, const casefile::Case& the_case, const std::string& request_id,
+               const Prepare& prepare) {
   v1::Job job = the_case.job;
   upload_forces(session, the_case, job);  // first: a file that cannot be read starts nothing
+  if (prepare) {
+    in_terms_of(the_case, [&] { prepare(job); });
+  }
   const v1::Mesh mesh = create_mesh(session, the_case);
   return in_terms_of(the_case, [&] {
     job.set_mesh(mesh.name());
     return client::create_job(session.connection(), job, request_id, session.stop());
   });
+}
+
+void tell_submitted(const Session& session, const v1::Job& job) {
+  if (session.globals().json) {
+    print_document(to_json(job));
+    return;
+  }
+  say(session.globals(), job.name());
+  say(session.globals(),
+      "To watch it: anticrack job watch " + job.name() + session.server_option());
 }
 
 results::Result fetch(Session& session, const v1::Job& job) {

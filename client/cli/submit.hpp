@@ -28,8 +28,16 @@ void add_case_flags(CLI::App& command, std::vector<std::string>& overrides);
 /// case it is about.
 v1::Mesh create_mesh(Session& session, const casefile::Case& the_case);
 
+/// Completes a job before it is submitted: what it needs besides the case has to be uploaded first,
+/// and again for a server that has lost it.
+using Prepare = std::function<void(v1::Job&)>;
+
 /// create_mesh, then the job. Repeating it with the same id is harmless.
-v1::Job submit(Session& session, const casefile::Case& the_case, const std::string& request_id);
+v1::Job submit(Session& session, const casefile::Case& the_case, const std::string& request_id,
+               const Prepare& prepare = {});
+
+/// What a command that submits and does not wait says.
+void tell_submitted(const Session& session, const v1::Job& job);
 
 /// Everything about a job that has ended and has results.
 results::Result fetch(Session& session, const v1::Job& job);

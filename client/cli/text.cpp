@@ -113,6 +113,25 @@ std::string bytes(std::uint64_t count) {
   return number(value, 3) + units[unit];
 }
 
+std::string time_text(double seconds) {
+  if (!(seconds >= 0) || seconds >= 1e9) {
+    return "-";
+  }
+  if (seconds < 9.5) {
+    return number(seconds, 2) + " s";
+  }
+  const auto whole = static_cast<std::int64_t>(std::lround(seconds));
+  constexpr std::int64_t minute = 60;
+  constexpr std::int64_t hour = 60 * minute;
+  if (whole < minute) {
+    return std::to_string(whole) + " s";
+  }
+  if (whole < hour) {
+    return std::to_string(whole / minute) + " min " + std::to_string(whole % minute) + " s";
+  }
+  return std::to_string(whole / hour) + " h " + std::to_string(whole % hour / minute) + " min";
+}
+
 std::string table(const std::vector<std::vector<std::string>>& rows,
                   const std::vector<std::size_t>& left) {
   std::vector<std::size_t> widths;

@@ -31,6 +31,9 @@ std::string number(double value, int digits = 6, bool exponent = false);
 /// In the largest of B, kB, MB, GB, TB that leaves at least 1 before the point, to three digits.
 std::string bytes(std::uint64_t count);
 
+/// "0.4 s", "42 s", "3 min 5 s", "2 h 10 min": for people.
+std::string time_text(double seconds);
+
 /// Rows under each other, two spaces between columns; column 0 and those named in `left` are
 /// aligned left. No space at line ends.
 std::string table(const std::vector<std::vector<std::string>>& rows,

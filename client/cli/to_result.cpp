@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -87,17 +88,27 @@ results::Load to_load(const v1::LoadCase& load_case, const v1::LoadCaseAnswer& a
   return load;
 }
 
+std::optional<results::ArrayView::Type> type_of(v1::ArrayLayout::Type type) {
+  switch (type) {
+    case v1::ArrayLayout::TYPE_FLOAT64:
+      return results::ArrayView::Type::float64;
+    case v1::ArrayLayout::TYPE_INT32:
+      return results::ArrayView::Type::int32;
+    case v1::ArrayLayout::TYPE_UINT8:
+      return results::ArrayView::Type::uint8;
+    default:
+      return std::nullopt;
+  }
+}
+
 std::vector<results::ArrayView> views_of(const client::Block& block) {
   std::vector<results::ArrayView> views;
   for (const v1::ArrayLayout& array : block.layout.arrays()) {
-    if (array.type() != v1::ArrayLayout::TYPE_FLOAT64 &&
-        array.type() != v1::ArrayLayout::TYPE_INT32) {
+    const auto type = type_of(array.type());
+    if (!type) {
       continue;  // of a later version
     }
-    const auto type = array.type() == v1::ArrayLayout::TYPE_FLOAT64
-                          ? results::ArrayView::Type::float64
-                          : results::ArrayView::Type::int32;
-    views.push_back(results::view(array.name(), type, {array.shape().begin(), array.shape().end()},
+    views.push_back(results::view(array.name(), *type, {array.shape().begin(), array.shape().end()},
                                   array.offset(), std::span(block.bytes)));
   }
   return views;
@@ -111,6 +122,20 @@ void add_subdomains(const v1::Mesh& from, results::Mesh& to) {
     // A server that knows no tension solves with 1.
     to.tension.push_back(subdomain.tension() > 0 ? subdomain.tension() : 1);
   }
+}
+
+// All but its columns.
+results::Sweep to_sweep(const Fetched& fetched) {
+  results::Sweep sweep;
+  for (const v1::LoadCase& load : fetched.job.load_cases()) {
+    sweep.loads.push_back(load.name());
+  }
+  sweep.inclusions.assign(fetched.mesh.inclusions().begin(), fetched.mesh.inclusions().end());
+  // A row that is no int32 becomes a negative one, which is refused.
+  sweep.kept.assign(fetched.job.sweep().traces().begin(), fetched.job.sweep().traces().end());
+  sweep.error = fetched.job.error().message();
+  sweep.solve_seconds = seconds_of(fetched.job.sweep_answer().solve_time());
+  return sweep;
 }
 
 }  // namespace
@@ -147,7 +172,11 @@ results::Result to_result(const Fetched& fetched) {
     interfaces.emplace(interface.name(), result.interfaces.size());
     result.interfaces.emplace_back().name = interface.name();
   }
-  for (int i = 0; i < fetched.job.load_cases_size(); ++i) {
+  if (fetched.job.has_sweep()) {
+    result.sweep = to_sweep(fetched);
+    result.timings.solve_seconds = result.sweep->solve_seconds;
+  }
+  for (int i = 0; i < fetched.job.load_cases_size() && !result.sweep; ++i) {
     const v1::LoadCaseAnswer answer =
         i < fetched.job.answers_size() ? fetched.job.answers(i) : v1::LoadCaseAnswer();
     result.loads.push_back(

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "figures/figures.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "figures/drawing.hpp"
 #include "figures/script.hpp"
 #include "figures/surface.hpp"
+#include "figures/sweep_figures.hpp"
 #include "figures/text.hpp"
 
 namespace anticrack::figures {
@@ -20,6 +22,26 @@ constexpr std::size_t triangle_limit = 24000;
 
 std::string traces_suffix(std::size_t interface) {
   return interface == 0 ? "-traces" : "-traces-" + std::to_string(interface + 1);
+}
+
+void draw_traces(const Result& result, const Load& load, const std::string& stem,
+                 Drawing& drawing) {
+  for (std::size_t i = 0; i < load.traces.size(); ++i) {
+    drawing.draw(stem + traces_suffix(i),
+                 [&](const auto& outputs) { return traces_script(result, load, i, outputs); });
+  }
+}
+
+/// A sweep may have kept thousands of rows.
+void draw_kept_rows(const Result& result, Drawing& drawing) {
+  constexpr std::size_t most = 12;
+  for (std::size_t i = 0; i < std::min(most, result.loads.size()); ++i) {
+    draw_traces(result, result.loads[i], result.loads[i].name, drawing);
+  }
+  if (result.loads.size() > most) {
+    drawing.drawn.notes.push_back("traces drawn of the first " + std::to_string(most) + " of " +
+                                  std::to_string(result.loads.size()) + " rows");
+  }
 }
 
 void draw_load(const Result& result, const Load& load, const std::string& stem, Drawing& drawing) {
@@ -40,10 +62,7 @@ void draw_load(const Result& result, const Load& load, const std::string& stem, 
       return membrane_script(result, load, membrane, outputs);
     });
   }
-  for (std::size_t i = 0; i < load.traces.size(); ++i) {
-    drawing.draw(stem + traces_suffix(i),
-                 [&](const auto& outputs) { return traces_script(result, load, i, outputs); });
-  }
+  draw_traces(result, load, stem, drawing);
   if (has_convergence(load)) {
     drawing.draw(stem + "-convergence",
                  [&](const auto& outputs) { return convergence_script(result, load, outputs); });
@@ -63,6 +82,11 @@ Drawn draw(const Result& result, const fs::path& folder, const Options& options)
   const std::vector<std::string> stems = file_stems(names, suffixes);
 
   Drawing drawing(folder, options);
+  if (result.sweep) {
+    draw_sweep(result, drawing);
+    draw_kept_rows(result, drawing);
+    return std::move(drawing.drawn);
+  }
   for (std::size_t i = 0; i < result.loads.size(); ++i) {
     draw_load(result, result.loads[i], stems[i], drawing);
   }

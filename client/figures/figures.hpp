@@ -35,6 +35,10 @@ struct Drawn {
 ///   LOAD-traces       u-, u+ and [u] along each interface, contact shaded
 ///   LOAD-convergence  the criterion of every iteration, or the KKT residuals of every step, log
 ///   LOAD              membrane left, traces right, as in the paper
+/// Of a sweep instead:
+///   sweep             A and the contact length over the rows, or over the coefficient that varies
+///   sweep-contact     where the cracks are closed, row by row (-2, ... of further interfaces)
+///   row-K-traces      of the first rows whose traces were kept
 /// LOAD is the load's name made safe for a file name, and unique. With several interfaces the
 /// traces of the second and later are LOAD-traces-2 and so on. Each file is written under a
 /// temporary name and renamed. Throws Error; files drawn before it stay.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,5 +13,14 @@ namespace anticrack::results {
 /// for no values, and for one that is not finite. Follows hard links only, and takes memory for no
 /// more than the file can hold.
 std::vector<double> read_array(const std::filesystem::path& file, const std::string& dataset);
+
+struct Matrix {
+  std::vector<double> values;  ///< row by row
+  std::size_t rows = 0;
+  std::size_t columns = 0;
+};
+
+/// The same for a two-dimensional dataset, with at least one row and one column.
+Matrix read_matrix(const std::filesystem::path& file, const std::string& dataset);
 
 }  // namespace anticrack::results

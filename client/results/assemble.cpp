@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "results/assemble_sweep.hpp"
 #include "results/block.hpp"
 
 namespace anticrack::results {
@@ -67,9 +68,7 @@ void add_load(const Block& block, std::size_t index, std::size_t interfaces, con
   load.fields.clear();
   load.history = {};
   if (solved || block.has_below(at + "/traces/")) {
-    for (std::size_t i = 0; i < interfaces; ++i) {
-      load.traces.push_back(trace_of(block, at + "/traces/" + std::to_string(i)));
-    }
+    load.traces = traces_of(block, at + "/traces", interfaces);
   }
   if (solved || block.has_below(at + "/history/")) {
     load.history = history_of(block, at + "/history");
@@ -83,6 +82,14 @@ void add_load(const Block& block, std::size_t index, std::size_t interfaces, con
 
 }  // namespace
 
+std::vector<Trace> traces_of(const Block& block, const std::string& at, std::size_t interfaces) {
+  std::vector<Trace> traces;
+  for (std::size_t i = 0; i < interfaces; ++i) {
+    traces.push_back(trace_of(block, at + "/" + std::to_string(i)));
+  }
+  return traces;
+}
+
 Result assemble(Result answers, std::span<const ArrayView> mesh_block,
                 std::span<const ArrayView> result_block) {
   const Block mesh("the mesh read from the server", mesh_block);
@@ -91,7 +98,8 @@ Result assemble(Result answers, std::span<const ArrayView> mesh_block,
   for (std::size_t i = 0; i < answers.interfaces.size(); ++i) {
     add_interface(result, i, answers.interfaces[i]);
   }
-  for (std::size_t i = 0; i < answers.loads.size(); ++i) {
+  if (answers.sweep) add_sweep(result, answers);
+  for (std::size_t i = 0; i < answers.loads.size() && !answers.sweep; ++i) {
     add_load(result, i, answers.interfaces.size(), answers.mesh, answers.loads[i]);
   }
   const std::string fault = first_fault(answers);

@@ -17,11 +17,11 @@ namespace anticrack::results {
 /// One array of a block: ArrayLayout of the API plus the bytes it points at (little-endian,
 /// row-major, any alignment).
 struct ArrayView {
-  enum class Type { float64, int32 };
+  enum class Type { float64, int32, uint8 };
   std::string name;
   Type type = Type::float64;
   std::vector<std::uint64_t> shape;
-  std::span<const std::byte> bytes;  ///< exactly shape's product times 8 or 4
+  std::span<const std::byte> bytes;  ///< exactly shape's product times 8, 4 or 1
 };
 
 /// The bytes of an array inside a block received whole. Throws Error if it lies outside.
@@ -35,6 +35,8 @@ ArrayView view(std::string name, ArrayView::Type type, std::vector<std::uint64_t
 /// their attributes, inclusions and contact_intervals. Filled in here: mesh arrays from
 /// `mesh_block`, interfaces[].s,x,y,kind and loads[].traces, history, fields from `result_block`.
 /// A load without arrays in the block keeps none, unless it is `converged` or `not_converged`.
+/// Of a sweep it comes without loads and with sweep.loads, inclusions, kept and, where known,
+/// coefficients; filled in are the columns, and a load for every kept row (see Sweep::kept).
 ///
 /// Nothing is believed: a missing array, a type, a shape, an index out of range or a size that
 /// disagrees with another throws Error. Arrays this version does not know are passed over.

@@ -9,13 +9,29 @@ constexpr const char* cure =
     "`anticrack server`";
 
 std::size_t size_of(ArrayView::Type type) {
-  return type == ArrayView::Type::float64 ? 8 : 4;
+  switch (type) {
+    case ArrayView::Type::float64:
+      return 8;
+    case ArrayView::Type::int32:
+      return 4;
+    case ArrayView::Type::uint8:
+      return 1;
+  }
+  return 1;
 }
 
 }  // namespace
 
 const char* name_of(ArrayView::Type type) {
-  return type == ArrayView::Type::float64 ? "float64" : "int32";
+  switch (type) {
+    case ArrayView::Type::float64:
+      return "float64";
+    case ArrayView::Type::int32:
+      return "int32";
+    case ArrayView::Type::uint8:
+      return "uint8";
+  }
+  return "";
 }
 
 std::string text_of(const std::vector<std::uint64_t>& shape) {

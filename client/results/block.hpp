@@ -44,21 +44,47 @@ class Block {
   /// Array of shape (rows) for columns 0, else (rows, columns).
   template <typename T>
   std::vector<T> get(const std::string& name, std::uint64_t columns = 0) const {
-    const auto found = _arrays.find(name);
-    if (found == _arrays.end()) fail("array " + name + " is missing");
-    const ArrayView& array = *found->second;
-    constexpr auto wanted = sizeof(T) == 8 ? ArrayView::Type::float64 : ArrayView::Type::int32;
-    if (array.type != wanted) {
-      fail("array " + name + " is " + name_of(array.type) + ", not " + name_of(wanted));
-    }
+    const ArrayView& array = find<T>(name);
     const bool fits = columns == 0 ? array.shape.size() == 1
                                    : array.shape.size() == 2 && array.shape[1] == columns;
     if (!fits) {
       fail("array " + name + " has shape " + text_of(array.shape) + ", not " +
            (columns == 0 ? std::string("(n)") : "(n," + std::to_string(columns) + ")"));
     }
+    return values_of<T>(array);
+  }
+
+  /// Array of shape (rows, any); also where that is (rows, 0).
+  template <typename T>
+  std::vector<T> get_rows(const std::string& name, std::uint64_t rows) const {
+    const ArrayView& array = find<T>(name);
+    if (array.shape.size() != 2 || array.shape[0] != rows) {
+      fail("array " + name + " has shape " + text_of(array.shape) + ", not (" +
+           std::to_string(rows) + ",n)");
+    }
+    return values_of<T>(array);
+  }
+
+  [[noreturn]] void fail(const std::string& cause) const;
+
+ private:
+  template <typename T>
+  const ArrayView& find(const std::string& name) const {
+    const auto found = _arrays.find(name);
+    if (found == _arrays.end()) fail("array " + name + " is missing");
+    constexpr auto wanted = sizeof(T) == 8   ? ArrayView::Type::float64
+                            : sizeof(T) == 4 ? ArrayView::Type::int32
+                                             : ArrayView::Type::uint8;
+    if (found->second->type != wanted) {
+      fail("array " + name + " is " + name_of(found->second->type) + ", not " + name_of(wanted));
+    }
+    return *found->second;
+  }
+
+  template <typename T>
+  std::vector<T> values_of(const ArrayView& array) const {
     if (byte_count(_subject, array) != array.bytes.size()) {
-      fail("array " + name + " of shape " + text_of(array.shape) + " comes with " +
+      fail("array " + array.name + " of shape " + text_of(array.shape) + " comes with " +
            std::to_string(array.bytes.size()) + " bytes");
     }
     std::vector<T> values(array.bytes.size() / sizeof(T));
@@ -66,9 +92,6 @@ class Block {
     return values;
   }
 
-  [[noreturn]] void fail(const std::string& cause) const;
-
- private:
   std::string _subject;
   std::map<std::string, const ArrayView*> _arrays;
 };

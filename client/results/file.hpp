@@ -20,11 +20,18 @@
 //     /loads/NAME/history      iteration, criterion, energy, contact_count, kkt_*
 //     /loads/NAME/fields/D     nodes, u (n_D), triangles (m_D,3) into nodes; attribute name (only
 //                              when asked for)
+//     /sweep                   of a sweep: attributes description, source, loads, inclusions,
+//     error,
+//                              solve_seconds, converged, not_converged, failed; (rows) status,
+//                              steps, energy, contact_length, kkt; displacement (rows,inclusions),
+//                              contact (rows,contacts) uint8, contact_nodes (contacts,2),
+//                              coefficients (rows,loads) where known; kept: rows whose traces are
+//                              /loads/row-K
 //
 // I and D are indices in decimal (an interface, a subdomain); the attribute `name` has their names.
-// Every dataset has the attribute `units` ("-": dimensionless), `kind` also what its numbers mean.
-// Needs HDF5 1.10 to read. Numbers are float64 and int32, little-endian; text is variable-length
-// UTF-8.
+// Every dataset has the attribute `units` ("-": dimensionless), `kind` and those of /sweep also
+// what their numbers mean (`meaning`). Needs HDF5 1.10 to read. Numbers are float64, int32 and
+// uint8, little-endian; text is variable-length UTF-8.
 #pragma once
 
 #include <filesystem>

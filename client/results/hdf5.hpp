@@ -67,12 +67,16 @@ Handle create_group(const Handle& parent, const std::string& name);
 void put(const Handle& object, const std::string& attribute, double value);
 void put(const Handle& object, const std::string& attribute, std::int32_t value);
 void put(const Handle& object, const std::string& attribute, const std::string& text);
+/// A list of texts.
+void put(const Handle& object, const std::string& attribute, std::span<const std::string> texts);
 /// Dataset of shape (n) for columns 0, else (n / columns, columns). It carries a
 /// checksum; a large one is compressed. `units` becomes its attribute. Returns it, for further
 /// attributes.
 Handle put_array(const Handle& group, const std::string& name, std::span<const double> values,
                  const std::string& units, std::size_t columns = 0);
 Handle put_array(const Handle& group, const std::string& name, std::span<const std::int32_t> values,
+                 const std::string& units, std::size_t columns = 0);
+Handle put_array(const Handle& group, const std::string& name, std::span<const std::uint8_t> values,
                  const std::string& units, std::size_t columns = 0);
 void put_array(const Handle& group, const std::string& name, std::span<const std::string> values);
 
@@ -85,11 +89,23 @@ std::vector<std::string> names_in(const Handle& group);
 double get_double(const Handle& object, const std::string& attribute);
 std::int32_t get_int(const Handle& object, const std::string& attribute);
 std::string get_text(const Handle& object, const std::string& attribute);
+/// A list of texts, at most `most` of them.
+std::vector<std::string> get_text_list(const Handle& object, const std::string& attribute,
+                                       std::uint64_t most);
 /// `budget`: largest number of bytes the dataset may take in memory.
 std::vector<double> get_doubles(const Handle& group, const std::string& name, std::uint64_t budget,
                                 std::size_t columns = 0);
 std::vector<std::int32_t> get_ints(const Handle& group, const std::string& name,
                                    std::uint64_t budget, std::size_t columns = 0);
+std::vector<std::uint8_t> get_bytes(const Handle& group, const std::string& name,
+                                    std::uint64_t budget, std::size_t columns = 0);
+/// A dataset of float64 and any shape (rows, columns), row by row.
+struct Rows {
+  std::vector<double> values;
+  std::size_t rows = 0;
+  std::size_t columns = 0;
+};
+Rows get_rows(const Handle& group, const std::string& name, std::uint64_t budget);
 std::vector<std::string> get_texts(const Handle& group, const std::string& name,
                                    std::uint64_t budget);
 

@@ -14,7 +14,7 @@ void require_hard_link(const Handle& group, const std::string& name) {
   if (info.type != H5L_TYPE_HARD) throw Fault("\"" + name + "\" is a link, not data");
 }
 
-enum class Element { float64, int32, text };
+enum class Element { float64, int32, uint8, text };
 
 bool is(const Handle& type, Element element) {
   switch (element) {
@@ -22,6 +22,8 @@ bool is(const Handle& type, Element element) {
       return H5Tget_class(type.get()) == H5T_FLOAT && H5Tget_size(type.get()) == 8;
     case Element::int32:
       return H5Tget_class(type.get()) == H5T_INTEGER && H5Tget_size(type.get()) == 4;
+    case Element::uint8:
+      return H5Tget_class(type.get()) == H5T_INTEGER && H5Tget_size(type.get()) == 1;
     case Element::text:
       return H5Tis_variable_str(type.get()) > 0;
   }
@@ -34,6 +36,8 @@ const char* name_of(Element element) {
       return "float64";
     case Element::int32:
       return "int32";
+    case Element::uint8:
+      return "uint8";
     case Element::text:
       return "variable-length text";
   }
@@ -53,9 +57,19 @@ Handle open_scalar(const Handle& object, const std::string& name, Element elemen
   return attribute;
 }
 
+/// Of entries of variable length this is the pointer to them.
+std::uint64_t bytes_of(Element element) {
+  return element == Element::int32 ? 4 : element == Element::uint8 ? 1 : 8;
+}
+
+constexpr std::size_t any_columns = static_cast<std::size_t>(-1);
+
 struct Dataset {
   Handle id;
-  std::size_t count;  // entries
+  std::size_t rows;
+  std::size_t columns;  // 1 for one dimension
+
+  std::size_t count() const { return rows * columns; }
 };
 
 /// A dataset of the type and shape asked for that fits the budget; nothing is allocated for it yet.
@@ -79,28 +93,43 @@ Dataset open_array(const Handle& group, const std::string& name, Element element
   if (H5Sget_simple_extent_type(space.get()) != H5S_SIMPLE ||
       H5Sget_simple_extent_ndims(space.get()) != rank ||
       H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr) != rank ||
-      (columns != 0 && shape[1] != columns)) {
+      (columns != 0 && columns != any_columns && shape[1] != columns)) {
     throw Fault(what + " is not of shape " +
-                (columns == 0 ? std::string("(n)") : "(n," + std::to_string(columns) + ")"));
+                (columns == 0             ? std::string("(n)")
+                 : columns == any_columns ? std::string("(rows,columns)")
+                                          : "(n," + std::to_string(columns) + ")"));
   }
-  const std::uint64_t entry = element == Element::int32 ? 4 : 8;
-  const std::uint64_t row = entry * (columns == 0 ? 1 : columns);
-  if (shape[0] > budget / row) {
+  const hsize_t width = columns == 0 ? 1 : shape[1];
+  const std::uint64_t entries = budget / bytes_of(element);
+  if (width > entries || (width > 0 && shape[0] > entries / width)) {
     throw Fault(what + " claims " + std::to_string(shape[0]) +
                 " rows, more than the file can hold");
   }
-  return {std::move(id), static_cast<std::size_t>(shape[0]) * (columns == 0 ? 1 : columns)};
+  return {std::move(id), static_cast<std::size_t>(shape[0]), static_cast<std::size_t>(width)};
+}
+
+template <typename T>
+std::vector<T> values_of(const Dataset& dataset, const std::string& name, hid_t memory_type) {
+  std::vector<T> values(dataset.count());
+  if (!values.empty() &&
+      H5Dread(dataset.id.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+    throw Fault("dataset " + name + " is damaged");
+  }
+  return values;
 }
 
 template <typename T>
 std::vector<T> read_numbers(const Handle& group, const std::string& name, Element element,
                             hid_t memory_type, std::uint64_t budget, std::size_t columns) {
-  const Dataset dataset = open_array(group, name, element, budget, columns);
-  std::vector<T> values(dataset.count);
-  if (!values.empty() &&
-      H5Dread(dataset.id.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
-    throw Fault("dataset " + name + " is damaged");
-  }
+  return values_of<T>(open_array(group, name, element, budget, columns), name, memory_type);
+}
+
+/// The texts that HDF5 allocated, and frees them.
+std::vector<std::string> taken(const std::vector<char*>& pointers) {
+  std::vector<std::string> values;
+  values.reserve(pointers.size());
+  for (char* pointer : pointers) values.emplace_back(pointer == nullptr ? "" : pointer);
+  for (char* pointer : pointers) H5free_memory(pointer);
   return values;
 }
 
@@ -167,6 +196,24 @@ std::string get_text(const Handle& object, const std::string& attribute) {
   return value;
 }
 
+std::vector<std::string> get_text_list(const Handle& object, const std::string& attribute,
+                                       std::uint64_t most) {
+  const std::string what = "attribute " + attribute;
+  const Handle id(H5Aopen(object.get(), attribute.c_str(), H5P_DEFAULT), H5Aclose,
+                  what + " is missing");
+  const Handle type(H5Aget_type(id.get()), H5Tclose, what + " is damaged");
+  const Handle space(H5Aget_space(id.get()), H5Sclose, what + " is damaged");
+  const hssize_t count = H5Sget_simple_extent_npoints(space.get());
+  if (!is(type, Element::text) || count < 0 || static_cast<std::uint64_t>(count) > most) {
+    throw Fault(what + " is no list of texts");
+  }
+  std::vector<char*> pointers(static_cast<std::size_t>(count), nullptr);
+  if (!pointers.empty() && H5Aread(id.get(), type.get(), pointers.data()) < 0) {
+    throw Fault(what + " is damaged");
+  }
+  return taken(pointers);
+}
+
 std::vector<double> get_doubles(const Handle& group, const std::string& name, std::uint64_t budget,
                                 std::size_t columns) {
   return read_numbers<double>(group, name, Element::float64, H5T_NATIVE_DOUBLE, budget, columns);
@@ -177,20 +224,26 @@ std::vector<std::int32_t> get_ints(const Handle& group, const std::string& name,
   return read_numbers<std::int32_t>(group, name, Element::int32, H5T_NATIVE_INT32, budget, columns);
 }
 
+std::vector<std::uint8_t> get_bytes(const Handle& group, const std::string& name,
+                                    std::uint64_t budget, std::size_t columns) {
+  return read_numbers<std::uint8_t>(group, name, Element::uint8, H5T_NATIVE_UINT8, budget, columns);
+}
+
+Rows get_rows(const Handle& group, const std::string& name, std::uint64_t budget) {
+  const Dataset dataset = open_array(group, name, Element::float64, budget, any_columns);
+  return {values_of<double>(dataset, name, H5T_NATIVE_DOUBLE), dataset.rows, dataset.columns};
+}
+
 std::vector<std::string> get_texts(const Handle& group, const std::string& name,
                                    std::uint64_t budget) {
   const Dataset dataset = open_array(group, name, Element::text, budget, 0);
-  std::vector<char*> pointers(dataset.count, nullptr);
+  std::vector<char*> pointers(dataset.count(), nullptr);
   const Handle type(H5Dget_type(dataset.id.get()), H5Tclose, "dataset " + name + " is damaged");
   if (!pointers.empty() &&
       H5Dread(dataset.id.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) < 0) {
     throw Fault("dataset " + name + " is damaged");
   }
-  std::vector<std::string> values;
-  values.reserve(pointers.size());
-  for (char* pointer : pointers) values.emplace_back(pointer == nullptr ? "" : pointer);
-  for (char* pointer : pointers) H5free_memory(pointer);
-  return values;
+  return taken(pointers);
 }
 
 }  // namespace anticrack::results::hdf5

@@ -37,6 +37,13 @@ void put_scalar(const Handle& object, const std::string& name, hid_t file_type, 
   require(H5Awrite(attribute.get(), memory_type, value), what);
 }
 
+std::vector<const char*> pointers_to(std::span<const std::string> texts) {
+  std::vector<const char*> pointers;
+  pointers.reserve(texts.size());
+  for (const std::string& text : texts) pointers.push_back(text.c_str());
+  return pointers;
+}
+
 Handle creation_properties(std::size_t rows, std::size_t columns, bool checked,
                            const std::string& what) {
   Handle properties = without_times(H5P_DATASET_CREATE);
@@ -124,11 +131,27 @@ Handle put_array(const Handle& group, const std::string& name, std::span<const s
                      units, columns);
 }
 
+Handle put_array(const Handle& group, const std::string& name, std::span<const std::uint8_t> values,
+                 const std::string& units, std::size_t columns) {
+  return put_numbers(group, name, H5T_STD_U8LE, H5T_NATIVE_UINT8, values.data(), values.size(),
+                     units, columns);
+}
+
+void put(const Handle& object, const std::string& attribute, std::span<const std::string> texts) {
+  const std::string what = "cannot write attribute " + attribute;
+  const Handle type = text_type();
+  const std::vector<const char*> pointers = pointers_to(texts);
+  const hsize_t count = pointers.size();
+  const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, what);
+  const Handle id(H5Acreate2(object.get(), attribute.c_str(), type.get(), space.get(), H5P_DEFAULT,
+                             H5P_DEFAULT),
+                  H5Aclose, what);
+  if (count != 0) require(H5Awrite(id.get(), type.get(), pointers.data()), what);
+}
+
 void put_array(const Handle& group, const std::string& name, std::span<const std::string> values) {
   const Handle type = text_type();
-  std::vector<const char*> pointers;
-  pointers.reserve(values.size());
-  for (const std::string& value : values) pointers.push_back(value.c_str());
+  const std::vector<const char*> pointers = pointers_to(values);
   put_numbers(group, name, type.get(), type.get(), pointers.data(), pointers.size(), "-", 0);
 }
 

@@ -8,6 +8,7 @@
 #include "results/file.hpp"
 #include "results/hdf5.hpp"
 #include "results/open_file.hpp"
+#include "results/sweep_file.hpp"
 
 namespace anticrack::results {
 namespace {
@@ -242,6 +243,7 @@ Result get_result(const Handle& root, std::uint64_t budget) {
     result.interfaces.push_back(get_interface(interfaces, i, budget));
   }
   result.loads = get_loads(root, result.mesh, budget);
+  if (hdf5::has(root, "sweep")) result.sweep = get_sweep(root, budget);
   return result;
 }
 

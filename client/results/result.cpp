@@ -163,6 +163,14 @@ void check_load(const std::string& at, const Load& load, const Result& result, F
   }
 }
 
+void check_sweep(const Result& result, Faults& faults) {
+  std::vector<std::size_t> nodes;
+  for (const Interface& interface : result.interfaces) nodes.push_back(interface.node_count());
+  const std::string fault = first_fault(*result.sweep, nodes);
+  faults.require(fault.empty(), fault);
+  faults.length("loads", result.loads.size(), result.sweep->kept.size(), "kept rows");
+}
+
 }  // namespace
 
 std::string_view name(Status status) noexcept {
@@ -231,6 +239,7 @@ std::string first_fault(const Result& result) {
     faults.require(names.insert(load.name).second,
                    item("loads", i) + ".name \"" + load.name + "\" is there twice");
   }
+  if (result.sweep && !faults.any()) check_sweep(result, faults);
   return faults.first();
 }
 

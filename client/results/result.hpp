@@ -15,6 +15,8 @@
 #include <string_view>
 #include <vector>
 
+#include "results/sweep.hpp"
+
 namespace anticrack::results {
 
 /// Condition at a node of an interface. The numbers are those of the API's InterfaceKind.
@@ -169,7 +171,8 @@ struct Result {
   Timings timings;
   Mesh mesh;
   std::vector<Interface> interfaces;
-  std::vector<Load> loads;
+  std::vector<Load> loads;     ///< of a sweep: its kept rows, without history
+  std::optional<Sweep> sweep;  ///< of a sweep
 };
 
 /// The first invariant above that does not hold (shapes, index ranges, names, enums, finite

@@ -8,6 +8,7 @@
 #include "results/file_image.hpp"
 #include "results/hdf5.hpp"
 #include "results/replace_file.hpp"
+#include "results/sweep_file.hpp"
 
 namespace anticrack::results {
 namespace {
@@ -174,6 +175,7 @@ void put_all(const Handle& file, const Result& result) {
   for (std::size_t i = 0; i < result.loads.size(); ++i) {
     put_load(loads, i, result.loads[i], result.mesh);
   }
+  if (result.sweep) put_sweep(root, *result.sweep);
 }
 
 }  // namespace

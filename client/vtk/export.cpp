@@ -35,13 +35,13 @@ void make_folder(const fs::path& folder) {
   }
 }
 
-bool exportable(const Load& load, Exported& exported) {
+bool exportable(const Result& result, const Load& load, Exported& exported) {
   if (load.traces.empty() && load.fields.empty()) {
     exported.notes.push_back("load \"" + load.name + "\" has no answer (" +
                              std::string(results::name(load.status)) + "): nothing to export");
     return false;
   }
-  if (load.fields.empty()) {
+  if (load.fields.empty() && !result.sweep) {
     throw results::Error("load \"" + load.name + "\"",
                          "the result has no fields, u is known along the interfaces only",
                          "run the case again with [output] fields = true, or with --set "
@@ -119,18 +119,22 @@ Exported export_result(const Result& result, const fs::path& folder) {
   Exported exported;
   std::vector<std::size_t> answered;
   for (std::size_t i = 0; i < result.loads.size(); ++i) {
-    if (exportable(result.loads[i], exported)) answered.push_back(i);
+    if (exportable(result, result.loads[i], exported)) answered.push_back(i);
   }
   if (answered.empty()) {
-    throw results::Error("the result", "no load has an answer to export", "solve the case first");
+    throw results::Error(
+        "the result", "no load has an answer to export",
+        result.sweep ? "keep the traces of some rows, with --traces" : "solve the case first");
   }
   make_folder(folder);
   std::vector<Member> members;
   for (const std::size_t i : answered) {
     const Load& load = result.loads[i];
-    const std::string file = stems[i] + ".vtu";
-    write(folder / file, to_vtu(membrane(result, load)), exported);
-    members.push_back({load.name, file, i, 0});
+    if (!load.fields.empty()) {
+      const std::string file = stems[i] + ".vtu";
+      write(folder / file, to_vtu(membrane(result, load)), exported);
+      members.push_back({load.name, file, i, 0});
+    }
     if (!load.traces.empty()) {
       const std::string lines = stems[i] + "-interfaces.vtu";
       write(folder / lines, to_vtu(interfaces(result, load)), exported);

@@ -29,9 +29,10 @@ struct Exported {
 
 /// Writes into `folder` (made if missing) for every load with an answer LOAD.vtu (the membrane) and
 /// LOAD-interfaces.vtu, and result.pvd, which shows load i at time i. LOAD is the load's name made
-/// safe for a file name, and unique. Each file is written whole or not at all. Throws
-/// results::Error where an answer has no fields, where nothing is answered, and where a file cannot
-/// be written.
+/// safe for a file name, and unique. Of a sweep the interfaces of the rows whose traces were kept:
+/// it has no fields. Each file is written whole or not at all. Throws
+/// results::Error where an answer has no fields (but of a sweep), where nothing is answered, and
+/// where a file cannot be written.
 Exported export_result(const results::Result& result, const std::filesystem::path& folder);
 
 }  // namespace anticrack::vtk

@@ -15,10 +15,10 @@ BlockRun::BlockRun(const std::shared_ptr<const operators::MeshOperator>& mesh_op
       _block(mesh_operator, mass, capacity) {}
 
 void BlockRun::add(const Task& task, operators::PreparedLoad load) {
-  auto column = std::make_unique<Column>(Column{task, Recorder(task, _iterations)});
+  auto column = std::make_unique<Column>(Column{task, History(task, _iterations)});
   const store::JobSpec& spec = *task.job->spec;
   const int place = _block.add(std::move(load), std::get<contact::UzawaOptions>(spec.solver),
-                               spec.fields, column->recorder);
+                               spec.fields, column->history);
   _places[static_cast<std::size_t>(place)] = std::move(column);
   ++_columns;
 }
@@ -27,6 +27,7 @@ std::vector<EndedCase> BlockRun::step() {
   std::vector<EndedCase> ended;
   try {
     _block.step();
+    tell();
     for (operators::UzawaBlock::Ended& result : _block.take_ended()) {
       const std::unique_ptr<Column> column =
           std::move(_places[static_cast<std::size_t>(result.place)]);
@@ -43,9 +44,30 @@ std::vector<EndedCase> BlockRun::step() {
   return ended;
 }
 
+void BlockRun::tell() {
+  EventLog* log = nullptr;
+  const auto flush = [&] {
+    if (log != nullptr) {
+      log->append(_untold);
+    }
+    _untold.clear();
+  };
+  for (const std::unique_ptr<Column>& column : _places) {
+    if (!column) {
+      continue;
+    }
+    if (log != &column->history.log()) {
+      flush();
+      log = &column->history.log();
+    }
+    column->history.append_new(_untold);
+  }
+  flush();
+}
+
 CaseOutcome BlockRun::outcome_of(Column& column, contact::Answer answer) {
   try {
-    return solved_case(column.task, std::move(answer), column.recorder.take_history());
+    return solved_case(column.task, std::move(answer), column.history.take_history());
   } catch (...) {
     return failed_case(column.task, std::current_exception());
   }
@@ -77,7 +99,7 @@ std::vector<Task> BlockRun::abandon_stopped() {
   for (const std::unique_ptr<Column>& column : _places) {
     if (column && !column->abandoned && column->task.job->why != Stop::none) {
       column->abandoned = true;
-      column->recorder.give_up();
+      column->history.give_up();
       tasks.push_back(column->task);
     }
   }

@@ -52,10 +52,12 @@ class BlockRun {
  private:
   struct Column {
     Task task;
-    Recorder recorder;
+    History history;
     bool abandoned = false;
   };
 
+  /// Tells the jobs' logs of the iteration, at once for columns of one job that lie together.
+  void tell();
   static CaseOutcome outcome_of(Column& column, contact::Answer answer);
   std::vector<EndedCase> end_all(const std::exception_ptr& failure);
 
@@ -64,6 +66,7 @@ class BlockRun {
   std::vector<std::unique_ptr<Column>> _places;  ///< by the block's places
   int _columns = 0;
   bool _broken = false;  ///< takes no more columns
+  std::vector<SampleEvent> _untold;
   operators::UzawaBlock _block;
 };
 

@@ -69,20 +69,30 @@ std::shared_ptr<store::CaseRecord> new_record(const Task& task, CaseStatus statu
 
 }  // namespace
 
-Recorder::Recorder(const Task& task, std::atomic<std::uint64_t>& iterations)
+History::History(const Task& task, std::atomic<std::uint64_t>& iterations)
     : _load_case(static_cast<std::int32_t>(task.index)),
       _log(task.job->log),
       _stop(task.job->stop.get_token()),
       _iterations(iterations) {}
 
-bool Recorder::on_iteration(const contact::Sample& sample) {
+bool History::on_iteration(const contact::Sample& sample) {
   if (_given_up) {
     return false;
   }
-  _history.push_back(sample);
-  _log->append(SampleEvent{_load_case, sample});
+  _samples.push_back(sample);
   _iterations.fetch_add(1, std::memory_order_relaxed);
   return !_stop.stop_requested();
+}
+
+void History::append_new(std::vector<SampleEvent>& to) {
+  for (; _appended < _samples.size(); ++_appended) {
+    to.push_back({_load_case, _samples[_appended]});
+  }
+}
+
+bool Recorder::on_iteration(const contact::Sample& sample) {
+  log().append(SampleEvent{load_case(), sample});
+  return History::on_iteration(sample);
 }
 
 Error error_of(const std::exception_ptr& failure) {

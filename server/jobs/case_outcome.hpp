@@ -20,23 +20,36 @@ struct CaseOutcome {
   std::unique_ptr<SolvedCase> solved;  ///< converged and not_converged only
 };
 
-/// Keeps a load case's history, tells its job's log of each sample, and stops it when its job is to
-/// stop. One object belongs to the thread that solves.
-class Recorder final : public contact::Observer {
+/// Keeps a load case's history, and stops it when its job is to stop. One object belongs to the
+/// thread that solves.
+class History : public contact::Observer {
  public:
-  Recorder(const Task& task, std::atomic<std::uint64_t>& iterations);
+  History(const Task& task, std::atomic<std::uint64_t>& iterations);
   bool on_iteration(const contact::Sample& sample) override;
-  /// The load case has ended for its job: nothing more is told of it.
+  /// The load case has ended for its job: nothing more is kept of it.
   void give_up() noexcept { _given_up = true; }
-  std::vector<contact::Sample> take_history() { return std::move(_history); }
+  std::vector<contact::Sample> take_history() { return std::move(_samples); }
+
+  EventLog& log() const noexcept { return *_log; }
+  std::int32_t load_case() const noexcept { return _load_case; }
+  /// Appends what came since the last call.
+  void append_new(std::vector<SampleEvent>& to);
 
  private:
   const std::int32_t _load_case;
   const std::shared_ptr<EventLog> _log;
   const std::stop_token _stop;
   std::atomic<std::uint64_t>& _iterations;
-  std::vector<contact::Sample> _history;
+  std::vector<contact::Sample> _samples;
+  std::size_t _appended = 0;
   bool _given_up = false;
+};
+
+/// A history that tells its job's log of each sample as it comes.
+class Recorder final : public History {
+ public:
+  using History::History;
+  bool on_iteration(const contact::Sample& sample) override;
 };
 
 /// Memory of an answer's arrays.

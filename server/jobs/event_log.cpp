@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <deque>
 #include <mutex>
+#include <type_traits>
 #include <utility>
 
 #include "errors/errors.hpp"
@@ -46,17 +47,44 @@ struct Kept {
   std::size_t bytes = 0;
 };
 
+template <class T>
+std::size_t bytes_of(const std::vector<T>& values) {
+  return values.size() * sizeof(T);
+}
+
+std::size_t bytes_of(const store::CaseRecord& record) {
+  return sizeof(record) + record.answer.reason.size() + bytes_of(record.answer.inclusions) +
+         bytes_of(record.answer.contact_intervals);
+}
+
+std::size_t bytes_of(const contact::SweepColumns& rows) {
+  return sizeof(rows) + bytes_of(rows.status) + bytes_of(rows.steps) + bytes_of(rows.energy) +
+         bytes_of(rows.contact_length) + bytes_of(rows.kkt) + bytes_of(rows.displacement) +
+         bytes_of(rows.contact);
+}
+
 std::size_t bytes_of(const Event& event) {
   std::size_t bytes = sizeof(Kept);
   if (const auto* phase = std::get_if<PhaseEvent>(&event)) {
     bytes += phase->detail.size();
   } else if (const auto* ended = std::get_if<CaseEvent>(&event)) {
-    const store::CaseRecord& record = *ended->record;
-    bytes += sizeof(record) + record.answer.reason.size() +
-             record.answer.inclusions.size() * sizeof(contact::InclusionAnswer) +
-             record.answer.contact_intervals.size() * sizeof(contact::ContactInterval);
+    bytes += bytes_of(*ended->record);
+  } else if (const auto* rows = std::get_if<RowsEvent>(&event)) {
+    bytes += bytes_of(*rows->rows);
   }
   return bytes;
+}
+
+Batch as_batch(const Event& event) {
+  return std::visit(
+      []<class Kind>(const Kind& kind) -> Batch {
+        if constexpr (std::is_same_v<Kind, SampleEvent>) {
+          return {};  // samples are kept apart
+        } else {
+          return kind;
+        }
+      },
+      event);
 }
 
 Error trimmed(std::uint64_t after, std::uint64_t earliest, std::uint64_t latest) {
@@ -88,19 +116,63 @@ struct EventLog::State {
   /// Replaced, never changed, so that the writer can walk it without the lock.
   std::shared_ptr<const Wakes> wakes = std::make_shared<const Wakes>();
 
-  std::size_t bytes() const { return samples.size() * SampleQueue::bytes_per_sample + other_bytes; }
+  std::size_t bytes() const { return samples.bytes() + other_bytes; }
 
+  /// Calls `add(*this)` unless the log is complete, then lets the oldest go and wakes the
+  /// listeners.
+  template <class Add>
+  void append(const Add& add) {
+    std::shared_ptr<const Wakes> to_wake;
+    {
+      const std::lock_guard lock(mutex);
+      if (ended) {
+        return;
+      }
+      add(*this);
+      trim();
+      to_wake = wakes;
+    }
+    for (const std::shared_ptr<Wake>& wake : *to_wake) {
+      (*wake)();
+    }
+  }
+
+  /// The newest event stays whatever its size: the end event is always the newest.
   void trim() {
-    // The newest event stays whatever its size: the end event is always the newest.
     while (bytes() > byte_limit && earliest < latest) {
       if (!others.empty() && others.front().numbered.sequence == earliest) {
         other_bytes -= others.front().bytes;
         others.pop_front();
+        ++earliest;
       } else {
-        samples.pop_front();
+        const std::uint64_t too_many =
+            (bytes() - byte_limit - 1) / SamplePage::bytes_per_sample + 1;
+        const std::uint64_t next = others.empty() ? latest : others.front().numbered.sequence;
+        const std::uint64_t count = std::min({too_many, next - earliest, latest - earliest});
+        samples.pop_front(count);
+        earliest += count;
       }
-      ++earliest;
     }
+  }
+
+  void require_kept(std::uint64_t after) const {
+    if (after + 1 < earliest || after > latest) {
+      throw trimmed(after, earliest, latest);
+    }
+  }
+
+  NumberedBatch batch(std::uint64_t after, std::size_t count) const {
+    const auto other = std::lower_bound(
+        others.begin(), others.end(), after + 1,
+        [](const Kept& kept, std::uint64_t sequence) { return kept.numbered.sequence < sequence; });
+    const std::uint64_t next = other == others.end() ? latest + 1 : other->numbered.sequence;
+    if (count > 0 && next == after + 1 && next <= latest) {
+      return {next, as_batch(other->numbered.event)};
+    }
+    const std::size_t size = std::min<std::uint64_t>(count, next - 1 - after);
+    // Between the earliest event and this one lie as many samples as there are numbers not taken.
+    const auto before = static_cast<std::size_t>(other - others.begin());
+    return {after + size, samples.runs(after + 1 - earliest - before, size)};
   }
 };
 
@@ -132,27 +204,27 @@ EventLog::EventLog(std::size_t byte_limit, std::uint64_t base)
 EventLog::~EventLog() = default;
 
 void EventLog::append(Event event) {
-  std::shared_ptr<const Wakes> wakes;
-  {
-    const std::lock_guard lock(_state->mutex);
-    if (_state->ended) {
-      return;
-    }
-    _state->ended = std::holds_alternative<EndEvent>(event);
-    if (const auto* sample = std::get_if<SampleEvent>(&event)) {
-      _state->samples.push_back(*sample);
-    } else {
-      const std::size_t bytes = bytes_of(event);
-      _state->others.push_back({{_state->latest + 1, std::move(event)}, bytes});
-      _state->other_bytes += bytes;
-    }
-    ++_state->latest;
-    _state->trim();
-    wakes = _state->wakes;
+  if (const auto* sample = std::get_if<SampleEvent>(&event)) {
+    append({sample, 1});
+    return;
   }
-  for (const std::shared_ptr<Wake>& wake : *wakes) {
-    (*wake)();
+  const std::size_t bytes = bytes_of(event);
+  _state->append([&](State& log) {
+    log.others.push_back({{log.latest + 1, std::move(event)}, bytes});
+    log.ended = std::holds_alternative<EndEvent>(log.others.back().numbered.event);
+    log.other_bytes += bytes;
+    ++log.latest;
+  });
+}
+
+void EventLog::append(std::span<const SampleEvent> samples) {
+  if (samples.empty()) {
+    return;
   }
+  _state->append([&](State& log) {
+    log.samples.push_back(samples);
+    log.latest += samples.size();
+  });
 }
 
 std::uint64_t EventLog::earliest() const {
@@ -175,27 +247,33 @@ bool EventLog::complete() const {
   return _state->ended;
 }
 
+NumberedBatch EventLog::batch(std::uint64_t after, std::size_t count) const {
+  const std::lock_guard lock(_state->mutex);
+  _state->require_kept(after);
+  return _state->batch(after, count);
+}
+
 std::vector<NumberedEvent> EventLog::read(std::uint64_t after, std::size_t count) const {
   std::vector<NumberedEvent> events;
   const std::lock_guard lock(_state->mutex);
-  if (after + 1 < _state->earliest || after > _state->latest) {
-    throw trimmed(after, _state->earliest, _state->latest);
-  }
+  _state->require_kept(after);
   const std::size_t size = std::min<std::uint64_t>(count, _state->latest - after);
   events.reserve(size);
-  auto other = std::lower_bound(
-      _state->others.begin(), _state->others.end(), after + 1,
-      [](const Kept& kept, std::uint64_t sequence) { return kept.numbered.sequence < sequence; });
-  // Between the earliest event and this one lie as many samples as there are numbers not taken.
-  std::size_t sample =
-      after + 1 - _state->earliest - static_cast<std::size_t>(other - _state->others.begin());
-  for (std::uint64_t sequence = after + 1; events.size() < size; ++sequence) {
-    if (other != _state->others.end() && other->numbered.sequence == sequence) {
-      events.push_back(other->numbered);
-      ++other;
-    } else {
-      events.push_back({sequence, _state->samples[sample++]});
-    }
+  while (events.size() < size) {
+    const NumberedBatch next = _state->batch(after, size - events.size());
+    std::visit(
+        [&]<class Kind>(const Kind& kind) {
+          if constexpr (std::is_same_v<Kind, std::vector<SampleRun>>) {
+            for (const SampleRun& run : kind) {
+              for (std::size_t i = 0; i < run.count; ++i) {
+                events.push_back({++after, run[i]});
+              }
+            }
+          } else {
+            events.push_back({++after, kind});
+          }
+        },
+        next.events);
   }
   return events;
 }

@@ -7,20 +7,16 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "contact/answer.hpp"
 #include "contact/sweep_columns.hpp"
+#include "jobs/sample_run.hpp"
 #include "store/records.hpp"
 
 namespace anticrack::jobs {
-
-struct SampleEvent {
-  std::int32_t load_case = 0;
-  contact::Sample sample;
-};
 
 /// The job passed into another state, or another phase of it.
 struct PhaseEvent {
@@ -34,7 +30,7 @@ struct CaseEvent {
   std::shared_ptr<const store::CaseRecord> record;
 };
 
-/// Consecutive rows of a sweep have ended.
+/// Consecutive rows of a sweep have ended; few enough to travel in one message.
 struct RowsEvent {
   std::uint64_t first_row = 0;
   std::shared_ptr<const contact::SweepColumns> rows;
@@ -52,8 +48,16 @@ struct NumberedEvent {
   Event event;
 };
 
+/// What a watcher is told at once: samples that follow each other, or one other event.
+using Batch = std::variant<std::vector<SampleRun>, PhaseEvent, CaseEvent, RowsEvent, EndEvent>;
+
+struct NumberedBatch {
+  std::uint64_t last = 0;  ///< sequence of its last event
+  Batch events;
+};
+
 /// Thread-safe; any number of writers and readers. A listener costs a writer one wake call an
-/// event.
+/// append.
 class EventLog {
  public:
   /// `byte_limit`: the oldest events go when the log is larger (the end event never).
@@ -63,15 +67,23 @@ class EventLog {
 
   /// Nothing comes after the end event: what is appended then is dropped.
   void append(Event event);
+  /// The same as each of them after the other, for one lock and one wake. O(samples).
+  void append(std::span<const SampleEvent> samples);
 
   std::uint64_t earliest() const;  ///< sequence of the oldest event kept; latest()+1 when none is
   std::uint64_t latest() const;    ///< the base before the first
-  std::size_t bytes() const;       ///< held now, at most about the limit
-  bool complete() const;           ///< the end event is in it: latest() stays what it is
+  /// Held now, at most about the limit. What an event shares with others (a case's record,
+  /// the rows of a sweep) counts in full, because the log may be the last to hold it.
+  std::size_t bytes() const;
+  bool complete() const;  ///< the end event is in it: latest() stays what it is
 
-  /// Up to `count` events after `after`, in order. Empty when there is none yet.
+  /// The events after `after` that go together, at most `count` of them; no samples, and `last` is
+  /// `after`, when there is none yet. Copies no sample. O(count / page + log n) in n events.
   /// Throws errors::Error (sequence_trimmed, metadata earliest_sequence and latest_sequence) when
   /// event after+1 is no longer kept, or `after` is larger than latest().
+  NumberedBatch batch(std::uint64_t after, std::size_t count) const;
+  /// Up to `count` events after `after` one by one, in order. Empty when there is none yet. Throws
+  /// like batch().
   std::vector<NumberedEvent> read(std::uint64_t after, std::size_t count) const;
 
   /// `wake` is called, on the writer's thread and with no lock of the log held, after each append

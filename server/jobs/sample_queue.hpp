@@ -1,70 +1,82 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Samples in the order they came, packed in pages: 64 bytes each, one allocation in 256.
+// Samples in the order they came, as columns in pages: 60 bytes each, one allocation in 256.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <deque>
 #include <memory>
+#include <span>
+#include <vector>
 
-#include "jobs/event_log.hpp"
+#include "jobs/sample_run.hpp"
 
 namespace anticrack::jobs {
 
-/// Grows at the back, shrinks at the front. Not thread-safe.
+/// Grows at the back, shrinks at the front. Not thread-safe; but the runs it gave out may be read
+/// while it grows and shrinks, because entries are written once, before they are given out.
 class SampleQueue {
  public:
-  static constexpr std::size_t bytes_per_sample = 64;
-
   std::size_t size() const noexcept { return _size; }
+  std::size_t bytes() const noexcept { return _size * SamplePage::bytes_per_sample; }
 
-  void push_back(const SampleEvent& event) {
-    const std::size_t position = _begin + _size;
-    if (position == _pages.size() * page_size) {
-      _pages.push_back(std::make_unique<Page>());
+  /// All of them, or none where there is no memory (std::bad_alloc).
+  void push_back(std::span<const SampleEvent> events) {
+    while (_begin + _size + events.size() > _pages.size() * SamplePage::capacity) {
+      _pages.push_back(std::make_shared_for_overwrite<SamplePage>());
     }
-    const contact::Sample& sample = event.sample;
-    (*_pages[position / page_size])[position % page_size] = {
-        event.load_case,  sample.iteration, sample.contact_count,
-        sample.criterion, sample.energy,    sample.kkt.equilibrium,
-        sample.kkt.gap,   sample.kkt.sign,  sample.kkt.complementarity};
-    ++_size;
+    while (!events.empty()) {
+      const std::size_t position = _begin + _size;
+      const std::size_t place = position % SamplePage::capacity;
+      const std::size_t count = std::min(events.size(), SamplePage::capacity - place);
+      write(events.first(count), *_pages[position / SamplePage::capacity], place);
+      _size += count;
+      events = events.subspan(count);
+    }
   }
 
-  void pop_front() noexcept {
-    --_size;
-    if (++_begin == page_size) {
+  /// At most size() of them.
+  void pop_front(std::size_t count) noexcept {
+    _size -= count;
+    _begin += count;
+    for (; _begin >= SamplePage::capacity; _begin -= SamplePage::capacity) {
       _pages.pop_front();
-      _begin = 0;
     }
   }
 
-  SampleEvent operator[](std::size_t index) const noexcept {
-    const std::size_t position = _begin + index;
-    const Packed& packed = (*_pages[position / page_size])[position % page_size];
-    SampleEvent event;
-    event.load_case = packed.load_case;
-    event.sample.iteration = packed.iteration;
-    event.sample.contact_count = packed.contact_count;
-    event.sample.criterion = packed.criterion;
-    event.sample.energy = packed.energy;
-    event.sample.kkt = {packed.equilibrium, packed.gap, packed.sign, packed.complementarity};
-    return event;
+  /// `count` samples from number `index` on; there must be as many. O(count / page).
+  std::vector<SampleRun> runs(std::size_t index, std::size_t count) const {
+    std::vector<SampleRun> result;
+    result.reserve(count / SamplePage::capacity + 2);
+    for (std::size_t position = _begin + index; count > 0;) {
+      const std::size_t place = position % SamplePage::capacity;
+      const std::size_t size = std::min(count, SamplePage::capacity - place);
+      result.push_back({_pages[position / SamplePage::capacity], place, size});
+      position += size;
+      count -= size;
+    }
+    return result;
   }
 
  private:
-  struct Packed {
-    std::int32_t load_case, iteration, contact_count;
-    double criterion, energy, equilibrium, gap, sign, complementarity;
-  };
-  static_assert(sizeof(Packed) == bytes_per_sample);
+  static void write(std::span<const SampleEvent> events, SamplePage& page, std::size_t place) {
+    for (const SampleEvent& event : events) {
+      const contact::Sample& sample = event.sample;
+      page.load_case[place] = event.load_case;
+      page.iteration[place] = sample.iteration;
+      page.contact_count[place] = sample.contact_count;
+      page.criterion[place] = sample.criterion;
+      page.energy[place] = sample.energy;
+      page.equilibrium[place] = sample.kkt.equilibrium;
+      page.gap[place] = sample.kkt.gap;
+      page.sign[place] = sample.kkt.sign;
+      page.complementarity[place] = sample.kkt.complementarity;
+      ++place;
+    }
+  }
 
-  static constexpr std::size_t page_size = 256;
-  using Page = std::array<Packed, page_size>;
-
-  std::deque<std::unique_ptr<Page>> _pages;
+  std::deque<std::shared_ptr<SamplePage>> _pages;
   std::size_t _begin = 0;  ///< of the first sample, in the first page
   std::size_t _size = 0;
 };

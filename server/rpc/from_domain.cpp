@@ -2,6 +2,7 @@
 #include "rpc/from_domain.hpp"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <variant>
 
@@ -262,16 +263,27 @@ v1::BlockLayout layout_of(const store::BlockSource& block) {
   return layout;
 }
 
-void append(v1::Samples& samples, std::int32_t load_case, const contact::Sample& sample) {
-  samples.add_load_case(load_case);
-  samples.add_iteration(sample.iteration);
-  samples.add_criterion(sample.criterion);
-  samples.add_energy(sample.energy);
-  samples.add_contact_count(sample.contact_count);
-  samples.add_kkt_gap(sample.kkt.gap);
-  samples.add_kkt_sign(sample.kkt.sign);
-  samples.add_kkt_complementarity(sample.kkt.complementarity);
-  samples.add_kkt_equilibrium(sample.kkt.equilibrium);
+void append(v1::Samples& samples, const std::vector<jobs::SampleRun>& runs) {
+  using jobs::SamplePage;
+  const auto column = [&runs]<class T>(google::protobuf::RepeatedField<T>& to,
+                                       SamplePage::Column<T> SamplePage::*from) {
+    std::size_t count = static_cast<std::size_t>(to.size());
+    for (const jobs::SampleRun& run : runs) count += run.count;
+    to.Reserve(static_cast<int>(count));
+    for (const jobs::SampleRun& run : runs) {
+      const std::span<const T> values = run.column(from);
+      to.Add(values.begin(), values.end());
+    }
+  };
+  column(*samples.mutable_load_case(), &SamplePage::load_case);
+  column(*samples.mutable_iteration(), &SamplePage::iteration);
+  column(*samples.mutable_criterion(), &SamplePage::criterion);
+  column(*samples.mutable_energy(), &SamplePage::energy);
+  column(*samples.mutable_contact_count(), &SamplePage::contact_count);
+  column(*samples.mutable_kkt_gap(), &SamplePage::gap);
+  column(*samples.mutable_kkt_sign(), &SamplePage::sign);
+  column(*samples.mutable_kkt_complementarity(), &SamplePage::complementarity);
+  column(*samples.mutable_kkt_equilibrium(), &SamplePage::equilibrium);
 }
 
 google::protobuf::Duration to_duration(std::chrono::nanoseconds duration) {

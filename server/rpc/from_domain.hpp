@@ -10,7 +10,7 @@
 
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
-#include "contact/answer.hpp"
+#include "jobs/sample_run.hpp"
 #include "store/block.hpp"
 #include "store/records.hpp"
 
@@ -37,8 +37,8 @@ v1::LoadCaseAnswer from_domain(const store::CaseRecord& record, const std::strin
 
 v1::BlockLayout layout_of(const store::BlockSource& block);
 
-/// Appends one entry to every array.
-void append(v1::Samples& samples, std::int32_t load_case, const contact::Sample& sample);
+/// Appends every sample to every array: one allocation an array, one copy an array and run.
+void append(v1::Samples& samples, const std::vector<jobs::SampleRun>& runs);
 
 google::protobuf::Timestamp to_timestamp(store::Clock::time_point time);
 google::protobuf::Duration to_duration(std::chrono::nanoseconds duration);

@@ -8,6 +8,7 @@
 #include "errors/errors.hpp"
 #include "jobs/job_engine.hpp"
 #include "meshes/mesh_catalogue.hpp"
+#include "rpc/from_sweep.hpp"
 
 namespace anticrack::rpc {
 
@@ -41,12 +42,15 @@ WatchFeed::Next WatchFeed::next(v1::WatchJobResponse& response) {
     _snapshot_sent = true;
     return Next::message;
   }
-  const std::vector<jobs::NumberedEvent> events = read();
-  if (events.empty()) {
+  const jobs::NumberedBatch batch = read();
+  if (batch.last == _cursor) {
     const jobs::EventLog& log = _group->log();
     return log.complete() && _cursor == log.latest() ? Next::end : Next::wait;
   }
-  fill(events, response);
+  std::visit([&](const auto& events) { fill(events, response); }, batch.events);
+  _from_earliest = false;
+  _cursor = batch.last;
+  response.set_sequence(batch.last);
   return Next::message;
 }
 
@@ -79,7 +83,7 @@ void WatchFeed::fill_snapshot(v1::WatchJobResponse& response) {
   response.set_sequence(_cursor);
 }
 
-std::vector<jobs::NumberedEvent> WatchFeed::read() {
+jobs::NumberedBatch WatchFeed::read() {
   const jobs::EventLog& log = _group->log();
   for (;;) {
     if (_from_earliest) _cursor = log.earliest() - 1;
@@ -87,7 +91,7 @@ std::vector<jobs::NumberedEvent> WatchFeed::read() {
     const std::uint64_t target = _group->target();
     const std::uint64_t ahead = target > cursor ? target - cursor : 0;
     try {
-      return log.read(cursor, std::min<std::uint64_t>(ahead, max_batch));
+      return log.batch(cursor, std::min<std::uint64_t>(ahead, max_batch));
     } catch (const errors::Error&) {
       // The log was trimmed between the lines above; who asked for no place misses nothing.
       if (!_from_earliest || log.earliest() - 1 == cursor) throw;
@@ -95,40 +99,36 @@ std::vector<jobs::NumberedEvent> WatchFeed::read() {
   }
 }
 
-void WatchFeed::fill(const std::vector<jobs::NumberedEvent>& events,
-                     v1::WatchJobResponse& response) {
-  _from_earliest = false;
-  for (const jobs::NumberedEvent& event : events) {
-    const auto* sample = std::get_if<jobs::SampleEvent>(&event.event);
-    if (sample == nullptr) break;
-    append(*response.mutable_samples(), sample->load_case, sample->sample);
-    _cursor = event.sequence;
+void WatchFeed::fill(const std::vector<jobs::SampleRun>& samples, v1::WatchJobResponse& response) {
+  append(*response.mutable_samples(), samples);
+}
+
+void WatchFeed::fill(const jobs::PhaseEvent& phase, v1::WatchJobResponse& response) {
+  _state = from_domain(phase.state);
+  _detail = phase.detail;
+  response.mutable_phase()->set_state(_state);
+  response.mutable_phase()->set_detail(_detail);
+}
+
+void WatchFeed::fill(const jobs::CaseEvent& ended, v1::WatchJobResponse& response) {
+  if (_interfaces.empty()) {  // the mesh was not meshed yet when the watch began
+    _interfaces = interface_names(_backend.catalogue, _backend.engine.get(_id).spec.mesh);
   }
-  if (!response.has_samples()) {
-    const jobs::NumberedEvent& event = events.front();
-    if (const auto* phase = std::get_if<jobs::PhaseEvent>(&event.event)) {
-      _state = from_domain(phase->state);
-      _detail = phase->detail;
-      response.mutable_phase()->set_state(_state);
-      response.mutable_phase()->set_detail(_detail);
-    } else if (const auto* ended = std::get_if<jobs::CaseEvent>(&event.event)) {
-      if (_interfaces.empty()) {  // the mesh was not meshed yet when the watch began
-        _interfaces = interface_names(_backend.catalogue, _backend.engine.get(_id).spec.mesh);
-      }
-      const auto index = static_cast<std::size_t>(ended->load_case);
-      const std::string name = index < _load_names.size() ? _load_names[index] : "";
-      response.mutable_load_case_ended()->set_load_case(ended->load_case);
-      *response.mutable_load_case_ended()->mutable_answer() =
-          from_domain(*ended->record, name, _interfaces);
-    } else if (const auto* end = std::get_if<jobs::EndEvent>(&event.event)) {
-      if (_interfaces.empty())
-        _interfaces = interface_names(_backend.catalogue, end->job->spec.mesh);
-      *response.mutable_ended() = from_domain(*end->job, _interfaces);
-      _ended = true;
-    }
-    _cursor = event.sequence;
-  }
-  response.set_sequence(_cursor);
+  const auto index = static_cast<std::size_t>(ended.load_case);
+  const std::string name = index < _load_names.size() ? _load_names[index] : "";
+  response.mutable_load_case_ended()->set_load_case(ended.load_case);
+  *response.mutable_load_case_ended()->mutable_answer() =
+      from_domain(*ended.record, name, _interfaces);
+}
+
+void WatchFeed::fill(const jobs::RowsEvent& rows, v1::WatchJobResponse& response) {
+  append(*response.mutable_sweep_rows(), rows, 0, rows.rows->rows());
+}
+
+void WatchFeed::fill(const jobs::EndEvent& end, v1::WatchJobResponse& response) {
+  if (_interfaces.empty()) _interfaces = interface_names(_backend.catalogue, end.job->spec.mesh);
+  *response.mutable_ended() = from_domain(*end.job, _interfaces);
+  _ended = true;
 }
 
 InterfaceNames interface_names(const meshes::MeshCatalogue& catalogue, const std::string& mesh_id) {

@@ -24,11 +24,12 @@ namespace anticrack::rpc {
 /// A cursor, no queue: what the watcher has not taken stays in the job's log, is sent in rounds
 /// with the other watches of the job, and a watcher that falls behind its trimming ends with
 /// OUT_OF_RANGE instead of a silent gap. Messages: the snapshot; then events in order, consecutive
-/// samples packed; last the end.
+/// samples packed as columns; last the end.
 class WatchFeed final : public Feed<v1::WatchJobResponse> {
  public:
-  /// Samples a message: some 40 kB, and few enough writes for a fast job.
-  static constexpr std::size_t max_batch = 512;
+  /// Samples a message: some 55 kB. Larger ones were not faster (memory of that size goes back to
+  /// the system and comes again with each), and every peer that does not read holds one.
+  static constexpr std::size_t max_batch = 1024;
 
   /// `id` of the job; `after` as WatchJobRequest.after_sequence.
   /// Throws errors::Error: not_found, sequence_trimmed (trimmed already, or in the future).
@@ -44,9 +45,12 @@ class WatchFeed final : public Feed<v1::WatchJobResponse> {
 
  private:
   void fill_snapshot(v1::WatchJobResponse& response);
-  std::vector<jobs::NumberedEvent> read();
-  /// Puts as many of `events` as fit together into `response` and moves the cursor behind them.
-  void fill(const std::vector<jobs::NumberedEvent>& events, v1::WatchJobResponse& response);
+  jobs::NumberedBatch read();
+  void fill(const std::vector<jobs::SampleRun>& samples, v1::WatchJobResponse& response);
+  void fill(const jobs::PhaseEvent& phase, v1::WatchJobResponse& response);
+  void fill(const jobs::CaseEvent& ended, v1::WatchJobResponse& response);
+  void fill(const jobs::RowsEvent& rows, v1::WatchJobResponse& response);
+  void fill(const jobs::EndEvent& end, v1::WatchJobResponse& response);
 
   const Backend _backend;
   const std::string _id;

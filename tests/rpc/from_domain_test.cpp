@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,45 @@ TEST(FromDomain, RepeatsWhatWasAskedFor) {
   EXPECT_FALSE(job.has_queue_timeout());
   EXPECT_EQ(job.run_timeout().seconds(), 2);
   EXPECT_EQ(job.run_timeout().nanos(), 500'000'000);
+}
+
+TEST(FromDomain, PutsRunsOfSamplesBehindEachOther) {
+  const auto page = std::make_shared<jobs::SamplePage>();
+  for (int i = 0; i < static_cast<int>(jobs::SamplePage::capacity); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    page->load_case[at] = i;
+    page->iteration[at] = i + 1000;
+    page->contact_count[at] = i + 2000;
+    page->criterion[at] = i + 0.1;
+    page->energy[at] = i + 0.2;
+    page->equilibrium[at] = i + 0.3;
+    page->gap[at] = i + 0.4;
+    page->sign[at] = i + 0.5;
+    page->complementarity[at] = i + 0.6;
+  }
+  v1::Samples samples;
+  append(samples, {{page, 250, 6}, {page, 0, 2}});
+  append(samples, {{page, 7, 1}, {page, 8, 0}});
+  const std::vector<int> expected = {250, 251, 252, 253, 254, 255, 0, 1, 7};
+  const int count = static_cast<int>(expected.size());
+  for (const int size :
+       {samples.load_case_size(), samples.iteration_size(), samples.contact_count_size(),
+        samples.criterion_size(), samples.energy_size(), samples.kkt_equilibrium_size(),
+        samples.kkt_gap_size(), samples.kkt_sign_size(), samples.kkt_complementarity_size()}) {
+    ASSERT_EQ(size, count);
+  }
+  for (int k = 0; k < count; ++k) {
+    const int i = expected[static_cast<std::size_t>(k)];
+    EXPECT_EQ(samples.load_case(k), i);
+    EXPECT_EQ(samples.iteration(k), i + 1000);
+    EXPECT_EQ(samples.contact_count(k), i + 2000);
+    EXPECT_EQ(samples.criterion(k), i + 0.1);
+    EXPECT_EQ(samples.energy(k), i + 0.2);
+    EXPECT_EQ(samples.kkt_equilibrium(k), i + 0.3);
+    EXPECT_EQ(samples.kkt_gap(k), i + 0.4);
+    EXPECT_EQ(samples.kkt_sign(k), i + 0.5);
+    EXPECT_EQ(samples.kkt_complementarity(k), i + 0.6);
+  }
 }
 
 TEST(FromDomain, SaysWhoseAMeshIsAndWhetherItIsPinned) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "casefile/case.hpp"
+#include "casefile/coefficients.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -40,6 +41,20 @@ TEST(Examples, OfOtherGeometriesUseTheDefaults) {
     EXPECT_TRUE(the_case.job.solver().has_active_set()) << name;
     EXPECT_GE(the_case.job.load_cases_size(), 2) << name;
     EXPECT_GE(the_case.mesh.geometry().interfaces_size(), 1) << name;
+  }
+}
+
+TEST(Examples, SweepVariesOneCoefficient) {
+  const Case the_case = read_case(folder + "/load-ratio.toml");
+  ASSERT_EQ(the_case.job.load_cases_size(), 2);
+  EXPECT_TRUE(the_case.job.solver().has_active_set());
+  const std::vector<double> rows =
+      read_coefficients(folder + "/load-ratio.csv",
+                        {the_case.job.load_cases(0).name(), the_case.job.load_cases(1).name()});
+  ASSERT_EQ(rows.size(), 2U * 81);
+  for (std::size_t row = 0; row < 81; ++row) {
+    EXPECT_EQ(rows[2 * row], 1);
+    EXPECT_NEAR(rows[2 * row + 1], -1 + static_cast<double>(row) / 40, 1e-12);
   }
 }
 

@@ -44,6 +44,7 @@ Ran run(std::vector<std::string> arguments) {
 TEST(CommandLine, HelpOfEveryCommandHasAnExample) {
   const std::vector<std::vector<std::string>> commands{{},
                                                        {"run"},
+                                                       {"sweep"},
                                                        {"mesh", "create"},
                                                        {"mesh", "upload"},
                                                        {"mesh", "list"},

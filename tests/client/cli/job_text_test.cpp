@@ -37,6 +37,25 @@ TEST(JobText, TellsWhoseJobItIsAndHowUrgent) {
   EXPECT_THAT(job_text(job), HasSubstr("priority bulk, of ada?[2J, runs at most 90 s"));
 }
 
+TEST(JobText, CountsTheRowsOfASweepInPlaceOfAnswers) {
+  v1::Job job = sample_job();
+  job.add_load_cases()->set_name("skew");
+  job.mutable_sweep()->mutable_coefficients()->set_upload("uploads/1");
+  v1::SweepAnswer& answer = *job.mutable_sweep_answer();
+  answer.set_rows(100);
+  EXPECT_THAT(job_text(job),
+              HasSubstr("sweep of 100 rows: 0 converged, 0 did not converge, 0 failed\n"));
+  EXPECT_THAT(job_text(job), Not(HasSubstr("criterion")));
+  answer.set_converged(97);
+  answer.set_not_converged(2);
+  answer.set_failed(1);
+  answer.set_most_steps(6);
+  answer.set_worst_kkt(2e-13);
+  EXPECT_THAT(job_text(job),
+              HasSubstr("sweep of 100 rows: 97 converged, 2 did not converge, 1 failed\n"
+                        "at most 6 steps, KKT residuals at most 2e-13\n"));
+}
+
 TEST(JobText, TellsWhatHappenedWhen) {
   v1::Job job = sample_job();
   add_step(job, 1'000, v1::Job::STATE_QUEUED, "");

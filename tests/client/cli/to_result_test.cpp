@@ -21,7 +21,9 @@ class BlockMaker {
   BlockMaker& add(const std::string& name, const std::vector<T>& values, std::size_t columns = 0) {
     auto& array = *_block.layout.add_arrays();
     array.set_name(name);
-    array.set_type(sizeof(T) == 8 ? v1::ArrayLayout::TYPE_FLOAT64 : v1::ArrayLayout::TYPE_INT32);
+    array.set_type(sizeof(T) == 8   ? v1::ArrayLayout::TYPE_FLOAT64
+                   : sizeof(T) == 4 ? v1::ArrayLayout::TYPE_INT32
+                                    : v1::ArrayLayout::TYPE_UINT8);
     array.add_shape(columns == 0 ? values.size() : values.size() / columns);
     if (columns != 0) {
       array.add_shape(columns);
@@ -191,6 +193,118 @@ TEST(ToResult, RefusesArraysOutsideTheirBlock) {
   Fetched odd = fetched();
   odd.mesh_block.bytes.resize(8);
   EXPECT_THROW(to_result(odd), results::Error);
+}
+
+/// Three rows over two loads, of which the middle one did not converge; traces of the last two.
+Fetched fetched_sweep() {
+  Fetched result = fetched();
+  v1::Job& job = result.job;
+  job.clear_answers();
+  job.clear_solver();
+  job.add_load_cases()->set_name("two");
+  job.mutable_sweep()->mutable_coefficients()->set_upload("uploads/1");
+  job.mutable_sweep()->add_traces(1);
+  job.mutable_sweep()->add_traces(2);
+  job.mutable_sweep_answer()->set_rows(3);
+  job.mutable_sweep_answer()->mutable_solve_time()->set_seconds(2);
+  job.mutable_error()->set_message("row 1 is odd");
+  result.mesh.add_inclusions("fibre");
+  BlockMaker maker;
+  maker.add("interfaces/0/s", Reals{0, 1}).add("interfaces/0/x", Reals{0, 1});
+  maker.add("interfaces/0/y", Reals{0, 0}).add("interfaces/0/kind", Integers{2, 2});
+  maker.add("sweep/status", Integers{3, 4, 3}).add("sweep/steps", Integers{1, 7, 2});
+  maker.add("sweep/energy", Reals{-1, 0, -3}).add("sweep/contact_length", Reals{0, 0, 1});
+  maker.add("sweep/kkt", Reals{1e-15, 1, 1e-14});
+  maker.add("sweep/displacement", Reals{0.5, 0, 0.25}, 1);
+  maker.add("sweep/contact", std::vector<std::uint8_t>{0, 0, 0, 1, 1, 1}, 2);
+  maker.add("sweep/contact_nodes", Integers{0, 0, 0, 1}, 2);
+  for (const char* name : {"u_minus", "u_plus", "jump", "pressure"}) {
+    maker.add(std::string("traces/2/0/") + name, Reals{0.5, 0.75});
+  }
+  maker.add("traces/2/0/contact", Integers{1, 1});
+  result.result_block = maker.block();
+  return result;
+}
+
+TEST(ToResult, KeepsTheColumnsOfASweep) {
+  const results::Result result = to_result(fetched_sweep());
+  ASSERT_TRUE(result.sweep);
+  const results::Sweep& sweep = *result.sweep;
+  EXPECT_EQ(sweep.loads, (std::vector<std::string>{"one", "two"}));
+  EXPECT_EQ(sweep.inclusions, std::vector<std::string>{"fibre"});
+  EXPECT_EQ(sweep.status, (Integers{3, 4, 3}));
+  EXPECT_EQ(sweep.steps, (Integers{1, 7, 2}));
+  EXPECT_EQ(sweep.energy, (Reals{-1, 0, -3}));
+  EXPECT_EQ(sweep.contact_length, (Reals{0, 0, 1}));
+  EXPECT_EQ(sweep.displacement, (Reals{0.5, 0, 0.25}));
+  EXPECT_EQ(sweep.contact, (std::vector<std::uint8_t>{0, 0, 0, 1, 1, 1}));
+  EXPECT_EQ(sweep.contact_nodes, (Integers{0, 0, 0, 1}));
+  EXPECT_EQ(sweep.error, "row 1 is odd");
+  EXPECT_EQ(result.timings.solve_seconds, 2);
+  EXPECT_TRUE(sweep.coefficients.empty()) << "the server does not give them back";
+}
+
+TEST(ToResult, MakesLoadsOfTheRowsThatHaveTraces) {
+  const results::Result result = to_result(fetched_sweep());
+  EXPECT_EQ(result.sweep->kept, Integers{2}) << "row 1 came to no end";
+  ASSERT_EQ(result.loads.size(), 1U);
+  const results::Load& load = result.loads[0];
+  EXPECT_EQ(load.name, "row-2");
+  EXPECT_EQ(load.status, results::Status::converged);
+  EXPECT_EQ(load.method, "active-set");
+  EXPECT_EQ(load.iterations, 2);
+  EXPECT_EQ(load.energy, -3);
+  EXPECT_EQ(load.inclusions.at(0).displacement, 0.25);
+  EXPECT_EQ(load.traces.at(0).u_plus, (Reals{0.5, 0.75}));
+  ASSERT_EQ(load.contact_intervals.size(), 1U);
+  EXPECT_EQ(load.contact_intervals[0].begin, 0);
+  EXPECT_EQ(load.contact_intervals[0].end, 1);
+}
+
+TEST(ToResult, TakesASweepWithoutInclusionsAndCracks) {
+  Fetched plain = fetched_sweep();
+  plain.mesh.clear_inclusions();
+  for (v1::ArrayLayout& array : *plain.result_block.layout.mutable_arrays()) {
+    if (array.name() == "sweep/displacement" || array.name() == "sweep/contact") {
+      array.set_shape(1, 0);
+    }
+    if (array.name() == "sweep/contact_nodes") {
+      array.set_shape(0, 0);
+    }
+  }
+  const results::Result result = to_result(plain);
+  EXPECT_TRUE(result.sweep->displacement.empty());
+  EXPECT_TRUE(result.sweep->contact.empty());
+}
+
+TEST(ToResult, RefusesASweepThatDoesNotFitTogether) {
+  const auto refused = [](const auto& spoil) {
+    Fetched odd = fetched_sweep();
+    for (v1::ArrayLayout& array : *odd.result_block.layout.mutable_arrays()) {
+      spoil(array);
+    }
+    EXPECT_THROW(to_result(odd), results::Error);
+  };
+  for (const char* name : {"status", "steps", "energy", "contact_length", "kkt", "displacement",
+                           "contact", "contact_nodes"}) {
+    const std::string full = std::string("sweep/") + name;
+    refused([&](v1::ArrayLayout& array) {
+      if (array.name() == full) {
+        array.set_name("other");
+      }
+    });
+    refused([&](v1::ArrayLayout& array) {
+      if (array.name() == full) {
+        array.set_type(array.type() == v1::ArrayLayout::TYPE_UINT8 ? v1::ArrayLayout::TYPE_INT32
+                                                                   : v1::ArrayLayout::TYPE_UINT8);
+      }
+    });
+    refused([&](v1::ArrayLayout& array) {
+      if (array.name() == full) {
+        array.set_shape(0, 1);
+      }
+    });
+  }
 }
 
 }  // namespace

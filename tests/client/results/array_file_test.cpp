@@ -38,6 +38,11 @@ class ArrayFile : public ::testing::Test {
     put(file, "single", H5T_IEEE_F32LE, {2}, {1, 2});
     put(file, "whole", H5T_STD_I32LE, {2}, {1, 2});
     put(file, "plane", H5T_IEEE_F64LE, {2, 2}, {1, 2, 3, 4});
+    put(file, "wide", H5T_IEEE_F64BE, {2, 3}, {1, 2, 3, 4, 5, 6});
+    put(file, "no rows", H5T_IEEE_F64LE, {0, 3}, {});
+    put(file, "no columns", H5T_IEEE_F64LE, {3, 0}, {});
+    put(file, "odd", H5T_IEEE_F64LE, {2, 2}, {1, 2, 3, std::numeric_limits<double>::infinity()});
+    put(file, "huge plane", H5T_IEEE_F64LE, {hsize_t{1} << 40, hsize_t{1} << 40}, {});
     put(file, "none", H5T_IEEE_F64LE, {0}, {});
     put(file, "nan", H5T_IEEE_F64LE, {2}, {1, std::numeric_limits<double>::quiet_NaN()});
     put(file, "huge", H5T_IEEE_F64LE, {hsize_t{1} << 45}, {});
@@ -51,6 +56,15 @@ class ArrayFile : public ::testing::Test {
   std::string complaint(const std::string& dataset) const {
     try {
       read_array(path, dataset);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  std::string matrix_complaint(const std::string& dataset) const {
+    try {
+      read_matrix(path, dataset);
     } catch (const Error& error) {
       return error.what();
     }
@@ -80,6 +94,27 @@ TEST_F(ArrayFile, refuses_what_is_no_list_of_finite_numbers) {
   EXPECT_THAT(complaint("/a"), HasSubstr("a is damaged"));
   EXPECT_THAT(complaint("/a/link"), HasSubstr("is a link, not data"));
   EXPECT_THAT(complaint("/"), HasSubstr("names no dataset"));
+}
+
+TEST_F(ArrayFile, gives_matrices) {
+  const Matrix wide = read_matrix(path, "/wide");
+  EXPECT_EQ(wide.rows, 2U);
+  EXPECT_EQ(wide.columns, 3U);
+  EXPECT_EQ(wide.values, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+}
+
+TEST_F(ArrayFile, refuses_what_is_no_matrix_of_finite_numbers) {
+  EXPECT_THAT(matrix_complaint("/f"), HasSubstr("f is not of shape (rows,columns)"));
+  EXPECT_THAT(matrix_complaint("/single"), HasSubstr("single is not float64"));
+  EXPECT_THAT(matrix_complaint("/no rows"), HasSubstr("/no rows has no values"));
+  EXPECT_THAT(matrix_complaint("/no columns"), HasSubstr("/no columns has no values"));
+  EXPECT_THAT(matrix_complaint("/odd"),
+              HasSubstr("the value in row 1, column 1 (from 0) of dataset /odd is not finite"));
+  EXPECT_THAT(matrix_complaint("/huge plane"), HasSubstr("more than the file can hold"));
+  EXPECT_THAT(matrix_complaint("/missing"), HasSubstr("\"missing\" is missing"));
+  EXPECT_THAT(matrix_complaint("/missing"),
+              HasSubstr("name a two-dimensional dataset of float64 in an HDF5 file"));
+  EXPECT_THAT(matrix_complaint("/"), HasSubstr("names no dataset"));
 }
 
 TEST_F(ArrayFile, refuses_what_is_no_file) {

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "casefile/coefficients.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "casefile/nearest.hpp"
+
+namespace anticrack::casefile {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blank = " \t\r";
+  const std::size_t begin = text.find_first_not_of(blank);
+  if (begin == std::string_view::npos) {
+    return {};
+  }
+  text = text.substr(begin, text.find_last_not_of(blank) - begin + 1);
+  const bool in_quotes = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  return in_quotes ? text.substr(1, text.size() - 2) : text;
+}
+
+void split(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  while (true) {
+    const std::size_t comma = line.find(',');
+    fields.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) {
+      return;
+    }
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// Independent of the locale. Empty where it is no number as a whole; infinity where too large.
+std::optional<double> number(std::string_view text) {
+  if (!text.empty() && text.front() == '+') {
+    text.remove_prefix(1);
+  }
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument) {
+    return std::nullopt;
+  }
+  if (error == std::errc::result_out_of_range) {
+    // Too small is zero to anybody; the exponent tells the two apart.
+    const bool small = text.find("e-") != text.npos || text.find("E-") != text.npos;
+    return small ? 0.0 : HUGE_VAL;
+  }
+  return value;
+}
+
+/// Cut, and without bytes that would end or disguise a message.
+std::string shown(std::string_view value) {
+  constexpr std::size_t longest = 40;
+  std::string text(value.substr(0, longest));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }, '?');
+  return "\"" + text + (value.size() > longest ? "..." : "") + "\"";
+}
+
+std::string counted(std::size_t count, const char* what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) {
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  return list;
+}
+
+class Reader {
+ public:
+  Reader(std::string source, const std::vector<std::string>& loads)
+      : _source(std::move(source)), _loads(loads) {
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      _columns.push_back(i);
+    }
+  }
+
+  void line(std::string_view text, unsigned number) {
+    _line = number;
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (number == 1 && text.substr(0, byte_order_mark.size()) == byte_order_mark) {
+      text.remove_prefix(byte_order_mark.size());
+    }
+    const std::size_t begin = text.find_first_not_of(" \t\r");
+    if (begin == std::string_view::npos || text[begin] == '#') {
+      return;
+    }
+    split(text, _fields);
+    if (!std::exchange(_begun, true) && is_header()) {
+      take_header();
+    } else {
+      take_row();
+    }
+  }
+
+  std::vector<double> finish() {
+    if (_values.empty()) {
+      throw Error({"", _source, 0}, "there is no row; write a line of " +
+                                        counted(_loads.size(), "coefficient") +
+                                        " for each load case of the sweep");
+    }
+    return std::move(_values);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw Error({"", _source, _line}, problem);
+  }
+  [[noreturn]] void fail(std::size_t column, const std::string& problem) const {
+    throw Error({"column " + std::to_string(column + 1), _source, _line}, problem);
+  }
+
+  /// Names of loads may look like numbers.
+  bool is_header() const {
+    const auto is_load = [this](std::string_view field) {
+      return std::find(_loads.begin(), _loads.end(), field) != _loads.end();
+    };
+    return std::all_of(_fields.begin(), _fields.end(), is_load) ||
+           std::none_of(_fields.begin(), _fields.end(), number);
+  }
+
+  void take_header() {
+    std::vector<bool> named(_loads.size(), false);
+    std::vector<std::size_t> columns;
+    for (std::size_t i = 0; i < _fields.size(); ++i) {
+      const auto found = std::find(_loads.begin(), _loads.end(), _fields[i]);
+      if (found == _loads.end()) {
+        fail(i, shown(_fields[i]) + " is no load of the case; " + suggestion(_fields[i], _loads));
+      }
+      const auto load = static_cast<std::size_t>(found - _loads.begin());
+      if (named[load]) {
+        fail(i, "load " + *found + " is named twice; keep one of the two columns");
+      }
+      named[load] = true;
+      columns.push_back(load);
+    }
+    const auto missing = std::find(named.begin(), named.end(), false);
+    if (missing != named.end()) {
+      fail("there is no column for load " +
+           _loads[static_cast<std::size_t>(missing - named.begin())] +
+           "; add one (of zeros, where it takes no part), or take the load out of the case");
+    }
+    _columns = std::move(columns);
+  }
+
+  void take_row() {
+    if (_fields.size() != _columns.size()) {
+      fail(counted(_fields.size(), "value") + " in this line, the case has " +
+           counted(_loads.size(), "load") + "; write one coefficient for each of " +
+           listed(_loads) + ", with commas between");
+    }
+    const std::size_t row = _values.size();
+    _values.resize(row + _loads.size());
+    for (std::size_t i = 0; i < _fields.size(); ++i) {
+      const std::optional<double> value = number(_fields[i]);
+      if (!value) {
+        fail(i, shown(_fields[i]) + " is no number; write one as 1.5 or -2e-3");
+      }
+      if (!std::isfinite(*value)) {
+        fail(i, shown(_fields[i]) + " is not finite; write a finite number");
+      }
+      _values[row + _columns[i]] = *value;
+    }
+  }
+
+  std::string _source;
+  const std::vector<std::string>& _loads;
+  std::vector<std::size_t> _columns;  ///< column of the text -> load
+  std::vector<std::string_view> _fields;
+  std::vector<double> _values;
+  unsigned _line = 0;
+  bool _begun = false;
+};
+
+}  // namespace
+
+std::vector<double> parse_coefficients(std::istream& text, const std::string& source,
+                                       const std::vector<std::string>& loads) {
+  Reader reader(source, loads);
+  std::string line;
+  for (unsigned number = 1; std::getline(text, line); ++number) {
+    reader.line(line, number);
+  }
+  if (text.bad()) {
+    throw Error({"", source, 0}, "cannot be read to its end; the disk reports an error");
+  }
+  return reader.finish();
+}
+
+std::vector<double> read_coefficients(const std::filesystem::path& file,
+                                      const std::vector<std::string>& loads) {
+  std::ifstream text(file, std::ios::binary);
+  if (std::filesystem::is_directory(file) || !text) {
+    throw Error({"", file.string(), 0},
+                "cannot be read; name a .csv file, or a dataset as FILE.h5:/PATH");
+  }
+  return parse_coefficients(text, file.string(), loads);
+}
+
+}  // namespace anticrack::casefile

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/job_run.hpp"
+
+#include <cstdio>
+#include <vector>
+
+#include "cli/answers.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/job_text.hpp"
+#include "cli/json.hpp"
+#include "cli/progress.hpp"
+#include "cli/text.hpp"
+#include "client/jobs.hpp"
+#include "client/meshes.hpp"
+#include "client/uuid.hpp"
+#include "results/file.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string counted_cases(const v1::Job& job) {
+  if (job.has_sweep()) {
+    return "a sweep of " + std::to_string(job.sweep_answer().rows()) + " rows";
+  }
+  return std::to_string(job.load_cases_size()) +
+         (job.load_cases_size() == 1 ? " load case" : " load cases");
+}
+
+std::string summary(const results::Result& result, const fs::path& file) {
+  const results::Timings& timings = result.timings;
+  return "Results: " + file.string() + " (" + std::to_string(result.mesh.triangle_count()) +
+         " triangles, " + std::to_string(result.mesh.node_count()) + " nodes; meshing " +
+         number(timings.mesh_seconds, 3) + " s, factorising " +
+         number(timings.factorize_seconds, 3) + " s, solving " + number(timings.solve_seconds, 3) +
+         " s, " + number(timings.total_seconds, 3) + " s in all)";
+}
+
+// Why a job came to nothing, line by line.
+std::vector<std::string> causes(const v1::Job& job) {
+  if (job.state() == v1::Job::STATE_CANCELLED) {
+    return {job.name() + " was cancelled"};
+  }
+  if (job.state() == v1::Job::STATE_EXPIRED) {
+    return {expired_text(job)};
+  }
+  std::vector<std::string> lines;
+  if (job.has_error()) {
+    lines.push_back(job.name() + " failed: " + job.error().message());
+  }
+  for (const v1::LoadCaseAnswer& answer : job.answers()) {
+    const std::string& cause = answer.error().message();
+    const bool told = job.error().message().find(cause) != std::string::npos;
+    if (answer.has_error() && !told) {
+      lines.push_back(answer.name() + " failed: " + cause);
+    }
+  }
+  if (lines.empty()) {
+    lines.push_back(job.name() + " ended without results: " + std::string(word(job.state())));
+  }
+  return lines;
+}
+
+// What an import took for what, or repaired.
+void tell_warnings(Session& session, const v1::Job& job) {
+  for (const std::string& warning :
+       client::get_mesh(session.connection(), job.mesh(), session.stop()).warnings()) {
+    say(session.globals(), "mesh: " + warning);
+  }
+}
+
+}  // namespace
+
+fs::path result_file(const std::string& case_file, const std::string& output) {
+  fs::path file =
+      output.empty() ? fs::path(case_file).filename().replace_extension(".h5") : fs::path(output);
+  results::check_writable(file);
+  return file;
+}
+
+Followed submit_and_follow(Session& session, const casefile::Case& the_case,
+                           const Prepare& prepare) {
+  constexpr int tries = 3;
+  const std::string request_id = client::make_uuid();
+  for (int attempt = 1;; ++attempt) {
+    const v1::Job job = submit(session, the_case, request_id, prepare);
+    say(session.globals(), job.name() + " on " + job.mesh() + ": " + counted_cases(job));
+    try {
+      return follow(session, job);
+    } catch (const client::Error& error) {
+      if (error.code() != client::Code::not_found || attempt == tries) {
+        throw;
+      }
+      say(session.globals(), "The server has lost the job; submitting it again");
+    }
+  }
+}
+
+int exit_code_of(const Globals& globals, const Followed& followed) {
+  switch (followed.how) {
+    case Followed::How::detached:
+      if (globals.json) {
+        print_document(to_json(followed.job));
+      }
+      return exit_interrupted;
+    case Followed::How::cancelled:
+      return exit_interrupted;
+    case Followed::How::ended:
+      return exit_code_of(followed.job.state());
+  }
+  return exit_job_failed;
+}
+
+std::optional<results::Result> results_of(Session& session, const casefile::Case& the_case,
+                                          const Followed& followed,
+                                          std::chrono::steady_clock::time_point begin) {
+  const v1::Job& job = followed.job;
+  tell_warnings(session, job);
+  if (job.result_bytes() == 0 || job.state() == v1::Job::STATE_EXPIRED) {
+    for (const std::string& line : causes(job)) {
+      std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
+    }
+    if (session.globals().json) {
+      print_document(to_json(job));
+    }
+    return std::nullopt;
+  }
+  results::Result result = fetch(session, job);
+  result.case_text = the_case.text;
+  result.timings.total_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+void save(const fs::path& file, const results::Result& result, const Session& session) {
+  try {
+    results::write(file, result);
+  } catch (const results::Error&) {
+    if (!session.globals().local) {
+      say(session.globals(),
+          "The server still has the results. To fetch them: anticrack job fetch " +
+              result.job_name + session.server_option());
+    }
+    throw;
+  }
+}
+
+void print_answers(const Globals& globals, const results::Result& result, const fs::path& file) {
+  if (globals.json) {
+    print_document(answers_json(result, file));
+  } else {
+    print_document("\n" + answers_table(result) + "\n" + sanitise(summary(result, file)));
+  }
+}
+
+}  // namespace anticrack::cli

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the commands that submit a case and wait for it have in common, step by step.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "cli/follow.hpp"
+#include "cli/session.hpp"
+#include "cli/submit.hpp"
+#include "results/result.hpp"
+
+namespace anticrack::cli {
+
+/// The file the results go to: `output`, or CASE.h5 in this folder where that is empty. Throws
+/// results::Error where it cannot be written.
+std::filesystem::path result_file(const std::string& case_file, const std::string& output);
+
+/// Submits a case and shows its progress. A server that comes back without its jobs is handed the
+/// same job, under the same id, again.
+Followed submit_and_follow(Session& session, const casefile::Case& the_case,
+                           const Prepare& prepare = {});
+
+/// What the shell is told of a job that was followed, before one looks at its answers. Prints the
+/// job for --json where the command detached from it.
+int exit_code_of(const Globals& globals, const Followed& followed);
+
+/// The results of a job that has ended, with the text of its case and the time since `begin`. Empty
+/// where it has none: then people are told why.
+std::optional<results::Result> results_of(Session& session, const casefile::Case& the_case,
+                                          const Followed& followed,
+                                          std::chrono::steady_clock::time_point begin);
+
+/// Writes the result file; where that fails says how to fetch the results again.
+void save(const std::filesystem::path& file, const results::Result& result, const Session& session);
+
+/// The answers, and where they were saved.
+void print_answers(const Globals& globals, const results::Result& result,
+                   const std::filesystem::path& file);
+
+}  // namespace anticrack::cli

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/row_selection.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "casefile/error.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+struct Range {
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;
+};
+
+class Selection {
+ public:
+  Selection(const std::string& text, std::uint64_t rows) : _text(text), _rows(rows) {}
+
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw casefile::Error({"", "--traces " + _text, 0}, problem);
+  }
+
+  /// Sorted, without overlaps.
+  std::vector<Range> ranges() const {
+    if (_text == "none" || _rows == 0) {
+      return {};
+    }
+    if (_text == "all") {
+      return {{0, _rows - 1}};
+    }
+    std::vector<Range> ranges;
+    for (std::string_view rest = _text;;) {
+      const std::size_t comma = rest.find(',');
+      ranges.push_back(range_of(rest.substr(0, comma)));
+      if (comma == std::string_view::npos) {
+        break;
+      }
+      rest.remove_prefix(comma + 1);
+    }
+    return merged(std::move(ranges));
+  }
+
+ private:
+  std::uint64_t row_of(std::string_view part, std::string_view item) const {
+    std::uint64_t row = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), row);
+    if (part.empty() || end != part.data() + part.size() || error == std::errc::invalid_argument) {
+      fail("\"" + std::string(item) + "\" is no row; write all, none, or rows as 0,10,20-30");
+    }
+    if (error == std::errc::result_out_of_range || row >= _rows) {
+      fail("there is no row " + std::string(part) + "; the last one is " +
+           std::to_string(_rows - 1) + ", the first one 0");
+    }
+    return row;
+  }
+
+  Range range_of(std::string_view item) const {
+    const std::size_t dash = item.find('-');
+    if (dash == std::string_view::npos) {
+      const std::uint64_t row = row_of(item, item);
+      return {row, row};
+    }
+    const Range range{row_of(item.substr(0, dash), item), row_of(item.substr(dash + 1), item)};
+    if (range.last < range.first) {
+      fail("the range " + std::string(item) + " ends before it begins; write " +
+           std::to_string(range.last) + "-" + std::to_string(range.first));
+    }
+    return range;
+  }
+
+  static std::vector<Range> merged(std::vector<Range> ranges) {
+    std::sort(ranges.begin(), ranges.end(),
+              [](const Range& a, const Range& b) { return a.first < b.first; });
+    std::vector<Range> result;
+    for (const Range& range : ranges) {
+      if (!result.empty() && range.first <= result.back().last) {
+        result.back().last = std::max(result.back().last, range.last);
+      } else {
+        result.push_back(range);
+      }
+    }
+    return result;
+  }
+
+  const std::string& _text;
+  std::uint64_t _rows;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> select_rows(const std::string& text, std::uint64_t rows,
+                                       std::uint64_t most) {
+  const Selection selection(text, rows);
+  const std::vector<Range> ranges = selection.ranges();
+  std::uint64_t count = 0;
+  for (const Range& range : ranges) {
+    count += range.last - range.first + 1;
+  }
+  if (count > most) {
+    selection.fail("these are " + std::to_string(count) + " rows, the server keeps the traces of " +
+                   std::to_string(most) + " at most; name fewer");
+  }
+  if (!ranges.empty() && ranges.back().last > std::numeric_limits<std::uint32_t>::max()) {
+    selection.fail("row " + std::to_string(ranges.back().last) + " is too large to be named");
+  }
+  std::vector<std::uint32_t> selected;
+  selected.reserve(static_cast<std::size_t>(count));
+  for (const Range& range : ranges) {
+    for (std::uint64_t row = range.first; row <= range.last; ++row) {
+      selected.push_back(static_cast<std::uint32_t>(row));
+    }
+  }
+  return selected;
+}
+
+}  // namespace anticrack::cli

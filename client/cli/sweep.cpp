@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+//   anticrack sweep CASE.toml --coefficients FILE
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "cli/answers.hpp"
+#include "cli/commands.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/job_run.hpp"
+#include "cli/sweep_input.hpp"
+#include "cli/sweep_text.hpp"
+#include "client/jobs.hpp"
+#include "client/meshes.hpp"
+#include "client/uuid.hpp"
+#include "results/file.hpp"
+#include "results/replace_file.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SweepOptions {
+  std::string case_file;
+  SweepFiles files;
+  std::string output;
+  std::string csv;
+  bool detach = false;
+  std::vector<std::string> overrides;
+};
+
+casefile::Case read_case(const SweepOptions& options, const Globals& globals) {
+  const bool nodal = !options.files.nodal.empty();
+  casefile::Case the_case =
+      casefile::read_case(options.case_file, options.overrides,
+                          nodal ? casefile::Loads::optional : casefile::Loads::needed);
+  if (nodal && the_case.job.load_cases_size() > 0) {
+    say(globals, "The loads of the case take no part: each row of " + options.files.nodal +
+                     " is a load of its own");
+  }
+  return the_case;
+}
+
+// Rows of f can only be checked against a mesh that is there.
+void check_mesh(Session& session, const casefile::Case& the_case, const SweepInput& input) {
+  if (!input.nodal) {
+    return;
+  }
+  const v1::Mesh mesh = client::wait_for_mesh(
+      session.connection(), create_mesh(session, the_case).name(), {}, session.stop());
+  if (mesh.state() != v1::Mesh::STATE_FAILED) {  // else the job says why
+    check_nodes(input, mesh.node_count());
+  }
+}
+
+void add_matrix(Session& session, const SweepInput& input, v1::Job& job) {
+  v1::Sweep::Matrix& matrix = matrix_of(input, job);
+  if (input.bytes() > inline_matrix_bytes) {
+    matrix.set_upload(client::upload_array(session.connection(), input.values, session.stop()));
+    return;
+  }
+  const void* first = input.values.data();
+  matrix.set_packed(first, input.bytes());
+}
+
+void save_csv(const fs::path& csv, const results::Sweep& sweep, const Globals& globals) {
+  if (csv.empty()) {
+    return;
+  }
+  const std::string text = sweep_csv(sweep);
+  results::replace_file(csv, std::as_bytes(std::span(text)));
+  say(globals, "Rows: " + csv.string());
+}
+
+/// Where the answers go; empty: not there.
+struct Targets {
+  fs::path result;
+  fs::path csv;
+};
+
+Targets check_targets(const SweepOptions& options) {
+  Targets targets;
+  if (!options.detach) {
+    targets.result = result_file(options.case_file, options.output);
+  }
+  if (!options.csv.empty()) {
+    targets.csv = options.csv;
+    results::check_writable(targets.csv);
+    if (fs::absolute(targets.csv) == fs::absolute(targets.result)) {
+      throw casefile::Error({"", "--csv " + options.csv, 0},
+                            "this is the result file too; name another one");
+    }
+  }
+  return targets;
+}
+
+int follow_sweep(Session& session, const Targets& targets, const casefile::Case& the_case,
+                 SweepInput input, std::chrono::steady_clock::time_point begin) {
+  const Globals& globals = session.globals();
+  const Followed followed =
+      submit_and_follow(session, the_case, [&](v1::Job& job) { add_matrix(session, input, job); });
+  const int job_code = exit_code_of(globals, followed);
+  if (followed.how == Followed::How::detached) {
+    return job_code;
+  }
+  auto result = results_of(session, the_case, followed, begin);
+  if (!result) {
+    return job_code;
+  }
+  result->sweep.value().source = input.source;
+  if (!input.nodal) {
+    result->sweep->coefficients = std::move(input.values);
+  }
+  save(targets.result, *result, session);
+  save_csv(targets.csv, *result->sweep, globals);
+  print_answers(globals, *result, targets.result);
+  return job_code != exit_ok ? job_code : exit_code_of(*result);
+}
+
+int sweep(const SweepOptions& options, const Globals& globals) {
+  const auto begin = std::chrono::steady_clock::now();
+  casefile::Case the_case = read_case(options, globals);
+  SweepInput input = read_sweep_input(options.files, the_case);
+  const Targets targets = check_targets(options);
+  Session session(globals);
+  make_sweep(input, client::server_info(session.connection(), session.stop()).limits(), the_case);
+  check_mesh(session, the_case, input);
+  if (options.detach) {
+    tell_submitted(session, submit(session, the_case, client::make_uuid(),
+                                   [&](v1::Job& job) { add_matrix(session, input, job); }));
+    return exit_ok;
+  }
+  if (!the_case.job.title().empty()) {
+    say(globals, the_case.job.title());
+  }
+  return follow_sweep(session, targets, the_case, std::move(input), begin);
+}
+
+void add_options(CLI::App& command, SweepOptions& options) {
+  command.add_option("CASE", options.case_file, "The case, a TOML file")->required();
+  CLI::Option_group& input = *command.add_option_group("Load cases");
+  input
+      .add_option("--coefficients", options.files.coefficients,
+                  "A row of coefficients of the case's loads per load case: comma-separated text, "
+                  "with or without a line of their names, or a dataset (rows,loads) of an HDF5 "
+                  "file")
+      ->type_name("FILE.csv|FILE.h5:/PATH");
+  input
+      .add_option("--nodal", options.files.nodal,
+                  "A row of f on the mesh's nodes per load case: a dataset (rows,nodes)")
+      ->type_name("FILE.h5:/PATH");
+  input.require_option(1);
+  command
+      .add_option("--traces", options.files.traces,
+                  "Rows from 0 whose traces are kept: all, none, or as 0,10,20-30")
+      ->type_name("ROWS")
+      ->capture_default_str();
+  CLI::Option* output = command.add_option("-o,--output,--out", options.output,
+                                           "Result file, HDF5 (default: CASE.h5 in this folder)");
+  CLI::Option* csv =
+      command.add_option("--csv", options.csv, "Also a line per row as comma-separated text")
+          ->type_name("FILE.csv");
+  command.add_flag("--detach", options.detach, "Submit and return at once")
+      ->excludes(output)
+      ->excludes(csv);
+  add_case_flags(command, options.overrides);
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app, const Globals& globals, Command& chosen) {
+  CLI::App* command =
+      app.add_subcommand("sweep", "Many combinations of a case's loads, on one mesh in one job");
+  const auto options = std::make_shared<SweepOptions>();
+  add_options(*command, *options);
+  command->footer(
+      "Row k of the file is the load case c_k1 load_1 + c_k2 load_2 + ..., solved by the active\n"
+      "set. Answers are columns: A, energy, contact length, steps, status and contact of every\n"
+      "row; traces of those named. Ctrl-C detaches, as in run.\n\n"
+      "Example:\n  anticrack sweep client/examples/load-ratio.toml --coefficients "
+      "client/examples/load-ratio.csv\n"
+      "  anticrack sweep plate.toml --coefficients runs.h5:/c --traces 0,100-110 --csv runs.csv");
+  command->callback([=, &globals, &chosen] {
+    chosen = [options, &globals] { return sweep(*options, globals); };
+  });
+}
+
+}  // namespace anticrack::cli

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/sweep_input.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "casefile/coefficients.hpp"
+#include "cli/row_selection.hpp"
+#include "cli/text.hpp"
+#include "results/array_file.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+[[noreturn]] void fail(const std::string& source, const std::string& problem) {
+  throw casefile::Error({"", source, 0}, problem);
+}
+
+struct Dataset {
+  std::string file;
+  std::string path;
+};
+
+// "FILE.h5:/PATH"; empty for the name of a file.
+std::optional<Dataset> dataset_of(const std::string& name) {
+  const std::size_t colon = name.rfind(":/");
+  if (colon == std::string::npos || colon == 0) {
+    return std::nullopt;
+  }
+  return Dataset{name.substr(0, colon), name.substr(colon + 1)};
+}
+
+bool is_hdf5_name(const std::string& name) {
+  const std::string extension = std::filesystem::path(name).extension();
+  return extension == ".h5" || extension == ".hdf5";
+}
+
+void take(results::Matrix matrix, SweepInput& input) {
+  input.values = std::move(matrix.values);
+  input.rows = matrix.rows;
+  input.columns = matrix.columns;
+}
+
+Dataset need_dataset(const std::string& name) {
+  const auto dataset = dataset_of(name);
+  if (!dataset) {
+    fail(name, "no dataset is named; write FILE.h5:/PATH, for example " + name + ":/f");
+  }
+  return *dataset;
+}
+
+void read_nodal(const SweepFiles& files, SweepInput& input) {
+  const Dataset dataset = need_dataset(files.nodal);
+  take(results::read_matrix(dataset.file, dataset.path), input);
+}
+
+void read_combinations(const SweepFiles& files, const casefile::Case& the_case, SweepInput& input) {
+  std::vector<std::string> loads;
+  for (const v1::LoadCase& load : the_case.job.load_cases()) {
+    loads.push_back(load.name());
+  }
+  if (!dataset_of(files.coefficients) && !is_hdf5_name(files.coefficients)) {
+    input.values = casefile::read_coefficients(files.coefficients, loads);
+    input.columns = loads.size();
+    input.rows = input.values.size() / input.columns;
+    return;
+  }
+  const Dataset dataset = need_dataset(files.coefficients);
+  take(results::read_matrix(dataset.file, dataset.path), input);
+  if (input.columns != loads.size()) {
+    fail(files.coefficients, "it has " + std::to_string(input.columns) + " columns, the case " +
+                                 std::to_string(loads.size()) +
+                                 " loads; write one column for each load, in their order");
+  }
+}
+
+void check_solver(const casefile::Case& the_case) {
+  if (the_case.job.solver().has_uzawa()) {
+    throw casefile::Error(
+        the_case.locate("solver.method").value_or(casefile::Spot{}),
+        "a sweep is solved by the active set; take [solver] out of the case, or add --set "
+        "'solver={method=\"active-set\"}'");
+  }
+}
+
+void check_limits(const SweepInput& input, const v1::ServerLimits& limits) {
+  const std::string& source = input.source;
+  if (limits.sweep_rows() == 0) {
+    fail(source, "the server knows no sweeps; update it, or name a newer one with --server");
+  }
+  if (input.rows > limits.sweep_rows()) {
+    fail(source, "it has " + std::to_string(input.rows) + " rows, the server takes " +
+                     std::to_string(limits.sweep_rows()) +
+                     " a sweep; cut it into several, or start the server with a larger limit");
+  }
+  if (!input.nodal && input.columns > static_cast<std::size_t>(limits.sweep_basis())) {
+    fail(source, "it combines " + std::to_string(input.columns) + " loads, the server at most " +
+                     std::to_string(limits.sweep_basis()) +
+                     "; join loads that always go together, or start the server with a larger "
+                     "limit");
+  }
+  if (input.bytes() > inline_matrix_bytes && input.bytes() > limits.upload_bytes()) {
+    fail(source, "it takes " + bytes(input.bytes()) + ", the server takes uploads of " +
+                     bytes(limits.upload_bytes()) + "; cut it into several sweeps");
+  }
+}
+
+}  // namespace
+
+SweepInput read_sweep_input(const SweepFiles& files, const casefile::Case& the_case) {
+  check_solver(the_case);
+  SweepInput input;
+  input.nodal = !files.nodal.empty();
+  input.source = input.nodal ? files.nodal : files.coefficients;
+  input.traces = files.traces;
+  if (input.nodal) {
+    read_nodal(files, input);
+  } else {
+    read_combinations(files, the_case, input);
+  }
+  return input;
+}
+
+void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, casefile::Case& the_case) {
+  check_limits(input, limits);
+  const auto most = static_cast<std::uint64_t>(limits.load_cases());
+  const std::vector<std::uint32_t> traces = select_rows(input.traces, input.rows, most);
+  v1::Job& job = the_case.job;
+  job.mutable_sweep()->mutable_traces()->Add(traces.begin(), traces.end());
+  matrix_of(input, job);
+  // Rows have no fields; a case for `run` often asks for them.
+  job.set_fields(false);
+  if (input.nodal) {
+    job.clear_load_cases();
+    the_case.force_files.clear();
+  }
+  the_case.spots["sweep"] = {"", input.source, 0};
+  the_case.spots["sweep.traces"] = {"", "--traces " + input.traces, 0};
+}
+
+void check_nodes(const SweepInput& input, std::uint64_t node_count) {
+  if (input.columns != node_count) {
+    fail(input.source, "it has " + std::to_string(input.columns) + " columns, the mesh " +
+                           std::to_string(node_count) +
+                           " nodes; write f on every node, in the order of the mesh (the dataset "
+                           "/mesh/nodes of a result file on it)");
+  }
+}
+
+v1::Sweep::Matrix& matrix_of(const SweepInput& input, v1::Job& job) {
+  v1::Sweep& sweep = *job.mutable_sweep();
+  return input.nodal ? *sweep.mutable_nodal_forces() : *sweep.mutable_coefficients();
+}
+
+}  // namespace anticrack::cli

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The load cases of a sweep, read and checked before anything is submitted.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "anticrack/v1/server.pb.h"
+#include "anticrack/v1/solve.pb.h"
+#include "casefile/case.hpp"
+
+namespace anticrack::cli {
+
+/// As a person names them; exactly one of the two files is given.
+struct SweepFiles {
+  std::string coefficients;  ///< FILE.csv or FILE.h5:/PATH
+  std::string nodal;         ///< FILE.h5:/PATH
+  std::string traces = "none";
+};
+
+struct SweepInput {
+  bool nodal = false;          ///< rows of f on the nodes; else of coefficients of the loads
+  std::string source;          ///< where they are from
+  std::string traces;          ///< rows whose traces to keep, not looked at yet
+  std::vector<double> values;  ///< (rows, columns) row-major
+  std::size_t rows = 0;
+  std::size_t columns = 0;
+
+  std::size_t bytes() const noexcept { return values.size() * sizeof(double); }
+};
+
+/// What is sent within the request; more goes as an upload.
+inline constexpr std::size_t inline_matrix_bytes = std::size_t{1} << 20;
+
+/// Reads the matrix and checks it against the case. Throws casefile::Error and results::Error, with
+/// file, line and cure.
+SweepInput read_sweep_input(const SweepFiles& files, const casefile::Case& the_case);
+
+/// Makes the case's job a sweep: all of it but the matrix. Checks against what the server allows;
+/// throws casefile::Error with the cure.
+void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, casefile::Case& the_case);
+
+/// Throws casefile::Error unless there is a column for each node of the mesh.
+void check_nodes(const SweepInput& input, std::uint64_t node_count);
+
+/// Where the job keeps the matrix.
+v1::Sweep::Matrix& matrix_of(const SweepInput& input, v1::Job& job);
+
+}  // namespace anticrack::cli

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/sweep_text.hpp"
+
+#include <array>
+#include <charconv>
+#include <vector>
+
+#include "cli/exit_codes.hpp"
+#include "cli/text.hpp"
+#include "results/result.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+using results::SweepSummary;
+
+std::string counted(std::size_t count, const char* what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+// "A", or "A fibre" where there are several.
+std::string name_of_displacement(const results::Sweep& sweep, std::size_t inclusion) {
+  return sweep.inclusions.size() == 1 ? "A" : "A " + sweep.inclusions[inclusion];
+}
+
+std::string endings(const SweepSummary& counts) {
+  std::string text = std::to_string(counts.converged) + " converged";
+  const auto add = [&text](std::size_t count, const char* what) {
+    text += count > 0 ? ", " + std::to_string(count) + " " + what : std::string();
+  };
+  add(counts.not_converged, "did not converge");
+  add(counts.failed, "failed");
+  add(counts.other, "were not solved");
+  return text;
+}
+
+void add_range(const char* name, const SweepSummary::Range& range, JsonWriter& json) {
+  json.begin_object(name).value("min", range.low).value("max", range.high).end_object();
+}
+
+/// Shortest text that gives the number back.
+void append(std::string& text, double value) {
+  std::array<char, 32> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  text.append(buffer.data(), result.ptr);
+}
+
+std::string csv_head(const results::Sweep& sweep, std::size_t loads) {
+  std::string head = "row";
+  for (std::size_t i = 0; i < loads; ++i) {
+    head += "," + sweep.loads[i];
+  }
+  for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
+    head += "," + name_of_displacement(sweep, i);
+  }
+  return head + ",energy,contact_length,steps,status\n";
+}
+
+}  // namespace
+
+std::string sweep_table(const results::Sweep& sweep) {
+  const SweepSummary counts = summary(sweep);
+  std::string text = counted(sweep.rows(), "row");
+  if (!sweep.source.empty()) {
+    text += " of " + sanitise(sweep.source);
+  }
+  text += ": " + endings(counts) + "\n";
+  if (counts.converged > 0) {
+    text += "at most " + counted(static_cast<std::size_t>(counts.most_steps), "step") +
+            ", KKT residuals at most " + number(counts.worst_kkt, 2) + "\n\n";
+    std::vector<std::vector<std::string>> rows{{"", "least", "most"}};
+    const auto add = [&rows](const std::string& name, const SweepSummary::Range& range) {
+      rows.push_back({sanitise(name), number(range.low), number(range.high)});
+    };
+    for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
+      add(name_of_displacement(sweep, i), counts.displacement[i]);
+    }
+    add("contact length", counts.contact_length);
+    add("energy", counts.energy);
+    text += table(rows);
+  }
+  if (!sweep.kept.empty()) {
+    text += "traces of " + counted(sweep.kept.size(), "row") + "\n";
+  }
+  if (!sweep.error.empty()) {
+    text += sanitise(sweep.error) + "\n";
+  }
+  return text;
+}
+
+void add_sweep(const results::Sweep& sweep, JsonWriter& json) {
+  const SweepSummary counts = summary(sweep);
+  const auto count = [](std::size_t number) { return static_cast<std::int64_t>(number); };
+  json.begin_object("sweep")
+      .value("source", sweep.source)
+      .value("rows", count(sweep.rows()))
+      .value("converged", count(counts.converged))
+      .value("not_converged", count(counts.not_converged))
+      .value("failed", count(counts.failed))
+      .value("not_solved", count(counts.other))
+      .value("most_steps", std::int64_t{counts.most_steps})
+      .value("worst_kkt", counts.worst_kkt)
+      .value("error", sweep.error);
+  json.begin_array("loads");
+  for (const std::string& load : sweep.loads) {
+    json.element(load);
+  }
+  json.end_array().begin_array("inclusions");
+  for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
+    json.begin_object().value("name", sweep.inclusions[i]);
+    add_range("A", counts.displacement[i], json);
+    json.end_object();
+  }
+  json.end_array();
+  add_range("contact_length", counts.contact_length, json);
+  add_range("energy", counts.energy, json);
+  json.end_object();
+}
+
+std::string sweep_csv(const results::Sweep& sweep) {
+  const std::size_t loads = sweep.coefficients.empty() ? 0 : sweep.loads.size();
+  const std::size_t inclusions = sweep.inclusions.size();
+  std::string text = csv_head(sweep, loads);
+  for (std::size_t row = 0; row < sweep.rows(); ++row) {
+    const auto status = static_cast<results::Status>(sweep.status[row]);
+    const bool right = status == results::Status::converged;
+    const auto add = [&text, right](double value) {
+      text += ',';
+      if (right) {
+        append(text, value);
+      }
+    };
+    text += std::to_string(row);
+    for (std::size_t i = 0; i < loads; ++i) {
+      text += ',';
+      append(text, sweep.coefficients[row * loads + i]);
+    }
+    for (std::size_t i = 0; i < inclusions; ++i) {
+      add(sweep.displacement[row * inclusions + i]);
+    }
+    add(sweep.energy[row]);
+    add(sweep.contact_length[row]);
+    text += "," + std::to_string(sweep.steps[row]) + ",";
+    text += results::name(status);
+    text += '\n';
+  }
+  return text;
+}
+
+int exit_code_of(const results::Sweep& sweep) {
+  const SweepSummary counts = summary(sweep);
+  if (counts.failed + counts.other > 0) {
+    return exit_job_failed;
+  }
+  return counts.not_converged > 0 ? exit_not_converged : exit_ok;
+}
+
+}  // namespace anticrack::cli

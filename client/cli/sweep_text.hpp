@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The answers of a sweep for people, for scripts and for spreadsheets. Pure.
+#pragma once
+
+#include <string>
+
+#include "cli/json.hpp"
+#include "results/sweep.hpp"
+
+namespace anticrack::cli {
+
+/// How many rows ended how, the span of A, contact length and energy, and what went wrong.
+std::string sweep_table(const results::Sweep& sweep);
+
+/// The same as the object "sweep".
+void add_sweep(const results::Sweep& sweep, JsonWriter& json);
+
+/// A line per row: row, coefficients by the names of their loads, A per inclusion, energy,
+/// contact_length, steps, status. Numbers to full precision; those of a row that did not converge
+/// are left out. O(size of the sweep).
+std::string sweep_csv(const results::Sweep& sweep);
+
+/// exit_ok, exit_job_failed (failed, cancelled) or exit_not_converged.
+int exit_code_of(const results::Sweep& sweep);
+
+}  // namespace anticrack::cli

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Many load cases on one mesh, answered in columns: row k of every array is load case k.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace anticrack::results {
+
+struct Sweep {
+  std::vector<std::string> loads;       ///< names of the basis; none of distinct nodal forces
+  std::vector<std::string> inclusions;  ///< names
+  std::string source;                   ///< file of the coefficients or nodal forces, for people
+  /// (rows, loads) row-major: row k is the load sum_j c_kj loads[j]. Empty of nodal forces, and
+  /// where they are not known: a server does not give them back.
+  std::vector<double> coefficients;
+
+  std::vector<std::int32_t> status;  ///< (rows) a Status; no number of a row is right but converged
+  std::vector<std::int32_t> steps;   ///< (rows) of the active set
+  std::vector<double> energy;        ///< (rows) Pi(u)
+  std::vector<double> contact_length;       ///< (rows) over all cracks and delaminated parts
+  std::vector<double> kkt;                  ///< (rows) largest relative residual
+  std::vector<double> displacement;         ///< (rows, inclusions) row-major: A of equation (5)
+  std::vector<std::uint8_t> contact;        ///< (rows, contacts) row-major: 1 closed under pressure
+  std::vector<std::int32_t> contact_nodes;  ///< (contacts, 2): interface, and node of it
+
+  /// Rows whose traces were kept, ascending: Result::loads has one load for each, "row-17".
+  std::vector<std::int32_t> kept;
+
+  std::string error;         ///< of the first row that failed
+  double solve_seconds = 0;  ///< on the server's solver threads, added up
+
+  std::size_t rows() const noexcept { return status.size(); }
+  std::size_t contacts() const noexcept { return contact_nodes.size() / 2; }
+};
+
+/// How many rows ended how, and what the converged ones span.
+struct SweepSummary {
+  struct Range {
+    double low = std::numeric_limits<double>::quiet_NaN();  ///< NaN where no row converged
+    double high = std::numeric_limits<double>::quiet_NaN();
+  };
+  std::size_t converged = 0, not_converged = 0, failed = 0;
+  std::size_t other = 0;  ///< cancelled, or not begun
+  std::int32_t most_steps = 0;
+  double worst_kkt = 0;             ///< over the converged rows
+  std::vector<Range> displacement;  ///< one an inclusion
+  Range contact_length, energy;
+};
+
+/// O(rows).
+SweepSummary summary(const Sweep& sweep);
+
+/// "row-17".
+std::string row_name(std::int64_t row);
+
+/// The first invariant that does not hold (lengths, ranges, enums), `interface_nodes` being the
+/// numbers of nodes of the interfaces; empty when all hold. O(size of the sweep).
+std::string first_fault(const Sweep& sweep, const std::vector<std::size_t>& interface_nodes);
+
+}  // namespace anticrack::results

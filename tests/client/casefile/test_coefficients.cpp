@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "casefile/coefficients.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace anticrack::casefile {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<double> parse(const std::string& text,
+                          const std::vector<std::string>& loads = {"skew", "opening"}) {
+  std::istringstream stream(text);
+  return parse_coefficients(stream, "c.csv", loads);
+}
+
+TEST(Coefficients, AreInTheOrderOfTheLoadsWithoutAHeader) {
+  EXPECT_THAT(parse("1,2\n3,4\n"), ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(parse("1,2\n3,4"), ElementsAre(1, 2, 3, 4)) << "no line end at the end";
+}
+
+TEST(Coefficients, FollowTheirHeader) {
+  EXPECT_THAT(parse("opening,skew\n1,2\n"), ElementsAre(2, 1));
+  EXPECT_THAT(parse("\"opening\" , \"skew\"\r\n1 , \"2\"\r\n"), ElementsAre(2, 1));
+}
+
+TEST(Coefficients, OfLoadsThatAreCalledLikeNumbersHaveAHeaderToo) {
+  EXPECT_THAT(parse("90,0\n1,2\n", {"0", "90"}), ElementsAre(2, 1));
+  EXPECT_THAT(parse("1,2\n", {"0", "90"}), ElementsAre(1, 2));
+}
+
+TEST(Coefficients, TakeNumbersAsPeopleAndProgramsWriteThem) {
+  EXPECT_THAT(parse("+1,-2e-3\n.5,1E3\n\t0 , 1e-400\n"), ElementsAre(1, -2e-3, 0.5, 1000, 0, 0));
+}
+
+TEST(Coefficients, PassOverBlankLinesCommentsAndAByteOrderMark) {
+  EXPECT_THAT(parse("\xEF\xBB\xBF# made by a script\n\nskew,opening\n  \n1,2\n# the end\n"),
+              ElementsAre(1, 2));
+}
+
+TEST(Coefficients, MayBeOfOneLoad) {
+  EXPECT_THAT(parse("opening\n1\n2\n", {"opening"}), ElementsAre(1, 2));
+}
+
+struct Bad {
+  std::string text;
+  std::vector<std::string> complaint;  ///< parts of it
+};
+
+TEST(Coefficients, RefuseWhatIsNoMatrixWithLineColumnValueAndCure) {
+  const std::vector<Bad> table{
+      {"", {"c.csv: there is no row; write a line of 2 coefficients"}},
+      {"skew,opening\n", {"c.csv: there is no row"}},
+      {"# nothing\n", {"there is no row"}},
+      {"1,2\n1,x\n", {"c.csv:2: column 2: ", "\"x\" is no number; write one as 1.5 or -2e-3"}},
+      {"1,2\n1,\n", {"c.csv:2: column 2: ", "\"\" is no number"}},
+      {"1,2\n1,2,3\n", {"c.csv:2: 3 values in this line, the case has 2 loads", "skew, opening"}},
+      {"1,2\n1\n", {"c.csv:2: 1 value in this line"}},
+      {"1;2\n", {"\"1;2\" is no load of the case"}},
+      {"1,5;2,5\n3,5;4,5\n", {"c.csv:1: 3 values in this line", "with commas between"}},
+      {"1,nan\n", {"c.csv:1: column 2: ", "\"nan\" is not finite; write a finite number"}},
+      {"1,inf\n", {"\"inf\" is not finite"}},
+      {"1,1e999\n", {"\"1e999\" is not finite"}},
+      {"1,0x10\n", {"\"0x10\" is no number"}},
+      {"1,2 3\n", {"\"2 3\" is no number"}},
+      {"skew,openig\n1,2\n",
+       {"c.csv:1: column 2: ", "\"openig\" is no load of the case; did you mean opening?"}},
+      {"skew,skew\n1,2\n", {"c.csv:1: column 2: ", "load skew is named twice"}},
+      {"skew\n1\n", {"c.csv:1: there is no column for load opening; add one"}},
+      {"\n# x\n1,2\n3,y\n", {"c.csv:4: column 2: "}},
+      {"1," + std::string(1000, 'z') + "\n", {"zzz...\" is no number"}},
+      {std::string("1,\0002\n", 5), {"is no number"}},
+  };
+  for (const Bad& bad : table) {
+    try {
+      parse(bad.text);
+      ADD_FAILURE() << "accepted " << bad.text;
+    } catch (const Error& error) {
+      for (const std::string& part : bad.complaint) {
+        EXPECT_THAT(error.what(), HasSubstr(part)) << bad.text;
+      }
+    }
+  }
+}
+
+TEST(Coefficients, OfAFileThatCannotBeReadSaySo) {
+  for (const char* file : {"/no/such/file.csv", "/tmp"}) {
+    try {
+      read_coefficients(file, {"skew"});
+      ADD_FAILURE() << "accepted " << file;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(),
+                  HasSubstr(std::string(file) + ": cannot be read; name a .csv file"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace anticrack::casefile

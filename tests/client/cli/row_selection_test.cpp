@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/row_selection.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "casefile/error.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(SelectRows, TakesNumbersAndRanges) {
+  EXPECT_THAT(select_rows("0,10,20-22", 100, 100), ElementsAre(0, 10, 20, 21, 22));
+  EXPECT_THAT(select_rows("7", 8, 100), ElementsAre(7));
+  EXPECT_THAT(select_rows("3-3", 8, 100), ElementsAre(3));
+}
+
+TEST(SelectRows, GivesEachOnceAndInOrder) {
+  EXPECT_THAT(select_rows("5,1-3,2-4,5,0", 100, 100), ElementsAre(0, 1, 2, 3, 4, 5));
+}
+
+TEST(SelectRows, TakesAllAndNone) {
+  EXPECT_THAT(select_rows("all", 3, 3), ElementsAre(0, 1, 2));
+  EXPECT_THAT(select_rows("none", 3, 3), IsEmpty());
+  EXPECT_THAT(select_rows("all", 0, 3), IsEmpty());
+}
+
+TEST(SelectRows, RefusesWhatIsNoSelectionWithTheCure) {
+  const std::vector<std::pair<std::string, std::string>> table{
+      {"", "\"\" is no row; write all, none, or rows as 0,10,20-30"},
+      {"first", "\"first\" is no row"},
+      {"1,,2", "\"\" is no row"},
+      {"1,", "\"\" is no row"},
+      {"-1", "\"-1\" is no row"},
+      {"1-", "\"1-\" is no row"},
+      {"1-2-3", "\"1-2-3\" is no row"},
+      {"1.5", "\"1.5\" is no row"},
+      {" 1", "\" 1\" is no row"},
+      {"0x1", "\"0x1\" is no row"},
+      {"100", "there is no row 100; the last one is 99, the first one 0"},
+      {"5-100", "there is no row 100"},
+      {"99999999999999999999", "there is no row 99999999999999999999"},
+      {"0-18446744073709551615", "there is no row 18446744073709551615"},
+      {"9-3", "the range 9-3 ends before it begins; write 3-9"},
+      {"all", "these are 100 rows, the server keeps the traces of 50 at most; name fewer"},
+      {"0-50", "these are 51 rows"},
+  };
+  for (const auto& [text, complaint] : table) {
+    try {
+      select_rows(text, 100, 50);
+      ADD_FAILURE() << "accepted " << text;
+    } catch (const casefile::Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr(complaint));
+      EXPECT_THAT(error.what(), HasSubstr("--traces " + text)) << "where it was written";
+    }
+  }
+}
+
+TEST(SelectRows, TakesNoMemoryForWhatIsRefused) {
+  EXPECT_THROW(select_rows("all", std::uint64_t{1} << 60, 1000), casefile::Error);
+}
+
+}  // namespace
+}  // namespace anticrack::cli

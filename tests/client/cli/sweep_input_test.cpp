@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/sweep_input.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+#include <utility>
+
+#include "cli/commands.hpp"
+#include "cli/exit_codes.hpp"
+#include "client/sample_sweep.hpp"
+#include "results/file.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+using anticrack::testing::TemporaryFolder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::internal::CaptureStderr;
+using ::testing::internal::GetCapturedStderr;
+
+casefile::Case two_loads() {
+  casefile::Case the_case;
+  the_case.job.add_load_cases()->set_name("skew");
+  the_case.job.add_load_cases()->set_name("opening");
+  the_case.job.set_fields(true);
+  the_case.job.mutable_solver()->mutable_active_set();
+  return the_case;
+}
+
+v1::ServerLimits limits() {
+  v1::ServerLimits limits;
+  limits.set_sweep_rows(1000);
+  limits.set_sweep_basis(10);
+  limits.set_load_cases(100);
+  limits.set_upload_bytes(1u << 30);
+  return limits;
+}
+
+std::string written(const TemporaryFolder& folder, const std::string& name,
+                    const std::string& text) {
+  std::ofstream(folder / name) << text;
+  return folder / name;
+}
+
+/// What is said of `call`.
+std::string complaint(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(SweepInput, ReadsTextAndDatasetsAlike) {
+  const TemporaryFolder folder;
+  const results::Result result = anticrack::testing::sample_sweep(5);
+  results::write(folder / "a.h5", result);
+  const SweepInput set =
+      read_sweep_input({folder / "a.h5:/sweep/coefficients", "", "none"}, two_loads());
+  EXPECT_EQ(set.values, result.sweep->coefficients);
+  EXPECT_EQ(set.rows, 5U);
+  EXPECT_EQ(set.columns, 2U);
+  const SweepInput text =
+      read_sweep_input({written(folder, "c.csv", "opening,skew\n1,2\n"), "", "all"}, two_loads());
+  EXPECT_THAT(text.values, ElementsAre(2, 1));
+  EXPECT_EQ(text.rows, 1U);
+  EXPECT_EQ(text.traces, "all");
+  const SweepInput nodal =
+      read_sweep_input({"", folder / "a.h5:/sweep/coefficients", "none"}, two_loads());
+  EXPECT_TRUE(nodal.nodal);
+  EXPECT_EQ(nodal.columns, 2U);
+}
+
+TEST(SweepInput, RefusesWhatCannotBeReadWithFileAndCure) {
+  const TemporaryFolder folder;
+  results::write(folder / "a.h5", anticrack::testing::sample_sweep(5));
+  const std::string h5 = folder / "a.h5";
+  const auto coefficients = [](const std::string& file) {
+    return complaint([&] { read_sweep_input({file, "", "none"}, two_loads()); });
+  };
+  const auto nodal = [](const std::string& file) {
+    return complaint([&] { read_sweep_input({"", file, "none"}, two_loads()); });
+  };
+  EXPECT_THAT(coefficients(h5), HasSubstr(h5 + ": no dataset is named; write FILE.h5:/PATH"));
+  EXPECT_THAT(coefficients(h5 + ":/sweep/x"), HasSubstr("\"x\" is missing"));
+  EXPECT_THAT(coefficients(h5 + ":/sweep/energy"), HasSubstr("is not of shape (rows,columns)"));
+  EXPECT_THAT(coefficients(h5 + ":/sweep/displacement"),
+              HasSubstr("it has 1 columns, the case 2 loads; write one column for each load"));
+  EXPECT_THAT(coefficients(folder / "no.csv"), HasSubstr("cannot be read"));
+  EXPECT_THAT(coefficients(folder / "no.h5:/x"), HasSubstr("no such file"));
+  EXPECT_THAT(coefficients(written(folder, "b.csv", "1,2\n1,x\n")), HasSubstr("b.csv:2: column 2"));
+  EXPECT_THAT(nodal("f.csv"), HasSubstr("no dataset is named"));
+  EXPECT_THAT(nodal(written(folder, "c.csv", "1\n") + ":/x"), HasSubstr("is not an HDF5 file"));
+}
+
+TEST(SweepInput, IsOfTheActiveSetOnly) {
+  casefile::Case the_case = two_loads();
+  the_case.job.mutable_solver()->mutable_uzawa();
+  the_case.spots["solver.method"] = {"solver.method", "plate.toml", 7};
+  EXPECT_THAT(complaint([&] {
+                read_sweep_input({"c.csv", "", "none"}, the_case);
+              }),
+              HasSubstr("plate.toml:7: solver.method: a sweep is solved by the active set"));
+}
+
+SweepInput rows_of_two(std::size_t rows) {
+  SweepInput input;
+  input.source = "c.csv";
+  input.traces = "none";
+  input.rows = rows;
+  input.columns = 2;
+  input.values.assign(2 * rows, 1.0);
+  return input;
+}
+
+TEST(MakeSweep, LeavesAJobWithoutFieldsAndWithTheRowsToKeep) {
+  casefile::Case the_case = two_loads();
+  SweepInput input = rows_of_two(10);
+  input.traces = "7,1-2";
+  make_sweep(input, limits(), the_case);
+  EXPECT_THAT(the_case.job.sweep().traces(), ElementsAre(1, 2, 7));
+  EXPECT_TRUE(the_case.job.sweep().has_coefficients());
+  EXPECT_FALSE(the_case.job.fields());
+  EXPECT_EQ(the_case.job.load_cases_size(), 2);
+  EXPECT_EQ(the_case.locate("job.sweep.coefficients.upload")->source, "c.csv");
+  EXPECT_EQ(the_case.locate("job.sweep.traces[3]")->source, "--traces 7,1-2");
+}
+
+TEST(MakeSweep, OfNodalForcesHasNoLoads) {
+  casefile::Case the_case = two_loads();
+  the_case.force_files.push_back({0, "f.h5", "/f", false});
+  SweepInput input = rows_of_two(10);
+  input.nodal = true;
+  make_sweep(input, limits(), the_case);
+  EXPECT_TRUE(the_case.job.sweep().has_nodal_forces());
+  EXPECT_EQ(the_case.job.load_cases_size(), 0);
+  EXPECT_TRUE(the_case.force_files.empty());
+}
+
+TEST(MakeSweep, ChecksTheLimitsOfTheServer) {
+  const auto refused = [](const SweepInput& input,
+                          const std::function<void(v1::ServerLimits&)>& set) {
+    v1::ServerLimits allowed = limits();
+    set(allowed);
+    casefile::Case the_case = two_loads();
+    return complaint([&] { make_sweep(input, allowed, the_case); });
+  };
+  const SweepInput input = rows_of_two(10);
+  EXPECT_EQ(refused(input, [](v1::ServerLimits&) {}), "accepted");
+  EXPECT_THAT(refused(input, [](v1::ServerLimits& l) { l.set_sweep_rows(9); }),
+              HasSubstr("c.csv: it has 10 rows, the server takes 9 a sweep; cut it into several"));
+  EXPECT_THAT(refused(input, [](v1::ServerLimits& l) { l.set_sweep_basis(1); }),
+              HasSubstr("c.csv: it combines 2 loads, the server at most 1; join loads"));
+  EXPECT_THAT(refused(input, [](v1::ServerLimits& l) { l.set_sweep_rows(0); }),
+              HasSubstr("the server knows no sweeps; update it"));
+  SweepInput traced = input;
+  traced.traces = "all";
+  EXPECT_THAT(refused(traced, [](v1::ServerLimits& l) { l.set_load_cases(9); }),
+              HasSubstr("--traces all: these are 10 rows"));
+  const SweepInput large = rows_of_two(100'000);
+  EXPECT_THAT(refused(large,
+                      [](v1::ServerLimits& l) {
+                        l.set_sweep_rows(1'000'000);
+                        l.set_upload_bytes(1'000'000);
+                      }),
+              HasSubstr("c.csv: it takes 1.6 MB, the server takes uploads of 1 MB; cut it"));
+  SweepInput nodal = input;
+  nodal.nodal = true;
+  EXPECT_EQ(refused(nodal, [](v1::ServerLimits& l) { l.set_sweep_basis(1); }), "accepted")
+      << "there is no basis";
+}
+
+TEST(CheckNodes, WantsAColumnForEachNode) {
+  EXPECT_EQ(complaint([] { check_nodes(rows_of_two(1), 2); }), "accepted");
+  EXPECT_THAT(complaint([] { check_nodes(rows_of_two(1), 3); }),
+              HasSubstr("c.csv: it has 2 columns, the mesh 3 nodes; write f on every node"));
+}
+
+// No server is there: what is wrong with the input is said before one is asked.
+TEST(SweepCommand, ChecksItsInputBeforeItLooksForAServer) {
+  const TemporaryFolder folder;
+  const auto sweep = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"anticrack", "--server", "unix:/no/such/socket", "sweep",
+                                         std::string(EXAMPLES) + "/load-ratio.toml"});
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) {
+      argv.push_back(argument.data());
+    }
+    CaptureStderr();
+    const int code = run_command_line(static_cast<int>(argv.size()), argv.data());
+    return std::pair(code, GetCapturedStderr());
+  };
+  const std::string bad = written(folder, "bad.csv", "skew,opening\n1,x\n");
+  const std::string good = written(folder, "good.csv", "1,2\n");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> table{
+      {{"--coefficients", bad}, "bad.csv:2: column 2: \"x\" is no number"},
+      {{"--coefficients", folder / "no.csv"}, "no.csv: cannot be read"},
+      {{"--coefficients", good, "-o", folder / "no/a.h5"}, "create the folder first"},
+      {{"--coefficients", good, "-o", folder / "a.h5", "--csv", folder / "no/a.csv"},
+       "create the folder first"},
+      {{"--coefficients", good, "-o", folder / "a.h5", "--set", "solver.method=uzawa"},
+       "a sweep is solved by the active set"},
+      {{"--coefficients", good, "-o", folder / "a.h5", "--csv", folder / "a.h5"},
+       "this is the result file too; name another one"},
+      {{}, "--coefficients"},
+      {{"--coefficients", good, "--nodal", good}, "--nodal"},
+      {{"--coefficients", good, "--detach", "--csv", folder / "a.csv"}, "--detach"},
+  };
+  for (const auto& [arguments, said] : table) {
+    const auto [code, error] = sweep(arguments);
+    EXPECT_EQ(code, exit_usage) << error;
+    EXPECT_THAT(error, HasSubstr(said));
+  }
+}
+
+}  // namespace
+}  // namespace anticrack::cli

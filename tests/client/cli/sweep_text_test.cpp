@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/sweep_text.hpp"
+
+#include <gmock/gmock.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "cli/answers.hpp"
+#include "cli/exit_codes.hpp"
+#include "client/sample_sweep.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+using anticrack::testing::sample_sweep;
+using results::Status;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+void set_status(results::Result& result, std::size_t row, Status status) {
+  result.sweep->status.at(row) = static_cast<std::int32_t>(status);
+}
+
+TEST(SweepTable, SumsUp) {
+  EXPECT_EQ(answers_table(sample_sweep(5)),
+            "5 rows of ratio.csv: 4 converged, 1 did not converge\n"
+            "at most 4 steps, KKT residuals at most 1e-13\n"
+            "\n"
+            "                least  most\n"
+            "A                -0.1   0.1\n"
+            "contact length      0   0.9\n"
+            "energy             -2    -1\n"
+            "traces of 2 rows\n");
+}
+
+TEST(SweepTable, NamesSeveralInclusionsAndWhatWentWrong) {
+  results::Result result = sample_sweep(3);
+  results::Sweep& sweep = *result.sweep;
+  sweep.inclusions = {"left", "ri\x1bght"};
+  sweep.displacement = {1, 2, 3, 4, 5, 6};
+  sweep.error = "row 1: \x1b[2J";
+  set_status(result, 1, Status::failed);
+  const std::string text = answers_table(result);
+  EXPECT_THAT(text, HasSubstr("2 converged, 1 failed"));
+  EXPECT_THAT(text, HasSubstr("A left"));
+  EXPECT_THAT(text, HasSubstr("A ri?ght"));
+  EXPECT_THAT(text, HasSubstr("row 1: ?[2J\n"));
+}
+
+TEST(SweepTable, HasNoNumbersWhereNothingConverged) {
+  results::Result result = sample_sweep(3);
+  for (std::size_t row = 0; row < 3; ++row) {
+    set_status(result, row, Status::cancelled);
+  }
+  EXPECT_EQ(answers_table(result),
+            "3 rows of ratio.csv: 0 converged, 3 were not solved\ntraces of 2 rows\n");
+}
+
+TEST(SweepJson, IsADocumentWithTheSameNumbers) {
+  google::protobuf::Struct document;
+  ASSERT_TRUE(
+      google::protobuf::util::JsonStringToMessage(answers_json(sample_sweep(5), "a.h5"), &document)
+          .ok());
+  const auto& sweep = document.fields().at("sweep").struct_value().fields();
+  EXPECT_EQ(sweep.at("rows").number_value(), 5);
+  EXPECT_EQ(sweep.at("converged").number_value(), 4);
+  EXPECT_EQ(sweep.at("not_converged").number_value(), 1);
+  EXPECT_EQ(sweep.at("source").string_value(), "ratio.csv");
+  EXPECT_EQ(sweep.at("loads").list_value().values(1).string_value(), "opening");
+  const auto& inclusion = sweep.at("inclusions").list_value().values(0).struct_value().fields();
+  EXPECT_EQ(inclusion.at("name").string_value(), "fibre");
+  EXPECT_EQ(inclusion.at("A").struct_value().fields().at("max").number_value(), 0.1);
+  EXPECT_EQ(document.fields().at("answers").list_value().values_size(), 2) << "the kept rows";
+}
+
+TEST(SweepJson, HasNullWhereNothingConverged) {
+  results::Result result = sample_sweep(3);
+  for (std::size_t row = 0; row < 3; ++row) {
+    set_status(result, row, Status::failed);
+  }
+  EXPECT_THAT(answers_json(result, "a.h5"), HasSubstr("\"min\": null"));
+}
+
+TEST(SweepCsv, HasALinePerRow) {
+  std::istringstream lines(sweep_csv(*sample_sweep(5).sweep));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "row,skew,opening,A,energy,contact_length,steps,status");
+  std::getline(lines, line);
+  EXPECT_THAT(line, ::testing::StartsWith("0,1,-1,-0.1,-2,"));
+  EXPECT_THAT(line, ::testing::EndsWith(",2,converged"));
+  for (int row = 1; row <= 3; ++row) {
+    std::getline(lines, line);
+  }
+  EXPECT_EQ(line, "3,1,0.5,,,,5,not_converged") << "numbers that are not right are left out";
+  std::getline(lines, line);
+  EXPECT_FALSE(line.empty());
+  EXPECT_FALSE(std::getline(lines, line));
+}
+
+TEST(SweepCsv, GivesNumbersBackExactly) {
+  results::Result result = sample_sweep(3);
+  result.sweep->energy[0] = 1.0 / 3;
+  EXPECT_THAT(sweep_csv(*result.sweep), HasSubstr(",0.3333333333333333,"));
+}
+
+TEST(SweepCsv, LeavesCoefficientsOutThatAreNotKnown) {
+  results::Result result = sample_sweep(3);
+  result.sweep->coefficients.clear();
+  EXPECT_THAT(sweep_csv(*result.sweep), ::testing::StartsWith("row,A,energy,"));
+}
+
+TEST(SweepExitCode, IsThatOfTheWorstRow) {
+  results::Result result = sample_sweep(5);
+  EXPECT_EQ(exit_code_of(result), exit_not_converged);
+  set_status(result, 3, Status::converged);
+  EXPECT_EQ(exit_code_of(result), exit_ok);
+  for (const Status bad : {Status::failed, Status::cancelled, Status::pending}) {
+    set_status(result, 0, bad);
+    EXPECT_EQ(exit_code_of(result), exit_job_failed);
+  }
+}
+
+}  // namespace
+}  // namespace anticrack::cli

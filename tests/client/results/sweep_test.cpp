@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "results/sweep.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "client/sample_sweep.hpp"
+#include "results/file.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace anticrack::results {
+namespace {
+
+using anticrack::testing::sample_sweep;
+using anticrack::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+
+void expect_same(const Sweep& a, const Sweep& b) {
+  EXPECT_EQ(a.loads, b.loads);
+  EXPECT_EQ(a.inclusions, b.inclusions);
+  EXPECT_EQ(a.source, b.source);
+  EXPECT_EQ(a.coefficients, b.coefficients);
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.steps, b.steps);
+  EXPECT_EQ(a.energy, b.energy);
+  EXPECT_EQ(a.contact_length, b.contact_length);
+  EXPECT_EQ(a.kkt, b.kkt);
+  EXPECT_EQ(a.displacement, b.displacement);
+  EXPECT_EQ(a.contact, b.contact);
+  EXPECT_EQ(a.contact_nodes, b.contact_nodes);
+  EXPECT_EQ(a.kept, b.kept);
+  EXPECT_EQ(a.error, b.error);
+  EXPECT_EQ(a.solve_seconds, b.solve_seconds);
+}
+
+Result written_and_read(const Result& result) {
+  const TemporaryFolder folder;
+  write(folder / "a.h5", result);
+  return read(folder / "a.h5");
+}
+
+TEST(SweepFile, ComesBackAsItWasWritten) {
+  Result result = sample_sweep(3000);  // large enough for compressed datasets
+  result.sweep->error = "row 7: the load is not finite";
+  const Result back = written_and_read(result);
+  ASSERT_TRUE(back.sweep);
+  expect_same(*back.sweep, *result.sweep);
+  ASSERT_EQ(back.loads.size(), 2U);
+  EXPECT_EQ(back.loads[1].name, "row-2999");
+  EXPECT_EQ(back.loads[1].traces[0].jump, result.loads[1].traces[0].jump);
+}
+
+TEST(SweepFile, HoldsASweepWithoutCoefficientsInclusionsAndCracks) {
+  Result result = sample_sweep(3);
+  Sweep& sweep = *result.sweep;
+  sweep.coefficients.clear();
+  sweep.loads.clear();
+  sweep.inclusions.clear();
+  sweep.displacement.clear();
+  sweep.contact.clear();
+  sweep.contact_nodes.clear();
+  sweep.kept.clear();
+  result.loads.clear();
+  const Result back = written_and_read(result);
+  ASSERT_TRUE(back.sweep);
+  expect_same(*back.sweep, sweep);
+}
+
+TEST(SweepFile, IsNoSweepWithoutOne) {
+  EXPECT_FALSE(written_and_read(anticrack::testing::sample_result(2)).sweep);
+}
+
+TEST(SweepFile, SaysWhatItsColumnsAre) {
+  const TemporaryFolder folder;
+  write(folder / "a.h5", sample_sweep());
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  for (const char* name : {"status", "steps", "energy", "contact_length", "kkt", "kept",
+                           "contact_nodes", "displacement", "contact", "coefficients"}) {
+    const std::string path = std::string("/sweep/") + name;
+    for (const char* attribute : {"units", "meaning"}) {
+      EXPECT_GT(H5Aexists_by_name(file, path.c_str(), attribute, H5P_DEFAULT), 0) << path;
+    }
+  }
+  for (const char* attribute : {"description", "source", "loads", "inclusions", "converged"}) {
+    EXPECT_GT(H5Aexists_by_name(file, "/sweep", attribute, H5P_DEFAULT), 0) << attribute;
+  }
+  H5Fclose(file);
+}
+
+using Spoil = std::function<void(Result&)>;
+
+TEST(Sweep, IsNotWrittenFromWhatDoesNotFitTogether) {
+  const std::vector<std::pair<std::string, Spoil>> table{
+      {"sweep.steps has 20 entries instead of 21", [](Result& r) { r.sweep->steps.pop_back(); }},
+      {"sweep.energy", [](Result& r) { r.sweep->energy.pop_back(); }},
+      {"sweep.contact_length", [](Result& r) { r.sweep->contact_length.pop_back(); }},
+      {"sweep.kkt", [](Result& r) { r.sweep->kkt.pop_back(); }},
+      {"sweep.displacement", [](Result& r) { r.sweep->inclusions.emplace_back("other"); }},
+      {"sweep.contact has", [](Result& r) { r.sweep->contact.pop_back(); }},
+      {"sweep.contact_nodes has", [](Result& r) { r.sweep->contact_nodes.push_back(0); }},
+      {"sweep.coefficients", [](Result& r) { r.sweep->coefficients.pop_back(); }},
+      {"sweep.status[3] is 9, no status", [](Result& r) { r.sweep->status[3] = 9; }},
+      {"sweep.contact has a value", [](Result& r) { r.sweep->contact[3] = 2; }},
+      {"sweep.contact_nodes[0] is no node", [](Result& r) { r.sweep->contact_nodes[0] = 1; }},
+      {"sweep.contact_nodes[0] is no node", [](Result& r) { r.sweep->contact_nodes[1] = -1; }},
+      {"sweep.kept[1] is 21", [](Result& r) { r.sweep->kept[1] = 21; }},
+      {"sweep.kept[1] is 0", [](Result& r) { r.sweep->kept[1] = 0; }},
+      {"sweep.kept[0] is -1", [](Result& r) { r.sweep->kept[0] = -1; }},
+      {"loads has 1 entries for 2 kept rows", [](Result& r) { r.loads.pop_back(); }},
+  };
+  EXPECT_EQ(first_fault(sample_sweep()), "");
+  for (const auto& [fault, spoil] : table) {
+    Result result = sample_sweep();
+    spoil(result);
+    EXPECT_THAT(first_fault(result), HasSubstr(fault));
+    const TemporaryFolder folder;
+    EXPECT_THROW(write(folder / "a.h5", result), Error) << fault;
+  }
+}
+
+TEST(SweepFile, ThatWasTamperedWithIsRefused) {
+  const TemporaryFolder folder;
+  write(folder / "a.h5", sample_sweep());
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  ASSERT_GE(H5Ldelete(file, "/sweep/energy", H5P_DEFAULT), 0);
+  H5Fclose(file);
+  EXPECT_THROW(read(folder / "a.h5"), Error);
+}
+
+TEST(SweepSummary, CountsAndSpansTheConvergedRows) {
+  Result result = sample_sweep(5);  // row 3 did not converge
+  result.sweep->status[2] = static_cast<std::int32_t>(Status::failed);
+  result.sweep->status[1] = static_cast<std::int32_t>(Status::cancelled);
+  const SweepSummary counts = summary(*result.sweep);
+  EXPECT_EQ(counts.converged, 2U);
+  EXPECT_EQ(counts.not_converged, 1U);
+  EXPECT_EQ(counts.failed, 1U);
+  EXPECT_EQ(counts.other, 1U);
+  EXPECT_DOUBLE_EQ(counts.displacement.at(0).low, -0.1);
+  EXPECT_DOUBLE_EQ(counts.displacement.at(0).high, 0.1);
+  EXPECT_DOUBLE_EQ(counts.energy.low, -2);
+  EXPECT_EQ(counts.most_steps, 2) << "of rows 0 and 4";
+  EXPECT_EQ(counts.worst_kkt, 1e-13);
+}
+
+TEST(SweepSummary, KnowsNoRangeWhereNothingConverged) {
+  Result result = sample_sweep(3);
+  result.sweep->status.assign(3, static_cast<std::int32_t>(Status::failed));
+  const SweepSummary counts = summary(*result.sweep);
+  EXPECT_EQ(counts.failed, 3U);
+  EXPECT_TRUE(std::isnan(counts.energy.low));
+  EXPECT_TRUE(std::isnan(counts.displacement.at(0).high));
+}
+
+}  // namespace
+}  // namespace anticrack::results
