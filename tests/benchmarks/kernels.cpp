@@ -115,6 +115,28 @@ void active_set(benchmark::State& state, const Bench& bench) {
   state.SetItemsProcessed(state.iterations());
 }
 
+/// Rows of a sweep over so many basis loads.
+void sweep_rows(benchmark::State& state, const Bench& bench) {
+  constexpr std::size_t rows = 256;
+  const std::vector<fem::Load> loads = bench.loads(columns_of(state));
+  std::vector<const fem::Load*> pointers;
+  for (const fem::Load& load : loads) pointers.push_back(&load);
+  const auto basis = bench.whole->basis(pointers);
+  std::vector<double> coefficients;
+  for (std::size_t k = 0; k < rows; ++k) {
+    for (int j = 0; j < columns_of(state); ++j) {
+      coefficients.push_back(combination(static_cast<int>(k), j));
+    }
+  }
+  contact::SweepColumns columns(rows, bench.mesh->inclusions.size(),
+                                bench.whole->contact_nodes().size());
+  for (auto _ : state) {
+    std::vector<char> start;
+    bench.whole->sweep(*basis, coefficients, contact::ActiveSetOptions{}, columns, start);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rows));
+}
+
 jobs::Event sample(int iteration) {
   jobs::SampleEvent event;
   event.sample.iteration = iteration;
@@ -154,6 +176,9 @@ void enrol(const Bench& bench) {
     benchmark::RegisterBenchmark("forward_solve", with(forward_solve))->Arg(columns);
   }
   benchmark::RegisterBenchmark("active_set", with(active_set));
+  for (const int loads : {1, 8, 32}) {
+    benchmark::RegisterBenchmark("sweep_256_rows", with(sweep_rows))->Arg(loads);
+  }
   benchmark::RegisterBenchmark("event_log_append", event_log_append);
   benchmark::RegisterBenchmark("event_log_read", event_log_read)->Arg(1024);
 }

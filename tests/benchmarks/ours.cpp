@@ -29,6 +29,7 @@ struct Options {
   int loads = 5;
   int block = 32;
   int uzawa_loads = 0;
+  int rows = 0;
   double theta = 0;      ///< 0: that of the mesh
   int most = 1'000'000;  ///< iterations
 };
@@ -105,31 +106,79 @@ void further_loads(const Options& options, const MeshOperator& op,
   answers.put(figures);
 }
 
-/// The same in blocks: condensed together, then each on the contacts.
+contact::SweepColumns columns(const MeshOperator& op, std::size_t rows) {
+  return {rows, op.mesh().inclusions.size(), op.contact_nodes().size()};
+}
+
+void require_converged(const contact::SweepColumns& rows) {
+  for (const contact::Status status : rows.status) {
+    if (status != contact::Status::converged) {
+      throw std::runtime_error("a row of a sweep did not converge");
+    }
+  }
+}
+
+/// The same in blocks: condensed together, then rows of a sweep.
 void blocks(const Options& options, const MeshOperator& op, const std::vector<fem::Load>& loads,
             Figures& figures) {
   std::vector<const fem::Load*> block;
   for (int k = 0; k < options.block; ++k) block.push_back(&loads[static_cast<std::size_t>(k)]);
   Times whole, condensing;
-  Answers answers;
-  Nobody nobody;
+  contact::SweepColumns rows = columns(op, block.size());
   for (int i = 0; i < options.repetitions; ++i) {
-    answers = {};
     const Stopwatch watch;
-    const auto prepared = op.prepare(block);
-    watch.stop(condensing, static_cast<double>(block.size()));
-    for (const auto& load : prepared) {
-      answers.add(op.solve(std::get<operators::PreparedLoad>(load), contact::ActiveSetOptions{},
-                           false, nobody));
+    std::vector<operators::PreparedLoad> prepared;
+    for (auto& load : op.prepare(block)) {
+      prepared.push_back(std::get<operators::PreparedLoad>(std::move(load)));
     }
+    watch.stop(condensing, static_cast<double>(block.size()));
+    std::vector<char> start;
+    op.sweep(prepared, contact::ActiveSetOptions{}, rows, start);
     watch.stop(whole, static_cast<double>(block.size()));
   }
+  require_converged(rows);
   Figures result;
   result.set("columns", static_cast<double>(block.size()));
   result.set("per_load", whole);
   result.set("condensing_per_load", condensing);
-  answers.put(result);
+  result.set("displacement", rows.displacement);
+  result.set("energy", rows.energy);
   figures.set("block", result);
+}
+
+/// Combinations of a few loads whose coefficients change slowly, as designs and seasons do.
+void sweep(const Options& options, const MeshOperator& op, const std::vector<fem::Load>& loads,
+           Figures& figures) {
+  constexpr std::size_t basis_size = 8;
+  std::vector<const fem::Load*> pointers;
+  for (std::size_t j = 0; j < basis_size; ++j) pointers.push_back(&loads[j]);
+  const auto basis = op.basis(pointers);
+  const auto count = static_cast<std::size_t>(options.rows);
+  std::vector<double> coefficients(count * basis_size);
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t j = 0; j < basis_size; ++j) {
+      coefficients[k * basis_size + j] = combination(static_cast<int>(k), static_cast<int>(j));
+    }
+  }
+  Times per_row;
+  contact::SweepColumns rows = columns(op, count);
+  for (int i = 0; i < options.repetitions; ++i) {
+    std::vector<char> start;
+    const Stopwatch watch;
+    op.sweep(*basis, coefficients, contact::ActiveSetOptions{}, rows, start);
+    watch.stop(per_row, static_cast<double>(count));
+  }
+  require_converged(rows);
+  double steps = 0, open = 0;
+  for (const std::int32_t n : rows.steps) steps += n;
+  for (const std::uint8_t closed : rows.contact) open += closed == 0 ? 1 : 0;
+  Figures result;
+  result.set("rows", static_cast<double>(count));
+  result.set("basis", static_cast<double>(basis_size));
+  result.set("per_row", per_row);
+  result.set("steps_per_row", steps / static_cast<double>(count));
+  result.set("open_per_row", open / static_cast<double>(count));
+  figures.set("sweep", result);
 }
 
 void uzawa(const Options& options, const MeshOperator& op, const std::vector<fem::Load>& loads,
@@ -164,7 +213,7 @@ void run(const Options& options) {
   const PlainMesh plain = read_plain_mesh(options.mesh);
   const std::shared_ptr<const mesh::Mesh> mesh = to_mesh(plain);
   std::vector<fem::Load> loads;
-  for (int k = 0; k < std::max({options.loads, options.block, options.uzawa_loads}); ++k) {
+  for (int k = 0; k < std::max({options.loads, options.block, options.uzawa_loads, 8}); ++k) {
     loads.push_back(nodal_load(plain, k));
   }
   const ddm::Decomposition parts = ddm::cut(*mesh);
@@ -179,6 +228,7 @@ void run(const Options& options) {
   const Operator op = first_answers(options, mesh, loads.front(), figures);
   further_loads(options, *op, loads, figures);
   if (options.block > 0) blocks(options, *op, loads, figures);
+  if (options.rows > 0) sweep(options, *op, loads, figures);
   if (options.uzawa_loads > 0) uzawa(options, *op, loads, figures);
   figures.print();
 }
@@ -196,6 +246,8 @@ int main(int argc, char** argv) {
   app.add_option("--loads", options.loads, "Load cases alone")->check(CLI::Range(1, 100'000));
   app.add_option("--block", options.block, "Load cases at once; 0: leave it out")
       ->check(CLI::Range(0, 1024));
+  app.add_option("--rows", options.rows, "Combinations of loads; 0: leave them out")
+      ->check(CLI::Range(0, 10'000'000));
   app.add_option("--uzawa-loads", options.uzawa_loads, "Load cases by Algorithm 2")
       ->check(CLI::Range(0, 100'000));
   app.add_option("--most", options.most, "Iterations of Algorithm 2")

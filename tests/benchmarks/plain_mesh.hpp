@@ -47,4 +47,7 @@ double force(int number, double x, double y);
 /// The same on the nodes: f is linear between them, so all programs integrate it exactly.
 std::vector<double> nodal_force(const PlainMesh& mesh, int number);
 
+/// Coefficient of load `j` in combination `row`: neighbouring rows are alike.
+double combination(int row, int j);
+
 }  // namespace anticrack::benchmarks

@@ -4,7 +4,7 @@ import json
 import os
 
 from harness import numbers
-from harness.programs import Missing, freefem
+from harness.programs import freefem
 
 # Orderings of MUMPS that won somewhere (ICNTL(7)): AMF, Scotch, METIS, its own choice.
 ORDERINGS = (2, 3, 5, 7)
@@ -44,7 +44,7 @@ class Session:
         if key not in self._ours:
             self._ours[key] = self.programs.figures("bench_ours", [
                 "--mesh", self.mesh(name), "--threads", threads, "--repetitions", self.repetitions,
-                "--loads", self.repetitions])
+                "--loads", self.repetitions, "--rows", self.sizes.rows])
         return self._ours[key]
 
 
@@ -74,10 +74,6 @@ def ours(session):
             for name in session.sizes.meshes}
 
 
-def _seconds(lines):
-    return [float(line.split()[3]) for line in lines]
-
-
 def peer_freefem(session):
     """Algorithm 2 with the same theta, loads and stop as ours: the same iterates. On the first mesh
     only: FreeFEM++ cannot read a mesh graded down to 1e-13."""
@@ -102,7 +98,7 @@ def peer_freefem(session):
     answers = {"displacement": [float(line.split()[0]) for line in lines],
                "energy": [float(line.split()[1]) for line in lines],
                "iterations": [int(line.split()[2]) for line in lines]}
-    seconds = _seconds(lines)
+    seconds = [float(line.split()[3]) for line in lines]
     iterations = [t / n for t, n in zip(seconds, answers["iterations"])]
     return dict(answers, mesh=name, theta=theta, ours=own,
                 preparing=float(preparing),
@@ -151,7 +147,7 @@ def growth(session):
 def exponents(runs, clock):
     """Of what grows, over the unknowns."""
     series = {
-        "meshing, s": lambda r: numbers.median(r["made"]["meshing"], clock),
+        "meshing, s": lambda r: numbers.median(r["made"]["meshing"], "wall"),  # by the helper
         "cut, s": lambda r: numbers.median(r["cut"], clock),
         "factorise, s": lambda r: numbers.median(r["factorise"], clock),
         "first answer, s": lambda r: numbers.median(r["first"], clock),
@@ -172,11 +168,12 @@ def exponents(runs, clock):
 
 
 def service(session):
-    return session.programs.figures("bench_service", session.sizes.service + [
+    figures = session.programs.figures("bench_service", session.sizes.service + [
         "--repetitions", session.repetitions],
         cure="configure with ANTICRACK_SERVICE=ON")
+    # The same mesh and the same kind of load.
+    return dict(figures, in_process=session.ours(session.sizes.meshes[0])["further"])
 
 
 GROUPS = {"meshes": meshes, "kernels": kernels, "ours": ours, "freefem": peer_freefem,
           "petsc": peer_petsc, "limits": limits, "service": service, "growth": growth}
-__all__ = ["GROUPS", "Session", "Missing"]

@@ -50,6 +50,27 @@ def _peers(figures, clock):
                   "times slower than ours on one thread"], lines) if lines else []
 
 
+def _sweeps(figures, clock):
+    """Rows against the operations they need at least: the load's combination on the contacts, a
+    product with the matrix a step, a Cholesky factor of the open nodes in the first step. What
+    follows from the row before is not taken off."""
+    lines = []
+    for mesh, by_threads in figures.get("ours", {}).items():
+        run, sweep = by_threads["1"], by_threads["1"].get("sweep")
+        if not sweep:
+            continue
+        seconds = median(sweep["per_row"], clock)
+        flops = (2 * run["contacts"] * sweep["basis"] + 2 * sweep["steps_per_row"] * run["contacts"] ** 2
+                 + sweep["open_per_row"] ** 3 / 3)
+        part = "-"
+        if "limits" in figures:
+            part = f"{flops * median(figures['limits']['dgemm'][0]['per_flop'], clock) / seconds:.0%}"
+        lines.append([mesh, number(run["contacts"]), number(1 / seconds), number(sweep["steps_per_row"]),
+                      number(flops / seconds / 1e9), part])
+    return _grid(["mesh", "contacts", "rows a second, one thread", "steps a row", "Gflop/s needed",
+                  "of dgemm's rate"], lines) if lines else []
+
+
 def _growth(growth):
     names = list(growth["exponents"])
     head = ["triangles", "unknowns"] + names
@@ -105,9 +126,11 @@ def markdown(results, rows):
             f"{machine['system']}; {machine['compiler']}, {machine['build_type']}; "
             f"{figures.get('limits', {}).get('blas', 'BLAS not asked')}; load average before: "
             f"{machine['load_before']:.2f}.",
+            "Tiny meshes: shows that it works, the targets mean nothing." if results["tiny"] else "",
             f"Medians of {results['repetitions']}, {clock} time; ratios are of this run.", "",
             "## Targets", ""] + _targets(rows)
     sections = [("Peers", _peers(figures, clock)),
+                ("Sweeps in process", _sweeps(figures, clock)),
                 ("Limits", _limits(figures["limits"], clock) if "limits" in figures else []),
                 ("Kernels", _kernels(figures["kernels"]) if "kernels" in figures else []),
                 ("Service", _service(figures["service"]) if "service" in figures else []),
