@@ -6,9 +6,11 @@
 
 #include <Eigen/Core>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <limits>
+#include <memory>
+#include <string_view>
+#include <vector>
 
 #include "benchmarks/our_mesh.hpp"
 #include "contact/trace_problem.hpp"

@@ -209,27 +209,32 @@ void uzawa(const Options& options, const MeshOperator& op, const std::vector<fem
   figures.set("uzawa", result);
 }
 
-void run(const Options& options) {
-  const PlainMesh plain = read_plain_mesh(options.mesh);
-  const std::shared_ptr<const mesh::Mesh> mesh = to_mesh(plain);
-  std::vector<fem::Load> loads;
-  for (int k = 0; k < std::max({options.loads, options.block, options.uzawa_loads, 8}); ++k) {
-    loads.push_back(nodal_load(plain, k));
-  }
-  const ddm::Decomposition parts = ddm::cut(*mesh);
+void describe(const mesh::Mesh& mesh, Figures& figures) {
+  const ddm::Decomposition parts = ddm::cut(mesh);
   std::size_t unknowns = 0;
   for (const ddm::Subdomain& part : parts.subdomains) unknowns += part.free();
-
-  Figures figures;
-  figures.set("triangles", static_cast<double>(plain.triangle_count()));
+  figures.set("triangles", static_cast<double>(mesh.triangle_count()));
   figures.set("unknowns", static_cast<double>(unknowns));
   figures.set("contacts", static_cast<double>(parts.skeleton.contacts.size()));
+}
+
+void run(const Options& options) {
+  PlainMesh plain = read_plain_mesh(options.mesh);
+  const std::shared_ptr<const mesh::Mesh> mesh = to_mesh(plain);
+  // Loads take its nodes only; the memory of the first answer is not to count it twice.
+  plain.triangles = plain.subdomain = {};
+  Figures figures;
+  describe(*mesh, figures);
   figures.set("threads", options.threads);
-  const Operator op = first_answers(options, mesh, loads.front(), figures);
+  const Operator op = first_answers(options, mesh, nodal_load(plain, 0), figures);
+  std::vector<fem::Load> loads;
+  const int count = std::max({options.loads, options.block, options.uzawa_loads, 8});
+  for (int k = 0; k < count; ++k) loads.push_back(nodal_load(plain, k));
   further_loads(options, *op, loads, figures);
   if (options.block > 0) blocks(options, *op, loads, figures);
   if (options.rows > 0) sweep(options, *op, loads, figures);
   if (options.uzawa_loads > 0) uzawa(options, *op, loads, figures);
+  figures.set("memory_end", static_cast<double>(peak_memory()));
   figures.print();
 }
 

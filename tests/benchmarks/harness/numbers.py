@@ -31,6 +31,8 @@ def difference(ours, theirs):
         pairs = list(zip(ours[name], theirs[name]))
         if not pairs:
             raise Disagreement(f"no {name} to compare")
+        if not all(math.isfinite(value) for pair in pairs for value in pair):
+            raise Disagreement(f"some {name} is not finite")
         scale = max(abs(value) for pair in pairs for value in pair)
         if scale > 0:
             worst = max(worst, max(abs(a - b) for a, b in pairs) / scale)

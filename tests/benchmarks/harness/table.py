@@ -79,7 +79,7 @@ def _growth(growth):
         lines.append([number(run["triangles"]), number(run["unknowns"])]
                      + [number(growth["exponents"][name]["values"][i]) for name in names])
     lines.append(["exponent", ""] + [number(growth["exponents"][name]["exponent"]) for name in names])
-    return _grid(head, lines)
+    return ["Exponents are over the unknowns; h goes like their power -1/2.", ""] + _grid(head, lines)
 
 
 def _limits(limits, clock):
