@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a benchmark program measures, and how it prints it: one JSON object on standard output.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace anticrack::benchmarks {
+
+/// Seconds of the same thing done again and again, entry i of both from the same time.
+struct Times {
+  std::vector<double> wall;
+  std::vector<double> cpu;  ///< of all threads of the process
+};
+
+/// Runs from construction.
+class Stopwatch {
+ public:
+  Stopwatch();
+  /// Adds the time since the start, divided by `parts`, to `times`.
+  void stop(Times& times, double parts = 1) const;
+
+ private:
+  double _wall, _cpu;
+};
+
+/// Largest resident memory of this process so far (VmHWM), bytes.
+std::uint64_t peak_memory();
+
+/// Forgets that largest value: from now on it is what is resident. False where the system has none
+/// of it.
+bool reset_peak_memory();
+
+/// A JSON object in the order of the calls.
+class Figures {
+ public:
+  void set(const std::string& name, double value);
+  void set(const std::string& name, const std::vector<double>& values);
+  void set(const std::string& name, const std::string& text);
+  void set(const std::string& name, const Times& times);  ///< {"wall": [...], "cpu": [...]}
+  void set(const std::string& name, const Figures& figures);
+  void set(const std::string& name, const std::vector<Figures>& list);
+
+  std::string json() const;
+  /// On standard output, with a new line.
+  void print() const;
+
+ private:
+  std::vector<std::pair<std::string, std::string>> _entries;  // name, value in JSON
+};
+
+}  // namespace anticrack::benchmarks

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The real server and the real client library over loopback: what a load case, a combination, a
+// nodal load and a sample cost from end to end.
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <functional>
+#include <stdexcept>
+
+#include "benchmarks/figures.hpp"
+#include "benchmarks/plain_mesh.hpp"
+#include "client/jobs.hpp"
+#include "client/meshes.hpp"
+#include "client/uuid.hpp"
+#include "service/processes.hpp"
+#include "service/workload.hpp"
+
+namespace anticrack::benchmarks {
+namespace {
+
+struct Options {
+  int repetitions = 5;
+  bool tiny = false;
+  // Of one job each:
+  int cases = 64;
+  int combinations = 20'000;
+  int nodal_loads = 1'000;
+  int sampled_cases = 16;
+  int samples = 20'000;  ///< of each case
+};
+
+Options tiny(Options options) {
+  options.cases = 4;
+  options.combinations = 200;
+  options.nodal_loads = 10;
+  options.sampled_cases = 2;
+  options.samples = 200;
+  return options;
+}
+
+/// The paper's membrane on a server of its own, factorised.
+class Bench {
+ public:
+  explicit Bench(const Options& chosen)
+      : options(chosen),
+        _server({"--log-level", "error", "--event-log", "512MiB"}),
+        connection(to(_server.address())) {
+    std::vector<std::string> coarse;
+    if (options.tiny) coarse = {"mesh.preset=uniform", "mesh.size=0.25"};
+    mesh = client::create_mesh(connection, service_test::work("paper.toml", coarse).mesh).name();
+    client::warm_mesh(connection, mesh, true);
+    const v1::Mesh made = client::wait_for_mesh(connection, mesh);
+    if (made.state() == v1::Mesh::STATE_FAILED) throw std::runtime_error("there is no mesh");
+    const client::Block block = client::read_mesh(connection, mesh);
+    for (const v1::ArrayLayout& array : block.layout.arrays()) {
+      if (array.name() != "nodes") continue;
+      nodes.resize(2 * static_cast<std::size_t>(array.shape(0)));
+      std::memcpy(nodes.data(), block.bytes.data() + array.offset(), nodes.size() * sizeof(double));
+    }
+    // The first job waits for the factors; none that is timed does.
+    v1::Job first = job();
+    *first.add_load_cases() = constant(0);
+    run(first);
+  }
+
+  v1::Job job() const {
+    v1::Job result;
+    result.set_mesh(mesh);
+    return result;
+  }
+
+  static v1::LoadCase named(int number) {
+    v1::LoadCase load;
+    load.set_name(std::string("load ") + std::to_string(number));
+    return load;
+  }
+  static v1::LoadCase constant(int number) {
+    v1::LoadCase load = named(number);
+    load.mutable_force()->set_constant(1 + number);
+    return load;
+  }
+  static v1::LoadCase expression(int number) {
+    v1::LoadCase load = named(number);
+    load.mutable_force()->set_expression("sin(1.3*x + (2 + 0.11*" + std::to_string(number) +
+                                         ")*y + 0.7*" + std::to_string(number) + ")");
+    return load;
+  }
+  v1::LoadCase array(int number) {
+    v1::LoadCase load = named(number);
+    load.mutable_force()->mutable_array()->set_upload(
+        client::upload_array(connection, nodal(number)));
+    return load;
+  }
+  std::vector<double> nodal(int number) const {
+    std::vector<double> values(nodes.size() / 2);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = force(number, nodes[2 * i], nodes[2 * i + 1]);
+    }
+    return values;
+  }
+
+  /// From asking for it to hearing that it has ended well.
+  v1::Job run(const v1::Job& wanted) {
+    const v1::Job created = client::create_job(connection, wanted, client::make_uuid());
+    const v1::Job ended = service_test::wait_for_end(connection, created.name());
+    if (ended.state() != v1::Job::STATE_SUCCEEDED) {
+      throw std::runtime_error("a job ended in another state: " + ended.ShortDebugString());
+    }
+    return ended;
+  }
+
+  const Options options;
+
+ private:
+  static client::ConnectionOptions to(const std::string& address) {
+    client::ConnectionOptions result;
+    result.address = address;
+    return result;
+  }
+  service_test::Server _server;
+
+ public:
+  client::Connection connection;
+  std::string mesh;
+  std::vector<double> nodes;  ///< (n,2)
+};
+
+/// Seconds a load case of a job with many, all different; what comes before the job is not timed.
+Times load_cases(Bench& bench, const std::function<v1::LoadCase(int)>& load) {
+  Times times;
+  int number = 0;
+  for (int i = 0; i < bench.options.repetitions; ++i) {
+    v1::Job job = bench.job();
+    for (int k = 0; k < bench.options.cases; ++k) *job.add_load_cases() = load(number++);
+    const Stopwatch watch;
+    bench.run(job);
+    watch.stop(times, bench.options.cases);
+  }
+  return times;
+}
+
+/// A job with one load case: what its user waits.
+Times single_case(Bench& bench) {
+  Times times;
+  for (int i = 0; i < 10 * bench.options.repetitions; ++i) {
+    v1::Job job = bench.job();
+    *job.add_load_cases() = bench.array(1'000 + i);
+    const Stopwatch watch;
+    bench.run(job);
+    watch.stop(times);
+  }
+  return times;
+}
+
+Times uploads(Bench& bench) {
+  Times times;
+  for (int i = 0; i < 10 * bench.options.repetitions; ++i) {
+    const std::vector<double> values = bench.nodal(2'000 + i);
+    const Stopwatch watch;
+    client::upload_array(bench.connection, values);
+    watch.stop(times);
+  }
+  return times;
+}
+
+void require_rows(const v1::Job& ended, int rows) {
+  const v1::SweepAnswer& answer = ended.sweep_answer();
+  if (answer.converged() != static_cast<std::uint64_t>(rows)) {
+    throw std::runtime_error("not every row of a sweep converged: " + answer.ShortDebugString());
+  }
+}
+
+/// Rows of a sweep, the upload of their matrix included.
+Times combinations(Bench& bench) {
+  constexpr int basis = 8;
+  const int rows = bench.options.combinations;
+  v1::Job job = bench.job();
+  for (int j = 0; j < basis; ++j) *job.add_load_cases() = bench.array(j);
+  Times times;
+  for (int i = 0; i < bench.options.repetitions; ++i) {
+    std::vector<double> matrix;
+    for (int k = 0; k < rows; ++k) {
+      for (int j = 0; j < basis; ++j) matrix.push_back(combination(k + i * rows, j));
+    }
+    const Stopwatch watch;
+    job.mutable_sweep()->mutable_coefficients()->set_upload(
+        client::upload_array(bench.connection, matrix));
+    const v1::Job ended = bench.run(job);
+    watch.stop(times, rows);
+    require_rows(ended, rows);
+  }
+  return times;
+}
+
+Times nodal_loads(Bench& bench) {
+  const int rows = bench.options.nodal_loads;
+  Times times;
+  for (int i = 0; i < bench.options.repetitions; ++i) {
+    std::vector<double> matrix;
+    for (int k = 0; k < rows; ++k) {
+      const std::vector<double> row = bench.nodal(k + i * rows);
+      matrix.insert(matrix.end(), row.begin(), row.end());
+    }
+    v1::Job job = bench.job();
+    const Stopwatch watch;
+    job.mutable_sweep()->mutable_nodal_forces()->set_upload(
+        client::upload_array(bench.connection, matrix));
+    const v1::Job ended = bench.run(job);
+    watch.stop(times, rows);
+    require_rows(ended, rows);
+  }
+  return times;
+}
+
+/// Seconds a sample that one watcher is sent: the log of a job that has ended, from the earliest
+/// event kept, so that it is the watch that is timed and not Algorithm 2.
+Times samples(Bench& bench) {
+  v1::Job job = bench.job();
+  for (int k = 0; k < bench.options.sampled_cases; ++k) {
+    *job.add_load_cases() = Bench::constant(k);
+  }
+  v1::Uzawa& uzawa = *job.mutable_solver()->mutable_uzawa();
+  uzawa.set_theta(1e-4);  // still on its way after so many iterations
+  uzawa.set_epsilon(1e-300);
+  uzawa.set_max_iterations(bench.options.samples);
+  const v1::Job ended = bench.run(job);
+  Times times;
+  for (int i = 0; i < bench.options.repetitions; ++i) {
+    double seen = 0;
+    const Stopwatch watch;
+    client::watch_job(bench.connection, ended.name(), 0, [&seen](const auto& event) {
+      if (event.has_samples()) seen += event.samples().iteration_size();
+    });
+    watch.stop(times, seen);
+    if (seen < bench.options.samples) throw std::runtime_error("a watcher saw too few samples");
+  }
+  return times;
+}
+
+void run(const Options& options) {
+  Bench bench(options);
+  Figures figures;
+  figures.set("nodes", static_cast<double>(bench.nodes.size() / 2));
+  figures.set("cases", options.cases);
+  figures.set("combinations", options.combinations);
+  figures.set("nodal_loads", options.nodal_loads);
+  figures.set("load_case", load_cases(bench, [&](int number) { return bench.array(number); }));
+  figures.set("load_case_by_expression", load_cases(bench, Bench::expression));
+  figures.set("single_case", single_case(bench));
+  figures.set("upload_of_a_load", uploads(bench));
+  figures.set("combination", combinations(bench));
+  figures.set("nodal_load", nodal_loads(bench));
+  figures.set("sample", samples(bench));
+  figures.print();
+}
+
+}  // namespace
+}  // namespace anticrack::benchmarks
+
+int main(int argc, char** argv) {
+  anticrack::benchmarks::Options options;
+  CLI::App app("The service over loopback.", "bench_service");
+  app.add_option("--repetitions", options.repetitions, "Of everything")->check(CLI::Range(1, 1000));
+  app.add_flag("--tiny", options.tiny, "A tiny mesh and short jobs: does it work?");
+  CLI11_PARSE(app, argc, argv);
+  if (options.tiny) options = anticrack::benchmarks::tiny(options);
+  try {
+    anticrack::benchmarks::run(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bench_service: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
