@@ -4,10 +4,14 @@
 #include <cblas.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <new>
 #include <numeric>
 #include <vector>
 
 #include "ddm/cholmod.hpp"
+#include "ddm/forward_solve.hpp"
 #include "errors/errors.hpp"
 
 namespace anticrack::ddm {
@@ -117,9 +121,55 @@ Eigen::MatrixXd trailing_block(const cholmod_factor& factor, Eigen::Index size) 
   return block;
 }
 
-/// BLAS rounds differently for other numbers of columns, not for other columns beside one. Every
-/// solve has as many, zeros if need be, so that a load's bits do not depend on its company.
-constexpr Eigen::Index block_width = 8;
+Supernodes supernodes(const cholmod_factor& factor, Eigen::Index interior) {
+  return {static_cast<int>(factor.nsuper),       static_cast<int>(interior),
+          static_cast<const int*>(factor.super), static_cast<const int*>(factor.pi),
+          static_cast<const int*>(factor.px),    static_cast<const int*>(factor.s),
+          static_cast<const double*>(factor.x)};
+}
+
+struct Free {
+  void operator()(double* values) const noexcept { std::free(values); }
+};
+
+/// Rows of a block as forward_solve() wants them.
+std::unique_ptr<double, Free> aligned_rows(Eigen::Index rows, int width) {
+  constexpr std::size_t alignment = lanes * sizeof(double);
+  const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(rows * width);
+  std::unique_ptr<double, Free> values(static_cast<double*>(
+      std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment)));
+  if (!values) {
+    throw std::bad_alloc();
+  }
+  return values;
+}
+
+/// L L' of a lower triangle, in place, its lower triangle only: [A 0; B C] has
+/// [AA' .; BA' BB'+CC']. n^3/3 operations.
+void square(double* l, int size, int stride) {
+  constexpr int small = 64;
+  if (size <= small) {
+    for (int j = size - 1; j >= 0; --j) {
+      for (int i = size - 1; i >= j; --i) {
+        double sum = 0;
+        for (int k = 0; k <= j; ++k) {
+          sum += l[i + std::ptrdiff_t{k} * stride] * l[j + std::ptrdiff_t{k} * stride];
+        }
+        l[i + std::ptrdiff_t{j} * stride] = sum;
+      }
+    }
+    return;
+  }
+  const int first = size / 2, rest = size - first;
+  double* below = l + first;
+  double* corner = l + first + std::ptrdiff_t{first} * stride;
+  square(corner, rest, stride);
+  cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, rest, first, 1, below, stride, 1, corner,
+              stride);
+  cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, first, 1, l,
+              stride, below, stride);
+  square(l, first, stride);
+}
 
 /// Columns of the answer follow each other.
 DensePtr triangular_solve(int system, const cholmod_factor& factor,
@@ -179,26 +229,34 @@ SubdomainFactor& SubdomainFactor::operator=(SubdomainFactor&&) noexcept = defaul
 SubdomainFactor::Forward SubdomainFactor::forward(
     const Eigen::Ref<const Eigen::MatrixXd>& f) const {
   Forward result{Eigen::MatrixXd(_interior, f.cols()), Eigen::MatrixXd(trace(), f.cols())};
-  if (!_factor) {
+  if (!_factor || f.cols() == 0) {
     return result;
   }
   const cholmod_factor& factor = *_factor->cholesky;
-  const Eigen::Map<const Eigen::VectorXi> permutation(static_cast<const int*>(factor.Perm),
-                                                      f.rows());
-  const int size = static_cast<int>(trace());
-  Eigen::MatrixXd ordered(f.rows(), block_width), g(trace(), block_width);
-  for (Eigen::Index first = 0; first < f.cols(); first += block_width) {
-    const Eigen::Index width = std::min(block_width, f.cols() - first);
-    ordered.leftCols(width) = f.middleCols(first, width)(permutation, Eigen::all);
-    ordered.rightCols(block_width - width).setZero();
-    const DensePtr solved = triangular_solve(CHOLMOD_L, factor, ordered);
-    result.z_interior.middleCols(first, width) = view(*solved).topLeftCorner(_interior, width);
-    if (size > 0) {
-      g = view(*solved).bottomRows(trace());
-      cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, size,
-                  static_cast<int>(block_width), 1, _trace_factor.data(), size, g.data(), size);
-      result.g.middleCols(first, width) = g.leftCols(width);
+  const int* permutation = static_cast<const int*>(factor.Perm);
+  const Supernodes l = supernodes(factor, _interior);
+  const Eigen::Index rows = f.rows();
+  const auto whole = [](Eigen::Index columns) {
+    return columns == 1 ? 1 : (static_cast<int>(columns) + lanes - 1) / lanes * lanes;
+  };
+  const auto y = aligned_rows(rows, whole(std::min<Eigen::Index>(f.cols(), most_lanes)));
+  for (Eigen::Index first = 0; first < f.cols(); first += most_lanes) {
+    const Eigen::Index columns = std::min<Eigen::Index>(most_lanes, f.cols() - first);
+    const int width = whole(columns);
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      double* row = y.get() + i * width;
+      for (Eigen::Index j = 0; j < columns; ++j) {
+        row[j] = f(permutation[i], first + j);
+      }
+      std::fill(row + columns, row + width, 0.0);
     }
+    forward_solve(l, width, y.get());
+    using Rows =
+        Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>,
+                   Eigen::Unaligned, Eigen::OuterStride<>>;
+    const Rows solved(y.get(), rows, columns, Eigen::OuterStride<>(width));
+    result.z_interior.middleCols(first, columns) = solved.topRows(_interior);
+    result.g.middleCols(first, columns) = solved.bottomRows(trace());
   }
   return result;
 }
@@ -245,7 +303,10 @@ Eigen::MatrixXd SubdomainFactor::schur() const {
   if (trace() == 0) {
     return {};  // Eigen 3.4 forms references through the null data of an empty product
   }
-  Eigen::MatrixXd result = _trace_factor.triangularView<Eigen::Lower>() * _trace_factor.transpose();
+  Eigen::MatrixXd result = _trace_factor;
+  const int size = static_cast<int>(trace());
+  square(result.data(), size, size);
+  result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
   for (const std::int32_t trace : _held) {
     result(trace, trace) -= _rho;
   }

@@ -46,8 +46,8 @@ class SubdomainFactor {
     Eigen::MatrixXd z_interior;  ///< L_II^-1 P f_I, in the factor's order
     Eigen::MatrixXd g;           ///< condensed load f_G - K_GI K_II^-1 f_I
   };
-  /// Forward solves, O(nnz(L)) each, eight together. The bits of a column do not depend on the
-  /// others.
+  /// Forward solves, O(nnz(L)) each, up to 32 together (forward_solve.hpp). The bits of a column do
+  /// not depend on the others.
   Forward forward(const Eigen::Ref<const Eigen::MatrixXd>& f) const;
 
   /// u with trace t and interior K_II^-1 (f_I - K_IG t), f the load of `z_interior`: one backward

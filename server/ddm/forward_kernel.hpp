@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The inner loops of forward_solve.hpp, compiled once for each instruction set: include it once in
+// a file compiled for that, with ANTICRACK_KERNEL the name of the function and ANTICRACK_ROWS the
+// rows of a block that fit its registers. It includes no library: an inline function of one
+// compiled here could be linked into code for any processor.
+#include "ddm/forward_solve.hpp"
+
+namespace anticrack::ddm {
+namespace {
+
+using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
+
+/// Columns of a supernode whose part of y stays in the first-level cache while rows are updated.
+constexpr int panel = 16;
+
+// Every entry is y_i <- y_i - L_ik y_k for k = 0, 1, ..., one after the other, as a fused operation
+// where the processor has one: whatever the shape of the loops around, the bits are the same.
+
+void solve_one(const Supernodes& factor, double* y) {
+  for (int s = 0; s < factor.count && factor.super[s] < factor.columns; ++s) {
+    const int first = factor.super[s];
+    const int end = factor.super[s + 1] < factor.columns ? factor.super[s + 1] : factor.columns;
+    const int* rows = factor.rows + factor.row_begin[s];
+    const int height = factor.row_begin[s + 1] - factor.row_begin[s];
+    const int own = factor.super[s + 1] - first;  // rows that follow each other
+    const double* l = factor.values + factor.value_begin[s];
+    for (int begin = 0; begin < end - first; begin += 4) {
+      const int stop = begin + 4 < end - first ? begin + 4 : end - first;
+      const double* columns[4] = {};
+      double x[4] = {};
+      for (int k = begin; k < stop; ++k) {
+        const double* column = l + static_cast<long>(k) * height;
+        const double value = y[first + k] / column[k];
+        y[first + k] = value;
+        for (int i = k + 1; i < stop; ++i) y[first + i] -= column[i] * value;
+        columns[k - begin] = column;
+        x[k - begin] = value;
+      }
+      if (stop - begin == 4) {
+        const double *a = columns[0], *b = columns[1], *c = columns[2], *d = columns[3];
+        double* here = y + first;
+        for (int i = stop; i < own; ++i) {
+          double sum = here[i];
+          sum -= a[i] * x[0];
+          sum -= b[i] * x[1];
+          sum -= c[i] * x[2];
+          sum -= d[i] * x[3];
+          here[i] = sum;
+        }
+#pragma GCC ivdep
+        for (int i = own; i < height; ++i) {
+          double sum = y[rows[i]];
+          sum -= a[i] * x[0];
+          sum -= b[i] * x[1];
+          sum -= c[i] * x[2];
+          sum -= d[i] * x[3];
+          y[rows[i]] = sum;
+        }
+        continue;
+      }
+      for (int k = 0; k < stop - begin; ++k) {
+        const double* column = columns[k];
+        double* here = y + first;
+        for (int i = stop; i < own; ++i) here[i] -= column[i] * x[k];
+#pragma GCC ivdep
+        for (int i = own; i < height; ++i) y[rows[i]] -= column[i] * x[k];
+      }
+    }
+  }
+}
+
+/// Rows of y at `row`, from the columns [begin, end) of a supernode that are solved; x is its y.
+template <int groups, int count, class Row>
+inline void update(const double* l, int height, int begin, int end, const Lanes* x, int i, Lanes* y,
+                   Row row) {
+  Lanes sum[count][groups];
+  for (int r = 0; r < count; ++r) {
+    for (int g = 0; g < groups; ++g) sum[r][g] = y[static_cast<long>(row(i + r)) * groups + g];
+  }
+  for (int k = begin; k < end; ++k) {
+    const double* column = l + static_cast<long>(k) * height + i;
+    for (int r = 0; r < count; ++r) {
+      for (int g = 0; g < groups; ++g)
+        sum[r][g] -= column[r] * x[static_cast<long>(k) * groups + g];
+    }
+  }
+  for (int r = 0; r < count; ++r) {
+    for (int g = 0; g < groups; ++g) y[static_cast<long>(row(i + r)) * groups + g] = sum[r][g];
+  }
+}
+
+template <int groups, class Row>
+inline void update_rows(const double* l, int height, int begin, int end, const Lanes* x, int from,
+                        int to, Lanes* y, Row row) {
+  constexpr int count = ANTICRACK_ROWS / groups > 0 ? ANTICRACK_ROWS / groups : 1;
+  int i = from;
+  for (; i + count <= to; i += count) {
+    update<groups, count>(l, height, begin, end, x, i, y, row);
+  }
+  for (; i < to; ++i) update<groups, 1>(l, height, begin, end, x, i, y, row);
+}
+
+template <int groups>
+void solve_block(const Supernodes& factor, Lanes* y) {
+  for (int s = 0; s < factor.count && factor.super[s] < factor.columns; ++s) {
+    const int first = factor.super[s];
+    const int end = factor.super[s + 1] < factor.columns ? factor.super[s + 1] : factor.columns;
+    const int* rows = factor.rows + factor.row_begin[s];
+    const int height = factor.row_begin[s + 1] - factor.row_begin[s];
+    const int own = factor.super[s + 1] - first;
+    const double* l = factor.values + factor.value_begin[s];
+    Lanes* x = y + static_cast<long>(first) * groups;
+    for (int begin = 0; begin < end - first; begin += panel) {
+      const int stop = begin + panel < end - first ? begin + panel : end - first;
+      for (int k = begin; k < stop; ++k) {
+        const double* column = l + static_cast<long>(k) * height;
+        for (int g = 0; g < groups; ++g) {
+          const Lanes value = x[static_cast<long>(k) * groups + g] / column[k];
+          x[static_cast<long>(k) * groups + g] = value;
+          for (int i = k + 1; i < stop; ++i)
+            x[static_cast<long>(i) * groups + g] -= column[i] * value;
+        }
+      }
+      update_rows<groups>(l, height, begin, stop, x, stop, own, x, [](int i) { return i; });
+      update_rows<groups>(l, height, begin, stop, x, own, height, y,
+                          [rows](int i) { return rows[i]; });
+    }
+  }
+}
+
+}  // namespace
+
+void ANTICRACK_KERNEL(const Supernodes& factor, int width, double* y) {
+  Lanes* block = reinterpret_cast<Lanes*>(y);
+  switch (width / lanes) {
+    case 0:
+      return solve_one(factor, y);
+    case 1:
+      return solve_block<1>(factor, block);
+    case 2:
+      return solve_block<2>(factor, block);
+    case 3:
+      return solve_block<3>(factor, block);
+    default:
+      return solve_block<4>(factor, block);
+  }
+}
+
+}  // namespace anticrack::ddm

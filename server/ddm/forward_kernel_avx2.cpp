@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#define ANTICRACK_KERNEL forward_solve_avx2
+#define ANTICRACK_ROWS 4
+#include "ddm/forward_kernel.hpp"
