@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ddm/curve_order.hpp"
 #include "ddm/free_boundary.hpp"
 #include "ddm/sides.hpp"
 #include "ddm/support.hpp"
@@ -88,7 +89,7 @@ class Numbering {
         }
       }
     }
-    std::sort(subdomain.node.begin(), subdomain.node.end());
+    sort_along_curve(subdomain.node, _mesh.xy);
     std::sort(dirichlet.begin(), dirichlet.end());
     subdomain.interior = subdomain.node.size();
     subdomain.trace = trace.size();

@@ -17,7 +17,8 @@ namespace anticrack::ddm {
 
 /// One subdomain Omega_i. Its nodes are numbered interior first, then those on interfaces (the
 /// trace), then those on the Dirichlet boundary; index base 0. A node that is on an interface and
-/// on the Dirichlet boundary counts as Dirichlet.
+/// on the Dirichlet boundary counts as Dirichlet. Interior nodes with near numbers are near each
+/// other.
 /// A mesh node on interfaces is there once for each of its *sides* in the subdomain: the fans of
 /// triangles into which the interface edges cut its neighbourhood. Two on a slit, one at its tip.
 struct Subdomain {

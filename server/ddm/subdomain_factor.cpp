@@ -24,15 +24,16 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// CHOLMOD's view of the lower triangle of a compressed symmetric matrix.
-cholmod_sparse view(Sparse& matrix) {
+/// CHOLMOD's view of the lower triangle of a compressed symmetric matrix. It takes the matrix
+/// without const but only reads it.
+cholmod_sparse view(const Sparse& matrix) {
   cholmod_sparse result{};
   result.nrow = static_cast<std::size_t>(matrix.rows());
   result.ncol = static_cast<std::size_t>(matrix.cols());
   result.nzmax = static_cast<std::size_t>(matrix.nonZeros());
-  result.p = matrix.outerIndexPtr();
-  result.i = matrix.innerIndexPtr();
-  result.x = matrix.valuePtr();
+  result.p = const_cast<int*>(matrix.outerIndexPtr());
+  result.i = const_cast<int*>(matrix.innerIndexPtr());
+  result.x = const_cast<double*>(matrix.valuePtr());
   result.stype = -1;
   result.itype = CHOLMOD_INT;
   result.xtype = CHOLMOD_REAL;
@@ -40,21 +41,6 @@ cholmod_sparse view(Sparse& matrix) {
   result.sorted = 1;
   result.packed = 1;
   return result;
-}
-
-std::vector<int> interior_first(Sparse& interior, Eigen::Index n, Ordering ordering) {
-  std::vector<int> permutation(static_cast<std::size_t>(n));
-  std::iota(permutation.begin(), permutation.end(), 0);
-  switch (ordering) {
-    case Ordering::amd:
-      if (interior.rows() > 0) {
-        cholmod_sparse matrix = view(interior);
-        cholmod_common& context = cholmod_context();
-        cholmod_amd(&matrix, nullptr, 0, permutation.data(), &context);
-        require_success(context, "the ordering of a subdomain");
-      }
-  }
-  return permutation;
 }
 
 bool keeps_trace_last(const cholmod_factor& factor, Eigen::Index interior) {
@@ -75,7 +61,7 @@ FactorPtr analyze(cholmod_sparse& matrix, std::vector<int>& permutation, bool po
   return factor;
 }
 
-FactorPtr factorise(Sparse& lower, std::vector<int>& permutation, Eigen::Index interior) {
+FactorPtr factorise(const Sparse& lower, std::vector<int>& permutation, Eigen::Index interior) {
   cholmod_sparse matrix = view(lower);
   FactorPtr factor = analyze(matrix, permutation, true);
   // The interface is a clique at the root of the elimination tree, so postordering leaves it where
@@ -201,23 +187,25 @@ Eigen::Index columns_at_once(Eigen::Index rows) noexcept {
   return std::clamp<Eigen::Index>(bytes / std::max<Eigen::Index>(column, 1), 1, most);
 }
 
-SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior, Ordering ordering,
+SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior,
+                                 std::span<const std::int32_t> order,
                                  std::span<const std::int32_t> floating)
     : _interior(interior), _held(floating.begin(), floating.end()) {
   if (stiffness.rows() == 0) {
     return;  // u is prescribed in every node; CHOLMOD refuses empty matrices
   }
-  Sparse inner = stiffness.topLeftCorner(interior, interior).triangularView<Eigen::Lower>();
-  std::vector<int> permutation = interior_first(inner, stiffness.rows(), ordering);
-  inner.resize(0, 0);
-  Sparse lower = stiffness.triangularView<Eigen::Lower>();
+  std::vector<int> permutation(static_cast<std::size_t>(stiffness.rows()));
+  std::iota(std::copy(order.begin(), order.end(), permutation.begin()), permutation.end(),
+            static_cast<int>(interior));
+  Sparse held;
   if (!_held.empty()) {
+    held = stiffness;
     _rho = stiffness.diagonal().mean();
     for (const std::int32_t trace : _held) {
-      lower.coeffRef(interior + trace, interior + trace) += _rho;
+      held.coeffRef(interior + trace, interior + trace) += _rho;
     }
   }
-  FactorPtr cholesky = factorise(lower, permutation, interior);
+  FactorPtr cholesky = factorise(_held.empty() ? stiffness : held, permutation, interior);
   _trace_factor = trailing_block(*cholesky, stiffness.rows() - interior);
   _factor = std::make_unique<Factor>(Factor{std::move(cholesky)});
 }

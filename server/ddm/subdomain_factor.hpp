@@ -15,11 +15,6 @@ namespace anticrack::ddm {
 /// of what products of matrices gain over products with vectors, in at most 64 MiB.
 Eigen::Index columns_at_once(Eigen::Index rows) noexcept;
 
-/// Fill-reducing order of the interior.
-enum class Ordering {
-  amd,  ///< approximate minimum degree: the soonest first answer
-};
-
 /// Sparse Cholesky factor of one subdomain's stiffness with the interface numbered last:
 ///
 ///   K = [K_II K_IG; K_GI K_GG],  P K P' = L L',  L = [L_II 0; L_GI L_GG],  S = L_GG L_GG'
@@ -32,12 +27,13 @@ enum class Ordering {
 /// Immutable after construction; any number of threads may solve with it at once.
 class SubdomainFactor {
  public:
-  /// K: symmetric positive semidefinite, both triangles stored, interior unknowns first;
+  /// K: symmetric positive semidefinite, interior unknowns first, its lower triangle is read;
+  /// `order`: the interior unknowns in the order of their elimination (elimination_order.hpp);
   /// `floating`: one trace number for each vector in its kernel (constant on one part of the
   /// subdomain). Throws errors::Error (numerical when K + rho e e' is not positive definite,
   /// limit_exceeded without memory).
   SubdomainFactor(const Eigen::SparseMatrix<double>& stiffness, Eigen::Index interior,
-                  Ordering ordering, std::span<const std::int32_t> floating = {});
+                  std::span<const std::int32_t> order, std::span<const std::int32_t> floating = {});
   ~SubdomainFactor();
   SubdomainFactor(SubdomainFactor&&) noexcept;
   SubdomainFactor& operator=(SubdomainFactor&&) noexcept;

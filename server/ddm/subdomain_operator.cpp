@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ddm/subdomain_operator.hpp"
 
-#include "fem/stiffness.hpp"
+#include <utility>
+
+#include "ddm/elimination_order.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -21,18 +23,16 @@ std::size_t bytes_of(const Eigen::SparseMatrix<double>& matrix) {
 
 }  // namespace
 
-SubdomainOperator::SubdomainOperator(const Subdomain& subdomain, Ordering ordering)
-    : SubdomainOperator(subdomain, fem::stiffness(subdomain.part, subdomain.tension), ordering) {}
+SubdomainOperator::SubdomainOperator(const Subdomain& subdomain)
+    : SubdomainOperator(
+          subdomain, fem::stiffness(subdomain.part, subdomain.tension, index(subdomain.free()))) {}
 
-SubdomainOperator::SubdomainOperator(const Subdomain& subdomain,
-                                     const Eigen::SparseMatrix<double>& stiffness,
-                                     Ordering ordering)
-    : _factor(stiffness.topLeftCorner(index(subdomain.free()), index(subdomain.free())),
-              index(subdomain.interior), ordering, subdomain.floating),
-      _free_dirichlet(
-          stiffness.topRightCorner(index(subdomain.free()), index(subdomain.dirichlet))),
-      _dirichlet_dirichlet(
-          stiffness.bottomRightCorner(index(subdomain.dirichlet), index(subdomain.dirichlet))),
+SubdomainOperator::SubdomainOperator(const Subdomain& subdomain, fem::Stiffness stiffness)
+    : _factor(stiffness.free, index(subdomain.interior),
+              elimination_order(stiffness.free, index(subdomain.interior), subdomain.part.xy),
+              subdomain.floating),
+      _free_dirichlet(std::move(stiffness.free_dirichlet)),
+      _dirichlet_dirichlet(std::move(stiffness.dirichlet)),
       _floats(!subdomain.floating.empty()),
       _rigid(subdomain.rigid),
       _flexibility(std::make_unique<const Lazy<Flexibility>>()) {}

@@ -12,6 +12,7 @@
 #include "ddm/flexibility.hpp"
 #include "ddm/lazy.hpp"
 #include "ddm/subdomain_factor.hpp"
+#include "fem/stiffness.hpp"
 
 namespace anticrack::ddm {
 
@@ -37,7 +38,7 @@ struct CondensedLoad {
 class SubdomainOperator {
  public:
   /// Throws errors::Error as SubdomainFactor does.
-  explicit SubdomainOperator(const Subdomain& subdomain, Ordering ordering = Ordering::amd);
+  explicit SubdomainOperator(const Subdomain& subdomain);
 
   /// A load a column. `loads`: int f phi_i for all nodes of the subdomain; `dirichlet`: g_D in its
   /// Dirichlet nodes. One forward solve each, two where g_D is not zero, in blocks.
@@ -56,8 +57,7 @@ class SubdomainOperator {
   std::size_t bytes() const noexcept;
 
  private:
-  SubdomainOperator(const Subdomain& subdomain, const Eigen::SparseMatrix<double>& stiffness,
-                    Ordering ordering);
+  SubdomainOperator(const Subdomain& subdomain, fem::Stiffness stiffness);
 
   SubdomainFactor _factor;
   Eigen::SparseMatrix<double> _free_dirichlet;       // [K_ID; K_GD]

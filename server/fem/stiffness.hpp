@@ -7,9 +7,17 @@
 
 namespace anticrack::fem {
 
-/// K_ij = T int grad(phi_i).grad(phi_j) dx for the P1 hat functions of all nodes, boundary ones
-/// included, T > 0 the tension (force per length): symmetric (n,n), both triangles stored,
-/// constants in its kernel. O(m).
-Eigen::SparseMatrix<double> stiffness(const Triangulation& part, double tension = 1);
+/// The symmetric matrix K_ij = T int grad(phi_i).grad(phi_j) dx of the P1 hat functions of all
+/// nodes, in blocks: those of the first nodes, which are free (F), and the others, on the Dirichlet
+/// boundary (D). Constants are in the kernel of the whole.
+struct Stiffness {
+  Eigen::SparseMatrix<double> free;            ///< K_FF, lower triangle
+  Eigen::SparseMatrix<double> free_dirichlet;  ///< K_FD
+  Eigen::SparseMatrix<double> dirichlet;       ///< K_DD, both triangles
+};
+
+/// `tension`: T > 0, force per length; `free`: how many nodes are. The contributions to an entry
+/// are added in the order of the triangles. O(m), 50 bytes a triangle beside the result.
+Stiffness stiffness(const Triangulation& part, double tension, Eigen::Index free);
 
 }  // namespace anticrack::fem

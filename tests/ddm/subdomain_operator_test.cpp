@@ -7,8 +7,8 @@
 #include <Eigen/SparseCholesky>
 #include <functional>
 
-#include "fem/stiffness.hpp"
 #include "support/grid_mesh.hpp"
+#include "support/plain_stiffness.hpp"
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::ddm {
@@ -45,7 +45,8 @@ struct Upper {
   Decomposition decomposition;
   const Subdomain& subdomain = decomposition.subdomains[1];
   SubdomainOperator factorised{subdomain};
-  Eigen::SparseMatrix<double> stiffness = fem::stiffness(subdomain.part, subdomain.tension);
+  Eigen::SparseMatrix<double> stiffness =
+      anticrack::testing::plain_stiffness(subdomain.part, subdomain.tension);
 
   CondensedLoad condense(const Field& load_of, const Field& boundary) const {
     return factorised
@@ -154,7 +155,7 @@ TEST(FloatingSubdomain, HasTheExactSchurComplementAndNoFlexibility) {
   const Eigen::Index trace = index(island.subdomain.trace);
   ASSERT_EQ(island.subdomain.floating.size(), 1U);
   EXPECT_EQ(island.factorised.flexibility(), nullptr);
-  const Eigen::MatrixXd k = fem::stiffness(island.subdomain.part, 3);
+  const Eigen::MatrixXd k = anticrack::testing::plain_stiffness(island.subdomain.part, 3);
   const Eigen::MatrixXd eliminated =
       k.topLeftCorner(interior, interior).llt().solve(k.topRightCorner(interior, trace));
   const Eigen::MatrixXd dense =
@@ -169,7 +170,7 @@ TEST(FloatingSubdomain, HasTheExactSchurComplementAndNoFlexibility) {
 
 TEST(FloatingSubdomain, CondensesAndRecoversExactly) {
   const Island island(1);
-  const Eigen::SparseMatrix<double> k = fem::stiffness(island.subdomain.part);
+  const Eigen::SparseMatrix<double> k = anticrack::testing::plain_stiffness(island.subdomain.part);
   const Eigen::VectorXd f = at_nodes(island.subdomain.part, force);
   const CondensedLoad load = island.factorised.condense(f, Eigen::VectorXd(0)).front();
   EXPECT_NEAR(load.g.sum(), f.sum(), 1e-14);  // what the interface must carry

@@ -10,6 +10,7 @@
 #include "fem/load_vector.hpp"
 #include "fem/stiffness.hpp"
 #include "support/errors.hpp"
+#include "support/plain_stiffness.hpp"
 
 namespace anticrack::fem {
 namespace {
@@ -41,20 +42,88 @@ Eigen::VectorXd nodal(const Triangulation& part, double (*f)(double, double)) {
   return values;
 }
 
+/// The blocks put together.
+Eigen::SparseMatrix<double> whole(const Stiffness& blocks) {
+  const Eigen::Index free = blocks.free.rows(), n = free + blocks.dirichlet.rows();
+  Eigen::MatrixXd result(n, n);
+  result.topLeftCorner(free, free) = Eigen::MatrixXd(blocks.free).selfadjointView<Eigen::Lower>();
+  result.topRightCorner(free, n - free) = Eigen::MatrixXd(blocks.free_dirichlet);
+  result.bottomLeftCorner(n - free, free) = Eigen::MatrixXd(blocks.free_dirichlet).transpose();
+  result.bottomRightCorner(n - free, n - free) = Eigen::MatrixXd(blocks.dirichlet);
+  return result.sparseView();
+}
+
 TEST(Stiffness, MatchesTheReferenceTriangle) {
   const Triangulation part{{0, 0, 1, 0, 0, 1}, {0, 1, 2}};
   Eigen::Matrix3d expected;
   expected << 1, -0.5, -0.5, -0.5, 0.5, 0, -0.5, 0, 0.5;
-  EXPECT_NEAR((Eigen::Matrix3d(stiffness(part)) - expected).norm(), 0, 1e-15);
+  EXPECT_NEAR((Eigen::Matrix3d(whole(stiffness(part, 1, 3))) - expected).norm(), 0, 1e-15);
 }
 
 TEST(Stiffness, GivesTheEnergyOfALinearFunctionExactly) {
   const Triangulation part = crooked_square(6);
-  const Eigen::SparseMatrix<double> k = stiffness(part);
+  const Eigen::SparseMatrix<double> k = whole(stiffness(part, 2, 30));
   const Eigen::VectorXd u = nodal(part, [](double x, double y) { return 2 * x - 3 * y + 7; });
-  EXPECT_NEAR(u.dot(k * u), 13.0, 1e-12);
+  EXPECT_NEAR(u.dot(k * u), 26.0, 1e-12);
   EXPECT_NEAR((k * Eigen::VectorXd::Ones(u.size())).norm(), 0, 1e-13);
-  EXPECT_NEAR((Eigen::MatrixXd(k) - Eigen::MatrixXd(k).transpose()).norm(), 0, 1e-15);
+}
+
+/// Node i becomes 19 i mod n, so that neighbours are far apart and free and fixed nodes mixed.
+Triangulation shuffled(const Triangulation& part) {
+  const std::size_t n = part.node_count();
+  Triangulation result = part;
+  for (std::size_t i = 0; i < n; ++i) {
+    result.xy[2 * (19 * i % n)] = part.xy[2 * i];
+    result.xy[2 * (19 * i % n) + 1] = part.xy[2 * i + 1];
+  }
+  for (std::int32_t& node : result.triangles) {
+    node = static_cast<std::int32_t>(19 * static_cast<std::size_t>(node) % n);
+  }
+  return result;
+}
+
+/// Towards the corner at the origin, down to elements of 1e-13.
+Triangulation graded(Triangulation part) {
+  for (double& x : part.xy) {
+    x = std::pow(x, 16);
+  }
+  return part;
+}
+
+TEST(Stiffness, IsThatOfThePlainAssembly) {
+  for (const Triangulation& part :
+       {shuffled(crooked_square(6)), graded(shuffled(crooked_square(6)))}) {
+    const Eigen::SparseMatrix<double> plain = anticrack::testing::plain_stiffness(part, 3);
+    for (const Eigen::Index free : {0, 1, 25, 48, 49}) {
+      const Stiffness blocks = stiffness(part, 3, free);
+      ASSERT_EQ(blocks.free.rows(), free);
+      ASSERT_EQ(blocks.free_dirichlet.cols(), 49 - free);
+      const Eigen::SparseMatrix<double> k = whole(blocks);
+      for (Eigen::Index j = 0; j < 49; ++j) {
+        for (Eigen::SparseMatrix<double>::InnerIterator entry(plain, j); entry; ++entry) {
+          const double scale =
+              std::sqrt(std::abs(plain.coeff(j, j) * plain.coeff(entry.row(), entry.row())));
+          EXPECT_NEAR(k.coeff(entry.row(), j), entry.value(), 1e-15 * scale);
+        }
+      }
+      EXPECT_LE(k.nonZeros(), plain.nonZeros());
+    }
+  }
+}
+
+/// What CHOLMOD wants.
+TEST(Stiffness, OfTheFreeNodesIsALowerTriangleWithItsRowsInOrder) {
+  const Eigen::SparseMatrix<double> k = stiffness(shuffled(crooked_square(6)), 1, 30).free;
+  EXPECT_TRUE(k.isCompressed());
+  EXPECT_LT(k.nonZeros(), 30 * 7);
+  for (Eigen::Index j = 0; j < 30; ++j) {
+    Eigen::Index row = j - 1;
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(k, j); entry; ++entry) {
+      EXPECT_GT(entry.row(), row);
+      EXPECT_EQ(row == j - 1, entry.row() == j);  // the diagonal first
+      row = entry.row();
+    }
+  }
 }
 
 TEST(LoadVector, OfAConstantIsAThirdOfTheAreaPerCorner) {

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "fem/load_vector.hpp"
-#include "fem/stiffness.hpp"
 #include "operators/mesh_operator.hpp"
+#include "support/plain_stiffness.hpp"
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::operators {
@@ -63,7 +63,7 @@ void expect_uncut(const mesh::Mesh& mesh) {
   EXPECT_EQ(exact.iterations, 1);
 
   const fem::Triangulation whole{mesh.xy, mesh.triangles};
-  const Eigen::SparseMatrix<double> stiffness = fem::stiffness(whole);
+  const Eigen::SparseMatrix<double> stiffness = anticrack::testing::plain_stiffness(whole);
   const Eigen::VectorXd force = fem::load_vector(whole, load.force, "");
   Eigen::VectorXd prescribed =
       fem::boundary_values(whole, load.boundary_value, 0, whole.node_count());

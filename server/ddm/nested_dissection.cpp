@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ddm/nested_dissection.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "ddm/minimum_degree.hpp"
+#include "ddm/vertex_separator.hpp"
+
+namespace anticrack::ddm {
+namespace {
+
+std::size_t at(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+struct Node {
+  double x, y;
+  double reach;  // no neighbour is farther away
+  std::int32_t vertex;
+};
+
+/// Where the halves of a set meet: at a distance `middle` along a direction, or from a centre.
+struct Cut {
+  enum class Shape : char { across_x, across_y, circle };
+  Shape shape = Shape::across_x;
+  double x = 0, y = 0;
+  double middle = 0;
+
+  /// Signed distance from the cut: the vertex's neighbours differ from it by at most its reach.
+  double distance(const Node& node) const {
+    switch (shape) {
+      case Shape::across_x:
+        return node.x - middle;
+      case Shape::across_y:
+        return node.y - middle;
+      case Shape::circle:
+        break;
+    }
+    const double dx = node.x - x, dy = node.y - y;
+    return std::sqrt(dx * dx + dy * dy) - middle;
+  }
+};
+
+/// Nodes first..last-1 of the order, all of `part`.
+struct Set {
+  std::size_t first, last;
+  std::int32_t part;
+
+  std::size_t size() const { return last - first; }
+};
+
+class Dissection {
+ public:
+  Dissection(const Graph& graph, std::span<const double> xy)
+      : _graph(graph), _part(graph.size(), 0), _local(graph.size(), -1) {
+    _nodes.reserve(graph.size());
+    for (std::size_t v = 0; v < graph.size(); ++v) {
+      double square = 0;
+      for (std::int32_t e = graph.begin[v]; e < graph.begin[v + 1]; ++e) {
+        const std::size_t u = at(graph.neighbour[at(e)]);
+        const double dx = xy[2 * u] - xy[2 * v], dy = xy[2 * u + 1] - xy[2 * v + 1];
+        square = std::max(square, dx * dx + dy * dy);
+      }
+      constexpr double rounding = 1 + 1e-9;
+      _nodes.push_back(
+          {xy[2 * v], xy[2 * v + 1], rounding * std::sqrt(square), static_cast<std::int32_t>(v)});
+    }
+    _moved.resize(graph.size());
+  }
+
+  std::vector<std::int32_t> order() {
+    std::vector<Set> open = {{0, _nodes.size(), 0}};
+    while (!open.empty()) {
+      const Set set = open.back();
+      open.pop_back();
+      if (set.size() <= SmallGraph::most) {
+        order_leaf(set);
+        continue;
+      }
+      halve(set);
+      const auto [first, second] = move_apart(set);
+      // A set that cannot be halved, as that of a complete graph, keeps its order.
+      if (first.size() > 0 && second.size() > 0) {
+        open.push_back(first);
+        open.push_back(second);
+      }
+    }
+    std::vector<std::int32_t> result;
+    result.reserve(_nodes.size());
+    for (const Node& node : _nodes) {
+      result.push_back(node.vertex);
+    }
+    return result;
+  }
+
+ private:
+  static constexpr std::int32_t separator = -1;
+
+  /// The median of the distances, from a sample.
+  double median(const Set& set, const Cut& cut) {
+    const std::size_t count = std::min<std::size_t>(set.size(), 127);
+    _sample.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      _sample.push_back(cut.distance(_nodes[set.first + i * set.size() / count]));
+    }
+    const auto middle = _sample.begin() + static_cast<std::ptrdiff_t>(count / 2);
+    std::nth_element(_sample.begin(), middle, _sample.end());
+    return *middle;
+  }
+
+  /// The cut that seems to meet the fewest nodes.
+  Cut choose(const Set& set) {
+    const auto begin = _nodes.begin() + static_cast<std::ptrdiff_t>(set.first);
+    const auto end = _nodes.begin() + static_cast<std::ptrdiff_t>(set.last);
+    // Meshes are graded to points, and circles around those meet few nodes.
+    const Node finest = *std::min_element(
+        begin, end, [](const Node& a, const Node& b) { return a.reach < b.reach; });
+    Cut best;
+    std::ptrdiff_t fewest = -1;
+    for (const Cut::Shape shape :
+         {Cut::Shape::across_x, Cut::Shape::across_y, Cut::Shape::circle}) {
+      Cut cut{shape, finest.x, finest.y, 0};
+      cut.middle = median(set, cut);
+      std::ptrdiff_t met = 0;
+      for (auto node = begin; node != end; ++node) {
+        const double distance = cut.distance(*node);
+        met += static_cast<std::ptrdiff_t>(distance < 0) &
+               static_cast<std::ptrdiff_t>(distance + node->reach >= 0);
+      }
+      if (fewest < 0 || met < fewest) {
+        fewest = met;
+        best = cut;
+      }
+    }
+    return best;
+  }
+
+  /// Gives each node of the set its new part.
+  void halve(const Set& set) {
+    const Cut cut = choose(set);
+    const std::int32_t first = _parts + 1, second = _parts + 2;
+    _parts += 2;
+    std::ptrdiff_t in_first = 0;
+    _near.clear();
+    for (std::size_t i = set.first; i < set.last; ++i) {
+      const Node& node = _nodes[i];
+      const double distance = cut.distance(node);
+      _part[at(node.vertex)] = distance < 0 ? first : second;
+      in_first += distance < 0 ? 1 : 0;
+      if (std::abs(distance) <= node.reach) {
+        _near.push_back(node.vertex);
+      }
+    }
+    find_band(first, second, {in_first, static_cast<std::ptrdiff_t>(set.size()) - in_first});
+  }
+
+  void take(std::int32_t vertex) {
+    _local[at(vertex)] = static_cast<std::int32_t>(_taken.size());
+    _taken.push_back(vertex);
+  }
+
+  void find_band(std::int32_t first, std::int32_t second, std::array<std::ptrdiff_t, 2> sizes) {
+    _taken.clear();
+    std::array<std::ptrdiff_t, 2> in_band{};
+    for (const std::int32_t v : _near) {
+      const std::int32_t mine = _part[at(v)], other = mine == first ? second : first;
+      for (std::int32_t e = _graph.begin[at(v)]; e < _graph.begin[at(v) + 1]; ++e) {
+        if (_part[at(_graph.neighbour[at(e)])] == other) {
+          take(v);
+          ++in_band[mine == first ? 0 : 1];
+          break;
+        }
+      }
+    }
+    if (_taken.empty()) {
+      return;
+    }
+    const std::size_t size = static_cast<std::size_t>(sizes[0] + sizes[1]);
+    std::size_t done = 0;
+    for (int layer = 0; layer < layers(size); ++layer) {
+      const std::size_t end = _taken.size();
+      const std::array<bool, 2> full = {4 * in_band[0] >= sizes[0], 4 * in_band[1] >= sizes[1]};
+      for (; done < end; ++done) {
+        const std::int32_t v = _taken[done], mine = _part[at(v)];
+        if (full[mine == first ? 0 : 1]) {
+          continue;
+        }
+        for (std::int32_t e = _graph.begin[at(v)]; e < _graph.begin[at(v) + 1]; ++e) {
+          const std::int32_t u = _graph.neighbour[at(e)];
+          if (_part[at(u)] == mine && _local[at(u)] < 0) {
+            take(u);
+            ++in_band[mine == first ? 0 : 1];
+          }
+        }
+      }
+    }
+    connect_band(first);
+    const std::vector<Part>& part =
+        _separate.find(_band, sizes[0] - in_band[0], sizes[1] - in_band[1]);
+    for (std::size_t i = 0; i < _taken.size(); ++i) {
+      const std::size_t v = at(_taken[i]);
+      _local[v] = -1;
+      _part[v] = part[i] == Part::first ? first : (part[i] == Part::second ? second : separator);
+    }
+  }
+
+  void connect_band(std::int32_t first) {
+    _band.begin.assign(1, 0);
+    _band.neighbour.clear();
+    _band.meets_first.assign(_taken.size(), 0);
+    _band.meets_second.assign(_taken.size(), 0);
+    for (std::size_t i = 0; i < _taken.size(); ++i) {
+      const std::size_t v = at(_taken[i]);
+      char outer = 0;
+      for (std::int32_t e = _graph.begin[v]; e < _graph.begin[v + 1]; ++e) {
+        const std::size_t u = at(_graph.neighbour[at(e)]);
+        if (_local[u] >= 0) {
+          _band.neighbour.push_back(_local[u]);
+        } else if (_part[u] == _part[v]) {
+          outer = 1;
+        }
+      }
+      _band.begin.push_back(static_cast<std::int32_t>(_band.neighbour.size()));
+      (_part[v] == first ? _band.meets_first : _band.meets_second)[i] = outer;
+    }
+  }
+
+  /// Layers of nodes around the cut among which the separator is looked for. Those of large sets
+  /// cost the most fill and are few.
+  static int layers(std::size_t size) { return size > 4096 ? 6 : 1; }
+
+  /// The first part, the second, the separator.
+  std::pair<Set, Set> move_apart(const Set& set) {
+    const std::int32_t first = _parts - 1, second = _parts;
+    std::size_t end = set.first, seconds = 0, separators = 0;
+    _on_separator.clear();
+    for (std::size_t i = set.first; i < set.last; ++i) {
+      const Node& node = _nodes[i];
+      const std::int32_t part = _part[at(node.vertex)];
+      if (part == first) {
+        _nodes[end++] = node;
+      } else if (part == second) {
+        _moved[seconds++] = node;
+      } else {
+        _on_separator.push_back(node);
+        ++separators;
+      }
+    }
+    const auto middle =
+        std::copy_n(_moved.begin(), seconds, _nodes.begin() + static_cast<std::ptrdiff_t>(end));
+    std::copy_n(_on_separator.begin(), separators, middle);
+    return {{set.first, end, first}, {end, end + seconds, second}};
+  }
+
+  void order_leaf(const Set& set) {
+    SmallGraph small;
+    small.size = set.size();
+    for (std::size_t i = 0; i < small.size; ++i) {
+      _local[at(_nodes[set.first + i].vertex)] = static_cast<std::int32_t>(i);
+    }
+    _taken.clear();  // the nodes around, as many as there is room for
+    constexpr auto most = static_cast<std::int32_t>(SmallGraph::most);
+    constexpr std::uint64_t one = 1;
+    for (std::size_t i = 0; i < small.size; ++i) {
+      small.inside[i] = one << i;
+      const std::size_t v = at(_nodes[set.first + i].vertex);
+      for (std::int32_t e = _graph.begin[v]; e < _graph.begin[v + 1]; ++e) {
+        const std::int32_t u = _graph.neighbour[at(e)];
+        std::int32_t& local = _local[at(u)];
+        if (local < 0 && _taken.size() < SmallGraph::most) {
+          local = most + static_cast<std::int32_t>(_taken.size());
+          _taken.push_back(u);
+        }
+        if (local >= most) {
+          small.around[i] |= one << (local - most);
+        } else if (local >= 0) {
+          small.inside[i] |= one << local;
+        }
+      }
+    }
+    std::array<std::int32_t, SmallGraph::most> order{};
+    for (std::size_t i = 0; i < small.size; ++i) {
+      _moved[i] = _nodes[set.first + i];
+      _local[at(_moved[i].vertex)] = -1;
+    }
+    for (const std::int32_t u : _taken) {
+      _local[at(u)] = -1;
+    }
+    minimum_degree(small, order);
+    for (std::size_t i = 0; i < small.size; ++i) {
+      _nodes[set.first + i] = _moved[at(order[i])];
+    }
+  }
+
+  const Graph& _graph;
+  std::vector<Node> _nodes;          // in the order of elimination, as far as it is known
+  std::vector<std::int32_t> _part;   // of each vertex, or `separator`
+  std::vector<std::int32_t> _local;  // of each vertex in the band or leaf at work, or -1
+  std::int32_t _parts = 0;
+  VertexSeparator _separate;
+  Band _band;
+  // Work space.
+  std::vector<std::int32_t> _near, _taken;
+  std::vector<double> _sample;
+  std::vector<Node> _moved, _on_separator;
+};
+
+}  // namespace
+
+std::vector<std::int32_t> nested_dissection(const Graph& graph, std::span<const double> xy) {
+  return Dissection(graph, xy).order();
+}
+
+}  // namespace anticrack::ddm

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ddm/vertex_separator.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace anticrack::ddm {
+namespace {
+
+constexpr std::int32_t none = -1;    // no way through this vertex
+constexpr std::int32_t a_side = -2;  // the way begins or ends here
+
+std::size_t at(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+constexpr std::int32_t entered(std::int32_t vertex) {
+  return 2 * vertex;
+}
+constexpr std::int32_t left(std::int32_t vertex) {
+  return 2 * vertex + 1;
+}
+constexpr std::int32_t vertex_of(std::int32_t state) {
+  return state / 2;
+}
+constexpr bool is_left(std::int32_t state) {
+  return state % 2 == 1;
+}
+
+}  // namespace
+
+/// Calls `reach` with the states that lead to `state`.
+template <class Reach>
+void VertexSeparator::each_before(const Band& band, std::int32_t state, const Reach& reach) const {
+  const std::int32_t v = vertex_of(state), next = _next[at(v)];
+  if (is_left(state)) {
+    if (next != a_side) {
+      reach(entered(next == none ? v : next));
+    }
+    return;
+  }
+  if (next != none) {
+    reach(left(v));
+  }
+  for (std::int32_t e = band.begin[at(v)]; e < band.begin[at(v) + 1]; ++e) {
+    if (const std::int32_t u = band.neighbour[at(e)]; _next[at(u)] != v) {
+      reach(left(u));
+    }
+  }
+}
+
+/// And with those that it leads to.
+template <class Reach>
+void VertexSeparator::each_after(const Band& band, std::int32_t state, const Reach& reach) const {
+  const std::int32_t v = vertex_of(state), next = _next[at(v)];
+  if (!is_left(state)) {
+    if (next == none) {
+      reach(left(v));
+    } else if (_previous[at(v)] != a_side) {
+      reach(left(_previous[at(v)]));
+    }
+    return;
+  }
+  if (next != none) {
+    reach(entered(v));
+  }
+  for (std::int32_t e = band.begin[at(v)]; e < band.begin[at(v) + 1]; ++e) {
+    if (const std::int32_t u = band.neighbour[at(e)]; u != next) {
+      reach(entered(u));
+    }
+  }
+}
+
+/// Steps to the second side, breadth first, until a way leads there from the first side: as many
+/// as that takes, or -1 when the search is exhausted.
+std::int32_t VertexSeparator::find_levels(const Band& band) {
+  _level.assign(2 * band.size(), -1);
+  _open.clear();
+  for (std::size_t v = 0; v < band.size(); ++v) {
+    if (band.meets_second[v] != 0) {
+      const std::int32_t state = left(static_cast<std::int32_t>(v));
+      _level[at(state)] = 0;
+      _open.push_back(state);
+    }
+  }
+  std::int32_t last = -1;
+  for (std::size_t i = 0; i < _open.size(); ++i) {
+    const std::int32_t state = _open[i], level = _level[at(state)];
+    if (last >= 0 && level >= last) {
+      break;
+    }
+    if (!is_left(state) && band.meets_first[at(vertex_of(state))] != 0) {
+      last = level;
+      continue;
+    }
+    each_before(band, state, [&](std::int32_t before) {
+      if (_level[at(before)] < 0) {
+        _level[at(before)] = level + 1;
+        _open.push_back(before);
+      }
+    });
+  }
+  return last;
+}
+
+/// A state of the level below that `state` leads to and that was not tried, or -1.
+std::int32_t VertexSeparator::step(const Band& band, std::int32_t state) {
+  const std::int32_t v = vertex_of(state), level = _level[at(state)] - 1;
+  if (!is_left(state)) {
+    const std::int32_t previous = _previous[at(v)];
+    const std::int32_t only =
+        _next[at(v)] == none ? left(v) : (previous >= 0 ? left(previous) : -1);
+    return only >= 0 && _level[at(only)] == level ? only : -1;
+  }
+  if (_next[at(v)] != none && _level[at(entered(v))] == level) {
+    return entered(v);
+  }
+  for (std::int32_t& e = _cursor[at(v)]; e < band.begin[at(v) + 1]; ++e) {
+    const std::int32_t u = band.neighbour[at(e)];
+    if (u != _next[at(v)] && _level[at(entered(u))] == level) {
+      return entered(u);
+    }
+  }
+  return -1;
+}
+
+/// Depth first down the levels to the second side; a state that leads nowhere loses its level.
+bool VertexSeparator::find_way(const Band& band, std::int32_t from) {
+  _way.assign(1, from);
+  while (!_way.empty()) {
+    const std::int32_t state = _way.back();
+    if (_level[at(state)] == 0) {
+      return true;
+    }
+    if (const std::int32_t next = step(band, state); next >= 0) {
+      _way.push_back(next);
+    } else {
+      _level[at(state)] = -1;
+      _way.pop_back();
+    }
+  }
+  return false;
+}
+
+/// One more way: `_way`, which may undo parts of the others.
+void VertexSeparator::push() {
+  for (std::size_t i = 0; i < _way.size(); ++i) {
+    const std::int32_t state = _way[i], v = vertex_of(state);
+    _level[at(state)] = -1;
+    if (is_left(state)) {
+      _next[at(v)] = i + 1 < _way.size() ? vertex_of(_way[i + 1]) : a_side;
+    } else if (i > 0 && _way[i - 1] == left(v)) {
+      _previous[at(v)] = _next[at(v)] = none;  // the ways go past it now
+    } else {
+      _previous[at(v)] = i > 0 ? vertex_of(_way[i - 1]) : a_side;
+    }
+  }
+}
+
+/// From the levels of the last search, which reached all that leads to the second side. Returns
+/// how much larger the first side's part is than the second's.
+std::ptrdiff_t VertexSeparator::part_near_second() {
+  std::ptrdiff_t excess = 0;
+  for (std::size_t v = 0; v < _part.size(); ++v) {
+    const bool in = _level[2 * v] >= 0, out = _level[2 * v + 1] >= 0;
+    _part[v] = out && !in ? Part::separator : (in || out ? Part::second : Part::first);
+    excess += _part[v] == Part::first ? 1 : (_part[v] == Part::second ? -1 : 0);
+  }
+  return excess;
+}
+
+/// The same from the first side.
+std::ptrdiff_t VertexSeparator::part_near_first(const Band& band) {
+  std::fill(_level.begin(), _level.end(), -1);
+  _open.clear();
+  const auto reach = [this](std::int32_t state) {
+    if (_level[at(state)] < 0) {
+      _level[at(state)] = 0;
+      _open.push_back(state);
+    }
+  };
+  for (std::size_t v = 0; v < band.size(); ++v) {
+    if (band.meets_first[v] != 0) {
+      reach(entered(static_cast<std::int32_t>(v)));
+    }
+  }
+  for (std::size_t i = 0; i < _open.size(); ++i) {
+    each_after(band, _open[i], reach);
+  }
+  std::ptrdiff_t excess = 0;
+  _other.resize(band.size());
+  for (std::size_t v = 0; v < band.size(); ++v) {
+    const bool in = _level[2 * v] >= 0, out = _level[2 * v + 1] >= 0;
+    _other[v] = in && !out ? Part::separator : (in || out ? Part::first : Part::second);
+    excess += _other[v] == Part::first ? 1 : (_other[v] == Part::second ? -1 : 0);
+  }
+  return excess;
+}
+
+const std::vector<Part>& VertexSeparator::find(const Band& band, std::ptrdiff_t first,
+                                               std::ptrdiff_t second) {
+  const auto n = static_cast<std::int32_t>(band.size());
+  _previous.assign(band.size(), none);
+  _next.assign(band.size(), none);
+  for (std::int32_t steps = find_levels(band); steps >= 0; steps = find_levels(band)) {
+    _cursor.assign(band.begin.begin(), band.begin.end() - 1);
+    for (std::int32_t v = 0; v < n; ++v) {
+      if (band.meets_first[at(v)] != 0 && _level[at(entered(v))] == steps &&
+          find_way(band, entered(v))) {
+        push();
+      }
+    }
+  }
+  _part.resize(band.size());
+  const std::ptrdiff_t excess = first - second + part_near_second();
+  // The other one is looked for only where it may matter.
+  if (8 * std::abs(excess) > first + second + n &&
+      std::abs(first - second + part_near_first(band)) < std::abs(excess)) {
+    _part.swap(_other);
+  }
+  return _part;
+}
+
+}  // namespace anticrack::ddm

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The fewest vertices that part two sides of a graph: a maximal flow of ways that share no vertex
+// (Menger). Used to smooth the cuts of a nested dissection, after C. Ashcraft and J. Liu,
+// Applications of the Dulmage-Mendelsohn decomposition and network flow to graph bisection
+// improvement, SIAM J. Matrix Anal. Appl. 19 (1998).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace anticrack::ddm {
+
+/// A band of vertices 0..n-1 between two sides.
+struct Band {
+  std::vector<std::int32_t> begin;      ///< (n+1) into `neighbour`
+  std::vector<std::int32_t> neighbour;  ///< each edge from both its ends
+  std::vector<char> meets_first;        ///< (n) has a neighbour on the first side
+  std::vector<char> meets_second;       ///< (n) the same of the second side
+
+  std::size_t size() const noexcept { return begin.size() - 1; }
+};
+
+enum class Part : char { first, second, separator };
+
+/// Keeps its memory from one band to the next; for one thread.
+class VertexSeparator {
+ public:
+  /// Where each vertex of the band belongs: no way leads from the first side to the second but
+  /// through the separator, which is as small as can be. Of two such separators, the nearest to
+  /// each side, that is taken which leaves the sides more equal, `first` and `second` being their
+  /// sizes without the band. Valid until the next call. O(e sqrt(s)), s the separator's size; a
+  /// few passes over the band in practice (Dinic's algorithm).
+  const std::vector<Part>& find(const Band& band, std::ptrdiff_t first, std::ptrdiff_t second);
+
+ private:
+  template <class Reach>
+  void each_before(const Band& band, std::int32_t state, const Reach& reach) const;
+  template <class Reach>
+  void each_after(const Band& band, std::int32_t state, const Reach& reach) const;
+  std::int32_t find_levels(const Band& band);
+  std::int32_t step(const Band& band, std::int32_t state);
+  bool find_way(const Band& band, std::int32_t from);
+  void push();
+  std::ptrdiff_t part_near_first(const Band& band);
+  std::ptrdiff_t part_near_second();
+
+  // A vertex is entered once at most, so it has two states, 2v when entered and 2v + 1 when left.
+  std::vector<std::int32_t> _previous, _next;  // vertices before and after on the way through
+  std::vector<std::int32_t> _level;       // of each state: steps to a side; -1: unknown, or tried
+  std::vector<std::int32_t> _cursor;      // of each vertex: neighbour to try next
+  std::vector<std::int32_t> _open, _way;  // states
+  std::vector<Part> _part, _other;
+};
+
+}  // namespace anticrack::ddm
