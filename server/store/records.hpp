@@ -123,7 +123,7 @@ struct SweepSpec {
   };
   Cases cases = Cases::combinations;
   std::string upload;                   ///< sha256 of the matrix's bytes
-  std::uint64_t rows = 0;               ///< known when the job is taken in
+  std::uint64_t rows = 0;               ///< of nodal forces: known when the job starts
   std::vector<std::uint32_t> traces{};  ///< rows whose traces are kept, ascending
 };
 
