@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/dense_lcp.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 #include <optional>
 #include <set>
 #include <utility>
+
+#include "contact/cholesky.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -39,9 +40,9 @@ class OpenFactor {
       : _nodes(open_nodes(closed)), _size(matrix.rows()) {
     const auto n = static_cast<Index>(_nodes.size());
     if (n > 0) {
-      _cholesky.compute(matrix(_nodes, _nodes));
-      _regular = _cholesky.info() == Eigen::Success &&
-                 regular_pivot(_cholesky.matrixLLT().diagonal().array().square().minCoeff(), n);
+      _factor = matrix(_nodes, _nodes);
+      _regular =
+          cholesky(_factor) && regular_pivot(_factor.diagonal().array().square().minCoeff(), n);
     }
   }
 
@@ -51,7 +52,9 @@ class OpenFactor {
   VectorXd solve(const VectorXd& b) const {
     VectorXd x = VectorXd::Zero(_size);
     if (!_nodes.empty()) {
-      const VectorXd open = _cholesky.solve(VectorXd(b(_nodes)));
+      VectorXd open = b(_nodes);
+      _factor.triangularView<Eigen::Lower>().solveInPlace(open);
+      _factor.triangularView<Eigen::Lower>().adjoint().solveInPlace(open);
       x(_nodes) = open;
     }
     return x;
@@ -60,7 +63,7 @@ class OpenFactor {
  private:
   std::vector<Index> _nodes;
   Index _size;
-  Eigen::LLT<MatrixXd> _cholesky;
+  MatrixXd _factor;  // lower triangle
   bool _regular = true;
 };
 

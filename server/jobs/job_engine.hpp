@@ -20,13 +20,15 @@ struct EngineOptions {
   int threads = 2;              ///< that solve
   int columns = 32;             ///< load cases of one mesh that iterate or are condensed together
   int max_load_cases = 10'000;  ///< a job
-  int max_iterations = 1'000'000;  ///< a load case
-  std::uint64_t max_sweep_rows = 10'000'000;
-  int max_sweep_basis = 256;  ///< loads that are combined
+  int max_iterations = 1'000'000;             ///< a load case
+  std::uint64_t max_sweep_rows = 10'000'000;  ///< a job
+  int max_sweep_basis = 256;                  ///< loads that are combined
   std::size_t max_expression_bytes = 4096;
   // Admission: beyond one of these `busy` with a retry delay.
-  int max_queued_jobs = 1'000;                    ///< that have not started
-  int max_queued_cases = 100'000;                 ///< of one mesh, started or not, not ended
+  int max_queued_jobs = 1'000;  ///< that have not started
+  /// Of one mesh, started or not, not ended. 256 rows of a sweep, or a megabyte of nodal forces,
+  /// count as one, until the whole sweep has ended.
+  int max_queued_cases = 100'000;
   std::uint64_t max_queued_bytes = 256ULL << 20;  ///< of all specs of jobs that have not ended
   std::chrono::milliseconds queue_time{24 * 3600'000};  ///< longest a job may wait; then it fails
   std::chrono::milliseconds run_time{24 * 3600'000};    ///< longest a job may run
@@ -36,7 +38,8 @@ struct EngineOptions {
   std::size_t event_log_bytes = 16u << 20;  ///< a job
   /// Event logs of ended jobs together; the oldest go first, the newest never.
   std::uint64_t max_log_bytes = std::uint64_t{256} << 20;
-  /// Traces, fields and history of one job; load cases that would come after it is reached fail.
+  /// Traces, fields and history of one job; load cases that would come after it is reached fail. A
+  /// sweep whose answers would be larger fails at its start.
   std::uint64_t max_result_bytes = std::uint64_t{2} << 30;
   // Retention of ended jobs:
   int max_kept_jobs = 10'000;                               ///< records; the oldest are erased
@@ -50,7 +53,7 @@ struct EngineOptions {
 struct EngineMetrics {
   std::uint64_t jobs_created = 0;
   std::uint64_t jobs_ended = 0;
-  std::uint64_t load_cases_ended = 0;
+  std::uint64_t load_cases_ended = 0;  ///< rows of sweeps included
   std::uint64_t iterations = 0;
   std::uint64_t results_expired = 0;
   int jobs_queued = 0;   ///< now, those waiting for a mesh included
@@ -71,11 +74,14 @@ struct Submission {
 /// never on a solver thread, so an expensive factorisation starves nobody. Solver threads take
 /// turns over the meshes that have work, the most urgent first (schedule.hpp); in a turn the load
 /// cases of one mesh, of whatever job, run together: as columns of a UzawaBlock that join and leave
-/// at iteration boundaries, or condensed in one block and solved by the active set. Cancel and time
-/// limits take effect within one iteration or step, also while queued, meshing or factorising. What
-/// the store cannot take at a job's end (a full disk) is kept and tried again: the job stays
-/// RUNNING, phase "writing the result", until it is written, cancelled or the server stops.
-/// Thread-safe; no method but the destructor and `stop` blocks on a solve.
+/// at iteration boundaries, or condensed in one block and solved by the active set. A sweep is
+/// solved in chunks of consecutive rows, by all threads that have nothing more urgent to do; its
+/// numbers do not depend on which. Cancel and time limits take effect within one iteration, step or
+/// row, also while queued, meshing or factorising; of a sweep the chunks that ended keep their
+/// answers. A value of its matrix that is not finite fails it when that row is reached. What the
+/// store cannot take at a job's end (a full disk) is kept and tried again: the job stays RUNNING,
+/// phase "writing the result", until it is written, cancelled or the server stops. Thread-safe; no
+/// method but the destructor and `stop` blocks on a solve.
 class JobEngine {
  public:
   /// Queues the jobs the store has unfinished; those that had started with attempt + 1.
@@ -84,9 +90,12 @@ class JobEngine {
   ~JobEngine();
 
   /// Checks the job (errors::Error with "load_cases[i]...." or "solver...." at fault: no load case,
-  /// duplicate or empty name, bad expression or parameter; not_found for the mesh and for an
-  /// uploaded array; busy; disk_full; draining) and queues it. When it returns the job is on the
-  /// disk. Same owner and non-empty request id: the same job.
+  /// duplicate or empty name, bad expression or parameter; "sweep...." for a matrix that does not
+  /// fit, where the job must not wait for its mesh to see that; not_found for the mesh and for an
+  /// uploaded array; busy; disk_full; draining) and queues it. The rows of a sweep are counted, not
+  /// believed: of nodal forces when the job starts, and it fails then where they are not of the
+  /// mesh. When it returns the job is on the disk. Same owner and non-empty request id: the same
+  /// job.
   store::JobRecord submit(const Submission& submission);
 
   store::JobRecord get(const std::string& id) const;  ///< live state; throws not_found

@@ -19,7 +19,7 @@ struct EndedChunk {
   Task task;
   SweepChunk solved;                     ///< empty where the job was stopped, or it failed
   store::SweepRecord record;             ///< of these rows
-  std::optional<errors::Error> failure;  ///< of the job: a bad value in the matrix
+  std::optional<errors::Error> failure;  ///< of the whole job, e.g. a bad value in the matrix
 };
 
 /// Condenses the loads that a job combines. Throws errors::Error with the path in the job

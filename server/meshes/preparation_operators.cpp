@@ -24,6 +24,16 @@ double seconds_since(Steady::time_point start) {
   return std::chrono::duration<double>(Steady::now() - start).count();
 }
 
+/// theta* is for people to read and for Algorithm 2, and takes longer than all else at a large
+/// interface: `at_hand` does not wait for it. 0 where it is not known.
+double theta_star(const operators::MeshOperator& mesh_operator, bool at_hand) {
+  try {
+    return at_hand ? mesh_operator.known_theta_star() : mesh_operator.theta_star();
+  } catch (const Error&) {
+    return 0;  // Algorithm 2 tells who asks for it
+  }
+}
+
 }  // namespace
 
 std::uint64_t Preparation::begin_factorizing(LiveMesh& mesh) {
@@ -68,7 +78,8 @@ bool Preparation::record_outcome(std::unique_lock<std::mutex>& lock, const std::
   return written;
 }
 
-/// The first of those who wait together decides the round, and records how long it took.
+/// The first of those who wait together decides the round, and records how long it took. theta* may
+/// come later, from the run in the background.
 void Preparation::end_factorizing(const std::string& id, std::uint64_t round, Outcome outcome,
                                   bool last_step) {
   std::unique_lock lock(_mutex);
@@ -77,16 +88,23 @@ void Preparation::end_factorizing(const std::string& id, std::uint64_t round, Ou
   const auto decides = [&] {
     return mesh.undecided && mesh.round == round && (outcome.measured || outcome.failure);
   };
+  const auto adds = [&] {
+    return outcome.measured && outcome.measured->theta_star > 0 && mesh.operators.theta_star == 0;
+  };
   // One writes at a time, so that an older outcome does not overwrite a newer.
-  _changed.wait(lock, [&] { return !mesh.writing || !decides(); });
-  if (decides() && outcome.measured) {
+  _changed.wait(lock, [&] { return !mesh.writing || !(decides() || adds()); });
+  const bool first = decides();
+  if (outcome.measured && (first || adds())) {
     // True whether or not there is room on the disk to keep it, and to be seen by whoever gets the
     // operators.
-    outcome.measured->seconds = seconds_since(mesh.since);
+    outcome.measured->seconds = first ? seconds_since(mesh.since) : mesh.operators.seconds;
+    if (outcome.measured->theta_star == 0) {
+      outcome.measured->theta_star = mesh.operators.theta_star;  // of the mesh, once and for all
+    }
     mesh.operators = *outcome.measured;
-    mesh.undecided = false;
+    mesh.undecided = mesh.undecided && !first;
     record_outcome(lock, id, outcome);
-  } else if (decides()) {
+  } else if (first) {
     // Where it cannot be written it is told to those who wait, and met again.
     if (record_outcome(lock, id, outcome)) {
       mesh.stage = Stage::failed;
@@ -141,7 +159,8 @@ Preparation::Operator Preparation::factorize(const std::string& id, std::uint64_
   }
   Outcome outcome;
   if (result) {
-    outcome.measured = Measured{result->bytes(), result->theta_star(), 0};
+    outcome.measured = Measured{0, theta_star(*result, hold), 0};
+    outcome.measured->bytes = result->bytes();
   } else if (lasting(*error)) {
     outcome.failure = error;
   }

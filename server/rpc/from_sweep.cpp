@@ -10,11 +10,6 @@
 namespace anticrack::rpc {
 namespace {
 
-/// Status, steps, energy, contact length and kkt, at most.
-constexpr std::size_t bytes_a_row = 1 + 5 + 3 * sizeof(double);
-/// Tags and lengths of the arrays, number of the first row, and the message around it.
-constexpr std::size_t bytes_around = 256;
-
 template <class To, class From>
 void append_rows(To& to, const std::vector<From>& from, std::size_t first, std::size_t count) {
   const auto begin = from.begin() + static_cast<std::ptrdiff_t>(first);
@@ -56,11 +51,6 @@ v1::LoadCaseAnswer::Status from_domain(contact::Status status) noexcept {
       return v1::LoadCaseAnswer::STATUS_CANCELLED;
   }
   return v1::LoadCaseAnswer::STATUS_UNSPECIFIED;
-}
-
-std::size_t rows_a_message(std::size_t inclusions) noexcept {
-  const std::size_t row = bytes_a_row + inclusions * sizeof(double);
-  return std::max<std::size_t>(1, (max_rows_message_bytes - bytes_around) / row);
 }
 
 void append(v1::SweepRows& rows, const jobs::RowsEvent& event, std::size_t first,

@@ -20,12 +20,6 @@ v1::SweepAnswer from_domain(const store::SweepSpec& sweep, const store::SweepRec
 
 v1::LoadCaseAnswer::Status from_domain(contact::Status status) noexcept;
 
-/// A message of rows is kept below this; gRPC takes 4 MiB.
-constexpr std::size_t max_rows_message_bytes = 1u << 20;
-
-/// How many rows of that many inclusions fit in a message of max_rows_message_bytes; at least 1.
-std::size_t rows_a_message(std::size_t inclusions) noexcept;
-
 /// Appends rows of the event, from its row `first` on: `count` of them, or as many as there are.
 /// `rows` is empty, or ends with the row before. O(count inclusions), one reservation an array.
 void append(v1::SweepRows& rows, const jobs::RowsEvent& event, std::size_t first,

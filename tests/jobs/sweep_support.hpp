@@ -30,6 +30,10 @@ inline std::vector<double> eighths(std::size_t count, unsigned seed = 1) {
   return values;
 }
 
+inline std::size_t node_count(const anticrack::testing::Backend& backend, const std::string& mesh) {
+  return static_cast<std::size_t>(backend.catalogue.get(mesh).node_count);
+}
+
 /// 1, x and y, combined by a matrix with three columns.
 inline store::JobSpec combinations(const std::string& mesh, const std::string& matrix) {
   store::JobSpec spec;

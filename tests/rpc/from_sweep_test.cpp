@@ -66,22 +66,6 @@ TEST(FromSweep, TellsRowsOfAMeshWithoutInclusions) {
   EXPECT_EQ(rows.displacement_size(), 0);
 }
 
-TEST(FromSweep, FitsAsManyRowsInAMessageAsItMayHold) {
-  for (const std::size_t inclusions : {0, 1, 30}) {
-    const std::size_t count = rows_a_message(inclusions);
-    jobs::RowsEvent event = event_of(std::uint64_t{1} << 60, count, inclusions);
-    auto widest = std::make_shared<contact::SweepColumns>(*event.rows);
-    widest->steps.assign(count, 2'000'000'000);
-    event.rows = widest;
-    v1::WatchJobResponse response;
-    response.set_sequence(~std::uint64_t{0});
-    append(*response.mutable_sweep_rows(), event, 0, count);
-    EXPECT_LE(response.ByteSizeLong(), max_rows_message_bytes);
-    EXPECT_GT(response.ByteSizeLong(), max_rows_message_bytes * 9 / 10);
-  }
-  EXPECT_EQ(rows_a_message(10'000'000), 1u);
-}
-
 TEST(FromSweep, TellsHowARowEnded) {
   EXPECT_EQ(from_domain(contact::Status::converged), v1::LoadCaseAnswer::STATUS_CONVERGED);
   EXPECT_EQ(from_domain(contact::Status::not_converged), v1::LoadCaseAnswer::STATUS_NOT_CONVERGED);

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/sweep_chunk.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "jobs/sweep_result.hpp"
+#include "jobs/sweep_support.hpp"
+#include "support/errors.hpp"
+
+namespace anticrack::jobs {
+namespace {
+
+using anticrack::testing::Backend;
+using errors::Reason;
+
+/// A job of 300 rows in two chunks, as it is when a thread takes the first.
+class ChunkTest : public ::testing::Test {
+ protected:
+  ChunkTest() {
+    store::JobRecord record;
+    record.spec = combinations("mesh", upload(backend, eighths(300 * std::size_t{3})));
+    job = std::make_shared<LiveJob>(1, record, 1, 1U << 20U, nullptr);
+    const std::string mesh = ready_mesh(backend, 0.25);
+    job->mesh_operator = backend.catalogue.find(mesh);
+    job->sweep = std::make_unique<LiveSweep>(
+        plan_sweep(*job->spec, find_matrix(*job->spec->sweep, *backend.store, ""),
+                   *job->mesh_operator, EngineOptions{}));
+    job->sweep->basis = condense_basis(*job, *job->mesh_operator, *backend.store);
+  }
+  EndedChunk solve(std::size_t index) {
+    return solve_chunk({job, index, std::chrono::steady_clock::now()}, iterations);
+  }
+
+  Backend backend;
+  JobPtr job;
+  std::atomic<std::uint64_t> iterations{0};
+};
+
+TEST_F(ChunkTest, HasItsRows) {
+  const EndedChunk first = solve(0), last = solve(1);
+  ASSERT_TRUE(first.solved.columns && last.solved.columns);
+  EXPECT_EQ(first.solved.columns->rows(), 256U);
+  EXPECT_EQ(last.solved.columns->rows(), 44U);
+  EXPECT_EQ(last.record.converged, 44U);
+  EXPECT_GT(iterations, 300U);
+  store::SweepRecord sum;
+  add(sum, first.record);
+  add(sum, last.record);
+  EXPECT_EQ(sum.converged, 300U);
+  EXPECT_EQ(sum.worst_kkt, std::max(first.record.worst_kkt, last.record.worst_kkt));
+}
+
+TEST_F(ChunkTest, IsLeftWhereItsJobStops) {
+  job->stop.request_stop();
+  const EndedChunk chunk = solve(0);
+  EXPECT_FALSE(chunk.solved.columns);
+  EXPECT_FALSE(chunk.failure);
+  EXPECT_EQ(chunk.record.converged + chunk.record.not_converged, 0U);
+}
+
+TEST_F(ChunkTest, FailsWhereTheMatrixCannotBeRead) {
+  std::filesystem::resize_file(job->sweep->plan.matrix, 299 * 3 * sizeof(double));
+  EXPECT_FALSE(solve(0).failure);
+  const EndedChunk chunk = solve(1);
+  EXPECT_FALSE(chunk.solved.columns);
+  ASSERT_TRUE(chunk.failure);
+  EXPECT_EQ(chunk.failure->reason(), Reason::storage);
+}
+
+TEST_F(ChunkTest, ResultTakesTheBytesThatWerePlanned) {
+  EXPECT_EQ(sweep_result(*job->mesh_operator, *job->sweep, store::CaseStatus::cancelled), nullptr);
+  job->sweep->chunks[1] = solve(1).solved;
+  const auto block = sweep_result(*job->mesh_operator, *job->sweep, store::CaseStatus::cancelled);
+  ASSERT_TRUE(block);
+  EXPECT_LE(block->bytes.size(), job->sweep->plan.result_bytes);
+  EXPECT_GT(block->bytes.size() + 1000, job->sweep->plan.result_bytes);
+  const auto status = *array<std::int32_t>(*store::in_memory(block), "sweep/status");
+  EXPECT_EQ(status.front(), 6);  // LoadCaseAnswer.Status: cancelled
+  EXPECT_EQ(status.back(), 3);   // converged
+}
+
+}  // namespace
+}  // namespace anticrack::jobs

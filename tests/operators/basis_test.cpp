@@ -1,0 +1,483 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Bases of sweeps as MeshOperator keeps them, and rows of them.
+#include <gtest/gtest.h>
+
+#include <barrier>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "operators/answer_difference.hpp"
+#include "operators/basis_cache.hpp"
+#include "operators/load_key.hpp"
+#include "operators/mesh_operator.hpp"
+#include "support/errors.hpp"
+#include "support/structured_mesh.hpp"
+
+namespace anticrack::operators {
+namespace {
+
+using anticrack::testing::structured_mesh;
+using anticrack::testing::throws;
+using contact::ActiveSetOptions;
+using contact::Status;
+using contact::SweepColumns;
+using errors::Reason;
+using Operator = std::shared_ptr<const MeshOperator>;
+
+class Silent : public contact::Observer {
+ public:
+  bool on_iteration(const contact::Sample&) override { return true; }
+};
+
+Operator factorised() {
+  return MeshOperator::factorise(
+      std::make_shared<const mesh::Mesh>(structured_mesh({32, 8, {}, {}, {"bar"}})), 1, {});
+}
+
+std::vector<fem::Load> three_loads() {
+  std::vector<fem::Load> loads(3);
+  loads[0].force = 1.0;
+  loads[1].force = fem::PerRegion{{{"upper", 1.0}, {"lower", -2.0}}};
+  loads[1].boundary_value = "x*y";
+  loads[2].force = fem::Expression{"x - 0.3*y"};
+  loads[2].inclusion_forces["bar"] = 0.4;
+  return loads;
+}
+
+std::shared_ptr<const LoadBasis> basis_of(const MeshOperator& op,
+                                          const std::vector<fem::Load>& loads,
+                                          const std::stop_token& stop = {}) {
+  std::vector<const fem::Load*> pointers;
+  for (const fem::Load& load : loads) {
+    pointers.push_back(&load);
+  }
+  return op.basis(pointers, stop);
+}
+
+SweepColumns columns(const MeshOperator& op, std::size_t rows) {
+  return {rows, op.mesh().inclusions.size(), op.contact_nodes().size()};
+}
+
+/// A way through the coefficients with turns, zeros and repeated rows.
+std::vector<double> coefficients(std::size_t rows, std::size_t m) {
+  std::vector<double> result;
+  for (std::size_t k = 0; k < rows * m; ++k) {
+    const auto row = static_cast<double>(k / m % 17), column = static_cast<double>(k % m);
+    result.push_back(k / m % 7 == 3 ? 0 : std::cos(1.3 * row + column) + 0.2 * column);
+  }
+  return result;
+}
+
+template <class Value>
+bool same_bits(const std::vector<Value>& a, const std::vector<Value>& b) {
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), sizeof(Value) * a.size()) == 0);
+}
+
+/// All but the steps, which a better start saves.
+void expect_same_bits(const SweepColumns& a, const SweepColumns& b) {
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_TRUE(same_bits(a.energy, b.energy));
+  EXPECT_TRUE(same_bits(a.contact_length, b.contact_length));
+  EXPECT_TRUE(same_bits(a.kkt, b.kkt));
+  EXPECT_TRUE(same_bits(a.displacement, b.displacement));
+  EXPECT_TRUE(same_bits(a.contact, b.contact));
+}
+
+TEST(Sweep, StartsAndCompanyChangeNoBit) {
+  const Operator op = factorised();
+  const auto basis = basis_of(*op, three_loads());
+  constexpr std::size_t count = 60, m = 3;
+  const std::vector<double> c = coefficients(count, m);
+  SweepColumns whole = columns(*op, count);
+  std::vector<char> start;
+  ASSERT_TRUE(op->sweep(*basis, c, {}, whole, start));
+  EXPECT_EQ(start.size(), op->contact_nodes().size());
+  for (const char closed : {char{0}, char{1}}) {
+    SweepColumns other = columns(*op, count);
+    std::vector<char> all(start.size(), closed);
+    ASSERT_TRUE(op->sweep(*basis, c, {}, other, all));
+    EXPECT_EQ(all, start);
+    expect_same_bits(other, whole);
+  }
+  std::vector<char> alone_start;
+  for (std::size_t k = 0; k < count; ++k) {
+    SweepColumns alone = columns(*op, 1);
+    std::vector<char> empty;
+    ASSERT_TRUE(op->sweep(*basis, std::span(c).subspan(k * m, m), {}, alone, empty));
+    EXPECT_EQ(alone.energy[0], whole.energy[k]);
+    EXPECT_EQ(alone.displacement[0], whole.displacement[k]);
+    EXPECT_GE(alone.steps[0], whole.steps[k] == 1 ? 1 : 0);
+  }
+}
+
+TEST(Sweep, RowsOfPreparedLoadsAreTheirPlainAnswers) {
+  const Operator op = factorised();
+  const std::vector<fem::Load> loads = three_loads();
+  std::vector<PreparedLoad> prepared;
+  for (const fem::Load& load : loads) {
+    const fem::Load* const one[] = {&load};
+    prepared.push_back(std::get<PreparedLoad>(std::move(op->prepare(one).front())));
+  }
+  SweepColumns rows = columns(*op, loads.size());
+  std::vector<char> start;
+  ASSERT_TRUE(op->sweep(prepared, {}, rows, start));
+  Silent silent;
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    const contact::Answer answer = op->solve(loads[k], ActiveSetOptions{}, false, silent);
+    EXPECT_EQ(rows.status[k], answer.status);
+    EXPECT_NEAR(rows.energy[k], answer.energy, 1e-12 * std::abs(answer.energy));
+    EXPECT_NEAR(rows.displacement[k], answer.inclusions[0].displacement, 1e-12);
+    EXPECT_NEAR(rows.contact_length[k], answer.contact_length, 1e-12);
+    for (std::size_t n = 0; n < rows.contacts; ++n) {
+      const auto [interface, node] = op->contact_nodes()[n];
+      EXPECT_EQ(rows.contact[k * rows.contacts + n],
+                answer.traces[static_cast<std::size_t>(interface)]
+                    .contact[static_cast<std::size_t>(node)]);
+    }
+  }
+}
+
+TEST(Sweep, ACombinationIsALoadWithoutFields) {
+  const Operator op = factorised();
+  std::vector<fem::Load> loads(2);
+  loads[0].force = 2.0;
+  loads[0].boundary_value = "x";
+  loads[1].force = fem::Expression{"y"};
+  loads[1].boundary_value = "y - 1";
+  loads[1].inclusion_forces["bar"] = 1;
+  const auto basis = basis_of(*op, loads);
+  fem::Load same;
+  same.force = fem::Expression{"-3*2 + 0.5*y"};
+  same.boundary_value = "-3*x + 0.5*(y - 1)";
+  same.inclusion_forces["bar"] = 0.5;
+  const double c[] = {-3, 0.5};
+  Silent silent;
+  const PreparedLoad row = op->combine(*basis, c);
+  for (const contact::SolverOptions& options :
+       {contact::SolverOptions(ActiveSetOptions{}), contact::SolverOptions([] {
+          contact::UzawaOptions uzawa;
+          uzawa.theta.reset();
+          return uzawa;
+        }())}) {
+    const contact::Answer a = op->solve(row, options, false, silent);
+    const contact::Answer b = op->solve(same, options, false, silent);
+    EXPECT_EQ(a.status, Status::converged);
+    EXPECT_EQ(a.iterations, b.iterations);
+    EXPECT_NEAR(a.criterion, b.criterion, 1e-6 * b.criterion + 1e-15);
+    EXPECT_LT(difference(a, b), 1e-11);
+    EXPECT_NEAR(a.inclusions[0].resultant, 0.5, 1e-9);
+  }
+  EXPECT_TRUE(throws([&] { op->solve(row, ActiveSetOptions{}, true, silent); }, Reason::internal));
+  UzawaBlock block(op, contact::Mass::lumped, 1);
+  EXPECT_TRUE(
+      throws([&] { block.add(op->combine(*basis, c), {}, true, silent); }, Reason::internal));
+}
+
+TEST(Sweep, ARowThatCannotBeSolvedHasNoNumbersAndHarmsNoOther) {
+  const Operator op = factorised();
+  const auto basis = basis_of(*op, three_loads());
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const std::vector<double> c = {1, 2, 3, 1e300, 1e300, 0, infinite, 0, 0, 1, 2, 3};
+  SweepColumns rows = columns(*op, 4);
+  std::fill(rows.energy.begin(), rows.energy.end(), std::nan(""));
+  std::vector<char> start;
+  ASSERT_TRUE(op->sweep(*basis, c, {}, rows, start));
+  EXPECT_EQ(rows.status, (std::vector{Status::converged, Status::not_converged,
+                                      Status::not_converged, Status::converged}));
+  EXPECT_EQ(rows.energy[1], 0);
+  EXPECT_EQ(rows.energy[2], 0);
+  EXPECT_EQ(rows.energy[3], rows.energy[0]);
+  EXPECT_EQ(rows.steps[3], 1);
+
+  ActiveSetOptions hasty;
+  hasty.max_steps = 1;
+  SweepColumns one = columns(*op, 1);
+  std::vector<char> closed;
+  ASSERT_TRUE(op->sweep(*basis, std::vector<double>{0, 1, 0}, hasty, one, closed));
+  EXPECT_EQ(one.status[0], Status::not_converged);
+  EXPECT_EQ(one.steps[0], 1);
+}
+
+TEST(Sweep, StopsBetweenTwoRows) {
+  const Operator op = factorised();
+  const auto basis = basis_of(*op, three_loads());
+  std::stop_source stop;
+  stop.request_stop();
+  SweepColumns rows = columns(*op, 5);
+  std::vector<char> start;
+  EXPECT_FALSE(op->sweep(*basis, coefficients(5, 3), {}, rows, start, stop.get_token()));
+  EXPECT_EQ(rows.steps, std::vector<std::int32_t>(5, 0));
+  EXPECT_FALSE(op->sweep(std::vector<PreparedLoad>(), {}, rows, start, stop.get_token()) &&
+               rows.rows() == 5);
+}
+
+TEST(Sweep, RefusesWhatDoesNotFit) {
+  const Operator op = factorised(), another = factorised();
+  const auto basis = basis_of(*op, three_loads());
+  std::vector<char> start;
+  SweepColumns rows = columns(*op, 2);
+  const std::vector<double> c = coefficients(2, 3);
+  EXPECT_TRUE(throws([&] { another->sweep(*basis, c, {}, rows, start); }, Reason::internal));
+  EXPECT_TRUE(
+      throws([&] { op->sweep(*basis, coefficients(3, 3), {}, rows, start); }, Reason::internal));
+  SweepColumns narrow(2, 1, 3);
+  EXPECT_TRUE(throws([&] { op->sweep(*basis, c, {}, narrow, start); }, Reason::internal));
+  std::vector<char> short_start(1, 0);
+  EXPECT_TRUE(throws([&] { op->sweep(*basis, c, {}, rows, short_start); }, Reason::internal));
+  EXPECT_TRUE(throws([&] { op->combine(*basis, c); }, Reason::internal));
+}
+
+TEST(Sweep, TwoThreadsAtOnceGetWhatOneGets) {
+  const Operator op = factorised();
+  constexpr std::size_t count = 300, m = 3;
+  const std::vector<double> c = coefficients(count, m);
+  SweepColumns wanted = columns(*op, count);
+  std::vector<char> start;
+  ASSERT_TRUE(op->sweep(*basis_of(*op, three_loads()), c, {}, wanted, start));
+
+  const Operator fresh = factorised();
+  std::vector<SweepColumns> found(3, columns(*op, count));
+  std::vector<std::shared_ptr<const LoadBasis>> bases(found.size());
+  {
+    std::barrier together(static_cast<std::ptrdiff_t>(found.size()));
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      threads.emplace_back([&, i] {
+        together.arrive_and_wait();
+        bases[i] = basis_of(*fresh, three_loads());
+        std::vector<char> mine;
+        fresh->sweep(*bases[i], c, {}, found[i], mine);
+        static_cast<void>(fresh->theta_star());
+        static_cast<void>(fresh->bytes());
+      });
+    }
+  }
+  for (const SweepColumns& rows : found) {
+    expect_same_bits(rows, wanted);
+    EXPECT_EQ(rows.steps, wanted.steps);
+  }
+}
+
+TEST(LoadBasis, IsKeptByTheContentOfItsLoads) {
+  const Operator op = factorised();
+  const std::size_t before = op->bytes();
+  const auto first = basis_of(*op, three_loads());
+  const std::size_t with_one = op->bytes();
+  EXPECT_EQ(first->size(), 3U);
+  EXPECT_GE(with_one, before + first->bytes());
+  std::vector<fem::Load> renamed = three_loads();
+  renamed[0].name = "another name";
+  basis_of(*op, renamed);
+  EXPECT_EQ(op->bytes(), with_one);
+  renamed[0].force = 1.5;
+  basis_of(*op, renamed);
+  EXPECT_GT(op->bytes(), with_one);
+  for (int i = 0; i < 20; ++i) {
+    renamed[0].force = 2.0 + i;
+    basis_of(*op, renamed);
+  }
+  EXPECT_LE(op->bytes(), before + 8 * (with_one - before));
+  // A basis somebody holds is good for as long as that, and its mesh with it.
+  SweepColumns rows = columns(*op, 1);
+  std::vector<char> start;
+  EXPECT_TRUE(op->sweep(*first, std::vector<double>{1, 1, 1}, {}, rows, start));
+}
+
+TEST(LoadBasis, SaysWhichLoadIsWrong) {
+  const Operator op = factorised();
+  std::vector<fem::Load> loads = three_loads();
+  loads[1].force = fem::PerRegion{{{"attic", 1.0}}};
+  EXPECT_TRUE(throws([&] { basis_of(*op, loads); }, Reason::invalid_argument,
+                     "load_cases[1].force.per_region[attic]"));
+  EXPECT_TRUE(throws([&] { basis_of(*op, {}); }, Reason::invalid_argument, "load_cases"));
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_TRUE(throws([&] { basis_of(*op, three_loads(), stop.get_token()); }, Reason::cancelled));
+  EXPECT_EQ(basis_of(*op, three_loads())->size(), 3U);
+}
+
+TEST(LoadKey, TellsLoadsApartByAllButTheirNames) {
+  const auto key = [](const fem::Load& load) {
+    const fem::Load* const one[] = {&load};
+    return key_of(one);
+  };
+  std::vector<fem::Load> loads(11);
+  loads[1].force = 1.0;
+  loads[2].force = fem::Expression{"1"};
+  loads[3].force = fem::PerRegion{{{"upper", 1.0}}};
+  loads[4].boundary_value = "1";
+  loads[5].traction = "1";
+  loads[6].point_forces = {{0.1, 0.2, 1}};
+  loads[7].point_forces = {{0.1, 0.2, 2}};
+  loads[8].inclusion_forces["bar"] = 1;
+  loads[9].force = fem::Array{"hash", true, nullptr};
+  loads[10].force = fem::Array{"hash", false, nullptr};
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    fem::Load renamed = loads[i];
+    renamed.name = "name";
+    EXPECT_EQ(key(renamed), key(loads[i]));
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_NE(key(loads[i]), key(loads[j])) << i << " " << j;
+    }
+  }
+  const fem::Load* const pair[] = {&loads[0], &loads[1]};
+  const fem::Load* const swapped[] = {&loads[1], &loads[0]};
+  EXPECT_NE(key_of(pair), key_of(swapped));
+  fem::Load unnamed;
+  unnamed.force = fem::Array{"", true, std::make_shared<const std::vector<double>>(3, 1.0)};
+  EXPECT_FALSE(key(unnamed).has_value());
+}
+
+BasisCache::Basis basis_of_size(Eigen::Index numbers) {
+  CondensedBasis basis;
+  basis.reduced.r.setZero(numbers, 1);
+  return std::make_shared<const CondensedBasis>(std::move(basis));
+}
+
+TEST(BasisCache, KeepsTheEightUsedLast) {
+  BasisCache cache;
+  int made = 0;
+  const auto ask = [&](int i) {
+    return cache.get(std::to_string(i), {}, [&] {
+      ++made;
+      return basis_of_size(10);
+    });
+  };
+  for (int i = 0; i < 8; ++i) {
+    ask(i);
+  }
+  ask(0);
+  EXPECT_EQ(made, 8);
+  ask(8);  // in the place of 1
+  ask(0);
+  EXPECT_EQ(made, 9);
+  ask(1);
+  EXPECT_EQ(made, 10);
+  EXPECT_LE(cache.bytes(), 8 * (basis_of_size(10)->bytes() + 1));
+}
+
+TEST(BasisCache, KeepsNoMoreThanItsBytes) {
+  BasisCache cache;
+  int made = 0;
+  const auto ask = [&](const char* key, std::size_t bytes) {
+    cache.get(key, {}, [&] {
+      ++made;
+      return basis_of_size(static_cast<Eigen::Index>(bytes / sizeof(double)));
+    });
+  };
+  ask("large", BasisCache::most_bytes + 8);
+  EXPECT_EQ(cache.bytes(), 0U);
+  ask("half", BasisCache::most_bytes / 2);
+  ask("other half", BasisCache::most_bytes / 2);  // with what they are wrapped in: too much
+  EXPECT_LE(cache.bytes(), BasisCache::most_bytes);
+  EXPECT_EQ(made, 3);
+  ask("other half", 8);
+  EXPECT_EQ(made, 3);
+  ask("half", 8);
+  EXPECT_EQ(made, 4);
+}
+
+/// The maker waits inside until the others have been let in; whether they wait or come later, there
+/// is one maker.
+TEST(BasisCache, OfManyAtOnceOneMakes) {
+  BasisCache cache;
+  std::atomic<int> made{0}, asking{0};
+  std::vector<BasisCache::Basis> found(6);
+  {
+    std::vector<std::jthread> threads;
+    for (BasisCache::Basis& mine : found) {
+      threads.emplace_back([&] {
+        ++asking;
+        mine = cache.get("key", {}, [&] {
+          ++made;
+          while (asking < static_cast<int>(found.size())) {
+            std::this_thread::yield();
+          }
+          return basis_of_size(4);
+        });
+      });
+    }
+  }
+  EXPECT_EQ(made, 1);
+  for (const BasisCache::Basis& mine : found) {
+    EXPECT_EQ(mine, found[0]);
+  }
+}
+
+TEST(BasisCache, AStoppedMakerIsFollowedByTheNext) {
+  BasisCache cache;
+  const auto fail = [](Reason reason) {
+    return [reason]() -> BasisCache::Basis { throw errors::Error(reason, "made to fail"); };
+  };
+  EXPECT_TRUE(throws([&] { cache.get("key", {}, fail(Reason::cancelled)); }, Reason::cancelled));
+  EXPECT_TRUE(throws([&] { cache.get("key", {}, fail(Reason::invalid_argument)); },
+                     Reason::invalid_argument));
+  std::atomic<bool> inside{false}, leave{false};
+  std::jthread maker([&] {
+    EXPECT_TRUE(throws(
+        [&] {
+          cache.get("key", {}, [&]() -> BasisCache::Basis {
+            inside = true;
+            while (!leave) {
+              std::this_thread::yield();
+            }
+            throw errors::Error(Reason::cancelled, "stopped");
+          });
+        },
+        Reason::cancelled));
+  });
+  while (!inside) {
+    std::this_thread::yield();
+  }
+  // One who waits can be stopped.
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_TRUE(throws([&] { cache.get("key", stop.get_token(), fail(Reason::internal)); },
+                     Reason::cancelled));
+  int made = 0;
+  std::jthread next([&] {
+    cache.get("key", {}, [&] {
+      ++made;
+      return basis_of_size(4);
+    });
+  });
+  leave = true;
+  next.join();
+  EXPECT_EQ(made, 1);
+}
+
+TEST(ThetaStar, IsComputedWhenItIsAskedForAndCountsFromThen) {
+  const Operator op = factorised();
+  const std::size_t before = op->bytes();
+  Silent silent;
+  const contact::Answer exact = op->solve(three_loads()[0], ActiveSetOptions{}, false, silent);
+  EXPECT_EQ(exact.theta_star, 0);
+  EXPECT_EQ(op->known_theta_star(), 0);
+  EXPECT_EQ(op->bytes(), before);
+  const double theta_star = op->theta_star();
+  EXPECT_GT(theta_star, 0);
+  EXPECT_EQ(op->known_theta_star(), theta_star);
+  EXPECT_GT(op->bytes(), before);
+  EXPECT_LE(op->bytes(), estimate_bytes(op->mesh()));
+  const contact::Answer after = op->solve(three_loads()[0], ActiveSetOptions{}, false, silent);
+  EXPECT_EQ(after.theta_star, 0);
+  EXPECT_EQ(difference(after, exact), 0);
+
+  const Operator other = factorised();
+  contact::UzawaOptions uzawa;
+  uzawa.theta.reset();
+  EXPECT_EQ(other->solve(three_loads()[0], uzawa, false, silent).theta_star, theta_star);
+  EXPECT_EQ(other->known_theta_star(), theta_star);
+}
+
+}  // namespace
+}  // namespace anticrack::operators
