@@ -20,6 +20,9 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
     case v1::WatchJobResponse::kPhase:
       state = event.phase().state();
       detail = sanitise(event.phase().detail());
+      if (sweep && state == v1::Job::STATE_RUNNING) {
+        sweep->apply(v1::SweepRows(), seconds);  // no rows yet: the rate is measured from here
+      }
       break;
     case v1::WatchJobResponse::kLoadCaseEnded: {
       const std::int32_t index = event.load_case_ended().load_case();

@@ -191,6 +191,16 @@ TEST(SweepFrame, HasNoBarWhereTheNumberOfRowsIsNotKnown) {
   EXPECT_EQ(lines[1], "");
 }
 
+TEST(SweepFrame, MeasuresTheRateFromWhenTheJobBegan) {
+  JobProgress progress;
+  progress.apply(sweep_snapshot(100), 0);
+  v1::WatchJobResponse phase;
+  phase.mutable_phase()->set_state(v1::Job::STATE_RUNNING);
+  progress.apply(phase, 5);
+  progress.apply(event_of(rows(0, 50)), 7);  // all of them at once
+  EXPECT_THAT(frame(progress, 80, 24)[1], HasSubstr("25 rows/s  2 s left"));
+}
+
 TEST(SweepFrame, StartsAgainWithAnotherAttempt) {
   JobProgress progress = on_its_way();
   progress.apply(sweep_snapshot(100'000, 2), 20);
