@@ -19,7 +19,7 @@ std::size_t at(std::int32_t i) {
 
 struct Node {
   double x, y;
-  double reach;  // no neighbour is farther away
+  float reach, reach_x, reach_y;  // no neighbour is farther away, in all and along each axis
   std::int32_t vertex;
 };
 
@@ -43,6 +43,17 @@ struct Cut {
     const double dx = node.x - x, dy = node.y - y;
     return std::sqrt(dx * dx + dy * dy) - middle;
   }
+  double reach(const Node& node) const {
+    switch (shape) {
+      case Shape::across_x:
+        return node.reach_x;
+      case Shape::across_y:
+        return node.reach_y;
+      case Shape::circle:
+        break;
+    }
+    return node.reach;
+  }
 };
 
 /// Nodes first..last-1 of the order, all of `part`.
@@ -59,15 +70,16 @@ class Dissection {
       : _graph(graph), _part(graph.size(), 0), _local(graph.size(), -1) {
     _nodes.reserve(graph.size());
     for (std::size_t v = 0; v < graph.size(); ++v) {
-      double square = 0;
+      double square = 0, reach_x = 0, reach_y = 0;
       for (std::int32_t e = graph.begin[v]; e < graph.begin[v + 1]; ++e) {
         const std::size_t u = at(graph.neighbour[at(e)]);
         const double dx = xy[2 * u] - xy[2 * v], dy = xy[2 * u + 1] - xy[2 * v + 1];
         square = std::max(square, dx * dx + dy * dy);
+        reach_x = std::max(reach_x, std::abs(dx));
+        reach_y = std::max(reach_y, std::abs(dy));
       }
-      constexpr double rounding = 1 + 1e-9;
-      _nodes.push_back(
-          {xy[2 * v], xy[2 * v + 1], rounding * std::sqrt(square), static_cast<std::int32_t>(v)});
+      _nodes.push_back({xy[2 * v], xy[2 * v + 1], rounded_up(std::sqrt(square)),
+                        rounded_up(reach_x), rounded_up(reach_y), static_cast<std::int32_t>(v)});
     }
     _moved.resize(graph.size());
   }
@@ -100,6 +112,8 @@ class Dissection {
  private:
   static constexpr std::int32_t separator = -1;
 
+  static float rounded_up(double reach) { return static_cast<float>(reach * (1 + 1e-6)); }
+
   /// The median of the distances, from a sample.
   double median(const Set& set, const Cut& cut) {
     const std::size_t count = std::min<std::size_t>(set.size(), 127);
@@ -129,7 +143,7 @@ class Dissection {
       for (auto node = begin; node != end; ++node) {
         const double distance = cut.distance(*node);
         met += static_cast<std::ptrdiff_t>(distance < 0) &
-               static_cast<std::ptrdiff_t>(distance + node->reach >= 0);
+               static_cast<std::ptrdiff_t>(distance + cut.reach(*node) >= 0);
       }
       if (fewest < 0 || met < fewest) {
         fewest = met;
@@ -151,7 +165,7 @@ class Dissection {
       const double distance = cut.distance(node);
       _part[at(node.vertex)] = distance < 0 ? first : second;
       in_first += distance < 0 ? 1 : 0;
-      if (std::abs(distance) <= node.reach) {
+      if (std::abs(distance) <= cut.reach(node)) {
         _near.push_back(node.vertex);
       }
     }
@@ -180,6 +194,8 @@ class Dissection {
       return;
     }
     const std::size_t size = static_cast<std::size_t>(sizes[0] + sizes[1]);
+    const std::size_t at_cut = _taken.size();
+    const std::array<std::ptrdiff_t, 2> in_cut = in_band;
     std::size_t done = 0;
     for (int layer = 0; layer < layers(size); ++layer) {
       const std::size_t end = _taken.size();
@@ -198,7 +214,14 @@ class Dissection {
         }
       }
     }
-    connect_band(first);
+    const bool whole_side = in_band[0] == sizes[0] || in_band[1] == sizes[1];
+    if (whole_side) {  // nothing is left to be parted: choose among the ends of the edges cut
+      for (; _taken.size() > at_cut; _taken.pop_back()) {
+        _local[at(_taken.back())] = -1;
+      }
+      in_band = in_cut;
+    }
+    connect_band(first, whole_side);
     const std::vector<Part>& part =
         _separate.find(_band, sizes[0] - in_band[0], sizes[1] - in_band[1]);
     for (std::size_t i = 0; i < _taken.size(); ++i) {
@@ -208,14 +231,14 @@ class Dissection {
     }
   }
 
-  void connect_band(std::int32_t first) {
+  void connect_band(std::int32_t first, bool all_meet) {
     _band.begin.assign(1, 0);
     _band.neighbour.clear();
     _band.meets_first.assign(_taken.size(), 0);
     _band.meets_second.assign(_taken.size(), 0);
     for (std::size_t i = 0; i < _taken.size(); ++i) {
       const std::size_t v = at(_taken[i]);
-      char outer = 0;
+      char outer = all_meet ? 1 : 0;
       for (std::int32_t e = _graph.begin[v]; e < _graph.begin[v + 1]; ++e) {
         const std::size_t u = at(_graph.neighbour[at(e)]);
         if (_local[u] >= 0) {

@@ -43,9 +43,7 @@ void VertexSeparator::each_before(const Band& band, std::int32_t state, const Re
     reach(left(v));
   }
   for (std::int32_t e = band.begin[at(v)]; e < band.begin[at(v) + 1]; ++e) {
-    if (const std::int32_t u = band.neighbour[at(e)]; _next[at(u)] != v) {
-      reach(left(u));
-    }
+    reach(left(band.neighbour[at(e)]));
   }
 }
 
@@ -65,9 +63,7 @@ void VertexSeparator::each_after(const Band& band, std::int32_t state, const Rea
     reach(entered(v));
   }
   for (std::int32_t e = band.begin[at(v)]; e < band.begin[at(v) + 1]; ++e) {
-    if (const std::int32_t u = band.neighbour[at(e)]; u != next) {
-      reach(entered(u));
-    }
+    reach(entered(band.neighbour[at(e)]));
   }
 }
 
@@ -117,7 +113,7 @@ std::int32_t VertexSeparator::step(const Band& band, std::int32_t state) {
   }
   for (std::int32_t& e = _cursor[at(v)]; e < band.begin[at(v) + 1]; ++e) {
     const std::int32_t u = band.neighbour[at(e)];
-    if (u != _next[at(v)] && _level[at(entered(u))] == level) {
+    if (_level[at(entered(u))] == level) {
       return entered(u);
     }
   }
