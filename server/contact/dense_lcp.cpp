@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "contact/cholesky.hpp"
+#include "contact/dense.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -53,8 +53,8 @@ class OpenFactor {
     VectorXd x = VectorXd::Zero(_size);
     if (!_nodes.empty()) {
       VectorXd open = b(_nodes);
-      _factor.triangularView<Eigen::Lower>().solveInPlace(open);
-      _factor.triangularView<Eigen::Lower>().adjoint().solveInPlace(open);
+      solve_lower(_factor, open);
+      solve_lower_transposed(_factor, open);
       x(_nodes) = open;
     }
     return x;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "contact/dense.hpp"
 #include "errors/errors.hpp"
 
 namespace anticrack::contact {
@@ -35,21 +36,20 @@ MatrixXd join(const ddm::Decomposition& decomposition,
   return k;
 }
 
-Eigen::LLT<MatrixXd> factorise(const MatrixXd& h) {
-  Eigen::LLT<MatrixXd> cholesky(h);
-  if (cholesky.info() != Eigen::Success) {
+MatrixXd factorise(MatrixXd h) {
+  if (!cholesky(h)) {
     throw errors::Error(errors::Reason::numerical,
                         "the stiffness of the joined subdomains is not positive definite to "
                         "rounding; a part of the membrane is not held, the mesh has triangles that "
                         "are degenerate, or it is badly scaled");
   }
-  return cholesky;
+  return h;
 }
 
 }  // namespace
 
 struct SkeletonProblem::Blocks {
-  Eigen::LLT<MatrixXd> h;
+  MatrixXd h;
   MatrixXd w;
   MatrixXd condensed;
 
@@ -59,11 +59,12 @@ struct SkeletonProblem::Blocks {
     forest.accumulate(k);
     h = factorise(k(forest.roots(), forest.roots()));
     const auto sign = forest.sign().asDiagonal();
-    const MatrixXd c = MatrixXd(k(forest.roots(), forest.hung())) * sign;
-    w = c.size() == 0 ? c : MatrixXd(h.solve(c));
+    w = MatrixXd(k(forest.roots(), forest.hung())) * sign;
     condensed = sign * MatrixXd(k(forest.hung(), forest.hung())) * sign;
-    condensed -= c.transpose() * w;
-    condensed = ((condensed + condensed.transpose()) / 2).eval();
+    solve_lower(h, w);
+    subtract_square(w, condensed);  // C'H^-1 C
+    solve_lower_transposed(h, w);
+    condensed.triangularView<Eigen::StrictlyUpper>() = condensed.transpose();
   }
 };
 
@@ -77,6 +78,11 @@ SkeletonProblem::SkeletonProblem(const TraceProblem& traces, Blocks blocks)
       _closed_to_open(std::move(blocks.w)),
       _lcp(std::move(blocks.condensed)) {}
 
+void SkeletonProblem::solve_roots(VectorXd& q) const {
+  solve_lower(_h, q);
+  solve_lower_transposed(_h, q);
+}
+
 SkeletonProblem::Reduced SkeletonProblem::reduce(const VectorXd& h) const {
   const auto reduced = [this](const VectorXd& values) {
     MatrixXd sums = values;
@@ -87,9 +93,14 @@ SkeletonProblem::Reduced SkeletonProblem::reduce(const VectorXd& h) const {
   const auto [on_roots, on_hung] = reduced(h);
   const auto [size_on_roots, size_on_hung] = reduced(h.cwiseAbs());
   Reduced result;
-  result.q = on_roots.size() == 0 ? on_roots : VectorXd(_h.solve(on_roots));
+  result.q = on_roots;
+  solve_roots(result.q);
   result.r = _closed_to_open.transpose() * on_roots - forest().sign().cwiseProduct(on_hung);
-  result.magnitude = _closed_to_open.cwiseAbs().transpose() * size_on_roots + size_on_hung;
+  result.magnitude = size_on_hung;
+  for (Index c = 0; c < result.magnitude.size(); ++c) {
+    // One by one: Eigen would make a copy of |W| for the product.
+    result.magnitude[c] += _closed_to_open.col(c).cwiseAbs().dot(size_on_roots);
+  }
   return result;
 }
 

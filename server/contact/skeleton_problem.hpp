@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
@@ -66,9 +65,11 @@ class SkeletonProblem {
   SkeletonProblem(const TraceProblem& traces, Blocks blocks);
 
   const Forest& forest() const noexcept { return _traces.forest(); }
+  /// q <- H^-1 q.
+  void solve_roots(Eigen::VectorXd& q) const;
 
   const TraceProblem& _traces;
-  Eigen::LLT<Eigen::MatrixXd> _h;
+  Eigen::MatrixXd _h;               // Cholesky factor of H, lower triangle
   Eigen::MatrixXd _closed_to_open;  // W = H^-1 C
   DenseLcp _lcp;
 };

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "contact/cholesky.hpp"
+#include "contact/dense.hpp"
 
 namespace anticrack::contact {
 namespace {

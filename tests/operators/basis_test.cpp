@@ -3,6 +3,7 @@
 // Bases of sweeps as MeshOperator keeps them, and rows of them.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <barrier>
 #include <cmath>
 #include <cstring>
@@ -210,14 +211,46 @@ TEST(Sweep, ARowThatCannotBeSolvedHasNoNumbersAndHarmsNoOther) {
 TEST(Sweep, StopsBetweenTwoRows) {
   const Operator op = factorised();
   const auto basis = basis_of(*op, three_loads());
+  constexpr std::size_t count = 100, m = 3;
+  const std::vector<double> c = coefficients(count, m);
+  SweepColumns wanted = columns(*op, count);
+  std::vector<char> wanted_start;
+  ASSERT_TRUE(op->sweep(*basis, c, {}, wanted, wanted_start));
   std::stop_source stop;
-  stop.request_stop();
-  SweepColumns rows = columns(*op, 5);
+  SweepColumns rows = columns(*op, count);
+  {
+    std::atomic<bool> begun{false};
+    std::jthread sweeping([&] {
+      std::vector<char> start;
+      do {  // only a stop ends this
+        rows = columns(*op, count);
+        begun = true;
+      } while (op->sweep(*basis, c, {}, rows, start, stop.get_token()));
+    });
+    while (!begun) {
+      std::this_thread::yield();
+    }
+    stop.request_stop();
+  }
+  // Rows up to the stop are whole, the others untouched.
+  std::size_t done = 0;
+  while (done < count && rows.steps[done] > 0) {
+    EXPECT_EQ(rows.energy[done], wanted.energy[done]);
+    ++done;
+  }
+  EXPECT_LT(done, count);
+  for (std::size_t k = done; k < count; ++k) {
+    EXPECT_EQ(rows.steps[k], 0);
+    EXPECT_EQ(rows.energy[k], 0);
+  }
+  const std::vector<fem::Load> loads = three_loads();
+  const fem::Load* const one[] = {&loads[0]};
+  std::vector<PreparedLoad> prepared;
+  prepared.push_back(std::get<PreparedLoad>(std::move(op->prepare(one).front())));
+  SweepColumns row = columns(*op, 1);
   std::vector<char> start;
-  EXPECT_FALSE(op->sweep(*basis, coefficients(5, 3), {}, rows, start, stop.get_token()));
-  EXPECT_EQ(rows.steps, std::vector<std::int32_t>(5, 0));
-  EXPECT_FALSE(op->sweep(std::vector<PreparedLoad>(), {}, rows, start, stop.get_token()) &&
-               rows.rows() == 5);
+  EXPECT_FALSE(op->sweep(prepared, {}, row, start, stop.get_token()));
+  EXPECT_TRUE(op->sweep(prepared, {}, row, start));
 }
 
 TEST(Sweep, RefusesWhatDoesNotFit) {
