@@ -77,7 +77,9 @@ std::string text_of(const v1::ServerInfo& info, const std::string& address) {
                     seconds(limits.run_time()) + "; results are kept " +
                     (limits.result_ttl().seconds() > 0 ? "for " + seconds(limits.result_ttl())
                                                        : std::string("without a limit of time")) +
-                    " within " + bytes(limits.disk_budget_bytes()) + " on the disk"}};
+                    (limits.disk_budget_bytes() > 0
+                         ? " within " + bytes(limits.disk_budget_bytes()) + " on the disk"
+                         : std::string(" while the disk has space"))}};
   rows.insert(rows.end(), counters.begin(), counters.end());
   return table(rows, {1});
 }

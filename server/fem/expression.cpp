@@ -46,6 +46,16 @@ void require_plain(const std::string& text, const std::string& field) {
   }
 }
 
+/// All parsers share one locale. libstdc++ prepares it when the first number is read and looks at it
+/// without a lock ever after, so the first number is read before any other thread reads one.
+void prepare_locale() {
+  [[maybe_unused]] static const double number = [] {
+    mu::Parser parser;
+    parser.SetExpr("1.5");
+    return parser.Eval();
+  }();
+}
+
 }  // namespace
 
 struct ExpressionFunction::Parser {
@@ -58,6 +68,7 @@ struct ExpressionFunction::Parser {
 ExpressionFunction::ExpressionFunction(const std::string& text, std::string field)
     : _parser(std::make_unique<Parser>()) {
   require_plain(text, field);
+  prepare_locale();
   _parser->field = std::move(field);
   try {
     _parser->parser.DefineVar("x", &_parser->x);

@@ -38,6 +38,7 @@ class AnyStop {
 std::vector<Loaded> pass(const operators::MeshOperator& mesh_operator, std::vector<Loaded> cases,
                          Condensed& result) {
   std::vector<const fem::Load*> loads;
+  loads.reserve(cases.size());
   for (const auto& [task, load] : cases) {
     loads.push_back(&load);
   }

@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <system_error>
+#include <vector>
 
 #include "mesher/sanitized.hpp"
 
@@ -49,6 +50,13 @@ struct Release {
   void operator()(void* filter) const noexcept { seccomp_release(filter); }
 };
 
+/// Where all of `conditions` on the arguments hold.
+void allow(void* filter, int call, const std::vector<scmp_arg_cmp>& conditions = {}) {
+  check(seccomp_rule_add_array(filter, SCMP_ACT_ALLOW, call,
+                               static_cast<unsigned>(conditions.size()), conditions.data()),
+        "seccomp_rule_add");
+}
+
 void load_filter() {
   const std::unique_ptr<void, Release> filter(seccomp_init(SCMP_ACT_KILL_PROCESS));
   check(filter ? 0 : -ENOMEM, "seccomp_init");
@@ -57,18 +65,14 @@ void load_filter() {
   // a library may have started a thread
   check(seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1), "seccomp");
   for (const int call : allowed) {
-    check(seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, call, 0), "seccomp_rule_add");
+    allow(filter.get(), call);
   }
   // memory, never code
   for (const int call : {SCMP_SYS(mmap), SCMP_SYS(mprotect)}) {
-    check(seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, call, 1,
-                           SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)),
-          "seccomp_rule_add");
+    allow(filter.get(), call, {{2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0}});
   }
   // abort() signals its own thread; the server then names SIGABRT
-  check(seccomp_rule_add(filter.get(), SCMP_ACT_ALLOW, SCMP_SYS(tgkill), 1,
-                         SCMP_A0(SCMP_CMP_EQ, static_cast<scmp_datum_t>(getpid()))),
-        "seccomp_rule_add");
+  allow(filter.get(), SCMP_SYS(tgkill), {{0, SCMP_CMP_EQ, static_cast<scmp_datum_t>(getpid()), 0}});
   check(seccomp_load(filter.get()), "seccomp_load");
 }
 

@@ -3,8 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <cmath>
+#include <thread>
 #include <utility>
+#include <vector>
 
 #include "errors/errors.hpp"
 #include "fem/load.hpp"
@@ -83,6 +86,20 @@ TEST(Expression, NestedAsDeepAsItsLengthAllowsIsRead) {
   const std::string text = std::string(depth, '(') + "x" + std::string(depth, ')');
   ExpressionFunction function(text, "f");
   EXPECT_EQ(function(3, 0), 3.0);
+}
+
+// Only ThreadSanitizer sees this one fail, and only in a process that has read no number before.
+TEST(Expression, MayBeTheFirstOnManyThreadsAtOnce) {
+  std::atomic<int> ready = 0;
+  std::vector<std::jthread> threads;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([&ready] {
+      for (++ready; ready < 4;) {
+      }
+      ExpressionFunction function("1.5 * x", "f");
+      EXPECT_EQ(function(2, 0), 3.0);
+    });
+  }
 }
 
 TEST(Expression, ValueThatIsNotFiniteNamesThePlace) {
