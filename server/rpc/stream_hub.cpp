@@ -81,6 +81,15 @@ void StreamHub::wake(const std::weak_ptr<Wakeable>& target) {
   _changed.notify_all();
 }
 
+void StreamHub::hurry(const std::weak_ptr<Wakeable>& target) {
+  wake(target);
+  {
+    const std::lock_guard lock(_mutex);
+    _hurry = true;
+  }
+  _changed.notify_all();
+}
+
 void StreamHub::close() {
   const std::lock_guard lock(_mutex);
   _closed = true;
@@ -128,15 +137,17 @@ void StreamHub::run() {
   std::vector<std::weak_ptr<Wakeable>> late;  // whose time has not come
   for (;;) {
     std::vector<std::weak_ptr<Wakeable>> woken;
+    bool hurry = false;
     {
       std::unique_lock lock(_mutex);
       _changed.wait_until(lock, std::min(next_tick, next_late),
-                          [this] { return _stopping || !_woken.empty(); });
+                          [this] { return _stopping || _hurry || !_woken.empty(); });
       if (_stopping) return;
       woken.swap(_woken);
+      hurry = std::exchange(_hurry, false);
     }
     auto now = SteadyClock::now();
-    if (now >= next_late) {
+    if (hurry || now >= next_late) {
       woken.insert(woken.end(), late.begin(), late.end());
       late.clear();
       next_late = SteadyClock::time_point::max();

@@ -84,6 +84,8 @@ class StreamHub {
 
   /// Has the target woken on the hub's thread; many calls before that are one. Quick.
   void wake(const std::weak_ptr<Wakeable>& target);
+  /// The same for a target that may not want to wait any longer for its time. Quick.
+  void hurry(const std::weak_ptr<Wakeable>& target);
 
   /// Refuses new streams from now on.
   void close();
@@ -119,6 +121,7 @@ class StreamHub {
   StreamCounts _counts;
   std::unordered_map<std::string, int> _clients;  ///< streams each has open
   bool _closed = false;
+  bool _hurry = false;
   bool _stopping = false;
   std::thread _thread;
 };

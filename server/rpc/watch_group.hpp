@@ -18,7 +18,8 @@
 namespace anticrack::rpc {
 
 /// Works in rounds on the hub's thread, `pace` apart: a round looks how far the log is and wakes
-/// the members, who send no more than that. So a fast job's samples travel many a message.
+/// the members, who send no more than that. So a fast job's samples travel many a message. The last
+/// round, after the job's end, does not wait.
 /// Thread-safe.
 class WatchGroup final : public Wakeable {
  public:
@@ -39,7 +40,9 @@ class WatchGroup final : public Wakeable {
   const jobs::EventLog& log() const noexcept { return *_log; }
 
   void wake() noexcept override;
-  SteadyClock::time_point not_before() const noexcept override { return _last_round + pace; }
+  SteadyClock::time_point not_before() const noexcept override {
+    return _log->complete() ? SteadyClock::time_point{} : _last_round + pace;
+  }
 
  private:
   StreamHub& _hub;
