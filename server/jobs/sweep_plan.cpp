@@ -20,6 +20,8 @@ constexpr std::size_t contacts_a_chunk = std::size_t{1} << 15U;
 /// Loads are condensed in blocks of 32 columns: more would not make a row cheaper.
 constexpr std::size_t most_forces = 32;
 constexpr std::size_t force_bytes_a_chunk = std::size_t{64} << 20U;
+/// A chunk is one message to a watcher, and its displacements are most of it: half a megabyte.
+constexpr std::size_t displacements_a_chunk = std::size_t{1} << 16U;
 
 /// Of the arrays of sweep_result.hpp.
 std::uint64_t result_bytes(const operators::MeshOperator& mesh_operator, std::uint64_t rows,
@@ -41,12 +43,15 @@ std::uint64_t result_bytes(const operators::MeshOperator& mesh_operator, std::ui
 
 }  // namespace
 
-std::size_t chunk_rows(SweepSpec::Cases cases, std::size_t nodes, std::size_t contacts) {
-  if (cases == SweepSpec::Cases::combinations) {
-    return std::clamp(contacts_a_chunk / std::max<std::size_t>(1, contacts), fewest_combinations,
-                      most_combinations);
-  }
-  return std::clamp(force_bytes_a_chunk / (sizeof(double) * nodes), std::size_t{1}, most_forces);
+std::size_t chunk_rows(SweepSpec::Cases cases, std::size_t nodes, std::size_t contacts,
+                       std::size_t inclusions) {
+  constexpr std::size_t one = 1;
+  const std::size_t rows =
+      cases == SweepSpec::Cases::combinations
+          ? std::clamp(contacts_a_chunk / std::max(one, contacts), fewest_combinations,
+                       most_combinations)
+          : std::clamp(force_bytes_a_chunk / (sizeof(double) * nodes), one, most_forces);
+  return std::min(rows, std::max(one, displacements_a_chunk / std::max(one, inclusions)));
 }
 
 SweepPlan plan_sweep(const store::JobSpec& spec, MatrixFile matrix,
@@ -57,7 +62,8 @@ SweepPlan plan_sweep(const store::JobSpec& spec, MatrixFile matrix,
   plan.columns = sweep.cases == SweepSpec::Cases::combinations ? spec.loads.size() : nodes;
   plan.rows = rows_of(sweep, matrix.values, plan.columns, options.max_sweep_rows);
   plan.matrix = std::move(matrix.path);
-  plan.chunk_rows = chunk_rows(sweep.cases, nodes, mesh_operator.contact_nodes().size());
+  plan.chunk_rows = chunk_rows(sweep.cases, nodes, mesh_operator.contact_nodes().size(),
+                               mesh_operator.mesh().inclusions.size());
   plan.result_bytes = result_bytes(mesh_operator, plan.rows, sweep.traces.size());
   if (plan.result_bytes > options.max_result_bytes) {
     throw Error(Reason::limit_exceeded, "the answers to " + std::to_string(plan.rows) +

@@ -132,13 +132,15 @@ TEST_F(SweepCheck, IsAnotherJobWithAnotherSweep) {
 }
 
 TEST(SweepPlan, HasLargeChunksOfCheapRows) {
-  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 0), 256U);
-  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 80), 256U);
-  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 512), 64U);
-  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 100'000), 16U);
-  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 4000, 80), 32U);
-  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 1'000'000, 80), 8U);
-  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 100'000'000, 80), 1U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 0, 1), 256U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 80, 1), 256U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 512, 1), 64U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 100'000, 1), 16U);
+  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 4000, 80, 1), 32U);
+  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 1'000'000, 80, 1), 8U);
+  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 100'000'000, 80, 1), 1U);
+  EXPECT_EQ(chunk_rows(Cases::combinations, 4000, 80, 4096), 16U);
+  EXPECT_EQ(chunk_rows(Cases::nodal_forces, 4000, 80, 1'000'000), 1U);
 }
 
 TEST(SweepPlan, CoversEveryRowOnce) {
