@@ -73,6 +73,9 @@ std::string sweep_answer(const v1::Job& job) {
     text += "at most " + std::to_string(answer.most_steps()) + " steps, KKT residuals at most " +
             number(answer.worst_kkt(), 2) + "\n";
   }
+  for (const std::string& warning : answer.warnings()) {
+    text += "warning: " + sanitise(warning) + "\n";
+  }
   return text;
 }
 

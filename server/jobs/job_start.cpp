@@ -125,6 +125,9 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
     lock.unlock();
     condense(core, job);
     lock.lock();
+    if (job->sweep->basis) {
+      job->sweep_record.warnings = job->sweep->basis->warnings();
+    }
   }
   tell(lock, *job, "");
   --job->active;

@@ -38,6 +38,7 @@ v1::SweepAnswer from_domain(const store::SweepSpec& sweep, const store::SweepRec
   to.set_worst_kkt(record.worst_kkt);
   *to.mutable_solve_time() = to_duration(std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::duration<double>(record.seconds)));
+  to.mutable_warnings()->Assign(record.warnings.begin(), record.warnings.end());
   return to;
 }
 

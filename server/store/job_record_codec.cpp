@@ -138,11 +138,17 @@ static void write(const SweepRecord& sweep, SweepAnswer& out) {
   out.set_most_steps(sweep.most_steps);
   out.set_worst_kkt(sweep.worst_kkt);
   out.set_seconds(sweep.seconds);
+  out.mutable_warnings()->Assign(sweep.warnings.begin(), sweep.warnings.end());
 }
 
 static SweepRecord read(const SweepAnswer& in) {
-  return {in.converged(),  in.not_converged(), in.failed(),
-          in.most_steps(), in.worst_kkt(),     in.seconds()};
+  return {in.converged(),
+          in.not_converged(),
+          in.failed(),
+          in.most_steps(),
+          in.worst_kkt(),
+          in.seconds(),
+          {in.warnings().begin(), in.warnings().end()}};
 }
 
 static void write(const store::JobSpec& spec, JobSpec& out) {

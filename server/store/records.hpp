@@ -133,8 +133,9 @@ struct SweepRecord {
   std::uint64_t not_converged = 0;
   std::uint64_t failed = 0;
   int most_steps = 0;
-  double worst_kkt = 0;  ///< relative, over the rows that converged
-  double seconds = 0;    ///< on solver threads, added up
+  double worst_kkt = 0;                 ///< relative, over the rows that converged
+  double seconds = 0;                   ///< on solver threads, added up
+  std::vector<std::string> warnings{};  ///< of the loads that are combined
 };
 
 /// What a client asked for.

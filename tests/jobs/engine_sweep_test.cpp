@@ -122,6 +122,14 @@ TEST(EngineSweep, CombinesAsLoadCasesDo) {
   EXPECT_EQ(record.sweep.worst_kkt, largest(*array<double>(*result, "sweep/kkt")));
 }
 
+TEST(EngineSweep, TellsTheWarningsOfItsBasis) {
+  Engine test;
+  store::JobSpec spec =
+      combinations(test.ready_mesh(mesh_size), upload(test.backend, eighths(std::size_t{3})));
+  spec.loads[1].force = fem::Expression{"y > 0 ? 1 : sin(1e5*x*y)/sqrt(abs(x - 0.03))"};
+  EXPECT_EQ(test.ended(test.submit(spec)).sweep.warnings.size(), 1U);
+}
+
 TEST(EngineSweep, TakesNodalForces) {
   Engine test;
   const std::string mesh = test.ready_mesh(mesh_size);

@@ -86,6 +86,7 @@ TEST(FromSweep, TellsTheSweepOfAJobAndHowItEnded) {
   record.sweep.most_steps = 9;
   record.sweep.worst_kkt = 1e-13;
   record.sweep.seconds = 1.5;
+  record.sweep.warnings = {"rough"};
   const v1::Job job = from_domain(record, {});
   EXPECT_EQ(job.sweep().coefficients().upload(), "uploads/" + std::string(64, 'a'));
   EXPECT_THAT(job.sweep().traces(), ElementsAre(2u, 5u));
@@ -95,6 +96,7 @@ TEST(FromSweep, TellsTheSweepOfAJobAndHowItEnded) {
   EXPECT_EQ(job.sweep_answer().failed(), 1u);
   EXPECT_EQ(job.sweep_answer().most_steps(), 9);
   EXPECT_EQ(job.sweep_answer().worst_kkt(), 1e-13);
+  EXPECT_THAT(job.sweep_answer().warnings(), ElementsAre("rough"));
   EXPECT_EQ(job.sweep_answer().solve_time().seconds(), 1);
   EXPECT_EQ(job.sweep_answer().solve_time().nanos(), 500'000'000);
 

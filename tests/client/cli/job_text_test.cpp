@@ -51,9 +51,11 @@ TEST(JobText, CountsTheRowsOfASweepInPlaceOfAnswers) {
   answer.set_failed(1);
   answer.set_most_steps(6);
   answer.set_worst_kkt(2e-13);
+  answer.add_warnings("a rough load");
   EXPECT_THAT(job_text(job),
               HasSubstr("sweep of 100 rows: 97 converged, 2 did not converge, 1 failed\n"
-                        "at most 6 steps, KKT residuals at most 2e-13\n"));
+                        "at most 6 steps, KKT residuals at most 2e-13\n"
+                        "warning: a rough load\n"));
 }
 
 TEST(JobText, TellsWhatHappenedWhen) {
