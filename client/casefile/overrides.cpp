@@ -25,6 +25,23 @@ std::vector<std::string> split(const std::string& path) {
   }
 }
 
+/// Bytes that no case file could hold would not come back from the text that is kept.
+void require_text(const std::string& assignment) {
+  std::string escaped;
+  for (const char c : assignment) {
+    const bool layout = c == '\n' || c == '\r' || c == '\t';
+    escaped += layout                  ? std::string(" ")
+               : c == '"' || c == '\\' ? std::string("\\") + c
+                                       : std::string(1, c);
+  }
+  try {
+    static_cast<void>(toml::parse("text = \"" + escaped + "\""));
+  } catch (const toml::parse_error&) {
+    throw Error({"", "--set", 0},
+                "it holds control characters or bytes that are not UTF-8; write plain text");
+  }
+}
+
 // A table with the one key `value`, its source the override.
 toml::table parse_value(const std::string& text, const std::string& source) {
   const bool one_line = text.find_first_of("\r\n") == std::string::npos;
@@ -133,6 +150,7 @@ class Walk {
 }  // namespace
 
 void apply_override(toml::table& root, const std::string& assignment) {
+  require_text(assignment);
   const std::string source = "--set " + assignment;
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {

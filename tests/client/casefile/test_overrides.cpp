@@ -86,5 +86,18 @@ TEST(Overrides, RefuseKeysThatLeadNowhere) {
             "--set solver..theta=1: a part of the key is empty; write for example solver.theta=2");
 }
 
+TEST(Overrides, RefuseWhatNoCaseFileCouldHold) {
+  for (const std::string& bytes :
+       {std::string("\x9c\x8d"), std::string("a\x7f"), std::string("\x03"), std::string("a\0b", 3),
+        std::string("cut \xe2\x82")}) {
+    const std::string refusal =
+        "--set: it holds control characters or bytes that are not UTF-8; write plain text";
+    EXPECT_EQ(complaint(sample_text, {"title=" + bytes}), refusal);
+    EXPECT_EQ(complaint(sample_text, {"load.0.inclusion_forces." + bytes + "=1"}), refusal);
+  }
+  const std::string text = "\"quoted\", back\\slash,\ttab, \xc3\xa9";
+  EXPECT_EQ(parse(sample_text, {"title=" + text}).job.title(), text);
+}
+
 }  // namespace
 }  // namespace anticrack::casefile
