@@ -46,7 +46,9 @@ TEST_F(Memory, IsWarmedInTheBackground) {
   EXPECT_EQ(backend.catalogue.warm(id, false).state, MeshState::ready);
   EXPECT_EQ(backend.cache.metrics().factorizations, 1U);
   backend.catalogue.evict(id);
+  backend.door.shut();
   EXPECT_EQ(backend.catalogue.warm(id, false).state, MeshState::factorizing);
+  backend.door.open();
   EXPECT_TRUE(reaches(id, MeshState::ready));
   EXPECT_FALSE(backend.catalogue.pinned(id));
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
