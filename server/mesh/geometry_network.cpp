@@ -11,14 +11,32 @@
 namespace anticrack::mesh {
 namespace {
 
+/// Lines lie in the membrane. Far outside they are refused at once: the squares and products of
+/// such coordinates would be no numbers.
+void check_vertex(const Point& p, const std::string& field, const Outline& outline) {
+  check_point(p, field);
+  if (distance(p, outline.boundary.front()) > 10 * outline.tolerance / relative_tolerance) {
+    refuse(field, field, " ", show(p), " lies outside the polygon; it must lie in the membrane");
+  }
+}
+
+void check_vertices(const std::vector<Point>& points, const std::string& field,
+                    const Outline& outline) {
+  check_points(points, field);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    check_vertex(points[i], indexed(field, i), outline);
+  }
+}
+
 Line polyline_of(const std::vector<Point>& points, bool closed, const std::string& owner,
-                 const std::string& field, double tolerance) {
+                 const std::string& field, const Outline& outline) {
+  const double tolerance = outline.tolerance;
   const std::size_t least = closed ? 3 : 2;
   if (points.size() < least) {
     refuse(owner, owner, " has ", points.size(), " vertices; a ", (closed ? "closed " : ""),
            "polyline takes at least ", least);
   }
-  check_points(points, field);
+  check_vertices(points, field, outline);
   check_distinct(points, field, tolerance);
   if (distance(points.front(), points.back()) <= tolerance) {
     refuse(owner, owner, " starts and ends at the same point ", show(points.front()),
@@ -28,12 +46,13 @@ Line polyline_of(const std::vector<Point>& points, bool closed, const std::strin
   return Line::polyline(points, closed);
 }
 
-Line spline_of(const InterfaceSpec& spec, const std::string& owner, double tolerance) {
+Line spline_of(const InterfaceSpec& spec, const std::string& owner, const Outline& outline) {
+  const double tolerance = outline.tolerance;
   const std::string field = owner + ".points";
   if (spec.points.size() < 3) {
     refuse(owner, owner, " has ", spec.points.size(), " points; a spline takes at least 3");
   }
-  check_points(spec.points, field);
+  check_vertices(spec.points, field, outline);
   check_distinct(spec.points, field, tolerance);
   if (distance(spec.points.front(), spec.points.back()) <= tolerance) {
     refuse(owner, owner, " starts and ends at the same point ", show(spec.points.front()),
@@ -42,7 +61,8 @@ Line spline_of(const InterfaceSpec& spec, const std::string& owner, double toler
   return Line::spline(spec.points, spec.closed);
 }
 
-Line arc_of(const InterfaceSpec& spec, const std::string& owner, double tolerance) {
+Line arc_of(const InterfaceSpec& spec, const std::string& owner, const Outline& outline) {
+  const double tolerance = outline.tolerance;
   if (spec.points.size() != 3) {
     refuse(owner, owner, " has ", spec.points.size(),
            " points; an arc is given by three: from, through, to");
@@ -51,7 +71,9 @@ Line arc_of(const InterfaceSpec& spec, const std::string& owner, double toleranc
     refuse(owner, owner, " is closed, which an arc cannot be; make the circle a closed spline");
   }
   const std::array<const char*, 3> names{".from", ".through", ".to"};
-  for (std::size_t i = 0; i < 3; ++i) check_point(spec.points[i], owner + names[i]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    check_vertex(spec.points[i], owner + names[i], outline);
+  }
   const Point& a = spec.points[0];
   const Point& b = spec.points[1];
   const Point& c = spec.points[2];
@@ -68,19 +90,20 @@ Line arc_of(const InterfaceSpec& spec, const std::string& owner, double toleranc
   return Line::arc(a, b, c);
 }
 
-NetworkLine interface_line(const InterfaceSpec& spec, const std::string& name, double tolerance) {
+NetworkLine interface_line(const InterfaceSpec& spec, const std::string& name,
+                           const Outline& outline) {
   switch (spec.shape) {
     case Shape::arc:
-      return {name + ".arc", Role::interface, arc_of(spec, name + ".arc", tolerance), {}};
+      return {name + ".arc", Role::interface, arc_of(spec, name + ".arc", outline), {}};
     case Shape::spline:
-      return {name + ".spline", Role::interface, spline_of(spec, name + ".spline", tolerance), {}};
+      return {name + ".spline", Role::interface, spline_of(spec, name + ".spline", outline), {}};
     case Shape::polyline:
       break;
   }
   const std::string field = name + ".polyline";
   return {field,
           Role::interface,
-          polyline_of(spec.points, spec.closed, field, field + ".points", tolerance),
+          polyline_of(spec.points, spec.closed, field, field + ".points", outline),
           {}};
 }
 
@@ -209,14 +232,14 @@ Network lay_lines(const Geometry& geometry, const MeshOptions& options) {
       {"boundary", Role::dirichlet, Line::polyline(outline.boundary, true), {}});
   for (std::size_t i = 0; i < geometry.interfaces.size(); ++i) {
     network.lines.push_back(
-        interface_line(geometry.interfaces[i], indexed("interfaces", i), outline.tolerance));
+        interface_line(geometry.interfaces[i], indexed("interfaces", i), outline));
   }
   for (std::size_t i = 0; i < options.align.size(); ++i) {
     const std::string field = indexed("options.align", i);
     network.lines.push_back(
         {field,
          Role::align,
-         polyline_of(options.align[i], false, field, field + ".points", outline.tolerance),
+         polyline_of(options.align[i], false, field, field + ".points", outline),
          {}});
   }
   for (std::size_t l = 0; l < network.lines.size(); ++l) {

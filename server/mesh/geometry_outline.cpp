@@ -10,7 +10,9 @@
 namespace anticrack::mesh {
 namespace {
 
+// products of three of them are numbers
 constexpr double max_coordinate = 1e100;
+constexpr double min_extent = 1e-60;
 
 Segment edge_of(std::span<const Point> polygon, std::size_t i) {
   return {polygon[i], polygon[(i + 1) % polygon.size()]};
@@ -106,6 +108,10 @@ double check_boundary(const std::vector<Point>& boundary) {
   if (extent > 0 && extent < 1e-6 * largest) {
     refuse("boundary", "boundary is ", show(extent), " across, but lies ", show(largest),
            " from the origin: too far for the digits of a number; move it to the origin");
+  }
+  if (extent > 0 && extent < min_extent) {
+    refuse("boundary", "boundary is ", show(extent), " across; at least ", show(min_extent),
+           " is taken, choose a smaller unit of length");
   }
   check_distinct(boundary, "boundary", tolerance);
   if (distance(boundary.front(), boundary.back()) <= tolerance) {

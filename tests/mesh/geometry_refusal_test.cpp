@@ -29,6 +29,12 @@ const Fault faults[] = {
      [](Geometry& g) { g.boundary[3][1] = nan_value; },
      "boundary[3]",
      {"(-1, nan)"}},
+    {"BoundaryMinute",
+     [](Geometry& g) {
+       for (auto& p : g.boundary) p = {1e-120 * p[0], 1e-120 * p[1]};
+     },
+     "boundary",
+     {"across", "smaller unit"}},
     {"BoundaryHuge", [](Geometry& g) { g.boundary[2][0] = 1e300; }, "boundary[2]", {"1e+300"}},
     {"BoundaryRepeats",
      [](Geometry& g) {

@@ -118,6 +118,24 @@ const Fault faults[] = {
      },
      "interfaces[1].arc",
      {"outside the polygon"}},
+    {"ArcFarOutside",
+     [](Geometry& g) {
+       curve(g, Shape::arc, {{-0.5, 1}, {1e99, 1e99}, {0.5, 1}});
+     },
+     "interfaces[1].arc.through",
+     {"1e+99", "outside the polygon"}},
+    {"SplineFarOutside",
+     [](Geometry& g) {
+       curve(g, Shape::spline, {{-0.5, 1}, {0, 0.5}, {-1e80, 1}});
+     },
+     "interfaces[1].spline.points[2]",
+     {"-1e+80", "outside the polygon"}},
+    {"PolylineFarOutside",
+     [](Geometry& g) {
+       add(g, "b", {{0, -1}, {1e60, 1}});
+     },
+     "interfaces[1].polyline.points[1]",
+     {"1e+60", "outside the polygon"}},
     {"SplineOfTwoPoints",
      [](Geometry& g) {
        curve(g, Shape::spline, {{-1, 0.5}, {1, 0.5}});
