@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fem/load_vector.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "fem/adaptive_load.hpp"
@@ -8,6 +9,57 @@
 
 namespace anticrack::fem {
 namespace {
+
+using Corners = std::array<Eigen::Index, 3>;
+
+Corners corners(const Triangulation& part, std::size_t t) {
+  return {part.triangles[3 * t], part.triangles[3 * t + 1], part.triangles[3 * t + 2]};
+}
+
+double area(const Triangulation& part, const Corners& nodes) {
+  const auto at = [&part](Eigen::Index node) {
+    return Eigen::Map<const Eigen::Vector2d>(&part.xy[2 * static_cast<std::size_t>(node)]);
+  };
+  const Eigen::Vector2d p = at(nodes[1]) - at(nodes[0]), q = at(nodes[2]) - at(nodes[0]);
+  return 0.5 * (p.x() * q.y() - p.y() * q.x());
+}
+
+/// int f phi_i of `width` fields at once, by the exact mass matrix of a triangle, area/12 (1 +
+/// delta_ij). A column of the argument and of the result is a node's.
+template <int width>
+Eigen::Matrix<double, width, Eigen::Dynamic> linear_on_triangles(
+    const Triangulation& part, const Eigen::Matrix<double, width, Eigen::Dynamic>& of_node) {
+  using Values = Eigen::Array<double, width, 1>;
+  Eigen::Matrix<double, width, Eigen::Dynamic> load =
+      Eigen::Matrix<double, width, Eigen::Dynamic>::Zero(width, of_node.cols());
+  for (std::size_t t = 0; t < part.triangle_count(); ++t) {
+    const Corners nodes = corners(part, t);
+    const Values p = of_node.col(nodes[0]), q = of_node.col(nodes[1]), r = of_node.col(nodes[2]);
+    const double part_of_area = area(part, nodes) / 12;
+    const Values sum = p + q + r;
+    load.col(nodes[0]).array() += part_of_area * (sum + p);
+    load.col(nodes[1]).array() += part_of_area * (sum + q);
+    load.col(nodes[2]).array() += part_of_area * (sum + r);
+  }
+  return load;
+}
+
+/// The next of the arrays into columns of `loads` from `first` on, at most `width`.
+template <int width>
+void integrate_arrays(const Triangulation& part, std::span<const std::int32_t> node,
+                      std::span<const double* const> arrays, Eigen::Index first,
+                      Eigen::MatrixXd& loads) {
+  using Rows = Eigen::Matrix<double, width, Eigen::Dynamic>;
+  const auto count = static_cast<Eigen::Index>(arrays.size());
+  Rows of_node = Rows::Zero(width, loads.rows());
+  for (Eigen::Index i = 0; i < loads.rows(); ++i) {
+    for (Eigen::Index j = 0; j < count; ++j) {
+      of_node(j, i) = arrays[static_cast<std::size_t>(j)][node[static_cast<std::size_t>(i)]];
+    }
+  }
+  const Rows load = linear_on_triangles<width>(part, of_node);
+  loads.middleCols(first, count) = load.topRows(count).transpose();
+}
 
 struct AssembleForce {
   const Triangulation& part;
@@ -18,45 +70,15 @@ struct AssembleForce {
     return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(part.node_count()));
   }
 
-  std::array<Eigen::Index, 3> corners(std::size_t t) const {
-    return {part.triangles[3 * t], part.triangles[3 * t + 1], part.triangles[3 * t + 2]};
-  }
-
-  double area(const std::array<Eigen::Index, 3>& nodes) const {
-    const auto at = [this](Eigen::Index node) {
-      return Eigen::Map<const Eigen::Vector2d>(&part.xy[2 * static_cast<std::size_t>(node)]);
-    };
-    const Eigen::Vector2d p = at(nodes[1]) - at(nodes[0]), q = at(nodes[2]) - at(nodes[0]);
-    return 0.5 * (p.x() * q.y() - p.y() * q.x());
-  }
-
   /// int f phi_i for f constant on triangles; value(t) on the t-th.
   template <class Value>
   Eigen::VectorXd constant_on_triangles(const Value& value) const {
     Eigen::VectorXd load = zero();
     for (std::size_t t = 0; t < part.triangle_count(); ++t) {
-      const std::array<Eigen::Index, 3> nodes = corners(t);
-      const double third = value(t) * area(nodes) / 3;
+      const Corners nodes = corners(part, t);
+      const double third = value(t) * area(part, nodes) / 3;
       for (const Eigen::Index node : nodes) {
         load[node] += third;
-      }
-    }
-    return load;
-  }
-
-  /// By the exact mass matrix of a triangle, area/12 (1 + delta_ij).
-  Eigen::VectorXd linear_on_triangles(const std::vector<double>& of_node) const {
-    Eigen::VectorXd load = zero();
-    for (std::size_t t = 0; t < part.triangle_count(); ++t) {
-      const std::array<Eigen::Index, 3> nodes = corners(t);
-      std::array<double, 3> value{};
-      for (std::size_t a = 0; a < 3; ++a) {
-        value[a] =
-            of_node[static_cast<std::size_t>(context.node[static_cast<std::size_t>(nodes[a])])];
-      }
-      const double part_of_area = area(nodes) / 12, sum = value[0] + value[1] + value[2];
-      for (std::size_t a = 0; a < 3; ++a) {
-        load[nodes[a]] += part_of_area * (sum + value[a]);
       }
     }
     return load;
@@ -74,7 +96,8 @@ struct AssembleForce {
   Eigen::VectorXd operator()(const Array& array) const {
     const std::vector<double>& values = *array.values;
     if (!array.per_triangle) {
-      return linear_on_triangles(values);
+      const double* const one[] = {values.data()};
+      return load_vectors(part, context.node, one);
     }
     return constant_on_triangles(
         [&](std::size_t t) { return values[static_cast<std::size_t>(context.triangle[t])]; });
@@ -100,6 +123,25 @@ struct AssembleForce {
 Eigen::VectorXd load_vector(const Triangulation& part, const Force& force,
                             const std::string& region, const LoadContext& context) {
   return std::visit(AssembleForce{part, region, context}, force);
+}
+
+Eigen::MatrixXd load_vectors(const Triangulation& part, std::span<const std::int32_t> node,
+                             std::span<const double* const> arrays) {
+  constexpr std::size_t together = 8;
+  Eigen::MatrixXd loads(static_cast<Eigen::Index>(part.node_count()),
+                        static_cast<Eigen::Index>(arrays.size()));
+  for (std::size_t first = 0; first < arrays.size();) {
+    const std::size_t rest = arrays.size() - first;
+    const std::size_t count = rest > 2 ? std::min(rest, together) : 1;  // fewer are slower together
+    const auto next = arrays.subspan(first, count);
+    if (count > 1) {
+      integrate_arrays<together>(part, node, next, static_cast<Eigen::Index>(first), loads);
+    } else {
+      integrate_arrays<1>(part, node, next, static_cast<Eigen::Index>(first), loads);
+    }
+    first += count;
+  }
+  return loads;
 }
 
 Eigen::VectorXd boundary_values(const Triangulation& part, const std::string& text,

@@ -75,10 +75,17 @@ class Block {
     Eigen::MatrixXd of_nodes(static_cast<Eigen::Index>(subdomain.node.size()), columns);
     Eigen::MatrixXd dirichlet(static_cast<Eigen::Index>(subdomain.dirichlet), columns);
     std::vector<std::size_t> sound;
+    const Eigen::MatrixXd of_arrays = integrate_arrays(subdomain);
+    Eigen::Index arrays = 0;
     for (std::size_t i = 0; i < _loads.size(); ++i) {
       attempt(i, [&](LoadOnTraces& result) {
         const auto column = static_cast<Eigen::Index>(sound.size());
-        of_nodes.col(column) = integrate(i, s, result);
+        if (nodal_values(i) != nullptr) {
+          of_nodes.col(column) = of_arrays.col(arrays++);
+        } else {
+          of_nodes.col(column) = integrate(i, s, result);
+        }
+        add_rest(i, s, result, of_nodes.col(column));
         dirichlet.col(column) = fem::boundary_values(subdomain.part, _loads[i]->boundary_value,
                                                      subdomain.free(), subdomain.dirichlet);
         sound.push_back(i);
@@ -116,18 +123,45 @@ class Block {
     }
   }
 
+  /// Of a sound load whose force is given at the nodes; else null.
+  const double* nodal_values(std::size_t i) const {
+    const auto* array = std::get_if<fem::Array>(&_loads[i]->force);
+    const bool given = array != nullptr && !array->per_triangle &&
+                       std::holds_alternative<LoadOnTraces>(_outcomes[i]);
+    return given ? array->values->data() : nullptr;
+  }
+
+  /// Of all loads with nodal values together, which is faster than one by one.
+  Eigen::MatrixXd integrate_arrays(const ddm::Subdomain& subdomain) const {
+    std::vector<const double*> arrays;
+    for (std::size_t i = 0; i < _loads.size(); ++i) {
+      if (const double* values = nodal_values(i)) {
+        arrays.push_back(values);
+      }
+    }
+    return fem::load_vectors(subdomain.part, subdomain.node, arrays);
+  }
+
   Eigen::VectorXd integrate(std::size_t i, std::size_t s, LoadOnTraces& result) const {
     const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
-    const fem::Load& load = *_loads[i];
     double error = 0;
     Eigen::VectorXd of_nodes =
-        fem::load_vector(subdomain.part, load.force, subdomain.name,
+        fem::load_vector(subdomain.part, _loads[i]->force, subdomain.name,
                          {subdomain.node, subdomain.triangle, _stop, &error});
     if (error > fem::load_tolerance) {
       result.warnings.push_back(inexact("the force", subdomain.name, error));
     }
+    return of_nodes;
+  }
+
+  /// Traction and point forces.
+  void add_rest(std::size_t i, std::size_t s, LoadOnTraces& result,
+                Eigen::Ref<Eigen::VectorXd> of_nodes) const {
+    const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
+    const fem::Load& load = *_loads[i];
     if (!load.traction.empty() && !subdomain.neumann.empty()) {
-      error = fem::add_traction(subdomain.part, subdomain.neumann, load.traction, of_nodes, _stop);
+      const double error =
+          fem::add_traction(subdomain.part, subdomain.neumann, load.traction, of_nodes, _stop);
       if (error > fem::load_tolerance) {
         result.warnings.push_back(inexact("the traction", subdomain.name, error));
       }
@@ -140,7 +174,6 @@ class Block {
           errors::Reason::invalid_argument,
           "the load on subdomain \"" + subdomain.name + "\" overflows; scale it down");
     }
-    return of_nodes;
   }
 
   std::span<const fem::Load* const> _loads;

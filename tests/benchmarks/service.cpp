@@ -4,6 +4,7 @@
 // nodal load and a sample cost from end to end.
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -24,6 +25,7 @@ namespace {
 struct Options {
   int repetitions = 5;
   bool tiny = false;
+  std::vector<std::string> only;  ///< figures; empty: all
   // Of one job each:
   int cases = 64;
   int combinations = 20'000;
@@ -257,6 +259,11 @@ Times samples(Bench& bench) {
   return times;
 }
 
+bool wanted(const Options& options, const std::string& figure) {
+  const auto& only = options.only;
+  return only.empty() || std::find(only.begin(), only.end(), figure) != only.end();
+}
+
 void run(const Options& options) {
   Bench bench(options);
   Figures figures;
@@ -264,13 +271,17 @@ void run(const Options& options) {
   figures.set("cases", options.cases);
   figures.set("combinations", options.combinations);
   figures.set("nodal_loads", options.nodal_loads);
-  figures.set("load_case", load_cases(bench, [&](int number) { return bench.array(number); }));
-  figures.set("load_case_by_expression", load_cases(bench, Bench::expression));
-  single_case(bench, figures);
-  figures.set("upload_of_a_load", uploads(bench));
-  figures.set("combination", combinations(bench));
-  figures.set("nodal_load", nodal_loads(bench));
-  figures.set("sample", samples(bench));
+  const auto measure = [&](const std::string& name, const std::function<Times()>& take) {
+    if (wanted(options, name)) figures.set(name, take());
+  };
+  measure("load_case",
+          [&] { return load_cases(bench, [&](int number) { return bench.array(number); }); });
+  measure("load_case_by_expression", [&] { return load_cases(bench, Bench::expression); });
+  if (wanted(options, "single_case")) single_case(bench, figures);
+  measure("upload_of_a_load", [&] { return uploads(bench); });
+  measure("combination", [&] { return combinations(bench); });
+  measure("nodal_load", [&] { return nodal_loads(bench); });
+  measure("sample", [&] { return samples(bench); });
   figures.print();
 }
 
@@ -281,6 +292,7 @@ int main(int argc, char** argv) {
   anticrack::benchmarks::Options options;
   CLI::App app("The service over loopback.", "bench_service");
   app.add_option("--repetitions", options.repetitions, "Of everything")->check(CLI::Range(1, 1000));
+  app.add_option("--only", options.only, "Figures to take; all without it");
   app.add_flag("--tiny", options.tiny, "A tiny mesh and short jobs: does it work?");
   CLI11_PARSE(app, argc, argv);
   if (options.tiny) options = anticrack::benchmarks::tiny(options);

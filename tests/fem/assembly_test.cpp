@@ -166,6 +166,32 @@ TEST(LoadVector, OfAnArrayOnNodesIsThatOfItsInterpolant) {
   EXPECT_NEAR((load - load_vector(part, Expression{"2*x - 3*y"}, "a")).norm(), 0, 1e-15);
 }
 
+TEST(LoadVector, OfArraysTogetherHasTheBitsThatEachHasAlone) {
+  const Triangulation part = crooked_square(7);
+  std::vector<std::int32_t> node(part.node_count());
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    node[i] = static_cast<std::int32_t>(node.size() - i);
+  }
+  std::vector<std::vector<double>> values(13);  // a full block, a part of one
+  std::vector<const double*> arrays;
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    for (std::size_t i = 0; i <= node.size(); ++i) {
+      values[j].push_back(std::sin(static_cast<double>(3 * i + 7 * j)));
+    }
+    arrays.push_back(values[j].data());
+  }
+  for (const std::size_t count : {0U, 1U, 2U, 3U, 8U, 10U, 13U}) {
+    const Eigen::MatrixXd loads = load_vectors(part, node, std::span(arrays).first(count));
+    ASSERT_EQ(loads.cols(), static_cast<Eigen::Index>(count));
+    for (std::size_t j = 0; j < count; ++j) {
+      const auto alone = std::make_shared<const std::vector<double>>(values[j]);
+      const Eigen::VectorXd load =
+          load_vector(part, Array{"sha", false, alone}, "a", {.node = node});
+      EXPECT_EQ(loads.col(static_cast<Eigen::Index>(j)), load) << count << " arrays, number " << j;
+    }
+  }
+}
+
 TEST(LoadVector, OfAnArrayOnTrianglesIsConstantOnEach) {
   const Triangulation part{{0, 0, 1, 0, 1, 1, 0, 1}, {0, 1, 2, 0, 2, 3}};
   const std::vector<std::int32_t> triangle{3, 1};
