@@ -20,20 +20,47 @@ std::size_t at(Index i) {
 }
 
 /// K = sum of the Schur complements over the unknowns.
-MatrixXd join(const ddm::Decomposition& decomposition,
-              const std::vector<ddm::SubdomainOperator>& operators) {
+MatrixXd join(const ddm::Decomposition& decomposition, const std::vector<MatrixXd>& schur) {
   const auto n = static_cast<Index>(decomposition.skeleton.unknowns);
   MatrixXd k = MatrixXd::Zero(n, n);
-  for (std::size_t s = 0; s < operators.size(); ++s) {
-    const MatrixXd schur = operators[s].factor().schur();
+  for (std::size_t s = 0; s < schur.size(); ++s) {
     const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
-    for (Index j = 0; j < schur.cols(); ++j) {
-      for (Index i = 0; i < schur.rows(); ++i) {
-        k(unknown[at(i)], unknown[at(j)]) += schur(i, j);
+    for (Index j = 0; j < schur[s].cols(); ++j) {
+      for (Index i = 0; i < schur[s].rows(); ++i) {
+        k(unknown[at(i)], unknown[at(j)]) += schur[s](i, j);
       }
     }
   }
   return k;
+}
+
+std::vector<MatrixXd> schur_complements(const std::vector<ddm::SubdomainOperator>& operators) {
+  std::vector<MatrixXd> result;
+  result.reserve(operators.size());
+  for (const ddm::SubdomainOperator& subdomain : operators) {
+    result.push_back(subdomain.factor().schur());
+  }
+  return result;
+}
+
+/// Contacts in the order of the nodes of their interface; one that several interfaces share is with
+/// the first of them.
+std::vector<std::vector<Index>> chains(const ddm::Decomposition& decomposition) {
+  std::vector<std::vector<Index>> result;
+  std::vector<char> seen(decomposition.skeleton.contacts.size(), 0);
+  for (const std::vector<ddm::SidePair>& sides : decomposition.interface_sides) {
+    result.emplace_back();
+    for (const ddm::SidePair& side : sides) {
+      const std::int32_t contact = side.pair < 0 ? -1 : decomposition.pairs[at(side.pair)].contact;
+      if (contact < 0) {  // tied: a jump of 0
+        result.emplace_back();
+      } else if (seen[at(contact)] == 0) {
+        seen[at(contact)] = 1;
+        result.back().push_back(contact);
+      }
+    }
+  }
+  return result;
 }
 
 MatrixXd factorise(MatrixXd h) {
@@ -69,13 +96,18 @@ struct SkeletonProblem::Blocks {
 };
 
 SkeletonProblem::SkeletonProblem(const TraceProblem& traces)
-    : SkeletonProblem(traces,
-                      Blocks(traces.forest(), join(traces.decomposition(), traces.operators()))) {}
+    : SkeletonProblem(traces, schur_complements(traces.operators())) {}
+
+SkeletonProblem::SkeletonProblem(const TraceProblem& traces, std::vector<MatrixXd> schur)
+    : SkeletonProblem(traces, Blocks(traces.forest(), join(traces.decomposition(), schur))) {
+  _schur = std::move(schur);
+}
 
 SkeletonProblem::SkeletonProblem(const TraceProblem& traces, Blocks blocks)
     : _traces(traces),
       _h(std::move(blocks.h)),
       _closed_to_open(std::move(blocks.w)),
+      _nested_start(blocks.condensed, chains(traces.decomposition())),
       _lcp(std::move(blocks.condensed)) {}
 
 void SkeletonProblem::solve_roots(VectorXd& q) const {
@@ -117,9 +149,19 @@ SkeletonProblem::Reduced SkeletonProblem::reduce_refined(const VectorXd& h) cons
 VectorXd SkeletonProblem::apply(const VectorXd& w) const {
   std::vector<VectorXd> forces = scatter(w);
   for (std::size_t s = 0; s < forces.size(); ++s) {
-    forces[s] = _traces.operators()[s].factor().apply_schur(forces[s]);
+    forces[s] = multiply_symmetric(_schur[s], forces[s]);
   }
   return gather(forces);
+}
+
+std::vector<VectorXd> SkeletonProblem::fluxes(std::span<const ddm::CondensedLoad> loads,
+                                              const std::vector<VectorXd>& traces) const {
+  std::vector<VectorXd> result;
+  result.reserve(traces.size());
+  for (std::size_t s = 0; s < traces.size(); ++s) {
+    result.push_back(multiply_symmetric(_schur[s], traces[s]) - loads[s].g);
+  }
+  return result;
 }
 
 VectorXd SkeletonProblem::response(std::int32_t unknown) const {
@@ -136,11 +178,11 @@ VectorXd SkeletonProblem::unknowns(const Reduced& load, const VectorXd& d) const
   return forest().expand(load.q + _closed_to_open * d, d);
 }
 
-void SkeletonProblem::refine(const VectorXd& residual, const std::vector<char>& closed,
-                             Reduced& load, VectorXd& d) const {
+void SkeletonProblem::refine(const VectorXd& residual, const OpenFactor& open, Reduced& load,
+                             VectorXd& d) const {
   const Reduced correction = reduce(residual);
   load.q += correction.q;
-  d += _lcp.solve_open(closed, correction.r);
+  d += _lcp.solve_open(open, correction.r);
 }
 
 VectorXd SkeletonProblem::multipliers(const VectorXd& residual) const {
@@ -174,9 +216,12 @@ std::vector<VectorXd> SkeletonProblem::scatter(const VectorXd& w) const {
 }
 
 std::size_t SkeletonProblem::bytes() const noexcept {
-  return sizeof(double) * static_cast<std::size_t>(forest().free_count() * forest().free_count() +
-                                                   _closed_to_open.size()) +
-         _lcp.bytes() + static_cast<std::size_t>(forest().unknowns()) * 6 * sizeof(Index);
+  Index dense = _h.size() + _closed_to_open.size();
+  for (const MatrixXd& schur : _schur) {
+    dense += schur.size();
+  }
+  return sizeof(double) * static_cast<std::size_t>(dense) + _nested_start.bytes() + _lcp.bytes() +
+         static_cast<std::size_t>(forest().unknowns()) * 6 * sizeof(Index);
 }
 
 }  // namespace anticrack::contact

@@ -4,9 +4,11 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "contact/dense_lcp.hpp"
+#include "contact/nested_start.hpp"
 #include "contact/trace_problem.hpp"
 
 namespace anticrack::contact {
@@ -37,7 +39,7 @@ class SkeletonProblem {
   /// rounding of h. O(n^2).
   Reduced reduce_refined(const Eigen::VectorXd& h) const;
 
-  /// K w. O(n^2).
+  /// K w. O(n_G^2).
   Eigen::VectorXd apply(const Eigen::VectorXd& w) const;
   /// What unit jumps of the contacts do to one of the unknowns: w[unknown] = (that for d = 0) +
   /// response'd. O(n).
@@ -45,11 +47,15 @@ class SkeletonProblem {
   /// w for jumps d, shape (unknowns). O(n c).
   Eigen::VectorXd unknowns(const Reduced& load, const Eigen::VectorXd& d) const;
   /// Adds to q of the load and to d what brings the residual h - K w to zero with d unchanged on
-  /// the closed nodes: a step of iterative refinement. O(n^2 + c^3).
-  void refine(const Eigen::VectorXd& residual, const std::vector<char>& closed, Reduced& load,
+  /// the closed nodes: a step of iterative refinement. `open`: of the answer's open nodes. O(n^2).
+  void refine(const Eigen::VectorXd& residual, const OpenFactor& open, Reduced& load,
               Eigen::VectorXd& d) const;
   /// lambda = P'(h - K w) of a residual, shape (contacts). O(n).
   Eigen::VectorXd multipliers(const Eigen::VectorXd& residual) const;
+
+  /// S_i t_i - g_i of every subdomain. O(n_G^2).
+  std::vector<Eigen::VectorXd> fluxes(std::span<const ddm::CondensedLoad> loads,
+                                      const std::vector<Eigen::VectorXd>& traces) const;
 
   /// Sum over the subdomains of values on their traces, shape (unknowns).
   Eigen::VectorXd gather(const std::vector<Eigen::VectorXd>& on_traces) const;
@@ -57,11 +63,13 @@ class SkeletonProblem {
   std::vector<Eigen::VectorXd> scatter(const Eigen::VectorXd& w) const;
 
   const DenseLcp& lcp() const noexcept { return _lcp; }
+  const NestedStart& nested_start() const noexcept { return _nested_start; }
   const TraceProblem& traces() const noexcept { return _traces; }
   std::size_t bytes() const noexcept;
 
  private:
   struct Blocks;
+  SkeletonProblem(const TraceProblem& traces, std::vector<Eigen::MatrixXd> schur);
   SkeletonProblem(const TraceProblem& traces, Blocks blocks);
 
   const Forest& forest() const noexcept { return _traces.forest(); }
@@ -69,8 +77,11 @@ class SkeletonProblem {
   void solve_roots(Eigen::VectorXd& q) const;
 
   const TraceProblem& _traces;
+  // S_i, once more than in the factors L_GG: a product reads half of one triangle's bytes so.
+  std::vector<Eigen::MatrixXd> _schur;
   Eigen::MatrixXd _h;               // Cholesky factor of H, lower triangle
   Eigen::MatrixXd _closed_to_open;  // W = H^-1 C
+  NestedStart _nested_start;
   DenseLcp _lcp;
 };
 
