@@ -25,7 +25,7 @@ MatrixXd join(const ddm::Decomposition& decomposition,
   const auto n = static_cast<Index>(decomposition.skeleton.unknowns);
   MatrixXd k = MatrixXd::Zero(n, n);
   for (std::size_t s = 0; s < operators.size(); ++s) {
-    const MatrixXd schur = operators[s].factor().schur();
+    const MatrixXd& schur = operators[s].factor().schur();
     const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
     for (Index j = 0; j < schur.cols(); ++j) {
       for (Index i = 0; i < schur.rows(); ++i) {

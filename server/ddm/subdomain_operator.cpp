@@ -29,8 +29,7 @@ SubdomainOperator::SubdomainOperator(const Subdomain& subdomain)
 
 SubdomainOperator::SubdomainOperator(const Subdomain& subdomain, fem::Stiffness stiffness)
     : _factor(stiffness.free, index(subdomain.interior),
-              elimination_order(stiffness.free, index(subdomain.interior), subdomain.part.xy),
-              subdomain.floating),
+              elimination_order(stiffness.free, index(subdomain.interior), subdomain.part.xy)),
       _free_dirichlet(std::move(stiffness.free_dirichlet)),
       _dirichlet_dirichlet(std::move(stiffness.dirichlet)),
       _floats(!subdomain.floating.empty()),
