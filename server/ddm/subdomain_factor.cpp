@@ -4,7 +4,6 @@
 #include <cblas.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
 #include <numeric>
 #include <vector>
@@ -13,14 +12,10 @@
 #include "ddm/cholmod.hpp"
 #include "ddm/forward_solve.hpp"
 #include "ddm/multifrontal.hpp"
+#include "ddm/values.hpp"
 #include "errors/errors.hpp"
 
 namespace anticrack::ddm {
-
-struct Free {
-  void operator()(double* values) const noexcept { std::free(values); }
-};
-using Values = std::unique_ptr<double, Free>;
 
 struct SubdomainFactor::Factor {
   FactorPtr analysis;  // CHOLMOD's permutation and pattern, without values
@@ -106,18 +101,6 @@ std::size_t value_count(const Supernodes& l) {
   return static_cast<std::size_t>(l.value_begin[end]);
 }
 
-Values aligned(std::size_t count) {
-  constexpr std::size_t alignment = lanes * sizeof(double);
-  const std::size_t bytes = sizeof(double) * count;
-  Values values(static_cast<double*>(
-      std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment)));
-  if (!values) {
-    throw errors::Error(errors::Reason::limit_exceeded,
-                        "no memory for the factor of a subdomain; take a coarser mesh");
-  }
-  return values;
-}
-
 }  // namespace
 
 Eigen::Index columns_at_once(Eigen::Index rows) noexcept {
@@ -138,7 +121,7 @@ SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior,
   auto factor = std::make_unique<Factor>();
   factor->analysis = analyse(stiffness, permutation, interior);
   factor->l = pattern(*factor->analysis, interior);
-  factor->values = aligned(value_count(factor->l));
+  factor->values = make_values(value_count(factor->l));
   factor->l.values = factor->values.get();
   if (!eliminate_interior(factor->l, static_cast<const int*>(factor->analysis->Perm), stiffness,
                           factor->values.get(), _schur)) {
@@ -165,8 +148,8 @@ SubdomainFactor::Forward SubdomainFactor::forward(
   const auto whole = [](Eigen::Index columns) {
     return columns == 1 ? 1 : (static_cast<int>(columns) + lanes - 1) / lanes * lanes;
   };
-  const Values y =
-      aligned(static_cast<std::size_t>(rows * whole(std::min<Eigen::Index>(f.cols(), most_lanes))));
+  const Values y = make_values(
+      static_cast<std::size_t>(rows * whole(std::min<Eigen::Index>(f.cols(), most_lanes))));
   for (Eigen::Index first = 0; first < f.cols(); first += most_lanes) {
     const Eigen::Index columns = std::min<Eigen::Index>(most_lanes, f.cols() - first);
     const int width = whole(columns);
