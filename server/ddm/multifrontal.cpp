@@ -249,6 +249,9 @@ bool eliminate_front(int columns, int height, double* panel, double* update) {
   int info = 0;
   dpotrf_("L", &columns, panel, &height, &info);
   if (info != 0) return false;
+  for (int k = 0; k < columns; ++k) {  // OpenBLAS lets what is no number pass
+    if (!(panel[std::ptrdiff_t{k} * (height + 1)] > 0)) return false;
+  }
   if (rest == 0) return true;
   double* below = panel + columns;
   cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, columns, 1,
