@@ -101,6 +101,16 @@ std::size_t value_count(const Supernodes& l) {
   return static_cast<std::size_t>(l.value_begin[end]);
 }
 
+/// Calls take(begin, end, column) for parts of few rows, so that the rows of a block that it reads
+/// or writes by columns stay in the first-level cache.
+template <class Take>
+void for_tiles(int rows, int columns, const Take& take) {
+  constexpr int tile = 64;
+  for (int begin = 0; begin < rows; begin += tile) {
+    for (int j = 0; j < columns; ++j) take(begin, std::min(begin + tile, rows), j);
+  }
+}
+
 }  // namespace
 
 Eigen::Index columns_at_once(Eigen::Index rows) noexcept {
@@ -137,36 +147,46 @@ SubdomainFactor::~SubdomainFactor() = default;
 SubdomainFactor::SubdomainFactor(SubdomainFactor&&) noexcept = default;
 SubdomainFactor& SubdomainFactor::operator=(SubdomainFactor&&) noexcept = default;
 
-SubdomainFactor::Forward SubdomainFactor::forward(
+std::vector<SubdomainFactor::Forward> SubdomainFactor::forward(
     const Eigen::Ref<const Eigen::MatrixXd>& f) const {
-  Forward result{Eigen::MatrixXd(_interior, f.cols()), Eigen::MatrixXd(trace(), f.cols())};
+  std::vector<Forward> result(static_cast<std::size_t>(f.cols()));
+  for (Forward& column : result) {
+    column.z_interior.resize(_interior);
+    column.g.resize(trace());
+  }
   if (!_factor || f.cols() == 0) {
     return result;
   }
   const int* permutation = static_cast<const int*>(_factor->analysis->Perm);
-  const Eigen::Index rows = f.rows();
-  const auto whole = [](Eigen::Index columns) {
-    return columns == 1 ? 1 : (static_cast<int>(columns) + lanes - 1) / lanes * lanes;
+  const auto rows = static_cast<int>(f.rows()), interior = static_cast<int>(_interior);
+  const auto whole = [](int columns) {
+    return columns == 1 ? 1 : (columns + lanes - 1) / lanes * lanes;
   };
-  const Values y = make_values(
-      static_cast<std::size_t>(rows * whole(std::min<Eigen::Index>(f.cols(), most_lanes))));
-  for (Eigen::Index first = 0; first < f.cols(); first += most_lanes) {
-    const Eigen::Index columns = std::min<Eigen::Index>(most_lanes, f.cols() - first);
+  const int most = static_cast<int>(std::min<Eigen::Index>(f.cols(), most_lanes));
+  const Values y =
+      make_values(static_cast<std::size_t>(rows) * static_cast<std::size_t>(whole(most)));
+  for (int first = 0; first < static_cast<int>(f.cols()); first += most_lanes) {
+    const int columns = std::min(most_lanes, static_cast<int>(f.cols()) - first);
     const int width = whole(columns);
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      double* row = y.get() + i * width;
-      for (Eigen::Index j = 0; j < columns; ++j) {
-        row[j] = f(permutation[i], first + j);
-      }
+    for_tiles(rows, columns, [&](int begin, int end, int j) {
+      const double* from = f.data() + (first + j) * f.outerStride();
+      double* to = y.get() + j;
+      for (int i = begin; i < end; ++i) to[std::ptrdiff_t{i} * width] = from[permutation[i]];
+    });
+    for (int i = 0; i < rows && columns < width; ++i) {
+      double* row = y.get() + std::ptrdiff_t{i} * width;
       std::fill(row + columns, row + width, 0.0);
     }
     forward_solve(_factor->l, width, y.get());
-    using Rows =
-        Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>,
-                   Eigen::Unaligned, Eigen::OuterStride<>>;
-    const Rows solved(y.get(), rows, columns, Eigen::OuterStride<>(width));
-    result.z_interior.middleCols(first, columns) = solved.topRows(_interior);
-    result.g.middleCols(first, columns) = solved.bottomRows(trace());
+    for_tiles(rows, columns, [&](int begin, int end, int j) {
+      Forward& column = result[static_cast<std::size_t>(first + j)];
+      const double* from = y.get() + j;
+      const int middle = std::clamp(interior, begin, end);
+      for (int i = begin; i < middle; ++i) column.z_interior[i] = from[std::ptrdiff_t{i} * width];
+      for (int i = middle; i < end; ++i) {
+        column.g[i - interior] = from[std::ptrdiff_t{i} * width];
+      }
+    });
   }
   return result;
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace anticrack::ddm {
 
@@ -35,13 +36,13 @@ class SubdomainFactor {
   SubdomainFactor(SubdomainFactor&&) noexcept;
   SubdomainFactor& operator=(SubdomainFactor&&) noexcept;
 
-  struct Forward {               // a column for each of f
-    Eigen::MatrixXd z_interior;  ///< L_II^-1 P f_I, in the factor's order
-    Eigen::MatrixXd g;           ///< condensed load f_G - K_GI K_II^-1 f_I
+  struct Forward {
+    Eigen::VectorXd z_interior;  ///< L_II^-1 P f_I, in the factor's order
+    Eigen::VectorXd g;           ///< condensed load f_G - K_GI K_II^-1 f_I
   };
-  /// Forward solves, O(nnz(L)) each, up to 32 together (forward_solve.hpp). The bits of a column do
-  /// not depend on the others.
-  Forward forward(const Eigen::Ref<const Eigen::MatrixXd>& f) const;
+  /// Of each column of f. O(nnz(L)) each, up to 32 together (forward_solve.hpp). The bits of a
+  /// column do not depend on the others.
+  std::vector<Forward> forward(const Eigen::Ref<const Eigen::MatrixXd>& f) const;
 
   /// u with trace t and interior K_II^-1 (f_I - K_IG t), f the load of `z_interior`: one backward
   /// solve of L_II' x = z_I - L_GI' t, O(nnz(L)). Shape (interior + trace).
