@@ -50,15 +50,6 @@ void solve_lower_transposed(const MatrixXd& factor, Ref<MatrixXd> b) {
   solve(factor, CblasTrans, b);
 }
 
-Eigen::VectorXd multiply_symmetric(const MatrixXd& matrix, const Eigen::VectorXd& x) {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(x.size());
-  if (const int size = static_cast<int>(x.size()); size > 0) {
-    cblas_dsymv(CblasColMajor, CblasLower, size, 1, matrix.data(), stride(matrix), x.data(), 1, 1,
-                result.data(), 1);
-  }
-  return result;
-}
-
 void subtract_square(const MatrixXd& x, Ref<MatrixXd> s) {
   const int rows = static_cast<int>(x.rows()), columns = static_cast<int>(x.cols());
   if (rows > 0 && columns > 0) {

@@ -16,9 +16,6 @@ bool cholesky(Eigen::Ref<Eigen::MatrixXd> matrix);
 void solve_lower(const Eigen::MatrixXd& factor, Eigen::Ref<Eigen::MatrixXd> b);
 void solve_lower_transposed(const Eigen::MatrixXd& factor, Eigen::Ref<Eigen::MatrixXd> b);
 
-/// S x, S the symmetric matrix whose lower triangle `matrix` holds: reads no more than that.
-Eigen::VectorXd multiply_symmetric(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& x);
-
 /// The lower triangle of s <- s - x'x.
 void subtract_square(const Eigen::MatrixXd& x, Eigen::Ref<Eigen::MatrixXd> s);
 

@@ -20,27 +20,20 @@ std::size_t at(Index i) {
 }
 
 /// K = sum of the Schur complements over the unknowns.
-MatrixXd join(const ddm::Decomposition& decomposition, const std::vector<MatrixXd>& schur) {
+MatrixXd join(const ddm::Decomposition& decomposition,
+              const std::vector<ddm::SubdomainOperator>& operators) {
   const auto n = static_cast<Index>(decomposition.skeleton.unknowns);
   MatrixXd k = MatrixXd::Zero(n, n);
-  for (std::size_t s = 0; s < schur.size(); ++s) {
+  for (std::size_t s = 0; s < operators.size(); ++s) {
+    const MatrixXd& schur = operators[s].factor().schur();
     const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
-    for (Index j = 0; j < schur[s].cols(); ++j) {
-      for (Index i = 0; i < schur[s].rows(); ++i) {
-        k(unknown[at(i)], unknown[at(j)]) += schur[s](i, j);
+    for (Index j = 0; j < schur.cols(); ++j) {
+      for (Index i = 0; i < schur.rows(); ++i) {
+        k(unknown[at(i)], unknown[at(j)]) += schur(i, j);
       }
     }
   }
   return k;
-}
-
-std::vector<MatrixXd> schur_complements(const std::vector<ddm::SubdomainOperator>& operators) {
-  std::vector<MatrixXd> result;
-  result.reserve(operators.size());
-  for (const ddm::SubdomainOperator& subdomain : operators) {
-    result.push_back(subdomain.factor().schur());
-  }
-  return result;
 }
 
 /// Contacts in the order of the nodes of their interface; one that several interfaces share is with
@@ -96,12 +89,8 @@ struct SkeletonProblem::Blocks {
 };
 
 SkeletonProblem::SkeletonProblem(const TraceProblem& traces)
-    : SkeletonProblem(traces, schur_complements(traces.operators())) {}
-
-SkeletonProblem::SkeletonProblem(const TraceProblem& traces, std::vector<MatrixXd> schur)
-    : SkeletonProblem(traces, Blocks(traces.forest(), join(traces.decomposition(), schur))) {
-  _schur = std::move(schur);
-}
+    : SkeletonProblem(traces,
+                      Blocks(traces.forest(), join(traces.decomposition(), traces.operators()))) {}
 
 SkeletonProblem::SkeletonProblem(const TraceProblem& traces, Blocks blocks)
     : _traces(traces),
@@ -149,19 +138,9 @@ SkeletonProblem::Reduced SkeletonProblem::reduce_refined(const VectorXd& h) cons
 VectorXd SkeletonProblem::apply(const VectorXd& w) const {
   std::vector<VectorXd> forces = scatter(w);
   for (std::size_t s = 0; s < forces.size(); ++s) {
-    forces[s] = multiply_symmetric(_schur[s], forces[s]);
+    forces[s] = _traces.operators()[s].factor().apply_schur(forces[s]);
   }
   return gather(forces);
-}
-
-std::vector<VectorXd> SkeletonProblem::fluxes(std::span<const ddm::CondensedLoad> loads,
-                                              const std::vector<VectorXd>& traces) const {
-  std::vector<VectorXd> result;
-  result.reserve(traces.size());
-  for (std::size_t s = 0; s < traces.size(); ++s) {
-    result.push_back(multiply_symmetric(_schur[s], traces[s]) - loads[s].g);
-  }
-  return result;
 }
 
 VectorXd SkeletonProblem::response(std::int32_t unknown) const {
@@ -216,11 +195,8 @@ std::vector<VectorXd> SkeletonProblem::scatter(const VectorXd& w) const {
 }
 
 std::size_t SkeletonProblem::bytes() const noexcept {
-  Index dense = _h.size() + _closed_to_open.size();
-  for (const MatrixXd& schur : _schur) {
-    dense += schur.size();
-  }
-  return sizeof(double) * static_cast<std::size_t>(dense) + _nested_start.bytes() + _lcp.bytes() +
+  return sizeof(double) * static_cast<std::size_t>(_h.size() + _closed_to_open.size()) +
+         _nested_start.bytes() + _lcp.bytes() +
          static_cast<std::size_t>(forest().unknowns()) * 6 * sizeof(Index);
 }
 

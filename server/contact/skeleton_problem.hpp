@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "contact/dense_lcp.hpp"
@@ -53,10 +52,6 @@ class SkeletonProblem {
   /// lambda = P'(h - K w) of a residual, shape (contacts). O(n).
   Eigen::VectorXd multipliers(const Eigen::VectorXd& residual) const;
 
-  /// S_i t_i - g_i of every subdomain. O(n_G^2).
-  std::vector<Eigen::VectorXd> fluxes(std::span<const ddm::CondensedLoad> loads,
-                                      const std::vector<Eigen::VectorXd>& traces) const;
-
   /// Sum over the subdomains of values on their traces, shape (unknowns).
   Eigen::VectorXd gather(const std::vector<Eigen::VectorXd>& on_traces) const;
   /// Values on the traces from those of the unknowns.
@@ -69,7 +64,6 @@ class SkeletonProblem {
 
  private:
   struct Blocks;
-  SkeletonProblem(const TraceProblem& traces, std::vector<Eigen::MatrixXd> schur);
   SkeletonProblem(const TraceProblem& traces, Blocks blocks);
 
   const Forest& forest() const noexcept { return _traces.forest(); }
@@ -77,8 +71,6 @@ class SkeletonProblem {
   void solve_roots(Eigen::VectorXd& q) const;
 
   const TraceProblem& _traces;
-  // S_i, once more than in the factors L_GG: a product reads half of one triangle's bytes so.
-  std::vector<Eigen::MatrixXd> _schur;
   Eigen::MatrixXd _h;               // Cholesky factor of H, lower triangle
   Eigen::MatrixXd _closed_to_open;  // W = H^-1 C
   NestedStart _nested_start;

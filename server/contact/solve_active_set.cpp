@@ -59,7 +59,7 @@ class Case {
     std::vector<VectorXd> previous_trace = std::move(_state.trace);
     std::vector<VectorXd> previous_flux = std::move(_state.flux);
     _state.trace = _problem.scatter(w);
-    _state.flux = _problem.fluxes(_loads, _state.trace);
+    _state.flux = fluxes(_traces.operators(), _loads, _state.trace);
     _state.displacement = w.head(_state.displacement.size());
     _sample.criterion = previous_trace.empty() ? 1 : criterion(previous_trace, previous_flux);
   }
