@@ -24,11 +24,11 @@ struct Supernodes {
 constexpr int lanes = 8;
 constexpr int most_lanes = 4 * lanes;
 
-/// With I the first `columns` unknowns and G the others, L = [L_II 0; L_GI L_GG]:
+/// With I the first `columns` unknowns and G the others, L = [L_II; L_GI]:
 ///
 ///   y_I <- L_II^-1 y_I,   y_G <- y_G - L_GI y_I
 ///
-/// so y_G is the condensed load, and L_GG is not touched. `y`: a row of `width` doubles for each
+/// so y_G is the condensed load. `y`: a row of `width` doubles for each
 /// unknown, width 1 or a multiple of `lanes` up to `most_lanes`; rows of a block aligned to 64
 /// bytes. The bits of a column depend neither on the width nor on the other columns: each of its
 /// entries is formed by the same operations in the same order. The best kernel of the processor is
