@@ -7,8 +7,6 @@
 #include <set>
 #include <utility>
 
-#include "contact/dense.hpp"
-
 namespace anticrack::contact {
 namespace {
 
@@ -21,51 +19,6 @@ constexpr double rounding = lcp_rounding;
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
-
-std::vector<Index> open_nodes(const std::vector<char>& closed) {
-  std::vector<Index> nodes;
-  nodes.reserve(closed.size());
-  for (std::size_t i = 0; i < closed.size(); ++i) {
-    if (closed[i] == 0) {
-      nodes.push_back(static_cast<Index>(i));
-    }
-  }
-  return nodes;
-}
-
-/// Cholesky factor of S on some nodes, in increasing order.
-class OpenFactor {
- public:
-  OpenFactor(const MatrixXd& matrix, const std::vector<char>& closed)
-      : _nodes(open_nodes(closed)), _size(matrix.rows()) {
-    const auto n = static_cast<Index>(_nodes.size());
-    if (n > 0) {
-      _factor = matrix(_nodes, _nodes);
-      _regular =
-          cholesky(_factor) && regular_pivot(_factor.diagonal().array().square().minCoeff(), n);
-    }
-  }
-
-  bool regular() const noexcept { return _regular; }
-
-  /// 0 on the closed nodes.
-  VectorXd solve(const VectorXd& b) const {
-    VectorXd x = VectorXd::Zero(_size);
-    if (!_nodes.empty()) {
-      VectorXd open = b(_nodes);
-      solve_lower(_factor, open);
-      solve_lower_transposed(_factor, open);
-      x(_nodes) = open;
-    }
-    return x;
-  }
-
- private:
-  std::vector<Index> _nodes;
-  Index _size;
-  MatrixXd _factor;  // lower triangle
-  bool _regular = true;
-};
 
 /// One run on scaled data: unit diagonal, load of size 1.
 class Run {
@@ -101,6 +54,19 @@ class Run {
   bool fell_back = false;
   std::optional<LcpStatus> status;  ///< once the run has ended
 
+  /// Of the nodes that are open now; kept until it is asked for those of another set.
+  const OpenFactor& factor() {
+    if (!_factor || _factored != closed) {
+      _factored = closed;
+      _factor.emplace(_matrix, closed);
+    }
+    return *_factor;
+  }
+  OpenFactor take_factor() {
+    factor();
+    return std::move(*_factor);
+  }
+
  private:
   void set_multipliers() {
     lambda = _matrix * d - _r;
@@ -129,11 +95,10 @@ class Run {
   bool primal_dual() {
     std::set<std::vector<char>> met;
     while (met.insert(closed).second) {
-      const OpenFactor factor(_matrix, closed);
-      if (!factor.regular()) {
+      if (!factor().regular()) {
         return false;
       }
-      d = factor.solve(_r);
+      d = factor().solve(_r);
       set_multipliers();
       std::vector<char> next = closed;
       for (Index i = 0; i < d.size(); ++i) {
@@ -161,7 +126,7 @@ class Run {
   /// are closed on the way, at least one a pass. S must be regular on the open nodes.
   void settle() {
     for (;;) {
-      const VectorXd target = OpenFactor(_matrix, closed).solve(_r);
+      const VectorXd target = factor().solve(_r);
       double way = 1;
       for (Index i = 0; i < d.size(); ++i) {
         if (closed[at(i)] == 0 && target[i] <= 0) {
@@ -187,7 +152,7 @@ class Run {
 
   void monotone() {
     d.setZero();
-    if (!OpenFactor(_matrix, closed).regular()) {
+    if (!factor().regular()) {
       std::fill(closed.begin(), closed.end(), char{1});
     }
     settle();
@@ -209,7 +174,7 @@ class Run {
       for (Index i = 0; i < d.size(); ++i) {
         closed[at(i)] = lambda[i] < -rounding ? 0 : closed[at(i)];
       }
-      if (OpenFactor(_matrix, closed).regular()) {
+      if (factor().regular()) {
         settle();
         if (energy() < before) {
           continue;
@@ -230,11 +195,11 @@ class Run {
   }
 
   void open_one(Index node) {
-    const OpenFactor rest(_matrix, closed);
+    const VectorXd against_node = factor().solve(_matrix.col(node));
     closed[at(node)] = 0;
-    if (!OpenFactor(_matrix, closed).regular()) {
+    if (!factor().regular()) {
       // The energy falls linearly along this null direction, until an open node closes.
-      VectorXd ray = -rest.solve(_matrix.col(node));
+      VectorXd ray = -against_node;
       ray[node] = 1;
       Index blocking = -1;
       double way = std::numeric_limits<double>::infinity();
@@ -265,7 +230,7 @@ class Run {
       }
     }
     if (changed || fell_back) {
-      d = OpenFactor(_matrix, closed).solve(_r);
+      d = factor().solve(_r);
       set_multipliers();
     }
     d = d.cwiseMax(0.0);
@@ -276,6 +241,8 @@ class Run {
   const VectorXd& _r;
   const LcpOptions& _options;
   std::function<bool(const Run&)> _on_step;
+  std::vector<char> _factored;
+  std::optional<OpenFactor> _factor;
 };
 
 }  // namespace
@@ -312,12 +279,15 @@ LcpAnswer DenseLcp::solve(const VectorXd& r, const VectorXd& magnitude, const Lc
   for (Index i = 0; i < size(); ++i) {
     answer.weakly_active += run.d[i] <= weak && run.lambda[i] <= weak ? 1 : 0;
   }
+  if (answer.status == LcpStatus::solved) {
+    answer.factor = run.take_factor();
+  }
   answer.closed = std::move(run.closed);
   return answer;
 }
 
-VectorXd DenseLcp::solve_open(const std::vector<char>& closed, const VectorXd& b) const {
-  return _scale.cwiseProduct(OpenFactor(_matrix, closed).solve(_scale.cwiseProduct(b)));
+VectorXd DenseLcp::solve_open(const OpenFactor& open, const VectorXd& b) const {
+  return _scale.cwiseProduct(open.solve(_scale.cwiseProduct(b)));
 }
 
 std::size_t DenseLcp::bytes() const noexcept {

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "contact/open_factor.hpp"
+
 namespace anticrack::contact {
 
 /// What is below this times the load is rounding: neither opens nor closes a node.
@@ -42,6 +44,7 @@ struct LcpAnswer {
   int steps = 0;
   int weakly_active = 0;  ///< neither d nor lambda above tolerance
   bool fell_back = false;
+  OpenFactor factor;  ///< of the open nodes, where solved: for solve_open
 };
 
 struct LcpOptions {
@@ -85,9 +88,9 @@ class DenseLcp {
                   const LcpOptions& options, std::span<const char> start,
                   const OnStep& on_step) const;
 
-  /// x with (S x)_i = b_i on the nodes that are not closed, x = 0 on those that are. S must be
-  /// positive definite there. For iterative refinement. O(c^3).
-  Eigen::VectorXd solve_open(const std::vector<char>& closed, const Eigen::VectorXd& b) const;
+  /// x with (S x)_i = b_i on the open nodes of an answer's factor, x = 0 on the closed ones. For
+  /// iterative refinement. O(c^2).
+  Eigen::VectorXd solve_open(const OpenFactor& open, const Eigen::VectorXd& b) const;
 
   /// 1 / sqrt(S_ii), and S with it on both sides: what the steps compute with.
   const Eigen::VectorXd& scale() const noexcept { return _scale; }

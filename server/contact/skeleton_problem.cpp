@@ -25,7 +25,7 @@ MatrixXd join(const ddm::Decomposition& decomposition,
   const auto n = static_cast<Index>(decomposition.skeleton.unknowns);
   MatrixXd k = MatrixXd::Zero(n, n);
   for (std::size_t s = 0; s < operators.size(); ++s) {
-    const MatrixXd schur = operators[s].factor().schur();
+    const MatrixXd& schur = operators[s].factor().schur();
     const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
     for (Index j = 0; j < schur.cols(); ++j) {
       for (Index i = 0; i < schur.rows(); ++i) {
@@ -34,6 +34,26 @@ MatrixXd join(const ddm::Decomposition& decomposition,
     }
   }
   return k;
+}
+
+/// Contacts in the order of the nodes of their interface; one that several interfaces share is with
+/// the first of them.
+std::vector<std::vector<Index>> chains(const ddm::Decomposition& decomposition) {
+  std::vector<std::vector<Index>> result;
+  std::vector<char> seen(decomposition.skeleton.contacts.size(), 0);
+  for (const std::vector<ddm::SidePair>& sides : decomposition.interface_sides) {
+    result.emplace_back();
+    for (const ddm::SidePair& side : sides) {
+      const std::int32_t contact = side.pair < 0 ? -1 : decomposition.pairs[at(side.pair)].contact;
+      if (contact < 0) {  // tied: a jump of 0
+        result.emplace_back();
+      } else if (seen[at(contact)] == 0) {
+        seen[at(contact)] = 1;
+        result.back().push_back(contact);
+      }
+    }
+  }
+  return result;
 }
 
 MatrixXd factorise(MatrixXd h) {
@@ -76,6 +96,7 @@ SkeletonProblem::SkeletonProblem(const TraceProblem& traces, Blocks blocks)
     : _traces(traces),
       _h(std::move(blocks.h)),
       _closed_to_open(std::move(blocks.w)),
+      _nested_start(blocks.condensed, chains(traces.decomposition())),
       _lcp(std::move(blocks.condensed)) {}
 
 void SkeletonProblem::solve_roots(VectorXd& q) const {
@@ -136,11 +157,11 @@ VectorXd SkeletonProblem::unknowns(const Reduced& load, const VectorXd& d) const
   return forest().expand(load.q + _closed_to_open * d, d);
 }
 
-void SkeletonProblem::refine(const VectorXd& residual, const std::vector<char>& closed,
-                             Reduced& load, VectorXd& d) const {
+void SkeletonProblem::refine(const VectorXd& residual, const OpenFactor& open, Reduced& load,
+                             VectorXd& d) const {
   const Reduced correction = reduce(residual);
   load.q += correction.q;
-  d += _lcp.solve_open(closed, correction.r);
+  d += _lcp.solve_open(open, correction.r);
 }
 
 VectorXd SkeletonProblem::multipliers(const VectorXd& residual) const {
@@ -174,9 +195,9 @@ std::vector<VectorXd> SkeletonProblem::scatter(const VectorXd& w) const {
 }
 
 std::size_t SkeletonProblem::bytes() const noexcept {
-  return sizeof(double) * static_cast<std::size_t>(forest().free_count() * forest().free_count() +
-                                                   _closed_to_open.size()) +
-         _lcp.bytes() + static_cast<std::size_t>(forest().unknowns()) * 6 * sizeof(Index);
+  return sizeof(double) * static_cast<std::size_t>(_h.size() + _closed_to_open.size()) +
+         _nested_start.bytes() + _lcp.bytes() +
+         static_cast<std::size_t>(forest().unknowns()) * 6 * sizeof(Index);
 }
 
 }  // namespace anticrack::contact

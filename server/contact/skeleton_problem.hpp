@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact/dense_lcp.hpp"
+#include "contact/nested_start.hpp"
 #include "contact/trace_problem.hpp"
 
 namespace anticrack::contact {
@@ -37,7 +38,7 @@ class SkeletonProblem {
   /// rounding of h. O(n^2).
   Reduced reduce_refined(const Eigen::VectorXd& h) const;
 
-  /// K w. O(n^2).
+  /// K w. O(n_G^2).
   Eigen::VectorXd apply(const Eigen::VectorXd& w) const;
   /// What unit jumps of the contacts do to one of the unknowns: w[unknown] = (that for d = 0) +
   /// response'd. O(n).
@@ -45,8 +46,8 @@ class SkeletonProblem {
   /// w for jumps d, shape (unknowns). O(n c).
   Eigen::VectorXd unknowns(const Reduced& load, const Eigen::VectorXd& d) const;
   /// Adds to q of the load and to d what brings the residual h - K w to zero with d unchanged on
-  /// the closed nodes: a step of iterative refinement. O(n^2 + c^3).
-  void refine(const Eigen::VectorXd& residual, const std::vector<char>& closed, Reduced& load,
+  /// the closed nodes: a step of iterative refinement. `open`: of the answer's open nodes. O(n^2).
+  void refine(const Eigen::VectorXd& residual, const OpenFactor& open, Reduced& load,
               Eigen::VectorXd& d) const;
   /// lambda = P'(h - K w) of a residual, shape (contacts). O(n).
   Eigen::VectorXd multipliers(const Eigen::VectorXd& residual) const;
@@ -57,6 +58,7 @@ class SkeletonProblem {
   std::vector<Eigen::VectorXd> scatter(const Eigen::VectorXd& w) const;
 
   const DenseLcp& lcp() const noexcept { return _lcp; }
+  const NestedStart& nested_start() const noexcept { return _nested_start; }
   const TraceProblem& traces() const noexcept { return _traces; }
   std::size_t bytes() const noexcept;
 
@@ -71,6 +73,7 @@ class SkeletonProblem {
   const TraceProblem& _traces;
   Eigen::MatrixXd _h;               // Cholesky factor of H, lower triangle
   Eigen::MatrixXd _closed_to_open;  // W = H^-1 C
+  NestedStart _nested_start;
   DenseLcp _lcp;
 };
 

@@ -29,8 +29,8 @@ Answer solve_uzawa(const TraceProblem& problem, const mesh::Mesh& mesh, const Ca
 /// The contact problem exactly, by DenseLcp and a step of iterative refinement. A sample a step;
 /// its criterion is that of step 3 of Algorithm 2, 1 in the first step. The answer's bits depend on
 /// the final set only, not on `start`: the closed contacts to start from (Answer::closed of another
-/// load); empty: all. NOT_CONVERGED when max_steps is reached or when a part of the membrane that
-/// is held by contact only is pulled off.
+/// load); empty: those of NestedStart. NOT_CONVERGED when max_steps is reached or when a part of
+/// the membrane that is held by contact only is pulled off.
 Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
                         const CaseLoads& loads, const ActiveSetOptions& options, bool fields,
                         Observer& observer, std::span<const char> start = {});

@@ -33,6 +33,7 @@ class Case {
 
   void sample_step(int number, const VectorXd& d, const VectorXd& lambda) {
     _sample.iteration = number;
+    _d = d;
     move_to(_problem.unknowns(_reduced, d));
     fill(d, lambda);
   }
@@ -40,7 +41,10 @@ class Case {
   /// One step of iterative refinement, and multipliers from the forces themselves.
   void refine(const LcpAnswer& solution) {
     VectorXd d = solution.d;
-    _problem.refine(-_problem.gather(_state.flux), solution.closed, _reduced, d);
+    if (d != _d) {  // not that of the last step told: nodes were closed that were open by rounding
+      move_to(_problem.unknowns(_reduced, d));
+    }
+    _problem.refine(-_problem.gather(_state.flux), solution.factor, _reduced, d);
     d = d.cwiseMax(0.0);
     move_to(_problem.unknowns(_reduced, d));
     VectorXd lambda = _problem.multipliers(-_problem.gather(_state.flux));
@@ -110,6 +114,7 @@ class Case {
   const TraceProblem& _traces;
   std::span<const ddm::CondensedLoad> _loads;
   SkeletonProblem::Reduced _reduced;
+  VectorXd _d;  // of the last step
   TraceState _state;
   Sample _sample;
 };
@@ -131,16 +136,18 @@ Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
     load_case.sample_step(step.number, step.d, step.lambda);
     return observer.on_iteration(load_case.sample());
   };
-  const LcpAnswer solution =
-      problem.lcp().solve(load_case.reduced().r, load_case.reduced().magnitude,
-                          {options.tolerance, options.max_steps}, start, on_step);
+  const SkeletonProblem::Reduced& reduced = load_case.reduced();
+  const std::vector<char> nested = start.empty()
+                                       ? problem.nested_start().closed(reduced.r, reduced.magnitude)
+                                       : std::vector<char>(start.begin(), start.end());
+  const LcpAnswer solution = problem.lcp().solve(
+      reduced.r, reduced.magnitude, {options.tolerance, options.max_steps}, nested, on_step);
   Answer answer;
   answer.iterations = solution.steps;
   answer.criterion = load_case.sample().criterion;
   switch (solution.status) {
     case LcpStatus::solved:
       answer.status = Status::converged;
-      load_case.sample_step(solution.steps, solution.d, solution.lambda);
       load_case.refine(solution);
       break;
     case LcpStatus::unbounded:

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "ddm/curve_order.hpp"
-#include "ddm/free_boundary.hpp"
 #include "ddm/sides.hpp"
 #include "ddm/support.hpp"
 #include "ddm/ties.hpp"
@@ -31,13 +30,10 @@ class Numbering {
       : _mesh(mesh),
         _sides(sides),
         _side_trace(sides.sides.size()),
-        _local_triangle(mesh.triangle_count()),
         _local(mesh.node_count(), -1),
         _subdomains(mesh.subdomains.size()) {
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-      std::vector<std::int32_t>& triangles = _subdomains[at(mesh.subdomain[t])].triangle;
-      _local_triangle[t] = triangles.size();
-      triangles.push_back(static_cast<std::int32_t>(t));
+      _subdomains[at(mesh.subdomain[t])].triangle.push_back(static_cast<std::int32_t>(t));
     }
     std::vector<std::vector<std::int32_t>> traces(_subdomains.size());
     for (std::size_t i = 0; i < sides.sides.size(); ++i) {
@@ -62,15 +58,6 @@ class Numbering {
       Subdomain& subdomain = _subdomains[at(_sides.sides[i].subdomain)];
       subdomain.rigid[at(_side_trace[i])] = ties.rigid[i];
       subdomain.unknown[at(_side_trace[i])] = ties.unknown[i];
-    }
-  }
-
-  void add_free_boundary() {
-    for (const std::int32_t corner : free_boundary(_mesh)) {
-      const std::size_t t = at(corner / 3), k = at(corner % 3);
-      Subdomain& subdomain = _subdomains[at(_mesh.subdomain[t])];
-      const std::int32_t* node = &subdomain.part.triangles[3 * _local_triangle[t]];
-      subdomain.neumann.push_back({node[k], node[(k + 1) % 3]});
     }
   }
 
@@ -126,9 +113,8 @@ class Numbering {
 
   const mesh::Mesh& _mesh;
   const Sides& _sides;
-  std::vector<std::int32_t> _side_trace;     // trace number of each side in its subdomain
-  std::vector<std::size_t> _local_triangle;  // of each triangle of the mesh
-  std::vector<std::int32_t> _local;          // of each node in the subdomain at work, or -1
+  std::vector<std::int32_t> _side_trace;  // trace number of each side in its subdomain
+  std::vector<std::int32_t> _local;       // of each node in the subdomain at work, or -1
   std::vector<Subdomain> _subdomains;
 };
 
@@ -215,7 +201,6 @@ Decomposition cut(const mesh::Mesh& mesh) {
   Ties ties = tie(mesh, sides);
   Numbering numbering(mesh, sides);
   numbering.add_unknowns(ties);
-  numbering.add_free_boundary();
   Decomposition result;
   result.subdomains = numbering.take_subdomains();
   result.pairs = place_pairs(sides, ties, numbering.side_trace(),

@@ -26,7 +26,7 @@ struct Subdomain {
   double tension = 1;
   fem::Triangulation part;
   std::vector<std::int32_t> node;      ///< (n) index into Mesh::xy of each local node
-  std::vector<std::int32_t> triangle;  ///< (m) index into the mesh's triangles of each local one
+  std::vector<std::int32_t> triangle;  ///< (m) index into the mesh's triangles, increasing
   std::size_t interior = 0;
   std::size_t trace = 0;
   std::size_t dirichlet = 0;
@@ -34,8 +34,6 @@ struct Subdomain {
   std::vector<std::int32_t> unknown;  ///< (trace) its entry of the skeleton's w
   /// A trace node of each connected part without Dirichlet nodes: the part could move as a whole.
   std::vector<std::int32_t> floating;
-  std::vector<std::array<std::int32_t, 2>>
-      neumann;  ///< local nodes of edges of the Neumann boundary
 
   std::size_t free() const noexcept { return interior + trace; }
 };

@@ -3,6 +3,8 @@
 // Forward substitution with a supernodal factor, for one load or a block of them.
 #pragma once
 
+#include "ddm/instructions.hpp"
+
 namespace anticrack::ddm {
 
 /// A supernodal lower triangular factor as CHOLMOD stores it (is_super, is_ll): supernode s has the
@@ -34,7 +36,6 @@ constexpr int most_lanes = 4 * lanes;
 /// memory once. No allocation.
 void forward_solve(const Supernodes& factor, int width, double* y);
 
-enum class Instructions { baseline, avx2, avx512 };
 using ForwardKernel = void (*)(const Supernodes& factor, int width, double* y);
 /// Null where the processor does not have the instructions.
 ForwardKernel forward_kernel(Instructions instructions) noexcept;

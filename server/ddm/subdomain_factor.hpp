@@ -15,39 +15,37 @@ namespace anticrack::ddm {
 /// of what products of matrices gain over products with vectors, in at most 64 MiB.
 Eigen::Index columns_at_once(Eigen::Index rows) noexcept;
 
-/// Sparse Cholesky factor of one subdomain's stiffness with the interface numbered last:
+/// Sparse Cholesky factor of the interior of one subdomain, with its interface numbered last:
 ///
-///   K = [K_II K_IG; K_GI K_GG],  P K P' = L L',  L = [L_II 0; L_GI L_GG],  S = L_GG L_GG'
+///   K = [K_II K_IG; K_GI K_GG],  P K_II P' = L_II L_II',  L_GI = K_GI P' L_II'^-1,
+///   S = K_GG - L_GI L_GI' = K_GG - K_GI K_II^-1 K_IG
 ///
-/// so the trailing dense block of L is the factor of the Schur complement S = K_GG - K_GI K_II^-1
-/// K_IG, the discrete Steklov-Poincare operator, at no cost. P moves interior unknowns only.
-/// Where parts of the subdomain float, K is singular: what is factorised then is K + rho e e' with
-/// the unit vector e of one trace node of each such part, and S = L_GG L_GG' - rho e e', exactly,
-/// for adding to K_GG adds the same to S and changes nothing else.
+/// The Schur complement S, the discrete Steklov-Poincare operator, is what the elimination of the
+/// interior leaves of K_GG. P moves interior unknowns only. K may be singular, where parts of the
+/// subdomain float: K_II is not, for each part has interface nodes.
 /// Immutable after construction; any number of threads may solve with it at once.
 class SubdomainFactor {
  public:
   /// K: symmetric positive semidefinite, interior unknowns first, its lower triangle is read;
-  /// `order`: the interior unknowns in the order of their elimination (elimination_order.hpp);
-  /// `floating`: one trace number for each vector in its kernel (constant on one part of the
-  /// subdomain). Throws errors::Error (numerical when K + rho e e' is not positive definite,
-  /// limit_exceeded without memory).
+  /// `order`: the interior unknowns in the order of their elimination (elimination_order.hpp).
+  /// CHOLMOD's analysis, then the multifrontal method (multifrontal.hpp). Throws errors::Error
+  /// (numerical when K_II is not positive definite, limit_exceeded without memory).
   SubdomainFactor(const Eigen::SparseMatrix<double>& stiffness, Eigen::Index interior,
-                  std::span<const std::int32_t> order, std::span<const std::int32_t> floating = {});
+                  std::span<const std::int32_t> order);
   ~SubdomainFactor();
   SubdomainFactor(SubdomainFactor&&) noexcept;
   SubdomainFactor& operator=(SubdomainFactor&&) noexcept;
 
-  struct Forward {               // a column for each of f
-    Eigen::MatrixXd z_interior;  ///< L_II^-1 P f_I, in the factor's order
-    Eigen::MatrixXd g;           ///< condensed load f_G - K_GI K_II^-1 f_I
+  struct Forward {
+    Eigen::VectorXd z_interior;  ///< L_II^-1 P f_I, in the factor's order
+    Eigen::VectorXd g;           ///< condensed load f_G - K_GI K_II^-1 f_I
   };
-  /// Forward solves, O(nnz(L)) each, up to 32 together (forward_solve.hpp). The bits of a column do
-  /// not depend on the others.
-  Forward forward(const Eigen::Ref<const Eigen::MatrixXd>& f) const;
+  /// Of each column of f. O(nnz(L)) each, up to 32 together (forward_solve.hpp). The bits of a
+  /// column do not depend on the others.
+  std::vector<Forward> forward(const Eigen::Ref<const Eigen::MatrixXd>& f) const;
 
   /// u with trace t and interior K_II^-1 (f_I - K_IG t), f the load of `z_interior`: one backward
-  /// solve of L' x = [z_I; L_GG' t], O(nnz(L)). Shape (interior + trace).
+  /// solve of L_II' x = z_I - L_GI' t, O(nnz(L)). Shape (interior + trace).
   Eigen::VectorXd recover(const Eigen::VectorXd& z_interior, const Eigen::VectorXd& trace) const;
 
   /// S t, O(n_G^2).
@@ -55,20 +53,18 @@ class SubdomainFactor {
   /// The same into `result`, of the size of `trace` and not part of it. No allocation.
   void apply_schur(const Eigen::Ref<const Eigen::VectorXd>& trace,
                    Eigen::Ref<Eigen::VectorXd> result) const;
-  /// S, dense, O(n_G^3).
-  Eigen::MatrixXd schur() const;
+  /// S, dense, symmetric to the bit.
+  const Eigen::MatrixXd& schur() const noexcept { return _schur; }
 
   Eigen::Index interior() const noexcept { return _interior; }
-  Eigen::Index trace() const noexcept { return _trace_factor.rows(); }
+  Eigen::Index trace() const noexcept { return _schur.rows(); }
   std::size_t bytes() const noexcept;
 
  private:
   struct Factor;  // keeps CHOLMOD's types out of this header
   std::unique_ptr<const Factor> _factor;
   Eigen::Index _interior;
-  Eigen::MatrixXd _trace_factor;    // L_GG, lower triangle
-  std::vector<std::int32_t> _held;  // trace nodes with _rho on their diagonal
-  double _rho = 0;
+  Eigen::MatrixXd _schur;
 };
 
 }  // namespace anticrack::ddm

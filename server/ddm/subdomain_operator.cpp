@@ -29,8 +29,7 @@ SubdomainOperator::SubdomainOperator(const Subdomain& subdomain)
 
 SubdomainOperator::SubdomainOperator(const Subdomain& subdomain, fem::Stiffness stiffness)
     : _factor(stiffness.free, index(subdomain.interior),
-              elimination_order(stiffness.free, index(subdomain.interior), subdomain.part.xy),
-              subdomain.floating),
+              elimination_order(stiffness.free, index(subdomain.interior), subdomain.part.xy)),
       _free_dirichlet(std::move(stiffness.free_dirichlet)),
       _dirichlet_dirichlet(std::move(stiffness.dirichlet)),
       _floats(!subdomain.floating.empty()),
@@ -51,34 +50,39 @@ std::vector<CondensedLoad> SubdomainOperator::condense(
   for (Eigen::Index j = 0; j < columns; ++j) {
     boundary[index_of(j)] = dirichlet.col(j).isZero(0.0) ? -1 : solves++;
   }
-  Eigen::MatrixXd right_hand_sides(free, solves);
-  right_hand_sides.leftCols(columns) = loads.topRows(free);
-  for (Eigen::Index j = 0; j < columns; ++j) {
-    if (const Eigen::Index b = boundary[index_of(j)]; b >= 0) {
-      right_hand_sides.col(b) = -(_free_dirichlet * dirichlet.col(j));
-      right_hand_sides.col(j) += right_hand_sides.col(b);
+  const auto solved = [&] {
+    if (solves == columns) return _factor.forward(loads.topRows(free));
+    Eigen::MatrixXd right_hand_sides(free, solves);
+    right_hand_sides.leftCols(columns) = loads.topRows(free);
+    for (Eigen::Index j = 0; j < columns; ++j) {
+      if (const Eigen::Index b = boundary[index_of(j)]; b >= 0) {
+        right_hand_sides.col(b) = -(_free_dirichlet * dirichlet.col(j));
+        right_hand_sides.col(j) += right_hand_sides.col(b);
+      }
     }
-  }
-  const SubdomainFactor::Forward forward = _factor.forward(right_hand_sides);
+    return _factor.forward(right_hand_sides);
+  };
+  std::vector<SubdomainFactor::Forward> forward = solved();
   std::vector<CondensedLoad> result(index_of(columns));
   for (Eigen::Index j = 0; j < columns; ++j) {
     CondensedLoad& load = result[index_of(j)];
     load.dirichlet = dirichlet.col(j);
-    load.z_interior = forward.z_interior.col(j);
-    load.g = forward.g.col(j);
-    load.dirichlet_force = _dirichlet_dirichlet * load.dirichlet;
+    load.z_interior = std::move(forward[index_of(j)].z_interior);
+    load.g = std::move(forward[index_of(j)].g);
     load.on_dirichlet = loads.col(j).tail(dirichlet.rows());
     const double interior_energy = load.z_interior.squaredNorm();
     const Eigen::Index b = boundary[index_of(j)];
     if (b < 0) {
+      load.dirichlet_force = Eigen::VectorXd::Zero(load.dirichlet.size());
       load.g_boundary = Eigen::VectorXd::Zero(load.g.size());
       load.norm_constant = interior_energy;
       load.energy_constant = -interior_energy / 2;
       continue;
     }
+    load.dirichlet_force = _dirichlet_dirichlet * load.dirichlet;
     const double boundary_energy = load.dirichlet.dot(load.dirichlet_force);
-    load.z_boundary = forward.z_interior.col(b);
-    load.g_boundary = forward.g.col(b);
+    load.z_boundary = std::move(forward[index_of(b)].z_interior);
+    load.g_boundary = std::move(forward[index_of(b)].g);
     load.norm_constant =
         interior_energy - 2 * load.z_interior.dot(load.z_boundary) + boundary_energy;
     load.energy_constant =

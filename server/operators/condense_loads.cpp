@@ -52,9 +52,11 @@ std::string inexact(const std::string& what, const std::string& subdomain, doubl
 class Block {
  public:
   Block(std::span<const fem::Load* const> loads, const mesh::Mesh& mesh,
-        const ddm::Decomposition& decomposition, std::stop_token stop)
+        const ddm::Decomposition& decomposition, const ddm::NeumannBoundary& neumann,
+        std::stop_token stop)
       : _loads(loads),
         _decomposition(decomposition),
+        _neumann(neumann),
         _stop(std::move(stop)),
         _placed(loads.size()),
         _outcomes(loads.size()) {
@@ -159,9 +161,9 @@ class Block {
                 Eigen::Ref<Eigen::VectorXd> of_nodes) const {
     const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
     const fem::Load& load = *_loads[i];
-    if (!load.traction.empty() && !subdomain.neumann.empty()) {
+    if (!load.traction.empty() && !_neumann.of(s).empty()) {
       const double error =
-          fem::add_traction(subdomain.part, subdomain.neumann, load.traction, of_nodes, _stop);
+          fem::add_traction(subdomain.part, _neumann.of(s), load.traction, of_nodes, _stop);
       if (error > fem::load_tolerance) {
         result.warnings.push_back(inexact("the traction", subdomain.name, error));
       }
@@ -178,6 +180,7 @@ class Block {
 
   std::span<const fem::Load* const> _loads;
   const ddm::Decomposition& _decomposition;
+  const ddm::NeumannBoundary& _neumann;
   std::stop_token _stop;
   std::vector<PlacedForces> _placed;
   std::vector<CondensedOutcome> _outcomes;
@@ -198,13 +201,14 @@ std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> l
                                              const mesh::Mesh& mesh,
                                              const ddm::Decomposition& decomposition,
                                              std::span<const ddm::SubdomainOperator> operators,
+                                             const ddm::NeumannBoundary& neumann,
                                              const std::stop_token& stop) {
   const auto at_once = static_cast<std::size_t>(ddm::columns_at_once(most_nodes(decomposition)));
   std::vector<CondensedOutcome> result;
   result.reserve(loads.size());
   for (std::size_t first = 0; first < loads.size(); first += at_once) {
     Block block(loads.subspan(first, std::min(at_once, loads.size() - first)), mesh, decomposition,
-                stop);
+                neumann, stop);
     for (std::size_t s = 0; s < operators.size(); ++s) {
       block.condense_on(s, operators[s]);
     }

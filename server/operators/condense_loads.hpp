@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ddm/decomposition.hpp"
+#include "ddm/neumann_boundary.hpp"
 #include "ddm/subdomain_operator.hpp"
 #include "errors/errors.hpp"
 #include "fem/load.hpp"
@@ -38,6 +39,7 @@ std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> l
                                              const mesh::Mesh& mesh,
                                              const ddm::Decomposition& decomposition,
                                              std::span<const ddm::SubdomainOperator> operators,
+                                             const ddm::NeumannBoundary& neumann,
                                              const std::stop_token& stop);
 
 }  // namespace anticrack::operators

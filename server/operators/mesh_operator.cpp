@@ -80,7 +80,7 @@ std::size_t bytes_of(const ddm::Decomposition& decomposition) {
   for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
     bytes += bytes_of(subdomain.part.xy) + bytes_of(subdomain.part.triangles) +
              bytes_of(subdomain.node) + bytes_of(subdomain.triangle) + bytes_of(subdomain.rigid) +
-             bytes_of(subdomain.unknown) + bytes_of(subdomain.neumann);
+             bytes_of(subdomain.unknown);
   }
   for (const std::vector<ddm::SidePair>& sides : decomposition.interface_sides) {
     bytes += bytes_of(sides);
@@ -94,6 +94,7 @@ MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threa
                            const std::stop_token& stop)
     : mesh(std::move(cut_mesh)),
       decomposition(ddm::cut(*mesh)),
+      neumann(*mesh, decomposition),
       operators(factorise_subdomains(decomposition.subdomains, threads, stop)),
       uzawa_obstacle(ddm::uzawa_obstacle(decomposition, *mesh)),
       problem(decomposition, operators, uzawa_obstacle.empty()),
@@ -144,7 +145,8 @@ double MeshOperator::known_theta_star() const noexcept {
 }
 
 std::size_t MeshOperator::bytes() const noexcept {
-  std::size_t bytes = sizeof(Parts) + bytes_of(*_parts->mesh) + bytes_of(_parts->decomposition);
+  std::size_t bytes = sizeof(Parts) + bytes_of(*_parts->mesh) + bytes_of(_parts->decomposition) +
+                      _parts->neumann.bytes();
   for (const ddm::SubdomainOperator& subdomain : _parts->operators) {
     bytes += subdomain.bytes();
   }

@@ -13,6 +13,7 @@
 #include "contact/sweep_solver.hpp"
 #include "contact/trace_problem.hpp"
 #include "ddm/decomposition.hpp"
+#include "ddm/neumann_boundary.hpp"
 #include "ddm/subdomain_operator.hpp"
 #include "operators/basis_cache.hpp"
 #include "operators/condense_loads.hpp"
@@ -28,6 +29,7 @@ struct MeshOperator::Parts {
 
   std::shared_ptr<const mesh::Mesh> mesh;
   ddm::Decomposition decomposition;
+  ddm::NeumannBoundary neumann;  // refers to the mesh and the decomposition
   std::vector<ddm::SubdomainOperator> operators;
   std::string uzawa_obstacle;
   contact::TraceProblem problem;      // refers to the decomposition and the operators

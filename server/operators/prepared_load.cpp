@@ -29,8 +29,8 @@ void MeshOperator::require_prepared(const PreparedLoad& load, bool fields) const
 
 std::vector<std::variant<PreparedLoad, errors::Error>> MeshOperator::prepare(
     std::span<const fem::Load* const> loads, const std::stop_token& stop) const {
-  std::vector<CondensedOutcome> condensed =
-      condense_loads(loads, *_parts->mesh, _parts->decomposition, _parts->operators, stop);
+  std::vector<CondensedOutcome> condensed = condense_loads(
+      loads, *_parts->mesh, _parts->decomposition, _parts->operators, _parts->neumann, stop);
   std::vector<std::variant<PreparedLoad, errors::Error>> prepared;
   prepared.reserve(condensed.size());
   for (auto& one : condensed) {

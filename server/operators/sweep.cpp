@@ -107,9 +107,10 @@ std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* 
   }
   require_memory(loads.size(), _parts->decomposition);
   const auto make = [&]() -> BasisCache::Basis {
-    return std::make_shared<const CondensedBasis>(basis_of(
-        sound(condense_loads(loads, *_parts->mesh, _parts->decomposition, _parts->operators, stop)),
-        _parts->skeleton, _parts->mesh->inclusions.size()));
+    return std::make_shared<const CondensedBasis>(
+        basis_of(sound(condense_loads(loads, *_parts->mesh, _parts->decomposition,
+                                      _parts->operators, _parts->neumann, stop)),
+                 _parts->skeleton, _parts->mesh->inclusions.size()));
   };
   const std::optional<std::string> key = key_of(loads);
   return std::shared_ptr<const LoadBasis>(new LoadBasis(std::make_unique<const LoadBasis::Data>(

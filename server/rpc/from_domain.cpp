@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "jobs/sample_run.hpp"
 #include "rpc/error_table.hpp"
 #include "rpc/from_sweep.hpp"
 #include "rpc/names.hpp"

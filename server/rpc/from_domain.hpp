@@ -10,9 +10,12 @@
 
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
-#include "jobs/sample_run.hpp"
 #include "store/block.hpp"
 #include "store/records.hpp"
+
+namespace anticrack::jobs {
+struct SampleRun;
+}
 
 namespace anticrack::rpc {
 

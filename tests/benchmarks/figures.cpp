@@ -4,9 +4,11 @@
 #include <time.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <thread>
 
 namespace anticrack::benchmarks {
 namespace {
@@ -50,6 +52,10 @@ Stopwatch::Stopwatch() : _wall(seconds(CLOCK_MONOTONIC)), _cpu(seconds(CLOCK_PRO
 void Stopwatch::stop(Times& times, double parts) const {
   times.wall.push_back((seconds(CLOCK_MONOTONIC) - _wall) / parts);
   times.cpu.push_back((seconds(CLOCK_PROCESS_CPUTIME_ID) - _cpu) / parts);
+}
+
+void let_blas_fall_asleep() {
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
 }
 
 std::uint64_t peak_memory() {

@@ -27,6 +27,10 @@ class Stopwatch {
   double _wall, _cpu;
 };
 
+/// Waits until the threads that OpenBLAS makes at the start of a process, and none of our programs
+/// uses, have fallen asleep: they spin for a tenth of a second on a core of their own.
+void let_blas_fall_asleep();
+
 /// Largest resident memory of this process so far (VmHWM), bytes.
 std::uint64_t peak_memory();
 

@@ -98,7 +98,7 @@ void forward_solve(benchmark::State& state, const Bench& bench) {
   }
   for (auto _ : state) {
     for (std::size_t s = 0; s < loads.size(); ++s) {
-      benchmark::DoNotOptimize(bench.operators[s].factor().forward(loads[s]).g.data());
+      benchmark::DoNotOptimize(bench.operators[s].factor().forward(loads[s]).data());
     }
   }
   state.SetItemsProcessed(state.iterations() * columns_of(state));

@@ -128,7 +128,7 @@ Figures solves(const Options& options, const ddm::Decomposition& parts) {
     {
       const Stopwatch watch;
       for (std::size_t s = 0; s < loads.size(); ++s) {
-        forward.push_back(operators[s].factor().forward(loads[s].leftCols(1)));
+        forward.push_back(std::move(operators[s].factor().forward(loads[s].leftCols(1)).front()));
       }
       watch.stop(single);
     }

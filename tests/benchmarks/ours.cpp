@@ -225,6 +225,7 @@ void run(const Options& options) {
   plain.triangles = plain.subdomain = {};
   Figures figures;
   describe(*mesh, figures);
+  let_blas_fall_asleep();
   figures.set("threads", options.threads);
   const Operator op = first_answers(options, mesh, nodal_load(plain, 0), figures);
   std::vector<fem::Load> loads;

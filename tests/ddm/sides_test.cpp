@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ddm/neumann_boundary.hpp"
 #include "ddm_support.hpp"
 #include "support/grid_mesh.hpp"
 
@@ -114,8 +115,9 @@ TEST(Slit, AtTheNeumannBoundaryIsOpenThere) {
   const Decomposition result = cut_valid(grid);
   EXPECT_EQ(result.skeleton.contacts.size(), 3U);
   EXPECT_EQ(result.interface_sides[0][0].kind, Kind::crack);
-  EXPECT_EQ(result.subdomains[0].neumann.size(), 4U);
-  for (const auto& edge : result.subdomains[0].neumann) {
+  const NeumannBoundary neumann(grid.mesh, result);
+  EXPECT_EQ(neumann.of(0).size(), 4U);
+  for (const auto& edge : neumann.of(0)) {
     const Subdomain& membrane = result.subdomains[0];
     const std::vector<double>& xy = membrane.part.xy;
     const auto from = static_cast<std::size_t>(edge[0]), to = static_cast<std::size_t>(edge[1]);

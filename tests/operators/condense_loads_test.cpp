@@ -55,7 +55,7 @@ class CondenseLoad : public ::testing::Test {
   LoadOnTraces condense(const fem::Load& load, const std::stop_token& stop = {}) const {
     const fem::Load* const one[] = {&load};
     CondensedOutcome outcome =
-        std::move(condense_loads(one, mesh, decomposition, operators, stop).front());
+        std::move(condense_loads(one, mesh, decomposition, operators, neumann, stop).front());
     if (const auto* error = std::get_if<errors::Error>(&outcome)) {
       throw errors::Error(*error);
     }
@@ -78,6 +78,7 @@ class CondenseLoad : public ::testing::Test {
 
   mesh::Mesh mesh = membrane();
   ddm::Decomposition decomposition = ddm::cut(mesh);
+  ddm::NeumannBoundary neumann{mesh, decomposition};
   std::vector<ddm::SubdomainOperator> operators;
 };
 

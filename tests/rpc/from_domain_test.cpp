@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "jobs/sample_run.hpp"
+
 namespace anticrack::rpc {
 namespace {
 

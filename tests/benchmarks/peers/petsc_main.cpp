@@ -31,6 +31,7 @@ void run(const Options& options) {
   std::vector<std::vector<double>> forces;
   for (int k = 0; k < options.loads; ++k) forces.push_back(nodal_force(mesh, k));
 
+  let_blas_fall_asleep();
   Times first, further;
   std::unique_ptr<Peer> peer;
   for (int i = 0; i < options.repetitions; ++i) {

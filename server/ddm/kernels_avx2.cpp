@@ -2,3 +2,6 @@
 #define ANTICRACK_KERNEL forward_solve_avx2
 #define ANTICRACK_ROWS 4
 #include "ddm/forward_kernel.hpp"
+
+#define ANTICRACK_FRONT eliminate_small_front_avx2
+#include "ddm/front_loops.hpp"

@@ -2,3 +2,6 @@
 #define ANTICRACK_KERNEL forward_solve_baseline
 #define ANTICRACK_ROWS 4
 #include "ddm/forward_kernel.hpp"
+
+#define ANTICRACK_FRONT eliminate_small_front_baseline
+#include "ddm/front_loops.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ddm/free_boundary.hpp"
+#include "ddm/neumann_boundary.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -24,9 +24,8 @@ EdgeKey edge_of(const mesh::Mesh& mesh, std::size_t corner) {
   return std::minmax(mesh.triangles[corner], mesh.triangles[next]);
 }
 
-}  // namespace
-
-std::vector<std::int32_t> free_boundary(const mesh::Mesh& mesh) {
+/// Each as 3t + k when it runs from corner k to corner k+1 of triangle t.
+std::vector<std::int32_t> free_corners(const mesh::Mesh& mesh) {
   std::vector<std::size_t> end(mesh.node_count() + 1, 0);  // of each node's uses
   for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
     ++end[at(edge_of(mesh, c).first) + 1];
@@ -63,6 +62,34 @@ std::vector<std::int32_t> free_boundary(const mesh::Mesh& mesh) {
     }
   }
   return result;
+}
+
+}  // namespace
+
+const NeumannBoundary::Edges& NeumannBoundary::of(std::size_t subdomain) const {
+  const std::vector<Edges>& edges = _edges.get([this] {
+    std::vector<Edges> result(_decomposition.subdomains.size());
+    for (const std::int32_t corner : free_corners(_mesh)) {
+      const std::size_t s = at(_mesh.subdomain[at(corner / 3)]), k = at(corner % 3);
+      const Subdomain& owner = _decomposition.subdomains[s];
+      const auto local = std::lower_bound(owner.triangle.begin(), owner.triangle.end(), corner / 3);
+      const std::int32_t* node =
+          &owner.part.triangles[3 * static_cast<std::size_t>(local - owner.triangle.begin())];
+      result[s].push_back({node[k], node[(k + 1) % 3]});
+    }
+    return result;
+  });
+  return edges[subdomain];
+}
+
+std::size_t NeumannBoundary::bytes() const noexcept {
+  std::size_t bytes = 0;
+  if (const std::vector<Edges>* edges = _edges.known()) {
+    for (const Edges& on_subdomain : *edges) {
+      bytes += on_subdomain.capacity() * sizeof(on_subdomain[0]);
+    }
+  }
+  return bytes;
 }
 
 }  // namespace anticrack::ddm

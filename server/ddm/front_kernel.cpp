@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ddm/front_kernel.hpp"
+
+namespace anticrack::ddm {
+
+bool eliminate_small_front_baseline(int columns, int height, double* panel, double* update);
+bool eliminate_small_front_avx2(int columns, int height, double* panel, double* update);
+bool eliminate_small_front_avx512(int columns, int height, double* panel, double* update);
+
+FrontKernel front_kernel(Instructions instructions) noexcept {
+  if (!has(instructions)) {
+    return nullptr;
+  }
+  switch (instructions) {
+    case Instructions::avx512:
+      return eliminate_small_front_avx512;
+    case Instructions::avx2:
+      return eliminate_small_front_avx2;
+    case Instructions::baseline:
+      break;
+  }
+  return eliminate_small_front_baseline;
+}
+
+bool eliminate_small_front(int columns, int height, double* panel, double* update) {
+  static const FrontKernel kernel = front_kernel(best_instructions());
+  return kernel(columns, height, panel, update);
+}
+
+}  // namespace anticrack::ddm

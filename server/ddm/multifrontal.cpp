@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ddm/multifrontal.hpp"
+
+#include <cblas.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <vector>
+
+#include "ddm/front_kernel.hpp"
+#include "ddm/values.hpp"
+#include "errors/errors.hpp"
+
+extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
+
+namespace anticrack::ddm {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Entries of the permuted K, by column; its G-G part is in S.
+struct Columns {
+  std::vector<int> begin;
+  std::vector<int> row;
+  std::vector<double> value;
+};
+
+/// Calls take(row, column, value) for each entry of the lower triangle of the permuted K.
+template <class Take>
+void for_each_entry(const Sparse& stiffness, const std::vector<int>& place, const Take& take) {
+  const int *begin = stiffness.outerIndexPtr(), *row = stiffness.innerIndexPtr();
+  const double* value = stiffness.valuePtr();
+  for (int j = 0; j < static_cast<int>(stiffness.cols()); ++j) {
+    for (int e = begin[j]; e < begin[j + 1]; ++e) {
+      if (row[e] >= j) {
+        const auto [column, below] = std::minmax(place[at(row[e])], place[at(j)]);
+        take(below, column, value[e]);
+      }
+    }
+  }
+}
+
+Columns permuted(const Sparse& stiffness, const int* permutation, int interior,
+                 Eigen::MatrixXd& schur) {
+  const auto n = static_cast<int>(stiffness.rows());
+  std::vector<int> place(at(n));
+  for (int k = 0; k < n; ++k) place[at(permutation[k])] = k;
+  Columns columns;
+  columns.begin.assign(at(interior) + 1, 0);
+  schur.setZero(n - interior, n - interior);
+  for_each_entry(stiffness, place, [&](int row, int column, double value) {
+    if (column < interior) {
+      ++columns.begin[at(column)];
+    } else {
+      schur(row - interior, column - interior) += value;
+    }
+  });
+  int end = 0;
+  for (int& begin : columns.begin) {
+    end += begin;
+    begin = end;
+  }
+  columns.row.resize(at(end));
+  columns.value.resize(at(end));
+  for_each_entry(stiffness, place, [&](int row, int column, double value) {
+    if (column < interior) {
+      const std::size_t e = at(--columns.begin[at(column)]);
+      columns.row[e] = row;
+      columns.value[e] = value;
+    }
+  });
+  return columns;
+}
+
+/// What is left of a front, (size,size) column-major, its lower triangle, for the rows of the
+/// pattern from `row` on.
+struct Update {
+  Values values;
+  std::size_t capacity = 0;
+  const int* row = nullptr;
+  int size = 0;
+  int next = -1;  ///< another child of the same parent
+};
+
+/// Memory of updates, used again: what is large comes from the system and goes back to it page by
+/// page, which costs more than what is done with it.
+class Pool {
+ public:
+  Update take(const int* row, int size) {
+    const std::size_t wanted = at(size) * at(size);
+    const auto found = _free.lower_bound(wanted);
+    if (wanted < large || found == _free.end() || found->first > 2 * wanted) {
+      return {make_values(wanted), wanted, row, size, -1};
+    }
+    Update update{std::move(found->second), found->first, row, size, -1};
+    _free.erase(found);
+    return update;
+  }
+
+  void give_back(Update& update) {
+    if (update.capacity >= large) _free.emplace(update.capacity, std::move(update.values));
+    update.values.reset();
+  }
+
+ private:
+  static constexpr std::size_t large = 1 << 13;
+  std::multimap<std::size_t, Values> _free;
+};
+
+class Elimination {
+ public:
+  Elimination(const Supernodes& pattern, Columns columns, double* values, Eigen::MatrixXd& schur)
+      : _pattern(pattern),
+        _columns(std::move(columns)),
+        _values(values),
+        _schur(schur),
+        _supernode(at(pattern.columns)),
+        _place(at(pattern.columns + static_cast<int>(schur.rows()))) {
+    while (_count < pattern.count && pattern.super[_count] < pattern.columns) {
+      const int end = std::min(pattern.super[_count + 1], pattern.columns);
+      for (int j = pattern.super[_count]; j < end; ++j) _supernode[at(j)] = _count;
+      ++_count;
+    }
+    _update.resize(at(_count));
+    _child.assign(at(_count), -1);
+  }
+
+  bool run() {
+    for (int s = 0; s < _count; ++s) {
+      if (!eliminate(s)) return false;
+    }
+    return true;
+  }
+
+ private:
+  /// Where the rows of a child's update are in the front at work.
+  void find_places(const Update& child) {
+    _relative.resize(at(child.size));
+    for (int i = 0; i < child.size; ++i) {
+      const int place = _place[at(child.row[i])];
+      if (place >= _height || _rows[place] != child.row[i]) {
+        throw errors::Error(errors::Reason::internal,
+                            "the pattern of a factor lacks a row of one of its children");
+      }
+      _relative[at(i)] = place;
+    }
+  }
+
+  /// Columns [from, to) of a child into the columns of the front that `target` gives.
+  template <class Target>
+  void add(const Update& child, int from, int to, int shift, const Target& target) {
+    for (int j = from; j < to; ++j) {
+      const double* source = child.values.get() + std::ptrdiff_t{j} * child.size;
+      double* column = target(_relative[at(j)]) - shift;
+      for (int i = j; i < child.size; ++i) column[_relative[at(i)]] += source[i];
+    }
+  }
+
+  bool eliminate(int s) {
+    const int first = _pattern.super[s];
+    const int own = std::min(_pattern.super[s + 1], _pattern.columns) - first;
+    _rows = _pattern.rows + _pattern.row_begin[s];
+    _height = _pattern.row_begin[s + 1] - _pattern.row_begin[s];
+    const int rest = _height - own;
+    double* panel = _values + _pattern.value_begin[s];
+    std::fill_n(panel, std::ptrdiff_t{own} * _height, 0.0);
+    for (int i = 0; i < _height; ++i) _place[at(_rows[i])] = i;
+    for (int j = 0; j < own; ++j) {
+      double* column = panel + std::ptrdiff_t{j} * _height;
+      for (int e = _columns.begin[at(first + j)]; e < _columns.begin[at(first + j) + 1]; ++e) {
+        column[_place[at(_columns.row[at(e)])]] += _columns.value[at(e)];
+      }
+    }
+    // How many columns of each child are eliminated here; the others wait for the update.
+    for (int c = _child[at(s)]; c >= 0; c = _update[at(c)].next) {
+      const Update& child = _update[at(c)];
+      find_places(child);
+      add(child, 0, columns_before(own), 0,
+          [&](int column) { return panel + std::ptrdiff_t{column} * _height; });
+    }
+    Update left = _pool.take(_rows + own, rest);
+    double* update = left.values.get();
+    if (!eliminate_front(own, _height, panel, update)) return false;
+    for (int c = _child[at(s)]; c >= 0; c = _update[at(c)].next) {
+      Update& child = _update[at(c)];
+      find_places(child);
+      add(child, columns_before(own), child.size, own,
+          [&](int column) { return update + std::ptrdiff_t{column - own} * rest; });
+      _pool.give_back(child);
+    }
+    if (rest > 0) pass_on(s, std::move(left));
+    return true;
+  }
+
+  /// Of the child whose places were found last.
+  int columns_before(int own) const {
+    return static_cast<int>(std::lower_bound(_relative.begin(), _relative.end(), own) -
+                            _relative.begin());
+  }
+
+  /// To the parent, or to S if no interior unknown is left.
+  void pass_on(int s, Update update) {
+    const int interior = _pattern.columns;
+    if (*update.row < interior) {
+      int& siblings = _child[at(_supernode[at(*update.row)])];
+      update.next = siblings;
+      siblings = s;
+      _update[at(s)] = std::move(update);
+      return;
+    }
+    for (int j = 0; j < update.size; ++j) {
+      double* column = &_schur(0, update.row[j] - interior) - interior;
+      const double* source = update.values.get() + std::ptrdiff_t{j} * update.size;
+      for (int i = j; i < update.size; ++i) column[update.row[i]] += source[i];
+    }
+    _pool.give_back(update);
+  }
+
+  const Supernodes& _pattern;
+  const Columns _columns;
+  double* _values;
+  Eigen::MatrixXd& _schur;
+  int _count = 0;               // supernodes with interior columns
+  std::vector<int> _supernode;  // of each interior column
+  std::vector<int> _child;      // of each supernode, the last one done, or -1
+  std::vector<Update> _update;  // of each supernode, until its parent has taken it
+  Pool _pool;
+  // Of the front at work:
+  const int* _rows = nullptr;
+  int _height = 0;
+  std::vector<int> _place;     // of each unknown that has a row in it
+  std::vector<int> _relative;  // of each row of a child
+};
+
+}  // namespace
+
+bool eliminate_front(int columns, int height, double* panel, double* update) {
+  const int rest = height - columns;
+  // A call of BLAS costs as much as thousands of operations.
+  constexpr double few = 40'000;
+  if (static_cast<double>(columns) * height * height < few) {
+    return eliminate_small_front(columns, height, panel, update);
+  }
+  int info = 0;
+  dpotrf_("L", &columns, panel, &height, &info);
+  if (info != 0) return false;
+  for (int k = 0; k < columns; ++k) {  // OpenBLAS lets what is no number pass
+    if (!(panel[std::ptrdiff_t{k} * (height + 1)] > 0)) return false;
+  }
+  if (rest == 0) return true;
+  double* below = panel + columns;
+  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, columns, 1,
+              panel, height, below, height);
+  cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, rest, columns, -1, below, height, 0, update,
+              rest);
+  return true;
+}
+
+bool eliminate_interior(const Supernodes& pattern, const int* permutation, const Sparse& stiffness,
+                        double* values, Eigen::MatrixXd& schur) {
+  Columns columns = permuted(stiffness, permutation, pattern.columns, schur);
+  if (!Elimination(pattern, std::move(columns), values, schur).run()) return false;
+  schur.triangularView<Eigen::StrictlyUpper>() = schur.transpose();
+  return true;
+}
+
+}  // namespace anticrack::ddm

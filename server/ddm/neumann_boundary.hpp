@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "ddm/decomposition.hpp"
+#include "ddm/lazy.hpp"
+#include "mesh/mesh.hpp"
+
+namespace anticrack::ddm {
+
+/// The Neumann boundary: edges of one triangle that are not in Mesh::dirichlet. Only tractions ask
+/// for it, so it is found when it is first asked for: O(m), 8 bytes an edge of a triangle
+/// meanwhile. Any number of threads may ask at once.
+class NeumannBoundary {
+ public:
+  /// Refers to both; the decomposition is the mesh's.
+  NeumannBoundary(const mesh::Mesh& mesh, const Decomposition& decomposition)
+      : _mesh(mesh), _decomposition(decomposition) {}
+
+  using Edges = std::vector<std::array<std::int32_t, 2>>;
+  /// Local nodes of the edges on a subdomain, counterclockwise about their triangle.
+  const Edges& of(std::size_t subdomain) const;
+  std::size_t bytes() const noexcept;
+
+ private:
+  const mesh::Mesh& _mesh;
+  const Decomposition& _decomposition;
+  Lazy<std::vector<Edges>> _edges;  // of each subdomain
+};
+
+}  // namespace anticrack::ddm

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Memory of factors.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+
+namespace anticrack::ddm {
+
+struct FreeValues {
+  void operator()(double* values) const noexcept { std::free(values); }
+};
+using Values = std::unique_ptr<double, FreeValues>;
+
+/// Not initialised, aligned to a cache line; many megabytes are laid into huge pages where the
+/// system has them: a factor is written once and then read from end to end, and a fault for each
+/// small page took a tenth of the factorisation. Throws errors::Error (limit_exceeded) without
+/// memory.
+Values make_values(std::size_t count);
+
+}  // namespace anticrack::ddm
