@@ -16,6 +16,10 @@ using errors::Reason;
 
 namespace {
 
+/// Of header and bytes together. What fits needs no flush of a file and of its folder, each as long
+/// as the flush of the database that follows; a few pages more cost that one nothing.
+constexpr std::size_t most_small_result = std::size_t{32} << 10U;
+
 std::set<std::string> uploads_of(const JobSpec& spec) {
   std::set<std::string> uploads;
   for (const fem::Load& load : spec.loads) {
@@ -89,13 +93,26 @@ std::string result_name(Connection& connection, const std::string& job) {
   return select.text(0);
 }
 
-void end(Connection& connection, const JobRecord& record, const std::string& result,
-         std::uint64_t result_bytes, const std::string& bytes) {
+/// A result as its job's row has it: the name of its file, or what would be in one.
+struct ResultColumns {
+  std::string name{};
+  std::string small{};
+  std::uint64_t bytes = 0;  ///< of the block
+};
+
+void end(Connection& connection, const JobRecord& record, const ResultColumns& result,
+         const std::string& bytes) {
   Statement update = connection.prepare(
-      "UPDATE jobs SET ended = ?, result = ?, result_bytes = ?, record = ? WHERE id = ?");
+      "UPDATE jobs SET ended = ?, result = ?, small_result = ?, result_bytes = ?, record = ? "
+      "WHERE id = ?");
   bind_end(update, record);
-  update.bind(std::string_view(result))
-      .bind(static_cast<std::int64_t>(result_bytes))
+  update.bind(std::string_view(result.name));
+  if (result.small.empty()) {
+    update.bind_null();
+  } else {
+    update.bind_blob(result.small);
+  }
+  update.bind(static_cast<std::int64_t>(result.bytes))
       .bind_blob(bytes)
       .bind(std::string_view(record.id))
       .run();
@@ -143,31 +160,35 @@ void DurableStore::put(const JobRecord& record) {
   });
 }
 
-DurableStore::NewResult DurableStore::write_result(const Block& block, const std::string& header) {
-  return {Sha256().add(header).finish(), block.bytes.size(),
-          _results.write({std::as_bytes(std::span(header)), block.bytes})};
-}
-
 void DurableStore::finish(const JobRecord& record, std::shared_ptr<const Block> result) {
   const std::string bytes = encode(record);
   std::optional<DiskUsage::Reservation> reservation;
-  std::optional<NewResult> file;
+  std::optional<Part> file;
+  ResultColumns columns;
   if (result) {
     const std::string header = result_header(*result);
-    reservation.emplace(reserve(header.size() + result->bytes.size()));
-    file.emplace(write_result(*result, header));
+    const std::span<const std::byte> values = result->bytes;
+    columns.bytes = values.size();
+    reservation.emplace(reserve(header.size() + values.size()));
+    if (header.size() + values.size() <= most_small_result) {
+      columns.small = header;
+      columns.small.append(reinterpret_cast<const char*>(values.data()), values.size());
+    } else {
+      columns.name = Sha256().add(header).finish();
+      file.emplace(_results.write({std::as_bytes(std::span(header)), values}));
+    }
   }
   _writer.run([&](Connection& connection) {
     if (const std::string before = result_name(connection, record.id); !before.empty()) {
       _unreferenced.push_back({FileKind::result, before});
     }
     if (file) {
-      _unreferenced.push_back({FileKind::result, file->name});
-      _results.rename(file->part.path(), file->name);
-      file->part.release();
+      _unreferenced.push_back({FileKind::result, columns.name});
+      _results.rename(file->path(), columns.name);
+      file->release();
       _results.flush_names();
     }
-    end(connection, record, file ? file->name : "", file ? file->bytes : 0, bytes);
+    end(connection, record, columns, bytes);
   });
 }
 
@@ -198,21 +219,29 @@ std::vector<EndedJob> DurableStore::ended() const {
 }
 
 std::shared_ptr<const BlockSource> DurableStore::result(const std::string& job) const {
-  const char* const sql = "SELECT result FROM jobs WHERE id = ?";
-  std::optional<std::string> name = record(sql, job);
-  while (name && !name->empty()) {
-    const std::string path = _results.path(*name);
+  const auto look = [&]() -> ResultColumns {
+    return reading([&](Connection& connection) {
+      Statement select = connection.prepare("SELECT result, small_result FROM jobs WHERE id = ?");
+      return select.bind(std::string_view(job)).step()
+                 ? ResultColumns{select.text(0), select.text(1)}
+                 : ResultColumns{};
+    });
+  };
+  ResultColumns found = look();
+  while (!found.name.empty()) {
+    const std::string path = _results.path(found.name);
     if (Descriptor file = open_to_read(path)) {
       return open_result(std::move(file), path);
     }
-    const std::optional<std::string> now = record(sql, job);  // it may have expired just now
-    if (now == name) {
+    ResultColumns now = look();  // it may have expired just now
+    if (now.name == found.name) {
       throw Error(Reason::storage, "the result of jobs/" + job + " is not in " + path +
                                        ": delete the job and run it again");
     }
-    name = now;
+    found = std::move(now);
   }
-  return nullptr;
+  return found.small.empty() ? nullptr
+                             : open_result(std::move(found.small), "the row of jobs/" + job);
 }
 
 void DurableStore::expire(const std::string& job) {
@@ -230,7 +259,7 @@ void DurableStore::expire(const std::string& job) {
     }
     record.state = JobState::expired;
     record.result_bytes = 0;
-    end(connection, record, "", 0, encode(record));
+    end(connection, record, {}, encode(record));
     if (!result.empty()) {
       _unreferenced.push_back({FileKind::result, result});
     }

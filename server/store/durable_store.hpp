@@ -62,18 +62,12 @@ class DurableStore final : public Store {
     FileKind kind;
     std::string sha256;
   };
-  struct NewResult {
-    std::string name;  ///< of the file
-    std::uint64_t bytes;
-    Part part;
-  };
 
   Files& files(FileKind kind);
   std::uint64_t database_bytes() const;
   DiskUsage::Reservation reserve(std::uint64_t bytes);
   void remove_unreferenced(Connection& connection);
   void save(Connection& connection, const MeshRecord& record, const std::string& bytes);
-  NewResult write_result(const Block& block, const std::string& header);
 
   template <class Read>
   auto reading(Read&& read) const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -24,15 +25,13 @@ constexpr std::string_view magic("ACRES\0\0\1", 8);  // the last: the version
 constexpr std::size_t lengths = 2 * sizeof(std::uint32_t);
 constexpr std::size_t max_header = std::size_t{16} << 20U;
 
-class FileBlock final : public BlockSource {
+/// Reads what is at an offset; throws where there is less.
+using Read = std::function<void(std::uint64_t offset, std::span<std::byte> bytes)>;
+
+class StoredBlock final : public BlockSource {
  public:
-  FileBlock(Descriptor file, std::string path, std::uint64_t begin,
-            const disk::ResultHeader& header)
-      : _file(std::move(file)),
-        _path(std::move(path)),
-        _begin(begin),
-        _size(header.bytes()),
-        _sha256(header.sha256()) {
+  StoredBlock(Read read, std::uint64_t begin, const disk::ResultHeader& header)
+      : _read(std::move(read)), _begin(begin), _size(header.bytes()), _sha256(header.sha256()) {
     for (const disk::ArrayLayout& array : header.arrays()) {
       _arrays.push_back({array.name(),
                          disk::choice(types, array.type()),
@@ -45,12 +44,11 @@ class FileBlock final : public BlockSource {
   std::uint64_t size() const noexcept override { return _size; }
   const std::string& sha256() const noexcept override { return _sha256; }
   void read(std::uint64_t offset, std::span<std::byte> bytes) const override {
-    read_at(_file, _path, _begin + offset, bytes);
+    _read(_begin + offset, bytes);
   }
 
  private:
-  Descriptor _file;
-  std::string _path;
+  Read _read;
   std::uint64_t _begin;
   std::uint64_t _size;
   std::string _sha256;
@@ -69,9 +67,32 @@ std::uint32_t number_at(const std::byte* bytes) {
   return number;
 }
 
-Error damaged(const std::string& path) {
+Error damaged(const std::string& place) {
   return {Reason::storage,
-          "the result in " + path + " is damaged: delete its job and run it again"};
+          "the result in " + place + " is damaged: delete its job and run it again"};
+}
+
+std::shared_ptr<const BlockSource> open_at(Read read, std::uint64_t size,
+                                           const std::string& place) {
+  std::array<std::byte, magic.size() + lengths> start{};
+  read(0, start);
+  const std::uint32_t length = number_at(start.data() + magic.size());
+  if (std::memcmp(start.data(), magic.data(), magic.size()) != 0 || length > max_header) {
+    throw damaged(place);
+  }
+  std::string bytes(length, '\0');
+  read(start.size(), std::as_writable_bytes(std::span(bytes)));
+  if (crc32c(std::as_bytes(std::span(bytes))) !=
+      number_at(start.data() + magic.size() + sizeof length)) {
+    throw damaged(place);
+  }
+  disk::ResultHeader header;
+  disk::parse(bytes, header);
+  const std::uint64_t begin = start.size() + length;
+  if (size != begin + header.bytes()) {
+    throw damaged(place);
+  }
+  return std::make_shared<StoredBlock>(std::move(read), begin, header);
 }
 
 }  // namespace
@@ -96,25 +117,25 @@ std::string result_header(const Block& block) {
 }
 
 std::shared_ptr<const BlockSource> open_result(Descriptor file, const std::string& path) {
-  std::array<std::byte, magic.size() + lengths> start{};
-  read_at(file, path, 0, start);
-  const std::uint32_t length = number_at(start.data() + magic.size());
-  if (std::memcmp(start.data(), magic.data(), magic.size()) != 0 || length > max_header) {
-    throw damaged(path);
-  }
-  std::string bytes(length, '\0');
-  read_at(file, path, start.size(), std::as_writable_bytes(std::span(bytes)));
-  if (crc32c(std::as_bytes(std::span(bytes))) !=
-      number_at(start.data() + magic.size() + sizeof length)) {
-    throw damaged(path);
-  }
-  disk::ResultHeader header;
-  disk::parse(bytes, header);
-  const std::uint64_t begin = start.size() + length;
-  if (file_size(file, path) != begin + header.bytes()) {
-    throw damaged(path);
-  }
-  return std::make_shared<FileBlock>(std::move(file), path, begin, header);
+  const std::uint64_t size = file_size(file, path);
+  const auto shared = std::make_shared<const Descriptor>(std::move(file));
+  return open_at(
+      [shared, path](std::uint64_t offset, std::span<std::byte> bytes) {
+        read_at(*shared, path, offset, bytes);
+      },
+      size, path);
+}
+
+std::shared_ptr<const BlockSource> open_result(std::string stored, const std::string& place) {
+  const std::uint64_t size = stored.size();
+  return open_at(
+      [stored = std::move(stored), place](std::uint64_t offset, std::span<std::byte> bytes) {
+        if (offset > stored.size() || bytes.size() > stored.size() - offset) {
+          throw damaged(place);
+        }
+        std::memcpy(bytes.data(), stored.data() + offset, bytes.size());
+      },
+      size, place);
 }
 
 }  // namespace anticrack::store

@@ -18,5 +18,7 @@ std::string result_header(const Block& block);
 
 /// The result in a file, which it keeps open. Throws errors::Error (storage) where it is none.
 std::shared_ptr<const BlockSource> open_result(Descriptor file, const std::string& path);
+/// The same of what would be in the file; `place` is for messages.
+std::shared_ptr<const BlockSource> open_result(std::string stored, const std::string& place);
 
 }  // namespace anticrack::store

@@ -61,7 +61,10 @@ CREATE TABLE job_uploads (
 CREATE INDEX job_uploads_upload ON job_uploads (upload);
 )";
 
-constexpr std::array steps{first};
+/// A result too small for a file of its own, as it would be in one.
+constexpr const char* second = "ALTER TABLE jobs ADD COLUMN small_result BLOB";
+
+constexpr std::array steps{first, second};
 
 std::string copy_path(const Connection& connection, std::size_t version) {
   return connection.path() + ".before-" + std::to_string(version);

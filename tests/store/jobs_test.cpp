@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "store/record_fields.hpp"
+#include "store/sqlite.hpp"
 #include "store/store_fixture.hpp"
 
 namespace anticrack::store {
@@ -172,7 +173,7 @@ TEST_F(StoredJobs, GiveTheirResultPieceByPiece) {
 }
 
 TEST_F(StoredJobs, LetAReaderFinishWhatExpires) {
-  end("j", block(3));
+  end("j", block(3, many));
   const auto held = store->result("j");
   store->expire("j");
   EXPECT_EQ(store->job("j")->state, JobState::expired);
@@ -181,7 +182,7 @@ TEST_F(StoredJobs, LetAReaderFinishWhatExpires) {
   EXPECT_EQ(store->ended()[0].result_bytes, 0U);
   EXPECT_EQ(files("results"), 0U);
   EXPECT_EQ(store->usage().results, 0U);
-  EXPECT_EQ(values(*held), std::vector<double>(5, 3.0));
+  EXPECT_EQ(values(*held), std::vector<double>(many, 3.0));
   reopen();
   EXPECT_EQ(store->job("j")->state, JobState::expired);
 }
@@ -193,14 +194,14 @@ TEST_F(StoredJobs, DoNotExpireBeforeTheyEnd) {
 }
 
 TEST_F(StoredJobs, ShareEqualResultsUntilTheLastGoes) {
-  end("a", block(1));
-  end("b", block(1));
-  end("c", block(1, 5, "another name"));  // the same bytes, but not the same result
+  end("a", block(1, many));
+  end("b", block(1, many));
+  end("c", block(1, many, "another name"));  // the same bytes, but not the same result
   EXPECT_EQ(files("results"), 2U);
   EXPECT_EQ(store->result("c")->arrays()[0].name, "another name");
   store->expire("a");
   EXPECT_EQ(files("results"), 2U);
-  EXPECT_EQ(values(*store->result("b")), std::vector<double>(5, 1.0));
+  EXPECT_EQ(values(*store->result("b")), std::vector<double>(many, 1.0));
   store->erase_job("b");
   EXPECT_EQ(files("results"), 1U);
   store->erase_job("c");
@@ -209,16 +210,50 @@ TEST_F(StoredJobs, ShareEqualResultsUntilTheLastGoes) {
 }
 
 TEST_F(StoredJobs, ReplaceTheirResult) {
-  end("j", block(1));
-  store->finish(ended_record("j"), block(2));
+  end("j", block(1, many));
+  store->finish(ended_record("j"), block(2, many));
   EXPECT_EQ(files("results"), 1U);
-  EXPECT_EQ(values(*store->result("j")), std::vector<double>(5, 2.0));
+  EXPECT_EQ(values(*store->result("j")), std::vector<double>(many, 2.0));
   store->put(ended_record("j"));  // the record alone
-  EXPECT_EQ(values(*store->result("j")), std::vector<double>(5, 2.0));
+  EXPECT_EQ(values(*store->result("j")), std::vector<double>(many, 2.0));
+}
+
+TEST_F(StoredJobs, HaveASmallResultInTheDatabase) {
+  end("j", block(1));
+  EXPECT_EQ(files("results"), 0U);
+  EXPECT_EQ(store->job("j")->id, "j");
+  const auto held = store->result("j");
+  store->finish(ended_record("j"), block(2, many));
+  EXPECT_EQ(files("results"), 1U);
+  EXPECT_EQ(values(*store->result("j")), std::vector<double>(many, 2.0));
+  store->finish(ended_record("j"), block(3));
+  EXPECT_EQ(files("results"), 0U);
+  store->put(ended_record("j"));  // the record alone
+  reopen();
+  EXPECT_EQ(values(*store->result("j")), std::vector<double>(5, 3.0));
+  store->expire("j");
+  EXPECT_EQ(store->result("j"), nullptr);
+  EXPECT_EQ(values(*held), std::vector<double>(5, 1.0));
+}
+
+TEST_F(StoredJobs, SayWhenASmallResultIsDamaged) {
+  const std::string damages[] = {
+      "UPDATE jobs SET small_result = substr(small_result, 1, length(small_result) - 1)",
+      "UPDATE jobs SET small_result = substr(small_result, 1, 10)",
+      "UPDATE jobs SET small_result = CAST(replace(hex(small_result), '0', 'x') AS BLOB)"};
+  for (const std::string& damage : damages) {
+    end(damage, block(1));
+    store.reset();
+    Connection(folder / "anticrack.db").execute(damage);
+    reopen();
+    EXPECT_TRUE(throws([&] { store->result(damage); }, Reason::storage)) << damage;
+    EXPECT_TRUE(store->job(damage));
+    store->erase_job(damage);
+  }
 }
 
 TEST_F(StoredJobs, SayWhenAResultIsDamagedOrLost) {
-  end("j", block(1));
+  end("j", block(1, many));
   std::filesystem::path path;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "results")) path = entry;
   const auto size = std::filesystem::file_size(path);

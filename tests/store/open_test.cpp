@@ -33,7 +33,7 @@ TEST_F(OpenStore, RemovesWhatNothingRefersTo) {
   const mesh::Mesh mesh = strip(3);
   const MeshRecord record = meshed_record("m", mesh);
   store->put(record, mesh);
-  end("j", block(1));
+  end("j", block(1, many));
   const std::string hash = upload("text");
   const std::string stranger(64, 'a');
   for (const char* name : {"meshes", "results", "uploads"}) {
@@ -85,7 +85,7 @@ TEST_F(StoreBudget, RefusesFilesThatDoNotFit) {
   reopen(store->usage().total() + 200'000);
   create("small");
   create("large");
-  store->finish(ended_record("small"), block(1, 1000));
+  store->finish(ended_record("small"), block(1, many));
   const auto large = block(2, 50'000);
   const auto refused = error_of([&] { store->finish(ended_record("large"), large); });
   ASSERT_TRUE(refused);

@@ -44,6 +44,9 @@ inline MeshRecord meshed_record(const std::string& id, const mesh::Mesh& mesh) {
   return record;
 }
 
+/// Values of a result that has a file of its own.
+constexpr std::size_t many = 5'000;
+
 inline std::shared_ptr<const Block> block(double value, std::size_t count = 5,
                                           const std::string& name = "u") {
   BlockBuilder builder;

@@ -53,10 +53,10 @@ TEST_F(StoreThreads, ShareAResultThatComesAndGoes) {
     const std::string id = std::to_string(t);
     for (int round = 0; round < 15; ++round) {
       create(id);
-      store->finish(ended_record(id), block(1));
+      store->finish(ended_record(id), block(1, many));
       const auto result = store->result(id);
       ASSERT_NE(result, nullptr);
-      EXPECT_EQ(values(*result), std::vector<double>(5, 1.0));
+      EXPECT_EQ(values(*result), std::vector<double>(many, 1.0));
       store->result(std::to_string((t + 1) % workers));
       store->expire(id);
       EXPECT_EQ(store->result(id), nullptr);
