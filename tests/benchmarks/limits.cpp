@@ -117,7 +117,8 @@ Figures solves(const Options& options, const ddm::Decomposition& parts) {
   std::size_t bytes = 0, unknowns = 0;
   for (const ddm::Subdomain& part : parts.subdomains) {
     operators.emplace_back(part);
-    bytes += operators.back().factor().bytes();
+    const ddm::SubdomainFactor& factor = operators.back().factor();
+    bytes += factor.bytes() - sizeof(double) * static_cast<std::size_t>(factor.schur().size());
     unknowns += part.free();
     loads.push_back(
         Eigen::MatrixXd::Random(static_cast<Eigen::Index>(part.free()), options.columns));

@@ -54,6 +54,12 @@ def meshes(session):
     return {name: session.mesh_figures(name) for name in session.sizes.meshes}
 
 
+def orderings(session):
+    return {name: session.programs.figures("bench_orderings", [
+        "--mesh", session.mesh(name), "--repetitions", session.repetitions])
+            for name in session.sizes.meshes}
+
+
 def kernels(session):
     program = session.programs.path("bench_kernels", "install Debian's libbenchmark-dev")
     text = session.programs.run([
@@ -177,5 +183,5 @@ def service(session):
     return dict(figures, in_process=session.ours(session.sizes.meshes[0])["further"])
 
 
-GROUPS = {"meshes": meshes, "kernels": kernels, "ours": ours, "freefem": peer_freefem,
+GROUPS = {"meshes": meshes, "orderings": orderings, "kernels": kernels, "ours": ours, "freefem": peer_freefem,
           "petsc": peer_petsc, "limits": limits, "service": service, "growth": growth}

@@ -107,6 +107,13 @@ def _limits(limits, clock):
     return _grid(["limit", ""], lines)
 
 
+def _orderings(orderings, clock):
+    return _grid(["mesh", "order of elimination", "ordering, s", "entries of the factor", "operations"], [
+        [mesh, name.replace("_", " "), number(median(run["ordering"], clock)), number(run["entries"]),
+         number(run["operations"])]
+        for mesh, by_name in orderings.items() for name, run in by_name.items()])
+
+
 def _kernels(kernels):
     return _grid(["kernel", "s", "items a second"], [
         [name, number(value["seconds"]), number(value["items_per_second"])]
@@ -132,6 +139,7 @@ def markdown(results, rows):
     sections = [("Peers", _peers(figures, clock)),
                 ("Sweeps in process", _sweeps(figures, clock)),
                 ("Limits", _limits(figures["limits"], clock) if "limits" in figures else []),
+                ("Orderings", _orderings(figures["orderings"], clock) if "orderings" in figures else []),
                 ("Kernels", _kernels(figures["kernels"]) if "kernels" in figures else []),
                 ("Service", _service(figures["service"]) if "service" in figures else []),
                 ("Growth", _growth(figures["growth"]) if "growth" in figures else [])]
