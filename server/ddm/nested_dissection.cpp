@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "ddm/minimum_degree.hpp"
@@ -60,8 +61,26 @@ struct Cut {
 struct Set {
   std::size_t first, last;
   std::int32_t part;
+  Node finest;  ///< the one whose neighbours are nearest
 
   std::size_t size() const { return last - first; }
+};
+
+/// Counts the nodes that a circle meets, without a root.
+class Circle {
+ public:
+  explicit Circle(const Cut& cut) : _cut(cut), _square(cut.middle * cut.middle) {}
+
+  /// Whether the node lies inside and may have a neighbour that does not.
+  bool meets(const Node& node) const {
+    const double dx = node.x - _cut.x, dy = node.y - _cut.y, square = dx * dx + dy * dy;
+    const double inner = _cut.middle - static_cast<double>(node.reach);
+    return (square < _square) & ((inner <= 0) | (square >= inner * inner));
+  }
+
+ private:
+  const Cut& _cut;
+  double _square;
 };
 
 class Dissection {
@@ -85,7 +104,7 @@ class Dissection {
   }
 
   std::vector<std::int32_t> order() {
-    std::vector<Set> open = {{0, _nodes.size(), 0}};
+    std::vector<Set> open = {{0, _nodes.size(), 0, finest(_nodes)}};
     while (!open.empty()) {
       const Set set = open.back();
       open.pop_back();
@@ -126,31 +145,33 @@ class Dissection {
     return *middle;
   }
 
-  /// The cut that seems to meet the fewest nodes.
+  static bool finer(const Node& a, const Node& b) { return a.reach < b.reach; }
+
+  static Node finest(const std::vector<Node>& nodes) {
+    const auto found = std::min_element(nodes.begin(), nodes.end(), finer);
+    return found == nodes.end() ? Node{} : *found;
+  }
+
+  /// The cut that seems to meet the fewest nodes. Meshes are graded to points, and circles around
+  /// those meet few.
   Cut choose(const Set& set) {
-    const auto begin = _nodes.begin() + static_cast<std::ptrdiff_t>(set.first);
-    const auto end = _nodes.begin() + static_cast<std::ptrdiff_t>(set.last);
-    // Meshes are graded to points, and circles around those meet few nodes.
-    const Node finest = *std::min_element(
-        begin, end, [](const Node& a, const Node& b) { return a.reach < b.reach; });
-    Cut best;
-    std::ptrdiff_t fewest = -1;
+    std::array<Cut, 3> cuts;
     for (const Cut::Shape shape :
          {Cut::Shape::across_x, Cut::Shape::across_y, Cut::Shape::circle}) {
-      Cut cut{shape, finest.x, finest.y, 0};
+      Cut& cut = cuts[static_cast<std::size_t>(shape)];
+      cut = {shape, set.finest.x, set.finest.y, 0};
       cut.middle = median(set, cut);
-      std::ptrdiff_t met = 0;
-      for (auto node = begin; node != end; ++node) {
-        const double distance = cut.distance(*node);
-        met += static_cast<std::ptrdiff_t>(distance < 0) &
-               static_cast<std::ptrdiff_t>(distance + cut.reach(*node) >= 0);
-      }
-      if (fewest < 0 || met < fewest) {
-        fewest = met;
-        best = cut;
-      }
     }
-    return best;
+    const Circle circle(cuts[2]);
+    std::array<std::ptrdiff_t, 3> met{};
+    for (std::size_t i = set.first; i < set.last; ++i) {
+      const Node& node = _nodes[i];
+      const double x = node.x - cuts[0].middle, y = node.y - cuts[1].middle;
+      met[0] += (x < 0) & (x + static_cast<double>(node.reach_x) >= 0);
+      met[1] += (y < 0) & (y + static_cast<double>(node.reach_y) >= 0);
+      met[2] += circle.meets(node);
+    }
+    return cuts[static_cast<std::size_t>(std::min_element(met.begin(), met.end()) - met.begin())];
   }
 
   /// Gives each node of the set its new part.
@@ -259,24 +280,27 @@ class Dissection {
   /// The first part, the second, the separator.
   std::pair<Set, Set> move_apart(const Set& set) {
     const std::int32_t first = _parts - 1, second = _parts;
-    std::size_t end = set.first, seconds = 0, separators = 0;
+    std::size_t end = set.first, seconds = 0;
     _on_separator.clear();
+    std::array<Node, 2> finest;
+    finest[0].reach = finest[1].reach = std::numeric_limits<float>::infinity();
     for (std::size_t i = set.first; i < set.last; ++i) {
       const Node& node = _nodes[i];
       const std::int32_t part = _part[at(node.vertex)];
       if (part == first) {
+        finest[0] = finer(node, finest[0]) ? node : finest[0];
         _nodes[end++] = node;
       } else if (part == second) {
+        finest[1] = finer(node, finest[1]) ? node : finest[1];
         _moved[seconds++] = node;
       } else {
         _on_separator.push_back(node);
-        ++separators;
       }
     }
     const auto middle =
         std::copy_n(_moved.begin(), seconds, _nodes.begin() + static_cast<std::ptrdiff_t>(end));
-    std::copy_n(_on_separator.begin(), separators, middle);
-    return {{set.first, end, first}, {end, end + seconds, second}};
+    std::copy(_on_separator.begin(), _on_separator.end(), middle);
+    return {{set.first, end, first, finest[0]}, {end, end + seconds, second, finest[1]}};
   }
 
   void order_leaf(const Set& set) {
