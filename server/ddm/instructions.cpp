@@ -4,7 +4,7 @@
 namespace anticrack::ddm {
 
 bool has(Instructions instructions) noexcept {
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(__clang__)  // clang 14 does not know the levels
   switch (instructions) {
     case Instructions::avx512:
       return __builtin_cpu_supports("x86-64-v4") != 0;
