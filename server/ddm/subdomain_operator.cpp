@@ -27,11 +27,11 @@ SubdomainOperator::SubdomainOperator(const Subdomain& subdomain)
     : SubdomainOperator(
           subdomain, fem::stiffness(subdomain.part, subdomain.tension, index(subdomain.free()))) {}
 
-SubdomainOperator::SubdomainOperator(const Subdomain& subdomain, fem::Stiffness stiffness)
+SubdomainOperator::SubdomainOperator(const Subdomain& subdomain, const fem::Stiffness& stiffness)
     : _factor(stiffness.free, index(subdomain.interior),
               elimination_order(stiffness.free, index(subdomain.interior), subdomain.part.xy)),
-      _free_dirichlet(std::move(stiffness.free_dirichlet)),
-      _dirichlet_dirichlet(std::move(stiffness.dirichlet)),
+      _free_dirichlet(stiffness.free_dirichlet),
+      _dirichlet_dirichlet(stiffness.dirichlet),
       _floats(!subdomain.floating.empty()),
       _rigid(subdomain.rigid),
       _flexibility(std::make_unique<const Lazy<Flexibility>>()) {}

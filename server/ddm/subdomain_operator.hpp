@@ -57,7 +57,7 @@ class SubdomainOperator {
   std::size_t bytes() const noexcept;
 
  private:
-  SubdomainOperator(const Subdomain& subdomain, fem::Stiffness stiffness);
+  SubdomainOperator(const Subdomain& subdomain, const fem::Stiffness& stiffness);
 
   SubdomainFactor _factor;
   Eigen::SparseMatrix<double> _free_dirichlet;       // [K_ID; K_GD]
