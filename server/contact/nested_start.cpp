@@ -44,14 +44,14 @@ Prolongation coarsen(Index contacts, Chains& chains) {
 NestedStart::NestedStart(const MatrixXd& matrix, Chains chains) {
   MatrixXd coarse;
   for (const MatrixXd* fine = &matrix; fine->rows() > fewest_contacts;) {
-    Prolongation prolongation = coarsen(fine->rows(), chains);
+    const Prolongation prolongation = coarsen(fine->rows(), chains);
     if (prolongation.cols() == 0) {
       return;
     }
     const MatrixXd half = *fine * prolongation;
     coarse = prolongation.transpose() * half;
     fine = &coarse;
-    _levels.push_back({std::move(prolongation), DenseLcp(coarse)});
+    _levels.push_back({prolongation, DenseLcp(coarse)});
   }
 }
 
