@@ -12,7 +12,7 @@ namespace {
 using Lanes = double __attribute__((vector_size(lanes * sizeof(double))));
 
 /// Columns of a supernode whose part of y stays in the first-level cache while rows are updated.
-constexpr int panel = 16;
+constexpr int panel_columns = 16;
 
 // Every entry is y_i <- y_i - L_ik y_k for k = 0, 1, ..., one after the other, as a fused operation
 // where the processor has one: whatever the shape of the loops around, the bits are the same.
@@ -111,8 +111,8 @@ void solve_block(const Supernodes& factor, Lanes* y) {
     const int own = factor.super[s + 1] - first;
     const double* l = factor.values + factor.value_begin[s];
     Lanes* x = y + static_cast<long>(first) * groups;
-    for (int begin = 0; begin < end - first; begin += panel) {
-      const int stop = begin + panel < end - first ? begin + panel : end - first;
+    for (int begin = 0; begin < end - first; begin += panel_columns) {
+      const int stop = begin + panel_columns < end - first ? begin + panel_columns : end - first;
       for (int k = begin; k < stop; ++k) {
         const double* column = l + static_cast<long>(k) * height;
         for (int g = 0; g < groups; ++g) {

@@ -65,8 +65,8 @@ std::size_t estimate_bytes(const mesh::Mesh& mesh) {
   // The sparse factor of a planar graph in an order of nested dissection has O(n log n) entries.
   // Measured with everything else that is kept per node: 30 to 42 bytes a node and log2(n) from 1 k
   // to 2 M nodes, structured and unstructured. Dense on the trace: S and the flexibility; on the
-  // skeleton H and W; on the contacts S^ with its coarser ones, a factor and a block of either while
-  // it is active.
+  // skeleton H and W; on the contacts S^ with its coarser ones, a factor and a block of either
+  // while it is active.
   constexpr double bytes_per_node_and_level = 60, bytes_per_node = 200;
   constexpr double trace_blocks = 3, skeleton_blocks = 2, contact_blocks = 3.5, fixed = 1 << 14;
   const ddm::Sides sides = ddm::find_sides(mesh);
