@@ -13,8 +13,9 @@ namespace anticrack::contact {
 bool cholesky(Eigen::Ref<Eigen::MatrixXd> matrix);
 
 /// b <- L^-1 b and b <- L^-T b, column by column, L the lower triangle of `factor`.
-void solve_lower(const Eigen::MatrixXd& factor, Eigen::Ref<Eigen::MatrixXd> b);
-void solve_lower_transposed(const Eigen::MatrixXd& factor, Eigen::Ref<Eigen::MatrixXd> b);
+void solve_lower(const Eigen::Ref<const Eigen::MatrixXd>& factor, Eigen::Ref<Eigen::MatrixXd> b);
+void solve_lower_transposed(const Eigen::Ref<const Eigen::MatrixXd>& factor,
+                            Eigen::Ref<Eigen::MatrixXd> b);
 
 /// S x, S the symmetric matrix whose lower triangle `matrix` holds: reads no more than that.
 Eigen::VectorXd multiply_symmetric(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& x);

@@ -119,6 +119,7 @@ class Numbering {
                                                      : _local[at(_mesh.triangles[c])]);
       }
     }
+    subdomain.part.area = subdomain.part.areas();
     for (const std::int32_t node : subdomain.node) {
       _local[at(node)] = -1;  // a Dirichlet node may be in the next subdomain as well
     }

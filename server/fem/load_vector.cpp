@@ -22,13 +22,7 @@ struct AssembleForce {
     return {part.triangles[3 * t], part.triangles[3 * t + 1], part.triangles[3 * t + 2]};
   }
 
-  double area(const std::array<Eigen::Index, 3>& nodes) const {
-    const auto at = [this](Eigen::Index node) {
-      return Eigen::Map<const Eigen::Vector2d>(&part.xy[2 * static_cast<std::size_t>(node)]);
-    };
-    const Eigen::Vector2d p = at(nodes[1]) - at(nodes[0]), q = at(nodes[2]) - at(nodes[0]);
-    return 0.5 * (p.x() * q.y() - p.y() * q.x());
-  }
+  double area(std::size_t t) const { return part.area.empty() ? part.area_of(t) : part.area[t]; }
 
   /// int f phi_i for f constant on triangles; value(t) on the t-th.
   template <class Value>
@@ -36,7 +30,7 @@ struct AssembleForce {
     Eigen::VectorXd load = zero();
     for (std::size_t t = 0; t < part.triangle_count(); ++t) {
       const std::array<Eigen::Index, 3> nodes = corners(t);
-      const double third = value(t) * area(nodes) / 3;
+      const double third = value(t) * area(t) / 3;
       for (const Eigen::Index node : nodes) {
         load[node] += third;
       }
@@ -46,15 +40,19 @@ struct AssembleForce {
 
   /// By the exact mass matrix of a triangle, area/12 (1 + delta_ij).
   Eigen::VectorXd linear_on_triangles(const std::vector<double>& of_node) const {
+    // Near nodes have near numbers here but not in the mesh: each value is fetched once.
+    Eigen::VectorXd local(static_cast<Eigen::Index>(part.node_count()));
+    for (std::size_t i = 0; i < part.node_count(); ++i) {
+      local[static_cast<Eigen::Index>(i)] = of_node[static_cast<std::size_t>(context.node[i])];
+    }
     Eigen::VectorXd load = zero();
     for (std::size_t t = 0; t < part.triangle_count(); ++t) {
       const std::array<Eigen::Index, 3> nodes = corners(t);
       std::array<double, 3> value{};
       for (std::size_t a = 0; a < 3; ++a) {
-        value[a] =
-            of_node[static_cast<std::size_t>(context.node[static_cast<std::size_t>(nodes[a])])];
+        value[a] = local[nodes[a]];
       }
-      const double part_of_area = area(nodes) / 12, sum = value[0] + value[1] + value[2];
+      const double part_of_area = area(t) / 12, sum = value[0] + value[1] + value[2];
       for (std::size_t a = 0; a < 3; ++a) {
         load[nodes[a]] += part_of_area * (sum + value[a]);
       }

@@ -79,7 +79,8 @@ std::size_t bytes_of(const ddm::Decomposition& decomposition) {
   std::size_t bytes = bytes_of(decomposition.pairs) + bytes_of(decomposition.edges);
   for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
     bytes += bytes_of(subdomain.part.xy) + bytes_of(subdomain.part.triangles) +
-             bytes_of(subdomain.node) + bytes_of(subdomain.triangle) + bytes_of(subdomain.rigid) +
+             bytes_of(subdomain.part.area) + bytes_of(subdomain.node) +
+             bytes_of(subdomain.triangle) + bytes_of(subdomain.rigid) +
              bytes_of(subdomain.unknown) + bytes_of(subdomain.neumann);
   }
   for (const std::vector<ddm::SidePair>& sides : decomposition.interface_sides) {

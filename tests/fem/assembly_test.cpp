@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <stop_token>
 #include <vector>
 
@@ -173,6 +174,25 @@ TEST(LoadVector, OfAnArrayOnTrianglesIsConstantOnEach) {
   const Eigen::VectorXd load =
       load_vector(part, Array{"sha", true, values}, "a", {.triangle = triangle});
   EXPECT_NEAR((load - Eigen::Vector4d(2.5, 2, 2.5, 0.5) / 3).norm(), 0, 1e-15);
+}
+
+TEST(LoadVector, IsTheSameWithAreasThatAreKept) {
+  const Triangulation part = graded(crooked_square(5));
+  Triangulation kept = part;
+  kept.area = part.areas();
+  std::vector<std::int32_t> number(part.triangle_count());
+  std::iota(number.begin(), number.end(), 0);
+  const auto values =
+      std::make_shared<const std::vector<double>>(part.xy.begin() + 3, part.xy.begin() + 3 + 50);
+  for (const bool per_triangle : {false, true}) {
+    const Array array{"sha", per_triangle, values};
+    const LoadContext context{.node = number, .triangle = number};
+    EXPECT_EQ(load_vector(kept, array, "a", context), load_vector(part, array, "a", context));
+  }
+  kept.area[7] *= 2;  // they are what is read
+  const Array array{"sha", true, values};
+  EXPECT_NE(load_vector(kept, array, "a", {.triangle = number}),
+            load_vector(part, array, "a", {.triangle = number}));
 }
 
 TEST(LoadVector, TellsHowWrongItIsAndStopsWhenAsked) {
