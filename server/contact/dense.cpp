@@ -16,7 +16,7 @@ int stride(const Matrix& matrix) {
   return static_cast<int>(matrix.outerStride());
 }
 
-void solve(const MatrixXd& factor, CBLAS_TRANSPOSE transposed, Ref<MatrixXd> b) {
+void solve(const Ref<const MatrixXd>& factor, CBLAS_TRANSPOSE transposed, Ref<MatrixXd> b) {
   const int rows = static_cast<int>(b.rows()), columns = static_cast<int>(b.cols());
   if (rows == 0 || columns == 0) {
     return;
@@ -42,11 +42,11 @@ bool cholesky(Ref<MatrixXd> matrix) {
   return info == 0;
 }
 
-void solve_lower(const MatrixXd& factor, Ref<MatrixXd> b) {
+void solve_lower(const Ref<const MatrixXd>& factor, Ref<MatrixXd> b) {
   solve(factor, CblasNoTrans, b);
 }
 
-void solve_lower_transposed(const MatrixXd& factor, Ref<MatrixXd> b) {
+void solve_lower_transposed(const Ref<const MatrixXd>& factor, Ref<MatrixXd> b) {
   solve(factor, CblasTrans, b);
 }
 

@@ -13,8 +13,9 @@ namespace anticrack::contact {
 bool cholesky(Eigen::Ref<Eigen::MatrixXd> matrix);
 
 /// b <- L^-1 b and b <- L^-T b, column by column, L the lower triangle of `factor`.
-void solve_lower(const Eigen::MatrixXd& factor, Eigen::Ref<Eigen::MatrixXd> b);
-void solve_lower_transposed(const Eigen::MatrixXd& factor, Eigen::Ref<Eigen::MatrixXd> b);
+void solve_lower(const Eigen::Ref<const Eigen::MatrixXd>& factor, Eigen::Ref<Eigen::MatrixXd> b);
+void solve_lower_transposed(const Eigen::Ref<const Eigen::MatrixXd>& factor,
+                            Eigen::Ref<Eigen::MatrixXd> b);
 
 /// The lower triangle of s <- s - x'x.
 void subtract_square(const Eigen::MatrixXd& x, Eigen::Ref<Eigen::MatrixXd> s);

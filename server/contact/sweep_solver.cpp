@@ -83,7 +83,7 @@ SweepLoads reduce(const SkeletonProblem& problem, std::size_t inclusions,
 SweepSolver::SweepSolver(const SkeletonProblem& problem, const SweepGeometry& geometry,
                          const ActiveSetOptions& options, std::span<const char> start)
     : _geometry(geometry),
-      _lcp(problem.lcp(), options.max_steps, start),
+      _lcp(problem.lcp(), options.max_steps, start, &problem.nested_start()),
       _r(problem.lcp().size()),
       _magnitude(problem.lcp().size()),
       _displacement(geometry.displacement.rows()) {}

@@ -48,7 +48,8 @@ SweepLoads reduce(const SkeletonProblem& problem, std::size_t inclusions,
 
 /// Solves row after row, each from the contact of the one before. A row's numbers are those of
 /// solve_active_set for the same load, to rounding, and do not depend on the rows before. No
-/// allocation in a row. One object belongs to one thread. Keeps references to what it is made of.
+/// allocation in a row but as WarmLcp says. One object belongs to one thread. Keeps references to
+/// what it is made of.
 ///   Pi = Pi(closed) - r'd/2                          (from d'lambda = 0)
 ///   A  = A(closed) + displacement d
 ///   kkt: WarmLcp::residual, the largest |lambda - (S^ d - r)| relative to the largest force on the

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "contact/dense.hpp"
 
@@ -13,14 +14,20 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+/// Where more nodes change than these, the load is another and the set before it says little: then
+/// coarse problems are quicker than steps from there. Their steps cost as much as small problems'.
+constexpr Index far_off = 8, small = 128;
+
 std::size_t at(Index i) {
   return static_cast<std::size_t>(i);
 }
 
 }  // namespace
 
-WarmLcp::WarmLcp(const DenseLcp& lcp, int max_steps, std::span<const char> start)
+WarmLcp::WarmLcp(const DenseLcp& lcp, int max_steps, std::span<const char> start,
+                 const NestedStart* nested)
     : _lcp(lcp),
+      _nested(lcp.size() > small ? nested : nullptr),
       _max_steps(max_steps),
       _closed(start.begin(), start.end()),
       _factor(lcp.size() * lcp.size()) {
@@ -55,9 +62,15 @@ LcpStatus WarmLcp::find_set(const VectorXd& r, const VectorXd& magnitude) {
     }
     solve_open();
     ++_steps;
-    if (step()) {
+    const Index changed = step();
+    if (changed == 0) {
       close_undecided();
       return LcpStatus::solved;
+    }
+    if (_steps == 1 && changed > far_off && _nested != nullptr) {
+      if (std::vector<char> closed = _nested->closed(r, magnitude); !closed.empty()) {
+        _closed = std::move(closed);
+      }
     }
     if (_steps >= _max_steps) {
       return LcpStatus::step_limit;
@@ -109,8 +122,8 @@ void WarmLcp::solve_open() {
   }
   _d.setZero();
   if (n > 0) {
-    factor.triangularView<Eigen::Lower>().solveInPlace(x);
-    factor.triangularView<Eigen::Lower>().adjoint().solveInPlace(x);
+    solve_lower(factor, x);
+    solve_lower_transposed(factor, x);
     for (Index i = 0; i < n; ++i) {
       _d[_open[at(i)]] = x[i];
     }
@@ -121,17 +134,17 @@ void WarmLcp::solve_open() {
   }
 }
 
-/// The next set; true where it is the same.
-bool WarmLcp::step() {
-  bool settled = true;
+/// The next set; how many nodes have changed.
+Index WarmLcp::step() {
+  Index changed = 0;
   for (Index i = 0; i < _d.size(); ++i) {
     char& closed = _closed[at(i)];
     if (closed == 0 ? _d[i] < -lcp_rounding : _force[i] < -lcp_rounding) {
       closed = closed == 0 ? 1 : 0;
-      settled = false;
+      ++changed;
     }
   }
-  return settled;
+  return changed;
 }
 
 LcpStatus WarmLcp::start_over(const VectorXd& r, const VectorXd& magnitude) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/dense_lcp.hpp"
+#include "contact/nested_start.hpp"
 
 namespace anticrack::contact {
 
@@ -16,11 +17,14 @@ namespace anticrack::contact {
 /// over from all closed, with all it promises.
 /// d and lambda are computed from the final set alone, with a factor that is a function of the
 /// set alone: same r, same answer to the last bit whatever came before.
-/// No allocation in solve() but where DenseLcp takes over. One object belongs to one thread.
+/// No allocation in solve() but where DenseLcp or NestedStart takes over. One object belongs to one
+/// thread.
 class WarmLcp {
  public:
-  /// Keeps a reference to `lcp`. `start`: closed nodes to start from; empty: all.
-  WarmLcp(const DenseLcp& lcp, int max_steps, std::span<const char> start);
+  /// Keeps references. `start`: closed nodes to start from; empty: all. `nested`: of the same
+  /// problem, where a load that is far from the one before starts; null: there as well.
+  WarmLcp(const DenseLcp& lcp, int max_steps, std::span<const char> start,
+          const NestedStart* nested = nullptr);
 
   /// `r` and `magnitude` as DenseLcp::solve takes them, both given. The rest is valid where the
   /// answer is `solved`, until the next call.
@@ -38,12 +42,13 @@ class WarmLcp {
   LcpStatus find_set(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude);
   bool factorise();
   void solve_open();
-  bool step();
+  Eigen::Index step();
   LcpStatus start_over(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude);
   void close_undecided();
   void finish(const Eigen::VectorXd& r, double unit);
 
   const DenseLcp& _lcp;
+  const NestedStart* const _nested;
   const int _max_steps;
   std::vector<char> _closed, _met;
   // Scaled: unit diagonal, load of size 1. _force is S d - r.
