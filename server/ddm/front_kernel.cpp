@@ -3,9 +3,10 @@
 
 namespace anticrack::ddm {
 
-bool eliminate_small_front_baseline(int columns, int height, double* panel, double* update);
-bool eliminate_small_front_avx2(int columns, int height, double* panel, double* update);
-bool eliminate_small_front_avx512(int columns, int height, double* panel, double* update);
+bool eliminate_small_front_baseline(int columns, int height, double* panel, double* update,
+                                    bool add);
+bool eliminate_small_front_avx2(int columns, int height, double* panel, double* update, bool add);
+bool eliminate_small_front_avx512(int columns, int height, double* panel, double* update, bool add);
 
 FrontKernel front_kernel(Instructions instructions) noexcept {
   if (!has(instructions)) {
@@ -22,9 +23,9 @@ FrontKernel front_kernel(Instructions instructions) noexcept {
   return eliminate_small_front_baseline;
 }
 
-bool eliminate_small_front(int columns, int height, double* panel, double* update) {
+bool eliminate_small_front(int columns, int height, double* panel, double* update, bool add) {
   static const FrontKernel kernel = front_kernel(best_instructions());
-  return kernel(columns, height, panel, update);
+  return kernel(columns, height, panel, update, add);
 }
 
 }  // namespace anticrack::ddm

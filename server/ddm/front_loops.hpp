@@ -5,7 +5,8 @@
 // inline function of one compiled here could be linked into code for any processor.
 namespace anticrack::ddm {
 
-bool ANTICRACK_FRONT(int columns, int height, double* __restrict panel, double* __restrict update) {
+bool ANTICRACK_FRONT(int columns, int height, double* __restrict panel, double* __restrict update,
+                     bool add) {
   const long stride = height;
   for (int k = 0; k < columns; ++k) {
     double* __restrict column = panel + k * stride;
@@ -25,7 +26,7 @@ bool ANTICRACK_FRONT(int columns, int height, double* __restrict panel, double* 
   const double* below = panel + columns;
   for (int j = 0; j < rest; ++j) {
     double* __restrict target = update + static_cast<long>(j) * rest;
-    for (int i = j; i < rest; ++i) target[i] = 0;
+    for (int i = j; i < rest && !add; ++i) target[i] = 0;
     int k = 0;
     for (; k + 4 <= columns; k += 4) {
       const double *a = below + k * stride, *b = a + stride, *c = b + stride, *d = c + stride;

@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
+#include <memory>
 #include <vector>
 
 #include "ddm/front_kernel.hpp"
-#include "ddm/values.hpp"
 #include "errors/errors.hpp"
 
 extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
@@ -80,36 +79,10 @@ Columns permuted(const Sparse& stiffness, const int* permutation, int interior,
 /// What is left of a front, (size,size) column-major, its lower triangle, for the rows of the
 /// pattern from `row` on.
 struct Update {
-  Values values;
-  std::size_t capacity = 0;
+  std::unique_ptr<double[]> values;
   const int* row = nullptr;
   int size = 0;
   int next = -1;  ///< another child of the same parent
-};
-
-/// Memory of updates, used again: what is large comes from the system and goes back to it page by
-/// page, which costs more than what is done with it.
-class Pool {
- public:
-  Update take(const int* row, int size) {
-    const std::size_t wanted = at(size) * at(size);
-    const auto found = _free.lower_bound(wanted);
-    if (wanted < large || found == _free.end() || found->first > 2 * wanted) {
-      return {make_values(wanted), wanted, row, size, -1};
-    }
-    Update update{std::move(found->second), found->first, row, size, -1};
-    _free.erase(found);
-    return update;
-  }
-
-  void give_back(Update& update) {
-    if (update.capacity >= large) _free.emplace(update.capacity, std::move(update.values));
-    update.values.reset();
-  }
-
- private:
-  static constexpr std::size_t large = 1 << 13;
-  std::multimap<std::size_t, Values> _free;
 };
 
 class Elimination {
@@ -183,17 +156,21 @@ class Elimination {
       add(child, 0, columns_before(own), 0,
           [&](int column) { return panel + std::ptrdiff_t{column} * _height; });
     }
-    Update left = _pool.take(_rows + own, rest);
-    double* update = left.values.get();
-    if (!eliminate_front(own, _height, panel, update)) return false;
+    // Often the last front has all of G below it: what is left of it needs no room of its own.
+    const bool onto_schur =
+        rest == static_cast<int>(_schur.rows()) && rest > 0 && _rows[own] >= _pattern.columns;
+    Update left{{}, _rows + own, rest, -1};
+    if (!onto_schur) left.values.reset(new double[at(rest) * at(rest)]);
+    double* update = onto_schur ? _schur.data() : left.values.get();
+    if (!eliminate_front(own, _height, panel, update, onto_schur)) return false;
     for (int c = _child[at(s)]; c >= 0; c = _update[at(c)].next) {
       Update& child = _update[at(c)];
       find_places(child);
       add(child, columns_before(own), child.size, own,
           [&](int column) { return update + std::ptrdiff_t{column - own} * rest; });
-      _pool.give_back(child);
+      child.values.reset();
     }
-    if (rest > 0) pass_on(s, std::move(left));
+    if (rest > 0 && !onto_schur) pass_on(s, std::move(left));
     return true;
   }
 
@@ -218,7 +195,6 @@ class Elimination {
       const double* source = update.values.get() + std::ptrdiff_t{j} * update.size;
       for (int i = j; i < update.size; ++i) column[update.row[i]] += source[i];
     }
-    _pool.give_back(update);
   }
 
   const Supernodes& _pattern;
@@ -229,7 +205,6 @@ class Elimination {
   std::vector<int> _supernode;  // of each interior column
   std::vector<int> _child;      // of each supernode, the last one done, or -1
   std::vector<Update> _update;  // of each supernode, until its parent has taken it
-  Pool _pool;
   // Of the front at work:
   const int* _rows = nullptr;
   int _height = 0;
@@ -239,12 +214,12 @@ class Elimination {
 
 }  // namespace
 
-bool eliminate_front(int columns, int height, double* panel, double* update) {
+bool eliminate_front(int columns, int height, double* panel, double* update, bool add) {
   const int rest = height - columns;
   // A call of BLAS costs as much as thousands of operations.
   constexpr double few = 40'000;
   if (static_cast<double>(columns) * height * height < few) {
-    return eliminate_small_front(columns, height, panel, update);
+    return eliminate_small_front(columns, height, panel, update, add);
   }
   int info = 0;
   dpotrf_("L", &columns, panel, &height, &info);
@@ -256,8 +231,8 @@ bool eliminate_front(int columns, int height, double* panel, double* update) {
   double* below = panel + columns;
   cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, columns, 1,
               panel, height, below, height);
-  cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, rest, columns, -1, below, height, 0, update,
-              rest);
+  cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, rest, columns, -1, below, height,
+              add ? 1 : 0, update, rest);
   return true;
 }
 

@@ -23,18 +23,18 @@ namespace anticrack::ddm {
 /// K_GG is not factorised, so S is as exact as the elimination is, also where K is singular.
 /// `pattern`: of L, its supernodes children first, each pattern with those of its children in it
 /// (CHOLMOD's analysis); its values are not read. `permutation`: the unknown that comes k-th, (n).
-/// `stiffness`: K, of which the lower triangle is read. `values`: of L_II and L_GI, where the
-/// pattern says, not initialised. `schur`: S, (n_G,n_G), overwritten.
-/// Returns false where K_II is not positive definite to rounding. Throws errors::Error (internal)
-/// for another pattern. The same bits for the same input. Memory: that of the fronts that wait for
-/// their parent, O(n) for planar graphs cut by nested dissection, and 24 bytes an entry of K.
+/// `stiffness`: K, of which the lower triangle is read. `values`: of L_II and
+/// L_GI, where the pattern says, not initialised. `schur`: S, (n_G,n_G), overwritten. Returns false
+/// where K_II is not positive definite to rounding. Throws errors::Error (internal) for another
+/// pattern. The same bits for the same input. Memory: that of the fronts that wait for their
+/// parent, O(n) for planar graphs cut by nested dissection, and 12 bytes an entry of K.
 bool eliminate_interior(const Supernodes& pattern, const int* permutation,
                         const Eigen::SparseMatrix<double>& stiffness, double* values,
                         Eigen::MatrixXd& schur);
 
 /// Of a front [A .; B C], A its first `columns`, `panel` being [A; B], column-major with `height`
-/// rows: A = LL', B <- B L'^-1, `update` = -BB', of which the lower triangle is written; A is
-/// replaced by L. False where A is not positive definite to rounding.
-bool eliminate_front(int columns, int height, double* panel, double* update);
+/// rows: A = LL', B <- B L'^-1, `update` = -BB', or with `add` update <- update - BB', its lower
+/// triangle; A is replaced by L. False where A is not positive definite to rounding.
+bool eliminate_front(int columns, int height, double* panel, double* update, bool add = false);
 
 }  // namespace anticrack::ddm

@@ -14,6 +14,7 @@
 #include "benchmarks/figures.hpp"
 #include "benchmarks/our_mesh.hpp"
 #include "ddm/decomposition.hpp"
+#include "operators/freed_memory.hpp"
 #include "operators/mesh_operator.hpp"
 
 namespace anticrack::benchmarks {
@@ -219,6 +220,7 @@ void describe(const mesh::Mesh& mesh, Figures& figures) {
 }
 
 void run(const Options& options) {
+  operators::map_large_blocks();  // as in the server
   PlainMesh plain = read_plain_mesh(options.mesh);
   const std::shared_ptr<const mesh::Mesh> mesh = to_mesh(plain);
   // Loads take its nodes only; the memory of the first answer is not to count it twice.

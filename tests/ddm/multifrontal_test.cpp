@@ -21,7 +21,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-using Front = bool (*)(int columns, int height, double* panel, double* update);
+using Front = bool (*)(int columns, int height, double* panel, double* update, bool add);
 
 MatrixXd random_positive(int size) {
   const MatrixXd a = MatrixXd::Random(size, size);
@@ -35,7 +35,7 @@ void expect_eliminates(Front eliminate, int columns, int rest) {
   MatrixXd panel = front.leftCols(columns);
   // Written, not added to.
   MatrixXd update = MatrixXd::Constant(rest, rest, std::numeric_limits<double>::quiet_NaN());
-  ASSERT_TRUE(eliminate(columns, height, panel.data(), update.data()));
+  ASSERT_TRUE(eliminate(columns, height, panel.data(), update.data(), false));
   const MatrixXd l = front.topLeftCorner(columns, columns).llt().matrixL();
   const double scale = front.norm();
   const MatrixXd got = panel.topRows(columns).triangularView<Eigen::Lower>();
@@ -47,6 +47,11 @@ void expect_eliminates(Front eliminate, int columns, int rest) {
   const MatrixXd wanted = (-below * below.transpose()).triangularView<Eigen::Lower>();
   const MatrixXd left = update.triangularView<Eigen::Lower>();
   EXPECT_LT((left - wanted).norm(), 1e-13 * scale);
+
+  panel = front.leftCols(columns);
+  ASSERT_TRUE(eliminate(columns, height, panel.data(), update.data(), true));
+  const MatrixXd twice = update.triangularView<Eigen::Lower>();
+  EXPECT_LT((twice - 2 * wanted).norm(), 1e-13 * scale);
 }
 
 TEST(Front, IsEliminatedByEachKernelAndByBlas) {
