@@ -3,8 +3,7 @@
 // What outlives a request, a restart and a crash: records in SQLite, meshes, results and uploads as
 // files beside it.
 //
-//   DATA/anticrack.db (+ -wal, -shm)   records, and results of a few pages beside them; PRAGMA
-//                                      user_version is the schema's version
+//   DATA/anticrack.db (+ -wal, -shm)   records, small results; user_version is the schema's version
 //   DATA/meshes/SHA256                 mesh::encode of a triangulation
 //   DATA/results/SHA256                a result block, its layout in front
 //   DATA/uploads/SHA256                what a client uploaded

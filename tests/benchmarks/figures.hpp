@@ -13,17 +13,19 @@ namespace anticrack::benchmarks {
 /// Seconds of the same thing done again and again, entry i of both from the same time.
 struct Times {
   std::vector<double> wall;
-  std::vector<double> cpu;  ///< of all threads of the process
+  std::vector<double>
+      cpu;  ///< of all threads of the process, and of the server's where there is one
 };
 
-/// Runs from construction.
+/// Runs from construction. `server`: a process whose CPU time is counted as well; 0: none.
 class Stopwatch {
  public:
-  Stopwatch();
+  explicit Stopwatch(int server = 0);
   /// Adds the time since the start, divided by `parts`, to `times`.
   void stop(Times& times, double parts = 1) const;
 
  private:
+  int _server;
   double _wall, _cpu;
 };
 
