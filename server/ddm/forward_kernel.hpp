@@ -17,6 +17,41 @@ constexpr int panel_columns = 16;
 // Every entry is y_i <- y_i - L_ik y_k for k = 0, 1, ..., one after the other, as a fused operation
 // where the processor has one: whatever the shape of the loops around, the bits are the same.
 
+/// Rows [from, to) of y at `row`, from columns that are solved; l is the first of them, x their y.
+template <int columns, class Row>
+inline void update_one(const double* l, int height, const double* x, int from, int to, double* y,
+                       Row row) {
+  const double* column[columns];
+  double value[columns];
+  for (int k = 0; k < columns; ++k) {
+    column[k] = l + static_cast<long>(k) * height;
+    value[k] = x[k];
+  }
+#pragma GCC ivdep
+  for (int i = from; i < to; ++i) {
+    double sum = y[row(i)];
+#pragma GCC unroll 8
+    for (int k = 0; k < columns; ++k) sum -= column[k][i] * value[k];
+    y[row(i)] = sum;
+  }
+}
+
+/// Columns of a supernode that go together, from `begin` on: their triangle, then all rows below.
+template <int columns>
+inline void solve_panel(const double* l, int height, int own, const int* rows, int begin, double* x,
+                        double* y) {
+  const double* panel_l = l + static_cast<long>(begin) * height;
+  for (int k = 0; k < columns; ++k) {
+    const double* column = panel_l + static_cast<long>(k) * height;
+    const double value = x[begin + k] / column[begin + k];
+    x[begin + k] = value;
+    for (int i = begin + k + 1; i < begin + columns; ++i) x[i] -= column[i] * value;
+  }
+  update_one<columns>(panel_l, height, x + begin, begin + columns, own, x, [](int i) { return i; });
+  update_one<columns>(panel_l, height, x + begin, own, height, y,
+                      [rows](int i) { return rows[i]; });
+}
+
 void solve_one(const Supernodes& factor, double* y) {
   for (int s = 0; s < factor.count && factor.super[s] < factor.columns; ++s) {
     const int first = factor.super[s];
@@ -25,48 +60,19 @@ void solve_one(const Supernodes& factor, double* y) {
     const int height = factor.row_begin[s + 1] - factor.row_begin[s];
     const int own = factor.super[s + 1] - first;  // rows that follow each other
     const double* l = factor.values + factor.value_begin[s];
-    for (int begin = 0; begin < end - first; begin += 4) {
-      const int stop = begin + 4 < end - first ? begin + 4 : end - first;
-      const double* columns[4] = {};
-      double x[4] = {};
-      for (int k = begin; k < stop; ++k) {
-        const double* column = l + static_cast<long>(k) * height;
-        const double value = y[first + k] / column[k];
-        y[first + k] = value;
-        for (int i = k + 1; i < stop; ++i) y[first + i] -= column[i] * value;
-        columns[k - begin] = column;
-        x[k - begin] = value;
-      }
-      if (stop - begin == 4) {
-        const double *a = columns[0], *b = columns[1], *c = columns[2], *d = columns[3];
-        double* here = y + first;
-        for (int i = stop; i < own; ++i) {
-          double sum = here[i];
-          sum -= a[i] * x[0];
-          sum -= b[i] * x[1];
-          sum -= c[i] * x[2];
-          sum -= d[i] * x[3];
-          here[i] = sum;
-        }
-#pragma GCC ivdep
-        for (int i = own; i < height; ++i) {
-          double sum = y[rows[i]];
-          sum -= a[i] * x[0];
-          sum -= b[i] * x[1];
-          sum -= c[i] * x[2];
-          sum -= d[i] * x[3];
-          y[rows[i]] = sum;
-        }
-        continue;
-      }
-      for (int k = 0; k < stop - begin; ++k) {
-        const double* column = columns[k];
-        double* here = y + first;
-        for (int i = stop; i < own; ++i) here[i] -= column[i] * x[k];
-#pragma GCC ivdep
-        for (int i = own; i < height; ++i) y[rows[i]] -= column[i] * x[k];
-      }
+    double* x = y + first;
+    // Eight at once: to fetch and store the entries of y takes longer than a few columns do.
+    int begin = 0;
+    for (; begin + 8 <= end - first; begin += 8) solve_panel<8>(l, height, own, rows, begin, x, y);
+    if (begin + 4 <= end - first) {
+      solve_panel<4>(l, height, own, rows, begin, x, y);
+      begin += 4;
     }
+    if (begin + 2 <= end - first) {
+      solve_panel<2>(l, height, own, rows, begin, x, y);
+      begin += 2;
+    }
+    if (begin < end - first) solve_panel<1>(l, height, own, rows, begin, x, y);
   }
 }
 

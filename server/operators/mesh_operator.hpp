@@ -72,8 +72,9 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// Rows `first` to first + rows.size() of a sweep, row k the load sum_j c_kj f_j, coefficients
   /// (rows, loads) row-major. Each starts from the contact of the one before, the first from that
   /// of `start` (empty: all closed), which becomes the last one's; the numbers do not depend on it
-  /// (DenseLcp). O(m c) and a few steps of O(c^3) or less a row, no allocation in a row. What the
-  /// numbers of a row are and when it is not_converged: contact::SweepSolver.
+  /// (DenseLcp). O(m c) and a few steps of O(c^3) or less a row, no allocation in a row whose
+  /// contact is near that of the one before. What the numbers of a row are and when it is
+  /// not_converged: contact::SweepSolver.
   /// `rows` has its width from mesh() and contact_nodes(). Throws errors::Error (internal) for
   /// another shape, and for a basis of another mesh.
   /// Returns false where `stop` was requested between two rows.
