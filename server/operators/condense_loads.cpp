@@ -74,16 +74,23 @@ class Block {
   void condense_on(std::size_t s, const ddm::SubdomainOperator& subdomain_operator) {
     const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
     const auto columns = static_cast<Eigen::Index>(_loads.size());
-    Eigen::MatrixXd of_nodes(static_cast<Eigen::Index>(subdomain.node.size()), columns);
     Eigen::MatrixXd dirichlet(static_cast<Eigen::Index>(subdomain.dirichlet), columns);
     std::vector<std::size_t> sound;
-    const Eigen::MatrixXd of_arrays = integrate_arrays(subdomain);
+    Eigen::MatrixXd of_nodes = integrate_arrays(subdomain), apart;
+    if (of_nodes.cols() < columns) {  // not all are arrays: those move to their places
+      apart.swap(of_nodes);
+      of_nodes.resize(static_cast<Eigen::Index>(subdomain.node.size()), columns);
+    }
+    const Eigen::MatrixXd& of_arrays = apart.size() > 0 ? apart : of_nodes;
     Eigen::Index arrays = 0;
     for (std::size_t i = 0; i < _loads.size(); ++i) {
       attempt(i, [&](LoadOnTraces& result) {
         const auto column = static_cast<Eigen::Index>(sound.size());
         if (nodal_values(i) != nullptr) {
-          of_nodes.col(column) = of_arrays.col(arrays++);
+          if (&of_arrays != &of_nodes || arrays != column) {
+            of_nodes.col(column) = of_arrays.col(arrays);
+          }
+          ++arrays;
         } else {
           of_nodes.col(column) = integrate(i, s, result);
         }
