@@ -11,6 +11,7 @@
 #include <numeric>
 #include <vector>
 
+#include "ddm/blas.hpp"
 #include "ddm/elimination_order.hpp"
 #include "ddm/front_kernel.hpp"
 #include "ddm/subdomain_factor.hpp"
@@ -55,6 +56,7 @@ void expect_eliminates(Front eliminate, int columns, int rest) {
 }
 
 TEST(Front, IsEliminatedByEachKernelAndByBlas) {
+  require_threadsafe_blas();  // one thread, as wherever fronts are eliminated
   std::srand(5);
   std::vector<Front> kernels = {eliminate_front};
   for (const auto instructions :
@@ -69,6 +71,7 @@ TEST(Front, IsEliminatedByEachKernelAndByBlas) {
 }
 
 TEST(Front, ThatIsNotPositiveDefiniteIsRefused) {
+  require_threadsafe_blas();
   for (const int columns : {3, 70}) {
     for (const double wrong : {-1.0, 0.0, std::numeric_limits<double>::quiet_NaN()}) {
       MatrixXd panel = random_positive(columns);
