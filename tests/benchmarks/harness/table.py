@@ -134,7 +134,7 @@ def markdown(results, rows):
             f"{figures.get('limits', {}).get('blas', 'BLAS not asked')}; load average before: "
             f"{machine['load_before']:.2f}.",
             "Tiny meshes: shows that it works, the targets mean nothing." if results["tiny"] else "",
-            f"Medians of {results['repetitions']}, {clock} time; ratios are of this run.", "",
+            f"Medians of {results['repetitions']} and more, {clock} time; ratios are of this run.", "",
             "## Targets", ""] + _targets(rows)
     sections = [("Peers", _peers(figures, clock)),
                 ("Sweeps in process", _sweeps(figures, clock)),
