@@ -31,7 +31,8 @@ void multiply(const Eigen::MatrixXd& a, const Eigen::Ref<const Eigen::MatrixXd>&
 }  // namespace
 
 Flexibility::Flexibility(const Eigen::MatrixXd& schur, std::span<const std::int32_t> rigid)
-    : _column(rigid.size()) {
+    : _column(rigid.size()),
+      _nothing_rigid(std::all_of(rigid.begin(), rigid.end(), [](auto j) { return j < 0; })) {
   Eigen::Index size = 0;
   std::int32_t inclusions = 0;
   for (std::size_t i = 0; i < rigid.size(); ++i) {
@@ -74,6 +75,10 @@ Flexibility::Flexibility(const Eigen::MatrixXd& schur, std::span<const std::int3
 void Flexibility::apply(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
                         Eigen::Ref<Eigen::MatrixXd> reduced, Eigen::Ref<Eigen::MatrixXd> skeleton,
                         Eigen::Ref<Eigen::MatrixXd> trace) const {
+  if (_nothing_rigid) {  // T is the identity
+    multiply(_inverse, rhs, trace);
+    return;
+  }
   reduced.setZero();
   for (Eigen::Index j = 0; j < rhs.cols(); ++j) {
     const auto given = rhs.col(j);

@@ -32,7 +32,8 @@ class Flexibility {
 
  private:
   std::vector<Eigen::Index> _column;  // of each trace node
-  Eigen::MatrixXd _inverse;           // (T'S T)^-1, symmetric to the bit
+  bool _nothing_rigid;
+  Eigen::MatrixXd _inverse;  // (T'S T)^-1, symmetric to the bit
 };
 
 }  // namespace anticrack::ddm
