@@ -24,8 +24,16 @@ void apply(const std::vector<Setting>& settings, Config& config) {
 }
 
 std::string quoted(const std::string& text) {
+  constexpr char digits[] = "0123456789ABCDEF";
   std::string result = "\"";
   for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code == 0x7F) {
+      result += "\\u00";
+      result += digits[code >> 4U];
+      result += digits[code & 15U];
+      continue;
+    }
     if (c == '"' || c == '\\') result += '\\';
     result += c;
   }
