@@ -2,6 +2,7 @@
 #include "mesh/geometry_network.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -80,11 +81,15 @@ Line arc_of(const InterfaceSpec& spec, const std::string& owner, const Outline& 
   if (distance(a, c) <= tolerance) {
     refuse(owner + ".to", owner, " starts and ends at the same point ", show(a));
   }
-  const double off = distance(b, Segment{a, c});
-  // flatter than this, its centre is lost to rounding
-  if (off <= 1e3 * tolerance || distance(b, a) <= tolerance || distance(b, c) <= tolerance) {
-    refuse(owner + ".through", owner, ".through ", show(b), " lies ", show(off),
-           " off the straight line from ", show(a), " to ", show(c),
+  const double ab = distance(a, b), bc = distance(b, c), ac = distance(a, c);
+  const double twice_area = std::abs(signed_area(std::array{a, b, c})) * 2;
+  // Flatter than this, its centre is lost to rounding: nearly on the line, or of a radius, ab bc ac
+  // / (2 twice_area), far beyond the membrane; also where that is no number.
+  const bool flat = distance(b, Segment{a, c}) <= 1e3 * tolerance ||
+                    !(ab * bc * ac <= 1e15 * tolerance * twice_area);
+  if (flat || ab <= tolerance || bc <= tolerance) {
+    refuse(owner + ".through", owner, ".through ", show(b), " lies ", show(twice_area / ac),
+           " off the straight line through ", show(a), " and ", show(c),
            "; that is no arc, give a polyline instead");
   }
   return Line::arc(a, b, c);

@@ -93,6 +93,18 @@ const Fault faults[] = {
      },
      "interfaces[1].arc.through",
      {"straight line"}},
+    {"ArcThatGoesStraightBack",
+     [](Geometry& g) {
+       curve(g, Shape::arc, {{0, 0.25}, {0, 0.75}, {1e-308, 0.125}});
+     },
+     "interfaces[1].arc.through",
+     {"straight line"}},
+    {"ArcOfARadiusFarBeyond",
+     [](Geometry& g) {
+       curve(g, Shape::arc, {{0, 0.25}, {0, 0.75}, {1e-9, 0.125}});
+     },
+     "interfaces[1].arc.through",
+     {"straight line"}},
     {"ArcWithoutEnd",
      [](Geometry& g) {
        curve(g, Shape::arc, {{-1, 0.5}, {0, 0.5}, {-1, 0.5}});
