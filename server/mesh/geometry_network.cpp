@@ -14,8 +14,7 @@ namespace {
 
 /// Lines lie in the membrane. Far outside they are refused at once: the squares and products of
 /// such coordinates would be no numbers.
-void check_vertex(const Point& p, const std::string& field, const Outline& outline) {
-  check_point(p, field);
+void check_near(const Point& p, const std::string& field, const Outline& outline) {
   if (distance(p, outline.boundary.front()) > 10 * outline.tolerance / relative_tolerance) {
     refuse(field, field, " ", show(p), " lies outside the polygon; it must lie in the membrane");
   }
@@ -25,7 +24,7 @@ void check_vertices(const std::vector<Point>& points, const std::string& field,
                     const Outline& outline) {
   check_points(points, field);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    check_vertex(points[i], indexed(field, i), outline);
+    check_near(points[i], indexed(field, i), outline);
   }
 }
 
@@ -73,7 +72,8 @@ Line arc_of(const InterfaceSpec& spec, const std::string& owner, const Outline& 
   }
   const std::array<const char*, 3> names{".from", ".through", ".to"};
   for (std::size_t i = 0; i < 3; ++i) {
-    check_vertex(spec.points[i], owner + names[i], outline);
+    check_point(spec.points[i], owner + names[i]);
+    check_near(spec.points[i], owner + names[i], outline);
   }
   const Point& a = spec.points[0];
   const Point& b = spec.points[1];
