@@ -24,13 +24,6 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
         sweep->apply(v1::SweepRows(), seconds);  // no rows yet: the rate is measured from here
       }
       break;
-    case v1::WatchJobResponse::kLoadCaseEnded: {
-      const std::int32_t index = event.load_case_ended().load_case();
-      if (index >= 0) {
-        apply(static_cast<std::size_t>(index), event.load_case_ended().answer());
-      }
-      break;
-    }
     case v1::WatchJobResponse::kHeartbeat:
       state = event.heartbeat().state();
       detail = sanitise(event.heartbeat().detail());
@@ -44,7 +37,12 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
       }
       break;
     case v1::WatchJobResponse::EVENT_NOT_SET:
-      break;  // an event of a later version
+      break;  // ended load cases alone, or an event of a later version
+  }
+  for (const v1::LoadCaseEnded& load_case : event.load_cases_ended()) {
+    if (load_case.load_case() >= 0) {
+      apply(static_cast<std::size_t>(load_case.load_case()), load_case.answer());
+    }
   }
 }
 

@@ -78,8 +78,8 @@ std::size_t bytes_of(const Event& event) {
 Batch as_batch(const Event& event) {
   return std::visit(
       []<class Kind>(const Kind& kind) -> Batch {
-        if constexpr (std::is_same_v<Kind, SampleEvent>) {
-          return {};  // samples are kept apart
+        if constexpr (std::is_same_v<Kind, SampleEvent> || std::is_same_v<Kind, CaseEvent>) {
+          return {};  // progress goes together
         } else {
           return kind;
         }
@@ -161,18 +161,34 @@ struct EventLog::State {
     }
   }
 
-  NumberedBatch batch(std::uint64_t after, std::size_t count) const {
+  /// What comes after event `after`: the first event that is not a sample, and the first sample.
+  std::pair<std::deque<Kept>::const_iterator, std::uint64_t> next(std::uint64_t after) const {
     const auto other = std::lower_bound(
         others.begin(), others.end(), after + 1,
         [](const Kept& kept, std::uint64_t sequence) { return kept.numbered.sequence < sequence; });
-    const std::uint64_t next = other == others.end() ? latest + 1 : other->numbered.sequence;
-    if (count > 0 && next == after + 1 && next <= latest) {
-      return {next, as_batch(other->numbered.event)};
-    }
-    const std::size_t size = std::min<std::uint64_t>(count, next - 1 - after);
     // Between the earliest event and this one lie as many samples as there are numbers not taken.
-    const auto before = static_cast<std::size_t>(other - others.begin());
-    return {after + size, samples.runs(after + 1 - earliest - before, size)};
+    return {other, after + 1 - earliest - static_cast<std::uint64_t>(other - others.begin())};
+  }
+
+  NumberedBatch batch(std::uint64_t after, std::size_t count) const {
+    auto [other, first_sample] = next(after);
+    std::uint64_t end = after + std::min<std::uint64_t>(count, latest - after);
+    ProgressEvents progress;
+    std::size_t bytes = 0;
+    for (; other != others.end() && other->numbered.sequence <= end; ++other) {
+      const auto* ended_case = std::get_if<CaseEvent>(&other->numbered.event);
+      if (ended_case == nullptr && other->numbered.sequence == after + 1) {
+        return {after + 1, as_batch(other->numbered.event)};
+      }
+      if (ended_case == nullptr || bytes >= batch_bytes) {
+        end = other->numbered.sequence - 1;
+        break;
+      }
+      progress.ended.push_back(*ended_case);
+      bytes += other->bytes;
+    }
+    progress.samples = samples.runs(first_sample, end - after - progress.ended.size());
+    return {end, std::move(progress)};
   }
 };
 
@@ -259,21 +275,14 @@ std::vector<NumberedEvent> EventLog::read(std::uint64_t after, std::size_t count
   _state->require_kept(after);
   const std::size_t size = std::min<std::uint64_t>(count, _state->latest - after);
   events.reserve(size);
+  auto [other, sample] = _state->next(after);
   while (events.size() < size) {
-    const NumberedBatch next = _state->batch(after, size - events.size());
-    std::visit(
-        [&]<class Kind>(const Kind& kind) {
-          if constexpr (std::is_same_v<Kind, std::vector<SampleRun>>) {
-            for (const SampleRun& run : kind) {
-              for (std::size_t i = 0; i < run.count; ++i) {
-                events.push_back({++after, run[i]});
-              }
-            }
-          } else {
-            events.push_back({++after, kind});
-          }
-        },
-        next.events);
+    if (other != _state->others.end() && other->numbered.sequence == after + 1) {
+      events.push_back((other++)->numbered);
+    } else {
+      events.push_back({after + 1, _state->samples.runs(sample++, 1).front()[0]});
+    }
+    ++after;
   }
   return events;
 }

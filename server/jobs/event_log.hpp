@@ -48,8 +48,15 @@ struct NumberedEvent {
   Event event;
 };
 
-/// What a watcher is told at once: samples that follow each other, or one other event.
-using Batch = std::variant<std::vector<SampleRun>, PhaseEvent, CaseEvent, RowsEvent, EndEvent>;
+/// Samples and ends of load cases that follow each other. Each end belongs after the samples of its
+/// load case, wherever it stood among those of others.
+struct ProgressEvents {
+  std::vector<SampleRun> samples;
+  std::vector<CaseEvent> ended;
+};
+
+/// What a watcher is told at once: the progress of load cases, or one other event.
+using Batch = std::variant<ProgressEvents, PhaseEvent, RowsEvent, EndEvent>;
 
 struct NumberedBatch {
   std::uint64_t last = 0;  ///< sequence of its last event
@@ -60,6 +67,8 @@ struct NumberedBatch {
 /// append.
 class EventLog {
  public:
+  static constexpr std::size_t batch_bytes = std::size_t{64} << 10;
+
   /// `byte_limit`: the oldest events go when the log is larger (the end event never).
   /// `base`: the first event has the number after it.
   explicit EventLog(std::size_t byte_limit, std::uint64_t base = 0);
@@ -77,8 +86,9 @@ class EventLog {
   std::size_t bytes() const;
   bool complete() const;  ///< the end event is in it: latest() stays what it is
 
-  /// The events after `after` that go together, at most `count` of them; no samples, and `last` is
-  /// `after`, when there is none yet. Copies no sample. O(count / page + log n) in n events.
+  /// The events after `after` that go together, at most `count` of them, and not many more ends of
+  /// load cases than take `batch_bytes`; no samples, and `last` is `after`, when there is none yet.
+  /// Copies no sample. O(count / page + ends + log n) in n events.
   /// Throws errors::Error (sequence_trimmed, metadata earliest_sequence and latest_sequence) when
   /// event after+1 is no longer kept, or `after` is larger than latest().
   NumberedBatch batch(std::uint64_t after, std::size_t count) const;

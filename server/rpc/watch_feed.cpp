@@ -99,8 +99,18 @@ jobs::NumberedBatch WatchFeed::read() {
   }
 }
 
-void WatchFeed::fill(const std::vector<jobs::SampleRun>& samples, v1::WatchJobResponse& response) {
-  append(*response.mutable_samples(), samples);
+void WatchFeed::fill(const jobs::ProgressEvents& progress, v1::WatchJobResponse& response) {
+  if (!progress.samples.empty()) append(*response.mutable_samples(), progress.samples);
+  if (!progress.ended.empty() && _interfaces.empty()) {  // not meshed yet when the watch began
+    _interfaces = interface_names(_backend.catalogue, _backend.engine.get(_id).spec.mesh);
+  }
+  for (const jobs::CaseEvent& ended : progress.ended) {
+    const auto index = static_cast<std::size_t>(ended.load_case);
+    const std::string name = index < _load_names.size() ? _load_names[index] : "";
+    v1::LoadCaseEnded& load_case = *response.add_load_cases_ended();
+    load_case.set_load_case(ended.load_case);
+    *load_case.mutable_answer() = from_domain(*ended.record, name, _interfaces);
+  }
 }
 
 void WatchFeed::fill(const jobs::PhaseEvent& phase, v1::WatchJobResponse& response) {
@@ -108,17 +118,6 @@ void WatchFeed::fill(const jobs::PhaseEvent& phase, v1::WatchJobResponse& respon
   _detail = phase.detail;
   response.mutable_phase()->set_state(_state);
   response.mutable_phase()->set_detail(_detail);
-}
-
-void WatchFeed::fill(const jobs::CaseEvent& ended, v1::WatchJobResponse& response) {
-  if (_interfaces.empty()) {  // the mesh was not meshed yet when the watch began
-    _interfaces = interface_names(_backend.catalogue, _backend.engine.get(_id).spec.mesh);
-  }
-  const auto index = static_cast<std::size_t>(ended.load_case);
-  const std::string name = index < _load_names.size() ? _load_names[index] : "";
-  response.mutable_load_case_ended()->set_load_case(ended.load_case);
-  *response.mutable_load_case_ended()->mutable_answer() =
-      from_domain(*ended.record, name, _interfaces);
 }
 
 void WatchFeed::fill(const jobs::RowsEvent& rows, v1::WatchJobResponse& response) {

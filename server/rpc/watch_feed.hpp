@@ -23,12 +23,12 @@ namespace anticrack::rpc {
 
 /// A cursor, no queue: what the watcher has not taken stays in the job's log, is sent in rounds
 /// with the other watches of the job, and a watcher that falls behind its trimming ends with
-/// OUT_OF_RANGE instead of a silent gap. Messages: the snapshot; then events in order, consecutive
-/// samples packed as columns; last the end.
+/// OUT_OF_RANGE instead of a silent gap. Messages: the snapshot; then events in order, samples and
+/// ends of load cases that follow each other in one, the samples packed as columns; last the end.
 class WatchFeed final : public Feed<v1::WatchJobResponse> {
  public:
-  /// Samples a message: some 55 kB. Larger ones were not faster (memory of that size goes back to
-  /// the system and comes again with each), and every peer that does not read holds one.
+  /// Events a message: some 55 kB of samples. Larger ones were not faster (memory of that size goes
+  /// back to the system and comes again with each), and every peer that does not read holds one.
   static constexpr std::size_t max_batch = 1024;
 
   /// `id` of the job; `after` as WatchJobRequest.after_sequence.
@@ -46,9 +46,8 @@ class WatchFeed final : public Feed<v1::WatchJobResponse> {
  private:
   void fill_snapshot(v1::WatchJobResponse& response);
   jobs::NumberedBatch read();
-  void fill(const std::vector<jobs::SampleRun>& samples, v1::WatchJobResponse& response);
+  void fill(const jobs::ProgressEvents& progress, v1::WatchJobResponse& response);
   void fill(const jobs::PhaseEvent& phase, v1::WatchJobResponse& response);
-  void fill(const jobs::CaseEvent& ended, v1::WatchJobResponse& response);
   void fill(const jobs::RowsEvent& rows, v1::WatchJobResponse& response);
   void fill(const jobs::EndEvent& end, v1::WatchJobResponse& response);
 

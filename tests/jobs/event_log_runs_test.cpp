@@ -23,8 +23,8 @@ using ::testing::IsEmpty;
 /// The numbers of a batch's events.
 std::vector<int> numbers_of(const Batch& batch) {
   std::vector<int> numbers;
-  if (const auto* runs = std::get_if<std::vector<SampleRun>>(&batch)) {
-    for (const SampleRun& run : *runs) {
+  if (const auto* progress = std::get_if<ProgressEvents>(&batch)) {
+    for (const SampleRun& run : progress->samples) {
       const auto column = run.column(&SamplePage::iteration);
       numbers.insert(numbers.end(), column.begin(), column.end());
     }
@@ -120,6 +120,65 @@ TEST(EventLogRuns, KeepsTheNewestSampleOfWhatIsTooLarge) {
   EXPECT_THAT(numbers_of(log.batch(999, 10).events), ElementsAre(1000));
 }
 
+/// The end of a load case that took `steps` iterations and is some `bytes` large.
+CaseEvent case_ended(int load_case, int steps, std::size_t bytes = 0) {
+  auto record = std::make_shared<store::CaseRecord>();
+  record->answer.iterations = steps;
+  record->answer.reason.assign(bytes, 'x');
+  return {load_case, record};
+}
+
+std::vector<int> ended_in(const Batch& batch) {
+  std::vector<int> load_cases;
+  for (const CaseEvent& ended : std::get<ProgressEvents>(batch).ended) {
+    load_cases.push_back(ended.load_case);
+  }
+  return load_cases;
+}
+
+TEST(EventLogRuns, GivesEndsOfLoadCasesWithTheSamplesAroundThem) {
+  EventLog log(roomy);
+  log.append(samples(1, 2));
+  log.append(case_ended(0, 2));
+  log.append(samples(4, 3));
+  log.append(case_ended(1, 3));
+  log.append(case_ended(2, 0));
+  log.append(mixed(10));
+  log.append(case_ended(3, 0));
+  const NumberedBatch all = log.batch(0, 100);
+  EXPECT_EQ(all.last, 8U);
+  EXPECT_THAT(numbers_of(all.events), ElementsAre(1, 2, 4, 5, 6));
+  EXPECT_THAT(ended_in(all.events), ElementsAre(0, 1, 2));
+  EXPECT_EQ(log.batch(8, 100).last, 9U);
+  EXPECT_THAT(ended_in(log.batch(9, 100).events), ElementsAre(3));
+  // However it is parted, each event comes once, and an end after the samples before it.
+  for (const std::size_t count : {1, 2, 3, 4, 5, 6, 7}) {
+    std::vector<int> numbers, ended;
+    for (std::uint64_t after = 0; after < 8;) {
+      const NumberedBatch batch = log.batch(after, count);
+      EXPECT_EQ(batch.last, std::min<std::uint64_t>(after + count, 8));
+      for (const int number : numbers_of(batch.events)) numbers.push_back(number);
+      for (const int load_case : ended_in(batch.events)) {
+        ended.push_back(load_case);
+        EXPECT_GE(numbers.size(), load_case == 0 ? 2U : 5U);
+      }
+      after = batch.last;
+    }
+    EXPECT_THAT(numbers, ElementsAre(1, 2, 4, 5, 6));
+    EXPECT_THAT(ended, ElementsAre(0, 1, 2));
+  }
+}
+
+TEST(EventLogRuns, GivesFewLargeEndsOfLoadCasesAtOnce) {
+  EventLog log(roomy);
+  for (int i = 0; i < 10; ++i) {
+    log.append(case_ended(i, 0, EventLog::batch_bytes / 3));
+  }
+  const NumberedBatch first = log.batch(0, 100);
+  EXPECT_THAT(ended_in(first.events), ElementsAre(0, 1, 2));
+  EXPECT_THAT(ended_in(log.batch(first.last, 100).events), ElementsAre(3, 4, 5));
+}
+
 /// Rows of a sweep on a mesh of 2 inclusions and 30 crack nodes.
 RowsEvent rows(std::uint64_t first, std::size_t count) {
   return {first, std::make_shared<const contact::SweepColumns>(count, 2, 30)};
@@ -171,11 +230,11 @@ TEST(EventLogRuns, IsReadInRunsWhileItIsWrittenAndTrimmed) {
           std::this_thread::yield();
         }
         after = batch.last;
-        const auto* runs = std::get_if<std::vector<SampleRun>>(&batch.events);
-        if (runs == nullptr) {
+        const auto* progress = std::get_if<ProgressEvents>(&batch.events);
+        if (progress == nullptr) {
           continue;
         }
-        for (const SampleRun& run : *runs) {
+        for (const SampleRun& run : progress->samples) {
           for (std::size_t i = 0; i < run.count; ++i) {
             const SampleEvent read = run[i];
             int& before = last[static_cast<std::size_t>(read.load_case)];

@@ -63,8 +63,8 @@ TEST(Watch, GoesFromASnapshotOverEveryEventToTheEnd) {
   ASSERT_EQ(static_cast<int>(seen.size()), events.back().ended().answers(0).iterations());
   for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], static_cast<int>(i) + 1);
   const auto& case_ended = events[events.size() - 2];
-  ASSERT_TRUE(case_ended.has_load_case_ended());
-  EXPECT_EQ(case_ended.load_case_ended().answer().name(), "opening");
+  ASSERT_EQ(case_ended.load_cases_ended_size(), 1);
+  EXPECT_EQ(case_ended.load_cases_ended(0).answer().name(), "opening");
 }
 
 TEST(Watch, ResumesExactlyWhereItIsTold) {

@@ -148,7 +148,7 @@ TEST(PlainLog, SaysWhyALoadCaseDidNotConverge) {
   progress.apply(snapshot(1));
   log.lines(progress);
   v1::WatchJobResponse event = load_ended(0, 200, 2.7, v1::LoadCaseAnswer::STATUS_NOT_CONVERGED);
-  event.mutable_load_case_ended()->mutable_answer()->set_reason("theta = 2 is above theta*");
+  event.mutable_load_cases_ended(0)->mutable_answer()->set_reason("theta = 2 is above theta*");
   progress.apply(event);
   EXPECT_THAT(log.lines(progress),
               ElementsAre("load-0: not converged after 200 iterations, criterion 2.70e+00; theta = "
@@ -161,7 +161,7 @@ TEST(PlainLog, SaysWhyALoadCaseFailedBeforeItsFirstIteration) {
   progress.apply(snapshot(1));
   log.lines(progress);
   v1::WatchJobResponse event = load_ended(0, 0, 0, v1::LoadCaseAnswer::STATUS_FAILED);
-  event.mutable_load_case_ended()->mutable_answer()->mutable_error()->set_message("not finite");
+  event.mutable_load_cases_ended(0)->mutable_answer()->mutable_error()->set_message("not finite");
   progress.apply(event);
   EXPECT_THAT(log.lines(progress), ElementsAre("load-0: failed; not finite"));
 }

@@ -33,8 +33,9 @@ inline v1::WatchJobResponse load_ended(
     int load_case, int iterations, double criterion,
     v1::LoadCaseAnswer::Status status = v1::LoadCaseAnswer::STATUS_CONVERGED) {
   v1::WatchJobResponse event;
-  event.mutable_load_case_ended()->set_load_case(load_case);
-  v1::LoadCaseAnswer& answer = *event.mutable_load_case_ended()->mutable_answer();
+  v1::LoadCaseEnded& ended = *event.add_load_cases_ended();
+  ended.set_load_case(load_case);
+  v1::LoadCaseAnswer& answer = *ended.mutable_answer();
   answer.set_status(status);
   answer.set_iterations(iterations);
   answer.set_criterion(criterion);
