@@ -1,33 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ddm/backward_solve.hpp"
 
-#include <cblas.h>
-
-#include <algorithm>
-#include <cstddef>
-#include <vector>
-
 namespace anticrack::ddm {
 
-void backward_solve(const Supernodes& factor, double* y) {
-  std::vector<double> below;
-  for (int s = factor.count; s-- > 0;) {
-    const int first = factor.super[s];
-    const int own = std::min(factor.super[s + 1], factor.columns) - first;
-    if (own <= 0) {
-      continue;
-    }
-    const int* rows = factor.rows + factor.row_begin[s];
-    const int height = factor.row_begin[s + 1] - factor.row_begin[s], rest = height - own;
-    const double* l = factor.values + factor.value_begin[s];
-    below.resize(static_cast<std::size_t>(rest));
-    std::transform(rows + own, rows + height, below.begin(), [y](int row) { return y[row]; });
-    if (rest > 0) {
-      cblas_dgemv(CblasColMajor, CblasTrans, rest, own, -1, l + own, height, below.data(), 1, 1,
-                  y + first, 1);
-    }
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, own, l, height, y + first, 1);
+void backward_solve_baseline(const Supernodes& factor, double* y);
+void backward_solve_avx2(const Supernodes& factor, double* y);
+void backward_solve_avx512(const Supernodes& factor, double* y);
+
+BackwardKernel backward_kernel(Instructions instructions) noexcept {
+  if (!has(instructions)) {
+    return nullptr;
   }
+  switch (instructions) {
+    case Instructions::avx512:
+      return backward_solve_avx512;
+    case Instructions::avx2:
+      return backward_solve_avx2;
+    case Instructions::baseline:
+      break;
+  }
+  return backward_solve_baseline;
+}
+
+void backward_solve(const Supernodes& factor, double* y) {
+  static const BackwardKernel kernel = backward_kernel(best_instructions());
+  kernel(factor, y);
 }
 
 }  // namespace anticrack::ddm

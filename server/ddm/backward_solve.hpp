@@ -11,7 +11,12 @@ namespace anticrack::ddm {
 ///
 ///   y_I <- L_II'^-1 (y_I - L_GI' y_G)
 ///
-/// O(nnz(L)), about reading L from memory once.
+/// The best kernel of the processor is used, so bits may differ between machines. O(nnz(L)), about
+/// reading L from memory once. No allocation.
 void backward_solve(const Supernodes& factor, double* y);
+
+using BackwardKernel = void (*)(const Supernodes& factor, double* y);
+/// Null where the processor does not have the instructions.
+BackwardKernel backward_kernel(Instructions instructions) noexcept;
 
 }  // namespace anticrack::ddm

@@ -3,5 +3,8 @@
 #define ANTICRACK_ROWS 4
 #include "ddm/forward_kernel.hpp"
 
+#define ANTICRACK_BACKWARD backward_solve_baseline
+#include "ddm/backward_kernel.hpp"
+
 #define ANTICRACK_FRONT eliminate_small_front_baseline
 #include "ddm/front_loops.hpp"

@@ -27,7 +27,7 @@ struct Options {
   bool tiny = false;
   std::vector<std::string> only;  ///< figures; empty: all
   // Of one job each:
-  int cases = 64;
+  int cases = 256;
   int combinations = 20'000;
   int nodal_loads = 1'000;
   int sampled_cases = 16;
@@ -194,6 +194,17 @@ Times uploads(Bench& bench) {
   return times;
 }
 
+/// A call that does nothing: what is left of a job's time when its work is taken away.
+Times round_trips(Bench& bench) {
+  Times times;
+  for (int i = 0; i < 40 * bench.options.repetitions; ++i) {
+    const Stopwatch watch(bench.server());
+    client::server_info(bench.connection);
+    watch.stop(times);
+  }
+  return times;
+}
+
 void require_rows(const v1::Job& ended, int rows) {
   const v1::SweepAnswer& answer = ended.sweep_answer();
   if (answer.converged() != static_cast<std::uint64_t>(rows)) {
@@ -291,6 +302,7 @@ void run(const Options& options) {
     load_cases(bench, "load_case_by_expression", Bench::expression, figures);
   }
   if (wanted(options, "single_case")) single_case(bench, figures);
+  measure("round_trip", [&] { return round_trips(bench); });
   measure("upload_of_a_load", [&] { return uploads(bench); });
   measure("combination", [&] { return combinations(bench); });
   measure("nodal_load", [&] { return nodal_loads(bench); });

@@ -10,6 +10,8 @@
 #include <random>
 #include <vector>
 
+#include "ddm/backward_solve.hpp"
+
 namespace anticrack::ddm {
 namespace {
 
@@ -109,6 +111,35 @@ TEST(ForwardSolve, StopsAtItsLastColumnWithEveryKernel) {
           EXPECT_LT((got - wanted).cwiseAbs().maxCoeff(), 1e-12 * wanted.cwiseAbs().maxCoeff())
               << static_cast<int>(instructions) << ' ' << widest << ' ' << columns << ' ' << width;
         }
+      }
+    }
+  }
+}
+
+TEST(BackwardSolve, StopsAtItsLastColumnWithEveryKernel) {
+  for (const auto instructions :
+       {Instructions::baseline, Instructions::avx2, Instructions::avx512}) {
+    const BackwardKernel kernel = backward_kernel(instructions);
+    if (kernel == nullptr) continue;
+    for (const int widest : {1, 3, 40}) {
+      const int size = 150;
+      const RandomFactor factor(size, widest, 7);
+      for (const int columns : {0, 1, 77, 149, 150}) {  // also in the middle of a supernode
+        std::srand(1);
+        const Eigen::VectorXd z = Eigen::VectorXd::Random(size);
+        Eigen::VectorXd wanted = z, got = z;
+        const auto rest = size - columns;
+        wanted.head(columns) -=
+            factor.dense.bottomLeftCorner(rest, columns).transpose() * z.tail(rest);
+        if (columns > 0) {
+          factor.dense.topLeftCorner(columns, columns)
+              .triangularView<Eigen::Lower>()
+              .transpose()
+              .solveInPlace(wanted.head(columns));
+        }
+        kernel(factor.first_columns(columns), got.data());
+        EXPECT_LT((got - wanted).cwiseAbs().maxCoeff(), 1e-12 * wanted.cwiseAbs().maxCoeff())
+            << static_cast<int>(instructions) << ' ' << widest << ' ' << columns;
       }
     }
   }
