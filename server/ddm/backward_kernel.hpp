@@ -4,6 +4,7 @@
 // a file compiled for that, with ANTICRACK_BACKWARD the name of the function. It includes no
 // library, as forward_kernel.hpp.
 #include "ddm/backward_solve.hpp"
+#include "ddm/fetch_ahead.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -49,6 +50,7 @@ template <int columns>
 inline void solve_backward(const double* l, int height, int own, const int* rows, int begin,
                            double* x, const double* y) {
   const double* panel = l + static_cast<long>(begin) * height;
+  fetch(panel - ahead, columns * height);
   double sum[columns] = {};
   add_products<columns>(
       panel, height, begin + columns, own, x, [](int i) { return i; }, sum);

@@ -4,6 +4,7 @@
 // a file compiled for that, with ANTICRACK_KERNEL the name of the function and ANTICRACK_ROWS the
 // rows of a block that fit its registers. It includes no library: an inline function of one
 // compiled here could be linked into code for any processor.
+#include "ddm/fetch_ahead.hpp"
 #include "ddm/forward_solve.hpp"
 
 namespace anticrack::ddm {
@@ -41,6 +42,7 @@ template <int columns>
 inline void solve_panel(const double* l, int height, int own, const int* rows, int begin, double* x,
                         double* y) {
   const double* panel_l = l + static_cast<long>(begin) * height;
+  fetch(panel_l + ahead, columns * height);
   for (int k = 0; k < columns; ++k) {
     const double* column = panel_l + static_cast<long>(k) * height;
     const double value = x[begin + k] / column[begin + k];

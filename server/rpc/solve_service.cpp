@@ -21,7 +21,10 @@ namespace anticrack::rpc {
 using access::Identity;
 
 v1::Job SolveService::to_answer(const store::JobRecord& record) const {
-  return from_domain(record, interface_names(_edge.backend.catalogue, record.spec.mesh));
+  // Answers name interfaces; before the start there is none.
+  return from_domain(record, record.started
+                                 ? interface_names(_edge.backend.catalogue, record.spec.mesh)
+                                 : InterfaceNames());
 }
 
 grpc::ServerUnaryReactor* SolveService::CreateJob(grpc::CallbackServerContext* context,

@@ -110,7 +110,8 @@ Figures dgemm(const Options& options, int threads) {
   return figures;
 }
 
-/// Solves with the factors of all subdomains, one after the other, on one thread.
+/// Solves with the factors of all subdomains, one after the other, on one thread; memory is read
+/// between them, because others of a shared machine take of its bandwidth now more, now less.
 Figures solves(const Options& options, const ddm::Decomposition& parts) {
   std::vector<ddm::SubdomainOperator> operators;
   std::vector<Eigen::MatrixXd> loads;
@@ -123,8 +124,15 @@ Figures solves(const Options& options, const ddm::Decomposition& parts) {
     loads.push_back(
         Eigen::MatrixXd::Random(static_cast<Eigen::Index>(part.free()), options.columns));
   }
-  Times single, block, backward;
+  const std::vector<double> memory(bytes / sizeof(double), 1.0);
+  Times reading, single, block, backward;
   for (int i = 0; i < options.repetitions; ++i) {
+    {
+      const Stopwatch watch;
+      const double sum = sum_of(memory.data(), memory.size());
+      watch.stop(reading);
+      if (sum == 0) throw std::runtime_error("the memory was not read");
+    }
     std::vector<ddm::SubdomainFactor::Forward> forward;
     {
       const Stopwatch watch;
@@ -148,6 +156,7 @@ Figures solves(const Options& options, const ddm::Decomposition& parts) {
   figures.set("unknowns", static_cast<double>(unknowns));
   figures.set("factor_bytes", static_cast<double>(bytes));
   figures.set("columns", options.columns);
+  figures.set("reading", reading);  // as many bytes
   figures.set("forward", single);
   figures.set("backward", backward);
   figures.set("forward_per_column", block);

@@ -2,12 +2,14 @@
 //
 // The real server and the real client library over loopback: what a load case, a combination, a
 // nodal load and a sample cost from end to end.
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <stdexcept>
 
@@ -194,6 +196,24 @@ Times uploads(Bench& bench) {
   return times;
 }
 
+/// What a job of one load case waits for at least three times: a flush of a file that grows, here
+/// by as much as the server's log of changes does for the creation of a job.
+Times flushes(Bench& bench) {
+  std::string path = std::filesystem::temp_directory_path() / "anticrack-flush-XXXXXX";
+  const int file = mkstemp(path.data());
+  if (file < 0 || ::unlink(path.c_str()) != 0) throw std::runtime_error("no file in " + path);
+  const std::vector<char> bytes(48 << 10, 'x');
+  Times times;
+  for (int i = 0; i < 10 * bench.options.repetitions; ++i) {
+    const Stopwatch watch;
+    const auto written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 || ::fdatasync(file) != 0) throw std::runtime_error("cannot write " + path);
+    watch.stop(times);
+  }
+  ::close(file);
+  return times;
+}
+
 /// A call that does nothing: what is left of a job's time when its work is taken away.
 Times round_trips(Bench& bench) {
   Times times;
@@ -302,6 +322,7 @@ void run(const Options& options) {
     load_cases(bench, "load_case_by_expression", Bench::expression, figures);
   }
   if (wanted(options, "single_case")) single_case(bench, figures);
+  measure("flush_of_the_disk", [&] { return flushes(bench); });
   measure("round_trip", [&] { return round_trips(bench); });
   measure("upload_of_a_load", [&] { return uploads(bench); });
   measure("combination", [&] { return combinations(bench); });

@@ -139,7 +139,7 @@ def peer_petsc(session):
 
 def limits(session):
     return session.programs.figures("bench_limits", [
-        "--mesh", session.mesh(session.sizes.meshes[-1]), "--repetitions", session.repetitions,
+        "--mesh", session.mesh(session.sizes.meshes[-1]), "--repetitions", 3 * session.repetitions,
         "--threads", max(session.sizes.threads)] + session.sizes.limits)
 
 
@@ -184,7 +184,8 @@ def service(session):
         "--repetitions", session.repetitions],
         cure="configure with ANTICRACK_SERVICE=ON")
     # The same mesh and the same kind of load.
-    return dict(figures, in_process=session.ours(session.sizes.meshes[0])["further"])
+    ours = session.ours(session.sizes.meshes[0])
+    return dict(figures, in_process=ours["further"], in_process_block=ours["block"]["per_load"])
 
 
 GROUPS = {"meshes": meshes, "orderings": orderings, "kernels": kernels, "ours": ours, "freefem": peer_freefem,

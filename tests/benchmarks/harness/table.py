@@ -98,6 +98,7 @@ def _limits(limits, clock):
     rate = 2 * solves["factor_bytes"] / 8 / median(solves["forward_per_column"], clock)
     lines += [["unknowns of the solves", number(solves["unknowns"])],
               ["factor", f"{solves['factor_bytes'] / 1e6:.1f} MB"],
+              ["reading it", number(median(solves["reading"], clock)) + " s"],
               ["forward solve", number(median(solves["forward"], clock)) + " s"],
               ["backward solve", number(median(solves["backward"], clock)) + " s"],
               [f"forward solve, a column of {solves['columns']:.0f}",
