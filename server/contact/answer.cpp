@@ -108,7 +108,7 @@ void fill_inclusions(const TraceProblem& problem, const mesh::Mesh& mesh,
 
 void describe(const TraceProblem& problem, const mesh::Mesh& mesh,
               std::span<const ddm::CondensedLoad> loads, std::span<const double> inclusion_forces,
-              const TraceState& state, bool fields, Answer& answer) {
+              const TraceState& state, Answer& answer) {
   const ddm::Decomposition& decomposition = problem.decomposition();
   fill_inclusions(problem, mesh, inclusion_forces, state, answer);
   for (std::size_t c = 0; c < mesh.interfaces.size(); ++c) {
@@ -117,10 +117,24 @@ void describe(const TraceProblem& problem, const mesh::Mesh& mesh,
     append_intervals(c, mesh::arc_length(mesh, mesh.interfaces[c]), answer.traces.back().contact,
                      answer.contact_intervals);
   }
-  if (fields) {
-    for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
-      const Eigen::VectorXd u = problem.operators()[s].recover(loads[s], state.trace[s]);
-      answer.fields.push_back({decomposition.subdomains[s].node, {u.begin(), u.end()}});
+  for (const Eigen::VectorXd& trace : state.trace) {
+    answer.side_traces.emplace_back(trace.begin(), trace.end());
+  }
+}
+
+void recover_fields(const TraceProblem& problem, std::span<const SolvedCase> cases) {
+  const std::vector<ddm::Subdomain>& subdomains = problem.decomposition().subdomains;
+  for (std::size_t s = 0; s < subdomains.size(); ++s) {
+    std::vector<ddm::SubdomainOperator::Solved> solved;
+    solved.reserve(cases.size());
+    for (const SolvedCase& one : cases) {
+      const std::vector<double>& trace = one.answer.side_traces[s];
+      solved.push_back({one.loads[s], Eigen::Map<const Eigen::VectorXd>(
+                                          trace.data(), static_cast<Eigen::Index>(trace.size()))});
+    }
+    const std::vector<Eigen::VectorXd> u = problem.operators()[s].recover(solved);
+    for (std::size_t j = 0; j < cases.size(); ++j) {
+      cases[j].answer.fields.push_back({subdomains[s].node, {u[j].begin(), u[j].end()}});
     }
   }
 }

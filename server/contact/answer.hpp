@@ -117,6 +117,8 @@ struct Answer {
   double contact_length = 0;
   std::vector<ContactInterval> contact_intervals;
   std::vector<Trace> traces;  ///< one per Mesh::interfaces
+  /// u on the trace of each subdomain, as it was cut: what its field is recovered from.
+  std::vector<std::vector<double>> side_traces;
   std::vector<Field> fields;  ///< one per Mesh::subdomains, when asked for
 };
 

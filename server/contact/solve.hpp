@@ -35,6 +35,15 @@ Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
                         const CaseLoads& loads, const ActiveSetOptions& options, bool fields,
                         Observer& observer, std::span<const char> start = {});
 
+/// A load case whose answer has side_traces and is to have fields.
+struct SolvedCase {
+  std::span<const ddm::CondensedLoad> loads;  ///< one per subdomain
+  Answer& answer;
+};
+/// Fills Answer::fields: backward solves of all cases together, in blocks of columns. The bits of
+/// one do not depend on the others. O(N) each.
+void recover_fields(const TraceProblem& problem, std::span<const SolvedCase> cases);
+
 /// Places and conditions of the nodes of every interface.
 std::vector<TraceGeometry> trace_geometry(const ddm::Decomposition& decomposition,
                                           const mesh::Mesh& mesh);

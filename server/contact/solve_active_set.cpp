@@ -172,7 +172,11 @@ Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
   if (!std::isfinite(answer.energy)) {
     answer.warnings.emplace_back("the energy is beyond the range of double; scale the load down");
   }
-  describe(problem.traces(), mesh, loads.subdomains, loads.inclusion_forces, state, fields, answer);
+  describe(problem.traces(), mesh, loads.subdomains, loads.inclusion_forces, state, answer);
+  if (fields) {
+    const SolvedCase solved{loads.subdomains, answer};
+    recover_fields(problem.traces(), {&solved, 1});
+  }
   return answer;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "contact/answer_parts.hpp"
+#include "contact/solve.hpp"
 #include "contact/trace_state.hpp"
 #include "contact/uzawa_reasons.hpp"
 #include "errors/errors.hpp"
@@ -130,6 +131,14 @@ std::vector<UzawaBlock::Ended> UzawaBlock::take_ended() {
   for (int c = _running; c < _running + _ended; ++c) {
     ended.push_back({column(c).place, answer(c)});
   }
+  std::vector<SolvedCase> wanted;
+  for (int c = 0; c < _ended; ++c) {
+    const Case& one = column(_running + c);
+    if (one.fields) {
+      wanted.push_back({one.loads.subdomains, ended[static_cast<std::size_t>(c)].answer});
+    }
+  }
+  recover_fields(_problem, wanted);
   _ended = 0;
   std::sort(ended.begin(), ended.end(),
             [](const Ended& a, const Ended& b) { return a.place < b.place; });
@@ -167,8 +176,7 @@ Answer UzawaBlock::answer(int c) {
       answer.reason = limit_reason(answer, ended.options);
       break;
   }
-  describe(_problem, _mesh, ended.loads.subdomains, ended.loads.inclusion_forces, state,
-           ended.fields, answer);
+  describe(_problem, _mesh, ended.loads.subdomains, ended.loads.inclusion_forces, state, answer);
   return answer;
 }
 

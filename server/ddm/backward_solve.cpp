@@ -3,9 +3,9 @@
 
 namespace anticrack::ddm {
 
-void backward_solve_baseline(const Supernodes& factor, double* y);
-void backward_solve_avx2(const Supernodes& factor, double* y);
-void backward_solve_avx512(const Supernodes& factor, double* y);
+void backward_solve_baseline(const Supernodes& factor, int width, double* y);
+void backward_solve_avx2(const Supernodes& factor, int width, double* y);
+void backward_solve_avx512(const Supernodes& factor, int width, double* y);
 
 BackwardKernel backward_kernel(Instructions instructions) noexcept {
   if (!has(instructions)) {
@@ -22,9 +22,9 @@ BackwardKernel backward_kernel(Instructions instructions) noexcept {
   return backward_solve_baseline;
 }
 
-void backward_solve(const Supernodes& factor, double* y) {
+void backward_solve(const Supernodes& factor, int width, double* y) {
   static const BackwardKernel kernel = backward_kernel(best_instructions());
-  kernel(factor, y);
+  kernel(factor, width, y);
 }
 
 }  // namespace anticrack::ddm

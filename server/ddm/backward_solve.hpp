@@ -11,11 +11,12 @@ namespace anticrack::ddm {
 ///
 ///   y_I <- L_II'^-1 (y_I - L_GI' y_G)
 ///
-/// The best kernel of the processor is used, so bits may differ between machines. O(nnz(L)), about
-/// reading L from memory once. No allocation.
-void backward_solve(const Supernodes& factor, double* y);
+/// `width` and `y` as of forward_solve(), and as there the bits of a column depend neither on the
+/// width nor on the other columns. O(nnz(L) width): one load costs about reading L from memory
+/// once. No allocation.
+void backward_solve(const Supernodes& factor, int width, double* y);
 
-using BackwardKernel = void (*)(const Supernodes& factor, double* y);
+using BackwardKernel = void (*)(const Supernodes& factor, int width, double* y);
 /// Null where the processor does not have the instructions.
 BackwardKernel backward_kernel(Instructions instructions) noexcept;
 

@@ -111,10 +111,34 @@ void for_tiles(int rows, int columns, const Take& take) {
   }
 }
 
+/// Columns in blocks of up to columns_at_once(rows), each a row-major block that `solve(width,
+/// block)` works on. `put` and `take` (column, begin, end, at, stride) write and read the rows
+/// [begin, end) of a column, row i at[i * stride].
+template <class Put, class Solve, class Take>
+void in_blocks(int rows, int columns, const Put& put, const Solve& solve, const Take& take) {
+  const auto whole = [](int count) { return count == 1 ? 1 : (count + lanes - 1) / lanes * lanes; };
+  const int most = static_cast<int>(columns_at_once(rows));
+  const int widest = whole(std::min(columns, most));
+  const Values y = make_values(static_cast<std::size_t>(rows) * static_cast<std::size_t>(widest));
+  for (int first = 0; first < columns; first += most) {
+    const int count = std::min(most, columns - first);
+    const std::ptrdiff_t width = whole(count);
+    for_tiles(rows, count,
+              [&](int begin, int end, int j) { put(first + j, begin, end, y.get() + j, width); });
+    for (int i = 0; i < rows && count < width; ++i) {
+      double* row = y.get() + i * width;
+      std::fill(row + count, row + width, 0.0);
+    }
+    solve(static_cast<int>(width), y.get());
+    for_tiles(rows, count,
+              [&](int begin, int end, int j) { take(first + j, begin, end, y.get() + j, width); });
+  }
+}
+
 }  // namespace
 
 Eigen::Index columns_at_once(Eigen::Index rows) noexcept {
-  constexpr Eigen::Index most = 32, bytes = Eigen::Index{64} << 20;
+  constexpr Eigen::Index most = most_lanes, bytes = Eigen::Index{64} << 20;
   const Eigen::Index column = static_cast<Eigen::Index>(sizeof(double)) * rows;
   return std::clamp<Eigen::Index>(bytes / std::max<Eigen::Index>(column, 1), 1, most);
 }
@@ -158,50 +182,44 @@ std::vector<SubdomainFactor::Forward> SubdomainFactor::forward(
     return result;
   }
   const int* permutation = static_cast<const int*>(_factor->analysis->Perm);
-  const auto rows = static_cast<int>(f.rows()), interior = static_cast<int>(_interior);
-  const auto whole = [](int columns) {
-    return columns == 1 ? 1 : (columns + lanes - 1) / lanes * lanes;
-  };
-  const int most = static_cast<int>(std::min<Eigen::Index>(f.cols(), most_lanes));
-  const Values y =
-      make_values(static_cast<std::size_t>(rows) * static_cast<std::size_t>(whole(most)));
-  for (int first = 0; first < static_cast<int>(f.cols()); first += most_lanes) {
-    const int columns = std::min(most_lanes, static_cast<int>(f.cols()) - first);
-    const int width = whole(columns);
-    for_tiles(rows, columns, [&](int begin, int end, int j) {
-      const double* from = f.data() + (first + j) * f.outerStride();
-      double* to = y.get() + j;
-      for (int i = begin; i < end; ++i) to[std::ptrdiff_t{i} * width] = from[permutation[i]];
-    });
-    for (int i = 0; i < rows && columns < width; ++i) {
-      double* row = y.get() + std::ptrdiff_t{i} * width;
-      std::fill(row + columns, row + width, 0.0);
-    }
-    forward_solve(_factor->l, width, y.get());
-    for_tiles(rows, columns, [&](int begin, int end, int j) {
-      Forward& column = result[static_cast<std::size_t>(first + j)];
-      const double* from = y.get() + j;
-      const int middle = std::clamp(interior, begin, end);
-      for (int i = begin; i < middle; ++i) column.z_interior[i] = from[std::ptrdiff_t{i} * width];
-      for (int i = middle; i < end; ++i) {
-        column.g[i - interior] = from[std::ptrdiff_t{i} * width];
-      }
-    });
-  }
+  const auto interior = static_cast<int>(_interior);
+  in_blocks(
+      static_cast<int>(f.rows()), static_cast<int>(f.cols()),
+      [&](int j, int begin, int end, double* to, std::ptrdiff_t stride) {
+        const double* from = f.data() + j * f.outerStride();
+        for (int i = begin; i < end; ++i) to[i * stride] = from[permutation[i]];
+      },
+      [&](int width, double* y) { forward_solve(_factor->l, width, y); },
+      [&](int j, int begin, int end, const double* from, std::ptrdiff_t stride) {
+        Forward& column = result[static_cast<std::size_t>(j)];
+        const int middle = std::clamp(interior, begin, end);
+        for (int i = begin; i < middle; ++i) column.z_interior[i] = from[i * stride];
+        for (int i = middle; i < end; ++i) column.g[i - interior] = from[i * stride];
+      });
   return result;
 }
 
-Eigen::VectorXd SubdomainFactor::recover(const Eigen::VectorXd& z_interior,
-                                         const Eigen::VectorXd& trace_values) const {
-  if (!_factor) {
-    return {};
+std::vector<Eigen::VectorXd> SubdomainFactor::recover(std::span<const Backward> columns) const {
+  const Eigen::Index rows = _interior + trace();
+  std::vector<Eigen::VectorXd> u(columns.size(), Eigen::VectorXd(_factor ? rows : 0));
+  if (!_factor || columns.empty()) {
+    return u;
   }
-  Eigen::VectorXd ordered(_interior + trace()), u(ordered.size());
-  ordered << z_interior, trace_values;
-  backward_solve(_factor->l, ordered.data());
-  const Eigen::Map<const Eigen::VectorXi> permutation(
-      static_cast<const int*>(_factor->analysis->Perm), ordered.size());
-  u(permutation) = ordered;
+  const int* permutation = static_cast<const int*>(_factor->analysis->Perm);
+  const auto interior = static_cast<int>(_interior);
+  in_blocks(
+      static_cast<int>(rows), static_cast<int>(columns.size()),
+      [&](int j, int begin, int end, double* to, std::ptrdiff_t stride) {
+        const auto& [z_interior, trace_values] = columns[static_cast<std::size_t>(j)];
+        const int middle = std::clamp(interior, begin, end);
+        for (int i = begin; i < middle; ++i) to[i * stride] = z_interior[i];
+        for (int i = middle; i < end; ++i) to[i * stride] = trace_values[i - interior];
+      },
+      [&](int width, double* y) { backward_solve(_factor->l, width, y); },
+      [&](int j, int begin, int end, const double* from, std::ptrdiff_t stride) {
+        Eigen::VectorXd& to = u[static_cast<std::size_t>(j)];
+        for (int i = begin; i < end; ++i) to[permutation[i]] = from[i * stride];
+      });
   return u;
 }
 

@@ -44,9 +44,15 @@ class SubdomainFactor {
   /// column do not depend on the others.
   std::vector<Forward> forward(const Eigen::Ref<const Eigen::MatrixXd>& f) const;
 
-  /// u with trace t and interior K_II^-1 (f_I - K_IG t), f the load of `z_interior`: one backward
-  /// solve of L_II' x = z_I - L_GI' t, O(nnz(L)). Shape (interior + trace).
-  Eigen::VectorXd recover(const Eigen::VectorXd& z_interior, const Eigen::VectorXd& trace) const;
+  struct Backward {
+    const Eigen::VectorXd& z_interior;  ///< of forward()
+    Eigen::Ref<const Eigen::VectorXd> trace;
+  };
+  /// Of each column u with trace t and interior K_II^-1 (f_I - K_IG t), f the load of `z_interior`:
+  /// a backward solve of L_II' x = z_I - L_GI' t, O(nnz(L)) each, up to 32 together
+  /// (backward_solve.hpp). Shape (interior + trace). The bits of a column do not depend on the
+  /// others.
+  std::vector<Eigen::VectorXd> recover(std::span<const Backward> columns) const;
 
   /// S t, O(n_G^2).
   Eigen::VectorXd apply_schur(const Eigen::VectorXd& trace) const;

@@ -91,10 +91,18 @@ std::vector<CondensedLoad> SubdomainOperator::condense(
   return result;
 }
 
-Eigen::VectorXd SubdomainOperator::recover(const CondensedLoad& load,
-                                           const Eigen::VectorXd& trace) const {
-  Eigen::VectorXd u(_free_dirichlet.rows() + load.dirichlet.size());
-  u << _factor.recover(load.z_interior, trace), load.dirichlet;
+std::vector<Eigen::VectorXd> SubdomainOperator::recover(std::span<const Solved> cases) const {
+  std::vector<SubdomainFactor::Backward> columns;
+  columns.reserve(cases.size());
+  for (const Solved& solved : cases) {
+    columns.push_back({solved.load.z_interior, solved.trace});
+  }
+  std::vector<Eigen::VectorXd> u = _factor.recover(columns);
+  for (std::size_t j = 0; j < cases.size(); ++j) {
+    const Eigen::VectorXd& dirichlet = cases[j].load.dirichlet;
+    u[j].conservativeResize(u[j].size() + dirichlet.size());
+    u[j].tail(dirichlet.size()) = dirichlet;
+  }
   return u;
 }
 

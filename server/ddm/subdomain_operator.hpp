@@ -45,8 +45,13 @@ class SubdomainOperator {
   std::vector<CondensedLoad> condense(const Eigen::Ref<const Eigen::MatrixXd>& loads,
                                       const Eigen::Ref<const Eigen::MatrixXd>& dirichlet) const;
 
-  /// u on all nodes of the subdomain, in its numbering. One backward solve.
-  Eigen::VectorXd recover(const CondensedLoad& load, const Eigen::VectorXd& trace) const;
+  struct Solved {
+    const CondensedLoad& load;
+    Eigen::Ref<const Eigen::VectorXd> trace;
+  };
+  /// Of each load u on all nodes of the subdomain, in its numbering. One backward solve each, in
+  /// blocks. The bits of one do not depend on the others.
+  std::vector<Eigen::VectorXd> recover(std::span<const Solved> cases) const;
 
   const SubdomainFactor& factor() const noexcept { return _factor; }
   /// Null where a part of the subdomain floats: forces alone do not tell where it goes. Computed

@@ -124,6 +124,7 @@ CaseOutcome solved_case(const Task& task, contact::Answer answer,
   record->answer = without_arrays(answer);
   std::unique_ptr<SolvedCase> solved;
   if (record->status != CaseStatus::cancelled) {
+    answer.side_traces = {};
     solved = std::make_unique<SolvedCase>(SolvedCase{std::move(answer), std::move(history)});
   }
   return {std::move(record), std::move(solved)};

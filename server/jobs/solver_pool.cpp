@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "jobs/condensing.hpp"
+#include "jobs/exact_run.hpp"
 #include "jobs/job_start.hpp"
 
 namespace anticrack::jobs {
@@ -226,30 +227,17 @@ void SolverPool::solve_exactly(Lock& lock, const Mesh& mesh) {
       _core.deliver(lock, std::move(condensed.ended));
       continue;
     }
-    const PreparedCase prepared = std::move(mesh->prepared.front());
-    mesh->prepared.pop_front();
-    _core.schedule.unpark(mesh->id, Lane::active_set, prepared.task.job->spec->priority);
-    ++_core.columns;
+    const std::vector<PreparedCase> cases = take_together(mesh->prepared, _core.idle_solvers + 1);
+    for (const PreparedCase& prepared : cases) {
+      _core.schedule.unpark(mesh->id, Lane::active_set, prepared.task.job->spec->priority);
+    }
+    _core.columns += static_cast<int>(cases.size());
     lock.unlock();
-    std::vector<EndedCase> ended;
-    ended.push_back(solve(prepared));
+    std::vector<EndedCase> ended = jobs::solve_exactly(cases, _core.iterations);
     lock.lock();
-    --_core.columns;
+    _core.columns -= static_cast<int>(cases.size());
     _core.deliver(lock, std::move(ended));
   } while (!turn_is_over(*mesh, Lane::active_set, begin));
-}
-
-EndedCase SolverPool::solve(const PreparedCase& prepared) {
-  const Task& task = prepared.task;
-  try {
-    const store::JobSpec& spec = *task.job->spec;
-    Recorder recorder(task, _core.iterations);
-    contact::Answer answer =
-        task.job->mesh_operator->solve(prepared.load, spec.solver, spec.fields, recorder);
-    return {task, solved_case(task, std::move(answer), recorder.take_history())};
-  } catch (...) {
-    return {task, failed_case(task, std::current_exception())};
-  }
 }
 
 void SolverPool::sweep(Lock& lock, const Mesh& mesh) {

@@ -38,7 +38,6 @@ class SolverPool {
 
   void admit(Lock& lock, const Mesh& mesh, Lane lane, std::shared_ptr<BlockRun>& block);
   std::vector<EndedCase> step(Lock& lock, BlockRun& block);
-  EndedCase solve(const PreparedCase& prepared);
 
   /// Units of the most urgent jobs, which are started where they were not.
   std::vector<Task> take(Lock& lock, const Mesh& mesh, Lane lane, int room, int max_starts);

@@ -60,6 +60,12 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   contact::Answer solve(const PreparedLoad& load, const contact::SolverOptions& options,
                         bool fields, contact::Observer& observer) const;
 
+  /// Fills the fields of answers that `solve` gave without them, answers[i] from loads[i]: backward
+  /// solves in blocks of columns, the same bits as one by one. Throws errors::Error (internal) for
+  /// loads that have none, limit_exceeded without memory.
+  void recover_fields(std::span<const PreparedLoad* const> loads,
+                      std::span<contact::Answer* const> answers) const;
+
   /// Condenses loads whose combinations are to be solved: O(N) each and O(n_G^2 + N m) for what
   /// pairs of them say of the energy; N m numbers meanwhile. The last few bases are kept
   /// (BasisCache): loads that are the same but for their names, arrays by the hash of their upload,

@@ -79,4 +79,15 @@ contact::Answer MeshOperator::solve(const PreparedLoad& load, const contact::Sol
   return answer;
 }
 
+void MeshOperator::recover_fields(std::span<const PreparedLoad* const> loads,
+                                  std::span<contact::Answer* const> answers) const {
+  std::vector<contact::SolvedCase> cases;
+  cases.reserve(loads.size());
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    require_prepared(*loads[i], true);
+    cases.push_back({loads[i]->_data->condensed.subdomains, *answers[i]});
+  }
+  contact::recover_fields(_parts->problem, cases);
+}
+
 }  // namespace anticrack::operators

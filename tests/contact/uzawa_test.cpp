@@ -7,6 +7,7 @@
 
 #include "contact/membrane.hpp"
 #include "support/plain_stiffness.hpp"
+#include "support/recovered.hpp"
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::contact {
@@ -65,7 +66,8 @@ TEST(Uzawa, CriterionAndEnergyAreThoseOfTheFieldsWithPrescribedValues) {
       const ddm::Subdomain& subdomain = membrane.space.decomposition.subdomains[s];
       const Eigen::SparseMatrix<double> stiffness =
           anticrack::testing::plain_stiffness(subdomain.part);
-      const Eigen::VectorXd u = membrane.space.operators[s].recover(loads[s], uzawa.trace(0, s));
+      const Eigen::VectorXd u =
+          anticrack::testing::recovered(membrane.space.operators[s], loads[s], uzawa.trace(0, s));
       const double norm = u.dot(stiffness * u);
       energy += norm / 2 - u.dot(fem::load_vector(subdomain.part, force, subdomain.name));
       if (k > 1) {

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <ostream>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "ddm/backward_solve.hpp"
@@ -94,11 +96,43 @@ MatrixXd expected(const MatrixXd& l, int columns, MatrixXd y) {
   return y;
 }
 
-TEST(ForwardSolve, StopsAtItsLastColumnWithEveryKernel) {
-  for (const auto instructions :
-       {Instructions::baseline, Instructions::avx2, Instructions::avx512}) {
-    const ForwardKernel kernel = forward_kernel(instructions);
-    if (kernel == nullptr) continue;
+/// y_I <- L_II'^-1 (y_I - L_GI' y_G).
+MatrixXd expected_backward(const MatrixXd& l, int columns, MatrixXd y) {
+  const auto rest = l.rows() - columns;
+  if (columns > 0) {
+    y.topRows(columns) -= l.bottomLeftCorner(rest, columns).transpose() * y.bottomRows(rest);
+    l.topLeftCorner(columns, columns)
+        .triangularView<Eigen::Lower>()
+        .transpose()
+        .solveInPlace(y.topRows(columns));
+  }
+  return y;
+}
+
+struct Substitution {
+  const char* name;
+  ForwardKernel (*kernel)(Instructions);
+  MatrixXd (*expected)(const MatrixXd& l, int columns, MatrixXd y);
+};
+
+void PrintTo(const Substitution& substitution, std::ostream* out) {
+  *out << substitution.name;
+}
+
+class Substitutions : public ::testing::TestWithParam<Substitution> {
+ protected:
+  static std::vector<ForwardKernel> kernels() {
+    std::vector<ForwardKernel> result;
+    for (const auto instructions :
+         {Instructions::baseline, Instructions::avx2, Instructions::avx512}) {
+      if (const ForwardKernel kernel = GetParam().kernel(instructions)) result.push_back(kernel);
+    }
+    return result;
+  }
+};
+
+TEST_P(Substitutions, StopAtTheLastColumnWithEveryKernel) {
+  for (const ForwardKernel kernel : kernels()) {
     for (const int widest : {1, 3, 40}) {
       const int size = 150;
       const RandomFactor factor(size, widest, 7);
@@ -106,53 +140,21 @@ TEST(ForwardSolve, StopsAtItsLastColumnWithEveryKernel) {
         for (const int width : {1, 8, 16, 24, 32}) {
           std::srand(1);
           const MatrixXd f = MatrixXd::Random(size, width);
-          const MatrixXd wanted = expected(factor.dense, columns, f);
+          const MatrixXd wanted = GetParam().expected(factor.dense, columns, f);
           const MatrixXd got = solve(kernel, factor.first_columns(columns), f, width);
           EXPECT_LT((got - wanted).cwiseAbs().maxCoeff(), 1e-12 * wanted.cwiseAbs().maxCoeff())
-              << static_cast<int>(instructions) << ' ' << widest << ' ' << columns << ' ' << width;
+              << widest << ' ' << columns << ' ' << width;
         }
       }
     }
   }
 }
 
-TEST(BackwardSolve, StopsAtItsLastColumnWithEveryKernel) {
-  for (const auto instructions :
-       {Instructions::baseline, Instructions::avx2, Instructions::avx512}) {
-    const BackwardKernel kernel = backward_kernel(instructions);
-    if (kernel == nullptr) continue;
-    for (const int widest : {1, 3, 40}) {
-      const int size = 150;
-      const RandomFactor factor(size, widest, 7);
-      for (const int columns : {0, 1, 77, 149, 150}) {  // also in the middle of a supernode
-        std::srand(1);
-        const Eigen::VectorXd z = Eigen::VectorXd::Random(size);
-        Eigen::VectorXd wanted = z, got = z;
-        const auto rest = size - columns;
-        wanted.head(columns) -=
-            factor.dense.bottomLeftCorner(rest, columns).transpose() * z.tail(rest);
-        if (columns > 0) {
-          factor.dense.topLeftCorner(columns, columns)
-              .triangularView<Eigen::Lower>()
-              .transpose()
-              .solveInPlace(wanted.head(columns));
-        }
-        kernel(factor.first_columns(columns), got.data());
-        EXPECT_LT((got - wanted).cwiseAbs().maxCoeff(), 1e-12 * wanted.cwiseAbs().maxCoeff())
-            << static_cast<int>(instructions) << ' ' << widest << ' ' << columns;
-      }
-    }
-  }
-}
-
-TEST(ForwardSolve, GivesAColumnTheSameBitsInAnyCompany) {
+TEST_P(Substitutions, GiveAColumnTheSameBitsInAnyCompany) {
   const RandomFactor factor(300, 30, 3);
   const Supernodes l = factor.first_columns(251);
   const MatrixXd f = MatrixXd::Random(300, 32);
-  for (const auto instructions :
-       {Instructions::baseline, Instructions::avx2, Instructions::avx512}) {
-    const ForwardKernel kernel = forward_kernel(instructions);
-    if (kernel == nullptr) continue;
+  for (const ForwardKernel kernel : kernels()) {
     for (const int width : {8, 16, 24, 32}) {
       const MatrixXd together = solve(kernel, l, f.leftCols(width), width);
       for (int j = 0; j < width; ++j) {
@@ -161,6 +163,12 @@ TEST(ForwardSolve, GivesAColumnTheSameBitsInAnyCompany) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Both, Substitutions,
+                         ::testing::Values(Substitution{"forward", forward_kernel, expected},
+                                           Substitution{"backward", backward_kernel,
+                                                        expected_backward}),
+                         [](const auto& both) { return std::string(both.param.name); });
 
 }  // namespace
 }  // namespace anticrack::ddm

@@ -97,6 +97,34 @@ TEST(PreparedLoad, FortyAtOnceAreWhatEachIsAlone) {
   }
 }
 
+TEST(PreparedLoad, FieldsOfFortyAtOnceAreThoseOfEachAlone) {
+  const Operator op = factorised();
+  std::vector<fem::Load> loads;
+  for (int i = 0; i < 40; ++i) {
+    loads.push_back(load_number(i));
+  }
+  const std::vector<Outcome> prepared = prepare(*op, loads);
+  Silent observer;
+  std::vector<contact::Answer> answers;
+  for (const Outcome& one : prepared) {
+    answers.push_back(
+        op->solve(std::get<PreparedLoad>(one), contact::ActiveSetOptions(), false, observer));
+    EXPECT_TRUE(answers.back().fields.empty());
+  }
+  std::vector<const PreparedLoad*> of;
+  std::vector<contact::Answer*> to;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    of.push_back(&std::get<PreparedLoad>(prepared[i]));
+    to.push_back(&answers[i]);
+  }
+  op->recover_fields(of, to);
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const contact::Answer alone = op->solve(loads[i], contact::ActiveSetOptions(), true, observer);
+    ASSERT_EQ(answers[i].fields.size(), 2U);
+    EXPECT_EQ(difference(answers[i], alone), 0) << i;
+  }
+}
+
 TEST(PreparedLoad, WhatIsWrongWithOneIsNobodyElses) {
   const Operator op = factorised();
   std::vector<fem::Load> loads(6);

@@ -71,13 +71,14 @@ auto fields(Struct& value) {
   return std::tie(upload, per_triangle);
 }
 
-/// And no traces, fields and closed contacts of an answer.
+/// And no traces, side traces, fields and closed contacts of an answer.
 template <class Struct>
 requires std::is_same_v<std::remove_const_t<Struct>, contact::Answer>
 auto fields(Struct& value) {
-  auto& [a, b, c, d, e, f, g, h, i, j, closed, k, l, m, n, traces, arrays] = value;
+  auto& [a, b, c, d, e, f, g, h, i, j, closed, k, l, m, n, traces, sides, arrays] = value;
   static_cast<void>(closed);
   static_cast<void>(traces);
+  static_cast<void>(sides);
   static_cast<void>(arrays);
   return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
 }

@@ -103,7 +103,9 @@ def _limits(limits, clock):
               ["backward solve", number(median(solves["backward"], clock)) + " s"],
               [f"forward solve, a column of {solves['columns']:.0f}",
                number(median(solves["forward_per_column"], clock)) + " s"],
-              ["the same as a part of dgemm's rate",
+              [f"backward solve, a column of {solves['columns']:.0f}",
+               number(median(solves["backward_per_column"], clock)) + " s"],
+              ["forward solves of a block as a part of dgemm's rate",
                f"{rate * median(limits['dgemm'][0]['per_flop'], clock):.0%}"]]
     return _grid(["limit", ""], lines)
 

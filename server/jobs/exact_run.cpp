@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/exact_run.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+namespace anticrack::jobs {
+
+namespace {
+
+/// A case on its way to its end.
+struct Solved {
+  contact::Answer answer;
+  std::vector<contact::Sample> history;
+  std::exception_ptr failure;
+};
+
+const store::JobSpec& spec_of(const PreparedCase& prepared) {
+  return *prepared.task.job->spec;
+}
+
+Solved solve(const PreparedCase& prepared, std::atomic<std::uint64_t>& iterations) {
+  Solved solved;
+  try {
+    Recorder recorder(prepared.task, iterations);
+    solved.answer = prepared.task.job->mesh_operator->solve(prepared.load, spec_of(prepared).solver,
+                                                            false, recorder);
+    solved.history = recorder.take_history();
+  } catch (...) {
+    solved.failure = std::current_exception();
+  }
+  return solved;
+}
+
+void recover_fields(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
+  std::vector<const operators::PreparedLoad*> loads;
+  std::vector<contact::Answer*> answers;
+  std::vector<std::exception_ptr*> failures;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (spec_of(cases[i]).fields && !solved[i].failure &&
+        solved[i].answer.status != contact::Status::cancelled) {
+      loads.push_back(&cases[i].load);
+      answers.push_back(&solved[i].answer);
+      failures.push_back(&solved[i].failure);
+    }
+  }
+  if (loads.empty()) {
+    return;
+  }
+  try {
+    cases.front().task.job->mesh_operator->recover_fields(loads, answers);
+  } catch (...) {  // no memory: nobody's fault, everybody's end
+    for (std::exception_ptr* failure : failures) {
+      *failure = std::current_exception();
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<PreparedCase> take_together(std::deque<PreparedCase>& prepared, int share) {
+  const std::size_t most =
+      (prepared.size() + static_cast<std::size_t>(share) - 1) / static_cast<std::size_t>(share);
+  std::vector<PreparedCase> cases;
+  do {
+    cases.push_back(std::move(prepared.front()));
+    prepared.pop_front();
+  } while (cases.size() < most && spec_of(cases.back()).fields && spec_of(prepared.front()).fields);
+  return cases;
+}
+
+std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases,
+                                     std::atomic<std::uint64_t>& iterations) {
+  std::vector<Solved> solved;
+  solved.reserve(cases.size());
+  for (const PreparedCase& prepared : cases) {
+    solved.push_back(solve(prepared, iterations));
+  }
+  recover_fields(cases, solved);
+  std::vector<EndedCase> ended;
+  ended.reserve(cases.size());
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Task& task = cases[i].task;
+    try {
+      ended.push_back({task, solved[i].failure ? failed_case(task, solved[i].failure)
+                                               : solved_case(task, std::move(solved[i].answer),
+                                                             std::move(solved[i].history))});
+    } catch (...) {
+      ended.push_back({task, failed_case(task, std::current_exception())});
+    }
+  }
+  return ended;
+}
+
+}  // namespace anticrack::jobs
