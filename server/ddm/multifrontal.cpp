@@ -4,11 +4,17 @@
 #include <cblas.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <exception>
 #include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "ddm/front_kernel.hpp"
+#include "ddm/subtrees.hpp"
 #include "errors/errors.hpp"
 
 extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
@@ -85,6 +91,45 @@ struct Update {
   int next = -1;  ///< another child of the same parent
 };
 
+/// A front at work, and where rows are in it.
+struct Front {
+  explicit Front(std::size_t unknowns) : place(unknowns) {}
+
+  /// Where the rows of a child's update are.
+  void find_places(const Update& child) {
+    relative.resize(at(child.size));
+    for (int i = 0; i < child.size; ++i) {
+      const int found = place[at(child.row[i])];
+      if (found >= height || rows[found] != child.row[i]) {
+        throw errors::Error(errors::Reason::internal,
+                            "the pattern of a factor lacks a row of one of its children");
+      }
+      relative[at(i)] = found;
+    }
+  }
+
+  /// Of the child whose places were found last: rows among the first `own` of the front.
+  int columns_before(int own) const {
+    return static_cast<int>(std::lower_bound(relative.begin(), relative.end(), own) -
+                            relative.begin());
+  }
+
+  /// Its columns [from, to) into the columns of the front that `target` gives.
+  template <class Target>
+  void add(const Update& child, int from, int to, int shift, const Target& target) const {
+    for (int j = from; j < to; ++j) {
+      const double* source = child.values.get() + std::ptrdiff_t{j} * child.size;
+      double* column = target(relative[at(j)]) - shift;
+      for (int i = j; i < child.size; ++i) column[relative[at(i)]] += source[i];
+    }
+  }
+
+  const int* rows = nullptr;
+  int height = 0;
+  std::vector<int> place;     // of each unknown that has a row in it
+  std::vector<int> relative;  // of each row of a child
+};
+
 class Elimination {
  public:
   Elimination(const Supernodes& pattern, Columns columns, double* values, Eigen::MatrixXd& schur)
@@ -92,8 +137,7 @@ class Elimination {
         _columns(std::move(columns)),
         _values(values),
         _schur(schur),
-        _supernode(at(pattern.columns)),
-        _place(at(pattern.columns + static_cast<int>(schur.rows()))) {
+        _supernode(at(pattern.columns)) {
     while (_count < pattern.count && pattern.super[_count] < pattern.columns) {
       const int end = std::min(pattern.super[_count + 1], pattern.columns);
       for (int j = pattern.super[_count]; j < end; ++j) _supernode[at(j)] = _count;
@@ -103,91 +147,121 @@ class Elimination {
     _child.assign(at(_count), -1);
   }
 
-  bool run() {
+  bool run(int threads) {
+    const Subtrees subtrees =
+        threads > 1 ? part(tree(), threads) : Subtrees{{}, std::vector<int>(at(_count), -1)};
+    if (!run(subtrees, threads)) return false;
+    // Updates are passed on in the order of one thread: so are sums formed, and their bits.
+    Front front = new_front();
     for (int s = 0; s < _count; ++s) {
-      if (!eliminate(s)) return false;
+      const int root = subtrees.root[at(s)];
+      if (root < 0 && !eliminate(s, front)) return false;
+      if ((root < 0 || root == s) && _update[at(s)].size > 0) pass_on(s);
     }
     return true;
   }
 
  private:
-  /// Where the rows of a child's update are in the front at work.
-  void find_places(const Update& child) {
-    _relative.resize(at(child.size));
-    for (int i = 0; i < child.size; ++i) {
-      const int place = _place[at(child.row[i])];
-      if (place >= _height || _rows[place] != child.row[i]) {
-        throw errors::Error(errors::Reason::internal,
-                            "the pattern of a factor lacks a row of one of its children");
+  Front new_front() const {
+    return Front(at(_pattern.columns) + static_cast<std::size_t>(_schur.rows()));
+  }
+  int own(int s) const {
+    return std::min(_pattern.super[s + 1], _pattern.columns) - _pattern.super[s];
+  }
+  int height(int s) const { return _pattern.row_begin[s + 1] - _pattern.row_begin[s]; }
+
+  EliminationTree tree() const {
+    EliminationTree result{std::vector<int>(at(_count), -1), std::vector<double>(at(_count))};
+    for (int s = 0; s < _count; ++s) {
+      result.work[at(s)] = double(own(s)) * height(s) * height(s);
+      if (own(s) == height(s)) continue;
+      const int next = _pattern.rows[_pattern.row_begin[s] + own(s)];
+      if (next < _pattern.columns) result.parent[at(s)] = _supernode[at(next)];
+    }
+    return result;
+  }
+
+  /// The subtrees, on as many threads; false where one is not positive definite.
+  bool run(const Subtrees& subtrees, int threads) {
+    std::atomic<std::size_t> next{0};
+    std::atomic<bool> definite{true};
+    std::mutex mutex;
+    std::exception_ptr failure;
+    const auto work = [&] {
+      try {
+        Front front = new_front();
+        for (std::size_t t = next++; t < subtrees.nodes.size() && definite; t = next++) {
+          for (const int s : subtrees.nodes[t]) {
+            if (!eliminate(s, front)) {
+              definite = false;
+              break;
+            }
+            if (subtrees.root[at(s)] != s && _update[at(s)].size > 0) pass_on(s);
+          }
+        }
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        failure = failure ? failure : std::current_exception();
+        next = subtrees.nodes.size();
       }
-      _relative[at(i)] = place;
+    };
+    if (!subtrees.nodes.empty()) {
+      std::vector<std::jthread> helpers;
+      for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
+      work();
     }
+    if (failure) std::rethrow_exception(failure);
+    return definite;
   }
 
-  /// Columns [from, to) of a child into the columns of the front that `target` gives.
-  template <class Target>
-  void add(const Update& child, int from, int to, int shift, const Target& target) {
-    for (int j = from; j < to; ++j) {
-      const double* source = child.values.get() + std::ptrdiff_t{j} * child.size;
-      double* column = target(_relative[at(j)]) - shift;
-      for (int i = j; i < child.size; ++i) column[_relative[at(i)]] += source[i];
-    }
-  }
-
-  bool eliminate(int s) {
-    const int first = _pattern.super[s];
-    const int own = std::min(_pattern.super[s + 1], _pattern.columns) - first;
-    _rows = _pattern.rows + _pattern.row_begin[s];
-    _height = _pattern.row_begin[s + 1] - _pattern.row_begin[s];
-    const int rest = _height - own;
+  /// Leaves in _update what is left of it. On one thread with its children, or after them.
+  bool eliminate(int s, Front& front) {
+    const int first = _pattern.super[s], columns = own(s);
+    front.rows = _pattern.rows + _pattern.row_begin[s];
+    front.height = height(s);
+    const int rest = front.height - columns;
     double* panel = _values + _pattern.value_begin[s];
-    std::fill_n(panel, std::ptrdiff_t{own} * _height, 0.0);
-    for (int i = 0; i < _height; ++i) _place[at(_rows[i])] = i;
-    for (int j = 0; j < own; ++j) {
-      double* column = panel + std::ptrdiff_t{j} * _height;
+    std::fill_n(panel, std::ptrdiff_t{columns} * front.height, 0.0);
+    for (int i = 0; i < front.height; ++i) front.place[at(front.rows[i])] = i;
+    for (int j = 0; j < columns; ++j) {
+      double* column = panel + std::ptrdiff_t{j} * front.height;
       for (int e = _columns.begin[at(first + j)]; e < _columns.begin[at(first + j) + 1]; ++e) {
-        column[_place[at(_columns.row[at(e)])]] += _columns.value[at(e)];
+        column[front.place[at(_columns.row[at(e)])]] += _columns.value[at(e)];
       }
     }
     // How many columns of each child are eliminated here; the others wait for the update.
     for (int c = _child[at(s)]; c >= 0; c = _update[at(c)].next) {
       const Update& child = _update[at(c)];
-      find_places(child);
-      add(child, 0, columns_before(own), 0,
-          [&](int column) { return panel + std::ptrdiff_t{column} * _height; });
+      front.find_places(child);
+      front.add(child, 0, front.columns_before(columns), 0,
+                [&](int column) { return panel + std::ptrdiff_t{column} * front.height; });
     }
     // Often the last front has all of G below it: what is left of it needs no room of its own.
-    const bool onto_schur =
-        rest == static_cast<int>(_schur.rows()) && rest > 0 && _rows[own] >= _pattern.columns;
-    Update left{{}, _rows + own, rest, -1};
+    const bool onto_schur = rest == static_cast<int>(_schur.rows()) && rest > 0 &&
+                            front.rows[columns] >= _pattern.columns;
+    Update left{{}, front.rows + columns, rest, -1};
     if (!onto_schur) left.values.reset(new double[at(rest) * at(rest)]);
     double* update = onto_schur ? _schur.data() : left.values.get();
-    if (!eliminate_front(own, _height, panel, update, onto_schur)) return false;
+    if (!eliminate_front(columns, front.height, panel, update, onto_schur)) return false;
     for (int c = _child[at(s)]; c >= 0; c = _update[at(c)].next) {
       Update& child = _update[at(c)];
-      find_places(child);
-      add(child, columns_before(own), child.size, own,
-          [&](int column) { return update + std::ptrdiff_t{column - own} * rest; });
+      front.find_places(child);
+      front.add(child, front.columns_before(columns), child.size, columns,
+                [&](int column) { return update + std::ptrdiff_t{column - columns} * rest; });
       child.values.reset();
     }
-    if (rest > 0 && !onto_schur) pass_on(s, std::move(left));
+    if (!onto_schur) _update[at(s)] = std::move(left);
     return true;
   }
 
-  /// Of the child whose places were found last.
-  int columns_before(int own) const {
-    return static_cast<int>(std::lower_bound(_relative.begin(), _relative.end(), own) -
-                            _relative.begin());
-  }
-
   /// To the parent, or to S if no interior unknown is left.
-  void pass_on(int s, Update update) {
+  void pass_on(int s) {
     const int interior = _pattern.columns;
+    Update& update = _update[at(s)];
     if (*update.row < interior) {
       int& siblings = _child[at(_supernode[at(*update.row)])];
       update.next = siblings;
       siblings = s;
-      _update[at(s)] = std::move(update);
       return;
     }
     for (int j = 0; j < update.size; ++j) {
@@ -195,6 +269,7 @@ class Elimination {
       const double* source = update.values.get() + std::ptrdiff_t{j} * update.size;
       for (int i = j; i < update.size; ++i) column[update.row[i]] += source[i];
     }
+    update.values.reset();
   }
 
   const Supernodes& _pattern;
@@ -203,13 +278,8 @@ class Elimination {
   Eigen::MatrixXd& _schur;
   int _count = 0;               // supernodes with interior columns
   std::vector<int> _supernode;  // of each interior column
-  std::vector<int> _child;      // of each supernode, the last one done, or -1
+  std::vector<int> _child;      // of each supernode, the last one passed on, or -1
   std::vector<Update> _update;  // of each supernode, until its parent has taken it
-  // Of the front at work:
-  const int* _rows = nullptr;
-  int _height = 0;
-  std::vector<int> _place;     // of each unknown that has a row in it
-  std::vector<int> _relative;  // of each row of a child
 };
 
 }  // namespace
@@ -237,9 +307,9 @@ bool eliminate_front(int columns, int height, double* panel, double* update, boo
 }
 
 bool eliminate_interior(const Supernodes& pattern, const int* permutation, const Sparse& stiffness,
-                        double* values, Eigen::MatrixXd& schur) {
+                        double* values, Eigen::MatrixXd& schur, int threads) {
   Columns columns = permuted(stiffness, permutation, pattern.columns, schur);
-  if (!Elimination(pattern, std::move(columns), values, schur).run()) return false;
+  if (!Elimination(pattern, std::move(columns), values, schur).run(threads)) return false;
   schur.triangularView<Eigen::StrictlyUpper>() = schur.transpose();
   return true;
 }

@@ -26,11 +26,12 @@ namespace anticrack::ddm {
 /// `stiffness`: K, of which the lower triangle is read. `values`: of L_II and
 /// L_GI, where the pattern says, not initialised. `schur`: S, (n_G,n_G), overwritten. Returns false
 /// where K_II is not positive definite to rounding. Throws errors::Error (internal) for another
-/// pattern. The same bits for the same input. Memory: that of the fronts that wait for their
+/// pattern. Independent subtrees of the elimination tree go on `threads` threads at once; the same
+/// bits for the same input, whatever their number. Memory: that of the fronts that wait for their
 /// parent, O(n) for planar graphs cut by nested dissection, and 12 bytes an entry of K.
 bool eliminate_interior(const Supernodes& pattern, const int* permutation,
                         const Eigen::SparseMatrix<double>& stiffness, double* values,
-                        Eigen::MatrixXd& schur);
+                        Eigen::MatrixXd& schur, int threads);
 
 /// Of a front [A .; B C], A its first `columns`, `panel` being [A; B], column-major with `height`
 /// rows: A = LL', B <- B L'^-1, `update` = -BB', or with `add` update <- update - BB', its lower

@@ -144,7 +144,7 @@ Eigen::Index columns_at_once(Eigen::Index rows) noexcept {
 }
 
 SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior,
-                                 std::span<const std::int32_t> order)
+                                 std::span<const std::int32_t> order, int threads)
     : _interior(interior) {
   if (stiffness.rows() == 0) {
     return;  // u is prescribed in every node; CHOLMOD refuses empty matrices
@@ -158,7 +158,7 @@ SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior,
   factor->values = make_values(value_count(factor->l));
   factor->l.values = factor->values.get();
   if (!eliminate_interior(factor->l, static_cast<const int*>(factor->analysis->Perm), stiffness,
-                          factor->values.get(), _schur)) {
+                          factor->values.get(), _schur, threads)) {
     throw errors::Error(
         errors::Reason::numerical,
         "the stiffness matrix is not positive definite in the factorisation of a "

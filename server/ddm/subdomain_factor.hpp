@@ -31,7 +31,7 @@ class SubdomainFactor {
   /// CHOLMOD's analysis, then the multifrontal method (multifrontal.hpp). Throws errors::Error
   /// (numerical when K_II is not positive definite, limit_exceeded without memory).
   SubdomainFactor(const Eigen::SparseMatrix<double>& stiffness, Eigen::Index interior,
-                  std::span<const std::int32_t> order);
+                  std::span<const std::int32_t> order, int threads = 1);
   ~SubdomainFactor();
   SubdomainFactor(SubdomainFactor&&) noexcept;
   SubdomainFactor& operator=(SubdomainFactor&&) noexcept;

@@ -23,13 +23,16 @@ std::size_t bytes_of(const Eigen::SparseMatrix<double>& matrix) {
 
 }  // namespace
 
-SubdomainOperator::SubdomainOperator(const Subdomain& subdomain)
-    : SubdomainOperator(
-          subdomain, fem::stiffness(subdomain.part, subdomain.tension, index(subdomain.free()))) {}
+SubdomainOperator::SubdomainOperator(const Subdomain& subdomain, int threads)
+    : SubdomainOperator(subdomain,
+                        fem::stiffness(subdomain.part, subdomain.tension, index(subdomain.free())),
+                        threads) {}
 
-SubdomainOperator::SubdomainOperator(const Subdomain& subdomain, const fem::Stiffness& stiffness)
+SubdomainOperator::SubdomainOperator(const Subdomain& subdomain, const fem::Stiffness& stiffness,
+                                     int threads)
     : _factor(stiffness.free, index(subdomain.interior),
-              elimination_order(stiffness.free, index(subdomain.interior), subdomain.part.xy)),
+              elimination_order(stiffness.free, index(subdomain.interior), subdomain.part.xy),
+              threads),
       _free_dirichlet(stiffness.free_dirichlet),
       _dirichlet_dirichlet(stiffness.dirichlet),
       _floats(!subdomain.floating.empty()),

@@ -38,7 +38,7 @@ struct CondensedLoad {
 class SubdomainOperator {
  public:
   /// Throws errors::Error as SubdomainFactor does.
-  explicit SubdomainOperator(const Subdomain& subdomain);
+  explicit SubdomainOperator(const Subdomain& subdomain, int threads = 1);
 
   /// A load a column. `loads`: int f phi_i for all nodes of the subdomain; `dirichlet`: g_D in its
   /// Dirichlet nodes. One forward solve each, two where g_D is not zero, in blocks.
@@ -62,7 +62,7 @@ class SubdomainOperator {
   std::size_t bytes() const noexcept;
 
  private:
-  SubdomainOperator(const Subdomain& subdomain, const fem::Stiffness& stiffness);
+  SubdomainOperator(const Subdomain& subdomain, const fem::Stiffness& stiffness, int threads);
 
   SubdomainFactor _factor;
   Eigen::SparseMatrix<double> _free_dirichlet;       // [K_ID; K_GD]

@@ -23,18 +23,20 @@ void require_running(const std::stop_token& stop) {
   }
 }
 
-/// One subdomain after the other from a common counter on each of `threads` threads.
+/// One subdomain after the other from a common counter on each of as many threads.
 std::vector<ddm::SubdomainOperator> factorise_subdomains(
     const std::vector<ddm::Subdomain>& subdomains, int threads, const std::stop_token& stop) {
   std::vector<std::optional<ddm::SubdomainOperator>> done(subdomains.size());
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
   std::exception_ptr failure;
+  // Where subdomains are fewer than threads, several share one.
+  const int each = std::max(1, threads / static_cast<int>(subdomains.size()));
   const auto work = [&] {
     for (std::size_t s = next++; s < subdomains.size(); s = next++) {
       try {
         require_running(stop);
-        done[s].emplace(subdomains[s]);
+        done[s].emplace(subdomains[s], each);
       } catch (...) {
         const std::lock_guard lock(mutex);
         failure = failure ? failure : std::current_exception();

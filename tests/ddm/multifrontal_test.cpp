@@ -116,8 +116,11 @@ TEST(Multifrontal, FactorIsThatOfASparseSolver) {
   EXPECT_LT((trace - u.tail(nx)).norm(), 1e-11 * u.norm());
   EXPECT_LT((anticrack::testing::recovered(factor, z, trace) - u).norm(), 1e-11 * u.norm());
   EXPECT_EQ(factor.schur(), factor.schur().transpose());
-  const SubdomainFactor again(lower, interior, elimination_order(lower, interior, xy));
-  EXPECT_EQ(again.schur(), factor.schur());
+  for (const int threads : {1, 2, 3, 8}) {
+    const SubdomainFactor again(lower, interior, elimination_order(lower, interior, xy), threads);
+    EXPECT_EQ(again.schur(), factor.schur()) << threads;
+    EXPECT_EQ(again.forward(f).front().z_interior, z) << threads;
+  }
 }
 
 }  // namespace
