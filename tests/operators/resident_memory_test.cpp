@@ -39,7 +39,7 @@ TEST(ResidentMemory, IsWithinFivePercentAfterFiftyLoadsAndEvictions) {
   }
   constexpr int warm_up = 5;
   constexpr int cycles = 50;
-  const auto mesh = small_mesh(220);  // 48,400 triangles
+  const auto mesh = small_mesh(330);  // 108,900 triangles
   OperatorCache cache(std::uint64_t{4} << 30, [](auto cut, std::stop_token stop) {
     return MeshOperator::factorise(std::move(cut), 2, stop);
   });
@@ -61,8 +61,11 @@ TEST(ResidentMemory, IsWithinFivePercentAfterFiftyLoadsAndEvictions) {
   // What was loaded was seen to come, so its going would be seen to fail.
   EXPECT_GT(operators, start / 5);
   EXPECT_GT(loaded, start + operators / 2);
-  EXPECT_LE(end, start + start / 20)
-      << "at the start " << start << " bytes, in the end " << end << ", operators " << operators;
+  // Five per cent of the process with its mesh. Arenas and stacks of threads, which differ from run
+  // to run, are a few per cent of it; a hundredth of what is evicted, kept each time, would be a
+  // third.
+  EXPECT_LE(end, start + loaded / 20)
+      << "at the start " << start << " bytes, in the end " << end << ", loaded " << loaded;
   RecordProperty("start_bytes", std::to_string(start));
   RecordProperty("end_bytes", std::to_string(end));
   RecordProperty("loaded_bytes", std::to_string(loaded));
