@@ -8,18 +8,8 @@ void backward_solve_avx2(const Supernodes& factor, int width, double* y);
 void backward_solve_avx512(const Supernodes& factor, int width, double* y);
 
 BackwardKernel backward_kernel(Instructions instructions) noexcept {
-  if (!has(instructions)) {
-    return nullptr;
-  }
-  switch (instructions) {
-    case Instructions::avx512:
-      return backward_solve_avx512;
-    case Instructions::avx2:
-      return backward_solve_avx2;
-    case Instructions::baseline:
-      break;
-  }
-  return backward_solve_baseline;
+  return version_for(instructions, backward_solve_baseline, backward_solve_avx2,
+                     backward_solve_avx512);
 }
 
 void backward_solve(const Supernodes& factor, int width, double* y) {

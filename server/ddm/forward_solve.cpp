@@ -8,18 +8,8 @@ void forward_solve_avx2(const Supernodes& factor, int width, double* y);
 void forward_solve_avx512(const Supernodes& factor, int width, double* y);
 
 ForwardKernel forward_kernel(Instructions instructions) noexcept {
-  if (!has(instructions)) {
-    return nullptr;
-  }
-  switch (instructions) {
-    case Instructions::avx512:
-      return forward_solve_avx512;
-    case Instructions::avx2:
-      return forward_solve_avx2;
-    case Instructions::baseline:
-      break;
-  }
-  return forward_solve_baseline;
+  return version_for(instructions, forward_solve_baseline, forward_solve_avx2,
+                     forward_solve_avx512);
 }
 
 void forward_solve(const Supernodes& factor, int width, double* y) {

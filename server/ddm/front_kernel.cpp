@@ -9,18 +9,8 @@ bool eliminate_small_front_avx2(int columns, int height, double* panel, double* 
 bool eliminate_small_front_avx512(int columns, int height, double* panel, double* update, bool add);
 
 FrontKernel front_kernel(Instructions instructions) noexcept {
-  if (!has(instructions)) {
-    return nullptr;
-  }
-  switch (instructions) {
-    case Instructions::avx512:
-      return eliminate_small_front_avx512;
-    case Instructions::avx2:
-      return eliminate_small_front_avx2;
-    case Instructions::baseline:
-      break;
-  }
-  return eliminate_small_front_baseline;
+  return version_for(instructions, eliminate_small_front_baseline, eliminate_small_front_avx2,
+                     eliminate_small_front_avx512);
 }
 
 bool eliminate_small_front(int columns, int height, double* panel, double* update, bool add) {

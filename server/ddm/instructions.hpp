@@ -13,4 +13,14 @@ bool has(Instructions instructions) noexcept;
 /// The last that it has.
 Instructions best_instructions() noexcept;
 
+/// That of a function's versions that is compiled for the instructions; null where the processor
+/// does not have them.
+template <class Function>
+Function* version_for(Instructions instructions, Function* baseline, Function* avx2,
+                      Function* avx512) noexcept {
+  if (!has(instructions)) return nullptr;
+  if (instructions == Instructions::baseline) return baseline;
+  return instructions == Instructions::avx2 ? avx2 : avx512;
+}
+
 }  // namespace anticrack::ddm

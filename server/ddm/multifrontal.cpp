@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <exception>
 #include <memory>
-#include <mutex>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "ddm/at_once.hpp"
 #include "ddm/front_kernel.hpp"
 #include "ddm/subtrees.hpp"
 #include "errors/errors.hpp"
@@ -183,34 +181,19 @@ class Elimination {
 
   /// The subtrees, on as many threads; false where one is not positive definite.
   bool run(const Subtrees& subtrees, int threads) {
-    std::atomic<std::size_t> next{0};
     std::atomic<bool> definite{true};
-    std::mutex mutex;
-    std::exception_ptr failure;
-    const auto work = [&] {
-      try {
-        Front front = new_front();
-        for (std::size_t t = next++; t < subtrees.nodes.size() && definite; t = next++) {
-          for (const int s : subtrees.nodes[t]) {
-            if (!eliminate(s, front)) {
-              definite = false;
-              break;
-            }
-            if (subtrees.root[at(s)] != s && _update[at(s)].size > 0) pass_on(s);
+    at_once(subtrees.nodes.size(), threads, [&] {
+      return [&, front = new_front()](std::size_t t) mutable {
+        for (const int s : subtrees.nodes[t]) {
+          if (!definite) return;
+          if (!eliminate(s, front)) {
+            definite = false;
+          } else if (subtrees.root[at(s)] != s && _update[at(s)].size > 0) {
+            pass_on(s);
           }
         }
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        failure = failure ? failure : std::current_exception();
-        next = subtrees.nodes.size();
-      }
-    };
-    if (!subtrees.nodes.empty()) {
-      std::vector<std::jthread> helpers;
-      for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
-      work();
-    }
-    if (failure) std::rethrow_exception(failure);
+      };
+    });
     return definite;
   }
 

@@ -2,14 +2,11 @@
 #include "operators/mesh_operator.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
+#include "ddm/at_once.hpp"
 #include "ddm/blas.hpp"
 #include "errors/errors.hpp"
 #include "operators/mesh_parts.hpp"
@@ -23,38 +20,17 @@ void require_running(const std::stop_token& stop) {
   }
 }
 
-/// One subdomain after the other from a common counter on each of as many threads.
 std::vector<ddm::SubdomainOperator> factorise_subdomains(
     const std::vector<ddm::Subdomain>& subdomains, int threads, const std::stop_token& stop) {
   std::vector<std::optional<ddm::SubdomainOperator>> done(subdomains.size());
-  std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  std::exception_ptr failure;
   // Where subdomains are fewer than threads, several share one.
-  const int each = std::max(1, threads / static_cast<int>(subdomains.size()));
-  const auto work = [&] {
-    for (std::size_t s = next++; s < subdomains.size(); s = next++) {
-      try {
-        require_running(stop);
-        done[s].emplace(subdomains[s], each);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        failure = failure ? failure : std::current_exception();
-        next = subdomains.size();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> helpers;
-    const auto wanted = std::min(static_cast<std::size_t>(std::max(threads, 1)), subdomains.size());
-    for (std::size_t i = 1; i < wanted; ++i) {
-      helpers.emplace_back(work);
-    }
-    work();
-  }
-  if (failure) {
-    std::rethrow_exception(failure);
-  }
+  const int each = std::max(1, threads / std::max(1, static_cast<int>(subdomains.size())));
+  ddm::at_once(subdomains.size(), threads, [&] {
+    return [&](std::size_t s) {
+      require_running(stop);
+      done[s].emplace(subdomains[s], each);
+    };
+  });
   std::vector<ddm::SubdomainOperator> operators;
   operators.reserve(done.size());
   for (std::optional<ddm::SubdomainOperator>& subdomain : done) {

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace anticrack::ddm {
+
+/// Calls what `make_worker()` gives, of which each thread makes its own, with 0, 1, ..., count - 1
+/// from a common counter, on `threads` threads at most, the caller's among them. Returns when all
+/// are done; what a worker throws first is thrown then, and no further index is begun.
+template <class MakeWorker>
+void at_once(std::size_t count, int threads, const MakeWorker& make_worker) {
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto run = [&] {
+    try {
+      auto worker = make_worker();
+      for (std::size_t i = next++; i < count; i = next++) worker(i);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      failure = failure ? failure : std::current_exception();
+      next = count;
+    }
+  };
+  if (count > 0) {
+    std::vector<std::jthread> helpers;
+    const auto wanted = std::min(static_cast<std::size_t>(std::max(threads, 1)), count);
+    for (std::size_t t = 1; t < wanted; ++t) helpers.emplace_back(run);
+    run();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace anticrack::ddm
