@@ -5,12 +5,16 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <cstring>
 #include <random>
+
+#include "contact/random_problems.hpp"
 
 namespace anticrack::contact {
 namespace {
 
+using anticrack::testing::random_spd;
+using anticrack::testing::random_vector;
+using anticrack::testing::same_bits;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -40,22 +44,6 @@ void expect_solution(const MatrixXd& s, const VectorXd& r, const LcpAnswer& answ
     EXPECT_EQ(answer.closed[static_cast<std::size_t>(i)] != 0, answer.d[i] == 0) << i;
     EXPECT_NEAR(lambda[i] / root[i] / unit, answer.lambda[i] / root[i] / unit, tolerance) << i;
   }
-}
-
-MatrixXd random_spd(std::mt19937& random, Index n, double ridge) {
-  std::normal_distribution<double> normal;
-  const MatrixXd a = MatrixXd::NullaryExpr(n, n, [&] { return normal(random); });
-  return a * a.transpose() + ridge * MatrixXd::Identity(n, n);
-}
-
-VectorXd random_vector(std::mt19937& random, Index n) {
-  std::normal_distribution<double> normal;
-  return VectorXd::NullaryExpr(n, [&] { return normal(random); });
-}
-
-bool same_bits(const VectorXd& a, const VectorXd& b) {
-  return a.size() == b.size() &&
-         std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
 }
 
 TEST(DenseLcp, SolvesRandomProblemsBothWaysFromAnyStartToTheSameBits) {

@@ -5,36 +5,24 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <random>
+
+#include "contact/random_problems.hpp"
 
 namespace anticrack::contact {
 namespace {
 
+using anticrack::testing::random_spd;
+using anticrack::testing::random_vector;
+using anticrack::testing::same_bits;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int many = 1000;
 
-MatrixXd random_spd(std::mt19937& random, Index n, double ridge) {
-  std::normal_distribution<double> normal;
-  const MatrixXd a = MatrixXd::NullaryExpr(n, n, [&] { return normal(random); });
-  return a * a.transpose() + ridge * MatrixXd::Identity(n, n);
-}
-
-VectorXd random_vector(std::mt19937& random, Index n) {
-  std::normal_distribution<double> normal;
-  return VectorXd::NullaryExpr(n, [&] { return normal(random); });
-}
-
 LcpAnswer plain(const DenseLcp& lcp, const VectorXd& r) {
   return lcp.solve(r, r.cwiseAbs(), {}, {}, [](const LcpStep&) { return true; });
-}
-
-bool same_bits(const VectorXd& a, const VectorXd& b) {
-  return a.size() == b.size() &&
-         std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
 }
 
 void expect_same(const WarmLcp& warm, const LcpAnswer& wanted) {
