@@ -136,7 +136,7 @@ struct OperatorCache::State {
 
 OperatorCache::OperatorCache(std::uint64_t budget_bytes, Factorise factorise, Listener factorised)
     : _state(std::make_unique<State>(budget_bytes, std::move(factorise), std::move(factorised))) {
-  map_large_blocks();
+  set_up_heaps();
 }
 
 OperatorCache::~OperatorCache() {

@@ -178,7 +178,7 @@ Figures solves(const Options& options, const ddm::Decomposition& parts) {
 
 void run(const Options& options) {
   ddm::require_threadsafe_blas();  // one thread a caller, as in the server
-  operators::map_large_blocks();
+  operators::set_up_heaps();
   Figures figures;
   figures.set("blas", std::string(openblas_get_config()));
   std::vector<Figures> memory, products;

@@ -222,7 +222,7 @@ void describe(const mesh::Mesh& mesh, Figures& figures) {
 }
 
 void run(const Options& options) {
-  operators::map_large_blocks();  // as in the server
+  operators::set_up_heaps();  // as in the server
   PlainMesh plain = read_plain_mesh(options.mesh);
   const std::shared_ptr<const mesh::Mesh> mesh = to_mesh(plain);
   // Loads take its nodes only; the memory of the first answer is not to count it twice.
