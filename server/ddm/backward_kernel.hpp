@@ -25,34 +25,61 @@ inline double multiply_add(double a, double b, double c) {
 #endif
 }
 
-/// sum_k += L_ik y_i over the rows [from, to) of y at `row`, for columns that follow each other
-/// from l on: the entries of y are fetched once for all of them.
-template <int columns, class Row>
-inline void add_products(const double* l, int height, int from, int to, const double* y, Row row,
-                         double* sum) {
+/// The lanes of `sums` in the order of every kernel and of blocks.
+inline double total(const Rows& sums) {
+  using Half = double __attribute__((vector_size(rows_at_once * sizeof(double) / 2)));
+  const Half half = __builtin_shufflevector(sums, sums, 0, 1, 2, 3) +
+                    __builtin_shufflevector(sums, sums, 4, 5, 6, 7);
+  return (half[0] + half[2]) + (half[1] + half[3]);
+}
+
+// Rows that are no whole number of lanes end with the last of the column: lanes whose rows were
+// taken before add nothing. What a factor has above its diagonal is multiplied by zero there.
+
+/// sum_k = sum of L_ik y_i over the rows from `from` on, for columns that follow each other from l
+/// on: the entries of y are fetched once for all of them. The first `own` rows are those of x.
+template <int columns>
+inline void add_products(const double* l, int height, int own, const int* rows, int from,
+                         const double* x, const double* y, double* sum) {
   const double* column[columns];
   Rows sums[columns];
   for (int k = 0; k < columns; ++k) {
     column[k] = l + static_cast<long>(k) * height;
     sums[k] = Rows{};
   }
-  int i = from;
-  for (; i + rows_at_once <= to; i += rows_at_once) {
-    Rows values;
-    for (int r = 0; r < rows_at_once; ++r) values[r] = y[row(i + r)];
+  Rows values{};
+  const auto add = [&](int i) {
 #pragma GCC unroll 8
     for (int k = 0; k < columns; ++k) {
       sums[k] += *reinterpret_cast<const UnalignedRows*>(column[k] + i) * values;
     }
+  };
+  const auto gather = [&](int i) {
+    for (int r = 0; r < rows_at_once; ++r) values[r] = y[rows[i + r]];
+  };
+  int i = from;
+  for (; i + rows_at_once <= own; i += rows_at_once) {
+    values = *reinterpret_cast<const UnalignedRows*>(x + i);
+    add(i);
   }
-  for (; i < to; ++i) {
-    const double value = y[row(i)];
-#pragma GCC unroll 8
-    for (int k = 0; k < columns; ++k) sum[k] = multiply_add(column[k][i], value, sum[k]);
+  for (; i + rows_at_once <= height; i += rows_at_once) {
+    gather(i);
+    add(i);
   }
-  for (int k = 0; k < columns; ++k) {
-    for (int r = 0; r < rows_at_once; ++r) sum[k] += sums[k][r];
+  for (int k = 0; k < columns; ++k) sum[k] = 0;
+  if (i < height && height >= rows_at_once) {
+    using Indices = long __attribute__((vector_size(rows_at_once * sizeof(long))));
+    constexpr Indices lane = {0, 1, 2, 3, 4, 5, 6, 7};
+    const int last = height - rows_at_once;
+    gather(last);
+    values = lane >= static_cast<long>(i - last) ? values : Rows{};
+    add(last);
+  } else {
+    for (; i < height; ++i) {
+      for (int k = 0; k < columns; ++k) sum[k] = multiply_add(column[k][i], y[rows[i]], sum[k]);
+    }
   }
+  for (int k = 0; k < columns; ++k) sum[k] += total(sums[k]);
 }
 
 /// Columns of a supernode that go together, from `begin` on: all rows below, then their triangle.
@@ -61,37 +88,55 @@ inline void solve_backward(const double* l, int height, int own, const int* rows
                            double* x, const double* y) {
   const double* panel = l + static_cast<long>(begin) * height;
   fetch(panel - ahead, columns * height);
-  double sum[columns] = {};
-  add_products<columns>(
-      panel, height, begin + columns, own, x, [](int i) { return i; }, sum);
-  add_products<columns>(
-      panel, height, own, height, y, [rows](int i) { return rows[i]; }, sum);
-  for (int k = columns; k-- > 0;) {
+  double value[columns];
+  add_products<columns>(panel, height, own, rows, begin + columns, x, y, value);
+#pragma GCC unroll 8
+  for (int k = columns - 1; k >= 0; --k) {
     const double* column = panel + static_cast<long>(k) * height + begin;
-    for (int i = k + 1; i < columns; ++i) sum[k] = multiply_add(column[i], x[begin + i], sum[k]);
-    x[begin + k] = (x[begin + k] - sum[k]) / column[k];
+    value[k] = x[begin + k] - value[k];
+#pragma GCC unroll 8
+    for (int i = columns - 1; i > k; --i) {
+      value[k] = multiply_add(-column[i], value[i], value[k]);
+    }
+    value[k] *= 1 / column[k];  // the quotient needs no x and is ready before
+    x[begin + k] = value[k];
   }
 }
 
 /// As add_products() of one column, for a block: the same products, summed in the same order.
-template <int groups, class Row>
-inline void add_products_of_block(const double* column, int from, int to, const Lanes* y, Row row,
-                                  Lanes* sum) {
-  int i = from;
+template <int groups>
+inline void add_products_of_block(const double* column, int height, int own, const int* rows,
+                                  int from, const Lanes* x, const Lanes* y, Lanes* sum) {
   Lanes sums[rows_at_once][groups] = {};
-  for (; i + rows_at_once <= to; i += rows_at_once) {
-    for (int r = 0; r < rows_at_once; ++r) {
-      const Lanes* values = y + static_cast<long>(row(i + r)) * groups;
+  const auto add = [&](int i, int r, const Lanes* values) {
 #pragma GCC unroll 4
-      for (int g = 0; g < groups; ++g) sums[r][g] += column[i + r] * values[g];
+    for (int g = 0; g < groups; ++g) sums[r][g] += column[i + r] * values[g];
+  };
+  const auto of_y = [&](int i) { return y + static_cast<long>(rows[i]) * groups; };
+  int i = from;
+  for (; i + rows_at_once <= own; i += rows_at_once) {
+#pragma GCC unroll 8
+    for (int r = 0; r < rows_at_once; ++r) add(i, r, x + static_cast<long>(i + r) * groups);
+  }
+  for (; i + rows_at_once <= height; i += rows_at_once) {
+#pragma GCC unroll 8
+    for (int r = 0; r < rows_at_once; ++r) add(i, r, of_y(i + r));
+  }
+  for (int g = 0; g < groups; ++g) sum[g] = Lanes{};
+  if (i < height && height >= rows_at_once) {
+    const int last = height - rows_at_once;
+#pragma GCC unroll 8
+    for (int r = 0; r < rows_at_once; ++r) {
+      if (last + r >= i) add(last, r, of_y(last + r));
+    }
+  } else {
+    for (; i < height; ++i) {
+      for (int g = 0; g < groups; ++g) sum[g] += column[i] * of_y(i)[g];
     }
   }
-  for (; i < to; ++i) {
-    const Lanes* values = y + static_cast<long>(row(i)) * groups;
-    for (int g = 0; g < groups; ++g) sum[g] += column[i] * values[g];
-  }
-  for (int r = 0; r < rows_at_once; ++r) {
-    for (int g = 0; g < groups; ++g) sum[g] += sums[r][g];
+  for (int g = 0; g < groups; ++g) {
+    sum[g] += ((sums[0][g] + sums[4][g]) + (sums[2][g] + sums[6][g])) +
+              ((sums[1][g] + sums[5][g]) + (sums[3][g] + sums[7][g]));
   }
 }
 
@@ -148,19 +193,15 @@ void solve_block_backward(const Supernodes& factor, Lanes* y) {
         for_panels(columns, [&](int begin, int count) {
           for (int k = begin + count; k-- > begin;) {
             const double* column = l + static_cast<long>(k) * height;
-            Lanes sum[groups] = {};
-            add_products_of_block<groups>(
-                column, begin + count, own, x, [](int i) { return i; }, sum);
-            add_products_of_block<groups>(
-                column, own, height, y, [rows](int i) { return rows[i]; }, sum);
-            for (int i = k + 1; i < begin + count; ++i) {
-              for (int g = 0; g < groups; ++g) {
-                sum[g] += column[i] * x[static_cast<long>(i) * groups + g];
-              }
-            }
+            Lanes sum[groups];
+            add_products_of_block<groups>(column, height, own, rows, begin + count, x, y, sum);
+            const double inverse = 1 / column[k];
             for (int g = 0; g < groups; ++g) {
-              Lanes& value = x[static_cast<long>(k) * groups + g];
-              value = (value - sum[g]) / column[k];
+              Lanes value = x[static_cast<long>(k) * groups + g] - sum[g];
+              for (int i = begin + count - 1; i > k; --i) {
+                value -= column[i] * x[static_cast<long>(i) * groups + g];
+              }
+              x[static_cast<long>(k) * groups + g] = value * inverse;
             }
           }
         });

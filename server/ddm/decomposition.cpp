@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "ddm/curve_order.hpp"
@@ -21,6 +22,26 @@ std::size_t at(std::int32_t i) {
 
 std::int32_t count_of(const std::vector<std::int32_t>& list) {
   return static_cast<std::int32_t>(list.size());
+}
+
+/// Triangles by the smallest of their nodes: who walks over them finds nodes in the cache. O(m).
+void sort_by_first_node(Subdomain& subdomain) {
+  const std::size_t count = subdomain.triangle.size();
+  const std::int32_t* corner = subdomain.part.triangles.data();
+  std::vector<std::int32_t> first(count), end(subdomain.node.size(), 0);
+  for (std::size_t k = 0; k < count; ++k) {
+    first[k] = std::min({corner[3 * k], corner[3 * k + 1], corner[3 * k + 2]});
+    ++end[at(first[k])];
+  }
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<std::int32_t> triangle(count), corners(3 * count);
+  for (std::size_t k = count; k-- > 0;) {
+    const std::size_t place = at(--end[at(first[k])]);
+    triangle[place] = subdomain.triangle[k];
+    std::copy_n(corner + 3 * k, 3, &corners[3 * place]);
+  }
+  subdomain.triangle = std::move(triangle);
+  subdomain.part.triangles = std::move(corners);
 }
 
 /// Numbers the nodes of the subdomains, one after another.
@@ -106,6 +127,7 @@ class Numbering {
                                                      : _local[at(_mesh.triangles[c])]);
       }
     }
+    sort_by_first_node(subdomain);
     for (const std::int32_t node : subdomain.node) {
       _local[at(node)] = -1;  // a Dirichlet node may be in the next subdomain as well
     }

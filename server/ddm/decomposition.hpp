@@ -18,7 +18,7 @@ namespace anticrack::ddm {
 /// One subdomain Omega_i. Its nodes are numbered interior first, then those on interfaces (the
 /// trace), then those on the Dirichlet boundary; index base 0. A node that is on an interface and
 /// on the Dirichlet boundary counts as Dirichlet. Interior nodes with near numbers are near each
-/// other.
+/// other; triangles go by the smallest of their nodes.
 /// A mesh node on interfaces is there once for each of its *sides* in the subdomain: the fans of
 /// triangles into which the interface edges cut its neighbourhood. Two on a slit, one at its tip.
 struct Subdomain {
@@ -26,7 +26,7 @@ struct Subdomain {
   double tension = 1;
   fem::Triangulation part;
   std::vector<std::int32_t> node;      ///< (n) index into Mesh::xy of each local node
-  std::vector<std::int32_t> triangle;  ///< (m) index into the mesh's triangles, increasing
+  std::vector<std::int32_t> triangle;  ///< (m) index into the mesh's triangles
   std::size_t interior = 0;
   std::size_t trace = 0;
   std::size_t dirichlet = 0;

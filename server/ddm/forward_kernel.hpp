@@ -45,7 +45,7 @@ inline void solve_panel(const double* l, int height, int own, const int* rows, i
   fetch(panel_l + ahead, columns * height);
   for (int k = 0; k < columns; ++k) {
     const double* column = panel_l + static_cast<long>(k) * height;
-    const double value = x[begin + k] / column[begin + k];
+    const double value = x[begin + k] * (1 / column[begin + k]);  // the quotient needs no x
     x[begin + k] = value;
     for (int i = begin + k + 1; i < begin + columns; ++i) x[i] -= column[i] * value;
   }
@@ -123,8 +123,9 @@ void solve_block(const Supernodes& factor, Lanes* y) {
       const int stop = begin + panel_columns < end - first ? begin + panel_columns : end - first;
       for (int k = begin; k < stop; ++k) {
         const double* column = l + static_cast<long>(k) * height;
+        const double inverse = 1 / column[k];
         for (int g = 0; g < groups; ++g) {
-          const Lanes value = x[static_cast<long>(k) * groups + g] / column[k];
+          const Lanes value = x[static_cast<long>(k) * groups + g] * inverse;
           x[static_cast<long>(k) * groups + g] = value;
           for (int i = k + 1; i < stop; ++i)
             x[static_cast<long>(i) * groups + g] -= column[i] * value;

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -35,7 +36,7 @@ struct Columns {
 
 /// Calls take(row, column, value) for each entry of the lower triangle of the permuted K.
 template <class Take>
-void for_each_entry(const Sparse& stiffness, const std::vector<int>& place, const Take& take) {
+void for_each_entry(const Sparse& stiffness, std::span<const int> place, const Take& take) {
   const int *begin = stiffness.outerIndexPtr(), *row = stiffness.innerIndexPtr();
   const double* value = stiffness.valuePtr();
   for (int j = 0; j < static_cast<int>(stiffness.cols()); ++j) {
@@ -48,11 +49,9 @@ void for_each_entry(const Sparse& stiffness, const std::vector<int>& place, cons
   }
 }
 
-Columns permuted(const Sparse& stiffness, const int* permutation, int interior,
+Columns permuted(const Sparse& stiffness, std::span<const int> place, int interior,
                  Eigen::MatrixXd& schur) {
   const auto n = static_cast<int>(stiffness.rows());
-  std::vector<int> place(at(n));
-  for (int k = 0; k < n; ++k) place[at(permutation[k])] = k;
   Columns columns;
   columns.begin.assign(at(interior) + 1, 0);
   schur.setZero(n - interior, n - interior);
@@ -289,9 +288,10 @@ bool eliminate_front(int columns, int height, double* panel, double* update, boo
   return true;
 }
 
-bool eliminate_interior(const Supernodes& pattern, const int* permutation, const Sparse& stiffness,
-                        double* values, Eigen::MatrixXd& schur, int threads) {
-  Columns columns = permuted(stiffness, permutation, pattern.columns, schur);
+bool eliminate_interior(const Supernodes& pattern, std::span<const int> place,
+                        const Sparse& stiffness, double* values, Eigen::MatrixXd& schur,
+                        int threads) {
+  Columns columns = permuted(stiffness, place, pattern.columns, schur);
   if (!Elimination(pattern, std::move(columns), values, schur).run(threads)) return false;
   schur.triangularView<Eigen::StrictlyUpper>() = schur.transpose();
   return true;

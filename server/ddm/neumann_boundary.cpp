@@ -64,17 +64,27 @@ std::vector<std::int32_t> free_corners(const mesh::Mesh& mesh) {
   return result;
 }
 
+/// Of each triangle of the mesh in its subdomain.
+std::vector<std::size_t> places(const Decomposition& decomposition, std::size_t triangles) {
+  std::vector<std::size_t> result(triangles);
+  for (const Subdomain& subdomain : decomposition.subdomains) {
+    for (std::size_t k = 0; k < subdomain.triangle.size(); ++k) {
+      result[at(subdomain.triangle[k])] = k;
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 const NeumannBoundary::Edges& NeumannBoundary::of(std::size_t subdomain) const {
   const std::vector<Edges>& edges = _edges.get([this] {
     std::vector<Edges> result(_decomposition.subdomains.size());
+    const std::vector<std::size_t> local = places(_decomposition, _mesh.triangle_count());
     for (const std::int32_t corner : free_corners(_mesh)) {
       const std::size_t s = at(_mesh.subdomain[at(corner / 3)]), k = at(corner % 3);
-      const Subdomain& owner = _decomposition.subdomains[s];
-      const auto local = std::lower_bound(owner.triangle.begin(), owner.triangle.end(), corner / 3);
       const std::int32_t* node =
-          &owner.part.triangles[3 * static_cast<std::size_t>(local - owner.triangle.begin())];
+          &_decomposition.subdomains[s].part.triangles[3 * local[at(corner / 3)]];
       result[s].push_back({node[k], node[(k + 1) % 3]});
     }
     return result;

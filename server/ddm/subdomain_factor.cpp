@@ -18,8 +18,9 @@
 namespace anticrack::ddm {
 
 struct SubdomainFactor::Factor {
-  FactorPtr analysis;  // CHOLMOD's permutation and pattern, without values
-  Values values;       // of L_II and L_GI
+  FactorPtr analysis;      // CHOLMOD's permutation and pattern, without values
+  std::vector<int> place;  // of each unknown in L
+  Values values;           // of L_II and L_GI
   Supernodes l;
 };
 
@@ -105,7 +106,7 @@ std::size_t value_count(const Supernodes& l) {
 /// or writes by columns stay in the first-level cache.
 template <class Take>
 void for_tiles(int rows, int columns, const Take& take) {
-  constexpr int tile = 64;
+  constexpr int tile = 256;
   for (int begin = 0; begin < rows; begin += tile) {
     for (int j = 0; j < columns; ++j) take(begin, std::min(begin + tile, rows), j);
   }
@@ -113,7 +114,8 @@ void for_tiles(int rows, int columns, const Take& take) {
 
 /// Columns in blocks of up to columns_at_once(rows), each a row-major block that `solve(width,
 /// block)` works on. `put` and `take` (column, begin, end, at, stride) write and read the rows
-/// [begin, end) of a column, row i at[i * stride].
+/// [begin, end) of a column, row i of the block at[i * stride]. Where rows are permuted they count
+/// them as the column does: a row of the block is written or read whole, whichever it is.
 template <class Put, class Solve, class Take>
 void in_blocks(int rows, int columns, const Put& put, const Solve& solve, const Take& take) {
   const auto whole = [](int count) { return count == 1 ? 1 : (count + lanes - 1) / lanes * lanes; };
@@ -155,10 +157,15 @@ SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior,
   auto factor = std::make_unique<Factor>();
   factor->analysis = analyse(stiffness, permutation, interior);
   factor->l = pattern(*factor->analysis, interior);
+  const int* unknown = static_cast<const int*>(factor->analysis->Perm);
+  factor->place.resize(factor->analysis->n);
+  for (int k = 0; k < static_cast<int>(stiffness.rows()); ++k) {
+    factor->place[static_cast<std::size_t>(unknown[k])] = k;
+  }
   factor->values = make_values(value_count(factor->l));
   factor->l.values = factor->values.get();
-  if (!eliminate_interior(factor->l, static_cast<const int*>(factor->analysis->Perm), stiffness,
-                          factor->values.get(), _schur, threads)) {
+  if (!eliminate_interior(factor->l, factor->place, stiffness, factor->values.get(), _schur,
+                          threads)) {
     throw errors::Error(
         errors::Reason::numerical,
         "the stiffness matrix is not positive definite in the factorisation of a "
@@ -181,13 +188,13 @@ std::vector<SubdomainFactor::Forward> SubdomainFactor::forward(
   if (!_factor || f.cols() == 0) {
     return result;
   }
-  const int* permutation = static_cast<const int*>(_factor->analysis->Perm);
+  const int* place = _factor->place.data();
   const auto interior = static_cast<int>(_interior);
   in_blocks(
       static_cast<int>(f.rows()), static_cast<int>(f.cols()),
       [&](int j, int begin, int end, double* to, std::ptrdiff_t stride) {
         const double* from = f.data() + j * f.outerStride();
-        for (int i = begin; i < end; ++i) to[i * stride] = from[permutation[i]];
+        for (int i = begin; i < end; ++i) to[place[i] * stride] = from[i];
       },
       [&](int width, double* y) { forward_solve(_factor->l, width, y); },
       [&](int j, int begin, int end, const double* from, std::ptrdiff_t stride) {
@@ -205,7 +212,7 @@ std::vector<Eigen::VectorXd> SubdomainFactor::recover(std::span<const Backward> 
   if (!_factor || columns.empty()) {
     return u;
   }
-  const int* permutation = static_cast<const int*>(_factor->analysis->Perm);
+  const int* place = _factor->place.data();
   const auto interior = static_cast<int>(_interior);
   in_blocks(
       static_cast<int>(rows), static_cast<int>(columns.size()),
@@ -218,7 +225,7 @@ std::vector<Eigen::VectorXd> SubdomainFactor::recover(std::span<const Backward> 
       [&](int width, double* y) { backward_solve(_factor->l, width, y); },
       [&](int j, int begin, int end, const double* from, std::ptrdiff_t stride) {
         Eigen::VectorXd& to = u[static_cast<std::size_t>(j)];
-        for (int i = begin; i < end; ++i) to[permutation[i]] = from[i * stride];
+        for (int i = begin; i < end; ++i) to[i] = from[place[i] * stride];
       });
   return u;
 }
@@ -243,7 +250,7 @@ std::size_t SubdomainFactor::bytes() const noexcept {
     return 0;
   }
   const cholmod_factor& analysis = *_factor->analysis;
-  const std::size_t integers = analysis.ssize + 3 * (analysis.nsuper + 1) + 2 * analysis.n;
+  const std::size_t integers = analysis.ssize + 3 * (analysis.nsuper + 1) + 3 * analysis.n;
   return sizeof(double) * (value_count(_factor->l) + static_cast<std::size_t>(_schur.size())) +
          sizeof(int) * integers + sizeof(cholmod_factor);
 }
