@@ -104,6 +104,14 @@ void fill_inclusions(const TraceProblem& problem, const mesh::Mesh& mesh,
   }
 }
 
+Eigen::Map<const Eigen::VectorXd> view(const std::vector<double>& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+Eigen::Map<Eigen::VectorXd> view(std::vector<double>& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
 }  // namespace
 
 void describe(const TraceProblem& problem, const mesh::Mesh& mesh,
@@ -127,15 +135,13 @@ void recover_fields(const TraceProblem& problem, std::span<const SolvedCase> cas
   for (std::size_t s = 0; s < subdomains.size(); ++s) {
     std::vector<ddm::SubdomainOperator::Solved> solved;
     solved.reserve(cases.size());
+    const std::vector<std::int32_t>& nodes = subdomains[s].node;
     for (const SolvedCase& one : cases) {
       const std::vector<double>& trace = one.answer.side_traces[s];
-      solved.push_back({one.loads[s], Eigen::Map<const Eigen::VectorXd>(
-                                          trace.data(), static_cast<Eigen::Index>(trace.size()))});
+      one.answer.fields.push_back({nodes, std::vector<double>(nodes.size())});
+      solved.push_back({one.loads[s], view(trace), view(one.answer.fields.back().u)});
     }
-    const std::vector<Eigen::VectorXd> u = problem.operators()[s].recover(solved);
-    for (std::size_t j = 0; j < cases.size(); ++j) {
-      cases[j].answer.fields.push_back({subdomains[s].node, {u[j].begin(), u[j].end()}});
-    }
+    problem.operators()[s].recover(solved);
   }
 }
 

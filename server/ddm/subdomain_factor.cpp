@@ -180,13 +180,20 @@ SubdomainFactor& SubdomainFactor::operator=(SubdomainFactor&&) noexcept = defaul
 
 std::vector<SubdomainFactor::Forward> SubdomainFactor::forward(
     const Eigen::Ref<const Eigen::MatrixXd>& f) const {
-  std::vector<Forward> result(static_cast<std::size_t>(f.cols()));
+  std::vector<Forward> result;
+  forward(f, result);
+  return result;
+}
+
+void SubdomainFactor::forward(const Eigen::Ref<const Eigen::MatrixXd>& f,
+                              std::vector<Forward>& result) const {
+  result.resize(static_cast<std::size_t>(f.cols()));
   for (Forward& column : result) {
     column.z_interior.resize(_interior);
     column.g.resize(trace());
   }
   if (!_factor || f.cols() == 0) {
-    return result;
+    return;
   }
   const int* place = _factor->place.data();
   const auto interior = static_cast<int>(_interior);
@@ -203,31 +210,27 @@ std::vector<SubdomainFactor::Forward> SubdomainFactor::forward(
         for (int i = begin; i < middle; ++i) column.z_interior[i] = from[i * stride];
         for (int i = middle; i < end; ++i) column.g[i - interior] = from[i * stride];
       });
-  return result;
 }
 
-std::vector<Eigen::VectorXd> SubdomainFactor::recover(std::span<const Backward> columns) const {
-  const Eigen::Index rows = _interior + trace();
-  std::vector<Eigen::VectorXd> u(columns.size(), Eigen::VectorXd(_factor ? rows : 0));
+void SubdomainFactor::recover(std::span<Backward> columns) const {
   if (!_factor || columns.empty()) {
-    return u;
+    return;
   }
   const int* place = _factor->place.data();
   const auto interior = static_cast<int>(_interior);
   in_blocks(
-      static_cast<int>(rows), static_cast<int>(columns.size()),
+      static_cast<int>(_interior + trace()), static_cast<int>(columns.size()),
       [&](int j, int begin, int end, double* to, std::ptrdiff_t stride) {
-        const auto& [z_interior, trace_values] = columns[static_cast<std::size_t>(j)];
+        const auto& [z_interior, trace_values, u] = columns[static_cast<std::size_t>(j)];
         const int middle = std::clamp(interior, begin, end);
         for (int i = begin; i < middle; ++i) to[i * stride] = z_interior[i];
         for (int i = middle; i < end; ++i) to[i * stride] = trace_values[i - interior];
       },
       [&](int width, double* y) { backward_solve(_factor->l, width, y); },
       [&](int j, int begin, int end, const double* from, std::ptrdiff_t stride) {
-        Eigen::VectorXd& to = u[static_cast<std::size_t>(j)];
+        Eigen::Ref<Eigen::VectorXd>& to = columns[static_cast<std::size_t>(j)].u;
         for (int i = begin; i < end; ++i) to[i] = from[place[i] * stride];
       });
-  return u;
 }
 
 Eigen::VectorXd SubdomainFactor::apply_schur(const Eigen::VectorXd& trace_values) const {

@@ -43,16 +43,18 @@ class SubdomainFactor {
   /// Of each column of f. O(nnz(L)) each, up to 32 together (forward_solve.hpp). The bits of a
   /// column do not depend on the others.
   std::vector<Forward> forward(const Eigen::Ref<const Eigen::MatrixXd>& f) const;
+  /// The same into `result`, in the memory that a former one has there.
+  void forward(const Eigen::Ref<const Eigen::MatrixXd>& f, std::vector<Forward>& result) const;
 
   struct Backward {
     const Eigen::VectorXd& z_interior;  ///< of forward()
     Eigen::Ref<const Eigen::VectorXd> trace;
+    Eigen::Ref<Eigen::VectorXd> u;  ///< (interior + trace), overwritten
   };
   /// Of each column u with trace t and interior K_II^-1 (f_I - K_IG t), f the load of `z_interior`:
   /// a backward solve of L_II' x = z_I - L_GI' t, O(nnz(L)) each, up to 32 together
-  /// (backward_solve.hpp). Shape (interior + trace). The bits of a column do not depend on the
-  /// others.
-  std::vector<Eigen::VectorXd> recover(std::span<const Backward> columns) const;
+  /// (backward_solve.hpp). The bits of a column do not depend on the others.
+  void recover(std::span<Backward> columns) const;
 
   /// S t, O(n_G^2).
   Eigen::VectorXd apply_schur(const Eigen::VectorXd& trace) const;

@@ -94,19 +94,15 @@ std::vector<CondensedLoad> SubdomainOperator::condense(
   return result;
 }
 
-std::vector<Eigen::VectorXd> SubdomainOperator::recover(std::span<const Solved> cases) const {
+void SubdomainOperator::recover(std::span<Solved> cases) const {
+  const Eigen::Index free = _free_dirichlet.rows();
   std::vector<SubdomainFactor::Backward> columns;
   columns.reserve(cases.size());
-  for (const Solved& solved : cases) {
-    columns.push_back({solved.load.z_interior, solved.trace});
+  for (Solved& solved : cases) {
+    columns.push_back({solved.load.z_interior, solved.trace, solved.u.head(free)});
+    solved.u.tail(solved.load.dirichlet.size()) = solved.load.dirichlet;
   }
-  std::vector<Eigen::VectorXd> u = _factor.recover(columns);
-  for (std::size_t j = 0; j < cases.size(); ++j) {
-    const Eigen::VectorXd& dirichlet = cases[j].load.dirichlet;
-    u[j].conservativeResize(u[j].size() + dirichlet.size());
-    u[j].tail(dirichlet.size()) = dirichlet;
-  }
-  return u;
+  _factor.recover(columns);
 }
 
 std::size_t SubdomainOperator::bytes() const noexcept {

@@ -48,10 +48,11 @@ class SubdomainOperator {
   struct Solved {
     const CondensedLoad& load;
     Eigen::Ref<const Eigen::VectorXd> trace;
+    Eigen::Ref<Eigen::VectorXd> u;  ///< on all nodes of the subdomain, overwritten
   };
-  /// Of each load u on all nodes of the subdomain, in its numbering. One backward solve each, in
-  /// blocks. The bits of one do not depend on the others.
-  std::vector<Eigen::VectorXd> recover(std::span<const Solved> cases) const;
+  /// Of each load u. One backward solve each, in blocks. The bits of one do not depend on the
+  /// others.
+  void recover(std::span<Solved> cases) const;
 
   const SubdomainFactor& factor() const noexcept { return _factor; }
   /// Null where a part of the subdomain floats: forces alone do not tell where it goes. Computed

@@ -111,19 +111,59 @@ Figures dgemm(const Options& options, int threads) {
   return figures;
 }
 
-/// Solves with the factors of all subdomains, one after the other, on one thread; memory is read
-/// between them, because others of a shared machine take of its bandwidth now more, now less.
+/// Solves with one subdomain's factor, into memory that is there.
+class Solves {
+ public:
+  Solves(const ddm::Subdomain& part, Eigen::Index columns)
+      : _operator(part),
+        _loads(Eigen::MatrixXd::Random(static_cast<Eigen::Index>(part.free()), columns)),
+        _u(_loads.rows(), columns) {
+    forward(1, _one);
+    forward(columns, _block);
+  }
+
+  /// Of its values and pattern, without the Schur complement.
+  std::size_t factor_bytes() const {
+    const ddm::SubdomainFactor& factor = _operator.factor();
+    return factor.bytes() - sizeof(double) * static_cast<std::size_t>(factor.schur().size());
+  }
+
+  void forward_one() { forward(1, _one); }
+  void forward_block() { forward(_loads.cols(), _block); }
+  void backward_one() { backward(_one); }
+  void backward_block() { backward(_block); }
+
+ private:
+  using Results = std::vector<ddm::SubdomainFactor::Forward>;
+
+  void forward(Eigen::Index columns, Results& results) {
+    _operator.factor().forward(_loads.leftCols(columns), results);
+  }
+
+  void backward(const Results& results) {
+    std::vector<ddm::SubdomainFactor::Backward> columns;
+    for (std::size_t j = 0; j < results.size(); ++j) {
+      columns.push_back(
+          {results[j].z_interior, results[j].g, _u.col(static_cast<Eigen::Index>(j))});
+    }
+    _operator.factor().recover(columns);
+  }
+
+  ddm::SubdomainOperator _operator;
+  Eigen::MatrixXd _loads, _u;
+  Results _one, _block;
+};
+
+/// Of all subdomains, one after the other, on one thread; memory is read between them, because
+/// others of a shared machine take of its bandwidth now more, now less.
 Figures solves(const Options& options, const ddm::Decomposition& parts) {
-  std::vector<ddm::SubdomainOperator> operators;
-  std::vector<Eigen::MatrixXd> loads;
+  std::vector<Solves> subdomains;
+  subdomains.reserve(parts.subdomains.size());
   std::size_t bytes = 0, unknowns = 0;
   for (const ddm::Subdomain& part : parts.subdomains) {
-    operators.emplace_back(part);
-    const ddm::SubdomainFactor& factor = operators.back().factor();
-    bytes += factor.bytes() - sizeof(double) * static_cast<std::size_t>(factor.schur().size());
+    subdomains.emplace_back(part, options.columns);
+    bytes += subdomains.back().factor_bytes();
     unknowns += part.free();
-    loads.push_back(
-        Eigen::MatrixXd::Random(static_cast<Eigen::Index>(part.free()), options.columns));
   }
   const std::vector<double> memory(bytes / sizeof(double), 1.0);
   Times reading, single, block, backward, backward_block;
@@ -134,34 +174,23 @@ Figures solves(const Options& options, const ddm::Decomposition& parts) {
       watch.stop(reading);
       if (sum == 0) throw std::runtime_error("the memory was not read");
     }
-    std::vector<ddm::SubdomainFactor::Forward> forward;
     {
       const Stopwatch watch;
-      for (std::size_t s = 0; s < loads.size(); ++s) {
-        forward.push_back(std::move(operators[s].factor().forward(loads[s].leftCols(1)).front()));
-      }
+      for (Solves& subdomain : subdomains) subdomain.forward_one();
       watch.stop(single);
     }
     {
       const Stopwatch watch;
-      for (std::size_t s = 0; s < loads.size(); ++s) {
-        const ddm::SubdomainFactor::Backward one{forward[s].z_interior, forward[s].g};
-        operators[s].factor().recover({&one, 1});
-      }
+      for (Solves& subdomain : subdomains) subdomain.backward_one();
       watch.stop(backward);
     }
     {
       const Stopwatch watch;
-      for (std::size_t s = 0; s < loads.size(); ++s) operators[s].factor().forward(loads[s]);
+      for (Solves& subdomain : subdomains) subdomain.forward_block();
       watch.stop(block, options.columns);
     }
     const Stopwatch watch;
-    for (std::size_t s = 0; s < loads.size(); ++s) {
-      // The same column again and again: which it is takes no part in the work.
-      const std::vector<ddm::SubdomainFactor::Backward> columns(
-          static_cast<std::size_t>(options.columns), {forward[s].z_interior, forward[s].g});
-      operators[s].factor().recover(columns);
-    }
+    for (Solves& subdomain : subdomains) subdomain.backward_block();
     watch.stop(backward_block, options.columns);
   }
   Figures figures;

@@ -9,14 +9,19 @@ namespace anticrack::testing {
 
 inline Eigen::VectorXd recovered(const ddm::SubdomainFactor& factor,
                                  const Eigen::VectorXd& z_interior, const Eigen::VectorXd& trace) {
-  const ddm::SubdomainFactor::Backward one{z_interior, trace};
-  return factor.recover({&one, 1}).front();
+  Eigen::VectorXd u(factor.interior() + factor.trace());
+  ddm::SubdomainFactor::Backward one{z_interior, trace, u};
+  factor.recover({&one, 1});
+  return u;
 }
 
 inline Eigen::VectorXd recovered(const ddm::SubdomainOperator& factorised,
                                  const ddm::CondensedLoad& load, const Eigen::VectorXd& trace) {
-  const ddm::SubdomainOperator::Solved one{load, trace};
-  return factorised.recover({&one, 1}).front();
+  const ddm::SubdomainFactor& factor = factorised.factor();
+  Eigen::VectorXd u(factor.interior() + factor.trace() + load.dirichlet.size());
+  ddm::SubdomainOperator::Solved one{load, trace, u};
+  factorised.recover({&one, 1});
+  return u;
 }
 
 }  // namespace anticrack::testing
