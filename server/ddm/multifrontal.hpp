@@ -26,10 +26,11 @@ namespace anticrack::ddm {
 /// (CHOLMOD's analysis); its values are not read. `place`: of each unknown in P, (n).
 /// `stiffness`: K, of which the lower triangle is read. `values`: of L_II and L_GI, where the
 /// pattern says, not initialised; zero above the diagonal. `schur`: S, (n_G,n_G), overwritten.
-/// Returns false where K_II is not positive definite to rounding. Throws errors::Error (internal) for another
-/// pattern. Independent subtrees of the elimination tree go on `threads` threads at once; the same
-/// bits for the same input, whatever their number. Memory: that of the fronts that wait for their
-/// parent, O(n) for planar graphs cut by nested dissection, and 12 bytes an entry of K.
+/// Returns false where K_II is not positive definite to rounding. Throws errors::Error (internal)
+/// for another pattern. Independent subtrees of the elimination tree go on `threads` threads at
+/// once; the same bits for the same input, whatever their number. Memory: that of the fronts that
+/// wait for their parent, O(n) for planar graphs cut by nested dissection, and 12 bytes an entry of
+/// K.
 bool eliminate_interior(const Supernodes& pattern, std::span<const int> place,
                         const Eigen::SparseMatrix<double>& stiffness, double* values,
                         Eigen::MatrixXd& schur, int threads);

@@ -46,8 +46,8 @@ void require_plain(const std::string& text, const std::string& field) {
   }
 }
 
-/// All parsers share one locale. libstdc++ prepares it when the first number is read and looks at it
-/// without a lock ever after, so the first number is read before any other thread reads one.
+/// All parsers share one locale. libstdc++ prepares it when the first number is read and looks at
+/// it without a lock ever after, so the first number is read before any other thread reads one.
 void prepare_locale() {
   [[maybe_unused]] static const double number = [] {
     mu::Parser parser;
