@@ -116,7 +116,11 @@ SkeletonProblem::Reduced SkeletonProblem::reduce(const VectorXd& h) const {
   Reduced result;
   result.q = on_roots;
   solve_roots(result.q);
-  result.r = _closed_to_open.transpose() * on_roots - forest().sign().cwiseProduct(on_hung);
+  VectorXd of_roots = VectorXd::Zero(on_hung.size());
+  if (on_roots.size() > 0) {  // BLAS complains of a matrix without rows
+    of_roots.noalias() = _closed_to_open.transpose() * on_roots;
+  }
+  result.r = of_roots - forest().sign().cwiseProduct(on_hung);
   result.magnitude = size_on_hung;
   for (Index c = 0; c < result.magnitude.size(); ++c) {
     // One by one: Eigen would make a copy of |W| for the product.

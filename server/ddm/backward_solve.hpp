@@ -13,7 +13,7 @@ namespace anticrack::ddm {
 ///
 /// `width` and `y` as of forward_solve(), and as there the bits of a column depend neither on the
 /// width nor on the other columns. O(nnz(L) width): one load costs about reading L from memory
-/// once. No allocation.
+/// once. What supernodes have above their diagonal is finite. No allocation.
 void backward_solve(const Supernodes& factor, int width, double* y);
 
 using BackwardKernel = void (*)(const Supernodes& factor, int width, double* y);
