@@ -32,6 +32,24 @@ void solve(const Ref<const MatrixXd>& factor, CBLAS_TRANSPOSE transposed, Ref<Ma
 
 }  // namespace
 
+void multiply(const Ref<const MatrixXd>& a, const Ref<const Eigen::VectorXd>& x,
+              Ref<Eigen::VectorXd> y) {
+  if (a.size() > 0) {
+    y.noalias() = a * x;
+  } else {
+    y.setZero();
+  }
+}
+
+void multiply_transposed(const Ref<const MatrixXd>& a, const Ref<const Eigen::VectorXd>& x,
+                         Ref<Eigen::VectorXd> y) {
+  if (a.size() > 0) {
+    y.noalias() = a.transpose() * x;
+  } else {
+    y.setZero();
+  }
+}
+
 bool cholesky(Ref<MatrixXd> matrix) {
   const int size = static_cast<int>(matrix.rows()), leading = stride(matrix);
   if (size == 0) {

@@ -8,6 +8,13 @@
 
 namespace anticrack::contact {
 
+/// y <- a x and y <- a' x. BLAS complains of matrices without entries, on standard output: a
+/// membrane without cracks has some.
+void multiply(const Eigen::Ref<const Eigen::MatrixXd>& a,
+              const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> y);
+void multiply_transposed(const Eigen::Ref<const Eigen::MatrixXd>& a,
+                         const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> y);
+
 /// L with L L' = the symmetric matrix whose lower triangle `matrix` holds, into that triangle.
 /// False where the matrix is not positive definite.
 bool cholesky(Eigen::Ref<Eigen::MatrixXd> matrix);

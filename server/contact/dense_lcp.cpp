@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "contact/dense.hpp"
+
 namespace anticrack::contact {
 namespace {
 
@@ -69,7 +71,8 @@ class Run {
 
  private:
   void set_multipliers() {
-    lambda = _matrix * d - _r;
+    multiply(_matrix, d, lambda);
+    lambda -= _r;
     for (Index i = 0; i < lambda.size(); ++i) {
       lambda[i] = closed[at(i)] == 0 ? 0 : lambda[i];
     }

@@ -116,11 +116,9 @@ SkeletonProblem::Reduced SkeletonProblem::reduce(const VectorXd& h) const {
   Reduced result;
   result.q = on_roots;
   solve_roots(result.q);
-  VectorXd of_roots = VectorXd::Zero(on_hung.size());
-  if (on_roots.size() > 0) {  // BLAS complains of a matrix without rows
-    of_roots.noalias() = _closed_to_open.transpose() * on_roots;
-  }
-  result.r = of_roots - forest().sign().cwiseProduct(on_hung);
+  result.r.resize(on_hung.size());
+  multiply_transposed(_closed_to_open, on_roots, result.r);
+  result.r -= forest().sign().cwiseProduct(on_hung);
   result.magnitude = size_on_hung;
   for (Index c = 0; c < result.magnitude.size(); ++c) {
     // One by one: Eigen would make a copy of |W| for the product.
@@ -158,7 +156,10 @@ VectorXd SkeletonProblem::response(std::int32_t unknown) const {
 }
 
 VectorXd SkeletonProblem::unknowns(const Reduced& load, const VectorXd& d) const {
-  return forest().expand(load.q + _closed_to_open * d, d);
+  VectorXd q(load.q.size());
+  multiply(_closed_to_open, d, q);
+  q += load.q;
+  return forest().expand(q, d);
 }
 
 void SkeletonProblem::refine(const VectorXd& residual, const OpenFactor& open, Reduced& load,

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/dense.hpp"
+
 namespace anticrack::contact {
 namespace {
 
@@ -86,7 +88,8 @@ SweepSolver::SweepSolver(const SkeletonProblem& problem, const SweepGeometry& ge
       _lcp(problem.lcp(), options.max_steps, start, &problem.nested_start()),
       _r(problem.lcp().size()),
       _magnitude(problem.lcp().size()),
-      _displacement(geometry.displacement.rows()) {}
+      _displacement(geometry.displacement.rows()),
+      _of_jumps(geometry.displacement.rows()) {}
 
 void SweepSolver::solve(const SweepLoads& loads, std::span<const double> coefficients,
                         std::size_t row, SweepColumns& rows) {
@@ -110,9 +113,9 @@ void SweepSolver::solve(const SweepLoads& loads, std::span<const double> coeffic
 bool SweepSolver::combine(const SweepLoads& loads, std::span<const double> coefficients) {
   const Eigen::Map<const VectorXd> c(coefficients.data(), static_cast<Index>(coefficients.size()));
   _sizes = c.cwiseAbs();
-  _r.noalias() = loads.r * c;
-  _magnitude.noalias() = loads.magnitude * _sizes;
-  _displacement.noalias() = loads.displacement * c;
+  multiply(loads.r, c, _r);
+  multiply(loads.magnitude, _sizes, _magnitude);
+  multiply(loads.displacement, c, _displacement);
   _product.noalias() = loads.energy * c;
   _energy = c.dot(_product);
   return std::isfinite(_energy) && _r.allFinite() && _magnitude.allFinite();
@@ -126,7 +129,8 @@ bool SweepSolver::write(std::size_t row, SweepColumns& rows) {
     energy -= _r[i] * d[i] / 2;
     length += lambda[i] > 0 ? _geometry.length[i] : 0;
   }
-  _displacement.noalias() += _geometry.displacement * d;
+  multiply(_geometry.displacement, d, _of_jumps);
+  _displacement += _of_jumps;
   if (!std::isfinite(energy) || !_displacement.allFinite() || !lambda.allFinite()) {
     return false;
   }

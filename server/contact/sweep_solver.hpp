@@ -75,7 +75,7 @@ class SweepSolver {
 
   const SweepGeometry& _geometry;
   WarmLcp _lcp;
-  Eigen::VectorXd _sizes, _r, _magnitude, _displacement, _product;
+  Eigen::VectorXd _sizes, _r, _magnitude, _displacement, _of_jumps, _product;
   double _energy = 0;
 };
 

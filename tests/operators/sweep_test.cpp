@@ -213,6 +213,30 @@ TEST(Sweep, StopsBetweenTwoRows) {
   EXPECT_TRUE(op->sweep(prepared, {}, row, start));
 }
 
+/// BLAS complains on standard output of matrices without entries.
+TEST(Sweep, NeedsNeitherCrackNorInclusion) {
+  for (const mesh::Kind kind : {mesh::Kind::glue, mesh::Kind::crack}) {
+    const Operator op = MeshOperator::factorise(
+        std::make_shared<const mesh::Mesh>(anticrack::testing::structured_mesh(
+            {24,
+             8,
+             [=](double x) { return std::abs(x) < 0.5 ? kind : mesh::Kind::glue; },
+             {},
+             {}})),
+        1, {});
+    std::vector<fem::Load> loads = three_loads();
+    loads[2].inclusion_forces.clear();
+    SweepColumns rows = columns(*op, 1);
+    std::vector<char> start;
+    Silent silent;
+    ::testing::internal::CaptureStdout();
+    EXPECT_TRUE(op->sweep(*basis_of(*op, loads), std::vector<double>{1, -1, 2}, {}, rows, start));
+    op->solve(loads[0], ActiveSetOptions{}, false, silent);
+    EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+    EXPECT_EQ(rows.status[0], Status::converged);
+  }
+}
+
 TEST(Sweep, RefusesWhatDoesNotFit) {
   const Operator op = factorised(), another = factorised();
   const auto basis = basis_of(*op, three_loads());
