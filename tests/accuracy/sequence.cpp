@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "accuracy/sequence.hpp"
+#include "support/silent_observer.hpp"
 
 #include <stdexcept>
 
 namespace anticrack::accuracy {
 namespace {
 
-class Silent : public contact::Observer {
- public:
-  bool on_iteration(const contact::Sample&) override { return true; }
-};
+using anticrack::testing::Silent;
 
 }  // namespace
 

@@ -19,9 +19,12 @@
 #include "ddm/subdomain_operator.hpp"
 #include "jobs/event_log.hpp"
 #include "operators/mesh_operator.hpp"
+#include "support/silent_observer.hpp"
 
 namespace anticrack::benchmarks {
 namespace {
+
+using anticrack::testing::Silent;
 
 /// One mesh, taken apart as the solver has it.
 class Bench {
@@ -55,11 +58,6 @@ class Bench {
   const ddm::Decomposition decomposition;
   std::vector<ddm::SubdomainOperator> operators;
   const std::shared_ptr<const operators::MeshOperator> whole;
-};
-
-class Nobody : public contact::Observer {
- public:
-  bool on_iteration(const contact::Sample&) override { return true; }
 };
 
 int columns_of(const benchmark::State& state) {
@@ -107,7 +105,7 @@ void forward_solve(benchmark::State& state, const Bench& bench) {
 /// A load that is condensed already: active set, refinement and the answer's traces.
 void active_set(benchmark::State& state, const Bench& bench) {
   const std::vector<operators::PreparedLoad> loads = bench.prepared(16);
-  Nobody nobody;
+  Silent nobody;
   std::size_t next = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(

@@ -16,10 +16,12 @@
 #include "ddm/decomposition.hpp"
 #include "operators/freed_memory.hpp"
 #include "operators/mesh_operator.hpp"
+#include "support/silent_observer.hpp"
 
 namespace anticrack::benchmarks {
 namespace {
 
+using anticrack::testing::Silent;
 using operators::MeshOperator;
 using Operator = std::shared_ptr<const MeshOperator>;
 
@@ -33,11 +35,6 @@ struct Options {
   int rows = 0;
   double theta = 0;      ///< 0: that of the mesh
   int most = 1'000'000;  ///< iterations
-};
-
-class Nobody : public contact::Observer {
- public:
-  bool on_iteration(const contact::Sample&) override { return true; }
 };
 
 /// A, energy and iterations of load cases 0, 1, ...
@@ -67,7 +64,7 @@ Operator first_answers(const Options& options, const std::shared_ptr<const mesh:
                        const fem::Load& load, Figures& figures) {
   Times first, cut, factorise;
   Operator op;
-  Nobody nobody;
+  Silent nobody;
   reset_peak_memory();
   const std::uint64_t before = peak_memory();
   for (int i = 0; i < options.repetitions; ++i) {
@@ -96,7 +93,7 @@ void further_loads(const Options& options, const MeshOperator& op,
                    const std::vector<fem::Load>& loads, Figures& figures) {
   Times alone;
   Answers answers;
-  Nobody nobody;
+  Silent nobody;
   for (std::size_t k = 0; k < static_cast<std::size_t>(options.loads); ++k) {
     const Stopwatch watch;
     const contact::Answer answer = op.solve(loads[k], contact::ActiveSetOptions{}, false, nobody);
@@ -189,7 +186,7 @@ void uzawa(const Options& options, const MeshOperator& op, const std::vector<fem
   how.max_iterations = options.most;
   Times per_load, per_iteration;
   Answers answers;
-  Nobody nobody;
+  Silent nobody;
   double theta = 0, converged = 0;
   // The first computes theta* and what each iteration multiplies by, once for all loads.
   op.solve(loads[0], how, false, nobody);

@@ -11,17 +11,14 @@
 #include <thread>
 
 #include "errors/errors.hpp"
+#include "support/silent_observer.hpp"
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::operators {
 namespace {
 
+using anticrack::testing::Silent;
 using ::testing::HasSubstr;
-
-class Silent : public contact::Observer {
- public:
-  bool on_iteration(const contact::Sample&) override { return true; }
-};
 
 std::shared_ptr<const mesh::Mesh> membrane(int columns = 32, int rows = 8) {
   return std::make_shared<const mesh::Mesh>(

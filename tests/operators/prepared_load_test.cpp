@@ -11,22 +11,19 @@
 #include "operators/answer_difference.hpp"
 #include "operators/mesh_operator.hpp"
 #include "support/errors.hpp"
+#include "support/silent_observer.hpp"
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::operators {
 namespace {
 
 using anticrack::testing::error_of;
+using anticrack::testing::Silent;
 using anticrack::testing::structured_mesh;
 using anticrack::testing::throws;
 using errors::Reason;
 using Outcome = std::variant<PreparedLoad, errors::Error>;
 using Operator = std::shared_ptr<const MeshOperator>;
-
-class Silent : public contact::Observer {
- public:
-  bool on_iteration(const contact::Sample&) override { return true; }
-};
 
 Operator factorised() {
   mesh::Mesh mesh = structured_mesh({32, 8, {}, {}, {"bar"}});

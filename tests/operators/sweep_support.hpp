@@ -8,16 +8,13 @@
 #include <vector>
 
 #include "operators/mesh_operator.hpp"
+#include "support/silent_observer.hpp"
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::operators {
 
+using anticrack::testing::Silent;
 using Operator = std::shared_ptr<const MeshOperator>;
-
-class Silent : public contact::Observer {
- public:
-  bool on_iteration(const contact::Sample&) override { return true; }
-};
 
 inline Operator factorised() {
   return MeshOperator::factorise(

@@ -53,14 +53,21 @@ void expect_same_bits(const SweepColumns& a, const SweepColumns& b) {
   EXPECT_TRUE(same_bits(a.contact, b.contact));
 }
 
+/// All rows in one call, from an empty start, which becomes that of the last row.
+SweepColumns swept(const MeshOperator& op, const LoadBasis& basis, const std::vector<double>& c,
+                   std::vector<char>& start) {
+  SweepColumns rows = columns(op, c.size() / basis.size());
+  EXPECT_TRUE(op.sweep(basis, c, {}, rows, start));
+  return rows;
+}
+
 TEST(Sweep, StartsAndCompanyChangeNoBit) {
   const Operator op = factorised();
   const auto basis = basis_of(*op, three_loads());
   constexpr std::size_t count = 60, m = 3;
   const std::vector<double> c = coefficients(count, m);
-  SweepColumns whole = columns(*op, count);
   std::vector<char> start;
-  ASSERT_TRUE(op->sweep(*basis, c, {}, whole, start));
+  const SweepColumns whole = swept(*op, *basis, c, start);
   EXPECT_EQ(start.size(), op->contact_nodes().size());
   for (const char closed : {char{0}, char{1}}) {
     SweepColumns other = columns(*op, count);
@@ -69,7 +76,6 @@ TEST(Sweep, StartsAndCompanyChangeNoBit) {
     EXPECT_EQ(all, start);
     expect_same_bits(other, whole);
   }
-  std::vector<char> alone_start;
   for (std::size_t k = 0; k < count; ++k) {
     SweepColumns alone = columns(*op, 1);
     std::vector<char> empty;
@@ -173,9 +179,8 @@ TEST(Sweep, StopsBetweenTwoRows) {
   const auto basis = basis_of(*op, three_loads());
   constexpr std::size_t count = 100, m = 3;
   const std::vector<double> c = coefficients(count, m);
-  SweepColumns wanted = columns(*op, count);
   std::vector<char> wanted_start;
-  ASSERT_TRUE(op->sweep(*basis, c, {}, wanted, wanted_start));
+  const SweepColumns wanted = swept(*op, *basis, c, wanted_start);
   std::stop_source stop;
   SweepColumns rows = columns(*op, count);
   {
@@ -257,9 +262,8 @@ TEST(Sweep, TwoThreadsAtOnceGetWhatOneGets) {
   const Operator op = factorised();
   constexpr std::size_t count = 300, m = 3;
   const std::vector<double> c = coefficients(count, m);
-  SweepColumns wanted = columns(*op, count);
   std::vector<char> start;
-  ASSERT_TRUE(op->sweep(*basis_of(*op, three_loads()), c, {}, wanted, start));
+  const SweepColumns wanted = swept(*op, *basis_of(*op, three_loads()), c, start);
 
   const Operator fresh = factorised();
   std::vector<SweepColumns> found(3, columns(*op, count));

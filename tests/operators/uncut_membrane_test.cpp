@@ -10,15 +10,13 @@
 #include "fem/load_vector.hpp"
 #include "operators/mesh_operator.hpp"
 #include "support/plain_stiffness.hpp"
+#include "support/silent_observer.hpp"
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::operators {
 namespace {
 
-class Silent : public contact::Observer {
- public:
-  bool on_iteration(const contact::Sample&) override { return true; }
-};
+using anticrack::testing::Silent;
 
 mesh::Kind glue(double) {
   return mesh::Kind::glue;

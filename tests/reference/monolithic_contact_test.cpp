@@ -16,14 +16,12 @@
 #include "errors/errors.hpp"
 #include "operators/mesh_operator.hpp"
 #include "reference/random_membrane.hpp"
+#include "support/silent_observer.hpp"
 
 namespace anticrack::reference {
 namespace {
 
-class Silent : public contact::Observer {
- public:
-  bool on_iteration(const contact::Sample&) override { return true; }
-};
+using anticrack::testing::Silent;
 
 struct Tally {
   int compared = 0, refused = 0, not_held = 0, unsettled = 0;

@@ -15,21 +15,18 @@
 #include "errors/errors.hpp"
 #include "operators/mesh_operator.hpp"
 #include "reference/random_membrane.hpp"
+#include "support/silent_observer.hpp"
 
 namespace anticrack::reference {
 namespace {
 
+using anticrack::testing::Silent;
 using contact::ActiveSetOptions;
 using contact::Answer;
 using contact::Status;
 using contact::SweepColumns;
 using operators::LoadBasis;
 using operators::MeshOperator;
-
-class Silent : public contact::Observer {
- public:
-  bool on_iteration(const contact::Sample&) override { return true; }
-};
 
 Answer plain(const MeshOperator& op, const fem::Load& load) {
   Silent silent;
