@@ -77,6 +77,7 @@ int run_command_line(int argc, char** argv) {
   add_job(app, globals, chosen);
   add_files(app, globals, chosen);
   add_server(app, globals, chosen);
+  add_guide(app, globals, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

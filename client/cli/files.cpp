@@ -81,7 +81,9 @@ int export_file(const FileOptions& options, const Globals& globals) {
 void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
   const auto options = std::make_shared<FileOptions>();
   CLI::App* show_command = app.add_subcommand("show", "Show the answers of a result file");
-  show_command->add_option("FILE", options->file, "Result file, HDF5")->required();
+  show_command->add_option("RESULT", options->file, "Result file, HDF5")
+      ->required()
+      ->type_name("FILE");
   show_command->footer("Example:\n  anticrack show paper.h5");
   show_command->callback([options, &globals, &chosen] {
     chosen = [options, &globals] { return show(*options, globals); };
@@ -89,8 +91,12 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
 
   CLI::App* plot_command =
       app.add_subcommand("plot", "Draw the figures of a result file, PNG and SVG");
-  plot_command->add_option("FILE", options->file, "Result file, HDF5")->required();
-  plot_command->add_option("-o,--output", options->folder, "Folder of the figures")->required();
+  plot_command->add_option("RESULT", options->file, "Result file, HDF5")
+      ->required()
+      ->type_name("FILE");
+  plot_command->add_option("-o,--output", options->folder, "Folder of the figures")
+      ->required()
+      ->type_name("DIR");
   plot_command->footer("Example:\n  anticrack plot paper.h5 -o figures");
   plot_command->callback([options, &globals, &chosen] {
     chosen = [options, &globals] { return plot(*options, globals); };
@@ -98,8 +104,12 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
 
   CLI::App* export_command =
       app.add_subcommand("export", "Export a result file to .vtu and .pvd, for ParaView");
-  export_command->add_option("FILE", options->file, "Result file, HDF5, with fields")->required();
-  export_command->add_option("-o,--output", options->folder, "Folder of the files")->required();
+  export_command->add_option("RESULT", options->file, "Result file, HDF5, with fields")
+      ->required()
+      ->type_name("FILE");
+  export_command->add_option("-o,--output", options->folder, "Folder of the files")
+      ->required()
+      ->type_name("DIR");
   export_command->footer(
       "The membrane needs u on every node: run the case with [output] fields = true. To see it\n"
       "deformed, apply the filter Warp By Scalar to u.\n\n"

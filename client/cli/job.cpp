@@ -149,7 +149,9 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
   CLI::App* submit_command =
       add("submit", "Submit a case and return at once", "client/examples/paper.toml",
           [&globals](const JobOptions& o) { return submit_case(o, globals); });
-  submit_command->add_option("CASE", options->case_file, "The case, a TOML file")->required();
+  submit_command->add_option("CASE", options->case_file, "The case, a TOML file")
+      ->required()
+      ->type_name("FILE");
   add_case_flags(*submit_command, options->overrides);
 
   CLI::App* list_command = add("list", "List the newest jobs", "--limit 10",
@@ -171,8 +173,10 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
   CLI::App* fetch_command =
       add_named("fetch", "Save the results of a job that has ended", " -o plate.h5",
                 [&globals](const JobOptions& o) { return fetch_result(o, globals); });
-  fetch_command->add_option("-o,--output", options->output,
-                            "Result file, HDF5 (default: ID.h5 in this folder)");
+  fetch_command
+      ->add_option("-o,--output", options->output,
+                   "Result file, HDF5 (default: ID.h5 in this folder)")
+      ->type_name("FILE");
   add_named("delete", "Delete a job that has ended, and its results", "",
             [&globals](const JobOptions& o) {
               Session session(globals);

@@ -173,7 +173,9 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
   };
 
   CLI::App* create_command = group->add_subcommand("create", "Create the mesh of a case");
-  create_command->add_option("CASE", options->file, "The case, a TOML file")->required();
+  create_command->add_option("CASE", options->file, "The case, a TOML file")
+      ->required()
+      ->type_name("FILE");
   add_overrides(create_command);
   create_command->add_flag("--no-wait", options->no_wait, "Do not wait until it is factorised");
   create_command->footer("Example:\n  anticrack mesh create client/examples/paper.toml");
@@ -182,7 +184,9 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
   });
 
   CLI::App* upload_command = group->add_subcommand("upload", "Create a mesh from a .msh file");
-  upload_command->add_option("FILE", options->file, "MSH 2.2 or 4.1, ascii or binary")->required();
+  upload_command->add_option("MESH", options->file, "MSH 2.2 or 4.1, ascii or binary")
+      ->required()
+      ->type_name("FILE");
   upload_command->add_option("--title", options->title, "A title for people");
   upload_command->add_flag("--no-wait", options->no_wait, "Do not wait until it is factorised");
   add_overrides(upload_command);
@@ -201,8 +205,10 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
   show_command
       ->add_option("MESH", options->name,
                    "meshes/ID, or a case (.toml) or .msh file to make the mesh of")
-      ->required();
-  show_command->add_option("-o,--output", options->folder, "Folder to draw it into, PNG and SVG");
+      ->required()
+      ->type_name("FILE");
+  show_command->add_option("-o,--output", options->folder, "Folder to draw it into, PNG and SVG")
+      ->type_name("DIR");
   add_overrides(show_command);
   show_command->footer(
       "Example:\n  anticrack mesh show plate.msh -o figures\n"

@@ -52,9 +52,13 @@ void add_run(CLI::App& app, const Globals& globals, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("run", "Mesh, submit, watch and save: the everyday command");
   const auto options = std::make_shared<RunOptions>();
-  command->add_option("CASE", options->case_file, "The case, a TOML file")->required();
-  command->add_option("-o,--output", options->output,
-                      "Result file, HDF5 (default: CASE.h5 in this folder)");
+  command->add_option("CASE", options->case_file, "The case, a TOML file")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("-o,--output", options->output,
+                   "Result file, HDF5 (default: CASE.h5 in this folder)")
+      ->type_name("FILE");
   add_case_flags(*command, options->overrides);
   command->footer(
       "Ctrl-C detaches and prints the command that attaches again; a second Ctrl-C within two\n"

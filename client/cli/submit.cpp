@@ -95,10 +95,10 @@ void add_case_flags(CLI::App& command, std::vector<std::string>& overrides) {
             [&overrides, key](const std::string& value) {
               overrides.push_back(key + "='" + value + "'");
             },
-            help + "; the same as --set " + key + "=" + type)
+            help + "; the same as --set " + key)
         ->type_name(type);
   };
-  add("--priority", "job.priority", "CLASS", "interactive, normal or bulk");
+  add("--priority", "job.priority", "{interactive,normal,bulk}", "How soon it gets its turn");
   add("--queue-timeout", "job.queue_timeout", "TIME",
       "Fail if it has not started after, e.g. 10min");
   add("--run-timeout", "job.run_timeout", "TIME", "Stop if it has not ended after, e.g. 2h");

@@ -143,7 +143,9 @@ int sweep(const SweepOptions& options, const Globals& globals) {
 }
 
 void add_options(CLI::App& command, SweepOptions& options) {
-  command.add_option("CASE", options.case_file, "The case, a TOML file")->required();
+  command.add_option("CASE", options.case_file, "The case, a TOML file")
+      ->required()
+      ->type_name("FILE");
   CLI::Option_group& input = *command.add_option_group("Load cases");
   input
       .add_option("--coefficients", options.files.coefficients,
@@ -161,8 +163,10 @@ void add_options(CLI::App& command, SweepOptions& options) {
                   "Rows from 0 whose traces are kept: all, none, or as 0,10,20-30")
       ->type_name("ROWS")
       ->capture_default_str();
-  CLI::Option* output = command.add_option("-o,--output,--out", options.output,
-                                           "Result file, HDF5 (default: CASE.h5 in this folder)");
+  CLI::Option* output = command
+                            .add_option("-o,--output,--out", options.output,
+                                        "Result file, HDF5 (default: CASE.h5 in this folder)")
+                            ->type_name("FILE");
   CLI::Option* csv =
       command.add_option("--csv", options.csv, "Also a line per row as comma-separated text")
           ->type_name("FILE.csv");

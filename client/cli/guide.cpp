@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+//   anticrack completion bash | zsh | fish
+//   anticrack manual DIR
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "cli/commands.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/session.hpp"
+#include "guide/completion.hpp"
+#include "guide/manual.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+int write_manual(const CLI::App& app, const std::filesystem::path& folder, const Globals& globals) {
+  std::filesystem::create_directories(folder);
+  const std::vector<guide::Page> pages = guide::manual(app, 1, "anticrack " ANTICRACK_VERSION);
+  for (const guide::Page& page : pages) {
+    std::ofstream file(folder / page.file);
+    file << page.text << std::flush;
+    if (!file) {
+      throw std::runtime_error((folder / page.file).string() + " cannot be written");
+    }
+  }
+  say(globals, std::to_string(pages.size()) + " pages in " + folder.string());
+  return exit_ok;
+}
+
+}  // namespace
+
+void add_guide(CLI::App& app, const Globals& globals, Command& chosen) {
+  using guide::Shell;
+  CLI::App* group = app.add_subcommand("completion", "Print the script that completes commands");
+  group->require_subcommand(1);
+  const auto add = [&](const std::string& name, Shell shell, const std::string& use) {
+    CLI::App* command = group->add_subcommand(name, "Completion for " + name);
+    command->footer("Example:\n  " + use);
+    command->callback([&app, &chosen, shell] {
+      chosen = [&app, shell] {
+        print_document(guide::completion_script(app, shell));
+        return exit_ok;
+      };
+    });
+  };
+  add("bash", Shell::bash, "source <(anticrack completion bash)");
+  add("zsh", Shell::zsh, "source <(anticrack completion zsh)");
+  add("fish", Shell::fish, "anticrack completion fish | source");
+
+  const auto folder = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("manual", "Write the manual pages, one a command");
+  command->add_option("DIR", *folder, "Folder for them, made if it is not there")
+      ->required()
+      ->type_name("DIR");
+  command->footer("Example:\n  anticrack manual man1 && man -l man1/anticrack-run.1");
+  command->callback([folder, &app, &globals, &chosen] {
+    chosen = [folder, &app, &globals] { return write_manual(app, *folder, globals); };
+  });
+}
+
+}  // namespace anticrack::cli
