@@ -7,7 +7,8 @@ import stat
 
 import grpc
 
-from support import DEPLOY, Daemon, FolderTest, run
+from places import DEPLOY
+from processes import Daemon, FolderTest, run
 
 SCRIPT = DEPLOY / "make-certificates"
 SERVER_INFO = "/anticrack.v1.ServerService/GetServerInfo"

@@ -2,7 +2,8 @@
 """deploy/anticrackd.toml lists every key at its default."""
 import re
 
-from support import ANTICRACKD, DEPLOY, FolderTest, run
+from places import DEPLOY
+from processes import ANTICRACKD, FolderTest, run
 
 # Found out at the start: other machines, other values.
 MACHINE = {"data-dir", "memory-budget", "threads"}

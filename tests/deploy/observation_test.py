@@ -4,7 +4,8 @@ import json
 import re
 import urllib.request
 
-from support import DEPLOY, SERVER, Daemon, FolderTest, run
+from places import DEPLOY, SERVER
+from processes import Daemon, FolderTest, run
 
 ALERTS = DEPLOY / "prometheus-alerts.yaml"
 DASHBOARD = DEPLOY / "grafana-dashboard.json"

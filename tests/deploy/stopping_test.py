@@ -5,7 +5,7 @@ import urllib.request
 
 import grpc
 
-from support import Daemon, FolderTest
+from processes import Daemon, FolderTest
 
 SERVING, NOT_SERVING = b"\x08\x01", b"\x08\x02"  # grpc.health.v1.HealthCheckResponse
 

@@ -2,7 +2,8 @@
 """systemd understands the unit, and finds it guarded."""
 import re
 
-from support import ANTICRACKD, DEPLOY, FolderTest, run
+from places import DEPLOY
+from processes import ANTICRACKD, FolderTest, run
 
 UNIT = DEPLOY / "anticrackd.service"
 

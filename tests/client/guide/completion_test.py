@@ -8,7 +8,8 @@ import shutil
 import subprocess
 import time
 
-from support import ANTICRACK, FolderTest, all_commands, commands_below, options_of, run
+from command_tree import all_commands, commands_below, options_of
+from processes import ANTICRACK, FolderTest, run
 
 BASH = r"""
 source "$1"; shift

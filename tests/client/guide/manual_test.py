@@ -2,7 +2,8 @@
 """The pages that `anticrack manual` writes, as man shows them."""
 import os
 
-from support import ANTICRACK, FolderTest, all_commands, help_of, options_of, run
+from command_tree import all_commands, help_of, options_of
+from processes import ANTICRACK, FolderTest, run
 
 
 class Manual(FolderTest):

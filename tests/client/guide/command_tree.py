@@ -1,19 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The real command, and the tree of its commands as --help tells it."""
-import os
-import pathlib
+"""The tree of commands as --help tells it."""
 import re
-import subprocess
-import tempfile
-import unittest
 
-ANTICRACK = os.environ["ANTICRACK"]
-
-
-def run(*command, **options):
-    """The ended process; its output is text."""
-    return subprocess.run([str(word) for word in command], text=True, capture_output=True, check=False,
-                          timeout=120, **options)
+from processes import ANTICRACK, run
 
 
 def help_of(*path):
@@ -38,11 +27,3 @@ def options_of(*path):
     return set(re.findall(r"--[a-z][a-z-]*(?=[ ,\n]|$)", "\n".join(
         line.strip().split("  ")[0] for line in help_of(*path).splitlines() if line.startswith(("  -", "    -")))))
 
-
-class FolderTest(unittest.TestCase):
-    """A test with a folder of its own."""
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="anticrack-test-")
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)

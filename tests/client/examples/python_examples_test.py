@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Python programs among the examples, against the real server and a file of the real command."""
+import json
+import os
+import pathlib
+import re
+import sys
+
+from processes import ANTICRACK, Daemon, FolderTest, run
+
+EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
+
+
+class ReadResults(FolderTest):
+    def setUp(self):
+        super().setUp()
+        self.result = self.folder / "paper.h5"
+        solved = run(ANTICRACK, "--local", "--json", "run", EXAMPLES / "paper.toml", "-o", self.result)
+        self.assertEqual(solved.returncode, 0, solved.stderr)
+        self.answers = json.loads(run(ANTICRACK, "--json", "show", self.result).stdout)
+
+    def read(self, *arguments):
+        ended = run(sys.executable, EXAMPLES / "read_results.py", *arguments)
+        self.assertEqual((ended.returncode, ended.stderr), (0, ""))
+        return ended.stdout
+
+    def test_prints_what_the_command_shows(self):
+        printed = re.findall(r"^(\S+): converged, energy (\S+), A of gamma_c = (\S+)$", self.read(self.result), re.M)
+        shown = [(load["name"], f"{load['energy']:.6g}", f"{load['inclusions'][0]['A']:.6g}")
+                 for load in self.answers["answers"]]
+        self.assertEqual(printed, shown)
+        self.assertEqual(len(printed), 4)
+
+    def test_draws_a_load_case(self):
+        picture = self.folder / "example-2.png"
+        self.read(self.result, picture, "example-2")
+        self.assertEqual(picture.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertGreater(picture.stat().st_size, 20_000)
+
+
+class SubmitJob(FolderTest):
+    def test_watches_to_the_end_and_prints_the_answers(self):
+        with Daemon(self.folder) as daemon:
+            ended = run(sys.executable, EXAMPLES / "submit_job.py", f"127.0.0.1:{daemon.port}")
+            self.assertEqual((ended.returncode, ended.stderr), (0, ""))
+            job = re.match(r"(jobs/\S+) on meshes/", ended.stdout).group(1)
+            self.assertRegex(ended.stdout, r"(?m)^iteration \d+: criterion \S+, \d+ crack nodes in contact$")
+            stored = json.loads(run(ANTICRACK, "--json", "--server", f"127.0.0.1:{daemon.port}", "job", "show", job).stdout)
+        for answer in stored["answers"]:
+            moved = answer["inclusions"][0]["displacement"]
+            self.assertIn(f"{answer['name']}: STATUS_CONVERGED, energy {answer['energy']:.6g}, A of fibre = {moved:.6g}\n",
+                          ended.stdout)
+        self.assertEqual(len(stored["answers"]), 2)
