@@ -107,7 +107,7 @@ class References(FolderTest):
             "Service", "Ask", "AskRequest", "AskRequest.choice", "AskRequest.inner", "AskRequest.kind",
             "AskRequest.numbers", "AskRequest.count", "AskRequest.inners", "AskRequest.Inner",
             "AskRequest.Inner.number", "AskRequest.Kind", "AskRequest.Kind.KIND_UNSPECIFIED", "AskResponse"]))
-        self.assertIn("some.proto:18: AskRequest.Inner.number", lines)
+        self.assertIn("some.proto:19: AskRequest.Inner.number", lines)
 
 
 if __name__ == "__main__":
