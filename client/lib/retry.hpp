@@ -19,7 +19,7 @@
 #include <random>
 #include <string>
 
-#include "client/error.hpp"
+#include "error.hpp"
 
 namespace anticrack::client {
 
