@@ -38,6 +38,7 @@ using PhaseListener = std::function<void(store::MeshState)>;
 /// again when somebody creates, warms or prepares it.
 class MeshCatalogue {
  public:
+  /// Takes up what an earlier run left. `store` and `cache` must outlive it.
   MeshCatalogue(CatalogueOptions options, store::Store& store, operators::OperatorCache& cache);
   /// Stops what is under way (kills the helper).
   ~MeshCatalogue();

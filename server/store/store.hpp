@@ -41,6 +41,7 @@ struct Usage {
   std::uint64_t results = 0;
   std::uint64_t uploads = 0;
   std::uint64_t database = 0;
+  /// Everything.
   std::uint64_t total() const { return meshes + results + uploads + database; }
 };
 
@@ -110,6 +111,7 @@ class Store {
   /// triangulation refers to; returns how many.
   virtual std::size_t expire_uploads(Clock::time_point before) = 0;
 
+  /// As counted, without a look at the disk but for the database.
   virtual Usage usage() const = 0;
 };
 
