@@ -51,8 +51,8 @@ class MeshCatalogue {
   store::MeshRecord create(const store::MeshDefinition& definition, const std::string& title,
                            const std::string& owner);
 
-  store::MeshRecord get(const std::string& id) const;  ///< throws not_found
-  std::vector<store::MeshRecord> list(const store::Page& page) const;
+  store::MeshRecord get(const std::string& id) const;                  ///< throws not_found
+  std::vector<store::MeshRecord> list(const store::Page& page) const;  ///< newest first
   /// Throws not_found, not_ready (not meshed). O(m): reads the triangulation.
   std::shared_ptr<const store::BlockSource> read(const std::string& id) const;
 

@@ -72,6 +72,7 @@ class Store {
   virtual void put(const MeshRecord& record) = 0;  ///< inserts or replaces
   /// The same with the triangulation, whose encoding has the hash record.sha256.
   virtual void put(const MeshRecord& record, const mesh::Mesh& triangulation) = 0;
+  /// Empty where there is none.
   virtual std::optional<MeshRecord> mesh(const std::string& id) const = 0;
   virtual std::vector<MeshRecord> meshes(const Page& page) const = 0;
   virtual std::size_t mesh_count() const = 0;
@@ -90,6 +91,7 @@ class Store {
   virtual void put(const JobRecord& record) = 0;  ///< replaces; throws not_found
   /// The end of a job: its last record and its result (null: none), both or neither.
   virtual void finish(const JobRecord& record, std::shared_ptr<const Block> result) = 0;
+  /// Empty where there is none.
   virtual std::optional<JobRecord> job(const std::string& id) const = 0;
   virtual std::vector<JobRecord> jobs(const Page& page) const = 0;
   virtual std::vector<JobRecord> unfinished() const = 0;  ///< oldest first: to be queued at a start
