@@ -38,7 +38,7 @@ class Metrics {
   Metrics(const std::string& version, const std::string& build);
   ~Metrics();
 
-  /// `method`: "UploadMesh"; `code`: gRPC's.
+  /// `method`: "/anticrack.v1.MeshService/UploadMesh"; `code`: gRPC's.
   void call_ended(const std::string& method, int code, std::chrono::duration<double> time) noexcept;
   /// By its timeline: waiting, meshing, factorising, solving, writing; by state and reason.
   void job_ended(const store::JobRecord& job) noexcept;

@@ -18,7 +18,7 @@ namespace anticrack::rpc {
 /// store writes what several wait for in one go. Thread-safe.
 class WorkPool {
  public:
-  /// Starts them; at least 1.
+  /// Starts them; `threads`: at least 1.
   explicit WorkPool(int threads);
   /// Finishes what was posted.
   ~WorkPool();
