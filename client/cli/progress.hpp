@@ -55,6 +55,7 @@ std::string_view word(v1::LoadCaseAnswer::Status status) noexcept;
 std::string_view word(v1::Job::State state) noexcept;
 std::string_view word(v1::Mesh::State state) noexcept;
 
+/// Whether the load case will not change any more.
 bool ended(v1::LoadCaseAnswer::Status status) noexcept;
 
 /// Part of the way from 1 down to `target` that `criterion` has gone on a log scale, 0 to 1.

@@ -41,6 +41,7 @@ class Session {
 
   client::Connection& connection() noexcept { return *_connection; }
   Signals& signals() noexcept { return _signals; }
+  /// Requested by the first signal.
   std::stop_token stop() const noexcept { return _signals.first(); }
   const Globals& globals() const noexcept { return _globals; }
   /// What leads to this server at the end of a command line; empty where not needed.

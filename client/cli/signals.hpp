@@ -15,11 +15,13 @@ namespace anticrack::cli {
 /// that the signals are blocked. The third signal ends the process at once. SIGPIPE is ignored.
 class Signals {
  public:
+  /// Begins to wait for them, on a thread of its own.
   Signals();
   ~Signals();
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
 
+  /// Requested when that signal comes.
   std::stop_token first() const noexcept { return _first.get_token(); }
   std::stop_token second() const noexcept { return _second.get_token(); }
   /// Waits for the second signal; whether it came. No wait where the first one was not Ctrl-C:

@@ -14,6 +14,7 @@
 
 namespace anticrack::cli {
 
+/// Whether what is written goes to a terminal, not into a file or pipe.
 bool is_terminal(std::FILE* stream);
 
 struct Size {

@@ -26,6 +26,7 @@ std::string caption(const std::string& text, const Place& place);
 /// xlabel` keeps in characters of different sizes.
 std::string below(const std::string& quoted_text, double height, const Place& place);
 
+/// Commands: how axes, tics and grid look in all figures.
 std::string axes();
 
 }  // namespace anticrack::figures

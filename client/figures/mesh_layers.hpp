@@ -23,6 +23,7 @@ struct Spot {
 struct Window {
   double x_min = 0, x_max = 0, y_min = 0, y_max = 0;
 
+  /// In the unit of the geometry.
   double width() const noexcept { return x_max - x_min; }
   double height() const noexcept { return y_max - y_min; }
 };

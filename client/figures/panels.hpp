@@ -26,9 +26,11 @@ struct Place {
 /// crack opens upwards on the far side ([u] >= 0).
 double membrane_view(const results::Result& result);
 
+/// The surface over the plane, seen from `view` degrees.
 std::string membrane_data(const Surface& surface);
 std::string membrane_panel(const Surface& surface, double view, const Place& place, Format format);
 
+/// u on both sides of an interface over its arc length, and where it is in contact.
 std::string traces_data(const Profile& profile, const results::Trace& trace);
 std::string traces_panel(const Profile& profile, const results::Load& load, const Place& place);
 

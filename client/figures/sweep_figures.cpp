@@ -110,8 +110,8 @@ std::string sweep_script(const Result& result, const SweepAxis& axis,
   return script(
       data, title_of(result),
       [&](Format) {
-        const std::string contact = panel(axis, "length in contact", "contact length [-]", lengths,
-                                          false, inclusions == 0 ? Place{0, 0, 1, 0.93} : lower);
+        std::string contact = panel(axis, "length in contact", "contact length [-]", lengths, false,
+                                    inclusions == 0 ? Place{0, 0, 1, 0.93} : lower);
         if (inclusions == 0) return contact;
         return panel(axis,
                      "displacement A of the inclusion" + std::string(inclusions > 1 ? "s" : "") +

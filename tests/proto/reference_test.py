@@ -89,7 +89,7 @@ class References(FolderTest):
                      "Of the method.\n\n**Errors:** NOT_FOUND.\n",
                      "Of those below.\n\n| Field |",
                      "`choice` (`inner` or `kind`): Of the oneof.",
-                     r"| `inner` | [AskRequest.Inner](#askrequestinner) | [u] \>= 0, \|a\*b\| |",
+                     r"| `inner` | [AskRequest.Inner](#askrequestinner) | [u] >= 0, \|a\*b\| |",
                      "| `numbers` | map of string to double | of the map |",
                      "| `count` | optional uint32 | of the optional one |",
                      "| `inners` | repeated [AskRequest.Inner](#askrequestinner) | of the list |",
