@@ -19,7 +19,8 @@ import uuid
 
 import grpc
 
-PROTO = pathlib.Path(__file__).resolve().parents[2] / "proto"
+# In the project's folder, or in /usr/share/anticrack.
+PROTO = next(folder / "proto" for folder in pathlib.Path(__file__).resolve().parents if (folder / "proto").is_dir())
 
 
 def api():

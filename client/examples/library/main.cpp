@@ -18,7 +18,9 @@ constexpr const char* membrane = R"(geometry {
 
 int main(int argc, char** argv) try {
   using namespace anticrack;
-  client::Connection connection({.address = argc > 1 ? argv[1] : "localhost:7433"});
+  client::ConnectionOptions options;
+  if (argc > 1) options.address = argv[1];
+  client::Connection connection(options);
   v1::CreateMeshRequest request;
   google::protobuf::TextFormat::ParseFromString(membrane, &request);
   v1::Job job;
@@ -28,7 +30,8 @@ int main(int argc, char** argv) try {
   load.mutable_force()->set_expression("1");
   job = client::create_job(connection, job, client::make_uuid());
   job = client::watch_job(connection, job.name(), 0, [](const v1::WatchJobResponse& event) {
-    if (event.has_phase()) std::cout << event.phase().detail() << std::endl;
+    const std::string& phase = event.phase().detail();
+    if (!phase.empty()) std::cout << phase << std::endl;
   });
   for (const v1::LoadCaseAnswer& answer : job.answers()) {
     std::cout << answer.name() << ": A = " << answer.inclusions(0).displacement() << '\n';
