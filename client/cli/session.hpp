@@ -26,6 +26,8 @@ struct Globals {
 
 /// Where people are told what goes on: standard output, with --json standard error.
 std::FILE* people(const Globals& globals);
+/// Whether people see frames that are drawn over each other there, rather than lines.
+bool shows_frames(const Globals& globals);
 /// A line for people.
 void say(const Globals& globals, std::string_view line);
 /// The one document of --json, or what a command was asked to show.

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,7 @@ v1::Job submit(Session& session, const casefile::Case& the_case, const std::stri
 void tell_submitted(const Session& session, const v1::Job& job);
 
 /// Everything about a job that has ended and has results.
-results::Result fetch(Session& session, const v1::Job& job);
+results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop);
 
 /// "jobs/ID" of "jobs/ID" or "ID"; the same for "meshes/".
 std::string full_name(const std::string& collection, const std::string& given);
