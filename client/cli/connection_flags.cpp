@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "casefile/duration.hpp"
+#include "cli/server_address.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -31,6 +32,7 @@ std::string quoted(const std::string& word) {
 void add_connection_flags(CLI::App& app, ConnectionFlags& flags) {
   app.add_option("--server", flags.server,
                  "HOST:PORT or unix:PATH of anticrackd (default: localhost:7433)")
+      ->type_name("ADDRESS")
       ->envname("ANTICRACK_SERVER");
   app.add_flag("--tls", flags.credentials.tls,
                "Encrypt, and know the server by the roots of this system");
@@ -62,6 +64,7 @@ client::ConnectionOptions connection_options(const ConnectionFlags& flags,
                                              std::function<void(const std::string&)> notice) {
   client::ConnectionOptions options;
   if (!flags.server.empty()) {
+    check_server_address(flags.server);
     options.address = flags.server;
   }
   client::CredentialFiles files = flags.credentials;

@@ -37,8 +37,11 @@ std::string summary(const results::Result& result, const fs::path& file) {
          " s, " + number(timings.total_seconds, 3) + " s in all)";
 }
 
-// Why a job came to nothing, line by line.
-std::vector<std::string> causes(const v1::Job& job) {
+// Why a job came to nothing, line by line, in terms of its case.
+std::vector<std::string> causes(const casefile::Case& the_case, const v1::Job& job) {
+  const auto text_of = [&the_case](const v1::Status& error) {
+    return std::string(in_terms_of(the_case, client::decode_error(error)).what());
+  };
   if (job.state() == v1::Job::STATE_CANCELLED) {
     return {job.name() + " was cancelled"};
   }
@@ -47,13 +50,13 @@ std::vector<std::string> causes(const v1::Job& job) {
   }
   std::vector<std::string> lines;
   if (job.has_error()) {
-    lines.push_back(job.name() + " failed: " + job.error().message());
+    lines.push_back(job.name() + " failed: " + text_of(job.error()));
   }
   for (const v1::LoadCaseAnswer& answer : job.answers()) {
     const std::string& cause = answer.error().message();
     const bool told = job.error().message().find(cause) != std::string::npos;
     if (answer.has_error() && !told) {
-      lines.push_back(answer.name() + " failed: " + cause);
+      lines.push_back(answer.name() + " failed: " + text_of(answer.error()));
     }
   }
   if (lines.empty()) {
@@ -138,7 +141,7 @@ std::optional<results::Result> results_of(Session& session, const casefile::Case
       followed.how == Followed::How::cancelled ? std::stop_token() : session.stop();
   tell_warnings(session, job, stop);
   if (job.result_bytes() == 0 || job.state() == v1::Job::STATE_EXPIRED) {
-    for (const std::string& line : causes(job)) {
+    for (const std::string& line : causes(the_case, job)) {
       std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
     }
     if (session.globals().json) {

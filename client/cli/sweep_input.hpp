@@ -16,7 +16,7 @@ namespace anticrack::cli {
 
 /// As a person names them; exactly one of the two files is given.
 struct SweepFiles {
-  std::string coefficients;  ///< FILE.csv or FILE.h5:/PATH
+  std::string coefficients;  ///< FILE.csv or FILE.h5:/PATH, without a path /coefficients
   std::string nodal;         ///< FILE.h5:/PATH
   std::string traces = "none";
 };

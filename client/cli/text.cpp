@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <ctime>
 
 namespace anticrack::cli {
 namespace {
@@ -177,6 +178,16 @@ std::string time_text(double seconds) {
     return std::to_string(whole / minute) + " min " + std::to_string(whole % minute) + " s";
   }
   return std::to_string(whole / hour) + " h " + std::to_string(whole % hour / minute) + " min";
+}
+
+std::string clock_text(std::int64_t seconds) {
+  const auto time = static_cast<std::time_t>(seconds);
+  std::tm local{};
+  std::array<char, 64> buffer{};
+  if (localtime_r(&time, &local) == nullptr) {
+    return "-";  // no year that fits
+  }
+  return {buffer.data(), std::strftime(buffer.data(), buffer.size(), "%Y-%m-%d %H:%M:%S", &local)};
 }
 
 std::string table(const std::vector<std::vector<std::string>>& rows,

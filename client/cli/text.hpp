@@ -34,6 +34,9 @@ std::string bytes(std::uint64_t count);
 /// "0.4 s", "42 s", "3 min 5 s", "2 h 10 min": for people.
 std::string time_text(double seconds);
 
+/// "2026-11-22 10:25:17" in the zone of this computer, of seconds since 1970.
+std::string clock_text(std::int64_t seconds);
+
 /// Rows under each other, two spaces between columns; column 0 and those named in `left` are
 /// aligned left. No space at line ends.
 std::string table(const std::vector<std::vector<std::string>>& rows,
