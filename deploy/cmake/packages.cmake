@@ -6,8 +6,7 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGE_VENDOR anticrack)
 set(CPACK_PACKAGE_CONTACT "The anticrack maintainers <anticrack@localhost>")
 set(CPACK_STRIP_FILES ON)
-set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS # whatever the umask
-    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/open-folders.cmake)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
@@ -36,7 +35,8 @@ API's proto files and example cases.")
 
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libanticrack-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libgrpc++-dev, libisal-dev, libprotobuf-dev, libssl-dev, pkg-config | pkgconf")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS # gRPC's CMake package fails without its plugins
+    "libgrpc++-dev, libisal-dev, libprotobuf-dev, libssl-dev, pkg-config | pkgconf, protobuf-compiler-grpc")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS "anticrack-client, cmake")
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "C++ client library of the membrane solver anticrack
 A static library with headers and a CMake package: connect to anticrackd,

@@ -8,6 +8,7 @@
 #include <anticrack/client/uuid.hpp>
 
 #include <iostream>
+#include <stdexcept>
 
 // As CreateMeshRequest of anticrack/v1/mesh.proto has it; code can set the same fields one by one.
 constexpr const char* membrane = R"(geometry {
@@ -34,9 +35,11 @@ int main(int argc, char** argv) try {
     if (!phase.empty()) std::cout << phase << std::endl;
   });
   for (const v1::LoadCaseAnswer& answer : job.answers()) {
-    std::cout << answer.name() << ": A = " << answer.inclusions(0).displacement() << '\n';
+    for (const v1::InclusionAnswer& inclusion : answer.inclusions()) {
+      std::cout << answer.name() << ": A = " << inclusion.displacement() << '\n';
+    }
   }
-  return job.state() == v1::Job::STATE_SUCCEEDED ? 0 : 1;
+  if (job.state() != v1::Job::STATE_SUCCEEDED) throw std::runtime_error(job.error().message());
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';
   return 1;
