@@ -30,6 +30,7 @@ class GalleryTest(FolderTest):
         shutil.copytree(EXAMPLES, self.folder / "client/examples")
         opening = Opening(EXAMPLES / f"{name}.toml")
         self.words = opening.words
+        self.figures = self.folder / "figures" / name
         environment = dict(os.environ, PATH=f"{pathlib.Path(ANTICRACK).parent}:{os.environ['PATH']}")
         environment.pop("ANTICRACK_SERVER", None)
         for command in opening.commands:
@@ -49,7 +50,7 @@ class GalleryTest(FolderTest):
 
     def assert_figures(self, *wanted):
         """A .png and a .svg of each name."""
-        drawn = {path.name for path in (self.folder / "figures").iterdir() if path.stat().st_size > 1000}
+        drawn = {path.name for path in self.figures.iterdir() if path.stat().st_size > 1000}
         for name in wanted:
             self.assertLessEqual({name + ".png", name + ".svg"}, drawn)
 
