@@ -4,7 +4,6 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <string_view>
 #include <utility>
@@ -13,7 +12,6 @@ namespace anticrack::cli {
 namespace {
 
 constexpr std::chrono::milliseconds frame_time{67};
-constexpr std::chrono::seconds clock_time{1};
 
 // A frame is never wider than the terminal was when it was measured; should it have shrunk since,
 // lines are cut rather than wrapped.
@@ -60,8 +58,9 @@ Size size_of(std::FILE* terminal) {
   return {size.ws_col, size.ws_row};
 }
 
-Painter::Painter(std::FILE* terminal, std::function<std::vector<std::string>(Size)> render)
-    : _terminal(terminal), _render(std::move(render)), _thread([this] { work(); }) {}
+Painter::Painter(std::FILE* terminal, std::function<std::vector<std::string>(Size)> render,
+                 std::chrono::milliseconds tick)
+    : _terminal(terminal), _render(std::move(render)), _tick(tick), _thread([this] { work(); }) {}
 
 Painter::~Painter() {
   {
@@ -107,7 +106,7 @@ void Painter::resume() {
 void Painter::work() {
   std::unique_lock lock(_mutex);
   while (!_ending) {
-    _woken.wait_for(lock, clock_time, [this] { return _stale || _ending; });
+    _woken.wait_for(lock, _tick, [this] { return _stale || _ending; });
     if (_ending) {
       return;
     }

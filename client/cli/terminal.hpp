@@ -6,6 +6,7 @@
 #include <termios.h>
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdio>
@@ -34,7 +35,7 @@ struct Size {
 Size size_of(std::FILE* terminal);
 
 /// Draws on a thread of its own, at most 15 times a second, so that a burst of events costs
-/// nothing and the last of them is always seen; once a second also without an event, for clocks.
+/// nothing and the last of them is always seen; each `tick` also without an event, for clocks.
 ///
 /// Between two frames the cursor stands on the frame's first character: wherever a terminal moves
 /// or wraps the frame when its size changes, the cursor goes with it, and the next frame can start
@@ -42,7 +43,8 @@ Size size_of(std::FILE* terminal);
 class Painter {
  public:
   /// `render` gives the lines of a frame; it is called on the painter's thread.
-  Painter(std::FILE* terminal, std::function<std::vector<std::string>(Size)> render);
+  Painter(std::FILE* terminal, std::function<std::vector<std::string>(Size)> render,
+          std::chrono::milliseconds tick = std::chrono::seconds(1));
   /// Draws the last frame and leaves it.
   ~Painter();
   Painter(const Painter&) = delete;
@@ -70,6 +72,7 @@ class Painter {
 
   std::FILE* _terminal;
   std::function<std::vector<std::string>(Size)> _render;
+  const std::chrono::milliseconds _tick;
 
   std::timed_mutex _drawing;  // the terminal, and what follows
   std::string _drawn;
