@@ -36,6 +36,10 @@ std::vector<std::string> feature_lines(const v1::ServerInfo& info) {
 
 std::string seconds(const google::protobuf::Duration& time) {
   constexpr std::int64_t hour = 3600;
+  constexpr std::int64_t day = 24 * hour;
+  if (time.seconds() >= 2 * day && time.seconds() % day == 0) {
+    return std::to_string(time.seconds() / day) + " days";
+  }
   return time.seconds() >= hour && time.seconds() % hour == 0
              ? std::to_string(time.seconds() / hour) + " h"
              : std::to_string(time.seconds()) + " s";
