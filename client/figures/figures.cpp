@@ -63,7 +63,10 @@ void draw_load(const Result& result, const Load& load, const std::string& stem, 
     });
   }
   draw_traces(result, load, stem, drawing);
-  if (has_convergence(load)) {
+  if (load.history.size() < 2) {
+    drawing.drawn.notes.push_back("load \"" + load.name +
+                                  "\": no convergence drawn, it took a single step");
+  } else {
     drawing.draw(stem + "-convergence",
                  [&](const auto& outputs) { return convergence_script(result, load, outputs); });
   }
