@@ -68,6 +68,26 @@ double label_step(const Range& range, int most) {
   return 10 * power;
 }
 
+Scale::Scale(const Range& range) {
+  const double largest = std::max(std::abs(range.low), std::abs(range.high));
+  if (!std::isfinite(largest) || largest == 0 || (largest >= 2e-3 && largest < 1e5)) return;
+  _exponent = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
+}
+
+Range Scale::drawn(const Range& range) const noexcept {
+  const double factor = std::pow(10.0, -_exponent);
+  return {range.low * factor, range.high * factor};
+}
+
+std::string Scale::column(int number) const {
+  const std::string name = std::to_string(number);
+  return _exponent == 0 ? name : "($" + name + "*1e" + std::to_string(-_exponent) + ")";
+}
+
+std::string Scale::unit() const {
+  return _exponent == 0 ? "[-]" : "[" + power_of_ten(_exponent) + "]";
+}
+
 std::string axis_range(char axis, const Range& range, int most, double step) {
   Range shown = range;
   if (!(shown.low <= shown.high)) shown = {0, 0};

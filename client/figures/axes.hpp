@@ -58,6 +58,24 @@ Range empty_range() noexcept;
 /// A round distance of labels that leaves at most about `most` of them.
 double label_step(const Range& range, int most = 6);
 
+/// Values too small or too large to be written at an axis are drawn as multiples of a power of ten
+/// that its label names.
+class Scale {
+ public:
+  Scale() = default;
+  explicit Scale(const Range& range);
+
+  /// The range as drawn.
+  Range drawn(const Range& range) const noexcept;
+  /// A column of data as drawn, for `using`.
+  std::string column(int number) const;
+  /// "[-]", or "[10⁻⁶]".
+  std::string unit() const;
+
+ private:
+  int _exponent = 0;
+};
+
 /// `set xrange` or `set yrange`, with labels at least a round `step` apart; of a range without
 /// extent, one around it.
 std::string axis_range(char axis, const Range& range, int most = 6, double step = 0);

@@ -19,7 +19,7 @@ const std::string diverging =
     "set palette defined (0 '#1b4f8f', 1 '#4a90c8', 2 '#a6cbe3', 3 '#dedede', 4 '#f4b698', "
     "5 '#d6604d', 6 '#97162b')\n";
 
-std::string colours(const Surface& surface) {
+std::string colours(const Surface& surface, const Scale& scale) {
   const double largest = surface.largest();
   std::string palette = sequential;
   double low = surface.lowest;
@@ -32,8 +32,10 @@ std::string colours(const Surface& surface) {
     low = -largest;
     high = largest;
   }
-  return palette + "set cbrange [" + number(low) + ":" + number(high) + "]\nset cbtics " +
-         number(label_step({low, high}, 4)) + " offset 0,0.3 font ',7' textcolor rgb '#333333'\n";
+  const Range drawn = scale.drawn({low, high});
+  return palette + "set cbrange [" + number(drawn.low) + ":" + number(drawn.high) +
+         "]\nset cbtics " + number(label_step(drawn, 4)) +
+         " offset 0,0.3 font ',7' textcolor rgb '#333333'\n";
 }
 
 std::string heading(double factor, const results::Load& load) {
@@ -114,13 +116,14 @@ std::string membrane_panel(const Surface& surface, const results::Load& load, do
           number(std::max(high, low + 0.1 * surface.width())) + "]\n";
   text += "set xyplane at " + number(base) + "\n";
   text += "set view 58, " + number(view) + ", 1.5\nset view equal xyz\n";
-  text += colours(surface);
+  const Scale scale({surface.lowest, surface.highest});
+  text += colours(surface, scale);
   text += "set pm3d depthorder corners2color mean lighting primary 0.35 specular 0.08\n";
   // Cairo blurs the edges of polygons, and what lies behind shines through; SVG draws them crisp.
   text += format == Format::svg ? "set pm3d noborder\n" : "set pm3d border retrace linewidth 0.3\n";
   text += "set colorbox user horizontal origin " + at(0.22, 0.105) + " size screen " +
           number(0.56 * place.width) + ", screen " + number(0.03 * place.height) + "\n";
-  text += "set label 5 'u [-]' at " + at(0.81, 0.12) + " left noenhanced\n";
+  text += "set label 5 'u " + scale.unit() + "' at " + at(0.81, 0.12) + " left noenhanced\n";
   text += caption(heading(factor, load), place);
   // Not `set xlabel`: terminals keep different distances for it.
   const double middle_x = (surface.x_min + surface.x_max) / 2;
@@ -128,7 +131,7 @@ std::string membrane_panel(const Surface& surface, const results::Load& load, do
   const double away = 0.33 * surface.width();
   text += axis_label(3, "x [-]", middle_x, surface.y_min - away, base);
   text += axis_label(4, "y [-]", surface.x_max + away, middle_y, base);
-  text += "splot $membrane using 1:2:3:4 with pm3d notitle\n";
+  text += "splot $membrane using 1:2:3:" + scale.column(4) + " with pm3d notitle\n";
   text += "unset label\n";
   return text;
 }

@@ -80,6 +80,11 @@ Range extent(const SweepAxis& axis) {
   return low < high ? Range{low, high} : Range{low - 0.5, low + 0.5};
 }
 
+/// Rows have whole numbers.
+double least_step(const SweepAxis& axis) {
+  return axis.is_coefficient ? 0 : 1;
+}
+
 /// With some room around the curves.
 Range with_room(Range heights) {
   const double room = 0.06 * heights.size();
@@ -87,23 +92,26 @@ Range with_room(Range heights) {
 }
 
 std::string axis_label(const SweepAxis& axis) {
-  return figures::quoted(axis.label, 44);
+  return figures::quoted(axis.label);
 }
 
 std::string panel(const SweepAxis& axis, const std::string& label, const Range& heights,
-                  const std::string& plots, const Place& place) {
-  return axis_range('x', extent(axis)) + axis_range('y', heights, 8) +
-         beside(figures::quoted(label), place) + "plot " + plots + "\nunset label\n";
+                  const Scale& scale, const std::string& plots, const Place& place) {
+  return axis_range('x', extent(axis), 6, least_step(axis)) +
+         axis_range('y', scale.drawn(heights), 8) +
+         beside(figures::quoted(label + " " + scale.unit()), place) + "plot " + plots +
+         "\nunset label\n";
 }
 
 /// Entries of the legend; what is beyond is drawn alike and counted.
 constexpr std::size_t named = 6;
 
-std::string displacement_plots(const SweepAxis& axis, const std::vector<std::string>& inclusions) {
+std::string displacement_plots(const SweepAxis& axis, const std::vector<std::string>& inclusions,
+                               const Scale& scale) {
   std::string plots;
   for (std::size_t i = inclusions.size(); i-- > 0;) {
     const CurveStyle style = i < named ? style_of(i) : CurveStyle{"#bbbbbb", "solid"};
-    plots += (plots.empty() ? "$A" : ", $A") + std::to_string(i) + " using 1:2" +
+    plots += (plots.empty() ? "$A" : ", $A") + std::to_string(i) + " using 1:" + scale.column(2) +
              drawn_as(axis, style) + " notitle";
   }
   if (inclusions.size() == 1) return plots;
@@ -135,13 +143,16 @@ std::string sweep_script(const Result& result, const SweepAxis& axis,
   }
   if (lengths.high == 0) lengths.high = 1;
   lengths = with_room(lengths);
+  const Scale of_lengths(lengths);
+  const Scale of_displacements(displacements);
 
   return script(
       data, title_of(result),
       [&](Format, const Place& place) {
-        const std::string contact =
-            panel(axis, "contact length [-]", lengths,
-                  "$length using 1:2" + drawn_as(axis, style_of(0)) + " notitle", place);
+        const std::string contact = panel(
+            axis, "contact length", lengths, of_lengths,
+            "$length using 1:" + of_lengths.column(2) + drawn_as(axis, style_of(0)) + " notitle",
+            place);
         const std::string foot = below(axis_label(axis), 0.04, place) + axes();
         const std::string head = caption(counted_rows(sweep), place);
         if (inclusions == 0) {
@@ -154,8 +165,8 @@ std::string sweep_script(const Result& result, const SweepAxis& axis,
         text += "set key at screen " + number(place.x + 0.54 * place.width) + ", screen " +
                 number(place.y + 0.59 * place.height) +
                 " center top horizontal maxrows 3 Left reverse noenhanced samplen 2.5 font ',7'\n";
-        text += panel(axis, "A [-]", with_room(displacements),
-                      displacement_plots(axis, sweep.inclusions), place);
+        text += panel(axis, "A", with_room(displacements), of_displacements,
+                      displacement_plots(axis, sweep.inclusions, of_displacements), place);
         text += margins(place, 0.11, legend ? 0.475 : 0.5);
         return text + "set format x\nunset key\n" + foot + contact;
       },
@@ -190,12 +201,12 @@ std::string contact_script(const Result& result, const SweepAxis& axis, const Co
       [&](Format, const Place& place) {
         std::string text = margins(place, 0.25, 0.905) + axes();
         text += caption("where " + where + " is closed,  " + counted_rows(*result.sweep), place);
-        text += axis_range('x', along) + axis_range('y', rows);
+        text += axis_range('x', along) + axis_range('y', rows, 6, least_step(axis));
         text += below(figures::quoted(map.position_label), 0.115, place);
         text += beside(axis_label(axis), place);
         text += "unset grid\nset tics out\nunset colorbox\n";
         text += std::string("set palette defined (0 ") + open_shade + ", 1 " + closed_shade + ")\n";
-        text += "set cbrange [0:1]\n" + legend(1, place);
+        text += "set cbrange [0:1]\n" + legend(map.shades ? 2 : 1, place);
         text +=
             "plot $contact using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid 1 noborder "
             "linecolor palette notitle";

@@ -97,6 +97,17 @@ std::size_t length(std::string_view text) {
   }));
 }
 
+std::string shortened(std::string_view text, std::size_t limit) {
+  if (length(text) <= limit) return std::string(text);
+  std::size_t end = text.size();
+  while (length(text.substr(0, end)) >= limit) --end;
+  return std::string(text.substr(0, end)) + "\xE2\x80\xA6";
+}
+
+std::string power_of_ten(int exponent) {
+  return "10" + superscript(exponent);
+}
+
 std::vector<std::string> wrapped(std::string_view text, std::size_t width, std::size_t most) {
   std::vector<std::string> lines;
   while (!text.empty()) {
@@ -127,8 +138,8 @@ std::string readable(double value, int digits) {
   std::string text = plain.substr(0, e);
   if (text.starts_with('-')) text.replace(0, 1, "\xE2\x88\x92");
   if (e == std::string::npos) return text;
-  text = text == "1" ? "10" : text + "\xC3\x97" + "10";
-  return text + superscript(std::stoi(plain.substr(e + 1)));
+  const std::string power = power_of_ten(std::stoi(plain.substr(e + 1)));
+  return text == "1" ? power : text + "\xC3\x97" + power;
 }
 
 std::vector<std::string> file_stems(const std::vector<std::string>& names,

@@ -20,9 +20,15 @@ std::string quoted(std::string_view text, std::size_t limit = 110);
 /// Characters of a UTF-8 text.
 std::size_t length(std::string_view text);
 
+/// At most `limit` characters, the last of them an ellipsis where it is cut.
+std::string shortened(std::string_view text, std::size_t limit);
+
 /// Lines of at most `width` characters where there are blanks to break at; the last of at most
 /// `most` lines holds all that is left. No lines of an empty text.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width, std::size_t most);
+
+/// "10⁻¹²".
+std::string power_of_ten(int exponent);
 
 /// Significant digits, independent of the locale; "NaN" for what is not finite.
 std::string number(double value, int digits = 9);

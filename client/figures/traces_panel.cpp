@@ -77,14 +77,15 @@ std::string names(const Profile& profile, const std::vector<const Inclusion*>& i
 std::string heading(const Profile& profile, const Load& load,
                     const std::vector<const Inclusion*>& inclusions) {
   constexpr std::size_t most = 50;
-  const std::string where = profile.name.empty() ? std::string("the interface") : profile.name;
+  const std::string where =
+      profile.name.empty() ? std::string("the interface") : shortened(profile.name, 20);
   std::string answer;
   const Inclusion* before = nullptr;  // one may come back, on an interface that is closed
   for (const Inclusion* inclusion : inclusions) {
     if (inclusion == nullptr || inclusion == before) continue;
     before = inclusion;
     answer += ",  A = " + readable(inclusion->displacement);
-    if (load.inclusions.size() > 1) answer += " (" + inclusion->name + ")";
+    if (load.inclusions.size() > 1) answer += " (" + shortened(inclusion->name, 12) + ")";
   }
   if (load.status == results::Status::not_converged) answer += ",  not converged";
   const std::string full = "displacements on " + where + answer;
@@ -146,17 +147,18 @@ std::string traces_panel(const Profile& profile, const results::Trace& trace, co
   high.low -= (profile.fibres.empty() ? 0.08 : 0.2) * size;  // room for bars and names
   high.high += 0.06 * size;
   const std::vector<const Inclusion*> inclusions = inclusions_on(profile, trace, load);
-  text += axis_range('x', along) + axis_range('y', high, 9);
+  const Scale scale(high);
+  text += axis_range('x', along) + axis_range('y', scale.drawn(high), 9);
   text += caption(heading(profile, load, inclusions), place);
-  text += below(figures::quoted(profile.axis), 0.2, place) + beside("'displacement [-]'", place) +
-          names(profile, inclusions, along);
+  text += below(figures::quoted(profile.axis), 0.2, place) +
+          beside("'displacement " + scale.unit() + "'", place) + names(profile, inclusions, along);
   text += legend((entries + 1) / 2, place);
   text += "plot 0 with lines linewidth 0.7 linecolor rgb '#888888' notitle, ";
-  text += "$traces using 1:2 with lines linewidth 1.5 linecolor " + blue +
+  text += "$traces using 1:" + scale.column(2) + " with lines linewidth 1.5 linecolor " + blue +
           " dashtype solid title 'u\xE2\x81\xBB'";
-  text += ", $traces using 1:3 with lines linewidth 1.5 linecolor " + vermillion +
-          " dashtype (8,4) title 'u\xE2\x81\xBA'";
-  text += ", $traces using 1:4 with lines linewidth 1.5 linecolor " + black +
+  text += ", $traces using 1:" + scale.column(3) + " with lines linewidth 1.5 linecolor " +
+          vermillion + " dashtype (8,4) title 'u\xE2\x81\xBA'";
+  text += ", $traces using 1:" + scale.column(4) + " with lines linewidth 1.5 linecolor " + black +
           " dashtype (2,3) title '[u] = u\xE2\x81\xBA \xE2\x88\x92 u\xE2\x81\xBB'";
   text += keys + "\nunset object\nunset label\n";
   return text;
