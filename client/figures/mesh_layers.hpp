@@ -30,8 +30,8 @@ struct Window {
 
 using Stretch = std::vector<Spot>;  ///< a polyline
 
-struct PlusSide {
-  Spot from, to;  ///< an arrow off the interface, into its plus side
+struct Pointer {
+  Spot from, to;  ///< an arrow off the interface
   std::string name;
 };
 
@@ -41,7 +41,8 @@ struct MeshLayers {
   std::array<std::vector<Stretch>, 5> interfaces;           ///< by results::Kind, 0 unused
   std::vector<Stretch> dirichlet, neumann;                  ///< edges of the boundary
   std::vector<results::Tip> tips;
-  std::vector<PlusSide> plus_sides;
+  std::vector<Pointer> plus_sides;  ///< of interfaces
+  std::vector<Pointer> inclusions;  ///< into the minus sides
   std::vector<std::pair<Spot, std::string>> subdomain_names;
 };
 
