@@ -52,7 +52,7 @@ class Packages(FolderTest):
         folder = tempfile.TemporaryDirectory(prefix="anticrack-test-")
         cls.addClassCleanup(folder.cleanup)
         made = run(os.environ["CPACK"], "--config", pathlib.Path(os.environ["BUILD"]) / "CPackConfig.cmake", "-B", folder.name,
-                   umask=0o077)
+                   "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip", umask=0o077)  # half the time of xz
         assert made.returncode == 0, made.stdout + made.stderr
         assert "WARNING" not in made.stdout + made.stderr, made.stderr
         cls.packages = {path.name.split("_")[0]: path for path in pathlib.Path(folder.name).glob("*.deb")}
