@@ -11,6 +11,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/follow_mesh.hpp"
 #include "cli/json.hpp"
 #include "cli/mesh_text.hpp"
 #include "cli/progress.hpp"
@@ -41,14 +42,7 @@ int show(const Globals& globals, const v1::Mesh& mesh) {
 
 /// Waits until the server is done with it; throws what it failed of.
 v1::Mesh wait_for(Session& session, const std::string& name) {
-  v1::Mesh mesh = client::wait_for_mesh(
-      session.connection(), name,
-      [&](const v1::Mesh& now) {
-        if (!client::settled(now.state())) {
-          say(session.globals(), now.name() + ": " + std::string(word(now.state())));
-        }
-      },
-      session.stop());
+  v1::Mesh mesh = follow_mesh(session, name);
   if (mesh.state() == v1::Mesh::STATE_FAILED) {
     throw client::decode_error(mesh.error());
   }

@@ -59,6 +59,7 @@ std::string_view word(v1::LoadCaseAnswer::Status status) noexcept;
 std::string_view word(v1::Job::State state) noexcept;
 std::string_view word(v1::Mesh::State state) noexcept;
 
+/// Whether the load case will not change any more.
 bool ended(v1::LoadCaseAnswer::Status status) noexcept;
 
 /// From one time to another, e.g. of creation and end of a job.

@@ -26,11 +26,13 @@ class Signals {
     resized,
   };
 
+  /// Begins to wait for them, on a thread of its own.
   Signals();
   ~Signals();
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
 
+  /// Requested by the first signal that asks for an end.
   std::stop_token first() const noexcept { return _first.get_token(); }
   /// Waits for the first signal, or for `stop`; whether the signal came.
   bool wait_for_first(const std::stop_token& stop);

@@ -12,11 +12,11 @@
 #include "cli/answers.hpp"
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/follow_mesh.hpp"
 #include "cli/job_run.hpp"
 #include "cli/sweep_input.hpp"
 #include "cli/sweep_text.hpp"
 #include "client/jobs.hpp"
-#include "client/meshes.hpp"
 #include "client/uuid.hpp"
 #include "results/file.hpp"
 #include "results/replace_file.hpp"
@@ -52,8 +52,7 @@ void check_mesh(Session& session, const casefile::Case& the_case, const SweepInp
   if (!input.nodal) {
     return;
   }
-  const v1::Mesh mesh = client::wait_for_mesh(
-      session.connection(), create_mesh(session, the_case).name(), {}, session.stop());
+  const v1::Mesh mesh = follow_mesh(session, create_mesh(session, the_case).name());
   if (mesh.state() != v1::Mesh::STATE_FAILED) {  // else the job says why
     check_nodes(input, mesh.node_count());
   }
