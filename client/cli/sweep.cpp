@@ -17,6 +17,7 @@
 #include "cli/sweep_input.hpp"
 #include "cli/sweep_text.hpp"
 #include "client/jobs.hpp"
+#include "client/meshes.hpp"
 #include "client/uuid.hpp"
 #include "results/file.hpp"
 #include "results/replace_file.hpp"
