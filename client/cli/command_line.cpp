@@ -40,7 +40,8 @@ int run_command_line(int argc, char** argv) {
       "Start a private anticrackd for this one command and stop it after; goes before --server");
   app.add_flag("--json", globals.json,
                "One JSON document on standard output, everything else on standard error");
-  app.add_flag("--quiet", globals.quiet, "Plain lines instead of the live view of a job");
+  app.add_flag("--quiet", globals.quiet,
+               "Plain lines instead of the live view of a job; the same as NO_COLOR=1");
   app.footer(footer);
   add_run(app, globals, chosen);
   add_sweep(app, globals, chosen);

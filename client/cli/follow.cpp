@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "cli/frames.hpp"
 #include "cli/live_view.hpp"
 #include "cli/progress.hpp"
-#include "cli/terminal.hpp"
 #include "cli/text.hpp"
 #include "client/jobs.hpp"
 
@@ -44,18 +44,13 @@ class View {
       _progress.sweep.emplace().total = rows;
     }
     if (shows_frames(session.globals())) {
-      _painter = std::make_unique<Painter>(people(session.globals()),
-                                           [this](Size size) { return frame_now(size); });
-      session.signals().tell_screen([this](Signals::Screen event) { on_screen(event); });
+      _frames = std::make_unique<Frames>(session, [this](Size size) { return frame_now(size); });
     }
     session.tell([this](const std::string& message) {
       change([&](JobProgress& progress) { progress.notice = sanitise(message); });
     });
   }
-  ~View() {
-    _session.tell({});
-    _session.signals().tell_screen({});
-  }
+  ~View() { _session.tell({}); }
   View(const View&) = delete;
   View& operator=(const View&) = delete;
 
@@ -63,8 +58,8 @@ class View {
   void change(const Change& apply) {
     const std::lock_guard lock(_mutex);
     apply(_progress);
-    if (_painter) {
-      _painter->refresh();
+    if (_frames) {
+      _frames->refresh();
       return;
     }
     for (const std::string& line : _log.lines(_progress)) {
@@ -85,23 +80,12 @@ class View {
     return frame(_progress, size.width, size.height - 1);
   }
 
-  void on_screen(Signals::Screen event) {
-    switch (event) {
-      case Signals::Screen::leaving:
-        return _painter->pause();
-      case Signals::Screen::back:
-        return _painter->resume();
-      case Signals::Screen::resized:
-        return _painter->redraw();
-    }
-  }
-
   Session& _session;
   const double _begin;  // of the job, by the steady clock
   std::mutex _mutex;
   JobProgress _progress;
   PlainLog _log;
-  std::unique_ptr<Painter> _painter;  // last: its thread uses the others
+  std::unique_ptr<Frames> _frames;  // last: its thread uses the others
 };
 
 /// What Ctrl-C means while a job is watched: the first one detaches, a second one cancels. With a

@@ -176,7 +176,11 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
     return show(globals, get(session, name));
   });
   add_named("watch", "Watch a job until it ends", "",
-            [&globals](const JobOptions& o) { return watch(o, globals); });
+            [&globals](const JobOptions& o) { return watch(o, globals); })
+      ->footer(
+          "Ctrl-C detaches and prints the command that attaches again; a second Ctrl-C within two\n"
+          "seconds cancels the job. Either exits with 130.\n\n"
+          "Example:\n  anticrack job watch jobs/0123456789abcdef");
   add_named("cancel", "Cancel a job", "", [&globals](const JobOptions& o) {
     const std::string name = o.full();
     Session session(globals);

@@ -12,6 +12,7 @@
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/figure_options.hpp"
+#include "cli/follow_mesh.hpp"
 #include "cli/json.hpp"
 #include "cli/mesh_text.hpp"
 #include "cli/progress.hpp"
@@ -49,14 +50,7 @@ v1::Mesh get(Session& session, const std::string& name) {
 
 /// Waits until the server is done with it; throws what it failed of.
 v1::Mesh wait_for(Session& session, const std::string& name) {
-  v1::Mesh mesh = client::wait_for_mesh(
-      session.connection(), name,
-      [&](const v1::Mesh& now) {
-        if (!client::settled(now.state())) {
-          say(session.globals(), now.name() + ": " + std::string(word(now.state())));
-        }
-      },
-      session.stop());
+  v1::Mesh mesh = follow_mesh(session, name);
   if (mesh.state() == v1::Mesh::STATE_FAILED) {
     throw client::decode_error(mesh.error());
   }

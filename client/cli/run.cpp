@@ -62,7 +62,9 @@ void add_run(CLI::App& app, const Globals& globals, Command& chosen) {
   add_case_flags(*command, options->overrides);
   command->footer(
       "Ctrl-C detaches and prints the command that attaches again; a second Ctrl-C within two\n"
-      "seconds cancels the job. With --local the first one cancels.\n\n"
+      "seconds cancels the job and saves what had ended. With --local the first one cancels. "
+      "Either\n"
+      "exits with 130.\n\n"
       "Example:\n  anticrack --local run client/examples/paper.toml -o paper.h5\n"
       "  anticrack run plate.toml --set mesh.preset=uniform --set mesh.size=0.02");
   command->callback(

@@ -32,7 +32,7 @@ class Signals {
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
 
-  /// Requested when that signal comes.
+  /// Requested by the first signal that asks for an end.
   std::stop_token first() const noexcept { return _first.get_token(); }
   /// Waits for the first signal, or for `stop`; whether the signal came.
   bool wait_for_first(const std::stop_token& stop);

@@ -12,6 +12,7 @@
 #include "cli/answers.hpp"
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/follow_mesh.hpp"
 #include "cli/job_run.hpp"
 #include "cli/sweep_input.hpp"
 #include "cli/sweep_text.hpp"
@@ -52,8 +53,7 @@ void check_mesh(Session& session, const casefile::Case& the_case, const SweepInp
   if (!input.nodal) {
     return;
   }
-  const v1::Mesh mesh = client::wait_for_mesh(
-      session.connection(), create_mesh(session, the_case).name(), {}, session.stop());
+  const v1::Mesh mesh = follow_mesh(session, create_mesh(session, the_case).name());
   if (mesh.state() != v1::Mesh::STATE_FAILED) {  // else the job says why
     check_nodes(input, mesh.node_count());
   }

@@ -17,7 +17,7 @@ constexpr std::chrono::milliseconds frame_time{67};
 // lines are cut rather than wrapped.
 constexpr std::string_view cut_lines = "\x1b[?7l";
 constexpr std::string_view wrap_lines = "\x1b[?7h";
-constexpr std::string_view wipe_line = "\x1b[K";
+constexpr std::string_view wipe_line = "\x1b[2K";  // all of it: else tmux may join it to another
 constexpr std::string_view wipe_below = "\x1b[J";
 
 // Each line over what is there, the cursor after the last one.
@@ -25,8 +25,8 @@ std::string text_of(const std::vector<std::string>& lines) {
   std::string text = "\r";
   for (std::size_t i = 0; i < lines.size(); ++i) {
     text += i > 0 ? "\n" : "";
-    text += lines[i];
     text += wipe_line;
+    text += lines[i];
   }
   text += wipe_below;
   return text;

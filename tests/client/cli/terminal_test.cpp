@@ -52,8 +52,8 @@ TEST(Painter, DrawsTheLastFrameOverTheOneBefore) {
     EXPECT_TRUE(eventually([&] { return frames > 0; }));
   }
   EXPECT_EQ(frames, 2);
-  EXPECT_EQ(content_of(file.get()), drawn("\rhead\x1b[K\nframe 1\x1b[K\x1b[J", "\x1b[1A") +
-                                        drawn("\rhead\x1b[K\nframe 2\x1b[K\x1b[J", "\x1b[1A") +
+  EXPECT_EQ(content_of(file.get()), drawn("\r\x1b[2Khead\n\x1b[2Kframe 1\x1b[J", "\x1b[1A") +
+                                        drawn("\r\x1b[2Khead\n\x1b[2Kframe 2\x1b[J", "\x1b[1A") +
                                         "\n\n")
       << "each over the one before, the cursor below in the end";
 }
@@ -64,7 +64,7 @@ TEST(Painter, DrawsOnceWhereNothingHappens) {
     Painter painter(
         file.get(), [](Size) { return std::vector<std::string>{"only"}; }, never);
   }
-  EXPECT_EQ(content_of(file.get()), drawn("\ronly\x1b[K\x1b[J", "") + "\n");
+  EXPECT_EQ(content_of(file.get()), drawn("\r\x1b[2Konly\x1b[J", "") + "\n");
 }
 
 TEST(Painter, WritesTheSameFrameAgainOnlyForAnotherSize) {
@@ -86,7 +86,7 @@ TEST(Painter, WritesTheSameFrameAgainOnlyForAnotherSize) {
     painter.redraw();
     EXPECT_TRUE(eventually([&] { return frames > before; }));
   }
-  const std::string once = drawn("\rsame\x1b[K\x1b[J", "");
+  const std::string once = drawn("\r\x1b[2Ksame\x1b[J", "");
   EXPECT_EQ(content_of(file.get()), once + once + once + "\n") << "first, redrawn, last";
 }
 
@@ -121,7 +121,7 @@ TEST(Painter, LeavesTheTerminalToOthersWhilePaused) {
     painter.resume();
     EXPECT_TRUE(eventually([&] { return frames > 1; }));
   }
-  const std::string once = drawn("\ra\x1b[K\nb\x1b[K\x1b[J", "\x1b[1A");
+  const std::string once = drawn("\r\x1b[2Ka\n\x1b[2Kb\x1b[J", "\x1b[1A");
   EXPECT_EQ(content_of(file.get()), once + "\n\n" + "others\n" + once + once + "\n\n");
 }
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Frames for who runs a command, as long as it waits for something.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cli/session.hpp"
+#include "cli/terminal.hpp"
+
+namespace anticrack::cli {
+
+/// A Painter where people look (see shows_frames) that follows the terminal's size, and makes room
+/// when the command is stopped (Ctrl-Z) or ended. One at a time.
+class Frames {
+ public:
+  /// `render` gives the lines of a frame; it is called on the painter's thread.
+  Frames(Session& session, std::function<std::vector<std::string>(Size)> render);
+  /// Draws the last frame and leaves it.
+  ~Frames();
+  Frames(const Frames&) = delete;
+  Frames& operator=(const Frames&) = delete;
+
+  /// There is something new to draw.
+  void refresh() { _painter.refresh(); }
+
+ private:
+  Signals& _signals;
+  Painter _painter;
+};
+
+}  // namespace anticrack::cli
