@@ -12,6 +12,7 @@
 #include "cli/answers.hpp"
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/figure_options.hpp"
 #include "cli/json.hpp"
 #include "cli/text.hpp"
 #include "figures/figures.hpp"
@@ -26,6 +27,7 @@ struct FileOptions {
   std::string file;
   std::string folder;
   std::vector<std::string> loads;  ///< none: all
+  figures::Options figures;
 };
 
 // The result with the loads that were asked for, in their order.
@@ -105,7 +107,7 @@ int tell_made(const std::vector<std::filesystem::path>& files,
 }
 
 int plot(const FileOptions& options, const Globals& globals) {
-  const figures::Drawn drawn = figures::draw(read(options), options.folder);
+  const figures::Drawn drawn = figures::draw(read(options), options.folder, options.figures);
   return tell_made(drawn.files, drawn.notes, globals);
 }
 
@@ -133,13 +135,20 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
     chosen = [options, &globals] { return show(*options, globals); };
   });
 
-  CLI::App* plot_command =
-      app.add_subcommand("plot", "Draw the figures of a result file, PNG and SVG");
+  CLI::App* plot_command = app.add_subcommand("plot", "Draw the figures of a result file");
   add_file(*plot_command, *options, "Result file, HDF5");
   plot_command->add_option("-o,--output", options->folder, "Folder of the figures")
       ->required()
       ->type_name("DIR");
-  plot_command->footer("Example:\n  anticrack plot paper.h5 -o figures");
+  add_figure_options(*plot_command, options->figures);
+  plot_command->footer(
+      "Of every load: LOAD-membrane, LOAD-traces (u-, u+ and [u] on the interface) and\n"
+      "LOAD-convergence, 85 mm wide, a column of a journal; and LOAD, the first two side by side. "
+      "Of\n"
+      "a sweep: sweep (A and the contact length), sweep-contact (where the cracks are closed) and\n"
+      "the traces of rows that were kept.\n\n"
+      "Example:\n  anticrack plot paper.h5 -o figures\n"
+      "  anticrack plot paper.h5 -o figures --format pdf --no-titles");
   plot_command->callback([options, &globals, &chosen] {
     chosen = [options, &globals] { return plot(*options, globals); };
   });

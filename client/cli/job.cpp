@@ -125,7 +125,7 @@ int fetch_result(const JobOptions& options, const Globals& globals) {
   if (job.state() == v1::Job::STATE_EXPIRED) {
     throw client::Error(client::Code::failed_precondition, expired_text(job));
   }
-  const results::Result result = fetch(session, job);
+  const results::Result result = fetch(session, job, session.stop());
   results::write(output, result);
   print_document(globals.json ? answers_json(result, output)
                               : answers_table(result) + "\nResults: " + sanitise(output));

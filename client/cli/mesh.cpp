@@ -11,6 +11,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/figure_options.hpp"
 #include "cli/json.hpp"
 #include "cli/mesh_text.hpp"
 #include "cli/progress.hpp"
@@ -33,6 +34,7 @@ struct MeshOptions {
   bool no_wait = false;
   bool pin = false;
   int limit = 50;
+  figures::Options figures;
 };
 
 int show(const Globals& globals, const v1::Mesh& mesh) {
@@ -110,8 +112,8 @@ int show_mesh(const MeshOptions& options, const Globals& globals) {
   }
   const client::Block block = client::read_mesh(session.connection(), name, session.stop());
   const std::string stem = name.substr(std::string("meshes/").size());
-  const figures::Drawn drawn =
-      figures::draw_mesh(to_mesh_plan(mesh, block), "mesh-" + stem, options.folder);
+  const figures::Drawn drawn = figures::draw_mesh(to_mesh_plan(mesh, block), "mesh-" + stem,
+                                                  options.folder, options.figures);
   for (const auto& file : drawn.files) {
     say(globals, file.string());
   }
@@ -226,8 +228,9 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
                    "meshes/ID, or a case (.toml) or .msh file to make the mesh of")
       ->required()
       ->type_name("FILE");
-  show_command->add_option("-o,--output", options->folder, "Folder to draw it into, PNG and SVG")
+  show_command->add_option("-o,--output", options->folder, "Folder to draw it into")
       ->type_name("DIR");
+  add_figure_options(*show_command, options->figures);
   add_overrides(show_command);
   show_command->footer(
       "Example:\n  anticrack mesh show plate.msh -o figures\n"

@@ -146,14 +146,14 @@ void tell_submitted(const Session& session, const v1::Job& job) {
       "To watch it: anticrack job watch " + job.name() + session.server_option());
 }
 
-results::Result fetch(Session& session, const v1::Job& job) {
+results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop) {
   client::Connection& connection = session.connection();
   Fetched fetched;
   fetched.job = job;
-  fetched.mesh = client::get_mesh(connection, job.mesh());
-  fetched.server = client::server_info(connection);
-  fetched.mesh_block = client::read_mesh(connection, job.mesh());
-  fetched.result_block = client::read_result(connection, job.name());
+  fetched.mesh = client::get_mesh(connection, job.mesh(), stop);
+  fetched.server = client::server_info(connection, stop);
+  fetched.mesh_block = client::read_mesh(connection, job.mesh(), stop);
+  fetched.result_block = client::read_result(connection, job.name(), stop);
   return to_result(fetched);
 }
 

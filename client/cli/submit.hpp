@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,7 @@ v1::Job submit(Session& session, const casefile::Case& the_case, const std::stri
 void tell_submitted(const Session& session, const v1::Job& job);
 
 /// Everything about a job that has ended and has results.
-results::Result fetch(Session& session, const v1::Job& job);
+results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop);
 
 /// exit_ok or exit_job_failed, by the state of a job that has ended.
 int exit_code_of(v1::Job::State state);

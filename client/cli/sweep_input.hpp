@@ -29,6 +29,7 @@ struct SweepInput {
   std::size_t rows = 0;
   std::size_t columns = 0;
 
+  /// Of the values.
   std::size_t bytes() const noexcept { return values.size() * sizeof(double); }
 };
 

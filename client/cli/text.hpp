@@ -15,10 +15,10 @@ namespace anticrack::cli {
 /// sends may not steer the terminal.
 std::string sanitise(std::string_view text);
 
-/// Code points of valid UTF-8: about the columns it takes.
+/// Columns of a terminal that valid UTF-8 takes: two for wide characters, none for combining ones.
 std::size_t columns_of(std::string_view text) noexcept;
 
-/// Cut to `width` code points, the last one "~" where something was cut off.
+/// Cut to at most `width` columns, the last one "~" where something was cut off.
 std::string fit(std::string_view text, std::size_t width);
 
 /// Spaces up to `width`, on the right or on the left.

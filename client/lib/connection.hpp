@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
-#include "client/credentials.hpp"
-#include "client/retry.hpp"
+#include "credentials.hpp"
+#include "retry.hpp"
 
 namespace anticrack::client {
 
@@ -28,18 +28,20 @@ struct ConnectionOptions {
   std::function<void(const std::string&)> notice;
 };
 
-/// Thread-safe, as far as `notice` is. Bulk reads have a channel of their own, so that events are
-/// not queued behind them.
+/// Thread-safe, as far as `notice` is; must outlive the calls made with it. Bulk reads have a
+/// channel of their own, so that events are not queued behind them.
 class Connection {
  public:
+  /// Throws nothing of its own: an address where nobody answers is found out by the first call.
   explicit Connection(ConnectionOptions options);
   ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
+  /// As it was given.
   const std::string& address() const noexcept;
 
-  struct State;  ///< gRPC's side, see client/channel.hpp
+  struct State;  ///< gRPC's side, for the sources of this library only
   State& state() noexcept { return *_state; }
 
  private:

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// SolveService and ServerService. Every function throws Error, and Interrupted once `stop` is
-// requested; a lost connection is retried with back-off first.
+// Jobs on the server: submit them, watch them, read their results (SolveService and ServerService;
+// requests and answers, with units, are those of anticrack/v1/solve.proto and server.proto).
+//
+// Every function may be called from any thread. It returns when the server has answered, or throws:
+//   Error        what the server said no to, by its code; the codes of each call stand beside it.
+//                A lost connection is retried with back-off (ConnectionOptions::retry) before it
+//                becomes Error (unavailable); so is RESOURCE_EXHAUSTED where the server says when
+//                to come back. Retrying is harmless: every call here can be repeated.
+//   Interrupted  once `stop` is requested. The job goes on all the same; only cancel_job ends it.
 #pragma once
 
 #include <cstdint>
@@ -11,42 +18,58 @@
 
 #include "anticrack/v1/server.pb.h"
 #include "anticrack/v1/solve.pb.h"
-#include "client/block.hpp"
-#include "client/connection.hpp"
-#include "client/error.hpp"
+#include "block.hpp"
+#include "connection.hpp"
+#include "error.hpp"
 
 namespace anticrack::client {
 
-/// `request_id` (see make_uuid) makes the retries harmless: one id, one job.
+/// Submits a job and returns it with its name, QUEUED or WAITING_FOR_MESH; it outlives this client
+/// and the server's restarts from then on. `request_id` (see make_uuid) makes retries harmless: one
+/// id, one job. Empty: an answer lost on the way may leave two.
+/// Error: invalid_argument (Details::fields names the fields), not_found (the mesh),
+/// resource_exhausted (the queue or the disk is full), unimplemented (an older server).
 v1::Job create_job(Connection& connection, const v1::Job& job, const std::string& request_id,
                    const std::stop_token& stop = {});
 
+/// The job of this name ("jobs/ID") as it is now. Error: not_found.
 v1::Job get_job(Connection& connection, const std::string& name, const std::stop_token& stop = {});
 
+/// One page of the jobs this client may see, the newest first. Error: invalid_argument (page token
+/// or size).
 v1::ListJobsResponse list_jobs(Connection& connection, const v1::ListJobsRequest& request,
                                const std::stop_token& stop = {});
 
+/// Asks a job to stop. Returns at once; it ends CANCELLED within an iteration and keeps the load
+/// cases it finished. One that has ended is returned as it is. Error: not_found.
 v1::Job cancel_job(Connection& connection, const std::string& name,
                    const std::stop_token& stop = {});
 
+/// Deletes a job that has ended, and its results. Error: not_found, failed_precondition (not
+/// ended).
 void delete_job(Connection& connection, const std::string& name, const std::stop_token& stop = {});
 
-/// Whether a job will not change any more.
+/// Whether a job will not change any more: SUCCEEDED, FAILED, CANCELLED or EXPIRED.
 bool ended(v1::Job::State state);
 
-/// Passes on every event of a job after number `after_sequence`, in order and once each, until it
-/// has ended; returns the job as it ended. After a lost connection goes on behind the last event;
-/// where the server keeps that one no longer, starts over with a snapshot and the earliest event
-/// kept (their numbers may then have been seen before). `event` is called on this thread; snapshots
-/// and heartbeats are passed on too.
+/// Passes on every event of a job after number `after_sequence` (0: from the earliest kept), in
+/// order and once each, until it has ended; returns the job as it ended, also one that FAILED: see
+/// Job.state. After a lost connection goes on behind the last event; where the server keeps that
+/// one no longer, starts over with a snapshot and the earliest event kept (their numbers may then
+/// have been seen before). `event` is called on this thread, for snapshots and heartbeats too; to
+/// leave early it requests `stop` rather than throw. Error: not_found.
 v1::Job watch_job(Connection& connection, const std::string& name, std::uint64_t after_sequence,
                   const std::function<void(const v1::WatchJobResponse&)>& event,
                   const std::stop_token& stop = {});
 
-/// Traces and histories of an ended job; an interrupted read goes on where it was.
+/// Traces and histories of an ended job (the arrays stand at ReadResultResponse in solve.proto); an
+/// interrupted read goes on where it was.
+/// Error: not_found, failed_precondition (not ended, ended without results, or expired), data_loss
+/// (damaged again and again).
 Block read_result(Connection& connection, const std::string& name,
                   const std::stop_token& stop = {});
 
+/// Version, features, limits and load of the server.
 v1::ServerInfo server_info(Connection& connection, const std::stop_token& stop = {});
 
 }  // namespace anticrack::client

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// MeshService. Every function throws Error, and Interrupted once `stop` is requested; a lost
-// connection is retried with back-off first.
+// Meshes on the server: make them, wait for them, read them (MeshService; requests and answers,
+// with units, are those of anticrack/v1/mesh.proto).
+//
+// Every function may be called from any thread. It returns when the server has answered, or throws:
+//   Error        what the server said no to, by its code; the codes of each call stand beside it.
+//                A lost connection is retried with back-off (ConnectionOptions::retry) before it
+//                becomes Error (unavailable); so is RESOURCE_EXHAUSTED where the server says when
+//                to come back. Retrying is harmless: every call here can be repeated.
+//   Interrupted  once `stop` is requested.
 #pragma once
 
 #include <filesystem>
@@ -11,49 +18,68 @@
 #include <string>
 
 #include "anticrack/v1/mesh.pb.h"
-#include "client/block.hpp"
-#include "client/connection.hpp"
-#include "client/error.hpp"
+#include "block.hpp"
+#include "connection.hpp"
+#include "error.hpp"
 
 namespace anticrack::client {
 
-/// Sends a .msh file in chunks of 1 MiB; returns "uploads/SHA256". Sending it again is harmless.
+/// Sends a .msh file (MSH 2.2 or 4.1) in chunks of 1 MiB; returns "uploads/SHA256", for
+/// CreateMeshRequest.upload. Sending it again is harmless.
+/// Error: invalid_argument (no .msh, or over the server's upload limit), resource_exhausted.
 /// Throws std::runtime_error when the file cannot be read or changes while it is sent.
 std::string upload_mesh(Connection& connection, const std::filesystem::path& path,
                         const std::stop_token& stop = {});
 
-/// Sends values as they are (float64, little-endian) for Force.Array; returns "uploads/SHA256".
+/// Sends values as they are (float64, little-endian); returns "uploads/SHA256", for Force.Array and
+/// Sweep.Matrix. They have the unit of what they are used for.
+/// Error: invalid_argument (over the server's upload limit), resource_exhausted.
 std::string upload_array(Connection& connection, std::span<const double> values,
                          const std::stop_token& stop = {});
 
+/// Asks for the mesh of a geometry or of an upload. Returns before it is made, most often PENDING:
+/// a job may name it at once, wait_for_mesh() waits. Equal requests give the same mesh.
+/// Error: invalid_argument (Details::fields names the fields), not_found (the upload),
+/// resource_exhausted.
 v1::Mesh create_mesh(Connection& connection, const v1::CreateMeshRequest& request,
                      const std::stop_token& stop = {});
 
+/// The mesh of this name ("meshes/ID") as it is now. Error: not_found.
 v1::Mesh get_mesh(Connection& connection, const std::string& name,
                   const std::stop_token& stop = {});
 
+/// One page of the meshes this client may see, the newest first. Error: invalid_argument (page
+/// token or size).
 v1::ListMeshesResponse list_meshes(Connection& connection, const v1::ListMeshesRequest& request,
                                    const std::stop_token& stop = {});
 
-/// Has it factorised in the background; `pin`: and kept in memory until it is evicted.
+/// Has it factorised in the background, so that the next job need not wait; `pin`: and kept in
+/// memory until it is evicted, which is for administrators. Returns before that is done.
+/// Error: not_found, failed_precondition (meshing failed), resource_exhausted (memory budget),
+/// permission_denied.
 v1::Mesh warm_mesh(Connection& connection, const std::string& name, bool pin,
                    const std::stop_token& stop = {});
 
-/// Frees its factors; the next job makes them again.
+/// Frees its factors; the next job makes them again. For administrators.
+/// Error: not_found, failed_precondition (a running job uses them), permission_denied.
 v1::Mesh evict_mesh(Connection& connection, const std::string& name,
                     const std::stop_token& stop = {});
 
+/// Deletes a mesh. Error: not_found, failed_precondition (a job that has not ended uses it).
 void delete_mesh(Connection& connection, const std::string& name, const std::stop_token& stop = {});
 
 /// Whether the server is done with a mesh: READY, EVICTED or FAILED.
 bool settled(v1::Mesh::State state);
 
-/// Asks until the mesh is settled, and tells `seen` of every new state.
+/// Asks, at most once a second, until the mesh is settled; tells `seen` of every new state, on this
+/// thread. A mesh that FAILED is returned, not thrown: see Mesh.error. Error: not_found.
 v1::Mesh wait_for_mesh(Connection& connection, const std::string& name,
                        const std::function<void(const v1::Mesh&)>& seen = {},
                        const std::stop_token& stop = {});
 
-/// Nodes, triangles and interfaces; an interrupted read goes on where it was.
+/// Nodes, triangles and interfaces (the arrays stand at ReadMeshResponse in mesh.proto); an
+/// interrupted read goes on where it was. Coordinates are in the unit of the geometry.
+/// Error: not_found, failed_precondition (not meshed yet), data_loss (damaged again and again).
 Block read_mesh(Connection& connection, const std::string& name, const std::stop_token& stop = {});
 
 }  // namespace anticrack::client

@@ -5,11 +5,10 @@
 
 namespace anticrack::app {
 
-CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version) {
+void describe(CLI::App& parser, CommandLine& result, const std::string& version) {
   const Config defaults;
-  CommandLine result;
-  CLI::App parser("Solves membranes with cracks and thin rigid inclusions, over gRPC.",
-                  "anticrackd");
+  parser.name("anticrackd");
+  parser.description("Solves membranes with cracks and thin rigid inclusions, over gRPC.");
   parser.footer(
       "Every flag is also a key of the file, e.g. memory-budget = \"2GiB\"; the command line "
       "wins.\n"
@@ -41,6 +40,12 @@ CommandLine parse_command_line(int argc, const char* const* argv, const std::str
     const std::string fallback = key.get(defaults);
     if (!fallback.empty() && fallback != "0") option->default_str(fallback);
   }
+}
+
+CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version) {
+  CommandLine result;
+  CLI::App parser;
+  describe(parser, result, version);
   try {
     parser.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -7,6 +7,10 @@
 
 #include "app/config.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace anticrack::app {
 
 struct CommandLine {
@@ -16,6 +20,9 @@ struct CommandLine {
   /// What --help or --version print: nothing else is to be done.
   std::optional<std::string> text;
 };
+
+/// Gives the parser its texts and options; what it then parses lands in `result`.
+void describe(CLI::App& parser, CommandLine& result, const std::string& version);
 
 /// Throws ConfigError.
 CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version);

@@ -48,9 +48,18 @@ TEST(Sanitise, ReplacesMarksThatReorderALine) {
             "a???b");
 }
 
-TEST(Columns, CountsCodePoints) {
+TEST(Columns, AreThoseOfATerminal) {
   EXPECT_EQ(columns_of(""), 0U);
   EXPECT_EQ(columns_of("δδ"), 2U);
+  EXPECT_EQ(columns_of("大きさ"), 6U);
+  EXPECT_EQ(columns_of("e\xcc\x81"), 1U) << "an accent of its own";
+}
+
+TEST(Fit, CutsWideCharactersToTheColumnsThereAre) {
+  EXPECT_EQ(fit("大きさ", 6), "大きさ");
+  EXPECT_EQ(fit("大きさ", 5), "大き~");
+  EXPECT_EQ(fit("大きさ", 4), "大~");
+  EXPECT_EQ(fit("大きさ", 1), "~");
 }
 
 TEST(Fit, CutsBetweenCodePoints) {

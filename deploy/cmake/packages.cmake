@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# `cpack --config build/release/CPackConfig.cmake -B DIR`: a Debian package of each component.
+set(CPACK_GENERATOR DEB)
+set(CPACK_COMPONENTS_ALL server client library)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_PACKAGE_VENDOR anticrack)
+set(CPACK_PACKAGE_CONTACT "The anticrack maintainers <anticrack@localhost>")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/open-folders.cmake)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+set(CPACK_DEBIAN_SERVER_PACKAGE_NAME anticrack-server)
+set(CPACK_DEBIAN_SERVER_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_SERVER_PACKAGE_RECOMMENDS openssl) # of make-certificates
+set(CPACK_DEBIAN_SERVER_PACKAGE_SUGGESTS "anticrack-client, prometheus")
+set(debian ${CMAKE_CURRENT_SOURCE_DIR}/debian)
+set(CPACK_DEBIAN_SERVER_PACKAGE_CONTROL_EXTRA
+    ${debian}/conffiles ${debian}/postinst ${debian}/prerm ${debian}/postrm)
+set(CPACK_DEBIAN_SERVER_DESCRIPTION "solver service for membranes with cracks and rigid inclusions
+The daemon anticrackd: takes a mesh once, factorises it once, keeps it, and
+then answers load case after load case over gRPC. Elastic membranes with
+cracks and delaminated thin rigid inclusions, by domain decomposition.")
+
+set(CPACK_DEBIAN_CLIENT_PACKAGE_NAME anticrack-client)
+set(CPACK_DEBIAN_CLIENT_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_CLIENT_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot, fonts-dejavu-core") # of anticrack plot
+set(CPACK_DEBIAN_CLIENT_PACKAGE_SUGGESTS "anticrack-server, python3-grpcio, python3-h5py, python3-matplotlib")
+set(CPACK_DEBIAN_CLIENT_DESCRIPTION "command of the membrane solver anticrack
+The command anticrack: submits cases to anticrackd, watches every iteration,
+saves the answers in HDF5, draws figures and exports to ParaView. With the
+API's proto files and example cases.")
+
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libanticrack-dev)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS # gRPC's CMake package fails without its plugins
+    "libgrpc++-dev, libisal-dev, libprotobuf-dev, libssl-dev, pkg-config | pkgconf, protobuf-compiler-grpc")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS "anticrack-client, cmake")
+set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "C++ client library of the membrane solver anticrack
+A static library with headers and a CMake package: connect to anticrackd,
+create meshes, submit jobs, watch them and read their results.")
+include(CPack)

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What cpack puts into the Debian packages, and what these say of themselves."""
+import fnmatch
+import os
+import pathlib
+import re
+import tempfile
+
+from processes import FolderTest, run
+
+DOC = "usr/share/doc"
+SHARE = "usr/share"
+EXECUTABLE, PLAIN = "-rwxr-xr-x", "-rw-r--r--"
+
+# Every file of a package has its pattern, every pattern its file.
+FILES = {
+    "anticrack-server": {
+        EXECUTABLE: ["usr/bin/anticrackd", "usr/libexec/anticrack/anticrack-mesher", f"{SHARE}/anticrack/make-certificates"],
+        PLAIN: ["etc/anticrack/anticrackd.toml", "usr/lib/systemd/system/anticrackd.service",
+                f"{SHARE}/man/man5/anticrackd.toml.5.gz", f"{SHARE}/man/man8/anticrackd.8.gz",
+                f"{DOC}/anticrack-server/copyright", f"{DOC}/anticrack-server/PROMISES.md",
+                f"{DOC}/anticrack-server/examples/prometheus-alerts.yaml",
+                f"{DOC}/anticrack-server/examples/grafana-dashboard.json"],
+    },
+    "anticrack-client": {
+        EXECUTABLE: ["usr/bin/anticrack"],
+        PLAIN: [f"{SHARE}/man/man1/anticrack.1.gz", f"{SHARE}/man/man1/anticrack-run.1.gz",
+                f"{SHARE}/man/man1/anticrack-*.1.gz", f"{SHARE}/bash-completion/completions/anticrack",
+                f"{SHARE}/zsh/vendor-completions/_anticrack", f"{SHARE}/fish/vendor_completions.d/anticrack.fish",
+                f"{SHARE}/anticrack/proto/anticrack/v1/*.proto", f"{SHARE}/anticrack/examples/paper.toml",
+                f"{SHARE}/anticrack/examples/*.toml", f"{SHARE}/anticrack/examples/load-ratio.csv",
+                f"{SHARE}/anticrack/examples/*", f"{DOC}/anticrack-client/copyright", f"{DOC}/anticrack-client/README.md"],
+    },
+    "libanticrack-dev": {
+        EXECUTABLE: [],
+        PLAIN: [*(f"usr/lib/libanticrack_{part}.a" for part in ("client", "digest", "messages", "proto")),
+                *(f"usr/lib/cmake/anticrack/anticrack-{part}.cmake"
+                  for part in ("config", "config-version", "targets", "targets-release")),
+                *(f"usr/include/anticrack/client/{part}.hpp" for part in
+                  ("block", "connection", "credentials", "error", "jobs", "meshes", "retry", "uuid")),
+                *(f"usr/include/anticrack/v1/{part}.{kind}.h" for part in ("error", "mesh", "server", "solve")
+                  for kind in ("pb", "grpc.pb")),
+                f"{SHARE}/anticrack/examples/library/CMakeLists.txt", f"{SHARE}/anticrack/examples/library/main.cpp",
+                f"{DOC}/libanticrack-dev/copyright"],
+    },
+}
+
+
+class Packages(FolderTest):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="anticrack-test-")
+        cls.addClassCleanup(folder.cleanup)
+        made = run(os.environ["CPACK"], "--config", pathlib.Path(os.environ["BUILD"]) / "CPackConfig.cmake", "-B", folder.name,
+                   umask=0o077)
+        assert made.returncode == 0, made.stdout + made.stderr
+        assert "WARNING" not in made.stdout + made.stderr, made.stderr
+        cls.packages = {path.name.split("_")[0]: path for path in pathlib.Path(folder.name).glob("*.deb")}
+
+    def field(self, package, name):
+        return run("dpkg-deb", "-f", self.packages[package], name).stdout.strip()
+
+    def test_are_three(self):
+        self.assertEqual(set(self.packages), set(FILES))
+
+    def test_hold_each_file_at_its_place(self):
+        for package, expected in FILES.items():
+            listed = run("dpkg-deb", "-c", self.packages[package]).stdout.splitlines()
+            patterns = [(mode, pattern) for mode in expected for pattern in expected[mode]]
+            used = set()
+            for line in listed:
+                mode, owner, *_, path = line.split()
+                self.assertEqual(owner, "root/root", line)
+                if mode.startswith("d"):
+                    self.assertEqual(mode, "drwxr-xr-x", line)
+                    continue
+                fitting = {(m, p) for m, p in patterns if m == mode and fnmatch.fnmatch(path.removeprefix("./"), p)}
+                self.assertTrue(fitting, f"{package}: {line}")
+                used |= fitting
+            self.assertEqual(used, set(patterns), package)
+
+    def test_share_no_file(self):
+        listed = [line.split()[-1] for package in FILES
+                  for line in run("dpkg-deb", "-c", self.packages[package]).stdout.splitlines() if line.startswith("-")]
+        self.assertEqual(len(listed), len(set(listed)))
+
+    def test_say_what_they_are(self):
+        for package in FILES:
+            self.assertRegex(self.field(package, "Version"), r"^\d+\.\d+\.\d+$")
+            self.assertIn("anticrack", self.field(package, "Description").splitlines()[0] + package)
+            self.assertLess(len(self.field(package, "Description").splitlines()[0]), 80)
+            self.assertRegex(self.field(package, "Maintainer"), r"^.+ <.+@.+>$")
+        self.assertEqual(self.field("libanticrack-dev", "Section"), "libdevel")
+
+    def test_depend_on_what_they_use(self):
+        def needs(package):
+            return set(re.findall(r"([a-z0-9.+-]+)[^,]*(?:, |$)", self.field(package, "Depends")))
+        for library in ("libgrpc++1.51", "libgmsh4.8", "libcholmod3", "libopenblas0", "libsqlite3-0", "libseccomp2", "libsystemd0"):
+            self.assertIn(library, needs("anticrack-server"))
+        self.assertIn("libhdf5-103-1", needs("anticrack-client"))
+        for library in needs("anticrack-client"):  # a thin client: nothing numerical
+            self.assertNotRegex(library, "gmsh|cholmod|blas|lapack|muparser")
+        self.assertEqual(needs("libanticrack-dev"), {"libgrpc++-dev", "libprotobuf-dev", "libisal-dev", "libssl-dev",
+                                                     "pkg-config", "protobuf-compiler-grpc"})
+        self.assertIn("gnuplot-nox", self.field("anticrack-client", "Recommends"))
+
+    def test_of_the_server_keeps_its_configuration_and_starts_its_unit(self):
+        control, files = self.folder / "control", self.folder / "files"
+        for flag, folder in (("-e", control), ("-x", files)):
+            self.assertEqual(run("dpkg-deb", flag, self.packages["anticrack-server"], folder).returncode, 0)
+        self.assertEqual((control / "conffiles").read_text(encoding="utf-8"), "/etc/anticrack/anticrackd.toml\n")
+        for script in ("postinst", "prerm", "postrm"):
+            self.assertTrue(os.access(control / script, os.X_OK), script)
+            self.assertEqual(run("sh", "-n", control / script).returncode, 0, script)
+        unit = (files / "usr/lib/systemd/system/anticrackd.service").read_text(encoding="utf-8")
+        self.assertIn("\nExecStart=/usr/bin/anticrackd --config /etc/anticrack/anticrackd.toml ", unit)
+        self.assertNotIn("/usr/local", unit)
