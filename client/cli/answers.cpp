@@ -60,7 +60,7 @@ std::vector<std::string> row_of(const results::Load& load,
     row.push_back(when_answered(load.theta, 4));
     row.push_back(when_answered(load.theta_star, 4));
   }
-  row.push_back(number(load.solve_seconds, 3));
+  row.push_back(seconds(load.solve_seconds));
   return row;
 }
 

@@ -112,8 +112,16 @@ int plot(const FileOptions& options, const Globals& globals) {
 }
 
 int export_file(const FileOptions& options, const Globals& globals) {
-  const vtk::Exported exported = vtk::export_result(read(options), options.folder);
-  return tell_made(exported.files, exported.notes, globals);
+  const results::Result result = read(options);
+  try {
+    const vtk::Exported exported = vtk::export_result(result, options.folder);
+    return tell_made(exported.files, exported.notes, globals);
+  } catch (const results::Error& error) {
+    const bool of_load = error.subject().starts_with("load ");  // in which file is said here
+    throw of_load
+        ? results::Error(options.file + ": " + error.subject(), error.cause(), error.cure())
+        : error;
+  }
 }
 
 }  // namespace

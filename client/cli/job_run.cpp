@@ -32,9 +32,9 @@ std::string summary(const results::Result& result, const fs::path& file) {
   const results::Timings& timings = result.timings;
   return "Results: " + file.string() + " (" + std::to_string(result.mesh.triangle_count()) +
          " triangles, " + std::to_string(result.mesh.node_count()) + " nodes; meshing " +
-         number(timings.mesh_seconds, 3) + " s, factorising " +
-         number(timings.factorize_seconds, 3) + " s, solving " + number(timings.solve_seconds, 3) +
-         " s, " + number(timings.total_seconds, 3) + " s in all)";
+         seconds(timings.mesh_seconds) + " s, factorising " + seconds(timings.factorize_seconds) +
+         " s, solving " + seconds(timings.solve_seconds) + " s, " + seconds(timings.total_seconds) +
+         " s in all)";
 }
 
 // Why a job came to nothing, line by line, in terms of its case.

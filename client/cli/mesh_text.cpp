@@ -50,7 +50,7 @@ std::string head(const v1::Mesh& mesh) {
 std::string sizes(const v1::Mesh& mesh) {
   std::string text = std::to_string(mesh.triangle_count()) + " triangles, " +
                      std::to_string(mesh.node_count()) + " nodes, meshed in " +
-                     number(mesh.mesh_seconds(), 3) + " s; smallest angle " +
+                     seconds(mesh.mesh_seconds()) + " s; smallest angle " +
                      number(mesh.minimum_angle(), 3) + " degrees";
   if (mesh.bisection_bound() > 0) {
     text += " (no grading can go below " + number(mesh.bisection_bound(), 3) + ")";
@@ -58,7 +58,7 @@ std::string sizes(const v1::Mesh& mesh) {
   text += "\n";
   if (mesh.operator_bytes() > 0) {
     text += "factors of " + bytes(mesh.operator_bytes()) + " made in " +
-            number(mesh.factorize_seconds(), 3) + " s";
+            seconds(mesh.factorize_seconds()) + " s";
     text += mesh.theta_star() > 0 ? ", theta* " + number(mesh.theta_star()) + "\n" : "\n";
   }
   return text;

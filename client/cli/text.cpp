@@ -150,6 +150,11 @@ std::string number(double value, int digits, bool exponent) {
   return std::string(buffer.data(), static_cast<std::size_t>(length));
 }
 
+std::string seconds(double value) {
+  constexpr double a_second = 1e4;
+  return number(std::round(value * a_second) / a_second, 3);
+}
+
 std::string bytes(std::uint64_t count) {
   const std::array<const char*, 5> units{" B", " kB", " MB", " GB", " TB"};
   auto value = static_cast<double>(count);

@@ -28,6 +28,9 @@ std::string pad_left(std::string_view text, std::size_t width);
 /// As printf's %.*g or, for `exponent`, %.*e; "-" for what is not finite.
 std::string number(double value, int digits = 6, bool exponent = false);
 
+/// Seconds for people, to three digits but no finer than 0.1 ms: "0.0118", "0.0002", "12.5".
+std::string seconds(double value);
+
 /// In the largest of B, kB, MB, GB, TB that leaves at least 1 before the point, to three digits.
 std::string bytes(std::uint64_t count);
 

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <utility>
 
 #include "casefile/nearest.hpp"
 
@@ -114,10 +115,20 @@ class Walk {
                  : "";
     }
     if (std::find(commands.begin(), commands.end(), word) == commands.end()) {
-      return "unknown command " + word + "; " + casefile::suggestion(word, commands);
+      return "unknown command " + word + "; " + cure(word, commands);
     }
     _level = _level->get_subcommand(word);
     return "";
+  }
+
+  // What a person types who forgets the command.
+  std::string cure(const std::string& word, const Words& commands) const {
+    for (const auto& [end, command] : {std::pair{".toml", "run"}, std::pair{".h5", "show"}}) {
+      if (word.ends_with(end) && _level->get_parent() == nullptr) {
+        return std::string("did you mean anticrack ") + command + " " + word + "?";
+      }
+    }
+    return casefile::suggestion(word, commands);
   }
 
   CLI::App* _level;

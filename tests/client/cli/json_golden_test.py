@@ -6,6 +6,8 @@ import json
 import pathlib
 import re
 
+import h5py
+
 from golden import FOLDER, GoldenTest
 
 MANUAL = pathlib.Path(__file__).parents[3] / "client" / "JSON.md"
@@ -98,7 +100,13 @@ class JsonGolden(GoldenTest):
 
     def test_sweeps(self):
         rows = ("sweep", "plate.toml", "--coefficients", "rows.csv")
-        self.document("sweep", *rows, "--traces", "0", "-o", "rows.h5", "--csv", "answers.csv")
+        answers = self.document("sweep", *rows, "--traces", "0", "-o", "rows.h5", "--csv", "answers.csv")["sweep"]
+        # The same rows as a dataset that says whose its columns are, in another order.
+        with h5py.File(self.folder / "named.h5", "w") as file:
+            file["coefficients"] = [[0.0, 1.0], [0.5, 0.5], [1.0, 0.0]]
+            file["coefficients"].attrs["loads"] = ["skew", "opening"]
+        same = self.document("sweep", "sweep", "plate.toml", "--combinations", "named.h5", "--traces", "0")["sweep"]
+        self.assertEqual(same | {"source": ""}, answers | {"source": ""})
         self.document("sweep", "show", "rows.h5")
         job = self.document("sweep-detach", *rows, "--detach")["name"]
         self.document("job-show-sweep", "job", "watch", job)

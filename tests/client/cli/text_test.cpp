@@ -84,6 +84,14 @@ TEST(Number, IsShortAndSaysWhenThereIsNone) {
   EXPECT_EQ(number(std::numeric_limits<double>::infinity()), "-");
 }
 
+TEST(Seconds, AreNoFinerThanATenthOfAMillisecond) {
+  EXPECT_EQ(seconds(0.011756), "0.0118");
+  EXPECT_EQ(seconds(9.87e-05), "0.0001");
+  EXPECT_EQ(seconds(12.345), "12.3");
+  EXPECT_EQ(seconds(0), "0");
+  EXPECT_EQ(seconds(std::numeric_limits<double>::quiet_NaN()), "-");
+}
+
 TEST(ClockText, IsInTheZoneOfTheComputer) {
   const char* before = std::getenv("TZ");
   const std::string zone = before == nullptr ? "" : before;

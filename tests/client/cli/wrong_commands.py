@@ -11,6 +11,10 @@ COMMANDS = [
      "run, server, show, sweep"),
     ("rnu case.toml", 2,
      "unknown command rnu; did you mean run?"),
+    ("case.toml", 2,
+     "unknown command case.toml; did you mean anticrack run case.toml?"),
+    ("result.h5", 2,
+     "unknown command result.h5; did you mean anticrack show result.h5?"),
     ("mesh", 2,
      "a command is missing after anticrack mesh; known are create, delete, evict, list, show, upload, "
      "warm"),
@@ -129,7 +133,7 @@ COMMANDS = [
     ("plot truncated.h5 -o figures", 2,
      "truncated.h5: is truncated or damaged; copy it again from where it was made, or run again"),
     ("export no-fields.h5 -o paraview", 2,
-     'load "opening": the result has no fields, u is known along the interfaces only; run the case '
+     'no-fields.h5: load "opening": the result has no fields, u is known along the interfaces only; run the case '
      "again with [output] fields = true, or with --set output.fields=true"),
     # Sweeps.
     ("sweep two.toml --coefficients no.csv", 2,
