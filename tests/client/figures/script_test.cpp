@@ -116,8 +116,8 @@ TEST(Script, gives_zero_a_place_on_the_log_axis) {
   auto& load = result.loads[0];
   EXPECT_THAT(convergence_script(result, load, both), Not(HasSubstr("ytics add")));
   load.history.criterion[4] = 0;
-  EXPECT_THAT(convergence_script(result, load, both), HasSubstr("set ytics add ('0' 1e-14)"));
-  EXPECT_THAT(convergence_script(result, load, both), HasSubstr("\n5 1e-14\n"));
+  EXPECT_THAT(convergence_script(result, load, both), HasSubstr("set ytics add ('0' 1e-13)"));
+  EXPECT_THAT(convergence_script(result, load, both), HasSubstr("\n5 1e-13\n"));
 }
 
 TEST(Script, draws_epsilon_where_it_is_known) {
