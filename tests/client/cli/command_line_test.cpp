@@ -95,6 +95,7 @@ TEST(CommandLine, RefusesWrongUsage) {
                                              {"show", "a", "b"},
                                              {"run", "a", "--sett", "x=1"},
                                              {"server", "--retry-for", "soon"},
+                                             {"plot", "a.h5", "-o", "b", "--dpi", "0"},
                                              {"job", "list", "--limit", "0"}}) {
     const Ran wrong = run(arguments);
     EXPECT_EQ(wrong.code, exit_usage);
@@ -119,6 +120,17 @@ TEST(CommandLine, NamesAResultThatCannotBeRead) {
     EXPECT_EQ(missing.code, exit_usage);
     EXPECT_THAT(missing.error, HasSubstr("no-such-file.h5"));
   }
+}
+
+TEST(CommandLine, SaysWhichFormatsOfFiguresThereAre) {
+  for (const char* list : {"gif", "png,gif", "png,,svg", ""}) {
+    const Ran wrong = run({"plot", "a.h5", "-o", "figures", "--format", list});
+    EXPECT_EQ(wrong.code, exit_usage) << list;
+    EXPECT_THAT(wrong.error, HasSubstr("is none of png, svg and pdf")) << list;
+  }
+  // The list does not take what follows.
+  EXPECT_THAT(run({"plot", "-o", "figures", "--format", "pdf,png", "no-such-file.h5"}).error,
+              HasSubstr("no-such-file.h5"));
 }
 
 TEST(CommandLine, ReportsErrorsAsOneJsonDocument) {

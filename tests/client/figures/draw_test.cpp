@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <utility>
 
 #include "figures/figures.hpp"
 #include "support/sample_result.hpp"
@@ -62,6 +63,36 @@ TEST(Draw, makes_every_figure_of_every_load) {
   }
 }
 
+std::pair<unsigned, unsigned> size_of(const fs::path& png) {
+  const std::string bytes = bytes_of(png);
+  const auto number = [&](std::size_t at) {
+    unsigned value = 0;
+    for (std::size_t i = at; i < at + 4; ++i) {
+      value = value << 8 | static_cast<unsigned char>(bytes.at(i));
+    }
+    return value;
+  };
+  return {number(16), number(20)};
+}
+
+TEST(Draw, has_the_size_of_a_column_in_every_format) {
+  const TemporaryFolder folder;
+  auto result = sample_result(4);
+  result.loads.resize(1);
+  const Options options{
+      .formats = {Format::pdf, Format::svg, Format::png}, .dpi = 127, .titles = false};
+  EXPECT_EQ(draw(result, folder.path(), options).files.size(), 12u);
+  EXPECT_EQ(size_of(folder / "opening-traces.png"), (std::pair{425u, 340u}));  // 85 mm x 68 mm
+  EXPECT_EQ(size_of(folder / "opening.png"), (std::pair{850u, 340u}));
+  const std::string pdf = bytes_of(folder / "opening-membrane.pdf");
+  EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
+  const std::string svg = bytes_of(folder / "opening-traces.svg");
+  EXPECT_THAT(svg, HasSubstr("viewBox=\"0 0 321 257\""));  // at 96 dpi
+  EXPECT_THAT(svg, Not(HasSubstr("A made-up membrane")));
+  draw(result, folder.path(), {.formats = {Format::png}, .dpi = 127});
+  EXPECT_GT(size_of(folder / "opening-traces.png").second, 350u);  // the title comes on top
+}
+
 TEST(Draw, says_what_it_left_out) {
   const TemporaryFolder folder;
   auto result = sample_result(4);
@@ -69,10 +100,23 @@ TEST(Draw, says_what_it_left_out) {
   result.loads[1].status = results::Status::failed;
   result.loads[1].traces.clear();
   result.loads[1].fields.clear();
-  const Drawn drawn = draw(result, folder.path(), {.png = true, .svg = false});
+  result.loads.push_back(result.loads[0]);
+  result.loads[2].name = "single step";
+  for (auto* values :
+       {&result.loads[2].history.criterion, &result.loads[2].history.energy,
+        &result.loads[2].history.kkt_equilibrium, &result.loads[2].history.kkt_gap,
+        &result.loads[2].history.kkt_sign, &result.loads[2].history.kkt_complementarity}) {
+    values->resize(1);
+  }
+  result.loads[2].history.iteration.resize(1);
+  result.loads[2].history.contact_count.resize(1);
+  const Drawn drawn = draw(result, folder.path(), {.formats = {Format::png}});
   EXPECT_EQ(files_in(folder.path()),
-            (std::set<std::string>{"opening-convergence.png", "opening-traces.png"}));
-  EXPECT_THAT(drawn.notes, ElementsAre(HasSubstr("no fields"), HasSubstr("no traces (failed)")));
+            (std::set<std::string>{"opening-convergence.png", "opening-traces.png",
+                                   "single_step-traces.png"}));
+  EXPECT_THAT(drawn.notes,
+              ElementsAre(HasSubstr("no fields"), HasSubstr("no traces (failed)"),
+                          HasSubstr("no fields"), HasSubstr("1 load solved in a single step")));
 }
 
 TEST(Draw, replaces_old_figures) {
@@ -80,7 +124,7 @@ TEST(Draw, replaces_old_figures) {
   std::ofstream(folder / "opening-traces.svg") << "old";
   auto result = sample_result(4);
   result.loads.resize(1);
-  draw(result, folder.path(), {.png = false, .svg = true});
+  draw(result, folder.path(), {.formats = {Format::svg}});
   EXPECT_GT(fs::file_size(folder / "opening-traces.svg"), 1000u);
 }
 
@@ -118,7 +162,7 @@ TEST(Draw, survives_degenerate_answers) {
     std::fill(values->begin(), values->end(), results::unknown);
   }
   for (double& criterion : wild.history.criterion) criterion = results::unknown;
-  EXPECT_NO_THROW(draw(result, folder.path(), {.png = true, .svg = false}));
+  EXPECT_NO_THROW(draw(result, folder.path(), {.formats = {Format::png}}));
 }
 
 TEST(Draw, draws_an_interface_that_is_bent_and_one_that_stands_upright) {
@@ -130,7 +174,7 @@ TEST(Draw, draws_an_interface_that_is_bent_and_one_that_stands_upright) {
   result.interfaces.push_back(upright);
   result.interfaces[0].y[2] = 0.1;
   result.loads[0].traces.push_back(result.loads[0].traces[0]);
-  draw(result, folder.path(), {.png = true, .svg = false});
+  draw(result, folder.path(), {.formats = {Format::png}});
   EXPECT_TRUE(fs::exists(folder / "opening-traces.png"));
   EXPECT_TRUE(fs::exists(folder / "opening-traces-2.png"));
 }
@@ -148,9 +192,9 @@ TEST(Draw, draws_an_interface_that_is_closed_and_names_several) {
   }
   result.interfaces.push_back(ring);
   result.loads[0].traces.push_back(result.loads[0].traces[0]);
-  draw(result, folder.path(), {.png = false, .svg = true});
-  EXPECT_THAT(bytes_of(folder / "opening-traces.svg"), HasSubstr("jump on sigma"));
-  EXPECT_THAT(bytes_of(folder / "opening-traces-2.svg"), HasSubstr("jump on ring"));
+  draw(result, folder.path(), {.formats = {Format::svg}});
+  EXPECT_THAT(bytes_of(folder / "opening-traces.svg"), HasSubstr("displacements on sigma"));
+  EXPECT_THAT(bytes_of(folder / "opening-traces-2.svg"), HasSubstr("displacements on ring"));
 }
 
 TEST(Draw, draws_the_steps_of_the_active_set) {
@@ -163,7 +207,7 @@ TEST(Draw, draws_the_steps_of_the_active_set) {
   load.iterations = 3;
   load.history = {{1, 2, 3}, {1, 0.5, 0},        {-1, -2, -2}, {5, 4, 4},
                   {0, 0, 0}, {0.1, 0.01, 1e-17}, {0, 0, 0},    {0.2, 0, 0}};
-  draw(result, folder.path(), {.png = false, .svg = true});
+  draw(result, folder.path(), {.formats = {Format::svg}});
   const std::string svg = bytes_of(folder / "opening-convergence.svg");
   EXPECT_THAT(svg, HasSubstr("converged after 3 steps"));
   EXPECT_THAT(svg, HasSubstr("complementarity"));

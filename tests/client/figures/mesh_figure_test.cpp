@@ -62,6 +62,15 @@ TEST(MeshLayers, point_into_the_plus_side) {
   EXPECT_LT(seen.plus_sides[1].to.x, -0.05);  // walked upwards: its left is where x is smaller
 }
 
+TEST(MeshLayers, name_inclusions_on_the_minus_side) {
+  const results::MeshPlan plan = sample_mesh_plan(10);
+  const MeshLayers seen = layers(plan, whole(plan.mesh));
+  ASSERT_EQ(seen.inclusions.size(), 1u);
+  EXPECT_EQ(seen.inclusions[0].name, "fibre");
+  EXPECT_NEAR(seen.inclusions[0].from.x, 0.1, 1e-12);  // from -0.3 to 0.5
+  EXPECT_LT(seen.inclusions[0].to.y, -0.05);
+}
+
 TEST(MeshLayers, name_subdomains_inside_them) {
   const results::MeshPlan plan = sample_mesh_plan(10);
   const MeshLayers seen = layers(plan, whole(plan.mesh));
@@ -102,8 +111,9 @@ TEST(MeshFigure, is_drawn_with_its_legend_and_the_finest_tip) {
               ElementsAre(folder / "new/meshes_0123.png", folder / "new/meshes_0123.svg"));
   EXPECT_GT(std::filesystem::file_size(drawn.files[0]), 20000u);
   const std::string svg = bytes_of(drawn.files[1]);
-  for (const char* text : {"A made-up mesh", "1681 nodes", "around the tip (0.5, 0)", "sigma +",
-                           "slit +", "upper", "glue", "traction given", "inclusion, bonded"}) {
+  for (const char* text :
+       {"A made-up mesh", "1681 nodes", "around the tip (0.5, 0)", "sigma +", "slit +", "upper",
+        "glue", "traction given", "bonded inclusion", ">fibre<", "x [-]", "y [-]"}) {
     EXPECT_THAT(svg, HasSubstr(text));
   }
 }
@@ -148,7 +158,7 @@ TEST(MeshFigure, of_a_membrane_without_interfaces) {
   results::MeshPlan plan = sample_mesh_plan(10);
   plan.interfaces.clear();
   plan.tips.clear();
-  EXPECT_EQ(draw_mesh(plan, "m", folder.path(), {.png = true, .svg = false}).files.size(), 1u);
+  EXPECT_EQ(draw_mesh(plan, "m", folder.path(), {.formats = {Format::png}}).files.size(), 1u);
 }
 
 }  // namespace

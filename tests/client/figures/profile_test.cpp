@@ -57,6 +57,18 @@ TEST(Profile, tells_the_kinds_apart) {
   EXPECT_NEAR(seen.crack[0].end, 0.9, 1e-12);
 }
 
+TEST(Profile, takes_bonded_and_delaminated_parts_for_one_fibre) {
+  auto result = sample_result(10);
+  auto& kind = result.interfaces[0].kind;
+  for (std::size_t i = 10; i <= 15; ++i) kind[i] = Kind::inclusion;
+  kind[18] = Kind::crack;
+  const Profile seen = profile(result.interfaces[0], result.loads[0].traces[0]);
+  ASSERT_EQ(seen.fibres.size(), 1u);
+  EXPECT_NEAR(seen.fibres[0].band.begin, -0.5, 1e-12);
+  EXPECT_NEAR(seen.fibres[0].band.end, 0.5, 1e-12);
+  EXPECT_EQ(seen.fibres[0].node, 10u);
+}
+
 TEST(Profile, takes_the_axis_the_interface_lies_along) {
   auto result = sample_result(10);
   auto& interface = result.interfaces[0];

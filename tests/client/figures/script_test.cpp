@@ -61,6 +61,65 @@ TEST(Script, marks_contact_only_where_there_is_some) {
   EXPECT_THAT(traces_script(result, result.loads[1], 0, both), HasSubstr("title 'contact'"));
 }
 
+TEST(Script, names_an_inclusion_where_it_lies) {
+  auto result = sample_result(4);
+  auto& load = result.loads[0];
+  const auto named = [&] { return traces_script(result, load, 0, both); };
+  EXPECT_THAT(named(), HasSubstr("'fibre' at graph 0.5"));
+  EXPECT_THAT(named(), HasSubstr("A = 0.0863'"));
+  // Of several, the one whose A is u+ there.
+  load.inclusions = {{"other", 0.2, 0, 0}, {"fibre", 0.0863, 0, 0}};
+  for (double& u : load.traces[0].u_plus) u = 0.0863;
+  EXPECT_THAT(named(), HasSubstr("'fibre' at graph 0.5"));
+  EXPECT_THAT(named(), HasSubstr("A = 0.0863 (fibre)'"));
+  load.inclusions[0].displacement = 0.0863;
+  EXPECT_THAT(named(), Not(HasSubstr("'fibre'")));  // either may be meant
+}
+
+TEST(Script, says_in_every_panel_that_a_load_did_not_converge) {
+  auto result = sample_result(4);
+  auto& load = result.loads[0];
+  EXPECT_THAT(scripts(result, load), Not(HasSubstr("not converged")));
+  load.status = results::Status::not_converged;
+  EXPECT_THAT(traces_script(result, load, 0, both), HasSubstr("not converged"));
+  EXPECT_THAT(membrane_script(result, load, surface(result, load, 1000), both),
+              HasSubstr("not converged"));
+}
+
+TEST(Script, shows_rounding_as_zero) {
+  auto result = sample_result(4);
+  auto& trace = result.loads[0].traces[0];
+  for (auto* values : {&trace.u_minus, &trace.u_plus, &trace.jump}) {
+    for (double& value : *values) value *= 1e-14;
+  }
+  result.loads[0].energy = -6;  // u is about 1
+  EXPECT_THAT(traces_script(result, result.loads[0], 0, both), HasSubstr("'displacement [-]'"));
+  result.loads[0].energy = -6e-30;  // all of u is that small
+  EXPECT_THAT(traces_script(result, result.loads[0], 0, both),
+              HasSubstr("'displacement [10\xE2\x81\xBB\xC2\xB9\xE2\x81\xB5]'"));
+}
+
+TEST(Script, breaks_a_title_and_keeps_the_name_of_the_load) {
+  auto result = sample_result(4);
+  const std::vector<Output> png{{Format::png, "a.png"}};
+  const auto titled = [&] { return traces_script(result, result.loads[0], 0, png); };
+  EXPECT_THAT(titled(), HasSubstr("'A made-up membrane \xE2\x80\x94 opening'"));
+  result.title = "A membrane with a title that fills its line";
+  EXPECT_THAT(titled(), HasSubstr("label 101 'A membrane with a title that fills its line'"));
+  EXPECT_THAT(titled(), HasSubstr("label 102 'opening'"));
+  result.title = "";
+  EXPECT_THAT(titled(), HasSubstr("label 101 'opening'"));
+}
+
+TEST(Script, gives_zero_a_place_on_the_log_axis) {
+  auto result = sample_result(4);
+  auto& load = result.loads[0];
+  EXPECT_THAT(convergence_script(result, load, both), Not(HasSubstr("ytics add")));
+  load.history.criterion[4] = 0;
+  EXPECT_THAT(convergence_script(result, load, both), HasSubstr("set ytics add ('0' 1e-13)"));
+  EXPECT_THAT(convergence_script(result, load, both), HasSubstr("\n5 1e-13\n"));
+}
+
 TEST(Script, draws_epsilon_where_it_is_known) {
   auto result = sample_result(4);
   EXPECT_THAT(convergence_script(result, result.loads[0], both), HasSubstr("1e-12 with lines"));
@@ -82,22 +141,32 @@ TEST(Script, looks_over_the_minus_side) {
   EXPECT_NEAR(std::fmod(along_x - membrane_view(result) + 360, 360), 90, 1e-9);
 }
 
-TEST(Script, lets_nothing_hostile_through) {
+/// All scripts of a result whose texts are all `text`.
+std::string scripts_saying(const std::string& text) {
   auto result = sample_result(4);
-  const std::string plain = commands(scripts(result, result.loads[0]));
+  auto& load = result.loads[0];
+  result.title = load.name = load.method = load.mass = load.reason = text;
+  load.inclusions = {{text, 0.1, 0, 0}, {text, 0.2, 0, 0}};
+  for (double& u : load.traces[0].u_plus) u = 0.2;  // so that the second is named
+  result.interfaces[0].name = text;
+  result.mesh.subdomains = {text, text};
+  return scripts(result, load);
+}
+
+TEST(Script, lets_nothing_hostile_through) {
   const char* hostile[] = {
       "'; system('touch pwned'); '", "`touch pwned`",          "\n!touch pwned\n",
       "\"; system(\"touch pwned\")", "\\'; !touch pwned #",    "| touch pwned",
       "EOD\nsystem 'touch pwned'\n", "\xC0\xA7; !touch pwned", "@macro $data"};
-  for (const char* text : hostile) {
-    result.title = text;
-    result.loads[0].inclusions = {{text, 0.1, 0, 0}, {text, 0.2, 0, 0}};
-    result.loads[0].name = text;
-    result.loads[0].method = result.loads[0].mass = result.loads[0].reason = text;
-    result.interfaces[0].name = text;
-    result.mesh.subdomains = {text, text};
-    const std::string script = scripts(result, result.loads[0]);
-    EXPECT_EQ(commands(script), plain) << text;
+  for (const std::string text : hostile) {
+    // As long, with its blanks, so that it is broken and placed alike.
+    std::string harmless = text;
+    for (char& c : harmless) {
+      if (c != ' ' && static_cast<unsigned char>(c) < 0x80) c = 'x';
+    }
+    const std::string script = scripts_saying(text);
+    EXPECT_THAT(script, HasSubstr("graph 0.075"));  // the name of an inclusion
+    EXPECT_EQ(commands(script), commands(scripts_saying(harmless))) << text;
     EXPECT_THAT(script, Not(HasSubstr("`")));
   }
 }
@@ -120,7 +189,7 @@ TEST(Script, has_only_numbers_gnuplot_can_read) {
   const std::string script = scripts(result, result.loads[0]);
   EXPECT_THAT(script, Not(HasSubstr("inf")));
   EXPECT_THAT(script, Not(HasSubstr("nan")));
-  EXPECT_THAT(script, HasSubstr("\n4 NaN\n"));
+  EXPECT_THAT(script, HasSubstr("\n5 NaN\n"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 
 #include "client/sample_sweep.hpp"
 #include "figures/figures.hpp"
@@ -119,6 +120,37 @@ TEST(SweepScript, HasACurvePerInclusionAndKeepsStrangeNamesQuoted) {
   EXPECT_THAT(script, HasSubstr("title 't''wo !rm'"));
   EXPECT_THAT(script, HasSubstr("'coefficient of opening [-]'"));
   EXPECT_THAT(script, HasSubstr("3 rows, 1 without an answer left out"));
+}
+
+TEST(SweepScript, CountsInclusionsThatAreTooManyToName) {
+  results::Result result = sample_sweep(3);
+  result.sweep->inclusions.clear();
+  result.sweep->displacement.clear();
+  for (int i = 0; i < 9; ++i) result.sweep->inclusions.push_back("fibre " + std::to_string(i));
+  result.sweep->displacement.assign(27, 0.1);
+  const std::string script = sweep_script(result, sweep_axis(*result.sweep), png);
+  EXPECT_THAT(script, HasSubstr("title 'fibre 5'"));
+  EXPECT_THAT(script, Not(HasSubstr("title 'fibre 6'")));
+  EXPECT_THAT(script, HasSubstr("title '3 more'"));
+}
+
+TEST(SweepScript, LabelsRowsWithWholeNumbersAndKeepsTheUnitOfALongName) {
+  results::Result result = sample_sweep(3);
+  result.sweep->loads[1] = "a load whose name is longer than an axis";
+  EXPECT_EQ(sweep_axis(*result.sweep).label, "coefficient of a load whose name i\xE2\x80\xA6 [-]");
+  result.sweep->coefficients.clear();
+  EXPECT_THAT(sweep_script(result, sweep_axis(*result.sweep), png), HasSubstr("set xtics 1\n"));
+}
+
+TEST(ContactScript, HasNoSeamsBetweenRows) {
+  results::Result result = sample_sweep(5);
+  for (auto& status : result.sweep->status) status = 3;
+  const SweepAxis axis = sweep_axis(*result.sweep);
+  ContactMap map;
+  map.boxes = {{0, 1, 0, 1, 1}, {0, 1, 1, 2, 1}, {0, 1, 3, 4, 1}};
+  const std::string script = contact_script(result, axis, map, png);
+  EXPECT_THAT(script, HasSubstr("\n0.5 1 0 1 0 2 1\n"));    // reaches under the next
+  EXPECT_THAT(script, HasSubstr("\n0.5 1.5 0 1 1 2 1\n"));  // not into a gap
 }
 
 TEST(DrawSweep, MakesThePicturesOfTheSweepAndOfItsFirstKeptRows) {

@@ -61,6 +61,34 @@ TEST(Number, does_not_depend_on_the_locale_and_marks_what_is_not_finite) {
   EXPECT_EQ(number(std::numeric_limits<double>::quiet_NaN()), "NaN");
 }
 
+TEST(Readable, is_written_as_in_print) {
+  EXPECT_EQ(readable(0.0865712), "0.08657");
+  EXPECT_EQ(readable(-0.5),
+            "\xE2\x88\x92"
+            "0.5");
+  EXPECT_EQ(readable(1e-12), "10\xE2\x81\xBB\xC2\xB9\xC2\xB2");
+  EXPECT_EQ(readable(-4.55e-14, 3),
+            "\xE2\x88\x92"
+            "4.55\xC3\x97"
+            "10\xE2\x81\xBB\xC2\xB9\xE2\x81\xB4");
+}
+
+TEST(Shortened, ends_in_an_ellipsis_where_it_is_cut) {
+  EXPECT_EQ(shortened("abc", 3), "abc");
+  EXPECT_EQ(shortened("abcd", 3), "ab\xE2\x80\xA6");
+  EXPECT_EQ(shortened("\xC3\xA9\xC3\xA9\xC3\xA9", 2), "\xC3\xA9\xE2\x80\xA6");
+  EXPECT_EQ(length("\xC3\xA9\xC3\xA9\xC3\xA9"), 3u);
+}
+
+TEST(Wrapped, breaks_at_blanks_and_keeps_everything) {
+  EXPECT_THAT(wrapped("a fibre pressed shut", 9, 5), ElementsAre("a fibre", "pressed", "shut"));
+  EXPECT_THAT(wrapped("a fibre pressed shut", 9, 2), ElementsAre("a fibre", "pressed shut"));
+  EXPECT_THAT(wrapped("unbreakable and on", 5, 2), ElementsAre("unbreakable", "and on"));
+  EXPECT_THAT(wrapped("unbreakable", 5, 2), ElementsAre("unbreakable"));
+  EXPECT_THAT(wrapped("short", 9, 2), ElementsAre("short"));
+  EXPECT_THAT(wrapped("", 9, 2), ElementsAre());
+}
+
 TEST(FileStems, are_safe_and_unique) {
   EXPECT_THAT(file_stems({"opening", "partly closed", "partly_closed", "PARTLY_CLOSED"}, {}),
               ElementsAre("opening", "partly_closed", "partly_closed-2", "PARTLY_CLOSED-3"));
