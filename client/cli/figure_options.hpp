@@ -11,6 +11,7 @@ class App;
 
 namespace anticrack::cli {
 
+/// The flags write into `options`, which must outlive the app; their defaults are what it has now.
 void add_figure_options(CLI::App& app, figures::Options& options);
 
 }  // namespace anticrack::cli

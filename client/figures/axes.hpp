@@ -48,6 +48,7 @@ struct Range {
   double low = 0;
   double high = 0;
 
+  /// Below 0 while nothing is in it.
   double size() const noexcept { return high - low; }
   /// Takes the value in, if it is finite.
   void include(double value) noexcept;
@@ -64,6 +65,7 @@ double label_step(const Range& range, int most = 6);
 class Scale {
  public:
   Scale() = default;
+  /// Of data in this range; one that is written well as it is has the factor 1.
   explicit Scale(const Range& range);
 
   /// The range as drawn.
