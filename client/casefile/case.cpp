@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "casefile/case.hpp"
 
+#include <cerrno>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include "casefile/geometry.hpp"
@@ -38,12 +40,31 @@ void read_mesh(const Section& root, Case& result) {
   *result.mesh.mutable_geometry() = read_geometry(*geometry, result.spots);
 }
 
+// The text of a line (from 1), cut where it is long.
+std::string line_of(const std::string& text, unsigned line) {
+  constexpr std::size_t longest = 60;
+  std::istringstream lines(text);
+  std::string found;
+  for (unsigned i = 0; i < line && std::getline(lines, found); ++i) {
+  }
+  return found.size() > longest ? found.substr(0, longest) + "..." : found;
+}
+
+std::string reason(int error) {
+  return error == 0 ? std::string() : ": " + std::generic_category().message(error);
+}
+
 toml::table parse(const std::string& text, const std::string& name) {
+  if (text.find('\0') != std::string::npos) {
+    throw Error({"", name, 0}, "this is no text; name a case, a TOML file");
+  }
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    throw Error({"", name, error.source().begin.line},
-                "this is not TOML: " + std::string(error.description()));
+    const toml::source_position& place = error.source().begin;
+    throw Error({"column " + std::to_string(place.column), name, place.line},
+                "this is not TOML: " + std::string(error.description()) +
+                    "; the line is: " + line_of(text, place.line));
   }
 }
 
@@ -120,12 +141,17 @@ Case mesh_file_case(const std::filesystem::path& file, const std::string& title,
 
 Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                Loads loads) {
+  constexpr const char* cure = "; name a case, a TOML file";
+  if (std::filesystem::is_directory(path)) {
+    throw Error({"", path.string(), 0}, std::string("is a folder") + cure);
+  }
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
-  if (std::filesystem::is_directory(path) || !file || !(text << file.rdbuf())) {
+  if (!file || !(text << file.rdbuf())) {
     // An empty file fails to insert as well; it is caught below by what it lacks.
     if (!std::filesystem::is_regular_file(path) || !file) {
-      throw Error({"", path.string(), 0}, "cannot be read; name a case, a TOML file");
+      throw Error({"", path.string(), 0}, "cannot be read" + reason(errno) + cure);
     }
   }
   return parse_case(text.str(), path, overrides, loads);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "casefile/error.hpp"
+#include "casefile/nearest.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -64,6 +65,20 @@ std::optional<std::size_t> index_of(const std::string& word) {
   return whole ? std::optional(index) : std::nullopt;
 }
 
+/// Names of the entries of a list of tables, as [[load]]; none unless all have one.
+std::vector<std::string> names_in(const toml::array& array) {
+  std::vector<std::string> names;
+  for (const toml::node& entry : array) {
+    const toml::table* table = entry.as_table();
+    const auto name = table ? (*table)["name"].value_exact<std::string>() : std::nullopt;
+    if (!name) {
+      return {};
+    }
+    names.push_back(*name);
+  }
+  return names;
+}
+
 /// Walks down the case; knows what it has walked for its errors.
 class Walk {
  public:
@@ -87,13 +102,23 @@ class Walk {
     throw Error({walked, _source, 0}, problem);
   }
 
+  /// Of an entry by its index or its name; the size of the array for a new one.
   std::size_t index_in(const toml::array& array) const {
-    const auto index = index_of(_parts[_depth]);
-    if (!index || *index > array.size()) {
-      fail("there are " + std::to_string(array.size()) +
-           " of them; write an index from 0 to that number");
+    const std::string& part = _parts[_depth];
+    const auto index = index_of(part);
+    if (index && *index <= array.size()) {
+      return *index;
     }
-    return *index;
+    const std::vector<std::string> names = names_in(array);
+    const auto found = std::find(names.begin(), names.end(), part);
+    if (found != names.end()) {
+      return static_cast<std::size_t>(found - names.begin());
+    }
+    if (!index && !names.empty()) {
+      fail("none of them is called " + part + "; " + suggestion(part, names));
+    }
+    fail("there is no entry " + part + "; write an index from 0 to " +
+         std::to_string(array.size()) + (names.empty() ? "" : ", or a name"));
   }
 
   toml::node& step(toml::node& place) const {

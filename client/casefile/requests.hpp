@@ -15,6 +15,7 @@ namespace anticrack::casefile {
 /// Field of a request -> where its value was written.
 using Spots = std::map<std::string, Spot>;
 
+/// Writes both coordinates.
 inline void set(v1::Point& point, const Point& xy) {
   point.set_x(xy[0]);
   point.set_y(xy[1]);

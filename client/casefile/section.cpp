@@ -34,8 +34,22 @@ std::string prefix(const Spot& spot) {
   return text.empty() ? text : text + ": ";
 }
 
+namespace {
+
+// Tables that an override makes on the way to its value have no source of their own.
+const toml::node& first_written(const toml::node& node) {
+  const toml::table* table = node.as_table();
+  const toml::array* array = node.as_array();
+  if (node.source().path || (table ? table->empty() : !array || array->empty())) {
+    return node;
+  }
+  return first_written(table ? table->cbegin()->second : *array->get(0));
+}
+
+}  // namespace
+
 Spot spot_of(const toml::node& node, std::string key) {
-  const toml::source_region& region = node.source();
+  const toml::source_region& region = first_written(node).source();
   Spot spot{std::move(key), region.path ? *region.path : std::string(), region.begin.line};
   if (spot.source.rfind("--set", 0) == 0) {
     spot.line = 0;  // an override has one line only
@@ -131,7 +145,8 @@ std::optional<double> Section::number(std::string_view key) const {
   if (!node) {
     return std::nullopt;
   }
-  return number_of(*node, path_of(key), "write a number without quotes");
+  return number_of(*node, path_of(key),
+                   node->is_string() ? "write a number without quotes" : "write a finite number");
 }
 
 std::optional<double> Section::positive(std::string_view key) const {
@@ -258,6 +273,7 @@ const toml::node& Section::need(std::string_view key, std::string_view cure) con
   if (!node) {
     Spot here = spot();
     here.key = path_of(key);
+    here.line = _path.empty() ? 0 : here.line;  // what the whole case lacks has no line
     throw Error(std::move(here), "missing; " + std::string(cure));
   }
   return *node;

@@ -40,8 +40,10 @@ class Section {
   /// Throws Error for a key that is not among `known`, naming the nearest of them.
   Section(const toml::table& table, std::string path, std::vector<std::string> known);
 
+  /// Null where the key is absent.
   const toml::node* find(std::string_view key) const { return _table.get(key); }
   const toml::table& table() const { return _table; }
+  /// For messages: "load.force"; the place of the key's value, or of the table where it is absent.
   std::string path_of(std::string_view key) const;
   Spot spot_of(std::string_view key) const;
   /// Where the table itself begins.

@@ -2,6 +2,7 @@
 #include "cli/answers.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "cli/exit_codes.hpp"
@@ -42,7 +43,7 @@ std::string words_of(results::Status status) {
 }
 
 std::vector<std::string> row_of(const results::Load& load,
-                                const std::vector<std::string>& inclusions) {
+                                const std::vector<std::string>& inclusions, bool with_theta) {
   const bool answered = has_answer(load);
   const auto when_answered = [answered](double value, int digits = 6) {
     return answered ? number(value, digits) : "-";
@@ -55,8 +56,10 @@ std::vector<std::string> row_of(const results::Load& load,
   }
   row.push_back(when_answered(load.energy));
   row.push_back(when_answered(load.contact_length));
-  row.push_back(when_answered(load.theta, 4));
-  row.push_back(when_answered(load.theta_star, 4));
+  if (with_theta) {
+    row.push_back(when_answered(load.theta, 4));
+    row.push_back(when_answered(load.theta_star, 4));
+  }
   row.push_back(number(load.solve_seconds, 3));
   return row;
 }
@@ -90,16 +93,22 @@ std::string answers_table(const results::Result& result) {
   for (const std::string& name : inclusions) {
     head.push_back(inclusions.size() == 1 ? "A" : "A " + sanitise(name));
   }
-  for (const char* column : {"energy", "contact length", "theta", "theta*", "wall time"}) {
-    head.emplace_back(column);
+  // The active set knows none.
+  const bool with_theta =
+      std::any_of(result.loads.begin(), result.loads.end(),
+                  [](const results::Load& load) { return std::isfinite(load.theta); });
+  head.insert(head.end(), {"energy", "contact length"});
+  if (with_theta) {
+    head.insert(head.end(), {"theta", "theta*"});
   }
+  head.emplace_back("wall time");
   std::vector<std::string> units(head.size(), "-");
   units[0] = units[1] = "";
   units.back() = "s";
   std::vector<std::vector<std::string>> rows{head, units};
   std::string remarks;
   for (const results::Load& load : result.loads) {
-    rows.push_back(row_of(load, inclusions));
+    rows.push_back(row_of(load, inclusions, with_theta));
     for (const std::string& remark : remarks_on(load)) {
       remarks += sanitise(load.name) + ": " + sanitise(remark) + "\n";
     }

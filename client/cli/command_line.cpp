@@ -2,16 +2,14 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <iostream>
 #include <string>
 #include <vector>
 
-#include "casefile/nearest.hpp"
 #include "cli/commands.hpp"
 #include "cli/connection_flags.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/report.hpp"
-#include "cli/text.hpp"
+#include "cli/usage_text.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -25,33 +23,6 @@ constexpr const char* footer =
     "  4    server unreachable or refusing\n"
     "  130  interrupted: detached from the job, or cancelled it\n\n"
     "Example:\n  anticrack --local run client/examples/paper.toml";
-
-// CLI11 only says that a command is missing; say which word is none, and what it may have meant.
-std::string unknown_command(CLI::App& app, int argc, char** argv) {
-  CLI::App* level = &app;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word.rfind('-', 0) == 0) {
-      const CLI::Option* option = app.get_option_no_throw(word);
-      i += option != nullptr && option->get_items_expected_max() > 0 ? 1 : 0;
-      continue;
-    }
-    std::vector<std::string> commands;
-    for (const CLI::App* command : level->get_subcommands({})) {
-      if (!command->get_name().empty()) {  // else it is a group of options
-        commands.push_back(command->get_name());
-      }
-    }
-    if (commands.empty()) {
-      break;
-    }
-    if (std::find(commands.begin(), commands.end(), word) == commands.end()) {
-      return "unknown command " + word + "; " + casefile::suggestion(word, commands);
-    }
-    level = level->get_subcommand(word);
-  }
-  return "";
-}
 
 }  // namespace
 
@@ -83,13 +54,11 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    const std::string unknown = unknown_command(app, argc, argv);
-    if (unknown.empty()) {
-      app.exit(error, std::cerr, std::cerr);
-    } else {
-      std::cerr << "anticrack: " << sanitise(unknown) << '\n';
-    }
-    return exit_usage;
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    // Whether it was read before the error is a matter of chance.
+    globals.json = std::find(words.begin(), words.end(), "--json") != words.end();
+    const std::string problem = usage_text(app, error, words);
+    return guarded(globals, [&problem]() -> int { throw UsageError(problem); });
   }
   if (globals.local) {
     globals.connection = {};  // what the environment names is not meant

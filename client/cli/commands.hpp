@@ -18,6 +18,8 @@ namespace anticrack::cli {
 
 using Command = std::function<int()>;
 
+/// Each adds a command with its options to `app`; parsed, it puts what is to be done into `chosen`,
+/// which returns the exit code.
 void add_run(CLI::App& app, const Globals& globals, Command& chosen);
 void add_sweep(CLI::App& app, const Globals& globals, Command& chosen);
 void add_mesh(CLI::App& app, const Globals& globals, Command& chosen);

@@ -7,12 +7,32 @@
 #include <utility>
 
 #include "casefile/duration.hpp"
+#include "cli/server_address.hpp"
 
 namespace anticrack::cli {
+namespace {
+
+// As a shell reads it back.
+std::string quoted(const std::string& word) {
+  const bool plain = word.find_first_not_of(
+                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                         "0123456789-_./:@%+=,") == std::string::npos;
+  if (plain) {
+    return word;
+  }
+  std::string text = "'";
+  for (const char c : word) {
+    text += c == '\'' ? "'\\''" : std::string(1, c);
+  }
+  return text + "'";
+}
+
+}  // namespace
 
 void add_connection_flags(CLI::App& app, ConnectionFlags& flags) {
   app.add_option("--server", flags.server,
                  "HOST:PORT or unix:PATH of anticrackd (default: localhost:7433)")
+      ->type_name("ADDRESS")
       ->envname("ANTICRACK_SERVER");
   app.add_flag("--tls", flags.credentials.tls,
                "Encrypt, and know the server by the roots of this system");
@@ -44,6 +64,7 @@ client::ConnectionOptions connection_options(const ConnectionFlags& flags,
                                              std::function<void(const std::string&)> notice) {
   client::ConnectionOptions options;
   if (!flags.server.empty()) {
+    check_server_address(flags.server);
     options.address = flags.server;
   }
   client::CredentialFiles files = flags.credentials;
@@ -61,10 +82,10 @@ client::ConnectionOptions connection_options(const ConnectionFlags& flags,
 
 std::string as_flags(const ConnectionFlags& flags) {
   const client::CredentialFiles& files = flags.credentials;
-  std::string text = flags.server.empty() ? "" : " --server " + flags.server;
+  std::string text = flags.server.empty() ? "" : " --server " + quoted(flags.server);
   text += files.tls ? " --tls" : "";
   const auto add = [&text](const char* flag, const std::filesystem::path& path) {
-    text += path.empty() ? std::string() : std::string(" ") + flag + " " + path.string();
+    text += path.empty() ? std::string() : std::string(" ") + flag + " " + quoted(path.string());
   };
   add("--ca", files.ca);
   add("--cert", files.certificate);

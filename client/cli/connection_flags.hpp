@@ -32,7 +32,7 @@ void add_connection_flags(CLI::App& app, ConnectionFlags& flags);
 client::ConnectionOptions connection_options(const ConnectionFlags& flags,
                                              std::function<void(const std::string&)> notice);
 
-/// The flags again, to be put at the end of a command line; empty where none was given.
+/// The flags again, to be put at the end of a shell's command line; empty where none was given.
 std::string as_flags(const ConnectionFlags& flags);
 
 }  // namespace anticrack::cli

@@ -3,16 +3,20 @@
 //   anticrack show | plot | export: what needs a result file and no server
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <vector>
 
+#include "casefile/nearest.hpp"
 #include "cli/answers.hpp"
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/figure_options.hpp"
 #include "cli/json.hpp"
 #include "cli/text.hpp"
 #include "figures/figures.hpp"
+#include "results/error.hpp"
 #include "results/file.hpp"
 #include "vtk/export.hpp"
 
@@ -22,10 +26,46 @@ namespace {
 struct FileOptions {
   std::string file;
   std::string folder;
+  std::vector<std::string> loads;  ///< none: all
+  figures::Options figures;
 };
 
+// The result with the loads that were asked for, in their order.
+results::Result read(const FileOptions& options) {
+  results::Result result = results::read(options.file);
+  if (options.loads.empty()) {
+    return result;
+  }
+  std::vector<std::string> names;
+  for (const results::Load& load : result.loads) {
+    names.push_back(load.name);
+  }
+  std::vector<results::Load> chosen;
+  for (const std::string& name : options.loads) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      throw results::Error(options.file, "there is no load " + name,
+                           names.empty() ? "it keeps traces of no row; run the sweep with --traces"
+                                         : casefile::suggestion(name, names));
+    }
+    chosen.push_back(result.loads[static_cast<std::size_t>(found - names.begin())]);
+  }
+  result.loads = std::move(chosen);
+  result.sweep.reset();  // of which these are rows
+  return result;
+}
+
+void add_file(CLI::App& command, FileOptions& options, const char* help) {
+  command.add_option("RESULT", options.file, help)->required()->type_name("FILE");
+  command
+      .add_option("--load", options.loads,
+                  "This load only, of a sweep row-K; again for more (default: all)")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+}
+
 int show(const FileOptions& options, const Globals& globals) {
-  const results::Result result = results::read(options.file);
+  const results::Result result = read(options);
   if (globals.json) {
     print_document(answers_json(result, options.file));
     return exit_ok;
@@ -67,12 +107,12 @@ int tell_made(const std::vector<std::filesystem::path>& files,
 }
 
 int plot(const FileOptions& options, const Globals& globals) {
-  const figures::Drawn drawn = figures::draw(results::read(options.file), options.folder);
+  const figures::Drawn drawn = figures::draw(read(options), options.folder, options.figures);
   return tell_made(drawn.files, drawn.notes, globals);
 }
 
 int export_file(const FileOptions& options, const Globals& globals) {
-  const vtk::Exported exported = vtk::export_result(results::read(options.file), options.folder);
+  const vtk::Exported exported = vtk::export_result(read(options), options.folder);
   return tell_made(exported.files, exported.notes, globals);
 }
 
@@ -81,32 +121,33 @@ int export_file(const FileOptions& options, const Globals& globals) {
 void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
   const auto options = std::make_shared<FileOptions>();
   CLI::App* show_command = app.add_subcommand("show", "Show the answers of a result file");
-  show_command->add_option("RESULT", options->file, "Result file, HDF5")
-      ->required()
-      ->type_name("FILE");
+  add_file(*show_command, *options, "Result file, HDF5");
   show_command->footer("Example:\n  anticrack show paper.h5");
   show_command->callback([options, &globals, &chosen] {
     chosen = [options, &globals] { return show(*options, globals); };
   });
 
-  CLI::App* plot_command =
-      app.add_subcommand("plot", "Draw the figures of a result file, PNG and SVG");
-  plot_command->add_option("RESULT", options->file, "Result file, HDF5")
-      ->required()
-      ->type_name("FILE");
+  CLI::App* plot_command = app.add_subcommand("plot", "Draw the figures of a result file");
+  add_file(*plot_command, *options, "Result file, HDF5");
   plot_command->add_option("-o,--output", options->folder, "Folder of the figures")
       ->required()
       ->type_name("DIR");
-  plot_command->footer("Example:\n  anticrack plot paper.h5 -o figures");
+  add_figure_options(*plot_command, options->figures);
+  plot_command->footer(
+      "Of every load: LOAD-membrane, LOAD-traces (u-, u+ and [u] on the interface) and\n"
+      "LOAD-convergence, 85 mm wide, a column of a journal; and LOAD, the first two side by side. "
+      "Of\n"
+      "a sweep: sweep (A and the contact length), sweep-contact (where the cracks are closed) and\n"
+      "the traces of rows that were kept.\n\n"
+      "Example:\n  anticrack plot paper.h5 -o figures\n"
+      "  anticrack plot paper.h5 -o figures --format pdf --no-titles");
   plot_command->callback([options, &globals, &chosen] {
     chosen = [options, &globals] { return plot(*options, globals); };
   });
 
   CLI::App* export_command =
       app.add_subcommand("export", "Export a result file to .vtu and .pvd, for ParaView");
-  export_command->add_option("RESULT", options->file, "Result file, HDF5, with fields")
-      ->required()
-      ->type_name("FILE");
+  add_file(*export_command, *options, "Result file, HDF5, with fields");
   export_command->add_option("-o,--output", options->folder, "Folder of the files")
       ->required()
       ->type_name("DIR");

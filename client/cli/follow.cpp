@@ -1,104 +1,201 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/follow.hpp"
 
+#include <google/protobuf/util/time_util.h>
+
+#include <algorithm>
 #include <chrono>
+#include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <stop_token>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "cli/live_view.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
+#include "cli/text.hpp"
 #include "client/jobs.hpp"
 
 namespace anticrack::cli {
 namespace {
 
+using google::protobuf::util::TimeUtil;
+
+double steady_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// By two clocks that may differ: never negative.
+double age_of(const v1::Job& job) {
+  return std::max(0., seconds_between(job.create_time(), TimeUtil::GetCurrentTime()));
+}
+
 /// The progress of a job on a terminal or in a log.
 class View {
  public:
-  View(Session& session, std::uint64_t rows) : _session(session) {
+  View(Session& session, const v1::Job& job, std::uint64_t rows)
+      : _session(session), _begin(steady_seconds() - age_of(job)) {
+    _progress.job = sanitise(job.name());
     if (rows > 0) {
       _progress.sweep.emplace().total = rows;
     }
-    std::FILE* stream = people(session.globals());
-    if (is_terminal(stream) && !session.globals().quiet) {
-      _painter = std::make_unique<Painter>(stream, [this](Size size) {
-        const std::lock_guard lock(_mutex);
-        return frame(_progress, size.width, size.height - 1);
-      });
+    if (shows_frames(session.globals())) {
+      _painter = std::make_unique<Painter>(people(session.globals()),
+                                           [this](Size size) { return frame_now(size); });
+      session.signals().tell_screen([this](Signals::Screen event) { on_screen(event); });
     }
     session.tell([this](const std::string& message) {
-      change([&](JobProgress& progress) { progress.notice = message; });
+      change([&](JobProgress& progress) { progress.notice = sanitise(message); });
     });
   }
-  ~View() { _session.tell({}); }
+  ~View() {
+    _session.tell({});
+    _session.signals().tell_screen({});
+  }
   View(const View&) = delete;
   View& operator=(const View&) = delete;
 
   template <class Change>
   void change(const Change& apply) {
-    std::vector<std::string> lines;
-    {
-      const std::lock_guard lock(_mutex);
-      apply(_progress);
-      if (!_painter) {
-        lines = _log.lines(_progress);
-      }
-    }
+    const std::lock_guard lock(_mutex);
+    apply(_progress);
     if (_painter) {
       _painter->refresh();
+      return;
     }
-    for (const std::string& line : lines) {
+    for (const std::string& line : _log.lines(_progress)) {
       say(_session.globals(), line);
     }
   }
 
+  void prompt(const std::string& text) {
+    change([&](JobProgress& progress) { progress.prompt = text; });
+  }
+
  private:
+  std::vector<std::string> frame_now(Size size) {
+    const std::lock_guard lock(_mutex);
+    if (!client::ended(_progress.state)) {
+      _progress.elapsed = steady_seconds() - _begin;
+    }
+    return frame(_progress, size.width, size.height - 1);
+  }
+
+  void on_screen(Signals::Screen event) {
+    switch (event) {
+      case Signals::Screen::leaving:
+        return _painter->pause();
+      case Signals::Screen::back:
+        return _painter->resume();
+      case Signals::Screen::resized:
+        return _painter->redraw();
+    }
+  }
+
   Session& _session;
+  const double _begin;  // of the job, by the steady clock
   std::mutex _mutex;
   JobProgress _progress;
   PlainLog _log;
   std::unique_ptr<Painter> _painter;  // last: its thread uses the others
 };
 
-v1::Job watch(Session& session, const std::string& name, std::uint64_t rows,
-              const std::stop_token& stop) {
-  View view(session, rows);
-  return client::watch_job(
-      session.connection(), name, 0,
-      [&view](const v1::WatchJobResponse& event) {
-        const std::chrono::duration<double> now =
-            std::chrono::steady_clock::now().time_since_epoch();
-        view.change([&](JobProgress& progress) { progress.apply(event, now.count()); });
-      },
-      stop);
+/// What Ctrl-C means while a job is watched: the first one detaches, a second one cancels. With a
+/// private server the first one cancels.
+class Interrupts {
+ public:
+  Interrupts(Session& session, const std::string& job, View& view)
+      : _thread([&session, job, &view, this](const std::stop_token& over) {
+          try {
+            heed(session, job, view, over);
+          } catch (const client::Interrupted&) {
+            // The watch was over before the server could be told.
+          } catch (...) {
+            _failure = std::current_exception();
+            _detached.request_stop();
+          }
+        }) {}
+
+  /// Ends the watch.
+  std::stop_token detached() const noexcept { return _detached.get_token(); }
+
+  /// To be asked when the watch is over: whether the job was to be cancelled. Throws what that
+  /// failed of.
+  bool asked_to_cancel() {
+    _thread.request_stop();
+    _thread.join();
+    if (_failure) {
+      std::rethrow_exception(_failure);
+    }
+    return _cancelling;
+  }
+
+ private:
+  void heed(Session& session, const std::string& job, View& view, const std::stop_token& over) {
+    Signals& signals = session.signals();
+    if (!signals.wait_for_first(over)) {
+      return;
+    }
+    if (!session.globals().local) {
+      constexpr std::chrono::seconds time_to_cancel{2};
+      if (signals.interactive()) {
+        view.prompt("Detaching; press Ctrl-C again now to cancel the job instead");
+      }
+      if (!signals.second_within(time_to_cancel, over)) {
+        _detached.request_stop();
+        return;
+      }
+    }
+    view.prompt("Cancelling " + job);
+    _cancelling = true;
+    client::cancel_job(session.connection(), job, over);
+  }
+
+  std::stop_source _detached;
+  bool _cancelling = false;
+  std::exception_ptr _failure;
+  std::jthread _thread;  // last: it uses the others
+};
+
+// The job as it ended; empty where the watch was detached.
+std::optional<v1::Job> watch(Session& session, const std::string& job, View& view,
+                             const std::stop_token& detached) {
+  try {
+    return client::watch_job(
+        session.connection(), job, 0,
+        [&view](const v1::WatchJobResponse& event) {
+          view.change([&](JobProgress& progress) { progress.apply(event, steady_seconds()); });
+        },
+        detached);
+  } catch (const client::Interrupted&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace
 
 Followed follow(Session& session, const v1::Job& job, std::uint64_t rows) {
-  const Globals& globals = session.globals();
-  try {
-    return {Followed::How::ended, watch(session, job.name(), rows, session.signals().first())};
-  } catch (const client::Interrupted&) {
-    // Detached; what that means is decided below.
+  std::optional<v1::Job> last;
+  bool cancelling = false;
+  {
+    View view(session, job, rows);
+    Interrupts interrupts(session, job.name(), view);
+    last = watch(session, job.name(), view, interrupts.detached());
+    cancelling = interrupts.asked_to_cancel();
+    view.prompt("");
   }
-  if (!globals.local) {
-    constexpr std::chrono::seconds time_to_cancel{2};
-    say(globals, "Detaching; press Ctrl-C again now to cancel the job instead");
-    if (!session.signals().second_within(time_to_cancel)) {
-      say(globals, "The job goes on. To attach again: anticrack job watch " + job.name() +
-                       session.server_option());
-      return {Followed::How::detached, job};
-    }
+  if (!last) {
+    const std::string target = job.name() + session.server_option();
+    say(session.globals(), "The job goes on. To attach again: anticrack job watch " + target);
+    say(session.globals(), "To save its results in the end: anticrack job fetch " + target);
+    return {Followed::How::detached, job};
   }
-  say(globals, "Cancelling " + job.name());
-  client::cancel_job(session.connection(), job.name());
-  v1::Job last = watch(session, job.name(), rows, {});
-  const bool in_time = last.state() == v1::Job::STATE_CANCELLED;
-  return {in_time ? Followed::How::cancelled : Followed::How::ended, std::move(last)};
+  const bool in_time = cancelling && last->state() == v1::Job::STATE_CANCELLED;
+  return {in_time ? Followed::How::cancelled : Followed::How::ended, *std::move(last)};
 }
 
 }  // namespace anticrack::cli

@@ -9,9 +9,11 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/json.hpp"
 #include "cli/session.hpp"
 #include "guide/completion.hpp"
 #include "guide/manual.hpp"
@@ -20,16 +22,32 @@ namespace anticrack::cli {
 namespace {
 
 int write_manual(const CLI::App& app, const std::filesystem::path& folder, const Globals& globals) {
-  std::filesystem::create_directories(folder);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder)) {
+    throw std::runtime_error(folder.string() + ": cannot be made a folder" +
+                             (error ? ": " + error.message() : "") + "; name another one");
+  }
   const std::vector<guide::Page> pages = guide::manual(app, 1, "anticrack " ANTICRACK_VERSION);
   for (const guide::Page& page : pages) {
     std::ofstream file(folder / page.file);
     file << page.text << std::flush;
     if (!file) {
-      throw std::runtime_error((folder / page.file).string() + " cannot be written");
+      throw std::runtime_error(
+          (folder / page.file).string() +
+          ": cannot be written; make the folder writable, or name another one");
     }
   }
-  say(globals, std::to_string(pages.size()) + " pages in " + folder.string());
+  if (globals.json) {
+    JsonWriter json;
+    json.begin_object().begin_array("files");
+    for (const guide::Page& page : pages) {
+      json.element((folder / page.file).string());
+    }
+    print_document(json.end_array().end_object().text());
+  } else {
+    say(globals, std::to_string(pages.size()) + " pages in " + folder.string());
+  }
   return exit_ok;
 }
 
@@ -42,9 +60,16 @@ void add_guide(CLI::App& app, const Globals& globals, Command& chosen) {
   const auto add = [&](const std::string& name, Shell shell, const std::string& use) {
     CLI::App* command = group->add_subcommand(name, "Completion for " + name);
     command->footer("Example:\n  " + use);
-    command->callback([&app, &chosen, shell] {
-      chosen = [&app, shell] {
-        print_document(guide::completion_script(app, shell));
+    command->callback([&app, &globals, &chosen, name, shell] {
+      chosen = [&app, &globals, name, shell] {
+        const std::string script = guide::completion_script(app, shell);
+        print_document(globals.json ? JsonWriter()
+                                          .begin_object()
+                                          .value("shell", name)
+                                          .value("script", script)
+                                          .end_object()
+                                          .text()
+                                    : script);
         return exit_ok;
       };
     });

@@ -13,6 +13,7 @@
 #include "cli/job_text.hpp"
 #include "cli/json.hpp"
 #include "cli/progress.hpp"
+#include "cli/resource_names.hpp"
 #include "cli/submit.hpp"
 #include "cli/text.hpp"
 #include "client/jobs.hpp"
@@ -29,7 +30,7 @@ struct JobOptions {
   std::string output;
   int limit = 50;
 
-  std::string full() const { return full_name("jobs/", name); }
+  std::string full() const { return full_name(Collection::jobs, name); }
 };
 
 int show(const Globals& globals, const v1::Job& job, int exit_code = exit_ok) {
@@ -67,12 +68,14 @@ int list(const JobOptions& options, const Globals& globals) {
     print_document(to_json(response));
     return exit_ok;
   }
-  std::vector<std::vector<std::string>> rows{{"job", "state", "ended", "mesh", "title"}};
+  std::vector<std::vector<std::string>> rows{
+      {"job", "created", "state", "cases ended", "mesh", "title"}};
   for (const v1::Job& job : response.jobs()) {
-    rows.push_back({sanitise(job.name()), std::string(word(job.state())), ended_text(job),
-                    sanitise(job.mesh()), sanitise(job.title())});
+    rows.push_back({sanitise(job.name()), clock_text(job.create_time().seconds()),
+                    std::string(word(job.state())), ended_text(job), sanitise(job.mesh()),
+                    sanitise(job.title())});
   }
-  print_document(table(rows, {1, 3, 4}));
+  print_document(table(rows, {1, 2, 4, 5}));
   if (!response.next_page_token().empty()) {
     say(globals, "There are more; see --limit");
   }
@@ -91,9 +94,15 @@ int exit_code_of_answers(const v1::Job& job) {
   return code == exit_ok && !all_converged ? exit_not_converged : code;
 }
 
+v1::Job get(Session& session, const std::string& name) {
+  return about(session, Collection::jobs, name,
+               [&] { return client::get_job(session.connection(), name, session.stop()); });
+}
+
 int watch(const JobOptions& options, const Globals& globals) {
+  const std::string name = options.full();
   Session session(globals);
-  const v1::Job job = client::get_job(session.connection(), options.full(), session.stop());
+  const v1::Job job = get(session, name);
   const Followed followed = follow(session, job);
   if (followed.how == Followed::How::detached) {
     if (globals.json) {
@@ -107,16 +116,16 @@ int watch(const JobOptions& options, const Globals& globals) {
 }
 
 int fetch_result(const JobOptions& options, const Globals& globals) {
-  const std::string output = options.output.empty()
-                                 ? options.full().substr(std::string("jobs/").size()) + ".h5"
-                                 : options.output;
+  const std::string name = options.full();
+  const std::string output =
+      options.output.empty() ? name.substr(std::string("jobs/").size()) + ".h5" : options.output;
   results::check_writable(output);
   Session session(globals);
-  const v1::Job job = client::get_job(session.connection(), options.full(), session.stop());
+  const v1::Job job = get(session, name);
   if (job.state() == v1::Job::STATE_EXPIRED) {
     throw client::Error(client::Code::failed_precondition, expired_text(job));
   }
-  const results::Result result = fetch(session, job);
+  const results::Result result = fetch(session, job, session.stop());
   results::write(output, result);
   print_document(globals.json ? answers_json(result, output)
                               : answers_table(result) + "\nResults: " + sanitise(output));
@@ -156,19 +165,24 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
 
   CLI::App* list_command = add("list", "List the newest jobs", "--limit 10",
                                [&globals](const JobOptions& o) { return list(o, globals); });
-  list_command->add_option("--limit", options->limit, "At most so many")
-      ->check(CLI::Range(1, 1000))
+  list_command->add_option("--limit", options->limit, "At most so many, from 1 to 1000")
+      ->check(CLI::Range(1, 1000).description(""))
+      ->type_name("COUNT")
       ->capture_default_str();
 
   add_named("show", "Show a job", "", [&globals](const JobOptions& o) {
+    const std::string name = o.full();
     Session session(globals);
-    return show(globals, client::get_job(session.connection(), o.full(), session.stop()));
+    return show(globals, get(session, name));
   });
   add_named("watch", "Watch a job until it ends", "",
             [&globals](const JobOptions& o) { return watch(o, globals); });
   add_named("cancel", "Cancel a job", "", [&globals](const JobOptions& o) {
+    const std::string name = o.full();
     Session session(globals);
-    return show(globals, client::cancel_job(session.connection(), o.full(), session.stop()));
+    return show(globals, about(session, Collection::jobs, name, [&] {
+                  return client::cancel_job(session.connection(), name, session.stop());
+                }));
   });
   CLI::App* fetch_command =
       add_named("fetch", "Save the results of a job that has ended", " -o plate.h5",
@@ -179,9 +193,11 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
       ->type_name("FILE");
   add_named("delete", "Delete a job that has ended, and its results", "",
             [&globals](const JobOptions& o) {
+              const std::string name = o.full();
               Session session(globals);
-              client::delete_job(session.connection(), o.full(), session.stop());
-              tell_deleted(globals, o.full());
+              about(session, Collection::jobs, name,
+                    [&] { client::delete_job(session.connection(), name, session.stop()); });
+              tell_deleted(globals, name);
               return exit_ok;
             });
 }

@@ -37,8 +37,11 @@ std::string summary(const results::Result& result, const fs::path& file) {
          " s, " + number(timings.total_seconds, 3) + " s in all)";
 }
 
-// Why a job came to nothing, line by line.
-std::vector<std::string> causes(const v1::Job& job) {
+// Why a job came to nothing, line by line, in terms of its case.
+std::vector<std::string> causes(const casefile::Case& the_case, const v1::Job& job) {
+  const auto text_of = [&the_case](const v1::Status& error) {
+    return std::string(in_terms_of(the_case, client::decode_error(error)).what());
+  };
   if (job.state() == v1::Job::STATE_CANCELLED) {
     return {job.name() + " was cancelled"};
   }
@@ -47,13 +50,13 @@ std::vector<std::string> causes(const v1::Job& job) {
   }
   std::vector<std::string> lines;
   if (job.has_error()) {
-    lines.push_back(job.name() + " failed: " + job.error().message());
+    lines.push_back(job.name() + " failed: " + text_of(job.error()));
   }
   for (const v1::LoadCaseAnswer& answer : job.answers()) {
     const std::string& cause = answer.error().message();
     const bool told = job.error().message().find(cause) != std::string::npos;
     if (answer.has_error() && !told) {
-      lines.push_back(answer.name() + " failed: " + cause);
+      lines.push_back(answer.name() + " failed: " + text_of(answer.error()));
     }
   }
   if (lines.empty()) {
@@ -63,10 +66,27 @@ std::vector<std::string> causes(const v1::Job& job) {
 }
 
 // What an import took for what, or repaired.
-void tell_warnings(Session& session, const v1::Job& job) {
+void tell_warnings(Session& session, const v1::Job& job, const std::stop_token& stop) {
   for (const std::string& warning :
-       client::get_mesh(session.connection(), job.mesh(), session.stop()).warnings()) {
+       client::get_mesh(session.connection(), job.mesh(), stop).warnings()) {
     say(session.globals(), "mesh: " + warning);
+  }
+}
+
+// For who has no results yet though the server has them.
+void tell_fetch(const Session& session, const std::string& job) {
+  if (!session.globals().local) {
+    say(session.globals(), "The server still has the results. To fetch them: anticrack job fetch " +
+                               job + session.server_option());
+  }
+}
+
+results::Result fetch_or_tell(Session& session, const v1::Job& job, const std::stop_token& stop) {
+  try {
+    return fetch(session, job, stop);
+  } catch (const client::Interrupted&) {
+    tell_fetch(session, job.name());
+    throw;
   }
 }
 
@@ -116,9 +136,12 @@ std::optional<results::Result> results_of(Session& session, const casefile::Case
                                           const Followed& followed,
                                           std::chrono::steady_clock::time_point begin) {
   const v1::Job& job = followed.job;
-  tell_warnings(session, job);
+  // What cancelled the job shall not keep what it had solved from being saved.
+  const std::stop_token stop =
+      followed.how == Followed::How::cancelled ? std::stop_token() : session.stop();
+  tell_warnings(session, job, stop);
   if (job.result_bytes() == 0 || job.state() == v1::Job::STATE_EXPIRED) {
-    for (const std::string& line : causes(job)) {
+    for (const std::string& line : causes(the_case, job)) {
       std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
     }
     if (session.globals().json) {
@@ -126,7 +149,7 @@ std::optional<results::Result> results_of(Session& session, const casefile::Case
     }
     return std::nullopt;
   }
-  results::Result result = fetch(session, job);
+  results::Result result = fetch_or_tell(session, job, stop);
   result.case_text = the_case.text;
   result.timings.total_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -137,11 +160,7 @@ void save(const fs::path& file, const results::Result& result, const Session& se
   try {
     results::write(file, result);
   } catch (const results::Error&) {
-    if (!session.globals().local) {
-      say(session.globals(),
-          "The server still has the results. To fetch them: anticrack job fetch " +
-              result.job_name + session.server_option());
-    }
+    tell_fetch(session, result.job_name);
     throw;
   }
 }

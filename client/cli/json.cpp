@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/json.hpp"
 
+#include <google/protobuf/descriptor.h>
 #include <google/protobuf/util/json_util.h>
+#include <google/protobuf/util/type_resolver.h>
+#include <google/protobuf/util/type_resolver_util.h>
 
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include "cli/text.hpp"
@@ -14,16 +18,55 @@ namespace anticrack::cli {
 namespace {
 
 std::string quoted(std::string_view text) {
-  // sanitise() leaves valid UTF-8 without control characters: only these two need escaping.
   std::string result = "\"";
-  for (const char c : sanitise(text)) {
-    if (c == '"' || c == '\\') {
-      result += '\\';
+  while (true) {
+    // sanitise() leaves valid UTF-8 without control characters: only these two need escaping.
+    const std::size_t end = text.find_first_of("\n\t");
+    for (const char c : sanitise(text.substr(0, end))) {
+      if (c == '"' || c == '\\') {
+        result += '\\';
+      }
+      result += c;
     }
-    result += c;
+    if (end == std::string_view::npos) {
+      return result + "\"";
+    }
+    result += text[end] == '\n' ? "\\n" : "\\t";
+    text.remove_prefix(end + 1);
   }
-  return result + "\"";
 }
+
+constexpr const char* type_prefix = "type.googleapis.com";
+
+/// Our messages, and the details of errors, which carry the type names of google.rpc but are ours.
+class Types : public google::protobuf::util::TypeResolver {
+ public:
+  using Status = google::protobuf::util::Status;
+
+  Status ResolveMessageType(const std::string& url, google::protobuf::Type* type) override {
+    const std::string rpc = std::string(type_prefix) + "/google.rpc.";
+    const bool detail = url.rfind(rpc, 0) == 0;
+    const std::string ours =
+        detail ? std::string(type_prefix) + "/anticrack.v1." + url.substr(rpc.size()) : url;
+    const Status status = _known->ResolveMessageType(ours, type);
+    if (!status.ok() && detail) {
+      // A detail that a newer server sends: its name is shown, and nothing of it.
+      type->Clear();
+      type->set_name(url.substr(url.rfind('/') + 1));
+      return {};
+    }
+    return status;
+  }
+
+  Status ResolveEnumType(const std::string& url, google::protobuf::Enum* type) override {
+    return _known->ResolveEnumType(url, type);
+  }
+
+ private:
+  std::unique_ptr<google::protobuf::util::TypeResolver> _known{
+      google::protobuf::util::NewTypeResolverForDescriptorPool(
+          type_prefix, google::protobuf::DescriptorPool::generated_pool())};
+};
 
 }  // namespace
 
@@ -110,7 +153,10 @@ std::string to_json(const google::protobuf::Message& message) {
   options.preserve_proto_field_names = true;
   options.always_print_primitive_fields = true;
   std::string text;
-  const auto status = google::protobuf::util::MessageToJsonString(message, &text, options);
+  Types types;
+  const auto status = google::protobuf::util::BinaryToJsonString(
+      &types, std::string(type_prefix) + "/" + message.GetTypeName(), message.SerializeAsString(),
+      &text, options);
   if (!status.ok()) {
     throw std::runtime_error("cannot write " + message.GetTypeName() +
                              " as JSON: " + std::string(status.message()));

@@ -17,10 +17,12 @@ namespace anticrack::cli {
 /// Indented by two spaces. Keys are given inside objects and left out inside arrays.
 class JsonWriter {
  public:
+  /// An object or array, as a member of that name, until its end.
   JsonWriter& begin_object(std::string_view key = {});
   JsonWriter& end_object();
   JsonWriter& begin_array(std::string_view key = {});
   JsonWriter& end_array();
+  /// A member or an item; texts are UTF-8.
   JsonWriter& value(std::string_view key, std::string_view text);
   JsonWriter& value(std::string_view key, double number);  ///< null for what is not finite
   JsonWriter& value(std::string_view key, std::int64_t number);

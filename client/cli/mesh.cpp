@@ -7,14 +7,16 @@
 
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
+#include <optional>
 
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/figure_options.hpp"
 #include "cli/json.hpp"
 #include "cli/mesh_text.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
+#include "cli/resource_names.hpp"
 #include "cli/submit.hpp"
 #include "cli/text.hpp"
 #include "cli/to_result.hpp"
@@ -32,11 +34,17 @@ struct MeshOptions {
   bool no_wait = false;
   bool pin = false;
   int limit = 50;
+  figures::Options figures;
 };
 
 int show(const Globals& globals, const v1::Mesh& mesh) {
   print_document(globals.json ? to_json(mesh) : mesh_text(mesh));
   return exit_ok;
+}
+
+v1::Mesh get(Session& session, const std::string& name) {
+  return about(session, Collection::meshes, name,
+               [&] { return client::get_mesh(session.connection(), name, session.stop()); });
 }
 
 /// Waits until the server is done with it; throws what it failed of.
@@ -57,11 +65,15 @@ v1::Mesh wait_for(Session& session, const std::string& name) {
 
 int create(const casefile::Case& the_case, bool wait, const Globals& globals) {
   Session session(globals);
-  const v1::Mesh mesh = create_mesh(session, the_case);
-  if (mesh.state() == v1::Mesh::STATE_FAILED) {
-    throw client::decode_error(mesh.error());
+  try {
+    const v1::Mesh mesh = create_mesh(session, the_case);
+    if (mesh.state() == v1::Mesh::STATE_FAILED) {
+      throw client::decode_error(mesh.error());
+    }
+    return show(globals, wait ? wait_for(session, mesh.name()) : mesh);
+  } catch (const client::Error& error) {
+    throw in_terms_of(the_case, error);
   }
-  return show(globals, wait ? wait_for(session, mesh.name()) : mesh);
 }
 
 int upload(const MeshOptions& options, const Globals& globals) {
@@ -69,37 +81,39 @@ int upload(const MeshOptions& options, const Globals& globals) {
                 !options.no_wait, globals);
 }
 
-/// "meshes/ID", or the name of a mesh made from a case or a .msh file.
-std::string mesh_name_of(Session& session, const MeshOptions& options) {
+/// The case of a .toml or .msh file; empty for the name of a mesh.
+std::optional<casefile::Case> case_of(const MeshOptions& options) {
   const std::string extension = std::filesystem::path(options.name).extension();
   if (extension == ".msh") {
-    return create_mesh(session, casefile::mesh_file_case(options.name, "", options.overrides))
-        .name();
+    return casefile::mesh_file_case(options.name, "", options.overrides);
   }
   if (extension == ".toml") {
-    return create_mesh(session, casefile::read_case(options.name, options.overrides)).name();
+    return casefile::read_case(options.name, options.overrides);
   }
   if (!options.overrides.empty()) {
-    throw std::runtime_error("--set means nothing for a mesh on the server; name a case");
+    throw UsageError("--set means nothing for a mesh on the server; name a case");
   }
-  return full_name("meshes/", options.name);
+  return std::nullopt;
 }
 
 int show_mesh(const MeshOptions& options, const Globals& globals) {
+  const auto the_case = case_of(options);
+  const std::string given = the_case ? "" : full_name(Collection::meshes, options.name);
   Session session(globals);
-  const std::string name = mesh_name_of(session, options);
-  if (options.folder.empty() && name == full_name("meshes/", options.name)) {
-    return show(globals, client::get_mesh(session.connection(), name, session.stop()));
+  const std::string name = the_case ? create_mesh(session, *the_case).name() : given;
+  if (options.folder.empty() && !the_case) {
+    return show(globals, get(session, name));
   }
-  const v1::Mesh mesh = wait_for(session, name);
+  const v1::Mesh mesh =
+      about(session, Collection::meshes, name, [&] { return wait_for(session, name); });
   show(globals, mesh);
   if (options.folder.empty()) {
     return exit_ok;
   }
   const client::Block block = client::read_mesh(session.connection(), name, session.stop());
   const std::string stem = name.substr(std::string("meshes/").size());
-  const figures::Drawn drawn =
-      figures::draw_mesh(to_mesh_plan(mesh, block), "mesh-" + stem, options.folder);
+  const figures::Drawn drawn = figures::draw_mesh(to_mesh_plan(mesh, block), "mesh-" + stem,
+                                                  options.folder, options.figures);
   for (const auto& file : drawn.files) {
     say(globals, file.string());
   }
@@ -118,13 +132,14 @@ int list(const MeshOptions& options, const Globals& globals) {
     print_document(to_json(response));
     return exit_ok;
   }
-  std::vector<std::vector<std::string>> rows{{"mesh", "state", "triangles", "nodes", "title"}};
+  std::vector<std::vector<std::string>> rows{
+      {"mesh", "created", "state", "triangles", "nodes", "title"}};
   for (const v1::Mesh& mesh : response.meshes()) {
-    rows.push_back({sanitise(mesh.name()), std::string(word(mesh.state())),
-                    std::to_string(mesh.triangle_count()), std::to_string(mesh.node_count()),
-                    sanitise(mesh.title())});
+    rows.push_back({sanitise(mesh.name()), clock_text(mesh.create_time().seconds()),
+                    std::string(word(mesh.state())), std::to_string(mesh.triangle_count()),
+                    std::to_string(mesh.node_count()), sanitise(mesh.title())});
   }
-  print_document(table(rows, {1, 4}));
+  print_document(table(rows, {1, 2, 5}));
   if (!response.next_page_token().empty()) {
     say(globals, "There are more; see --limit");
   }
@@ -132,22 +147,27 @@ int list(const MeshOptions& options, const Globals& globals) {
 }
 
 int warm(const MeshOptions& options, const Globals& globals) {
+  const std::string name = full_name(Collection::meshes, options.name);
   Session session(globals);
-  const v1::Mesh mesh = client::warm_mesh(session.connection(), full_name("meshes/", options.name),
-                                          options.pin, session.stop());
+  const v1::Mesh mesh = about(session, Collection::meshes, name, [&] {
+    return client::warm_mesh(session.connection(), name, options.pin, session.stop());
+  });
   return show(globals, options.no_wait ? mesh : wait_for(session, mesh.name()));
 }
 
 int evict(const MeshOptions& options, const Globals& globals) {
+  const std::string name = full_name(Collection::meshes, options.name);
   Session session(globals);
-  return show(globals, client::evict_mesh(session.connection(), full_name("meshes/", options.name),
-                                          session.stop()));
+  return show(globals, about(session, Collection::meshes, name, [&] {
+                return client::evict_mesh(session.connection(), name, session.stop());
+              }));
 }
 
 int delete_mesh(const MeshOptions& options, const Globals& globals) {
+  const std::string name = full_name(Collection::meshes, options.name);
   Session session(globals);
-  const std::string name = full_name("meshes/", options.name);
-  client::delete_mesh(session.connection(), name, session.stop());
+  about(session, Collection::meshes, name,
+        [&] { client::delete_mesh(session.connection(), name, session.stop()); });
   tell_deleted(globals, name);
   return exit_ok;
 }
@@ -194,8 +214,9 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
   on(upload_command, [&globals](const MeshOptions& o) { return upload(o, globals); });
 
   CLI::App* list_command = group->add_subcommand("list", "List the newest meshes");
-  list_command->add_option("--limit", options->limit, "At most so many")
-      ->check(CLI::Range(1, 1000))
+  list_command->add_option("--limit", options->limit, "At most so many, from 1 to 1000")
+      ->check(CLI::Range(1, 1000).description(""))
+      ->type_name("COUNT")
       ->capture_default_str();
   list_command->footer("Example:\n  anticrack mesh list --limit 10");
   on(list_command, [&globals](const MeshOptions& o) { return list(o, globals); });
@@ -207,8 +228,9 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
                    "meshes/ID, or a case (.toml) or .msh file to make the mesh of")
       ->required()
       ->type_name("FILE");
-  show_command->add_option("-o,--output", options->folder, "Folder to draw it into, PNG and SVG")
+  show_command->add_option("-o,--output", options->folder, "Folder to draw it into")
       ->type_name("DIR");
+  add_figure_options(*show_command, options->figures);
   add_overrides(show_command);
   show_command->footer(
       "Example:\n  anticrack mesh show plate.msh -o figures\n"

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/progress.hpp"
 
+#include <google/protobuf/util/time_util.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "cli/text.hpp"
 
 namespace anticrack::cli {
+
+using google::protobuf::util::TimeUtil;
 
 void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
   notice.clear();
@@ -60,6 +64,9 @@ void JobProgress::apply(const v1::Job& job_now) {
     detail.clear();
   }
   state = job_now.state();
+  if (job_now.has_end_time()) {
+    elapsed = seconds_between(job_now.create_time(), job_now.end_time());
+  }
   const v1::Uzawa& uzawa = job_now.solver().uzawa();
   active_set = !job_now.solver().has_uzawa();
   target = active_set || uzawa.has_kkt_tolerance() ? 0
@@ -180,6 +187,12 @@ std::string_view word(v1::Mesh::State state) noexcept {
     default:
       return "unknown";
   }
+}
+
+double seconds_between(const google::protobuf::Timestamp& from,
+                       const google::protobuf::Timestamp& to) {
+  constexpr double milliseconds = 1000;
+  return static_cast<double>(TimeUtil::DurationToMilliseconds(to - from)) / milliseconds;
 }
 
 bool ended(v1::LoadCaseAnswer::Status status) noexcept {

@@ -32,12 +32,16 @@ struct JobProgress {
   v1::Job::State state = v1::Job::STATE_UNSPECIFIED;
   std::string detail;        ///< phase, e.g. "meshing"
   std::string notice;        ///< e.g. that the connection is lost; empty when all is well
+  std::string prompt;        ///< what Ctrl-C has brought about; empty before
   std::int32_t attempt = 0;  ///< of the server at the job; 0 before the first snapshot
   bool active_set = false;   ///< a handful of steps, no criterion; else iterations of Algorithm 2
   double target = 1e-12;     ///< of the criterion; 0: something else ends the iteration
   std::vector<CaseProgress> cases;     ///< none of a sweep
   std::optional<SweepProgress> sweep;  ///< of a sweep
   std::size_t ended_count = 0;
+  /// Since it was submitted; NaN: not known. Of a job that has ended the server tells, else it is
+  /// for the caller to set.
+  double elapsed = std::numeric_limits<double>::quiet_NaN();
 
   /// `seconds`: when it came, on any clock that does not go back.
   void apply(const v1::WatchJobResponse& event, double seconds = 0);
@@ -55,7 +59,12 @@ std::string_view word(v1::LoadCaseAnswer::Status status) noexcept;
 std::string_view word(v1::Job::State state) noexcept;
 std::string_view word(v1::Mesh::State state) noexcept;
 
+/// Whether the load case will not change any more.
 bool ended(v1::LoadCaseAnswer::Status status) noexcept;
+
+/// From one time to another, e.g. of creation and end of a job.
+double seconds_between(const google::protobuf::Timestamp& from,
+                       const google::protobuf::Timestamp& to);
 
 /// Part of the way from 1 down to `target` that `criterion` has gone on a log scale, 0 to 1.
 double bar_fraction(double criterion, double target) noexcept;

@@ -37,6 +37,8 @@ Complaint current_complaint() {
     return complaint_of(error);
   } catch (const LocalServerError& error) {
     return {exit_server, "LOCAL_SERVER", error.what(), {}};
+  } catch (const UsageError& error) {
+    return {exit_usage, "USAGE", error.what(), {}};
   } catch (const casefile::Error& error) {
     return {exit_usage, "CASE", error.what(), {}};
   } catch (const results::Error& error) {

@@ -4,11 +4,18 @@
 #pragma once
 
 #include <functional>
+#include <stdexcept>
 
 #include "cli/session.hpp"
 #include "client/error.hpp"
 
 namespace anticrack::cli {
+
+/// A command line that means nothing. what() gives the bad word and the cure.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// What the shell is told of a call that failed: exit_usage where another case or argument would
 /// help, exit_server where another server or time would.

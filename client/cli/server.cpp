@@ -36,6 +36,10 @@ std::vector<std::string> feature_lines(const v1::ServerInfo& info) {
 
 std::string seconds(const google::protobuf::Duration& time) {
   constexpr std::int64_t hour = 3600;
+  constexpr std::int64_t day = 24 * hour;
+  if (time.seconds() >= 2 * day && time.seconds() % day == 0) {
+    return std::to_string(time.seconds() / day) + " days";
+  }
   return time.seconds() >= hour && time.seconds() % hour == 0
              ? std::to_string(time.seconds() / hour) + " h"
              : std::to_string(time.seconds()) + " s";
@@ -46,9 +50,10 @@ std::string text_of(const v1::ServerInfo& info, const std::string& address) {
   const v1::ServerLimits& limits = info.limits();
   std::vector<std::vector<std::string>> rows{
       {"address", sanitise(address)},
-      {"version", sanitise(info.version()) + " (" + sanitise(info.build()) + ")"}};
+      {"version", sanitise(info.version()) + " (" + sanitise(info.build()) + ")"},
+      {"started", clock_text(info.start_time().seconds())}};
   for (const std::string& line : feature_lines(info)) {
-    rows.push_back({rows.size() == 2 ? "features" : "", line});
+    rows.push_back({rows.size() == 3 ? "features" : "", line});
   }
   const std::vector<std::vector<std::string>> counters{
       {"solver threads", std::to_string(info.threads())},
@@ -67,19 +72,21 @@ std::string text_of(const v1::ServerInfo& info, const std::string& address) {
       {"watchers", std::to_string(metrics.watchers()) + " of " + std::to_string(limits.watchers())},
       {"limits", std::to_string(limits.mesh_triangles()) + " triangles a mesh, uploads of " +
                      bytes(limits.upload_bytes()) + ", " + std::to_string(limits.load_cases()) +
-                     " load cases a job, " + std::to_string(limits.iterations()) +
-                     " iterations a load case, sweeps of " + std::to_string(limits.sweep_rows()) +
-                     " rows and " + std::to_string(limits.sweep_basis()) + " loads"},
+                     " load cases a job"},
+      {"", std::to_string(limits.iterations()) + " iterations a load case, sweeps of " +
+               std::to_string(limits.sweep_rows()) + " rows and " +
+               std::to_string(limits.sweep_basis()) + " loads"},
       {"queue", std::to_string(limits.queued_jobs()) + " jobs, " +
                     std::to_string(limits.queued_cases()) + " load cases a mesh, " +
                     bytes(limits.queued_bytes())},
       {"times", "a job waits at most " + seconds(limits.queue_time()) + " and runs at most " +
-                    seconds(limits.run_time()) + "; results are kept " +
-                    (limits.result_ttl().seconds() > 0 ? "for " + seconds(limits.result_ttl())
-                                                       : std::string("without a limit of time")) +
-                    (limits.disk_budget_bytes() > 0
-                         ? " within " + bytes(limits.disk_budget_bytes()) + " on the disk"
-                         : std::string(" while the disk has space"))}};
+                    seconds(limits.run_time())},
+      {"results", "kept " +
+                      (limits.result_ttl().seconds() > 0 ? "for " + seconds(limits.result_ttl())
+                                                         : std::string("without a limit of time")) +
+                      (limits.disk_budget_bytes() > 0
+                           ? " within " + bytes(limits.disk_budget_bytes()) + " on the disk"
+                           : std::string(" while the disk has space"))}};
   rows.insert(rows.end(), counters.begin(), counters.end());
   return table(rows, {1});
 }

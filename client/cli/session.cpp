@@ -5,12 +5,17 @@
 #include <utility>
 
 #include "cli/json.hpp"
+#include "cli/terminal.hpp"
 #include "cli/text.hpp"
 
 namespace anticrack::cli {
 
 std::FILE* people(const Globals& globals) {
   return globals.json ? stderr : stdout;
+}
+
+bool shows_frames(const Globals& globals) {
+  return !globals.quiet && takes_frames(people(globals));
 }
 
 void say(const Globals& globals, std::string_view line) {

@@ -26,6 +26,8 @@ struct Globals {
 
 /// Where people are told what goes on: standard output, with --json standard error.
 std::FILE* people(const Globals& globals);
+/// Whether people see frames that are drawn over each other there, rather than lines.
+bool shows_frames(const Globals& globals);
 /// A line for people.
 void say(const Globals& globals, std::string_view line);
 /// The one document of --json, or what a command was asked to show.
@@ -41,6 +43,7 @@ class Session {
 
   client::Connection& connection() noexcept { return *_connection; }
   Signals& signals() noexcept { return _signals; }
+  /// Requested by the first signal.
   std::stop_token stop() const noexcept { return _signals.first(); }
   const Globals& globals() const noexcept { return _globals; }
   /// What leads to this server at the end of a command line; empty where not needed.

@@ -18,20 +18,8 @@
 namespace anticrack::cli {
 namespace {
 
-// The server speaks of fields of a request, its user of lines of a file.
-client::Error in_terms_of(const casefile::Case& the_case, const client::Error& error) {
-  std::string message;
-  for (const client::FieldViolation& violation : error.details().fields) {
-    const std::optional<casefile::Spot> spot = the_case.locate(violation.field);
-    message += message.empty() ? "" : "\n";
-    message += spot ? casefile::prefix(*spot) : violation.field + ": ";
-    message += violation.description;
-  }
-  return client::Error(error.code(), message.empty() ? error.what() : message, error.details());
-}
-
 template <class Call>
-auto in_terms_of(const casefile::Case& the_case, const Call& call) -> decltype(call()) {
+auto translated(const casefile::Case& the_case, const Call& call) -> decltype(call()) {
   try {
     return call();
   } catch (const client::Error& error) {
@@ -81,9 +69,10 @@ void upload_forces(Session& session, const casefile::Case& the_case, v1::Job& jo
 
 void add_case_flags(CLI::App& command, std::vector<std::string>& overrides) {
   command
-      .add_option("--set", overrides,
-                  "Override a key of the case, for example solver.theta=1.7 or load.0.f=1; again "
-                  "for more")
+      .add_option(
+          "--set", overrides,
+          "Override a key of the case, for example solver.theta=1.7 or load.opening.f=1 (an "
+          "entry of a list by its name, or by its index from 0); again for more")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   const auto add = [&](const std::string& flag, const std::string& key, const std::string& type,
@@ -104,12 +93,26 @@ void add_case_flags(CLI::App& command, std::vector<std::string>& overrides) {
   add("--run-timeout", "job.run_timeout", "TIME", "Stop if it has not ended after, e.g. 2h");
 }
 
+client::Error in_terms_of(const casefile::Case& the_case, const client::Error& error) {
+  std::string message;
+  for (const client::FieldViolation& violation : error.details().fields) {
+    const std::optional<casefile::Spot> spot = the_case.locate(violation.field);
+    message += message.empty() ? "" : "\n";
+    message += spot ? casefile::prefix(*spot) : violation.field + ": ";
+    message += violation.description;
+  }
+  return client::Error(error.code(), message.empty() ? error.what() : message, error.details());
+}
+
 v1::Mesh create_mesh(Session& session, const casefile::Case& the_case) {
   if (the_case.mesh_file && !std::filesystem::is_regular_file(*the_case.mesh_file)) {
-    throw casefile::Error(*the_case.locate("upload"),
-                          the_case.mesh_file->string() + " is no file; name a .msh file");
+    const bool folder = std::filesystem::is_directory(*the_case.mesh_file);
+    const casefile::Spot spot = *the_case.locate("upload");
+    throw casefile::Error(spot, (spot.key.empty() ? "" : the_case.mesh_file->string() + ": ") +
+                                    (folder ? "is a folder" : "there is no such file") +
+                                    "; name a .msh file");
   }
-  return in_terms_of(the_case, [&] {
+  return translated(the_case, [&] {
     v1::CreateMeshRequest request = the_case.mesh;
     if (the_case.mesh_file) {
       request.set_upload(
@@ -124,10 +127,10 @@ v1::Job submit(Session& session, const casefile::Case& the_case, const std::stri
   v1::Job job = the_case.job;
   upload_forces(session, the_case, job);  // first: a file that cannot be read starts nothing
   if (prepare) {
-    in_terms_of(the_case, [&] { prepare(job); });
+    translated(the_case, [&] { prepare(job); });
   }
   const v1::Mesh mesh = create_mesh(session, the_case);
-  return in_terms_of(the_case, [&] {
+  return translated(the_case, [&] {
     job.set_mesh(mesh.name());
     return client::create_job(session.connection(), job, request_id, session.stop());
   });
@@ -143,19 +146,15 @@ void tell_submitted(const Session& session, const v1::Job& job) {
       "To watch it: anticrack job watch " + job.name() + session.server_option());
 }
 
-results::Result fetch(Session& session, const v1::Job& job) {
+results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop) {
   client::Connection& connection = session.connection();
   Fetched fetched;
   fetched.job = job;
-  fetched.mesh = client::get_mesh(connection, job.mesh());
-  fetched.server = client::server_info(connection);
-  fetched.mesh_block = client::read_mesh(connection, job.mesh());
-  fetched.result_block = client::read_result(connection, job.name());
+  fetched.mesh = client::get_mesh(connection, job.mesh(), stop);
+  fetched.server = client::server_info(connection, stop);
+  fetched.mesh_block = client::read_mesh(connection, job.mesh(), stop);
+  fetched.result_block = client::read_result(connection, job.name(), stop);
   return to_result(fetched);
-}
-
-std::string full_name(const std::string& collection, const std::string& given) {
-  return given.rfind(collection, 0) == 0 ? given : collection + given;
 }
 
 int exit_code_of(v1::Job::State state) {

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ namespace anticrack::cli {
 /// submit a case.
 void add_case_flags(CLI::App& command, std::vector<std::string>& overrides);
 
+/// The server speaks of fields of a request, its user of lines of a file.
+client::Error in_terms_of(const casefile::Case& the_case, const client::Error& error);
+
 /// Uploads the case's .msh if it has one, and creates its mesh. A refusal names the lines of the
 /// case it is about.
 v1::Mesh create_mesh(Session& session, const casefile::Case& the_case);
@@ -40,10 +44,7 @@ v1::Job submit(Session& session, const casefile::Case& the_case, const std::stri
 void tell_submitted(const Session& session, const v1::Job& job);
 
 /// Everything about a job that has ended and has results.
-results::Result fetch(Session& session, const v1::Job& job);
-
-/// "jobs/ID" of "jobs/ID" or "ID"; the same for "meshes/".
-std::string full_name(const std::string& collection, const std::string& given);
+results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop);
 
 /// exit_ok or exit_job_failed, by the state of a job that has ended.
 int exit_code_of(v1::Job::State state);

@@ -148,10 +148,12 @@ void add_options(CLI::App& command, SweepOptions& options) {
       ->type_name("FILE");
   CLI::Option_group& input = *command.add_option_group("Load cases");
   input
-      .add_option("--coefficients", options.files.coefficients,
-                  "A row of coefficients of the case's loads per load case: comma-separated text, "
-                  "with or without a line of their names, or a dataset (rows,loads) of an HDF5 "
-                  "file")
+      .add_option(
+          "--coefficients,--combinations", options.files.coefficients,
+          "A row of coefficients of the case's loads per load case: comma-separated text, "
+          "with or without a line of their names, or a dataset (rows,loads) of an HDF5 "
+          "file (/coefficients if none is named), with or without an attribute loads, their "
+          "names")
       ->type_name("FILE.csv|FILE.h5:/PATH");
   input
       .add_option("--nodal", options.files.nodal,

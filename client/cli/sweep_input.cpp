@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/sweep_input.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
 #include "casefile/coefficients.hpp"
+#include "casefile/nearest.hpp"
 #include "cli/row_selection.hpp"
 #include "cli/text.hpp"
 #include "results/array_file.hpp"
@@ -36,23 +38,51 @@ bool is_hdf5_name(const std::string& name) {
   return extension == ".h5" || extension == ".hdf5";
 }
 
-void take(results::Matrix matrix, SweepInput& input) {
+void take(results::Matrix&& matrix, SweepInput& input) {
   input.values = std::move(matrix.values);
   input.rows = matrix.rows;
   input.columns = matrix.columns;
 }
 
-Dataset need_dataset(const std::string& name) {
-  const auto dataset = dataset_of(name);
+void read_nodal(const SweepFiles& files, SweepInput& input) {
+  const auto dataset = dataset_of(files.nodal);
   if (!dataset) {
-    fail(name, "no dataset is named; write FILE.h5:/PATH, for example " + name + ":/f");
+    fail(files.nodal,
+         "no dataset is named; write FILE.h5:/PATH, for example " + files.nodal + ":/f");
   }
-  return *dataset;
+  take(results::read_matrix(dataset->file, dataset->path), input);
 }
 
-void read_nodal(const SweepFiles& files, SweepInput& input) {
-  const Dataset dataset = need_dataset(files.nodal);
-  take(results::read_matrix(dataset.file, dataset.path), input);
+// The load of each column, by the names that the dataset gives its columns.
+std::vector<std::size_t> loads_of_columns(const std::vector<std::string>& names,
+                                          const std::vector<std::string>& loads,
+                                          const std::string& source) {
+  std::vector<std::size_t> columns;
+  for (const std::string& name : names) {
+    const auto found = std::find(loads.begin(), loads.end(), name);
+    const auto load = static_cast<std::size_t>(found - loads.begin());
+    if (found == loads.end()) {
+      fail(source, "its attribute loads: " + name + " is no load of the case; " +
+                       casefile::suggestion(name, loads));
+    }
+    if (std::find(columns.begin(), columns.end(), load) != columns.end()) {
+      fail(source, "its attribute loads: " + name + " is there twice; name each load once");
+    }
+    columns.push_back(load);
+  }
+  return columns;
+}
+
+// Into the order of the case's loads.
+void sort_columns(const std::vector<std::size_t>& loads_of, SweepInput& input) {
+  std::vector<double> sorted(input.columns);
+  for (auto row = input.values.begin(); row != input.values.end();
+       row += static_cast<std::ptrdiff_t>(input.columns)) {
+    for (std::size_t j = 0; j < input.columns; ++j) {
+      sorted[loads_of[j]] = row[static_cast<std::ptrdiff_t>(j)];
+    }
+    std::copy(sorted.begin(), sorted.end(), row);
+  }
 }
 
 void read_combinations(const SweepFiles& files, const casefile::Case& the_case, SweepInput& input) {
@@ -66,12 +96,24 @@ void read_combinations(const SweepFiles& files, const casefile::Case& the_case, 
     input.rows = input.values.size() / input.columns;
     return;
   }
-  const Dataset dataset = need_dataset(files.coefficients);
-  take(results::read_matrix(dataset.file, dataset.path), input);
+  const Dataset dataset =
+      dataset_of(files.coefficients).value_or(Dataset{files.coefficients, "/coefficients"});
+  results::Matrix matrix = results::read_matrix(dataset.file, dataset.path);
+  const auto loads_of = loads_of_columns(matrix.loads, loads, files.coefficients);
+  take(std::move(matrix), input);
   if (input.columns != loads.size()) {
-    fail(files.coefficients, "it has " + std::to_string(input.columns) + " columns, the case " +
-                                 std::to_string(loads.size()) +
-                                 " loads; write one column for each load, in their order");
+    fail(files.coefficients,
+         "it has " + std::to_string(input.columns) + " columns, the case " +
+             std::to_string(loads.size()) +
+             " loads; write one column for each load, in their order, or name them in an "
+             "attribute loads of the dataset");
+  }
+  if (loads_of.size() == input.columns) {
+    sort_columns(loads_of, input);
+  } else if (!loads_of.empty()) {
+    fail(files.coefficients, "its attribute loads names " + std::to_string(loads_of.size()) +
+                                 " of " + std::to_string(input.columns) +
+                                 " columns; name all of them");
   }
 }
 

@@ -16,7 +16,7 @@ namespace anticrack::cli {
 
 /// As a person names them; exactly one of the two files is given.
 struct SweepFiles {
-  std::string coefficients;  ///< FILE.csv or FILE.h5:/PATH
+  std::string coefficients;  ///< FILE.csv or FILE.h5:/PATH, without a path /coefficients
   std::string nodal;         ///< FILE.h5:/PATH
   std::string traces = "none";
 };
@@ -29,6 +29,7 @@ struct SweepInput {
   std::size_t rows = 0;
   std::size_t columns = 0;
 
+  /// Of the values.
   std::size_t bytes() const noexcept { return values.size() * sizeof(double); }
 };
 

@@ -29,6 +29,7 @@ class SweepProgress {
  public:
   std::uint64_t total = 0;  ///< rows; 0: not known yet
 
+  /// Rows: that ended, of these without an answer for want of steps, and with an error.
   std::uint64_t done() const noexcept { return _counts.done; }
   std::uint64_t not_converged() const noexcept { return _counts.not_converged; }
   std::uint64_t failed() const noexcept { return _counts.failed; }

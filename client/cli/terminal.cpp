@@ -4,7 +4,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <chrono>
+#include <cstdlib>
+#include <string_view>
 #include <utility>
 
 namespace anticrack::cli {
@@ -12,10 +13,41 @@ namespace {
 
 constexpr std::chrono::milliseconds frame_time{67};
 
+// A frame is never wider than the terminal was when it was measured; should it have shrunk since,
+// lines are cut rather than wrapped.
+constexpr std::string_view cut_lines = "\x1b[?7l";
+constexpr std::string_view wrap_lines = "\x1b[?7h";
+constexpr std::string_view wipe_line = "\x1b[K";
+constexpr std::string_view wipe_below = "\x1b[J";
+
+// Each line over what is there, the cursor after the last one.
+std::string text_of(const std::vector<std::string>& lines) {
+  std::string text = "\r";
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    text += i > 0 ? "\n" : "";
+    text += lines[i];
+    text += wipe_line;
+  }
+  text += wipe_below;
+  return text;
+}
+
+// A process in the background would write into what its user types; changing the modes of the
+// terminal would stop it.
+bool in_background(std::FILE* terminal) {
+  const pid_t group = tcgetpgrp(fileno(terminal));
+  return group != -1 && group != getpgrp();
+}
+
 }  // namespace
 
-bool is_terminal(std::FILE* stream) {
-  return isatty(fileno(stream)) == 1;
+bool redraws(const char* term, const char* no_color) noexcept {
+  const bool plain = no_color != nullptr && *no_color != '\0';
+  return !plain && term != nullptr && *term != '\0' && std::string_view(term) != "dumb";
+}
+
+bool takes_frames(std::FILE* stream) {
+  return isatty(fileno(stream)) == 1 && redraws(std::getenv("TERM"), std::getenv("NO_COLOR"));
 }
 
 Size size_of(std::FILE* terminal) {
@@ -26,8 +58,9 @@ Size size_of(std::FILE* terminal) {
   return {size.ws_col, size.ws_row};
 }
 
-Painter::Painter(std::FILE* terminal, std::function<std::vector<std::string>(Size)> render)
-    : _terminal(terminal), _render(std::move(render)), _thread([this] { work(); }) {}
+Painter::Painter(std::FILE* terminal, std::function<std::vector<std::string>(Size)> render,
+                 std::chrono::milliseconds tick)
+    : _terminal(terminal), _render(std::move(render)), _tick(tick), _thread([this] { work(); }) {}
 
 Painter::~Painter() {
   {
@@ -36,7 +69,7 @@ Painter::~Painter() {
   }
   _woken.notify_one();
   _thread.join();
-  draw();
+  draw(Draw::last);
 }
 
 void Painter::refresh() {
@@ -47,34 +80,92 @@ void Painter::refresh() {
   _woken.notify_one();
 }
 
+void Painter::redraw() {
+  {
+    const std::lock_guard lock(_mutex);
+    _anew = true;
+  }
+  refresh();
+}
+
+void Painter::pause() {
+  // Where the terminal takes no text (Ctrl-S) a draw waits for it; that shall not keep the process.
+  constexpr std::chrono::milliseconds patience{500};
+  _paused = true;
+  const std::unique_lock lock(_drawing, patience);
+  if (lock.owns_lock()) {
+    leave_frame();
+  }
+}
+
+void Painter::resume() {
+  _paused = false;
+  redraw();
+}
+
 void Painter::work() {
   std::unique_lock lock(_mutex);
   while (!_ending) {
-    _woken.wait(lock, [this] { return _stale || _ending; });
+    _woken.wait_for(lock, _tick, [this] { return _stale || _ending; });
     if (_ending) {
       return;
     }
     _stale = false;
+    const Draw how = std::exchange(_anew, false) ? Draw::anew : Draw::if_new;
     lock.unlock();
-    draw();
+    draw(how);
     lock.lock();
     _woken.wait_for(lock, frame_time, [this] { return _ending; });
   }
 }
 
-void Painter::draw() {
+void Painter::draw(Draw how) {
+  const std::lock_guard lock(_drawing);
+  if (how != Draw::last && (_paused || in_background(_terminal))) {
+    return;
+  }
   const std::vector<std::string> lines = _render(size_of(_terminal));
-  std::string text;
-  if (_drawn_lines > 0) {
-    text += "\x1b[" + std::to_string(_drawn_lines) + "A\r";
+  std::string frame = text_of(lines);
+  if (how != Draw::if_new || frame != _drawn) {
+    hide_keys();
+    const std::string up = lines.size() > 1 ? "\x1b[" + std::to_string(lines.size() - 1) + "A" : "";
+    write(std::string(cut_lines) + frame + std::string(wrap_lines) + "\r" + up);
+    _drawn = std::move(frame);
+    _drawn_lines = lines.size();
   }
-  for (const std::string& line : lines) {
-    text += line + "\x1b[K\n";
+  if (how == Draw::last) {
+    leave_frame();
   }
-  text += "\x1b[J";  // what a longer frame left below
-  _drawn_lines = lines.size();
+}
+
+void Painter::leave_frame() {
+  write(std::string(_drawn_lines, '\n'));
+  _drawn_lines = 0;
+  show_keys();
+}
+
+void Painter::write(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), _terminal);
   std::fflush(_terminal);
+}
+
+// An Enter that is echoed would move the cursor off the frame.
+void Painter::hide_keys() {
+  termios modes{};
+  if (in_background(_terminal) || tcgetattr(fileno(_terminal), &modes) != 0 ||
+      (modes.c_lflag & ECHO) == 0) {
+    return;
+  }
+  _before = modes;
+  modes.c_lflag &= ~static_cast<tcflag_t>(ECHO | ECHONL);
+  tcsetattr(fileno(_terminal), TCSANOW, &modes);
+}
+
+void Painter::show_keys() {
+  if (_before && !in_background(_terminal)) {
+    tcsetattr(fileno(_terminal), TCSANOW, &*_before);
+  }
+  _before.reset();
 }
 
 }  // namespace anticrack::cli

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/text.hpp"
 
+#include <locale.h>
+#include <wchar.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <ctime>
 
 namespace anticrack::cli {
 namespace {
@@ -46,6 +50,42 @@ std::size_t printable_length(std::string_view text, std::size_t i) {
   return bad ? 0 : length;
 }
 
+// wcwidth knows what is wide or combining, but only in a locale of Unicode; C.UTF-8 comes with
+// libc.
+class UnicodeLocale {
+ public:
+  UnicodeLocale() noexcept {
+    static const locale_t unicode = newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+    _before = uselocale(unicode);
+  }
+  ~UnicodeLocale() { uselocale(_before); }
+  UnicodeLocale(const UnicodeLocale&) = delete;
+  UnicodeLocale& operator=(const UnicodeLocale&) = delete;
+
+ private:
+  locale_t _before;
+};
+
+struct Character {
+  std::size_t length;  // bytes
+  std::size_t columns;
+};
+
+// The one at `i` of valid UTF-8.
+Character character_at(std::string_view text, std::size_t i) {
+  const std::uint8_t lead = byte_at(text, i);
+  if (lead < 0x80) {
+    return {1, 1};
+  }
+  std::size_t length = 1;
+  auto point = static_cast<wchar_t>(lead & (lead >= 0xf0 ? 0x07 : lead >= 0xe0 ? 0x0f : 0x1f));
+  for (; is_continuation(text, i + length); ++length) {
+    point = (point << 6) | (byte_at(text, i + length) & 0x3f);
+  }
+  const int columns = wcwidth(point);
+  return {length, columns < 0 ? 1 : static_cast<std::size_t>(columns)};
+}
+
 }  // namespace
 
 std::string sanitise(std::string_view text) {
@@ -60,9 +100,14 @@ std::string sanitise(std::string_view text) {
 }
 
 std::size_t columns_of(std::string_view text) noexcept {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<std::uint8_t>(c) & 0xc0) != 0x80;
-  }));
+  const UnicodeLocale unicode;
+  std::size_t columns = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    const Character character = character_at(text, i);
+    columns += character.columns;
+    i += character.length;
+  }
+  return columns;
 }
 
 std::string fit(std::string_view text, std::size_t width) {
@@ -72,14 +117,17 @@ std::string fit(std::string_view text, std::size_t width) {
   if (width == 0) {
     return "";
   }
+  const UnicodeLocale unicode;
   std::size_t end = 0;
-  for (std::size_t column = 0; column + 1 < width; ++column) {
-    ++end;
-    while (is_continuation(text, end)) {
-      ++end;
+  std::size_t columns = 0;
+  while (true) {
+    const Character character = character_at(text, end);
+    if (columns + character.columns >= width) {
+      return std::string(text.substr(0, end)) + "~";
     }
+    columns += character.columns;
+    end += character.length;
   }
-  return std::string(text.substr(0, end)) + "~";
 }
 
 std::string pad_right(std::string_view text, std::size_t width) {
@@ -130,6 +178,16 @@ std::string time_text(double seconds) {
     return std::to_string(whole / minute) + " min " + std::to_string(whole % minute) + " s";
   }
   return std::to_string(whole / hour) + " h " + std::to_string(whole % hour / minute) + " min";
+}
+
+std::string clock_text(std::int64_t seconds) {
+  const auto time = static_cast<std::time_t>(seconds);
+  std::tm local{};
+  std::array<char, 64> buffer{};
+  if (localtime_r(&time, &local) == nullptr) {
+    return "-";  // no year that fits
+  }
+  return {buffer.data(), std::strftime(buffer.data(), buffer.size(), "%Y-%m-%d %H:%M:%S", &local)};
 }
 
 std::string table(const std::vector<std::vector<std::string>>& rows,

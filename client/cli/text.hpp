@@ -15,10 +15,10 @@ namespace anticrack::cli {
 /// sends may not steer the terminal.
 std::string sanitise(std::string_view text);
 
-/// Code points of valid UTF-8: about the columns it takes.
+/// Columns of a terminal that valid UTF-8 takes: two for wide characters, none for combining ones.
 std::size_t columns_of(std::string_view text) noexcept;
 
-/// Cut to `width` code points, the last one "~" where something was cut off.
+/// Cut to at most `width` columns, the last one "~" where something was cut off.
 std::string fit(std::string_view text, std::size_t width);
 
 /// Spaces up to `width`, on the right or on the left.
@@ -33,6 +33,9 @@ std::string bytes(std::uint64_t count);
 
 /// "0.4 s", "42 s", "3 min 5 s", "2 h 10 min": for people.
 std::string time_text(double seconds);
+
+/// "2026-11-22 10:25:17" in the zone of this computer, of seconds since 1970.
+std::string clock_text(std::int64_t seconds);
 
 /// Rows under each other, two spaces between columns; column 0 and those named in `left` are
 /// aligned left. No space at line ends.

@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes a mesh, submits a job, watches it and prints its answers, with nothing but the API's proto files.
 
-    python3 submit_job.py [HOST:PORT]        default: localhost:7433
+    python3 submit_job.py [HOST:PORT]        default: $ANTICRACK_SERVER, or localhost:7433
 
 Takes grpcio and, to make the API's Python modules from proto/ when it starts, protoc with its plugin for Python
 (Debian: python3-grpcio, protobuf-compiler, protobuf-compiler-grpc). A grpcio-tools of 2020 or later does as well:
 `python3 -m grpc_tools.protoc` in the place of `protoc`; Debian's python3-grpc-tools is older and cannot read
 `optional` fields.
 """
+import os
 import pathlib
 import shutil
 import subprocess
@@ -24,13 +25,13 @@ PROTO = next(folder / "proto" for folder in pathlib.Path(__file__).resolve().par
 
 def api():
     """The modules of the API: messages and services of meshes, and of jobs."""
-    made = tempfile.mkdtemp(prefix="anticrack-python-")
     plugin = shutil.which("grpc_python_plugin")
-    subprocess.run(["protoc", f"--plugin=protoc-gen-grpc_python={plugin}", f"-I{PROTO}", f"--python_out={made}",
-                    f"--grpc_python_out={made}", *PROTO.glob("anticrack/v1/*.proto")], check=True)
-    sys.path.insert(0, made)
-    from anticrack.v1 import mesh_pb2, mesh_pb2_grpc, solve_pb2, solve_pb2_grpc
-    return mesh_pb2, mesh_pb2_grpc, solve_pb2, solve_pb2_grpc
+    with tempfile.TemporaryDirectory(prefix="anticrack-python-") as made:
+        subprocess.run(["protoc", f"--plugin=protoc-gen-grpc_python={plugin}", f"-I{PROTO}", f"--python_out={made}",
+                        f"--grpc_python_out={made}", *PROTO.glob("anticrack/v1/*.proto")], check=True)
+        sys.path.insert(0, made)
+        from anticrack.v1 import mesh_pb2, mesh_pb2_grpc, solve_pb2, solve_pb2_grpc
+        return mesh_pb2, mesh_pb2_grpc, solve_pb2, solve_pb2_grpc
 
 
 def membrane(messages):
@@ -47,7 +48,7 @@ def membrane(messages):
     return geometry
 
 
-def main(address="localhost:7433"):
+def main(address=os.environ.get("ANTICRACK_SERVER", "localhost:7433")):
     mesh_pb2, mesh_pb2_grpc, solve_pb2, solve_pb2_grpc = api()
     with grpc.insecure_channel(address) as channel:
         meshes, jobs = mesh_pb2_grpc.MeshServiceStub(channel), solve_pb2_grpc.SolveServiceStub(channel)

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "figures/axes.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "figures/text.hpp"
 
 namespace anticrack::figures {
@@ -12,10 +15,15 @@ std::string margins(const Place& place, double left, double right, double bottom
          "\nset tmargin at screen " + number(place.y + top * place.height) + "\n";
 }
 
+std::string margins(const Place& place, double bottom, double top) {
+  return margins(place, 0.185, 0.96, bottom, top);
+}
+
 std::string caption(const std::string& text, const Place& place) {
-  return "set label 2 " + quoted(text) + " at screen " + number(place.x + 0.5 * place.width) +
-         ", screen " + number(place.y + 0.965 * place.height) +
-         " center noenhanced textcolor rgb '#222222'\n";
+  const bool fits = length(text) <= 46;
+  return "set label 2 " + quoted(text, 56) + (fits ? "" : " font ',7'") + " at screen " +
+         number(place.x + 0.5 * place.width) + ", screen " +
+         number(place.y + 0.955 * place.height) + " center noenhanced textcolor rgb '#222222'\n";
 }
 
 std::string below(const std::string& quoted_text, double height, const Place& place) {
@@ -23,10 +31,74 @@ std::string below(const std::string& quoted_text, double height, const Place& pl
          number(place.y + height * place.height) + " center noenhanced\n";
 }
 
+std::string beside(const std::string& quoted_text, const Place& place) {
+  return "set label 4 " + quoted_text + " at screen " + number(place.x + 0.03 * place.width) +
+         ", graph 0.5 center rotate by 90 noenhanced\n";
+}
+
+std::string legend(int rows, const Place& place) {
+  return "set key at screen " + number(place.x + 0.54 * place.width) + ", screen " +
+         number(place.y + 0.01 * place.height) + " center bottom vertical maxrows " +
+         std::to_string(rows) +
+         " Left reverse noenhanced samplen 2.5 width 1 height 0.3 font ',7'\n";
+}
+
 std::string axes() {
-  return "set border 3 linewidth 0.8 linecolor rgb '#555555'\n"
-         "set tics nomirror textcolor rgb '#333333'\n"
-         "set grid xtics ytics linewidth 0.6 linecolor rgb '#cccccc' dashtype solid\n";
+  return "set border 3 linewidth 0.7 linecolor rgb '#555555'\n"
+         "set tics in nomirror offset 0,0 font ',7' textcolor rgb '#333333'\n"
+         "set grid xtics ytics linewidth 0.5 linecolor rgb '#dddddd' dashtype solid\n";
+}
+
+void Range::include(double value) noexcept {
+  if (!std::isfinite(value)) return;
+  low = std::min(low, value);
+  high = std::max(high, value);
+}
+
+Range empty_range() noexcept {
+  return {HUGE_VAL, -HUGE_VAL};
+}
+
+double label_step(const Range& range, int most) {
+  const double least = range.size() / most;
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double step : {1.0, 2.0, 5.0}) {
+    if (least <= step * power * 1.05) return step * power;
+  }
+  return 10 * power;
+}
+
+Scale::Scale(const Range& range) {
+  const double largest = std::max(std::abs(range.low), std::abs(range.high));
+  if (!std::isfinite(largest) || largest == 0 || (largest >= 2e-3 && largest < 1e5)) return;
+  _exponent = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
+}
+
+Range Scale::drawn(const Range& range) const noexcept {
+  const double factor = std::pow(10.0, -_exponent);
+  return {range.low * factor, range.high * factor};
+}
+
+std::string Scale::column(int number) const {
+  const std::string name = std::to_string(number);
+  return _exponent == 0 ? name : "($" + name + "*1e" + std::to_string(-_exponent) + ")";
+}
+
+std::string Scale::unit() const {
+  return _exponent == 0 ? "[-]" : "[" + power_of_ten(_exponent) + "]";
+}
+
+std::string axis_range(char axis, const Range& range, int most, double step) {
+  Range shown = range;
+  if (!(shown.low <= shown.high)) shown = {0, 0};
+  const double rounding = 1e-9 * std::max(std::abs(shown.low), std::abs(shown.high));
+  if (shown.size() <= rounding) {
+    const double middle = shown.low;
+    const double half = middle == 0 ? 1 : 0.5 * std::abs(middle);
+    shown = {middle - half, middle + half};
+  }
+  return std::string("set ") + axis + "range [" + number(shown.low) + ":" + number(shown.high) +
+         "]\nset " + axis + "tics " + number(std::max(step, label_step(shown, most))) + "\n";
 }
 
 }  // namespace anticrack::figures

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The frame of a gnuplot script: its pictures, their size and their title.
+// The frame of a gnuplot script: its pictures, their size in print and their title.
 #pragma once
 
 #include <functional>
@@ -16,20 +16,32 @@ namespace anticrack::figures {
 struct Output {
   Format format;
   std::string file;
+  int dpi = 300;      ///< of a PNG
+  bool title = true;  ///< written above the panels
 };
 
+/// Size of the panels on paper, mm; a title comes on top. Fonts and lines have the same size in
+/// print in every picture and format: text has at least 6.5 points.
 struct Canvas {
-  int width = 0;  ///< pixels
-  int height = 0;
+  double width = 0;
+  double height = 0;
 };
 
-inline constexpr Canvas single{1400, 1000};
-inline constexpr Canvas wide{2000, 960};
+inline constexpr Canvas column{85, 68};  ///< a column of a journal
+inline constexpr Canvas page{170, 68};   ///< two panels side by side, over both columns
+inline constexpr Canvas tall{85, 104};   ///< two panels, one above the other
 
-using Plots = std::function<std::string(Format)>;
+/// Draws into a part of the picture.
+using Plots = std::function<std::string(Format, const Place&)>;
 
-/// `data` once, then for every output: the title (made by `quoted`) and what `plots` draws.
-std::string script(const std::string& data, const std::string& title, const Plots& plots,
+/// Of a case and of the load; one of them may be empty.
+struct Title {
+  std::string first;
+  std::string second;
+};
+
+/// `data` once, then for every output the title, on one line or on a few, and what `plots` draws.
+std::string script(const std::string& data, const Title& title, const Plots& plots,
                    const Canvas& canvas, const std::vector<Output>& outputs);
 
 }  // namespace anticrack::figures

@@ -21,7 +21,27 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* extension(Format format) {
-  return format == Format::png ? ".png" : ".svg";
+  switch (format) {
+    case Format::png:
+      return ".png";
+    case Format::svg:
+      return ".svg";
+    case Format::pdf:
+      break;
+  }
+  return ".pdf";
+}
+
+std::string_view signature(Format format) {
+  switch (format) {
+    case Format::png:
+      return "\x89PNG\r";
+    case Format::svg:
+      return "<?xml";
+    case Format::pdf:
+      break;
+  }
+  return "%PDF-";
 }
 
 /// gnuplot leaves an empty file where a terminal is missing.
@@ -29,8 +49,7 @@ bool has_signature(const fs::path& path, Format format) {
   std::ifstream file(path, std::ios::binary);
   std::array<char, 5> head{};
   file.read(head.data(), head.size());
-  const std::string_view wanted = format == Format::png ? "\x89PNG\r" : "<?xml";
-  return file && std::string_view(head.data(), head.size()) == wanted;
+  return file && std::string_view(head.data(), head.size()) == signature(format);
 }
 
 void shrink(const fs::path& svg) {
@@ -49,8 +68,9 @@ class Partials {
     static std::atomic<unsigned> counter{0};
     const std::string stem = ".anticrack-" + std::to_string(getpid()) + "-" +
                              std::to_string(counter.fetch_add(1)) + ".partial";
-    if (options.png) outputs.push_back({Format::png, stem + ".png"});
-    if (options.svg) outputs.push_back({Format::svg, stem + ".svg"});
+    for (const Format format : options.formats) {
+      outputs.push_back({format, stem + extension(format), options.dpi, options.titles});
+    }
   }
   Partials(const Partials&) = delete;
   Partials& operator=(const Partials&) = delete;

@@ -18,7 +18,7 @@ class Drawing {
   /// Makes the folder if it is missing; throws Error where it cannot be written.
   Drawing(std::filesystem::path folder, Options options);
 
-  /// Runs the script for STEM.png and STEM.svg, as the options ask; both are written under
+  /// Runs the script for STEM.png, STEM.svg, ..., as the options ask; all are written under
   /// temporary names first.
   void draw(const std::string& stem,
             const std::function<std::string(const std::vector<Output>&)>& script);

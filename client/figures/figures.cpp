@@ -44,6 +44,10 @@ void draw_kept_rows(const Result& result, Drawing& drawing) {
   }
 }
 
+bool has_convergence(const Load& load) {
+  return load.history.size() > 1;
+}
+
 void draw_load(const Result& result, const Load& load, const std::string& stem, Drawing& drawing) {
   if (load.traces.empty()) {
     drawing.drawn.notes.push_back("load \"" + load.name + "\" has no traces (" +
@@ -69,6 +73,15 @@ void draw_load(const Result& result, const Load& load, const std::string& stem, 
   }
 }
 
+void note_single_steps(const Result& result, Drawing& drawing) {
+  const auto count = std::count_if(result.loads.begin(), result.loads.end(), [](const Load& load) {
+    return !load.traces.empty() && !has_convergence(load);
+  });
+  if (count == 0) return;
+  drawing.drawn.notes.push_back("no convergence drawn of " + std::to_string(count) +
+                                (count == 1 ? " load" : " loads") + " solved in a single step");
+}
+
 }  // namespace
 
 Drawn draw(const Result& result, const fs::path& folder, const Options& options) {
@@ -90,6 +103,7 @@ Drawn draw(const Result& result, const fs::path& folder, const Options& options)
   for (std::size_t i = 0; i < result.loads.size(); ++i) {
     draw_load(result, result.loads[i], stems[i], drawing);
   }
+  note_single_steps(result, drawing);
   return std::move(drawing.drawn);
 }
 

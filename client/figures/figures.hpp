@@ -19,10 +19,13 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+enum class Format { png, svg, pdf };
+
 struct Options {
-  bool png = true;
-  bool svg = true;
-  std::chrono::seconds time_limit{120};  ///< for one picture
+  std::vector<Format> formats{Format::png, Format::svg};  ///< each once
+  int dpi = 300;                                          ///< dots an inch of a PNG
+  bool titles = true;                                     ///< of case and load, above the panels
+  std::chrono::seconds time_limit{120};                   ///< for one picture
 };
 
 struct Drawn {
@@ -30,11 +33,11 @@ struct Drawn {
   std::vector<std::string> notes;            ///< what was left out and why, for people
 };
 
-/// Draws for every load with traces, as .png and .svg in `folder` (made if missing):
+/// Draws for every load with traces, in each format, in `folder` (made if missing):
 ///   LOAD-membrane     the deformed membrane with its slit open; needs fields
 ///   LOAD-traces       u-, u+ and [u] along each interface, contact shaded
 ///   LOAD-convergence  the criterion of every iteration, or the KKT residuals of every step, log
-///   LOAD              membrane left, traces right, as in the paper
+///   LOAD              membrane left, traces right, as in the paper; 170 mm wide, all else 85 mm
 /// Of a sweep instead:
 ///   sweep             A and the contact length over the rows, or over the coefficient that varies
 ///   sweep-contact     where the cracks are closed, row by row (-2, ... of further interfaces)

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "figures/axes.hpp"
 #include "figures/panels.hpp"
 #include "figures/text.hpp"
 
@@ -18,16 +19,7 @@ const std::string diverging =
     "set palette defined (0 '#1b4f8f', 1 '#4a90c8', 2 '#a6cbe3', 3 '#dedede', 4 '#f4b698', "
     "5 '#d6604d', 6 '#97162b')\n";
 
-/// Distance of labels that leaves at most five on a colour bar.
-double label_step(double range) {
-  const double power = std::pow(10.0, std::floor(std::log10(range / 4)));
-  for (const double step : {1.0, 2.0, 5.0}) {
-    if (range / (step * power) <= 4.2) return step * power;
-  }
-  return 10 * power;
-}
-
-std::string colours(const Surface& surface) {
+std::string colours(const Surface& surface, const Scale& scale) {
   const double largest = surface.largest();
   std::string palette = sequential;
   double low = surface.lowest;
@@ -40,18 +32,32 @@ std::string colours(const Surface& surface) {
     low = -largest;
     high = largest;
   }
-  return palette + "set cbrange [" + number(low) + ":" + number(high) + "]\nset cbtics " +
-         number(label_step(high - low)) + " offset 0,0.2 textcolor rgb '#333333'\n";
+  const Range drawn = scale.drawn({low, high});
+  return palette + "set cbrange [" + number(drawn.low) + ":" + number(drawn.high) +
+         "]\nset cbtics " + number(label_step(drawn, 4)) +
+         " offset 0,0.3 font ',7' textcolor rgb '#333333'\n";
 }
 
-std::string caption(double factor) {
-  return factor == 1 ? "deformed membrane, u to scale"
-                     : "deformed membrane, u amplified \xC3\x97" + readable(factor);
+std::string heading(double factor, const results::Load& load) {
+  std::string text = factor == 1 ? std::string("deformed membrane, u to scale")
+                                 : "deformed membrane, u amplified \xC3\x97" + readable(factor);
+  if (load.status == results::Status::not_converged) text += ",  not converged";
+  return text;
 }
 
 std::string axis_label(int tag, const std::string& text, double x, double y, double z) {
   return "set label " + std::to_string(tag) + " '" + text + "' at first " + number(x) + ", first " +
          number(y) + ", first " + number(z) + " center noenhanced\n";
+}
+
+/// A short side has no room for as many labels.
+std::string label_steps(const Surface& surface) {
+  const double least = label_step({0, surface.width()}, 6);
+  const auto step = [&](double low, double high) {
+    return number(std::max(least, label_step({low, high}, 4)));
+  };
+  return "set xtics " + step(surface.x_min, surface.x_max) + " nomirror offset 0,-0.3\nset ytics " +
+         step(surface.y_min, surface.y_max) + " nomirror offset 0.3,-0.2\n";
 }
 
 }  // namespace
@@ -72,8 +78,8 @@ std::string membrane_data(const Surface& surface) {
   const double factor = amplification(surface);
   std::string text = "$membrane << EOD\n";
   const auto line = [&](const Vertex& v) {
-    text += number(v.x) + " " + number(v.y) + " " + readable(factor * v.u, 6) + " " +
-            readable(v.u, 6) + "\n";
+    text += number(v.x) + " " + number(v.y) + " " + number(factor * v.u, 6) + " " + number(v.u, 6) +
+            "\n";
   };
   // gnuplot has no triangles: each is a quadrilateral A B / C C.
   for (const Triangle& triangle : surface.triangles) {
@@ -87,7 +93,8 @@ std::string membrane_data(const Surface& surface) {
   return text + "EOD\n";
 }
 
-std::string membrane_panel(const Surface& surface, double view, const Place& place, Format format) {
+std::string membrane_panel(const Surface& surface, const results::Load& load, double view,
+                           const Place& place, Format format) {
   const double factor = amplification(surface);
   const double low = factor * surface.lowest;
   const double high = factor * surface.highest;
@@ -100,32 +107,31 @@ std::string membrane_panel(const Surface& surface, double view, const Place& pla
   // gnuplot centres the box, not what is drawn in it, which leaves room above.
   text += "set origin " + number(place.x) + "," + number(place.y + 0.06 * place.height) + "\n";
   text += "set size " + number(place.width) + "," + number(place.height) + "\n";
-  text += "unset key\nset border 15 linewidth 0.7 linecolor rgb '#888888'\nunset ztics\n";
+  text += "unset key\nset border 15 linewidth 0.7 linecolor rgb '#888888'\n";
   text += "unset xlabel\nunset ylabel\n";
-  text += "set xtics autofreq nomirror offset 0,-0.3 textcolor rgb '#333333'\n";
-  text += "set ytics autofreq nomirror textcolor rgb '#333333'\n";
+  text += "set tics font ',7' textcolor rgb '#333333'\nunset ztics\n" + label_steps(surface);
   text += "set xrange [" + number(surface.x_min) + ":" + number(surface.x_max) + "]\n";
   text += "set yrange [" + number(surface.y_min) + ":" + number(surface.y_max) + "]\n";
   text += "set zrange [" + number(std::min(low, 0.0)) + ":" +
           number(std::max(high, low + 0.1 * surface.width())) + "]\n";
   text += "set xyplane at " + number(base) + "\n";
-  text += "set view 58, " + number(view) + ", 1.42\nset view equal xyz\n";
-  text += colours(surface);
+  text += "set view 58, " + number(view) + ", 1.5\nset view equal xyz\n";
+  const Scale scale({surface.lowest, surface.highest});
+  text += colours(surface, scale);
   text += "set pm3d depthorder corners2color mean lighting primary 0.35 specular 0.08\n";
   // Cairo blurs the edges of polygons, and what lies behind shines through; SVG draws them crisp.
-  text += format == Format::png ? "set pm3d border retrace\n" : "set pm3d noborder\n";
-  text += "set colorbox user horizontal origin " + at(0.25, 0.09) + " size screen " +
-          number(0.5 * place.width) + ", screen " + number(0.025 * place.height) + "\n";
-  text += "set cblabel 'u [-]' offset 0,0.4\n";
-  text += "set label 2 '" + caption(factor) + "' at " + at(0.5, 0.965) +
-          " center noenhanced textcolor rgb '#222222'\n";
+  text += format == Format::svg ? "set pm3d noborder\n" : "set pm3d border retrace linewidth 0.3\n";
+  text += "set colorbox user horizontal origin " + at(0.22, 0.105) + " size screen " +
+          number(0.56 * place.width) + ", screen " + number(0.03 * place.height) + "\n";
+  text += "set label 5 'u " + scale.unit() + "' at " + at(0.81, 0.12) + " left noenhanced\n";
+  text += caption(heading(factor, load), place);
   // Not `set xlabel`: terminals keep different distances for it.
   const double middle_x = (surface.x_min + surface.x_max) / 2;
   const double middle_y = (surface.y_min + surface.y_max) / 2;
-  const double away = 0.23 * surface.width();
+  const double away = 0.33 * surface.width();
   text += axis_label(3, "x [-]", middle_x, surface.y_min - away, base);
   text += axis_label(4, "y [-]", surface.x_max + away, middle_y, base);
-  text += "splot $membrane using 1:2:3:4 with pm3d notitle\n";
+  text += "splot $membrane using 1:2:3:" + scale.column(4) + " with pm3d notitle\n";
   text += "unset label\n";
   return text;
 }

@@ -13,20 +13,30 @@ namespace {
 /// More cannot be told apart, and make an SVG that no program shows.
 constexpr std::size_t triangle_limit = 60000;
 
-constexpr Place left{0, 0.09, 0.5, 0.85};
-constexpr Place right{0.5, 0.09, 0.5, 0.85};
-constexpr Place all{0, 0.09, 1, 0.85};
-constexpr Place below{0, 0, 1, 0.09};
+constexpr Canvas one_panel{85, 98};
+constexpr Canvas two_panels{170, 91};
+
+/// The place of the panels and, below, that of the legend; `legend_height` in mm.
+std::pair<Place, Place> panels_and_legend(const Place& area, const Canvas& canvas,
+                                          double legend_height) {
+  const double part = area.height * legend_height / canvas.height;
+  return {{area.x, area.y + part, area.width, area.height - part},
+          {area.x, area.y, area.width, part}};
+}
+
+double height_of_picture(const Place& area, const Canvas& canvas) {
+  return canvas.height / area.height / canvas.width;
+}
 
 std::string counts(const results::Mesh& mesh) {
-  return figures::quoted(std::to_string(mesh.triangle_count()) + " triangles, " +
-                         std::to_string(mesh.node_count()) + " nodes");
+  return std::to_string(mesh.triangle_count()) + " triangles, " +
+         std::to_string(mesh.node_count()) + " nodes";
 }
 
 std::string caption_of(const results::Tip& tip, const Window& window, const Window& whole) {
-  return figures::quoted("around the tip (" + readable(tip.x, 6) + ", " + readable(tip.y, 6) +
-                         "), \xC3\x97" + readable(whole.width() / window.width(), 3) +
-                         ", smallest edge " + readable(tip.smallest_edge, 3));
+  return "around the tip (" + readable(tip.x, 3) + ", " + readable(tip.y, 3) + "), \xC3\x97" +
+         readable(whole.width() / window.width(), 2) + ", edges from " +
+         readable(tip.smallest_edge, 2);
 }
 
 bool few(const MeshLayers& layers, const std::string& where, std::vector<std::string>& notes) {
@@ -43,27 +53,33 @@ std::string mesh_script(const results::MeshPlan& plan, const std::vector<Output>
   const Window everything = whole(plan.mesh);
   const MeshLayers overview = layers(plan, everything);
   const bool overview_triangles = few(overview, "in the whole", notes);
-  const std::string title = figures::quoted(plan.title.empty() ? "mesh" : plan.title, 90);
-  MeshPanel first{"A", everything, counts(plan.mesh), overview_triangles, all};
+  const Title title{plan.title.empty() ? "mesh" : plan.title, ""};
+  const MeshPanel first{"A", everything, counts(plan.mesh), overview_triangles};
   Window near;
   results::Tip tip;
   if (!finest_tip(plan, near, tip)) {
     return script(
         mesh_data(overview, first.tag), title,
-        [&](Format) { return mesh_panel(overview, first, single) + mesh_legend(overview, below); },
-        single, outputs);
+        [&](Format, const Place& area) {
+          const auto [panel, foot] = panels_and_legend(area, one_panel, 14);
+          return mesh_panel(overview, first, panel, height_of_picture(area, one_panel)) +
+                 mesh_legend(overview, 4, foot);
+        },
+        one_panel, outputs);
   }
-  first.place = left;
   const MeshLayers detail = layers(plan, near);
   const bool detail_triangles = few(detail, "around the tip", notes);
-  const MeshPanel second{"B", near, caption_of(tip, near, everything), detail_triangles, right};
+  const MeshPanel second{"B", near, caption_of(tip, near, everything), detail_triangles};
   return script(
       mesh_data(overview, first.tag) + mesh_data(detail, second.tag), title,
-      [&](Format) {
-        return mesh_panel(overview, first, wide) + mesh_panel(detail, second, wide) +
-               mesh_legend(overview, below);
+      [&](Format, const Place& area) {
+        const auto [panels, foot] = panels_and_legend(area, two_panels, 8);
+        const auto [left, right] = halves(panels);
+        const double height = height_of_picture(area, two_panels);
+        return mesh_panel(overview, first, left, height) +
+               mesh_panel(detail, second, right, height) + mesh_legend(overview, 2, foot);
       },
-      wide, outputs);
+      two_panels, outputs);
 }
 
 Drawn draw_mesh(const results::MeshPlan& plan, const std::string& name,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "figures/outer_edges.hpp"
 
@@ -100,19 +101,19 @@ void add_stretches(const MeshPlan& plan, const InterfaceLine& line, double small
   }
 }
 
-/// An arrow at the middle of the part of the line that the window shows.
-void add_plus_side(const MeshPlan& plan, const InterfaceLine& line, const Window& window,
-                   MeshLayers& to) {
+/// An arrow into the plus side, `where` along those edges of the line that are meant and that the
+/// window shows.
+template <class Meant>
+std::optional<Pointer> pointer(const MeshPlan& plan, const InterfaceLine& line,
+                               const Window& window, double where, const Meant& meant) {
   double shown = 0;
   std::vector<double> lengths(line.kind.size(), 0);
   for (std::size_t e = 0; e < line.kind.size(); ++e) {
     const Spot a = spot_of(plan.mesh, line.nodes[e]);
     const Spot b = spot_of(plan.mesh, line.nodes[e + 1]);
-    if (inside(a, window) && inside(b, window)) lengths[e] = distance(a, b);
+    if (meant(e) && inside(a, window) && inside(b, window)) lengths[e] = distance(a, b);
     shown += lengths[e];
   }
-  // A little off the middle: there may be a tip, a cross point or another interface's arrow.
-  constexpr double where = 0.56;
   double walked = 0;
   for (std::size_t e = 0; e < lengths.size(); ++e) {
     if (lengths[e] == 0 || walked + lengths[e] < where * shown) {
@@ -124,9 +125,24 @@ void add_plus_side(const MeshPlan& plan, const InterfaceLine& line, const Window
     const double along = (where * shown - walked) / lengths[e];
     const Spot from{a.x + along * (b.x - a.x), a.y + along * (b.y - a.y)};
     const double reach = 0.05 * std::max(window.width(), window.height()) / lengths[e];
-    to.plus_sides.push_back(
-        {from, {from.x - reach * (b.y - a.y), from.y + reach * (b.x - a.x)}, line.name});
-    return;
+    return Pointer{from, {from.x - reach * (b.y - a.y), from.y + reach * (b.x - a.x)}, line.name};
+  }
+  return std::nullopt;
+}
+
+void add_pointers(const MeshPlan& plan, const InterfaceLine& line, const Window& window,
+                  MeshLayers& to) {
+  // A little off the middle: there may be a tip, a cross point or another interface's arrow.
+  const auto plus = pointer(plan, line, window, 0.56, [](std::size_t) { return true; });
+  if (plus) to.plus_sides.push_back(*plus);
+  for (std::size_t i = 0; i < plan.inclusions.size(); ++i) {
+    auto found = pointer(plan, line, window, 0.5, [&](std::size_t e) {
+      return line.inclusion[e] == static_cast<std::int32_t>(i);
+    });
+    if (!found) continue;
+    found->to = {2 * found->from.x - found->to.x, 2 * found->from.y - found->to.y};
+    found->name = plan.inclusions[i];
+    to.inclusions.push_back(*found);
   }
 }
 
@@ -153,7 +169,9 @@ void add_subdomain_names(const Mesh& mesh, const Window& window, MeshLayers& to)
       lines.insert(lines.end(), stretch.begin(), stretch.end());
     }
   }
-  for (const PlusSide& side : to.plus_sides) lines.push_back(side.to);
+  for (const auto* pointers : {&to.plus_sides, &to.inclusions}) {
+    for (const Pointer& pointer : *pointers) lines.push_back(pointer.to);
+  }
   lines = thinned(lines, 1000);
   const double margin_x = 0.12 * window.width();
   const double margin_y = 0.08 * window.height();
@@ -214,7 +232,7 @@ MeshLayers layers(const MeshPlan& plan, const Window& window) {
   const double smallest = std::max(window.width(), window.height()) / pixels;
   for (const InterfaceLine& line : plan.interfaces) {
     add_stretches(plan, line, smallest, result);
-    add_plus_side(plan, line, window, result);
+    add_pointers(plan, line, window, result);
   }
   for (const results::Tip& tip : plan.tips) {
     if (inside({tip.x, tip.y}, window)) result.tips.push_back(tip);

@@ -23,14 +23,15 @@ struct Spot {
 struct Window {
   double x_min = 0, x_max = 0, y_min = 0, y_max = 0;
 
+  /// In the unit of the geometry.
   double width() const noexcept { return x_max - x_min; }
   double height() const noexcept { return y_max - y_min; }
 };
 
 using Stretch = std::vector<Spot>;  ///< a polyline
 
-struct PlusSide {
-  Spot from, to;  ///< an arrow off the interface, into its plus side
+struct Pointer {
+  Spot from, to;  ///< an arrow off the interface
   std::string name;
 };
 
@@ -40,7 +41,8 @@ struct MeshLayers {
   std::array<std::vector<Stretch>, 5> interfaces;           ///< by results::Kind, 0 unused
   std::vector<Stretch> dirichlet, neumann;                  ///< edges of the boundary
   std::vector<results::Tip> tips;
-  std::vector<PlusSide> plus_sides;
+  std::vector<Pointer> plus_sides;  ///< of interfaces
+  std::vector<Pointer> inclusions;  ///< into the minus sides
   std::vector<std::pair<Spot, std::string>> subdomain_names;
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "figures/axes.hpp"
 #include "figures/text.hpp"
 
 namespace anticrack::figures {
@@ -16,26 +17,26 @@ constexpr std::array<const char*, 6> paints{"#E8F1F8", "#FBEEDD", "#E9F5EC",
 
 struct Style {
   const char* name;   ///< of the data block
-  const char* drawn;  ///< gnuplot's `with`
+  std::string drawn;  ///< gnuplot's `with`
   const char* legend;
 };
 
-// Okabe & Ito; widths and dashes differ as well, for print without colour.
-constexpr Style glue{"glue", "lines linewidth 2 linecolor rgb '#0072B2' dashtype (6,4)",
-                     "glue, u\xE2\x81\xBA = u\xE2\x81\xBB"};
-constexpr Style crack{"crack", "lines linewidth 4 linecolor rgb '#CC79A7' dashtype solid",
-                      "crack, [u] \xE2\x89\xA5 0"};
-constexpr Style bonded{"bonded", "lines linewidth 6 linecolor rgb '#111111' dashtype solid",
-                       "inclusion, bonded"};
-constexpr Style delaminated{"delaminated",
-                            "lines linewidth 6 linecolor rgb '#D55E00' dashtype solid",
-                            "inclusion, delaminated"};
-constexpr Style dirichlet{"dirichlet", "lines linewidth 3 linecolor rgb '#444444' dashtype solid",
-                          "u given"};
-constexpr Style neumann{"neumann", "lines linewidth 4 linecolor rgb '#009E73' dashtype (2,2)",
-                        "traction given"};
-constexpr Style tips{"tips", "points pointtype 6 pointsize 1.6 linewidth 2 linecolor rgb '#000000'",
-                     "tip"};
+// Widths and dashes differ as well, for print without colour.
+const Style glue{"glue", "lines linewidth 1.2 linecolor " + blue + " dashtype (6,4)",
+                 "glue, u\xE2\x81\xBA = u\xE2\x81\xBB"};
+const Style crack{"crack", "lines linewidth 2.5 linecolor " + crack_colour + " dashtype solid",
+                  "crack, [u] \xE2\x89\xA5 0"};
+const Style bonded{"bonded", "lines linewidth 3.5 linecolor " + bonded_colour + " dashtype solid",
+                   "bonded inclusion"};
+const Style delaminated{"delaminated",
+                        "lines linewidth 3.5 linecolor " + delaminated_colour + " dashtype solid",
+                        "delaminated inclusion"};
+const Style dirichlet{"dirichlet", "lines linewidth 1.8 linecolor rgb '#444444' dashtype solid",
+                      "u given"};
+const Style neumann{"neumann", "lines linewidth 2.5 linecolor " + green + " dashtype (2,2)",
+                    "traction given"};
+const Style tips{"tips", "points pointtype 6 pointsize 0.5 linewidth 1 linecolor rgb '#000000'",
+                 "tip"};
 
 std::string at(const Spot& spot) {
   return number(spot.x) + " " + number(spot.y) + "\n";
@@ -74,45 +75,53 @@ std::array<Layer, 6> line_layers(const MeshLayers& layers) {
            {crack, &layers.interfaces[2]}}};
 }
 
-std::string screen(double x, double y, const Place& place) {
-  return "screen " + number(place.x + x * place.width) + ", screen " +
-         number(place.y + y * place.height);
-}
-
-/// The largest box inside the place in which both axes have one scale.
-std::string margins(const Window& window, const Place& place, const Canvas& canvas) {
-  constexpr double left = 0.09, right = 0.97, bottom = 0.06, top = 0.93;
-  const double room_x = (right - left) * place.width * canvas.width;  // pixels
-  const double room_y = (top - bottom) * place.height * canvas.height;
+/// The largest box inside the place in which both axes have one scale; `height` of the picture, in
+/// widths of it.
+std::string margins(const Window& window, const Place& place, double height) {
+  constexpr double left = 0.15, right = 0.97, bottom = 0.13, top = 0.92;
+  const double room_x = (right - left) * place.width;
+  const double room_y = (top - bottom) * place.height * height;
   const double scale = std::min(room_x / window.width(), room_y / window.height());
-  const double half_x = 0.5 * scale * window.width() / canvas.width;
-  const double half_y = 0.5 * scale * window.height() / canvas.height;
-  const double middle_x = place.x + 0.5 * (left + right) * place.width;
-  const double middle_y = place.y + 0.5 * (bottom + top) * place.height;
-  return "set lmargin at screen " + number(middle_x - half_x) + "\nset rmargin at screen " +
-         number(middle_x + half_x) + "\nset bmargin at screen " + number(middle_y - half_y) +
-         "\nset tmargin at screen " + number(middle_y + half_y) + "\n";
+  const double half_x = 0.5 * scale * window.width() / place.width;
+  const double half_y = 0.5 * scale * window.height() / (place.height * height);
+  constexpr double middle_x = 0.5 * (left + right), middle_y = 0.5 * (bottom + top);
+  return figures::margins(place, middle_x - half_x, middle_x + half_x, middle_y - half_y,
+                          middle_y + half_y);
 }
 
 std::string drawn_data(const Style& style, const std::string& tag) {
   return std::string(", $") + style.name + tag + " using 1:2 with " + style.drawn + " notitle";
 }
 
+std::string label(const std::string& name, const Spot& spot, const std::string& where,
+                  const std::string& colour) {
+  return "set label " + figures::quoted(name, 24) + " at " + number(spot.x) + "," + number(spot.y) +
+         " " + where + " noenhanced font ',7' textcolor rgb '" + colour + "' front boxed\n";
+}
+
+/// At the end of an arrow, on its far side.
+std::string beyond(const Pointer& pointer) {
+  const double dx = pointer.to.x - pointer.from.x;
+  const double dy = pointer.to.y - pointer.from.y;
+  if (std::abs(dx) > 0.5 * std::abs(dy))
+    return dx < 0 ? "right offset -0.6,0" : "left offset 0.6,0";
+  return "center offset 0," + std::string(dy < 0 ? "-0.6" : "0.6");
+}
+
 std::string labels(const MeshLayers& layers) {
-  std::string text;
-  for (const PlusSide& side : layers.plus_sides) {
-    const bool leftwards = side.from.x - side.to.x > 0.5 * std::abs(side.to.y - side.from.y);
+  std::string text =
+      "set style textbox opaque margins 0.3,0.3 fillcolor rgb '#44FFFFFF' noborder\n";
+  for (const Pointer& side : layers.plus_sides) {
     text += "set arrow from " + number(side.from.x) + "," + number(side.from.y) + " to " +
             number(side.to.x) + "," + number(side.to.y) +
-            " head filled size screen 0.008,22 linewidth 2 linecolor rgb '#000000' front\n";
-    text += "set label " + figures::quoted(side.name + " +", 40) + " at " + number(side.to.x) +
-            "," + number(side.to.y) +
-            (leftwards ? " offset -0.6,0 right" : " offset 0.6,0.3 left") +
-            " noenhanced textcolor rgb '#000000' front\n";
+            " head filled size screen 0.008,22 linewidth 1.2 linecolor rgb '#000000' front\n";
+    text += label(side.name + " +", side.to, beyond(side), "#000000");
+  }
+  for (const Pointer& inclusion : layers.inclusions) {
+    text += label(inclusion.name, inclusion.to, beyond(inclusion), "#000000");
   }
   for (const auto& [spot, name] : layers.subdomain_names) {
-    text += "set label " + figures::quoted(name, 40) + " at " + number(spot.x) + "," +
-            number(spot.y) + " center noenhanced textcolor rgb '#555555' front\n";
+    text += label(name, spot, "center", "#555555");
   }
   return text;
 }
@@ -132,15 +141,16 @@ std::string mesh_data(const MeshLayers& layers, const std::string& tag) {
   return text + block(tips.name + tag, points);
 }
 
-std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const Canvas& canvas) {
+std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const Place& place,
+                       double height) {
   const Window& window = panel.window;
-  std::string text = margins(window, panel.place, canvas);
-  text += "unset key\nset border 0\n";
-  text += "set tics nomirror textcolor rgb '#333333'\nset xtics autofreq\nset ytics autofreq\n";
-  text += "set xrange [" + number(window.x_min) + ":" + number(window.x_max) + "]\n";
-  text += "set yrange [" + number(window.y_min) + ":" + number(window.y_max) + "]\n";
-  text += "set label 2 " + panel.caption + " at " + screen(0.53, 0.965, panel.place) +
-          " center noenhanced textcolor rgb '#222222'\n";
+  std::string text = margins(window, place, height) + axes();
+  text += "unset key\nset border 0\nunset grid\nset tics out\n";
+  // A short side has no room for as many labels.
+  const double step = label_step({0, std::max(window.width(), window.height())}, 6);
+  text += axis_range('x', {window.x_min, window.x_max}, 5, step);
+  text += axis_range('y', {window.y_min, window.y_max}, 5, step);
+  text += below("'x [-]'", 0.02, place) + beside("'y [-]'", place) + caption(panel.caption, place);
   text += labels(layers);
   std::string plots = "plot NaN notitle";
   for (std::size_t d = 0; panel.with_triangles && d < layers.triangles.size(); ++d) {
@@ -148,7 +158,7 @@ std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const C
     const std::string data = ", $subdomain" + std::to_string(d) + panel.tag + " using 1:2 with ";
     plots += data + "filledcurves closed fillcolor rgb '" + paints[d % paints.size()] +
              "' fillstyle solid 1 noborder notitle";
-    plots += data + "lines linewidth 0.5 linecolor rgb '#A8A8A8' notitle";
+    plots += data + "lines linewidth 0.3 linecolor rgb '#A8A8A8' notitle";
   }
   for (const auto& [style, stretches] : line_layers(layers)) {
     if (!stretches->empty()) plots += drawn_data(style, panel.tag);
@@ -157,13 +167,10 @@ std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const C
   return text + plots + "\nunset label\nunset arrow\n";
 }
 
-std::string mesh_legend(const MeshLayers& layers, const Place& place) {
-  std::string text = "unset border\nunset tics\nset xrange [0:1]\nset yrange [0:1]\n";
-  text += "set lmargin at screen " + number(place.x) + "\nset rmargin at screen " +
-          number(place.x + place.width) + "\nset bmargin at screen " + number(place.y) +
-          "\nset tmargin at screen " + number(place.y + place.height) + "\n";
-  text += "set key at " + screen(0.5, 0.5, place) +
-          " center center horizontal maxrows 2 Left reverse samplen 3 width 1 noenhanced\n";
+std::string mesh_legend(const MeshLayers& layers, int rows, const Place& place) {
+  std::string text = "unset border\nunset tics\nunset xlabel\nunset ylabel\n";
+  text += "set xrange [0:1]\nset yrange [0:1]\n" + figures::margins(place, 0, 1, 0, 1);
+  text += legend(rows, place);
   std::string keys = "plot NaN notitle";
   for (const auto& [style, stretches] : line_layers(layers)) {
     if (!stretches->empty()) {

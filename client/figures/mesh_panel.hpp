@@ -14,19 +14,19 @@ namespace anticrack::figures {
 /// The data blocks of the layers; `tag` tells those of several panels apart.
 std::string mesh_data(const MeshLayers& layers, const std::string& tag);
 
-/// Where and how large a panel is drawn.
 struct MeshPanel {
   std::string tag;  ///< of its data
   Window window;
-  std::string caption;  ///< made by `quoted`
+  std::string caption;
   bool with_triangles = true;
-  Place place;
 };
 
-/// Draws the layers to one scale in both directions, in the middle of the panel's place.
-std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const Canvas& canvas);
+/// Draws the layers to one scale in both directions, in the middle of the place; `height` of the
+/// picture, in widths of it.
+std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const Place& place,
+                       double height);
 
-/// The legend of everything that some panel shows.
-std::string mesh_legend(const MeshLayers& layers, const Place& place);
+/// The legend of everything that some panel shows, in columns of `rows` entries.
+std::string mesh_legend(const MeshLayers& layers, int rows, const Place& place);
 
 }  // namespace anticrack::figures

@@ -5,14 +5,14 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
+#include "figures/figures.hpp"
 #include "figures/profile.hpp"
 #include "figures/surface.hpp"
 #include "results/result.hpp"
 
 namespace anticrack::figures {
-
-enum class Format { png, svg };
 
 /// Part of the picture, fractions from its lower left corner.
 struct Place {
@@ -22,19 +22,28 @@ struct Place {
   double height = 1;
 };
 
+/// The left and the right half.
+inline std::pair<Place, Place> halves(const Place& place) {
+  const double half = place.width / 2;
+  return {{place.x, place.y, half, place.height}, {place.x + half, place.y, half, place.height}};
+}
+
 /// Degrees about the vertical: the reader looks over the minus side at the interface, because the
 /// crack opens upwards on the far side ([u] >= 0).
 double membrane_view(const results::Result& result);
 
+/// The surface over the plane, seen from `view` degrees.
 std::string membrane_data(const Surface& surface);
-std::string membrane_panel(const Surface& surface, double view, const Place& place, Format format);
+std::string membrane_panel(const Surface& surface, const results::Load& load, double view,
+                           const Place& place, Format format);
 
+/// u on both sides of an interface over its arc length, and where it is in contact.
 std::string traces_data(const Profile& profile, const results::Trace& trace);
-std::string traces_panel(const Profile& profile, const results::Load& load, const Place& place);
+std::string traces_panel(const Profile& profile, const results::Trace& trace,
+                         const results::Load& load, const Place& place);
 
-/// Whether there is anything to draw on a log axis: the criterion of Algorithm 2, or the KKT
-/// residuals of the active set.
-bool has_convergence(const results::Load& load);
+/// The criterion of Algorithm 2, or the KKT residuals of the active set; a log axis, with a place
+/// for zero at its foot.
 std::string convergence_data(const results::Load& load);
 std::string convergence_panel(const results::Load& load, const Place& place);
 

@@ -76,6 +76,12 @@ Profile profile(const Interface& interface, const results::Trace& trace) {
     }
     return bands;
   };
+  for (const auto& [first, last] : runs(edges, [&](std::size_t e) {
+         const Kind kind = edge_kind(interface, e);
+         return kind == Kind::inclusion || kind == Kind::delaminated;
+       })) {
+    profile.fibres.push_back({band(at[first], at[last + 1]), (first + last + 1) / 2});
+  }
   profile.delaminated = edges_of(Kind::delaminated);
   profile.crack = edges_of(Kind::crack);
   profile.bonded = edges_of(Kind::inclusion);

@@ -3,6 +3,7 @@
 // An interface as a picture needs it: an axis to draw over, and the parts to mark.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,12 @@ struct Band {
   double end = 0;
 };
 
+/// A rigid inclusion, bonded and delaminated parts together.
+struct Fibre {
+  Band band;
+  std::size_t node = 0;  ///< of the interface, in its middle
+};
+
 struct Profile {
   std::string name;              ///< of the interface, where there are several; else empty
   std::string axis;              ///< label, e.g. "x [-]"
@@ -23,6 +30,7 @@ struct Profile {
   std::vector<Band> delaminated;
   std::vector<Band> crack;
   std::vector<Band> bonded;
+  std::vector<Fibre> fibres;
   /// Contact, each node standing for half of its edges: their sum is the contact length, and a
   /// single node in contact can be seen.
   std::vector<Band> contact;

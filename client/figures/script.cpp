@@ -17,8 +17,8 @@ Profile profile_of(const Result& result, const Load& load, std::size_t interface
   return along;
 }
 
-std::string title_of(const Result& result, const Load& load) {
-  return quoted(result.title.empty() ? load.name : result.title + " \xE2\x80\x94 " + load.name, 90);
+Title title_of(const Result& result, const Load& load) {
+  return {result.title, load.name};
 }
 
 }  // namespace
@@ -27,43 +27,41 @@ std::string membrane_script(const Result& result, const Load& load, const Surfac
                             const std::vector<Output>& outputs) {
   return script(
       membrane_data(surface), title_of(result, load),
-      [&](Format format) {
-        return membrane_panel(surface, membrane_view(result), {0, 0, 1, 0.93}, format);
+      [&](Format format, const Place& place) {
+        return membrane_panel(surface, load, membrane_view(result), place, format);
       },
-      single, outputs);
+      column, outputs);
 }
 
 std::string traces_script(const Result& result, const Load& load, std::size_t interface,
                           const std::vector<Output>& outputs) {
   const Profile along = profile_of(result, load, interface);
+  const results::Trace& trace = load.traces[interface];
   return script(
-      traces_data(along, load.traces[interface]), title_of(result, load),
-      [&](Format) {
-        return traces_panel(along, load, {0, 0, 1, 0.93});
-      },
-      single, outputs);
+      traces_data(along, trace), title_of(result, load),
+      [&](Format, const Place& place) { return traces_panel(along, trace, load, place); }, column,
+      outputs);
 }
 
 std::string convergence_script(const Result& result, const Load& load,
                                const std::vector<Output>& outputs) {
   return script(
       convergence_data(load), title_of(result, load),
-      [&](Format) {
-        return convergence_panel(load, {0, 0, 1, 0.93});
-      },
-      single, outputs);
+      [&](Format, const Place& place) { return convergence_panel(load, place); }, column, outputs);
 }
 
 std::string combined_script(const Result& result, const Load& load, const Surface& surface,
                             const std::vector<Output>& outputs) {
   const Profile along = profile_of(result, load, 0);
+  const results::Trace& trace = load.traces[0];
   return script(
-      membrane_data(surface) + traces_data(along, load.traces[0]), title_of(result, load),
-      [&](Format format) {
-        return membrane_panel(surface, membrane_view(result), {0, 0, 0.5, 0.93}, format) +
-               traces_panel(along, load, {0.5, 0, 0.5, 0.93});
+      membrane_data(surface) + traces_data(along, trace), title_of(result, load),
+      [&](Format format, const Place& place) {
+        const auto [left, right] = halves(place);
+        return membrane_panel(surface, load, membrane_view(result), left, format) +
+               traces_panel(along, trace, load, right);
       },
-      wide, outputs);
+      page, outputs);
 }
 
 }  // namespace anticrack::figures

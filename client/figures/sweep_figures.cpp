@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <map>
 
 #include "figures/axes.hpp"
 #include "figures/text.hpp"
@@ -18,10 +18,8 @@ using results::Sweep;
 constexpr std::size_t point_limit = 1200;
 constexpr std::size_t strip_limit = 400;
 
-constexpr Place upper{0, 0.47, 1, 0.46};
-constexpr Place lower{0, 0, 1, 0.46};
-
-constexpr const char* open_shade = "rgb '#e4e4e4'";
+constexpr const char* open_shade = "'#e4e4e4'";
+constexpr const char* closed_shade = "'#0072B2'";
 
 struct CurveStyle {
   const char* colour;
@@ -39,16 +37,18 @@ CurveStyle style_of(std::size_t i) {
   return styles[i % styles.size()];
 }
 
-std::string block(const std::string& name, const std::vector<CurvePoint>& points) {
+/// As a data block; `heights` is told its values.
+std::string block(const std::string& name, const std::vector<CurvePoint>& points, Range& heights) {
   std::string text = "$" + name + " << EOD\n";
   for (const CurvePoint& point : points) {
     text += number(point.x) + " " + number(point.y) + "\n";
+    heights.include(point.y);
   }
   return text + "EOD\n";
 }
 
-std::string title_of(const Result& result) {
-  return figures::quoted(result.title.empty() ? "sweep" : result.title, 90);
+Title title_of(const Result& result) {
+  return {result.title.empty() ? "sweep" : result.title, ""};
 }
 
 std::string counted_rows(const Sweep& sweep) {
@@ -67,28 +67,63 @@ std::string drawn_as(const SweepAxis& axis, const CurveStyle& style) {
   std::string text = axis.is_coefficient ? (points ? " with linespoints" : " with lines")
                                          : std::string(" with points");
   if (points)
-    text += " pointtype 7 pointsize " + std::string(axis.order.size() <= few ? "0.8" : "0.4");
-  if (axis.is_coefficient) text += " linewidth 2 dashtype " + std::string(style.dash);
+    text += " pointtype 7 pointsize " + std::string(axis.order.size() <= few ? "0.4" : "0.2");
+  if (axis.is_coefficient) text += " linewidth 1.5 dashtype " + std::string(style.dash);
   return text + " linecolor rgb '" + style.colour + "'";
 }
 
-std::string extent(const SweepAxis& axis) {
-  if (axis.order.empty()) return "";
+/// Of the rows; half a row around a single one.
+Range extent(const SweepAxis& axis) {
+  if (axis.order.empty()) return {0, 1};
   const double low = axis.position[axis.order.front()];
   const double high = axis.position[axis.order.back()];
-  return low < high ? "set xrange [" + number(low) + ":" + number(high) + "]\n" : std::string();
+  return low < high ? Range{low, high} : Range{low - 0.5, low + 0.5};
 }
 
-std::string panel(const SweepAxis& axis, const std::string& head, const std::string& label,
-                  const std::string& plots, bool several, const Place& place) {
-  std::string text = margins(place, 0.12, 0.96, 0.2, 0.9) + axes() + caption(head, place);
-  text += extent(axis) + "set offsets 0, 0, graph " + (several ? "0.3" : "0.08") +
-          ", graph 0.08\nset autoscale y\n";
-  text += below(figures::quoted(axis.label), 0.045, place);
-  text += "set ylabel " + figures::quoted(label) + " noenhanced\n";
-  // Above the curves, where the offset leaves room for it.
-  text += "set key top center horizontal maxrows 2 Left reverse noenhanced samplen 2.5\n";
-  return text + "plot " + plots + "\nunset label\nset offsets\nset autoscale x\n";
+/// Rows have whole numbers.
+double least_step(const SweepAxis& axis) {
+  return axis.is_coefficient ? 0 : 1;
+}
+
+/// With some room around the curves.
+Range with_room(Range heights) {
+  const double room = 0.06 * heights.size();
+  return {heights.low - room, heights.high + room};
+}
+
+std::string axis_label(const SweepAxis& axis) {
+  return figures::quoted(axis.label);
+}
+
+std::string panel(const SweepAxis& axis, const std::string& label, const Range& heights,
+                  const Scale& scale, const std::string& plots, const Place& place) {
+  return axis_range('x', extent(axis), 6, least_step(axis)) +
+         axis_range('y', scale.drawn(heights), 8) +
+         beside(figures::quoted(label + " " + scale.unit()), place) + "plot " + plots +
+         "\nunset label\n";
+}
+
+/// Entries of the legend; what is beyond is drawn alike and counted.
+constexpr std::size_t named = 6;
+
+std::string displacement_plots(const SweepAxis& axis, const std::vector<std::string>& inclusions,
+                               const Scale& scale) {
+  std::string plots;
+  for (std::size_t i = inclusions.size(); i-- > 0;) {
+    const CurveStyle style = i < named ? style_of(i) : CurveStyle{"#bbbbbb", "solid"};
+    plots += (plots.empty() ? "$A" : ", $A") + std::to_string(i) + " using 1:" + scale.column(2) +
+             drawn_as(axis, style) + " notitle";
+  }
+  if (inclusions.size() == 1) return plots;
+  for (std::size_t i = 0; i < std::min(named, inclusions.size()); ++i) {
+    plots +=
+        ", keyentry" + drawn_as(axis, style_of(i)) + " title " + figures::quoted(inclusions[i], 18);
+  }
+  if (inclusions.size() > named) {
+    plots += ", keyentry with lines linecolor rgb '#bbbbbb' title '" +
+             std::to_string(inclusions.size() - named) + " more'";
+  }
+  return plots;
 }
 
 }  // namespace
@@ -97,75 +132,93 @@ std::string sweep_script(const Result& result, const SweepAxis& axis,
                          const std::vector<Output>& outputs) {
   const Sweep& sweep = *result.sweep;
   const std::size_t inclusions = sweep.inclusions.size();
-  std::string data = block("length", curve(sweep, axis, sweep.contact_length, 0, 1, point_limit));
-  std::string displacements;
+  Range lengths{0, 0};
+  Range displacements = empty_range();
+  std::string data =
+      block("length", curve(sweep, axis, sweep.contact_length, 0, 1, point_limit), lengths);
   for (std::size_t i = 0; i < inclusions; ++i) {
-    const std::string name = "A" + std::to_string(i);
-    data += block(name, curve(sweep, axis, sweep.displacement, i, inclusions, point_limit));
-    displacements += (i == 0 ? "$" : ", $") + name + " using 1:2" + drawn_as(axis, style_of(i));
-    displacements += inclusions == 1 ? std::string(" notitle")
-                                     : " title " + figures::quoted(sweep.inclusions[i], 30);
+    data +=
+        block("A" + std::to_string(i),
+              curve(sweep, axis, sweep.displacement, i, inclusions, point_limit), displacements);
   }
-  const std::string lengths = "$length using 1:2" + drawn_as(axis, style_of(0)) + " notitle";
+  if (lengths.high == 0) lengths.high = 1;
+  lengths = with_room(lengths);
+  const Scale of_lengths(lengths);
+  const Scale of_displacements(displacements);
+
   return script(
       data, title_of(result),
-      [&](Format) {
-        const std::string contact = panel(axis, "length in contact", "contact length [-]", lengths,
-                                          false, inclusions == 0 ? Place{0, 0, 1, 0.93} : lower);
-        if (inclusions == 0) return contact;
-        return panel(axis,
-                     "displacement A of the inclusion" + std::string(inclusions > 1 ? "s" : "") +
-                         ",  " + counted_rows(sweep),
-                     "A [-]", displacements, inclusions > 1, upper) +
-               contact;
+      [&](Format, const Place& place) {
+        const std::string contact = panel(
+            axis, "contact length", lengths, of_lengths,
+            "$length using 1:" + of_lengths.column(2) + drawn_as(axis, style_of(0)) + " notitle",
+            place);
+        const std::string foot = below(axis_label(axis), 0.04, place) + axes();
+        const std::string head = caption(counted_rows(sweep), place);
+        if (inclusions == 0) {
+          return margins(place, 0.16, 0.905) + foot + head + contact;
+        }
+        // One above the other, over one axis; the legend in between.
+        const bool legend = inclusions > 1;
+        std::string text = margins(place, legend ? 0.6 : 0.545, 0.935) + axes();
+        text += "set format x ''\n" + head;
+        text += "set key at screen " + number(place.x + 0.54 * place.width) + ", screen " +
+                number(place.y + 0.59 * place.height) +
+                " center top horizontal maxrows 3 Left reverse noenhanced samplen 2.5 font ',7'\n";
+        text += panel(axis, "A", with_room(displacements), of_displacements,
+                      displacement_plots(axis, sweep.inclusions, of_displacements), place);
+        text += margins(place, 0.11, legend ? 0.475 : 0.5);
+        return text + "set format x\nunset key\n" + foot + contact;
       },
-      single, outputs);
+      inclusions == 0 ? column : tall, outputs);
 }
 
 std::string contact_script(const Result& result, const SweepAxis& axis, const ContactMap& map,
                            const std::vector<Output>& outputs) {
   std::string data = "$contact << EOD\n";
-  double begin = HUGE_VAL, end = -HUGE_VAL, low = HUGE_VAL, high = -HUGE_VAL;
+  Range along = empty_range();
+  Range rows = empty_range();
+  // Boxes reach under those of the rows above, which are drawn over them: no seams in between.
+  std::map<double, double> top;
+  for (const ContactBox& box : map.boxes) top[box.low] = box.high;
   for (const ContactBox& box : map.boxes) {
     const double left = std::min(box.begin, box.end);
     const double right = std::max(box.begin, box.end);
-    begin = std::min(begin, left);
-    end = std::max(end, right);
-    low = std::min(low, box.low);
-    high = std::max(high, box.high);
+    for (const double position : {left, right}) along.include(position);
+    for (const double row : {box.low, box.high}) rows.include(row);
+    const auto above = top.find(box.high);
+    const double high = above == top.end() ? box.high : above->second;
     for (const double value :
-         {(left + right) / 2, (box.low + box.high) / 2, left, right, box.low, box.high}) {
+         {(left + right) / 2, (box.low + high) / 2, left, right, box.low, high}) {
       data += number(value) + " ";
     }
     data += number(box.closed) + "\n";
   }
   data += "EOD\n";
-  const Place place{0, 0, 1, 0.93};
   const std::string where = map.interface.empty() ? std::string("the crack") : map.interface;
   return script(
       data, title_of(result),
-      [&](Format) {
-        std::string text = margins(place, 0.12, 0.96, 0.2, 0.925) + axes();
+      [&](Format, const Place& place) {
+        std::string text = margins(place, 0.25, 0.905) + axes();
         text += caption("where " + where + " is closed,  " + counted_rows(*result.sweep), place);
-        text += "set xrange [" + number(begin) + ":" + number(end) + "]\n";
-        text += "set yrange [" + number(low) + ":" + number(high) + "]\n";
+        text += axis_range('x', along) + axis_range('y', rows, 6, least_step(axis));
         text += below(figures::quoted(map.position_label), 0.115, place);
-        text += "set ylabel " + figures::quoted(axis.label) + " noenhanced\n";
-        text += "unset grid\nunset colorbox\nset palette defined (0 '#e4e4e4', 1 '#0072B2')\n";
-        text += "set cbrange [0:1]\n";
-        text += "set key at screen " + number(place.x + 0.54 * place.width) + ", screen " +
-                number(place.y + 0.01 * place.height) +
-                " center bottom vertical maxrows 1 Left reverse noenhanced samplen 2.5\n";
+        text += beside(axis_label(axis), place);
+        text += "unset grid\nset tics out\nunset colorbox\n";
+        text += std::string("set palette defined (0 ") + open_shade + ", 1 " + closed_shade + ")\n";
+        text += "set cbrange [0:1]\n" + legend(map.shades ? 2 : 1, place);
         text +=
-            "plot $contact using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid 1 border "
-            "linewidth 0.3 linecolor palette notitle";  // the border hides the seams of Cairo
-        text += std::string(", keyentry with boxes fillstyle solid 1 noborder linecolor ") +
-                open_shade + " title 'open'";
-        text += ", keyentry with boxes fillstyle solid 1 noborder linecolor " + blue +
-                (map.shades ? " title 'closed (pale: in some rows)'" : " title 'closed'");
+            "plot $contact using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid 1 noborder "
+            "linecolor palette notitle";
+        const auto key = [&](const char* colour, const char* name) {
+          return std::string(", keyentry with boxes fillstyle solid 1 noborder linecolor rgb ") +
+                 colour + " title '" + name + "'";
+        };
+        text += key(open_shade, "open");
+        text += key(closed_shade, map.shades ? "closed (pale: in some rows)" : "closed");
         return text + "\nunset label\n";
       },
-      single, outputs);
+      column, outputs);
 }
 
 void draw_sweep(const Result& result, Drawing& drawing) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "figures/profile.hpp"
+#include "figures/text.hpp"
 
 namespace anticrack::figures {
 namespace {
@@ -110,7 +111,7 @@ SweepAxis sweep_axis(const Sweep& sweep) {
     std::iota(axis.position.begin(), axis.position.end(), 0.0);
     return axis;
   }
-  axis.label = "coefficient of " + sweep.loads[*column] + " [-]";
+  axis.label = "coefficient of " + shortened(sweep.loads[*column], 20) + " [-]";
   axis.is_coefficient = true;
   for (std::size_t row = 0; row < rows; ++row) {
     axis.position[row] = sweep.coefficients[row * sweep.loads.size() + *column];

@@ -42,6 +42,17 @@ std::string printed(double value, int digits) {
   return {buffer.data(), end.ptr};
 }
 
+std::string superscript(int exponent) {
+  constexpr std::array<const char*, 10> digits{
+      "\xE2\x81\xB0", "\xC2\xB9",     "\xC2\xB2",     "\xC2\xB3",     "\xE2\x81\xB4",
+      "\xE2\x81\xB5", "\xE2\x81\xB6", "\xE2\x81\xB7", "\xE2\x81\xB8", "\xE2\x81\xB9"};
+  std::string text;
+  for (const char c : std::to_string(exponent)) {
+    text += c == '-' ? "\xE2\x81\xBB" : digits[static_cast<std::size_t>(c - '0')];
+  }
+  return text;
+}
+
 std::string lower(std::string text) {
   for (char& c : text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -80,12 +91,55 @@ std::string quoted(std::string_view text, std::size_t limit) {
   return out + "'";
 }
 
-std::string number(double value) {
-  return printed(value, 9);
+std::size_t length(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u;  // all but the later bytes of UTF-8
+  }));
+}
+
+std::string shortened(std::string_view text, std::size_t limit) {
+  if (length(text) <= limit) return std::string(text);
+  std::size_t end = text.size();
+  while (length(text.substr(0, end)) >= limit) --end;
+  return std::string(text.substr(0, end)) + "\xE2\x80\xA6";
+}
+
+std::string power_of_ten(int exponent) {
+  return "10" + superscript(exponent);
+}
+
+std::vector<std::string> wrapped(std::string_view text, std::size_t width, std::size_t most) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    std::size_t end = text.size();
+    if (lines.size() + 1 < most && length(text) > width) {
+      // The last blank that still fits, else the first.
+      std::size_t blank = text.find(' ');
+      end = blank;
+      while (blank != std::string_view::npos && length(text.substr(0, blank)) <= width) {
+        end = blank;
+        blank = text.find(' ', blank + 1);
+      }
+      end = std::min(end, text.size());
+    }
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+std::string number(double value, int digits) {
+  return printed(value, digits);
 }
 
 std::string readable(double value, int digits) {
-  return printed(value, digits);
+  const std::string plain = printed(value, digits);
+  const std::size_t e = plain.find('e');
+  std::string text = plain.substr(0, e);
+  if (text.starts_with('-')) text.replace(0, 1, "\xE2\x88\x92");
+  if (e == std::string::npos) return text;
+  const std::string power = power_of_ten(std::stoi(plain.substr(e + 1)));
+  return text == "1" ? power : text + "\xC3\x97" + power;
 }
 
 std::vector<std::string> file_stems(const std::vector<std::string>& names,

@@ -17,9 +17,22 @@ namespace anticrack::figures {
 /// ellipsis. For places marked `noenhanced`.
 std::string quoted(std::string_view text, std::size_t limit = 110);
 
-/// Nine significant digits, independent of the locale; "NaN" for what is not finite.
-std::string number(double value);
-/// A few significant digits, for people.
+/// Characters of a UTF-8 text.
+std::size_t length(std::string_view text);
+
+/// At most `limit` characters, the last of them an ellipsis where it is cut.
+std::string shortened(std::string_view text, std::size_t limit);
+
+/// Lines of at most `width` characters where there are blanks to break at; the last of at most
+/// `most` lines holds all that is left. No lines of an empty text.
+std::vector<std::string> wrapped(std::string_view text, std::size_t width, std::size_t most);
+
+/// "10⁻¹²".
+std::string power_of_ten(int exponent);
+
+/// Significant digits, independent of the locale; "NaN" for what is not finite.
+std::string number(double value, int digits = 9);
+/// A few significant digits, for people: "−1.5×10⁻¹²".
 std::string readable(double value, int digits = 4);
 
 /// One file name stem a load: [A-Za-z0-9][A-Za-z0-9_.-]*, such that no two stems with any of

@@ -10,6 +10,7 @@
 
 namespace anticrack::guide {
 
+/// What the shell reads to complete commands, options and their values.
 std::string bash_script(const Command& program);
 std::string zsh_script(const Command& program);
 std::string fish_script(const Command& program);

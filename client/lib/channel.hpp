@@ -22,6 +22,7 @@
 namespace anticrack::client {
 
 struct Connection::State {
+  /// Opens the channels; connects to nobody yet.
   explicit State(ConnectionOptions chosen);
 
   ConnectionOptions options;
@@ -76,6 +77,8 @@ grpc::Status try_call(const Connection::State& state, Stub& stub,
   return (stub.*method)(&context, request, &response);
 }
 
+/// What a unary method answers; a lost connection is retried with back-off. Throws Error, and
+/// Interrupted once `stop` is requested.
 template <class Stub, class Request, class Response>
 Response call(Connection::State& state, Stub& stub,
               grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),

@@ -16,6 +16,8 @@ namespace anticrack::client {
 /// A damaged chunk is asked for again; this often in a row, then the error stands.
 inline constexpr int tries_of_damaged_data = 3;
 
+/// The block that a method streams, whole and checked; goes on where it was after a lost
+/// connection. Throws Error, and Interrupted once `stop` is requested.
 template <class Stub, class Request, class Response>
 Block read_block(Connection::State& state, Stub& stub,
                  std::unique_ptr<grpc::ClientReader<Response>> (Stub::*method)(grpc::ClientContext*,

@@ -38,6 +38,7 @@ struct RetryPolicy {
 /// Delays that double, each drawn from its upper half so that many clients do not return at once.
 class Backoff {
  public:
+  /// `seed`: of the draw; given by tests.
   explicit Backoff(RetryPolicy policy, std::uint32_t seed = std::random_device{}());
 
   /// Delay before the next try, after having failed for `failing` with `error`; empty: give up,

@@ -19,12 +19,28 @@ using hdf5::Handle;
 template <class Values>
 using Get = std::function<Values(const Handle&, const std::string&, std::uint64_t)>;
 
+// What a mistyped name was meant to be stands among these.
+std::string missing_text(const Handle& group, const std::string& name) {
+  constexpr std::size_t most = 10;
+  const std::vector<std::string> names = hdf5::names_in(group);
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
+    list += (i == 0 ? "" : ", ") + names[i];
+  }
+  return "\"" + name + "\" is missing" +
+         (names.empty() ? " and nothing else is there" : ", there is " + list) +
+         (names.size() > most ? ", ..." : "");
+}
+
 template <class Values>
 Values walk(const Handle& group, const std::string& path, std::uint64_t budget,
             const Get<Values>& get) {
   const std::size_t slash = path.find('/');
-  if (slash == std::string::npos) return get(group, path, budget);
   if (slash == 0) return walk(group, path.substr(1), budget, get);
+  if (const std::string name = path.substr(0, slash); !hdf5::has(group, name)) {
+    throw hdf5::Fault(missing_text(group, name));
+  }
+  if (slash == std::string::npos) return get(group, path, budget);
   return walk(hdf5::open_group(group, path.substr(0, slash)), path.substr(slash + 1), budget, get);
 }
 
@@ -51,6 +67,17 @@ std::size_t first_odd(const std::vector<double>& values) {
       values.begin());
 }
 
+Matrix matrix_of(const Handle& group, const std::string& name, std::uint64_t budget) {
+  hdf5::Rows rows = hdf5::get_rows(group, name, budget);
+  Matrix matrix{std::move(rows.values), rows.rows, rows.columns, {}};
+  const Handle opened(H5Dopen2(group.get(), name.c_str(), H5P_DEFAULT), H5Dclose,
+                      "dataset " + name + " is damaged");
+  if (hdf5::has_attribute(opened, "loads")) {
+    matrix.loads = hdf5::get_text_list(opened, "loads", rows.columns);
+  }
+  return matrix;
+}
+
 }  // namespace
 
 std::vector<double> read_array(const std::filesystem::path& file, const std::string& dataset) {
@@ -70,7 +97,7 @@ std::vector<double> read_array(const std::filesystem::path& file, const std::str
 
 Matrix read_matrix(const std::filesystem::path& file, const std::string& dataset) {
   const std::string cure = "name a two-dimensional dataset of float64 in an HDF5 file";
-  hdf5::Rows rows = read<hdf5::Rows>(file, dataset, cure, hdf5::get_rows);
+  Matrix rows = read<Matrix>(file, dataset, cure, matrix_of);
   if (rows.values.empty()) {
     throw Error(file.string(), "dataset " + dataset + " has no values", cure);
   }
@@ -81,7 +108,7 @@ Matrix read_matrix(const std::filesystem::path& file, const std::string& dataset
                     " is not finite",
                 "write finite numbers");
   }
-  return {std::move(rows.values), rows.rows, rows.columns};
+  return rows;
 }
 
 }  // namespace anticrack::results

@@ -18,6 +18,7 @@ struct Matrix {
   std::vector<double> values;  ///< row by row
   std::size_t rows = 0;
   std::size_t columns = 0;
+  std::vector<std::string> loads;  ///< whose column is which: the attribute of this name, if any
 };
 
 /// The same for a two-dimensional dataset, with at least one row and one column.

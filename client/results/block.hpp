@@ -19,7 +19,9 @@ namespace anticrack::results {
 
 static_assert(std::endian::native == std::endian::little, "blocks are little-endian");
 
+/// For messages: "float64".
 const char* name_of(ArrayView::Type type);
+/// For messages: "(3,2)".
 std::string text_of(const std::vector<std::uint64_t>& shape);
 /// Bytes of an array of its type and shape; throws where their product leaves 64 bits.
 std::uint64_t byte_count(const std::string& subject, const ArrayView& array);
@@ -27,12 +29,15 @@ std::uint64_t byte_count(const std::string& subject, const ArrayView& array);
 /// One block, arrays by name.
 class Block {
  public:
+  /// `subject` begins the messages: whose block it is. Throws Error where a name is there twice.
+  /// The arrays must outlive it.
   Block(std::string subject, std::span<const ArrayView> arrays) : _subject(std::move(subject)) {
     for (const ArrayView& array : arrays) {
       if (!_arrays.emplace(array.name, &array).second) fail("array " + array.name + " twice");
     }
   }
 
+  /// Whether there is an array of this name.
   bool has(const std::string& name) const { return _arrays.count(name) != 0; }
 
   /// Any array below a folder, e.g. "loads/0/traces/".
@@ -65,6 +70,7 @@ class Block {
     return values_of<T>(array);
   }
 
+  /// Throws Error: the subject, `cause`, and the cure.
   [[noreturn]] void fail(const std::string& cause) const;
 
  private:

@@ -35,6 +35,7 @@ class Handle {
     if (_id >= 0) _close(_id);
   }
 
+  /// Stays the handle's; below 0: none.
   hid_t get() const noexcept { return _id; }
   /// Closes it now; throws Fault(`what`) where the destructor would keep silent.
   void close_now(const std::string& what) {
@@ -49,6 +50,7 @@ class Handle {
 /// Keeps HDF5 from printing its error stack; Faults say what a user can use.
 class Quiet {
  public:
+  /// Until the end of the scope.
   Quiet();
   ~Quiet();
   Quiet(const Quiet&) = delete;
@@ -105,6 +107,7 @@ struct Rows {
   std::size_t rows = 0;
   std::size_t columns = 0;
 };
+/// `budget` as above. Throw Fault.
 Rows get_rows(const Handle& group, const std::string& name, std::uint64_t budget);
 std::vector<std::string> get_texts(const Handle& group, const std::string& name,
                                    std::uint64_t budget);

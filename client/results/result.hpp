@@ -51,6 +51,7 @@ struct Mesh {
   std::vector<std::string> subdomains;  ///< names
   std::vector<double> tension;          ///< T of -div(T grad u) = f, one a subdomain
 
+  /// n and m of the shapes above.
   std::size_t node_count() const noexcept { return xy.size() / 2; }
   std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
 };
@@ -62,6 +63,7 @@ struct Interface {
   std::vector<double> x, y;  ///< (k)
   std::vector<Kind> kind;    ///< (k)
 
+  /// k of the shapes above.
   std::size_t node_count() const noexcept { return s.size(); }
 };
 
@@ -104,6 +106,7 @@ struct History {
   std::vector<std::int32_t> contact_count;
   std::vector<double> kkt_equilibrium, kkt_gap, kkt_sign, kkt_complementarity;  ///< absolute
 
+  /// Iterations kept.
   std::size_t size() const noexcept { return iteration.size(); }
 };
 

@@ -34,6 +34,7 @@ struct Sweep {
   std::string error;         ///< of the first row that failed
   double solve_seconds = 0;  ///< on the server's solver threads, added up
 
+  /// Of all columns; crack nodes of the mesh.
   std::size_t rows() const noexcept { return status.size(); }
   std::size_t contacts() const noexcept { return contact_nodes.size() / 2; }
 };

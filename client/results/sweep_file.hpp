@@ -10,6 +10,7 @@
 
 namespace anticrack::results {
 
+/// Throws hdf5::Fault.
 void put_sweep(const hdf5::Handle& root, const Sweep& sweep);
 
 /// Lengths and ranges are not checked yet. Throws hdf5::Fault.

@@ -83,6 +83,7 @@ struct Key {
   std::function<std::string(const Config&)> get;
 };
 
+/// All of them, in the order of the help. Names are told apart.
 const std::vector<Key>& keys();
 
 /// Throws ConfigError, which names the nearest known key, where there is none of this name.
@@ -100,6 +101,7 @@ struct Setting {
 /// Throws ConfigError.
 Config make_config(const std::vector<Setting>& file, const std::vector<Setting>& command_line);
 
+/// Whether there is a certificate, without which nothing is encrypted.
 bool has_tls(const Config& config);
 
 /// As a TOML file that gives the same configuration.

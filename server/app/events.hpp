@@ -11,6 +11,8 @@
 
 namespace anticrack::app {
 
+/// Each counts what happened and logs a line of it, or fails in silence: a line that cannot be
+/// written is no reason to lose a result.
 void job_ended(metrics::Metrics& metrics, const store::JobRecord& job) noexcept;
 void meshed(metrics::Metrics& metrics, const store::MeshRecord& mesh) noexcept;
 void factorised(metrics::Metrics& metrics, std::chrono::duration<double> time) noexcept;

@@ -9,6 +9,8 @@
 
 namespace anticrack::app {
 
+/// Tell systemd, where it started this process, else nobody: that calls are taken, that no more
+/// will be, that the process is not stuck. `status`: a line for systemctl status.
 void notify_ready(const std::string& status);
 void notify_stopping(const std::string& status);
 void notify_alive();

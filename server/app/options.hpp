@@ -12,6 +12,7 @@
 
 namespace anticrack::app {
 
+/// The part of the configuration that each layer takes.
 store::StoreOptions store_options(const Config& config);
 /// Throws ConfigError where the helper is no program.
 meshes::CatalogueOptions catalogue_options(const Config& config);

@@ -13,6 +13,7 @@ namespace anticrack::app {
 /// inherit that. One object at a time.
 class Signals {
  public:
+  /// Throws std::runtime_error where the system refuses a pipe or a handler.
   Signals();
   ~Signals();
   Signals(const Signals&) = delete;

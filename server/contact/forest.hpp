@@ -17,6 +17,7 @@ class Forest {
   /// Throws errors::Error (internal) when the contacts are not a forest.
   explicit Forest(const ddm::Skeleton& skeleton);
 
+  /// Lengths of w, q and d.
   Eigen::Index unknowns() const noexcept { return static_cast<Eigen::Index>(_root.size()); }
   Eigen::Index free_count() const noexcept { return static_cast<Eigen::Index>(_roots.size()); }
   Eigen::Index contact_count() const noexcept { return static_cast<Eigen::Index>(_hung.size()); }

@@ -25,6 +25,7 @@ class NestedStart {
   /// alone. `r`, `magnitude`: as DenseLcp::solve takes them. About a third of a solve.
   std::vector<char> closed(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude) const;
 
+  /// Memory of the levels.
   std::size_t bytes() const noexcept;
 
  private:

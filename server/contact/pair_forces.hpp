@@ -19,6 +19,7 @@ namespace anticrack::contact {
 /// Lumped mass. Immutable after construction. O(n) a call.
 class PairForces {
  public:
+  /// Keeps references to both. `lumped_mass`: shape (pairs).
   PairForces(const ddm::Decomposition& decomposition, const Eigen::VectorXd& lumped_mass);
 
   /// Shape (pairs). `fluxes`: per subdomain, shape (trace); `lambda`: shape (contacts).

@@ -60,6 +60,7 @@ class SkeletonProblem {
   const DenseLcp& lcp() const noexcept { return _lcp; }
   const NestedStart& nested_start() const noexcept { return _nested_start; }
   const TraceProblem& traces() const noexcept { return _traces; }
+  /// Memory of the matrices.
   std::size_t bytes() const noexcept;
 
  private:

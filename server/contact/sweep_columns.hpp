@@ -13,8 +13,10 @@ namespace anticrack::contact {
 
 /// Entry k of every column belongs to row k. Made at its size once; filled row by row.
 struct SweepColumns {
+  /// Every entry of every column is there, to be written.
   SweepColumns(std::size_t row_count, std::size_t inclusion_count, std::size_t contact_count);
 
+  /// Of all columns.
   std::size_t rows() const noexcept { return status.size(); }
 
   std::size_t inclusions = 0;

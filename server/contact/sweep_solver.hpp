@@ -19,6 +19,7 @@ namespace anticrack::contact {
 
 /// What the rows of all sweeps on a mesh have in common.
 struct SweepGeometry {
+  /// `inclusions`: how many the mesh has.
   SweepGeometry(const SkeletonProblem& problem, std::size_t inclusions);
 
   /// Nodes of the interfaces that may open (interface, index of the node in it), and the contact
@@ -28,6 +29,7 @@ struct SweepGeometry {
   Eigen::MatrixXd displacement;  ///< (inclusions, contacts): A of jumps
   Eigen::VectorXd length;        ///< of each contact: lumped mass of its pairs
 
+  /// Memory of its arrays.
   std::size_t bytes() const noexcept;
 };
 
@@ -38,6 +40,7 @@ struct SweepLoads {
   Eigen::MatrixXd displacement;  ///< (inclusions, loads): A
   Eigen::MatrixXd energy;        ///< (loads, loads), symmetric: Pi
 
+  /// Memory of its arrays.
   std::size_t bytes() const noexcept;
 };
 

@@ -31,6 +31,7 @@ class TraceProblem {
   const std::vector<ddm::SubdomainOperator>& operators() const noexcept { return _operators; }
   const Forest& forest() const noexcept { return _forest; }
   const PairForces& pair_forces() const noexcept { return _pair_forces; }
+  /// Pairs of nodes, tied ones included.
   Eigen::Index pair_count() const noexcept { return _lumped.size(); }
 
   /// Diagonal of the lumped interface mass: the length that belongs to each pair.

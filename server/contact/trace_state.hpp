@@ -50,6 +50,7 @@ struct Scales {
   double trace = 0;  ///< largest |t|
   double mu = 0;     ///< largest |mu|
 };
+/// Of the loads and the state they led to. O(n_G).
 Scales scales_of(std::span<const ddm::CondensedLoad> loads, const TraceState& state);
 
 /// The residuals relative to: force (equilibrium), trace (gap), mu (sign), the product of the last

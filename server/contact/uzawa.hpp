@@ -45,6 +45,7 @@ class Uzawa {
   /// Two columns change places. O(n_G), no allocation.
   void exchange(int a, int b);
 
+  /// What step() computed last in a column.
   const Iterate& iterate(int column) const { return _columns[index(column)].iterate; }
   /// Of u_{i,k}, per subdomain.
   Eigen::Ref<const Eigen::VectorXd> trace(int column, std::size_t subdomain) const {

@@ -19,6 +19,7 @@ class UzawaBlock {
   /// computed where it is not known yet: throws errors::Error as TraceProblem::theta_star does.
   UzawaBlock(const TraceProblem& problem, const mesh::Mesh& mesh, Mass mass, int capacity);
 
+  /// Load cases that iterate, and how many may at once.
   int columns() const noexcept { return _running; }
   int capacity() const noexcept { return static_cast<int>(_cases.size()); }
 

@@ -35,6 +35,7 @@ struct Subdomain {
   /// A trace node of each connected part without Dirichlet nodes: the part could move as a whole.
   std::vector<std::int32_t> floating;
 
+  /// Nodes whose u is unknown.
   std::size_t free() const noexcept { return interior + trace; }
 };
 

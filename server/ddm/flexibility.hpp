@@ -26,6 +26,7 @@ class Flexibility {
   void apply(const Eigen::Ref<const Eigen::MatrixXd>& rhs, Eigen::Ref<Eigen::MatrixXd> reduced,
              Eigen::Ref<Eigen::MatrixXd> skeleton, Eigen::Ref<Eigen::MatrixXd> trace) const;
 
+  /// The sizes of what apply() takes, and the memory of the matrices, bytes.
   Eigen::Index trace_size() const noexcept { return static_cast<Eigen::Index>(_column.size()); }
   Eigen::Index skeleton_size() const noexcept { return _inverse.rows(); }
   std::size_t bytes() const noexcept;

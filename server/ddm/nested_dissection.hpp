@@ -24,6 +24,7 @@ struct Graph {
   std::vector<std::int32_t>
       neighbour;  ///< each edge from both its ends, none of a vertex to itself
 
+  /// Vertices.
   std::size_t size() const noexcept { return begin.size() - 1; }
 };
 

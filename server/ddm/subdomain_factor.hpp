@@ -64,6 +64,7 @@ class SubdomainFactor {
   /// S, dense, symmetric to the bit.
   const Eigen::MatrixXd& schur() const noexcept { return _schur; }
 
+  /// Free nodes inside and on the trace; memory of the factor and S.
   Eigen::Index interior() const noexcept { return _interior; }
   Eigen::Index trace() const noexcept { return _schur.rows(); }
   std::size_t bytes() const noexcept;

@@ -19,6 +19,7 @@ struct Band {
   std::vector<char> meets_first;        ///< (n) has a neighbour on the first side
   std::vector<char> meets_second;       ///< (n) the same of the second side
 
+  /// Vertices.
   std::size_t size() const noexcept { return begin.size() - 1; }
 };
 

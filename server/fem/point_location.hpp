@@ -20,8 +20,10 @@ using PlanePoint = std::array<double, 2>;
 /// Points ordered so that those in a box are found without looking at all of them.
 class PointSet {
  public:
+  /// Keeps the points, under the indices they have. O(n log n).
   explicit PointSet(std::span<const PlanePoint> points);
 
+  /// How many points there are.
   std::size_t size() const noexcept { return _points.size(); }
   const PlanePoint& operator[](std::size_t i) const { return _points[i]; }
 

@@ -15,6 +15,7 @@ struct Point {
 /// Corners counterclockwise, area > 0.
 using Triangle = std::array<Point, 3>;
 
+/// Of the plane, length unit squared; the longest of its three sides.
 double area(const Triangle& triangle) noexcept;
 double longest_edge(const Triangle& triangle) noexcept;
 

@@ -27,6 +27,7 @@ class Admission {
   void check(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes) const;
   void add(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes);
 
+  /// A job that was counted has started.
   void started() noexcept { --_jobs; }
   /// Back among those that have not started.
   void requeued() noexcept { ++_jobs; }
@@ -35,6 +36,7 @@ class Admission {
 
   std::size_t jobs() const noexcept { return _jobs; }
   std::uint64_t bytes() const noexcept { return _bytes; }
+  /// What a refused client is told to wait; grows with the jobs that have not started.
   std::chrono::milliseconds retry_delay() const noexcept;
 
  private:

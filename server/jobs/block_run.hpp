@@ -42,6 +42,7 @@ class BlockRun {
 
   bool iterating = false;
   store::Priority parked_as = store::Priority::normal;  ///< in the schedule, while it is put down
+  /// Columns under way, and places for more.
   int columns() const noexcept { return _columns; }
   int free() const noexcept { return _broken ? 0 : _capacity - _columns; }
   store::Priority priority() const noexcept;  ///< of its most urgent column

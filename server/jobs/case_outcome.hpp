@@ -24,6 +24,7 @@ struct CaseOutcome {
 /// thread that solves.
 class History : public contact::Observer {
  public:
+  /// Counts every iteration in `iterations`, which must outlive it.
   History(const Task& task, std::atomic<std::uint64_t>& iterations);
   bool on_iteration(const contact::Sample& sample) override;
   /// The load case has ended for its job: nothing more is kept of it.
@@ -55,6 +56,7 @@ class Recorder final : public History {
 /// Memory of an answer's arrays.
 std::uint64_t bytes_of(const SolvedCase& solved);
 
+/// The end of a load case that was solved or stopped; `history`: its iterations.
 CaseOutcome solved_case(const Task& task, contact::Answer answer,
                         std::vector<contact::Sample> history);
 /// What was thrown, whatever it is.

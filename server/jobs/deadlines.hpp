@@ -31,6 +31,7 @@ class Deadlines {
     _times.emplace(Entry{job, due}, time);
     _order.emplace(time, Entry{job, due});
   }
+  /// Nothing to do is no error.
   void clear(std::uint64_t job, Due due) {
     const auto found = _times.find({job, due});
     if (found != _times.end()) {
@@ -38,12 +39,14 @@ class Deadlines {
       _times.erase(found);
     }
   }
+  /// All of a job.
   void clear(std::uint64_t job) {
     for (const Due due : {Due::queue_time, Due::run_time, Due::start}) {
       clear(job, due);
     }
   }
 
+  /// The earliest of all; none when nothing is due ever.
   std::optional<Time> next() const {
     return _order.empty() ? std::nullopt : std::optional<Time>(_order.begin()->first);
   }

@@ -19,6 +19,7 @@ namespace anticrack::jobs {
 /// and records go as jobs/retention.hpp says.
 class EndingThread {
  public:
+  /// Starts the thread; the core must outlive it.
   explicit EndingThread(EngineCore& core);
   /// Joins the thread; EngineCore::quitting must be set.
   ~EndingThread();

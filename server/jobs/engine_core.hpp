@@ -66,6 +66,7 @@ class EngineCore {
   using Lock = std::unique_lock<std::mutex>;
   using Clock = std::chrono::steady_clock;
 
+  /// Keeps references to both. Nothing runs yet.
   EngineCore(EngineOptions engine_options, store::Store& records, meshes::MeshCatalogue& meshes);
 
   const EngineOptions options;

@@ -96,11 +96,11 @@ class EventLog {
   /// like batch().
   std::vector<NumberedEvent> read(std::uint64_t after, std::size_t count) const;
 
+  class Listener;
   /// `wake` is called, on the writer's thread and with no lock of the log held, after each append
   /// until the handle is destroyed; never by two writers at once. It must be quick and not throw.
   /// Destroying the handle waits for a call under way, unless it is destroyed by that call: do not
   /// destroy it under a lock that `wake` takes.
-  class Listener;
   std::shared_ptr<Listener> listen(std::function<void()> wake);
 
  private:

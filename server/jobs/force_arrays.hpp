@@ -26,6 +26,7 @@ class ForceArrays {
  public:
   static constexpr std::size_t max_kept_bytes = std::size_t{512} << 20;
 
+  /// `owner`: whose uploads they are. Reads nothing yet.
   ForceArrays(const std::vector<fem::Load>& loads, std::string owner);
 
   /// The load, with values where its force is an array. To be called once for each load case.

@@ -99,7 +99,7 @@ class JobEngine {
   store::JobRecord submit(const Submission& submission);
 
   store::JobRecord get(const std::string& id) const;  ///< live state; throws not_found
-  std::vector<store::JobRecord> list(const store::Page& page) const;
+  std::vector<store::JobRecord> list(const store::Page& page) const;  ///< live states, newest first
 
   /// Effective within one iteration, also while queued, meshing or factorising. Idempotent.
   store::JobRecord cancel(const std::string& id);

@@ -62,6 +62,7 @@ struct LiveJob {
   ForceArrays arrays;
   std::stop_source stop;
 
+  /// Of the job, as in its name.
   const std::string& id() const noexcept { return created.id; }
 
   store::JobState state = store::JobState::queued;
@@ -105,7 +106,9 @@ void add_step(std::vector<store::Step>& timeline, store::JobState state, std::st
 /// A job's record at one moment, cheap to take under a lock.
 class JobSnapshot {
  public:
+  /// With the engine's mutex held.
   explicit JobSnapshot(const LiveJob& job);
+  /// The whole record; copies much, without a lock.
   store::JobRecord record() const;
 
  private:

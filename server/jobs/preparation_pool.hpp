@@ -16,6 +16,7 @@ namespace anticrack::jobs {
 /// more is stopped; one that finds the memory held by others is tried again when the cache says.
 class PreparationPool {
  public:
+  /// Starts the threads; the core must outlive them.
   explicit PreparationPool(EngineCore& core);
   /// Joins the threads; EngineCore::quitting must be set and no job be live.
   ~PreparationPool();

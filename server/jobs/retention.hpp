@@ -30,6 +30,7 @@ class Retention {
  public:
   explicit Retention(const RetentionLimits& limits) : _limits(limits) {}
 
+  /// A job ended; one was erased.
   void add(store::EndedJob job);
   void remove(const std::string& id);
   void expired(const std::string& id);  ///< has no result any more

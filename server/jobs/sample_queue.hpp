@@ -19,6 +19,7 @@ namespace anticrack::jobs {
 class SampleQueue {
  public:
   std::size_t size() const noexcept { return _size; }
+  /// Memory of the samples.
   std::size_t bytes() const noexcept { return _size * SamplePage::bytes_per_sample; }
 
   /// All of them, or none where there is no memory (std::bad_alloc).

@@ -58,6 +58,7 @@ class Schedule {
   Schedule(std::chrono::milliseconds ageing, std::size_t prepared_limit)
       : _ageing(ageing), _prepared_limit(prepared_limit) {}
 
+  /// A job none of whose units is taken yet, or that is back in the queue.
   void add(const Waiting& job);
   void remove(std::uint64_t number);  ///< nothing to do is no error
   /// The job whose load case is taken next.

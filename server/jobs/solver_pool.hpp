@@ -20,6 +20,7 @@ namespace anticrack::jobs {
 /// shares are those of the threads that are idle.
 class SolverPool {
  public:
+  /// Starts the threads; the core must outlive them.
   explicit SolverPool(EngineCore& core);
   /// Joins the threads; EngineCore::quitting must be set.
   ~SolverPool();

@@ -23,10 +23,13 @@ struct SweepPlan {
   std::size_t chunk_rows = 1;
   std::uint64_t result_bytes = 0;  ///< of the result block, its arrays' alignment included
 
+  /// How many there are; the last may be shorter.
   std::size_t chunks() const noexcept {
     return static_cast<std::size_t>((rows + chunk_rows - 1) / chunk_rows);
   }
+  /// Of a chunk, index base 0.
   std::uint64_t first_row(std::size_t chunk) const noexcept { return chunk * chunk_rows; }
+  /// Of a chunk.
   std::size_t rows_in(std::size_t chunk) const noexcept {
     return static_cast<std::size_t>(std::min<std::uint64_t>(chunk_rows, rows - first_row(chunk)));
   }

@@ -13,6 +13,7 @@ namespace anticrack::jobs {
 /// Sleeps until the next of these is due.
 class TimeLimits {
  public:
+  /// Starts the thread; the core must outlive it.
   explicit TimeLimits(EngineCore& core);
   /// Joins the thread; EngineCore::quitting must be set.
   ~TimeLimits();

@@ -29,7 +29,9 @@ class Bisection {
   /// same side of one. O(m log m).
   Bisection(const Mesh& base, std::size_t max_triangles);
 
+  /// Of the mesh as it is now.
   std::size_t triangle_count() const noexcept { return _subdomain.size(); }
+  /// Counterclockwise.
   std::array<Point, 3> corners(std::size_t triangle) const noexcept;
 
   /// Bisects a triangle, after those that must be bisected for the mesh to conform. One child takes

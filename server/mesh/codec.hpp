@@ -39,6 +39,8 @@ struct ImportRequest {
 using MesherRequest = std::variant<GenerateRequest, ImportRequest>;
 using MesherReply = std::variant<Mesh, errors::Error>;
 
+/// What goes to the helper; decode_request throws errors::Error (mesh_invalid) for what encode does
+/// not make.
 Bytes encode(const MesherRequest& request);
 MesherRequest decode_request(std::span<const std::byte> bytes);
 /// The reply carries the mesh's warnings and its bisection bound as well.

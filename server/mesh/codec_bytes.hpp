@@ -25,8 +25,10 @@ static_assert(std::endian::native == std::endian::little,
 
 class Writer {
  public:
+  /// `tag` comes first: what the bytes are, in which version.
   explicit Writer(std::string_view tag) { raw(tag.data(), tag.size()); }
 
+  /// Little-endian, as in memory.
   template <class T>
   void number(T value) {
     static_assert(std::is_arithmetic_v<T>);
@@ -34,25 +36,30 @@ class Writer {
     if constexpr (std::is_floating_point_v<T>) value += T{0};
     raw(&value, sizeof value);
   }
+  /// A length of a list or text, which follows it.
   void count(std::size_t n) { number(static_cast<std::uint64_t>(n)); }
   void text(const std::string& value) {
     count(value.size());
     raw(value.data(), value.size());
   }
+  /// `write` is called for each item in order.
   template <class Range, class Write>
   void list(const Range& range, Write write) {
     count(range.size());
     for (const auto& item : range) write(item);
   }
+  /// Lists of numbers and of texts.
   template <class T>
   void numbers(const std::vector<T>& values) {
     _bytes.reserve(_bytes.size() + 8 + values.size() * sizeof(T));
     list(values, [this](T value) { number(value); });
   }
+  /// See numbers().
   void texts(const std::vector<std::string>& values) {
     list(values, [this](const std::string& value) { text(value); });
   }
 
+  /// All of them; the writer is empty then.
   Bytes take() { return std::move(_bytes); }
 
  private:
@@ -66,6 +73,7 @@ class Writer {
 
 class Reader {
  public:
+  /// Every call throws errors::Error (mesh_invalid) where the bytes are not what it asks for.
   Reader(std::span<const std::byte> bytes, std::string_view tag) : _bytes(bytes) {
     if (left() < tag.size() || std::memcmp(_bytes.data(), tag.data(), tag.size()) != 0) {
       fail("they do not begin with the tag " + std::string(tag.substr(0, tag.size() - 1)));
@@ -73,6 +81,7 @@ class Reader {
     _at = tag.size();
   }
 
+  /// The next of what Writer::number wrote.
   template <class T>
   T number() {
     static_assert(std::is_arithmetic_v<T>);
@@ -91,6 +100,7 @@ class Reader {
     }
     return static_cast<std::size_t>(n);
   }
+  /// The next of what Writer::text wrote.
   std::string text() {
     const std::size_t n = count(1);
     std::string value(n, '\0');
@@ -98,6 +108,7 @@ class Reader {
     _at += n;
     return value;
   }
+  /// The next of what Writer::numbers wrote.
   template <class T>
   std::vector<T> numbers() {
     const std::size_t n = count(sizeof(T));
@@ -106,6 +117,7 @@ class Reader {
     _at += n * sizeof(T);
     return values;
   }
+  /// What `read` returns for each item of the next list.
   template <class Read>
   auto list(std::size_t item_bytes, Read read) {
     std::vector<decltype(read())> items;
@@ -113,6 +125,7 @@ class Reader {
     for (std::size_t i = 0; i < n; ++i) items.push_back(read());
     return items;
   }
+  /// The next of what Writer::texts wrote.
   std::vector<std::string> texts() {
     return list(8, [this] { return text(); });
   }
@@ -125,9 +138,11 @@ class Reader {
     }
     return value;
   }
+  /// Fails unless everything was read.
   void end() const {
     if (left() > 0) fail(std::to_string(left()) + " bytes are left over");
   }
+  /// Throws errors::Error (mesh_invalid).
   [[noreturn]] static void fail(const std::string& why) {
     throw errors::Error(errors::Reason::mesh_invalid, "these bytes cannot be decoded: " + why);
   }

@@ -16,6 +16,7 @@ struct EdgeUse {
   std::int32_t to = 0;
   std::int32_t triangle = 0;
 
+  /// The ends in order: equal for both triangles of an edge.
   std::int32_t low() const noexcept { return from < to ? from : to; }
   std::int32_t high() const noexcept { return from < to ? to : from; }
 };

@@ -29,6 +29,7 @@ void cut_near(Plan& plan, double size, double growth, std::size_t max_curves);
 /// Pieces of at most `size`.
 void set_intervals(Plan& plan, double size);
 
+/// Of the straight line from its first point to its last.
 double length_of(const Plan& plan, const PlannedCurve& curve) noexcept;
 
 }  // namespace anticrack::mesh

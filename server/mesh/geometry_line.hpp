@@ -19,6 +19,7 @@ namespace anticrack::mesh {
 /// Span k of a line runs over the parameters [k, k+1]; the ends of the spans are its vertices.
 class Line {
  public:
+  /// Straight between its points, which follow each other at a distance.
   static Line polyline(std::vector<Point> points, bool closed);
   /// From a through b to c, all three vertices; they are not on one straight line.
   static Line arc(const Point& a, const Point& b, const Point& c);
@@ -26,12 +27,15 @@ class Line {
   static Line spline(std::vector<Point> points, bool closed);
 
   bool closed() const noexcept { return _closed; }
+  /// Whether its spans are straight lines.
   bool straight() const noexcept { return _shape == Shape::polyline; }
   int spans() const noexcept { return _spans; }
   double length() const noexcept { return _length; }
   /// Points at the parameters 0, 1, ...; of a closed line the last is left out.
   const std::vector<Point>& vertices() const noexcept { return _vertices; }
 
+  /// The point at a parameter, which is clipped to the line; its derivative by the parameter, which
+  /// points along the line.
   Point at(double t) const noexcept;
   Point derivative(double t) const noexcept;
 

@@ -18,6 +18,7 @@ struct Segment {
   Point b{};
 };
 
+/// From a point to a point, or to the nearest one of a segment.
 double distance(const Point& a, const Point& b) noexcept;
 double distance(const Point& p, const Segment& s) noexcept;
 /// Where on `s` the point nearest to `p` lies: 0 at a, 1 at b.
@@ -37,6 +38,7 @@ double polyline_length(std::span<const Point> line) noexcept;
 /// Diagonal of the bounding box.
 double diagonal(std::span<const Point> points) noexcept;
 
+/// For messages; the fewest digits that read back as the same number.
 std::string show(const Point& p);
 std::string show(double value);
 

@@ -51,6 +51,7 @@ struct Mesh {
   /// refined
   double bisection_bound = 0;
 
+  /// n and m of the shapes above.
   std::size_t node_count() const noexcept { return xy.size() / 2; }
   std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
 };

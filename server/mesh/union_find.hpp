@@ -12,8 +12,10 @@ namespace anticrack::mesh {
 /// they were united. O(log n) a call, amortised.
 class UnionFind {
  public:
+  /// Each a set of its own.
   explicit UnionFind(std::size_t n) : _parent(n) { std::iota(_parent.begin(), _parent.end(), 0); }
 
+  /// What stands for the set of i.
   std::int32_t find(std::int32_t i) {
     while (parent(i) != i) {
       parent(i) = parent(parent(i));
@@ -28,6 +30,7 @@ class UnionFind {
     (a < b ? parent(b) : parent(a)) = a < b ? a : b;
     return a != b;
   }
+  /// Whether they are in one set.
   bool same(std::int32_t a, std::int32_t b) { return find(a) == find(b); }
 
  private:

@@ -19,8 +19,11 @@ class Descriptor {
   ~Descriptor() { reset(); }
   Descriptor(Descriptor&& other) noexcept : _value(other.release()) {}
   Descriptor& operator=(Descriptor&& other) noexcept;
+  /// -1 where it is empty.
   int get() const noexcept { return _value; }
+  /// Whether there is nothing to close.
   bool empty() const noexcept { return _value < 0; }
+  /// Closes it now.
   void reset() noexcept;
 
  private:

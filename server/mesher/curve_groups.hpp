@@ -26,6 +26,7 @@ struct ReadMeaning {
   std::optional<CurveMeaning> meaning;
   std::string fault;  ///< not empty: what is wrong with the NAME of a keyword
 };
+/// Blanks around its words do not count.
 ReadMeaning read_meaning(const std::string& text);
 
 struct CurveGroup {

@@ -15,6 +15,7 @@ namespace anticrack::mesher {
 /// so it rounds nothing; the square of the paper stays as it is.
 class Frame {
  public:
+  /// `points`: at least one; the frame is that of their bounding box.
   explicit Frame(const std::vector<mesh::Point>& points) {
     mesh::Point low = points.at(0);
     mesh::Point high = low;
@@ -28,9 +29,11 @@ class Frame {
     const double extent = std::max(high[0] - low[0], high[1] - low[1]);
     _exponent = static_cast<int>(std::lround(std::log2(extent / 2)));
   }
+  /// A point of the geometry as gmsh is given it.
   mesh::Point to_gmsh(const mesh::Point& p) const {
     return {std::ldexp(p[0] - _centre[0], -_exponent), std::ldexp(p[1] - _centre[1], -_exponent)};
   }
+  /// The way back.
   mesh::Point from_gmsh(double x, double y) const {
     return {std::ldexp(x, _exponent) + _centre[0], std::ldexp(y, _exponent) + _centre[1]};
   }

@@ -12,6 +12,7 @@ namespace anticrack::mesher {
 /// One a process: gmsh is global.
 class Gmsh {
  public:
+  /// Starts gmsh, silent and on one thread.
   Gmsh();
   ~Gmsh();
   Gmsh(const Gmsh&) = delete;

@@ -20,6 +20,7 @@ struct Chain {
   std::vector<std::int32_t> nodes;          ///< k; a closed chain has its first again as last
   std::vector<const InterfaceEdge*> edges;  ///< k-1
 
+  /// Whether it ends where it began.
   bool closed() const noexcept { return nodes.front() == nodes.back(); }
 };
 

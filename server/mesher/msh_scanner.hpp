@@ -17,6 +17,7 @@ class MshScanner {
  public:
   explicit MshScanner(std::string_view bytes) noexcept : _bytes(bytes) {}
 
+  /// How the numbers that come are written; text at first.
   void set_binary(bool binary) noexcept { _binary = binary; }
   bool binary() const noexcept { return _binary; }
   /// Named in messages, "$Nodes".
@@ -47,6 +48,7 @@ class MshScanner {
   T number() {
     return _binary ? raw<T>() : text_number<T>();
   }
+  /// A number as it is in memory. Fails where the file ends before.
   template <class T>
   T raw() {
     static_assert(std::is_arithmetic_v<T>);
@@ -60,6 +62,7 @@ class MshScanner {
   /// Fails unless the rest of the file can hold this many items of `least_bytes` each.
   void require_room(std::size_t count, std::size_t least_bytes) const;
 
+  /// Throw errors::Error (mesh_invalid): the section, the line or byte, and why.
   [[noreturn]] void fail(const std::string& why) const;
   [[noreturn]] void truncated() const;
 

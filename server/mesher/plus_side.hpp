@@ -16,6 +16,7 @@ namespace anticrack::mesher {
 /// Directions of the lines of a file.
 class LineDirections {
  public:
+  /// Every line counts from its first node to its second.
   explicit LineDirections(std::span<const CurveEdge> lines);
 
   enum class Along { forwards, backwards, both, none };

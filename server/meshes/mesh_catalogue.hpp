@@ -38,6 +38,7 @@ using PhaseListener = std::function<void(store::MeshState)>;
 /// again when somebody creates, warms or prepares it.
 class MeshCatalogue {
  public:
+  /// Takes up what an earlier run left. `store` and `cache` must outlive it.
   MeshCatalogue(CatalogueOptions options, store::Store& store, operators::OperatorCache& cache);
   /// Stops what is under way (kills the helper).
   ~MeshCatalogue();
@@ -50,8 +51,8 @@ class MeshCatalogue {
   store::MeshRecord create(const store::MeshDefinition& definition, const std::string& title,
                            const std::string& owner);
 
-  store::MeshRecord get(const std::string& id) const;  ///< throws not_found
-  std::vector<store::MeshRecord> list(const store::Page& page) const;
+  store::MeshRecord get(const std::string& id) const;                  ///< throws not_found
+  std::vector<store::MeshRecord> list(const store::Page& page) const;  ///< newest first
   /// Throws not_found, not_ready (not meshed). O(m): reads the triangulation.
   std::shared_ptr<const store::BlockSource> read(const std::string& id) const;
 

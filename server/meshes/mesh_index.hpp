@@ -60,6 +60,7 @@ struct LiveMesh {
   std::chrono::steady_clock::time_point since;
   std::weak_ptr<void> users;  ///< jobs that have not ended
 
+  /// Whether a preparation is to come, or under way and not ending.
   bool scheduled() const { return queued || again || (running && !ending); }
 };
 

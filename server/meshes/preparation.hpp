@@ -43,6 +43,7 @@ class Preparation {
   Preparation(const Preparation&) = delete;
   Preparation& operator=(const Preparation&) = delete;
 
+  /// Of everything here.
   std::unique_lock<std::mutex> lock() const { return std::unique_lock(_mutex); }
 
   // With the lock held:

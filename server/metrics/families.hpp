@@ -22,8 +22,10 @@ std::string code_name(int code);
 /// The families that count what happens. Thread-safe.
 class Families {
  public:
+  /// Both are labels of anticrack_build_info.
   Families(const std::string& version, const std::string& build);
 
+  /// Count what ended; `code`: gRPC's. Of a method beyond the first so many the label is "other".
   void call_ended(const std::string& method, int code, std::chrono::duration<double> time);
   void job_ended(const store::JobRecord& job);
   void meshed(const store::MeshRecord& mesh);

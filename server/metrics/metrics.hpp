@@ -34,9 +34,11 @@ struct Snapshot {
 /// nothing.
 class Metrics {
  public:
+  /// Both are labels of anticrack_build_info.
   Metrics(const std::string& version, const std::string& build);
   ~Metrics();
 
+  /// `method`: "/anticrack.v1.MeshService/UploadMesh"; `code`: gRPC's.
   void call_ended(const std::string& method, int code, std::chrono::duration<double> time) noexcept;
   /// By its timeline: waiting, meshing, factorising, solving, writing; by state and reason.
   void job_ended(const store::JobRecord& job) noexcept;

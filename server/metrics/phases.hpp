@@ -14,6 +14,7 @@ namespace anticrack::metrics {
 enum class Phase { queued, waiting, meshing, factorizing, solving, writing };
 inline constexpr std::size_t phase_count = 6;
 
+/// As labels have them, "factorizing".
 std::string_view name(Phase phase) noexcept;
 std::string_view name(store::JobState state) noexcept;     ///< "SUCCEEDED"
 std::string_view name(store::Priority priority) noexcept;  ///< "BULK"

@@ -27,6 +27,7 @@ struct CondensedBasis {
   std::vector<ddm::LoadProducts> products;  ///< per subdomain
   std::vector<std::string> warnings;        ///< of all loads, each once
 
+  /// Memory of its arrays.
   std::size_t bytes() const noexcept;
 };
 

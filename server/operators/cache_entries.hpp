@@ -36,6 +36,7 @@ class CacheEntries {
 
   explicit CacheEntries(std::uint64_t budget) : _budget(budget) {}
 
+  /// Null where there is none; does not count as a use.
   CacheEntry* find(const std::string& key);
   const CacheEntry* find(const std::string& key) const;
   /// Null unless it is in memory; else used now.

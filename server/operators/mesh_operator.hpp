@@ -172,8 +172,8 @@ class UzawaBlock {
   UzawaBlock(const UzawaBlock&) = delete;
   UzawaBlock& operator=(const UzawaBlock&) = delete;
 
-  int columns() const noexcept;  ///< under way
-  int capacity() const noexcept;
+  int columns() const noexcept;   ///< under way
+  int capacity() const noexcept;  ///< columns that may be under way at once
 
   /// The place of the column, below capacity(), until it has ended. `options.mass` is the block's.
   /// The observer outlives the column.

@@ -50,6 +50,7 @@ class OperatorCache {
   /// operator: how long it took. Must not throw.
   using Listener = std::function<void(std::chrono::duration<double>)>;
 
+  /// `factorise` may throw what acquire() is to throw, and should obey its stop.
   OperatorCache(std::uint64_t budget_bytes, Factorise factorise, Listener factorised = {});
   /// Stops factorisations nobody waits for any more and waits until they have stopped.
   ~OperatorCache();

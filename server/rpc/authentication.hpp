@@ -22,6 +22,7 @@ namespace anticrack::rpc {
 /// Immutable; thread-safe.
 class Authentication {
  public:
+  /// Copies what it needs.
   explicit Authentication(const Security& security);
 
   /// A token that is sent decides, also where there is a certificate. Without tokens and client

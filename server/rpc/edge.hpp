@@ -20,6 +20,7 @@ constexpr int max_message_bytes = 4 << 20;
 /// Whether the server still takes new meshes and jobs.
 class Admission {
  public:
+  /// No more from now on.
   void close() noexcept { _closed = true; }
   /// Throws errors::Error (draining).
   void require_open() const;

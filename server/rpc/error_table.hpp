@@ -20,6 +20,7 @@ constexpr std::size_t max_detail_bytes = 3072;
 /// As BadRequest says in error.proto.
 constexpr std::size_t max_violations = 20;
 
+/// What a call fails with that fails by a reason.
 grpc::StatusCode code(errors::Reason reason) noexcept;
 
 /// The error as a client reads it: code, message, ErrorInfo, and BadRequest and RetryInfo where the

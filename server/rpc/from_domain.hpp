@@ -32,17 +32,20 @@ using InterfaceNames = std::vector<std::string>;
 /// left out: ReadResult has them as traces.
 v1::Job from_domain(const store::JobRecord& record, const InterfaceNames& interfaces);
 
+/// One for one.
 v1::Job::State from_domain(store::JobState state) noexcept;
 
 /// `name` of the load case.
 v1::LoadCaseAnswer from_domain(const store::CaseRecord& record, const std::string& name,
                                const InterfaceNames& interfaces);
 
+/// What of a block a client needs to read it.
 v1::BlockLayout layout_of(const store::BlockSource& block);
 
 /// Appends every sample to every array: one allocation an array, one copy an array and run.
 void append(v1::Samples& samples, const std::vector<jobs::SampleRun>& runs);
 
+/// To the nanosecond.
 google::protobuf::Timestamp to_timestamp(store::Clock::time_point time);
 google::protobuf::Duration to_duration(std::chrono::nanoseconds duration);
 

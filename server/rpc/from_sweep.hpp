@@ -18,6 +18,7 @@ v1::Sweep from_domain(const store::SweepSpec& sweep);
 /// How it ended. Rows are counted before that, so that progress can be told.
 v1::SweepAnswer from_domain(const store::SweepSpec& sweep, const store::SweepRecord& record);
 
+/// One for one.
 v1::LoadCaseAnswer::Status from_domain(contact::Status status) noexcept;
 
 /// Appends rows of the event, from its row `first` on: `count` of them, or as many as there are.

@@ -11,10 +11,12 @@
 
 namespace anticrack::rpc {
 
+/// The name of what has an id.
 std::string mesh_name(const std::string& id);
 std::string job_name(const std::string& id);
 std::string upload_name(const std::string& sha256);
 
+/// The id in a name.
 std::string mesh_id(const std::string& name, std::string_view field);
 std::string job_id(const std::string& name, std::string_view field);
 /// The sha256 of "uploads/SHA256".
@@ -33,6 +35,7 @@ constexpr std::size_t max_page_size = 1000;
 /// A page is closed early when it grows past this: the client's limit is gRPC's 4 MiB.
 constexpr std::size_t max_page_bytes = 2u << 20;
 
+/// Of a request; size 0 is the default. Throws with "page_size" or "page_token" at fault.
 Page to_page(std::int32_t page_size, const std::string& page_token);
 
 }  // namespace anticrack::rpc

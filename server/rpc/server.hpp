@@ -75,6 +75,7 @@ class Server {
     int transfers = 0;
     std::uint64_t largest_lag = 0;  ///< events the slowest watcher is behind
   };
+  /// Now.
   Metrics metrics() const;
 
  private:

@@ -14,6 +14,7 @@ namespace anticrack::rpc {
 
 class ServerService final : public v1::ServerService::CallbackService {
  public:
+  /// `security` decides what the features say of it.
   ServerService(const Edge& edge, const Security& security);
 
   grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,

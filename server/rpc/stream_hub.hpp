@@ -74,6 +74,7 @@ struct StreamCounts {
 /// Thread-safe. Outlives its streams' calls.
 class StreamHub {
  public:
+  /// Starts the thread.
   explicit StreamHub(StreamLimits limits);
   ~StreamHub();
 
@@ -94,6 +95,7 @@ class StreamHub {
   void drain(const errors::Error& error, std::chrono::milliseconds patience,
              SteadyClock::time_point deadline);
 
+  /// What is open now.
   StreamCounts counts() const;
   /// Of the watcher that is furthest behind. O(watchers).
   std::uint64_t largest_lag() const;

@@ -10,6 +10,7 @@
 
 namespace anticrack::rpc {
 
+/// Whether the job is a sweep whose matrix came with it.
 bool has_packed_matrix(const v1::Job& job);
 
 /// Keeps it as an upload of `owner`, as if it had been uploaded before: from there on the two ways

@@ -33,6 +33,7 @@ constexpr std::size_t max_job_bytes = 1u << 20;
 /// Of a matrix that comes with the job; a larger one is uploaded before.
 constexpr std::size_t max_packed_bytes = 1u << 20;
 
+/// What the mesh is to be made from, options filled in.
 store::MeshDefinition to_definition(const v1::CreateMeshRequest& request);
 
 /// The limits a job is held against before it is converted.
@@ -43,6 +44,7 @@ struct JobLimits {
   std::chrono::milliseconds run_time{0};
 };
 
+/// The job, defaults filled in but for time limits.
 store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits);
 
 /// The sweep of a job that has one, its rows not counted yet. A matrix that came with the job is
@@ -54,6 +56,7 @@ struct MatrixOf {
   const v1::Sweep::Matrix* matrix = nullptr;  ///< null: none is set
   std::string field;                          ///< "sweep.coefficients"; "sweep" where none is set
 };
+/// Of whichever kind of cases is set.
 MatrixOf matrix_of(const v1::Sweep& sweep);
 
 /// Throws unless `title` is at most max_title_bytes.

@@ -14,6 +14,8 @@
 
 namespace anticrack::rpc {
 
+/// Of what `work` throws; OK where it returns. `method` goes to the log with an unexpected
+/// exception.
 template <class Work>
 grpc::Status status_of(const char* method, Work&& work) noexcept {
   try {
@@ -54,12 +56,14 @@ grpc::ServerUnaryReactor* answer_on(const Edge& edge, WorkPool& pool, std::size_
   return reactor;
 }
 
+/// For what reads the store.
 template <class Work>
 grpc::ServerUnaryReactor* look_up(Edge& edge, grpc::CallbackServerContext* context,
                                   const char* method, Work work) noexcept {
   return answer_on(edge, edge.lookups, edge.limits.waiting_calls, context, method, std::move(work));
 }
 
+/// For what writes to the store.
 template <class Work>
 grpc::ServerUnaryReactor* change(Edge& edge, grpc::CallbackServerContext* context,
                                  const char* method, Work work) noexcept {

@@ -24,6 +24,7 @@ class UploadStream final : public grpc::ServerReadReactor<v1::UploadMeshRequest>
                            public Stream,
                            public std::enable_shared_from_this<UploadStream> {
  public:
+  /// `response` is filled in before OK, and must live until OnDone.
   UploadStream(Edge& edge, std::string owner, v1::UploadMeshResponse* response);
 
   /// Gives the stream to the hub (which may refuse: errors::Error) and begins to read.

@@ -13,6 +13,7 @@
 
 namespace anticrack::rpc {
 
+/// The record of an id. Throw errors::Error (not_found).
 store::MeshRecord visible_mesh(const Backend& backend, const access::Identity& who,
                                const std::string& id);
 store::JobRecord visible_job(const Backend& backend, const access::Identity& who,

@@ -26,6 +26,7 @@ class WatchGroup final : public Wakeable {
   static constexpr std::chrono::milliseconds pace{10};
   using Wakes = std::list<std::function<void()>>;
 
+  /// Of the job whose log this is.
   WatchGroup(StreamHub& hub, std::shared_ptr<jobs::EventLog> log);
 
   /// Listens; to be called once, before anybody joins.
@@ -58,6 +59,7 @@ class WatchGroup final : public Wakeable {
 class WatchGroups {
  public:
   explicit WatchGroups(StreamHub& hub) : _hub(hub) {}
+  /// The group of a log, a new one where nobody watches yet.
   std::shared_ptr<WatchGroup> of(const std::shared_ptr<jobs::EventLog>& log);
 
  private:

@@ -18,6 +18,7 @@ namespace anticrack::rpc {
 /// store writes what several wait for in one go. Thread-safe.
 class WorkPool {
  public:
+  /// Starts them; `threads`: at least 1.
   explicit WorkPool(int threads);
   /// Finishes what was posted.
   ~WorkPool();

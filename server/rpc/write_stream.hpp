@@ -243,6 +243,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
 template <class Response>
 class RefusedStream final : public grpc::ServerWriteReactor<Response> {
  public:
+  /// Ends with `status` at once, without a message.
   explicit RefusedStream(grpc::Status status) { this->Finish(std::move(status)); }
   void OnDone() noexcept override { delete this; }
 };

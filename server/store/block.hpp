@@ -34,6 +34,7 @@ struct Block {
 class BlockSource {
  public:
   virtual ~BlockSource() = default;
+  /// In order of their offsets.
   virtual const std::vector<ArrayLayout>& arrays() const noexcept = 0;
   virtual std::uint64_t size() const noexcept = 0;  ///< bytes
   virtual const std::string& sha256() const noexcept = 0;
@@ -41,6 +42,7 @@ class BlockSource {
   virtual void read(std::uint64_t offset, std::span<std::byte> bytes) const = 0;
 };
 
+/// Reads from the block, which it shares.
 std::shared_ptr<const BlockSource> in_memory(std::shared_ptr<const Block> block);
 
 class BlockBuilder {

@@ -19,6 +19,7 @@ static_assert(std::endian::native == std::endian::little, "hashes and blocks are
 /// hash the same bytes.
 class CanonicalHash {
  public:
+  /// Each goes in after those before.
   CanonicalHash& add(std::uint64_t value) {
     _hash.add(std::as_bytes(std::span(&value, 1)));
     return *this;
@@ -27,11 +28,13 @@ class CanonicalHash {
   CanonicalHash& add(double value) {
     return add(std::bit_cast<std::uint64_t>(value == 0 ? 0.0 : value));
   }
+  /// With its length before it.
   CanonicalHash& add(const std::string& text) {
     add(std::uint64_t{text.size()});
     _hash.add(text);
     return *this;
   }
+  /// 64 lower-case hexadecimal digits. The object may not be used after.
   std::string finish() { return _hash.finish(); }
 
  private:

@@ -12,10 +12,12 @@ namespace anticrack::store {
 /// SHA-256 over bytes that arrive in pieces (OpenSSL).
 class Sha256 {
  public:
+  /// Of nothing so far. Throws std::bad_alloc.
   Sha256();
   ~Sha256();
   Sha256(Sha256&&) noexcept;
   Sha256& operator=(Sha256&&) noexcept;
+  /// The next bytes.
   Sha256& add(std::span<const std::byte> bytes);
   Sha256& add(const std::string& text);
   /// 64 lower-case hexadecimal digits. The object may not be used after.

@@ -19,8 +19,10 @@ class DiskUsage {
   DiskUsage(const DiskUsage&) = delete;
   DiskUsage& operator=(const DiskUsage&) = delete;
 
+  /// Files came or went.
   void add(FileKind kind, std::uint64_t bytes);
   void remove(FileKind kind, std::uint64_t bytes);
+  /// Of the files of a kind, without what is reserved.
   std::uint64_t bytes(FileKind kind) const;
 
   /// Bytes that are about to be written, counted until it goes out of scope. Keep it until what was

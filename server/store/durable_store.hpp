@@ -25,6 +25,8 @@ namespace anticrack::store {
 
 class DurableStore final : public Store {
  public:
+  /// Makes or opens the folder, and removes from it what no record names. Throws errors::Error
+  /// (storage, disk_full).
   explicit DurableStore(const StoreOptions& options);
 
   void put(const MeshRecord& record) override;

@@ -31,6 +31,7 @@ class Descriptor {
   ~Descriptor();
   Descriptor(Descriptor&& other) noexcept : _number(other._number) { other._number = -1; }
   Descriptor& operator=(Descriptor&&) = delete;
+  /// -1: none.
   int get() const noexcept { return _number; }
   explicit operator bool() const noexcept { return _number >= 0; }
 
@@ -56,6 +57,7 @@ class Part {
   Part(Part&& other) noexcept : _path(std::move(other._path)) { other._path.clear(); }
   Part& operator=(Part&&) = delete;
   const std::string& path() const noexcept { return _path; }
+  /// It stays where it is.
   void release() noexcept { _path.clear(); }
 
  private:
@@ -67,9 +69,12 @@ class Files {
  public:
   using Pieces = std::vector<std::span<const std::byte>>;
 
+  /// What is added and removed is counted in `usage`, as of `kind`.
   Files(std::string folder, FileKind kind, DiskUsage& usage);
 
+  /// Where the file of a name lies, whether it is there or not.
   std::string path(const std::string& sha256) const { return _folder + "/" + sha256; }
+  /// Whether a path is one that new_part() gives.
   bool is_part(const std::string& path) const;
   /// A new empty file.
   std::string new_part() const;

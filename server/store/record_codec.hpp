@@ -11,6 +11,7 @@
 
 namespace anticrack::store {
 
+/// What the database keeps.
 std::string encode(const MeshRecord& record);
 std::string encode(const JobRecord& record);
 

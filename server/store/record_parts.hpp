@@ -20,6 +20,7 @@
 
 namespace anticrack::store::disk {
 
+/// The error (storage) of a record that is not as it was written; `what` is wrong with it.
 errors::Error damaged_record(const std::string& what);
 
 /// Number of a choice on the disk: its place in the list of all choices. The lists only grow at
@@ -30,6 +31,7 @@ std::uint32_t number(const std::array<Enum, N>& choices, Enum value) {
                                     choices.begin());
 }
 
+/// The way back. Throws damaged_record() for a number that is none.
 template <class Enum, std::size_t N>
 Enum choice(const std::array<Enum, N>& choices, std::uint32_t number) {
   if (number >= N) {
@@ -39,29 +41,36 @@ Enum choice(const std::array<Enum, N>& choices, std::uint32_t number) {
   return choices[number];
 }
 
+/// Nanoseconds since 1970, and the way back.
 inline std::int64_t to_disk(Clock::time_point time) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
 }
+/// See to_disk().
 inline Clock::time_point time_of(std::int64_t nanoseconds) {
   return Clock::time_point(
       std::chrono::duration_cast<Clock::duration>(std::chrono::nanoseconds(nanoseconds)));
 }
 
+/// Parts of records as they are on the disk, and the way back; read() throws damaged_record().
 void write(const errors::Error& error, Error& out);
 errors::Error read(const Error& in);
 
 using NamedValues = google::protobuf::RepeatedPtrField<NamedValue>;
+/// Named values, in order of the names.
 void write(const std::map<std::string, double>& values, NamedValues& out);
 std::map<std::string, double> read(const NamedValues& in);
 
 using Texts = google::protobuf::RepeatedPtrField<std::string>;
+/// Texts, in their order.
 inline void write(const std::vector<std::string>& texts, Texts& out) {
   out.Assign(texts.begin(), texts.end());
 }
+/// See write().
 inline std::vector<std::string> read(const Texts& in) {
   return {in.begin(), in.end()};
 }
 
+/// write(item, message) of each.
 template <class Item, class Message>
 void write_all(const std::vector<Item>& items, google::protobuf::RepeatedPtrField<Message>& out) {
   out.Reserve(static_cast<int>(items.size()));

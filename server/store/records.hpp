@@ -98,6 +98,7 @@ struct MeshRecord {
 
 enum class JobState { queued, waiting_for_mesh, running, succeeded, failed, cancelled, expired };
 
+/// Whether the job will not change any more, but by expiring.
 constexpr bool ended(JobState state) noexcept {
   return state >= JobState::succeeded;
 }

@@ -38,6 +38,7 @@ class Statement {
   /// To the end.
   void run();
 
+  /// Of the row that step() is at; columns count from 0.
   std::int64_t integer(int column);
   std::string text(int column);  ///< of a text or of a blob
 
@@ -56,12 +57,14 @@ class Connection {
   /// Opens or makes the file.
   explicit Connection(std::string path);
 
+  /// Compiled once for each text.
   Statement prepare(const std::string& sql);
   /// Statements without parameters and without rows.
   void execute(const std::string& sql);
   /// The first column of the first row of a query.
   std::int64_t integer(const std::string& sql);
 
+  /// Between BEGIN and its end.
   bool in_transaction() const noexcept;
   int changes() const noexcept;  ///< rows the last statement changed
   std::int64_t total_changes() const noexcept;
@@ -84,10 +87,12 @@ class Connection {
 /// Rolled back at the end of the scope unless it was committed.
 class Transaction {
  public:
+  /// Begins it, for writing.
   explicit Transaction(Connection& connection);
   ~Transaction();
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;
+  /// On the disk when it returns.
   void commit();
 
  private:

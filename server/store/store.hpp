@@ -41,6 +41,7 @@ struct Usage {
   std::uint64_t results = 0;
   std::uint64_t uploads = 0;
   std::uint64_t database = 0;
+  /// Everything.
   std::uint64_t total() const { return meshes + results + uploads + database; }
 };
 
@@ -71,6 +72,7 @@ class Store {
   virtual void put(const MeshRecord& record) = 0;  ///< inserts or replaces
   /// The same with the triangulation, whose encoding has the hash record.sha256.
   virtual void put(const MeshRecord& record, const mesh::Mesh& triangulation) = 0;
+  /// Empty where there is none.
   virtual std::optional<MeshRecord> mesh(const std::string& id) const = 0;
   virtual std::vector<MeshRecord> meshes(const Page& page) const = 0;
   virtual std::size_t mesh_count() const = 0;
@@ -89,6 +91,7 @@ class Store {
   virtual void put(const JobRecord& record) = 0;  ///< replaces; throws not_found
   /// The end of a job: its last record and its result (null: none), both or neither.
   virtual void finish(const JobRecord& record, std::shared_ptr<const Block> result) = 0;
+  /// Empty where there is none.
   virtual std::optional<JobRecord> job(const std::string& id) const = 0;
   virtual std::vector<JobRecord> jobs(const Page& page) const = 0;
   virtual std::vector<JobRecord> unfinished() const = 0;  ///< oldest first: to be queued at a start
@@ -110,6 +113,7 @@ class Store {
   /// triangulation refers to; returns how many.
   virtual std::size_t expire_uploads(Clock::time_point before) = 0;
 
+  /// As counted, without a look at the disk but for the database.
   virtual Usage usage() const = 0;
 };
 

@@ -15,6 +15,7 @@ class Triangulations {
  public:
   using Pointer = std::shared_ptr<const mesh::Mesh>;
 
+  /// Null where nobody holds it.
   Pointer find(const std::string& sha256) const {
     const std::lock_guard lock(_mutex);
     const auto found = _held.find(sha256);
@@ -33,6 +34,7 @@ class Triangulations {
     return mesh;
   }
 
+  /// Nobody finds it any more; who holds it keeps it.
   void forget(const std::string& sha256) {
     const std::lock_guard lock(_mutex);
     _held.erase(sha256);

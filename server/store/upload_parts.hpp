@@ -16,15 +16,18 @@ namespace anticrack::store {
 /// an upload removes its file when it is given up, so what has no file is forgotten. Thread-safe.
 class UploadParts {
  public:
+  /// An upload begins.
   void add(const std::string& path, DiskUsage::Reservation reservation) {
     const std::lock_guard lock(_mutex);
     _reserved.emplace(path, std::move(reservation));
   }
+  /// Lets go of those whose files were removed.
   void forget_lost() {
     const std::lock_guard lock(_mutex);
     std::erase_if(_reserved, [](const auto& item) { return !file_size(item.first); });
     std::erase_if(_unflushed, [](const auto& path) { return !file_size(path); });
   }
+  /// An upload has ended.
   void forget(const std::string& path) {
     const std::lock_guard lock(_mutex);
     _reserved.erase(path);
@@ -36,10 +39,12 @@ class UploadParts {
     const std::lock_guard lock(_mutex);
     _unflushed.insert(path);
   }
+  /// It was written again.
   void mark_flushed(const std::string& path) {
     const std::lock_guard lock(_mutex);
     _unflushed.erase(path);
   }
+  /// Whether it has to be written again.
   bool unflushed(const std::string& path) const {
     const std::lock_guard lock(_mutex);
     return _unflushed.contains(path);

@@ -92,7 +92,9 @@ void save_cases(const fs::path& examples) {
     const std::string name = entry.path().stem();
     save("case_file", name, example.text);
     save("case_file", name + "-set", "#set mesh.size=0.1\n#set title=another\n" + example.text);
-    save_mesh_request(name, example.mesh);
+    v1::CreateMeshRequest mesh = example.mesh;
+    if (example.mesh_file) mesh.set_upload("uploads/" + std::string(64, 'a'));
+    save_mesh_request(name, mesh);
     save_job_request(name, example.job);
   }
 }

@@ -9,6 +9,8 @@
 namespace anticrack::casefile {
 namespace {
 
+using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -269,12 +271,15 @@ INSTANTIATE_TEST_SUITE_P(Load, Mistakes, testing::ValuesIn(load_mistakes), name_
 
 TEST(CaseErrors, SyntaxNamesTheLine) {
   EXPECT_THAT(complaint("title = \"A\"\n[geometry\n"),
-              StartsWith("plate.toml:2: this is not TOML: "));
+              AllOf(StartsWith("plate.toml:2: column 10: this is not TOML: "),
+                    EndsWith("; the line is: [geometry")));
+  EXPECT_EQ(complaint(std::string("title\0", 6)),
+            "plate.toml: this is no text; name a case, a TOML file");
 }
 
 TEST(CaseErrors, NoLoadsAndNoGeometry) {
   EXPECT_EQ(complaint("title = \"A\"\n"),
-            "plate.toml:1: geometry: missing; write [geometry] with boundary and interface, or "
+            "plate.toml: geometry: missing; write [geometry] with boundary and interface, or "
             "mesh.file = \"x.msh\"");
   EXPECT_THAT(complaint("mesh.file = \"x.msh\"\n"), HasSubstr("load: missing; write [[load]]"));
 }
@@ -284,7 +289,10 @@ TEST(CaseErrors, FileThatIsNotThere) {
     read_case("no/such/case.toml");
     FAIL();
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "no/such/case.toml: cannot be read; name a case, a TOML file");
+    EXPECT_STREQ(
+        error.what(),
+        "no/such/case.toml: cannot be read: No such file or directory; name a case, a TOML "
+        "file");
   }
   EXPECT_THROW(read_case(std::filesystem::temp_directory_path()), Error);
 }

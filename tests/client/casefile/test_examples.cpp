@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "casefile/case.hpp"
@@ -35,12 +36,22 @@ TEST(Examples, EachOfTheFourIsOneLoadOfThePaperOnTheSameMesh) {
 }
 
 TEST(Examples, OfOtherGeometriesUseTheDefaults) {
-  for (const char* name : {"several-inclusions", "slit", "arc", "floating"}) {
+  for (const char* name :
+       {"several-inclusions", "slit", "arc", "floating", "partly-delaminated", "shear"}) {
     const Case the_case = read_case(folder + "/" + name + ".toml");
     EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_GRADED) << name;
     EXPECT_TRUE(the_case.job.solver().has_active_set()) << name;
     EXPECT_GE(the_case.job.load_cases_size(), 2) << name;
     EXPECT_GE(the_case.mesh.geometry().interfaces_size(), 1) << name;
+  }
+}
+
+TEST(Examples, OfAMeshFileNameOneThatIsThere) {
+  for (const char* name : {"plate", "section-6"}) {
+    const Case the_case = read_case(folder + "/" + name + ".toml");
+    ASSERT_TRUE(the_case.mesh_file.has_value()) << name;
+    EXPECT_TRUE(std::filesystem::exists(*the_case.mesh_file)) << *the_case.mesh_file;
+    EXPECT_FALSE(the_case.mesh.has_geometry()) << name;
   }
 }
 

@@ -62,6 +62,12 @@ TEST(Overrides, AreInTheTextThatIsKept) {
   EXPECT_EQ(again.mesh.SerializeAsString(), the_case.mesh.SerializeAsString());
 }
 
+TEST(Overrides, FindAnEntryOfAListByItsName) {
+  const Case by_index = parse(sample_text, {"load.1.f=2"});
+  const Case by_name = parse(sample_text, {"load." + by_index.job.load_cases(1).name() + ".f=2"});
+  EXPECT_EQ(by_name.job.SerializeAsString(), by_index.job.SerializeAsString());
+}
+
 TEST(Overrides, NameThemselvesInErrors) {
   EXPECT_EQ(complaint(sample_text, {"solver.thta=1"}),
             "--set solver.thta=1: solver.thta: unknown key; did you mean theta?");
@@ -72,10 +78,10 @@ TEST(Overrides, NameThemselvesInErrors) {
 
 TEST(Overrides, RefuseKeysThatLeadNowhere) {
   EXPECT_EQ(complaint(sample_text, {"load.5.f=1"}),
-            "--set load.5.f=1: load.5: there are 2 of them; write an index from 0 to that number");
+            "--set load.5.f=1: load.5: there is no entry 5; write an index from 0 to 2, or a name");
   EXPECT_EQ(complaint(sample_text, {"load.first.f=1"}),
-            "--set load.first.f=1: load.first: there are 2 of them; write an index from 0 to that "
-            "number");
+            "--set load.first.f=1: load.first: none of them is called first; known are one, "
+            "two");
   EXPECT_EQ(complaint(sample_text, {"solver.theta.x=1"}),
             "--set solver.theta.x=1: solver.theta.x: nothing lies below a plain value; set the key "
             "above it");

@@ -43,5 +43,11 @@ TEST(ConnectionFlags, AreToldAgainAsTheyWereGiven) {
   EXPECT_EQ(as_flags(flags), " --server far.example:7433 --ca ca.pem --token-file my.token");
 }
 
+TEST(ConnectionFlags, AreToldAsAShellReadsThem) {
+  ConnectionFlags flags;
+  flags.server = "unix:/tmp/my server/it's $HOME";
+  EXPECT_EQ(as_flags(flags), R"( --server 'unix:/tmp/my server/it'\''s $HOME')");
+}
+
 }  // namespace
 }  // namespace anticrack::cli

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/text.hpp"
+
 namespace anticrack::cli {
 namespace {
 
@@ -37,6 +39,20 @@ TEST(JobText, TellsWhoseJobItIsAndHowUrgent) {
   EXPECT_THAT(job_text(job), HasSubstr("priority bulk, of ada?[2J, runs at most 90 s"));
 }
 
+TEST(JobText, GivesAOfEveryInclusion) {
+  v1::Job job = sample_job();
+  v1::LoadCaseAnswer& answer = *job.add_answers();
+  answer.set_name("opening");
+  answer.set_status(v1::LoadCaseAnswer::STATUS_CONVERGED);
+  v1::InclusionAnswer& fibre = *answer.add_inclusions();
+  fibre.set_name("fibre");
+  fibre.set_displacement(0.25);
+  EXPECT_THAT(job_text(job), HasSubstr("criterion     A  energy\n"));
+  EXPECT_THAT(job_text(job), HasSubstr("0.00e+00  0.25       0\n"));
+  answer.add_inclusions()->set_name("second");
+  EXPECT_THAT(job_text(job), HasSubstr("criterion  A fibre  A second  energy\n"));
+}
+
 TEST(JobText, CountsTheRowsOfASweepInPlaceOfAnswers) {
   v1::Job job = sample_job();
   job.add_load_cases()->set_name("skew");
@@ -62,7 +78,7 @@ TEST(JobText, TellsWhatHappenedWhen) {
   v1::Job job = sample_job();
   add_step(job, 1'000, v1::Job::STATE_QUEUED, "");
   add_step(job, 1'003, v1::Job::STATE_WAITING_FOR_MESH, "meshing");
-  EXPECT_THAT(job_text(job), HasSubstr("created 1970-01-01T00:16:40Z"));
+  EXPECT_THAT(job_text(job), HasSubstr("created " + clock_text(1'000) + "\n"));
   EXPECT_THAT(job_text(job), HasSubstr("\n3        waiting for the mesh (meshing)\n"));
   EXPECT_THAT(job_text(job), Not(HasSubstr("attempt")));
   job.set_attempt(2);

@@ -8,6 +8,7 @@
 
 #include <limits>
 
+#include "anticrack/v1/error.pb.h"
 #include "anticrack/v1/solve.pb.h"
 
 namespace anticrack::cli {
@@ -43,6 +44,29 @@ TEST(JsonWriter, IsReadBackByAnotherParser) {
   EXPECT_EQ(parsed.fields().at("number").number_value(), number);
   EXPECT_EQ(parsed.fields().at("text").string_value(), "a \"quoted\" \\ ?[0m ? δ");
   EXPECT_EQ(parsed.fields().at("nothing").kind_case(), google::protobuf::Value::kNullValue);
+}
+
+TEST(JsonWriter, KeepsLineEndsAndTabs) {
+  JsonWriter json;
+  json.begin_object().value("text", "one\n\ttwo\n").end_object();
+  google::protobuf::Struct parsed;
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(json.text(), &parsed).ok());
+  EXPECT_EQ(parsed.fields().at("text").string_value(), "one\n\ttwo\n");
+}
+
+TEST(ToJson, ShowsTheDetailsOfErrors) {
+  v1::Job job;
+  v1::ErrorInfo info;
+  info.set_reason("EXPRESSION_INVALID");
+  google::protobuf::Any& known = *job.mutable_error()->add_details();
+  known.set_type_url("type.googleapis.com/google.rpc.ErrorInfo");
+  known.set_value(info.SerializeAsString());
+  google::protobuf::Any& unknown = *job.mutable_error()->add_details();
+  unknown.set_type_url("type.googleapis.com/google.rpc.FromTheFuture");
+  unknown.set_value(info.SerializeAsString());
+  const std::string text = to_json(job);
+  EXPECT_THAT(text, testing::HasSubstr("\"reason\": \"EXPRESSION_INVALID\""));
+  EXPECT_THAT(text, testing::HasSubstr("google.rpc.FromTheFuture"));
 }
 
 TEST(ToJson, KeepsTheProtosFieldNamesAndZeros) {

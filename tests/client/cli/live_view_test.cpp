@@ -80,15 +80,61 @@ TEST(Frame, OfManyLoadCasesShowsThoseRunningAndTheLastThatEnded) {
   EXPECT_THAT(lines[4], HasSubstr("load-50 "));
   EXPECT_THAT(lines[5], HasSubstr("load-60 "));
   EXPECT_THAT(lines[6], HasSubstr("load-61 "));
-  EXPECT_EQ(lines[7], "  and 94 more");
+  EXPECT_EQ(lines[7], "  and 94 more: 47 waiting, 47 converged");
 }
 
-TEST(Frame, TellsThePhaseAndALostConnection) {
+TEST(Frame, TellsThePhaseTheTimeAndALostConnection) {
   JobProgress progress = three_cases();
   progress.detail = "factorising";
+  progress.elapsed = 185.7;
   progress.notice = "no connection, trying again";
-  EXPECT_EQ(frame(progress, 200, 24)[0],
-            "jobs/1: running (factorising), 1 of 3 load cases ended; no connection, trying again");
+  progress.prompt = "Cancelling";
+  const std::vector<std::string> lines = frame(progress, 200, 24);
+  EXPECT_EQ(lines[0], "jobs/1: running (factorising), 3 min 5 s, 1 of 3 load cases ended");
+  EXPECT_EQ(lines[1], "  no connection, trying again");
+  EXPECT_EQ(lines[2], "  Cancelling");
+  EXPECT_THAT(lines[3], HasSubstr("load-0"));
+}
+
+TEST(Frame, TellsTheExactTimeOnceItIsOver) {
+  JobProgress progress;
+  v1::WatchJobResponse event = snapshot(1);
+  v1::Job& job = *event.mutable_snapshot()->mutable_job();
+  job.set_state(v1::Job::STATE_SUCCEEDED);
+  job.mutable_create_time()->set_seconds(100);
+  job.mutable_end_time()->set_seconds(102);
+  job.mutable_end_time()->set_nanos(250'000'000);
+  progress.apply(event);
+  EXPECT_EQ(frame(progress, 80, 24)[0], "jobs/1: done, 2.2 s");
+}
+
+TEST(Frame, InANarrowTerminalKeepsStateProgressAndCriterion) {
+  const JobProgress progress = three_cases();
+  EXPECT_THAT(frame(progress, 40, 24),
+              ElementsAre("running, 1 of 3 load cases ended",  //
+                          "  load-0  converged  8.0e-13",      //
+                          "  load-1  running    1.0e-06",      //
+                          "  load-2  waiting"));
+  EXPECT_THAT(frame(progress, 22, 24), ElementsAre("running, 1/3 ended",   //
+                                                   "  load-0  converged",  //
+                                                   "  load-1  running",    //
+                                                   "  load-2  waiting"));
+}
+
+TEST(Frame, CutsNamesBeforeNumbers) {
+  JobProgress progress = three_cases();
+  progress.cases[1].name = "a load with a long name";
+  EXPECT_EQ(frame(progress, 62, 24)[2],
+            "  a load with a l~  running    it   120  1.0e-06  contact  41");
+  EXPECT_EQ(frame(progress, 62, 24)[1],
+            "  load-0            converged  it   291  8.0e-13     0.0125 s");
+}
+
+TEST(Frame, KeepsColumnsWhereIterationsAreMany) {
+  JobProgress progress = three_cases();
+  progress.cases[1].iteration = 1234567;
+  const std::vector<std::string> lines = frame(progress, 80, 24);
+  EXPECT_EQ(lines[1].find("8.0e-13"), lines[2].find("1.0e-06"));
 }
 
 TEST(Frame, BeforeTheFirstEventIsOneLine) {
@@ -121,7 +167,7 @@ TEST(PlainLog, OfTheActiveSetCountsSteps) {
   EXPECT_THAT(log.lines(progress), ElementsAre("load-0: converged after 1 step"));
 }
 
-TEST(PlainLog, TellsStatesEveryFiftiethIterationAndEnds) {
+TEST(PlainLog, TellsStatesIterationsAtTwiceAsManyAndEnds) {
   JobProgress progress;
   PlainLog log;
   progress.apply(snapshot(1));
@@ -136,9 +182,22 @@ TEST(PlainLog, TellsStatesEveryFiftiethIterationAndEnds) {
   progress.apply(sample(0, 260, 0.001, 4));
   EXPECT_THAT(log.lines(progress),
               ElementsAre("load-0: iteration 260, criterion 1.00e-03, 4 nodes in contact"));
+  progress.apply(sample(0, 399, 0.001, 4));
+  EXPECT_THAT(log.lines(progress), IsEmpty()) << "the next one after 200 is 400";
   progress.apply(load_ended(0, 291, 8e-13));
   EXPECT_THAT(log.lines(progress),
               ElementsAre("load-0: converged after 291 iterations, criterion 8.00e-13"));
+  EXPECT_THAT(log.lines(progress), IsEmpty());
+}
+
+TEST(PlainLog, TellsOnceWhatCtrlCBringsAbout) {
+  JobProgress progress;
+  PlainLog log;
+  progress.apply(snapshot(1));
+  log.lines(progress);
+  progress.prompt = "Cancelling";
+  EXPECT_THAT(log.lines(progress), ElementsAre("Cancelling"));
+  progress.prompt.clear();
   EXPECT_THAT(log.lines(progress), IsEmpty());
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <ctime>
 #include <limits>
 
 namespace anticrack::cli {
@@ -46,9 +48,18 @@ TEST(Sanitise, ReplacesMarksThatReorderALine) {
             "a???b");
 }
 
-TEST(Columns, CountsCodePoints) {
+TEST(Columns, AreThoseOfATerminal) {
   EXPECT_EQ(columns_of(""), 0U);
   EXPECT_EQ(columns_of("δδ"), 2U);
+  EXPECT_EQ(columns_of("大きさ"), 6U);
+  EXPECT_EQ(columns_of("e\xcc\x81"), 1U) << "an accent of its own";
+}
+
+TEST(Fit, CutsWideCharactersToTheColumnsThereAre) {
+  EXPECT_EQ(fit("大きさ", 6), "大きさ");
+  EXPECT_EQ(fit("大きさ", 5), "大き~");
+  EXPECT_EQ(fit("大きさ", 4), "大~");
+  EXPECT_EQ(fit("大きさ", 1), "~");
 }
 
 TEST(Fit, CutsBetweenCodePoints) {
@@ -71,6 +82,18 @@ TEST(Number, IsShortAndSaysWhenThereIsNone) {
   EXPECT_EQ(number(9.56e-13, 2, true), "9.56e-13");
   EXPECT_EQ(number(std::numeric_limits<double>::quiet_NaN()), "-");
   EXPECT_EQ(number(std::numeric_limits<double>::infinity()), "-");
+}
+
+TEST(ClockText, IsInTheZoneOfTheComputer) {
+  const char* before = std::getenv("TZ");
+  const std::string zone = before == nullptr ? "" : before;
+  setenv("TZ", "XYZ-2", 1);  // two hours east of Greenwich
+  tzset();
+  EXPECT_EQ(clock_text(0), "1970-01-01 02:00:00");
+  EXPECT_EQ(clock_text(1'700'000'000), "2023-11-15 00:13:20");
+  before == nullptr ? unsetenv("TZ") : setenv("TZ", zone.c_str(), 1);
+  tzset();
+  EXPECT_EQ(clock_text(std::numeric_limits<std::int64_t>::max()), "-");
 }
 
 TEST(Table, AlignsNumbersRightAndTextLeft) {

@@ -27,11 +27,11 @@ class FolderTest(unittest.TestCase):
 
 
 class Daemon:
-    """anticrackd on a free port, stopped at the end of the scope."""
+    """anticrackd on a free port, or the one named, stopped at the end of the scope."""
 
-    def __init__(self, folder, *flags):
+    def __init__(self, folder, *flags, port=0):
         self._log = open(folder / "daemon.log", "w+", encoding="utf-8")
-        command = [ANTICRACKD, "--listen", "127.0.0.1:0", "--data-dir", folder / "data", *flags]
+        command = [ANTICRACKD, "--listen", f"127.0.0.1:{port}", "--data-dir", folder / "data", *flags]
         self._process = subprocess.Popen([str(word) for word in command], text=True,
                                          stdout=subprocess.PIPE, stderr=self._log)
         # One line or, when it does not start, the end of its output.
@@ -55,6 +55,11 @@ class Daemon:
 
     def terminate(self):
         self._process.terminate()
+
+    def kill(self):
+        """As a crash would."""
+        self._process.kill()
+        self._process.wait()
 
     def wait(self):
         return self._process.wait()

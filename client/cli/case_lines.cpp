@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/case_lines.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+#include "cli/text.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+constexpr std::size_t widest_name = 24;
+constexpr std::size_t narrowest_name = 8;
+
+/// What a line tells of a load case, the most first.
+enum class Detail { labels, brief, criterion, status };
+
+/// How all lines of a frame are laid out, so that they stand in columns.
+struct Layout {
+  Detail detail = Detail::status;
+  std::size_t name_width = 0;
+  std::size_t status_width = 0;
+  std::size_t iteration_width = 5;
+  bool bar = false;
+};
+
+std::string numbers(const CaseProgress& progress, bool active_set, const Layout& layout) {
+  const std::string iteration =
+      pad_left(std::to_string(progress.iteration), layout.iteration_width);
+  const std::string criterion = number(progress.criterion, 1, true);
+  if (layout.detail == Detail::criterion) {
+    return active_set ? "step " + iteration : criterion;
+  }
+  const std::string text = active_set ? "step " + iteration
+                           : layout.detail == Detail::labels
+                               ? "iteration " + iteration + "  criterion " + criterion
+                               : "it " + iteration + "  " + criterion;
+  return text + (ended(progress.status)
+                     ? "  " + pad_left(number(progress.seconds, 3) + " s", 11)
+                     : "  contact " + pad_left(std::to_string(progress.contact_count), 3));
+}
+
+std::string case_line(const JobProgress& job, const CaseProgress& progress, const Layout& layout,
+                      std::size_t width) {
+  std::string line = "  " + pad_right(fit(progress.name, layout.name_width), layout.name_width) +
+                     "  " + pad_right(word(progress.status), layout.status_width);
+  if (progress.iteration > 0 && layout.detail != Detail::status) {
+    line += "  " + numbers(progress, job.active_set, layout);
+    if (layout.bar) {
+      line += bar(bar_fraction(progress.criterion, job.target), width - columns_of(line));
+    }
+  }
+  line.erase(line.find_last_not_of(' ') + 1);
+  return fit(line, width);
+}
+
+std::size_t widest_line(const JobProgress& job, const std::vector<std::size_t>& shown,
+                        const Layout& layout) {
+  std::size_t widest = 0;
+  for (const std::size_t i : shown) {
+    // Wider than any terminal, so that nothing is cut.
+    widest = std::max(widest, columns_of(case_line(job, job.cases[i], layout, 1000)));
+  }
+  return widest;
+}
+
+// With room for everything.
+Layout widest_layout(const JobProgress& job, const std::vector<std::size_t>& shown) {
+  Layout layout;
+  for (const std::size_t i : shown) {
+    const CaseProgress& progress = job.cases[i];
+    layout.name_width = std::max(layout.name_width, columns_of(progress.name));
+    layout.iteration_width =
+        std::max(layout.iteration_width, std::to_string(progress.iteration).size());
+  }
+  layout.name_width = std::min(layout.name_width, widest_name);
+  // So that the columns do not move at the end.
+  layout.status_width = word(v1::LoadCaseAnswer::STATUS_NOT_CONVERGED).size();
+  return layout;
+}
+
+std::size_t widest_status(const JobProgress& job, const std::vector<std::size_t>& shown) {
+  std::size_t widest = 0;
+  for (const std::size_t i : shown) {
+    widest = std::max(widest, word(job.cases[i].status).size());
+  }
+  return widest;
+}
+
+// In a narrow terminal the labels go first, then the bar, then the ends of names, then all numbers
+// but the criterion.
+Layout layout_of(const JobProgress& job, const std::vector<std::size_t>& shown, std::size_t width) {
+  Layout layout = widest_layout(job, shown);
+  for (const bool with_bar : {true, false}) {
+    for (const Detail detail : {Detail::labels, Detail::brief}) {
+      layout.detail = detail;
+      const std::size_t used = widest_line(job, shown, layout) + (with_bar ? bar_room : 0);
+      if (used <= width && (job.target > 0 || !with_bar)) {
+        layout.bar = with_bar;
+        return layout;
+      }
+    }
+  }
+  layout.status_width = widest_status(job, shown);
+  const std::size_t name_width = layout.name_width;
+  for (const Detail detail : {Detail::brief, Detail::criterion, Detail::status}) {
+    layout.detail = detail;
+    layout.name_width = name_width;
+    const std::size_t used = widest_line(job, shown, layout);
+    const std::size_t excess = used > width ? used - width : 0;
+    const std::size_t narrowest = detail == Detail::status ? 1 : narrowest_name;
+    if (name_width >= excess + std::min(name_width, narrowest)) {
+      layout.name_width = name_width - excess;
+      break;
+    }
+  }
+  return layout;
+}
+
+// Smaller is shown sooner.
+std::size_t rank(const CaseProgress& progress, std::size_t ended_count) {
+  if (progress.status == v1::LoadCaseAnswer::STATUS_RUNNING) {
+    return 0;
+  }
+  constexpr std::size_t ended_shown = 3;
+  if (progress.end_rank > 0) {
+    const std::size_t age = ended_count - progress.end_rank;
+    return age < ended_shown ? 1 : 3 + age;
+  }
+  return 2;
+}
+
+std::vector<std::size_t> shown_cases(const JobProgress& progress, std::size_t count) {
+  std::vector<std::size_t> order(progress.cases.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    order[i] = i;
+  }
+  if (order.size() > count) {
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return rank(progress.cases[a], progress.ended_count) <
+             rank(progress.cases[b], progress.ended_count);
+    });
+    order.resize(count);
+    std::sort(order.begin(), order.end());
+  }
+  return order;
+}
+
+// "  and 38 more: 20 waiting, 18 converged".
+std::string others(const JobProgress& progress, const std::vector<std::size_t>& shown) {
+  std::map<v1::LoadCaseAnswer::Status, std::size_t> counts;
+  for (const CaseProgress& load_case : progress.cases) {
+    ++counts[load_case.status];
+  }
+  for (const std::size_t i : shown) {
+    --counts[progress.cases[i].status];
+  }
+  std::string text = "  and " + std::to_string(progress.cases.size() - shown.size()) + " more";
+  std::string_view separator = ": ";
+  for (const auto& [status, count] : counts) {
+    if (count > 0) {
+      text += separator;
+      text += std::to_string(count) + " ";
+      text += word(status);
+      separator = ", ";
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string bar(double fraction, std::size_t room) {
+  constexpr std::size_t around = 4;  // two spaces and two brackets
+  constexpr std::size_t widest = 40;
+  const std::size_t width = std::min(widest, room - around);
+  const auto full = static_cast<std::size_t>(fraction * static_cast<double>(width));
+  return "  [" + std::string(full, '#') + std::string(width - full, '-') + "]";
+}
+
+std::vector<std::string> case_lines(const JobProgress& progress, std::size_t width,
+                                    std::size_t height) {
+  const bool all = progress.cases.size() <= height;
+  const auto shown = shown_cases(progress, all ? height : height - 1);
+  const Layout layout = layout_of(progress, shown, width);
+  std::vector<std::string> lines;
+  for (const std::size_t i : shown) {
+    lines.push_back(case_line(progress, progress.cases[i], layout, width));
+  }
+  if (!all) {
+    lines.push_back(fit(others(progress, shown), width));
+  }
+  return lines;
+}
+
+}  // namespace anticrack::cli

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Wrong command lines and wrong cases: what the real command says of each, in full, and its exit
+code. The tables are in wrong_commands.py and wrong_cases.py."""
+import hashlib
+import json
+import os
+import pathlib
+import re
+import shlex
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+import wrong_cases
+import wrong_commands
+from processes import ANTICRACK, Daemon, run
+
+TWO_LOADS = wrong_cases.GOOD.replace('method = "uzawa"\ntheta = 1.5\n', "") + '\n[[load]]\nname = "skew"\nf = "x"\n'
+MSH = """\
+$MeshFormat
+2.2 0 8
+$EndMeshFormat
+"""
+
+
+def make_files(folder):
+    """What the tables name, beside case.toml and what is made with the server."""
+    texts = {"case.toml": wrong_cases.GOOD, "two.toml": TWO_LOADS, "empty.toml": "", "plate.msh": MSH,
+             "token": "secret\n", "empty.csv": "", "good.csv": "opening,skew\n1,2\n3,4\n",
+             "short.csv": "opening,skew\n1,2\n3\n", "letters.csv": "1,2\n3,four\n", "nan.csv": "1,nan\n",
+             "unknown.csv": "opening,skwe\n1,2\n", "twice.csv": "skew,skew\n1,2\n", "partial.csv": "skew\n1\n"}
+    for name, text in texts.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    (folder / "binary.toml").write_bytes(b"\x00\x01\x02\xfe\xff")
+    (folder / "latin.toml").write_bytes('title = "Böschung"\n'.encode("latin-1"))
+    (folder / "folder").mkdir()
+    with h5py.File(folder / "plain.h5", "w") as file:
+        file["vector"] = numpy.ones(3)
+        file["matrix"] = numpy.ones((2, 2))
+        file["wide"] = numpy.ones((2, 5))
+        file["named"] = numpy.ones((2, 2))
+        file["named"].attrs["loads"] = ["opening", "skwe"]
+
+
+def make_results(folder):
+    """A result file, and ones that went wrong."""
+    result = (folder / "result.h5").read_bytes()
+    (folder / "no-fields.h5").write_bytes(result)
+    (folder / "truncated.h5").write_bytes(result[:len(result) // 2])
+    (folder / "other.h5").write_bytes(result)
+    with h5py.File(folder / "other.h5", "a") as file:
+        file.attrs["format"] = "anticrack-result/9"
+
+
+class BadUsage(unittest.TestCase):
+    maxDiff = None
+
+    @classmethod
+    def setUpClass(cls):
+        folder = cls.enterClassContext(tempfile.TemporaryDirectory(prefix="anticrack-test-"))
+        cls.folder = pathlib.Path(folder)
+        make_files(cls.folder)
+        for name in ("open", "guarded"):
+            (cls.folder / name).mkdir()
+        digest = hashlib.sha256(b"another").hexdigest()
+        (cls.folder / "tokens").write_text(f"ann user {digest}\n", encoding="utf-8")
+        cls.server = cls.address(cls.folder / "open")
+        cls.guarded = cls.address(cls.folder / "guarded", "--tokens", cls.folder / "tokens")
+        ended = cls.anticrack("run", "case.toml", "-o", "result.h5", "--json")
+        document = json.loads(ended.stdout)
+        cls.job, cls.mesh = document["job"], document["mesh"]
+        make_results(cls.folder)
+
+    @classmethod
+    def address(cls, folder, *flags):
+        """Of a server that runs as long as the tests do."""
+        return f"127.0.0.1:{cls.enterClassContext(Daemon(folder, *flags)).port}"
+
+    @classmethod
+    def anticrack(cls, *words):
+        environment = {name: value for name, value in os.environ.items() if not name.startswith("ANTICRACK_")}
+        environment["ANTICRACK_SERVER"] = cls.server
+        return run(ANTICRACK, *words, cwd=cls.folder, env=environment)
+
+    @classmethod
+    def masked(cls, text):
+        text = text.replace(cls.server, "SERVER").replace(cls.guarded, "SERVER")
+        text = re.sub(r"\(-?\d\.\d{9,}, -?\d\.\d{9,}\)", "(X, Y)", text)  # a node of the mesh
+        return re.sub(r"(jobs|meshes)/[0-9a-f]{10,16}\b", r"\1/ID", text)
+
+    @classmethod
+    def words_of(cls, command):
+        """{guarded}, {job:N}, {mesh:N}: an address, and the first N letters of an ID."""
+        def cut(match):
+            text = {"job": cls.job, "mesh": cls.mesh}[match[1]]
+            return text[:text.index("/") + 1] + text.split("/")[1][:int(match[2])]
+        return shlex.split(re.sub(r"\{(job|mesh):(-?\d+)\}", cut, command).replace("{guarded}", cls.guarded))
+
+    @classmethod
+    def said(cls, *words):
+        """The exit code, and what is said on standard error."""
+        ended = cls.anticrack(*words)
+        return ended.returncode, cls.masked(ended.stderr)
+
+    @classmethod
+    def said_of_command(cls, command):
+        return cls.said(*cls.words_of(command))
+
+    @classmethod
+    def said_of_case(cls, edits):
+        (cls.folder / "wrong.toml").write_text(wrong_cases.changed(edits), encoding="utf-8")
+        return cls.said("run", "wrong.toml")
+
+    def test_wrong_commands(self):
+        for command, code, message in wrong_commands.COMMANDS:
+            with self.subTest(command):
+                self.assertEqual(self.said_of_command(command), (code, f"anticrack: {message}\n"))
+
+    def test_wrong_cases(self):
+        for edits, code, message in wrong_cases.CASES:
+            with self.subTest(edits):
+                self.assertEqual(self.said_of_case(edits), (code, f"anticrack: {message}\n"))
+
+    def test_with_json_the_same_is_said_in_a_document(self):
+        for command, code, message in wrong_commands.COMMANDS[::3]:
+            with self.subTest(command):
+                ended = self.anticrack("--json", *self.words_of(command))
+                self.assertEqual(ended.returncode, code)
+                error = json.loads(ended.stdout)["error"]
+                self.assertEqual(set(error), {"code", "reason", "message", "fields"})
+                self.assertEqual(self.masked(error["message"]), message)
+
+    @unittest.skipIf(os.geteuid() == 0, "root may read and write everything")
+    def test_what_permissions_forbid(self):
+        (self.folder / "secret.toml").write_text(wrong_cases.GOOD, encoding="utf-8")
+        (self.folder / "secret.toml").chmod(0)
+        (self.folder / "locked").mkdir(mode=0o500)
+        for command, message in wrong_commands.FORBIDDEN:
+            with self.subTest(command):
+                self.assertEqual(self.said_of_command(command), (2, f"anticrack: {message}\n"))

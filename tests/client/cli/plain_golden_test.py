@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What people read -- tables and the lines around them -- is what golden/*.txt says, letter by letter
+but for what differs from run to run. How to renew the files: see golden.py."""
+import re
+
+from golden import GoldenTest
+
+# Each is replaced by text of the same width where columns depend on it.
+MASKS = [
+    (r"(?<=jobs/|shes/)[0-9a-f]{16}", lambda m: "I" * 16),
+    (r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d", lambda m: "YYYY-MM-DD hh:mm:ss"),
+    (r"127\.0\.0\.1:\d+", lambda m: "SERVER"),
+    (r"(?<=^anticrack )\S+|(?<=^version {12})\S.*", lambda m: "VERSION"),
+    (r"(?<=residuals at most )\S+", lambda m: "R"),
+    (r"\S*\d s\b", lambda m: "T s"),
+    (r"\d\.\d\de[-+]\d\d", lambda m: "R" * len(m[0])),  # down to rounding
+    (r"^[\d.]+ *(?=  (queued|waiting|running|done))", lambda m: "T".ljust(len(m[0]))),  # seconds of a timeline
+]
+# Lines of what goes on: how many there are depends on how fast it is.
+PROGRESS = re.compile(r"^(jobs/\S+: (queued|waiting|running|done)|meshes/\S+: (?!ready|evicted|deleted)"
+                      r"|\S+: (step|iteration|converged)|\d+ of \d+ rows).*\n", re.M)
+
+
+def masked(text):
+    """Without what differs from run to run."""
+    for pattern, by in MASKS:
+        text = re.sub(pattern, by, text, flags=re.M)
+    if "wall time\n" in text:  # the last column
+        text = re.sub(r"\S+\d$", lambda m: "T".rjust(len(m[0])), text, flags=re.M)
+    return text
+
+
+class PlainGolden(GoldenTest):
+
+    def said(self, name, *words, code=0):
+        """What the command prints, checked against golden/NAME.txt."""
+        ended = self.anticrack(*words)
+        self.assertEqual((ended.returncode, ended.stderr), (code, ""), ended.stdout)
+        self.compare(name + ".txt", masked(PROGRESS.sub("", ended.stdout)))
+        return ended.stdout
+
+    def test_a_fresh_server(self):  # comes first
+        self.said("server", "server")
+
+    def test_version(self):
+        self.said("version", "--version")
+
+    def test_meshes_and_jobs(self):
+        mesh = self.said("mesh-create", "mesh", "create", "plate.toml").split(":")[0]
+        self.said("mesh-show", "mesh", "show", mesh)
+        self.said("mesh-upload", "mesh", "upload", "plate.msh", "--title", "Two triangles")
+        job = self.said("job-submit", "job", "submit", "plate.toml").split()[0]
+        self.said("job-show", "job", "watch", job)
+        self.said("job-show", "job", "show", job)
+        self.said("job-fetch", "job", "fetch", job, "-o", "plate.h5")
+        self.said("show", "show", "plate.h5")
+        self.said("show-load", "show", "plate.h5", "--load", "skew")
+        self.said("run", "run", "plate.toml")
+        self.said("run-uzawa", "run", "plate.toml", "-o", "uzawa.h5", "--set", 'solver={method="uzawa", theta=1.5}')
+        self.said("export", "export", "plate.h5", "-o", "paraview")
+        self.said("plot", "plot", "plate.h5", "--load", "skew", "-o", "figures")
+        self.said("sweep", "sweep", "plate.toml", "--coefficients", "rows.csv", "--traces", "all", "-o", "rows.h5",
+                  "--csv", "answers.csv")
+        self.said("show-sweep", "show", "rows.h5")
+        self.said("show-sweep-load", "show", "rows.h5", "--load", "row-1")
+        self.said("job-list", "job", "list")
+        self.said("mesh-list", "mesh", "list")
+        self.said("job-delete", "job", "delete", job)
+        self.said("mesh-evict", "mesh", "evict", mesh)
+        self.said("mesh-delete", "mesh", "delete", mesh)

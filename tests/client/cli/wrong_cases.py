@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Wrong cases: what is changed in a good one, the exit code of `anticrack run`, and all that is
+said of it. jobs/ID and meshes/ID stand for what differs from run to run."""
+
+GOOD = """\
+title = "Plate"
+
+[geometry]
+boundary = [[-1, -1], [1, -1], [1, 1], [-1, 1]]
+interface = [[-1, 0], [1, 0]]
+
+[[geometry.inclusion]]
+name = "fibre"
+from = [-0.5, 0]
+to = [0.5, 0]
+delaminated = true
+
+[mesh]
+preset = "uniform"
+size = 0.5
+
+[solver]
+method = "uzawa"
+theta = 1.5
+
+[[load]]
+name = "opening"
+f = "y > 0 ? 1 : -1"
+"""
+
+GEOMETRY = GOOD[GOOD.index("[geometry]"):GOOD.index("[mesh]")]
+F = 'f = "y > 0 ? 1 : -1"'
+
+
+def more(text):
+    """Put before [mesh]."""
+    return [("[mesh]", text + "\n\n[mesh]")]
+
+
+# ([(old, new), ...] in GOOD, exit code, what is said)
+CASES = [
+    # What TOML does not allow.
+    ([("size = 0.5", "size = = 0.5")], 2,
+     "wrong.toml:15: column 8: this is not TOML: Error while parsing value: could not determine value "
+     "type; the line is: size = = 0.5"),
+    ([('"Plate"', '"Plate')], 2,
+     "wrong.toml:1: column 15: this is not TOML: Error while parsing string: unescaped control "
+     'characters other than TAB (U+0009) are explicitly prohibited; the line is: title = "Plate'),
+    ([("size = 0.5", "size = 0.5\nsize = 1")], 2,
+     "wrong.toml:16: column 8: this is not TOML: Error while parsing key-value pair: cannot redefine "
+     "existing floating-point 'size'; the line is: size = 1"),
+    ([("[mesh]", "[mesh")], 2,
+     "wrong.toml:13: column 6: this is not TOML: Error while parsing table header: expected ']', saw "
+     "'\\n'; the line is: [mesh"),
+    # Keys.
+    ([("theta", "thetta")], 2,
+     "wrong.toml:19: solver.thetta: unknown key; did you mean theta?"),
+    ([("[solver]", "[solvr]")], 2,
+     "wrong.toml:17: solvr: unknown key; did you mean solver?"),
+    ([("delaminated", "delaminatd")], 2,
+     "wrong.toml:11: geometry.inclusion.0.delaminatd: unknown key; did you mean delaminated?"),
+    ([("theta = 1.5", "max_steps = 4")], 2,
+     'wrong.toml:19: solver.max_steps: belongs to method "active-set"; remove it, or write method = '
+     '"active-set"'),
+    ([('"uzawa"', '"active-set"')], 2,
+     'wrong.toml:19: solver.theta: belongs to method "uzawa"; remove it, or write method = "uzawa"'),
+    ([('"uniform"', '"paper"')], 2,
+     'wrong.toml:15: mesh.size: means nothing with preset "paper"; remove it, or write preset = '
+     '"graded"'),
+    ([('[[load]]\nname = "opening"\n' + F + "\n", "")], 2,
+     "wrong.toml: load: missing; write [[load]] with name and f for each load case"),
+    ([(GEOMETRY, "")], 2,
+     "wrong.toml: geometry: missing; write [geometry] with boundary and interface, or mesh.file = "
+     '"x.msh"'),
+    ([("size = 0.5", 'file = "x.msh"')], 2,
+     "wrong.toml:3: geometry: there is a mesh.file too; remove one of the two"),
+    ([("size = 0.5", 'file = "x.msh"'), (GEOMETRY, "")], 2,
+     "wrong.toml:5: mesh.file: x.msh: there is no such file; name a .msh file"),
+    # Types and values.
+    ([("size = 0.5", 'size = "fine"')], 2,
+     "wrong.toml:15: mesh.size: 'fine' is no finite number; write a number without quotes"),
+    ([("size = 0.5", "size = nan")], 2,
+     "wrong.toml:15: mesh.size: nan is no finite number; write a finite number"),
+    ([("size = 0.5", "size = -1")], 2,
+     "wrong.toml:15: mesh.size: -1 is not above 0; write a number above 0, or leave the key out for "
+     "its default"),
+    ([("size = 0.5", "size = 1e-6")], 2,
+     "wrong.toml:15: mesh.size: an edge length of 1e-06 gives about 9237604307034 triangles; at most "
+     "4000000 are taken, so choose a coarser mesh"),
+    ([("1.5", "0")], 2,
+     "wrong.toml:19: solver.theta: theta is 0; it must be a finite number above 0, or auto"),
+    ([("1.5", "-2")], 2,
+     "wrong.toml:19: solver.theta: theta is -2; it must be a finite number above 0, or auto"),
+    ([("1.5", '"automatic"')], 2,
+     "wrong.toml:19: solver.theta: 'automatic' is no finite number; write a number above 0, or \"auto\""),
+    ([("theta = 1.5", "p = -1")], 2,
+     "wrong.toml:19: solver.p: p is -1; it must be finite and not negative"),
+    ([("theta = 1.5", "epsilon = 0")], 2,
+     "wrong.toml:19: solver.epsilon: epsilon is 0; it must be a finite number above 0"),
+    ([("theta = 1.5", "max_iterations = 0")], 2,
+     "wrong.toml:19: solver.max_iterations: 0 is no count; write a whole number from 1 to 2147483647"),
+    ([("theta = 1.5", "max_iterations = 2000000000")], 2,
+     "wrong.toml:19: solver.max_iterations: max_iterations is 2000000000; it must be from 1 to 1000000"),
+    ([('"uzawa"', '"usawa"')], 2,
+     "wrong.toml:18: solver.method: 'usawa' is not possible; did you mean uzawa?"),
+    ([('"uniform"', '"unifrom"')], 2,
+     "wrong.toml:14: mesh.preset: 'unifrom' is not possible; did you mean uniform?"),
+    ([('"Plate"', "3")], 2,
+     "wrong.toml:1: title: 3 is no text; write it in quotes"),
+    (more('[job]\npriority = "fast"'), 2,
+     "wrong.toml:14: job.priority: 'fast' is not possible; known are bulk, interactive, normal"),
+    (more('[job]\nrun_timeout = "soon"'), 2,
+     "wrong.toml:14: job.run_timeout: 'soon' is no time above 0; write seconds, or \"90s\", \"10min\", "
+     '"2h", "1d"'),
+    (more('[output]\nfields = "yes"'), 2,
+     "wrong.toml:14: output.fields: 'yes' is neither true nor false"),
+    # The geometry.
+    ([("[1, 1], [-1, 1]", "[-1, 1], [1, 1]")], 2,
+     "wrong.toml:4: geometry.boundary: boundary crosses or touches itself: the edge from boundary[1] "
+     "to boundary[2] (1, -1)-(-1, 1) meets the edge from boundary[3] to boundary[0] (1, 1)-(-1, -1)"),
+    ([("[1, -1], [1, 1], [-1, 1]]", "[1, -1]]")], 2,
+     "wrong.toml:4: geometry.boundary: boundary has 2 vertices; a polygon takes at least 3"),
+    ([("[[-1, -1], [1", "[[-1, -1, 0], [1")], 2,
+     "wrong.toml:4: geometry.boundary.0: [ -1, -1, 0 ] is no point; write [x, y]"),
+    ([("[[-1, 0], [1, 0]]", "[[-2, 0], [1, 0]]")], 2,
+     "wrong.toml:5: geometry.interface: interfaces[0].polyline leaves the polygon or touches its "
+     "boundary in between: the stretch from (-2, 0) to (1, 0) meets the boundary's edge (-1, 1)-(-1, "
+     "-1); only its two ends may lie on the boundary"),
+    ([("from = [-0.5, 0]", "from = [-0.5, 0.1]")], 2,
+     "wrong.toml:9: geometry.inclusion.0.from: inclusions[0].part.from (-0.5, 0.1) lies 0.1 off the "
+     "interface; it must lie on it, to 2.8284271247461906e-09"),
+    ([("to = [0.5, 0]", "to = [-0.5, 0]")], 2,
+     "wrong.toml:9: geometry.inclusion.0.from: inclusions[0].part has no length: it runs from (-0.5, "
+     "0) to (-0.5, 0)"),
+    (more('[[geometry.inclusion]]\nname = "fibre"\nfrom = [0.6, 0]\nto = [0.7, 0]'), 2,
+     'wrong.toml:14: geometry.inclusion.1.name: inclusions[1].name "fibre" is already the name of '
+     "inclusions[0]; every inclusion and crack needs its own"),
+    (more('[[geometry.crack]]\nname = "c"\nfrom = [0.4, 0]\nto = [0.7, 0]'), 2,
+     "wrong.toml:15: geometry.crack.0.from: cracks[0] and inclusions[0] overlap from (0.4, 0) on; a "
+     "piece of the interface belongs to one inclusion or crack"),
+    (more('[[geometry.region]]\nname = "top"\nat = [0, 0]'), 2,
+     "wrong.toml:15: geometry.region.0.at: regions[0].at (0, 0) lies on interfaces[0].polyline; it "
+     "must lie inside the subdomain it names"),
+    (more('[[geometry.region]]\nname = "top"\nat = [0, 0.5]\ntension = -1'), 2,
+     "wrong.toml:16: geometry.region.0.tension: -1 is not above 0; write a number above 0, or leave "
+     "the key out for its default"),
+    ([("[1, 0]]\n", '[1, 0]]\nneumann = "left"\n')], 2,
+     "wrong.toml:6: geometry.neumann: 'left' is not possible; write [[from, to], ...], parts of the "
+     'boundary walked counterclockwise, or "all"'),
+    ([("[1, 0]]\n", '[1, 0]]\nneumann = "all"\n')], 1,
+     'jobs/ID failed: mesh: meshes/ID: nothing but contact holds the subdomain "omega1" around (-1, '
+     "0), so it could move as a whole: glue a part of its interface or hold its boundary"),
+    ([("interface = [[-1, 0], [1, 0]]\n", ""),
+      *more('[[geometry.interface]]\narc = [[-1, 0], [1, 0]]')], 2,
+     "wrong.toml:13: geometry.interface.0.arc: [ [ -1, 0 ], [ 1, 0 ] ] is no arc; write [from, "
+     "through, to], three points of which the second lies between the others"),
+    # Loads.
+    ([("[[load]]", "[load]")], 2,
+     "wrong.toml:21: load: { f = 'y > 0 ? 1 : -1', name = 'opening' } is no list of tables; write "
+     "[[load]] above each of them"),
+    ([(F + "\n", "")], 2,
+     "wrong.toml:21: load.0.f: missing; write a number, an expression in x and y in quotes, {region = "
+     'number} or {file = "f.h5", dataset = "/f", per = "triangle"}'),
+    ([('name = "opening"\n', "")], 2,
+     "wrong.toml:21: load.0.name: missing; give the load case a name"),
+    ([('"opening"', '"a/b"')], 2,
+     "wrong.toml:22: load.0.name: \"a/b\" is no name of a load case: use 1 to 64 letters, digits, '_', "
+     "'.', '-' and spaces, a letter or digit first"),
+    (more('[[load]]\nname = "opening"\nf = 1'), 2,
+     'wrong.toml:26: load.1.name: two load cases are named "opening": give each its own name'),
+    ([("y > 0 ? 1 : -1", "y > 0 ? 1 :")], 2,
+     'wrong.toml:23: load.0.f: the expression "y > 0 ? 1 :" cannot be read: Unexpected end of '
+     "expression at position 12 (symbols are x, y, _pi, _e)"),
+    ([("y > 0 ? 1 : -1", "sine(x)")], 2,
+     'wrong.toml:23: load.0.f: the expression "sine(x)" cannot be read: Unexpected token "sine" found '
+     "at position 0. (symbols are x, y, _pi, _e)"),
+    ([("y > 0 ? 1 : -1", "1 / (x - x)")], 1,
+     'jobs/ID failed: wrong.toml:23: load.0.f: load case "opening": the expression has the value inf '
+     "at (x, y) = (X, Y); it must be finite wherever the "
+     "membrane is"),
+    ([(F, "f = { topp = 1 }"), *more('[[geometry.region]]\nname = "top"\nat = [0, 0.5]')], 1,
+     'jobs/ID failed: wrong.toml:27: load.0.f: load case "opening": the mesh has no subdomain "topp"; '
+     'it has "omega1", "top"'),
+    ([(F, "inclusion_forces = { fibr = 1 }")], 1,
+     'jobs/ID failed: wrong.toml:23: load.0.inclusion_forces.fibr: load case "opening": the mesh has '
+     'no inclusion "fibr"; it has "fibre"'),
+    ([(F, "point_forces = [{ at = [3, 3], value = 1 }]")], 1,
+     'jobs/ID failed: wrong.toml:23: load.0.point_forces.0.at: load case "opening": the point (3, 3) '
+     "is outside the membrane: move it inside"),
+    ([(F, "point_forces = [{ at = [0.2, 0.3] }]")], 2,
+     "wrong.toml:23: load.0.point_forces.0.value: missing; write the force, a number"),
+    ([(F, 'f = { file = "no.h5", dataset = "/vector", per = "node" }')], 2,
+     "wrong.toml:23: load.0.f: no.h5: no such file; name a one-dimensional dataset of float64 in an "
+     "HDF5 file"),
+    ([(F, 'f = { file = "plain.h5", dataset = "/vectr", per = "node" }')], 2,
+     'wrong.toml:23: load.0.f: plain.h5: "vectr" is missing, there is matrix, named, vector, wide; '
+     "name a one-dimensional dataset of float64 in an HDF5 file"),
+    ([(F, 'f = { file = "plain.h5", dataset = "/vector", per = "nodes" }')], 2,
+     "wrong.toml:23: load.0.f.per: 'nodes' is not possible; did you mean node?"),
+    ([(F, 'f = { file = "plain.h5", dataset = "/vector", per = "node" }')], 1,
+     'jobs/ID failed: wrong.toml:23: load.0.f: load case "opening": the array of the force has 3 '
+     "values, but the mesh has 31 nodes: give one value for each, in the order of ReadMesh"),
+    ([(F, F + '\nboundary_value = "q"')], 2,
+     'wrong.toml:24: load.0.boundary_value: the expression "q" cannot be read: Unexpected token "q" '
+     "found at position 0. (symbols are x, y, _pi, _e)"),
+]
+
+
+def changed(edits):
+    """The text of GOOD with the edits."""
+    text = GOOD
+    for old, new in edits:
+        if text.count(old) != 1:
+            raise ValueError(f"{old!r} is there {text.count(old)} times")
+        text = text.replace(old, new)
+    return text

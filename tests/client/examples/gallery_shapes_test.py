@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The cases of the gallery beyond the paper's."""
+import csv
+import math
+
+import numpy
+
+import slit_series
+from gallery import LIMITS, GalleryTest, rectangle
+
+
+def sheared_fibre(angle, a):
+    """Contact length and A of a delaminated fibre (-a, a), its plus side above, in a plate without end that is sheared
+    at an angle between 90 and 270 degrees. As in test_partly_delaminated, with the open arc from the right tip to
+    -b, where the faces begin to touch: no singularity there (and no resultant) asks for b = 4/3 (270 degrees - angle);
+    all of it is open up to 135 degrees."""
+    if angle <= math.radians(135.01):
+        return 0, a / 2 * math.sin(angle)
+    b = 4 / 3 * (math.radians(270) - angle)
+    return a * (1 + math.cos(b)), a / 2 * math.sin(b / 4) * (1 - math.cos(b / 2))
+
+
+class Shapes(GalleryTest):
+    def test_several_inclusions(self):
+        answers = self.follow_one("several-inclusions")
+        long, short = ([answers.displacement(load, i) for load in ("opening", "pulled")] for i in (0, 1))
+        for value, fine in ((long[0], 0.008669), (short[0], 0.030122), (long[1], 0.053379), (short[1], -0.015493)):
+            self.assert_close(value, fine, 6e-3)  # against 1.2 million triangles
+        self.assertEqual(answers.loads["opening"]["contact_length"], 0)
+        self.assertAlmostEqual(answers.loads["pulled"]["contact_length"], 0.4, delta=1e-9)
+        self.assert_close(answers.loads["pulled"]["energy"], -(0.2 * long[1] - 0.1 * short[1]) / 2, 1e-10)
+        for load in ("opening", "pulled"):
+            self.assert_balanced(answers, load)
+        self.assert_told(("0.0086", long[0]), ("0.0300", short[0]), ("0.0533", long[1]), ("-0.0155", short[1]),
+                         ("-0.0061", answers.loads["pulled"]["energy"]))
+        self.assertEqual(len(list((self.folder / "paraview").glob("*.vtu"))), 4)
+
+    def test_partly_delaminated(self):
+        answers = self.follow_one("partly-delaminated")
+        # For a plate without end; this one is sixteen half lengths wide. Outside the fibre z = (a/2)(zeta + 1/zeta),
+        # |zeta| > 1, and u = Re F with F = (q + conj(q)/zeta) sqrt((zeta - e^ib)(zeta - e^ic)): u is 0 on the arcs
+        # of the held faces, du/dn is 0 on the delaminated arc between b and c, and q is such that F ~ -i z.
+        a = 0.5
+        self.assert_close(answers.displacement("opening"), a / 4 * (math.sqrt(2) - 1), 0.01)
+        traces = answers.traces("opening")
+        exact = [a * math.cos(t / 2 - math.pi / 8) * math.sqrt(max(0, 2 * math.cos(t - 3 * math.pi / 4) - math.sqrt(2)))
+                 for t in numpy.arccos(numpy.clip(traces["x"] / a, -1, 1))]
+        self.assertLess(numpy.abs(traces["jump"] - exact).max(), 0.003)
+        self.assert_told(("0.0518", a / 4 * (math.sqrt(2) - 1)), ("0.0513", answers.displacement("opening")),
+                         ("0.286", max(exact)), ("0.284", answers.opens("opening")[0]))
+        self.assertAlmostEqual(answers.displacement("closing"), 0, delta=1e-11)
+        closed = answers.traces("closing")
+        self.assertAlmostEqual(answers.loads["closing"]["contact_length"], 0.5, delta=1e-9)
+        within = (closed["x"] > -0.45) & (closed["x"] < -0.05)
+        self.assertLess(numpy.abs(closed["pressure"][within] - 1).max(), 1e-9)
+        self.assert_close(answers.loads["closing"]["energy"], 32, 1e-12)
+        self.assert_balanced(answers, "opening", +1)
+        self.assert_figures("opening", "closing")
+
+    def test_slit(self):
+        answers = self.follow_one("slit")
+        opening = slit_series.opening()
+        half, shut = slit_series.half_open()
+        self.assert_close(answers.opens("opening")[0], opening.jump, 1e-3)
+        self.assert_close(answers.opens("half")[0], half.jump, 3e-3)
+        for load, exact in (("opening", opening.energy), ("half", half.energy)):
+            self.assert_close(answers.loads[load]["energy"], exact, 0.01)
+            self.assert_balanced(answers, load)
+        self.assert_told(("0.4138", opening.jump), ("0.4135", answers.opens("opening")[0]), ("-0.1873", opening.energy),
+                         ("-0.1865", answers.loads["opening"]["energy"]), ("0.1392", half.jump),
+                         ("0.1389", answers.opens("half")[0]), ("0.372", shut),
+                         ("0.41", answers.loads["half"]["contact_length"]))
+        # the last node with pressure, half an edge of 0.0625 added
+        self.assertAlmostEqual(answers.loads["half"]["contact_length"], shut, delta=0.04)
+
+    def test_shear(self):
+        answers = self.follow_one("shear")
+        # Tada, Paris, Irwin: a row of cracks at distance 2w; c makes u what it is on the edges, y = H
+        w, height, a = 1, 3, 0.25
+        c = height / (height - 2 * w / math.pi * math.log(math.cos(math.pi * a / (2 * w))))
+        exact = c * 4 * w / math.pi * math.acosh(1 / math.cos(math.pi * a / (2 * w)))
+        self.assert_close(answers.opens("opening")[0], exact, 6e-3)
+        self.assert_told(("0.5026", answers.opens("opening")[0]), ("0.5049", exact))
+        self.assertEqual(answers.loads["opening"]["contact_length"], 0)
+        self.assert_balanced(answers, "opening", +1)
+        self.assert_close(answers.loads["closing"]["energy"], 6, 1e-12)  # u = -y on an area of 12
+        self.assertAlmostEqual(answers.loads["closing"]["contact_length"], 2 * a, delta=1e-9)
+        self.assert_figures("opening", "closing")
+
+    def test_arc(self):
+        answers = self.follow_one("arc")
+        self.assert_close(answers.opens("opening")[0], 0.1837, 0.01)  # on 632,828 triangles
+        self.assert_close(answers.loads["opening"]["energy"], -0.142955, 0.01)
+        self.assertEqual(answers.loads["opening"]["contact_length"], 0)
+        self.assert_balanced(answers, "opening")
+        self.assert_close(answers.displacement("drop"), -0.035344, 0.005)
+        self.assert_close(answers.loads["drop"]["contact_length"], 1.25 * math.asin(0.6), 1e-3)
+        self.assert_told(("0.182", answers.opens("opening")[0]), ("-0.1423", answers.loads["opening"]["energy"]),
+                         ("-0.0353", answers.displacement("drop")), ("0.80438", 1.25 * math.asin(0.6)),
+                         ("0.8040", answers.loads["drop"]["contact_length"]))
+        self.assert_figures("opening", "drop")
+
+    def test_floating(self):
+        answers = self.follow_one("floating")
+        for load, fine in (("pressed", -0.186898), ("pulled", -0.022985)):
+            self.assert_close(answers.loads[load]["energy"], fine, 0.0105)  # on 458,170 triangles
+            self.assert_balanced(answers, load)
+        self.assertEqual(answers.loads["pressed"]["contact_length"], 0)
+        self.assertAlmostEqual(answers.loads["pulled"]["contact_length"], 0.2, delta=0.03)
+        self.assert_told(("0.650", answers.opens("pressed")[0]), ("-0.1850", answers.loads["pressed"]["energy"]),
+                         ("-0.0228", answers.loads["pulled"]["energy"]),
+                         ("0.20", answers.loads["pulled"]["contact_length"]))
+
+    def test_plate(self):
+        answers = self.follow_one("plate")
+        r_squared = 0.0625
+        self.assertAlmostEqual(answers.displacement("closing"), 0, delta=1e-5)
+        self.assertAlmostEqual(answers.loads["closing"]["contact_length"], 0.4, delta=1e-9)
+        for _, _, points, u, _ in answers.fields("closing"):
+            exact = -points[:, 1] * (1 + r_squared / (points ** 2).sum(axis=1))
+            self.assertLess(numpy.abs(u - exact).max(), 5e-3)  # the hole is a polygon, its edges 0.04 long
+        (fibre,) = (i for i in answers.file["interfaces"] if 0.6 < answers.traces("closing", i)["x"].max() and
+                    answers.traces("closing", i)["contact"].any())
+        traces = answers.traces("closing", fibre)
+        within = (traces["x"] > 0.55) & (traces["x"] < 0.85)
+        self.assertGreater(within.sum(), 3)
+        ratio = traces["pressure"][within] / (1 + r_squared / traces["x"][within] ** 2)
+        self.assertLess(numpy.abs(ratio - 1).max(), 5e-3)
+        self.assert_close(answers.loads["closing"]["energy"], 1.99498, 2e-3)
+        self.assert_told(("1.9967", answers.loads["closing"]["energy"]), ("1.9950", 1.99498),
+                         ("0.1048", answers.displacement("opening")))
+        self.assert_close(answers.displacement("opening"), 0.105502, 0.01)  # on 164,182 triangles
+        self.assert_balanced(answers, "opening", +1)
+        self.assertEqual({path.suffix for path in self.figures.iterdir()}, {".png", ".svg"})
+
+    def test_load_angle(self):
+        answers = self.follow("load-angle")["angles.h5"]
+        with open(self.folder / "angles.csv", encoding="utf-8") as text:
+            rows = list(csv.DictReader(text))
+        self.assertEqual(len(rows), 73)
+        sweep = answers.file["sweep"]
+        self.assertEqual(sweep["displacement"].shape, (73, 1))
+        for k, row in enumerate(rows):
+            self.assertEqual((int(row["row"]), row["status"]), (k, "converged"))
+            angle = math.radians(5 * k)
+            self.assertAlmostEqual(float(row["along"]), math.cos(angle), delta=1e-12)
+            self.assertAlmostEqual(float(row["across"]), math.sin(angle), delta=1e-12)
+            self.assertEqual(float(row["A"]), sweep["displacement"][k, 0])
+            self.assertEqual(float(row["contact_length"]), sweep["contact_length"][k])
+            mirrored = (math.pi - angle) % (2 * math.pi)
+            contact, moved = sheared_fibre(angle if 18 <= k <= 54 else mirrored, 0.5)
+            self.assertAlmostEqual(float(row["contact_length"]), contact, delta=0.03, msg=row)  # nodes lie 0.03 apart
+            self.assertAlmostEqual(float(row["A"]), moved, delta=0.004, msg=row)
+        # at 180 degrees from the left tip, at 0 degrees from the right one
+        x = answers.file["interfaces/0/x"][:][sweep["contact_nodes"][:, 1]]
+        self.assertAlmostEqual(x[sweep["contact"][36] == 1].max(), -0.25, delta=0.05)
+        self.assertAlmostEqual(x[sweep["contact"][0] == 1].min(), 0.25, delta=0.05)
+        self.assertAlmostEqual(float(rows[54]["A"]), 0, delta=1e-11)
+        self.assertAlmostEqual(float(rows[54]["energy"]), 32, delta=1e-9)
+        self.assert_figures("sweep", "sweep-contact")
+
+    def test_load_ratio(self):
+        answers = self.follow("load-ratio")["load-ratio.h5"]
+        sweep = {name: values[:] for name, values in answers.file["sweep"].items() if values.ndim > 0}
+        c = sweep["coefficients"][:, 1]
+        self.assertEqual(len(c), 81)
+        moved, contact = sweep["displacement"][:, 0], sweep["contact_length"]
+        # shut: both loads are odd in y, so u = 0 on y = 0; skew is 1 and -1 on two unit squares
+        squares = 2 * 0.0351443
+        self.assertLess(numpy.abs(moved[c < -0.81]).max(), 1e-5)
+        self.assertGreater(contact[c < -0.81].min(), 1 - 1e-6)
+        self.assert_close(sweep["energy"][0], -(squares + rectangle()), 0.01)
+        # open: A goes with c like that of Example 3
+        self.assertEqual(contact[c > 0.29].max(), 0)
+        self.assertGreater(contact[c < 0.28].min(), 0.05)
+        self.assert_close((moved[80] - moved[60]) / 0.5, LIMITS["example-3"][0], 0.006)
+        self.assert_told(("0.357", contact[40]), ("0.1033", (moved[80] - moved[60]) / 0.5),
+                         ("0.10382", LIMITS["example-3"][0]))
+        # between them: Example 2
+        self.assert_close(moved[40], LIMITS["example-2"][0], 0.006)
+        self.assertEqual([name for name in answers.file["loads"]], ["row-0", "row-40", "row-80"])
+        self.assert_figures("sweep", "sweep-contact", "row-40-traces")

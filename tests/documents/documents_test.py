@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the documents say, tried: every command of their shell blocks is typed as it stands, every case is
+solved, every link and every name of the code leads somewhere.
+
+In a document `jobs/ID` and `meshes/ID` stand for the last one that a command printed, `exit code N` in the
+comment of a command for how it ends (0 otherwise)."""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+from processes import FolderTest
+
+PROJECT = pathlib.Path(os.environ["PROJECT"])
+BIN = pathlib.Path(os.environ["BIN"])
+DOCUMENTS = [PROJECT / "README.md", *sorted(document for folder in ("client", "server", "proto", "deploy", "tests")
+                                            for document in (PROJECT / folder).rglob("*.md"))]
+BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.M | re.S)
+
+# Commands that build, install or want root: what runs them instead.
+ELSEWHERE = {
+    "./deploy/quickstart": ".ci/run",
+    "./deploy/test": ".ci/run",
+}
+
+# One command after another in one shell, so that export, cd and & mean what they mean for who types them.
+SHELL = r"""
+step() {  # exit code wanted, command
+  local wanted=$1 text=$2 kind
+  for kind in jobs meshes; do
+    text=${text//$kind\/ID/$(grep -ohE "$kind/[0-9a-f-]{16,}" "$OUTPUT" | tail -n 1)}
+  done
+  echo "\$ $text" >>"$OUTPUT"
+  eval "$text" >>"$OUTPUT" 2>&1
+  local code=$?
+  [ "$code" = "$wanted" ] || { tail -n 20 "$OUTPUT" >&2; echo "exit code $code, not $wanted: $text" >&2; exit 1; }
+  case $text in *"&") until [ -S "$SOCKET" ]; do kill -0 $! || exit 1; sleep 0.02; done ;; esac
+}
+trap 'kill $(jobs -p) 2>/dev/null; wait' EXIT
+touch "$OUTPUT"
+"""
+
+
+def quoted(text):
+    return "'" + text.replace("'", "'\\''") + "'"
+
+
+def commands(block):
+    """Of a shell block: (command, comment) of each."""
+    for line in block.replace("\\\n", " ").splitlines():
+        command, _, comment = re.sub(r"\s+#\s", "\0", line, count=1).partition("\0")
+        if command.strip() and not command.startswith("#"):
+            yield command.strip(), comment
+
+
+class Commands(FolderTest):
+    """One test a document, made below."""
+    maxDiff = None
+
+    def try_document(self, document):
+        project = self.folder / "project"
+        programs = project / "build/release/bin"
+        programs.mkdir(parents=True)
+        for entry in PROJECT.iterdir():
+            if entry.name not in ("build", "results", ".git"):
+                (project / entry.name).symlink_to(entry)
+        for name in ("anticrack", "anticrack-mesher"):
+            (programs / name).symlink_to(BIN / name)
+        socket = self.folder / "socket"  # in place of the port that everybody's server has
+        daemon = programs / "anticrackd"
+        daemon.write_text(f'#!/bin/sh\nexec {BIN}/anticrackd "$@" --listen unix:{socket}\n', encoding="utf-8")
+        daemon.chmod(0o755)
+
+        script = [SHELL]
+        for kind, block in BLOCK.findall(document.read_text(encoding="utf-8")):
+            if kind == "sh":
+                for command, comment in commands(block):
+                    if not any(command.startswith(name) for name in ELSEWHERE):
+                        code = re.search(r"exit code (\d+)", comment)
+                        script.append(f"step {code.group(1) if code else 0} {quoted(command)}")
+            elif kind == "python":
+                script.append(f"step 0 {quoted(sys.executable + ' -c ' + quoted(block))}")
+            elif kind == "toml" and "[geometry]" in block:
+                (project / "case.toml").write_text(block, encoding="utf-8")
+                script.append("step 0 'anticrack --local run case.toml -o case.h5'")
+        environment = {"HOME": str(self.folder), "OUTPUT": str(self.folder / "output"), "SOCKET": str(socket),
+                       "ANTICRACK_SERVER": f"unix:{socket}", "PATH": os.environ["PATH"], "LC_ALL": "C.UTF-8"}
+        if document != PROJECT / "README.md":  # which says how to set it
+            environment["PATH"] = f"{programs}:{environment['PATH']}"
+        ended = subprocess.run(["bash", "-c", "\n".join(script)], cwd=project, env=environment, text=True,
+                               capture_output=True, check=False)
+        self.assertEqual((ended.returncode, ended.stderr), (0, ""))
+
+
+def of(document):
+    return lambda test: test.try_document(document)
+
+
+for each in DOCUMENTS:
+    name = "_".join(each.relative_to(PROJECT).with_suffix("").parts).replace("-", "_").lower()
+    setattr(Commands, f"test_{name}", of(each))
+
+
+class Words(FolderTest):
+    def test_what_is_run_elsewhere_is_run_there(self):
+        for command, place in ELSEWHERE.items():
+            self.assertIn(command.removeprefix("./"), (PROJECT / place).read_text(encoding="utf-8"))
+
+    def test_links_lead_somewhere(self):
+        for document in DOCUMENTS:
+            for target in re.findall(r"\]\(([^)#\s]+)", document.read_text(encoding="utf-8")):
+                if "://" not in target:
+                    self.assertTrue((document.parent / target).exists(), f"{document}: {target}")
+
+    def test_files_that_are_named_exist(self):
+        """`folder/name` in code spans: from the project's folder, from the document's, or below server/."""
+        for document in DOCUMENTS:
+            for path in re.findall(r"`([\w.-]+(?:/[\w.-]+)+)/?`", document.read_text(encoding="utf-8")):
+                folders = (PROJECT, document.parent, PROJECT / "server", PROJECT / "build/release")
+                if not (PROJECT / path.split("/")[0]).is_dir() and not (PROJECT / "server" / path.split("/")[0]).is_dir():
+                    continue  # not of ours, such as application/json
+                self.assertTrue(any(list(folder.glob(path)) + list(folder.glob(path + ".*")) for folder in folders),
+                                f"{document}: {path}")
+
+    def test_names_of_the_code_exist(self):
+        """`folder::Type` and `folder::Type::member`: the words stand in a header of server/folder."""
+        for document in DOCUMENTS:
+            for words in re.findall(r"`((?:\w+::)+\w+)`", document.read_text(encoding="utf-8")):
+                folder, *names = words.split("::")
+                headers = "\n".join(header.read_text(encoding="utf-8") for root in ("server", "client")
+                                    for header in (PROJECT / root / folder).glob("*.hpp"))
+                for word in names:
+                    self.assertRegex(headers, rf"\b{word}\b", f"{document}: {words}")
