@@ -185,6 +185,7 @@ std::vector<std::string> case_lines(const JobProgress& progress, std::size_t wid
   const auto shown = shown_cases(progress, all ? height : height - 1);
   const Layout layout = layout_of(progress, shown, width);
   std::vector<std::string> lines;
+  lines.reserve(shown.size() + 1);
   for (const std::size_t i : shown) {
     lines.push_back(case_line(progress, progress.cases[i], layout, width));
   }

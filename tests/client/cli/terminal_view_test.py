@@ -6,7 +6,6 @@ import os
 import pathlib
 import re
 import shlex
-import subprocess
 
 from processes import ANTICRACK, Daemon, FolderTest, run
 from terminals import Terminal
@@ -157,7 +156,7 @@ class TerminalView(FolderTest):
             self.assertNotIn("attach", terminal.text())
 
     def test_a_server_that_crashes_under_the_watch_is_found_again(self):
-        case = forever("paper-1.toml", iterations=300_000)
+        case = forever("paper-1.toml", iterations=500_000)
         with self.run_case(case) as terminal:
             terminal.wait(iteration)
             self.daemon.kill()
@@ -188,6 +187,15 @@ class TerminalView(FolderTest):
             self.assertEqual(sum(": cancelled, " in row for row in rows), 1, shell.text())
             shell.type("exit 0\n")
             self.assertEqual(shell.end(), 0)
+
+    def test_a_mesh_is_waited_for_on_one_line(self):
+        fine = ("--set", "mesh.preset=uniform", "--set", "mesh.size=0.005")
+        with Terminal(ANTICRACK, "mesh", "create", EXAMPLES / "paper.toml", *fine, "--server",
+                      self.server) as terminal:
+            terminal.wait(lambda rows: len(rows) == 1 and re.fullmatch(r"meshes/\w+: meshing, \d+ s", rows[0]))
+            terminal.type(CTRL_C)
+            self.assertEqual(terminal.end(), 130)
+            self.assertRegex(terminal.text(), r"^meshes/\w+: meshing, \d+ s\nanticrack: interrupted$")
 
     def test_plain_lines_where_no_frames_are_wanted(self):
         case = (EXAMPLES / "paper-1.toml",)

@@ -11,7 +11,7 @@ import time
 
 import pyte
 
-LIMIT = 120  # seconds; only so that a broken test ends
+LIMIT = 240  # seconds; only so that a broken test ends
 
 
 class Screen(pyte.Screen):
