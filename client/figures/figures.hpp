@@ -36,7 +36,8 @@ struct Drawn {
 /// Draws for every load with traces, in each format, in `folder` (made if missing):
 ///   LOAD-membrane     the deformed membrane with its slit open; needs fields
 ///   LOAD-traces       u-, u+ and [u] along each interface, contact shaded
-///   LOAD-convergence  the criterion of every iteration, or the KKT residuals of every step, log
+///   LOAD-convergence  the criterion of every iteration, or the KKT residuals of every step, log;
+///                     not of a single step
 ///   LOAD              membrane left, traces right, as in the paper; 170 mm wide, all else 85 mm
 /// Of a sweep instead:
 ///   sweep             A and the contact length over the rows, or over the coefficient that varies

@@ -19,18 +19,19 @@ struct Style {
   const char* name;   ///< of the data block
   std::string drawn;  ///< gnuplot's `with`
   const char* legend;
+  bool edged = false;  ///< in white, against dense triangles, which are as dark
 };
 
 // Widths and dashes differ as well, for print without colour.
 const Style glue{"glue", "lines linewidth 1.2 linecolor " + blue + " dashtype (6,4)",
                  "glue, u\xE2\x81\xBA = u\xE2\x81\xBB"};
 const Style crack{"crack", "lines linewidth 2.5 linecolor " + crack_colour + " dashtype solid",
-                  "crack, [u] \xE2\x89\xA5 0"};
+                  "crack, [u] \xE2\x89\xA5 0", true};
 const Style bonded{"bonded", "lines linewidth 3.5 linecolor " + bonded_colour + " dashtype solid",
-                   "bonded inclusion"};
+                   "bonded inclusion", true};
 const Style delaminated{"delaminated",
                         "lines linewidth 3.5 linecolor " + delaminated_colour + " dashtype solid",
-                        "delaminated inclusion"};
+                        "delaminated inclusion", true};
 const Style dirichlet{"dirichlet", "lines linewidth 1.8 linecolor rgb '#444444' dashtype solid",
                       "u given"};
 const Style neumann{"neumann", "lines linewidth 2.5 linecolor " + green + " dashtype (2,2)",
@@ -161,7 +162,12 @@ std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const P
     plots += data + "lines linewidth 0.3 linecolor rgb '#A8A8A8' notitle";
   }
   for (const auto& [style, stretches] : line_layers(layers)) {
-    if (!stretches->empty()) plots += drawn_data(style, panel.tag);
+    if (stretches->empty()) continue;
+    if (style.edged) {
+      plots += std::string(", $") + style.name + panel.tag +
+               " using 1:2 with lines linewidth 5 linecolor rgb '#FFFFFF' notitle";
+    }
+    plots += drawn_data(style, panel.tag);
   }
   if (!layers.tips.empty()) plots += drawn_data(tips, panel.tag);
   return text + plots + "\nunset label\nunset arrow\n";
