@@ -84,8 +84,12 @@ class Commands(FolderTest):
             elif kind == "toml" and "[geometry]" in block:
                 (project / "case.toml").write_text(block, encoding="utf-8")
                 script.append("step 0 'anticrack --local run case.toml -o case.h5'")
+        debian = self.folder / "debian"  # whose Python has the packages that the documents name
+        debian.mkdir()
+        (debian / "python3").symlink_to(sys.executable)
         environment = {"HOME": str(self.folder), "OUTPUT": str(self.folder / "output"), "SOCKET": str(socket),
-                       "ANTICRACK_SERVER": f"unix:{socket}", "PATH": os.environ["PATH"], "LC_ALL": "C.UTF-8"}
+                       "ANTICRACK_SERVER": f"unix:{socket}", "PATH": f"{debian}:{os.environ['PATH']}",
+                       "LC_ALL": "C.UTF-8"}
         if document != PROJECT / "README.md":  # which says how to set it
             environment["PATH"] = f"{programs}:{environment['PATH']}"
         ended = subprocess.run(["bash", "-c", "\n".join(script)], cwd=project, env=environment, text=True,
