@@ -98,7 +98,7 @@ std::string axis_range(char axis, const Range& range, int most, double step) {
     shown = {middle - half, middle + half};
   }
   return std::string("set ") + axis + "range [" + number(shown.low) + ":" + number(shown.high) +
-         "]\nset " + axis + "tics " + number(std::max(step, label_step(shown, most))) + "\n";
+         "]\nset " + axis + "tics " + number(step > 0 ? step : label_step(shown, most)) + "\n";
 }
 
 }  // namespace anticrack::figures

@@ -79,8 +79,8 @@ class Scale {
   int _exponent = 0;
 };
 
-/// `set xrange` or `set yrange`, with labels at least a round `step` apart; of a range without
-/// extent, one around it.
+/// `set xrange` or `set yrange`, with labels `step` apart, 0: at a round distance that leaves at
+/// most about `most` of them; of a range without extent, one around it.
 std::string axis_range(char axis, const Range& range, int most = 6, double step = 0);
 
 }  // namespace anticrack::figures

@@ -148,7 +148,7 @@ std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const P
   std::string text = margins(window, place, height) + axes();
   text += "unset key\nset border 0\nunset grid\nset tics out\n";
   // A short side has no room for as many labels.
-  const double step = label_step({0, std::max(window.width(), window.height())}, 6);
+  const double step = label_step({0, std::max(window.width(), window.height())}, 5);
   text += axis_range('x', {window.x_min, window.x_max}, 5, step);
   text += axis_range('y', {window.y_min, window.y_max}, 5, step);
   text += below("'x [-]'", 0.02, place) + beside("'y [-]'", place) + caption(panel.caption, place);

@@ -60,15 +60,15 @@ std::string counted_rows(const Sweep& sweep) {
   return text;
 }
 
-/// Rows next to each other on the axis of a coefficient differ by little: a curve joins them.
+/// Rows next to each other on the axis of a parameter differ by little: a curve joins them.
 std::string drawn_as(const SweepAxis& axis, const CurveStyle& style) {
   constexpr std::size_t few = 60;
-  const bool points = !axis.is_coefficient || axis.order.size() <= few;
-  std::string text = axis.is_coefficient ? (points ? " with linespoints" : " with lines")
-                                         : std::string(" with points");
+  const bool points = !axis.joined() || axis.order.size() <= few;
+  std::string text =
+      axis.joined() ? (points ? " with linespoints" : " with lines") : std::string(" with points");
   if (points)
     text += " pointtype 7 pointsize " + std::string(axis.order.size() <= few ? "0.4" : "0.2");
-  if (axis.is_coefficient) text += " linewidth 1.5 dashtype " + std::string(style.dash);
+  if (axis.joined()) text += " linewidth 1.5 dashtype " + std::string(style.dash);
   return text + " linecolor rgb '" + style.colour + "'";
 }
 
@@ -80,9 +80,17 @@ Range extent(const SweepAxis& axis) {
   return low < high ? Range{low, high} : Range{low - 0.5, low + 0.5};
 }
 
-/// Rows have whole numbers.
-double least_step(const SweepAxis& axis) {
-  return axis.is_coefficient ? 0 : 1;
+/// Between labels of the axis, at most six of them: rows have whole numbers, a turn has quarters.
+double step_of(const SweepAxis& axis) {
+  constexpr int most = 6;
+  const double round = label_step(extent(axis), most);
+  if (axis.parameter == SweepAxis::Parameter::row) return std::max(1.0, round);
+  if (axis.parameter == SweepAxis::Parameter::angle) {
+    for (const double step : {5.0, 15.0, 30.0, 45.0, 90.0}) {
+      if (extent(axis).size() <= most * step && extent(axis).size() > step) return step;
+    }
+  }
+  return round;
 }
 
 /// With some room around the curves.
@@ -97,7 +105,7 @@ std::string axis_label(const SweepAxis& axis) {
 
 std::string panel(const SweepAxis& axis, const std::string& label, const Range& heights,
                   const Scale& scale, const std::string& plots, const Place& place) {
-  return axis_range('x', extent(axis), 6, least_step(axis)) +
+  return axis_range('x', extent(axis), 6, step_of(axis)) +
          axis_range('y', scale.drawn(heights), 8) +
          beside(figures::quoted(label + " " + scale.unit()), place) + "plot " + plots +
          "\nunset label\n";
@@ -201,7 +209,7 @@ std::string contact_script(const Result& result, const SweepAxis& axis, const Co
       [&](Format, const Place& place) {
         std::string text = margins(place, 0.25, 0.905) + axes();
         text += caption("where " + where + " is closed,  " + counted_rows(*result.sweep), place);
-        text += axis_range('x', along) + axis_range('y', rows, 6, least_step(axis));
+        text += axis_range('x', along) + axis_range('y', rows, 6, step_of(axis));
         text += below(figures::quoted(map.position_label), 0.115, place);
         text += beside(axis_label(axis), place);
         text += "unset grid\nset tics out\nunset colorbox\n";

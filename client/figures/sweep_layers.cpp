@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "figures/profile.hpp"
@@ -20,20 +20,42 @@ bool converged(const Sweep& sweep, std::size_t row) {
   return sweep.status[row] == static_cast<std::int32_t>(results::Status::converged);
 }
 
-/// The only column of the coefficients that is not constant.
-std::optional<std::size_t> varying_column(const Sweep& sweep) {
-  if (sweep.coefficients.empty()) return std::nullopt;
+/// The columns of the coefficients that are not constant.
+std::vector<std::size_t> varying_columns(const Sweep& sweep) {
+  std::vector<std::size_t> found;
+  if (sweep.coefficients.empty()) return found;
   const std::size_t columns = sweep.loads.size();
-  std::optional<std::size_t> found;
   for (std::size_t j = 0; j < columns; ++j) {
     bool varies = false;
     for (std::size_t row = 1; row < sweep.rows() && !varies; ++row) {
       varies = sweep.coefficients[row * columns + j] != sweep.coefficients[j];
     }
-    if (varies && found) return std::nullopt;
-    if (varies) found = j;
+    if (varies) found.push_back(j);
   }
   return found;
+}
+
+/// Degrees from the first of two columns to the second, of rows that lie on a circle around 0; each
+/// less than half a turn from the row before if that makes a turn in all, else from -180 to 180.
+/// Empty where they do not.
+std::vector<double> angles(const Sweep& sweep, std::size_t first, std::size_t second) {
+  constexpr double turn = 360;
+  constexpr double rounding = 1e-6;  // of coefficients that were written with six digits
+  const auto at = [&](std::size_t row, std::size_t column) {
+    return sweep.coefficients[row * sweep.loads.size() + column];
+  };
+  const double radius = std::hypot(at(0, first), at(0, second));
+  std::vector<double> plain, continued;
+  for (std::size_t row = 0; row < sweep.rows(); ++row) {
+    const double x = at(row, first), y = at(row, second);
+    if (!(std::abs(std::hypot(x, y) - radius) <= rounding * radius)) return {};
+    const double angle = std::atan2(y, x) * turn / 2 / std::numbers::pi;
+    plain.push_back(angle);
+    const double before = continued.empty() ? angle : continued.back();
+    continued.push_back(angle + turn * std::round((before - angle) / turn));
+  }
+  const auto [least, greatest] = std::minmax_element(continued.begin(), continued.end());
+  return *greatest - *least <= turn * (1 + rounding) ? continued : plain;
 }
 
 /// First and last entry of strip `index` of `count` strips over `size` entries.
@@ -100,22 +122,29 @@ void add_boxes(const std::vector<Cell>& cells, const std::vector<double>& parts,
 }  // namespace
 
 SweepAxis sweep_axis(const Sweep& sweep) {
-  SweepAxis axis;
-  const std::size_t rows = sweep.rows();
-  axis.position.resize(rows);
-  axis.order.resize(rows);
+  using Parameter = SweepAxis::Parameter;
+  SweepAxis axis{"row", Parameter::row, std::vector<double>(sweep.rows()), {}};
+  const std::vector<std::size_t> varying = varying_columns(sweep);
+  const auto name = [&](std::size_t i, std::size_t room) {
+    return shortened(sweep.loads[varying[i]], room);
+  };
+  std::iota(axis.position.begin(), axis.position.end(), 0.0);
+  if (varying.size() == 1) {
+    axis.label = "coefficient of " + name(0, 20) + " [-]";
+    axis.parameter = Parameter::coefficient;
+    for (std::size_t row = 0; row < sweep.rows(); ++row) {
+      axis.position[row] = sweep.coefficients[row * sweep.loads.size() + varying[0]];
+    }
+  } else if (varying.size() == 2) {
+    std::vector<double> degrees = angles(sweep, varying[0], varying[1]);
+    if (!degrees.empty()) {
+      axis.label = "angle from " + name(0, 10) + " to " + name(1, 10) + " [°]";
+      axis.parameter = Parameter::angle;
+      axis.position = std::move(degrees);
+    }
+  }
+  axis.order.resize(sweep.rows());
   std::iota(axis.order.begin(), axis.order.end(), std::size_t{0});
-  const std::optional<std::size_t> column = varying_column(sweep);
-  if (!column) {
-    axis.label = "row";
-    std::iota(axis.position.begin(), axis.position.end(), 0.0);
-    return axis;
-  }
-  axis.label = "coefficient of " + shortened(sweep.loads[*column], 20) + " [-]";
-  axis.is_coefficient = true;
-  for (std::size_t row = 0; row < rows; ++row) {
-    axis.position[row] = sweep.coefficients[row * sweep.loads.size() + *column];
-  }
   std::stable_sort(axis.order.begin(), axis.order.end(), [&](std::size_t a, std::size_t b) {
     return axis.position[a] < axis.position[b];
   });

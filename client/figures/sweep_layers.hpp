@@ -12,13 +12,18 @@
 
 namespace anticrack::figures {
 
-/// What the rows are drawn over: the coefficient that varies where exactly one does, else their
-/// numbers.
+/// What the rows are drawn over: the coefficient that varies where exactly one does; where two do,
+/// on a circle around 0, their angle in degrees; else the numbers of the rows.
 struct SweepAxis {
-  std::string label;               ///< "row", or "coefficient of shear [-]"
-  bool is_coefficient = false;     ///< then neighbours belong together, and a curve may join them
+  enum class Parameter { row, coefficient, angle };
+
+  std::string label;  ///< "row", "coefficient of shear [-]", "angle from pull to shear [°]"
+  Parameter parameter = Parameter::row;
   std::vector<double> position;    ///< (rows)
   std::vector<std::size_t> order;  ///< rows by position, increasing
+
+  /// Whether neighbours belong together, so that a curve may join them.
+  bool joined() const noexcept { return parameter != Parameter::row; }
 };
 
 /// O(rows log rows).

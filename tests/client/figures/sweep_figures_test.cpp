@@ -18,6 +18,7 @@ namespace {
 
 using anticrack::testing::sample_sweep;
 using anticrack::testing::TemporaryFolder;
+using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -30,7 +31,7 @@ TEST(SweepAxis, IsTheCoefficientThatVaries) {
   result.sweep->coefficients = {1, 0.5, 1, -2, 1, 3};
   const SweepAxis axis = sweep_axis(*result.sweep);
   EXPECT_EQ(axis.label, "coefficient of opening [-]");
-  EXPECT_TRUE(axis.is_coefficient);
+  EXPECT_TRUE(axis.joined());
   EXPECT_THAT(axis.position, ElementsAre(0.5, -2, 3));
   EXPECT_THAT(axis.order, ElementsAre(1, 0, 2));
 }
@@ -42,9 +43,27 @@ TEST(SweepAxis, IsTheRowWhereSeveralVaryOrNone) {
     result.sweep->coefficients = coefficients;
     const SweepAxis axis = sweep_axis(*result.sweep);
     EXPECT_EQ(axis.label, "row");
-    EXPECT_FALSE(axis.is_coefficient);
+    EXPECT_FALSE(axis.joined());
     EXPECT_THAT(axis.position, ElementsAre(0, 1, 2));
   }
+}
+
+TEST(SweepAxis, IsTheAngleOfTwoThatGoRoundACircle) {
+  results::Result result = sample_sweep(5);
+  result.sweep->coefficients = {2, 0, 0, 2, -2, 0, 0, -2, 2, 0};
+  const SweepAxis turn = sweep_axis(*result.sweep);
+  EXPECT_EQ(turn.label, "angle from skew to opening [°]");
+  EXPECT_TRUE(turn.joined());
+  EXPECT_THAT(turn.position, ElementsAre(0, 90, 180, 270, 360));
+  EXPECT_THAT(turn.order, ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_THAT(sweep_script(result, turn, png), HasSubstr("set xtics 90\n"));
+
+  // Of more than one turn, rows at the same angle stand at the same place.
+  const double x = -1, y = std::sqrt(3.0);
+  result.sweep->coefficients = {2, 0, x, y, x, -y, 2, 0, x, y};
+  EXPECT_THAT(
+      sweep_axis(*result.sweep).position,
+      ElementsAre(0, DoubleNear(120, 1e-9), DoubleNear(-120, 1e-9), 0, DoubleNear(120, 1e-9)));
 }
 
 TEST(SweepCurve, LeavesAGapWhereARowDidNotConverge) {
