@@ -81,11 +81,15 @@ void tell_fetch(const Session& session, const std::string& job) {
   }
 }
 
-results::Result fetch_or_tell(Session& session, const v1::Job& job, const std::stop_token& stop) {
+// Runs `action`; whose user interrupts it is told how to get the results later.
+template <class Action>
+auto or_later(const Session& session, const v1::Job& job, const Action& action) {
   try {
-    return fetch(session, job, stop);
+    return action();
   } catch (const client::Interrupted&) {
-    tell_fetch(session, job.name());
+    if (job.result_bytes() > 0) {
+      tell_fetch(session, job.name());
+    }
     throw;
   }
 }
@@ -139,7 +143,7 @@ std::optional<results::Result> results_of(Session& session, const casefile::Case
   // What cancelled the job shall not keep what it had solved from being saved.
   const std::stop_token stop =
       followed.how == Followed::How::cancelled ? std::stop_token() : session.stop();
-  tell_warnings(session, job, stop);
+  or_later(session, job, [&] { tell_warnings(session, job, stop); });
   if (job.result_bytes() == 0 || job.state() == v1::Job::STATE_EXPIRED) {
     for (const std::string& line : causes(the_case, job)) {
       std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
@@ -149,7 +153,7 @@ std::optional<results::Result> results_of(Session& session, const casefile::Case
     }
     return std::nullopt;
   }
-  results::Result result = fetch_or_tell(session, job, stop);
+  results::Result result = or_later(session, job, [&] { return fetch(session, job, stop); });
   result.case_text = the_case.text;
   result.timings.total_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
