@@ -33,6 +33,7 @@ inline results::Mesh sample_mesh(int n) {
   results::Mesh mesh;
   mesh.subdomains = {"lower", "upper"};
   mesh.tension = {1, 2};
+  mesh.inclusions = {"fibre"};
   const int side = 2 * n + 1;
   for (int j = 0; j < side; ++j) {
     for (int i = 0; i < side; ++i) {
@@ -71,6 +72,10 @@ inline results::Interface sample_interface(int n) {
     interface.kind.push_back(beyond < -1e-9  ? results::Kind::delaminated
                              : beyond < 1e-9 ? results::Kind::inclusion
                                              : results::Kind::glue);
+    if (i == 2 * n) break;
+    const bool delaminated = std::abs(x + 0.5 / n) < 0.5;
+    interface.edges.kind.push_back(delaminated ? results::Kind::delaminated : results::Kind::glue);
+    interface.edges.inclusion.push_back(delaminated ? 0 : -1);
   }
   return interface;
 }
