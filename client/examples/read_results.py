@@ -22,12 +22,13 @@ def answers(file):
 
 
 def draw(file, name, path):
-    """u-, u+ and the jump along every interface; contact is shaded."""
+    """u-, u+ and the jump along every interface; contact is shaded, inclusions are bars with their names."""
     import matplotlib
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
     traces = file[f"loads/{name}/traces"]
+    inclusions = file["mesh/inclusions"].asstr()[:]
     figure, panels = pyplot.subplots(len(traces), squeeze=False, figsize=(7, 3.5 * len(traces)), layout="constrained")
     for (interface, trace), (panel,) in zip(traces.items(), panels):
         s = file[f"interfaces/{interface}/s"][:]
@@ -36,6 +37,11 @@ def draw(file, name, path):
         panel.plot(s, trace["jump"][:], ":", color="black", label="$[u] = u^+ - u^-$")
         low, high = panel.get_ylim()
         panel.fill_between(s, low, high, where=trace["contact"][:] != 0, color="0.85", label="contact")
+        lies = file[f"interfaces/{interface}/edge_inclusion"][:]
+        for index in set(lies) - {-1}:
+            begin, end = s[:-1][lies == index], s[1:][lies == index]
+            panel.hlines(0 * begin + low, begin, end, color="0.3", linewidth=8)
+            panel.annotate(inclusions[index], ((begin.min() + end.max()) / 2, low), (0, 6), textcoords="offset points", ha="center")
         panel.set(ylim=(low, high), xlabel=f"arc length of interface {interface}", ylabel="displacement",
                   title=f"{file.attrs['title']}: {name}")
         panel.legend()

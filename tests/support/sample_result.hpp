@@ -163,4 +163,28 @@ inline results::Result sample_result(int n = 20) {
   return result;
 }
 
+/// Edges first <= e < end of an interface.
+inline void set_edges(results::Interface& interface, std::size_t first, std::size_t end,
+                      results::Kind kind, std::int32_t inclusion) {
+  for (std::size_t e = first; e < end; ++e) {
+    interface.edges.kind[e] = kind;
+    interface.edges.inclusion[e] = inclusion;
+  }
+}
+
+/// As sample_result, with the inclusions "left" and "right" of one A where "fibre" lay: two that
+/// lie symmetrically under a symmetric load. They touch at x = 0, which no server allows.
+inline results::Result sample_pair(int n = 20) {
+  results::Result result = sample_result(n);
+  result.mesh.inclusions = {"right", "left"};
+  const auto first = static_cast<std::size_t>(n) / 2;
+  const auto middle = static_cast<std::size_t>(n);
+  set_edges(result.interfaces[0], first, middle, results::Kind::delaminated, 1);
+  set_edges(result.interfaces[0], middle, middle + first, results::Kind::delaminated, 0);
+  for (results::Load& load : result.loads) {
+    load.inclusions = {{"right", 0.0863, 0, 0}, {"left", 0.0863, 0, 0}};
+  }
+  return result;
+}
+
 }  // namespace anticrack::testing
