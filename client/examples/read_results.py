@@ -36,12 +36,14 @@ def draw(file, name, path):
         panel.plot(s, trace["u_plus"][:], "--", label="$u^+$")
         panel.plot(s, trace["jump"][:], ":", color="black", label="$[u] = u^+ - u^-$")
         low, high = panel.get_ylim()
+        bar = 0.03 * (high - low)
+        low -= 4 * bar
         panel.fill_between(s, low, high, where=trace["contact"][:] != 0, color="0.85", label="contact")
         lies = file[f"interfaces/{interface}/edge_inclusion"][:]
         for index in set(lies) - {-1}:
-            begin, end = s[:-1][lies == index], s[1:][lies == index]
-            panel.hlines(0 * begin + low, begin, end, color="0.3", linewidth=8)
-            panel.annotate(inclusions[index], ((begin.min() + end.max()) / 2, low), (0, 6), textcoords="offset points", ha="center")
+            panel.stairs(low + bar * (lies == index), s, baseline=low, fill=True, color="0.3")
+            starts = s[:-1][lies == index]
+            panel.text(starts[len(starts) // 2], low + 1.5 * bar, inclusions[index], ha="center")
         panel.set(ylim=(low, high), xlabel=f"arc length of interface {interface}", ylabel="displacement",
                   title=f"{file.attrs['title']}: {name}")
         panel.legend()
