@@ -114,7 +114,7 @@ std::vector<results::ArrayView> views_of(const client::Block& block) {
   return views;
 }
 
-void add_subdomains(const v1::Mesh& from, results::Mesh& to) {
+void add_names(const v1::Mesh& from, results::Mesh& to) {
   to.subdomains.reserve(static_cast<std::size_t>(from.subdomains_size()));
   to.tension.reserve(static_cast<std::size_t>(from.subdomains_size()));
   for (const v1::SubdomainInfo& subdomain : from.subdomains()) {
@@ -122,6 +122,7 @@ void add_subdomains(const v1::Mesh& from, results::Mesh& to) {
     // A server that knows no tension solves with 1.
     to.tension.push_back(subdomain.tension() > 0 ? subdomain.tension() : 1);
   }
+  to.inclusions.assign(from.inclusions().begin(), from.inclusions().end());
 }
 
 // All but its columns.
@@ -143,11 +144,10 @@ results::Sweep to_sweep(const Fetched& fetched) {
 results::MeshPlan to_mesh_plan(const v1::Mesh& mesh, const client::Block& block) {
   results::MeshPlan plan;
   plan.title = mesh.title().empty() ? mesh.name() : mesh.title();
-  add_subdomains(mesh, plan.mesh);
-  plan.inclusions.assign(mesh.inclusions().begin(), mesh.inclusions().end());
+  add_names(mesh, plan.mesh);
   plan.interfaces.reserve(static_cast<std::size_t>(mesh.interfaces_size()));
   for (const v1::InterfaceInfo& interface : mesh.interfaces()) {
-    plan.interfaces.push_back({interface.name(), {}, {}, {}});
+    plan.interfaces.emplace_back().name = interface.name();
   }
   plan.tips.reserve(static_cast<std::size_t>(mesh.tips_size()));
   for (const v1::TipInfo& tip : mesh.tips()) {
@@ -166,7 +166,7 @@ results::Result to_result(const Fetched& fetched) {
   result.mesh_sha256 = fetched.mesh.sha256();
   result.timings.mesh_seconds = fetched.mesh.mesh_seconds();
   result.timings.factorize_seconds = fetched.mesh.factorize_seconds();
-  add_subdomains(fetched.mesh, result.mesh);
+  add_names(fetched.mesh, result.mesh);
   std::map<std::string, std::size_t> interfaces;
   for (const v1::InterfaceInfo& interface : fetched.mesh.interfaces()) {
     interfaces.emplace(interface.name(), result.interfaces.size());

@@ -22,12 +22,13 @@ def answers(file):
 
 
 def draw(file, name, path):
-    """u-, u+ and the jump along every interface; contact is shaded."""
+    """u-, u+ and the jump along every interface; contact is shaded, inclusions are bars with their names."""
     import matplotlib
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
     traces = file[f"loads/{name}/traces"]
+    inclusions = file["mesh/inclusions"].asstr()[:]
     figure, panels = pyplot.subplots(len(traces), squeeze=False, figsize=(7, 3.5 * len(traces)), layout="constrained")
     for (interface, trace), (panel,) in zip(traces.items(), panels):
         s = file[f"interfaces/{interface}/s"][:]
@@ -35,7 +36,14 @@ def draw(file, name, path):
         panel.plot(s, trace["u_plus"][:], "--", label="$u^+$")
         panel.plot(s, trace["jump"][:], ":", color="black", label="$[u] = u^+ - u^-$")
         low, high = panel.get_ylim()
+        bar = 0.03 * (high - low)
+        low -= 4 * bar
         panel.fill_between(s, low, high, where=trace["contact"][:] != 0, color="0.85", label="contact")
+        lies = file[f"interfaces/{interface}/edge_inclusion"][:]
+        for index in set(lies) - {-1}:
+            panel.stairs(low + bar * (lies == index), s, baseline=low, fill=True, color="0.3")
+            starts = s[:-1][lies == index]
+            panel.text(starts[len(starts) // 2], low + 1.5 * bar, inclusions[index], ha="center")
         panel.set(ylim=(low, high), xlabel=f"arc length of interface {interface}", ylabel="displacement",
                   title=f"{file.attrs['title']}: {name}")
         panel.legend()

@@ -88,15 +88,15 @@ void add_boundary(const Mesh& mesh, MeshLayers& to) {
 /// Runs of edges of one kind, without nodes too near to be told apart.
 void add_stretches(const MeshPlan& plan, const InterfaceLine& line, double smallest,
                    MeshLayers& to) {
-  for (std::size_t first = 0; first < line.kind.size();) {
+  for (std::size_t first = 0; first < line.edges.kind.size();) {
     std::size_t end = first + 1;
-    while (end < line.kind.size() && line.kind[end] == line.kind[first]) ++end;
+    while (end < line.edges.kind.size() && line.edges.kind[end] == line.edges.kind[first]) ++end;
     Stretch stretch{spot_of(plan.mesh, line.nodes[first])};
     for (std::size_t i = first + 1; i <= end; ++i) {
       const Spot spot = spot_of(plan.mesh, line.nodes[i]);
       if (i == end || distance(stretch.back(), spot) > smallest) stretch.push_back(spot);
     }
-    to.interfaces[static_cast<std::size_t>(line.kind[first])].push_back(std::move(stretch));
+    to.interfaces[static_cast<std::size_t>(line.edges.kind[first])].push_back(std::move(stretch));
     first = end;
   }
 }
@@ -107,8 +107,8 @@ template <class Meant>
 std::optional<Pointer> pointer(const MeshPlan& plan, const InterfaceLine& line,
                                const Window& window, double where, const Meant& meant) {
   double shown = 0;
-  std::vector<double> lengths(line.kind.size(), 0);
-  for (std::size_t e = 0; e < line.kind.size(); ++e) {
+  std::vector<double> lengths(line.edges.kind.size(), 0);
+  for (std::size_t e = 0; e < line.edges.kind.size(); ++e) {
     const Spot a = spot_of(plan.mesh, line.nodes[e]);
     const Spot b = spot_of(plan.mesh, line.nodes[e + 1]);
     if (meant(e) && inside(a, window) && inside(b, window)) lengths[e] = distance(a, b);
@@ -135,13 +135,13 @@ void add_pointers(const MeshPlan& plan, const InterfaceLine& line, const Window&
   // A little off the middle: there may be a tip, a cross point or another interface's arrow.
   const auto plus = pointer(plan, line, window, 0.56, [](std::size_t) { return true; });
   if (plus) to.plus_sides.push_back(*plus);
-  for (std::size_t i = 0; i < plan.inclusions.size(); ++i) {
+  for (std::size_t i = 0; i < plan.mesh.inclusions.size(); ++i) {
     auto found = pointer(plan, line, window, 0.5, [&](std::size_t e) {
-      return line.inclusion[e] == static_cast<std::int32_t>(i);
+      return line.edges.inclusion[e] == static_cast<std::int32_t>(i);
     });
     if (!found) continue;
     found->to = {2 * found->from.x - found->to.x, 2 * found->from.y - found->to.y};
-    found->name = plan.inclusions[i];
+    found->name = plan.mesh.inclusions[i];
     to.inclusions.push_back(*found);
   }
 }

@@ -9,27 +9,16 @@
 namespace anticrack::figures {
 namespace {
 
-using results::Interface;
 using results::Kind;
 
-/// Condition on edge e. Kinds belong to nodes, and a tip has that of its tied neighbour: an edge
-/// is a crack when one of its ends is, else bonded only when both are.
-Kind edge_kind(const Interface& interface, std::size_t e) {
-  const Kind a = interface.kind[e];
-  const Kind b = interface.kind[e + 1];
-  for (const Kind open : {Kind::delaminated, Kind::crack}) {
-    if (a == open || b == open) return open;
-  }
-  return a == Kind::inclusion && b == Kind::inclusion ? Kind::inclusion : Kind::glue;
-}
-
-/// Runs of consecutive items that satisfy `holds`, as pairs (first, last).
+/// Runs of consecutive items of one key, as pairs (first, last); items of a negative key are in
+/// none.
 std::vector<std::pair<std::size_t, std::size_t>> runs(
-    std::size_t count, const std::function<bool(std::size_t)>& holds) {
+    std::size_t count, const std::function<std::int32_t(std::size_t)>& key) {
   std::vector<std::pair<std::size_t, std::size_t>> found;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!holds(i)) continue;
-    if (i > 0 && !found.empty() && found.back().second + 1 == i) {
+    if (key(i) < 0) continue;
+    if (i > 0 && key(i - 1) == key(i)) {
       found.back().second = i;
     } else {
       found.emplace_back(i, i);
@@ -50,8 +39,10 @@ bool monotone(const std::vector<double>& values) {
 
 }  // namespace
 
-Profile profile(const Interface& interface, const results::Trace& trace) {
+Profile profile(const results::Result& result, std::size_t index, const results::Trace& trace) {
+  const results::Interface& interface = result.interfaces.at(index);
   Profile profile;
+  if (result.interfaces.size() > 1) profile.name = interface.name;
   const std::size_t k = interface.node_count();
   const double tolerance = k == 0 ? 0 : 1e-9 * interface.s.back();
   if (constant(interface.y, tolerance) && monotone(interface.x)) {
@@ -71,21 +62,23 @@ Profile profile(const Interface& interface, const results::Trace& trace) {
   const auto edges_of = [&](Kind kind) {
     std::vector<Band> bands;
     for (const auto& [first, last] :
-         runs(edges, [&](std::size_t e) { return edge_kind(interface, e) == kind; })) {
+         runs(edges, [&](std::size_t e) { return interface.edges.kind[e] == kind ? 0 : -1; })) {
       bands.push_back(band(at[first], at[last + 1]));
     }
     return bands;
   };
-  for (const auto& [first, last] : runs(edges, [&](std::size_t e) {
-         const Kind kind = edge_kind(interface, e);
-         return kind == Kind::inclusion || kind == Kind::delaminated;
-       })) {
-    profile.fibres.push_back({band(at[first], at[last + 1]), (first + last + 1) / 2});
+  const std::vector<std::int32_t>& inclusion = interface.edges.inclusion;
+  for (const auto& [first, last] : runs(edges, [&](std::size_t e) { return inclusion[e]; })) {
+    profile.fibres.push_back({band(at[first], at[last + 1]),
+                              result.mesh.inclusions[static_cast<std::size_t>(inclusion[first])]});
   }
+  std::sort(profile.fibres.begin(), profile.fibres.end(),
+            [](const Fibre& a, const Fibre& b) { return a.band.begin < b.band.begin; });
   profile.delaminated = edges_of(Kind::delaminated);
   profile.crack = edges_of(Kind::crack);
   profile.bonded = edges_of(Kind::inclusion);
-  for (const auto& [first, last] : runs(k, [&](std::size_t i) { return trace.contact[i] != 0; })) {
+  for (const auto& [first, last] :
+       runs(k, [&](std::size_t i) { return trace.contact[i] != 0 ? 0 : -1; })) {
     const double begin = first == 0 ? at[0] : (at[first - 1] + at[first]) / 2;
     const double end = last + 1 == k ? at[last] : (at[last] + at[last + 1]) / 2;
     profile.contact.push_back(band(begin, end));

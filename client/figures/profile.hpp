@@ -20,7 +20,7 @@ struct Band {
 /// A rigid inclusion, bonded and delaminated parts together.
 struct Fibre {
   Band band;
-  std::size_t node = 0;  ///< of the interface, in its middle
+  std::string inclusion;  ///< its name
 };
 
 struct Profile {
@@ -30,7 +30,7 @@ struct Profile {
   std::vector<Band> delaminated;
   std::vector<Band> crack;
   std::vector<Band> bonded;
-  std::vector<Fibre> fibres;
+  std::vector<Fibre> fibres;  ///< where the result says which lie here; by Band::begin
   /// Contact, each node standing for half of its edges: their sum is the contact length, and a
   /// single node in contact can be seen.
   std::vector<Band> contact;
@@ -38,6 +38,6 @@ struct Profile {
 
 /// The axis is x or y where the interface is parallel to it (as in the paper), arc length else.
 /// O(k).
-Profile profile(const results::Interface& interface, const results::Trace& trace);
+Profile profile(const results::Result& result, std::size_t interface, const results::Trace& trace);
 
 }  // namespace anticrack::figures

@@ -11,12 +11,6 @@ namespace {
 using results::Load;
 using results::Result;
 
-Profile profile_of(const Result& result, const Load& load, std::size_t interface) {
-  Profile along = profile(result.interfaces.at(interface), load.traces.at(interface));
-  if (result.interfaces.size() > 1) along.name = result.interfaces[interface].name;
-  return along;
-}
-
 Title title_of(const Result& result, const Load& load) {
   return {result.title, load.name};
 }
@@ -35,7 +29,7 @@ std::string membrane_script(const Result& result, const Load& load, const Surfac
 
 std::string traces_script(const Result& result, const Load& load, std::size_t interface,
                           const std::vector<Output>& outputs) {
-  const Profile along = profile_of(result, load, interface);
+  const Profile along = profile(result, interface, load.traces.at(interface));
   const results::Trace& trace = load.traces[interface];
   return script(
       traces_data(along, trace), title_of(result, load),
@@ -52,7 +46,7 @@ std::string convergence_script(const Result& result, const Load& load,
 
 std::string combined_script(const Result& result, const Load& load, const Surface& surface,
                             const std::vector<Output>& outputs) {
-  const Profile along = profile_of(result, load, 0);
+  const Profile along = profile(result, 0, load.traces.at(0));
   const results::Trace& trace = load.traces[0];
   return script(
       membrane_data(surface) + traces_data(along, trace), title_of(result, load),

@@ -181,13 +181,12 @@ std::vector<CurvePoint> curve(const Sweep& sweep, const SweepAxis& axis,
 ContactMap contact_map(const results::Result& result, const SweepAxis& axis, std::size_t interface,
                        std::size_t limit) {
   const Sweep& sweep = *result.sweep;
-  const results::Interface& line = result.interfaces[interface];
   results::Trace open;
-  open.contact.assign(line.node_count(), 0);
-  const Profile along = profile(line, open);
+  open.contact.assign(result.interfaces[interface].node_count(), 0);
+  const Profile along = profile(result, interface, open);
   ContactMap map;
   map.position_label = along.axis;
-  if (result.interfaces.size() > 1) map.interface = line.name;
+  map.interface = along.name;
   const std::vector<Cell> cells = cells_of(sweep, along.position, interface);
   if (cells.empty()) return map;
 

@@ -9,7 +9,6 @@
 namespace anticrack::figures {
 namespace {
 
-using results::Inclusion;
 using results::Load;
 
 /// Strips from the height `bottom` of the graph to the height `top`, one command a band.
@@ -32,60 +31,36 @@ struct Mark {
   std::string colour;
 };
 
-/// The inclusions that lie on the interface: a file does not say, but u+ = A on them (5), and two
-/// of one A are not told apart.
-std::vector<const Inclusion*> inclusions_on(const Profile& profile, const results::Trace& trace,
-                                            const Load& load) {
-  std::vector<const Inclusion*> found;
-  for (const Fibre& fibre : profile.fibres) {
-    const Inclusion* known = nullptr;
-    int count = 0;
-    for (const Inclusion& inclusion : load.inclusions) {
-      const double error = std::abs(trace.u_plus[fibre.node] - inclusion.displacement);
-      if (load.inclusions.size() == 1 || error <= 1e-6 * std::abs(inclusion.displacement)) {
-        known = &inclusion;
-        ++count;
-      }
-    }
-    found.push_back(count == 1 ? known : nullptr);
-  }
-  return found;
-}
-
 /// Names above the bars of the inclusions, as long as they do not meet.
-std::string names(const Profile& profile, const std::vector<const Inclusion*>& inclusions,
-                  const Range& along) {
+std::string names(const Profile& profile, const Range& along) {
   constexpr std::size_t longest = 24;
   constexpr double character = 0.022;  // width, part of the axis
   std::string text;
   double free_from = 0;
-  for (std::size_t i = 0; i < inclusions.size(); ++i) {
-    if (inclusions[i] == nullptr) continue;
-    const Band& band = profile.fibres[i].band;
-    const double half =
-        0.5 * character * static_cast<double>(std::min(length(inclusions[i]->name), longest));
+  for (const auto& [band, inclusion] : profile.fibres) {
+    const double half = 0.5 * character * static_cast<double>(std::min(length(inclusion), longest));
     const double middle = (0.5 * (band.begin + band.end) - along.low) / along.size();
     const double at = std::clamp(middle, std::min(half, 0.5), std::max(1 - half, 0.5));
     if (at - half < free_from) continue;
     free_from = at + half + character;
-    text += "set label " + quoted(inclusions[i]->name, longest) + " at graph " + number(at) +
+    text += "set label " + quoted(inclusion, longest) + " at graph " + number(at) +
             ", graph 0.075 center noenhanced font ',7' textcolor " + black + " front\n";
   }
   return text;
 }
 
-std::string heading(const Profile& profile, const Load& load,
-                    const std::vector<const Inclusion*>& inclusions) {
+std::string heading(const Profile& profile, const Load& load) {
   constexpr std::size_t most = 50;
   const std::string where =
       profile.name.empty() ? std::string("the interface") : shortened(profile.name, 20);
   std::string answer;
-  const Inclusion* before = nullptr;  // one may come back, on an interface that is closed
-  for (const Inclusion* inclusion : inclusions) {
-    if (inclusion == nullptr || inclusion == before) continue;
-    before = inclusion;
-    answer += ",  A = " + readable(inclusion->displacement);
-    if (load.inclusions.size() > 1) answer += " (" + shortened(inclusion->name, 12) + ")";
+  for (const results::Inclusion& inclusion : load.inclusions) {
+    const bool here =
+        std::any_of(profile.fibres.begin(), profile.fibres.end(),
+                    [&](const Fibre& fibre) { return fibre.inclusion == inclusion.name; });
+    if (!here) continue;
+    answer += ",  A = " + readable(inclusion.displacement);
+    if (load.inclusions.size() > 1) answer += " (" + shortened(inclusion.name, 12) + ")";
   }
   if (load.status == results::Status::not_converged) answer += ",  not converged";
   const std::string full = "displacements on " + where + answer;
@@ -146,12 +121,11 @@ std::string traces_panel(const Profile& profile, const results::Trace& trace, co
   const double size = high.size();
   high.low -= (profile.fibres.empty() ? 0.08 : 0.2) * size;  // room for bars and names
   high.high += 0.06 * size;
-  const std::vector<const Inclusion*> inclusions = inclusions_on(profile, trace, load);
   const Scale scale(high);
   text += axis_range('x', along) + axis_range('y', scale.drawn(high), 9);
-  text += caption(heading(profile, load, inclusions), place);
+  text += caption(heading(profile, load), place);
   text += below(figures::quoted(profile.axis), 0.2, place) +
-          beside("'displacement " + scale.unit() + "'", place) + names(profile, inclusions, along);
+          beside("'displacement " + scale.unit() + "'", place) + names(profile, along);
   text += legend((entries + 1) / 2, place);
   text += "plot 0 with lines linewidth 0.7 linecolor rgb '#888888' notitle, ";
   text += "$traces using 1:" + scale.column(2) + " with lines linewidth 1.5 linecolor " + blue +

@@ -37,10 +37,7 @@ void add_interface(const Block& block, std::size_t index, Interface& interface) 
   interface.s = block.get<double>(at + "/s");
   interface.x = block.get<double>(at + "/x");
   interface.y = block.get<double>(at + "/y");
-  interface.kind.clear();
-  for (const std::int32_t kind : block.get<std::int32_t>(at + "/kind")) {
-    interface.kind.push_back(static_cast<Kind>(kind));
-  }
+  interface.kind = kinds_of(block.get<std::int32_t>(at + "/kind"));
 }
 
 /// A subdomain's nodes and triangles serve all loads.
@@ -97,6 +94,7 @@ Result assemble(Result answers, std::span<const ArrayView> mesh_block,
   add_mesh(mesh, answers.mesh);
   for (std::size_t i = 0; i < answers.interfaces.size(); ++i) {
     add_interface(result, i, answers.interfaces[i]);
+    answers.interfaces[i].edges = edges_of(mesh, answers.interfaces[i].name);
   }
   if (answers.sweep) add_sweep(result, answers);
   for (std::size_t i = 0; i < answers.loads.size() && !answers.sweep; ++i) {

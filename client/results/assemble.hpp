@@ -30,11 +30,12 @@ ArrayView view(std::string name, ArrayView::Type type, std::vector<std::uint64_t
 
 /// Adds the arrays to what the messages Job, Mesh and ServerInfo said.
 ///
-/// `answers` comes with everything but arrays: texts, timings, mesh.subdomains and tension,
-/// interfaces[].name in the order of Mesh.interfaces, and loads in the order of Job.load_cases with
-/// their attributes, inclusions and contact_intervals. Filled in here: mesh arrays from
-/// `mesh_block`, interfaces[].s,x,y,kind and loads[].traces, history, fields from `result_block`.
-/// A load without arrays in the block keeps none, unless it is `converged` or `not_converged`.
+/// `answers` comes with everything but arrays: texts, timings, mesh.subdomains, tension and
+/// inclusions, interfaces[].name in the order of Mesh.interfaces, and loads in the order of
+/// Job.load_cases with their attributes, inclusions and contact_intervals. Filled in here: mesh
+/// arrays and interfaces[].edges from `mesh_block`, interfaces[].s,x,y,kind and loads[].traces,
+/// history, fields from `result_block`. A load without arrays in the block keeps none, unless it is
+/// `converged` or `not_converged`.
 /// Of a sweep it comes without loads and with sweep.loads, inclusions, kept and, where known,
 /// coefficients; filled in are the columns, and a load for every kept row (see Sweep::kept).
 ///

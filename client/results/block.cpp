@@ -58,6 +58,12 @@ void Block::fail(const std::string& cause) const {
   throw Error(_subject, cause, cure);
 }
 
+Edges edges_of(const Block& block, const std::string& interface) {
+  const std::string at = "interfaces/" + interface;
+  return {kinds_of(block.get<std::int32_t>(at + "/kind")),
+          block.get<std::int32_t>(at + "/inclusion")};
+}
+
 void add_mesh(const Block& block, Mesh& mesh) {
   mesh.xy = block.get<double>("nodes", 2);
   mesh.triangles = block.get<std::int32_t>("triangles", 3);

@@ -102,6 +102,9 @@ class Block {
   std::map<std::string, const ArrayView*> _arrays;
 };
 
+/// What the block of a mesh says of the edges of an interface. Not checked.
+Edges edges_of(const Block& block, const std::string& interface);
+
 /// The arrays of a mesh, checked.
 void add_mesh(const Block& block, Mesh& mesh);
 

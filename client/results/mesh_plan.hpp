@@ -18,9 +18,8 @@ namespace anticrack::results {
 /// last.
 struct InterfaceLine {
   std::string name;
-  std::vector<std::int32_t> nodes;      ///< (k) index into Mesh::xy
-  std::vector<Kind> kind;               ///< (k-1) condition on each edge
-  std::vector<std::int32_t> inclusion;  ///< (k-1) index into MeshPlan::inclusions, -1 for none
+  std::vector<std::int32_t> nodes;  ///< (k) index into Mesh::xy
+  Edges edges;
 };
 
 /// A node in which the condition along interfaces changes.
@@ -34,7 +33,6 @@ struct MeshPlan {
   std::string title;
   Mesh mesh;  ///< its boundary: the edges where u is prescribed
   std::vector<InterfaceLine> interfaces;
-  std::vector<std::string> inclusions;
   std::vector<Tip> tips;
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "results/file.hpp"
+#include "results/guess_edges.hpp"
 #include "results/hdf5.hpp"
 #include "results/open_file.hpp"
 #include "results/sweep_file.hpp"
@@ -46,20 +47,26 @@ Mesh get_mesh(const Handle& root, std::uint64_t budget) {
   mesh.subdomain = ints(group, "subdomain", budget);
   mesh.boundary = ints(group, "boundary", budget, 2);
   mesh.subdomains = hdf5::get_texts(group, "subdomain_names", budget);
+  if (hdf5::has(group, "inclusions")) {
+    mesh.inclusions = hdf5::get_texts(group, "inclusions", budget);
+  }
   mesh.tension = hdf5::has(group, "tension") ? doubles(group, "tension", budget)
                                              : std::vector<double>(mesh.subdomains.size(), 1.0);
   return mesh;
 }
 
-Interface get_interface(const Handle& list, std::size_t index, std::uint64_t budget) {
+Interface get_interface(const Handle& list, std::size_t index, std::uint64_t budget,
+                        bool with_edges) {
   const Handle group = open_group(list, std::to_string(index));
   Interface interface;
   interface.name = hdf5::get_text(group, "name");
   interface.s = doubles(group, "s", budget);
   interface.x = doubles(group, "x", budget);
   interface.y = doubles(group, "y", budget);
-  for (const std::int32_t kind : ints(group, "kind", budget)) {
-    interface.kind.push_back(static_cast<Kind>(kind));
+  interface.kind = kinds_of(ints(group, "kind", budget));
+  if (with_edges) {
+    interface.edges = {kinds_of(ints(group, "edge_kind", budget)),
+                       ints(group, "edge_inclusion", budget)};
   }
   return interface;
 }
@@ -237,13 +244,15 @@ Result get_result(const Handle& root, std::uint64_t budget) {
   result.mesh = get_mesh(root, budget);
   const std::string fault = first_mesh_fault(result.mesh);
   if (!fault.empty()) throw hdf5::Fault("is inconsistent: " + fault);
+  const bool with_edges = hdf5::has(open_group(root, "mesh"), "inclusions");
   const Handle interfaces = open_group(root, "interfaces");
   const std::size_t count = count_of(interfaces, "interfaces");
   for (std::size_t i = 0; i < count; ++i) {
-    result.interfaces.push_back(get_interface(interfaces, i, budget));
+    result.interfaces.push_back(get_interface(interfaces, i, budget, with_edges));
   }
   result.loads = get_loads(root, result.mesh, budget);
   if (hdf5::has(root, "sweep")) result.sweep = get_sweep(root, budget);
+  if (!with_edges) guess_edges(result);
   return result;
 }
 

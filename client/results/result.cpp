@@ -82,7 +82,34 @@ void check_mesh(const Mesh& mesh, Faults& faults) {
   faults.finite("mesh.tension", mesh.tension);
 }
 
-void check_interface(const std::string& at, const Interface& interface, Faults& faults) {
+void check_kinds(const std::string& at, const std::vector<Kind>& kinds, Faults& faults) {
+  for (std::size_t i = 0; i < kinds.size() && !faults.any(); ++i) {
+    const auto number = static_cast<std::int32_t>(kinds[i]);
+    faults.require(number >= 1 && number <= 4,
+                   item(at, i) + " is " + std::to_string(number) + ", not 1 to 4");
+  }
+}
+
+void check_edges(const std::string& at, const Edges& edges, std::size_t nodes, const Mesh& mesh,
+                 Faults& faults) {
+  const std::size_t count = nodes == 0 ? 0 : nodes - 1;
+  faults.length(at + ".edge_kind", edges.kind.size(), count, "edges");
+  faults.length(at + ".edge_inclusion", edges.inclusion.size(), count, "edges");
+  check_kinds(at + ".edge_kind", edges.kind, faults);
+  const auto inclusions = static_cast<std::int64_t>(mesh.inclusions.size());
+  for (std::size_t e = 0; e < count && !faults.any(); ++e) {
+    const std::int32_t inclusion = edges.inclusion[e];
+    const bool rigid = edges.kind[e] == Kind::inclusion || edges.kind[e] == Kind::delaminated;
+    // A file of an earlier client may not say which one.
+    faults.require(inclusion == -1 || (rigid && inclusion >= 0 && inclusion < inclusions),
+                   item(at + ".edge_inclusion", e) + " is " + std::to_string(inclusion) +
+                       (rigid ? ", there are " + std::to_string(inclusions) + " inclusions"
+                              : ", but its edge_kind is that of no inclusion"));
+  }
+}
+
+void check_interface(const std::string& at, const Interface& interface, const Mesh& mesh,
+                     Faults& faults) {
   const std::size_t k = interface.node_count();
   faults.length(at + ".x", interface.x.size(), k, "nodes");
   faults.length(at + ".y", interface.y.size(), k, "nodes");
@@ -91,11 +118,8 @@ void check_interface(const std::string& at, const Interface& interface, Faults& 
   faults.finite(at + ".x", interface.x);
   faults.finite(at + ".y", interface.y);
   faults.increasing(at + ".s", interface.s);
-  for (std::size_t i = 0; i < interface.kind.size() && !faults.any(); ++i) {
-    const auto number = static_cast<std::int32_t>(interface.kind[i]);
-    faults.require(number >= 1 && number <= 4,
-                   item(at + ".kind", i) + " is " + std::to_string(number) + ", not 1 to 4");
-  }
+  check_kinds(at + ".kind", interface.kind, faults);
+  check_edges(at, interface.edges, k, mesh, faults);
 }
 
 void check_trace(const std::string& at, const Trace& trace, std::size_t k, Faults& faults) {
@@ -173,6 +197,13 @@ void check_sweep(const Result& result, Faults& faults) {
 
 }  // namespace
 
+std::vector<Kind> kinds_of(const std::vector<std::int32_t>& numbers) {
+  std::vector<Kind> kinds;
+  kinds.reserve(numbers.size());
+  for (const std::int32_t number : numbers) kinds.push_back(static_cast<Kind>(number));
+  return kinds;
+}
+
 std::string_view name(Status status) noexcept {
   for (const auto& [value, text] : statuses) {
     if (value == status) return text;
@@ -226,11 +257,18 @@ std::string first_mesh_fault(const Mesh& mesh) {
   return faults.first();
 }
 
+std::string first_edge_fault(const std::string& at, const Edges& edges, std::size_t nodes,
+                             const Mesh& mesh) {
+  Faults faults;
+  check_edges(at, edges, nodes, mesh, faults);
+  return faults.first();
+}
+
 std::string first_fault(const Result& result) {
   Faults faults;
   check_mesh(result.mesh, faults);
   for (std::size_t i = 0; i < result.interfaces.size() && !faults.any(); ++i) {
-    check_interface(item("interfaces", i), result.interfaces[i], faults);
+    check_interface(item("interfaces", i), result.interfaces[i], result.mesh, faults);
   }
   std::set<std::string_view> names;
   for (std::size_t i = 0; i < result.loads.size() && !faults.any(); ++i) {

@@ -19,13 +19,17 @@
 
 namespace anticrack::results {
 
-/// Condition at a node of an interface. The numbers are those of the API's InterfaceKind.
+/// Condition at a node or on an edge of an interface. The numbers are those of the API's
+/// InterfaceKind.
 enum class Kind : std::int32_t {
   glue = 1,         ///< u+ = u-                      gamma_g
   crack = 2,        ///< [u] >= 0, no inclusion
   inclusion = 3,    ///< u+ = u- = A, bonded; the tips of a delaminated part too
   delaminated = 4,  ///< u+ = A, [u] >= 0             gamma_c, (3)-(6)
 };
+
+/// The conditions of these numbers, which may be none: first_fault tells.
+std::vector<Kind> kinds_of(const std::vector<std::int32_t>& numbers);
 
 /// How a load case ended. The numbers are those of the API's LoadCaseAnswer.Status.
 enum class Status : std::int32_t {
@@ -50,10 +54,17 @@ struct Mesh {
   std::vector<std::int32_t> boundary;   ///< (b,2) row-major, edges where u is prescribed
   std::vector<std::string> subdomains;  ///< names
   std::vector<double> tension;          ///< T of -div(T grad u) = f, one a subdomain
+  std::vector<std::string> inclusions;  ///< names
 
   /// n and m of the shapes above.
   std::size_t node_count() const noexcept { return xy.size() / 2; }
   std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
+};
+
+/// What lies along a chain of k nodes, one array entry an edge.
+struct Edges {
+  std::vector<Kind> kind;               ///< (k-1)
+  std::vector<std::int32_t> inclusion;  ///< (k-1) index into Mesh::inclusions, -1 for none
 };
 
 /// A chain of k nodes, one array entry a node. A closed one has its first node again at its end.
@@ -61,7 +72,8 @@ struct Interface {
   std::string name;
   std::vector<double> s;     ///< (k) arc length from its start, strictly increasing
   std::vector<double> x, y;  ///< (k)
-  std::vector<Kind> kind;    ///< (k)
+  std::vector<Kind> kind;    ///< (k) a tip has that of its tied neighbour
+  Edges edges;
 
   /// k of the shapes above.
   std::size_t node_count() const noexcept { return s.size(); }
@@ -185,6 +197,11 @@ std::string first_fault(const Result& result);
 
 /// The same for the mesh alone.
 std::string first_mesh_fault(const Mesh& mesh);
+
+/// The same for what lies along a chain of `nodes` nodes of the mesh; `at` begins the text, as
+/// "interfaces[0]".
+std::string first_edge_fault(const std::string& at, const Edges& edges, std::size_t nodes,
+                             const Mesh& mesh);
 
 /// Whether a load may have this name (it becomes the name of a group).
 bool is_load_name(std::string_view name) noexcept;

@@ -29,6 +29,15 @@ void put_mesh(const Handle& root, const Mesh& mesh) {
   put_array(group, "boundary", mesh.boundary, dimensionless, 2);
   put_array(group, "subdomain_names", mesh.subdomains);
   put_array(group, "tension", mesh.tension, dimensionless);
+  put_array(group, "inclusions", mesh.inclusions);
+}
+
+void put_kinds(const Handle& group, const std::string& name, const std::vector<Kind>& kinds) {
+  std::vector<std::int32_t> numbers;
+  numbers.reserve(kinds.size());
+  for (const Kind kind : kinds) numbers.push_back(static_cast<std::int32_t>(kind));
+  const Handle dataset = put_array(group, name, numbers, dimensionless);
+  put(dataset, "meaning", "1 glue, 2 crack, 3 bonded inclusion, 4 delaminated inclusion");
 }
 
 void put_interface(const Handle& parent, std::size_t index, const Interface& interface) {
@@ -37,11 +46,11 @@ void put_interface(const Handle& parent, std::size_t index, const Interface& int
   put_array(group, "s", interface.s, dimensionless);
   put_array(group, "x", interface.x, dimensionless);
   put_array(group, "y", interface.y, dimensionless);
-  std::vector<std::int32_t> kind;
-  kind.reserve(interface.kind.size());
-  for (const Kind each : interface.kind) kind.push_back(static_cast<std::int32_t>(each));
-  const Handle dataset = put_array(group, "kind", kind, dimensionless);
-  put(dataset, "meaning", "1 glue, 2 crack, 3 bonded inclusion, 4 delaminated inclusion");
+  put_kinds(group, "kind", interface.kind);
+  put_kinds(group, "edge_kind", interface.edges.kind);
+  const Handle inclusion =
+      put_array(group, "edge_inclusion", interface.edges.inclusion, dimensionless);
+  put(inclusion, "meaning", "index into /mesh/inclusions, -1 none");
 }
 
 void put_kkt(const Handle& group, const std::string& prefix, const Kkt& kkt) {

@@ -82,7 +82,8 @@ UnstructuredGrid interfaces(const Result& result, const Load& load) {
   grid.shape = Cell::line;
   std::vector<RealData> reals{
       {"u_minus", {}}, {"u_plus", {}}, {"jump", {}}, {"pressure", {}}, {"s", {}}};
-  IntegerData kind{"kind", {}}, contact{"contact", {}}, index{"interface", {}};
+  IntegerData kind{"kind", {}}, contact{"contact", {}}, index{"interface", {}},
+      inclusion{"inclusion", {}};
   for (std::size_t i = 0; i < load.traces.size(); ++i) {
     const results::Interface& line = result.interfaces[i];
     const results::Trace& trace = load.traces[i];
@@ -102,9 +103,10 @@ UnstructuredGrid interfaces(const Result& result, const Load& load) {
     append(reals[3].values, trace.pressure);
     append(reals[4].values, line.s);
     append(contact.values, trace.contact);
+    append(inclusion.values, line.edges.inclusion);
   }
   grid.points = {std::move(reals), {std::move(kind), std::move(contact)}};
-  grid.cells = {{}, {std::move(index)}};
+  grid.cells = {{}, {std::move(index), std::move(inclusion)}};
   return grid;
 }
 

@@ -60,7 +60,7 @@ results::Result answers() {
   result.mesh.triangles.clear();
   result.mesh.subdomain.clear();
   result.mesh.boundary.clear();
-  for (auto& interface : result.interfaces) interface = {interface.name, {}, {}, {}, {}};
+  for (auto& interface : result.interfaces) interface = {interface.name, {}, {}, {}, {}, {}};
   for (auto& load : result.loads) {
     load.traces.clear();
     load.history = {};

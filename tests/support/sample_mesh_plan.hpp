@@ -25,26 +25,25 @@ inline results::MeshPlan sample_mesh_plan(int n, double power = 1) {
   results::MeshPlan plan;
   plan.title = "A made-up mesh";
   plan.mesh = sample_mesh(n);
-  plan.inclusions = {"fibre"};
   const int side = 2 * n + 1;
-  results::InterfaceLine sigma{"sigma", {}, {}, {}};
+  results::InterfaceLine sigma{"sigma", {}, {}};
   for (int i = 0; i < side; ++i) {
     sigma.nodes.push_back(n * side + i);
     if (i + 1 == side) break;
     const double x = -1 + (i + 0.5) / n;
     const bool inclusion = x > -0.3 && x < 0.5;
-    sigma.kind.push_back(x > -0.8 && x < -0.5 ? results::Kind::crack
-                         : !inclusion         ? results::Kind::glue
-                         : x < 0.1            ? results::Kind::inclusion
-                                              : results::Kind::delaminated);
-    sigma.inclusion.push_back(inclusion ? 0 : -1);
+    sigma.edges.kind.push_back(x > -0.8 && x < -0.5 ? results::Kind::crack
+                               : !inclusion         ? results::Kind::glue
+                               : x < 0.1            ? results::Kind::inclusion
+                                                    : results::Kind::delaminated);
+    sigma.edges.inclusion.push_back(inclusion ? 0 : -1);
   }
-  results::InterfaceLine slit{"slit", {}, {}, {}};
+  results::InterfaceLine slit{"slit", {}, {}};
   for (int j = n + n / 2; j < side; ++j) {
     slit.nodes.push_back(j * side + n);
     if (j + 1 == side) break;
-    slit.kind.push_back(results::Kind::crack);
-    slit.inclusion.push_back(-1);
+    slit.edges.kind.push_back(results::Kind::crack);
+    slit.edges.inclusion.push_back(-1);
   }
   plan.interfaces = {sigma, slit};
 

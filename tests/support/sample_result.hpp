@@ -33,6 +33,7 @@ inline results::Mesh sample_mesh(int n) {
   results::Mesh mesh;
   mesh.subdomains = {"lower", "upper"};
   mesh.tension = {1, 2};
+  mesh.inclusions = {"fibre"};
   const int side = 2 * n + 1;
   for (int j = 0; j < side; ++j) {
     for (int i = 0; i < side; ++i) {
@@ -71,6 +72,10 @@ inline results::Interface sample_interface(int n) {
     interface.kind.push_back(beyond < -1e-9  ? results::Kind::delaminated
                              : beyond < 1e-9 ? results::Kind::inclusion
                                              : results::Kind::glue);
+    if (i == 2 * n) break;
+    const bool delaminated = std::abs(x + 0.5 / n) < 0.5;
+    interface.edges.kind.push_back(delaminated ? results::Kind::delaminated : results::Kind::glue);
+    interface.edges.inclusion.push_back(delaminated ? 0 : -1);
   }
   return interface;
 }
@@ -155,6 +160,30 @@ inline results::Result sample_result(int n = 20) {
   result.interfaces = {sample_interface(n)};
   result.loads = {sample_load("opening", result.mesh, result.interfaces[0], false),
                   sample_load("partly closed", result.mesh, result.interfaces[0], true)};
+  return result;
+}
+
+/// Edges first <= e < end of an interface.
+inline void set_edges(results::Interface& interface, std::size_t first, std::size_t end,
+                      results::Kind kind, std::int32_t inclusion) {
+  for (std::size_t e = first; e < end; ++e) {
+    interface.edges.kind[e] = kind;
+    interface.edges.inclusion[e] = inclusion;
+  }
+}
+
+/// As sample_result, with the inclusions "left" and "right" of one A where "fibre" lay: two that
+/// lie symmetrically under a symmetric load. They touch at x = 0, which no server allows.
+inline results::Result sample_pair(int n = 20) {
+  results::Result result = sample_result(n);
+  result.mesh.inclusions = {"right", "left"};
+  const auto first = static_cast<std::size_t>(n) / 2;
+  const auto middle = static_cast<std::size_t>(n);
+  set_edges(result.interfaces[0], first, middle, results::Kind::delaminated, 1);
+  set_edges(result.interfaces[0], middle, middle + first, results::Kind::delaminated, 0);
+  for (results::Load& load : result.loads) {
+    load.inclusions = {{"right", 0.0863, 0, 0}, {"left", 0.0863, 0, 0}};
+  }
   return result;
 }
 

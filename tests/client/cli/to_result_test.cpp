@@ -43,7 +43,20 @@ class BlockMaker {
 using Reals = std::vector<double>;
 using Integers = std::vector<std::int32_t>;
 
-/// Two triangles, glued along their common edge, and one iteration.
+/// Two triangles, what is said lies on their common edge.
+client::Block mesh_block(std::int32_t kind, std::int32_t inclusion) {
+  return BlockMaker()
+      .add("nodes", Reals{0, 0, 1, 0, 0, 1, 0, -1}, 2)
+      .add("triangles", Integers{0, 1, 2, 0, 3, 1}, 3)
+      .add("subdomain", Integers{1, 0})
+      .add("boundary", Integers{2, 0}, 2)
+      .add("interfaces/sigma/nodes", Integers{0, 1})
+      .add("interfaces/sigma/kind", Integers{kind})
+      .add("interfaces/sigma/inclusion", Integers{inclusion})
+      .block();
+}
+
+/// Two triangles, an inclusion bonded to both on their common edge, and one iteration.
 Fetched fetched() {
   Fetched result;
   result.server.set_version("9.8");
@@ -55,6 +68,7 @@ Fetched fetched() {
   plus.set_name("plus");
   plus.set_tension(2.5);
   result.mesh.add_interfaces()->set_name("sigma");
+  result.mesh.add_inclusions("fibre");
   result.job.set_name("jobs/1");
   result.job.set_title("A plate");
   result.job.add_load_cases()->set_name("one");
@@ -77,17 +91,12 @@ Fetched fetched() {
   interval.set_begin(0.25);
   interval.set_end(0.5);
 
-  result.mesh_block = BlockMaker()
-                          .add("nodes", Reals{0, 0, 1, 0, 0, 1, 0, -1}, 2)
-                          .add("triangles", Integers{0, 1, 2, 0, 3, 1}, 3)
-                          .add("subdomain", Integers{1, 0})
-                          .add("boundary", Integers{2, 0}, 2)
-                          .block();
+  result.mesh_block = mesh_block(3, 0);
   const std::string traces = "loads/0/traces/0/";
   const std::string history = "loads/0/history/";
   BlockMaker maker;
   maker.add("interfaces/0/s", Reals{0, 1}).add("interfaces/0/x", Reals{0, 1});
-  maker.add("interfaces/0/y", Reals{0, 0}).add("interfaces/0/kind", Integers{1, 1});
+  maker.add("interfaces/0/y", Reals{0, 0}).add("interfaces/0/kind", Integers{3, 3});
   for (const char* name : {"u_minus", "u_plus", "jump", "pressure"}) {
     maker.add(traces + name, Reals{0.5, 0.5});
   }
@@ -109,6 +118,9 @@ TEST(ToResult, KeepsWhatTheServerSaid) {
   EXPECT_EQ(result.mesh.node_count(), 4U);
   EXPECT_EQ(result.mesh.subdomains[1], "plus");
   EXPECT_EQ(result.mesh.tension, (Reals{1, 2.5}));
+  EXPECT_EQ(result.mesh.inclusions, std::vector<std::string>{"fibre"});
+  EXPECT_EQ(result.interfaces[0].edges.kind, std::vector<results::Kind>{results::Kind::inclusion});
+  EXPECT_EQ(result.interfaces[0].edges.inclusion, Integers{0});
   ASSERT_EQ(result.loads.size(), 1U);
   const results::Load& load = result.loads[0];
   EXPECT_EQ(load.name, "one");
@@ -178,6 +190,24 @@ TEST(ToResult, KeepsALoadThatFailedWithoutArrays) {
   EXPECT_TRUE(result.loads[1].traces.empty());
 }
 
+TEST(ToMeshPlan, KeepsWhichInclusionLiesWhere) {
+  const Fetched sent = fetched();
+  const results::MeshPlan plan = to_mesh_plan(sent.mesh, sent.mesh_block);
+  EXPECT_EQ(plan.mesh.inclusions, std::vector<std::string>{"fibre"});
+  ASSERT_EQ(plan.interfaces.size(), 1U);
+  EXPECT_EQ(plan.interfaces[0].name, "sigma");
+  EXPECT_EQ(plan.interfaces[0].nodes, (Integers{0, 1}));
+  EXPECT_EQ(plan.interfaces[0].edges.kind, std::vector<results::Kind>{results::Kind::inclusion});
+  EXPECT_EQ(plan.interfaces[0].edges.inclusion, Integers{0});
+}
+
+TEST(ToMeshPlan, RefusesAnInclusionThatIsNone) {
+  const Fetched sent = fetched();
+  EXPECT_THROW(to_mesh_plan(sent.mesh, mesh_block(3, 1)), results::Error);
+  EXPECT_THROW(to_mesh_plan(sent.mesh, mesh_block(1, 0)), results::Error);
+  EXPECT_THROW(to_mesh_plan(sent.mesh, mesh_block(5, 0)), results::Error);
+}
+
 TEST(ToResult, RefusesContactOnAnUnknownInterface) {
   Fetched odd = fetched();
   odd.job.mutable_answers(0)->mutable_contact_intervals(0)->set_interface("tau");
@@ -208,7 +238,6 @@ Fetched fetched_sweep() {
   job.mutable_sweep_answer()->set_rows(3);
   job.mutable_sweep_answer()->mutable_solve_time()->set_seconds(2);
   job.mutable_error()->set_message("row 1 is odd");
-  result.mesh.add_inclusions("fibre");
   BlockMaker maker;
   maker.add("interfaces/0/s", Reals{0, 1}).add("interfaces/0/x", Reals{0, 1});
   maker.add("interfaces/0/y", Reals{0, 0}).add("interfaces/0/kind", Integers{2, 2});
@@ -264,6 +293,7 @@ TEST(ToResult, MakesLoadsOfTheRowsThatHaveTraces) {
 TEST(ToResult, TakesASweepWithoutInclusionsAndCracks) {
   Fetched plain = fetched_sweep();
   plain.mesh.clear_inclusions();
+  plain.mesh_block = mesh_block(1, -1);
   for (v1::ArrayLayout& array : *plain.result_block.layout.mutable_arrays()) {
     if (array.name() == "sweep/displacement" || array.name() == "sweep/contact") {
       array.set_shape(1, 0);

@@ -134,6 +134,7 @@ TEST(Draw, runs_nothing_that_a_case_says) {
   result.loads.resize(1);
   result.title = "<script>&amp;</script> `touch pwned` '; system('touch pwned'); '\n!touch pwned";
   result.loads[0].inclusions = {{"'`touch pwned`", 1, 0, 0}, {"\n!touch pwned\n", 2, 0, 0}};
+  result.mesh.inclusions = {"'`touch pwned`", "\n!touch pwned\n"};
   const Drawn drawn = draw(result, folder.path());
   EXPECT_EQ(drawn.files.size(), 8u);
   EXPECT_EQ(files_in(folder.path()).count("pwned"), 0u);

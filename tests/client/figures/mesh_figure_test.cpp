@@ -146,7 +146,7 @@ TEST(MeshFigure, runs_nothing_that_names_say) {
 TEST(MeshFigure, refuses_a_mesh_that_is_inconsistent) {
   const TemporaryFolder folder;
   results::MeshPlan plan = sample_mesh_plan(10);
-  plan.interfaces[0].kind.pop_back();
+  plan.interfaces[0].edges.kind.pop_back();
   EXPECT_THROW(draw_mesh(plan, "m", folder.path()), Error);
   plan = sample_mesh_plan(10);
   plan.interfaces[1].nodes[0] = 9999;

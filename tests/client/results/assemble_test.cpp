@@ -14,6 +14,7 @@
 namespace anticrack::results {
 namespace {
 
+using anticrack::testing::sample_pair;
 using anticrack::testing::sample_result;
 using ::testing::HasSubstr;
 
@@ -27,13 +28,13 @@ class Blocks {
     add(mesh, "boundary", result.mesh.boundary, 2);
     for (std::size_t i = 0; i < result.interfaces.size(); ++i) {
       const Interface& interface = result.interfaces[i];
+      add(mesh, "interfaces/" + interface.name + "/kind", numbers_of(interface.edges.kind));
+      add(mesh, "interfaces/" + interface.name + "/inclusion", interface.edges.inclusion);
       const std::string at = "interfaces/" + std::to_string(i) + "/";
       add(answer, at + "s", interface.s);
       add(answer, at + "x", interface.x);
       add(answer, at + "y", interface.y);
-      std::vector<std::int32_t> kind;
-      for (const Kind each : interface.kind) kind.push_back(static_cast<std::int32_t>(each));
-      add(answer, at + "kind", kind);
+      add(answer, at + "kind", numbers_of(interface.kind));
     }
     for (std::size_t i = 0; i < result.loads.size(); ++i) {
       add_load("loads/" + std::to_string(i) + "/", result.loads[i]);
@@ -55,7 +56,9 @@ class Blocks {
   }
 
   void drop(const std::string& prefix) {
-    std::erase_if(answer, [&](const ArrayView& each) { return each.name.starts_with(prefix); });
+    for (auto* block : {&mesh, &answer}) {
+      std::erase_if(*block, [&](const ArrayView& each) { return each.name.starts_with(prefix); });
+    }
   }
 
   template <typename T>
@@ -71,6 +74,12 @@ class Blocks {
   std::vector<ArrayView> mesh, answer;
 
  private:
+  static std::vector<std::int32_t> numbers_of(const std::vector<Kind>& kinds) {
+    std::vector<std::int32_t> numbers;
+    for (const Kind kind : kinds) numbers.push_back(static_cast<std::int32_t>(kind));
+    return numbers;
+  }
+
   template <typename T>
   void add(std::vector<ArrayView>& block, const std::string& name, const std::vector<T>& values,
            std::uint64_t columns = 0) {
@@ -113,10 +122,12 @@ class Blocks {
 Result answers_of(Result result) {
   const std::vector<std::string> subdomains = result.mesh.subdomains;
   const std::vector<double> tension = result.mesh.tension;
+  const std::vector<std::string> inclusions = result.mesh.inclusions;
   result.mesh = {};
   result.mesh.subdomains = subdomains;
   result.mesh.tension = tension;
-  for (Interface& interface : result.interfaces) interface = {interface.name, {}, {}, {}, {}};
+  result.mesh.inclusions = inclusions;
+  for (Interface& interface : result.interfaces) interface = {interface.name, {}, {}, {}, {}, {}};
   for (Load& load : result.loads) {
     load.traces.clear();
     load.history = {};
@@ -126,13 +137,15 @@ Result answers_of(Result result) {
 }
 
 TEST(Assemble, gives_back_what_the_blocks_hold) {
-  const Result result = sample_result(4);
+  const Result result = sample_pair(4);
   const Blocks blocks(result);
   const Result built = assemble(answers_of(result), blocks.mesh, blocks.answer);
   EXPECT_EQ(built.mesh.xy, result.mesh.xy);
   EXPECT_EQ(built.mesh.triangles, result.mesh.triangles);
   EXPECT_EQ(built.mesh.boundary, result.mesh.boundary);
   EXPECT_EQ(built.interfaces[0].kind, result.interfaces[0].kind);
+  EXPECT_EQ(built.interfaces[0].edges.kind, result.interfaces[0].edges.kind);
+  EXPECT_EQ(built.interfaces[0].edges.inclusion, result.interfaces[0].edges.inclusion);
   EXPECT_EQ(built.loads[1].traces[0].jump, result.loads[1].traces[0].jump);
   EXPECT_EQ(built.loads[1].traces[0].contact, result.loads[1].traces[0].contact);
   EXPECT_EQ(built.loads[0].history.criterion, result.loads[0].history.criterion);
@@ -242,6 +255,27 @@ INSTANTIATE_TEST_SUITE_P(
             "fields/0/triangles is missing"},
         Lie{"kind_unknown", [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/0/kind", 2, 7); },
             "interfaces[0].kind[2] is 7"},
+        Lie{"missing_inclusions_of_edges", [](Blocks& b) { b.drop("interfaces/sigma/inclusion"); },
+            "interfaces/sigma/inclusion is missing"},
+        Lie{"edge_kind_unknown",
+            [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/sigma/kind", 3, 0); },
+            "interfaces[0].edge_kind[3] is 0"},
+        Lie{"edges_of_another_number",
+            [](Blocks& b) {
+              auto& kind = b.array("interfaces/sigma/kind");
+              kind.shape = {7};
+              kind.bytes = kind.bytes.first(28);
+            },
+            "interfaces[0].edge_kind has 7 entries for 8 edges"},
+        Lie{"inclusion_out_of_range",
+            [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/sigma/inclusion", 3, 1); },
+            "interfaces[0].edge_inclusion[3] is 1, there are 1 inclusions"},
+        Lie{"inclusion_negative",
+            [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/sigma/inclusion", 3, -2); },
+            "interfaces[0].edge_inclusion[3] is -2"},
+        Lie{"inclusion_on_glue",
+            [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/sigma/inclusion", 0, 0); },
+            "interfaces[0].edge_inclusion[0] is 0, but its edge_kind is that of no inclusion"},
         Lie{"contact_not_a_flag",
             [](Blocks& b) { b.overwrite<std::int32_t>("loads/1/traces/0/contact", 0, 2); },
             "contact[0] is 2"},

@@ -23,7 +23,9 @@ namespace anticrack::results {
 namespace {
 
 namespace fs = std::filesystem;
+using anticrack::testing::sample_pair;
 using anticrack::testing::sample_result;
+using anticrack::testing::set_edges;
 using anticrack::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 
@@ -119,6 +121,7 @@ void expect_same(const Result& a, const Result& b) {
   EXPECT_EQ(a.mesh.boundary, b.mesh.boundary);
   EXPECT_EQ(a.mesh.subdomains, b.mesh.subdomains);
   EXPECT_EQ(a.mesh.tension, b.mesh.tension);
+  EXPECT_EQ(a.mesh.inclusions, b.mesh.inclusions);
   ASSERT_EQ(a.interfaces.size(), b.interfaces.size());
   for (std::size_t i = 0; i < a.interfaces.size(); ++i) {
     EXPECT_EQ(a.interfaces[i].name, b.interfaces[i].name);
@@ -126,6 +129,8 @@ void expect_same(const Result& a, const Result& b) {
     EXPECT_EQ(a.interfaces[i].x, b.interfaces[i].x);
     EXPECT_EQ(a.interfaces[i].y, b.interfaces[i].y);
     EXPECT_EQ(a.interfaces[i].kind, b.interfaces[i].kind);
+    EXPECT_EQ(a.interfaces[i].edges.kind, b.interfaces[i].edges.kind);
+    EXPECT_EQ(a.interfaces[i].edges.inclusion, b.interfaces[i].edges.inclusion);
   }
   ASSERT_EQ(a.loads.size(), b.loads.size());
   for (std::size_t i = 0; i < a.loads.size(); ++i) expect_same(a.loads[i], b.loads[i]);
@@ -137,6 +142,13 @@ TEST(File, comes_back_as_it_was_written) {
   write(folder / "a.h5", result);
   expect_same(read(folder / "a.h5"), result);
   EXPECT_EQ(files_in(folder.path()), 1u);
+}
+
+TEST(File, keeps_which_inclusion_lies_where) {
+  const TemporaryFolder folder;
+  const Result result = sample_pair(4);
+  write(folder / "a.h5", result);
+  expect_same(read(folder / "a.h5"), result);
 }
 
 TEST(File, keeps_the_order_of_the_loads) {
@@ -169,7 +181,10 @@ TEST(File, holds_a_failed_load_and_an_empty_result) {
 void take_away_later_additions(const std::string& path) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   ASSERT_GE(file, 0);
-  H5Ldelete(file, "/mesh/tension", H5P_DEFAULT);
+  for (const char* dataset : {"/mesh/tension", "/mesh/inclusions", "/interfaces/0/edge_kind",
+                              "/interfaces/0/edge_inclusion"}) {
+    H5Ldelete(file, dataset, H5P_DEFAULT);
+  }
   for (const std::string load : {"/loads/opening", "/loads/partly closed"}) {
     for (const char* attribute : {"weakly_active", "tolerance", "kkt_tolerance"}) {
       H5Adelete_by_name(file, load.c_str(), attribute, H5P_DEFAULT);
@@ -193,6 +208,34 @@ TEST(File, of_an_earlier_client_is_read) {
     load.warnings.clear();
   }
   expect_same(read(folder / "a.h5"), result);
+}
+
+TEST(File, of_an_earlier_client_tells_what_lies_along_an_interface_from_its_nodes) {
+  const TemporaryFolder folder;
+  Result result = sample_result(10);
+  auto& line = result.interfaces[0];
+  // "fibre" from x = -0.5 to 0.5, bonded right of 0; a crack from 0.7 to 0.9.
+  for (std::size_t i = 10; i <= 15; ++i) line.kind[i] = Kind::inclusion;
+  line.kind[18] = Kind::crack;
+  write(folder / "a.h5", result);
+  take_away_later_additions(folder / "a.h5");
+  set_edges(line, 10, 15, Kind::inclusion, 0);
+  set_edges(line, 17, 19, Kind::crack, -1);
+  const Result seen = read(folder / "a.h5");
+  EXPECT_EQ(seen.interfaces[0].edges.kind, line.edges.kind);
+  EXPECT_EQ(seen.interfaces[0].edges.inclusion, line.edges.inclusion);
+  EXPECT_EQ(seen.mesh.inclusions, std::vector<std::string>{"fibre"});
+}
+
+TEST(File, of_an_earlier_client_does_not_tell_two_inclusions_apart) {
+  const TemporaryFolder folder;
+  Result result = sample_pair(10);
+  write(folder / "a.h5", result);
+  take_away_later_additions(folder / "a.h5");
+  const Result seen = read(folder / "a.h5");
+  EXPECT_EQ(seen.mesh.inclusions, result.mesh.inclusions);
+  EXPECT_EQ(seen.interfaces[0].edges.kind, result.interfaces[0].edges.kind);
+  EXPECT_EQ(seen.interfaces[0].edges.inclusion, std::vector<std::int32_t>(20, -1));
 }
 
 /// The upper half of the sample with one node of the interface there twice, as inside a slit.

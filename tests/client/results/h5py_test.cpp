@@ -65,6 +65,19 @@ TEST_F(H5py, sees_attributes_units_and_text) {
       "'# \\xe9'\n");
 }
 
+TEST_F(H5py, sees_which_inclusion_lies_where) {
+  EXPECT_EQ(python("import h5py\n"
+                   "f = h5py.File('" +
+                   path +
+                   "')\n"
+                   "line = f['interfaces/0']\n"
+                   "names = f['mesh/inclusions'].asstr()[:]\n"
+                   "print(names[line['edge_inclusion'][20]], line['edge_kind'][20], len(names))\n"
+                   "print(line['edge_inclusion'][0], line['edge_inclusion'].attrs['meaning'])\n"),
+            "fibre 4 1\n"
+            "-1 index into /mesh/inclusions, -1 none\n");
+}
+
 TEST_F(H5py, finds_units_on_every_dataset) {
   EXPECT_EQ(python("import h5py\n"
                    "f = h5py.File('" +
@@ -74,7 +87,7 @@ TEST_F(H5py, finds_units_on_every_dataset) {
                    "f.visititems(lambda n, o: seen.append('units' in o.attrs)\n"
                    "             if isinstance(o, h5py.Dataset) else None)\n"
                    "print(len(seen), all(seen))"),
-            "64 True\n");
+            "67 True\n");
 }
 
 }  // namespace

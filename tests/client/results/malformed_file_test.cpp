@@ -167,7 +167,7 @@ TEST_P(Damaged, is_refused) {
   expect_refused(folder / "a.h5", GetParam().complaint);
 }
 
-const std::array<Damage, 26> damages{{
+const std::array<Damage, 31> damages{{
     {"format_missing", [](hid_t f) { H5Adelete(f, "format"); },
      "is HDF5, but no result of anticrack"},
     {"format_foreign", [](hid_t f) { replace_text(f, "/", "format", "netcdf"); },
@@ -233,6 +233,20 @@ const std::array<Damage, 26> damages{{
        H5Dclose(id);
      },
      "is inconsistent: mesh.triangles[0] is 1000"},
+    {"edge_kinds_missing", [](hid_t f) { H5Ldelete(f, "/interfaces/0/edge_kind", H5P_DEFAULT); },
+     "\"edge_kind\" is missing"},
+    {"edge_inclusions_of_another_type",
+     [](hid_t f) { replace_dataset(f, "/interfaces/0/edge_inclusion", H5T_IEEE_F64LE, {8}); },
+     "dataset edge_inclusion is not int32"},
+    {"edge_inclusions_of_another_number",
+     [](hid_t f) { replace_dataset(f, "/interfaces/0/edge_inclusion", H5T_STD_I32LE, {9}); },
+     "interfaces[0].edge_inclusion has 9 entries for 8 edges"},
+    {"inclusion_on_an_edge_of_none",
+     [](hid_t f) { replace_dataset(f, "/interfaces/0/edge_inclusion", H5T_STD_I32LE, {8}); },
+     "interfaces[0].edge_inclusion[0] is 0, but its edge_kind is that of no inclusion"},
+    {"names_of_inclusions_of_another_type",
+     [](hid_t f) { replace_dataset(f, "/mesh/inclusions", H5T_STD_I32LE, {1}); },
+     "dataset inclusions is not variable-length text"},
     {"interfaces_not_numbered",
      [](hid_t f) { H5Lmove(f, "/interfaces/0", f, "/interfaces/sigma", H5P_DEFAULT, H5P_DEFAULT); },
      "interfaces are not numbered from 0"},

@@ -96,6 +96,7 @@ TEST(Export, carries_traces_and_pressure_along_the_interface) {
   EXPECT_EQ(seen.arrays.at("contact").as<std::int32_t>(), trace.contact);
   EXPECT_EQ(seen.arrays.at("s").as<double>(), result.interfaces[0].s);
   EXPECT_EQ(seen.arrays.at("kind").as<std::int32_t>()[4], 4);
+  EXPECT_EQ(seen.arrays.at("inclusion").as<std::int32_t>(), result.interfaces[0].edges.inclusion);
   EXPECT_EQ(seen.arrays.at("types").as<std::uint8_t>(), std::vector<std::uint8_t>(8, 3));
 }
 
