@@ -54,7 +54,7 @@ class TerminalView(FolderTest):
     def start_daemon(self, **options):
         daemon = Daemon(self.folder, "--iterations", str(10**9), **options)
         self.addCleanup(daemon.__exit__)
-        self.server = f"localhost:{daemon.port}"
+        self.server = f"127.0.0.1:{daemon.port}"  # resolving a name, c-ares leaks, which AddressSanitizer minds
         return daemon
 
     def run_case(self, case, *flags, **options):
