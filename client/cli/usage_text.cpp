@@ -143,7 +143,7 @@ std::string before_colon(const std::string& text) {
 
 // CLI11's own words, made to say what to do.
 std::string of_error(const CLI::ParseError& error) {
-  const std::string text = error.what();
+  std::string text = error.what();
   const std::string kind = error.get_name();
   if (kind == "ArgumentMismatch") {
     return before_colon(text) + (text.find("missing") != std::string::npos
