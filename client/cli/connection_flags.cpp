@@ -8,6 +8,7 @@
 
 #include "casefile/duration.hpp"
 #include "cli/server_address.hpp"
+#include "guide/shells.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -17,14 +18,7 @@ std::string quoted(const std::string& word) {
   const bool plain = word.find_first_not_of(
                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                          "0123456789-_./:@%+=,") == std::string::npos;
-  if (plain) {
-    return word;
-  }
-  std::string text = "'";
-  for (const char c : word) {
-    text += c == '\'' ? "'\\''" : std::string(1, c);
-  }
-  return text + "'";
+  return plain ? word : guide::quoted(word);
 }
 
 }  // namespace

@@ -59,15 +59,13 @@ v1::Mesh wait_for(Session& session, const std::string& name) {
 
 int create(const casefile::Case& the_case, bool wait, const Globals& globals) {
   Session session(globals);
-  try {
-    const v1::Mesh mesh = create_mesh(session, the_case);
+  const v1::Mesh mesh = create_mesh(session, the_case);
+  return translated(the_case, [&] {
     if (mesh.state() == v1::Mesh::STATE_FAILED) {
       throw client::decode_error(mesh.error());
     }
     return show(globals, wait ? wait_for(session, mesh.name()) : mesh);
-  } catch (const client::Error& error) {
-    throw in_terms_of(the_case, error);
-  }
+  });
 }
 
 int upload(const MeshOptions& options, const Globals& globals) {

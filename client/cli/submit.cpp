@@ -18,15 +18,6 @@
 namespace anticrack::cli {
 namespace {
 
-template <class Call>
-auto translated(const casefile::Case& the_case, const Call& call) -> decltype(call()) {
-  try {
-    return call();
-  } catch (const client::Error& error) {
-    throw in_terms_of(the_case, error);
-  }
-}
-
 // One upload for every content: loads often share a file.
 class ForceUploads {
  public:

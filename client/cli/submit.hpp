@@ -28,6 +28,16 @@ void add_case_flags(CLI::App& command, std::vector<std::string>& overrides);
 /// The server speaks of fields of a request, its user of lines of a file.
 client::Error in_terms_of(const casefile::Case& the_case, const client::Error& error);
 
+/// Does what the server may refuse; its error is then in terms of the case.
+template <class Call>
+auto translated(const casefile::Case& the_case, const Call& call) -> decltype(call()) {
+  try {
+    return call();
+  } catch (const client::Error& error) {
+    throw in_terms_of(the_case, error);
+  }
+}
+
 /// Uploads the case's .msh if it has one, and creates its mesh. A refusal names the lines of the
 /// case it is about.
 v1::Mesh create_mesh(Session& session, const casefile::Case& the_case);

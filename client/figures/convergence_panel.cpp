@@ -15,10 +15,10 @@ using results::Load;
 struct Series {
   const std::vector<double>* values;
   const char* title;
-  const char* style;
+  std::string style;
 };
 
-const char* const blue_solid = "linecolor rgb '#0072B2' dashtype solid";
+const std::string blue_solid = "linecolor " + blue + " dashtype solid";
 
 /// Algorithm 2 has its criterion; the active set has none, it is done when the conditions hold.
 std::vector<Series> series_of(const Load& load) {
@@ -28,8 +28,8 @@ std::vector<Series> series_of(const Load& load) {
   }
   return {
       {&history.kkt_gap, "gap", blue_solid},
-      {&history.kkt_sign, "sign", "linecolor rgb '#D55E00' dashtype (8,4)"},
-      {&history.kkt_complementarity, "complementarity", "linecolor rgb '#222222' dashtype (2,3)"}};
+      {&history.kkt_sign, "sign", "linecolor " + vermillion + " dashtype (8,4)"},
+      {&history.kkt_complementarity, "complementarity", "linecolor " + black + " dashtype (2,3)"}};
 }
 
 bool drawable(double value) {
