@@ -7,6 +7,7 @@
 
 #include "cli/exit_codes.hpp"
 #include "cli/json.hpp"
+#include "cli/progress.hpp"
 #include "cli/sweep_text.hpp"
 #include "cli/text.hpp"
 
@@ -18,9 +19,9 @@ bool has_answer(const results::Load& load) {
 }
 
 // Names of all inclusions, in order of appearance.
-std::vector<std::string> inclusions_of(const results::Result& result) {
+std::vector<std::string> inclusions_of(const std::vector<results::Load>& loads) {
   std::vector<std::string> names;
-  for (const results::Load& load : result.loads) {
+  for (const results::Load& load : loads) {
     for (const results::Inclusion& inclusion : load.inclusions) {
       if (std::find(names.begin(), names.end(), inclusion.name) == names.end()) {
         names.push_back(inclusion.name);
@@ -36,21 +37,15 @@ std::string displacement_of(const results::Load& load, const std::string& name) 
   return found == load.inclusions.end() ? "-" : number(found->displacement);
 }
 
-std::string words_of(results::Status status) {
-  std::string words(results::name(status));
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
-}
-
 std::vector<std::string> row_of(const results::Load& load,
                                 const std::vector<std::string>& inclusions, bool with_theta) {
   const bool answered = has_answer(load);
   const auto when_answered = [answered](double value, int digits = 6) {
     return answered ? number(value, digits) : "-";
   };
-  std::vector<std::string> row{sanitise(load.name), words_of(load.status),
-                               std::to_string(load.iterations),
-                               answered ? number(load.criterion, 2, true) : "-"};
+  std::vector<std::string> row{
+      sanitise(load.name), std::string(word(static_cast<v1::LoadCaseAnswer::Status>(load.status))),
+      std::to_string(load.iterations), answered ? number(load.criterion, 2, true) : "-"};
   for (const std::string& name : inclusions) {
     row.push_back(answered ? displacement_of(load, name) : "-");
   }
@@ -84,19 +79,16 @@ std::vector<std::string> remarks_on(const results::Load& load) {
 
 }  // namespace
 
-std::string answers_table(const results::Result& result) {
-  if (result.sweep) {
-    return sweep_table(*result.sweep);
-  }
-  const std::vector<std::string> inclusions = inclusions_of(result);
+std::string answers_table(const std::vector<results::Load>& loads) {
+  const std::vector<std::string> inclusions = inclusions_of(loads);
   std::vector<std::string> head{"load", "status", "iterations", "criterion"};
   for (const std::string& name : inclusions) {
     head.push_back(inclusions.size() == 1 ? "A" : "A " + sanitise(name));
   }
   // The active set knows none.
-  const bool with_theta =
-      std::any_of(result.loads.begin(), result.loads.end(),
-                  [](const results::Load& load) { return std::isfinite(load.theta); });
+  const bool with_theta = std::any_of(loads.begin(), loads.end(), [](const results::Load& load) {
+    return std::isfinite(load.theta);
+  });
   head.insert(head.end(), {"energy", "contact length"});
   if (with_theta) {
     head.insert(head.end(), {"theta", "theta*"});
@@ -107,13 +99,17 @@ std::string answers_table(const results::Result& result) {
   units.back() = "s";
   std::vector<std::vector<std::string>> rows{head, units};
   std::string remarks;
-  for (const results::Load& load : result.loads) {
+  for (const results::Load& load : loads) {
     rows.push_back(row_of(load, inclusions, with_theta));
     for (const std::string& remark : remarks_on(load)) {
       remarks += sanitise(load.name) + ": " + sanitise(remark) + "\n";
     }
   }
   return table(rows, {1}) + remarks;
+}
+
+std::string answers_table(const results::Result& result) {
+  return result.sweep ? sweep_table(*result.sweep) : answers_table(result.loads);
 }
 
 std::string answers_json(const results::Result& result, const std::filesystem::path& file) {

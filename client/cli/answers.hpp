@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "results/result.hpp"
 
@@ -12,7 +13,8 @@ namespace anticrack::cli {
 
 /// A head row, a row of units ("-": dimensionless), one row per load case; below it, why load cases
 /// did not converge or failed. A column "A" per inclusion, with its name where there are several.
-/// Of a sweep how its rows ended, and what they span.
+std::string answers_table(const std::vector<results::Load>& loads);
+/// The same of a result; of a sweep how its rows ended, and what they span.
 std::string answers_table(const results::Result& result);
 
 /// {title, file, job, mesh, timings, answers: [one per load case]}; of a sweep also {sweep: {rows,

@@ -22,7 +22,9 @@ constexpr const char* footer =
     "  3    some load case did not converge; its results are saved all the same\n"
     "  4    server unreachable or refusing\n"
     "  130  interrupted: detached from the job, or cancelled it\n\n"
-    "Example:\n  anticrack --local run client/examples/paper.toml";
+    "Cases to begin with:\n"
+    "  client/examples in the sources, /usr/share/anticrack/examples in the Debian package\n\n"
+    "Example:\n  anticrack --local run paper.toml";
 
 }  // namespace
 

@@ -112,16 +112,8 @@ int plot(const FileOptions& options, const Globals& globals) {
 }
 
 int export_file(const FileOptions& options, const Globals& globals) {
-  const results::Result result = read(options);
-  try {
-    const vtk::Exported exported = vtk::export_result(result, options.folder);
-    return tell_made(exported.files, exported.notes, globals);
-  } catch (const results::Error& error) {
-    const bool of_load = error.subject().starts_with("load ");  // in which file is said here
-    throw of_load
-        ? results::Error(options.file + ": " + error.subject(), error.cause(), error.cure())
-        : error;
-  }
+  const vtk::Exported exported = vtk::export_result(read(options), options.file, options.folder);
+  return tell_made(exported.files, exported.notes, globals);
 }
 
 }  // namespace

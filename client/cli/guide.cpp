@@ -9,7 +9,6 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
@@ -17,17 +16,13 @@
 #include "cli/session.hpp"
 #include "guide/completion.hpp"
 #include "guide/manual.hpp"
+#include "results/make_folder.hpp"
 
 namespace anticrack::cli {
 namespace {
 
 int write_manual(const CLI::App& app, const std::filesystem::path& folder, const Globals& globals) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    throw std::runtime_error(folder.string() + ": cannot be made a folder" +
-                             (error ? ": " + error.message() : "") + "; name another one");
-  }
+  results::make_folder(folder);
   const std::vector<guide::Page> pages = guide::manual(app, 1, "anticrack " ANTICRACK_VERSION);
   for (const guide::Page& page : pages) {
     std::ofstream file(folder / page.file);

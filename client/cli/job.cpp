@@ -156,7 +156,7 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
   };
 
   CLI::App* submit_command =
-      add("submit", "Submit a case and return at once", "client/examples/paper.toml",
+      add("submit", "Submit a case and return at once", "paper.toml",
           [&globals](const JobOptions& o) { return submit_case(o, globals); });
   submit_command->add_option("CASE", options->case_file, "The case, a TOML file")
       ->required()

@@ -3,11 +3,12 @@
 
 #include <google/protobuf/util/time_util.h>
 
-#include <algorithm>
 #include <vector>
 
+#include "cli/answers.hpp"
 #include "cli/progress.hpp"
 #include "cli/text.hpp"
+#include "cli/to_result.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -43,51 +44,6 @@ std::string circumstances(const v1::Job& job) {
   add_limit("waits", job.queue_timeout());
   add_limit("runs", job.run_timeout());
   return text + "\n";
-}
-
-// Names of the inclusions of all answers, in order of appearance.
-std::vector<std::string> inclusions_of(const v1::Job& job) {
-  std::vector<std::string> names;
-  for (const v1::LoadCaseAnswer& answer : job.answers()) {
-    for (const v1::InclusionAnswer& inclusion : answer.inclusions()) {
-      if (std::find(names.begin(), names.end(), inclusion.name()) == names.end()) {
-        names.push_back(inclusion.name());
-      }
-    }
-  }
-  return names;
-}
-
-std::string displacement_of(const v1::LoadCaseAnswer& answer, const std::string& name) {
-  const auto found = std::find_if(answer.inclusions().begin(), answer.inclusions().end(),
-                                  [&](const auto& inclusion) { return inclusion.name() == name; });
-  return found == answer.inclusions().end() ? "-" : number(found->displacement());
-}
-
-std::string answers(const v1::Job& job) {
-  const std::vector<std::string> inclusions = inclusions_of(job);
-  std::vector<std::vector<std::string>> rows{{"load", "status", "iterations", "criterion"}};
-  for (const std::string& name : inclusions) {
-    rows[0].push_back(inclusions.size() == 1 ? "A" : "A " + sanitise(name));
-  }
-  rows[0].emplace_back("energy");
-  std::string remarks;
-  for (const v1::LoadCaseAnswer& answer : job.answers()) {
-    const bool answered = answer.status() == v1::LoadCaseAnswer::STATUS_CONVERGED ||
-                          answer.status() == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED;
-    rows.push_back({sanitise(answer.name()), std::string(word(answer.status())),
-                    std::to_string(answer.iterations()),
-                    answered ? number(answer.criterion(), 2, true) : "-"});
-    for (const std::string& name : inclusions) {
-      rows.back().push_back(answered ? displacement_of(answer, name) : "-");
-    }
-    rows.back().push_back(answered ? number(answer.energy()) : "-");
-    const std::string& remark = answer.has_error() ? answer.error().message() : answer.reason();
-    if (!remark.empty()) {
-      remarks += sanitise(answer.name()) + ": " + sanitise(remark) + "\n";
-    }
-  }
-  return table(rows, {1}) + remarks;
 }
 
 std::string sweep_answer(const v1::Job& job) {
@@ -144,8 +100,8 @@ std::string job_text(const v1::Job& job) {
   if (job.state() == v1::Job::STATE_EXPIRED) {
     text += expired_text(job) + "\n";
   }
-  return text + circumstances(job) + "\n" + (job.has_sweep() ? sweep_answer(job) : answers(job)) +
-         timeline(job);
+  return text + circumstances(job) + "\n" +
+         (job.has_sweep() ? sweep_answer(job) : answers_table(to_loads(job))) + timeline(job);
 }
 
 }  // namespace anticrack::cli

@@ -190,7 +190,7 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
       ->type_name("FILE");
   add_overrides(create_command);
   create_command->add_flag("--no-wait", options->no_wait, "Do not wait until it is factorised");
-  create_command->footer("Example:\n  anticrack mesh create client/examples/paper.toml");
+  create_command->footer("Example:\n  anticrack mesh create paper.toml");
   on(create_command, [&globals](const MeshOptions& o) {
     return create(casefile::read_case(o.file, o.overrides), !o.no_wait, globals);
   });

@@ -65,7 +65,7 @@ void add_run(CLI::App& app, const Globals& globals, Command& chosen) {
       "seconds cancels the job and saves what had ended. With --local the first one cancels. "
       "Either\n"
       "exits with 130.\n\n"
-      "Example:\n  anticrack --local run client/examples/paper.toml -o paper.h5\n"
+      "Example:\n  anticrack --local run paper.toml -o paper.h5\n"
       "  anticrack run plate.toml --set mesh.preset=uniform --set mesh.size=0.02");
   command->callback(
       [=, &globals, &chosen] { chosen = [options, &globals] { return run(*options, globals); }; });

@@ -189,8 +189,7 @@ void add_sweep(CLI::App& app, const Globals& globals, Command& chosen) {
       "Row k of the file is the load case c_k1 load_1 + c_k2 load_2 + ..., solved by the active\n"
       "set. Answers are columns: A, energy, contact length, steps, status and contact of every\n"
       "row; traces of those named. Ctrl-C detaches, as in run.\n\n"
-      "Example:\n  anticrack sweep client/examples/load-ratio.toml --coefficients "
-      "client/examples/load-ratio.csv\n"
+      "Example:\n  anticrack sweep load-ratio.toml --coefficients load-ratio.csv\n"
       "  anticrack sweep plate.toml --coefficients runs.h5:/c --traces 0,100-110 --csv runs.csv");
   command->callback([=, &globals, &chosen] {
     chosen = [options, &globals] { return sweep(*options, globals); };

@@ -50,8 +50,7 @@ void set_solver(const v1::Solver& solver, results::Load& load) {
 }
 
 results::Load to_load(const v1::LoadCase& load_case, const v1::LoadCaseAnswer& answer,
-                      const v1::Solver& solver,
-                      const std::map<std::string, std::size_t>& interfaces) {
+                      const v1::Solver& solver) {
   results::Load load;
   load.name = load_case.name();
   load.status = static_cast<results::Status>(answer.status());
@@ -76,6 +75,11 @@ results::Load to_load(const v1::LoadCase& load_case, const v1::LoadCaseAnswer& a
     load.inclusions.push_back({inclusion.name(), inclusion.displacement(), inclusion.resultant(),
                                inclusion.contact_length()});
   }
+  return load;
+}
+
+void add_contact(const v1::LoadCaseAnswer& answer,
+                 const std::map<std::string, std::size_t>& interfaces, results::Load& load) {
   for (const v1::ContactInterval& interval : answer.contact_intervals()) {
     const auto found = interfaces.find(interval.interface());
     if (found == interfaces.end()) {
@@ -85,7 +89,6 @@ results::Load to_load(const v1::LoadCase& load_case, const v1::LoadCaseAnswer& a
     }
     load.contact_intervals.push_back({found->second, interval.begin(), interval.end()});
   }
-  return load;
 }
 
 std::optional<results::ArrayView::Type> type_of(v1::ArrayLayout::Type type) {
@@ -141,6 +144,17 @@ results::Sweep to_sweep(const Fetched& fetched) {
 
 }  // namespace
 
+std::vector<results::Load> to_loads(const v1::Job& job) {
+  std::vector<results::Load> loads;
+  loads.reserve(static_cast<std::size_t>(job.load_cases_size()));
+  for (int i = 0; i < job.load_cases_size(); ++i) {
+    const v1::LoadCaseAnswer answer =
+        i < job.answers_size() ? job.answers(i) : v1::LoadCaseAnswer();
+    loads.push_back(to_load(job.load_cases(i), answer, job.solver()));
+  }
+  return loads;
+}
+
 results::MeshPlan to_mesh_plan(const v1::Mesh& mesh, const client::Block& block) {
   results::MeshPlan plan;
   plan.title = mesh.title().empty() ? mesh.name() : mesh.title();
@@ -176,12 +190,14 @@ results::Result to_result(const Fetched& fetched) {
     result.sweep = to_sweep(fetched);
     result.timings.solve_seconds = result.sweep->solve_seconds;
   }
-  for (int i = 0; i < fetched.job.load_cases_size() && !result.sweep; ++i) {
-    const v1::LoadCaseAnswer answer =
-        i < fetched.job.answers_size() ? fetched.job.answers(i) : v1::LoadCaseAnswer();
-    result.loads.push_back(
-        to_load(fetched.job.load_cases(i), answer, fetched.job.solver(), interfaces));
-    result.timings.solve_seconds += result.loads.back().solve_seconds;
+  if (!result.sweep) {
+    result.loads = to_loads(fetched.job);
+    for (std::size_t i = 0; i < result.loads.size(); ++i) {
+      result.timings.solve_seconds += result.loads[i].solve_seconds;
+      if (static_cast<int>(i) < fetched.job.answers_size()) {
+        add_contact(fetched.job.answers(static_cast<int>(i)), interfaces, result.loads[i]);
+      }
+    }
   }
   return results::assemble(std::move(result), views_of(fetched.mesh_block),
                            views_of(fetched.result_block));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/server.pb.h"
@@ -24,6 +25,9 @@ struct Fetched {
 
 /// Throws results::Error for what does not fit together.
 results::Result to_result(const Fetched& fetched);
+
+/// The answers so far, without traces, fields, histories and contact intervals: one per load case.
+std::vector<results::Load> to_loads(const v1::Job& job);
 
 /// What ReadMesh gave for a mesh, to be drawn. Throws as to_result.
 results::MeshPlan to_mesh_plan(const v1::Mesh& mesh, const client::Block& block);

@@ -64,7 +64,25 @@ std::string see(const CLI::App& app) {
   return "; see " + path_of(app) + " --help";
 }
 
+// "run, mesh create": the commands below `app` that take an option.
+std::string takers_below(const CLI::App& app, const std::string& name, const std::string& path) {
+  std::string takers;
+  const auto add = [&takers](const std::string& more) {
+    takers += takers.empty() || more.empty() ? more : ", " + more;
+  };
+  const auto is_command = [](const CLI::App* below) { return !below->get_name().empty(); };
+  for (const CLI::App* command : app.get_subcommands(is_command)) {
+    const std::string here = path + command->get_name();
+    add(command->get_option_no_throw(name) == nullptr ? "" : here);
+    add(takers_below(*command, name, here + " "));
+  }
+  return takers;
+}
+
 std::string unknown_option(const CLI::App& app, const std::string& name) {
+  if (const std::string takers = takers_below(app, name, ""); !takers.empty()) {
+    return name + " is an option of " + takers + "; write it behind the command";
+  }
   const auto meant = casefile::nearest(name, options_of(&app));
   return "unknown option " + name + " of " + path_of(app) +
          (meant ? "; did you mean " + *meant + "?" : see(app));

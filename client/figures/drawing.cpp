@@ -5,7 +5,6 @@
 
 #include <array>
 #include <atomic>
-#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <string_view>
@@ -14,6 +13,7 @@
 
 #include "figures/gnuplot.hpp"
 #include "figures/svg.hpp"
+#include "results/make_folder.hpp"
 
 namespace anticrack::figures {
 namespace {
@@ -101,23 +101,10 @@ class Partials {
   fs::path _folder;
 };
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder)) {
-    throw Error(folder.string() + ": cannot be made a folder" +
-                (error ? ": " + error.message() : "") + "; choose another folder with -o");
-  }
-  if (access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw Error(folder.string() + ": " + std::generic_category().message(errno) +
-                "; make the folder writable, or choose another one with -o");
-  }
-}
-
 }  // namespace
 
 Drawing::Drawing(fs::path folder, Options options) : _folder(std::move(folder)), _options(options) {
-  make_folder(_folder);
+  results::make_folder(_folder);
 }
 
 void Drawing::draw(const std::string& stem,

@@ -15,7 +15,7 @@ namespace anticrack::figures {
 
 class Drawing {
  public:
-  /// Makes the folder if it is missing; throws Error where it cannot be written.
+  /// Makes the folder if it is missing; throws results::Error where it cannot be written.
   Drawing(std::filesystem::path folder, Options options);
 
   /// Runs the script for STEM.png, STEM.svg, ..., as the options ask; all are written under

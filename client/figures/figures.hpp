@@ -45,7 +45,8 @@ struct Drawn {
 ///   row-K-traces      of the first rows whose traces were kept
 /// LOAD is the load's name made safe for a file name, and unique. With several interfaces the
 /// traces of the second and later are LOAD-traces-2 and so on. Each file is written under a
-/// temporary name and renamed. Throws Error; files drawn before it stay.
+/// temporary name and renamed. Throws Error, of a folder results::Error; files drawn before it
+/// stay.
 Drawn draw(const results::Result& result, const std::filesystem::path& folder,
            const Options& options = {});
 

@@ -2,10 +2,10 @@
 #include "vtk/export.hpp"
 
 #include <span>
-#include <system_error>
 #include <utility>
 
 #include "figures/text.hpp"
+#include "results/make_folder.hpp"
 #include "results/replace_file.hpp"
 
 namespace anticrack::vtk {
@@ -25,24 +25,15 @@ void write(const fs::path& path, const std::string& bytes, Exported& exported) {
   exported.files.push_back(path);
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder)) {
-    throw results::Error(folder.string(),
-                         "cannot be made a folder" + (error ? ": " + error.message() : ""),
-                         "choose another folder with -o");
-  }
-}
-
-bool exportable(const Result& result, const Load& load, Exported& exported) {
+bool exportable(const Result& result, const std::string& source, const Load& load,
+                Exported& exported) {
   if (load.traces.empty() && load.fields.empty()) {
     exported.notes.push_back("load \"" + load.name + "\" has no answer (" +
                              std::string(results::name(load.status)) + "): nothing to export");
     return false;
   }
   if (load.fields.empty() && !result.sweep) {
-    throw results::Error("load \"" + load.name + "\"",
+    throw results::Error(source + ": load \"" + load.name + "\"",
                          "the result has no fields, u is known along the interfaces only",
                          "run the case again with [output] fields = true, or with --set "
                          "output.fields=true");
@@ -110,9 +101,9 @@ UnstructuredGrid interfaces(const Result& result, const Load& load) {
   return grid;
 }
 
-Exported export_result(const Result& result, const fs::path& folder) {
+Exported export_result(const Result& result, const std::string& source, const fs::path& folder) {
   const std::string fault = results::first_fault(result);
-  if (!fault.empty()) throw results::Error("the result", "is inconsistent: " + fault, "");
+  if (!fault.empty()) throw results::Error(source, "is inconsistent: " + fault, "");
   std::vector<std::string> names;
   names.reserve(result.loads.size());
   for (const Load& load : result.loads) names.push_back(load.name);
@@ -121,14 +112,14 @@ Exported export_result(const Result& result, const fs::path& folder) {
   Exported exported;
   std::vector<std::size_t> answered;
   for (std::size_t i = 0; i < result.loads.size(); ++i) {
-    if (exportable(result, result.loads[i], exported)) answered.push_back(i);
+    if (exportable(result, source, result.loads[i], exported)) answered.push_back(i);
   }
   if (answered.empty()) {
     throw results::Error(
-        "the result", "no load has an answer to export",
+        source, "no load has an answer to export",
         result.sweep ? "keep the traces of some rows, with --traces" : "solve the case first");
   }
-  make_folder(folder);
+  results::make_folder(folder);
   std::vector<Member> members;
   for (const std::size_t i : answered) {
     const Load& load = result.loads[i];

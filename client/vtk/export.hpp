@@ -33,7 +33,8 @@ struct Exported {
 /// safe for a file name, and unique. Of a sweep the interfaces of the rows whose traces were kept:
 /// it has no fields. Each file is written whole or not at all. Throws
 /// results::Error where an answer has no fields (but of a sweep), where nothing is answered, and
-/// where a file cannot be written.
-Exported export_result(const results::Result& result, const std::filesystem::path& folder);
+/// where a file cannot be written; `source` names the result in it, the file it was read from.
+Exported export_result(const results::Result& result, const std::string& source,
+                       const std::filesystem::path& folder);
 
 }  // namespace anticrack::vtk

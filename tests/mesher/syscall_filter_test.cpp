@@ -20,6 +20,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "mesher/sanitized.hpp"
@@ -101,7 +102,7 @@ TEST_F(SyscallFilter, NoProcessIsStartedOrTouched) {
 
 TEST_F(SyscallFilter, NoCodeIsMadeAndNoLimitRaised) {
   expect_killed("mmap", [] {
-    mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    std::ignore = mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   });
   expect_killed("mprotect", [] { mprotect(nullptr, 0, PROT_READ | PROT_EXEC); });
   expect_killed("setrlimit", [] {

@@ -41,16 +41,17 @@ TEST(JobText, TellsWhoseJobItIsAndHowUrgent) {
 
 TEST(JobText, GivesAOfEveryInclusion) {
   v1::Job job = sample_job();
+  job.add_load_cases()->set_name("opening");
   v1::LoadCaseAnswer& answer = *job.add_answers();
   answer.set_name("opening");
   answer.set_status(v1::LoadCaseAnswer::STATUS_CONVERGED);
   v1::InclusionAnswer& fibre = *answer.add_inclusions();
   fibre.set_name("fibre");
   fibre.set_displacement(0.25);
-  EXPECT_THAT(job_text(job), HasSubstr("criterion     A  energy\n"));
-  EXPECT_THAT(job_text(job), HasSubstr("0.00e+00  0.25       0\n"));
+  EXPECT_THAT(job_text(job), HasSubstr("criterion     A  energy  contact length"));
+  EXPECT_THAT(job_text(job), HasSubstr("0.00e+00  0.25       0"));
   answer.add_inclusions()->set_name("second");
-  EXPECT_THAT(job_text(job), HasSubstr("criterion  A fibre  A second  energy\n"));
+  EXPECT_THAT(job_text(job), HasSubstr("criterion  A fibre  A second  energy  contact length"));
 }
 
 TEST(JobText, CountsTheRowsOfASweepInPlaceOfAnswers) {

@@ -38,6 +38,10 @@ COMMANDS = [
      "--set needs a value; see anticrack run --help"),
     ("--jsn server", 2,
      "unknown option --jsn of anticrack; did you mean --json?"),
+    ("--traces 1 sweep case.toml", 2,
+     "--traces is an option of sweep; write it behind the command"),
+    ("mesh --set mesh.size=1 create case.toml", 2,
+     "--set is an option of create, upload, show; write it behind the command"),
     ("server --server", 2,
      "--server needs a value; see anticrack server --help"),
     ("server --local=maybe", 2,
@@ -109,9 +113,9 @@ COMMANDS = [
     ("run case.toml -o /dev/full", 2,
      "/dev/full: is not a regular file; choose another path with -o"),
     ("plot result.h5 -o case.toml", 2,
-     "case.toml: cannot be made a folder: Not a directory; choose another folder with -o"),
+     "case.toml: cannot be made a folder: Not a directory; choose another folder"),
     ("manual case.toml", 2,
-     "case.toml: cannot be made a folder: Not a directory; name another one"),
+     "case.toml: cannot be made a folder: Not a directory; choose another folder"),
     # Result files.
     ("show no.h5", 2,
      "no.h5: no such file; name a result file, as `anticrack run CASE.toml -o FILE` makes one"),
@@ -261,5 +265,5 @@ FORBIDDEN = [
      "locked/a.h5: cannot create a file in this folder: Permission denied; make the folder writable, or "
      "choose another path with -o"),
     ("plot result.h5 -o locked",
-     "locked: Permission denied; make the folder writable, or choose another one with -o"),
+     "locked: Permission denied; make the folder writable, or choose another one"),
 ]

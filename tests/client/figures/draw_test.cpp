@@ -218,9 +218,9 @@ TEST(Draw, draws_the_steps_of_the_active_set) {
 TEST(Draw, refuses_a_folder_it_cannot_write_and_a_broken_result) {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "x";
-  EXPECT_THROW(draw(sample_result(2), folder / "file"), Error);
-  EXPECT_THROW(draw(sample_result(2), folder / "file/figures"), Error);
-  EXPECT_THROW(draw(sample_result(2), "/proc/figures"), Error);
+  EXPECT_THROW(draw(sample_result(2), folder / "file"), results::Error);
+  EXPECT_THROW(draw(sample_result(2), folder / "file/figures"), results::Error);
+  EXPECT_THROW(draw(sample_result(2), "/proc/figures"), results::Error);
   auto result = sample_result(2);
   result.mesh.triangles[0] = 99;
   EXPECT_THROW(draw(result, folder / "figures"), Error);

@@ -28,7 +28,7 @@ std::string bytes_of(const std::filesystem::path& path) {
 TEST(Export, writes_two_files_a_load_and_their_collection) {
   const TemporaryFolder folder;
   const results::Result result = sample_result(4);
-  const Exported exported = export_result(result, folder / "new");
+  const Exported exported = export_result(result, "paper.h5", folder / "new");
   EXPECT_THAT(exported.files,
               ElementsAre(folder / "new/opening.vtu", folder / "new/opening-interfaces.vtu",
                           folder / "new/partly_closed.vtu",
@@ -43,7 +43,7 @@ TEST(Export, writes_two_files_a_load_and_their_collection) {
 TEST(Export, keeps_both_faces_of_the_interface) {
   const TemporaryFolder folder;
   const results::Result result = sample_result(4);  // 81 nodes, 9 of them on the interface
-  export_result(result, folder.path());
+  export_result(result, "paper.h5", folder.path());
   const ReadVtu seen = read_vtu(bytes_of(folder / "opening.vtu"));
   EXPECT_EQ(seen.points, 90u);
   EXPECT_EQ(seen.cells, 128u);
@@ -84,7 +84,7 @@ TEST(Export, keeps_both_faces_of_a_slit) {
 TEST(Export, carries_traces_and_pressure_along_the_interface) {
   const TemporaryFolder folder;
   const results::Result result = sample_result(4);
-  export_result(result, folder.path());
+  export_result(result, "paper.h5", folder.path());
   const ReadVtu seen = read_vtu(bytes_of(folder / "partly_closed-interfaces.vtu"));
   EXPECT_EQ(seen.points, 9u);
   EXPECT_EQ(seen.cells, 8u);
@@ -116,10 +116,10 @@ TEST(Export, says_how_to_get_fields) {
   results::Result result = sample_result(4);
   for (results::Load& load : result.loads) load.fields.clear();
   try {
-    export_result(result, folder / "a");
+    export_result(result, "paper.h5", folder / "a");
     FAIL();
   } catch (const results::Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("load \"opening\": the result has no fields"));
+    EXPECT_THAT(error.what(), HasSubstr("paper.h5: load \"opening\": the result has no fields"));
     EXPECT_THAT(error.cure(), HasSubstr("output.fields=true"));
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "a"));
@@ -131,17 +131,17 @@ TEST(Export, passes_over_a_load_that_failed) {
   result.loads[0].status = results::Status::failed;
   result.loads[0].traces.clear();
   result.loads[0].fields.clear();
-  const Exported exported = export_result(result, folder.path());
+  const Exported exported = export_result(result, "paper.h5", folder.path());
   EXPECT_EQ(exported.files.size(), 3u);
   EXPECT_THAT(exported.notes, ElementsAre(HasSubstr("no answer (failed)")));
   result.loads.resize(1);
-  EXPECT_THROW(export_result(result, folder.path()), results::Error);
+  EXPECT_THROW(export_result(result, "paper.h5", folder.path()), results::Error);
 }
 
 TEST(Export, refuses_a_folder_it_cannot_make) {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "x";
-  EXPECT_THROW(export_result(sample_result(2), folder / "file/a"), results::Error);
+  EXPECT_THROW(export_result(sample_result(2), "paper.h5", folder / "file/a"), results::Error);
 }
 
 }  // namespace
