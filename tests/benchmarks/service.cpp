@@ -308,7 +308,7 @@ bool wanted(const Options& options, const std::string& figure) {
 void run(const Options& options) {
   Bench bench(options);
   Figures figures;
-  figures.set("nodes", static_cast<double>(bench.nodes.size() / 2));
+  figures.set("nodes", static_cast<double>(bench.nodes.size()) / 2);
   figures.set("cases", options.cases);
   figures.set("combinations", options.combinations);
   figures.set("nodal_loads", options.nodal_loads);

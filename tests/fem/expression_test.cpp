@@ -92,7 +92,6 @@ TEST(Expression, NestedAsDeepAsItsLengthAllowsIsRead) {
 TEST(Expression, MayBeTheFirstOnManyThreadsAtOnce) {
   std::atomic<int> ready = 0;
   std::vector<std::jthread> threads;
-  threads.reserve(4);
   for (int i = 0; i < 4; ++i) {
     threads.emplace_back([&ready] {
       for (++ready; ready < 4;) {

@@ -37,7 +37,6 @@ TEST(Locate, FindsEveryPointInItsTriangle) {
   std::uniform_real_distribution<double> anywhere(-1, 1);
   const Triangulation part = crooked_square();
   std::vector<PlanePoint> points;
-  points.reserve(500);
   for (int i = 0; i < 500; ++i) {
     points.push_back({anywhere(random), anywhere(random)});
   }

@@ -55,7 +55,6 @@ TEST_F(OperatorCacheFlight, FactorisesOnceAndThenHits) {
 TEST_F(OperatorCacheFlight, GivesAllWhoComeMeanwhileTheSameOperator) {
   factorise.open(false);
   std::vector<std::future<Operator>> callers;
-  callers.reserve(8);
   for (int i = 0; i < 8; ++i) {
     callers.push_back(acquire());
   }
@@ -166,7 +165,6 @@ TEST(OperatorCacheError, ReachesAllWhoWaitAndIsNotKept) {
   });
   const auto mesh = small_mesh();
   std::vector<std::future<Operator>> callers;
-  callers.reserve(4);
   for (int i = 0; i < 4; ++i) {
     callers.push_back(
         std::async(std::launch::async, [&] { return cache.acquire("mesh", mesh, {}); }));

@@ -98,7 +98,7 @@ TEST(SweepProgress, MeasuresTheRateOfTheLastSeconds) {
   EXPECT_NEAR(progress.rate(), 100, 20);
   // Ten times as fast from now on; the slow start is forgotten.
   for (int second = 1; second <= 4; ++second) {
-    progress.apply(rows(static_cast<std::uint64_t>(5000 + 1000 * second), 1000), 160 + second);
+    progress.apply(rows(5000 + 1000 * static_cast<std::uint64_t>(second), 1000), 160 + second);
   }
   EXPECT_GT(progress.rate(), 300);
 }
@@ -213,7 +213,7 @@ TEST(SweepLog, TellsEachTenthOfTheRowsAndTheEnd) {
   progress.apply(sweep_snapshot(105), 0);
   std::vector<std::string> lines = log.lines(progress);
   for (int i = 0; i < 21; ++i) {
-    progress.apply(event_of(rows(static_cast<std::uint64_t>(5 * i), 5)), 0);
+    progress.apply(event_of(rows(5 * static_cast<std::uint64_t>(i), 5)), 0);
     for (const std::string& line : log.lines(progress)) {
       lines.push_back(line);
     }
@@ -231,7 +231,7 @@ TEST(SweepLog, TellsDoublingsWhereTheNumberOfRowsIsNotKnown) {
   progress.apply(sweep_snapshot(0), 0);
   std::size_t count = 0;
   for (int i = 0; i < 100; ++i) {
-    progress.apply(event_of(rows(static_cast<std::uint64_t>(100 * i), 100)), 0);
+    progress.apply(event_of(rows(100 * static_cast<std::uint64_t>(i), 100)), 0);
     count += log.lines(progress).size();
   }
   EXPECT_EQ(count, 1U + 4) << "the state; 1000, 2000, 4000, 8000 rows";
