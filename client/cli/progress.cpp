@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cli/text.hpp"
+#include "client/jobs.hpp"
 
 namespace anticrack::cli {
 
@@ -22,15 +23,13 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
       apply(event.samples());
       break;
     case v1::WatchJobResponse::kPhase:
-      state = event.phase().state();
-      detail = sanitise(event.phase().detail());
+      enter(event.phase().state(), event.phase().detail());
       if (sweep && state == v1::Job::STATE_RUNNING) {
         sweep->apply(v1::SweepRows(), seconds);  // no rows yet: the rate is measured from here
       }
       break;
     case v1::WatchJobResponse::kHeartbeat:
-      state = event.heartbeat().state();
-      detail = sanitise(event.heartbeat().detail());
+      enter(event.heartbeat().state(), event.heartbeat().detail());
       break;
     case v1::WatchJobResponse::kEnded:
       apply(event.ended());
@@ -48,6 +47,14 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
       apply(static_cast<std::size_t>(load_case.load_case()), load_case.answer());
     }
   }
+}
+
+void JobProgress::enter(v1::Job::State next, const std::string& what) {
+  if (client::ended(state)) {
+    return;  // told again to who attaches late
+  }
+  state = next;
+  detail = sanitise(what);
 }
 
 void JobProgress::apply(const v1::Job& job_now) {

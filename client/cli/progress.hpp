@@ -48,6 +48,7 @@ struct JobProgress {
 
  private:
   void apply(const v1::Job& job_now);
+  void enter(v1::Job::State next, const std::string& what);
   void apply_sweep(const v1::Job& job_now);
   void apply(const v1::Samples& samples);
   void apply(std::size_t index, const v1::LoadCaseAnswer& answer);

@@ -44,6 +44,19 @@ TEST(JobProgress, IsNotSetBackByOldEvents) {
   EXPECT_EQ(progress.ended_count, 1U);
 }
 
+TEST(JobProgress, OfAJobThatHasEndedIsNotRunningAgain) {
+  JobProgress progress;
+  v1::WatchJobResponse late = snapshot(1);
+  late.mutable_snapshot()->mutable_job()->set_state(v1::Job::STATE_SUCCEEDED);
+  progress.apply(late);
+  v1::WatchJobResponse phase;
+  phase.mutable_phase()->set_state(v1::Job::STATE_RUNNING);
+  phase.mutable_phase()->set_detail("writing the result");
+  progress.apply(phase);
+  EXPECT_EQ(progress.state, v1::Job::STATE_SUCCEEDED);
+  EXPECT_EQ(progress.detail, "");
+}
+
 TEST(JobProgress, BeginsAnewWithAnotherAttempt) {
   JobProgress progress;
   v1::WatchJobResponse first = snapshot(2);

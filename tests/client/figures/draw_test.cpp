@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "figures/figures.hpp"
+#include "results/error.hpp"
 #include "support/sample_result.hpp"
 #include "support/temporary_folder.hpp"
 
