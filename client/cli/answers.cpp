@@ -38,20 +38,21 @@ std::string displacement_of(const results::Load& load, const std::string& name) 
 }
 
 std::vector<std::string> row_of(const results::Load& load,
-                                const std::vector<std::string>& inclusions, bool with_theta) {
+                                const std::vector<std::string>& inclusions, bool by_uzawa) {
   const bool answered = has_answer(load);
-  const auto when_answered = [answered](double value, int digits = 6) {
-    return answered ? number(value, digits) : "-";
+  const auto when_answered = [answered](double value, int digits = 6, bool exponent = false) {
+    return answered ? number(value, digits, exponent) : "-";
   };
   std::vector<std::string> row{
       sanitise(load.name), std::string(word(static_cast<v1::LoadCaseAnswer::Status>(load.status))),
-      std::to_string(load.iterations), answered ? number(load.criterion, 2, true) : "-"};
+      std::to_string(load.iterations),
+      when_answered(by_uzawa ? load.criterion : load.kkt_relative.largest(), 2, true)};
   for (const std::string& name : inclusions) {
     row.push_back(answered ? displacement_of(load, name) : "-");
   }
   row.push_back(when_answered(load.energy));
   row.push_back(when_answered(load.contact_length));
-  if (with_theta) {
+  if (by_uzawa) {
     row.push_back(when_answered(load.theta, 4));
     row.push_back(when_answered(load.theta_star, 4));
   }
@@ -81,16 +82,15 @@ std::vector<std::string> remarks_on(const results::Load& load) {
 
 std::string answers_table(const std::vector<results::Load>& loads) {
   const std::vector<std::string> inclusions = inclusions_of(loads);
-  std::vector<std::string> head{"load", "status", "iterations", "criterion"};
+  const bool by_uzawa = std::any_of(loads.begin(), loads.end(), [](const results::Load& load) {
+    return std::isfinite(load.theta);
+  });
+  std::vector<std::string> head{"load", "status", "iterations", by_uzawa ? "criterion" : "KKT"};
   for (const std::string& name : inclusions) {
     head.push_back(inclusions.size() == 1 ? "A" : "A " + sanitise(name));
   }
-  // The active set knows none.
-  const bool with_theta = std::any_of(loads.begin(), loads.end(), [](const results::Load& load) {
-    return std::isfinite(load.theta);
-  });
   head.insert(head.end(), {"energy", "contact length"});
-  if (with_theta) {
+  if (by_uzawa) {
     head.insert(head.end(), {"theta", "theta*"});
   }
   head.emplace_back("wall time");
@@ -100,7 +100,7 @@ std::string answers_table(const std::vector<results::Load>& loads) {
   std::vector<std::vector<std::string>> rows{head, units};
   std::string remarks;
   for (const results::Load& load : loads) {
-    rows.push_back(row_of(load, inclusions, with_theta));
+    rows.push_back(row_of(load, inclusions, by_uzawa));
     for (const std::string& remark : remarks_on(load)) {
       remarks += sanitise(load.name) + ": " + sanitise(remark) + "\n";
     }
@@ -136,6 +136,7 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
         .value("method", load.method)
         .value("iterations", std::int64_t{load.iterations})
         .value("criterion", load.criterion)
+        .value("worst_kkt", has_answer(load) ? load.kkt_relative.largest() : results::unknown)
         .value("theta", load.theta)
         .value("theta_star", load.theta_star)
         .value("energy", load.energy)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/result.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -202,6 +203,15 @@ std::vector<Kind> kinds_of(const std::vector<std::int32_t>& numbers) {
   kinds.reserve(numbers.size());
   for (const std::int32_t number : numbers) kinds.push_back(static_cast<Kind>(number));
   return kinds;
+}
+
+double Kkt::largest() const noexcept {
+  double result = 0;
+  for (const double residual : {equilibrium, gap, sign, complementarity}) {
+    if (std::isnan(residual)) return residual;
+    result = std::max(result, residual);
+  }
+  return result;
 }
 
 std::string_view name(Status status) noexcept {

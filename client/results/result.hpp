@@ -85,6 +85,8 @@ struct Kkt {
   double gap = 0;
   double sign = 0;
   double complementarity = 0;
+
+  double largest() const noexcept;  ///< NaN where one of them is
 };
 
 struct Inclusion {

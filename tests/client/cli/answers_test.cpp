@@ -49,6 +49,16 @@ TEST(AnswersTable, HasUnitsAndSaysWhatIsUnknown) {
       "failed: the expression is not finite at? (0, 0)\n");
 }
 
+TEST(AnswersTable, OfTheActiveSetHasTheLargestKktResidual) {
+  results::Result result = two_loads();
+  result.loads[0].theta = result.loads[0].theta_star = results::unknown;
+  result.loads[0].kkt_relative = {1e-15, 0, 3e-14, 2e-16};
+  EXPECT_THAT(answers_table(result), testing::HasSubstr("iterations       KKT         A"));
+  EXPECT_THAT(answers_table(result), testing::HasSubstr("346  3.00e-14  0.086569"));
+  result.loads[0].kkt_relative.gap = results::unknown;
+  EXPECT_THAT(answers_table(result), testing::HasSubstr("346    -  0.086569"));
+}
+
 TEST(AnswersTable, SaysWhatJustTouchesAndWarns) {
   results::Result result = two_loads();
   result.loads[0].weakly_active = 1;
