@@ -67,8 +67,8 @@ std::vector<std::string> causes(const casefile::Case& the_case, const v1::Job& j
 
 // What an import took for what, or repaired.
 void tell_warnings(Session& session, const v1::Job& job, const std::stop_token& stop) {
-  for (const std::string& warning :
-       client::get_mesh(session.connection(), job.mesh(), stop).warnings()) {
+  const v1::Mesh mesh = client::get_mesh(session.connection(), job.mesh(), stop);
+  for (const std::string& warning : mesh.warnings()) {
     say(session.globals(), "mesh: " + warning);
   }
 }
