@@ -26,7 +26,7 @@ std::string_view trimmed(std::string_view text) {
   return in_quotes ? text.substr(1, text.size() - 2) : text;
 }
 
-void split(std::string_view line, std::vector<std::string_view>& fields) {
+void split_fields(std::string_view line, std::vector<std::string_view>& fields) {
   fields.clear();
   while (true) {
     const std::size_t comma = line.find(',');
@@ -57,7 +57,7 @@ std::optional<double> number(std::string_view text) {
 }
 
 /// Cut, and without bytes that would end or disguise a message.
-std::string shown(std::string_view value) {
+std::string shown_field(std::string_view value) {
   constexpr std::size_t longest = 40;
   std::string text(value.substr(0, longest));
   std::replace_if(
@@ -96,7 +96,7 @@ class Reader {
     if (begin == std::string_view::npos || text[begin] == '#') {
       return;
     }
-    split(text, _fields);
+    split_fields(text, _fields);
     if (!std::exchange(_begun, true) && is_header()) {
       take_header();
     } else {
@@ -136,7 +136,8 @@ class Reader {
     for (std::size_t i = 0; i < _fields.size(); ++i) {
       const auto found = std::find(_loads.begin(), _loads.end(), _fields[i]);
       if (found == _loads.end()) {
-        fail(i, shown(_fields[i]) + " is no load of the case; " + suggestion(_fields[i], _loads));
+        fail(i, shown_field(_fields[i]) + " is no load of the case; " +
+                    suggestion(_fields[i], _loads));
       }
       const auto load = static_cast<std::size_t>(found - _loads.begin());
       if (named[load]) {
@@ -165,10 +166,10 @@ class Reader {
     for (std::size_t i = 0; i < _fields.size(); ++i) {
       const std::optional<double> value = number(_fields[i]);
       if (!value) {
-        fail(i, shown(_fields[i]) + " is no number; write one as 1.5 or -2e-3");
+        fail(i, shown_field(_fields[i]) + " is no number; write one as 1.5 or -2e-3");
       }
       if (!std::isfinite(*value)) {
-        fail(i, shown(_fields[i]) + " is not finite; write a finite number");
+        fail(i, shown_field(_fields[i]) + " is not finite; write a finite number");
       }
       _values[row + _columns[i]] = *value;
     }

@@ -10,7 +10,7 @@ constexpr const char* group_cure =
     "write the tag of a physical group and in quotes what it is, as in curve.7 = \"crack\" or "
     "surface.1 = \"top\"";
 
-void refuse(const Section& section, const std::vector<const char*>& keys, const char* why) {
+void refuse_keys(const Section& section, const std::vector<const char*>& keys, const char* why) {
   for (const char* key : keys) {
     if (section.find(key)) {
       throw Error(section.spot_of(key), why);
@@ -26,20 +26,20 @@ v1::MeshPreset read_preset(const Section& section) {
 
 void refuse_what_means_nothing(const Section& section, v1::MeshPreset preset) {
   if (preset == v1::MESH_PRESET_PAPER) {
-    refuse(section, {"size", "tip_size", "grading", "align"},
-           "means nothing with preset \"paper\"; remove it, or write preset = \"graded\"");
+    refuse_keys(section, {"size", "tip_size", "grading", "align"},
+                "means nothing with preset \"paper\"; remove it, or write preset = \"graded\"");
   }
   if (preset == v1::MESH_PRESET_UNIFORM) {
-    refuse(section, {"tip_size", "grading"},
-           "means nothing with preset \"uniform\"; remove it, or write preset = \"graded\"");
+    refuse_keys(section, {"tip_size", "grading"},
+                "means nothing with preset \"uniform\"; remove it, or write preset = \"graded\"");
   }
   if (section.find("file")) {
-    refuse(section, {"align"}, "means nothing with mesh.file; remove one of the two");
+    refuse_keys(section, {"align"}, "means nothing with mesh.file; remove one of the two");
   } else {
-    refuse(section, {"groups"}, "belongs to mesh.file; write file = \"x.msh\" beside it");
-    refuse(section, {"tension"},
-           "belongs to mesh.file; for a geometry write [[geometry.region]] with name, at and "
-           "tension");
+    refuse_keys(section, {"groups"}, "belongs to mesh.file; write file = \"x.msh\" beside it");
+    refuse_keys(section, {"tension"},
+                "belongs to mesh.file; for a geometry write [[geometry.region]] with name, at and "
+                "tension");
   }
 }
 

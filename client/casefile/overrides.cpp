@@ -13,7 +13,7 @@
 namespace anticrack::casefile {
 namespace {
 
-std::vector<std::string> split(const std::string& path) {
+std::vector<std::string> split_path(const std::string& path) {
   std::vector<std::string> parts;
   std::size_t begin = 0;
   while (true) {
@@ -181,7 +181,7 @@ void apply_override(toml::table& root, const std::string& assignment) {
   if (equals == std::string::npos || equals == 0) {
     throw Error({"", source, 0}, "no assignment; write --set key=value");
   }
-  std::vector<std::string> parts = split(assignment.substr(0, equals));
+  std::vector<std::string> parts = split_path(assignment.substr(0, equals));
   if (std::any_of(parts.begin(), parts.end(), [](const std::string& p) { return p.empty(); })) {
     throw Error({"", source, 0}, "a part of the key is empty; write for example solver.theta=2");
   }

@@ -16,7 +16,7 @@ Keys all_keys() {
   return keys;
 }
 
-void refuse(const Section& section, const Keys& keys, const std::string& method) {
+void refuse_other_method(const Section& section, const Keys& keys, const std::string& method) {
   for (const std::string& key : keys) {
     if (section.find(key)) {
       throw Error(section.spot_of(key), "belongs to method \"" + method +
@@ -48,7 +48,7 @@ void read_step(const Section& section, v1::Uzawa& uzawa) {
 }
 
 void read_uzawa(const Section& section, v1::Uzawa& uzawa, Spots& spots) {
-  refuse(section, active_set_keys, "active-set");
+  refuse_other_method(section, active_set_keys, "active-set");
   read_step(section, uzawa);
   if (const auto epsilon = section.number("epsilon")) {
     uzawa.set_epsilon(*epsilon);
@@ -72,7 +72,7 @@ void read_uzawa(const Section& section, v1::Uzawa& uzawa, Spots& spots) {
 }
 
 void read_active_set(const Section& section, v1::ActiveSet& active_set, Spots& spots) {
-  refuse(section, uzawa_keys, "uzawa");
+  refuse_other_method(section, uzawa_keys, "uzawa");
   if (const auto tolerance = section.number("tolerance")) {
     active_set.set_tolerance(*tolerance);
   }

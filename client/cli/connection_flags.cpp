@@ -14,11 +14,11 @@ namespace anticrack::cli {
 namespace {
 
 // As a shell reads it back.
-std::string quoted(const std::string& word) {
+std::string quoted_if_needed(const std::string& word) {
   const bool plain = word.find_first_not_of(
                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                          "0123456789-_./:@%+=,") == std::string::npos;
-  return plain ? word : guide::quoted(word);
+  return plain ? word : guide::shell_word(word);
 }
 
 }  // namespace
@@ -76,10 +76,11 @@ client::ConnectionOptions connection_options(const ConnectionFlags& flags,
 
 std::string as_flags(const ConnectionFlags& flags) {
   const client::CredentialFiles& files = flags.credentials;
-  std::string text = flags.server.empty() ? "" : " --server " + quoted(flags.server);
+  std::string text = flags.server.empty() ? "" : " --server " + quoted_if_needed(flags.server);
   text += files.tls ? " --tls" : "";
   const auto add = [&text](const char* flag, const std::filesystem::path& path) {
-    text += path.empty() ? std::string() : std::string(" ") + flag + " " + quoted(path.string());
+    text += path.empty() ? std::string()
+                         : std::string(" ") + flag + " " + quoted_if_needed(path.string());
   };
   add("--ca", files.ca);
   add("--cert", files.certificate);

@@ -31,7 +31,7 @@ struct FileOptions {
 };
 
 // The result with the loads that were asked for, in their order.
-results::Result read(const FileOptions& options) {
+results::Result read_result(const FileOptions& options) {
   results::Result result = results::read(options.file);
   if (options.loads.empty()) {
     return result;
@@ -64,8 +64,8 @@ void add_file(CLI::App& command, FileOptions& options, const char* help) {
       ->type_name("NAME");
 }
 
-int show(const FileOptions& options, const Globals& globals) {
-  const results::Result result = read(options);
+int show_file(const FileOptions& options, const Globals& globals) {
+  const results::Result result = read_result(options);
   if (globals.json) {
     print_document(answers_json(result, options.file));
     return exit_ok;
@@ -107,12 +107,13 @@ int tell_made(const std::vector<std::filesystem::path>& files,
 }
 
 int plot(const FileOptions& options, const Globals& globals) {
-  const figures::Drawn drawn = figures::draw(read(options), options.folder, options.figures);
+  const figures::Drawn drawn = figures::draw(read_result(options), options.folder, options.figures);
   return tell_made(drawn.files, drawn.notes, globals);
 }
 
 int export_file(const FileOptions& options, const Globals& globals) {
-  const vtk::Exported exported = vtk::export_result(read(options), options.file, options.folder);
+  const vtk::Exported exported =
+      vtk::export_result(read_result(options), options.file, options.folder);
   return tell_made(exported.files, exported.notes, globals);
 }
 
@@ -124,7 +125,7 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
   add_file(*show_command, *options, "Result file, HDF5");
   show_command->footer("Example:\n  anticrack show paper.h5");
   show_command->callback([options, &globals, &chosen] {
-    chosen = [options, &globals] { return show(*options, globals); };
+    chosen = [options, &globals] { return show_file(*options, globals); };
   });
 
   CLI::App* plot_command = app.add_subcommand("plot", "Draw the figures of a result file");

@@ -33,7 +33,7 @@ struct JobOptions {
   std::string full() const { return full_name(Collection::jobs, name); }
 };
 
-int show(const Globals& globals, const v1::Job& job, int exit_code = exit_ok) {
+int show_job(const Globals& globals, const v1::Job& job, int exit_code = exit_ok) {
   print_document(globals.json ? to_json(job) : job_text(job));
   return exit_code;
 }
@@ -59,7 +59,7 @@ std::string ended_text(const v1::Job& job) {
   return std::to_string(ended_cases) + "/" + std::to_string(job.load_cases_size());
 }
 
-int list(const JobOptions& options, const Globals& globals) {
+int list_jobs(const JobOptions& options, const Globals& globals) {
   Session session(globals);
   v1::ListJobsRequest request;
   request.set_page_size(options.limit);
@@ -94,15 +94,15 @@ int exit_code_of_answers(const v1::Job& job) {
   return code == exit_ok && !all_converged ? exit_not_converged : code;
 }
 
-v1::Job get(Session& session, const std::string& name) {
+v1::Job get_job(Session& session, const std::string& name) {
   return about(session, Collection::jobs, name,
                [&] { return client::get_job(session.connection(), name, session.stop()); });
 }
 
-int watch(const JobOptions& options, const Globals& globals) {
+int watch_job(const JobOptions& options, const Globals& globals) {
   const std::string name = options.full();
   Session session(globals);
-  const v1::Job job = get(session, name);
+  const v1::Job job = get_job(session, name);
   const Followed followed = follow(session, job);
   if (followed.how == Followed::How::detached) {
     if (globals.json) {
@@ -110,9 +110,9 @@ int watch(const JobOptions& options, const Globals& globals) {
     }
     return exit_interrupted;
   }
-  return show(globals, followed.job,
-              followed.how == Followed::How::cancelled ? exit_interrupted
-                                                       : exit_code_of_answers(followed.job));
+  return show_job(globals, followed.job,
+                  followed.how == Followed::How::cancelled ? exit_interrupted
+                                                           : exit_code_of_answers(followed.job));
 }
 
 int fetch_result(const JobOptions& options, const Globals& globals) {
@@ -121,7 +121,7 @@ int fetch_result(const JobOptions& options, const Globals& globals) {
       options.output.empty() ? name.substr(std::string("jobs/").size()) + ".h5" : options.output;
   results::check_writable(output);
   Session session(globals);
-  const v1::Job job = get(session, name);
+  const v1::Job job = get_job(session, name);
   if (job.state() == v1::Job::STATE_EXPIRED) {
     throw client::Error(client::Code::failed_precondition, expired_text(job));
   }
@@ -164,7 +164,7 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
   add_case_flags(*submit_command, options->overrides);
 
   CLI::App* list_command = add("list", "List the newest jobs", "--limit 10",
-                               [&globals](const JobOptions& o) { return list(o, globals); });
+                               [&globals](const JobOptions& o) { return list_jobs(o, globals); });
   list_command->add_option("--limit", options->limit, "At most so many, from 1 to 1000")
       ->check(CLI::Range(1, 1000).description(""))
       ->type_name("COUNT")
@@ -173,10 +173,10 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
   add_named("show", "Show a job", "", [&globals](const JobOptions& o) {
     const std::string name = o.full();
     Session session(globals);
-    return show(globals, get(session, name));
+    return show_job(globals, get_job(session, name));
   });
   add_named("watch", "Watch a job until it ends", "",
-            [&globals](const JobOptions& o) { return watch(o, globals); })
+            [&globals](const JobOptions& o) { return watch_job(o, globals); })
       ->footer(
           "Ctrl-C detaches and prints the command that attaches again; a second Ctrl-C within two\n"
           "seconds cancels the job. Either exits with 130.\n\n"
@@ -184,9 +184,9 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
   add_named("cancel", "Cancel a job", "", [&globals](const JobOptions& o) {
     const std::string name = o.full();
     Session session(globals);
-    return show(globals, about(session, Collection::jobs, name, [&] {
-                  return client::cancel_job(session.connection(), name, session.stop());
-                }));
+    return show_job(globals, about(session, Collection::jobs, name, [&] {
+                      return client::cancel_job(session.connection(), name, session.stop());
+                    }));
   });
   CLI::App* fetch_command =
       add_named("fetch", "Save the results of a job that has ended", " -o plate.h5",

@@ -17,7 +17,7 @@
 namespace anticrack::cli {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string json_string(std::string_view text) {
   std::string result = "\"";
   while (true) {
     // sanitise() leaves valid UTF-8 without control characters: only these two need escaping.
@@ -77,7 +77,7 @@ void JsonWriter::open(std::string_view key) {
   }
   _first = false;
   if (!key.empty()) {
-    _text += quoted(key) + ": ";
+    _text += json_string(key) + ": ";
   }
 }
 
@@ -119,7 +119,7 @@ JsonWriter& JsonWriter::end_array() {
 
 JsonWriter& JsonWriter::value(std::string_view key, std::string_view text) {
   open(key);
-  _text += quoted(text);
+  _text += json_string(text);
   return *this;
 }
 
@@ -143,7 +143,7 @@ JsonWriter& JsonWriter::value(std::string_view key, std::int64_t number) {
 
 JsonWriter& JsonWriter::element(std::string_view text) {
   open({});
-  _text += quoted(text);
+  _text += json_string(text);
   return *this;
 }
 

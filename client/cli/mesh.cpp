@@ -38,12 +38,12 @@ struct MeshOptions {
   figures::Options figures;
 };
 
-int show(const Globals& globals, const v1::Mesh& mesh) {
+int show_mesh(const Globals& globals, const v1::Mesh& mesh) {
   print_document(globals.json ? to_json(mesh) : mesh_text(mesh));
   return exit_ok;
 }
 
-v1::Mesh get(Session& session, const std::string& name) {
+v1::Mesh get_mesh(Session& session, const std::string& name) {
   return about(session, Collection::meshes, name,
                [&] { return client::get_mesh(session.connection(), name, session.stop()); });
 }
@@ -64,7 +64,7 @@ int create(const casefile::Case& the_case, bool wait, const Globals& globals) {
     if (mesh.state() == v1::Mesh::STATE_FAILED) {
       throw client::decode_error(mesh.error());
     }
-    return show(globals, wait ? wait_for(session, mesh.name()) : mesh);
+    return show_mesh(globals, wait ? wait_for(session, mesh.name()) : mesh);
   });
 }
 
@@ -94,11 +94,11 @@ int show_mesh(const MeshOptions& options, const Globals& globals) {
   Session session(globals);
   const std::string name = the_case ? create_mesh(session, *the_case).name() : given;
   if (options.folder.empty() && !the_case) {
-    return show(globals, get(session, name));
+    return show_mesh(globals, get_mesh(session, name));
   }
   const v1::Mesh mesh =
       about(session, Collection::meshes, name, [&] { return wait_for(session, name); });
-  show(globals, mesh);
+  show_mesh(globals, mesh);
   if (options.folder.empty()) {
     return exit_ok;
   }
@@ -115,7 +115,7 @@ int show_mesh(const MeshOptions& options, const Globals& globals) {
   return exit_ok;
 }
 
-int list(const MeshOptions& options, const Globals& globals) {
+int list_meshes(const MeshOptions& options, const Globals& globals) {
   Session session(globals);
   v1::ListMeshesRequest request;
   request.set_page_size(options.limit);
@@ -144,15 +144,15 @@ int warm(const MeshOptions& options, const Globals& globals) {
   const v1::Mesh mesh = about(session, Collection::meshes, name, [&] {
     return client::warm_mesh(session.connection(), name, options.pin, session.stop());
   });
-  return show(globals, options.no_wait ? mesh : wait_for(session, mesh.name()));
+  return show_mesh(globals, options.no_wait ? mesh : wait_for(session, mesh.name()));
 }
 
 int evict(const MeshOptions& options, const Globals& globals) {
   const std::string name = full_name(Collection::meshes, options.name);
   Session session(globals);
-  return show(globals, about(session, Collection::meshes, name, [&] {
-                return client::evict_mesh(session.connection(), name, session.stop());
-              }));
+  return show_mesh(globals, about(session, Collection::meshes, name, [&] {
+                     return client::evict_mesh(session.connection(), name, session.stop());
+                   }));
 }
 
 int delete_mesh(const MeshOptions& options, const Globals& globals) {
@@ -211,7 +211,7 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
       ->type_name("COUNT")
       ->capture_default_str();
   list_command->footer("Example:\n  anticrack mesh list --limit 10");
-  on(list_command, [&globals](const MeshOptions& o) { return list(o, globals); });
+  on(list_command, [&globals](const MeshOptions& o) { return list_meshes(o, globals); });
 
   CLI::App* show_command =
       group->add_subcommand("show", "Show a mesh as the server understood it, and draw it");

@@ -13,15 +13,16 @@ namespace {
 
 constexpr int names_looked_at = 1000;
 
-struct Words {
+struct CollectionWords {
   std::string prefix;  ///< of names
   std::string one;
   std::string see;
 };
 
-Words words_of(Collection collection) {
-  return collection == Collection::meshes ? Words{"meshes/", "mesh", "; see anticrack mesh list"}
-                                          : Words{"jobs/", "job", "; see anticrack job list"};
+CollectionWords words_of(Collection collection) {
+  return collection == Collection::meshes
+             ? CollectionWords{"meshes/", "mesh", "; see anticrack mesh list"}
+             : CollectionWords{"jobs/", "job", "; see anticrack job list"};
 }
 
 bool is_id(const std::string& text) {
@@ -55,8 +56,8 @@ std::vector<std::string> names_of(Session& session, Collection collection) {
 }  // namespace
 
 std::string full_name(Collection collection, const std::string& given) {
-  const Words words = words_of(collection);
-  const Words other =
+  const CollectionWords words = words_of(collection);
+  const CollectionWords other =
       words_of(collection == Collection::meshes ? Collection::jobs : Collection::meshes);
   if (given.starts_with(other.prefix)) {
     throw UsageError(given + " is a " + other.one + "; name a " + words.one + words.see);
@@ -71,7 +72,7 @@ std::string full_name(Collection collection, const std::string& given) {
 
 std::string name_cure(Collection collection, const std::string& name,
                       const std::vector<std::string>& known) {
-  const Words words = words_of(collection);
+  const CollectionWords words = words_of(collection);
   std::vector<std::string> ids;  // without what all names have alike
   std::vector<std::string> longer;
   const std::string id = name.substr(words.prefix.size());

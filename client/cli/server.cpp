@@ -45,7 +45,7 @@ std::string seconds(const google::protobuf::Duration& time) {
              : std::to_string(time.seconds()) + " s";
 }
 
-std::string text_of(const v1::ServerInfo& info, const std::string& address) {
+std::string info_text(const v1::ServerInfo& info, const std::string& address) {
   const v1::ServerMetrics& metrics = info.metrics();
   const v1::ServerLimits& limits = info.limits();
   std::vector<std::vector<std::string>> rows{
@@ -101,7 +101,8 @@ void add_server(CLI::App& app, const Globals& globals, Command& chosen) {
     chosen = [&globals] {
       Session session(globals);
       const v1::ServerInfo info = client::server_info(session.connection(), session.stop());
-      print_document(globals.json ? to_json(info) : text_of(info, session.connection().address()));
+      print_document(globals.json ? to_json(info)
+                                  : info_text(info, session.connection().address()));
       return exit_ok;
     };
   });

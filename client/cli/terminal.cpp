@@ -21,7 +21,7 @@ constexpr std::string_view wipe_line = "\x1b[2K";  // all of it: else tmux may j
 constexpr std::string_view wipe_below = "\x1b[J";
 
 // Each line over what is there, the cursor after the last one.
-std::string text_of(const std::vector<std::string>& lines) {
+std::string joined(const std::vector<std::string>& lines) {
   std::string text = "\r";
   for (std::size_t i = 0; i < lines.size(); ++i) {
     text += i > 0 ? "\n" : "";
@@ -125,7 +125,7 @@ void Painter::draw(Draw how) {
     return;
   }
   const std::vector<std::string> lines = _render(size_of(_terminal));
-  std::string frame = text_of(lines);
+  std::string frame = joined(lines);
   if (how != Draw::if_new || frame != _drawn) {
     hide_keys();
     const std::string up = lines.size() > 1 ? "\x1b[" + std::to_string(lines.size() - 1) + "A" : "";

@@ -103,10 +103,10 @@ std::string convergence_panel(const Load& load, const Place& place) {
   const std::string with =
       load.history.size() <= few ? " with linespoints pointtype 7 pointsize 0.4" : " with lines";
   std::string plots;
-  int column = 2;
+  int data_column = 2;
   for (const Series& series : series_of(load)) {
     plots += (plots.empty() ? "plot $history using 1:" : ", $history using 1:") +
-             std::to_string(column++) + with + " linewidth 1.5 " + series.style + " title '" +
+             std::to_string(data_column++) + with + " linewidth 1.5 " + series.style + " title '" +
              series.title + "'";
   }
   text += plots;

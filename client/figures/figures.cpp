@@ -18,7 +18,7 @@ using results::Load;
 using results::Result;
 
 /// Triangles drawn at most: more cannot be told apart, and an SVG grows by 200 bytes each.
-constexpr std::size_t triangle_limit = 24000;
+constexpr std::size_t surface_triangles = 24000;
 
 std::string traces_suffix(std::size_t interface) {
   return interface == 0 ? "-traces" : "-traces-" + std::to_string(interface + 1);
@@ -54,7 +54,8 @@ void draw_load(const Result& result, const Load& load, const std::string& stem, 
                                   std::string(results::name(load.status)) + "): nothing to draw");
     return;
   }
-  const Surface membrane = load.fields.empty() ? Surface{} : surface(result, load, triangle_limit);
+  const Surface membrane =
+      load.fields.empty() ? Surface{} : surface(result, load, surface_triangles);
   if (membrane.triangles.empty()) {
     drawing.drawn.notes.push_back(
         "load \"" + load.name + "\": no membrane drawn, the result has no fields; run with fields");

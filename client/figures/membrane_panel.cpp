@@ -38,14 +38,14 @@ std::string colours(const Surface& surface, const Scale& scale) {
          " offset 0,0.3 font ',7' textcolor rgb '#333333'\n";
 }
 
-std::string heading(double factor, const results::Load& load) {
+std::string membrane_heading(double factor, const results::Load& load) {
   std::string text = factor == 1 ? std::string("deformed membrane, u to scale")
                                  : "deformed membrane, u amplified \xC3\x97" + readable(factor);
   if (load.status == results::Status::not_converged) text += ",  not converged";
   return text;
 }
 
-std::string axis_label(int tag, const std::string& text, double x, double y, double z) {
+std::string space_label(int tag, const std::string& text, double x, double y, double z) {
   return "set label " + std::to_string(tag) + " '" + text + "' at first " + number(x) + ", first " +
          number(y) + ", first " + number(z) + " center noenhanced\n";
 }
@@ -124,13 +124,13 @@ std::string membrane_panel(const Surface& surface, const results::Load& load, do
   text += "set colorbox user horizontal origin " + at(0.22, 0.105) + " size screen " +
           number(0.56 * place.width) + ", screen " + number(0.03 * place.height) + "\n";
   text += "set label 5 'u " + scale.unit() + "' at " + at(0.81, 0.12) + " left noenhanced\n";
-  text += caption(heading(factor, load), place);
+  text += caption(membrane_heading(factor, load), place);
   // Not `set xlabel`: terminals keep different distances for it.
   const double middle_x = (surface.x_min + surface.x_max) / 2;
   const double middle_y = (surface.y_min + surface.y_max) / 2;
   const double away = 0.33 * surface.width();
-  text += axis_label(3, "x [-]", middle_x, surface.y_min - away, base);
-  text += axis_label(4, "y [-]", surface.x_max + away, middle_y, base);
+  text += space_label(3, "x [-]", middle_x, surface.y_min - away, base);
+  text += space_label(4, "y [-]", surface.x_max + away, middle_y, base);
   text += "splot $membrane using 1:2:3:" + scale.column(4) + " with pm3d notitle\n";
   text += "unset label\n";
   return text;

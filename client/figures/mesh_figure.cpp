@@ -11,7 +11,7 @@ namespace anticrack::figures {
 namespace {
 
 /// More cannot be told apart, and make an SVG that no program shows.
-constexpr std::size_t triangle_limit = 60000;
+constexpr std::size_t drawn_triangles = 60000;
 
 constexpr Canvas one_panel{85, 98};
 constexpr Canvas two_panels{170, 91};
@@ -40,7 +40,7 @@ std::string caption_of(const results::Tip& tip, const Window& window, const Wind
 }
 
 bool few(const MeshLayers& layers, const std::string& where, std::vector<std::string>& notes) {
-  if (layers.triangle_count <= triangle_limit) return true;
+  if (layers.triangle_count <= drawn_triangles) return true;
   notes.push_back("no triangles drawn " + where + ": " + std::to_string(layers.triangle_count) +
                   " of them could not be told apart");
   return false;

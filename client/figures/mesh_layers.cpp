@@ -16,7 +16,7 @@ using results::InterfaceLine;
 using results::Mesh;
 using results::MeshPlan;
 
-constexpr double pixels = 1500;  // of a panel, about
+constexpr double panel_pixels = 1500;  // of a panel, about
 
 Spot spot_of(const Mesh& mesh, std::int32_t node) {
   const auto i = 2 * static_cast<std::size_t>(node);
@@ -60,7 +60,7 @@ std::array<Spot, 3> triangle_of(const Mesh& mesh, std::size_t t) {
 
 void add_triangles(const Mesh& mesh, const Window& window, MeshLayers& to) {
   to.triangles.resize(mesh.subdomains.size());
-  const double smallest = std::max(window.width(), window.height()) / (2 * pixels);
+  const double smallest = std::max(window.width(), window.height()) / (2 * panel_pixels);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::array<Spot, 3> triangle = triangle_of(mesh, t);
     const Window box = box_of(triangle);
@@ -229,7 +229,7 @@ MeshLayers layers(const MeshPlan& plan, const Window& window) {
   MeshLayers result;
   add_triangles(plan.mesh, window, result);
   add_boundary(plan.mesh, result);
-  const double smallest = std::max(window.width(), window.height()) / pixels;
+  const double smallest = std::max(window.width(), window.height()) / panel_pixels;
   for (const InterfaceLine& line : plan.interfaces) {
     add_stretches(plan, line, smallest, result);
     add_pointers(plan, line, window, result);

@@ -43,7 +43,7 @@ std::string at(const Spot& spot) {
   return number(spot.x) + " " + number(spot.y) + "\n";
 }
 
-std::string block(const std::string& name, const std::string& content) {
+std::string mesh_block(const std::string& name, const std::string& content) {
   return "$" + name + " << EOD\n" + content + "EOD\n";
 }
 
@@ -132,14 +132,14 @@ std::string labels(const MeshLayers& layers) {
 std::string mesh_data(const MeshLayers& layers, const std::string& tag) {
   std::string text;
   for (std::size_t d = 0; d < layers.triangles.size(); ++d) {
-    text += block("subdomain" + std::to_string(d) + tag, triangles_of(layers.triangles[d]));
+    text += mesh_block("subdomain" + std::to_string(d) + tag, triangles_of(layers.triangles[d]));
   }
   for (const auto& [style, stretches] : line_layers(layers)) {
-    text += block(style.name + tag, lines_of(*stretches));
+    text += mesh_block(style.name + tag, lines_of(*stretches));
   }
   std::string points;
   for (const results::Tip& tip : layers.tips) points += at({tip.x, tip.y});
-  return text + block(tips.name + tag, points);
+  return text + mesh_block(tips.name + tag, points);
 }
 
 std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const Place& place,

@@ -38,7 +38,8 @@ CurveStyle style_of(std::size_t i) {
 }
 
 /// As a data block; `heights` is told its values.
-std::string block(const std::string& name, const std::vector<CurvePoint>& points, Range& heights) {
+std::string curve_block(const std::string& name, const std::vector<CurvePoint>& points,
+                        Range& heights) {
   std::string text = "$" + name + " << EOD\n";
   for (const CurvePoint& point : points) {
     text += number(point.x) + " " + number(point.y) + "\n";
@@ -47,7 +48,7 @@ std::string block(const std::string& name, const std::vector<CurvePoint>& points
   return text + "EOD\n";
 }
 
-Title title_of(const Result& result) {
+Title sweep_title(const Result& result) {
   return {result.title.empty() ? "sweep" : result.title, ""};
 }
 
@@ -143,11 +144,11 @@ std::string sweep_script(const Result& result, const SweepAxis& axis,
   Range lengths{0, 0};
   Range displacements = empty_range();
   std::string data =
-      block("length", curve(sweep, axis, sweep.contact_length, 0, 1, point_limit), lengths);
+      curve_block("length", curve(sweep, axis, sweep.contact_length, 0, 1, point_limit), lengths);
   for (std::size_t i = 0; i < inclusions; ++i) {
-    data +=
-        block("A" + std::to_string(i),
-              curve(sweep, axis, sweep.displacement, i, inclusions, point_limit), displacements);
+    data += curve_block("A" + std::to_string(i),
+                        curve(sweep, axis, sweep.displacement, i, inclusions, point_limit),
+                        displacements);
   }
   if (lengths.high == 0) lengths.high = 1;
   lengths = with_room(lengths);
@@ -155,7 +156,7 @@ std::string sweep_script(const Result& result, const SweepAxis& axis,
   const Scale of_displacements(displacements);
 
   return script(
-      data, title_of(result),
+      data, sweep_title(result),
       [&](Format, const Place& place) {
         const std::string contact = panel(
             axis, "contact length", lengths, of_lengths,
@@ -205,7 +206,7 @@ std::string contact_script(const Result& result, const SweepAxis& axis, const Co
   data += "EOD\n";
   const std::string where = map.interface.empty() ? std::string("the crack") : map.interface;
   return script(
-      data, title_of(result),
+      data, sweep_title(result),
       [&](Format, const Place& place) {
         std::string text = margins(place, 0.25, 0.905) + axes();
         text += caption("where " + where + " is closed,  " + counted_rows(*result.sweep), place);

@@ -49,7 +49,7 @@ std::string names(const Profile& profile, const Range& along) {
   return text;
 }
 
-std::string heading(const Profile& profile, const Load& load) {
+std::string traces_heading(const Profile& profile, const Load& load) {
   constexpr std::size_t most = 50;
   const std::string where =
       profile.name.empty() ? std::string("the interface") : shortened(profile.name, 20);
@@ -123,7 +123,7 @@ std::string traces_panel(const Profile& profile, const results::Trace& trace, co
   high.high += 0.06 * size;
   const Scale scale(high);
   text += axis_range('x', along) + axis_range('y', scale.drawn(high), 9);
-  text += caption(heading(profile, load), place);
+  text += caption(traces_heading(profile, load), place);
   text += below(figures::quoted(profile.axis), 0.2, place) +
           beside("'displacement " + scale.unit() + "'", place) + names(profile, along);
   text += legend((entries + 1) / 2, place);

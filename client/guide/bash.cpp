@@ -17,7 +17,7 @@ std::string either(const std::string& patterns, const std::string& pattern) {
   return patterns.empty() ? pattern : patterns + " | " + pattern;
 }
 
-std::string completes(const Value& value) {
+std::string bash_value(const Value& value) {
   switch (value.kind) {
     case Value::Kind::file:
       return "compopt -o filenames; COMPREPLY=($(compgen -f -- \"$current\"))";
@@ -26,7 +26,7 @@ std::string completes(const Value& value) {
     case Value::Kind::word: {
       std::string words;
       for (const std::string& word : value.words) words += (words.empty() ? "" : " ") + word;
-      return "COMPREPLY=($(compgen -W " + quoted(words) + " -- \"$current\"))";
+      return "COMPREPLY=($(compgen -W " + shell_word(words) + " -- \"$current\"))";
     }
     case Value::Kind::none:
     case Value::Kind::text:
@@ -50,7 +50,7 @@ std::string bash_script(const Command& program) {
   std::string known;
   for (const Command* command : commands) {
     for (const Command& below : command->commands) {
-      known = either(known, quoted(command->path + ":" + below.name));
+      known = either(known, shell_word(command->path + ":" + below.name));
     }
   }
   std::string valued;
@@ -65,9 +65,9 @@ std::string bash_script(const Command& program) {
       if (option.value.kind == Value::Kind::none) continue;
       std::string patterns;
       for (const std::string& of_option : option.names) {
-        patterns = either(patterns, quoted(command->path + ":" + of_option));
+        patterns = either(patterns, shell_word(command->path + ":" + of_option));
       }
-      add_case(out, patterns, completes(option.value) + "; return");
+      add_case(out, patterns, bash_value(option.value) + "; return");
     }
   }
   out << "  esac\n"
@@ -77,8 +77,8 @@ std::string bash_script(const Command& program) {
     for (const Option& option : options_of(*command, program)) {
       for (const std::string& of_option : option.names) words += of_option + " ";
     }
-    add_case(out, quoted(command->path + ":") + "-*",
-             "COMPREPLY=($(compgen -W " + quoted(words) + " -- \"$current\"))");
+    add_case(out, shell_word(command->path + ":") + "-*",
+             "COMPREPLY=($(compgen -W " + shell_word(words) + " -- \"$current\"))");
   }
   for (const Command* command : commands) {
     Value value = first_positional(*command);
@@ -87,7 +87,7 @@ std::string bash_script(const Command& program) {
       value.words.clear();
       for (const Command& below : command->commands) value.words.push_back(below.name);
     }
-    add_case(out, quoted(command->path + ":") + "*", completes(value));
+    add_case(out, shell_word(command->path + ":") + "*", bash_value(value));
   }
   out << "  esac\n"
       << "}\n"

@@ -6,7 +6,7 @@
 namespace anticrack::guide {
 namespace {
 
-std::string completes(const Value& value) {
+std::string fish_value(const Value& value) {
   switch (value.kind) {
     case Value::Kind::none:
       return "";
@@ -17,7 +17,7 @@ std::string completes(const Value& value) {
     case Value::Kind::word: {
       std::string words;
       for (const std::string& word : value.words) words += (words.empty() ? "" : " ") + word;
-      return " -x -a " + quoted(words);
+      return " -x -a " + shell_word(words);
     }
     case Value::Kind::text:
       break;
@@ -55,8 +55,8 @@ std::string fish_script(const Command& program) {
   }
   for (const Command* command : commands) {
     for (const Command& below : command->commands) {
-      out << "      case " << quoted(command->path + ":" + below.name) << "\n        set found "
-          << quoted(below.path) << '\n';
+      out << "      case " << shell_word(command->path + ":" + below.name) << "\n        set found "
+          << shell_word(below.path) << '\n';
     }
   }
   out << "    end\n"
@@ -66,16 +66,17 @@ std::string fish_script(const Command& program) {
       << "complete -c " << name << " -f\n";
   for (const Command* command : commands) {
     const std::string here =
-        "complete -c " + name + " -n " + quoted(path + " " + quoted(command->path));
+        "complete -c " + name + " -n " + shell_word(path + " " + shell_word(command->path));
     for (const Command& below : command->commands) {
-      out << here << " -a " << quoted(below.name) << " -d " << quoted(below.description) << '\n';
+      out << here << " -a " << shell_word(below.name) << " -d " << shell_word(below.description)
+          << '\n';
     }
     if (first_positional(*command).kind == Value::Kind::file) {
       out << here << " -F\n";
     }
     for (const Option& option : options_of(*command, program)) {
-      out << here << flags(option.names) << completes(option.value) << " -d "
-          << quoted(option.description) << '\n';
+      out << here << flags(option.names) << fish_value(option.value) << " -d "
+          << shell_word(option.description) << '\n';
     }
   }
   return out.str();

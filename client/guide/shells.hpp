@@ -16,7 +16,7 @@ std::string zsh_script(const Command& program);
 std::string fish_script(const Command& program);
 
 /// 'text', as all three shells read it back.
-std::string quoted(const std::string& text);
+std::string shell_word(const std::string& text);
 
 /// Of the options of all commands that take a value: what follows one is no command.
 std::vector<std::string> with_value(const Command& program);

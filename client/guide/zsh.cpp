@@ -10,10 +10,10 @@ namespace {
 std::string described(const std::string& name, const std::string& description) {
   std::string escaped;
   for (const char c : name) escaped += c == ':' ? "\\:" : std::string(1, c);
-  return quoted(escaped + ":" + description);
+  return shell_word(escaped + ":" + description);
 }
 
-std::string completes(const Value& value) {
+std::string zsh_value(const Value& value) {
   switch (value.kind) {
     case Value::Kind::file:
       return "_files";
@@ -21,7 +21,7 @@ std::string completes(const Value& value) {
       return "_files -/";
     case Value::Kind::word: {
       std::string words;
-      for (const std::string& word : value.words) words += " " + quoted(word);
+      for (const std::string& word : value.words) words += " " + shell_word(word);
       return "compadd --" + words;
     }
     case Value::Kind::none:
@@ -49,8 +49,8 @@ std::string zsh_script(const Command& program) {
   }
   for (const Command* command : commands) {
     for (const Command& below : command->commands) {
-      out << "      " << quoted(command->path + ":" + below.name)
-          << ") path_=" << quoted(below.path) << " ;;\n";
+      out << "      " << shell_word(command->path + ":" + below.name)
+          << ") path_=" << shell_word(below.path) << " ;;\n";
     }
   }
   out << "    esac\n"
@@ -60,15 +60,15 @@ std::string zsh_script(const Command& program) {
     for (const Option& option : options_of(*command, program)) {
       if (option.value.kind == Value::Kind::none) continue;
       for (const std::string& of_option : option.names) {
-        out << "    " << quoted(command->path + ":" + of_option) << ") " << completes(option.value)
-            << "; return ;;\n";
+        out << "    " << shell_word(command->path + ":" + of_option) << ") "
+            << zsh_value(option.value) << "; return ;;\n";
       }
     }
   }
   out << "  esac\n"
       << "  case \"$path_\" in\n";
   for (const Command* command : commands) {
-    out << "    " << quoted(command->path) << ")\n"
+    out << "    " << shell_word(command->path) << ")\n"
         << "      options=(\n";
     for (const Option& option : options_of(*command, program)) {
       for (const std::string& of_option : option.names) {
@@ -77,7 +77,7 @@ std::string zsh_script(const Command& program) {
     }
     out << "      )\n";
     if (command->commands.empty()) {
-      out << "      [[ $PREFIX == -* ]] || { " << completes(first_positional(*command))
+      out << "      [[ $PREFIX == -* ]] || { " << zsh_value(first_positional(*command))
           << "; return }\n";
     } else {
       out << "      commands=(\n";

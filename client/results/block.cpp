@@ -4,7 +4,7 @@
 namespace anticrack::results {
 namespace {
 
-constexpr const char* cure =
+constexpr const char* fetch_again =
     "the server and this client do not understand each other: compare their versions with "
     "`anticrack server`";
 
@@ -48,14 +48,14 @@ std::uint64_t byte_count(const std::string& subject, const ArrayView& array) {
     if (__builtin_mul_overflow(bytes, extent, &bytes)) {
       throw Error(subject,
                   "array " + array.name + " has the impossible shape " + text_of(array.shape),
-                  cure);
+                  fetch_again);
     }
   }
   return bytes;
 }
 
 void Block::fail(const std::string& cause) const {
-  throw Error(_subject, cause, cure);
+  throw Error(_subject, cause, fetch_again);
 }
 
 Edges edges_of(const Block& block, const std::string& interface) {
@@ -83,7 +83,7 @@ ArrayView view(std::string name, ArrayView::Type type, std::vector<std::uint64_t
                 "array " + array.name + " of shape " + text_of(array.shape) + " at byte " +
                     std::to_string(offset) + " lies outside the " + std::to_string(block.size()) +
                     " bytes",
-                cure);
+                fetch_again);
   }
   array.bytes = block.subspan(offset, bytes);
   return array;

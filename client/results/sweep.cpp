@@ -14,7 +14,7 @@ void widen(SweepSummary::Range& range, double value) {
   range.high = std::fmax(range.high, value);
 }
 
-bool is(std::int32_t status, Status wanted) {
+bool has_status(std::int32_t status, Status wanted) {
   return status == static_cast<std::int32_t>(wanted);
 }
 
@@ -86,9 +86,9 @@ SweepSummary summary(const Sweep& sweep) {
   result.displacement.resize(inclusions);
   for (std::size_t row = 0; row < sweep.rows(); ++row) {
     const std::int32_t status = sweep.status[row];
-    result.not_converged += is(status, Status::not_converged) ? 1U : 0U;
-    result.failed += is(status, Status::failed) ? 1U : 0U;
-    if (!is(status, Status::converged)) continue;
+    result.not_converged += has_status(status, Status::not_converged) ? 1U : 0U;
+    result.failed += has_status(status, Status::failed) ? 1U : 0U;
+    if (!has_status(status, Status::converged)) continue;
     ++result.converged;
     result.most_steps = std::max(result.most_steps, sweep.steps[row]);
     result.worst_kkt = std::fmax(result.worst_kkt, sweep.kkt[row]);

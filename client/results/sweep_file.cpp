@@ -9,13 +9,13 @@ namespace {
 using hdf5::Handle;
 using hdf5::put;
 
-const std::string dimensionless = "-";
+const std::string no_unit = "-";
 constexpr std::uint64_t most_names = 1'000'000;
 
 template <class T>
 void put_column(const Handle& group, const std::string& name, const std::vector<T>& values,
                 const std::string& meaning, std::size_t columns = 0) {
-  const Handle dataset = hdf5::put_array(group, name, values, dimensionless, columns);
+  const Handle dataset = hdf5::put_array(group, name, values, no_unit, columns);
   put(dataset, "meaning", meaning);
 }
 

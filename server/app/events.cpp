@@ -15,7 +15,7 @@ namespace {
 
 using metrics::Phase;
 
-std::string seconds(std::chrono::duration<double> time) {
+std::string shown_seconds(std::chrono::duration<double> time) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "%.3f", time.count());
   return text.data();
@@ -40,7 +40,9 @@ void quietly(const Action& action) noexcept {
 
 void log_job(const store::JobRecord& job) {
   const metrics::PhaseTimes times = metrics::phase_times(job);
-  const auto in = [&](Phase phase) { return seconds(times[static_cast<std::size_t>(phase)]); };
+  const auto in = [&](Phase phase) {
+    return shown_seconds(times[static_cast<std::size_t>(phase)]);
+  };
   log::info("job ended", {{"job", "jobs/" + job.id},
                           {"mesh", "meshes/" + job.spec.mesh},
                           {"request_id", job.request_id},
@@ -70,7 +72,7 @@ void log_mesh(const store::MeshRecord& mesh) {
               {{"mesh", "meshes/" + mesh.id},
                {"owner", mesh.owner},
                {"triangles", std::to_string(mesh.triangle_count)},
-               {"seconds", seconds(std::chrono::duration<double>(mesh.mesh_seconds))}});
+               {"seconds", shown_seconds(std::chrono::duration<double>(mesh.mesh_seconds))}});
   }
 }
 
@@ -88,7 +90,7 @@ void meshed(metrics::Metrics& metrics, const store::MeshRecord& mesh) noexcept {
 
 void factorised(metrics::Metrics& metrics, std::chrono::duration<double> time) noexcept {
   metrics.factorised(time);
-  quietly([&] { log::info("factorised", {{"seconds", seconds(time)}}); });
+  quietly([&] { log::info("factorised", {{"seconds", shown_seconds(time)}}); });
 }
 
 }  // namespace anticrack::app

@@ -3,13 +3,10 @@
 
 #include "contact/answer_parts.hpp"
 #include "contact/solve.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// g_D in a node of the Dirichlet boundary; every subdomain that has the node has the same value.
 double dirichlet_value(const ddm::Decomposition& decomposition,

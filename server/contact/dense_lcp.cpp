@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "contact/dense.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -17,10 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double rounding = lcp_rounding;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// One run on scaled data: unit diagonal, load of size 1.
 class Run {

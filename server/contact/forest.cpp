@@ -4,15 +4,9 @@
 #include <cstddef>
 
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::contact {
-namespace {
-
-std::size_t at(Eigen::Index i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
 
 Forest::Forest(const ddm::Skeleton& skeleton)
     : _root(skeleton.unknowns, -1),

@@ -8,16 +8,14 @@
 #include <map>
 #include <utility>
 
+#include "mesh/at.hpp"
+
 namespace anticrack::contact {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Not so where it may open, nor where other conditions of a cross point imply its own.
 bool tied(const ddm::Decomposition& decomposition, std::int32_t i) {

@@ -7,6 +7,7 @@
 
 #include "contact/dense.hpp"
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -14,10 +15,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// K = sum of the Schur complements over the unknowns.
 MatrixXd join(const ddm::Decomposition& decomposition,

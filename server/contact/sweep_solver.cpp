@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/dense.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -12,10 +13,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::size_t bytes_of(const MatrixXd& matrix) {
   return sizeof(double) * at(matrix.size());

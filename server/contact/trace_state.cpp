@@ -4,21 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/at.hpp"
+
 namespace anticrack::contact {
-namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
-double ratio(double value, double scale) {
-  return value == 0 ? 0 : value / scale;
-}
-
-}  // namespace
 
 double largest(const ConstVectorRef& values) {
   return values.size() == 0 ? 0 : values.lpNorm<Eigen::Infinity>();

@@ -4,21 +4,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "mesh/at.hpp"
+
 namespace anticrack::contact {
-namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
-double ratio(double value, double scale) {
-  return value == 0 ? 0 : value / scale;
-}
-
-}  // namespace
 
 Uzawa::Uzawa(const TraceProblem& problem, Mass mass, int capacity)
     : _problem(problem), _mass(mass), _columns(index(capacity)) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contact/dense.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -17,10 +18,6 @@ using Eigen::VectorXd;
 /// Where more nodes change than these, the load is another and the set before it says little: then
 /// coarse problems are quicker than steps from there. Their steps cost as much as small problems'.
 constexpr Index far_off = 8, small = 128;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 }  // namespace
 

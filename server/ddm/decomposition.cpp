@@ -10,15 +10,12 @@
 #include "ddm/sides.hpp"
 #include "ddm/support.hpp"
 #include "ddm/ties.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::ddm {
 namespace {
 
 using mesh::Kind;
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::int32_t count_of(const std::vector<std::int32_t>& list) {
   return static_cast<std::int32_t>(list.size());

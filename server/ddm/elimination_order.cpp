@@ -4,15 +4,12 @@
 #include <cstddef>
 
 #include "ddm/nested_dissection.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::ddm {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Rows j+1..interior-1 of column j, as places in the matrix.
 struct Rows {

@@ -15,6 +15,7 @@
 #include "ddm/front_kernel.hpp"
 #include "ddm/subtrees.hpp"
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
 
 extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 
@@ -23,12 +24,8 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Entries of the permuted K, by column; its G-G part is in S.
-struct Columns {
+struct SparseColumns {
   std::vector<int> begin;
   std::vector<int> row;
   std::vector<double> value;
@@ -49,10 +46,10 @@ void for_each_entry(const Sparse& stiffness, std::span<const int> place, const T
   }
 }
 
-Columns permuted(const Sparse& stiffness, std::span<const int> place, int interior,
-                 Eigen::MatrixXd& schur) {
+SparseColumns permuted(const Sparse& stiffness, std::span<const int> place, int interior,
+                       Eigen::MatrixXd& schur) {
   const auto n = static_cast<int>(stiffness.rows());
-  Columns columns;
+  SparseColumns columns;
   columns.begin.assign(at(interior) + 1, 0);
   schur.setZero(n - interior, n - interior);
   for_each_entry(stiffness, place, [&](int row, int column, double value) {
@@ -129,7 +126,8 @@ struct Front {
 
 class Elimination {
  public:
-  Elimination(const Supernodes& pattern, Columns columns, double* values, Eigen::MatrixXd& schur)
+  Elimination(const Supernodes& pattern, SparseColumns columns, double* values,
+              Eigen::MatrixXd& schur)
       : _pattern(pattern),
         _columns(std::move(columns)),
         _values(values),
@@ -255,7 +253,7 @@ class Elimination {
   }
 
   const Supernodes& _pattern;
-  const Columns _columns;
+  const SparseColumns _columns;
   double* _values;
   Eigen::MatrixXd& _schur;
   int _count = 0;               // supernodes with interior columns
@@ -291,7 +289,7 @@ bool eliminate_front(int columns, int height, double* panel, double* update, boo
 bool eliminate_interior(const Supernodes& pattern, std::span<const int> place,
                         const Sparse& stiffness, double* values, Eigen::MatrixXd& schur,
                         int threads) {
-  Columns columns = permuted(stiffness, place, pattern.columns, schur);
+  SparseColumns columns = permuted(stiffness, place, pattern.columns, schur);
   if (!Elimination(pattern, std::move(columns), values, schur).run(threads)) return false;
   schur.triangularView<Eigen::StrictlyUpper>() = schur.transpose();
   return true;

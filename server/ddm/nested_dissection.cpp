@@ -10,13 +10,10 @@
 
 #include "ddm/minimum_degree.hpp"
 #include "ddm/vertex_separator.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::ddm {
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 struct Node {
   double x, y;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "mesh/at.hpp"
+
 namespace anticrack::ddm {
 namespace {
 
@@ -14,10 +16,6 @@ struct Use {
   std::int32_t high;
   std::int32_t corner;  // 3t + k
 };
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 EdgeKey edge_of(const mesh::Mesh& mesh, std::size_t corner) {
   const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/union_find.hpp"
 
@@ -14,10 +15,6 @@ namespace anticrack::ddm {
 namespace {
 
 using EdgeKey = std::pair<std::int32_t, std::int32_t>;
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::vector<char> dirichlet_nodes(const mesh::Mesh& mesh) {
   std::vector<char> on_dirichlet(mesh.node_count(), 0);

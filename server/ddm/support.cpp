@@ -6,14 +6,11 @@
 #include <vector>
 
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
 #include "mesh/union_find.hpp"
 
 namespace anticrack::ddm {
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 mesh::UnionFind connected_parts(const Subdomain& subdomain) {
   mesh::UnionFind parts(subdomain.node.size());

@@ -7,6 +7,7 @@
 
 #include "ddm/order.hpp"
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
 #include "mesh/union_find.hpp"
 
 namespace anticrack::ddm {
@@ -15,10 +16,6 @@ namespace {
 using errors::Error;
 using errors::Reason;
 using mesh::Kind;
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 void refuse_crack_on_dirichlet(const mesh::Mesh& mesh, const Sides& sides) {
   for (const CutEdge& edge : sides.edges) {

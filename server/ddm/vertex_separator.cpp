@@ -4,15 +4,13 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "mesh/at.hpp"
+
 namespace anticrack::ddm {
 namespace {
 
 constexpr std::int32_t none = -1;    // no way through this vertex
 constexpr std::int32_t a_side = -2;  // the way begins or ends here
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 constexpr std::int32_t entered(std::int32_t vertex) {
   return 2 * vertex;

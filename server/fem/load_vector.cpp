@@ -10,13 +10,13 @@
 namespace anticrack::fem {
 namespace {
 
-using Corners = std::array<Eigen::Index, 3>;
+using CornerNodes = std::array<Eigen::Index, 3>;
 
-Corners corners(const Triangulation& part, std::size_t t) {
+CornerNodes corners(const Triangulation& part, std::size_t t) {
   return {part.triangles[3 * t], part.triangles[3 * t + 1], part.triangles[3 * t + 2]};
 }
 
-double area(const Triangulation& part, const Corners& nodes) {
+double area(const Triangulation& part, const CornerNodes& nodes) {
   const auto at = [&part](Eigen::Index node) {
     return Eigen::Map<const Eigen::Vector2d>(&part.xy[2 * static_cast<std::size_t>(node)]);
   };
@@ -34,7 +34,7 @@ void linear_on_triangles(const Triangulation& part, const Rows<width>& of_node, 
   using Values = Eigen::Array<double, width, 1>;
   load.setZero();
   for (std::size_t t = 0; t < part.triangle_count(); ++t) {
-    const Corners nodes = corners(part, t);
+    const CornerNodes nodes = corners(part, t);
     const Values p = of_node.col(nodes[0]), q = of_node.col(nodes[1]), r = of_node.col(nodes[2]);
     const double part_of_area = area(part, nodes) / 12;
     const Values sum = p + q + r;
@@ -83,7 +83,7 @@ struct AssembleForce {
   Eigen::VectorXd constant_on_triangles(const Value& value) const {
     Eigen::VectorXd load = zero();
     for (std::size_t t = 0; t < part.triangle_count(); ++t) {
-      const Corners nodes = corners(part, t);
+      const CornerNodes nodes = corners(part, t);
       const double third = value(t) * area(part, nodes) / 3;
       for (const Eigen::Index node : nodes) {
         load[node] += third;

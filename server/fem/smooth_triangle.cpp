@@ -9,7 +9,7 @@ namespace anticrack::fem {
 namespace {
 
 /// Barycentric coordinates, in the whole triangle, of the corners of a part of it.
-using Corners = std::array<std::array<double, 3>, 3>;
+using CornerWeights = std::array<std::array<double, 3>, 3>;
 
 constexpr int deepest = 3;
 
@@ -55,7 +55,7 @@ std::array<double, 3> product_rule(const Triangle& triangle, CountedField& field
   return nodal;
 }
 
-Triangle place(const Triangle& whole, const Corners& part) {
+Triangle place(const Triangle& whole, const CornerWeights& part) {
   const auto& [a, b, c] = whole;
   Triangle triangle{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -65,8 +65,8 @@ Triangle place(const Triangle& whole, const Corners& part) {
   return triangle;
 }
 
-std::array<Corners, 4> quarters(const Corners& part) {
-  Corners middle{};
+std::array<CornerWeights, 4> quarters(const CornerWeights& part) {
+  CornerWeights middle{};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       middle[i][k] = 0.5 * (part[(i + 1) % 3][k] + part[(i + 2) % 3][k]);
@@ -82,7 +82,7 @@ class Refinement {
  public:
   Refinement(const Triangle& whole, CountedField& field) : _whole(whole), _field(field) {}
 
-  bool add(const Corners& part, const SampledTriangle& sampled, double tolerance, int depth) {
+  bool add(const CornerWeights& part, const SampledTriangle& sampled, double tolerance, int depth) {
     if (sampled.error <= tolerance) {
       collect(part, sampled.nodal, sampled.error);
       return true;
@@ -103,7 +103,7 @@ class Refinement {
     if (depth == deepest) {
       return false;
     }
-    for (const Corners& quarter : quarters(part)) {
+    for (const CornerWeights& quarter : quarters(part)) {
       if (!add(quarter, sample_triangle(place(_whole, quarter), _field), tolerance / 4,
                depth + 1)) {
         return false;
@@ -116,7 +116,7 @@ class Refinement {
   double error() const { return _error; }
 
  private:
-  void collect(const Corners& part, const std::array<double, 3>& nodal, double error) {
+  void collect(const CornerWeights& part, const std::array<double, 3>& nodal, double error) {
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t k = 0; k < 3; ++k) {
         _nodal[i] += part[k][i] * nodal[k];

@@ -28,7 +28,7 @@ struct Place {
   std::int32_t row, column;
 };
 
-Place place(std::int32_t a, std::int32_t b, std::int32_t free) {
+Place place_in(std::int32_t a, std::int32_t b, std::int32_t free) {
   const std::int32_t low = std::min(a, b), high = std::max(a, b);
   return low < free && high >= free ? Place{low, high} : Place{high, low};
 }
@@ -41,7 +41,7 @@ class Columns {
     const std::vector<std::int32_t>& node = part.triangles;
     for (std::size_t t = 0; t < node.size(); t += 3) {
       for (std::size_t a = 0; a < 3; ++a) {
-        ++_end[at(place(node[t + a], node[t + (a + 1) % 3], free).column) + 1];
+        ++_end[at(place_in(node[t + a], node[t + (a + 1) % 3], free).column) + 1];
       }
     }
     for (std::size_t j = 1; j < _end.size(); ++j) {
@@ -101,7 +101,7 @@ class Columns {
     for (std::size_t a = 0; a < 3; ++a) {
       const std::size_t b = (a + 1) % 3;
       _diagonal[at(node[a])] += entry(a, a);
-      const Place to = place(node[a], node[b], free);
+      const Place to = place_in(node[a], node[b], free);
       _entries[at(_end[at(to.column)]++)] = {entry(a, b), to.row};
     }
   }

@@ -33,7 +33,7 @@ bool is_name(const std::string& text) {
          });
 }
 
-std::string path_of(std::size_t load) {
+std::string load_path(std::size_t load) {
   return "load_cases[" + std::to_string(load) + "]";
 }
 
@@ -46,12 +46,12 @@ void check_names(const std::vector<fem::Load>& loads) {
                   "\"" + name.substr(0, max_name_bytes) +
                       "\" is no name of a load case: use 1 to 64 letters, digits, '_', '.', '-' "
                       "and spaces, a letter or digit first")
-          .at(path_of(i) + ".name");
+          .at(load_path(i) + ".name");
     }
     if (!names.insert(name).second) {
       throw Error(Reason::invalid_argument,
                   "two load cases are named \"" + name + "\": give each its own name")
-          .at(path_of(i) + ".name");
+          .at(load_path(i) + ".name");
     }
   }
 }
@@ -183,7 +183,7 @@ void check(const store::JobSpec& spec, const EngineOptions& options) {
     try {
       fem::check(spec.loads[i], options.max_expression_bytes);
     } catch (Error& error) {
-      error.below(path_of(i));
+      error.below(load_path(i));
       throw;
     }
   }

@@ -14,10 +14,6 @@ using store::JobState;
 /// Meshes that are prepared ahead: each pins memory.
 constexpr std::size_t prepared_limit = 3;
 
-std::size_t index(Lane lane) {
-  return static_cast<std::size_t>(lane);
-}
-
 }  // namespace
 
 EngineCore::EngineCore(EngineOptions engine_options, store::Store& records,

@@ -48,29 +48,29 @@ struct Kept {
 };
 
 template <class T>
-std::size_t bytes_of(const std::vector<T>& values) {
+std::size_t kept_bytes(const std::vector<T>& values) {
   return values.size() * sizeof(T);
 }
 
-std::size_t bytes_of(const store::CaseRecord& record) {
-  return sizeof(record) + record.answer.reason.size() + bytes_of(record.answer.inclusions) +
-         bytes_of(record.answer.contact_intervals);
+std::size_t kept_bytes(const store::CaseRecord& record) {
+  return sizeof(record) + record.answer.reason.size() + kept_bytes(record.answer.inclusions) +
+         kept_bytes(record.answer.contact_intervals);
 }
 
-std::size_t bytes_of(const contact::SweepColumns& rows) {
-  return sizeof(rows) + bytes_of(rows.status) + bytes_of(rows.steps) + bytes_of(rows.energy) +
-         bytes_of(rows.contact_length) + bytes_of(rows.kkt) + bytes_of(rows.displacement) +
-         bytes_of(rows.contact);
+std::size_t kept_bytes(const contact::SweepColumns& rows) {
+  return sizeof(rows) + kept_bytes(rows.status) + kept_bytes(rows.steps) + kept_bytes(rows.energy) +
+         kept_bytes(rows.contact_length) + kept_bytes(rows.kkt) + kept_bytes(rows.displacement) +
+         kept_bytes(rows.contact);
 }
 
-std::size_t bytes_of(const Event& event) {
+std::size_t kept_bytes(const Event& event) {
   std::size_t bytes = sizeof(Kept);
   if (const auto* phase = std::get_if<PhaseEvent>(&event)) {
     bytes += phase->detail.size();
   } else if (const auto* ended = std::get_if<CaseEvent>(&event)) {
-    bytes += bytes_of(*ended->record);
+    bytes += kept_bytes(*ended->record);
   } else if (const auto* rows = std::get_if<RowsEvent>(&event)) {
-    bytes += bytes_of(*rows->rows);
+    bytes += kept_bytes(*rows->rows);
   }
   return bytes;
 }
@@ -224,7 +224,7 @@ void EventLog::append(Event event) {
     append({sample, 1});
     return;
   }
-  const std::size_t bytes = bytes_of(event);
+  const std::size_t bytes = kept_bytes(event);
   _state->append([&](State& log) {
     log.others.push_back({{log.latest + 1, std::move(event)}, bytes});
     log.ended = std::holds_alternative<EndEvent>(log.others.back().numbered.event);

@@ -75,7 +75,7 @@ std::optional<std::uint64_t> Schedule::next_job(const std::string& mesh, Lane la
   if (found == _meshes.end()) {
     return std::nullopt;
   }
-  const Jobs& jobs = found->second.lanes[static_cast<std::size_t>(lane)].jobs;
+  const Jobs& jobs = found->second.lanes[index(lane)].jobs;
   std::optional<std::pair<int, std::uint64_t>> best;
   for (std::size_t priority = 0; priority < jobs.size(); ++priority) {
     if (jobs[priority].empty()) {
@@ -91,7 +91,7 @@ std::optional<std::uint64_t> Schedule::next_job(const std::string& mesh, Lane la
 std::optional<store::Priority> Schedule::most_urgent(const std::string& mesh, Lane lane) const {
   const auto found = _meshes.find(mesh);
   if (found != _meshes.end()) {
-    const Jobs& jobs = found->second.lanes[static_cast<std::size_t>(lane)].jobs;
+    const Jobs& jobs = found->second.lanes[index(lane)].jobs;
     for (std::size_t priority = 0; priority < jobs.size(); ++priority) {
       if (!jobs[priority].empty()) {
         return static_cast<store::Priority>(priority);
@@ -102,11 +102,11 @@ std::optional<store::Priority> Schedule::most_urgent(const std::string& mesh, La
 }
 
 void Schedule::park(const std::string& mesh, Lane lane, store::Priority priority) {
-  ++_meshes[mesh].lanes[static_cast<std::size_t>(lane)].parked[class_of(priority)];
+  ++_meshes[mesh].lanes[index(lane)].parked[class_of(priority)];
 }
 
 void Schedule::unpark(const std::string& mesh, Lane lane, store::Priority priority) {
-  --_meshes.at(mesh).lanes[static_cast<std::size_t>(lane)].parked[class_of(priority)];
+  --_meshes.at(mesh).lanes[index(lane)].parked[class_of(priority)];
 }
 
 std::size_t Schedule::unused_meshes() const {

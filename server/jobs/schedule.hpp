@@ -20,6 +20,9 @@ namespace anticrack::jobs {
 /// What can run together: load cases, or chunks of sweeps, of one mesh and one lane.
 enum class Lane { active_set, lumped, consistent, sweep };
 constexpr std::size_t lane_count = 4;
+constexpr std::size_t index(Lane lane) noexcept {
+  return static_cast<std::size_t>(lane);
+}
 
 /// A job with load cases that nobody has taken.
 struct Waiting {

@@ -16,10 +16,6 @@ namespace {
 
 using Clock = EngineCore::Clock;
 
-std::size_t index(Lane lane) {
-  return static_cast<std::size_t>(lane);
-}
-
 contact::Mass mass_of(Lane lane) {
   return lane == Lane::consistent ? contact::Mass::consistent : contact::Mass::lumped;
 }

@@ -25,7 +25,7 @@ constexpr double uniform_divisions = 50;
 constexpr double graded_divisions = 20.3;
 
 /// Curves a plan may have: everything that is done with them is nearly quadratic.
-constexpr std::size_t max_curves = 50'000;
+constexpr std::size_t curve_limit = 50'000;
 
 /// Equilateral triangles of this edge length fill the area, or line its boundary.
 double expected_triangles(double area, double size, double pieces) {
@@ -160,10 +160,10 @@ Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_
   if (options.preset != Preset::paper) check_size(network, area, size, max_triangles);
   // once before anything lies on the lines: a part is not to be blamed for a fault of its line
   Network lines = network;
-  cut(lines, size, max_curves);
+  cut(lines, size, curve_limit);
   const Layout layout = lay_parts(geometry, network);
   check_contacts(layout, network);
-  cut(network, size, max_curves);
+  cut(network, size, curve_limit);
 
   Plan plan;
   for (const InclusionSpec& inclusion : geometry.inclusions) {
@@ -177,7 +177,7 @@ Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_
     plan_paper(area, max_triangles, plan);
     return plan;
   }
-  cut_near(plan, size, plan.growth, max_curves);
+  cut_near(plan, size, plan.growth, curve_limit);
   set_intervals(plan, size);
   if (options.preset == Preset::graded) {
     plan.grading = {size, options.grading, options.tip_size};

@@ -14,12 +14,12 @@
 namespace anticrack::mesh {
 namespace {
 
-using Edges = std::span<const std::array<int, 2>>;
+using EdgeSpan = std::span<const std::array<int, 2>>;
 
 /// Half-edge 2e runs along edge e, 2e + 1 against it.
 class Walker {
  public:
-  Walker(std::span<const Point> points, Edges edges, const std::vector<bool>& used)
+  Walker(std::span<const Point> points, EdgeSpan edges, const std::vector<bool>& used)
       : _points(points), _edges(edges), _used(used), _next(2 * edges.size(), -1) {
     link();
   }
@@ -122,7 +122,7 @@ class Walker {
   }
 
   std::span<const Point> _points;
-  Edges _edges;
+  EdgeSpan _edges;
   const std::vector<bool>& _used;
   std::vector<int> _next;
 };
@@ -173,7 +173,7 @@ void add_loop(const Walker& walker, const std::vector<int>& halves, bool is_oute
 
 }  // namespace
 
-Arrangement arrange(std::span<const Point> points, Edges edges, const std::vector<bool>& used) {
+Arrangement arrange(std::span<const Point> points, EdgeSpan edges, const std::vector<bool>& used) {
   const Walker walker(points, edges, used);
   const std::vector<std::vector<int>> loops = walker.loops();
   const std::vector<int> part = walker.parts();
@@ -226,7 +226,7 @@ Arrangement arrange(std::span<const Point> points, Edges edges, const std::vecto
   return result;
 }
 
-int face_at(const Arrangement& arrangement, std::span<const Point> points, Edges edges,
+int face_at(const Arrangement& arrangement, std::span<const Point> points, EdgeSpan edges,
             const Point& p) {
   int best = Arrangement::outside;
   double least = std::numeric_limits<double>::infinity();

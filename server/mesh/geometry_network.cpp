@@ -112,7 +112,7 @@ NetworkLine interface_line(const InterfaceSpec& spec, const std::string& name,
           {}};
 }
 
-void check_count(std::size_t count, std::size_t limit, const std::string& field, const char* what) {
+void check_limit(std::size_t count, std::size_t limit, const std::string& field, const char* what) {
   if (count <= limit) return;
   throw errors::Error(errors::Reason::limit_exceeded, field + " has " + std::to_string(count) +
                                                           " " + what + "; at most " +
@@ -121,14 +121,14 @@ void check_count(std::size_t count, std::size_t limit, const std::string& field,
 }
 
 void check_counts(const Geometry& geometry, const MeshOptions& options) {
-  check_count(geometry.interfaces.size(), max_interfaces, "interfaces", "entries");
-  check_count(options.align.size(), max_interfaces, "options.align", "lines");
+  check_limit(geometry.interfaces.size(), max_interfaces, "interfaces", "entries");
+  check_limit(options.align.size(), max_interfaces, "options.align", "lines");
   std::size_t vertices = 0;
   for (const InterfaceSpec& spec : geometry.interfaces) vertices += spec.points.size();
-  check_count(vertices, max_vertices, "interfaces", "vertices");
+  check_limit(vertices, max_vertices, "interfaces", "vertices");
   vertices = 0;
   for (const auto& line : options.align) vertices += line.size();
-  check_count(vertices, max_vertices, "options.align", "vertices");
+  check_limit(vertices, max_vertices, "options.align", "vertices");
 }
 
 void add_station(NetworkLine& line, double t, int point) {

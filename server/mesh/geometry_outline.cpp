@@ -94,7 +94,7 @@ bool collinear(std::span<const Point> points, double tolerance) {
   });
 }
 
-double check_boundary(const std::vector<Point>& boundary) {
+double check_polygon(const std::vector<Point>& boundary) {
   if (boundary.size() < 3) {
     refuse("boundary", "boundary has ", boundary.size(), " vertices; a polygon takes at least 3");
   }
@@ -140,7 +140,7 @@ void check_point(const Point& p, const std::string& field) {
 
 Outline check_outline(const std::vector<Point>& boundary) {
   Outline outline;
-  outline.tolerance = check_boundary(boundary);
+  outline.tolerance = check_polygon(boundary);
   outline.boundary = boundary;
   if (signed_area(outline.boundary) < 0) {
     std::reverse(outline.boundary.begin(), outline.boundary.end());

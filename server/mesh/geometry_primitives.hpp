@@ -13,6 +13,11 @@
 
 namespace anticrack::mesh {
 
+/// a - b.
+constexpr Point minus(const Point& a, const Point& b) noexcept {
+  return {a[0] - b[0], a[1] - b[1]};
+}
+
 struct Segment {
   Point a{};
   Point b{};

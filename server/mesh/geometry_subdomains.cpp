@@ -131,7 +131,7 @@ struct Named {
   std::vector<double> tension;
 };
 
-void check_tension(double tension, const std::string& field) {
+void check_given_tension(double tension, const std::string& field) {
   if (std::isfinite(tension) && tension > 0) return;
   refuse(field, field, " is ", show(tension), "; a tension is a number above 0");
 }
@@ -148,7 +148,7 @@ Named name_subdomains(const Geometry& geometry, const Network& network, const Pl
     const RegionSpec& region = geometry.regions[i];
     const std::string field = indexed("regions", i) + ".at";
     check_point(region.at, field);
-    check_tension(region.tension, indexed("regions", i) + ".tension");
+    check_given_tension(region.tension, indexed("regions", i) + ".tension");
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const Segment s{plan.points[static_cast<std::size_t>(edges[e][0])],
                       plan.points[static_cast<std::size_t>(edges[e][1])]};

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "errors/errors.hpp"
+#include "mesh/geometry_primitives.hpp"
 #include "mesh/quality.hpp"
 
 namespace anticrack::mesh {
@@ -24,10 +25,6 @@ template <class... Parts>
 
 double squared(const Point& p) noexcept {
   return p[0] * p[0] + p[1] * p[1];
-}
-
-Point minus(const Point& p, const Point& q) noexcept {
-  return {p[0] - q[0], p[1] - q[1]};
 }
 
 /// Squared distance of the origin from the segment from p to q.

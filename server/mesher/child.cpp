@@ -16,13 +16,13 @@
 namespace anticrack::mesher {
 namespace {
 
-void check(int error, const std::string& what) {
+void check_spawn(int error, const std::string& what) {
   if (error != 0) throw std::system_error(error, std::system_category(), what);
 }
 
 struct FileActions {
   posix_spawn_file_actions_t value;
-  FileActions() { check(posix_spawn_file_actions_init(&value), "posix_spawn"); }
+  FileActions() { check_spawn(posix_spawn_file_actions_init(&value), "posix_spawn"); }
   ~FileActions() { posix_spawn_file_actions_destroy(&value); }
   FileActions(const FileActions&) = delete;
   FileActions& operator=(const FileActions&) = delete;
@@ -30,7 +30,7 @@ struct FileActions {
 
 struct Attributes {
   posix_spawnattr_t value;
-  Attributes() { check(posix_spawnattr_init(&value), "posix_spawn"); }
+  Attributes() { check_spawn(posix_spawnattr_init(&value), "posix_spawn"); }
   ~Attributes() { posix_spawnattr_destroy(&value); }
   Attributes(const Attributes&) = delete;
   Attributes& operator=(const Attributes&) = delete;
@@ -41,7 +41,7 @@ struct Attributes {
 Descriptor above_standard(Descriptor descriptor) {
   if (descriptor.get() > STDERR_FILENO) return descriptor;
   Descriptor moved(fcntl(descriptor.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
-  check(moved.get() < 0 ? errno : 0, "fcntl");
+  check_spawn(moved.get() < 0 ? errno : 0, "fcntl");
   return moved;
 }
 
@@ -89,44 +89,48 @@ Child::Child(const std::string& executable, const std::vector<std::string>& argu
              Descriptor file) {
   int ends[2] = {-1, -1};
   // close-on-exec from the start: a spawn in another thread must not inherit it
-  check(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0 ? errno : 0, "socketpair");
+  check_spawn(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0 ? errno : 0,
+              "socketpair");
   Descriptor ours(ends[0]);
   Descriptor theirs(ends[1]);
   ours = above_standard(std::move(ours));
   theirs = above_standard(std::move(theirs));
   const bool has_file = !file.empty();
   if (has_file) file = above_standard(std::move(file));
-  check(fcntl(ours.get(), F_SETFL, O_NONBLOCK) != 0 ? errno : 0, "fcntl");
+  check_spawn(fcntl(ours.get(), F_SETFL, O_NONBLOCK) != 0 ? errno : 0, "fcntl");
 
   FileActions actions;
-  check(posix_spawn_file_actions_adddup2(&actions.value, theirs.get(), STDIN_FILENO), "dup2");
-  check(posix_spawn_file_actions_adddup2(&actions.value, theirs.get(), STDOUT_FILENO), "dup2");
+  check_spawn(posix_spawn_file_actions_adddup2(&actions.value, theirs.get(), STDIN_FILENO), "dup2");
+  check_spawn(posix_spawn_file_actions_adddup2(&actions.value, theirs.get(), STDOUT_FILENO),
+              "dup2");
   int first_closed = STDERR_FILENO + 1;
   if (has_file) {
     // last, as it may take the number `theirs` has; on itself it only takes off close-on-exec
-    check(posix_spawn_file_actions_adddup2(&actions.value, file.get(), file_descriptor), "dup2");
+    check_spawn(posix_spawn_file_actions_adddup2(&actions.value, file.get(), file_descriptor),
+                "dup2");
     first_closed = file_descriptor + 1;
   }
-  check(posix_spawn_file_actions_addclosefrom_np(&actions.value, first_closed), "closefrom");
+  check_spawn(posix_spawn_file_actions_addclosefrom_np(&actions.value, first_closed), "closefrom");
 
   Attributes attributes;
   sigset_t none;
   sigset_t all;
   sigemptyset(&none);
   sigfillset(&all);
-  check(posix_spawnattr_setsigmask(&attributes.value, &none), "sigmask");
-  check(posix_spawnattr_setsigdefault(&attributes.value, &all), "sigdefault");
-  check(posix_spawnattr_setpgroup(&attributes.value, 0), "pgroup");
-  check(posix_spawnattr_setflags(&attributes.value, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF |
-                                                        POSIX_SPAWN_SETPGROUP),
-        "flags");
+  check_spawn(posix_spawnattr_setsigmask(&attributes.value, &none), "sigmask");
+  check_spawn(posix_spawnattr_setsigdefault(&attributes.value, &all), "sigdefault");
+  check_spawn(posix_spawnattr_setpgroup(&attributes.value, 0), "pgroup");
+  check_spawn(
+      posix_spawnattr_setflags(&attributes.value, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF |
+                                                      POSIX_SPAWN_SETPGROUP),
+      "flags");
 
   std::vector<std::string> words{executable};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> variables = environment();
-  check(posix_spawn(&_pid, executable.c_str(), &actions.value, &attributes.value,
-                    pointers(words).data(), pointers(variables).data()),
-        executable);
+  check_spawn(posix_spawn(&_pid, executable.c_str(), &actions.value, &attributes.value,
+                          pointers(words).data(), pointers(variables).data()),
+              executable);
   _socket = std::move(ours);
 }
 

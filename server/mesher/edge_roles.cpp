@@ -8,8 +8,8 @@
 #include <tuple>
 #include <utility>
 
-#include "errors/errors.hpp"
 #include "mesher/assumptions.hpp"
+#include "mesher/refuse.hpp"
 
 namespace anticrack::mesher {
 namespace {
@@ -17,10 +17,6 @@ namespace {
 using mesh::EdgeUse;
 using mesh::Mesh;
 using Uses = std::span<const EdgeUse>;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw errors::Error(errors::Reason::mesh_invalid, message);
-}
 
 std::string edge_of(const Mesh& mesh, std::int32_t a, std::int32_t b) {
   return "the edge " + place_of(mesh, a) + "-" + place_of(mesh, b);

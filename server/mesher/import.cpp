@@ -6,12 +6,12 @@
 #include <map>
 #include <utility>
 
-#include "errors/errors.hpp"
 #include "mesher/curve_groups.hpp"
 #include "mesher/edge_roles.hpp"
 #include "mesher/interface_chains.hpp"
 #include "mesher/plane_mesh.hpp"
 #include "mesher/plus_side.hpp"
+#include "mesher/refuse.hpp"
 #include "mesher/surface_groups.hpp"
 #include "mesher/welding.hpp"
 
@@ -23,10 +23,6 @@ using mesh::Mesh;
 
 /// Of warnings: more are not read.
 constexpr std::size_t most_warnings = 100;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw errors::Error(errors::Reason::mesh_invalid, message);
-}
 
 /// The mesh after welding, without subdomains and interfaces.
 Mesh welded_mesh(const PlaneMesh& plane, const Welding& welding) {

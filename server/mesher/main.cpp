@@ -28,7 +28,7 @@ namespace {
 
 using namespace anticrack;
 
-std::optional<std::uint64_t> number(std::string_view text) {
+std::optional<std::uint64_t> parse_number(std::string_view text) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || value == 0) return std::nullopt;
@@ -103,8 +103,8 @@ mesh::MesherReply answer(bool import, std::uint64_t memory) {
 int main(int argc, char** argv) {
   const std::string_view kind = argc == 4 ? argv[3] : "";
   const bool import = kind == "import";
-  const auto memory = argc == 4 ? number(argv[1]) : std::nullopt;
-  const auto seconds = argc == 4 ? number(argv[2]) : std::nullopt;
+  const auto memory = argc == 4 ? parse_number(argv[1]) : std::nullopt;
+  const auto seconds = argc == 4 ? parse_number(argv[2]) : std::nullopt;
   if (!memory || !seconds || (!import && kind != "generate")) {
     std::cerr << "usage: anticrack-mesher MEMORY_BYTES CPU_SECONDS generate|import\n"
                  "Meshes the one request on its standard input; the server starts it.\n";

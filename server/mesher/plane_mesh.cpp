@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/plane_mesh.hpp"
+#include "mesher/refuse.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +9,6 @@
 #include <sstream>
 #include <utility>
 
-#include "errors/errors.hpp"
-
 namespace anticrack::mesher {
 namespace {
 
@@ -17,10 +16,6 @@ namespace {
 constexpr double plane_tolerance = 1e-9;
 /// Squares of lengths below it, and their sums, are finite.
 constexpr double largest_coordinate = 1e100;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw errors::Error(errors::Reason::mesh_invalid, message);
-}
 
 template <class... Parts>
 std::string text_of(const Parts&... parts) {

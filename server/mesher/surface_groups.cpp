@@ -14,15 +14,12 @@
 #include "mesh/union_find.hpp"
 #include "mesher/curve_groups.hpp"
 #include "mesher/msh_scanner.hpp"
+#include "mesher/refuse.hpp"
 
 namespace anticrack::mesher {
 namespace {
 
 using mesh::Mesh;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw errors::Error(errors::Reason::mesh_invalid, message);
-}
 
 std::string quoted(const std::vector<std::string>& names) {
   constexpr std::size_t most = 20;

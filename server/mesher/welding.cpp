@@ -10,9 +10,9 @@
 #include <tuple>
 #include <utility>
 
-#include "errors/errors.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/union_find.hpp"
+#include "mesher/refuse.hpp"
 
 namespace anticrack::mesher {
 namespace {
@@ -26,10 +26,6 @@ constexpr double same_place_of_edge = 1e-3;
 constexpr double same_direction = 1e-9;
 /// Bounds what rounding of short edges adds to that.
 constexpr double widest_same_direction = 1e-3;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw errors::Error(errors::Reason::mesh_invalid, message);
-}
 
 /// Coordinates of the nodes, with what is asked of them.
 class Places {

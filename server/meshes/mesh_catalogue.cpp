@@ -22,12 +22,11 @@ using store::MeshState;
 
 constexpr std::size_t id_digits = 16;
 constexpr std::size_t max_title_bytes = 200;
-constexpr std::chrono::milliseconds retry_delay{1000};
 
 Error queue_full(std::size_t pending) {
   Error error(Reason::busy, std::to_string(pending) +
                                 " meshes wait for the mesher already: try again in a while");
-  return error.retry_after(retry_delay);
+  return error.retry_after(operators::retry_delay);
 }
 
 Error too_many(std::size_t count) {

@@ -18,8 +18,6 @@ using store::MeshRecord;
 using store::MeshState;
 using Steady = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds retry_delay{1000};
-
 double seconds_since(Steady::time_point start) {
   return std::chrono::duration<double>(Steady::now() - start).count();
 }
@@ -153,7 +151,8 @@ Preparation::Operator Preparation::factorize(const std::string& id, std::uint64_
   } catch (const Error& thrown) {
     error = thrown;
   } catch (const std::bad_alloc&) {
-    error = Error(Reason::busy, "not enough memory for this mesh now").retry_after(retry_delay);
+    error = Error(Reason::busy, "not enough memory for this mesh now")
+                .retry_after(operators::retry_delay);
   } catch (const std::exception& thrown) {
     error = Error(Reason::internal, std::string("factorising failed: ") + thrown.what());
   }

@@ -15,8 +15,6 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-constexpr std::chrono::milliseconds retry_delay{1000};
-
 std::string mebibytes(std::uint64_t bytes) {
   return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MiB";
 }
@@ -141,10 +139,9 @@ bool CacheEntries::evict(std::uint64_t wanted, std::uint64_t budget,
     keys.push_back(key);
   }
   const auto chosen = evictions(candidates, wanted, budget);
-  for (const std::size_t index : chosen.value_or(std::vector<std::size_t>{})) {
-    evicted.push_back(take(keys[index]));
-  }
-  return chosen.has_value();
+  if (!chosen) return false;
+  for (const std::size_t index : *chosen) evicted.push_back(take(keys[index]));
+  return true;
 }
 
 }  // namespace anticrack::operators

@@ -36,8 +36,6 @@ struct Flight {
 
 namespace {
 
-constexpr std::chrono::milliseconds retry_delay{1000};
-
 Error stopped() {
   return {Reason::cancelled, "stopped while waiting for the mesh's operators"};
 }

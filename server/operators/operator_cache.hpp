@@ -14,6 +14,9 @@
 
 namespace anticrack::operators {
 
+/// After which an error `busy` about memory or threads says to try again.
+constexpr std::chrono::milliseconds retry_delay{1000};
+
 struct CacheMetrics {
   std::uint64_t factorizations = 0;
   std::uint64_t hits = 0;

@@ -14,7 +14,7 @@ using errors::Error;
 using errors::Reason;
 using Points = google::protobuf::RepeatedPtrField<v1::Point>;
 
-void require_count(int count, std::size_t limit, const std::string& field, const char* what) {
+void require_entries(int count, std::size_t limit, const std::string& field, const char* what) {
   if (static_cast<std::size_t>(count) > limit) {
     throw Error(Reason::limit_exceeded, std::to_string(count) + " " + what + ": at most " +
                                             std::to_string(limit) + " are accepted")
@@ -128,8 +128,8 @@ mesh::Part to_boundary_part(const v1::BoundaryPart& part, const std::string& fie
 }
 
 void require_counts(const v1::Geometry& geometry) {
-  require_count(geometry.boundary_size(), max_vertices, "geometry.boundary", "vertices");
-  require_count(geometry.interfaces_size(), max_interfaces, "geometry.interfaces", "interfaces");
+  require_entries(geometry.boundary_size(), max_vertices, "geometry.boundary", "vertices");
+  require_entries(geometry.interfaces_size(), max_interfaces, "geometry.interfaces", "interfaces");
   std::size_t vertices = 0;
   for (int i = 0; i < geometry.interfaces_size(); ++i) {
     vertices += static_cast<std::size_t>(vertex_count(geometry.interfaces(i)));
@@ -139,10 +139,10 @@ void require_counts(const v1::Geometry& geometry) {
           .at(indexed("geometry.interfaces", i));
     }
   }
-  require_count(part_count(geometry), max_parts, "geometry.inclusions",
-                "inclusions, cracks and delaminated parts");
-  require_count(geometry.neumann_size(), max_parts, "geometry.neumann", "parts of the boundary");
-  require_count(geometry.regions_size(), max_regions, "geometry.regions", "regions");
+  require_entries(part_count(geometry), max_parts, "geometry.inclusions",
+                  "inclusions, cracks and delaminated parts");
+  require_entries(geometry.neumann_size(), max_parts, "geometry.neumann", "parts of the boundary");
+  require_entries(geometry.regions_size(), max_regions, "geometry.regions", "regions");
 }
 
 mesh::Geometry to_geometry(const v1::Geometry& geometry) {
@@ -192,17 +192,18 @@ mesh::Preset to_preset(v1::MeshPreset preset) {
   }
 }
 
-mesh::MeshOptions to_options(const v1::MeshOptions& options) {
-  require_count(options.align_size(), max_interfaces, "options.align", "lines");
+mesh::MeshOptions to_mesh_options(const v1::MeshOptions& options) {
+  require_entries(options.align_size(), max_interfaces, "options.align", "lines");
   std::size_t vertices = 0;
   for (const v1::Polyline& line : options.align()) {
     vertices += static_cast<std::size_t>(line.points_size());
   }
-  require_count(static_cast<int>(vertices), max_vertices, "options.align", "vertices");
+  require_entries(static_cast<int>(vertices), max_vertices, "options.align", "vertices");
   const auto entries = [](const auto& map) { return static_cast<int>(map.size()); };
-  require_count(entries(options.curve_groups()), max_regions, "options.curve_groups", "groups");
-  require_count(entries(options.surface_groups()), max_regions, "options.surface_groups", "groups");
-  require_count(entries(options.tension()), max_regions, "options.tension", "subdomains");
+  require_entries(entries(options.curve_groups()), max_regions, "options.curve_groups", "groups");
+  require_entries(entries(options.surface_groups()), max_regions, "options.surface_groups",
+                  "groups");
+  require_entries(entries(options.tension()), max_regions, "options.tension", "subdomains");
   mesh::MeshOptions result;
   result.preset = to_preset(options.preset());
   result.size = options.size();
@@ -234,9 +235,10 @@ store::MeshDefinition to_definition(const v1::CreateMeshRequest& request) {
   require_title(request.title(), "title");
   switch (request.source_case()) {
     case v1::CreateMeshRequest::kGeometry:
-      return store::GeometrySource{to_geometry(request.geometry()), to_options(request.options())};
+      return store::GeometrySource{to_geometry(request.geometry()),
+                                   to_mesh_options(request.options())};
     case v1::CreateMeshRequest::kUpload: {
-      mesh::MeshOptions options = to_options(request.options());
+      mesh::MeshOptions options = to_mesh_options(request.options());
       mesh::check_for_upload(options);
       return store::UploadRef{upload_sha256(request.upload(), "upload"), std::move(options)};
     }

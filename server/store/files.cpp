@@ -41,7 +41,7 @@ Descriptor open_to_write(const std::string& path) {
   return file;
 }
 
-void flush(const Descriptor& file, const std::string& path) {
+void flush_file(const Descriptor& file, const std::string& path) {
   if (::fsync(file.get()) != 0) {
     throw disk_error("flush " + path, errno);
   }
@@ -73,7 +73,7 @@ void flush(const std::string& path) {
   if (!file) {
     throw disk_error("flush " + path, errno);
   }
-  flush(file, path);
+  flush_file(file, path);
 }
 
 std::optional<std::uint64_t> file_size(const std::string& path) noexcept {
@@ -166,7 +166,7 @@ Part Files::write(const Pieces& pieces) const {
   for (const std::span<const std::byte> piece : pieces) {
     write_all(file, part.path(), piece);
   }
-  flush(file, part.path());
+  flush_file(file, part.path());
   return part;
 }
 
@@ -184,7 +184,7 @@ Part Files::copy(const std::string& original) const {
     read_at(from, original, offset, buffer);
     write_all(to, part.path(), buffer);
   }
-  flush(to, part.path());
+  flush_file(to, part.path());
   return part;
 }
 

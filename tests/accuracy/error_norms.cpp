@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "mesh/at.hpp"
+
 namespace anticrack::accuracy {
 namespace {
 
@@ -19,10 +21,6 @@ constexpr std::array<double, 6> points{0.03376524289842399, 0.16939530676686775,
 constexpr std::array<double, 6> weights{0.08566224618958517, 0.18038078652406930,
                                         0.23395696728634552, 0.23395696728634552,
                                         0.18038078652406930, 0.08566224618958517};
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 double distance_to_tips(Complex z) {
   return std::min(std::abs(z - crack_end), std::abs(z + crack_end));

@@ -19,7 +19,7 @@
 namespace anticrack::accuracy {
 namespace {
 
-constexpr double shift = 0.3;
+constexpr double line_shift = 0.3;
 
 /// (-1,1) x (0,1), u given on its sides and its top, and the box (-1/2,1/2) x (-1/4,0); squares of
 /// side 1/4 with a diagonal.
@@ -67,7 +67,7 @@ mesh::Mesh half_plane() {
 }
 
 /// The inclusion ends on the boundary, where `tips` sees none: its nodes are named here.
-mesh::Mesh graded(double h0, double m) {
+mesh::Mesh graded_half_plane(double h0, double m) {
   const std::vector<std::int32_t> ends = {2, 6};
   return mesh::grade(half_plane(), ends, {h0, m, 0}, 1'000'000);
 }
@@ -82,18 +82,18 @@ contact::Answer solve_half(const operators::MeshOperator& op, const std::string&
   return solve(op, load, true);
 }
 
-/// u = shift - c y: traction c beside the inclusion, and c times its length pulls it.
+/// u = line_shift - c y: traction c beside the inclusion, and c times its length pulls it.
 TEST(HalfPlane, LinearSolutionIsExact) {
   constexpr double c = 0.7;
-  const auto op = factorise(graded(0.2, 0.2));
+  const auto op = factorise(graded_half_plane(0.2, 0.2));
   const contact::Answer answer =
-      solve_half(*op, testing::closed_crack(c, shift).boundary, "0.7", c);
-  double worst = std::abs(answer.inclusions.at(0).displacement - shift);
+      solve_half(*op, testing::closed_crack(c, line_shift).boundary, "0.7", c);
+  double worst = std::abs(answer.inclusions.at(0).displacement - line_shift);
   for (std::size_t s = 0; s < 2; ++s) {
     const contact::Field& field = answer.fields.at(s);
     for (std::size_t i = 0; i < field.nodes.size(); ++i) {
       const double y = op->mesh().xy[2 * static_cast<std::size_t>(field.nodes[i]) + 1];
-      worst = std::max(worst, std::abs(field.u[i] - (s == 0 ? shift : shift - c * y)));
+      worst = std::max(worst, std::abs(field.u[i] - (s == 0 ? line_shift : line_shift - c * y)));
     }
   }
   std::printf("[ figures  ] half plane, linear: error of u %.1e\n", worst);
@@ -104,20 +104,20 @@ TEST(HalfPlane, LinearSolutionIsExact) {
 /// The open inclusion seen from above; its traction is infinite at the tips.
 TEST(HalfPlane, OpenInclusionHasTheRatesOfSmoothSolutions) {
   constexpr double m = 0.1;
-  testing::ExactSolution exact = testing::open_inclusion(shift);
+  testing::ExactSolution exact = testing::open_inclusion(line_shift);
   const auto upper = exact.derivative;
   exact.derivative = [upper](testing::Complex z) {
     return z.imag() > 0 ? upper(z) : testing::Complex(0);
   };
   double previous_a = 0, previous_energy = 0;
   for (double h0 = 0.4; h0 > 0.04; h0 /= 2) {
-    const auto op = factorise(graded(h0, m));
+    const auto op = factorise(graded_half_plane(h0, m));
     const contact::Answer answer =
         solve_half(*op, exact.boundary,
                    "(x < 0 ? 1 : -1) * sqrt(0.5) * abs(x+0.5)^0.75 * abs(x-0.5)^0.25"
                    " * (0.75/(x+0.5) + 0.25/(x-0.5))",
                    0);
-    const double a = std::abs(answer.inclusions.at(0).displacement - shift);
+    const double a = std::abs(answer.inclusions.at(0).displacement - line_shift);
     const double energy = energy_error(op->mesh(), answer, exact);
     std::printf(
         "[ figures  ] half plane, h0 = %.3f, %zu triangles: error of A %.3e (%.2f), energy "

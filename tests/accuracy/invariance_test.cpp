@@ -21,7 +21,7 @@ namespace {
 
 constexpr double h0 = 0.1, m = 0.2;
 
-mesh::Mesh graded(const mesh::Mesh& base) {
+mesh::Mesh graded_like_default(const mesh::Mesh& base) {
   return mesh::grade(base, {h0, m, 0}, 200'000);
 }
 
@@ -72,9 +72,9 @@ TEST_P(Example, IsTheSameOnOtherBaseMeshes) {
     lowest = std::min(lowest, a);
     highest = std::max(highest, a);
   };
-  look("diagonals", graded(diagonals()));
-  look("rectangles", graded(rectangles()));
-  look("shaken", graded(shaken(7)));
+  look("diagonals", graded_like_default(diagonals()));
+  look("rectangles", graded_like_default(rectangles()));
+  look("shaken", graded_like_default(shaken(7)));
   look("generated", generated(h0));
   EXPECT_LT(highest - lowest, 3e-3 * scale);
 }
@@ -93,17 +93,17 @@ void expect_mirrored(const mesh::Mesh& mesh, std::size_t example, Mirror mirror,
 }
 
 TEST_P(Example, MirrorsLeftAndRight) {
-  expect_mirrored(graded(shaken(11)), GetParam(), Mirror::x, 'x');
+  expect_mirrored(graded_like_default(shaken(11)), GetParam(), Mirror::x, 'x');
 }
 
 /// The plus side, Omega_2, is then the lower half.
 TEST_P(Example, MirrorsUpAndDown) {
-  expect_mirrored(graded(shaken(12)), GetParam(), Mirror::y, 'y');
+  expect_mirrored(graded_like_default(shaken(12)), GetParam(), Mirror::y, 'y');
 }
 
 /// A crack without inclusion does not know its plus side: u -> -u exchanges them.
 TEST_P(Example, OfACrackMirrorsUpsideDown) {
-  mesh::Mesh mesh = graded(diagonals(mesh::Kind::crack));
+  mesh::Mesh mesh = graded_like_default(diagonals(mesh::Kind::crack));
   const contact::Answer original = solve(*factorise(mesh), fem::Expression{force()});
   const contact::Answer image = solve(*factorise(turned(mirrored(mesh, Mirror::y))),
                                       fem::Expression{"-(" + reflected(force(), Mirror::y) + ")"});
@@ -149,10 +149,10 @@ TEST(JumpingLoad, NeedsNoMeshThatFollowsIt) {
   for (const std::size_t example : {1U, 3U}) {
     const fem::Force force = fem::Expression{paper_forces[example]};
     const double following =
-        solve(*factorise(graded(diagonals())), force).inclusions.at(0).displacement;
+        solve(*factorise(graded_like_default(diagonals())), force).inclusions.at(0).displacement;
     double moved = 0, moved_carelessly = 0;
     for (const unsigned seed : {1U, 2U, 3U}) {
-      const auto op = factorise(graded(shaken(seed)));
+      const auto op = factorise(graded_like_default(shaken(seed)));
       const double a = solve(*op, force).inclusions.at(0).displacement;
       const double careless =
           solve(*op, middles(op->mesh(), example)).inclusions.at(0).displacement;

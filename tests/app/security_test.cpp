@@ -22,7 +22,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::string problem_with(const std::function<void()>& action) {
+std::string refusal_of(const std::function<void()>& action) {
   try {
     action();
     return "accepted";
@@ -54,7 +54,7 @@ class Security : public ::testing::Test {
     return config;
   }
   static std::string problem_of(const Config& config) {
-    return problem_with([&] { load_security(config); });
+    return refusal_of([&] { load_security(config); });
   }
 
   static std::unique_ptr<anticrack::testing::TemporaryFolder> _folder;

@@ -19,10 +19,6 @@
 namespace anticrack::benchmarks {
 namespace {
 
-std::size_t at(std::ptrdiff_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 std::ofstream create(const std::filesystem::path& path) {
   std::ofstream file(path);
   file.exceptions(std::ios::failbit | std::ios::badbit);

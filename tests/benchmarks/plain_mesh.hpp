@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -14,6 +15,11 @@ namespace anticrack::benchmarks {
 
 /// Conditions on an edge; the numbers are those of mesh::Kind.
 constexpr std::int32_t kind_glue = 1, kind_delaminated = 4;
+
+/// An index >= 0 of an array, as a container wants it.
+constexpr std::size_t at(std::int64_t i) noexcept {
+  return static_cast<std::size_t>(i);
+}
 
 /// As mesh::Mesh, tension 1: plus side on the left of a chain, index base 0.
 struct PlainMesh {

@@ -39,7 +39,7 @@ std::vector<std::vector<Index>> two_chains(Index n) {
   return chains;
 }
 
-LcpAnswer solve(const DenseLcp& lcp, const VectorXd& r, const std::vector<char>& start = {}) {
+LcpAnswer solve_from(const DenseLcp& lcp, const VectorXd& r, const std::vector<char>& start = {}) {
   return lcp.solve(r, r.cwiseAbs(), {}, start, [](const LcpStep&) { return true; });
 }
 
@@ -55,7 +55,7 @@ TEST(NestedStart, SavesStepsAndChangesNoBit) {
     const std::vector<char> start = nested.closed(r, r.cwiseAbs());
     ASSERT_EQ(start.size(), static_cast<std::size_t>(contacts));
     EXPECT_EQ(nested.closed(r, r.cwiseAbs()), start);
-    const LcpAnswer cold = solve(lcp, r), warm = solve(lcp, r, start);
+    const LcpAnswer cold = solve_from(lcp, r), warm = solve_from(lcp, r, start);
     ASSERT_EQ(cold.status, LcpStatus::solved);
     ASSERT_EQ(warm.status, LcpStatus::solved);
     EXPECT_EQ(warm.closed, cold.closed);

@@ -17,16 +17,13 @@
 #include "ddm/minimum_degree.hpp"
 #include "ddm/nested_dissection.hpp"
 #include "ddm/vertex_separator.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::ddm {
 namespace {
 
 using Edges = std::vector<std::pair<std::int32_t, std::int32_t>>;
 using Sparse = Eigen::SparseMatrix<double>;
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 Graph graph_of(std::size_t n, const Edges& edges) {
   std::vector<std::vector<std::int32_t>> neighbours(n);

@@ -7,15 +7,13 @@
 #include <algorithm>
 #include <random>
 
+#include "mesh/at.hpp"
+
 namespace anticrack::ddm {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// A forest of `count` nodes, about every hundredth a root.
 EliminationTree random_forest(int count, unsigned seed) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double tolerance = 1e-9;
 
-Triangulation crooked_square() {
+Triangulation crooked_triangles() {
   const anticrack::testing::PlaneMesh mesh = anticrack::testing::square_mesh(12, 0.2, 5);
   return {mesh.xy, mesh.triangles};
 }
@@ -35,7 +35,7 @@ TEST(Locate, FindsEveryPointInItsTriangle) {
   std::cout << "seed " << seed << "\n";
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> anywhere(-1, 1);
-  const Triangulation part = crooked_square();
+  const Triangulation part = crooked_triangles();
   std::vector<PlanePoint> points;
   for (int i = 0; i < 500; ++i) {
     points.push_back({anywhere(random), anywhere(random)});
@@ -51,7 +51,7 @@ TEST(Locate, FindsEveryPointInItsTriangle) {
 }
 
 TEST(Locate, TakesNodesAndWhatIsOutsideByATrifle) {
-  const Triangulation part = crooked_square();
+  const Triangulation part = crooked_triangles();
   const std::vector<PlanePoint> points{
       {-1, -1}, {part.xy[60], part.xy[61]}, {1 + 1e-10, 0.3}, {1 + 1e-8, 0.3}, {5, 5}};
   const std::vector<Location> found = locate(part, PointSet(points), tolerance);

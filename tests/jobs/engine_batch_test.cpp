@@ -42,10 +42,10 @@ std::vector<store::JobSpec> mix(const std::string& mesh) {
   return specs;
 }
 
-using Arrays = std::map<std::string, std::vector<double>>;
+using NamedArrays = std::map<std::string, std::vector<double>>;
 
-Arrays arrays_of(const store::BlockSource& block) {
-  Arrays arrays;
+NamedArrays arrays_of(const store::BlockSource& block) {
+  NamedArrays arrays;
   for (const store::ArrayLayout& layout : block.arrays()) {
     if (layout.type == store::ArrayType::float64 &&
         layout.name.find("history") == std::string::npos) {
@@ -55,7 +55,7 @@ Arrays arrays_of(const store::BlockSource& block) {
   return arrays;
 }
 
-double largest_difference(const Arrays& a, const Arrays& b) {
+double largest_difference(const NamedArrays& a, const NamedArrays& b) {
   double difference = a.size() == b.size() ? 0 : HUGE_VAL;
   for (const auto& [name, values] : a) {
     const auto found = b.find(name);
@@ -70,7 +70,7 @@ double largest_difference(const Arrays& a, const Arrays& b) {
 }
 
 TEST(EngineBatch, EqualsEachAlone) {
-  std::vector<Arrays> alone;
+  std::vector<NamedArrays> alone;
   {
     Engine test(one_thread());
     for (const store::JobSpec& spec : mix(test.ready_mesh())) {

@@ -17,9 +17,6 @@ using errors::Reason;
 using store::JobRecord;
 using store::JobState;
 
-constexpr double mesh_size = 0.25;
-constexpr std::int32_t converged = 3, failed = 5;  // LoadCaseAnswer.Status
-
 TEST(EngineSweepFailure, RefusesAMatrixThatDoesNotFit) {
   Engine test;
   const std::string mesh = test.ready_mesh(mesh_size);

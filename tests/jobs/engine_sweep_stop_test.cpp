@@ -22,9 +22,7 @@ using store::JobRecord;
 using store::JobState;
 using namespace std::chrono_literals;
 
-constexpr double mesh_size = 0.25;
-constexpr std::size_t rows = 1000;                                // four chunks
-constexpr std::int32_t converged = 3, failed = 5, cancelled = 6;  // LoadCaseAnswer.Status
+constexpr std::size_t rows = 1000;  // four chunks
 
 /// One thread, which looks for something else to do after every chunk.
 EngineOptions short_turns() {

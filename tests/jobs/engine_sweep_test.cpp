@@ -18,9 +18,6 @@ using store::JobRecord;
 using store::JobState;
 using ::testing::ElementsAre;
 
-constexpr double mesh_size = 0.25;
-constexpr std::int32_t converged = 3, not_converged = 4;  // LoadCaseAnswer.Status
-
 double largest(const std::vector<double>& values) {
   double result = 0;
   for (const double value : values) {

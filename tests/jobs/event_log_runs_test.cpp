@@ -180,16 +180,16 @@ TEST(EventLogRuns, GivesFewLargeEndsOfLoadCasesAtOnce) {
 }
 
 /// Rows of a sweep on a mesh of 2 inclusions and 30 crack nodes.
-RowsEvent rows(std::uint64_t first, std::size_t count) {
+RowsEvent rows_event(std::uint64_t first, std::size_t count) {
   return {first, std::make_shared<const contact::SweepColumns>(count, 2, 30)};
 }
 
 TEST(EventLogRuns, GivesTheRowsOfASweepOneEventAtATimeAndCountsThem) {
   EventLog log(roomy);
-  log.append(rows(0, 256));
+  log.append(rows_event(0, 256));
   const std::size_t one = log.bytes();
   EXPECT_GE(one, 256 * (2 * sizeof(std::int32_t) + 5 * sizeof(double) + 30));
-  log.append(rows(256, 100));
+  log.append(rows_event(256, 100));
   EXPECT_GT(log.bytes(), one);
   EXPECT_LT(log.bytes(), 2 * one);
   const NumberedBatch first = log.batch(0, 10);
@@ -201,7 +201,7 @@ TEST(EventLogRuns, GivesTheRowsOfASweepOneEventAtATimeAndCountsThem) {
 
   EventLog small(3 * one);
   for (std::uint64_t i = 0; i < 10; ++i) {
-    small.append(rows(256 * i, 256));
+    small.append(rows_event(256 * i, 256));
   }
   EXPECT_EQ(small.earliest(), 8U);
   EXPECT_EQ(std::get<RowsEvent>(small.batch(7, 10).events).first_row, 256U * 7);

@@ -11,58 +11,58 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using namespace std::chrono_literals;
 
-const store::Clock::time_point now{1'000h};
+const store::Clock::time_point today{1'000h};
 
-/// Jobs "0", "1", ... that ended one minute after another, the last one now.
+/// Jobs "0", "1", ... that ended one minute after another, the last one today.
 Retention with(const RetentionLimits& limits, const std::vector<std::uint64_t>& bytes) {
   Retention retention(limits);
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     const auto age = std::chrono::minutes(static_cast<int>(bytes.size() - 1 - i));
-    retention.add({std::to_string(i), now - age, bytes[i]});
+    retention.add({std::to_string(i), today - age, bytes[i]});
   }
   return retention;
 }
 
 TEST(Retention, ErasesTheOldestOverTheCount) {
-  EXPECT_THAT(with({2, 0ms, 100}, {}).due(now).erase, IsEmpty());
-  EXPECT_THAT(with({2, 0ms, 100}, {1, 1}).due(now).erase, IsEmpty());
-  const Expiry expiry = with({2, 0ms, 100}, {1, 1, 0, 1}).due(now);
+  EXPECT_THAT(with({2, 0ms, 100}, {}).due(today).erase, IsEmpty());
+  EXPECT_THAT(with({2, 0ms, 100}, {1, 1}).due(today).erase, IsEmpty());
+  const Expiry expiry = with({2, 0ms, 100}, {1, 1, 0, 1}).due(today);
   EXPECT_THAT(expiry.erase, ElementsAre("0", "1"));
   EXPECT_THAT(expiry.expire, IsEmpty());
-  EXPECT_THAT(with({0, 0ms, 100}, {1, 1}).due(now).erase, ElementsAre("0"));
+  EXPECT_THAT(with({0, 0ms, 100}, {1, 1}).due(today).erase, ElementsAre("0"));
 }
 
 TEST(Retention, ExpiresTheOldestOverTheBytes) {
-  EXPECT_THAT(with({9, 0ms, 100}, {60, 30, 10}).due(now).expire, IsEmpty());
-  EXPECT_THAT(with({9, 0ms, 100}, {60, 30, 11}).due(now).expire, ElementsAre("0"));
-  EXPECT_THAT(with({9, 0ms, 100}, {10, 0, 10, 95}).due(now).expire, ElementsAre("0", "2"));
-  EXPECT_THAT(with({2, 0ms, 100}, {60, 90, 10}).due(now).expire, IsEmpty());  // "0" is erased
+  EXPECT_THAT(with({9, 0ms, 100}, {60, 30, 10}).due(today).expire, IsEmpty());
+  EXPECT_THAT(with({9, 0ms, 100}, {60, 30, 11}).due(today).expire, ElementsAre("0"));
+  EXPECT_THAT(with({9, 0ms, 100}, {10, 0, 10, 95}).due(today).expire, ElementsAre("0", "2"));
+  EXPECT_THAT(with({2, 0ms, 100}, {60, 90, 10}).due(today).expire, IsEmpty());  // "0" is erased
 }
 
 TEST(Retention, KeepsTheNewestResultWhateverItsSize) {
-  EXPECT_THAT(with({9, 0ms, 100}, {1, 1, 500}).due(now).expire, ElementsAre("0", "1"));
-  EXPECT_THAT(with({9, 0ms, 100}, {1, 500, 0}).due(now).expire, ElementsAre("0"));
+  EXPECT_THAT(with({9, 0ms, 100}, {1, 1, 500}).due(today).expire, ElementsAre("0", "1"));
+  EXPECT_THAT(with({9, 0ms, 100}, {1, 500, 0}).due(today).expire, ElementsAre("0"));
 }
 
 TEST(Retention, ExpiresByAge) {
-  EXPECT_THAT(with({9, 2min, 100}, {1, 1, 0, 1, 1}).due(now).expire, ElementsAre("0", "1"));
-  EXPECT_THAT(with({9, 2min, 100}, {1}).due(now + 2min).expire, ElementsAre("0"));
+  EXPECT_THAT(with({9, 2min, 100}, {1, 1, 0, 1, 1}).due(today).expire, ElementsAre("0", "1"));
+  EXPECT_THAT(with({9, 2min, 100}, {1}).due(today + 2min).expire, ElementsAre("0"));
 }
 
 TEST(Retention, ForgetsWhatIsGone) {
   Retention retention = with({2, 0ms, 100}, {60, 60, 1});
   retention.remove("0");
-  EXPECT_THAT(retention.due(now).erase, IsEmpty());
-  EXPECT_THAT(retention.due(now).expire, IsEmpty());
-  retention.add({"late", now - 1h, 50});
-  EXPECT_THAT(retention.due(now).erase, ElementsAre("late"));
+  EXPECT_THAT(retention.due(today).erase, IsEmpty());
+  EXPECT_THAT(retention.due(today).expire, IsEmpty());
+  retention.add({"late", today - 1h, 50});
+  EXPECT_THAT(retention.due(today).erase, ElementsAre("late"));
   retention.remove("unknown");
   retention.remove("late");
-  retention.add({"3", now, 60});
+  retention.add({"3", today, 60});
   retention.remove("2");
-  EXPECT_THAT(retention.due(now).expire, ElementsAre("1"));
+  EXPECT_THAT(retention.due(today).expire, ElementsAre("1"));
   retention.expired("1");
-  EXPECT_THAT(retention.due(now).expire, IsEmpty());
+  EXPECT_THAT(retention.due(today).expire, IsEmpty());
 }
 
 }  // namespace

@@ -11,6 +11,10 @@
 
 namespace anticrack::jobs {
 
+constexpr double mesh_size = 0.25;
+/// LoadCaseAnswer.Status
+constexpr std::int32_t converged = 3, not_converged = 4, failed = 5, cancelled = 6;
+
 /// Uploads the values as a client would; returns the sha256.
 inline std::string upload(anticrack::testing::Backend& backend, const std::vector<double>& values,
                           const std::string& owner = {}) {

@@ -21,7 +21,7 @@ TEST_P(FaultyLines, IsRefusedWithItsField) {
   testing::expect_refused(GetParam());
 }
 
-const Fault faults[] = {
+const Fault line_faults[] = {
     {"DelaminatedNan",
      [](Geometry& g) { g.inclusions[0].delaminated[0].to[0] = nan_value; },
      "inclusions[0].delaminated_parts[0].to",
@@ -331,7 +331,7 @@ const Fault faults[] = {
      {"nan"}},
 };
 
-INSTANTIATE_TEST_SUITE_P(Each, FaultyLines, ::testing::ValuesIn(faults),
+INSTANTIATE_TEST_SUITE_P(Each, FaultyLines, ::testing::ValuesIn(line_faults),
                          [](const auto& case_) { return case_.param.name; });
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <set>
 #include <thread>
 
-#include "mesher/helper.hpp"
+#include "mesher/real_helper.hpp"
 #include "support/errors.hpp"
 #include "support/paper_geometry.hpp"
 
@@ -24,15 +24,9 @@ using testing::paper_options;
 
 constexpr std::size_t enough = 1'000'000;
 
-mesher::HelperOptions helper() {
-  mesher::HelperOptions options;
-  options.executable = mesher::default_executable();
-  return options;
-}
-
 Mesh make(const Geometry& geometry, const MeshOptions& options = paper_options()) {
-  return mesher::run(helper(), mesh::GenerateRequest{mesh::plan(geometry, options, enough), enough},
-                     {});
+  return mesher::run(testing::real_helper(),
+                     mesh::GenerateRequest{mesh::plan(geometry, options, enough), enough}, {});
 }
 
 Point point(const Mesh& mesh, std::int32_t node) {
@@ -159,7 +153,7 @@ TEST(Generate, MoreTrianglesThanAskedForAreRefused) {
   const auto plan = mesh::plan(paper_geometry(), paper_options(), enough);
   EXPECT_TRUE(testing::throws(
       [&] {
-        mesher::run(helper(), mesh::GenerateRequest{plan, 5000}, {});
+        mesher::run(testing::real_helper(), mesh::GenerateRequest{plan, 5000}, {});
       },
       errors::Reason::limit_exceeded));
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The life and death of the helper process.
-#include "mesher/helper.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -17,6 +16,7 @@
 #include <thread>
 
 #include "mesher/msh_writer.hpp"
+#include "mesher/real_helper.hpp"
 #include "mesher/sanitized.hpp"
 #include "support/errors.hpp"
 #include "support/paper_geometry.hpp"
@@ -29,23 +29,19 @@ using errors::Reason;
 using testing::error_of;
 using ::testing::HasSubstr;
 
-constexpr std::size_t enough = 20'000'000;
-
-mesher::HelperOptions helper() {
-  mesher::HelperOptions options;
-  options.executable = mesher::default_executable();
-  return options;
-}
+constexpr std::size_t helper_triangles = 20'000'000;
 
 /// Takes far longer than any test waits.
 mesh::MesherRequest big_request() {
   return mesh::GenerateRequest{
-      mesh::plan(testing::paper_geometry(), {mesh::Preset::uniform, 0.001}, enough), enough};
+      mesh::plan(testing::paper_geometry(), {mesh::Preset::uniform, 0.001}, helper_triangles),
+      helper_triangles};
 }
 
 mesh::MesherRequest paper_request() {
   return mesh::GenerateRequest{
-      mesh::plan(testing::paper_geometry(), testing::paper_options(), enough), enough};
+      mesh::plan(testing::paper_geometry(), testing::paper_options(), helper_triangles),
+      helper_triangles};
 }
 
 /// Options that leave the mesh of a file alone.
@@ -84,7 +80,7 @@ std::string failure(const mesher::HelperOptions& options, const mesh::MesherRequ
 }
 
 TEST(Helper, IsKilledAtItsTimeLimit) {
-  mesher::HelperOptions options = helper();
+  mesher::HelperOptions options = testing::real_helper();
   options.time_limit = std::chrono::seconds(1);
   EXPECT_THAT(failure(options, big_request()), HasSubstr("after 1 s, its time limit"));
   expect_no_children();
@@ -96,7 +92,8 @@ TEST(Helper, IsKilledWhenStopped) {
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     stop.request_stop();
   });
-  const auto error = error_of([&] { mesher::run(helper(), big_request(), stop.get_token()); });
+  const auto error =
+      error_of([&] { mesher::run(testing::real_helper(), big_request(), stop.get_token()); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->reason(), Reason::cancelled);
   expect_no_children();
@@ -121,7 +118,7 @@ TEST(Helper, MissingExecutableIsNamed) {
 
 TEST(Helper, MemoryLimitIsNamed) {
   if (mesher::sanitized) GTEST_SKIP() << "the limit is left out";
-  mesher::HelperOptions options = helper();
+  mesher::HelperOptions options = testing::real_helper();
   options.memory_limit = 64ULL << 20;
   EXPECT_THAT(failure(options, paper_request()), HasSubstr("64 MiB of memory"));
   expect_no_children();
@@ -180,11 +177,12 @@ TEST(Helper, ImportsAFile) {
   for (const auto format : testing::all_formats) {
     const std::string path = folder / "case.msh";
     testing::save(path, testing::write_msh(testing::square_sample(), format));
-    const mesh::Mesh mesh = mesher::run(helper(), mesh::ImportRequest{path, as_it_is(), 100}, {});
+    const mesh::Mesh mesh =
+        mesher::run(testing::real_helper(), mesh::ImportRequest{path, as_it_is(), 100}, {});
     EXPECT_EQ(mesh.triangle_count(), 32U);
     EXPECT_TRUE(testing::throws(
         [&] {
-          mesher::run(helper(), mesh::ImportRequest{path, as_it_is(), 10}, {});
+          mesher::run(testing::real_helper(), mesh::ImportRequest{path, as_it_is(), 10}, {});
         },
         Reason::limit_exceeded));
   }
@@ -211,7 +209,8 @@ TEST(Helper, WarningsOfAnImportArrive) {
   std::swap(sample.triangles[0].nodes[0], sample.triangles[0].nodes[1]);
   const std::string path = folder / "case.msh";
   testing::save(path, testing::write_msh(sample, testing::MshFormat::ascii22));
-  EXPECT_EQ(mesher::run(helper(), mesh::ImportRequest{path, as_it_is(), 100}, {}).warnings.size(),
+  EXPECT_EQ(mesher::run(testing::real_helper(), mesh::ImportRequest{path, as_it_is(), 100}, {})
+                .warnings.size(),
             1U);
 }
 
@@ -227,7 +226,7 @@ TEST(Helper, ScriptUnderAMshNameRunsNothing) {
     testing::save(path, content);
     EXPECT_TRUE(testing::throws(
         [&] {
-          mesher::run(helper(), mesh::ImportRequest{path, as_it_is(), 100}, {});
+          mesher::run(testing::real_helper(), mesh::ImportRequest{path, as_it_is(), 100}, {});
         },
         Reason::mesh_invalid));
     EXPECT_FALSE(std::filesystem::exists(trace));

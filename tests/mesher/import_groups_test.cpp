@@ -26,14 +26,9 @@ using ::testing::IsEmpty;
 using testing::lengths;
 using testing::MshSample;
 using ::testing::Pair;
+using testing::rename;
 using testing::square_sample;
 using Points = std::vector<std::array<double, 2>>;
-
-void rename(MshSample& sample, int dimension, int tag, const std::string& name) {
-  for (auto& n : sample.names) {
-    if (n.dimension == dimension && n.tag == tag) n.name = name;
-  }
-}
 
 /// What is wrong with options: the message, if the field is this one.
 std::string fault(const MeshOptions& options, const std::string& field,

@@ -22,6 +22,12 @@ inline mesh::Mesh import_sample(const MshSample& sample, const mesh::MeshOptions
   return mesher::to_mesh(mesher::read_msh(write_msh(sample, format), 1000), options);
 }
 
+inline void rename(MshSample& sample, int dimension, int tag, const std::string& name) {
+  for (auto& n : sample.names) {
+    if (n.dimension == dimension && n.tag == tag) n.name = name;
+  }
+}
+
 inline std::array<double, 2> point_of(const mesh::Mesh& mesh, std::int32_t node) {
   const auto i = 2 * static_cast<std::size_t>(node);
   return {mesh.xy[i], mesh.xy[i + 1]};

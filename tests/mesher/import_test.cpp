@@ -17,6 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::MshFormat;
 using testing::MshSample;
+using testing::rename;
 using testing::square_sample;
 
 Mesh import(const MshSample& sample, MshFormat format = MshFormat::ascii41) {
@@ -29,12 +30,6 @@ std::vector<double> x_along(const Mesh& mesh, std::size_t interface = 0) {
     x.push_back(mesh.xy[2 * static_cast<std::size_t>(node)]);
   }
   return x;
-}
-
-void rename(MshSample& sample, int dimension, int tag, const std::string& name) {
-  for (auto& n : sample.names) {
-    if (n.dimension == dimension && n.tag == tag) n.name = name;
-  }
 }
 
 void unname(MshSample& sample, int dimension, int tag) {

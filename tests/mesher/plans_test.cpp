@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "mesh/edges.hpp"
-#include "mesher/helper.hpp"
+#include "mesher/real_helper.hpp"
 #include "support/errors.hpp"
 
 namespace anticrack {
@@ -18,16 +18,14 @@ using mesh::Mesh;
 using mesh::Plan;
 using mesh::Role;
 
-constexpr std::size_t enough = 100'000;
+constexpr std::size_t plan_triangles = 100'000;
 
-Mesh make(const Plan& plan, std::size_t max_triangles = enough) {
-  mesher::HelperOptions options;
-  options.executable = mesher::default_executable();
-  return mesher::run(options, mesh::GenerateRequest{plan, max_triangles}, {});
+Mesh make_plan(const Plan& plan, std::size_t max_triangles = plan_triangles) {
+  return mesher::run(testing::real_helper(), mesh::GenerateRequest{plan, max_triangles}, {});
 }
 
 /// The square (0,4) x (0,4), its sides cut into eight, the lower one Neumann; nothing in it.
-Plan square() {
+Plan square_plan() {
   Plan plan;
   plan.points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
   plan.curves = {{0, 1, 8, Role::neumann, 0, -1},
@@ -51,13 +49,13 @@ double total_area(const Mesh& mesh, std::int32_t subdomain) {
 }
 
 TEST(Plans, SlitSwimsInOneFace) {
-  Plan plan = square();
+  Plan plan = square_plan();
   plan.points.insert(plan.points.end(), {{1, 2}, {2, 2}, {3, 2.5}});
   plan.curves.push_back({4, 5, 4, Role::interface, 0, 0, Kind::crack, -1});
   plan.curves.push_back({5, 6, 3, Role::interface, 0, 0, Kind::crack, -1});
   plan.interfaces = {{"slit", {4, 5}}};
   plan.faces[0].embedded = {4, 5};
-  const Mesh mesh = make(plan);
+  const Mesh mesh = make_plan(plan);
   EXPECT_EQ(mesh.subdomains, std::vector<std::string>{"all"});
   EXPECT_EQ(mesh.tension, std::vector<double>{3});
   EXPECT_NEAR(total_area(mesh, 0), 16, 1e-12);
@@ -68,7 +66,7 @@ TEST(Plans, SlitSwimsInOneFace) {
 }
 
 TEST(Plans, RingIsAHoleOfTheFaceAroundIt) {
-  Plan plan = square();
+  Plan plan = square_plan();
   plan.points.insert(plan.points.end(), {{1, 1}, {3, 1}, {2, 3}});
   plan.inclusions = {"rim"};
   plan.curves.push_back({4, 5, 4, Role::interface, 1, 0, Kind::delaminated, 0});
@@ -80,7 +78,7 @@ TEST(Plans, RingIsAHoleOfTheFaceAroundIt) {
   inside.name = "inside";
   inside.outer = {5, 6, 7};
   plan.faces.push_back(inside);
-  const Mesh mesh = make(plan);
+  const Mesh mesh = make_plan(plan);
   EXPECT_NEAR(total_area(mesh, 0), 14, 1e-12);
   EXPECT_NEAR(total_area(mesh, 1), 2, 1e-12);
   EXPECT_EQ(mesh.tension, (std::vector<double>{3, 1}));
@@ -93,7 +91,7 @@ TEST(Plans, RingIsAHoleOfTheFaceAroundIt) {
 }
 
 TEST(Plans, FacesOfOneNameAreOneSubdomain) {
-  Plan plan = square();
+  Plan plan = square_plan();
   // a line to follow from side to side makes two faces
   plan.points.insert(plan.points.end(), {{0, 1}, {4, 1.5}});
   plan.curves = {{0, 1, 8, Role::dirichlet, 0, -1}, {1, 5, 3, Role::dirichlet, 0, -1},
@@ -103,7 +101,7 @@ TEST(Plans, FacesOfOneNameAreOneSubdomain) {
   plan.faces[0].outer = {1, 2, -7, 6};
   plan.faces.push_back(plan.faces[0]);
   plan.faces[1].outer = {7, 3, 4, 5};
-  const Mesh mesh = make(plan);
+  const Mesh mesh = make_plan(plan);
   EXPECT_EQ(mesh.subdomains, std::vector<std::string>{"all"});
   EXPECT_EQ(mesh.tension, std::vector<double>{3});
   EXPECT_TRUE(mesh.interfaces.empty());
@@ -124,18 +122,18 @@ TEST(Plans, FacesOfOneNameAreOneSubdomain) {
 }
 
 TEST(Plans, GradingIsApplied) {
-  Plan plan = square();
+  Plan plan = square_plan();
   plan.points.insert(plan.points.end(), {{1, 2}, {3, 2}});
   plan.curves.push_back({4, 5, 4, Role::interface, 0, 0, Kind::crack, -1});
   plan.interfaces = {{"slit", {4}}};
   plan.faces[0].embedded = {4};
   plan.grading = {0.5, 0.2, 1e-3};
-  const Mesh mesh = make(plan);
+  const Mesh mesh = make_plan(plan);
   EXPECT_GT(mesh.interfaces[0].nodes.size(), 20U);
   EXPECT_GT(mesh.bisection_bound, 10);
   EXPECT_GE(mesh::minimum_angle(mesh), mesh.bisection_bound * (1 - 1e-9));
   EXPECT_EQ(mesh.dirichlet.size() % 8, 0U);
-  EXPECT_TRUE(testing::throws([&] { make(plan, mesh.triangle_count() - 1); },
+  EXPECT_TRUE(testing::throws([&] { make_plan(plan, mesh.triangle_count() - 1); },
                               errors::Reason::limit_exceeded, "options.size"));
 }
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "mesher/helper.hpp"
+#include "mesher/real_helper.hpp"
 #include "mesher/sanitized.hpp"
 #include "support/errors.hpp"
 #include "support/eventually.hpp"
@@ -56,13 +56,11 @@ class Working {
  public:
   Working()
       : _thread([this](const std::stop_token& stop) {
-          mesher::HelperOptions options;
-          options.executable = mesher::default_executable();
           constexpr std::size_t enough = 20'000'000;
           const auto plan =
               mesh::plan(testing::paper_geometry(), {mesh::Preset::uniform, 0.001}, enough);
           _error = testing::error_of([&] {
-            mesher::run(options, mesh::GenerateRequest{plan, enough}, stop);
+            mesher::run(testing::real_helper(), mesh::GenerateRequest{plan, enough}, stop);
           });
         }) {}
 

@@ -10,7 +10,7 @@
 #include "mesh/edges.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
-#include "mesher/helper.hpp"
+#include "mesher/real_helper.hpp"
 
 namespace anticrack {
 namespace {
@@ -25,20 +25,19 @@ using mesh::Preset;
 using mesh::Shape;
 using ::testing::UnorderedElementsAre;
 
-constexpr std::size_t enough = 1'000'000;
+constexpr std::size_t shape_triangles = 1'000'000;
 
-Mesh make(const Geometry& geometry, const MeshOptions& options) {
-  mesher::HelperOptions helper;
-  helper.executable = mesher::default_executable();
-  return mesher::run(helper, mesh::GenerateRequest{mesh::plan(geometry, options, enough), enough},
-                     {});
+Mesh make_shape(const Geometry& geometry, const MeshOptions& options) {
+  return mesher::run(
+      testing::real_helper(),
+      mesh::GenerateRequest{mesh::plan(geometry, options, shape_triangles), shape_triangles}, {});
 }
 
 MeshOptions uniform(double size) {
   return {Preset::uniform, size};
 }
 
-Geometry square() {
+Geometry square_shape() {
   Geometry geometry;
   geometry.boundary = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   return geometry;
@@ -102,7 +101,7 @@ std::vector<Point> tip_points(const Mesh& mesh) {
 /// What must hold of every graded mesh: the size is reached at every tip, no angle is below the
 /// bound, and equal input gives equal bits.
 void expect_graded(const Geometry& geometry, std::size_t tip_count) {
-  const Mesh mesh = make(geometry, {});
+  const Mesh mesh = make_shape(geometry, {});
   const std::vector<std::int32_t> tips = mesh::tips(mesh);
   EXPECT_EQ(tips.size(), tip_count);
   EXPECT_GT(mesh.bisection_bound, 0);
@@ -118,14 +117,14 @@ void expect_graded(const Geometry& geometry, std::size_t tip_count) {
     }
     EXPECT_LE(smallest, 1.01e-13) << "tip " << tip;
   }
-  EXPECT_EQ(mesh::encode(make(geometry, {})), mesh::encode(mesh));
+  EXPECT_EQ(mesh::encode(make_shape(geometry, {})), mesh::encode(mesh));
 }
 
 TEST(Shapes, SlitInOneSubdomain) {
-  Geometry geometry = square();
+  Geometry geometry = square_shape();
   geometry.interfaces = {line("slit", {{-0.5, 0}, {0, 0.1}, {0.5, 0}})};
   geometry.cracks = {{"crack", {{-0.5, 0}, {0.5, 0}}}};
-  const Mesh mesh = make(geometry, uniform(0.1));
+  const Mesh mesh = make_shape(geometry, uniform(0.1));
   EXPECT_EQ(mesh.subdomains.size(), 1U);
   EXPECT_NEAR(whole_area(mesh), 4, 1e-12);
   EXPECT_NEAR(length(mesh, Kind::crack), 2 * std::hypot(0.5, 0.1), 1e-12);
@@ -135,22 +134,22 @@ TEST(Shapes, SlitInOneSubdomain) {
 }
 
 TEST(Shapes, CrackFromTheNeumannSide) {
-  Geometry geometry = square();
+  Geometry geometry = square_shape();
   geometry.interfaces = {line("cut", {{1, 0}, {0.25, 0}})};
   geometry.cracks = {{"crack", {{1, 0}, {0.25, 0}}}};
   geometry.neumann = {{{1, -1}, {1, 1}}};
-  const Mesh mesh = make(geometry, uniform(0.1));
+  const Mesh mesh = make_shape(geometry, uniform(0.1));
   EXPECT_NEAR(dirichlet_length(mesh), 6, 1e-12);
   EXPECT_THAT(tip_points(mesh), UnorderedElementsAre(Point{0.25, 0}));
   expect_graded(geometry, 1);
 }
 
 TEST(Shapes, RingThatIsPartlyDelaminated) {
-  Geometry geometry = square();
+  Geometry geometry = square_shape();
   geometry.interfaces = {line("ring", {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}, true)};
   geometry.inclusions = {{"rim", {{-0.25, -0.5}, {0.5, 0.25}}, {{{0, -0.5}, {0.25, -0.5}}}}};
   geometry.regions = {{"core", {0, 0}, 2.5}};
-  const Mesh mesh = make(geometry, uniform(0.1));
+  const Mesh mesh = make_shape(geometry, uniform(0.1));
   ASSERT_EQ(mesh.subdomains.size(), 2U);
   EXPECT_NEAR(areas(mesh)["core"], 1, 1e-12);
   EXPECT_NEAR(whole_area(mesh), 4, 1e-12);
@@ -166,11 +165,11 @@ TEST(Shapes, RingThatIsPartlyDelaminated) {
 }
 
 TEST(Shapes, ThreeSubdomainsAtACrossPoint) {
-  Geometry geometry = square();
+  Geometry geometry = square_shape();
   geometry.interfaces = {line("across", {{-1, 0}, {1, 0}}), line("up", {{0.25, 0}, {0.25, 1}})};
   geometry.cracks = {{"crack", {{-0.5, 0}, {-0.25, 0}}}};
   geometry.regions = {{"low", {0, -0.5}}, {"left", {-0.5, 0.5}}, {"right", {0.5, 0.5}}};
-  const Mesh mesh = make(geometry, uniform(0.1));
+  const Mesh mesh = make_shape(geometry, uniform(0.1));
   EXPECT_THAT(mesh.subdomains, UnorderedElementsAre("low", "left", "right"));
   EXPECT_NEAR(areas(mesh)["low"], 2, 1e-12);
   EXPECT_NEAR(areas(mesh)["left"], 1.25, 1e-12);
@@ -182,11 +181,11 @@ TEST(Shapes, ThreeSubdomainsAtACrossPoint) {
 }
 
 TEST(Shapes, CrossOfACrackAndAnInclusion) {
-  Geometry geometry = square();
+  Geometry geometry = square_shape();
   geometry.interfaces = {line("across", {{-1, 0}, {1, 0}}), line("up", {{0, -1}, {0, 1}})};
   geometry.inclusions = {{"rigid", {{0.25, 0}, {0.75, 0}}, {}}};
   geometry.cracks = {{"crack", {{0, -0.5}, {0, 0.5}}}};
-  const Mesh mesh = make(geometry, uniform(0.1));
+  const Mesh mesh = make_shape(geometry, uniform(0.1));
   EXPECT_EQ(mesh.subdomains.size(), 4U);
   EXPECT_NEAR(whole_area(mesh), 4, 1e-12);
   EXPECT_NEAR(length(mesh, Kind::inclusion), 0.5, 1e-12);
@@ -198,14 +197,14 @@ TEST(Shapes, CrossOfACrackAndAnInclusion) {
 }
 
 TEST(Shapes, InclusionOnAnArc) {
-  Geometry geometry = square();
+  Geometry geometry = square_shape();
   geometry.interfaces = {{"arc", Shape::arc, {{-1, 0}, {0, 0.5}, {1, 0}}, false}};
   const auto on_arc = [](double angle) {
     return Point{1.25 * std::sin(angle), -0.75 + 1.25 * std::cos(angle)};
   };
   const Part part{on_arc(-0.3), on_arc(0.4)};
   geometry.inclusions = {{"bow", part, {part}}};
-  const Mesh mesh = make(geometry, uniform(0.02));
+  const Mesh mesh = make_shape(geometry, uniform(0.02));
   EXPECT_EQ(mesh.subdomains.size(), 2U);
   EXPECT_NEAR(whole_area(mesh), 4, 1e-12);
   EXPECT_NEAR(length(mesh, Kind::delaminated), 1.25 * 0.7, 1e-3);
@@ -217,11 +216,11 @@ TEST(Shapes, InclusionOnAnArc) {
 }
 
 TEST(Shapes, EdgesFollowAnAlignedLine) {
-  Geometry geometry = square();
+  Geometry geometry = square_shape();
   geometry.interfaces = {line("across", {{-1, 0}, {1, 0}})};
   MeshOptions options = uniform(0.1);
   options.align = {{{-0.75, 0.5}, {0.75, 0.625}}, {{-0.5, -1}, {-0.5, 1}}};
-  const Mesh mesh = make(geometry, options);
+  const Mesh mesh = make_shape(geometry, options);
   EXPECT_EQ(mesh.subdomains.size(), 2U);
   EXPECT_EQ(mesh.interfaces.size(), 1U);
   EXPECT_EQ(mesh::tips(mesh).size(), 0U);
@@ -245,10 +244,10 @@ TEST(Shapes, EdgesFollowAnAlignedLine) {
 }
 
 TEST(Shapes, PartlyDelaminatedInclusion) {
-  Geometry geometry = square();
+  Geometry geometry = square_shape();
   geometry.interfaces = {line("across", {{-1, 0}, {1, 0}})};
   geometry.inclusions = {{"rigid", {{-0.5, 0}, {0.5, 0}}, {{{-0.25, 0}, {0.125, 0}}}}};
-  const Mesh mesh = make(geometry, uniform(0.1));
+  const Mesh mesh = make_shape(geometry, uniform(0.1));
   EXPECT_NEAR(length(mesh, Kind::delaminated), 0.375, 1e-12);
   EXPECT_NEAR(length(mesh, Kind::inclusion), 0.625, 1e-12);
   EXPECT_NEAR(length(mesh, Kind::glue), 1, 1e-12);
@@ -256,12 +255,12 @@ TEST(Shapes, PartlyDelaminatedInclusion) {
 }
 
 TEST(Shapes, TwoInclusionsAHairApart) {
-  Geometry geometry = square();
+  Geometry geometry = square_shape();
   geometry.interfaces = {line("across", {{-1, 0}, {1, 0}})};
   const Part left{{-0.5, 0}, {0, 0}};
   const Part right{{1e-6, 0}, {0.5, 0}};
   geometry.inclusions = {{"left", left, {left}}, {"right", right, {right}}};
-  const Mesh mesh = make(geometry, uniform(0.1));
+  const Mesh mesh = make_shape(geometry, uniform(0.1));
   EXPECT_NEAR(length(mesh, Kind::delaminated), 1 - 1e-6, 1e-12);
   EXPECT_NEAR(whole_area(mesh), 4, 1e-12);
   EXPECT_GT(mesh::minimum_angle(mesh), 10);
@@ -269,22 +268,22 @@ TEST(Shapes, TwoInclusionsAHairApart) {
 }
 
 TEST(Shapes, InclusionOfOneSegment) {
-  Geometry geometry = square();
+  Geometry geometry = square_shape();
   geometry.interfaces = {line("across", {{-1, 0}, {1, 0}})};
   const Part part{{-0.0625, 0}, {0.0625, 0}};
   geometry.inclusions = {{"short", part, {part}}};
-  const Mesh mesh = make(geometry, uniform(0.25));
+  const Mesh mesh = make_shape(geometry, uniform(0.25));
   const auto& kinds = mesh.interfaces.at(0).kind;
   EXPECT_EQ(std::count(kinds.begin(), kinds.end(), Kind::delaminated), 1);
   expect_graded(geometry, 2);
 }
 
 TEST(Shapes, DefaultMeshOfThePapersSquareIsAsLargeAsThePapers) {
-  Geometry geometry = square();
+  Geometry geometry = square_shape();
   geometry.interfaces = {line("interface", {{-1, 0}, {1, 0}})};
   const Part part{{-0.5, 0}, {0.5, 0}};
   geometry.inclusions = {{"inclusion", part, {part}}};
-  const std::size_t triangles = make(geometry, {}).triangle_count();
+  const std::size_t triangles = make_shape(geometry, {}).triangle_count();
   EXPECT_GE(triangles, 9'000U);
   EXPECT_LE(triangles, 12'000U);
   expect_graded(geometry, 2);

@@ -20,7 +20,7 @@ namespace {
 using anticrack::testing::Silent;
 using ::testing::HasSubstr;
 
-std::shared_ptr<const mesh::Mesh> membrane(int columns = 32, int rows = 8) {
+std::shared_ptr<const mesh::Mesh> shared_membrane(int columns = 32, int rows = 8) {
   return std::make_shared<const mesh::Mesh>(
       testing::structured_mesh({columns, rows, {}, {}, {"bar"}}));
 }
@@ -59,7 +59,7 @@ bool same_bits(const contact::Answer& a, const contact::Answer& b) {
 }
 
 TEST(MeshOperator, SolvesOnManyThreadsWithTheSameBits) {
-  const auto op = MeshOperator::factorise(membrane(), 2, {});
+  const auto op = MeshOperator::factorise(shared_membrane(), 2, {});
   const std::vector<fem::Load> loads = {
       {"one", 1.0, ""},
       {"two", fem::Expression{"x*y < 0 ? -1 : 1"}, ""},
@@ -89,7 +89,7 @@ TEST(MeshOperator, SolvesOnManyThreadsWithTheSameBits) {
 }
 
 TEST(MeshOperator, FactorisesOnAnyNumberOfThreadsToTheSameBits) {
-  const auto mesh = membrane();
+  const auto mesh = shared_membrane();
   const auto one = MeshOperator::factorise(mesh, 1, {});
   const fem::Load load{"load", fem::Expression{"sin(3*x) - y"}, ""};
   std::vector<std::shared_ptr<const MeshOperator>> others(4);
@@ -108,7 +108,7 @@ TEST(MeshOperator, FactorisesOnAnyNumberOfThreadsToTheSameBits) {
 }
 
 TEST(MeshOperator, FieldsAreOnTheNodesOfEachSubdomain) {
-  const auto op = MeshOperator::factorise(membrane(), 2, {});
+  const auto op = MeshOperator::factorise(shared_membrane(), 2, {});
   const contact::Answer answer = solve(*op, {"load", 1.0, "x + 2*y"}, true);
   ASSERT_EQ(answer.fields.size(), 2U);
   for (std::size_t s = 0; s < 2; ++s) {
@@ -128,7 +128,7 @@ TEST(MeshOperator, FieldsAreOnTheNodesOfEachSubdomain) {
 }
 
 TEST(MeshOperator, TraceGeometryNamesTheConditionOfEachNode) {
-  const auto op = MeshOperator::factorise(membrane(), 1, {});
+  const auto op = MeshOperator::factorise(shared_membrane(), 1, {});
   ASSERT_EQ(op->trace_geometry().size(), 1U);
   const contact::TraceGeometry& geometry = op->trace_geometry()[0];
   ASSERT_EQ(geometry.x.size(), 33U);
@@ -143,7 +143,7 @@ TEST(MeshOperator, TraceGeometryNamesTheConditionOfEachNode) {
 }
 
 TEST(MeshOperator, RefusesASubdomainTheMeshDoesNotHave) {
-  const auto op = MeshOperator::factorise(membrane(), 1, {});
+  const auto op = MeshOperator::factorise(shared_membrane(), 1, {});
   try {
     solve(*op, {"load", fem::PerRegion{{{"upper", 1}, {"attic", 2}}}, ""});
     FAIL() << "accepted";
@@ -155,7 +155,7 @@ TEST(MeshOperator, RefusesASubdomainTheMeshDoesNotHave) {
 }
 
 TEST(MeshOperator, RefusesAForceThatIsNotFiniteAndGoesOnServing) {
-  const auto op = MeshOperator::factorise(membrane(), 1, {});
+  const auto op = MeshOperator::factorise(shared_membrane(), 1, {});
   try {
     solve(*op, {"load", fem::Expression{"1/(y - y)"}, ""});
     FAIL() << "accepted";
@@ -176,7 +176,7 @@ TEST(MeshOperator, StopsBeforeItFactorises) {
   std::stop_source stop;
   stop.request_stop();
   try {
-    MeshOperator::factorise(membrane(), 2, stop.get_token());
+    MeshOperator::factorise(shared_membrane(), 2, stop.get_token());
     FAIL() << "factorised";
   } catch (const errors::Error& error) {
     EXPECT_EQ(error.reason(), errors::Reason::cancelled);
@@ -224,7 +224,7 @@ TEST(MeshOperator, UzawaIsRefusedWhereASubdomainFloatsAndTheActiveSetSolves) {
 
 TEST(MeshOperator, EstimateIsAnUpperBoundOfWhatIsHeld) {
   for (const auto& [columns, rows] : {std::pair{4, 1}, {16, 4}, {160, 80}, {400, 2}, {8, 300}}) {
-    const auto mesh = membrane(columns, rows);
+    const auto mesh = shared_membrane(columns, rows);
     const std::size_t estimate = estimate_bytes(*mesh);
     const std::size_t held = MeshOperator::factorise(mesh, 2, {})->bytes();
     EXPECT_LE(held, estimate) << columns << " x " << rows;

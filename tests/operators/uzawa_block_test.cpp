@@ -217,14 +217,15 @@ void expect_batched_equals_alone(const Operator& op, unsigned seed) {
   }
 }
 
-Operator factorised(mesh::Mesh mesh) {
+Operator factorised_mesh(mesh::Mesh mesh) {
   return MeshOperator::factorise(std::make_shared<const mesh::Mesh>(std::move(mesh)), 1, {});
 }
 
 class BatchedEqualsAlone : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(BatchedEqualsAlone, OnAStructuredMesh) {
-  expect_batched_equals_alone(factorised(structured_mesh({32, 8, {}, {}, {"bar"}})), GetParam());
+  expect_batched_equals_alone(factorised_mesh(structured_mesh({32, 8, {}, {}, {"bar"}})),
+                              GetParam());
 }
 
 TEST_P(BatchedEqualsAlone, OnRandomMembranes) {
@@ -232,7 +233,7 @@ TEST_P(BatchedEqualsAlone, OnRandomMembranes) {
   for (unsigned mesh_seed = GetParam(); compared < 3; mesh_seed += 1000) {
     Operator op;
     try {
-      op = factorised(reference::RandomMembrane(mesh_seed).mesh());
+      op = factorised_mesh(reference::RandomMembrane(mesh_seed).mesh());
     } catch (const errors::Error&) {
       continue;  // cracks that depend on each other, parts that only contact holds
     }
@@ -254,7 +255,7 @@ Case of(const std::string& force) {
 
 /// What one column does, the others do not feel.
 TEST(UzawaBlock, KeepsColumnsThatBreakDownToThemselves) {
-  const Operator op = factorised(structured_mesh({80, 40, {}, {}, {"bar"}}));
+  const Operator op = factorised_mesh(structured_mesh({80, 40, {}, {}, {"bar"}}));
   std::vector<Case> cases = {of("1"), of("x*y < 0 ? -1 : 1"), of("1e300"), of("x < 0 ? 1 : -1"),
                              of("sin(5*x) + y")};
   cases[1].options.theta = 3 * op->theta_star();  // oscillates
@@ -276,7 +277,7 @@ TEST(UzawaBlock, KeepsColumnsThatBreakDownToThemselves) {
 }
 
 TEST(UzawaBlock, AColumnDoesNotRememberWhoWasInItsPlace) {
-  const Operator op = factorised(structured_mesh({32, 8, {}, {}, {"bar"}}));
+  const Operator op = factorised_mesh(structured_mesh({32, 8, {}, {}, {"bar"}}));
   const Case one = of("x*y < 0 ? -1 : 1");
   UzawaBlock used(op, contact::Mass::lumped, 1), fresh(op, contact::Mass::lumped, 1);
   const auto run = [&](UzawaBlock& block, const Case& solved) {
@@ -295,8 +296,8 @@ TEST(UzawaBlock, AColumnDoesNotRememberWhoWasInItsPlace) {
 }
 
 TEST(UzawaBlock, RefusesWhatCannotBeAColumn) {
-  const Operator op = factorised(structured_mesh());
-  const Operator other = factorised(structured_mesh());
+  const Operator op = factorised_mesh(structured_mesh());
+  const Operator other = factorised_mesh(structured_mesh());
   const Case one = of("1");
   UzawaBlock block(op, contact::Mass::lumped, 1);
   Recorder recorder;
@@ -320,11 +321,11 @@ TEST(UzawaBlock, RefusesAMeshWithAnObstacle) {
     return floating.xy[2 * static_cast<std::size_t>(edge[0]) + 1] >= 0 ||
            floating.xy[2 * static_cast<std::size_t>(edge[1]) + 1] >= 0;
   });
-  const Operator op = factorised(floating);
+  const Operator op = factorised_mesh(floating);
   EXPECT_NE(op->uzawa_obstacle().find("\"upper\""), std::string::npos) << op->uzawa_obstacle();
   EXPECT_TRUE(throws([&] { UzawaBlock(op, contact::Mass::lumped, 4); },
                      errors::Reason::not_implemented, "uzawa"));
-  EXPECT_TRUE(factorised(structured_mesh())->uzawa_obstacle().empty());
+  EXPECT_TRUE(factorised_mesh(structured_mesh())->uzawa_obstacle().empty());
 }
 
 }  // namespace

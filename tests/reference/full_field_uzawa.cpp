@@ -7,16 +7,13 @@
 #include <tuple>
 
 #include "fem/load_vector.hpp"
+#include "mesh/at.hpp"
 #include "support/plain_stiffness.hpp"
 
 namespace anticrack::reference {
 namespace {
 
 using Mask = std::vector<char>;
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// The triangles of one subdomain on the nodes of the whole mesh.
 fem::Triangulation part(const mesh::Mesh& mesh, std::int32_t subdomain) {

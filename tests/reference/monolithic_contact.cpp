@@ -10,16 +10,14 @@
 #include <numeric>
 #include <utility>
 
+#include "mesh/at.hpp"
+
 namespace anticrack::reference {
 namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
 using mesh::Kind;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 struct Sets {
   explicit Sets(std::size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }

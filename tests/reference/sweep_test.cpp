@@ -95,13 +95,13 @@ struct Scale {
   }
 };
 
-struct Tally {
+struct SweepTally {
   int rows = 0, not_converged = 0, undecided = 0, open = 0, closed = 0, refused = 0;
   double energy = 0, displacement = 0, length = 0, kkt = 0;
 };
 
-void compare(const MeshOperator& op, const SweepColumns& rows, std::size_t row,
-             const Answer& wanted, const Scale& scale, Tally& tally) {
+void compare_row(const MeshOperator& op, const SweepColumns& rows, std::size_t row,
+                 const Answer& wanted, const Scale& scale, SweepTally& tally) {
   ++tally.rows;
   ASSERT_EQ(rows.status[row], wanted.status);
   EXPECT_LE(rows.kkt[row], 1e-11);
@@ -148,7 +148,7 @@ void compare(const MeshOperator& op, const SweepColumns& rows, std::size_t row,
 }
 
 TEST(Sweep, RowsAreThePlainAnswersOfTheirLoads) {
-  Tally tally;
+  SweepTally tally;
   for (unsigned seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     RandomMembrane membrane(seed);
@@ -190,7 +190,7 @@ TEST(Sweep, RowsAreThePlainAnswersOfTheirLoads) {
       for (std::size_t j = 0; j < m; ++j) {
         scale.add(row[j], alone[j]);
       }
-      compare(*op, rows, k, plain(*op, loads.combined(row)), scale, tally);
+      compare_row(*op, rows, k, plain(*op, loads.combined(row)), scale, tally);
     }
   }
   std::printf(

@@ -128,7 +128,7 @@ Call warm(bool pin) {
   };
 }
 
-std::vector<Row> rows() {
+std::vector<Row> permission_rows() {
   const std::string meshes = "anticrack.v1.MeshService.";
   const std::string solves = "anticrack.v1.SolveService.";
   return {
@@ -236,7 +236,7 @@ TEST(Permissions, HoldForEveryMethodAndEverybody) {
        {"another user", testing::other_token},
        {"the owner", testing::owner_token},
        {"an administrator", testing::admin_token}}};
-  for (const Row& row : rows()) {
+  for (const Row& row : permission_rows()) {
     for (std::size_t i = 0; i < everybody.size(); ++i) {
       SCOPED_TRACE(row.method + " by " + everybody[i].first);
       grpc::Status status;
@@ -256,7 +256,7 @@ TEST(Permissions, HoldForEveryMethodAndEverybody) {
 
 TEST(Permissions, HaveARowForEveryMethodThereIs) {
   std::set<std::string> known;
-  for (const Row& row : rows()) known.insert(row.method);
+  for (const Row& row : permission_rows()) known.insert(row.method);
   std::set<std::string> methods;
   for (const auto* file : {v1::Mesh::descriptor()->file(), v1::Job::descriptor()->file(),
                            v1::ServerInfo::descriptor()->file()}) {

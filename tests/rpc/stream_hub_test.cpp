@@ -55,12 +55,12 @@ class Recorded final : public Stream {
   int _ticks = 0;
 };
 
-StreamLimits limits() {
+StreamLimits hub_limits() {
   return {2, 1, 3, 20ms, 1000ms};
 }
 
 TEST(StreamHub, WakesAndTicksOnItsOwnThread) {
-  StreamHub hub(limits());
+  StreamHub hub(hub_limits());
   const auto stream = std::make_shared<Recorded>(hub, false);
   hub.add(StreamKind::watch, "client", stream);
   hub.wake(stream);
@@ -70,7 +70,7 @@ TEST(StreamHub, WakesAndTicksOnItsOwnThread) {
 }
 
 TEST(StreamHub, RefusesMoreThanItsLimitOfAKind) {
-  StreamHub hub(limits());
+  StreamHub hub(hub_limits());
   const auto a = std::make_shared<Recorded>(hub, false);
   const auto b = std::make_shared<Recorded>(hub, false);
   const auto c = std::make_shared<Recorded>(hub, false);
@@ -141,7 +141,7 @@ class Late final : public Wakeable {
 };
 
 TEST(StreamHub, KeepsAWakeUntilItsTime) {
-  StreamHub hub(limits());
+  StreamHub hub(hub_limits());
   const auto late = std::make_shared<Late>();
   hub.wake(late);
   EXPECT_GE(late->wait(), 1);
@@ -149,7 +149,7 @@ TEST(StreamHub, KeepsAWakeUntilItsTime) {
 }
 
 TEST(StreamHub, ToleratesAWakeOfWhatIsGone) {
-  StreamHub hub(limits());
+  StreamHub hub(hub_limits());
   std::weak_ptr<Stream> gone;
   {
     const auto stream = std::make_shared<Recorded>(hub, false);
@@ -163,7 +163,7 @@ TEST(StreamHub, ToleratesAWakeOfWhatIsGone) {
 }
 
 TEST(StreamHub, DrainEndsAndThenBreaksOff) {
-  StreamHub hub(limits());
+  StreamHub hub(hub_limits());
   const auto willing = std::make_shared<Recorded>(hub, false);
   const auto stubborn = std::make_shared<Recorded>(hub, true);
   hub.add(StreamKind::watch, "client", willing);

@@ -35,16 +35,16 @@ constexpr double tolerance = 1e-9;
 constexpr std::size_t basis = 3;
 
 /// Opening, closing and both, with and without a push.
-const std::vector<double> coefficients{1,    0,   0,    -1, 0,    0,   0.3, 2, 0,    -0.3, 2,  0.1,
-                                       0.01, 1.5, -0.2, 0,  -2.5, 0.4, 0,   0, -0.7, 1,    -1, 1};
-constexpr std::size_t rows = 8;
+const std::vector<double> matrix{1,    0,   0,    -1, 0,    0,   0.3, 2, 0,    -0.3, 2,  0.1,
+                                 0.01, 1.5, -0.2, 0,  -2.5, 0.4, 0,   0, -0.7, 1,    -1, 1};
+constexpr std::size_t row_count = 8;
 
-/// What a watch told of a sweep's rows, by row.
+/// What a watch told of a sweep's row_count, by row.
 struct Watched {
-  std::vector<int> times = std::vector<int>(rows, 0);
-  std::vector<std::int32_t> status = std::vector<std::int32_t>(rows, 0);
-  std::vector<double> energy = std::vector<double>(rows, 0);
-  std::vector<double> displacement = std::vector<double>(rows, 0);
+  std::vector<int> times = std::vector<int>(row_count, 0);
+  std::vector<std::int32_t> status = std::vector<std::int32_t>(row_count, 0);
+  std::vector<double> energy = std::vector<double>(row_count, 0);
+  std::vector<double> displacement = std::vector<double>(row_count, 0);
   v1::Job ended;
 };
 
@@ -58,7 +58,7 @@ Watched watch(RunningServer& server, const std::string& job) {
     const v1::SweepRows& some = event.sweep_rows();
     for (int i = 0; i < some.status_size(); ++i) {
       const std::size_t row = some.first_row() + static_cast<std::size_t>(i);
-      if (row >= rows) {
+      if (row >= row_count) {
         ADD_FAILURE() << "row " << row;
         return told;
       }
@@ -71,16 +71,16 @@ Watched watch(RunningServer& server, const std::string& job) {
   return told;
 }
 
-/// The rows one by one.
+/// The row_count one by one.
 v1::Job solve_alone(RunningServer& server, const std::string& mesh, Received& block) {
   v1::CreateJobRequest request = opening_job(mesh);
   request.mutable_job()->clear_load_cases();
-  for (std::size_t row = 0; row < rows; ++row) {
+  for (std::size_t row = 0; row < row_count; ++row) {
     *request.mutable_job()->add_load_cases() =
-        row_alone("row " + std::to_string(row), &coefficients[basis * row]);
+        row_alone("row " + std::to_string(row), &matrix[basis * row]);
   }
   v1::Job job = server.finish(server.create(request).name());
-  EXPECT_EQ(job.answers_size(), static_cast<int>(rows));
+  EXPECT_EQ(job.answers_size(), static_cast<int>(row_count));
   EXPECT_TRUE(read_result(server, job.name(), 0, block).ok());
   return job;
 }
@@ -94,15 +94,15 @@ void expect_columns(const Received& sweep, const v1::Job& alone, const Received&
   std::vector<std::uint64_t> shape;
   const auto contact =
       values_of<std::uint8_t>(sweep, "sweep/contact", v1::ArrayLayout::TYPE_UINT8, &shape);
-  ASSERT_THAT(shape, ElementsAre(rows, ::testing::Gt(0u)));
+  ASSERT_THAT(shape, ElementsAre(row_count, ::testing::Gt(0u)));
   const std::size_t contacts = shape[1];
   const auto nodes =
       values_of<std::int32_t>(sweep, "sweep/contact_nodes", v1::ArrayLayout::TYPE_INT32, &shape);
   ASSERT_THAT(shape, ElementsAre(contacts, 2u));
-  ASSERT_EQ(energy.size(), rows);
-  ASSERT_EQ(contact_length.size(), rows);
-  ASSERT_EQ(displacement.size(), rows);
-  for (std::size_t row = 0; row < rows; ++row) {
+  ASSERT_EQ(energy.size(), row_count);
+  ASSERT_EQ(contact_length.size(), row_count);
+  ASSERT_EQ(displacement.size(), row_count);
+  for (std::size_t row = 0; row < row_count; ++row) {
     SCOPED_TRACE(row);
     const v1::LoadCaseAnswer& answer = alone.answers(static_cast<int>(row));
     EXPECT_NEAR(displacement[row], answer.inclusions(0).displacement(), tolerance);
@@ -126,18 +126,18 @@ void expect_near(const std::vector<double>& left, const std::vector<double>& rig
 TEST(Sweep, AnswersEveryRowAsAJobOfItsOwn) {
   RunningServer server;
   const std::string mesh = server.create(paper_mesh()).name();
-  v1::CreateJobRequest request = sweep_job(mesh, coefficients);
+  v1::CreateJobRequest request = sweep_job(mesh, matrix);
   request.mutable_job()->mutable_sweep()->add_traces(1);
   request.mutable_job()->mutable_sweep()->add_traces(6);
   const v1::Job created = server.create(request);
-  EXPECT_EQ(created.sweep_answer().rows(), rows);
+  EXPECT_EQ(created.sweep_answer().rows(), row_count);
   EXPECT_EQ(created.sweep().coefficients().upload(),
-            "uploads/" + store::Sha256().add(packed(coefficients)).finish());
+            "uploads/" + store::Sha256().add(packed(matrix)).finish());
   const Watched told = watch(server, created.name());
 
   ASSERT_EQ(told.ended.state(), v1::Job::STATE_SUCCEEDED) << told.ended.error().message();
   EXPECT_EQ(told.ended.answers_size(), 0);
-  EXPECT_EQ(told.ended.sweep_answer().converged(), rows);
+  EXPECT_EQ(told.ended.sweep_answer().converged(), row_count);
   EXPECT_EQ(told.ended.sweep_answer().not_converged() + told.ended.sweep_answer().failed(), 0u);
   EXPECT_GT(told.ended.sweep_answer().most_steps(), 0);
   EXPECT_LT(told.ended.sweep_answer().worst_kkt(), tolerance);
@@ -165,7 +165,7 @@ TEST(Sweep, AnswersEveryRowAsAJobOfItsOwn) {
 TEST(Sweep, OfAnUploadIsTheSame) {
   RunningServer server;
   const std::string mesh = server.create(paper_mesh()).name();
-  v1::CreateJobRequest request = sweep_job(mesh, coefficients);
+  v1::CreateJobRequest request = sweep_job(mesh, matrix);
   request.set_request_id("123e4567-e89b-12d3-a456-426614174000");
   const v1::Job first = server.create(request);
   const std::string upload = first.sweep().coefficients().upload();

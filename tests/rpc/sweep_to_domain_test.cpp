@@ -18,7 +18,7 @@ using anticrack::testing::sweep_job;
 using errors::Reason;
 using ::testing::ElementsAre;
 
-constexpr JobLimits limits{10, 1'000};
+constexpr JobLimits sweep_limits{10, 1'000};
 const std::string sha256(64, 'c');
 
 v1::Job good_sweep() {
@@ -29,7 +29,7 @@ TEST(SweepToDomain, NamesAPackedMatrixByItsHash) {
   v1::Job job = good_sweep();
   job.mutable_sweep()->add_traces(3);
   job.mutable_sweep()->add_traces(5);
-  const store::JobSpec spec = to_spec(job, limits);
+  const store::JobSpec spec = to_spec(job, sweep_limits);
   ASSERT_TRUE(spec.sweep);
   EXPECT_EQ(spec.sweep->cases, store::SweepSpec::Cases::combinations);
   EXPECT_EQ(spec.sweep->upload, store::Sha256().add(packed({1, 2, 3})).finish());
@@ -40,14 +40,14 @@ TEST(SweepToDomain, NamesAPackedMatrixByItsHash) {
 TEST(SweepToDomain, TakesAnUpload) {
   v1::Job job = good_sweep();
   job.mutable_sweep()->mutable_coefficients()->set_upload("uploads/" + sha256);
-  EXPECT_EQ(to_spec(job, limits).sweep->upload, sha256);
+  EXPECT_EQ(to_spec(job, sweep_limits).sweep->upload, sha256);
 }
 
 TEST(SweepToDomain, TakesNodalForces) {
   v1::Job job = good_sweep();
   job.clear_load_cases();
   job.mutable_sweep()->mutable_nodal_forces()->set_upload("uploads/" + sha256);
-  const store::JobSpec spec = to_spec(job, limits);
+  const store::JobSpec spec = to_spec(job, sweep_limits);
   EXPECT_EQ(spec.sweep->cases, store::SweepSpec::Cases::nodal_forces);
   EXPECT_EQ(spec.sweep->upload, sha256);
   EXPECT_TRUE(spec.loads.empty());
@@ -56,7 +56,7 @@ TEST(SweepToDomain, TakesNodalForces) {
 TEST(SweepToDomain, HasNoneWhereNoneWasAskedFor) {
   v1::Job job = good_sweep();
   job.clear_sweep();
-  EXPECT_FALSE(to_spec(job, limits).sweep);
+  EXPECT_FALSE(to_spec(job, sweep_limits).sweep);
 }
 
 TEST(SweepToDomain, TakesAMatrixOfAMegabyteInAJobThatWouldBeTooLargeWithoutIt) {
@@ -64,27 +64,27 @@ TEST(SweepToDomain, TakesAMatrixOfAMegabyteInAJobThatWouldBeTooLargeWithoutIt) {
   std::string& matrix = *job.mutable_sweep()->mutable_coefficients()->mutable_packed();
   matrix.assign(max_packed_bytes, '\0');
   job.mutable_load_cases(0)->mutable_force()->set_expression(std::string(1'000, '1'));
-  EXPECT_EQ(to_spec(job, limits).sweep->upload, store::Sha256().add(matrix).finish());
+  EXPECT_EQ(to_spec(job, sweep_limits).sweep->upload, store::Sha256().add(matrix).finish());
 }
 
 TEST(SweepToDomain, ComesBackAsTheUpload) {
   store::JobRecord record;
-  record.spec = to_spec(good_sweep(), limits);
+  record.spec = to_spec(good_sweep(), sweep_limits);
   const v1::Job told = from_domain(record, {});
   EXPECT_EQ(told.sweep().coefficients().upload(),
             "uploads/" + store::Sha256().add(packed({1, 2, 3})).finish());
   EXPECT_EQ(told.load_cases_size(), 3);
-  EXPECT_EQ(to_spec(told, limits).sweep->upload, record.spec.sweep->upload);
+  EXPECT_EQ(to_spec(told, sweep_limits).sweep->upload, record.spec.sweep->upload);
 }
 
-struct BadSweep {
+struct BadSweepMessage {
   const char* name;
   std::function<void(v1::Job&)> spoil;
   Reason reason;
   const char* field;
 };
 
-v1::Sweep::Matrix& coefficients(v1::Job& job) {
+v1::Sweep::Matrix& matrix_of(v1::Job& job) {
   return *job.mutable_sweep()->mutable_coefficients();
 }
 
@@ -94,25 +94,25 @@ v1::Sweep::Matrix& nodal_forces(v1::Job& job) {
 }
 
 TEST(SweepToDomain, RefusesWhatItsTypesCannotExpress) {
-  const std::vector<BadSweep> all{
+  const std::vector<BadSweepMessage> all{
       {"NoCases", [](auto& job) { job.mutable_sweep()->Clear(); }, Reason::invalid_argument,
        "job.sweep"},
-      {"NoSource", [](auto& job) { coefficients(job).Clear(); }, Reason::invalid_argument,
+      {"NoSource", [](auto& job) { matrix_of(job).Clear(); }, Reason::invalid_argument,
        "job.sweep.coefficients"},
       {"NodalNoSource", [](auto& job) { nodal_forces(job).Clear(); }, Reason::invalid_argument,
        "job.sweep.nodal_forces"},
-      {"Empty", [](auto& job) { coefficients(job).set_packed(""); }, Reason::invalid_argument,
+      {"Empty", [](auto& job) { matrix_of(job).set_packed(""); }, Reason::invalid_argument,
        "job.sweep.coefficients.packed"},
-      {"HalfAValue", [](auto& job) { coefficients(job).set_packed(std::string(12, '\0')); },
+      {"HalfAValue", [](auto& job) { matrix_of(job).set_packed(std::string(12, '\0')); },
        Reason::invalid_argument, "job.sweep.coefficients.packed"},
       {"TooLarge",
-       [](auto& job) { coefficients(job).set_packed(std::string(max_packed_bytes + 8, '\0')); },
+       [](auto& job) { matrix_of(job).set_packed(std::string(max_packed_bytes + 8, '\0')); },
        Reason::limit_exceeded, "job.sweep.coefficients.packed"},
       {"NodalHalfAValue", [](auto& job) { nodal_forces(job).set_packed("1234567"); },
        Reason::invalid_argument, "job.sweep.nodal_forces.packed"},
-      {"NoUpload", [](auto& job) { coefficients(job).set_upload(""); }, Reason::invalid_argument,
+      {"NoUpload", [](auto& job) { matrix_of(job).set_upload(""); }, Reason::invalid_argument,
        "job.sweep.coefficients.upload"},
-      {"NoHash", [](auto& job) { coefficients(job).set_upload("uploads/1"); },
+      {"NoHash", [](auto& job) { matrix_of(job).set_upload("uploads/1"); },
        Reason::invalid_argument, "job.sweep.coefficients.upload"},
       {"AnotherCollection", [](auto& job) { nodal_forces(job).set_upload("meshes/" + sha256); },
        Reason::invalid_argument, "job.sweep.nodal_forces.upload"},
@@ -128,11 +128,11 @@ TEST(SweepToDomain, RefusesWhatItsTypesCannotExpress) {
        },
        Reason::limit_exceeded, "job"},
   };
-  for (const BadSweep& bad : all) {
+  for (const BadSweepMessage& bad : all) {
     SCOPED_TRACE(bad.name);
     v1::Job job = good_sweep();
     bad.spoil(job);
-    expect_refused([&] { to_spec(job, limits); }, bad.reason, bad.field);
+    expect_refused([&] { to_spec(job, sweep_limits); }, bad.reason, bad.field);
   }
 }
 

@@ -16,7 +16,7 @@ using anticrack::testing::expect_error;
 using anticrack::testing::RunningServer;
 using anticrack::testing::small_msh;
 
-v1::UploadMeshRequest::Header header_of(const std::string& content) {
+v1::UploadMeshRequest::Header upload_header(const std::string& content) {
   v1::UploadMeshRequest::Header header;
   header.set_size(content.size());
   header.set_sha256(store::Sha256().add(content).finish());
@@ -40,7 +40,7 @@ TEST(Upload, OfSeveralMegabytesArrivesWhole) {
   RunningServer server;
   const std::string content = small_msh() + std::string(5'000'000, '\n');
   std::string name;
-  const grpc::Status status = server.upload(header_of(content), content, &name, 1u << 20);
+  const grpc::Status status = server.upload(upload_header(content), content, &name, 1u << 20);
   ASSERT_TRUE(status.ok()) << status.error_message();
   EXPECT_EQ(server.upload_files(), 1u);
 }
@@ -48,15 +48,15 @@ TEST(Upload, OfSeveralMegabytesArrivesWhole) {
 TEST(Upload, LeavesNothingWhereItIsRefused) {
   RunningServer server([](auto& settings) { settings.server.limits.upload_bytes = 10'000; });
   const std::string content = small_msh();
-  v1::UploadMeshRequest::Header header = header_of(content);
+  v1::UploadMeshRequest::Header header = upload_header(content);
   header.set_size(10'001);
   expect_error(server.upload(header, content), grpc::StatusCode::INVALID_ARGUMENT, "LIMIT_EXCEEDED",
                "header.size");
-  header = header_of(content);
+  header = upload_header(content);
   header.set_sha256(std::string(64, '0'));
   expect_error(server.upload(header, content), grpc::StatusCode::INVALID_ARGUMENT,
                "INVALID_ARGUMENT", "header.sha256");
-  header = header_of(content);
+  header = upload_header(content);
   header.set_size(content.size() - 1);
   expect_error(server.upload(header, content), grpc::StatusCode::INVALID_ARGUMENT,
                "INVALID_ARGUMENT", "header.size");
@@ -71,7 +71,7 @@ TEST(Upload, LeavesNothingWhenItsClientGoes) {
     v1::UploadMeshResponse response;
     const auto writer = server.meshes->UploadMesh(&context, &response);
     v1::UploadMeshRequest request;
-    *request.mutable_header() = header_of(small_msh());
+    *request.mutable_header() = upload_header(small_msh());
     ASSERT_TRUE(writer->Write(request));
     request.set_chunk("$MeshFormat");
     ASSERT_TRUE(writer->Write(request));
@@ -100,7 +100,7 @@ TEST(Upload, IsRefusedBeyondTheLimitOfTransfers) {
   v1::UploadMeshResponse response;
   const auto writer = server.meshes->UploadMesh(&context, &response);
   v1::UploadMeshRequest request;
-  *request.mutable_header() = header_of(small_msh());
+  *request.mutable_header() = upload_header(small_msh());
   ASSERT_TRUE(writer->Write(request));
   ASSERT_TRUE(eventually([&] { return server.upload_files() == 1; }));
   expect_error(server.upload(small_msh()), grpc::StatusCode::RESOURCE_EXHAUSTED, "BUSY", "");
@@ -113,7 +113,7 @@ TEST(Upload, IsUsedAsWhatItIs) {
   const std::vector<double> values(6, 1.0);
   const std::string bytes(reinterpret_cast<const char*>(values.data()),
                           values.size() * sizeof(double));
-  v1::UploadMeshRequest::Header header = header_of(bytes);
+  v1::UploadMeshRequest::Header header = upload_header(bytes);
   header.set_content(v1::UploadMeshRequest::CONTENT_ARRAY);
   std::string array;
   ASSERT_TRUE(server.upload(header, bytes, &array).ok());

@@ -24,7 +24,7 @@ using anticrack::testing::RunningServer;
 using anticrack::testing::sweep_job;
 using Events = std::vector<v1::WatchJobResponse>;
 
-v1::WatchJobRequest request_for(const std::string& job, std::uint64_t after = 0) {
+v1::WatchJobRequest watch_request(const std::string& job, std::uint64_t after = 0) {
   v1::WatchJobRequest request;
   request.set_name(job);
   request.set_after_sequence(after);
@@ -87,7 +87,7 @@ TEST(Watch, ResumesExactlyWhereItIsTold) {
 }
 
 /// Every row of a sweep in the events, in the order told.
-std::vector<std::uint64_t> rows(const Events& events) {
+std::vector<std::uint64_t> row_numbers(const Events& events) {
   std::vector<std::uint64_t> result;
   for (const auto& event : events) {
     const v1::SweepRows& some = event.sweep_rows();
@@ -111,15 +111,16 @@ TEST(Watch, ResumesBetweenTheRowsOfASweep) {
       server.create(sweep_job(server.create(paper_mesh()).name(), coefficients)).name();
   Events all;
   ASSERT_TRUE(server.watch(job, 0, all).ok());
-  std::vector<std::uint64_t> every = rows(all);
+  std::vector<std::uint64_t> every = row_numbers(all);
   const auto pieces = std::count_if(all.begin(), all.end(),
                                     [](const auto& event) { return event.has_sweep_rows(); });
   EXPECT_GT(pieces, 1);
   for (std::size_t i = 1; i < all.size(); ++i) {
     Events rest;
     ASSERT_TRUE(server.watch(job, all[i].sequence(), rest).ok());
-    std::vector<std::uint64_t> told = rows({all.begin(), all.begin() + static_cast<long>(i) + 1});
-    for (const std::uint64_t row : rows(rest)) told.push_back(row);
+    std::vector<std::uint64_t> told =
+        row_numbers({all.begin(), all.begin() + static_cast<long>(i) + 1});
+    for (const std::uint64_t row : row_numbers(rest)) told.push_back(row);
     EXPECT_EQ(told, every);
   }
   std::sort(every.begin(), every.end());
@@ -134,7 +135,7 @@ TEST(Watch, TakesUpAgainInMidIteration) {
   int last = 0;
   {
     Context context;
-    const auto reader = server.jobs->WatchJob(&context, request_for(job));
+    const auto reader = server.jobs->WatchJob(&context, watch_request(job));
     v1::WatchJobResponse event;
     while (last == 0 && reader->Read(&event)) {
       if (!event.has_samples()) continue;
@@ -145,7 +146,7 @@ TEST(Watch, TakesUpAgainInMidIteration) {
     EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::CANCELLED);
   }
   Context context;
-  const auto reader = server.jobs->WatchJob(&context, request_for(job, sequence));
+  const auto reader = server.jobs->WatchJob(&context, watch_request(job, sequence));
   v1::WatchJobResponse event;
   ASSERT_TRUE(reader->Read(&event));
   ASSERT_TRUE(event.has_snapshot());
@@ -195,7 +196,7 @@ TEST(Watch, ThatIsNotReadFallsBehindWithoutHoldingTheJob) {
   RunningServer server([](auto& settings) { settings.engine.event_log_bytes = 64 << 10; });
   const std::string job = server.create(endless_job(server.create(paper_mesh(0.05)).name())).name();
   Context context;
-  const auto reader = server.jobs->WatchJob(&context, request_for(job));
+  const auto reader = server.jobs->WatchJob(&context, watch_request(job));
   ASSERT_TRUE(eventually([&] { return server.info().metrics().iterations() > 200'000; }));
   v1::WatchJobResponse event;
   while (reader->Read(&event)) {
@@ -209,7 +210,7 @@ TEST(Watch, ThatStallsIsBrokenOff) {
       [](auto& settings) { settings.server.stall = std::chrono::milliseconds(50); });
   const std::string job = server.create(endless_job(server.create(paper_mesh(0.05)).name())).name();
   Context context;
-  const auto reader = server.jobs->WatchJob(&context, request_for(job));
+  const auto reader = server.jobs->WatchJob(&context, watch_request(job));
   ASSERT_TRUE(eventually([&] { return server.info().metrics().iterations() > 0; }));
   EXPECT_TRUE(eventually([&] { return server.info().metrics().watchers() == 0; }));
   v1::WatchJobResponse event;
@@ -229,7 +230,7 @@ TEST(Watch, BeatsWhereNothingHappens) {
   const std::string running = server.create(endless_job(mesh)).name();
   const std::string waiting = server.create(opening_job(mesh)).name();
   Context context;
-  const auto reader = server.jobs->WatchJob(&context, request_for(waiting));
+  const auto reader = server.jobs->WatchJob(&context, watch_request(waiting));
   v1::WatchJobResponse event;
   std::uint64_t last = 0;
   for (int beats = 0; beats < 3;) {
@@ -252,7 +253,7 @@ TEST(Watch, IsRefusedBeyondTheLimitAndFreesItsPlace) {
   RunningServer server([](auto& settings) { settings.server.limits.watchers = 1; });
   const std::string job = server.create(endless_job(server.create(paper_mesh()).name())).name();
   Context context;
-  const auto reader = server.jobs->WatchJob(&context, request_for(job));
+  const auto reader = server.jobs->WatchJob(&context, watch_request(job));
   v1::WatchJobResponse event;
   ASSERT_TRUE(reader->Read(&event));
   EXPECT_EQ(server.info().metrics().watchers(), 1);
@@ -277,7 +278,7 @@ TEST(Watch, ManyOnOneJobAllSeeItsEnd) {
   std::vector<std::unique_ptr<Watcher>> watchers;
   for (int i = 0; i < 50; ++i) {
     watchers.push_back(std::make_unique<Watcher>());
-    watchers.back()->reader = server.jobs->WatchJob(&watchers.back()->context, request_for(job));
+    watchers.back()->reader = server.jobs->WatchJob(&watchers.back()->context, watch_request(job));
   }
   v1::WatchJobResponse event;
   for (const auto& watcher : watchers) ASSERT_TRUE(watcher->reader->Read(&event));

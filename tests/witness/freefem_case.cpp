@@ -7,16 +7,13 @@
 #include <iomanip>
 #include <stdexcept>
 
+#include "mesh/at.hpp"
 #include "support/process.hpp"
 
 namespace anticrack::witness {
 namespace {
 
 constexpr int outer_boundary = 1, gamma_c = 2, gamma_g = 3;  // labels in algorithm2.edp
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::ofstream create(const std::filesystem::path& path) {
   std::ofstream file(path);

@@ -8,10 +8,6 @@
 namespace anticrack::benchmarks {
 namespace {
 
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 enum class Role : char { free, dirichlet, contact, tied };
 
 std::vector<Role> roles(const PlainMesh& mesh) {

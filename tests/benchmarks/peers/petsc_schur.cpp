@@ -10,10 +10,6 @@
 namespace anticrack::benchmarks {
 namespace {
 
-std::size_t at(PetscInt i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// With the last unknowns t = (u-, A) and S on them, u- = A - d: S^ d - r >= 0 as A is eliminated.
 class SchurPeer : public Peer {
  public:

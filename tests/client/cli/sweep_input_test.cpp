@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::internal::CaptureStderr;
 using ::testing::internal::GetCapturedStderr;
 
-casefile::Case two_loads() {
+casefile::Case two_load_case() {
   casefile::Case the_case;
   the_case.job.add_load_cases()->set_name("skew");
   the_case.job.add_load_cases()->set_name("opening");
@@ -48,7 +48,7 @@ std::string written(const TemporaryFolder& folder, const std::string& name,
 }
 
 /// What is said of `call`.
-std::string complaint(const std::function<void()>& call) {
+std::string complaint_of(const std::function<void()>& call) {
   try {
     call();
   } catch (const std::exception& error) {
@@ -62,17 +62,17 @@ TEST(SweepInput, ReadsTextAndDatasetsAlike) {
   const results::Result result = anticrack::testing::sample_sweep(5);
   results::write(folder / "a.h5", result);
   const SweepInput set =
-      read_sweep_input({folder / "a.h5:/sweep/coefficients", "", "none"}, two_loads());
+      read_sweep_input({folder / "a.h5:/sweep/coefficients", "", "none"}, two_load_case());
   EXPECT_EQ(set.values, result.sweep->coefficients);
   EXPECT_EQ(set.rows, 5U);
   EXPECT_EQ(set.columns, 2U);
-  const SweepInput text =
-      read_sweep_input({written(folder, "c.csv", "opening,skew\n1,2\n"), "", "all"}, two_loads());
+  const SweepInput text = read_sweep_input(
+      {written(folder, "c.csv", "opening,skew\n1,2\n"), "", "all"}, two_load_case());
   EXPECT_THAT(text.values, ElementsAre(2, 1));
   EXPECT_EQ(text.rows, 1U);
   EXPECT_EQ(text.traces, "all");
   const SweepInput nodal =
-      read_sweep_input({"", folder / "a.h5:/sweep/coefficients", "none"}, two_loads());
+      read_sweep_input({"", folder / "a.h5:/sweep/coefficients", "none"}, two_load_case());
   EXPECT_TRUE(nodal.nodal);
   EXPECT_EQ(nodal.columns, 2U);
 }
@@ -82,10 +82,10 @@ TEST(SweepInput, RefusesWhatCannotBeReadWithFileAndCure) {
   results::write(folder / "a.h5", anticrack::testing::sample_sweep(5));
   const std::string h5 = folder / "a.h5";
   const auto coefficients = [](const std::string& file) {
-    return complaint([&] { read_sweep_input({file, "", "none"}, two_loads()); });
+    return complaint_of([&] { read_sweep_input({file, "", "none"}, two_load_case()); });
   };
   const auto nodal = [](const std::string& file) {
-    return complaint([&] { read_sweep_input({"", file, "none"}, two_loads()); });
+    return complaint_of([&] { read_sweep_input({"", file, "none"}, two_load_case()); });
   };
   EXPECT_THAT(coefficients(h5), HasSubstr("\"coefficients\" is missing, there is"));
   EXPECT_THAT(coefficients(h5 + ":/sweep/x"), HasSubstr("\"x\" is missing, there is coefficients"));
@@ -100,10 +100,10 @@ TEST(SweepInput, RefusesWhatCannotBeReadWithFileAndCure) {
 }
 
 TEST(SweepInput, IsOfTheActiveSetOnly) {
-  casefile::Case the_case = two_loads();
+  casefile::Case the_case = two_load_case();
   the_case.job.mutable_solver()->mutable_uzawa();
   the_case.spots["solver.method"] = {"solver.method", "plate.toml", 7};
-  EXPECT_THAT(complaint([&] {
+  EXPECT_THAT(complaint_of([&] {
                 read_sweep_input({"c.csv", "", "none"}, the_case);
               }),
               HasSubstr("plate.toml:7: solver.method: a sweep is solved by the active set"));
@@ -120,7 +120,7 @@ SweepInput rows_of_two(std::size_t rows) {
 }
 
 TEST(MakeSweep, LeavesAJobWithoutFieldsAndWithTheRowsToKeep) {
-  casefile::Case the_case = two_loads();
+  casefile::Case the_case = two_load_case();
   SweepInput input = rows_of_two(10);
   input.traces = "7,1-2";
   make_sweep(input, limits(), the_case);
@@ -133,7 +133,7 @@ TEST(MakeSweep, LeavesAJobWithoutFieldsAndWithTheRowsToKeep) {
 }
 
 TEST(MakeSweep, OfNodalForcesHasNoLoads) {
-  casefile::Case the_case = two_loads();
+  casefile::Case the_case = two_load_case();
   the_case.force_files.push_back({0, "f.h5", "/f", false});
   SweepInput input = rows_of_two(10);
   input.nodal = true;
@@ -148,8 +148,8 @@ TEST(MakeSweep, ChecksTheLimitsOfTheServer) {
                           const std::function<void(v1::ServerLimits&)>& set) {
     v1::ServerLimits allowed = limits();
     set(allowed);
-    casefile::Case the_case = two_loads();
-    return complaint([&] { make_sweep(input, allowed, the_case); });
+    casefile::Case the_case = two_load_case();
+    return complaint_of([&] { make_sweep(input, allowed, the_case); });
   };
   const SweepInput input = rows_of_two(10);
   EXPECT_EQ(refused(input, [](v1::ServerLimits&) {}), "accepted");
@@ -177,8 +177,8 @@ TEST(MakeSweep, ChecksTheLimitsOfTheServer) {
 }
 
 TEST(CheckNodes, WantsAColumnForEachNode) {
-  EXPECT_EQ(complaint([] { check_nodes(rows_of_two(1), 2); }), "accepted");
-  EXPECT_THAT(complaint([] { check_nodes(rows_of_two(1), 3); }),
+  EXPECT_EQ(complaint_of([] { check_nodes(rows_of_two(1), 2); }), "accepted");
+  EXPECT_THAT(complaint_of([] { check_nodes(rows_of_two(1), 3); }),
               HasSubstr("c.csv: it has 2 columns, the mesh 3 nodes; write f on every node"));
 }
 

@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-std::string bytes_of(const std::filesystem::path& path) {
+std::string file_bytes(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -110,7 +110,7 @@ TEST(MeshFigure, is_drawn_with_its_legend_and_the_finest_tip) {
   EXPECT_THAT(drawn.files,
               ElementsAre(folder / "new/meshes_0123.png", folder / "new/meshes_0123.svg"));
   EXPECT_GT(std::filesystem::file_size(drawn.files[0]), 20000u);
-  const std::string svg = bytes_of(drawn.files[1]);
+  const std::string svg = file_bytes(drawn.files[1]);
   for (const char* text :
        {"A made-up mesh", "1681 nodes", "around the tip (0.5, 0)", "sigma +", "slit +", "upper",
         "glue", "traction given", "bonded inclusion", ">fibre<", "x [-]", "y [-]"}) {

@@ -14,17 +14,17 @@
 namespace anticrack::client {
 namespace {
 
-const std::string bytes = sample_bytes(1000);
+const std::string sent = sample_bytes(1000);
 
 v1::ReadResultResponse layout_message() {
   v1::ReadResultResponse message;
-  *message.mutable_layout() = sample_layout(bytes);
+  *message.mutable_layout() = sample_layout(sent);
   return message;
 }
 
 v1::ReadResultResponse chunk_message(std::size_t offset, std::size_t size) {
   v1::ReadResultResponse message;
-  *message.mutable_chunk() = sample_chunk(bytes, offset, size);
+  *message.mutable_chunk() = sample_chunk(sent, offset, size);
   return message;
 }
 
@@ -43,8 +43,8 @@ std::vector<std::uint64_t> offsets(const ScriptedServer& server) {
 }
 
 void expect_whole(const Block& block) {
-  ASSERT_EQ(block.bytes.size(), bytes.size());
-  EXPECT_EQ(std::memcmp(block.bytes.data(), bytes.data(), bytes.size()), 0);
+  ASSERT_EQ(block.bytes.size(), sent.size());
+  EXPECT_EQ(std::memcmp(block.bytes.data(), sent.data(), sent.size()), 0);
 }
 
 TEST(ReadResult, GoesOnWhereItWasInterrupted) {
