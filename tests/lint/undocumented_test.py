@@ -1,24 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which functions the check of `deploy/test --lint` finds without a comment."""
-import importlib.machinery
-import importlib.util
-import pathlib
 import re
 import unittest
 
+from checks import load
 from processes import FolderTest
 
-HERE = pathlib.Path(__file__).resolve().parent
-
-
-def load(path):
-    loader = importlib.machinery.SourceFileLoader("undocumented", str(path))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("undocumented", loader))
-    loader.exec_module(module)
-    return module
-
-
-undocumented = load(HERE / "undocumented")
+undocumented = load("undocumented")
 
 # What is to be found has BAD in its name, and nothing else.
 HEADER = """\
