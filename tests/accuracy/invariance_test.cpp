@@ -19,10 +19,8 @@
 namespace anticrack::accuracy {
 namespace {
 
-constexpr double h0 = 0.1, m = 0.2;
-
 mesh::Mesh graded_like_default(const mesh::Mesh& base) {
-  return mesh::grade(base, {h0, m, 0}, 200'000);
+  return mesh::grade(base, {0.1, 0.2, 0}, 200'000);  // h0, m
 }
 
 /// f(-x, y) or f(x, -y).
@@ -75,7 +73,7 @@ TEST_P(Example, IsTheSameOnOtherBaseMeshes) {
   look("diagonals", graded_like_default(diagonals()));
   look("rectangles", graded_like_default(rectangles()));
   look("shaken", graded_like_default(shaken(7)));
-  look("generated", generated(h0));
+  look("generated", generated(0.1));
   EXPECT_LT(highest - lowest, 3e-3 * scale);
 }
 

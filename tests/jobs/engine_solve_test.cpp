@@ -179,7 +179,7 @@ TEST(EngineFailure, OfOneLoadCaseLeavesTheOthers) {
 }
 
 /// The bytes of the values as an upload; its name.
-std::string upload(store::Store& store, const std::vector<double>& values) {
+std::string upload_array(store::Store& store, const std::vector<double>& values) {
   const std::string part = store.new_upload_path(values.size() * sizeof(double));
   std::ofstream(part, std::ios::binary)
       .write(reinterpret_cast<const char*>(values.data()),
@@ -212,12 +212,12 @@ TEST(EngineSolve, TakesForcesFromUploadedArrays) {
   const std::uint64_t triangles = test.backend.catalogue.get(mesh).triangle_count;
   const std::uint64_t nodes = test.backend.catalogue.get(mesh).node_count;
   store::Store& store = *test.backend.store;
-  const std::string ones = upload(store, std::vector<double>(triangles, 1.0));
+  const std::string ones = upload_array(store, std::vector<double>(triangles, 1.0));
   store::JobSpec spec = short_job(mesh);
   spec.loads = {{"constant", 1.0},
                 {"triangles", fem::Array{ones, true}},
                 {"again", fem::Array{ones, true}},
-                {"nodes", fem::Array{upload(store, std::vector<double>(nodes, 1.0)), false}},
+                {"nodes", fem::Array{upload_array(store, std::vector<double>(nodes, 1.0)), false}},
                 {"not of this mesh", fem::Array{ones, false}}};
   const JobRecord record = test.ended(test.submit(spec));
   for (std::size_t i = 0; i < 4; ++i) {

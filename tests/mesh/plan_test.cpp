@@ -7,6 +7,7 @@
 #include "mesh/geometry.hpp"
 #include "mesh/geometry_intervals.hpp"
 #include "mesh/plan_checks.hpp"
+#include "mesh/plans.hpp"
 #include "support/errors.hpp"
 #include "support/paper_geometry.hpp"
 
@@ -21,14 +22,14 @@ using mesh::PlannedCurve;
 using mesh::Point;
 using mesh::Role;
 using testing::curve;
+using testing::enough;
 using testing::expect_consistent;
 using testing::face_area;
 using testing::length;
 using testing::paper_geometry;
 using testing::paper_options;
 using testing::point;
-
-constexpr std::size_t enough = 4'000'000;
+using testing::uniform;
 
 /// Intervals of the curves of a role, on the boundary of a face where one is named.
 int intervals(const Plan& plan, Role role, int face = -1) {
@@ -43,13 +44,6 @@ std::vector<PlannedCurve> chain(const Plan& plan, std::size_t i = 0) {
   std::vector<PlannedCurve> curves;
   for (const int c : plan.interfaces.at(i).curves) curves.push_back(curve(plan, c));
   return curves;
-}
-
-MeshOptions uniform(double size) {
-  MeshOptions options;
-  options.preset = mesh::Preset::uniform;
-  options.size = size;
-  return options;
 }
 
 TEST(Plan, PaperPresetHas80IntervalsOnEachPart) {

@@ -9,10 +9,10 @@
 namespace anticrack::casefile {
 namespace {
 
-using testing::AllOf;
-using testing::EndsWith;
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 struct Mistake {
   const char* what;
@@ -21,7 +21,7 @@ struct Mistake {
   const char* complaint;  ///< the whole message
 };
 
-class Mistakes : public testing::TestWithParam<Mistake> {};
+class Mistakes : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(Mistakes, NameLineKeyValueAndCure) {
   const Mistake& mistake = GetParam();
@@ -260,14 +260,14 @@ const Mistake load_mistakes[] = {
          "number for each of them"),
 };
 
-std::string name_of(const testing::TestParamInfo<Mistake>& mistake) {
+std::string name_of(const ::testing::TestParamInfo<Mistake>& mistake) {
   return mistake.param.what;
 }
 
-INSTANTIATE_TEST_SUITE_P(Case, Mistakes, testing::ValuesIn(mistakes), name_of);
-INSTANTIATE_TEST_SUITE_P(Geometry, Mistakes, testing::ValuesIn(geometry_mistakes), name_of);
-INSTANTIATE_TEST_SUITE_P(Mesh, Mistakes, testing::ValuesIn(mesh_mistakes), name_of);
-INSTANTIATE_TEST_SUITE_P(Load, Mistakes, testing::ValuesIn(load_mistakes), name_of);
+INSTANTIATE_TEST_SUITE_P(Case, Mistakes, ::testing::ValuesIn(mistakes), name_of);
+INSTANTIATE_TEST_SUITE_P(Geometry, Mistakes, ::testing::ValuesIn(geometry_mistakes), name_of);
+INSTANTIATE_TEST_SUITE_P(Mesh, Mistakes, ::testing::ValuesIn(mesh_mistakes), name_of);
+INSTANTIATE_TEST_SUITE_P(Load, Mistakes, ::testing::ValuesIn(load_mistakes), name_of);
 
 TEST(CaseErrors, SyntaxNamesTheLine) {
   EXPECT_THAT(complaint("title = \"A\"\n[geometry\n"),

@@ -14,38 +14,39 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::vector<double> parse(const std::string& text,
-                          const std::vector<std::string>& loads = {"skew", "opening"}) {
+std::vector<double> parse_rows(const std::string& text,
+                               const std::vector<std::string>& loads = {"skew", "opening"}) {
   std::istringstream stream(text);
   return parse_coefficients(stream, "c.csv", loads);
 }
 
 TEST(Coefficients, AreInTheOrderOfTheLoadsWithoutAHeader) {
-  EXPECT_THAT(parse("1,2\n3,4\n"), ElementsAre(1, 2, 3, 4));
-  EXPECT_THAT(parse("1,2\n3,4"), ElementsAre(1, 2, 3, 4)) << "no line end at the end";
+  EXPECT_THAT(parse_rows("1,2\n3,4\n"), ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(parse_rows("1,2\n3,4"), ElementsAre(1, 2, 3, 4)) << "no line end at the end";
 }
 
 TEST(Coefficients, FollowTheirHeader) {
-  EXPECT_THAT(parse("opening,skew\n1,2\n"), ElementsAre(2, 1));
-  EXPECT_THAT(parse("\"opening\" , \"skew\"\r\n1 , \"2\"\r\n"), ElementsAre(2, 1));
+  EXPECT_THAT(parse_rows("opening,skew\n1,2\n"), ElementsAre(2, 1));
+  EXPECT_THAT(parse_rows("\"opening\" , \"skew\"\r\n1 , \"2\"\r\n"), ElementsAre(2, 1));
 }
 
 TEST(Coefficients, OfLoadsThatAreCalledLikeNumbersHaveAHeaderToo) {
-  EXPECT_THAT(parse("90,0\n1,2\n", {"0", "90"}), ElementsAre(2, 1));
-  EXPECT_THAT(parse("1,2\n", {"0", "90"}), ElementsAre(1, 2));
+  EXPECT_THAT(parse_rows("90,0\n1,2\n", {"0", "90"}), ElementsAre(2, 1));
+  EXPECT_THAT(parse_rows("1,2\n", {"0", "90"}), ElementsAre(1, 2));
 }
 
 TEST(Coefficients, TakeNumbersAsPeopleAndProgramsWriteThem) {
-  EXPECT_THAT(parse("+1,-2e-3\n.5,1E3\n\t0 , 1e-400\n"), ElementsAre(1, -2e-3, 0.5, 1000, 0, 0));
+  EXPECT_THAT(parse_rows("+1,-2e-3\n.5,1E3\n\t0 , 1e-400\n"),
+              ElementsAre(1, -2e-3, 0.5, 1000, 0, 0));
 }
 
 TEST(Coefficients, PassOverBlankLinesCommentsAndAByteOrderMark) {
-  EXPECT_THAT(parse("\xEF\xBB\xBF# made by a script\n\nskew,opening\n  \n1,2\n# the end\n"),
+  EXPECT_THAT(parse_rows("\xEF\xBB\xBF# made by a script\n\nskew,opening\n  \n1,2\n# the end\n"),
               ElementsAre(1, 2));
 }
 
 TEST(Coefficients, MayBeOfOneLoad) {
-  EXPECT_THAT(parse("opening\n1\n2\n", {"opening"}), ElementsAre(1, 2));
+  EXPECT_THAT(parse_rows("opening\n1\n2\n", {"opening"}), ElementsAre(1, 2));
 }
 
 struct Bad {
@@ -79,7 +80,7 @@ TEST(Coefficients, RefuseWhatIsNoMatrixWithLineColumnValueAndCure) {
   };
   for (const Bad& bad : table) {
     try {
-      parse(bad.text);
+      parse_rows(bad.text);
       ADD_FAILURE() << "accepted " << bad.text;
     } catch (const Error& error) {
       for (const std::string& part : bad.complaint) {

@@ -7,7 +7,7 @@
 namespace anticrack::casefile {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 TEST(Overrides, ReplaceAndAddKeys) {
   const Case the_case =

@@ -53,10 +53,10 @@ TEST(AnswersTable, OfTheActiveSetHasTheLargestKktResidual) {
   results::Result result = two_loads();
   result.loads[0].theta = result.loads[0].theta_star = results::unknown;
   result.loads[0].kkt_relative = {1e-15, 0, 3e-14, 2e-16};
-  EXPECT_THAT(answers_table(result), testing::HasSubstr("iterations       KKT         A"));
-  EXPECT_THAT(answers_table(result), testing::HasSubstr("346  3.00e-14  0.086569"));
+  EXPECT_THAT(answers_table(result), ::testing::HasSubstr("iterations       KKT         A"));
+  EXPECT_THAT(answers_table(result), ::testing::HasSubstr("346  3.00e-14  0.086569"));
   result.loads[0].kkt_relative.gap = results::unknown;
-  EXPECT_THAT(answers_table(result), testing::HasSubstr("346    -  0.086569"));
+  EXPECT_THAT(answers_table(result), ::testing::HasSubstr("346    -  0.086569"));
 }
 
 TEST(AnswersTable, SaysWhatJustTouchesAndWarns) {
@@ -64,17 +64,17 @@ TEST(AnswersTable, SaysWhatJustTouchesAndWarns) {
   result.loads[0].weakly_active = 1;
   result.loads[0].warnings = {"f is rough"};
   EXPECT_THAT(answers_table(result),
-              testing::HasSubstr("opening: 1 node just touches: neither jump nor pressure\n"
-                                 "opening: warning: f is rough\n"));
+              ::testing::HasSubstr("opening: 1 node just touches: neither jump nor pressure\n"
+                                   "opening: warning: f is rough\n"));
 }
 
 TEST(AnswersTable, NamesInclusionsWhereThereAreSeveral) {
   results::Result result = two_loads();
   result.loads[0].inclusions.push_back({"rod", -0.5, 0, 0});
   const std::string text = answers_table(result);
-  EXPECT_THAT(text, testing::HasSubstr("A fibre"));
-  EXPECT_THAT(text, testing::HasSubstr("A rod"));
-  EXPECT_THAT(text, testing::HasSubstr("-0.5"));
+  EXPECT_THAT(text, ::testing::HasSubstr("A fibre"));
+  EXPECT_THAT(text, ::testing::HasSubstr("A rod"));
+  EXPECT_THAT(text, ::testing::HasSubstr("-0.5"));
 }
 
 TEST(AnswersJson, IsOneDocumentWithEveryLoad) {

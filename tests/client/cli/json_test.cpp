@@ -65,8 +65,8 @@ TEST(ToJson, ShowsTheDetailsOfErrors) {
   unknown.set_type_url("type.googleapis.com/google.rpc.FromTheFuture");
   unknown.set_value(info.SerializeAsString());
   const std::string text = to_json(job);
-  EXPECT_THAT(text, testing::HasSubstr("\"reason\": \"EXPRESSION_INVALID\""));
-  EXPECT_THAT(text, testing::HasSubstr("google.rpc.FromTheFuture"));
+  EXPECT_THAT(text, ::testing::HasSubstr("\"reason\": \"EXPRESSION_INVALID\""));
+  EXPECT_THAT(text, ::testing::HasSubstr("google.rpc.FromTheFuture"));
 }
 
 TEST(ToJson, KeepsTheProtosFieldNamesAndZeros) {
@@ -75,9 +75,9 @@ TEST(ToJson, KeepsTheProtosFieldNamesAndZeros) {
   job.set_state(v1::Job::STATE_RUNNING);
   job.add_load_cases()->set_name("one");
   const std::string text = to_json(job);
-  EXPECT_THAT(text, testing::HasSubstr("\"load_cases\""));
-  EXPECT_THAT(text, testing::HasSubstr("\"result_bytes\": \"0\""));
-  EXPECT_THAT(text, testing::HasSubstr("\"STATE_RUNNING\""));
+  EXPECT_THAT(text, ::testing::HasSubstr("\"load_cases\""));
+  EXPECT_THAT(text, ::testing::HasSubstr("\"result_bytes\": \"0\""));
+  EXPECT_THAT(text, ::testing::HasSubstr("\"STATE_RUNNING\""));
   v1::Job back;
   ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(text, &back).ok());
   EXPECT_EQ(back.SerializeAsString(), job.SerializeAsString());

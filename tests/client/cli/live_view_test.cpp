@@ -10,9 +10,9 @@
 namespace anticrack::cli {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 JobProgress three_cases() {
   JobProgress progress;

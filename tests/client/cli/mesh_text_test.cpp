@@ -10,7 +10,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-v1::Mesh sample() {
+v1::Mesh sample_mesh() {
   v1::Mesh mesh;
   mesh.set_name("meshes/1");
   mesh.set_title("A plate\x1b");
@@ -54,7 +54,7 @@ v1::Mesh sample() {
 }
 
 TEST(MeshText, TabulatesWhatTheServerUnderstood) {
-  EXPECT_EQ(mesh_text(sample()),
+  EXPECT_EQ(mesh_text(sample_mesh()),
             "meshes/1: ready\n"
             "A plate?\n"
             "4 triangles, 5 nodes, meshed in 0 s; smallest angle 31.2 degrees (no grading can go "
@@ -78,7 +78,7 @@ TEST(MeshText, TabulatesWhatTheServerUnderstood) {
 }
 
 TEST(MeshText, OfAMeshThatFailedSaysWhy) {
-  v1::Mesh mesh = sample();
+  v1::Mesh mesh = sample_mesh();
   mesh.set_triangle_count(0);
   mesh.set_state(v1::Mesh::STATE_FAILED);
   mesh.mutable_error()->set_message("no triangles");
@@ -90,7 +90,7 @@ TEST(MeshText, OfAMeshThatFailedSaysWhy) {
 }
 
 TEST(MeshText, OfAMembraneWithoutInterfaces) {
-  v1::Mesh mesh = sample();
+  v1::Mesh mesh = sample_mesh();
   mesh.clear_interfaces();
   mesh.clear_tips();
   EXPECT_THAT(mesh_text(mesh), HasSubstr("no interfaces"));

@@ -215,7 +215,7 @@ TEST(ToResult, RefusesContactOnAnUnknownInterface) {
     to_result(odd);
     FAIL();
   } catch (const results::Error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("tau"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("tau"));
   }
 }
 

@@ -27,7 +27,7 @@ std::string file_bytes(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-double length(const std::vector<Stretch>& stretches) {
+double length_of(const std::vector<Stretch>& stretches) {
   double sum = 0;
   for (const Stretch& stretch : stretches) {
     for (std::size_t i = 1; i < stretch.size(); ++i) {
@@ -42,12 +42,12 @@ TEST(MeshLayers, sort_everything_by_what_it_is) {
   const MeshLayers seen = layers(plan, whole(plan.mesh));
   EXPECT_EQ(seen.triangle_count, 800u);
   EXPECT_EQ(seen.triangles[0].size(), 400u);
-  EXPECT_NEAR(length(seen.interfaces[1]), 0.9, 1e-12);  // glue
-  EXPECT_NEAR(length(seen.interfaces[2]), 0.8, 1e-12);  // crack: of both interfaces
-  EXPECT_NEAR(length(seen.interfaces[3]), 0.4, 1e-12);  // bonded
-  EXPECT_NEAR(length(seen.interfaces[4]), 0.4, 1e-12);  // delaminated
-  EXPECT_NEAR(length(seen.dirichlet), 6, 1e-12);
-  EXPECT_NEAR(length(seen.neumann), 2, 1e-12);
+  EXPECT_NEAR(length_of(seen.interfaces[1]), 0.9, 1e-12);  // glue
+  EXPECT_NEAR(length_of(seen.interfaces[2]), 0.8, 1e-12);  // crack: of both interfaces
+  EXPECT_NEAR(length_of(seen.interfaces[3]), 0.4, 1e-12);  // bonded
+  EXPECT_NEAR(length_of(seen.interfaces[4]), 0.4, 1e-12);  // delaminated
+  EXPECT_NEAR(length_of(seen.dirichlet), 6, 1e-12);
+  EXPECT_NEAR(length_of(seen.neumann), 2, 1e-12);
   EXPECT_EQ(seen.tips.size(), 6u);
 }
 

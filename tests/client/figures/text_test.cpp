@@ -10,7 +10,7 @@
 namespace anticrack::figures {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 TEST(Quoted, keeps_plain_text) {
   EXPECT_EQ(quoted("Example 3 of Rudoy & Shcherbakov (2016)"),

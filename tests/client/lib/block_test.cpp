@@ -53,7 +53,7 @@ TEST(BlockReceiver, RefusesAWrongChecksum) {
   receiver.accept(sample_layout(bytes));
   v1::BlockChunk chunk = sample_chunk(bytes, 0, 50);
   (*chunk.mutable_data())[7] ^= 1;
-  EXPECT_THAT(damage([&] { receiver.accept(chunk); }), testing::HasSubstr("checksum"));
+  EXPECT_THAT(damage([&] { receiver.accept(chunk); }), ::testing::HasSubstr("checksum"));
   EXPECT_EQ(receiver.offset(), 0U) << "nothing of it is kept";
 }
 
@@ -69,14 +69,14 @@ TEST(BlockReceiver, RefusesMoreThanAnnounced) {
   BlockReceiver receiver;
   receiver.accept(sample_layout(bytes.substr(0, 40)));
   EXPECT_THAT(damage([&] { receiver.accept(sample_chunk(bytes, 0, 41)); }),
-              testing::HasSubstr("40 bytes"));
+              ::testing::HasSubstr("40 bytes"));
 }
 
 TEST(BlockReceiver, RefusesAnotherLayout) {
   BlockReceiver receiver;
   receiver.accept(sample_layout(bytes));
   EXPECT_THAT(damage([&] { receiver.accept(sample_layout(sample_bytes(88))); }),
-              testing::HasSubstr("changed"));
+              ::testing::HasSubstr("changed"));
 }
 
 TEST(BlockReceiver, RefusesAChunkBeforeTheLayout) {
@@ -90,7 +90,7 @@ TEST(BlockReceiver, ChecksTheWholeHash) {
   layout.set_sha256(std::string(64, '0'));
   receiver.accept(layout);
   receiver.accept(sample_chunk(bytes, 0, 80));
-  EXPECT_THAT(damage([&] { receiver.finish(); }), testing::HasSubstr("sha256"));
+  EXPECT_THAT(damage([&] { receiver.finish(); }), ::testing::HasSubstr("sha256"));
 }
 
 TEST(BlockReceiver, DoesNotBelieveAnAnnouncedSize) {

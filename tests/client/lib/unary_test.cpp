@@ -58,7 +58,7 @@ TEST(Connection, TellsThatItTriesAgain) {
   Connection connection(options);
   create_job(connection, {}, make_uuid());
   ASSERT_EQ(notices.size(), 1U);
-  EXPECT_THAT(notices[0], testing::HasSubstr(options.address));
+  EXPECT_THAT(notices[0], ::testing::HasSubstr(options.address));
 }
 
 TEST(Connection, ToNobodyFailsWithTheAddressAndTheCure) {
@@ -71,8 +71,8 @@ TEST(Connection, ToNobodyFailsWithTheAddressAndTheCure) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), Code::unavailable);
-    EXPECT_THAT(error.what(), testing::HasSubstr("/nonexistent/socket"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("--local"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("/nonexistent/socket"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("--local"));
   }
 }
 

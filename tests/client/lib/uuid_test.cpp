@@ -10,8 +10,8 @@ namespace anticrack::client {
 namespace {
 
 TEST(Uuid, IsVersionFour) {
-  EXPECT_THAT(make_uuid(), testing::MatchesRegex("[0-9a-f]{8}-[0-9a-f]{4}-4[0-9a-f]{3}-"
-                                                 "[89ab][0-9a-f]{3}-[0-9a-f]{12}"));
+  EXPECT_THAT(make_uuid(), ::testing::MatchesRegex("[0-9a-f]{8}-[0-9a-f]{4}-4[0-9a-f]{3}-"
+                                                   "[89ab][0-9a-f]{3}-[0-9a-f]{12}"));
 }
 
 TEST(Uuid, IsNewEveryTime) {

@@ -10,7 +10,7 @@
 namespace anticrack::client {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 /// Sequence numbers of the numbered events that reached the caller.
 struct Seen {
@@ -45,7 +45,7 @@ TEST(Watch, PassesOnEveryEventAndReturnsTheEndedJob) {
   EXPECT_EQ(seen.snapshots, 1);
 }
 
-class LostConnections : public testing::TestWithParam<Ending> {};
+class LostConnections : public ::testing::TestWithParam<Ending> {};
 
 TEST_P(LostConnections, AreResumedBehindTheLastEvent) {
   ScriptedServer server;
@@ -59,12 +59,13 @@ TEST_P(LostConnections, AreResumedBehindTheLastEvent) {
   EXPECT_THAT(asked_after(server), ElementsAre(0, 2, 2));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Watch, LostConnections,
-    testing::Values(Ending{Code::unavailable, "draining"}, Ending{Code::unknown, "Stream removed"},
-                    Ending{Code::internal, "Received RST_STREAM with error code 2"},
-                    Ending{Code::ok, ""}),
-    [](const auto& ending) { return std::string(name(ending.param.code)); });
+INSTANTIATE_TEST_SUITE_P(Watch, LostConnections,
+                         ::testing::Values(Ending{Code::unavailable, "draining"},
+                                           Ending{Code::unknown, "Stream removed"},
+                                           Ending{Code::internal,
+                                                  "Received RST_STREAM with error code 2"},
+                                           Ending{Code::ok, ""}),
+                         [](const auto& ending) { return std::string(name(ending.param.code)); });
 
 TEST(Watch, SkipsEventsItHasSeen) {
   ScriptedServer server;
@@ -88,7 +89,7 @@ TEST(Watch, StartsOverWhereTheServerKeepsTheEventNoLonger) {
   watch_job(connection, "jobs/1", 5, std::ref(seen));
   EXPECT_THAT(asked_after(server), ElementsAre(5, 0));
   EXPECT_THAT(seen.numbers, ElementsAre(9, 10));
-  EXPECT_THAT(notices, ElementsAre(testing::HasSubstr("starting again from the earliest")));
+  EXPECT_THAT(notices, ElementsAre(::testing::HasSubstr("starting again from the earliest")));
   EXPECT_EQ(seen.snapshots, 1);
 }
 
