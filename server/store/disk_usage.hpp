@@ -10,6 +10,7 @@
 namespace anticrack::store {
 
 enum class FileKind { mesh, result, upload };
+constexpr std::array file_kinds{FileKind::mesh, FileKind::result, FileKind::upload};
 
 /// Thread-safe; the lock is held for additions only.
 class DiskUsage {
@@ -47,7 +48,7 @@ class DiskUsage {
  private:
   const std::uint64_t _budget;
   mutable std::mutex _mutex;
-  std::array<std::uint64_t, 3> _bytes{};
+  std::array<std::uint64_t, file_kinds.size()> _bytes{};
   std::uint64_t _reserved = 0;
 };
 

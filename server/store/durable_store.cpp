@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "store/identity.hpp"
+#include "store/references.hpp"
 #include "store/schema.hpp"
 
 namespace anticrack::store {
@@ -19,11 +21,8 @@ std::string made(const std::string& folder) {
   return folder;
 }
 
-std::string database_path(const std::string& folder) {
-  return folder + "/anticrack.db";
-}
-
 Connection open_writer(const std::string& folder) {
+  require_database(folder);
   Connection connection(database_path(folder));
   {
     Statement mode = connection.prepare("PRAGMA journal_mode = WAL");
@@ -37,12 +36,14 @@ Connection open_writer(const std::string& folder) {
       "PRAGMA synchronous = FULL; PRAGMA temp_store = MEMORY; "
       "PRAGMA journal_size_limit = 67108864");
   require_sound(connection);
+  require_own(connection, folder);
   migrate(connection, schema_steps());
   {
     // What can only be read shows now: SQLite would take it for as long as the connection lives.
     const Transaction probe(connection);
   }
   flush(folder);
+  keep_identity(connection, folder);
   return connection;
 }
 
@@ -50,22 +51,6 @@ Connection open_reader(const std::string& folder) {
   Connection connection(database_path(folder));
   connection.execute("PRAGMA query_only = ON; PRAGMA temp_store = MEMORY");
   return connection;
-}
-
-bool is_referenced(Connection& connection, FileKind kind, const std::string& sha256) {
-  const char* sql = "";
-  switch (kind) {
-    case FileKind::mesh:
-      sql = "SELECT 1 FROM meshes WHERE sha256 = ? AND sha256 <> '' LIMIT 1";
-      break;
-    case FileKind::result:
-      sql = "SELECT 1 FROM jobs WHERE result = ? AND result <> '' LIMIT 1";
-      break;
-    case FileKind::upload:
-      sql = "SELECT 1 FROM uploads WHERE sha256 = ? LIMIT 1";
-      break;
-  }
-  return connection.prepare(sql).bind(std::string_view(sha256)).step();
 }
 
 }  // namespace
@@ -77,13 +62,13 @@ Error unknown(const std::string& collection, const std::string& id) {
 DurableStore::DurableStore(const StoreOptions& options)
     : _folder(made(options.folder)),
       _usage(options.disk_budget),
-      _meshes(_folder + "/meshes", FileKind::mesh, _usage),
-      _results(_folder + "/results", FileKind::result, _usage),
-      _uploads(_folder + "/uploads", FileKind::upload, _usage),
+      _meshes(_folder, FileKind::mesh, _usage),
+      _results(_folder, FileKind::result, _usage),
+      _uploads(_folder, FileKind::upload, _usage),
       _writer(open_writer(_folder),
               [this](Connection& connection) { remove_unreferenced(connection); }),
       _reader(open_reader(_folder)) {
-  for (const FileKind kind : {FileKind::mesh, FileKind::result, FileKind::upload}) {
+  for (const FileKind kind : file_kinds) {
     files(kind).sweep(
         [&](const std::string& sha256) { return is_referenced(_reader, kind, sha256); });
   }

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <string_view>
@@ -53,6 +54,30 @@ bool is_sha256(const std::string& text) noexcept {
   return text.size() == 64 && std::all_of(text.begin(), text.end(), [](char c) {
            return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
          });
+}
+
+std::string database_path(const std::string& data) {
+  return data + "/anticrack.db";
+}
+
+std::string folder_of(const std::string& data, FileKind kind) {
+  constexpr std::array names{"/meshes", "/results", "/uploads"};
+  return data + names[static_cast<std::size_t>(kind)];
+}
+
+std::vector<std::string> file_names(const std::string& folder) {
+  std::error_code code;
+  std::vector<std::string> names;
+  for (fs::directory_iterator entry(folder, code), end; !code && entry != end;
+       entry.increment(code)) {
+    if (std::string name = entry->path().filename().string(); is_sha256(name)) {
+      names.push_back(std::move(name));
+    }
+  }
+  if (code && code != std::errc::no_such_file_or_directory) {
+    throw disk_error("list " + folder, code.value());
+  }
+  return names;
 }
 
 void make_folder(const std::string& path) {
@@ -136,14 +161,31 @@ std::optional<std::vector<std::byte>> read_file(const std::string& path) {
   return bytes;
 }
 
+void replace_file(const std::string& path, std::span<const std::byte> bytes) {
+  const std::string made = path + ".new";
+  {
+    const Descriptor file(
+        ::open(made.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, S_IRUSR | S_IWUSR));
+    if (!file) {
+      throw disk_error("make " + made, errno);
+    }
+    write_all(file, made, bytes);
+    flush(file, made);
+  }
+  if (::rename(made.c_str(), path.c_str()) != 0) {
+    throw disk_error("rename " + made, errno);
+  }
+  flush(fs::path(path).parent_path().string());
+}
+
 Part::~Part() {
   if (!_path.empty()) {
     ::unlink(_path.c_str());  // else the next start does it
   }
 }
 
-Files::Files(std::string folder, FileKind kind, DiskUsage& usage)
-    : _folder(std::move(folder)), _kind(kind), _usage(usage) {
+Files::Files(const std::string& data, FileKind kind, DiskUsage& usage)
+    : _folder(folder_of(data, kind)), _kind(kind), _usage(usage) {
   make_folder(_folder);
 }
 

@@ -18,6 +18,13 @@ namespace anticrack::store {
 /// A hash becomes part of a path: nothing but its own 64 lower-case digits may pass.
 bool is_sha256(const std::string& text) noexcept;
 
+/// Of a data folder: its database, and the folder of its files of a kind.
+std::string database_path(const std::string& data);
+std::string folder_of(const std::string& data, FileKind kind);
+/// The files in a folder that have a sha256 for a name; none where there is no folder. Throws as
+/// disk_error does.
+std::vector<std::string> file_names(const std::string& folder);
+
 /// Makes the folder, for its owner alone, where it is missing. Throws errors::Error (storage).
 void make_folder(const std::string& path);
 /// Flushes a file, or the names in a folder, to the disk. Throws as disk_error does.
@@ -48,6 +55,8 @@ void read_at(const Descriptor& file, const std::string& path, std::uint64_t offs
              std::span<std::byte> bytes);
 /// The whole file; none where there is no such file.
 std::optional<std::vector<std::byte>> read_file(const std::string& path);
+/// Makes the file or gives it other bytes, on the disk: all or nothing. Throws as disk_error does.
+void replace_file(const std::string& path, std::span<const std::byte> bytes);
 
 /// A file under a temporary name, removed at the end of the scope unless it has got its own.
 class Part {
@@ -70,7 +79,7 @@ class Files {
   using Pieces = std::vector<std::span<const std::byte>>;
 
   /// What is added and removed is counted in `usage`, as of `kind`.
-  Files(std::string folder, FileKind kind, DiskUsage& usage);
+  Files(const std::string& data, FileKind kind, DiskUsage& usage);
 
   /// Where the file of a name lies, whether it is there or not.
   std::string path(const std::string& sha256) const { return _folder + "/" + sha256; }

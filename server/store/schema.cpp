@@ -64,7 +64,13 @@ CREATE INDEX job_uploads_upload ON job_uploads (upload);
 /// A result too small for a file of its own, as it would be in one.
 constexpr const char* second = "ALTER TABLE jobs ADD COLUMN small_result BLOB";
 
-constexpr std::array steps{first, second};
+/// What says that this database and the files beside it are of one store (identity.hpp).
+constexpr const char* third = R"(
+CREATE TABLE store (identity TEXT NOT NULL) STRICT;
+INSERT INTO store VALUES (lower(hex(randomblob(16))));
+)";
+
+constexpr std::array steps{first, second, third};
 
 std::string copy_path(const Connection& connection, std::size_t version) {
   return connection.path() + ".before-" + std::to_string(version);

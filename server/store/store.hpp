@@ -4,6 +4,7 @@
 // files beside it.
 //
 //   DATA/anticrack.db (+ -wal, -shm)   records, small results; user_version is the schema's version
+//   DATA/identity                      that of the database (identity.hpp)
 //   DATA/meshes/SHA256                 mesh::encode of a triangulation
 //   DATA/results/SHA256                a result block, its layout in front
 //   DATA/uploads/SHA256                what a client uploaded
@@ -12,7 +13,9 @@
 // A file is written under a temporary name, flushed, renamed, its folder flushed; only then a
 // record refers to it. A record is changed in a transaction (WAL, synchronous=FULL). So at any
 // moment, also after `kill -9` or a full disk, every record is whole and every file a record
-// refers to is there. Files no record refers to are removed at the next start.
+// refers to is there. Files no record refers to are removed at the next start, where the database
+// and the folder have the same identity; a folder whose database is missing, empty or another's is
+// refused.
 #pragma once
 
 #include <cstdint>
@@ -119,7 +122,8 @@ class Store {
 
 /// Opens or makes the folder; brings an older schema up to date (in one transaction, a copy of the
 /// database beside it until it is done). Throws errors::Error (storage): the folder cannot be
-/// written, the database is damaged, or a newer anticrack wrote it.
+/// written, the database is damaged, missing though there are files, not that of the files, or a
+/// newer anticrack wrote it.
 std::unique_ptr<Store> open(const StoreOptions& options);
 
 }  // namespace anticrack::store

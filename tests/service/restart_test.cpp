@@ -14,6 +14,7 @@
 namespace anticrack::service_test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -103,6 +104,30 @@ TEST(Restart, OneFolderHasOneServer) {
   EXPECT_THROW(Daemon(daemon.data(), {}), std::runtime_error);
   client::Connection connection(daemon.connection());
   EXPECT_NO_THROW(client::server_info(connection)) << "the first one goes on";
+}
+
+TEST(Restart, RefusesAFolderThatLostItsDatabaseAndRemovesNothing) {
+  Daemon daemon;
+  client::Connection connection(daemon.connection());
+  const Work quick = work("slit.toml", {"mesh.preset=uniform", "mesh.size=0.2"});
+  const std::string name = submit(connection, quick, client::make_uuid()).name();
+  EXPECT_EQ(wait_for_end(connection, name).state(), v1::Job::STATE_SUCCEEDED);
+  const client::Block result = client::read_result(connection, name);
+  EXPECT_EQ(daemon.stop(), 0);
+
+  const std::filesystem::path database = daemon.data() + "/anticrack.db";
+  const std::filesystem::path backup = daemon.folder() / "backup.db";
+  std::filesystem::rename(database, backup);
+  daemon.launch();
+  EXPECT_EQ(daemon.process().wait(), 1);
+  EXPECT_THAT(daemon.process().error(),
+              AllOf(HasSubstr(daemon.data() + " has 1 mesh, "), HasSubstr("from a backup")));
+  daemon.kill();
+  std::filesystem::rename(backup, database);
+  daemon.start();
+  EXPECT_EQ(difference(client::read_result(connection, name), result), "");
+  EXPECT_EQ(daemon.stop(), 0);
+  EXPECT_THAT(flaws_of(daemon.data()), IsEmpty());
 }
 
 }  // namespace
