@@ -170,7 +170,7 @@ void replace_file(const std::string& path, std::span<const std::byte> bytes) {
       throw disk_error("make " + made, errno);
     }
     write_all(file, made, bytes);
-    flush(file, made);
+    flush_file(file, made);
   }
   if (::rename(made.c_str(), path.c_str()) != 0) {
     throw disk_error("rename " + made, errno);
