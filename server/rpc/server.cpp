@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/server.hpp"
 
+#include <grpc/grpc.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
@@ -31,6 +32,13 @@ constexpr int receive_window_bytes = 1 << 20;
 constexpr auto stream_patience = 2s;
 /// Health and reflection streams are not ours and hold Shutdown to its deadline.
 constexpr auto shutdown_patience = 300ms;
+
+/// gRPC shuts down with its last server and then joins the thread that gRPC 1.51 starts when a peer
+/// does not take a write at once (run_poller in its tcp_posix.cc). That thread may sleep for ten
+/// seconds on sockets that are closed by then. So gRPC stays up until the process ends.
+void keep_grpc_up() {
+  grpc_init();
+}
 
 void set_arguments(grpc::ServerBuilder& builder) {
   // Without it a second server on the port starts silently and takes half of the calls.
@@ -82,6 +90,7 @@ struct Server::State {
 
 Server::Server(const ServerOptions& options, const Backend& backend)
     : _state(std::make_unique<State>(options, backend)) {
+  keep_grpc_up();
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;

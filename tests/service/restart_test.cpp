@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <chrono>
+
 #include "client/uuid.hpp"
 #include "service/daemon.hpp"
 #include "service/stored_data.hpp"
@@ -83,6 +85,21 @@ TEST(Restart, ASecondSigtermDoesNotWaitForJobs) {
   })) << "the next start takes it up";
   client::cancel_job(connection, name);
   EXPECT_EQ(wait_for_end(connection, name).state(), v1::Job::STATE_CANCELLED);
+}
+
+TEST(Restart, AStopRightAfterALargeAnswerIsNotHeldUp) {
+  // As --local stops its server. The answer is larger than what the socket takes at once, which
+  // used to keep gRPC, and with it the server, for ten seconds, in about every second stop.
+  constexpr std::chrono::seconds hang_limit{6};
+  for (int stop = 1; stop <= 5; ++stop) {
+    Daemon daemon;
+    const Ended run =
+        daemon.client({"run", example("paper.toml"), "-o", daemon.folder() / "out.h5"});
+    ASSERT_EQ(run.code, 0) << run.output << run.error;
+    daemon.process().signal(SIGTERM);
+    ASSERT_EQ(daemon.process().wait(hang_limit), 0)
+        << "stop " << stop << " of 5: " << daemon.process().error();
+  }
 }
 
 TEST(Restart, ExpiredResultsSaySoAndGiveTheCure) {
