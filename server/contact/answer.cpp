@@ -55,7 +55,7 @@ Trace trace_of(const TraceProblem& problem, std::span<const ddm::CondensedLoad> 
   return trace;
 }
 
-void append_intervals(std::size_t interface, const std::vector<double>& arc_length,
+void append_intervals(const std::string& interface, const std::vector<double>& arc_length,
                       const std::vector<std::int32_t>& contact,
                       std::vector<ContactInterval>& intervals) {
   for (std::size_t i = 0; i < contact.size(); ++i) {
@@ -119,8 +119,8 @@ void describe(const TraceProblem& problem, const mesh::Mesh& mesh,
   for (std::size_t c = 0; c < mesh.interfaces.size(); ++c) {
     answer.traces.push_back(
         trace_of(problem, loads, state, mesh.interfaces[c], decomposition.interface_sides[c]));
-    append_intervals(c, mesh::arc_length(mesh, mesh.interfaces[c]), answer.traces.back().contact,
-                     answer.contact_intervals);
+    append_intervals(mesh.interfaces[c].name, mesh::arc_length(mesh, mesh.interfaces[c]),
+                     answer.traces.back().contact, answer.contact_intervals);
   }
   for (const Eigen::VectorXd& trace : state.trace) {
     answer.side_traces.emplace_back(trace.begin(), trace.end());

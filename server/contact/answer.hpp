@@ -9,12 +9,14 @@
 #include <variant>
 #include <vector>
 
+#include "fields/fields.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::contact {
 
+/// Numbers of this enum and of Status are those of the API.
 enum class Mass {
-  lumped,      ///< diagonal interface mass: the fixed point is the nodal contact problem
+  lumped = 1,  ///< diagonal interface mass: the fixed point is the nodal contact problem
   consistent,  ///< the paper's int1d: a slightly different discrete problem
 };
 
@@ -27,6 +29,7 @@ struct UzawaOptions {
   Mass mass = Mass::lumped;
   std::optional<double> kkt_tolerance;  ///< > 0: stop by the relative KKT residuals, not by epsilon
 };
+ANTICRACK_FIELDS(UzawaOptions, theta, epsilon, p, max_iterations, mass, kkt_tolerance)
 
 /// Primal-dual active set: exact contact in a handful of steps.
 struct ActiveSetOptions {
@@ -34,6 +37,7 @@ struct ActiveSetOptions {
       1e-12;             ///< >= 0; relative jump or pressure below which a node is weakly active
   int max_steps = 1000;  ///< >= 1
 };
+ANTICRACK_FIELDS(ActiveSetOptions, tolerance, max_steps)
 
 using SolverOptions = std::variant<ActiveSetOptions, UzawaOptions>;
 
@@ -51,6 +55,7 @@ struct KktResiduals {
   double sign = 0;         ///< max(0, -mu) on cracks
   double complementarity = 0;  ///< max |mu_i [u]_i| on cracks
 };
+ANTICRACK_FIELDS(KktResiduals, equilibrium, gap, sign, complementarity)
 
 /// One iteration as the paper and its users see it.
 struct Sample {
@@ -69,7 +74,15 @@ class Observer {
   virtual bool on_iteration(const Sample& sample) = 0;
 };
 
-enum class Status { converged, not_converged, cancelled };
+/// Where a load case stands. What is solved ends converged, not_converged or cancelled.
+enum class Status : std::int32_t {
+  pending = 1,
+  running,
+  converged,
+  not_converged,
+  failed,
+  cancelled,
+};
 
 struct InclusionAnswer {
   std::string name;
@@ -77,12 +90,14 @@ struct InclusionAnswer {
   double resultant = 0;       ///< int [T du/dnu] ds over it, equation (6): the force on it
   double contact_length = 0;  ///< lumped length of its delaminated nodes in contact
 };
+ANTICRACK_FIELDS(InclusionAnswer, name, displacement, resultant, contact_length)
 
 struct ContactInterval {
-  std::size_t interface = 0;  ///< index into Mesh::interfaces
-  double begin = 0;           ///< arc length of its first node in contact
-  double end = 0;             ///< and of its last
+  std::string interface;  ///< its name
+  double begin = 0;       ///< arc length of its first node in contact
+  double end = 0;         ///< and of its last
 };
+ANTICRACK_FIELDS(ContactInterval, interface, begin, end)
 
 /// Traces along one interface, one value per node of mesh::Interface::nodes, ends included.
 struct Trace {
@@ -99,8 +114,8 @@ struct Field {
   std::vector<double> u;
 };
 
-struct Answer {
-  Status status = Status::not_converged;
+/// An answer without its status and arrays: what is told and kept of it.
+struct AnswerSummary {
   std::string reason;  ///< for not_converged: what happened and what to change
   int iterations = 0;
   double criterion = 1;
@@ -110,12 +125,19 @@ struct Answer {
   double energy = 0;  ///< Pi(u)
   KktResiduals kkt;
   KktResiduals kkt_relative;
-  int weakly_active = 0;     ///< active set: crack nodes with neither jump nor pressure
-  std::vector<char> closed;  ///< active set: 1 for each contact condition with d = 0
+  int weakly_active = 0;  ///< active set: crack nodes with neither jump nor pressure
   std::vector<std::string> warnings;
   std::vector<InclusionAnswer> inclusions;  ///< one per Mesh::inclusions
   double contact_length = 0;
   std::vector<ContactInterval> contact_intervals;
+};
+ANTICRACK_FIELDS(AnswerSummary, reason, iterations, criterion, theta, theta_star, energy, kkt,
+                 kkt_relative, weakly_active, warnings, inclusions, contact_length,
+                 contact_intervals)
+
+struct Answer : AnswerSummary {
+  Status status = Status::not_converged;
+  std::vector<char> closed;   ///< active set: 1 for each contact condition with d = 0
   std::vector<Trace> traces;  ///< one per Mesh::interfaces
   /// u on the trace of each subdomain, as it was cut: what its field is recovered from.
   std::vector<std::vector<double>> side_traces;

@@ -29,5 +29,7 @@ struct SweepColumns {
   std::vector<double> displacement;    ///< (rows, inclusions), row-major: A of equation (5)
   std::vector<std::uint8_t> contact;   ///< (rows, contacts), row-major: 1 closed under pressure
 };
+ANTICRACK_FIELDS(SweepColumns, inclusions, contacts, status, steps, energy, contact_length, kkt,
+                 displacement, contact)
 
 }  // namespace anticrack::contact

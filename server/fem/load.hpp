@@ -10,17 +10,21 @@
 #include <variant>
 #include <vector>
 
+#include "fields/fields.hpp"
+
 namespace anticrack::fem {
 
 /// An expression in x and y (muParser syntax), e.g. "y > 0 ? 1 : -1".
 struct Expression {
   std::string text;
 };
+ANTICRACK_FIELDS(Expression, text)
 
 /// A constant per subdomain, by name; a subdomain not named has 0.
 struct PerRegion {
   std::map<std::string, double> values;
 };
+ANTICRACK_FIELDS(PerRegion, values)
 
 /// A value per triangle (constant on it) or per node (linear between), in the order of the mesh.
 struct Array {
@@ -29,6 +33,7 @@ struct Array {
   /// Set where the load is solved; a job that waits holds the name only.
   std::shared_ptr<const std::vector<double>> values = nullptr;
 };
+ANTICRACK_FIELDS(Array, upload, per_triangle, values)
 
 /// f of equation (1): force per unit area, positive in the direction of u.
 using Force = std::variant<double, Expression, PerRegion, Array>;
@@ -39,6 +44,7 @@ struct PointForce {
   double y = 0;
   double value = 0;
 };
+ANTICRACK_FIELDS(PointForce, x, y, value)
 
 struct Load {
   std::string name;
@@ -48,6 +54,7 @@ struct Load {
   std::vector<PointForce> point_forces = {};
   std::map<std::string, double> inclusion_forces = {};  ///< by name of the inclusion
 };
+ANTICRACK_FIELDS(Load, name, force, boundary_value, traction, point_forces, inclusion_forces)
 
 /// Of one load case.
 constexpr std::size_t max_point_forces = 10'000;

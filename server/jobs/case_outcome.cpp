@@ -12,40 +12,9 @@ namespace anticrack::jobs {
 
 namespace {
 
+using contact::Status;
 using errors::Error;
 using errors::Reason;
-using store::CaseStatus;
-
-CaseStatus status_of(contact::Status status) {
-  switch (status) {
-    case contact::Status::converged:
-      return CaseStatus::converged;
-    case contact::Status::not_converged:
-      return CaseStatus::not_converged;
-    case contact::Status::cancelled:
-      return CaseStatus::cancelled;
-  }
-  return CaseStatus::failed;
-}
-
-contact::Answer without_arrays(const contact::Answer& answer) {
-  contact::Answer result;
-  result.status = answer.status;
-  result.reason = answer.reason;
-  result.iterations = answer.iterations;
-  result.criterion = answer.criterion;
-  result.theta = answer.theta;
-  result.theta_star = answer.theta_star;
-  result.energy = answer.energy;
-  result.kkt = answer.kkt;
-  result.kkt_relative = answer.kkt_relative;
-  result.weakly_active = answer.weakly_active;
-  result.warnings = answer.warnings;
-  result.inclusions = answer.inclusions;
-  result.contact_length = answer.contact_length;
-  result.contact_intervals = answer.contact_intervals;
-  return result;
-}
 
 Error placed(Error error, std::size_t index) {
   const std::string path = "load_cases[" + std::to_string(index) + "]";
@@ -59,11 +28,10 @@ Error placed(Error error, std::size_t index) {
   return error;
 }
 
-std::shared_ptr<store::CaseRecord> new_record(const Task& task, CaseStatus status) {
+std::shared_ptr<store::CaseRecord> new_record(const Task& task, Status status) {
   auto record = std::make_shared<store::CaseRecord>();
   record->status = status;
-  const auto elapsed = std::chrono::steady_clock::now() - task.taken;
-  record->seconds = std::chrono::duration<double>(elapsed).count();
+  record->solve_time = std::chrono::steady_clock::now() - task.taken;
   return record;
 }
 
@@ -120,10 +88,10 @@ std::uint64_t bytes_of(const SolvedCase& solved) {
 
 CaseOutcome solved_case(const Task& task, contact::Answer answer,
                         std::vector<contact::Sample> history) {
-  auto record = new_record(task, status_of(answer.status));
-  record->answer = without_arrays(answer);
+  auto record = new_record(task, answer.status);
+  record->answer = answer;  // without its arrays
   std::unique_ptr<SolvedCase> solved;
-  if (record->status != CaseStatus::cancelled) {
+  if (record->status != Status::cancelled) {
     answer.side_traces = {};
     solved = std::make_unique<SolvedCase>(SolvedCase{std::move(answer), std::move(history)});
   }
@@ -135,13 +103,13 @@ CaseOutcome failed_case(const Task& task, const std::exception_ptr& failure) {
   if (error.reason() == Reason::cancelled) {
     return cancelled_case(task);
   }
-  auto record = new_record(task, CaseStatus::failed);
+  auto record = new_record(task, Status::failed);
   record->error = placed(error, task.index);
   return {std::move(record), nullptr};
 }
 
 CaseOutcome refused_case(const Task& task, std::uint64_t max_result_bytes) {
-  auto record = new_record(task, CaseStatus::failed);
+  auto record = new_record(task, Status::failed);
   record->error = placed(
       Error(Reason::limit_exceeded, "the results of the load cases before are over " +
                                         std::to_string(max_result_bytes) +
@@ -152,7 +120,7 @@ CaseOutcome refused_case(const Task& task, std::uint64_t max_result_bytes) {
 }
 
 CaseOutcome cancelled_case(const Task& task) {
-  return {new_record(task, CaseStatus::cancelled), nullptr};
+  return {new_record(task, Status::cancelled), nullptr};
 }
 
 }  // namespace anticrack::jobs

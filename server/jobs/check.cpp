@@ -2,10 +2,9 @@
 #include "jobs/check.hpp"
 
 #include <algorithm>
-#include <map>
 #include <optional>
+#include <type_traits>
 #include <unordered_set>
-#include <variant>
 
 #include "errors/errors.hpp"
 #include "jobs/sweep_check.hpp"
@@ -69,54 +68,6 @@ void check_count(std::size_t loads, const EngineOptions& options) {
   }
 }
 
-struct HashForce {
-  store::CanonicalHash& hash;
-
-  void operator()(double constant) const { hash.add(constant); }
-  void operator()(const fem::Expression& expression) const { hash.add(expression.text); }
-  void operator()(const fem::PerRegion& regions) const { add_named(hash, regions.values); }
-  void operator()(const fem::Array& array) const {
-    hash.add(array.upload).add(std::uint64_t{array.per_triangle});
-  }
-
-  static void add_named(store::CanonicalHash& hash, const std::map<std::string, double>& values) {
-    hash.add(std::uint64_t{values.size()});
-    for (const auto& [name, value] : values) {
-      hash.add(name).add(value);
-    }
-  }
-};
-
-void add_optional(store::CanonicalHash& hash, const std::optional<double>& value) {
-  hash.add(std::uint64_t{value.has_value()}).add(value.value_or(0));
-}
-
-struct HashSolver {
-  store::CanonicalHash& hash;
-
-  void operator()(const contact::UzawaOptions& options) const {
-    add_optional(hash, options.theta);
-    hash.add(options.epsilon).add(options.p);
-    hash.add(static_cast<std::uint64_t>(options.max_iterations));
-    hash.add(static_cast<std::uint64_t>(options.mass));
-    add_optional(hash, options.kkt_tolerance);
-  }
-  void operator()(const contact::ActiveSetOptions& options) const {
-    hash.add(options.tolerance).add(static_cast<std::uint64_t>(options.max_steps));
-  }
-};
-
-void add_load(store::CanonicalHash& hash, const fem::Load& load) {
-  hash.add(load.name).add(load.boundary_value).add(load.traction);
-  hash.add(std::uint64_t{load.force.index()});
-  std::visit(HashForce{hash}, load.force);
-  hash.add(std::uint64_t{load.point_forces.size()});
-  for (const fem::PointForce& force : load.point_forces) {
-    hash.add(force.x).add(force.y).add(force.value);
-  }
-  HashForce::add_named(hash, load.inclusion_forces);
-}
-
 void check_time(std::chrono::milliseconds wanted, std::chrono::milliseconds longest,
                 const char* field) {
   if (wanted.count() < 0) {
@@ -132,39 +83,7 @@ void check_time(std::chrono::milliseconds wanted, std::chrono::milliseconds long
   }
 }
 
-struct BytesOfForce {
-  std::uint64_t operator()(double /*constant*/) const { return 0; }
-  std::uint64_t operator()(const fem::Expression& expression) const {
-    return expression.text.size();
-  }
-  std::uint64_t operator()(const fem::PerRegion& regions) const { return named(regions.values); }
-  std::uint64_t operator()(const fem::Array& array) const { return array.upload.size(); }
-
-  static std::uint64_t named(const std::map<std::string, double>& values) {
-    constexpr std::uint64_t node = 96;
-    std::uint64_t bytes = node * values.size();
-    for (const auto& [name, value] : values) {
-      bytes += name.size();
-    }
-    return bytes;
-  }
-};
-
 }  // namespace
-
-std::uint64_t bytes_of(const store::JobSpec& spec) {
-  std::uint64_t bytes = sizeof(spec) + spec.title.size() + spec.mesh.size();
-  for (const fem::Load& load : spec.loads) {
-    bytes += sizeof(load) + load.name.size() + load.boundary_value.size() + load.traction.size() +
-             std::visit(BytesOfForce{}, load.force) +
-             load.point_forces.size() * sizeof(fem::PointForce) +
-             BytesOfForce::named(load.inclusion_forces);
-  }
-  if (spec.sweep) {
-    bytes += spec.sweep->upload.size() + spec.sweep->traces.size() * sizeof(std::uint32_t);
-  }
-  return bytes;
-}
 
 void check(const store::JobSpec& spec, const EngineOptions& options) {
   if (spec.title.size() > max_title_bytes) {
@@ -199,23 +118,17 @@ void check(const store::JobSpec& spec, const EngineOptions& options) {
 
 std::string fingerprint(const store::JobSpec& spec) {
   store::CanonicalHash hash;
-  hash.add(spec.title).add(spec.mesh).add(std::uint64_t{spec.fields});
-  hash.add(static_cast<std::uint64_t>(spec.priority));
-  hash.add(static_cast<std::uint64_t>(spec.queue_time_limit.count()));
-  hash.add(static_cast<std::uint64_t>(spec.run_time_limit.count()));
-  hash.add(std::uint64_t{spec.solver.index()});
-  std::visit(HashSolver{hash}, spec.solver);
-  hash.add(std::uint64_t{spec.loads.size()});
-  for (const fem::Load& load : spec.loads) {
-    add_load(hash, load);
-  }
-  if (spec.sweep) {  // not its rows: they follow from the upload and the mesh
-    hash.add(static_cast<std::uint64_t>(spec.sweep->cases)).add(spec.sweep->upload);
-    hash.add(std::uint64_t{spec.sweep->traces.size()});
-    for (const std::uint32_t row : spec.sweep->traces) {
-      hash.add(std::uint64_t{row});
+  fields::for_each(spec, [&hash]<class T>(const fields::Field<T>& field) {
+    if constexpr (std::is_same_v<T, const std::optional<store::SweepSpec>>) {
+      std::optional<store::SweepSpec> sweep = field.value;
+      if (sweep) {
+        sweep->rows = 0;  // they follow from the upload and the mesh
+      }
+      hash.add_all(sweep);
+    } else {
+      hash.add_all(field.value);
     }
-  }
+  });
   return hash.finish();
 }
 

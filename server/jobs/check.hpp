@@ -20,7 +20,4 @@ void check(const store::JobSpec& spec, const EngineOptions& options);
 /// Hash of all that makes a job, its title included: equal for equal requests only.
 std::string fingerprint(const store::JobSpec& spec);
 
-/// Memory of a job's spec, about.
-std::uint64_t bytes_of(const store::JobSpec& spec);
-
 }  // namespace anticrack::jobs

@@ -78,8 +78,8 @@ EndingThread::End EndingThread::conclude_job(Lock& lock, const JobPtr& job) {
   set_state(end.record, outcome.state, outcome.error);
   try {
     if (job->sweep) {
-      const auto unsolved = outcome.state == JobState::failed ? store::CaseStatus::failed
-                                                              : store::CaseStatus::cancelled;
+      const auto unsolved =
+          outcome.state == JobState::failed ? contact::Status::failed : contact::Status::cancelled;
       end.result = sweep_result(*job->mesh_operator, *job->sweep, unsolved);
     } else if (job->mesh_operator) {
       end.result = result_block(*job->mesh_operator, job->cases);

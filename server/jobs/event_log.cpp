@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "errors/errors.hpp"
+#include "fields/walk.hpp"
 #include "jobs/sample_queue.hpp"
 
 namespace anticrack::jobs {
@@ -47,30 +48,14 @@ struct Kept {
   std::size_t bytes = 0;
 };
 
-template <class T>
-std::size_t kept_bytes(const std::vector<T>& values) {
-  return values.size() * sizeof(T);
-}
-
-std::size_t kept_bytes(const store::CaseRecord& record) {
-  return sizeof(record) + record.answer.reason.size() + kept_bytes(record.answer.inclusions) +
-         kept_bytes(record.answer.contact_intervals);
-}
-
-std::size_t kept_bytes(const contact::SweepColumns& rows) {
-  return sizeof(rows) + kept_bytes(rows.status) + kept_bytes(rows.steps) + kept_bytes(rows.energy) +
-         kept_bytes(rows.contact_length) + kept_bytes(rows.kkt) + kept_bytes(rows.displacement) +
-         kept_bytes(rows.contact);
-}
-
 std::size_t kept_bytes(const Event& event) {
   std::size_t bytes = sizeof(Kept);
   if (const auto* phase = std::get_if<PhaseEvent>(&event)) {
     bytes += phase->detail.size();
   } else if (const auto* ended = std::get_if<CaseEvent>(&event)) {
-    bytes += kept_bytes(*ended->record);
+    bytes += fields::bytes_of(*ended->record);
   } else if (const auto* rows = std::get_if<RowsEvent>(&event)) {
-    bytes += kept_bytes(*rows->rows);
+    bytes += fields::bytes_of(*rows->rows);
   }
   return bytes;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "errors/errors.hpp"
+#include "fields/walk.hpp"
 #include "jobs/check.hpp"
 #include "jobs/job_start.hpp"
 #include "jobs/sweep_check.hpp"
@@ -59,7 +60,7 @@ class Place {
  public:
   /// Throws errors::Error (draining, limit_exceeded, busy).
   Place(EngineCore& core, const store::JobSpec& spec, std::uint64_t cases)
-      : _core(core), _mesh(spec.mesh), _cases(cases), _bytes(bytes_of(spec)) {
+      : _core(core), _mesh(spec.mesh), _cases(cases), _bytes(fields::bytes_of(spec)) {
     const std::lock_guard lock(core.mutex);
     if (core.draining) {
       throw Error(Reason::draining, "the server is stopping: submit to another one");

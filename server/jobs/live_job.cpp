@@ -4,16 +4,16 @@
 #include <utility>
 #include <variant>
 
-#include "jobs/check.hpp"
+#include "fields/walk.hpp"
 #include "jobs/ended_logs.hpp"
 
 namespace anticrack::jobs {
 
 namespace {
 
+using contact::Status;
 using errors::Error;
 using store::CaseRecord;
-using store::CaseStatus;
 using store::JobRecord;
 using store::JobState;
 
@@ -78,7 +78,7 @@ LiveJob::LiveJob(std::uint64_t submission, JobRecord record, std::uint64_t cases
     : number(submission),
       created(without_lists(record)),
       spec(std::make_shared<const store::JobSpec>(std::move(record.spec))),
-      spec_bytes(bytes_of(*spec)),
+      spec_bytes(fields::bytes_of(*spec)),
       lane(lane_of(*spec)),
       since(std::chrono::steady_clock::now()),
       log(std::make_shared<EventLog>(event_log_bytes, sequence_base(created.attempt))),
@@ -137,7 +137,7 @@ JobRecord JobSnapshot::record() const {
     if (_cases[i]) {
       result.cases[i] = *_cases[i];
     } else if (_running[i]) {
-      result.cases[i].status = CaseStatus::running;
+      result.cases[i].status = Status::running;
     }
   }
   return result;
@@ -149,11 +149,11 @@ Outcome conclude(LiveJob& job) {
   }
   const bool failed = job.why == Stop::failed;
   const auto unsolved = std::make_shared<CaseRecord>();
-  unsolved->status = failed ? CaseStatus::failed : CaseStatus::cancelled;
+  unsolved->status = failed ? Status::failed : Status::cancelled;
   unsolved->error = job.failure;
   bool complete = true;
   for (LiveCase& live : job.cases) {
-    if (!live.record || (failed && live.record->status == CaseStatus::cancelled)) {
+    if (!live.record || (failed && live.record->status == Status::cancelled)) {
       live.record = unsolved;
       complete = false;
     }
@@ -164,10 +164,10 @@ Outcome conclude(LiveJob& job) {
   Outcome result;
   for (std::size_t i = 0; i < job.cases.size(); ++i) {
     const CaseRecord& record = *job.cases[i].record;
-    if (record.status == CaseStatus::cancelled) {
+    if (record.status == Status::cancelled) {
       return {JobState::cancelled, std::nullopt};
     }
-    if (record.status == CaseStatus::failed && !result.error) {
+    if (record.status == Status::failed && !result.error) {
       result = {JobState::failed, case_failed(*job.spec, i, *record.error)};
     }
   }

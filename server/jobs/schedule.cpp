@@ -11,8 +11,10 @@ namespace {
 
 constexpr int nothing = std::numeric_limits<int>::max();
 
+constexpr std::size_t most_urgent_class = static_cast<std::size_t>(store::Priority::interactive);
+
 std::size_t class_of(store::Priority priority) {
-  return static_cast<std::size_t>(priority);
+  return static_cast<std::size_t>(priority) - most_urgent_class;
 }
 
 }  // namespace
@@ -94,7 +96,7 @@ std::optional<store::Priority> Schedule::most_urgent(const std::string& mesh, La
     const Jobs& jobs = found->second.lanes[index(lane)].jobs;
     for (std::size_t priority = 0; priority < jobs.size(); ++priority) {
       if (!jobs[priority].empty()) {
-        return static_cast<store::Priority>(priority);
+        return static_cast<store::Priority>(most_urgent_class + priority);
       }
     }
   }

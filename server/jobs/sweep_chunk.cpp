@@ -190,7 +190,7 @@ EndedChunk solve_chunk(const Task& task, std::atomic<std::uint64_t>& iterations)
     const SweepColumns& columns = *ended.solved.columns;
     ended.record = record_of(columns);
     const auto elapsed = std::chrono::steady_clock::now() - task.taken;
-    ended.record.seconds = std::chrono::duration<double>(elapsed).count();
+    ended.record.solve_time = elapsed;
     iterations.fetch_add(steps_of(columns), std::memory_order_relaxed);
   } catch (...) {
     const Error error = error_of(std::current_exception());
@@ -207,7 +207,7 @@ void add(store::SweepRecord& sum, const store::SweepRecord& rows) {
   sum.failed += rows.failed;
   sum.most_steps = std::max(sum.most_steps, rows.most_steps);
   sum.worst_kkt = std::max(sum.worst_kkt, rows.worst_kkt);
-  sum.seconds += rows.seconds;
+  sum.solve_time += rows.solve_time;
 }
 
 }  // namespace anticrack::jobs

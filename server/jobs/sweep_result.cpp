@@ -15,19 +15,10 @@ namespace anticrack::jobs {
 
 namespace {
 
+using contact::Status;
 using contact::SweepColumns;
 using store::ArrayType;
 using store::BlockBuilder;
-using store::CaseStatus;
-
-/// LoadCaseAnswer.Status of the API.
-std::int32_t number_of(CaseStatus status) {
-  return static_cast<std::int32_t>(status) + 1;
-}
-static_assert(static_cast<int>(CaseStatus::converged) == 2 &&
-              static_cast<int>(CaseStatus::not_converged) == 3 &&
-              static_cast<int>(CaseStatus::failed) == 4 &&
-              static_cast<int>(CaseStatus::cancelled) == 5);
 
 /// Puts the columns that `get` takes out of each chunk one after the other.
 template <class Get>
@@ -44,17 +35,14 @@ void add_column(BlockBuilder& builder, const std::string& name, ArrayType type,
   }
 }
 
-void add_status(BlockBuilder& builder, const LiveSweep& sweep, CaseStatus unsolved) {
+void add_status(BlockBuilder& builder, const LiveSweep& sweep, Status unsolved) {
+  const auto number_of = [](Status status) { return static_cast<std::int32_t>(status); };
   std::vector<std::int32_t> numbers(sweep.plan.rows, number_of(unsolved));
   for (std::size_t i = 0; i < sweep.chunks.size(); ++i) {
     if (const SweepColumns* columns = sweep.chunks[i].columns.get()) {
       std::transform(columns->status.begin(), columns->status.end(),
                      numbers.begin() + static_cast<std::ptrdiff_t>(sweep.plan.first_row(i)),
-                     [](contact::Status status) {
-                       return number_of(status == contact::Status::converged
-                                            ? CaseStatus::converged
-                                            : CaseStatus::not_converged);
-                     });
+                     number_of);
     }
   }
   builder.add("sweep/status", numbers);
@@ -90,7 +78,7 @@ void add_contact_nodes(BlockBuilder& builder,
 }  // namespace
 
 std::shared_ptr<const store::Block> sweep_result(const operators::MeshOperator& mesh_operator,
-                                                 LiveSweep& sweep, CaseStatus unsolved) {
+                                                 LiveSweep& sweep, Status unsolved) {
   if (std::none_of(sweep.chunks.begin(), sweep.chunks.end(),
                    [](const SweepChunk& chunk) { return chunk.columns != nullptr; })) {
     return nullptr;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "fields/fields.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::mesh {
@@ -22,6 +23,7 @@ struct Part {
   Point from{};
   Point to{};
 };
+ANTICRACK_FIELDS(Part, from, to)
 
 enum class Shape { polyline, arc, spline };
 
@@ -33,23 +35,27 @@ struct InterfaceSpec {
   std::vector<Point> points;  ///< polyline, spline: through all; arc: from, through, to
   bool closed = false;        ///< polyline and spline only
 };
+ANTICRACK_FIELDS(InterfaceSpec, name, shape, points, closed)
 
 struct InclusionSpec {
   std::string name;
   Part part;
   std::vector<Part> delaminated;  ///< parts of `part`; the rest is bonded. {part}: all delaminated
 };
+ANTICRACK_FIELDS(InclusionSpec, name, part, delaminated)
 
 struct CrackSpec {
   std::string name;
   Part part;
 };
+ANTICRACK_FIELDS(CrackSpec, name, part)
 
 struct RegionSpec {
   std::string name;
   Point at{};          ///< inside the subdomain it names
   double tension = 1;  ///< T > 0
 };
+ANTICRACK_FIELDS(RegionSpec, name, at, tension)
 
 struct Geometry {
   std::vector<Point> boundary;  ///< simple polygon, not closed, either orientation
@@ -59,6 +65,7 @@ struct Geometry {
   std::vector<Part> neumann;  ///< of the boundary, counterclockwise; from == to: all of it
   std::vector<RegionSpec> regions;
 };
+ANTICRACK_FIELDS(Geometry, boundary, interfaces, inclusions, cracks, neumann, regions)
 
 enum class Preset { graded, paper, uniform };
 
@@ -74,6 +81,8 @@ struct MeshOptions {
   std::map<std::int32_t, std::string> surface_groups{};  ///< physical tag -> subdomain
   std::map<std::string, double> tension{};               ///< subdomain -> T
 };
+ANTICRACK_FIELDS(MeshOptions, preset, size, tip_size, grading, align, curve_groups, surface_groups,
+                 tension)
 
 /// What a straight curve of the plan is.
 enum class Role : std::int32_t { dirichlet, neumann, interface, align };

@@ -3,67 +3,45 @@
 
 #include <bit>
 #include <cstdint>
-#include <map>
 #include <variant>
+
+#include "fields/walk.hpp"
 
 namespace anticrack::operators {
 namespace {
 
-/// Each entry with its length or of fixed length, so that no two lists run into the same bytes.
-class Key {
- public:
-  void add(std::uint64_t value) {
-    for (int shift = 0; shift < 64; shift += 8) {
-      _bytes.push_back(static_cast<char>(value >> shift & 0xff));
-    }
+void append(std::string& key, std::uint64_t value) {
+  for (int shift = 0; shift < 64; shift += 8) {
+    key.push_back(static_cast<char>(value >> shift & 0xff));
   }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  void add(const std::string& text) {
-    add(std::uint64_t{text.size()});
-    _bytes += text;
-  }
-  void add(const std::map<std::string, double>& values) {
-    add(std::uint64_t{values.size()});
-    for (const auto& [name, value] : values) {
-      add(name);
-      add(value);
-    }
-  }
-  void add(const fem::Expression& expression) { add(expression.text); }
-  void add(const fem::PerRegion& regions) { add(regions.values); }
-  void add(const fem::Array& array) {
-    add(array.upload);
-    add(std::uint64_t{array.per_triangle ? 1U : 0U});
-  }
+}
 
-  std::string take() { return std::move(_bytes); }
+void append(std::string& key, double value) {
+  append(key, std::bit_cast<std::uint64_t>(value));
+}
 
- private:
-  std::string _bytes;
-};
+/// With its length, so that no two lists run into the same bytes.
+void append(std::string& key, const std::string& text) {
+  append(key, std::uint64_t{text.size()});
+  key += text;
+}
 
 }  // namespace
 
 std::optional<std::string> key_of(std::span<const fem::Load* const> loads) {
-  Key key;
+  std::string key;
   for (const fem::Load* load : loads) {
     const auto* array = std::get_if<fem::Array>(&load->force);
     if (array != nullptr && array->upload.empty()) {
       return std::nullopt;
     }
-    key.add(std::uint64_t{load->force.index()});
-    std::visit([&key](const auto& force) { key.add(force); }, load->force);
-    key.add(load->boundary_value);
-    key.add(load->traction);
-    key.add(std::uint64_t{load->point_forces.size()});
-    for (const fem::PointForce& force : load->point_forces) {
-      key.add(force.x);
-      key.add(force.y);
-      key.add(force.value);
-    }
-    key.add(load->inclusion_forces);
+    fields::for_each(*load, [&key](const auto& field) {
+      if (field.name != "name") {
+        fields::walk(field.value, [&key](const auto& leaf) { append(key, leaf); });
+      }
+    });
   }
-  return key.take();
+  return key;
 }
 
 }  // namespace anticrack::operators

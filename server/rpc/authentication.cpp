@@ -6,8 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "api/text.hpp"
 #include "errors/errors.hpp"
-#include "rpc/text.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -63,7 +63,8 @@ access::Identity Authentication::identify(const grpc::CallbackServerContext& cal
   }
   if (_certificates) {
     std::string name = certificate_name(call);
-    if (!name.empty() && name.size() <= max_name_bytes && printable(name, max_name_bytes) == name) {
+    if (!name.empty() && name.size() <= max_name_bytes &&
+        api::printable(name, max_name_bytes) == name) {
       const bool admin = std::find(_admins.begin(), _admins.end(), name) != _admins.end();
       return {std::move(name), admin ? access::Role::admin : access::Role::user};
     }

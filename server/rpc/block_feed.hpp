@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "anticrack/v1/mesh.pb.h"
+#include "api/translations.hpp"
 #include "rpc/feed.hpp"
-#include "rpc/from_domain.hpp"
 #include "store/block.hpp"
 
 namespace anticrack::rpc {
@@ -40,7 +40,7 @@ class BlockFeed final : public Feed<Response> {
 
   Next next(Response& response) override {
     if (!_layout_sent) {
-      *response.mutable_layout() = layout_of(*_block);
+      *response.mutable_layout() = api::layout_of(*_block);
       _layout_sent = true;
       return Next::message;
     }

@@ -6,8 +6,8 @@
 #include <new>
 #include <string>
 
+#include "api/error_message.hpp"
 #include "log/log.hpp"
-#include "rpc/text.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -15,64 +15,12 @@ namespace {
 using errors::Reason;
 
 /// How much of an error is kept; tried in order until it fits.
-struct Budget {
-  std::size_t message;
-  std::size_t description;
-  std::size_t field;
-  std::size_t violations;
-  std::size_t metadata;
-  std::size_t value;
-};
-
-constexpr std::array<Budget, 4> budgets{{
+constexpr std::array<api::Budget, 4> budgets{{
     {800, 300, 200, max_violations, 16, 200},
     {400, 120, 160, 12, 8, 100},
     {300, 80, 120, 5, 8, 60},
     {200, 60, 100, 1, 0, 0},
 }};
-
-template <class Detail>
-void pack(const Detail& detail, const char* type, v1::Status& status) {
-  google::protobuf::Any& any = *status.add_details();
-  any.set_type_url(std::string("type.googleapis.com/google.rpc.") + type);
-  any.set_value(detail.SerializeAsString());
-}
-
-v1::Status build(const errors::Error& error, const Budget& budget) {
-  v1::Status status;
-  status.set_code(code(error.reason()));
-  status.set_message(printable(error.what(), budget.message));
-
-  v1::ErrorInfo info;
-  info.set_reason(std::string(errors::name(error.reason())));
-  info.set_domain("anticrack");
-  std::size_t kept = 0;
-  for (const auto& [key, value] : error.metadata()) {
-    if (kept++ == budget.metadata) break;
-    (*info.mutable_metadata())[printable(key, 64)] = printable(value, budget.value);
-  }
-  pack(info, "ErrorInfo", status);
-
-  if (!error.fields().empty()) {
-    v1::BadRequest bad;
-    const std::size_t count = std::min(error.fields().size(), budget.violations);
-    for (std::size_t i = 0; i < count; ++i) {
-      v1::BadRequest::FieldViolation& violation = *bad.add_field_violations();
-      violation.set_field(printable(error.fields()[i].field, budget.field));
-      violation.set_description(printable(error.fields()[i].description, budget.description));
-    }
-    pack(bad, "BadRequest", status);
-  }
-
-  if (error.retry_delay().count() > 0) {
-    v1::RetryInfo retry;
-    const auto delay = error.retry_delay().count();
-    retry.mutable_retry_delay()->set_seconds(delay / 1000);
-    retry.mutable_retry_delay()->set_nanos(static_cast<std::int32_t>(delay % 1000) * 1'000'000);
-    pack(retry, "RetryInfo", status);
-  }
-  return status;
-}
 
 void log_unexpected(std::string_view where, std::string_view what) {
   log::error("unexpected error", {{"in", std::string(where)}, {"error", std::string(what)}});
@@ -124,8 +72,9 @@ grpc::StatusCode code(Reason reason) noexcept {
 
 v1::Status to_message(const errors::Error& error) {
   v1::Status status;
-  for (const Budget& budget : budgets) {
-    status = build(error, budget);
+  for (const api::Budget& budget : budgets) {
+    status = api::to_message(error, budget);
+    status.set_code(code(error.reason()));
     if (status.ByteSizeLong() <= max_detail_bytes) break;
   }
   return status;

@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The domain's records as answers. Pure functions.
+// Records and events as a client is told of them: the messages records are kept as
+// (api/translations.hpp), cut to what fits in an answer. Pure functions.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
-#include "store/block.hpp"
+#include "jobs/event_log.hpp"
 #include "store/records.hpp"
-
-namespace anticrack::jobs {
-struct SampleRun;
-}
 
 namespace anticrack::rpc {
 
@@ -25,28 +21,19 @@ constexpr std::size_t max_job_message_bytes = 3u << 20;
 /// `pinned`: its operators stay in memory.
 v1::Mesh from_domain(const store::MeshRecord& record, bool pinned);
 
-/// Names of a mesh's interfaces, by index.
-using InterfaceNames = std::vector<std::string>;
-
 /// The whole job. Where it would be larger than max_job_message_bytes its contact intervals are
 /// left out: ReadResult has them as traces.
-v1::Job from_domain(const store::JobRecord& record, const InterfaceNames& interfaces);
-
-/// One for one.
-v1::Job::State from_domain(store::JobState state) noexcept;
+v1::Job from_domain(const store::JobRecord& record);
 
 /// `name` of the load case.
-v1::LoadCaseAnswer from_domain(const store::CaseRecord& record, const std::string& name,
-                               const InterfaceNames& interfaces);
-
-/// What of a block a client needs to read it.
-v1::BlockLayout layout_of(const store::BlockSource& block);
+v1::LoadCaseAnswer from_domain(const store::CaseRecord& record, const std::string& name);
 
 /// Appends every sample to every array: one allocation an array, one copy an array and run.
 void append(v1::Samples& samples, const std::vector<jobs::SampleRun>& runs);
 
-/// To the nanosecond.
-google::protobuf::Timestamp to_timestamp(store::Clock::time_point time);
-google::protobuf::Duration to_duration(std::chrono::nanoseconds duration);
+/// Appends rows of the event, from its row `first` on: `count` of them, or as many as there are.
+/// `rows` is empty, or ends with the row before. O(count inclusions), one reservation an array.
+void append(v1::SweepRows& rows, const jobs::RowsEvent& event, std::size_t first,
+            std::size_t count);
 
 }  // namespace anticrack::rpc

@@ -3,12 +3,12 @@
 
 #include <memory>
 
+#include "api/names.hpp"
+#include "api/requests.hpp"
 #include "meshes/mesh_catalogue.hpp"
 #include "rpc/block_feed.hpp"
 #include "rpc/from_domain.hpp"
-#include "rpc/names.hpp"
 #include "rpc/pages.hpp"
-#include "rpc/to_domain.hpp"
 #include "rpc/unary.hpp"
 #include "rpc/upload_stream.hpp"
 #include "rpc/visible.hpp"
@@ -34,12 +34,12 @@ grpc::ServerUnaryReactor* MeshService::CreateMesh(grpc::CallbackServerContext* c
                                                   v1::Mesh* response) {
   return create(_edge, context, "CreateMesh", [this, request, response](const Identity& who) {
     _edge.admission.require_open();
-    const store::MeshDefinition definition = to_definition(*request);
+    const store::MeshDefinition definition = api::to_definition(*request);
     try {
       *response = to_answer(_edge.backend.catalogue.create(definition, request->title(), who.name));
     } catch (const Error& error) {
       const bool about_file = error.fields().empty() && error.reason() == Reason::mesh_invalid;
-      throw below_mesh_request(about_file ? Error(error).at("upload") : error);
+      throw api::below_mesh_request(about_file ? Error(error).at("upload") : error);
     }
   });
 }
@@ -48,7 +48,7 @@ grpc::ServerUnaryReactor* MeshService::GetMesh(grpc::CallbackServerContext* cont
                                                const v1::GetMeshRequest* request,
                                                v1::Mesh* response) {
   return look_up(_edge, context, "GetMesh", [this, request, response](const Identity& who) {
-    *response = to_answer(visible_mesh(_edge.backend, who, mesh_id(request->name(), "name")));
+    *response = to_answer(visible_mesh(_edge.backend, who, api::mesh_id(request->name(), "name")));
   });
 }
 
@@ -69,20 +69,20 @@ grpc::ServerUnaryReactor* MeshService::ListMeshes(grpc::CallbackServerContext* c
 
 grpc::ServerWriteReactor<v1::ReadMeshResponse>* MeshService::ReadMesh(
     grpc::CallbackServerContext* context, const v1::ReadMeshRequest* request) {
-  return stream<v1::ReadMeshResponse>(_edge, context, StreamKind::transfer, "ReadMesh",
-                                      [this, request](const Identity& who) {
-                                        const std::string id = mesh_id(request->name(), "name");
-                                        visible_mesh(_edge.backend, who, id);
-                                        return std::make_unique<BlockFeed<v1::ReadMeshResponse>>(
-                                            _edge.backend.catalogue.read(id), request->offset());
-                                      });
+  return stream<v1::ReadMeshResponse>(
+      _edge, context, StreamKind::transfer, "ReadMesh", [this, request](const Identity& who) {
+        const std::string id = api::mesh_id(request->name(), "name");
+        visible_mesh(_edge.backend, who, id);
+        return std::make_unique<BlockFeed<v1::ReadMeshResponse>>(_edge.backend.catalogue.read(id),
+                                                                 request->offset());
+      });
 }
 
 grpc::ServerUnaryReactor* MeshService::DeleteMesh(grpc::CallbackServerContext* context,
                                                   const v1::DeleteMeshRequest* request,
                                                   google::protobuf::Empty* /*response*/) {
   return change(_edge, context, "DeleteMesh", [this, request](const Identity& who) {
-    const std::string id = mesh_id(request->name(), "name");
+    const std::string id = api::mesh_id(request->name(), "name");
     visible_mesh(_edge.backend, who, id);
     _edge.backend.catalogue.erase(id);
   });
@@ -94,7 +94,7 @@ grpc::ServerUnaryReactor* MeshService::WarmMesh(grpc::CallbackServerContext* con
   return change(_edge, context, "WarmMesh", [this, request, response](const Identity& who) {
     _edge.admission.require_open();
     if (request->pin()) access::require_admin(who, "pin a mesh in memory");
-    const std::string id = mesh_id(request->name(), "name");
+    const std::string id = api::mesh_id(request->name(), "name");
     visible_mesh(_edge.backend, who, id);
     *response = to_answer(_edge.backend.catalogue.warm(id, request->pin()));
   });
@@ -105,7 +105,7 @@ grpc::ServerUnaryReactor* MeshService::EvictMesh(grpc::CallbackServerContext* co
                                                  v1::Mesh* response) {
   return change(_edge, context, "EvictMesh", [this, request, response](const Identity& who) {
     access::require_admin(who, "evict a mesh");
-    const std::string id = mesh_id(request->name(), "name");
+    const std::string id = api::mesh_id(request->name(), "name");
     visible_mesh(_edge.backend, who, id);
     *response = to_answer(_edge.backend.catalogue.evict(id));
   });

@@ -1,14 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Lists in pages.
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "errors/errors.hpp"
-#include "rpc/names.hpp"
 
 namespace anticrack::rpc {
+
+/// One page of a list (AIP-158). The token is the id of the last resource of the page before.
+struct Page {
+  std::size_t size = 0;
+  std::string after;
+};
+constexpr std::size_t default_page_size = 50;
+constexpr std::size_t max_page_size = 1000;
+/// A page is closed early when it grows past this: the client's limit is gRPC's 4 MiB.
+constexpr std::size_t max_page_bytes = 2u << 20;
+
+/// Of a request; size 0 is the default. Throws with "page_size" or "page_token" at fault.
+Page to_page(std::int32_t page_size, const std::string& page_token);
 
 /// Fills one page. `list(after, count)` gives records newest first, `add(record)` appends one to
 /// the answer and returns its bytes. Returns the token of the next page, empty after the last.

@@ -3,10 +3,10 @@
 
 #include <array>
 
+#include "api/translations.hpp"
 #include "jobs/job_engine.hpp"
 #include "meshes/mesh_catalogue.hpp"
 #include "operators/operator_cache.hpp"
-#include "rpc/from_domain.hpp"
 #include "rpc/unary.hpp"
 #include "rpc/version.hpp"
 
@@ -63,9 +63,9 @@ v1::ServerLimits to_message(const Limits& limits, const jobs::EngineOptions& eng
   to.set_streams_a_client(limits.streams_a_client);
   to.set_queued_cases(engine.max_queued_cases);
   to.set_queued_bytes(engine.max_queued_bytes);
-  *to.mutable_queue_time() = to_duration(engine.queue_time);
-  *to.mutable_run_time() = to_duration(engine.run_time);
-  *to.mutable_result_ttl() = to_duration(engine.result_ttl);
+  *to.mutable_queue_time() = api::message<std::chrono::nanoseconds>(engine.queue_time);
+  *to.mutable_run_time() = api::message<std::chrono::nanoseconds>(engine.run_time);
+  *to.mutable_result_ttl() = api::message<std::chrono::nanoseconds>(engine.result_ttl);
   to.set_result_bytes(engine.max_result_bytes);
   to.set_meshes(static_cast<std::int32_t>(limits.meshes));
   to.set_pending_meshes(static_cast<std::int32_t>(limits.pending_meshes));
@@ -75,7 +75,7 @@ v1::ServerLimits to_message(const Limits& limits, const jobs::EngineOptions& eng
   to.set_event_log_bytes(engine.event_log_bytes);
   to.set_sweep_rows(engine.max_sweep_rows);
   to.set_sweep_basis(engine.max_sweep_basis);
-  *to.mutable_meshing_time() = to_duration(limits.meshing_time);
+  *to.mutable_meshing_time() = api::message<std::chrono::nanoseconds>(limits.meshing_time);
   return to;
 }
 
@@ -112,7 +112,7 @@ grpc::ServerUnaryReactor* ServerService::GetServerInfo(grpc::CallbackServerConte
   return answer(_edge, context, "GetServerInfo", [&](const access::Identity&) {
     response->set_version(version());
     response->set_build(build());
-    *response->mutable_start_time() = to_timestamp(_start);
+    *response->mutable_start_time() = api::message(_start);
     const Backend& backend = _edge.backend;
     const jobs::EngineOptions& engine = backend.engine.options();
     response->set_threads(engine.threads);

@@ -3,14 +3,14 @@
 
 #include <memory>
 
+#include "api/names.hpp"
+#include "api/requests.hpp"
 #include "jobs/check.hpp"
 #include "jobs/job_engine.hpp"
 #include "rpc/block_feed.hpp"
 #include "rpc/from_domain.hpp"
-#include "rpc/names.hpp"
 #include "rpc/pages.hpp"
 #include "rpc/sweep_upload.hpp"
-#include "rpc/to_domain.hpp"
 #include "rpc/unary.hpp"
 #include "rpc/visible.hpp"
 #include "rpc/watch_feed.hpp"
@@ -20,32 +20,26 @@ namespace anticrack::rpc {
 
 using access::Identity;
 
-v1::Job SolveService::to_answer(const store::JobRecord& record) const {
-  // Answers name interfaces; before the start there is none.
-  return from_domain(record, record.started
-                                 ? interface_names(_edge.backend.catalogue, record.spec.mesh)
-                                 : InterfaceNames());
-}
-
 grpc::ServerUnaryReactor* SolveService::CreateJob(grpc::CallbackServerContext* context,
                                                   const v1::CreateJobRequest* request,
                                                   v1::Job* response) {
   return create(_edge, context, "CreateJob", [this, request, response](const Identity& who) {
     _edge.admission.require_open();
     const jobs::EngineOptions& options = _edge.backend.engine.options();
-    require_request_id(request->request_id());
-    store::JobSpec spec = to_spec(request->job(), {options.max_load_cases, options.max_iterations,
-                                                   options.queue_time, options.run_time});
+    api::require_request_id(request->request_id());
+    store::JobSpec spec = api::to_spec(
+        request->job(),
+        {options.max_load_cases, options.max_iterations, options.queue_time, options.run_time});
     try {
       visible_mesh(_edge.backend, who, spec.mesh);
       if (has_packed_matrix(request->job())) {
         jobs::check(spec, options);  // what is refused leaves nothing on the disk
         keep_packed_matrix(request->job(), _edge.backend.store, who.name);
       }
-      *response = to_answer(
+      *response = from_domain(
           _edge.backend.engine.submit({std::move(spec), who.name, request->request_id()}));
     } catch (const errors::Error& error) {
-      throw below_job_request(error);
+      throw api::below_job_request(error);
     }
   });
 }
@@ -54,7 +48,7 @@ grpc::ServerUnaryReactor* SolveService::GetJob(grpc::CallbackServerContext* cont
                                                const v1::GetJobRequest* request,
                                                v1::Job* response) {
   return look_up(_edge, context, "GetJob", [this, request, response](const Identity& who) {
-    *response = to_answer(visible_job(_edge.backend, who, job_id(request->name(), "name")));
+    *response = from_domain(visible_job(_edge.backend, who, api::job_id(request->name(), "name")));
   });
 }
 
@@ -68,7 +62,7 @@ grpc::ServerUnaryReactor* SolveService::ListJobs(grpc::CallbackServerContext* co
           return _edge.backend.engine.list({after, count, owner_filter(who)});
         },
         [&](const store::JobRecord& record) {
-          return (*response->add_jobs() = to_answer(record)).ByteSizeLong();
+          return (*response->add_jobs() = from_domain(record)).ByteSizeLong();
         }));
   });
 }
@@ -77,9 +71,9 @@ grpc::ServerUnaryReactor* SolveService::CancelJob(grpc::CallbackServerContext* c
                                                   const v1::CancelJobRequest* request,
                                                   v1::Job* response) {
   return change(_edge, context, "CancelJob", [this, request, response](const Identity& who) {
-    const std::string id = job_id(request->name(), "name");
+    const std::string id = api::job_id(request->name(), "name");
     visible_job(_edge.backend, who, id);
-    *response = to_answer(_edge.backend.engine.cancel(id));
+    *response = from_domain(_edge.backend.engine.cancel(id));
   });
 }
 
@@ -87,7 +81,7 @@ grpc::ServerUnaryReactor* SolveService::DeleteJob(grpc::CallbackServerContext* c
                                                   const v1::DeleteJobRequest* request,
                                                   google::protobuf::Empty* /*response*/) {
   return change(_edge, context, "DeleteJob", [this, request](const Identity& who) {
-    const std::string id = job_id(request->name(), "name");
+    const std::string id = api::job_id(request->name(), "name");
     visible_job(_edge.backend, who, id);
     _edge.backend.engine.erase(id);
   });
@@ -97,7 +91,7 @@ grpc::ServerWriteReactor<v1::WatchJobResponse>* SolveService::WatchJob(
     grpc::CallbackServerContext* context, const v1::WatchJobRequest* request) {
   return stream<v1::WatchJobResponse>(
       _edge, context, StreamKind::watch, "WatchJob", [this, request](const Identity& who) {
-        std::string id = job_id(request->name(), "name");
+        std::string id = api::job_id(request->name(), "name");
         visible_job(_edge.backend, who, id);
         return std::make_unique<WatchFeed>(_edge.backend, _edge.watch_groups, std::move(id),
                                            request->after_sequence());
@@ -108,7 +102,7 @@ grpc::ServerWriteReactor<v1::ReadResultResponse>* SolveService::ReadResult(
     grpc::CallbackServerContext* context, const v1::ReadResultRequest* request) {
   return stream<v1::ReadResultResponse>(
       _edge, context, StreamKind::transfer, "ReadResult", [this, request](const Identity& who) {
-        const std::string id = job_id(request->name(), "name");
+        const std::string id = api::job_id(request->name(), "name");
         visible_job(_edge.backend, who, id);
         return std::make_unique<BlockFeed<v1::ReadResultResponse>>(_edge.backend.engine.result(id),
                                                                    request->offset());

@@ -34,8 +34,6 @@ class SolveService final : public v1::SolveService::CallbackService {
       grpc::CallbackServerContext* context, const v1::ReadResultRequest* request) override;
 
  private:
-  v1::Job to_answer(const store::JobRecord& record) const;
-
   Edge& _edge;
 };
 

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/sweep_upload.hpp"
 
+#include "api/requests.hpp"
 #include "errors/errors.hpp"
 #include "rpc/block_feed.hpp"
-#include "rpc/to_domain.hpp"
 #include "rpc/upload_receiver.hpp"
 #include "store/digest.hpp"
 
 namespace anticrack::rpc {
 
-static_assert(max_packed_bytes <= max_chunk_bytes, "it is one chunk");
+static_assert(api::max_packed_bytes <= max_chunk_bytes, "it is one chunk");
 
 bool has_packed_matrix(const v1::Job& job) {
-  const v1::Sweep::Matrix* matrix = matrix_of(job.sweep()).matrix;
+  const v1::Sweep::Matrix* matrix = api::matrix_of(job.sweep()).matrix;
   return matrix != nullptr && matrix->has_packed();
 }
 
 void keep_packed_matrix(const v1::Job& job, store::Store& store, const std::string& owner) {
-  const auto [matrix, field] = matrix_of(job.sweep());
+  const auto [matrix, field] = api::matrix_of(job.sweep());
   const std::string& packed = matrix->packed();
   v1::UploadMeshRequest header;
   header.mutable_header()->set_size(packed.size());
@@ -25,7 +25,7 @@ void keep_packed_matrix(const v1::Job& job, store::Store& store, const std::stri
   header.mutable_header()->set_content(v1::UploadMeshRequest::CONTENT_ARRAY);
   v1::UploadMeshRequest values;
   values.set_chunk(packed);
-  UploadReceiver receiver(store, owner, max_packed_bytes);
+  UploadReceiver receiver(store, owner, api::max_packed_bytes);
   try {
     receiver.accept(header);
     receiver.accept(values);

@@ -9,10 +9,10 @@
 #include <system_error>
 #include <utility>
 
+#include "api/names.hpp"
 #include "errors/errors.hpp"
 #include "mesher/helper.hpp"
 #include "rpc/block_feed.hpp"
-#include "rpc/names.hpp"
 #include "store/array_upload.hpp"
 
 namespace anticrack::rpc {
@@ -140,7 +140,7 @@ void UploadReceiver::begin(const v1::UploadMeshRequest::Header& header) {
                                             " are accepted (see GetServerInfo)")
         .at("header.size");
   }
-  if (!is_sha256(header.sha256())) {
+  if (!api::is_sha256(header.sha256())) {
     throw Error(Reason::invalid_argument,
                 "sha256 is not 64 lower-case hexadecimal digits, as sha256sum prints them")
         .at("header.sha256");

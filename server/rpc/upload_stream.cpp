@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include "api/names.hpp"
 #include "rpc/error_table.hpp"
-#include "rpc/names.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -81,7 +81,7 @@ void UploadStream::take(bool ok) noexcept {
       _receiver.accept(_request);
       read_next();
     } else {
-      _response->set_upload(upload_name(_receiver.complete()));
+      _response->set_upload(api::upload_name(_receiver.complete()));
       finish(grpc::Status::OK);
     }
   } catch (...) {

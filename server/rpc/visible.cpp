@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/visible.hpp"
 
+#include "api/names.hpp"
 #include "errors/errors.hpp"
 #include "jobs/job_engine.hpp"
 #include "meshes/mesh_catalogue.hpp"
-#include "rpc/names.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -27,12 +27,12 @@ auto visible(const access::Identity& who, const std::string& name, Get get) {
 
 store::MeshRecord visible_mesh(const Backend& backend, const access::Identity& who,
                                const std::string& id) {
-  return visible(who, mesh_name(id), [&] { return backend.catalogue.get(id); });
+  return visible(who, api::mesh_name(id), [&] { return backend.catalogue.get(id); });
 }
 
 store::JobRecord visible_job(const Backend& backend, const access::Identity& who,
                              const std::string& id) {
-  return visible(who, job_name(id), [&] { return backend.engine.get(id); });
+  return visible(who, api::job_name(id), [&] { return backend.engine.get(id); });
 }
 
 std::optional<std::string> owner_filter(const access::Identity& who) {

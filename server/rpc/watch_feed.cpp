@@ -7,8 +7,7 @@
 
 #include "errors/errors.hpp"
 #include "jobs/job_engine.hpp"
-#include "meshes/mesh_catalogue.hpp"
-#include "rpc/from_sweep.hpp"
+#include "rpc/from_domain.hpp"
 
 namespace anticrack::rpc {
 
@@ -74,10 +73,9 @@ bool WatchFeed::heartbeat(v1::WatchJobResponse& response) {
 void WatchFeed::fill_snapshot(v1::WatchJobResponse& response) {
   const store::JobRecord record = _backend.engine.get(_id);
   for (const fem::Load& load : record.spec.loads) _load_names.push_back(load.name);
-  _interfaces = interface_names(_backend.catalogue, record.spec.mesh);
-  _state = from_domain(record.state);
+  _state = static_cast<v1::Job::State>(record.state);
   v1::WatchJobResponse::Snapshot& snapshot = *response.mutable_snapshot();
-  *snapshot.mutable_job() = from_domain(record, _interfaces);
+  *snapshot.mutable_job() = from_domain(record);
   snapshot.set_earliest_sequence(_group->log().earliest());
   snapshot.set_latest_sequence(_group->log().latest());
   response.set_sequence(_cursor);
@@ -101,20 +99,17 @@ jobs::NumberedBatch WatchFeed::read() {
 
 void WatchFeed::fill(const jobs::ProgressEvents& progress, v1::WatchJobResponse& response) {
   if (!progress.samples.empty()) append(*response.mutable_samples(), progress.samples);
-  if (!progress.ended.empty() && _interfaces.empty()) {  // not meshed yet when the watch began
-    _interfaces = interface_names(_backend.catalogue, _backend.engine.get(_id).spec.mesh);
-  }
   for (const jobs::CaseEvent& ended : progress.ended) {
     const auto index = static_cast<std::size_t>(ended.load_case);
     const std::string name = index < _load_names.size() ? _load_names[index] : "";
     v1::LoadCaseEnded& load_case = *response.add_load_cases_ended();
     load_case.set_load_case(ended.load_case);
-    *load_case.mutable_answer() = from_domain(*ended.record, name, _interfaces);
+    *load_case.mutable_answer() = from_domain(*ended.record, name);
   }
 }
 
 void WatchFeed::fill(const jobs::PhaseEvent& phase, v1::WatchJobResponse& response) {
-  _state = from_domain(phase.state);
+  _state = static_cast<v1::Job::State>(phase.state);
   _detail = phase.detail;
   response.mutable_phase()->set_state(_state);
   response.mutable_phase()->set_detail(_detail);
@@ -125,21 +120,8 @@ void WatchFeed::fill(const jobs::RowsEvent& rows, v1::WatchJobResponse& response
 }
 
 void WatchFeed::fill(const jobs::EndEvent& end, v1::WatchJobResponse& response) {
-  if (_interfaces.empty()) _interfaces = interface_names(_backend.catalogue, end.job->spec.mesh);
-  *response.mutable_ended() = from_domain(*end.job, _interfaces);
+  *response.mutable_ended() = from_domain(*end.job);
   _ended = true;
-}
-
-InterfaceNames interface_names(const meshes::MeshCatalogue& catalogue, const std::string& mesh_id) {
-  InterfaceNames names;
-  try {
-    for (const store::InterfaceSummary& interface : catalogue.get(mesh_id).interfaces) {
-      names.push_back(interface.name);
-    }
-  } catch (const errors::Error&) {
-    names.clear();  // the mesh was deleted since; its answers stay readable
-  }
-  return names;
 }
 
 }  // namespace anticrack::rpc

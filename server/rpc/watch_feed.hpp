@@ -16,7 +16,6 @@
 #include "jobs/event_log.hpp"
 #include "rpc/backend.hpp"
 #include "rpc/feed.hpp"
-#include "rpc/from_domain.hpp"
 #include "rpc/watch_group.hpp"
 
 namespace anticrack::rpc {
@@ -55,7 +54,6 @@ class WatchFeed final : public Feed<v1::WatchJobResponse> {
   const std::string _id;
   const std::shared_ptr<WatchGroup> _group;
   std::optional<WatchGroup::Wakes::iterator> _member;
-  InterfaceNames _interfaces;
   std::vector<std::string> _load_names;
   std::atomic<std::uint64_t> _cursor;  ///< written by whoever drives the feed
   bool _from_earliest = false;         ///< nothing delivered yet, and no place asked for
@@ -64,8 +62,5 @@ class WatchFeed final : public Feed<v1::WatchJobResponse> {
   v1::Job::State _state = v1::Job::STATE_UNSPECIFIED;
   std::string _detail;
 };
-
-/// Names of the interfaces of a mesh; empty where it is not known (any more) or not meshed.
-InterfaceNames interface_names(const meshes::MeshCatalogue& catalogue, const std::string& mesh_id);
 
 }  // namespace anticrack::rpc

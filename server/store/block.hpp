@@ -10,9 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "fields/fields.hpp"
+
 namespace anticrack::store {
 
-enum class ArrayType { float64, int32, uint8 };
+/// Its numbers are those of the API.
+enum class ArrayType { float64 = 1, int32, uint8 };
 
 /// One array: little-endian, row-major, at an offset that is a multiple of 8.
 struct ArrayLayout {
@@ -21,6 +24,7 @@ struct ArrayLayout {
   std::vector<std::uint64_t> shape;
   std::uint64_t offset = 0;
 };
+ANTICRACK_FIELDS(ArrayLayout, name, type, shape, offset)
 
 /// Immutable once built and shared.
 struct Block {

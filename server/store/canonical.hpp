@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 
+#include "fields/walk.hpp"
 #include "store/digest.hpp"
 
 namespace anticrack::store {
@@ -32,6 +33,12 @@ class CanonicalHash {
   CanonicalHash& add(const std::string& text) {
     add(std::uint64_t{text.size()});
     _hash.add(text);
+    return *this;
+  }
+  /// Every field of it, and of what it holds.
+  template <class T>
+  CanonicalHash& add_all(const T& value) {
+    fields::walk(value, [this](const auto& leaf) { add(leaf); });
     return *this;
   }
   /// 64 lower-case hexadecimal digits. The object may not be used after.

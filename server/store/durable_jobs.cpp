@@ -6,7 +6,6 @@
 #include "store/digest.hpp"
 #include "store/durable_store.hpp"
 #include "store/record_codec.hpp"
-#include "store/record_parts.hpp"
 #include "store/result_file.hpp"
 
 namespace anticrack::store {
@@ -35,7 +34,7 @@ std::set<std::string> uploads_of(const JobSpec& spec) {
 
 void bind_end(Statement& statement, const JobRecord& record) {
   if (ended(record.state)) {
-    statement.bind(disk::to_disk(record.ended.value_or(record.created)));
+    statement.bind(to_disk(record.ended.value_or(record.created)));
   } else {
     statement.bind_null();
   }
@@ -211,7 +210,7 @@ std::vector<EndedJob> DurableStore::ended() const {
         "SELECT id, ended, result_bytes FROM jobs WHERE ended IS NOT NULL ORDER BY ended, number");
     std::vector<EndedJob> jobs;
     while (select.step()) {
-      jobs.push_back({select.text(0), disk::time_of(select.integer(1)),
+      jobs.push_back({select.text(0), time_of(select.integer(1)),
                       static_cast<std::uint64_t>(select.integer(2))});
     }
     return jobs;

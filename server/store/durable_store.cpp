@@ -37,7 +37,7 @@ Connection open_writer(const std::string& folder) {
       "PRAGMA journal_size_limit = 67108864");
   require_sound(connection);
   require_own(connection, folder);
-  migrate(connection, schema_steps());
+  make_tables(connection);
   {
     // What can only be read shows now: SQLite would take it for as long as the connection lives.
     const Transaction probe(connection);

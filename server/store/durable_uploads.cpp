@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "store/durable_store.hpp"
-#include "store/record_parts.hpp"
+#include "store/record_codec.hpp"
 
 namespace anticrack::store {
 
@@ -46,7 +46,7 @@ void DurableStore::keep_upload(const std::string& path, const std::string& sha25
     _parts.mark_flushed(path);
   }
   const std::string& flushed = copy ? copy->path() : path;
-  const std::int64_t now = disk::to_disk(Clock::now());
+  const std::int64_t now = to_disk(Clock::now());
   // A link, so that the upload is still there when this fails and is tried again.
   _writer.run([&](Connection& connection) {
     _unreferenced.push_back({FileKind::upload, sha256});
@@ -72,7 +72,7 @@ std::size_t DurableStore::expire_uploads(Clock::time_point before) {
         "AND NOT EXISTS (SELECT 1 FROM meshes m "
         "                WHERE m.upload = uploads.sha256 AND m.upload <> '' AND m.sha256 = '') "
         "RETURNING sha256");
-    erase.bind(disk::to_disk(before));
+    erase.bind(to_disk(before));
     while (erase.step()) {
       _unreferenced.push_back({FileKind::upload, erase.text(0)});
       ++removed;

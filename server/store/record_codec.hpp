@@ -1,15 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Records as bytes (records.proto). Exact: every field comes back bit by bit, except what a record
-// does not keep: an answer's traces, fields and closed contacts, the values of an array.
+// Records as bytes: messages of the API (records.proto). Exact: every field comes back bit by bit,
+// except the values of an array, which a record does not keep, and bytes that are not UTF-8.
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "store/records.hpp"
 
 namespace anticrack::store {
+
+/// Nanoseconds since 1970, as in columns of the database, and the way back.
+inline std::int64_t to_disk(Clock::time_point time) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
+}
+/// See to_disk().
+inline Clock::time_point time_of(std::int64_t nanoseconds) {
+  return Clock::time_point(
+      std::chrono::duration_cast<Clock::duration>(std::chrono::nanoseconds(nanoseconds)));
+}
 
 /// What the database keeps.
 std::string encode(const MeshRecord& record);

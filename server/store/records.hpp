@@ -13,27 +13,32 @@
 #include "contact/answer.hpp"
 #include "errors/errors.hpp"
 #include "fem/load.hpp"
+#include "fields/fields.hpp"
 #include "mesh/geometry.hpp"
 
 namespace anticrack::store {
 
 using Clock = std::chrono::system_clock;
 
+// The numbers of enums are those of the API.
+
 /// An uploaded .msh, by the sha256 of its bytes; the file lies in the store's folder.
 struct UploadRef {
   std::string sha256;
   mesh::MeshOptions options{};
 };
+ANTICRACK_FIELDS(UploadRef, sha256, options)
 
 struct GeometrySource {
   mesh::Geometry geometry;
   mesh::MeshOptions options;
 };
+ANTICRACK_FIELDS(GeometrySource, geometry, options)
 
 /// What a mesh is made from; its identity is the hash of this.
 using MeshDefinition = std::variant<GeometrySource, UploadRef>;
 
-enum class MeshState { pending, meshing, factorizing, ready, evicted, failed };
+enum class MeshState { pending = 1, meshing, factorizing, ready, evicted, failed };
 
 struct SubdomainSummary {
   std::string name;
@@ -46,12 +51,15 @@ struct SubdomainSummary {
   double shortest_edge = 0;
   double longest_edge = 0;
 };
+ANTICRACK_FIELDS(SubdomainSummary, name, node_count, triangle_count, area, tension, floating,
+                 minimum_angle, shortest_edge, longest_edge)
 
 struct TipSummary {
   mesh::Point at{};
   std::string interface;
   double smallest_edge = 0;
 };
+ANTICRACK_FIELDS(TipSummary, at, interface, smallest_edge)
 
 struct SegmentSummary {
   mesh::Kind kind = mesh::Kind::glue;
@@ -60,6 +68,7 @@ struct SegmentSummary {
   double end = 0;
   std::uint64_t edge_count = 0;
 };
+ANTICRACK_FIELDS(SegmentSummary, kind, inclusion, begin, end, edge_count)
 
 struct InterfaceSummary {
   std::string name;
@@ -67,6 +76,7 @@ struct InterfaceSummary {
   std::uint64_t node_count = 0;
   std::vector<SegmentSummary> segments;
 };
+ANTICRACK_FIELDS(InterfaceSummary, name, length, node_count, segments)
 
 struct MeshRecord {
   std::string id;     ///< first 16 digits of the hash of definition and owner
@@ -95,8 +105,20 @@ struct MeshRecord {
   double theta_star = 0;
   double factorize_seconds = 0;
 };
+ANTICRACK_FIELDS(MeshRecord, id, owner, title, definition, state, error, created, sha256,
+                 node_count, triangle_count, subdomains, interfaces, inclusions, warnings,
+                 minimum_angle, bisection_bound, tips, dirichlet_length, neumann_length,
+                 mesh_seconds, operator_bytes, theta_star, factorize_seconds)
 
-enum class JobState { queued, waiting_for_mesh, running, succeeded, failed, cancelled, expired };
+enum class JobState {
+  queued = 1,
+  waiting_for_mesh,
+  running,
+  succeeded,
+  failed,
+  cancelled,
+  expired
+};
 
 /// Whether the job will not change any more, but by expiring.
 constexpr bool ended(JobState state) noexcept {
@@ -104,17 +126,16 @@ constexpr bool ended(JobState state) noexcept {
 }
 
 /// Who goes first. What waits long is treated as more urgent (jobs/schedule.hpp).
-enum class Priority { interactive, normal, bulk };
-
-enum class CaseStatus { pending, running, converged, not_converged, failed, cancelled };
+enum class Priority { interactive = 1, normal, bulk };
 
 /// A load case's answer without its arrays, which are in the result block.
 struct CaseRecord {
-  CaseStatus status = CaseStatus::pending;
+  contact::Status status = contact::Status::pending;
   std::optional<errors::Error> error;  ///< when failed
-  contact::Answer answer;              ///< traces and fields left empty
-  double seconds = 0;
+  contact::AnswerSummary answer;
+  std::chrono::nanoseconds solve_time{0};
 };
+ANTICRACK_FIELDS(CaseRecord, status, error, answer, solve_time)
 
 /// Many load cases answered in columns: rows of a matrix that is an upload, row-major f64.
 struct SweepSpec {
@@ -127,6 +148,7 @@ struct SweepSpec {
   std::uint64_t rows = 0;               ///< of nodal forces: known when the job starts
   std::vector<std::uint32_t> traces{};  ///< rows whose traces are kept, ascending
 };
+ANTICRACK_FIELDS(SweepSpec, cases, upload, rows, traces)
 
 /// Of a sweep that has ended; its columns are in the result block.
 struct SweepRecord {
@@ -134,10 +156,12 @@ struct SweepRecord {
   std::uint64_t not_converged = 0;
   std::uint64_t failed = 0;
   int most_steps = 0;
-  double worst_kkt = 0;                 ///< relative, over the rows that converged
-  double seconds = 0;                   ///< on solver threads, added up
-  std::vector<std::string> warnings{};  ///< of the loads that are combined
+  double worst_kkt = 0;                    ///< relative, over the rows that converged
+  std::chrono::nanoseconds solve_time{0};  ///< on solver threads, added up
+  std::vector<std::string> warnings{};     ///< of the loads that are combined
 };
+ANTICRACK_FIELDS(SweepRecord, converged, not_converged, failed, most_steps, worst_kkt, solve_time,
+                 warnings)
 
 /// What a client asked for.
 struct JobSpec {
@@ -151,6 +175,8 @@ struct JobSpec {
   std::chrono::milliseconds queue_time_limit{0};  ///< from creation to start; 0: the server's
   std::chrono::milliseconds run_time_limit{0};    ///< from start to end; 0: the server's
 };
+ANTICRACK_FIELDS(JobSpec, title, mesh, loads, solver, fields, sweep, priority, queue_time_limit,
+                 run_time_limit)
 
 /// A step of a job's way: it passed into `state`, or into another phase of it.
 struct Step {
@@ -158,6 +184,7 @@ struct Step {
   JobState state = JobState::queued;
   std::string detail;  ///< e.g. "meshing"
 };
+ANTICRACK_FIELDS(Step, time, state, detail)
 
 struct JobRecord {
   std::string id;
@@ -175,5 +202,7 @@ struct JobRecord {
   int attempt = 1;             ///< counts restarts of the server while it ran
   std::vector<Step> timeline;  ///< of this attempt and those before, at most a few dozen
 };
+ANTICRACK_FIELDS(JobRecord, id, owner, request_id, spec, state, error, created, started, ended,
+                 cases, sweep, result_bytes, attempt, timeline)
 
 }  // namespace anticrack::store

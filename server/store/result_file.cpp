@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "api/translations.hpp"
 #include "store/digest.hpp"
-#include "store/record_parts.hpp"
 
 namespace anticrack::store {
 
@@ -20,8 +20,7 @@ using errors::Reason;
 
 static_assert(std::endian::native == std::endian::little, "lengths are little-endian");
 
-constexpr std::array types{ArrayType::float64, ArrayType::int32, ArrayType::uint8};
-constexpr std::string_view magic("ACRES\0\0\1", 8);  // the last: the version
+constexpr std::string_view magic("ACRES\0\0\2", 8);  // the last: the version
 constexpr std::size_t lengths = 2 * sizeof(std::uint32_t);
 constexpr std::size_t max_header = std::size_t{16} << 20U;
 
@@ -30,14 +29,10 @@ using Read = std::function<void(std::uint64_t offset, std::span<std::byte> bytes
 
 class StoredBlock final : public BlockSource {
  public:
-  StoredBlock(Read read, std::uint64_t begin, const disk::ResultHeader& header)
-      : _read(std::move(read)), _begin(begin), _size(header.bytes()), _sha256(header.sha256()) {
-    for (const disk::ArrayLayout& array : header.arrays()) {
-      _arrays.push_back({array.name(),
-                         disk::choice(types, array.type()),
-                         {array.shape().begin(), array.shape().end()},
-                         array.offset()});
-    }
+  /// Throws errors::Error (invalid_argument).
+  StoredBlock(Read read, std::uint64_t begin, const v1::BlockLayout& layout)
+      : _read(std::move(read)), _begin(begin), _size(layout.size()), _sha256(layout.sha256()) {
+    api::read_field(layout, "arrays", _arrays);
   }
 
   const std::vector<ArrayLayout>& arrays() const noexcept override { return _arrays; }
@@ -86,29 +81,23 @@ std::shared_ptr<const BlockSource> open_at(Read read, std::uint64_t size,
       number_at(start.data() + magic.size() + sizeof length)) {
     throw damaged(place);
   }
-  disk::ResultHeader header;
-  disk::parse(bytes, header);
+  v1::BlockLayout layout;
   const std::uint64_t begin = start.size() + length;
-  if (size != begin + header.bytes()) {
+  if (!layout.ParseFromString(bytes) || size != begin + layout.size()) {
     throw damaged(place);
   }
-  return std::make_shared<StoredBlock>(std::move(read), begin, header);
+  try {
+    return std::make_shared<StoredBlock>(std::move(read), begin, layout);
+  } catch (const Error&) {
+    throw damaged(place);
+  }
 }
 
 }  // namespace
 
 std::string result_header(const Block& block) {
-  disk::ResultHeader header;
-  for (const ArrayLayout& array : block.arrays) {
-    disk::ArrayLayout& out = *header.add_arrays();
-    out.set_name(array.name);
-    out.set_type(disk::number(types, array.type));
-    out.mutable_shape()->Assign(array.shape.begin(), array.shape.end());
-    out.set_offset(array.offset);
-  }
-  header.set_bytes(block.bytes.size());
-  header.set_sha256(block.sha256);
-  const std::string bytes = disk::serialized(header);
+  const std::string bytes =
+      api::serialized(api::layout_of(block.arrays, block.bytes.size(), block.sha256));
   if (bytes.size() > max_header) {
     throw std::length_error("the layout of a result takes more than 16 MB");
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A result on the disk: magic and version (8 bytes), length of the header and its CRC-32C (4 bytes
-// each), the header (ResultHeader of records.proto: layout, length and hash of the bytes), the
-// bytes. Its name is the hash of all before the bytes, which says what the bytes are.
+// each), the header (BlockLayout of the API: layout, length and hash of the bytes), the bytes. Its
+// name is the hash of all before the bytes, which says what the bytes are.
 #pragma once
 
 #include <memory>

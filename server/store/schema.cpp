@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "store/schema.hpp"
 
-#include <array>
-#include <filesystem>
+#include <cstdint>
 #include <string>
-
-#include "store/files.hpp"
 
 namespace anticrack::store {
 
@@ -14,9 +11,15 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
+/// Raised with every change of the tables or of what records are (records.proto), since a database
+/// of another version is refused. Versions 1 to 3 had records of their own form.
+constexpr std::int64_t schema_version = 4;
+
 /// Columns beside a record are those that are searched for. `number` is the order of creation;
 /// AUTOINCREMENT gives none twice, so that a page stays where it is when records are erased.
-constexpr const char* first = R"(
+/// `store` says that this database and the files beside it are of one store (identity.hpp).
+/// A small result is one that is not worth a file of its own, as it would be in one.
+constexpr const char* tables = R"(
 CREATE TABLE meshes (
   number INTEGER PRIMARY KEY AUTOINCREMENT,
   id TEXT NOT NULL UNIQUE,
@@ -38,6 +41,7 @@ CREATE TABLE jobs (
   ended INTEGER,
   result TEXT NOT NULL,
   result_bytes INTEGER NOT NULL,
+  small_result BLOB,
   record BLOB NOT NULL
 ) STRICT;
 CREATE INDEX jobs_owner ON jobs (owner, number);
@@ -59,69 +63,27 @@ CREATE TABLE job_uploads (
   PRIMARY KEY (job, upload)
 ) STRICT, WITHOUT ROWID;
 CREATE INDEX job_uploads_upload ON job_uploads (upload);
-)";
 
-/// A result too small for a file of its own, as it would be in one.
-constexpr const char* second = "ALTER TABLE jobs ADD COLUMN small_result BLOB";
-
-/// What says that this database and the files beside it are of one store (identity.hpp).
-constexpr const char* third = R"(
 CREATE TABLE store (identity TEXT NOT NULL) STRICT;
 INSERT INTO store VALUES (lower(hex(randomblob(16))));
 )";
 
-constexpr std::array steps{first, second, third};
-
-std::string copy_path(const Connection& connection, std::size_t version) {
-  return connection.path() + ".before-" + std::to_string(version);
-}
-
-/// Also of migrations that were killed: the database is whole, as it was or as it is to be.
-void remove_copies(const Connection& connection, std::size_t newest) {
-  for (std::size_t version = 1; version <= newest; ++version) {
-    std::error_code ignored;
-    std::filesystem::remove(copy_path(connection, version), ignored);
-  }
-}
-
-void copy(Connection& connection, std::size_t version) {
-  const std::string path = copy_path(connection, version);
-  connection.prepare("VACUUM INTO ?").bind(std::string_view(path)).run();
-  flush(path);
-}
-
-void run(Connection& connection, std::span<const char* const> todo, std::size_t version) {
-  Transaction transaction(connection);
-  for (const char* step : todo) {
-    connection.execute(step);
-  }
-  connection.execute("PRAGMA user_version = " + std::to_string(version));
-  transaction.commit();
-}
-
 }  // namespace
 
-std::span<const char* const> schema_steps() {
-  return steps;
-}
-
-void migrate(Connection& connection, std::span<const char* const> all) {
-  const auto version = static_cast<std::size_t>(connection.integer("PRAGMA user_version"));
-  if (version > all.size()) {
-    throw Error(Reason::storage, "the database " + connection.path() + " has version " +
-                                     std::to_string(version) + ", this anticrack knows up to " +
-                                     std::to_string(all.size()) +
-                                     ": start the newer anticrack that made it");
+void make_tables(Connection& connection) {
+  const std::int64_t version = connection.integer("PRAGMA user_version");
+  if (version == 0) {
+    Transaction transaction(connection);
+    connection.execute(tables);
+    connection.execute("PRAGMA user_version = " + std::to_string(schema_version));
+    transaction.commit();
+  } else if (version != schema_version) {
+    throw Error(Reason::storage,
+                "the database " + connection.path() + " has version " + std::to_string(version) +
+                    ", this anticrack reads version " + std::to_string(schema_version) +
+                    ": start the " + (version < schema_version ? "older" : "newer") +
+                    " anticrack that made it, or move the data folder away to start anew");
   }
-  remove_copies(connection, all.size());
-  if (version == all.size()) {
-    return;
-  }
-  if (version > 0) {
-    copy(connection, all.size());
-  }
-  run(connection, all.subspan(version), all.size());
-  remove_copies(connection, all.size());
 }
 
 void require_sound(Connection& connection) {

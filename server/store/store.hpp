@@ -120,10 +120,9 @@ class Store {
   virtual Usage usage() const = 0;
 };
 
-/// Opens or makes the folder; brings an older schema up to date (in one transaction, a copy of the
-/// database beside it until it is done). Throws errors::Error (storage): the folder cannot be
-/// written, the database is damaged, missing though there are files, not that of the files, or a
-/// newer anticrack wrote it.
+/// Opens or makes the folder. Throws errors::Error (storage): the folder cannot be written, the
+/// database is damaged, missing though there are files, not that of the files, or of an anticrack
+/// with another version of it.
 std::unique_ptr<Store> open(const StoreOptions& options);
 
 }  // namespace anticrack::store

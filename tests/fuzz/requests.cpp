@@ -9,13 +9,14 @@
 
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
+#include "api/names.hpp"
+#include "api/requests.hpp"
 #include "errors/errors.hpp"
 #include "fem/load.hpp"
 #include "fuzz/input.hpp"
 #include "fuzz/quiet_protobuf.hpp"
 #include "mesh/codec.hpp"
-#include "rpc/names.hpp"
-#include "rpc/to_domain.hpp"
+#include "rpc/pages.hpp"
 #include "store/record_codec.hpp"
 
 namespace {
@@ -42,7 +43,7 @@ void plan(const store::GeometrySource& source) {
 void take(const v1::CreateMeshRequest& request) {
   store::MeshRecord record;
   record.title = request.title();
-  record.definition = rpc::to_definition(request);
+  record.definition = api::to_definition(request);
   check_record(record, store::decode_mesh_record);
   try {
     if (const auto* source = std::get_if<store::GeometrySource>(&record.definition)) {
@@ -51,34 +52,34 @@ void take(const v1::CreateMeshRequest& request) {
       mesh::check_for_upload(std::get<store::UploadRef>(record.definition).options);
     }
   } catch (const errors::Error& error) {
-    throw rpc::below_mesh_request(error);
+    throw api::below_mesh_request(error);
   }
 }
 
 void take(const v1::CreateJobRequest& request) {
   using namespace std::chrono_literals;
-  rpc::require_request_id(request.request_id());
+  api::require_request_id(request.request_id());
   store::JobRecord record;
   record.request_id = request.request_id();
-  record.spec = rpc::to_spec(request.job(), {100, 100'000, 1h, 1h});
+  record.spec = api::to_spec(request.job(), {100, 100'000, 1h, 1h});
   check_record(record, store::decode_job_record);
   try {
     for (const fem::Load& load : record.spec.loads) fem::check(load, max_expression_bytes);
   } catch (const errors::Error& error) {
-    throw rpc::below_job_request(error);
+    throw api::below_job_request(error);
   }
 }
 
 template <class Request>
 void take_mesh(const Request& request) {
-  const std::string id = rpc::mesh_id(request.name(), "name");
-  fuzz::require(rpc::mesh_name(id) == request.name(), "a mesh has two names");
+  const std::string id = api::mesh_id(request.name(), "name");
+  fuzz::require(api::mesh_name(id) == request.name(), "a mesh has two names");
 }
 
 template <class Request>
 void take_job(const Request& request) {
-  const std::string id = rpc::job_id(request.name(), "name");
-  fuzz::require(rpc::job_name(id) == request.name(), "a job has two names");
+  const std::string id = api::job_id(request.name(), "name");
+  fuzz::require(api::job_name(id) == request.name(), "a job has two names");
 }
 
 template <class Request>

@@ -15,6 +15,7 @@
 
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
+#include "api/requests.hpp"
 #include "casefile/case.hpp"
 #include "fuzz/input.hpp"
 #include "fuzz/small_result.hpp"
@@ -23,7 +24,6 @@
 #include "mesher/import.hpp"
 #include "mesher/msh_writer.hpp"
 #include "results/result.hpp"
-#include "rpc/to_domain.hpp"
 #include "store/digest.hpp"
 #include "store/record_codec.hpp"
 
@@ -54,7 +54,7 @@ void save_mesh_request(const std::string& name, const v1::CreateMeshRequest& req
   store::MeshRecord record;
   record.id = "0123456789abcdef";
   record.owner = "somebody";
-  record.definition = rpc::to_definition(request);
+  record.definition = api::to_definition(request);
   record.error = errors::Error(errors::Reason::mesh_invalid, "wrong").at("upload").with("a", "b");
   record.subdomains = {{"minus", 10, 20, 2, 1, true, 45, 0.1, 0.2}};
   record.interfaces = {{"sigma", 2, 11, {{mesh::Kind::delaminated, 0, 0.5, 1.5, 5}}}};
@@ -79,7 +79,7 @@ void save_job_request(const std::string& name, const v1::Job& job) {
   store::JobRecord record;
   record.id = "fedcba9876543210";
   record.request_id = request.request_id();
-  record.spec = rpc::to_spec(request.job(), {1'000, 1'000'000, 24h, 24h});
+  record.spec = api::to_spec(request.job(), {1'000, 1'000'000, 24h, 24h});
   record.cases.resize(record.spec.loads.size());
   record.timeline = {{store::Clock::now(), store::JobState::running, "meshing"}};
   save("records", name + "-job", chosen(1, store::encode(record)));

@@ -70,11 +70,11 @@ TEST_F(Check, BoundsTheTimeLimits) {
 
 TEST_F(Check, CountsTheBytesOfAJob) {
   JobSpec spec = good();
-  const std::uint64_t before = bytes_of(spec);
+  const std::uint64_t before = fields::bytes_of(spec);
   std::get<fem::Expression>(spec.loads[1].force).text += std::string(1000, ' ');
-  EXPECT_GE(bytes_of(spec), before + 1000);
+  EXPECT_GE(fields::bytes_of(spec), before + 1000);
   spec.loads[3].point_forces.resize(1001);
-  EXPECT_GE(bytes_of(spec), before + 1000 + 1000 * sizeof(fem::PointForce));
+  EXPECT_GE(fields::bytes_of(spec), before + 1000 + 1000 * sizeof(fem::PointForce));
 }
 
 TEST_F(Check, AcceptsAGoodJob) {

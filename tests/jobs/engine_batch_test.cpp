@@ -14,7 +14,7 @@ namespace anticrack::jobs {
 namespace {
 
 using anticrack::testing::eventually;
-using store::CaseStatus;
+using contact::Status;
 using store::JobRecord;
 using store::JobState;
 using namespace std::chrono_literals;

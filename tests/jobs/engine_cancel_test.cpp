@@ -18,7 +18,7 @@ using anticrack::testing::BackendOptions;
 using anticrack::testing::eventually;
 using anticrack::testing::throws;
 using errors::Reason;
-using store::CaseStatus;
+using contact::Status;
 using store::JobRecord;
 using store::JobState;
 using namespace std::chrono_literals;
@@ -28,7 +28,7 @@ void expect_cancelled(const JobRecord& record) {
   EXPECT_TRUE(record.ended);
   EXPECT_FALSE(record.error);
   for (const store::CaseRecord& ended : record.cases) {
-    EXPECT_EQ(ended.status, CaseStatus::cancelled);
+    EXPECT_EQ(ended.status, Status::cancelled);
   }
 }
 
@@ -125,9 +125,9 @@ TEST(EngineCancel, KeepsTheLoadCasesThatWereFinished) {
   test.engine.cancel(blocker);
   const JobRecord record = test.ended(id);
   EXPECT_EQ(record.state, JobState::cancelled);
-  EXPECT_EQ(record.cases[0].status, CaseStatus::converged);
-  EXPECT_EQ(record.cases[1].status, CaseStatus::cancelled);
-  EXPECT_EQ(record.cases[2].status, CaseStatus::cancelled);
+  EXPECT_EQ(record.cases[0].status, Status::converged);
+  EXPECT_EQ(record.cases[1].status, Status::cancelled);
+  EXPECT_EQ(record.cases[2].status, Status::cancelled);
   const auto block = test.engine.result(id);
   EXPECT_TRUE(array<double>(*block, "loads/0/traces/0/jump"));
   EXPECT_FALSE(array<double>(*block, "loads/1/traces/0/jump"));

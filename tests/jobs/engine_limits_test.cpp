@@ -73,7 +73,7 @@ TEST(EngineLimits, TheOldestResultsExpireOverTheirBudget) {
   EXPECT_TRUE(throws([&] { test.engine.result(first); }, Reason::result_expired));
   EXPECT_NE(test.engine.result(second), nullptr);
   EXPECT_TRUE(eventually([&] { return test.engine.metrics().results_expired == 1; }));
-  EXPECT_EQ(test.engine.get(first).cases.at(0).status, store::CaseStatus::converged);
+  EXPECT_EQ(test.engine.get(first).cases.at(0).status, contact::Status::converged);
   EXPECT_EQ(test.submit(short_job(mesh), "first"), first);
 }
 
@@ -144,8 +144,8 @@ TEST(EngineLimits, LoadCasesPastTheBytesOfAResultFail) {
   const std::string id = test.submit(spec);
   const auto record = test.ended(id);
   EXPECT_EQ(record.state, JobState::failed);
-  EXPECT_EQ(record.cases[0].status, store::CaseStatus::converged);
-  EXPECT_EQ(record.cases[1].status, store::CaseStatus::failed);
+  EXPECT_EQ(record.cases[0].status, contact::Status::converged);
+  EXPECT_EQ(record.cases[1].status, contact::Status::failed);
   ASSERT_TRUE(record.error);
   EXPECT_EQ(record.error->reason(), Reason::limit_exceeded);
   EXPECT_EQ(record.error->fields().at(0).field, "load_cases[1]");

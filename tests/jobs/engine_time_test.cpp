@@ -12,7 +12,7 @@ namespace {
 using anticrack::testing::BackendOptions;
 using anticrack::testing::throws;
 using errors::Reason;
-using store::CaseStatus;
+using contact::Status;
 using store::JobRecord;
 using store::JobState;
 using namespace std::chrono_literals;
@@ -23,7 +23,7 @@ void expect_timed_out(const JobRecord& record, const std::string& field) {
   EXPECT_EQ(record.error->reason(), Reason::timed_out);
   EXPECT_EQ(record.error->fields().at(0).field, field);
   for (const store::CaseRecord& ended : record.cases) {
-    EXPECT_EQ(ended.status, CaseStatus::failed);
+    EXPECT_EQ(ended.status, Status::failed);
     ASSERT_TRUE(ended.error);
     EXPECT_EQ(ended.error->reason(), Reason::timed_out);
   }
@@ -97,15 +97,15 @@ TEST(EngineTime, LeavesTheLoadCasesThatEnded) {
   spec.loads.insert(spec.loads.begin(), {"at rest", 0.0, ""});  // ends in its first iterations
   std::string id = test.submit(spec);
   JobRecord record = test.ended(id);
-  while (record.cases[0].status != CaseStatus::converged && spec.run_time_limit < 1h) {
+  while (record.cases[0].status != Status::converged && spec.run_time_limit < 1h) {
     spec.run_time_limit *= 2;  // the machine is slow
     id = test.submit(spec);
     record = test.ended(id);
   }
   EXPECT_EQ(record.state, JobState::failed);
   EXPECT_EQ(record.error->reason(), Reason::timed_out);
-  EXPECT_EQ(record.cases[0].status, CaseStatus::converged);
-  EXPECT_EQ(record.cases[1].status, CaseStatus::failed);
+  EXPECT_EQ(record.cases[0].status, Status::converged);
+  EXPECT_EQ(record.cases[1].status, Status::failed);
   EXPECT_TRUE(array<double>(*test.engine.result(id), "loads/0/traces/0/jump"));
 }
 

@@ -124,9 +124,9 @@ TEST_F(SweepCheck, IsAnotherJobWithAnotherSweep) {
   EXPECT_TRUE(add());
   spec.sweep->rows = 5;  // says nothing that the upload does not
   EXPECT_FALSE(add());
-  const std::uint64_t bytes = bytes_of(spec);
+  const std::uint64_t bytes = fields::bytes_of(spec);
   spec.sweep->traces.resize(100);
-  EXPECT_GE(bytes_of(spec), bytes + 90 * sizeof(std::uint32_t));
+  EXPECT_GE(fields::bytes_of(spec), bytes + 90 * sizeof(std::uint32_t));
   spec.sweep.reset();
   EXPECT_TRUE(add());
 }

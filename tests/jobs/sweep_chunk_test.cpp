@@ -71,9 +71,9 @@ TEST_F(ChunkTest, FailsWhereTheMatrixCannotBeRead) {
 }
 
 TEST_F(ChunkTest, ResultTakesTheBytesThatWerePlanned) {
-  EXPECT_EQ(sweep_result(*job->mesh_operator, *job->sweep, store::CaseStatus::cancelled), nullptr);
+  EXPECT_EQ(sweep_result(*job->mesh_operator, *job->sweep, contact::Status::cancelled), nullptr);
   job->sweep->chunks[1] = solve(1).solved;
-  const auto block = sweep_result(*job->mesh_operator, *job->sweep, store::CaseStatus::cancelled);
+  const auto block = sweep_result(*job->mesh_operator, *job->sweep, contact::Status::cancelled);
   ASSERT_TRUE(block);
   EXPECT_LE(block->bytes.size(), job->sweep->plan.result_bytes);
   EXPECT_GT(block->bytes.size() + 1000, job->sweep->plan.result_bytes);

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "rpc/details.hpp"
-#include "rpc/text.hpp"
+#include "api/text.hpp"
 
 namespace anticrack::rpc {
 namespace {

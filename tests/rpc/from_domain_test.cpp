@@ -27,7 +27,7 @@ TEST(FromDomain, CountsTheAttemptsOfATimeline) {
     record.timeline.push_back(
         {start + std::chrono::seconds(record.timeline.size()), state, detail});
   }
-  const v1::Job job = from_domain(record, {});
+  const v1::Job job = from_domain(record);
   ASSERT_EQ(job.timeline_size(), 5);
   EXPECT_EQ(job.timeline(0).time().seconds(), 1);
   EXPECT_EQ(job.timeline(0).time().nanos(), 500'000'000);
@@ -44,7 +44,7 @@ TEST(FromDomain, RepeatsWhatWasAskedFor) {
   record.owner = "ada";
   record.spec.priority = store::Priority::interactive;
   record.spec.run_time_limit = std::chrono::milliseconds(2'500);
-  const v1::Job job = from_domain(record, {});
+  const v1::Job job = from_domain(record);
   EXPECT_EQ(job.owner(), "ada");
   EXPECT_EQ(job.priority(), v1::Job::PRIORITY_INTERACTIVE);
   EXPECT_FALSE(job.has_queue_timeout());

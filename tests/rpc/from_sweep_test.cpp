@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rpc/from_sweep.hpp"
+#include "rpc/from_domain.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -74,8 +74,8 @@ TEST(FromSweep, TellsHowARowEnded) {
 
 TEST(FromSweep, TellsTheSweepOfAJobAndHowItEnded) {
   store::JobRecord record;
-  EXPECT_FALSE(from_domain(record, {}).has_sweep());
-  EXPECT_FALSE(from_domain(record, {}).has_sweep_answer());
+  EXPECT_FALSE(from_domain(record).has_sweep());
+  EXPECT_FALSE(from_domain(record).has_sweep_answer());
   record.spec.sweep.emplace();
   record.spec.sweep->upload = std::string(64, 'a');
   record.spec.sweep->rows = 7;
@@ -87,7 +87,7 @@ TEST(FromSweep, TellsTheSweepOfAJobAndHowItEnded) {
   record.sweep.worst_kkt = 1e-13;
   record.sweep.seconds = 1.5;
   record.sweep.warnings = {"rough"};
-  const v1::Job job = from_domain(record, {});
+  const v1::Job job = from_domain(record);
   EXPECT_EQ(job.sweep().coefficients().upload(), "uploads/" + std::string(64, 'a'));
   EXPECT_THAT(job.sweep().traces(), ElementsAre(2u, 5u));
   EXPECT_EQ(job.sweep_answer().rows(), 7u);
@@ -101,7 +101,7 @@ TEST(FromSweep, TellsTheSweepOfAJobAndHowItEnded) {
   EXPECT_EQ(job.sweep_answer().solve_time().nanos(), 500'000'000);
 
   record.spec.sweep->cases = store::SweepSpec::Cases::nodal_forces;
-  EXPECT_EQ(from_domain(record, {}).sweep().nodal_forces().upload(),
+  EXPECT_EQ(from_domain(record).sweep().nodal_forces().upload(),
             "uploads/" + std::string(64, 'a'));
 }
 

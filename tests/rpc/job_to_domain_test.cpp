@@ -8,7 +8,7 @@
 #include "rpc/from_domain.hpp"
 #include "rpc/refusals.hpp"
 #include "rpc/requests.hpp"
-#include "rpc/to_domain.hpp"
+#include "api/requests.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -173,21 +173,21 @@ TEST(JobFromDomain, TellsTheWholeJobAgain) {
   store::JobRecord record;
   record.id = "b";
   record.spec = to_spec(job, limits);
-  const v1::Job told = from_domain(record, {});
+  const v1::Job told = from_domain(record);
   EXPECT_EQ(told.solver().SerializeAsString(), job.solver().SerializeAsString());
   EXPECT_EQ(told.load_cases(0).SerializeAsString(), load.SerializeAsString());
 
   job.mutable_solver()->mutable_uzawa()->set_kkt_tolerance(1e-9);
   record.spec = to_spec(job, limits);
-  EXPECT_EQ(from_domain(record, {}).solver().uzawa().kkt_tolerance(), 1e-9);
+  EXPECT_EQ(from_domain(record).solver().uzawa().kkt_tolerance(), 1e-9);
 }
 
 TEST(AnswerFromDomain, TellsWarningsAndWhatJustTouches) {
   store::CaseRecord record;
-  record.status = store::CaseStatus::converged;
+  record.status = contact::Status::converged;
   record.answer.weakly_active = 3;
   record.answer.warnings = {"inexact \xff"};
-  const v1::LoadCaseAnswer told = from_domain(record, "a", {});
+  const v1::LoadCaseAnswer told = from_domain(record, "a");
   EXPECT_EQ(told.weakly_active(), 3);
   EXPECT_EQ(told.theta(), 0);
   ASSERT_EQ(told.warnings_size(), 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rpc/to_domain.hpp"
+#include "api/requests.hpp"
 
 #include <gtest/gtest.h>
 

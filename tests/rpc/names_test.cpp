@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rpc/names.hpp"
+#include "api/names.hpp"
 
 #include <gtest/gtest.h>
 

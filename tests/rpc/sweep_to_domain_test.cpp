@@ -7,7 +7,7 @@
 #include "rpc/from_domain.hpp"
 #include "rpc/refusals.hpp"
 #include "rpc/requests.hpp"
-#include "rpc/to_domain.hpp"
+#include "api/requests.hpp"
 #include "store/digest.hpp"
 
 namespace anticrack::rpc {
@@ -70,7 +70,7 @@ TEST(SweepToDomain, TakesAMatrixOfAMegabyteInAJobThatWouldBeTooLargeWithoutIt) {
 TEST(SweepToDomain, ComesBackAsTheUpload) {
   store::JobRecord record;
   record.spec = to_spec(good_sweep(), sweep_limits);
-  const v1::Job told = from_domain(record, {});
+  const v1::Job told = from_domain(record);
   EXPECT_EQ(told.sweep().coefficients().upload(),
             "uploads/" + store::Sha256().add(packed({1, 2, 3})).finish());
   EXPECT_EQ(told.load_cases_size(), 3);

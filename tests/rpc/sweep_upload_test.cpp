@@ -8,7 +8,7 @@
 
 #include "rpc/refusals.hpp"
 #include "rpc/requests.hpp"
-#include "rpc/to_domain.hpp"
+#include "api/requests.hpp"
 #include "store/array_upload.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -96,13 +96,14 @@ TEST_F(Identity, RefusesToForgetRecordsThatHadNoFiles) {
   expect_refused("is missing");
 }
 
-TEST_F(Identity, IsGivenToAFolderOfAnOlderVersion) {
+TEST_F(Identity, LeavesAFolderOfAnOlderVersionAsItIs) {
   fill();
   make_older();
-  expect_whole();
-  EXPECT_TRUE(std::filesystem::exists(folder / "identity"));
-  remove_database();
-  expect_refused("is missing");
+  const auto error = error_of([&] { open({folder.path(), 0}); });
+  ASSERT_TRUE(error);
+  EXPECT_THAT(error->what(), HasSubstr("version 2"));
+  for (const char* name : folders) EXPECT_EQ(files(name), 1U) << name;
+  EXPECT_FALSE(std::filesystem::exists(folder / "identity"));
 }
 
 TEST_F(Identity, RefusesAnOlderDatabaseThatNamesNoneOfTheFiles) {

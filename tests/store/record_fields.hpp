@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Every field of a record, so that tests can fill it with anything and compare it bit by bit. The
-// lists are structured bindings: a field that is added does not compile until it is listed.
+// Records filled with anything, and all their fields as text to compare them bit by bit.
 #pragma once
 
 #include <array>
@@ -10,78 +9,19 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <random>
 #include <sstream>
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <variant>
 #include <vector>
 
+#include "fields/fields.hpp"
 #include "store/records.hpp"
 
 namespace anticrack::testing {
-
-// clang-format off
-#define ANTICRACK_FIELDS(Type, ...)                                        \
-  template <class Struct>                                                  \
-    requires std::is_same_v<std::remove_const_t<Struct>, Type>             \
-  auto fields(Struct& value) { auto& [__VA_ARGS__] = value; return std::tie(__VA_ARGS__); }
-
-ANTICRACK_FIELDS(mesh::MeshOptions, a, b, c, d, e, f, g, h)
-ANTICRACK_FIELDS(mesh::Part, a, b)
-ANTICRACK_FIELDS(mesh::InterfaceSpec, a, b, c, d)
-ANTICRACK_FIELDS(mesh::InclusionSpec, a, b, c)
-ANTICRACK_FIELDS(mesh::CrackSpec, a, b)
-ANTICRACK_FIELDS(mesh::RegionSpec, a, b, c)
-ANTICRACK_FIELDS(mesh::Geometry, a, b, c, d, e, f)
-ANTICRACK_FIELDS(store::UploadRef, a, b)
-ANTICRACK_FIELDS(store::GeometrySource, a, b)
-ANTICRACK_FIELDS(store::SubdomainSummary, a, b, c, d, e, f, g, h, i)
-ANTICRACK_FIELDS(store::TipSummary, a, b, c)
-ANTICRACK_FIELDS(store::SegmentSummary, a, b, c, d, e)
-ANTICRACK_FIELDS(store::InterfaceSummary, a, b, c, d)
-ANTICRACK_FIELDS(store::MeshRecord, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u,
-                 v, w)
-ANTICRACK_FIELDS(fem::Expression, a)
-ANTICRACK_FIELDS(fem::PerRegion, a)
-ANTICRACK_FIELDS(fem::PointForce, a, b, c)
-ANTICRACK_FIELDS(fem::Load, a, b, c, d, e, f)
-ANTICRACK_FIELDS(contact::UzawaOptions, a, b, c, d, e, f)
-ANTICRACK_FIELDS(contact::ActiveSetOptions, a, b)
-ANTICRACK_FIELDS(contact::KktResiduals, a, b, c, d)
-ANTICRACK_FIELDS(contact::InclusionAnswer, a, b, c, d)
-ANTICRACK_FIELDS(contact::ContactInterval, a, b, c)
-ANTICRACK_FIELDS(store::SweepSpec, a, b, c, d)
-ANTICRACK_FIELDS(store::SweepRecord, a, b, c, d, e, f, g)
-ANTICRACK_FIELDS(store::JobSpec, a, b, c, d, e, f, g, h, i)
-ANTICRACK_FIELDS(store::Step, a, b, c)
-ANTICRACK_FIELDS(store::CaseRecord, a, b, c, d)
-ANTICRACK_FIELDS(store::JobRecord, a, b, c, d, e, f, g, h, i, j, k, l, m, n)
-#undef ANTICRACK_FIELDS
-// clang-format on
-
-/// A record keeps no values of an array.
-template <class Struct>
-requires std::is_same_v<std::remove_const_t<Struct>, fem::Array>
-auto fields(Struct& value) {
-  auto& [upload, per_triangle, values] = value;
-  static_cast<void>(values);
-  return std::tie(upload, per_triangle);
-}
-
-/// And no traces, side traces, fields and closed contacts of an answer.
-template <class Struct>
-requires std::is_same_v<std::remove_const_t<Struct>, contact::Answer>
-auto fields(Struct& value) {
-  auto& [a, b, c, d, e, f, g, h, i, j, closed, k, l, m, n, traces, sides, arrays] = value;
-  static_cast<void>(closed);
-  static_cast<void>(traces);
-  static_cast<void>(sides);
-  static_cast<void>(arrays);
-  return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
-}
 
 /// Fills fields with anything, what is seldom more often than it comes.
 class AnyValue {
@@ -107,23 +47,29 @@ class AnyValue {
     value = kind < rare.size() ? rare[kind] : std::bit_cast<double>(_random());
   }
   void fill(std::string& value) {
-    value.resize(below(12));
-    for (char& c : value) c = static_cast<char>(below(256));  // not only UTF-8
+    const std::array pieces{"a", "Z", " ", "/", "\"", "\n", "\x01", "\xc3\xa9", "\xf0\x9f\x99\x82"};
+    value.clear();
+    for (std::uint64_t i = below(12); i > 0; --i) {
+      value += below(10) == 0 ? std::string(1, '\0') : pieces[below(pieces.size())];
+    }
   }
   void fill(store::Clock::time_point& value) {
     value = store::Clock::time_point(std::chrono::nanoseconds(_random() >> 1U));
   }
   void fill(std::chrono::milliseconds& value) {
-    value = std::chrono::milliseconds(_random() >> 2U);
+    value = std::chrono::milliseconds(below(1ULL << 42U));  // 139 years
   }
+  void fill(std::chrono::nanoseconds& value) { value = std::chrono::nanoseconds(_random() >> 1U); }
   void fill(errors::Error& error) {
+    const auto text = [this] {
+      std::string some = make<std::string>();
+      for (char& c : some) c = c == '\n' || c == '\x01' || c == '\0' ? '?' : c;
+      return some;
+    };
     error = errors::Error(
-        static_cast<errors::Reason>(below(static_cast<int>(errors::Reason::internal) + 1)),
-        make<std::string>());
-    for (std::uint64_t i = below(3); i > 0; --i) error.at(make<std::string>());
-    for (std::uint64_t i = below(3); i > 0; --i) {
-      error.with(make<std::string>(), make<std::string>());
-    }
+        static_cast<errors::Reason>(below(static_cast<int>(errors::Reason::internal) + 1)), text());
+    for (std::uint64_t i = below(3); i > 0; --i) error.at(text());
+    for (std::uint64_t i = below(3); i > 0; --i) error.with(text(), text());
     error.retry_after(std::chrono::milliseconds(below(10'000)));
   }
   template <class T>
@@ -159,22 +105,33 @@ class AnyValue {
   template <class Enum>
   requires std::is_enum_v<Enum>
   void fill(Enum& value) {
-    value = static_cast<Enum>(below(count(value)) + (std::is_same_v<Enum, mesh::Kind> ? 1 : 0));
+    constexpr bool from_0 = std::is_same_v<Enum, mesh::Preset> || std::is_same_v<Enum, mesh::Shape> ||
+                            std::is_same_v<Enum, store::SweepSpec::Cases>;
+    value = static_cast<Enum>(below(count(value)) + (from_0 ? 0 : 1));
   }
   template <class Struct>
   requires std::is_class_v<Struct>
   void fill(Struct& value) {
-    std::apply([&](auto&... each) { (fill(each), ...); }, fields(value));
+    fields::for_each(value, [this](const auto& field) { fill(field.value); });
+    if constexpr (std::is_same_v<Struct, mesh::InterfaceSpec>) {
+      if (value.shape == mesh::Shape::arc) value.points.resize(3);
+    } else if constexpr (std::is_same_v<Struct, mesh::RegionSpec>) {
+      if (value.tension == 0) value.tension = 1;  // 0 is what no record has: the default
+    } else if constexpr (std::is_same_v<Struct, mesh::MeshOptions>) {
+      if (value.grading == 0) value.grading = 1;
+    } else if constexpr (std::is_same_v<Struct, store::JobRecord>) {
+      if (!value.spec.sweep) value.sweep = {};
+    }
   }
+  void fill(std::shared_ptr<const std::vector<double>>&) {}  // a record keeps no values of an array
 
   static std::uint64_t count(mesh::Kind) { return 4; }
   static std::uint64_t count(mesh::Preset) { return 3; }
   static std::uint64_t count(mesh::Shape) { return 3; }
   static std::uint64_t count(contact::Mass) { return 2; }
-  static std::uint64_t count(contact::Status) { return 3; }
+  static std::uint64_t count(contact::Status) { return 6; }
   static std::uint64_t count(store::MeshState) { return 6; }
   static std::uint64_t count(store::JobState) { return 7; }
-  static std::uint64_t count(store::CaseStatus) { return 6; }
   static std::uint64_t count(store::Priority) { return 3; }
   static std::uint64_t count(store::SweepSpec::Cases) { return 2; }
 
@@ -195,7 +152,11 @@ class Listing {
   void add(const std::string& value) { _text << '"' << value << "\" "; }
   void add(double value) { _text << std::hex << std::bit_cast<std::uint64_t>(value) << "h "; }
   void add(const store::Clock::time_point& time) { add(time.time_since_epoch().count()); }
-  void add(const std::chrono::milliseconds& time) { add(time.count()); }
+  template <class Rep, class Period>
+  void add(const std::chrono::duration<Rep, Period>& time) {
+    add(time.count());
+  }
+  void add(const std::shared_ptr<const std::vector<double>>& values) { add(values == nullptr); }
   void add(const errors::Error& error) {
     add(error.reason());
     add(std::string(error.what()));
@@ -248,7 +209,7 @@ class Listing {
   requires std::is_class_v<Struct>
   void add(const Struct& value) {
     _text << "(";
-    std::apply([&](const auto&... each) { (add(each), ...); }, fields(value));
+    fields::for_each(value, [this](const auto& field) { add(field.value); });
     _text << ") ";
   }
 

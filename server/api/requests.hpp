@@ -15,7 +15,7 @@
 #include "errors/errors.hpp"
 #include "store/records.hpp"
 
-namespace anticrack::rpc {
+namespace anticrack::api {
 
 /// Points of one geometry: its check is quadratic in them.
 constexpr std::size_t max_vertices = 10'000;
@@ -44,12 +44,9 @@ struct JobLimits {
   std::chrono::milliseconds run_time{0};
 };
 
-/// The job, defaults filled in but for time limits.
+/// The job, defaults filled in but for time limits. A sweep has no rows yet, and a matrix that came
+/// with the job is named by its hash: keep_packed_matrix() makes it the upload of that name.
 store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits);
-
-/// The sweep of a job that has one, its rows not counted yet. A matrix that came with the job is
-/// named by its hash; keep_packed_matrix() makes it the upload of that name.
-store::SweepSpec to_sweep(const v1::Job& job, const JobLimits& limits);
 
 /// A sweep's matrix and its path in the job.
 struct MatrixOf {
@@ -70,4 +67,4 @@ errors::Error below_mesh_request(const errors::Error& error);
 /// Job errors come relative to the job; one without a field that is `not_found` is about its mesh.
 errors::Error below_job_request(const errors::Error& error);
 
-}  // namespace anticrack::rpc
+}  // namespace anticrack::api

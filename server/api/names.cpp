@@ -1,27 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rpc/names.hpp"
+#include "api/names.hpp"
 
 #include <algorithm>
 #include <string>
 
+#include "api/text.hpp"
 #include "errors/errors.hpp"
-#include "rpc/text.hpp"
 
-namespace anticrack::rpc {
+namespace anticrack::api {
 namespace {
 
 using errors::Error;
 using errors::Reason;
 
 constexpr std::size_t max_id_bytes = 64;
-
-bool is_id(std::string_view text) {
-  return !text.empty() && text.size() <= max_id_bytes &&
-         std::all_of(text.begin(), text.end(), [](char c) {
-           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                  c == '-' || c == '_';
-         });
-}
 
 std::string id_below(std::string_view collection, const std::string& name, std::string_view field) {
   const std::string_view text = name;
@@ -66,25 +58,28 @@ std::string upload_sha256(const std::string& name, std::string_view field) {
   return sha256;
 }
 
+bool is_id(std::string_view text) noexcept {
+  return !text.empty() && text.size() <= max_id_bytes &&
+         std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                  c == '-' || c == '_';
+         });
+}
+
+std::string after_slash(const std::string& name, std::string_view field) {
+  const std::size_t slash = name.find('/');
+  if (slash == std::string::npos) {
+    throw Error(Reason::invalid_argument,
+                "\"" + printable(name, 100) + "\" is no name of the form \"COLLECTION/ID\"")
+        .at(std::string(field));
+  }
+  return name.substr(slash + 1);
+}
+
 bool is_sha256(std::string_view text) noexcept {
   return text.size() == 64 && std::all_of(text.begin(), text.end(), [](char c) {
            return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
          });
 }
 
-Page to_page(std::int32_t page_size, const std::string& page_token) {
-  if (page_size < 0 || page_size > static_cast<std::int32_t>(max_page_size)) {
-    throw Error(Reason::invalid_argument,
-                "page_size " + std::to_string(page_size) + " is not between 0 (the default of " +
-                    std::to_string(default_page_size) + ") and " + std::to_string(max_page_size))
-        .at("page_size");
-  }
-  if (!page_token.empty() && !is_id(page_token)) {
-    throw Error(Reason::invalid_argument,
-                "page_token is none that this server gave; leave it empty to start again")
-        .at("page_token");
-  }
-  return {page_size == 0 ? default_page_size : static_cast<std::size_t>(page_size), page_token};
-}
-
-}  // namespace anticrack::rpc
+}  // namespace anticrack::api

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "rpc/text.hpp"
+#include "api/text.hpp"
 
-namespace anticrack::rpc {
+namespace anticrack::api {
 namespace {
 
 unsigned char byte_at(std::string_view text, std::size_t i) {
@@ -57,4 +57,13 @@ std::string printable(std::string_view text, std::size_t max_bytes) {
   return result;
 }
 
-}  // namespace anticrack::rpc
+bool is_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = sequence_length(text, i);
+    if (length == 0) return false;
+    i += length;
+  }
+  return true;
+}
+
+}  // namespace anticrack::api

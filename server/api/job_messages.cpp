@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <utility>
+#include <variant>
+
+#include "api/names.hpp"
+#include "api/translations.hpp"
+
+namespace anticrack::api {
+
+using contact::KktResiduals;
+using errors::Error;
+using errors::Reason;
+using std::chrono::milliseconds;
+
+namespace {
+
+/// Absolute and relative residuals are one message.
+constexpr const char* relative = "_relative";
+
+/// 0: unset.
+void write_limit(milliseconds limit, v1::Job& to, const char* name) {
+  if (limit.count() > 0) write_field(std::chrono::nanoseconds(limit), to, name);
+}
+
+/// What is not 0 is rounded up, so that it does not become that: unset.
+milliseconds limit_of(const v1::Job& from, const char* name) {
+  return std::chrono::ceil<milliseconds>(read_one<std::chrono::nanoseconds>(from, name));
+}
+
+}  // namespace
+
+void Translation<fem::Force>::write(const fem::Force& value, v1::Force& to) {
+  if (const auto* constant = std::get_if<double>(&value)) {
+    to.set_constant(*constant);
+  } else if (const auto* expression = std::get_if<fem::Expression>(&value)) {
+    write_field(expression->text, to, "expression");
+  } else if (const auto* regions = std::get_if<fem::PerRegion>(&value)) {
+    write_fields(*regions, *to.mutable_per_region());
+  } else {
+    const auto& array = std::get<fem::Array>(value);
+    write_fields(array, *to.mutable_array(), {"upload", "values"});
+    write_field(upload_name(array.upload), *to.mutable_array(), "upload");
+  }
+}
+
+fem::Force Translation<fem::Force>::read(const v1::Force& from) {
+  switch (from.kind_case()) {
+    case v1::Force::KIND_NOT_SET:
+      return 0.0;
+    case v1::Force::kConstant:
+      return from.constant();
+    case v1::Force::kExpression:
+      return fem::Expression{from.expression()};
+    case v1::Force::kPerRegion:
+      return Translation<fem::PerRegion>::read(from.per_region());
+    case v1::Force::kArray:
+      return fem::Array{after_slash(from.array().upload(), "array.upload"),
+                        from.array().per_triangle(), nullptr};
+  }
+  throw Error(Reason::invalid_argument, "unknown kind of force");
+}
+
+void Translation<fem::PointForce>::write(const fem::PointForce& value, v1::PointForce& to) {
+  to.mutable_at()->set_x(value.x);
+  to.mutable_at()->set_y(value.y);
+  to.set_value(value.value);
+}
+
+fem::PointForce Translation<fem::PointForce>::read(const v1::PointForce& from) {
+  if (!from.has_at()) {
+    throw Error(Reason::invalid_argument, "the point force does not say where it acts; set `at`")
+        .at("at");
+  }
+  return {from.at().x(), from.at().y(), from.value()};
+}
+
+void Translation<contact::UzawaOptions>::write(const contact::UzawaOptions& value, v1::Uzawa& to) {
+  write_fields(value, to, {"theta"});
+  if (value.theta) {
+    to.set_theta(*value.theta);
+  } else {
+    to.set_theta_auto(true);
+  }
+}
+
+contact::UzawaOptions Translation<contact::UzawaOptions>::read(const v1::Uzawa& from) {
+  contact::UzawaOptions value;
+  read_fields(from, value, {"theta"});
+  if (from.has_theta()) value.theta = from.theta();
+  if (from.has_theta_auto()) {
+    if (!from.theta_auto()) {
+      throw Error(Reason::invalid_argument, "theta_auto = false chooses nothing; set theta instead")
+          .at("theta_auto");
+    }
+    value.theta.reset();
+  }
+  if (value.max_iterations == 0) value.max_iterations = contact::UzawaOptions().max_iterations;
+  return value;
+}
+
+void Translation<contact::ActiveSetOptions>::write(const contact::ActiveSetOptions& value,
+                                                   v1::ActiveSet& to) {
+  write_fields(value, to);
+}
+
+contact::ActiveSetOptions Translation<contact::ActiveSetOptions>::read(const v1::ActiveSet& from) {
+  contact::ActiveSetOptions value;
+  read_fields(from, value);
+  if (value.max_steps == 0) value.max_steps = contact::ActiveSetOptions().max_steps;
+  return value;
+}
+
+void Translation<contact::SolverOptions>::write(const contact::SolverOptions& value,
+                                                v1::Solver& to) {
+  const bool uzawa = std::holds_alternative<contact::UzawaOptions>(value);
+  std::visit([&](const auto& options) { write_field(options, to, uzawa ? "uzawa" : "active_set"); },
+             value);
+}
+
+contact::SolverOptions Translation<contact::SolverOptions>::read(const v1::Solver& from) {
+  if (from.has_uzawa()) return read_one<contact::UzawaOptions>(from, "uzawa");
+  return read_one<contact::ActiveSetOptions>(from, "active_set");
+}
+
+void Translation<store::SweepSpec>::write(const store::SweepSpec& value, v1::Sweep& to) {
+  write_fields(value, to, {"cases", "upload", "rows"});
+  v1::Sweep::Matrix& matrix = value.cases == store::SweepSpec::Cases::combinations
+                                  ? *to.mutable_coefficients()
+                                  : *to.mutable_nodal_forces();
+  write_field(upload_name(value.upload), matrix, "upload");
+}
+
+store::SweepSpec Translation<store::SweepSpec>::read(const v1::Sweep& from) {
+  store::SweepSpec value;
+  read_fields(from, value, {"cases", "upload", "rows"});
+  const bool nodal = from.has_nodal_forces();
+  value.cases =
+      nodal ? store::SweepSpec::Cases::nodal_forces : store::SweepSpec::Cases::combinations;
+  const v1::Sweep::Matrix& matrix = nodal ? from.nodal_forces() : from.coefficients();
+  if (!matrix.has_packed()) value.upload = after_slash(matrix.upload(), "upload");
+  return value;
+}
+
+void Translation<store::CaseRecord>::write(const store::CaseRecord& value, v1::LoadCaseAnswer& to) {
+  write_fields(value, to, {"answer"});
+  write_fields(value.answer, to, {"kkt_relative"});
+  fields::for_each(value.answer.kkt_relative, [&](const fields::Field<const double>& residual) {
+    put(*to.mutable_kkt(), field_of(to.kkt(), std::string(residual.name) + relative),
+        residual.value);
+  });
+}
+
+store::CaseRecord Translation<store::CaseRecord>::read(const v1::LoadCaseAnswer& from) {
+  store::CaseRecord value;
+  read_fields(from, value, {"answer"});
+  read_fields(from, value.answer, {"kkt_relative"});
+  fields::for_each(value.answer.kkt_relative, [&](const fields::Field<double>& residual) {
+    get(from.kkt(), field_of(from.kkt(), std::string(residual.name) + relative), -1,
+        residual.value);
+  });
+  return value;
+}
+
+const Except of_spec{"mesh", "loads", "queue_time_limit", "run_time_limit"};
+
+void Translation<store::JobSpec>::write(const store::JobSpec& value, v1::Job& to) {
+  write_fields(value, to, of_spec);
+  write_field(mesh_name(value.mesh), to, "mesh");
+  write_field(value.loads, to, "load_cases");
+  write_limit(value.queue_time_limit, to, "queue_timeout");
+  write_limit(value.run_time_limit, to, "run_timeout");
+}
+
+store::JobSpec Translation<store::JobSpec>::read(const v1::Job& from) {
+  store::JobSpec value;
+  read_fields(from, value, of_spec);
+  value.mesh = after_slash(from.mesh(), "mesh");
+  read_field(from, "load_cases", value.loads);
+  value.queue_time_limit = limit_of(from, "queue_timeout");
+  value.run_time_limit = limit_of(from, "run_timeout");
+  return value;
+}
+
+const Except of_record{"id",      "request_id", "spec",  "created",
+                           "started", "ended",      "cases", "sweep"};
+
+void Translation<store::JobRecord>::write(const store::JobRecord& value, v1::Job& to) {
+  Translation<store::JobSpec>::write(value.spec, to);
+  write_fields(value, to, of_record);
+  write_field(job_name(value.id), to, "name");
+  write_field(value.created, to, "create_time");
+  write_field(value.started, to, "start_time");
+  write_field(value.ended, to, "end_time");
+  write_field(value.cases, to, "answers");
+  for (std::size_t i = 0; i < std::min(value.cases.size(), value.spec.loads.size()); ++i) {
+    to.mutable_answers(static_cast<int>(i))->set_name(value.spec.loads[i].name);
+  }
+  if (value.spec.sweep) {
+    write_field(value.sweep, to, "sweep_answer");
+    to.mutable_sweep_answer()->set_rows(value.spec.sweep->rows);
+  }
+  // A job that is queued again was started once more, by the next start of the server.
+  int attempt = 1;
+  for (int i = 0; i < to.timeline_size(); ++i) {
+    v1::Job::Step& step = *to.mutable_timeline(i);
+    if (i > 0 && step.state() == v1::Job::STATE_QUEUED &&
+        to.timeline(i - 1).state() != v1::Job::STATE_QUEUED) {
+      attempt = std::min(attempt + 1, value.attempt);
+    }
+    step.set_attempt(attempt);
+  }
+}
+
+store::JobRecord Translation<store::JobRecord>::read(const v1::Job& from) {
+  store::JobRecord value;
+  read_fields(from, value, of_record);
+  value.id = after_slash(from.name(), "name");
+  value.spec = Translation<store::JobSpec>::read(from);
+  read_field(from, "create_time", value.created);
+  read_field(from, "start_time", value.started);
+  read_field(from, "end_time", value.ended);
+  read_field(from, "answers", value.cases);
+  if (value.spec.sweep) {
+    read_field(from, "sweep_answer", value.sweep);
+    value.spec.sweep->rows = from.sweep_answer().rows();
+  }
+  return value;
+}
+
+}  // namespace anticrack::api

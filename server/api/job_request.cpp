@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <variant>
+
+#include "api/names.hpp"
+#include "api/requests.hpp"
+#include "api/translations.hpp"
+#include "store/digest.hpp"
+
+namespace anticrack::api {
+namespace {
+
+using errors::Error;
+using errors::Reason;
+
+void require_count(std::size_t count, std::size_t limit, const char* what,
+                   const std::string& field) {
+  if (count > limit) {
+    throw Error(Reason::limit_exceeded, std::to_string(count) + " " + what + ": at most " +
+                                            std::to_string(limit) + " are accepted")
+        .at(field);
+  }
+}
+
+void require_loads(const v1::Job& job) {
+  for (int i = 0; i < job.load_cases_size(); ++i) {
+    const v1::LoadCase& load = job.load_cases(i);
+    const std::string field = "job.load_cases[" + std::to_string(i) + "]";
+    require_count(load.force().per_region().values().size(), fem::max_named_forces, "regions",
+                  field + ".force.per_region");
+    require_count(static_cast<std::size_t>(load.point_forces_size()), fem::max_point_forces,
+                  "point forces", field + ".point_forces");
+    require_count(load.inclusion_forces().size(), fem::max_named_forces, "forces on inclusions",
+                  field + ".inclusion_forces");
+    if (load.force().has_array()) {
+      upload_sha256(load.force().array().upload(), field + ".force.array.upload");
+    }
+  }
+}
+
+/// Rounded up to milliseconds, as it is read.
+void require_time(const google::protobuf::Duration& duration, std::chrono::milliseconds longest,
+                  const std::string& field) {
+  constexpr std::int64_t second = 1'000'000'000;
+  if (duration.seconds() < 0 || duration.nanos() < 0 || duration.nanos() >= second) {
+    throw Error(Reason::invalid_argument,
+                "the time is no duration of at least 0 s with 0 to 999999999 ns")
+        .at(field);
+  }
+  const auto limit = std::chrono::floor<std::chrono::seconds>(longest).count();
+  const std::int64_t milliseconds =
+      duration.seconds() > limit
+          ? std::numeric_limits<std::int64_t>::max()  // a product would overflow
+          : 1000 * duration.seconds() + (duration.nanos() + 999'999) / 1'000'000;
+  if (milliseconds > longest.count()) {
+    throw Error(Reason::limit_exceeded, "a time of " + std::to_string(duration.seconds()) +
+                                            " s: at most " + std::to_string(limit) +
+                                            " s are allowed (see GetServerInfo)")
+        .at(field);
+  }
+}
+
+std::size_t packed_bytes(const v1::Job& job) {
+  const v1::Sweep::Matrix* matrix = matrix_of(job.sweep()).matrix;
+  return matrix == nullptr ? 0 : matrix->packed().size();
+}
+
+void require_packed(const std::string& packed, const std::string& field) {
+  if (packed.size() > max_packed_bytes) {
+    throw Error(Reason::limit_exceeded,
+                "a matrix of " + std::to_string(packed.size()) + " bytes: at most " +
+                    std::to_string(max_packed_bytes) +
+                    " come with a job; upload it with UploadMesh as CONTENT_ARRAY and name it in "
+                    "`upload`")
+        .at(field);
+  }
+  if (packed.empty() || packed.size() % sizeof(double) != 0) {
+    throw Error(Reason::invalid_argument, "a matrix of " + std::to_string(packed.size()) +
+                                              " bytes: give at least one value, and for each 8 "
+                                              "(f64, little-endian)")
+        .at(field);
+  }
+}
+
+void require_matrix(const v1::Sweep::Matrix& matrix, const std::string& field) {
+  switch (matrix.source_case()) {
+    case v1::Sweep::Matrix::kPacked:
+      return require_packed(matrix.packed(), field + ".packed");
+    case v1::Sweep::Matrix::kUpload:
+      upload_sha256(matrix.upload(), field + ".upload");
+      return;
+    case v1::Sweep::Matrix::SOURCE_NOT_SET:
+      break;
+  }
+  throw Error(Reason::invalid_argument, "the matrix has no values; set packed or upload").at(field);
+}
+
+void require_sweep(const v1::Sweep& sweep, const JobLimits& limits) {
+  const auto [matrix, path] = matrix_of(sweep);
+  const std::string field = std::string("job.") + path;
+  if (matrix == nullptr) {
+    throw Error(Reason::invalid_argument,
+                "the sweep has no cases; set coefficients or nodal_forces")
+        .at(field);
+  }
+  if (sweep.traces_size() > limits.load_cases) {
+    throw Error(Reason::limit_exceeded, "traces of " + std::to_string(sweep.traces_size()) +
+                                            " rows: at most " + std::to_string(limits.load_cases) +
+                                            " are kept (see GetServerInfo)")
+        .at("job.sweep.traces");
+  }
+  require_matrix(*matrix, field);
+}
+
+/// What is not asked for is no more than the server allows.
+void bound_iterations(const v1::Solver& asked, int limit, contact::SolverOptions& options) {
+  if (auto* uzawa = std::get_if<contact::UzawaOptions>(&options)) {
+    if (asked.uzawa().max_iterations() == 0) {
+      uzawa->max_iterations = std::min(uzawa->max_iterations, limit);
+    }
+  } else if (asked.active_set().max_steps() == 0) {
+    int& steps = std::get<contact::ActiveSetOptions>(options).max_steps;
+    steps = std::min(steps, limit);
+  }
+}
+
+}  // namespace
+
+store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
+  require_title(job.title(), "job.title");
+  if (job.load_cases_size() > limits.load_cases) {
+    throw Error(Reason::limit_exceeded,
+                std::to_string(job.load_cases_size()) + " load cases: a job has at most " +
+                    std::to_string(limits.load_cases) + "; make several jobs of it")
+        .at("job.load_cases");
+  }
+  const std::size_t bytes = job.ByteSizeLong() - packed_bytes(job);
+  if (bytes > max_job_bytes) {
+    throw Error(Reason::limit_exceeded, "the job has " + std::to_string(bytes) +
+                                            " bytes: at most " + std::to_string(max_job_bytes) +
+                                            " are accepted; make several jobs of it")
+        .at("job");
+  }
+  mesh_id(job.mesh(), "job.mesh");
+  require_time(job.queue_timeout(), limits.queue_time, "job.queue_timeout");
+  require_time(job.run_timeout(), limits.run_time, "job.run_timeout");
+  require_loads(job);
+  if (job.has_sweep()) require_sweep(job.sweep(), limits);
+  store::JobSpec spec;
+  try {
+    spec = Translation<store::JobSpec>::read(job);
+  } catch (Error& error) {
+    throw error.below("job");
+  }
+  bound_iterations(job.solver(), limits.iterations, spec.solver);
+  if (packed_bytes(job) > 0) {
+    spec.sweep->upload = store::Sha256().add(matrix_of(job.sweep()).matrix->packed()).finish();
+  }
+  return spec;
+}
+
+MatrixOf matrix_of(const v1::Sweep& sweep) {
+  switch (sweep.cases_case()) {
+    case v1::Sweep::kCoefficients:
+      return {&sweep.coefficients(), "sweep.coefficients"};
+    case v1::Sweep::kNodalForces:
+      return {&sweep.nodal_forces(), "sweep.nodal_forces"};
+    case v1::Sweep::CASES_NOT_SET:
+      break;
+  }
+  return {nullptr, "sweep"};
+}
+
+void require_request_id(const std::string& id) {
+  const bool fits =
+      id.size() <= max_request_id_bytes && std::all_of(id.begin(), id.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '-' || c == '_';
+      });
+  if (!fits) {
+    throw Error(Reason::invalid_argument,
+                "request_id is no UUID, e.g. 123e4567-e89b-12d3-a456-426614174000")
+        .at("request_id");
+  }
+}
+
+}  // namespace anticrack::api

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <string>
+#include <variant>
+
+#include "api/names.hpp"
+#include "api/requests.hpp"
+#include "api/translations.hpp"
+
+namespace anticrack::api {
+namespace {
+
+using errors::Error;
+using errors::Reason;
+
+void require_count(int count, std::size_t limit, const std::string& field, const char* what) {
+  if (static_cast<std::size_t>(count) > limit) {
+    throw Error(Reason::limit_exceeded, std::to_string(count) + " " + what + ": at most " +
+                                            std::to_string(limit) + " are accepted")
+        .at(field);
+  }
+}
+
+int part_count(const v1::Geometry& geometry) {
+  int count = geometry.inclusions_size() + geometry.cracks_size();
+  for (const v1::Inclusion& inclusion : geometry.inclusions()) {
+    count += inclusion.delaminated_parts().parts_size();
+  }
+  return count;
+}
+
+std::string indexed(const char* list, int i) {
+  return std::string(list) + "[" + std::to_string(i) + "]";
+}
+
+int vertex_count(const v1::InterfaceCurve& curve) {
+  return curve.polyline().points_size() + curve.spline().points_size();
+}
+
+void require_counts(const v1::Geometry& geometry) {
+  require_count(geometry.boundary_size(), max_vertices, "geometry.boundary", "vertices");
+  require_count(geometry.interfaces_size(), max_interfaces, "geometry.interfaces", "interfaces");
+  std::size_t vertices = 0;
+  for (int i = 0; i < geometry.interfaces_size(); ++i) {
+    vertices += static_cast<std::size_t>(vertex_count(geometry.interfaces(i)));
+    if (vertices > max_vertices) {
+      throw Error(Reason::limit_exceeded, "more than " + std::to_string(max_vertices) +
+                                              " points in all interfaces together")
+          .at(indexed("geometry.interfaces", i));
+    }
+  }
+  require_count(part_count(geometry), max_parts, "geometry.inclusions",
+                "inclusions, cracks and delaminated parts");
+  require_count(geometry.neumann_size(), max_parts, "geometry.neumann", "parts of the boundary");
+  require_count(geometry.regions_size(), max_regions, "geometry.regions", "regions");
+}
+
+void require_counts(const v1::MeshOptions& options) {
+  require_count(options.align_size(), max_interfaces, "options.align", "lines");
+  std::size_t vertices = 0;
+  for (const v1::Polyline& line : options.align()) {
+    vertices += static_cast<std::size_t>(line.points_size());
+  }
+  require_count(static_cast<int>(vertices), max_vertices, "options.align", "vertices");
+  const auto entries = [](const auto& map) { return static_cast<int>(map.size()); };
+  require_count(entries(options.curve_groups()), max_regions, "options.curve_groups", "groups");
+  require_count(entries(options.surface_groups()), max_regions, "options.surface_groups", "groups");
+  require_count(entries(options.tension()), max_regions, "options.tension", "subdomains");
+}
+
+/// A copy of `error` whose fields are `rename(field)`.
+template <class Rename>
+Error renamed(const Error& error, Rename rename) {
+  Error result(error.reason(), error.what());
+  for (const errors::FieldViolation& violation : error.fields()) {
+    result.at(rename(violation.field));
+  }
+  for (const auto& [key, value] : error.metadata()) result.with(key, value);
+  result.retry_after(error.retry_delay());
+  return result;
+}
+
+}  // namespace
+
+store::MeshDefinition to_definition(const v1::CreateMeshRequest& request) {
+  require_title(request.title(), "title");
+  require_counts(request.geometry());
+  require_counts(request.options());
+  auto definition = Translation<store::MeshDefinition>::read(request);
+  if (const auto* upload = std::get_if<store::UploadRef>(&definition)) {
+    mesh::check_for_upload(upload->options);
+    upload_sha256(request.upload(), "upload");
+  }
+  return definition;
+}
+
+void require_title(const std::string& title, const char* field) {
+  if (title.size() > max_title_bytes) {
+    throw Error(Reason::limit_exceeded, "the title has " + std::to_string(title.size()) +
+                                            " bytes: at most " + std::to_string(max_title_bytes) +
+                                            " are accepted")
+        .at(field);
+  }
+}
+
+Error below_mesh_request(const Error& error) {
+  Error result = renamed(error, [](const std::string& field) {
+    const bool own = field.starts_with("options") || field.starts_with("upload");
+    if (own) return field;
+    // the request has a message around the list
+    const std::string list = ".delaminated_parts";
+    std::string path = "geometry." + field;
+    const std::size_t at = path.find(list);
+    if (at != std::string::npos) path.insert(at + list.size(), ".parts");
+    return path;
+  });
+  if (result.fields().empty() && result.reason() == Reason::not_found) result.at("upload");
+  return result;
+}
+
+Error below_job_request(const Error& error) {
+  Error result = error;
+  if (result.fields().empty() && result.reason() == Reason::not_found) result.at("mesh");
+  if (result.reason() != Reason::request_id_reused) return result.below("job");
+  return result.fields().empty() ? result.at("request_id") : result;
+}
+
+}  // namespace anticrack::api

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "api/translation.hpp"
+
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+
+#include <cctype>
+#include <limits>
+#include <stdexcept>
+
+#include "api/text.hpp"
+
+namespace anticrack::api {
+
+using errors::Error;
+using errors::Reason;
+
+namespace {
+
+/// "lumped (1) or consistent (2)" of MASS_UNSPECIFIED = 0, MASS_LUMPED = 1, MASS_CONSISTENT = 2.
+std::string choices(const google::protobuf::EnumDescriptor& type) {
+  const std::size_t prefix = type.value(0)->name().size() - std::string("UNSPECIFIED").size();
+  std::string text;
+  for (int i = 1; i < type.value_count(); ++i) {
+    text += i == 1 ? "" : i + 1 == type.value_count() ? " or " : ", ";
+    for (const char c : type.value(i)->name().substr(prefix)) {
+      text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    text += " (" + std::to_string(type.value(i)->number()) + ")";
+  }
+  return text;
+}
+
+}  // namespace
+
+Error untranslated(std::string_view field) {
+  return {Reason::internal, std::string(field) + " is not translated"};
+}
+
+const FieldDescriptor& field_of(const Message& message, std::string_view name) {
+  const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(std::string(name));
+  if (field == nullptr) {
+    throw Error(Reason::internal, message.GetTypeName() + " has no field " + std::string(name));
+  }
+  return *field;
+}
+
+// put and get of one type: by the names of Reflection's methods.
+#define ANTICRACK_ACCESS(Type, Name)                                                    \
+  void put(Message& to, const FieldDescriptor& field, Type value) {                     \
+    const Reflection& access = *to.GetReflection();                                     \
+    field.is_repeated() ? access.Add##Name(&to, &field, value)                          \
+                        : access.Set##Name(&to, &field, value);                         \
+  }                                                                                     \
+  void get(const Message& from, const FieldDescriptor& field, int index, Type& value) { \
+    const Reflection& access = *from.GetReflection();                                   \
+    value = index < 0 ? access.Get##Name(from, &field)                                  \
+                      : access.GetRepeated##Name(from, &field, index);                  \
+  }
+ANTICRACK_ACCESS(bool, Bool)
+ANTICRACK_ACCESS(double, Double)
+ANTICRACK_ACCESS(std::int32_t, Int32)
+ANTICRACK_ACCESS(std::uint32_t, UInt32)
+ANTICRACK_ACCESS(std::uint64_t, UInt64)
+#undef ANTICRACK_ACCESS
+
+void put(Message& to, const FieldDescriptor& field, const std::string& value) {
+  const Reflection& access = *to.GetReflection();
+  std::string text = is_utf8(value) ? value : printable(value, std::string::npos);
+  field.is_repeated() ? access.AddString(&to, &field, std::move(text))
+                      : access.SetString(&to, &field, std::move(text));
+}
+
+void get(const Message& from, const FieldDescriptor& field, int index, std::string& value) {
+  const Reflection& access = *from.GetReflection();
+  value =
+      index < 0 ? access.GetString(from, &field) : access.GetRepeatedString(from, &field, index);
+}
+
+void put_number(Message& to, const FieldDescriptor& field, int number) {
+  to.GetReflection()->SetEnumValue(&to, &field, number);
+}
+
+int get_number(const Message& from, const FieldDescriptor& field, int index) {
+  const Reflection& access = *from.GetReflection();
+  const int number = index < 0 ? access.GetEnumValue(from, &field)
+                               : access.GetRepeatedEnumValue(from, &field, index);
+  if (field.enum_type()->FindValueByNumber(number) == nullptr) {
+    throw Error(Reason::invalid_argument, field.name() + " " + std::to_string(number) +
+                                              " is unknown; use " + choices(*field.enum_type()))
+        .at(path_of(field, index));
+  }
+  return number;
+}
+
+Message& add(Message& to, const FieldDescriptor& field) {
+  const Reflection& access = *to.GetReflection();
+  return field.is_repeated() ? *access.AddMessage(&to, &field)
+                             : *access.MutableMessage(&to, &field);
+}
+
+const Message& message_in(const Message& from, const FieldDescriptor& field, int index) {
+  const Reflection& access = *from.GetReflection();
+  return index < 0 ? access.GetMessage(from, &field)
+                   : access.GetRepeatedMessage(from, &field, index);
+}
+
+void require(const Message& from, const FieldDescriptor& field) {
+  if (!has(from, field)) throw Error(Reason::invalid_argument, "missing").at(field.name());
+}
+
+int size_of(const Message& from, const FieldDescriptor& field) {
+  return from.GetReflection()->FieldSize(from, &field);
+}
+
+bool has(const Message& from, const FieldDescriptor& field) {
+  return from.GetReflection()->HasField(from, &field);
+}
+
+std::string serialized(const Message& message) {
+  std::string bytes;
+  if (message.ByteSizeLong() > std::size_t{std::numeric_limits<int>::max()}) {
+    throw std::length_error("a record is larger than 2 GB");
+  }
+  google::protobuf::io::StringOutputStream stream(&bytes);
+  google::protobuf::io::CodedOutputStream out(&stream);
+  out.SetSerializationDeterministic(true);
+  message.SerializeToCodedStream(&out);
+  out.Trim();
+  return bytes;
+}
+
+std::string path_of(const FieldDescriptor& field, int index) {
+  return index < 0 ? field.name() : field.name() + "[" + std::to_string(index) + "]";
+}
+
+}  // namespace anticrack::api

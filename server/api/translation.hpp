@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Structs as messages of the API, and back: each listed field of a struct (fields/fields.hpp) is
+// the field of the message that has its name. What is told in another shape has a Translation of
+// its own in translations.hpp. A field the message lacks is a bug that every use of the struct
+// shows.
+#pragma once
+
+#include <google/protobuf/message.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "errors/errors.hpp"
+#include "fields/walk.hpp"
+
+namespace anticrack::api {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::Reflection;
+/// Fields that the caller translates himself.
+using Except = std::initializer_list<std::string_view>;
+
+template <fields::Listed T>
+void write_fields(const T& value, Message& to, Except except = {});
+/// Throws errors::Error (invalid_argument) with the field at fault, as a path in the message.
+template <fields::Listed T>
+void read_fields(const Message& from, T& value, Except except = {});
+
+/// A value that is a message `Of` its own. To be specialised where the fields are not all the same.
+template <class T>
+struct Translation {};
+template <fields::Listed T>
+struct Translation<T> {
+  using Of = Message;
+  static void write(const T& value, Message& to) { write_fields(value, to); }
+  static T read(const Message& from) {
+    T value;
+    read_fields(from, value);
+    return value;
+  }
+};
+
+/// Of the message, which has it: else errors::Error (internal).
+const FieldDescriptor& field_of(const Message& message, std::string_view name);
+
+/// A number or text in a field, at `index` where it is a list.
+void put(Message& to, const FieldDescriptor& field, bool value);
+void put(Message& to, const FieldDescriptor& field, double value);
+void put(Message& to, const FieldDescriptor& field, std::int32_t value);
+void put(Message& to, const FieldDescriptor& field, std::uint32_t value);
+void put(Message& to, const FieldDescriptor& field, std::uint64_t value);
+/// Bytes that are not UTF-8 become '?': no message can hold them.
+void put(Message& to, const FieldDescriptor& field, const std::string& value);
+void get(const Message& from, const FieldDescriptor& field, int index, bool& value);
+void get(const Message& from, const FieldDescriptor& field, int index, double& value);
+void get(const Message& from, const FieldDescriptor& field, int index, std::int32_t& value);
+void get(const Message& from, const FieldDescriptor& field, int index, std::uint32_t& value);
+void get(const Message& from, const FieldDescriptor& field, int index, std::uint64_t& value);
+void get(const Message& from, const FieldDescriptor& field, int index, std::string& value);
+/// Of an enum: its number. Throws errors::Error for one that the API does not have.
+void put_number(Message& to, const FieldDescriptor& field, int number);
+int get_number(const Message& from, const FieldDescriptor& field, int index);
+/// A message in a field: a new one where it is a list.
+Message& add(Message& to, const FieldDescriptor& field);
+/// Unset: the default. `index` -1: it is no list.
+const Message& message_in(const Message& from, const FieldDescriptor& field, int index);
+/// Throws errors::Error unless the field is set.
+void require(const Message& from, const FieldDescriptor& field);
+int size_of(const Message& from, const FieldDescriptor& field);
+bool has(const Message& from, const FieldDescriptor& field);
+/// errors::Error (internal): a bug that the first use shows.
+errors::Error untranslated(std::string_view field);
+/// "name" or "name[2]".
+std::string path_of(const FieldDescriptor& field, int index);
+
+template <class T>
+concept Simple = fields::Whole<T> || std::is_same_v<T, double> || std::is_same_v<T, std::string>;
+
+template <class T>
+void write_one(const T& value, Message& to, const FieldDescriptor& field) {
+  if constexpr (std::is_enum_v<T>) {
+    put_number(to, field, static_cast<int>(value));
+  } else if constexpr (Simple<T>) {
+    put(to, field, value);
+  } else {
+    using Of = typename Translation<T>::Of;
+    Translation<T>::write(value, static_cast<Of&>(add(to, field)));
+  }
+}
+
+template <class T>
+T read_one(const Message& from, const FieldDescriptor& field, int index = -1) {
+  if constexpr (std::is_enum_v<T>) {
+    return static_cast<T>(get_number(from, field, index));
+  } else if constexpr (Simple<T>) {
+    T value{};
+    get(from, field, index, value);
+    return value;
+  } else {
+    using Of = typename Translation<T>::Of;
+    if constexpr (requires { Translation<T>::required; }) {
+      if (index < 0) require(from, field);
+    }
+    try {
+      return Translation<T>::read(static_cast<const Of&>(message_in(from, field, index)));
+    } catch (errors::Error& error) {
+      error.below(path_of(field, index));
+      throw;
+    }
+  }
+}
+
+template <class T>
+void write_field(const T& value, Message& to, const FieldDescriptor& field) {
+  if constexpr (fields::is_a<T, std::optional>) {
+    if (value) write_one(*value, to, field);
+  } else if constexpr (fields::is_a<T, std::vector>) {
+    for (const auto& item : value) write_one(item, to, field);
+  } else if constexpr (fields::is_a<T, std::map>) {
+    for (const auto& [key, item] : value) {
+      Message& entry = add(to, field);
+      write_one(key, entry, field_of(entry, "key"));
+      write_one(item, entry, field_of(entry, "value"));
+    }
+  } else {
+    write_one(value, to, field);
+  }
+}
+
+/// Leaves what the message says nothing of: an unset optional number, an enum that is unspecified.
+template <class T>
+void read_field(const Message& from, const FieldDescriptor& field, T& value) {
+  if constexpr (fields::is_a<T, std::optional>) {
+    if (has(from, field)) value.emplace(read_one<typename T::value_type>(from, field));
+  } else if constexpr (fields::is_a<T, std::vector>) {
+    const int count = size_of(from, field);
+    value.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) {
+      value.push_back(read_one<typename T::value_type>(from, field, i));
+    }
+  } else if constexpr (fields::is_a<T, std::map>) {
+    for (int i = 0, count = size_of(from, field); i < count; ++i) {
+      const Message& entry = message_in(from, field, i);
+      value[read_one<typename T::key_type>(entry, field_of(entry, "key"))] =
+          read_one<typename T::mapped_type>(entry, field_of(entry, "value"));
+    }
+  } else if constexpr (Simple<T>) {
+    const bool silent = (std::is_enum_v<T> || field.has_presence()) && !has(from, field);
+    if (!silent) value = read_one<T>(from, field);
+  } else {
+    value = read_one<T>(from, field);
+  }
+}
+
+/// What is not has to be among the exceptions of a struct that has it.
+template <class T>
+concept Translated = Simple<T> || fields::is_a<T, std::optional> || fields::is_a<T, std::vector> ||
+                     fields::is_a<T, std::map> || requires { typename Translation<T>::Of; };
+
+template <fields::Listed T>
+void write_fields(const T& value, Message& to, Except except) {
+  fields::for_each(value, [&]<class Value>(const fields::Field<Value>& each) {
+    if (std::find(except.begin(), except.end(), each.name) != except.end()) return;
+    if constexpr (Translated<std::remove_const_t<Value>>) {
+      write_field(each.value, to, field_of(to, each.name));
+    } else {
+      throw untranslated(each.name);
+    }
+  });
+}
+
+template <fields::Listed T>
+void read_fields(const Message& from, T& value, Except except) {
+  fields::for_each(value, [&]<class Value>(const fields::Field<Value>& each) {
+    if (std::find(except.begin(), except.end(), each.name) != except.end()) return;
+    if constexpr (Translated<Value>) {
+      read_field(from, field_of(from, each.name), each.value);
+    } else {
+      throw untranslated(each.name);
+    }
+  });
+}
+
+/// The same of one field, by its name.
+template <class T>
+void write_field(const T& value, Message& to, std::string_view name) {
+  write_field(value, to, field_of(to, name));
+}
+template <class T>
+void read_field(const Message& from, std::string_view name, T& value) {
+  read_field(from, field_of(from, name), value);
+}
+template <class T>
+T read_one(const Message& from, std::string_view name) {
+  return read_one<T>(from, field_of(from, name));
+}
+
+/// Bytes that are the same for equal messages. Throws std::length_error beyond the 2 GB that a
+/// message can hold.
+std::string serialized(const Message& message);
+
+/// The message of a value whose Translation names one.
+template <class T>
+typename Translation<T>::Of message(const T& value) {
+  typename Translation<T>::Of to;
+  Translation<T>::write(value, to);
+  return to;
+}
+
+}  // namespace anticrack::api

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "store/record_codec.hpp"
+
+#include <limits>
+
+#include "api/translations.hpp"
+#include "store/records.pb.h"
+
+namespace anticrack::store {
+
+using errors::Error;
+using errors::Reason;
+
+namespace {
+
+Error damaged_record(const std::string& what) {
+  return {Reason::storage, "a record in the database is damaged (" + what +
+                               "): restore the data folder from a backup"};
+}
+
+/// read(message), whose errors say what is wrong with the record.
+template <class Record, class Read>
+auto decoded(std::string_view bytes, const Read& read) {
+  Record record;
+  if (bytes.size() > std::size_t{std::numeric_limits<int>::max()} ||
+      !record.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
+    throw damaged_record("it cannot be parsed");
+  }
+  try {
+    return read(record);
+  } catch (const Error& error) {
+    throw damaged_record(error.what());
+  }
+}
+
+}  // namespace
+
+std::string encode(const MeshRecord& record) {
+  disk::MeshRecord out;
+  api::Translation<MeshRecord>::write(record, *out.mutable_mesh());
+  api::Translation<MeshDefinition>::write(record.definition, *out.mutable_definition());
+  return api::serialized(out);
+}
+
+std::string encode(const JobRecord& record) {
+  disk::JobRecord out;
+  api::Translation<JobRecord>::write(record, *out.mutable_job());
+  api::write_field(record.request_id, out, "request_id");
+  return api::serialized(out);
+}
+
+MeshRecord decode_mesh_record(std::string_view bytes) {
+  return decoded<disk::MeshRecord>(bytes, [](const disk::MeshRecord& in) {
+    MeshRecord record = api::Translation<MeshRecord>::read(in.mesh());
+    record.definition = api::Translation<MeshDefinition>::read(in.definition());
+    return record;
+  });
+}
+
+JobRecord decode_job_record(std::string_view bytes) {
+  return decoded<disk::JobRecord>(bytes, [](const disk::JobRecord& in) {
+    JobRecord record = api::Translation<JobRecord>::read(in.job());
+    record.request_id = in.request_id();
+    return record;
+  });
+}
+
+}  // namespace anticrack::store
