@@ -88,7 +88,8 @@ void Translation<Error>::write(const Error& value, v1::Status& to) {
 Error Translation<Error>::read(const v1::Status& from) {
   const auto info = unpacked<v1::ErrorInfo>(from);
   Error error(reason_of(info.reason()), from.message());
-  for (const auto& violation : unpacked<v1::BadRequest>(from).field_violations()) {
+  const auto bad = unpacked<v1::BadRequest>(from);
+  for (const auto& violation : bad.field_violations()) {
     error.at(violation.field());  // its description is the message
   }
   for (const auto& [key, value] : info.metadata()) error.with(key, value);

@@ -33,17 +33,21 @@ milliseconds limit_of(const v1::Job& from, const char* name) {
 }  // namespace
 
 void Translation<fem::Force>::write(const fem::Force& value, v1::Force& to) {
-  if (const auto* constant = std::get_if<double>(&value)) {
-    to.set_constant(*constant);
-  } else if (const auto* expression = std::get_if<fem::Expression>(&value)) {
-    write_field(expression->text, to, "expression");
-  } else if (const auto* regions = std::get_if<fem::PerRegion>(&value)) {
-    write_fields(*regions, *to.mutable_per_region());
-  } else {
-    const auto& array = std::get<fem::Array>(value);
-    write_fields(array, *to.mutable_array(), {"upload", "values"});
-    write_field(upload_name(array.upload), *to.mutable_array(), "upload");
-  }
+  struct Visitor {
+    v1::Force& to;
+    void operator()(double constant) const { to.set_constant(constant); }
+    void operator()(const fem::Expression& expression) const {
+      write_field(expression.text, to, "expression");
+    }
+    void operator()(const fem::PerRegion& regions) const {
+      write_fields(regions, *to.mutable_per_region());
+    }
+    void operator()(const fem::Array& array) const {
+      write_fields(array, *to.mutable_array(), {"upload", "values"});
+      write_field(upload_name(array.upload), *to.mutable_array(), "upload");
+    }
+  };
+  std::visit(Visitor{to}, value);
 }
 
 fem::Force Translation<fem::Force>::read(const v1::Force& from) {
@@ -115,9 +119,14 @@ contact::ActiveSetOptions Translation<contact::ActiveSetOptions>::read(const v1:
 
 void Translation<contact::SolverOptions>::write(const contact::SolverOptions& value,
                                                 v1::Solver& to) {
-  const bool uzawa = std::holds_alternative<contact::UzawaOptions>(value);
-  std::visit([&](const auto& options) { write_field(options, to, uzawa ? "uzawa" : "active_set"); },
-             value);
+  struct Visitor {
+    v1::Solver& to;
+    void operator()(const contact::UzawaOptions& uzawa) const { write_field(uzawa, to, "uzawa"); }
+    void operator()(const contact::ActiveSetOptions& active_set) const {
+      write_field(active_set, to, "active_set");
+    }
+  };
+  std::visit(Visitor{to}, value);
 }
 
 contact::SolverOptions Translation<contact::SolverOptions>::read(const v1::Solver& from) {
@@ -184,8 +193,7 @@ store::JobSpec Translation<store::JobSpec>::read(const v1::Job& from) {
   return value;
 }
 
-const Except of_record{"id",      "request_id", "spec",  "created",
-                           "started", "ended",      "cases", "sweep"};
+const Except of_record{"id", "request_id", "spec", "created", "started", "ended", "cases", "sweep"};
 
 void Translation<store::JobRecord>::write(const store::JobRecord& value, v1::Job& to) {
   Translation<store::JobSpec>::write(value.spec, to);

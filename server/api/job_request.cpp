@@ -17,25 +17,16 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-void require_count(std::size_t count, std::size_t limit, const char* what,
-                   const std::string& field) {
-  if (count > limit) {
-    throw Error(Reason::limit_exceeded, std::to_string(count) + " " + what + ": at most " +
-                                            std::to_string(limit) + " are accepted")
-        .at(field);
-  }
-}
-
 void require_loads(const v1::Job& job) {
   for (int i = 0; i < job.load_cases_size(); ++i) {
     const v1::LoadCase& load = job.load_cases(i);
     const std::string field = "job.load_cases[" + std::to_string(i) + "]";
-    require_count(load.force().per_region().values().size(), fem::max_named_forces, "regions",
-                  field + ".force.per_region");
-    require_count(static_cast<std::size_t>(load.point_forces_size()), fem::max_point_forces,
-                  "point forces", field + ".point_forces");
-    require_count(load.inclusion_forces().size(), fem::max_named_forces, "forces on inclusions",
-                  field + ".inclusion_forces");
+    require_count(load.force().per_region().values().size(), fem::max_named_forces,
+                  field + ".force.per_region", "regions");
+    require_count(load.point_forces().size(), fem::max_point_forces, field + ".point_forces",
+                  "point forces");
+    require_count(load.inclusion_forces().size(), fem::max_named_forces,
+                  field + ".inclusion_forces", "forces on inclusions");
     if (load.force().has_array()) {
       upload_sha256(load.force().array().upload(), field + ".force.array.upload");
     }

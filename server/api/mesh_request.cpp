@@ -12,18 +12,10 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-void require_count(int count, std::size_t limit, const std::string& field, const char* what) {
-  if (static_cast<std::size_t>(count) > limit) {
-    throw Error(Reason::limit_exceeded, std::to_string(count) + " " + what + ": at most " +
-                                            std::to_string(limit) + " are accepted")
-        .at(field);
-  }
-}
-
-int part_count(const v1::Geometry& geometry) {
-  int count = geometry.inclusions_size() + geometry.cracks_size();
+std::size_t part_count(const v1::Geometry& geometry) {
+  auto count = static_cast<std::size_t>(geometry.inclusions_size() + geometry.cracks_size());
   for (const v1::Inclusion& inclusion : geometry.inclusions()) {
-    count += inclusion.delaminated_parts().parts_size();
+    count += inclusion.delaminated_parts().parts().size();
   }
   return count;
 }
@@ -37,8 +29,8 @@ int vertex_count(const v1::InterfaceCurve& curve) {
 }
 
 void require_counts(const v1::Geometry& geometry) {
-  require_count(geometry.boundary_size(), max_vertices, "geometry.boundary", "vertices");
-  require_count(geometry.interfaces_size(), max_interfaces, "geometry.interfaces", "interfaces");
+  require_count(geometry.boundary().size(), max_vertices, "geometry.boundary", "vertices");
+  require_count(geometry.interfaces().size(), max_interfaces, "geometry.interfaces", "interfaces");
   std::size_t vertices = 0;
   for (int i = 0; i < geometry.interfaces_size(); ++i) {
     vertices += static_cast<std::size_t>(vertex_count(geometry.interfaces(i)));
@@ -50,21 +42,20 @@ void require_counts(const v1::Geometry& geometry) {
   }
   require_count(part_count(geometry), max_parts, "geometry.inclusions",
                 "inclusions, cracks and delaminated parts");
-  require_count(geometry.neumann_size(), max_parts, "geometry.neumann", "parts of the boundary");
-  require_count(geometry.regions_size(), max_regions, "geometry.regions", "regions");
+  require_count(geometry.neumann().size(), max_parts, "geometry.neumann", "parts of the boundary");
+  require_count(geometry.regions().size(), max_regions, "geometry.regions", "regions");
 }
 
 void require_counts(const v1::MeshOptions& options) {
-  require_count(options.align_size(), max_interfaces, "options.align", "lines");
+  require_count(options.align().size(), max_interfaces, "options.align", "lines");
   std::size_t vertices = 0;
   for (const v1::Polyline& line : options.align()) {
     vertices += static_cast<std::size_t>(line.points_size());
   }
-  require_count(static_cast<int>(vertices), max_vertices, "options.align", "vertices");
-  const auto entries = [](const auto& map) { return static_cast<int>(map.size()); };
-  require_count(entries(options.curve_groups()), max_regions, "options.curve_groups", "groups");
-  require_count(entries(options.surface_groups()), max_regions, "options.surface_groups", "groups");
-  require_count(entries(options.tension()), max_regions, "options.tension", "subdomains");
+  require_count(vertices, max_vertices, "options.align", "vertices");
+  require_count(options.curve_groups().size(), max_regions, "options.curve_groups", "groups");
+  require_count(options.surface_groups().size(), max_regions, "options.surface_groups", "groups");
+  require_count(options.tension().size(), max_regions, "options.tension", "subdomains");
 }
 
 /// A copy of `error` whose fields are `rename(field)`.
@@ -91,6 +82,15 @@ store::MeshDefinition to_definition(const v1::CreateMeshRequest& request) {
     upload_sha256(request.upload(), "upload");
   }
   return definition;
+}
+
+void require_count(std::size_t count, std::size_t limit, const std::string& field,
+                   const char* what) {
+  if (count > limit) {
+    throw Error(Reason::limit_exceeded, std::to_string(count) + " " + what + ": at most " +
+                                            std::to_string(limit) + " are accepted")
+        .at(field);
+  }
 }
 
 void require_title(const std::string& title, const char* field) {

@@ -56,6 +56,9 @@ struct MatrixOf {
 /// Of whichever kind of cases is set.
 MatrixOf matrix_of(const v1::Sweep& sweep);
 
+/// Throws unless there are at most `limit` of `what` ("vertices").
+void require_count(std::size_t count, std::size_t limit, const std::string& field,
+                   const char* what);
 /// Throws unless `title` is at most max_title_bytes.
 void require_title(const std::string& title, const char* field);
 /// Throws unless `id` is empty or something like a UUID.

@@ -1,55 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <google/protobuf/util/time_util.h>
+
 #include <chrono>
-#include <cstdint>
 
 #include "api/translations.hpp"
 
 namespace anticrack::api {
 
-using errors::Error;
-using errors::Reason;
+using google::protobuf::util::TimeUtil;
 using std::chrono::nanoseconds;
-using std::chrono::seconds;
-
-namespace {
-
-template <class To>
-void write_parts(nanoseconds value, seconds whole, To& to) {
-  to.set_seconds(whole.count());
-  to.set_nanos(static_cast<std::int32_t>((value - whole).count()));
-}
 
 /// Beyond 292 years a count of nanoseconds overflows.
-template <class From>
-nanoseconds read_parts(const From& from) {
-  constexpr std::int64_t most = std::chrono::floor<seconds>(nanoseconds::max()).count() - 3;
-  if (from.seconds() > most || from.seconds() < -most) {
-    throw Error(Reason::invalid_argument,
-                "a time of " + std::to_string(from.seconds()) + " s is longer than 292 years")
+template <class Time>
+static const Time& within_range(const Time& time) {
+  constexpr auto most = std::chrono::floor<std::chrono::seconds>(nanoseconds::max()).count() - 3;
+  if (time.seconds() > most || time.seconds() < -most) {
+    throw errors::Error(
+        errors::Reason::invalid_argument,
+        "a time of " + std::to_string(time.seconds()) + " s is longer than 292 years")
         .at("seconds");
   }
-  return seconds(from.seconds()) + nanoseconds(from.nanos());
+  return time;
 }
 
-}  // namespace
-
 void Translation<nanoseconds>::write(const nanoseconds& value, google::protobuf::Duration& to) {
-  write_parts(value, std::chrono::duration_cast<seconds>(value), to);
+  to = TimeUtil::NanosecondsToDuration(value.count());
 }
 
 nanoseconds Translation<nanoseconds>::read(const google::protobuf::Duration& from) {
-  return read_parts(from);
+  return nanoseconds(TimeUtil::DurationToNanoseconds(within_range(from)));
 }
 
 void Translation<store::Clock::time_point>::write(const store::Clock::time_point& value,
                                                   google::protobuf::Timestamp& to) {
-  const nanoseconds since = value.time_since_epoch();
-  write_parts(since, std::chrono::floor<seconds>(since), to);
+  to = TimeUtil::NanosecondsToTimestamp(nanoseconds(value.time_since_epoch()).count());
 }
 
 store::Clock::time_point Translation<store::Clock::time_point>::read(
     const google::protobuf::Timestamp& from) {
-  return store::Clock::time_point(read_parts(from));
+  return store::Clock::time_point(
+      nanoseconds(TimeUtil::TimestampToNanoseconds(within_range(from))));
 }
 
 }  // namespace anticrack::api

@@ -162,7 +162,9 @@ void read_field(const Message& from, const FieldDescriptor& field, T& value) {
 /// What is not has to be among the exceptions of a struct that has it.
 template <class T>
 concept Translated = Simple<T> || fields::is_a<T, std::optional> || fields::is_a<T, std::vector> ||
-                     fields::is_a<T, std::map> || requires { typename Translation<T>::Of; };
+    fields::is_a<T, std::map> || requires {
+  typename Translation<T>::Of;
+};
 
 template <fields::Listed T>
 void write_fields(const T& value, Message& to, Except except) {
@@ -193,10 +195,12 @@ template <class T>
 void write_field(const T& value, Message& to, std::string_view name) {
   write_field(value, to, field_of(to, name));
 }
+/// See write_field().
 template <class T>
 void read_field(const Message& from, std::string_view name, T& value) {
   read_field(from, field_of(from, name), value);
 }
+/// What the field says, whether it is set or not.
 template <class T>
 T read_one(const Message& from, std::string_view name) {
   return read_one<T>(from, field_of(from, name));

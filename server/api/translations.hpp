@@ -34,6 +34,7 @@ ANTICRACK_TRANSLATION(std::chrono::nanoseconds, google::protobuf::Duration);
 ANTICRACK_TRANSLATION(errors::Error, v1::Status);
 
 // mesh/
+/// write() and read() as of all others; unset where one is due, reading throws.
 template <>
 struct Translation<mesh::Point> {
   using Of = v1::Point;

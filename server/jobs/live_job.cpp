@@ -109,12 +109,7 @@ void add_step(std::vector<store::Step>& timeline, JobState state, std::string de
   timeline.push_back({store::Clock::now(), state, std::move(detail)});
 }
 
-JobSnapshot::JobSnapshot(const LiveJob& job) : _spec(job.spec) {
-  _head.id = job.created.id;
-  _head.owner = job.created.owner;
-  _head.request_id = job.created.request_id;
-  _head.created = job.created.created;
-  _head.attempt = job.created.attempt;
+JobSnapshot::JobSnapshot(const LiveJob& job) : _head(job.created), _spec(job.spec) {
   _head.state = job.state;
   _head.started = job.started;
   _head.timeline = job.timeline;

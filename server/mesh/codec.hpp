@@ -30,12 +30,14 @@ struct GenerateRequest {
   Plan plan;
   std::size_t max_triangles = 0;
 };
+ANTICRACK_FIELDS(GenerateRequest, plan, max_triangles)
 /// Read this .msh, then grade or refine as the options say; the file begins with $MeshFormat.
 struct ImportRequest {
   std::string path;
   MeshOptions options;
   std::size_t max_triangles = 0;
 };
+ANTICRACK_FIELDS(ImportRequest, path, options, max_triangles)
 using MesherRequest = std::variant<GenerateRequest, ImportRequest>;
 using MesherReply = std::variant<Mesh, errors::Error>;
 

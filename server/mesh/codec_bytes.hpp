@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Numbers, texts and lists as bytes and back. The reader checks every length against the bytes that
-// are left before it allocates.
+// Structs, numbers, texts and lists as bytes and back. The reader checks every length against the
+// bytes that are left before it allocates.
 #pragma once
 
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "errors/errors.hpp"
+#include "fields/walk.hpp"
 #include "mesh/codec.hpp"
 
 namespace anticrack::mesh {
@@ -42,21 +45,24 @@ class Writer {
     count(value.size());
     raw(value.data(), value.size());
   }
-  /// `write` is called for each item in order.
-  template <class Range, class Write>
-  void list(const Range& range, Write write) {
-    count(range.size());
-    for (const auto& item : range) write(item);
-  }
-  /// Lists of numbers and of texts.
+  /// Whatever is made of numbers, texts, containers and listed structs; a list with its length.
   template <class T>
-  void numbers(const std::vector<T>& values) {
-    _bytes.reserve(_bytes.size() + 8 + values.size() * sizeof(T));
-    list(values, [this](T value) { number(value); });
-  }
-  /// See numbers().
-  void texts(const std::vector<std::string>& values) {
-    list(values, [this](const std::string& value) { text(value); });
+  void value(const T& from) {
+    if constexpr (std::is_enum_v<T>) {
+      number(static_cast<std::int32_t>(from));
+    } else if constexpr (std::is_arithmetic_v<T>) {
+      number(from);
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      text(from);
+    } else if constexpr (fields::Listed<const T>) {
+      fields::for_each(from, [this](const auto& field) { value(field.value); });
+    } else if constexpr (fields::is_a<T, std::pair>) {
+      value(from.first);
+      value(from.second);
+    } else {
+      if constexpr (requires { typename T::allocator_type; }) count(from.size());  // no std::array
+      for (const auto& item : from) value(item);
+    }
   }
 
   /// All of them; the writer is empty then.
@@ -70,6 +76,33 @@ class Writer {
 
   Bytes _bytes;
 };
+
+/// What the number of an enum may be; `what` it says.
+struct Choices {
+  std::int32_t first;
+  std::int32_t last;
+  const char* what;
+};
+
+/// Bytes that a value takes at least.
+template <class T>
+std::size_t least_bytes() {
+  std::size_t bytes = 8;  // the length of a text or list
+  if constexpr (std::is_enum_v<T>) {
+    bytes = sizeof(std::int32_t);
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    bytes = sizeof(T);
+  } else if constexpr (fields::Listed<T>) {
+    bytes = 0;
+    T value;
+    fields::for_each(value, [&bytes]<class Value>(const fields::Field<Value>&) {
+      bytes += least_bytes<Value>();
+    });
+  } else if constexpr (requires { std::tuple_size<T>::value; }) {
+    bytes = std::tuple_size_v<T> * least_bytes<typename T::value_type>();
+  }
+  return bytes;
+}
 
 class Reader {
  public:
@@ -108,26 +141,39 @@ class Reader {
     _at += n;
     return value;
   }
-  /// The next of what Writer::numbers wrote.
+  /// The next of what Writer::value wrote. Of an enum: what choices_of() gives for it.
   template <class T>
-  std::vector<T> numbers() {
-    const std::size_t n = count(sizeof(T));
-    std::vector<T> values(n);
-    if (n > 0) std::memcpy(values.data(), _bytes.data() + _at, n * sizeof(T));
-    _at += n * sizeof(T);
-    return values;
-  }
-  /// What `read` returns for each item of the next list.
-  template <class Read>
-  auto list(std::size_t item_bytes, Read read) {
-    std::vector<decltype(read())> items;
-    const std::size_t n = count(item_bytes);
-    for (std::size_t i = 0; i < n; ++i) items.push_back(read());
-    return items;
-  }
-  /// The next of what Writer::texts wrote.
-  std::vector<std::string> texts() {
-    return list(8, [this] { return text(); });
+  void read(T& to) {
+    if constexpr (std::is_enum_v<T>) {
+      const Choices choices = choices_of(T{});
+      to = static_cast<T>(choice(choices.first, choices.last, choices.what));
+    } else if constexpr (std::is_arithmetic_v<T>) {
+      to = number<T>();
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      to = text();
+    } else if constexpr (fields::Listed<T>) {
+      fields::for_each(to, [this](const auto& field) { read(field.value); });
+    } else if constexpr (fields::is_a<T, std::vector>) {
+      using Item = typename T::value_type;
+      to.resize(count(least_bytes<Item>()));
+      if constexpr (std::is_arithmetic_v<Item>) {
+        const std::size_t bytes = to.size() * sizeof(Item);
+        if (bytes > 0) std::memcpy(to.data(), _bytes.data() + _at, bytes);
+        _at += bytes;
+      } else {
+        for (Item& item : to) read(item);
+      }
+    } else if constexpr (fields::is_a<T, std::map>) {
+      const auto n =
+          count(least_bytes<typename T::key_type>() + least_bytes<typename T::mapped_type>());
+      for (std::size_t i = 0; i < n; ++i) {
+        typename T::key_type key{};
+        read(key);
+        read(to[std::move(key)]);
+      }
+    } else {
+      for (auto& item : to) read(item);  // a std::array
+    }
   }
   /// A number from `first` to `last`.
   std::int32_t choice(std::int32_t first, std::int32_t last, const char* what) {

@@ -99,12 +99,14 @@ struct PlannedCurve {
   Kind kind = Kind::glue;
   int inclusion = -1;
 };
+ANTICRACK_FIELDS(PlannedCurve, a, b, intervals, role, left, right, kind, inclusion)
 
 /// A chain of curves, each from a to b, end to start; plus side on the left.
 struct PlannedInterface {
   std::string name;
   std::vector<int> curves;
 };
+ANTICRACK_FIELDS(PlannedInterface, name, curves)
 
 /// A face of the arrangement of all curves. Faces that only align lines part are one subdomain and
 /// have one name and tension; those of a subdomain follow each other. Curves are +-(index + 1), the
@@ -116,6 +118,7 @@ struct PlannedFace {
   std::vector<std::vector<int>> holes;  ///< clockwise, the face on its left
   std::vector<int> embedded;            ///< indices of curves that hang in it or swim in it
 };
+ANTICRACK_FIELDS(PlannedFace, name, tension, outer, holes, embedded)
 
 /// How a mesh is to be graded; see mesh/refine.hpp. h0 = 0: not at all.
 struct GradingSpec {
@@ -123,6 +126,7 @@ struct GradingSpec {
   double m = 0.2;
   double tip_size = 0;
 };
+ANTICRACK_FIELDS(GradingSpec, h0, m, tip_size)
 
 /// What the mesher needs to know: the geometry cut into straight curves and faces.
 struct Plan {
@@ -134,6 +138,7 @@ struct Plan {
   double growth = 0.3;  ///< how much longer edges become per length away from a finer curve
   GradingSpec grading;
 };
+ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, growth, grading)
 
 /// Checks a geometry and cuts it into curves with the intervals of the preset.
 /// Throws errors::Error (geometry_invalid; invalid_argument for options; limit_exceeded for too

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "fields/fields.hpp"
+
 namespace anticrack::mesh {
 
 /// Condition on an edge of an interface; u+ is the trace on its plus side, [u] = u+ - u-.
@@ -27,6 +29,7 @@ struct Interface {
   std::vector<Kind> kind;               ///< (k-1) per edge
   std::vector<std::int32_t> inclusion;  ///< (k-1) index into Mesh::inclusions, -1 for none
 };
+ANTICRACK_FIELDS(Interface, name, nodes, kind, inclusion)
 
 /// Conforming triangulation, index base 0. Nodes on an interface are stored once: the doubling of
 /// u across it is made by ddm::cut.
@@ -55,6 +58,8 @@ struct Mesh {
   std::size_t node_count() const noexcept { return xy.size() / 2; }
   std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
 };
+ANTICRACK_FIELDS(Mesh, xy, triangles, subdomain, subdomains, tension, inclusions, interfaces,
+                 dirichlet, warnings, bisection_bound)
 
 /// Throws errors::Error (mesh_invalid) naming the first invariant that does not hold and where.
 /// O(m log m).

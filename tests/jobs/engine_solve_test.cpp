@@ -14,8 +14,8 @@ namespace anticrack::jobs {
 namespace {
 
 using anticrack::testing::throws;
-using errors::Reason;
 using contact::Status;
+using errors::Reason;
 using store::JobRecord;
 using store::JobState;
 using ::testing::ElementsAre;

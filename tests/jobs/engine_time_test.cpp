@@ -11,8 +11,8 @@ namespace {
 
 using anticrack::testing::BackendOptions;
 using anticrack::testing::throws;
-using errors::Reason;
 using contact::Status;
+using errors::Reason;
 using store::JobRecord;
 using store::JobState;
 using namespace std::chrono_literals;

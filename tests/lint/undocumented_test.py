@@ -24,6 +24,9 @@ int in_its_group_too();
 
 int bad_behind_an_empty_line();
 
+#define MADE(name) int name();
+MADE(by_a_macro)
+
 int behind(int value);  ///< a comment
 
 /// A comment of

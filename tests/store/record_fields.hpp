@@ -105,7 +105,8 @@ class AnyValue {
   template <class Enum>
   requires std::is_enum_v<Enum>
   void fill(Enum& value) {
-    constexpr bool from_0 = std::is_same_v<Enum, mesh::Preset> || std::is_same_v<Enum, mesh::Shape> ||
+    constexpr bool from_0 = std::is_same_v<Enum, mesh::Preset> ||
+                            std::is_same_v<Enum, mesh::Shape> ||
                             std::is_same_v<Enum, store::SweepSpec::Cases>;
     value = static_cast<Enum>(below(count(value)) + (from_0 ? 0 : 1));
   }
