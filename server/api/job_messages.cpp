@@ -157,8 +157,7 @@ void Translation<store::CaseRecord>::write(const store::CaseRecord& value, v1::L
   write_fields(value, to, {"answer"});
   write_fields(value.answer, to, {"kkt_relative"});
   fields::for_each(value.answer.kkt_relative, [&](const fields::Field<const double>& residual) {
-    put(*to.mutable_kkt(), field_of(to.kkt(), std::string(residual.name) + relative),
-        residual.value);
+    write_field(residual.value, *to.mutable_kkt(), std::string(residual.name) + relative);
   });
 }
 
@@ -167,8 +166,7 @@ store::CaseRecord Translation<store::CaseRecord>::read(const v1::LoadCaseAnswer&
   read_fields(from, value, {"answer"});
   read_fields(from, value.answer, {"kkt_relative"});
   fields::for_each(value.answer.kkt_relative, [&](const fields::Field<double>& residual) {
-    get(from.kkt(), field_of(from.kkt(), std::string(residual.name) + relative), -1,
-        residual.value);
+    residual.value = read_one<double>(from.kkt(), std::string(residual.name) + relative);
   });
   return value;
 }

@@ -45,36 +45,8 @@ const FieldDescriptor& field_of(const Message& message, std::string_view name) {
   return *field;
 }
 
-// put and get of one type: by the names of Reflection's methods.
-#define ANTICRACK_ACCESS(Type, Name)                                                    \
-  void put(Message& to, const FieldDescriptor& field, Type value) {                     \
-    const Reflection& access = *to.GetReflection();                                     \
-    field.is_repeated() ? access.Add##Name(&to, &field, value)                          \
-                        : access.Set##Name(&to, &field, value);                         \
-  }                                                                                     \
-  void get(const Message& from, const FieldDescriptor& field, int index, Type& value) { \
-    const Reflection& access = *from.GetReflection();                                   \
-    value = index < 0 ? access.Get##Name(from, &field)                                  \
-                      : access.GetRepeated##Name(from, &field, index);                  \
-  }
-ANTICRACK_ACCESS(bool, Bool)
-ANTICRACK_ACCESS(double, Double)
-ANTICRACK_ACCESS(std::int32_t, Int32)
-ANTICRACK_ACCESS(std::uint32_t, UInt32)
-ANTICRACK_ACCESS(std::uint64_t, UInt64)
-#undef ANTICRACK_ACCESS
-
-void put(Message& to, const FieldDescriptor& field, const std::string& value) {
-  const Reflection& access = *to.GetReflection();
-  std::string text = is_utf8(value) ? value : printable(value, std::string::npos);
-  field.is_repeated() ? access.AddString(&to, &field, std::move(text))
-                      : access.SetString(&to, &field, std::move(text));
-}
-
-void get(const Message& from, const FieldDescriptor& field, int index, std::string& value) {
-  const Reflection& access = *from.GetReflection();
-  value =
-      index < 0 ? access.GetString(from, &field) : access.GetRepeatedString(from, &field, index);
+std::string utf8(const std::string& text) {
+  return is_utf8(text) ? text : printable(text, std::string::npos);
 }
 
 void put_number(Message& to, const FieldDescriptor& field, int number) {

@@ -50,20 +50,40 @@ struct Translation<T> {
 /// Of the message, which has it: else errors::Error (internal).
 const FieldDescriptor& field_of(const Message& message, std::string_view name);
 
-/// A number or text in a field, at `index` where it is a list.
-void put(Message& to, const FieldDescriptor& field, bool value);
-void put(Message& to, const FieldDescriptor& field, double value);
-void put(Message& to, const FieldDescriptor& field, std::int32_t value);
-void put(Message& to, const FieldDescriptor& field, std::uint32_t value);
-void put(Message& to, const FieldDescriptor& field, std::uint64_t value);
-/// Bytes that are not UTF-8 become '?': no message can hold them.
-void put(Message& to, const FieldDescriptor& field, const std::string& value);
-void get(const Message& from, const FieldDescriptor& field, int index, bool& value);
-void get(const Message& from, const FieldDescriptor& field, int index, double& value);
-void get(const Message& from, const FieldDescriptor& field, int index, std::int32_t& value);
-void get(const Message& from, const FieldDescriptor& field, int index, std::uint32_t& value);
-void get(const Message& from, const FieldDescriptor& field, int index, std::uint64_t& value);
-void get(const Message& from, const FieldDescriptor& field, int index, std::string& value);
+/// How Reflection calls what it does with a number or text of type T in a field.
+template <class T>
+struct Access;
+#define ANTICRACK_ACCESS(Type, Name)                                     \
+  template <>                                                            \
+  struct Access<Type> {                                                  \
+    static constexpr auto set = &Reflection::Set##Name;                  \
+    static constexpr auto add = &Reflection::Add##Name;                  \
+    static constexpr auto get = &Reflection::Get##Name;                  \
+    static constexpr auto get_repeated = &Reflection::GetRepeated##Name; \
+  }
+ANTICRACK_ACCESS(bool, Bool);
+ANTICRACK_ACCESS(double, Double);
+ANTICRACK_ACCESS(std::int32_t, Int32);
+ANTICRACK_ACCESS(std::uint32_t, UInt32);
+ANTICRACK_ACCESS(std::uint64_t, UInt64);
+ANTICRACK_ACCESS(std::string, String);
+#undef ANTICRACK_ACCESS
+
+/// A number or text: appended where the field is a list.
+template <class T>
+void put(Message& to, const FieldDescriptor& field, T value) {
+  const auto set = field.is_repeated() ? Access<T>::add : Access<T>::set;
+  (to.GetReflection()->*set)(&to, &field, std::move(value));
+}
+/// `index` -1: the field is no list.
+template <class T>
+T get(const Message& from, const FieldDescriptor& field, int index) {
+  const Reflection& access = *from.GetReflection();
+  return index < 0 ? (access.*Access<T>::get)(from, &field)
+                   : (access.*Access<T>::get_repeated)(from, &field, index);
+}
+/// The text, but bytes that are not UTF-8, which no message can hold, become '?'.
+std::string utf8(const std::string& text);
 /// Of an enum: its number. Throws errors::Error for one that the API does not have.
 void put_number(Message& to, const FieldDescriptor& field, int number);
 int get_number(const Message& from, const FieldDescriptor& field, int index);
@@ -87,6 +107,8 @@ template <class T>
 void write_one(const T& value, Message& to, const FieldDescriptor& field) {
   if constexpr (std::is_enum_v<T>) {
     put_number(to, field, static_cast<int>(value));
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    put(to, field, utf8(value));
   } else if constexpr (Simple<T>) {
     put(to, field, value);
   } else {
@@ -100,9 +122,7 @@ T read_one(const Message& from, const FieldDescriptor& field, int index = -1) {
   if constexpr (std::is_enum_v<T>) {
     return static_cast<T>(get_number(from, field, index));
   } else if constexpr (Simple<T>) {
-    T value{};
-    get(from, field, index, value);
-    return value;
+    return get<T>(from, field, index);
   } else {
     using Of = typename Translation<T>::Of;
     if constexpr (requires { Translation<T>::required; }) {
