@@ -124,6 +124,7 @@ struct Plan {
   std::vector<std::string> inclusions;
   double growth = 0.3;  ///< how much longer edges become per length away from a finer curve
   GradingSpec grading;
+  std::size_t triangles = 0;  ///< to be expected, before grading; not sent to the helper
 };
 
 /// Checks a geometry and cuts it into curves with the intervals of the preset.
