@@ -11,7 +11,7 @@ namespace {
 using errors::Error;
 using store::JobState;
 
-/// Meshes that are prepared ahead: each pins memory.
+/// Meshes of one class of sizes that are prepared ahead: each pins memory.
 constexpr std::size_t prepared_limit = 3;
 
 }  // namespace
@@ -48,7 +48,8 @@ void EngineCore::add(const JobPtr& job) {
 }
 
 void EngineCore::offer(const JobPtr& job) {
-  schedule.add({job->number, job->spec->mesh, job->lane, job->spec->priority, job->since});
+  schedule.add({job->number, job->spec->mesh, job->lane, job->spec->priority, job->since,
+                catalogue.size_class(job->spec->mesh)});
   preparers.notify_one();
   solvers.notify_all();
 }

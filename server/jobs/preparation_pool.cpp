@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "errors/errors.hpp"
@@ -17,7 +18,6 @@ using errors::Reason;
 using store::JobState;
 using store::MeshState;
 
-constexpr int preparation_threads = 2;
 constexpr std::chrono::milliseconds shortest_retry{100};
 constexpr const char* waiting_for_memory = "waiting for memory to factorise";
 
@@ -35,9 +35,8 @@ std::string phase_of(MeshState state) {
 }  // namespace
 
 PreparationPool::PreparationPool(EngineCore& core) : _core(core) {
-  for (int i = 0; i < preparation_threads; ++i) {
-    _threads.emplace_back([this] { work(); });
-  }
+  const Lock lock(core.mutex);
+  _threads.emplace_back([this] { work(); });
 }
 
 PreparationPool::~PreparationPool() {
@@ -51,12 +50,29 @@ void PreparationPool::work() {
   while (!_core.quitting) {
     const auto now = EngineCore::Clock::now();
     if (const auto mesh = _core.schedule.next_to_prepare(now)) {
+      make_others_look();
       prepare(lock, Mesh(_core.meshes.at(*mesh)));
-    } else if (const auto retry = _core.schedule.next_retry(now)) {
+      continue;
+    }
+    ++_idle;
+    if (const auto retry = _core.schedule.next_retry(now)) {
       _core.preparers.wait_until(lock, *retry);
     } else {
       _core.preparers.wait(lock);
     }
+    --_idle;
+  }
+}
+
+void PreparationPool::make_others_look() {
+  if (_idle > 0) {
+    _core.preparers.notify_one();
+    return;
+  }
+  try {
+    _threads.emplace_back([this] { work(); });
+  } catch (const std::system_error&) {
+    // The threads there are take what waits one after the other.
   }
 }
 

@@ -52,6 +52,7 @@ int Schedule::urgency(const Mesh& mesh, const Work& work, Time now) const {
 void Schedule::add(const Waiting& job) {
   _jobs[job.number] = job;
   Mesh& mesh = _meshes[job.mesh];
+  mesh.size_class = job.size_class;
   mesh.lanes[static_cast<std::size_t>(job.lane)].jobs[class_of(job.priority)].emplace(job.number,
                                                                                       job.since);
   if (mesh.stage == Stage::absent) {
@@ -111,24 +112,24 @@ void Schedule::unpark(const std::string& mesh, Lane lane, store::Priority priori
   --_meshes.at(mesh).lanes[index(lane)].parked[class_of(priority)];
 }
 
-std::size_t Schedule::unused_meshes() const {
-  return static_cast<std::size_t>(
-      std::count_if(_meshes.begin(), _meshes.end(), [](const auto& entry) {
-        return entry.second.stage == Stage::preparing ||
-               (entry.second.stage == Stage::ready && entry.second.unused);
-      }));
+std::map<int, std::size_t> Schedule::prepared_ahead() const {
+  std::map<int, std::size_t> count;
+  for (const auto& [id, mesh] : _meshes) {
+    if (mesh.stage == Stage::preparing || (mesh.stage == Stage::ready && mesh.unused)) {
+      ++count[mesh.size_class];
+    }
+  }
+  return count;
 }
 
 std::optional<std::string> Schedule::next_to_prepare(Time now) {
-  if (unused_meshes() >= _prepared_limit) {
-    return std::nullopt;
-  }
+  std::map<int, std::size_t> ahead = prepared_ahead();
   Mesh* best = nullptr;
   const std::string* name = nullptr;
   std::pair<int, std::uint64_t> best_key;
   for (auto& [id, mesh] : _meshes) {
     const bool waits = mesh.stage == Stage::unknown || mesh.stage == Stage::absent;
-    if (!waits || mesh.not_before > now) {
+    if (!waits || mesh.not_before > now || ahead[mesh.size_class] >= _prepared_limit) {
       continue;
     }
     for (const Work& work : mesh.lanes) {

@@ -31,6 +31,7 @@ struct Waiting {
   Lane lane = Lane::active_set;
   store::Priority priority = store::Priority::normal;
   std::chrono::steady_clock::time_point since;
+  int size_class = 0;  ///< of the mesh
 };
 
 /// What a solver thread does next.
@@ -51,8 +52,10 @@ struct Turn {
 /// 3. On a mesh and lane: the most urgent job, at equal urgency the oldest.
 /// 4. A job waits for its mesh without holding up another: only meshes that are ready, or that
 ///    nobody has looked for, have turns.
-/// 5. One preparation at a time per mesh, the mesh of the most urgent job first; at most
-///    `prepared_limit` meshes are being prepared or are prepared and had no turn: each pins memory.
+/// 5. One preparation at a time per mesh, the mesh of the most urgent job first; of a class of
+/// sizes
+///    at most `prepared_limit` meshes are being prepared or are prepared and had no turn: each pins
+///    memory, and large ones are to hold up no small one.
 /// Not thread-safe. Choosing is O(meshes), the rest O(log jobs).
 class Schedule {
  public:
@@ -107,6 +110,7 @@ class Schedule {
     Time not_before{};
     Time served{};
     std::uint64_t last_turn = 0;
+    int size_class = 0;
     std::array<Work, lane_count> lanes;
     bool empty() const;
     bool has_turns() const { return stage == Stage::ready || stage == Stage::unknown; }
@@ -115,7 +119,8 @@ class Schedule {
   int urgency(std::size_t priority, Time since, Time now) const;
   int urgency(const Mesh& mesh, const Work& work, Time now) const;
   void forget_if_empty(const std::string& mesh);
-  std::size_t unused_meshes() const;
+  /// Meshes that are prepared ahead, by the class of their size.
+  std::map<int, std::size_t> prepared_ahead() const;
 
   std::chrono::milliseconds _ageing;
   std::size_t _prepared_limit;

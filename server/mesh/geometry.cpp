@@ -32,9 +32,10 @@ double expected_triangles(double area, double size, double pieces) {
   return std::max(area / (std::sqrt(3.0) / 4 * size * size), pieces);
 }
 
-void refuse_too_many(double expected, std::size_t max_triangles, const std::string& cause,
-                     const std::string& field) {
-  if (expected <= static_cast<double>(max_triangles)) return;
+/// What is expected, as a count.
+std::size_t bounded(double expected, std::size_t max_triangles, const std::string& cause,
+                    const std::string& field) {
+  if (expected <= static_cast<double>(max_triangles)) return static_cast<std::size_t>(expected);
   throw errors::Error(errors::Reason::limit_exceeded,
                       cause + " gives about " + show(std::round(expected)) +
                           " triangles; at most " + std::to_string(max_triangles) +
@@ -135,16 +136,17 @@ void plan_paper(double area, std::size_t max_triangles, Plan& plan) {
     pieces += curve.intervals;
     longest = std::max(longest, length_of(plan, curve) / curve.intervals);
   }
-  refuse_too_many(expected_triangles(area, longest, pieces), max_triangles, "preset paper",
-                  "options.preset");
+  plan.triangles = bounded(expected_triangles(area, longest, pieces), max_triangles, "preset paper",
+                           "options.preset");
 }
 
 /// Before anything is cut: neither the area nor the lines take more triangles than allowed.
-void check_size(const Network& network, double area, double size, std::size_t max_triangles) {
+std::size_t check_size(const Network& network, double area, double size,
+                       std::size_t max_triangles) {
   double pieces = 0;
   for (const NetworkLine& line : network.lines) pieces += line.line.length() / size;
-  refuse_too_many(expected_triangles(area, size, pieces), max_triangles,
-                  "an edge length of " + show(size), "options.size");
+  return bounded(expected_triangles(area, size, pieces), max_triangles,
+                 "an edge length of " + show(size), "options.size");
 }
 
 }  // namespace
@@ -157,7 +159,8 @@ Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_
   const double area = signed_area(polygon);
   const double divisions = options.preset == Preset::graded ? graded_divisions : uniform_divisions;
   const double size = options.size > 0 ? options.size : diagonal(polygon) / divisions;
-  if (options.preset != Preset::paper) check_size(network, area, size, max_triangles);
+  std::size_t triangles = 0;
+  if (options.preset != Preset::paper) triangles = check_size(network, area, size, max_triangles);
   // once before anything lies on the lines: a part is not to be blamed for a fault of its line
   Network lines = network;
   cut(lines, size, curve_limit);
@@ -166,6 +169,7 @@ Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_
   cut(network, size, curve_limit);
 
   Plan plan;
+  plan.triangles = triangles;
   for (const InclusionSpec& inclusion : geometry.inclusions) {
     plan.inclusions.push_back(inclusion.name);
   }

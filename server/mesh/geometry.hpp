@@ -137,6 +137,7 @@ struct Plan {
   std::vector<std::string> inclusions;
   double growth = 0.3;  ///< how much longer edges become per length away from a finer curve
   GradingSpec grading;
+  std::size_t triangles = 0;  ///< to be expected, before grading; not sent to the helper
 };
 ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, growth, grading)
 

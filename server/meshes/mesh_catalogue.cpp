@@ -8,6 +8,7 @@
 #include "errors/errors.hpp"
 #include "meshes/identity.hpp"
 #include "meshes/preparation.hpp"
+#include "meshes/size_class.hpp"
 #include "meshes/summary.hpp"
 #include "meshes/triangulation.hpp"
 
@@ -61,80 +62,64 @@ struct MeshCatalogue::State {
   store::Store& store;
   operators::OperatorCache& cache;
   Preparation preparation;
+  std::size_t claims = 0;  ///< meshes on their way into the queue; guarded by the lock
+
+  MeshIndex& index() { return preparation.index(); }
 
   /// Of a mesh's operators in the cache; empty when it cannot have any.
-  std::string key(const std::string& id) const {
+  std::string key(const std::string& id) {
     const auto lock = preparation.lock();
-    const LiveMesh* mesh = preparation.index().find(id);
+    const LiveMesh* mesh = index().find(id);
     return mesh != nullptr && mesh->stage == Stage::meshed ? mesh->sha256 : std::string();
   }
 
-  /// Refuses what no run of the mesher could make a mesh of.
-  void check(const store::MeshDefinition& definition, const std::string& owner) const {
-    if (const auto* source = std::get_if<store::GeometrySource>(&definition)) {
-      mesh::plan(source->geometry, source->options, options.max_triangles);
-    } else {
-      const auto& upload = std::get<store::UploadRef>(definition);
-      mesh::check_for_upload(upload.options);
-      mesher::require_msh(require_upload(store, upload, owner));
-    }
-  }
-
   // With the lock held:
-  void schedule(const std::string& id) {
-    if (preparation.index().queued() >= options.max_pending) {
+  void require_room() const {
+    if (preparation.queued() + claims >= options.max_pending) {
       throw queue_full(options.max_pending);
     }
-    preparation.index().schedule(id);
-    preparation.notify();
   }
 
   /// What is there already of a mesh that is asked for again; its preparation goes on where it was
   /// cut short. False: it is to be made.
-  bool resume(const std::string& id) {
-    LiveMesh* mesh = preparation.index().find(id);
+  bool resume(const LiveMesh* mesh, const std::string& id) {
     if (mesh == nullptr || mesh->stage == Stage::failed) {
       return false;
     }
-    if (mesh->stage == Stage::pending && !mesh->scheduled()) {
-      schedule(id);
+    if (mesh->stage == Stage::pending && !mesh->run) {
+      require_room();
+      preparation.begin(id, true);
     }
     return true;
   }
 
   /// Makes room in the index for a mesh that is to be made, and keeps others from making it.
-  void claim(const std::string& id, const std::string& definition) {
-    MeshIndex& index = preparation.index();
-    if (index.queued() + claims >= options.max_pending) {
-      throw queue_full(options.max_pending);
-    }
-    if (index.find(id) == nullptr && index.size() >= options.max_meshes) {
+  LiveMesh& claim(const std::string& id) {
+    require_room();
+    if (index().find(id) == nullptr && index().size() >= options.max_meshes) {
       throw too_many(options.max_meshes);
     }
-    LiveMesh& mesh = index.add(id);
-    mesh.definition = definition;
+    LiveMesh& mesh = index().add(id);
     mesh.claimed = true;
     ++claims;
+    return mesh;
   }
 
   /// The record that was claimed is on the disk, or (null) could not be written.
   void end_claim(const std::string& id, const MeshRecord* record) {
-    MeshIndex& index = preparation.index();
-    LiveMesh& mesh = index.add(id);
+    LiveMesh& mesh = index().add(id);
     mesh.claimed = false;
     --claims;
     if (record != nullptr) {
       mesh.stage = record->sha256.empty() ? Stage::pending : Stage::meshed;
       mesh.error.reset();
       ++mesh.version;
-      index.schedule(id);
+      preparation.begin(id, true);
     } else if (mesh.stage == Stage::absent) {
-      index.remove(id);
+      index().remove(id);
     }
     preparation.notify();
   }
-
-  std::size_t claims = 0;  ///< meshes on their way into the queue; guarded by the lock
 };
 
 MeshCatalogue::MeshCatalogue(CatalogueOptions options, store::Store& store,
@@ -146,17 +131,18 @@ MeshCatalogue::~MeshCatalogue() = default;
 MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const std::string& title,
                                  const std::string& owner) {
   check_title(title);
-  _state->check(definition, owner);
+  const std::size_t triangles = check_definition(definition, owner, _state->options, _state->store);
   const std::string id = identity(definition, owner).substr(0, id_digits);
   Preparation& preparation = _state->preparation;
   {
     auto lock = preparation.lock();
-    preparation.wait_for_claim(lock, id);
-    if (_state->resume(id)) {
+    if (_state->resume(preparation.settled(lock, id), id)) {
       lock.unlock();
       return get(id);
     }
-    _state->claim(id, identity(definition));
+    LiveMesh& mesh = _state->claim(id);
+    mesh.definition = identity(definition);
+    mesh.size_class = meshes::size_class(triangles);
   }
   MeshRecord record;
   try {
@@ -180,7 +166,7 @@ MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const 
   }
   const auto lock = preparation.lock();
   _state->end_claim(id, &record);
-  return seen(preparation.index().known(id), std::move(record), false);
+  return seen(_state->index().known(id), std::move(record), false);
 }
 
 MeshRecord MeshCatalogue::get(const std::string& id) const {
@@ -191,7 +177,7 @@ std::vector<MeshRecord> MeshCatalogue::list(const store::Page& page) const {
   std::vector<MeshRecord> records = _state->store.meshes(page);
   const auto lock = _state->preparation.lock();
   for (MeshRecord& record : records) {
-    if (const LiveMesh* mesh = _state->preparation.index().find(record.id)) {
+    if (const LiveMesh* mesh = _state->index().find(record.id)) {
       record = seen(*mesh, std::move(record), _state->cache.contains(mesh->sha256));
     }
   }
@@ -216,18 +202,20 @@ std::shared_ptr<const store::BlockSource> MeshCatalogue::read(const std::string&
 
 MeshRecord MeshCatalogue::warm(const std::string& id, bool pin) {
   {
-    const auto lock = _state->preparation.lock();
-    LiveMesh& mesh = _state->preparation.index().known(id);
+    auto lock = _state->preparation.lock();
+    _state->preparation.settled(lock, id);
+    LiveMesh& mesh = _state->index().known(id);
     if (mesh.stage == Stage::failed) {
       throw Error(*mesh.error);
     }
     const bool there = mesh.stage == Stage::meshed &&
                        (pin ? _state->cache.pin(mesh.sha256) : _state->cache.contains(mesh.sha256));
-    // Operators that another mesh brought to memory have to be looked at for this one as well. A
-    // thread that is at it already might be past the point where it pins.
-    const bool done = there && mesh.operators.bytes > 0;
-    if (!done && (pin ? !mesh.queued : !mesh.scheduled())) {
-      _state->schedule(id);
+    // Operators that another mesh brought to memory have to be looked at for this one as well.
+    if (!there || mesh.operators.bytes == 0) {
+      if (!mesh.run) {
+        _state->require_room();
+      }
+      _state->preparation.begin(id, true);
     }
     mesh.pin = mesh.pin || (pin && !there);
   }
@@ -239,9 +227,9 @@ MeshRecord MeshCatalogue::evict(const std::string& id) {
   bool held = false;
   {
     const auto lock = _state->preparation.lock();
-    LiveMesh& mesh = _state->preparation.index().known(id);
+    LiveMesh& mesh = _state->index().known(id);
     mesh.pin = false;
-    held = mesh.undecided;
+    held = mesh.stage == Stage::meshed && mesh.run && !mesh.run->told;
     sha256 = mesh.sha256;
   }
   using Eviction = operators::OperatorCache::Eviction;
@@ -256,9 +244,9 @@ void MeshCatalogue::erase(const std::string& id) {
   Preparation& preparation = _state->preparation;
   MeshIndex& index = preparation.index();
   auto lock = preparation.lock();
-  preparation.wait_for_end(lock, id);
+  preparation.settled(lock, id);
   LiveMesh& mesh = index.known(id);
-  if (mesh.scheduled() || mesh.waiting > 0 || mesh.claimed) {
+  if (mesh.run) {
     throw in_use(id, "it is being prepared; wait until it is READY");
   }
   if (!mesh.users.expired()) {
@@ -288,7 +276,7 @@ void MeshCatalogue::erase(const std::string& id) {
 
 std::shared_ptr<void> MeshCatalogue::use(const std::string& id) {
   const auto lock = _state->preparation.lock();
-  LiveMesh& mesh = _state->preparation.index().known(id);
+  LiveMesh& mesh = _state->index().known(id);
   std::shared_ptr<void> user = mesh.users.lock();
   if (!user) {
     user = std::make_shared<char>();
@@ -322,9 +310,15 @@ std::uint64_t MeshCatalogue::meshings() const noexcept {
   return _state->preparation.meshings();
 }
 
+int MeshCatalogue::size_class(const std::string& id) const {
+  const auto lock = _state->preparation.lock();
+  const LiveMesh* mesh = _state->index().find(id);
+  return mesh == nullptr ? 0 : mesh->size_class;
+}
+
 int MeshCatalogue::pending() const {
   const auto lock = _state->preparation.lock();
-  return _state->preparation.index().pending();
+  return _state->index().pending();
 }
 
 }  // namespace anticrack::meshes

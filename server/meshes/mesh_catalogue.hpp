@@ -29,8 +29,8 @@ struct CatalogueOptions {
 /// A mesh on its way to READY: phases for whoever waits.
 using PhaseListener = std::function<void(store::MeshState)>;
 
-/// Owns the preparation thread(s): new meshes are meshed and factorised in the background, in
-/// order. Thread-safe.
+/// Meshes and factorises new meshes in the background, two of each class of sizes (size_class.hpp)
+/// at a time in the order they came: a large mesh holds up no smaller one. Thread-safe.
 ///
 /// The disk knows a mesh as PENDING, EVICTED (meshed) or FAILED. What an earlier run of the server
 /// left unmeshed is scheduled at its start, oldest first; the rest is as it was, without operators.
@@ -80,6 +80,8 @@ class MeshCatalogue {
   /// True when prepare() would not block: operators in memory.
   bool ready(const std::string& id) const;
 
+  /// meshes/size_class.hpp, by the triangles the mesh has or is expected to have.
+  int size_class(const std::string& id) const;
   bool pinned(const std::string& id) const;  ///< by warm(), of whichever owner of an equal mesh
   std::uint64_t meshings() const noexcept;   ///< runs of the helper so far
   int pending() const;                       ///< meshes waiting for the mesher or in it

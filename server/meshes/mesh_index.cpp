@@ -5,32 +5,26 @@
 #include <utility>
 
 #include "meshes/identity.hpp"
+#include "meshes/size_class.hpp"
 
 namespace anticrack::meshes {
 
 namespace {
 
-using errors::Error;
-using errors::Reason;
 using store::MeshRecord;
 using store::MeshState;
-
-Error unknown(const std::string& id) {
-  return {Reason::not_found, "there is no meshes/" + id + ": create it first"};
-}
 
 MeshState state_of(const LiveMesh& mesh, const MeshRecord& record, bool in_memory) {
   if (record.state == MeshState::failed) {
     return MeshState::failed;
   }
   if (record.sha256.empty()) {
-    return mesh.meshing ? MeshState::meshing : MeshState::pending;
+    return mesh.run ? std::min(mesh.run->phase, MeshState::meshing) : MeshState::pending;
   }
-  // The cache has an operator a moment before it is known what was measured of it.
-  if (in_memory && mesh.operators.bytes > 0 && !mesh.undecided) {
-    return MeshState::ready;
+  if (mesh.run && !mesh.run->told) {
+    return MeshState::factorizing;
   }
-  return mesh.scheduled() || mesh.undecided ? MeshState::factorizing : MeshState::evicted;
+  return in_memory && mesh.operators.bytes > 0 ? MeshState::ready : MeshState::evicted;
 }
 
 }  // namespace
@@ -54,6 +48,7 @@ LiveMesh& MeshIndex::add(const MeshRecord& record) {
   mesh.sha256 = record.sha256;
   mesh.error = record.error;
   mesh.operators = {record.operator_bytes, record.theta_star, record.factorize_seconds};
+  mesh.size_class = size_class(record.triangle_count);
   return mesh;
 }
 
@@ -62,61 +57,18 @@ LiveMesh* MeshIndex::find(const std::string& id) {
   return found == _meshes.end() ? nullptr : &found->second;
 }
 
-const LiveMesh* MeshIndex::find(const std::string& id) const {
-  const auto found = _meshes.find(id);
-  return found == _meshes.end() ? nullptr : &found->second;
-}
-
 LiveMesh& MeshIndex::known(const std::string& id) {
   LiveMesh* mesh = find(id);
   if (mesh == nullptr || mesh->stage == Stage::absent) {
-    throw unknown(id);
+    throw errors::Error(errors::Reason::not_found,
+                        "there is no meshes/" + id + ": create it first");
   }
   return *mesh;
-}
-
-const LiveMesh& MeshIndex::known(const std::string& id) const {
-  const LiveMesh* mesh = find(id);
-  if (mesh == nullptr || mesh->stage == Stage::absent) {
-    throw unknown(id);
-  }
-  return *mesh;
-}
-
-void MeshIndex::schedule(const std::string& id) {
-  LiveMesh& mesh = _meshes.at(id);
-  if (mesh.running) {
-    mesh.again = true;  // its failure can be seen before its thread is done with it
-  } else if (!mesh.queued) {
-    mesh.queued = true;
-    _queue.push_back(id);
-  }
-}
-
-std::string MeshIndex::take() {
-  std::string id = std::move(_queue.front());
-  _queue.pop_front();
-  LiveMesh& mesh = _meshes.at(id);
-  mesh.queued = false;
-  mesh.running = true;
-  return id;
-}
-
-void MeshIndex::release(const std::string& id) {
-  LiveMesh& mesh = _meshes.at(id);
-  mesh.running = false;
-  mesh.ending = false;
-  mesh.meshing = false;
-  if (std::exchange(mesh.again, false)) {
-    schedule(id);
-  } else {
-    mesh.pin = false;
-  }
 }
 
 int MeshIndex::pending() const {
   return static_cast<int>(std::count_if(_meshes.begin(), _meshes.end(), [](const auto& item) {
-    return item.second.stage == Stage::pending && item.second.scheduled();
+    return item.second.stage == Stage::pending && item.second.run;
   }));
 }
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the catalogue has in memory of every mesh: enough to say where it stands without the disk.
+// What the catalogue keeps in memory of every mesh: enough to say where it stands without the disk.
 // Not thread-safe: guarded by the catalogue's mutex (preparation.hpp).
 #pragma once
 
-#include <chrono>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <unordered_map>
 
 #include "errors/errors.hpp"
+#include "operators/mesh_operator.hpp"
 #include "store/records.hpp"
 
 namespace anticrack::meshes {
@@ -32,6 +32,22 @@ struct Measured {
   double seconds = 0;
 };
 
+/// A mesh on its way to its operators. All who want them share one run. When the last waiter leaves
+/// a run that is not in the background, it is stopped and is the mesh's no more.
+struct Run {
+  const std::string id;
+  const int size_class;
+  std::stop_source stop = {};
+
+  store::MeshState phase = store::MeshState::pending;  ///< or meshing, factorizing
+  bool background = false;                             ///< goes on where nobody waits
+  int waiters = 0;
+  bool told = false;    ///< the operators are there for all to see
+  bool ending = false;  ///< only its outcome is left to be written
+  std::shared_ptr<const operators::MeshOperator> result = {};  ///< until the last waiter has it
+  std::optional<errors::Error> error = {};
+};
+
 struct LiveMesh {
   Stage stage = Stage::absent;
   bool claimed = false;                ///< somebody writes its record to make or to erase it
@@ -40,28 +56,10 @@ struct LiveMesh {
   std::string sha256;                  ///< of the triangulation; empty: not meshed
   std::optional<errors::Error> error;  ///< when failed
   Measured operators;
-
-  // In the background:
-  bool queued = false;
-  bool running = false;  ///< in the hands of a thread
-  bool ending = false;   ///< that thread has told how it ended, and soon lets go of it
-  bool again = false;    ///< to be queued when it lets go of it
-  bool meshing = false;
-  bool pin = false;                      ///< to be pinned once its operators are there
-  int setbacks = 0;                      ///< runs that ended without mesh and without failure
-  std::optional<errors::Error> setback;  ///< why the last of them did
-
-  // For those who wait:
-  int waiting = 0;          ///< calls of prepare()
-  bool undecided = false;   ///< those who wait together for its operators know nothing yet
-  std::uint64_t round = 0;  ///< number of that round
-  int factorizing = 0;      ///< threads in it
-  bool writing = false;     ///< what came of one is on its way to the disk
-  std::chrono::steady_clock::time_point since;
+  int size_class = 0;         ///< by the triangles it has, or is expected to have
+  bool pin = false;           ///< to be pinned once its operators are there
+  std::shared_ptr<Run> run;   ///< null: it is not being prepared
   std::weak_ptr<void> users;  ///< jobs that have not ended
-
-  /// Whether a preparation is to come, or under way and not ending.
-  bool scheduled() const { return queued || again || (running && !ending); }
 };
 
 /// The record with the state it is in at this moment; `in_memory`: its operators are.
@@ -69,28 +67,18 @@ store::MeshRecord seen(const LiveMesh& mesh, store::MeshRecord record, bool in_m
 
 class MeshIndex {
  public:
-  /// A mesh of an earlier run of the server. What it had not meshed has to be scheduled.
+  /// A mesh of an earlier run of the server.
   LiveMesh& add(const store::MeshRecord& record);
-  /// An absent one.
+  /// An absent one, unless it is there.
   LiveMesh& add(const std::string& id) { return _meshes[id]; }
   void remove(const std::string& id) { _meshes.erase(id); }
   std::size_t size() const { return _meshes.size(); }
 
   // References stay good until remove().
+  /// Null where there is none.
   LiveMesh* find(const std::string& id);
-  const LiveMesh* find(const std::string& id) const;
   /// Throws errors::Error (not_found), also where it is absent.
   LiveMesh& known(const std::string& id);
-  const LiveMesh& known(const std::string& id) const;
-
-  /// Has a mesh prepared in the background, once more where that is about to end.
-  void schedule(const std::string& id);
-  bool any_queued() const { return !_queue.empty(); }
-  std::size_t queued() const { return _queue.size(); }
-  /// The next one, running now.
-  std::string take();
-  /// Its thread is done with it.
-  void release(const std::string& id);
 
   /// Meshes waiting for the mesher or in it. O(n).
   int pending() const;
@@ -101,7 +89,6 @@ class MeshIndex {
 
  private:
   std::unordered_map<std::string, LiveMesh> _meshes;
-  std::deque<std::string> _queue;
 };
 
 }  // namespace anticrack::meshes

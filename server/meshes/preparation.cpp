@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/preparation.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <new>
+#include <system_error>
 #include <utility>
 
 #include "meshes/lasting.hpp"
+#include "meshes/size_class.hpp"
 #include "meshes/triangulation.hpp"
 
 namespace anticrack::meshes {
@@ -15,46 +19,40 @@ using errors::Error;
 using errors::Reason;
 using store::MeshRecord;
 using store::MeshState;
+using Steady = std::chrono::steady_clock;
 
-constexpr int thread_count = 2;  // so that one large mesh does not hold up the small ones
+constexpr int runs_at_once = 2;  // of one class of sizes
 constexpr std::size_t records_a_page = 100;
 
+/// 0 where it cannot be computed: Algorithm 2 tells who asks for it.
+double theta_star(const operators::MeshOperator& mesh_operator) {
+  try {
+    return mesh_operator.theta_star();
+  } catch (const Error&) {
+    return 0;
+  }
+}
+
 }  // namespace
-
-/// A call of prepare(): the mesh is not erased meanwhile, so that references to it stay good.
-class Preparation::Visit {
- public:
-  Visit(Preparation& host, const std::string& id) : _host(host) {
-    const std::lock_guard lock(_host._mutex);
-    _mesh = &_host._index.known(id);
-    ++_mesh->waiting;
-  }
-  ~Visit() {
-    const std::lock_guard lock(_host._mutex);
-    --_mesh->waiting;
-  }
-  Visit(const Visit&) = delete;
-  Visit& operator=(const Visit&) = delete;
-
-  LiveMesh& mesh() const { return *_mesh; }
-
- private:
-  Preparation& _host;
-  LiveMesh* _mesh = nullptr;
-};
 
 Preparation::Preparation(CatalogueOptions options, store::Store& store,
                          operators::OperatorCache& cache)
     : _options(std::move(options)), _store(store), _cache(cache) {
   recover();
-  for (int i = 0; i < thread_count; ++i) {
-    _threads.emplace_back([this] { work(); });
-  }
+  const auto held = lock();
+  _threads.emplace_back([this] { work(); });
 }
 
 Preparation::~Preparation() {
-  _stopping.request_stop();
-  _threads.clear();  // joins
+  std::list<std::jthread> threads;
+  {
+    const auto held = lock();
+    _stopping.request_stop();
+    for (const RunPtr& run : _under_way) {
+      run->stop.request_stop();
+    }
+    threads = std::move(_threads);
+  }
 }
 
 void Preparation::recover() {
@@ -63,7 +61,9 @@ void Preparation::recover() {
   for (;;) {
     const std::vector<MeshRecord> records = _store.meshes(page);
     for (const MeshRecord& record : records) {
-      if (_index.add(record).stage == Stage::pending) {
+      LiveMesh& mesh = _index.add(record);
+      if (mesh.stage == Stage::pending) {
+        mesh.size_class = size_class(expected_triangles(record, _options, _store));
         unmeshed.push_back(record.id);
       }
     }
@@ -73,7 +73,7 @@ void Preparation::recover() {
     page.after = records.back().id;
   }
   for (auto id = unmeshed.rbegin(); id != unmeshed.rend(); ++id) {
-    _index.schedule(*id);
+    begin(*id, true);
   }
 }
 
@@ -85,13 +85,13 @@ MeshRecord Preparation::stored(const std::string& id) const {
   return std::move(*record);
 }
 
-MeshRecord Preparation::record(const std::string& id) const {
+MeshRecord Preparation::record(const std::string& id) {
   for (;;) {
-    std::unique_lock lock(_mutex);
+    Lock held = lock();
     const std::uint64_t version = _index.known(id).version;
-    lock.unlock();
+    held.unlock();
     MeshRecord record = stored(id);
-    lock.lock();
+    held.lock();
     // Else the record may be older than what the index says.
     if (const LiveMesh& mesh = _index.known(id); mesh.version == version) {
       return seen(mesh, std::move(record), _cache.contains(mesh.sha256));
@@ -99,30 +99,180 @@ MeshRecord Preparation::record(const std::string& id) const {
   }
 }
 
-void Preparation::wait_for_claim(std::unique_lock<std::mutex>& lock, const std::string& id) {
+LiveMesh* Preparation::settled(Lock& lock, const std::string& id) {
+  LiveMesh* mesh = nullptr;
   _changed.wait(lock, [&] {
-    const LiveMesh* mesh = _index.find(id);
-    return mesh == nullptr || !mesh->claimed;
+    mesh = _index.find(id);
+    return mesh == nullptr || !(mesh->claimed || (mesh->run && mesh->run->ending));
   });
+  return mesh;
 }
 
-void Preparation::wait_for_end(std::unique_lock<std::mutex>& lock, const std::string& id) {
-  _changed.wait(lock, [&] {
-    const LiveMesh* mesh = _index.find(id);
-    return mesh == nullptr || !mesh->running || !mesh->ending;
-  });
-}
-
-Preparation::Meshed Preparation::triangulate(const std::string& id) {
-  std::string twin;
-  {
-    const std::lock_guard lock(_mutex);
-    LiveMesh& mesh = _index.known(id);
-    mesh.meshing = true;
-    twin = _index.twin(id);
+Preparation::RunPtr Preparation::begin(const std::string& id, bool background) {
+  LiveMesh& mesh = _index.known(id);
+  const bool pending = mesh.stage == Stage::pending;
+  if (!mesh.run) {
+    mesh.run = std::make_shared<Run>(Run{id, mesh.size_class});
+    mesh.run->phase = pending ? MeshState::pending : MeshState::factorizing;
+    _queue.push_back(mesh.run);
     _changed.notify_all();
   }
-  const MeshRecord record = stored(id);
+  mesh.run->background = mesh.run->background || background || pending;
+  return mesh.run;
+}
+
+std::size_t Preparation::queued() const {
+  return static_cast<std::size_t>(std::count_if(_queue.begin(), _queue.end(),
+                                                [](const RunPtr& run) { return run->background; }));
+}
+
+void Preparation::await(Lock& lock, Run& run, bool joins, const PhaseListener& listener,
+                        const std::stop_token& stop) {
+  const auto ended = [&] { return run.result || run.error; };
+  std::optional<MeshState> told;
+  while (told != run.phase || !ended()) {
+    const MeshState phase = run.phase;
+    if (told == phase) {
+      if (!_changed.wait(lock, stop, [&] { return run.phase != phase || ended(); })) {
+        throw Error(Reason::cancelled, "stopped while waiting for meshes/" + run.id);
+      }
+      continue;
+    }
+    told = phase;
+    if (joins && phase == MeshState::factorizing && !ended()) {
+      _cache.count_join();
+    }
+    lock.unlock();
+    listener(phase);
+    lock.lock();
+  }
+}
+
+Preparation::Operator Preparation::prepare(const std::string& id, const PhaseListener& listener,
+                                           const std::stop_token& stop) {
+  Lock held = lock();
+  settled(held, id);
+  LiveMesh& mesh = _index.known(id);
+  if (mesh.stage == Stage::failed) {
+    throw Error(*mesh.error);
+  }
+  if (mesh.stage == Stage::meshed && mesh.operators.bytes > 0 && (!mesh.run || mesh.run->told)) {
+    if (Operator ready = _cache.find(mesh.sha256)) {
+      return ready;
+    }
+  }
+  const bool joins = mesh.run != nullptr;
+  const RunPtr run = begin(id, false);
+  ++run->waiters;
+  try {
+    await(held, *run, joins, listener, stop);
+  } catch (...) {
+    if (!held) {
+      held.lock();
+    }
+    const bool unwanted = leave(*run);
+    held.unlock();
+    if (unwanted) {
+      run->stop.request_stop();
+    }
+    throw;
+  }
+  Operator result = run->result;
+  run->told = run->told || result;
+  leave(*run);
+  if (!result) {
+    throw Error(*run->error);
+  }
+  return result;
+}
+
+bool Preparation::leave(Run& run) {
+  if (--run.waiters > 0) {
+    return false;
+  }
+  LiveMesh* mesh = mesh_of(run);
+  if (mesh == nullptr) {
+    run.result.reset();  // it is over, and would pin the operators
+    return false;
+  }
+  if (run.background || run.result || run.ending) {
+    return false;
+  }
+  _queue.remove(mesh->run);
+  mesh->run.reset();
+  _changed.notify_all();
+  return true;
+}
+
+LiveMesh* Preparation::mesh_of(const Run& run) {
+  LiveMesh* mesh = _index.find(run.id);
+  return mesh != nullptr && mesh->run.get() == &run ? mesh : nullptr;
+}
+
+void Preparation::work() {
+  const std::stop_token stop = _stopping.get_token();
+  Lock held = lock();
+  for (;;) {
+    RunPtr run;
+    ++_idle;
+    _changed.wait(held, stop, [&] { return stop.stop_requested() || (run = take()); });
+    --_idle;
+    if (!run) {
+      return;
+    }
+    if (_idle == 0) {
+      try {
+        _threads.emplace_back([this] { work(); });
+      } catch (const std::system_error&) {
+        // The threads there are take what waits one after the other.
+      }
+    }
+    held.unlock();
+    perform(*run);
+    held.lock();
+    _under_way.remove(run);
+    _changed.notify_all();
+  }
+}
+
+Preparation::RunPtr Preparation::take() {
+  for (auto run = _queue.begin(); run != _queue.end(); ++run) {
+    const auto as_large = std::count_if(_under_way.begin(), _under_way.end(), [&](const RunPtr& r) {
+      return r->size_class == (*run)->size_class;
+    });
+    if (as_large < runs_at_once) {
+      _under_way.splice(_under_way.end(), _queue, run);
+      return _under_way.back();
+    }
+  }
+  return nullptr;
+}
+
+void Preparation::perform(Run& run) {
+  try {
+    factorize(run, run.phase == MeshState::pending ? triangulate(run) : nullptr);
+  } catch (const Error& error) {
+    fail(run, error);
+  } catch (const std::bad_alloc&) {
+    fail(run,
+         run.phase == MeshState::factorizing
+             ? Error(Reason::busy, "not enough memory for this mesh now")
+                   .retry_after(operators::retry_delay)
+             : Error(Reason::limit_exceeded, "not enough memory for this mesh: make it coarser"));
+  } catch (const std::exception& error) {
+    fail(run, Error(Reason::internal, std::string("preparing the mesh failed: ") + error.what()));
+  }
+}
+
+std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
+  std::string twin;
+  {
+    const auto held = lock();
+    run.phase = MeshState::meshing;
+    twin = _index.twin(run.id);
+    _changed.notify_all();
+  }
+  const MeshRecord record = stored(run.id);
   std::optional<Triangulation> made;
   if (!twin.empty()) {
     made = copy_of(twin, record, _store);
@@ -130,150 +280,145 @@ Preparation::Meshed Preparation::triangulate(const std::string& id) {
   const bool copied = made.has_value();
   if (!copied) {
     ++_meshings;
-    made = meshes::triangulate(record, _options, _store, _stopping.get_token());
+    made = meshes::triangulate(record, _options, _store, run.stop.get_token());
   }
   _store.put(made->record, *made->mesh);
-  std::uint64_t round = 0;
   {
-    const std::lock_guard lock(_mutex);
-    LiveMesh& mesh = _index.known(id);
+    const auto held = lock();
+    LiveMesh& mesh = _index.known(run.id);
     mesh.stage = Stage::meshed;
     mesh.sha256 = made->record.sha256;
-    mesh.meshing = false;
+    mesh.size_class = size_class(made->record.triangle_count);
     ++mesh.version;
-    round = begin_factorizing(mesh);
+    run.phase = MeshState::factorizing;
     _changed.notify_all();
   }
   if (!copied && _options.meshed) {
     _options.meshed(made->record);
   }
-  return {std::move(made->mesh), round};
+  return std::move(made->mesh);
 }
 
-void Preparation::prepare_in_background(const std::string& id) {
-  Stage stage = Stage::absent;
-  Meshed meshed;
-  {
-    const std::lock_guard lock(_mutex);
-    LiveMesh& mesh = _index.known(id);
-    stage = mesh.stage;
-    if (stage == Stage::meshed) {
-      meshed.round = begin_factorizing(mesh);
+/// Who waits has the operators before theta* is known, which is for people to read and for
+/// Algorithm 2, and takes longer than all else at a large interface. Where nobody waits all is told
+/// at once.
+void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangulation) {
+  const auto start = Steady::now();
+  Lock held = lock();
+  LiveMesh* mesh = mesh_of(run);
+  if (mesh == nullptr) {
+    return;
+  }
+  const std::string sha256 = mesh->sha256;
+  held.unlock();
+  Operator result = _cache.find(sha256);
+  if (!result) {
+    triangulation = triangulation ? std::move(triangulation) : _store.triangulation(sha256);
+    if (!triangulation) {
+      throw Error(Reason::storage, "the triangulation of meshes/" + run.id +
+                                       " is not in the data folder: delete the mesh and create it "
+                                       "again");
     }
+    result = _cache.acquire(sha256, std::move(triangulation), run.stop.get_token());
   }
-  if (stage == Stage::pending) {
-    meshed = triangulate(id);
+  held.lock();
+  mesh = mesh_of(run);
+  if (mesh == nullptr) {
+    return;
   }
-  if (stage != Stage::failed) {
-    factorize(id, meshed.round, std::move(meshed.mesh), false, _stopping.get_token());
+  if (std::exchange(mesh->pin, false)) {
+    _cache.pin(sha256);  // cannot go before: it is held here
   }
+  mesh->operators.seconds = std::chrono::duration<double>(Steady::now() - start).count();
+  const auto measure = [&](double theta) {
+    mesh->operators.bytes = result->bytes();
+    mesh->operators.theta_star = theta > 0 ? theta : mesh->operators.theta_star;
+  };
+  measure(result->known_theta_star());
+  run.result = result;
+  if (run.waiters > 0) {
+    run.told = true;
+    run.ending = !run.background;
+    _changed.notify_all();
+    record_outcome(held, *mesh, run.id);
+  }
+  if (run.background && !run.ending) {
+    held.unlock();
+    const double theta = theta_star(*result);
+    held.lock();
+    measure(theta);
+    result.reset();  // before anybody is told that they are there, and could be evicted
+    if (run.waiters == 0) {
+      run.result.reset();
+    }
+    run.told = true;
+    run.ending = true;
+    record_outcome(held, *mesh, run.id);
+  }
+  finish(run);
 }
 
-/// A run that ended before the mesh had a triangulation. (Of what comes later end_factorizing has
-/// told.)
-void Preparation::set_back(const std::string& id, Error error) {
-  {
-    const std::lock_guard lock(_mutex);
-    if (_index.known(id).stage != Stage::pending) {
-      return;
-    }
+/// What was measured is true whether or not there is room on the disk to keep it.
+void Preparation::record_outcome(Lock& lock, LiveMesh& mesh, const std::string& id) {
+  const Measured measured = mesh.operators;
+  lock.unlock();
+  try {
+    MeshRecord record = stored(id);
+    record.operator_bytes = measured.bytes;
+    record.theta_star = measured.theta_star;
+    record.factorize_seconds = measured.seconds;
+    _store.put(record);
+  } catch (const Error&) {
   }
+  lock.lock();
+  ++mesh.version;
+}
+
+void Preparation::fail(Run& run, Error error) {
+  Lock held = lock();
+  LiveMesh* mesh = mesh_of(run);
+  if (mesh == nullptr) {
+    return;
+  }
+  run.ending = true;
+  const bool meshed = mesh->stage == Stage::meshed;
+  held.unlock();
   std::optional<MeshRecord> failed;
   if (lasting(error)) {
     try {
-      failed = stored(id);
+      failed = stored(run.id);
       failed->state = MeshState::failed;
       failed->error = error;
       _store.put(*failed);
     } catch (const Error& disk) {
+      // What cannot be written is told to those who wait, and met again.
       failed.reset();
-      error = disk;
+      error = meshed ? error : disk;
     }
   }
-  {
-    const std::lock_guard lock(_mutex);
-    LiveMesh& mesh = _index.known(id);
-    mesh.meshing = false;
-    mesh.ending = true;
-    if (failed) {
-      mesh.stage = Stage::failed;
-      mesh.error = std::move(error);
-    } else {
-      ++mesh.setbacks;
-      mesh.setback = std::move(error);
-    }
-    ++mesh.version;
-    _changed.notify_all();
+  held.lock();
+  if (failed) {
+    mesh->stage = Stage::failed;
+    mesh->error = error;
   }
-  if (failed && _options.meshed) {
+  run.error = std::move(error);
+  finish(run);
+  held.unlock();
+  if (failed && !meshed && _options.meshed) {
     _options.meshed(*failed);
   }
 }
 
-void Preparation::work() {
-  const std::stop_token stop = _stopping.get_token();
-  std::unique_lock lock(_mutex);
-  while (_changed.wait(lock, stop, [&] { return _index.any_queued(); }) && !stop.stop_requested()) {
-    const std::string id = _index.take();
-    lock.unlock();
-    try {
-      prepare_in_background(id);
-    } catch (const Error& error) {
-      set_back(id, error);
-    } catch (const std::bad_alloc&) {
-      set_back(id,
-               Error(Reason::limit_exceeded, "not enough memory for this mesh: make it coarser"));
-    } catch (const std::exception& error) {
-      set_back(id, Error(Reason::internal, std::string("meshing failed: ") + error.what()));
+void Preparation::finish(Run& run) {
+  if (LiveMesh* mesh = mesh_of(run)) {
+    mesh->pin = false;
+    ++mesh->version;
+    if (run.waiters == 0) {
+      run.result.reset();
     }
-    lock.lock();
-    _index.release(id);
-    _changed.notify_all();
+    mesh->run.reset();
   }
-}
-
-Preparation::Operator Preparation::prepare(const std::string& id, const PhaseListener& listener,
-                                           const std::stop_token& stop) {
-  const Visit visit(*this, id);
-  LiveMesh& mesh = visit.mesh();
-  std::unique_lock lock(_mutex);
-  while (mesh.stage == Stage::pending) {
-    if (!mesh.scheduled()) {
-      _index.schedule(id);  // its preparation was cut short
-      _changed.notify_all();
-    }
-    const bool meshing = mesh.meshing;
-    const int setbacks = mesh.setbacks;
-    lock.unlock();
-    listener(meshing ? MeshState::meshing : MeshState::pending);
-    lock.lock();
-    const bool changed = _changed.wait(lock, stop, [&] {
-      return mesh.stage != Stage::pending || mesh.meshing != meshing || mesh.setbacks != setbacks;
-    });
-    if (!changed) {
-      throw Error(Reason::cancelled, "stopped while waiting for meshes/" + id);
-    }
-    if (mesh.stage == Stage::pending && mesh.setbacks != setbacks) {
-      throw Error(*mesh.setback);
-    }
-  }
-  if (mesh.stage == Stage::failed) {
-    throw Error(*mesh.error);
-  }
-  if (mesh.operators.bytes > 0) {
-    if (Operator ready = _cache.find(mesh.sha256)) {
-      return ready;
-    }
-  }
-  const std::uint64_t round = begin_factorizing(mesh);
-  lock.unlock();
-  try {
-    listener(MeshState::factorizing);
-  } catch (...) {
-    end_factorizing(id, round, {}, false);
-    throw;
-  }
-  return factorize(id, round, nullptr, true, stop);
+  _changed.notify_all();
 }
 
 }  // namespace anticrack::meshes

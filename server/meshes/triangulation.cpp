@@ -2,6 +2,8 @@
 #include "meshes/triangulation.hpp"
 
 #include <chrono>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -37,6 +39,30 @@ std::string require_upload(const store::Store& store, const store::UploadRef& up
         .at("upload");
   }
   return std::move(*path);
+}
+
+std::size_t check_definition(const store::MeshDefinition& definition, const std::string& owner,
+                             const CatalogueOptions& options, const store::Store& store) {
+  if (const auto* source = std::get_if<store::GeometrySource>(&definition)) {
+    return mesh::plan(source->geometry, source->options, options.max_triangles).triangles;
+  }
+  constexpr std::size_t bytes_a_triangle = 60;  // of a .msh file, nodes included
+  const auto& upload = std::get<store::UploadRef>(definition);
+  mesh::check_for_upload(upload.options);
+  const std::string path = require_upload(store, upload, owner);
+  mesher::require_msh(path);
+  std::error_code unknown;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
+  return unknown ? 0 : bytes / bytes_a_triangle;
+}
+
+std::size_t expected_triangles(const store::MeshRecord& record, const CatalogueOptions& options,
+                               const store::Store& store) {
+  try {
+    return check_definition(record.definition, record.owner, options, store);
+  } catch (const errors::Error&) {
+    return 0;  // its run will say so
+  }
 }
 
 Triangulation triangulate(store::MeshRecord record, const CatalogueOptions& options,

@@ -23,6 +23,14 @@ struct Triangulation {
 std::string require_upload(const store::Store& store, const store::UploadRef& upload,
                            const std::string& owner);
 
+/// Checks what can be checked without the mesher; the triangles to be expected, roughly. Throws as
+/// mesh::plan, mesh::check_for_upload, require_upload and mesher::require_msh do.
+std::size_t check_definition(const store::MeshDefinition& definition, const std::string& owner,
+                             const CatalogueOptions& options, const store::Store& store);
+/// The triangles to be expected of a mesh that is not made yet; 0 where its definition is wrong.
+std::size_t expected_triangles(const store::MeshRecord& record, const CatalogueOptions& options,
+                               const store::Store& store);
+
 /// Runs the helper: seconds to minutes. Throws as mesher::run, mesh::plan and require_upload do.
 Triangulation triangulate(store::MeshRecord record, const CatalogueOptions& options,
                           const store::Store& store, const std::stop_token& stop);

@@ -1,43 +1,72 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "operators/operator_cache.hpp"
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <new>
 #include <optional>
-#include <system_error>
-#include <thread>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "errors/errors.hpp"
-#include "operators/cache_entries.hpp"
+#include "operators/eviction.hpp"
 #include "operators/freed_memory.hpp"
 
 namespace anticrack::operators {
+namespace {
 
 using errors::Error;
 using errors::Reason;
 using Operator = std::shared_ptr<const MeshOperator>;
 using Operators = std::vector<Operator>;
 
-/// Guarded by the cache's mutex, except `mesh` and `stop`, which do not change.
+/// One factorisation and those who wait for it.
 struct Flight {
-  std::shared_ptr<const mesh::Mesh> mesh;
   std::stop_source stop;
-  std::jthread thread;
-  std::condition_variable_any ended;
-  int waiters = 0;
+  int waiters = 1;         ///< the caller whose thread factorises is one
   bool abandoned = false;  ///< the last waiter left: it is being stopped, nobody may join
   bool done = false;
   Operator result;
   std::optional<Error> error;
 };
 
-namespace {
+/// Either an operator or a flight.
+struct Entry {
+  Operator ready;
+  std::shared_ptr<Flight> flight;
+  std::uint64_t estimate = 0;  ///< counts in flight; an operator is measured
+  std::uint64_t last_use = 0;
+  bool kept = false;  ///< pinned without a holder
+
+  /// With the mutex held nobody can get at the operator but through a copy that counts already.
+  bool in_use() const { return !ready || ready.use_count() > 1; }
+  bool pinned() const { return kept || in_use(); }
+  /// An operator grows: by what Algorithm 2 alone needs, and by bases of sweeps.
+  std::uint64_t bytes() const { return ready ? ready->bytes() : estimate; }
+};
 
 Error stopped() {
   return {Reason::cancelled, "stopped while waiting for the mesh's operators"};
+}
+
+std::string mebibytes(std::uint64_t bytes) {
+  return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MiB";
+}
+
+Error too_large(std::uint64_t estimate, std::uint64_t budget) {
+  return {Reason::limit_exceeded, "the operators of this mesh need about " + mebibytes(estimate) +
+                                      ", more than the memory budget of " + mebibytes(budget) +
+                                      ": use a coarser mesh or a server with a larger budget"};
+}
+
+Error full(std::uint64_t estimate, std::uint64_t held, std::uint64_t budget) {
+  Error error(Reason::busy, "the operators of this mesh need about " + mebibytes(estimate) +
+                                "; running jobs, factorisations and pinned meshes hold " +
+                                mebibytes(held) + " of the memory budget of " + mebibytes(budget) +
+                                ": try again when one has ended");
+  return error.retry_after(retry_delay);
 }
 
 /// Call without a lock: it takes as long as there are pages to be given back.
@@ -50,85 +79,175 @@ void release(Operators operators) {
 
 }  // namespace
 
+/// The mutex guards everything but the constants; what is evicted is freed without it.
 struct OperatorCache::State {
-  State(std::uint64_t budget, Factorise factorise_mesh, Listener listener)
-      : factorise(std::move(factorise_mesh)), factorised(std::move(listener)), entries(budget) {}
+  using Lock = std::unique_lock<std::mutex>;
 
+  State(std::uint64_t budget_bytes, Factorise factorise_mesh, Listener listener)
+      : budget(budget_bytes),
+        factorise(std::move(factorise_mesh)),
+        factorised(std::move(listener)) {}
+
+  const std::uint64_t budget;
   const Factorise factorise;
   const Listener factorised;
 
-  mutable std::mutex mutex;
-  CacheEntries entries;
-  std::vector<std::jthread> finished;  ///< threads of flights that are over, to be joined
-  CacheMetrics counters;               ///< factorizations, hits and joins
+  std::mutex mutex;
+  std::condition_variable_any landed;
+  std::unordered_map<std::string, Entry> entries;
+  std::uint64_t clock = 0;
+  CacheMetrics counters;  ///< factorizations, hits, joins and evictions
+
+  Entry* find(const std::string& key) {
+    const auto found = entries.find(key);
+    return found == entries.end() ? nullptr : &found->second;
+  }
 
   Operator hit(const std::string& key) {
-    Operator ready = entries.use(key);
-    counters.hits += ready ? 1 : 0;
-    return ready;
-  }
-
-  /// Reserves, and starts the thread that frees what had to go and factorises.
-  std::shared_ptr<Flight> take_off(const std::string& key, std::shared_ptr<const mesh::Mesh> mesh,
-                                   std::uint64_t estimate) {
-    auto flight = std::make_shared<Flight>();
-    flight->mesh = std::move(mesh);
-    Operators evicted = entries.make_room(estimate);
-    entries.reserve(key, flight, estimate);
-    try {
-      flight->thread = std::jthread([this, key, flight, gone = std::move(evicted)]() mutable {
-        release(std::move(gone));
-        fly(key, *flight);
-      });
-    } catch (const std::system_error& error) {
-      entries.erase(key);
-      throw Error(Reason::busy, std::string("no thread to factorise this mesh: ") + error.what())
-          .retry_after(retry_delay);
+    Entry* entry = find(key);
+    if (entry == nullptr || !entry->ready) {
+      return nullptr;
     }
-    ++counters.factorizations;
-    return flight;
+    entry->last_use = ++clock;
+    ++counters.hits;
+    return entry->ready;
   }
 
-  Operator make(const Flight& flight) const {
-    const auto start = std::chrono::steady_clock::now();
-    Operator result = factorise(flight.mesh, flight.stop.get_token());
-    if (factorised) {
-      factorised(std::chrono::steady_clock::now() - start);
+  std::uint64_t pinned_bytes() const {
+    std::uint64_t bytes = 0;
+    for (const auto& [key, entry] : entries) {
+      bytes += entry.pinned() ? entry.bytes() : 0;
+    }
+    return bytes;
+  }
+
+  /// Takes out an operator that nobody holds; null otherwise.
+  Operator take(const std::string& key) {
+    Entry* entry = find(key);
+    if (entry == nullptr || entry->in_use()) {
+      return nullptr;
+    }
+    Operator taken = std::move(entry->ready);
+    entries.erase(key);
+    ++counters.evictions;
+    return taken;
+  }
+
+  /// Takes out operators, least recently used first, until the rest and `wanted` are within
+  /// `limit`. None, and nothing has gone, where that cannot be.
+  std::optional<Operators> evict(std::uint64_t wanted, std::uint64_t limit) {
+    std::vector<Candidate> candidates;
+    std::vector<std::string> keys;
+    for (const auto& [key, entry] : entries) {
+      candidates.push_back({entry.bytes(), entry.last_use, entry.pinned()});
+      keys.push_back(key);
+    }
+    const auto chosen = evictions(candidates, wanted, limit);
+    if (!chosen) {
+      return std::nullopt;
+    }
+    Operators evicted;
+    for (const std::size_t index : *chosen) {
+      evicted.push_back(take(keys[index]));
+    }
+    return evicted;
+  }
+
+  /// One waiter fewer; the last one stops the factorisation, without the lock.
+  void leave(Lock& lock, Flight& flight) {
+    flight.abandoned = --flight.waiters == 0 && !flight.done;
+    if (flight.abandoned) {
+      lock.unlock();
+      flight.stop.request_stop();
+      lock.lock();
+    }
+  }
+
+  Operator join(Lock& lock, const std::shared_ptr<Flight>& flight, const std::stop_token& stop) {
+    ++counters.joins;
+    ++flight->waiters;
+    landed.wait(lock, stop, [&] { return flight->done; });
+    const bool done = flight->done;
+    leave(lock, *flight);
+    if (!done) {
+      throw stopped();
+    }
+    // What is left of the flight would pin the operator.
+    Operator result = flight->waiters == 0 ? std::move(flight->result) : flight->result;
+    if (!result) {
+      throw Error(*flight->error);
     }
     return result;
   }
 
-  void fly(const std::string& key, Flight& flight) {
-    Operator result;
-    std::optional<Error> error;
+  Operator make(std::shared_ptr<const mesh::Mesh> mesh, Flight& flight) const {
     try {
-      result = make(flight);
+      const auto start = std::chrono::steady_clock::now();
+      Operator result = factorise(std::move(mesh), flight.stop.get_token());
+      if (factorised) {
+        factorised(std::chrono::steady_clock::now() - start);
+      }
+      return result;
     } catch (const Error& thrown) {
-      error = thrown;
+      flight.error = thrown;
     } catch (const std::bad_alloc&) {
-      error = Error(Reason::busy, "not enough memory to factorise this mesh now");
-      error->retry_after(retry_delay);
+      flight.error = Error(Reason::busy, "not enough memory to factorise this mesh now");
+      flight.error->retry_after(retry_delay);
     } catch (const std::exception& thrown) {
-      error = Error(Reason::internal, std::string("factorising failed: ") + thrown.what());
+      flight.error = Error(Reason::internal, std::string("factorising failed: ") + thrown.what());
+    }
+    return_freed_memory();  // of what was stopped or failed half-way
+    return nullptr;
+  }
+
+  /// On this thread, for whoever joins meanwhile as well.
+  Operator fly(Lock& lock, const std::string& key, std::shared_ptr<const mesh::Mesh> mesh,
+               std::uint64_t estimate, const std::stop_token& stop) {
+    std::optional<Operators> evicted = evict(estimate, budget);
+    if (!evicted) {
+      throw estimate > budget ? too_large(estimate, budget)
+                              : full(estimate, pinned_bytes(), budget);
+    }
+    const auto flight = std::make_shared<Flight>();
+    entries[key] = {nullptr, flight, estimate};
+    ++counters.factorizations;
+    lock.unlock();
+    release(std::move(*evicted));
+    Operator result;
+    bool left = false;
+    {
+      const std::stop_callback leaves(stop, [&] {
+        Lock own(mutex);
+        left = true;
+        leave(own, *flight);
+      });
+      result = make(std::move(mesh), *flight);
+    }
+    lock.lock();
+    flight->done = true;
+    flight->waiters -= left ? 0 : 1;
+    if (result) {
+      flight->result = flight->waiters > 0 ? result : nullptr;
+      entries[key] = {result, nullptr, 0, ++clock};
+      if (left) {
+        result.reset();
+      }
+      // As near to the budget as those in use allow.
+      evicted = evict(0, std::max(budget, pinned_bytes()));
+    } else {
+      evicted.reset();
+      entries.erase(key);
+    }
+    landed.notify_all();
+    lock.unlock();
+    release(evicted ? std::move(*evicted) : Operators());
+    if (left) {
+      throw stopped();
     }
     if (!result) {
-      return_freed_memory();  // of what was stopped or failed half-way
+      throw Error(*flight->error);
     }
-    Operators evicted;
-    {
-      const std::lock_guard lock(mutex);
-      if (result) {
-        flight.result = flight.waiters > 0 ? result : nullptr;
-        evicted = entries.land(key, std::move(result));
-      } else {
-        entries.erase(key);
-      }
-      flight.error = std::move(error);
-      flight.done = true;
-      finished.push_back(std::move(flight.thread));
-      flight.ended.notify_all();
-    }
-    release(std::move(evicted));
+    return result;
   }
 };
 
@@ -137,74 +256,34 @@ OperatorCache::OperatorCache(std::uint64_t budget_bytes, Factorise factorise, Li
   set_up_heaps();
 }
 
-OperatorCache::~OperatorCache() {
-  std::vector<std::jthread> threads;
-  std::vector<std::stop_source> stops;
-  {
-    const std::lock_guard lock(_state->mutex);
-    threads = std::move(_state->finished);
-    for (const std::shared_ptr<Flight>& flight : _state->entries.flights()) {
-      flight->abandoned = true;
-      stops.push_back(flight->stop);
-      threads.push_back(std::move(flight->thread));
-    }
-  }
-  for (std::stop_source& stop : stops) {
-    stop.request_stop();
-  }
-  threads.clear();  // joins
-}
+OperatorCache::~OperatorCache() = default;
 
 std::shared_ptr<const MeshOperator> OperatorCache::acquire(const std::string& key,
                                                            std::shared_ptr<const mesh::Mesh> mesh,
                                                            std::stop_token stop) {
-  std::vector<std::jthread> finished;  // joined after the lock is released
   std::optional<std::uint64_t> estimate;
-  std::shared_ptr<Flight> flight;
-
-  std::unique_lock lock(_state->mutex);
-  finished = std::exchange(_state->finished, {});
-  while (!flight) {
+  State::Lock lock(_state->mutex);
+  for (;;) {
     if (Operator ready = _state->hit(key)) {
       return ready;
     }
     if (stop.stop_requested()) {
       throw stopped();
     }
-    if (const CacheEntry* found = _state->entries.find(key)) {
-      const std::shared_ptr<Flight> other = found->flight;
-      if (other->abandoned) {
-        other->ended.wait(lock, stop, [&] { return other->done; });
-        continue;
+    if (const Entry* found = _state->find(key)) {
+      const std::shared_ptr<Flight> flight = found->flight;
+      if (!flight->abandoned) {
+        return _state->join(lock, flight, stop);
       }
-      flight = other;
-      ++_state->counters.joins;
-    } else if (!estimate) {
+      _state->landed.wait(lock, stop, [&] { return flight->done; });
+    } else if (estimate) {
+      return _state->fly(lock, key, std::move(mesh), *estimate, stop);
+    } else {
       lock.unlock();
       estimate = estimate_bytes(*mesh);
       lock.lock();
-    } else {
-      flight = _state->take_off(key, mesh, *estimate);
     }
   }
-
-  ++flight->waiters;
-  flight->ended.wait(lock, stop, [&] { return flight->done; });
-  const bool last = --flight->waiters == 0;
-  if (!flight->done) {
-    flight->abandoned = last;
-    lock.unlock();
-    if (last) {
-      flight->stop.request_stop();
-    }
-    throw stopped();
-  }
-  // The flight would pin the operator as long as its thread is not joined.
-  Operator result = last ? std::move(flight->result) : flight->result;
-  if (!result) {
-    throw Error(*flight->error);
-  }
-  return result;
 }
 
 std::shared_ptr<const MeshOperator> OperatorCache::find(const std::string& key) {
@@ -214,13 +293,13 @@ std::shared_ptr<const MeshOperator> OperatorCache::find(const std::string& key) 
 
 bool OperatorCache::contains(const std::string& key) const {
   const std::lock_guard lock(_state->mutex);
-  const CacheEntry* entry = std::as_const(_state->entries).find(key);
+  const Entry* entry = _state->find(key);
   return entry != nullptr && entry->ready;
 }
 
 bool OperatorCache::pin(const std::string& key) {
   const std::lock_guard lock(_state->mutex);
-  CacheEntry* entry = _state->entries.find(key);
+  Entry* entry = _state->find(key);
   if (entry == nullptr || !entry->ready) {
     return false;
   }
@@ -230,7 +309,7 @@ bool OperatorCache::pin(const std::string& key) {
 
 bool OperatorCache::pinned(const std::string& key) const {
   const std::lock_guard lock(_state->mutex);
-  const CacheEntry* entry = std::as_const(_state->entries).find(key);
+  const Entry* entry = _state->find(key);
   return entry != nullptr && entry->kept;
 }
 
@@ -238,10 +317,10 @@ OperatorCache::Eviction OperatorCache::evict(const std::string& key) {
   Operators evicted;
   {
     const std::lock_guard lock(_state->mutex);
-    if (_state->entries.find(key) == nullptr) {
+    if (_state->find(key) == nullptr) {
       return Eviction::not_there;
     }
-    evicted.push_back(_state->entries.take(key));
+    evicted.push_back(_state->take(key));
   }
   if (!evicted.front()) {
     return Eviction::in_use;
@@ -250,10 +329,20 @@ OperatorCache::Eviction OperatorCache::evict(const std::string& key) {
   return Eviction::done;
 }
 
+void OperatorCache::count_join() {
+  const std::lock_guard lock(_state->mutex);
+  ++_state->counters.joins;
+}
+
 CacheMetrics OperatorCache::metrics() const {
   const std::lock_guard lock(_state->mutex);
   CacheMetrics metrics = _state->counters;
-  _state->entries.measure(metrics);
+  for (const auto& [key, entry] : _state->entries) {
+    metrics.bytes += entry.bytes();
+  }
+  metrics.budget = _state->budget;
+  metrics.pinned = _state->pinned_bytes();
+  metrics.entries = static_cast<int>(_state->entries.size());
   return metrics;
 }
 

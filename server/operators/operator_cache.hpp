@@ -29,8 +29,8 @@ struct CacheMetrics {
 };
 
 /// Contract:
-/// 1. One factorisation at a time per key; others that ask for it meanwhile join and get the same
-///    operator, or the same error.
+/// 1. One factorisation at a time per key, on the thread of the first who asks for it; others that
+///    ask meanwhile join and get the same operator, or the same error.
 /// 2. An operator somebody still holds (shared_ptr) is pinned: it counts, and is not evicted.
 /// 3. Before a factorisation its estimate is reserved: unpinned entries go, least recently used
 ///    first; where that is not enough: errors::Error (busy, or limit_exceeded when the estimate
@@ -43,7 +43,9 @@ struct CacheMetrics {
 /// 4. `pin` keeps an entry until `evict`, also without a holder.
 /// 5. Evicted memory is freed before what it made room for is factorised, and goes back to the
 ///    system (freed_memory.hpp).
-/// 6. A joiner's stop ends its wait; the factorisation itself stops when nobody waits any more.
+/// 6. A joiner's stop ends its wait. The factorisation is stopped when nobody wants it any more;
+/// the
+///    caller whose thread it is on returns when it has ended, `cancelled` where it was stopped.
 /// Thread-safe. Locks are never held while factorising.
 class OperatorCache {
  public:
@@ -55,11 +57,10 @@ class OperatorCache {
 
   /// `factorise` may throw what acquire() is to throw, and should obey its stop.
   OperatorCache(std::uint64_t budget_bytes, Factorise factorise, Listener factorised = {});
-  /// Stops factorisations nobody waits for any more and waits until they have stopped.
+  /// Nobody may be in acquire() any more.
   ~OperatorCache();
 
-  /// The operator of a mesh, from memory or factorised, on a thread of its own so that a stop is
-  /// obeyed at once. Blocks.
+  /// The operator of a mesh, from memory or factorised. Blocks.
   /// `key` is the hash of the mesh's content.
   std::shared_ptr<const MeshOperator> acquire(const std::string& key,
                                               std::shared_ptr<const mesh::Mesh> mesh,
@@ -73,6 +74,8 @@ class OperatorCache {
   enum class Eviction { done, not_there, in_use };
   /// Drops an entry, a pinned one too; not one that somebody holds or that is being factorised.
   Eviction evict(const std::string& key);
+  /// Somebody waits for what another caller of acquire() waits for, without calling it as well.
+  void count_join();
   CacheMetrics metrics() const;
 
  private:

@@ -192,7 +192,7 @@ TEST(EngineSchedule, AJobOnAReadyMeshPassesThoseThatWait) {
   Engine test(one_thread());
   const std::string ready = test.ready_mesh(0.25);
   test.backend.door.shut();
-  // Both preparation threads are taken by these, and a third waits behind them.
+  // Two of a size are prepared at a time, and the third waits behind them.
   std::vector<std::string> waiting;
   for (const double size : {0.2, 0.3, 0.4}) {
     waiting.push_back(test.submit(short_job(test.backend.create(size))));
@@ -206,6 +206,25 @@ TEST(EngineSchedule, AJobOnAReadyMeshPassesThoseThatWait) {
   for (const std::string& id : waiting) {
     EXPECT_EQ(test.ended(id).state, JobState::succeeded);
   }
+}
+
+TEST(EngineSchedule, AJobOnASmallMeshEndsWhileLargeMeshesAreFactorised) {
+  Engine test;
+  test.backend.kept_out = 5000;
+  test.backend.door.shut();
+  std::vector<std::string> waiting;  // more than are prepared ahead
+  for (const double size : {0.032, 0.0325, 0.033, 0.0335, 0.034}) {
+    waiting.push_back(test.submit(short_job(test.backend.create(size))));
+  }
+  ASSERT_TRUE(eventually([&] { return test.backend.door.waiting() == 2; }));
+  EXPECT_EQ(test.ended(test.submit(short_job(test.backend.create(0.2)))).state,
+            JobState::succeeded);
+  EXPECT_EQ(test.backend.door.waiting(), 2);
+  for (const std::string& id : waiting) {
+    EXPECT_FALSE(store::ended(test.state(id)));
+    test.engine.cancel(id);
+  }
+  test.backend.door.open();
 }
 
 TEST(EngineSchedule, JobsOnOneMeshShareOneFactorisation) {

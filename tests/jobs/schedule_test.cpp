@@ -178,6 +178,24 @@ TEST_F(ScheduleTest, PreparesInOrderOncePerMeshAndNoMoreAheadThanItsLimit) {
   EXPECT_EQ(schedule.next_to_prepare(now), "b");
 }
 
+TEST_F(ScheduleTest, MeshesOfOneSizeHoldUpNoneOfAnother) {
+  const auto add_sized = [&](const std::string& mesh, int size_class) {
+    schedule.add({100, mesh, Lane::lumped, Priority::normal, now, size_class});
+  };
+  for (const char* large : {"a", "b", "c"}) {
+    add_sized(large, 9);
+  }
+  EXPECT_EQ(schedule.next_to_prepare(now), "a");
+  EXPECT_EQ(schedule.next_to_prepare(now), "b");
+  EXPECT_FALSE(schedule.next_to_prepare(now));
+  add_sized("small", 5);
+  EXPECT_EQ(schedule.next_to_prepare(now), "small");
+  EXPECT_FALSE(schedule.next_to_prepare(now));
+  schedule.prepared("a");
+  EXPECT_EQ(turn(), "a");
+  EXPECT_EQ(schedule.next_to_prepare(now), "c");
+}
+
 TEST_F(ScheduleTest, TriesAMeshAgainWhenItsTimeHasCome) {
   add("a");
   EXPECT_EQ(schedule.next_to_prepare(now), "a");

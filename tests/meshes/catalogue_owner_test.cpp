@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <future>
+#include <stop_token>
+#include <string>
+
 #include "support/backend.hpp"
 #include "support/errors.hpp"
 #include "support/eventually.hpp"
@@ -55,6 +59,32 @@ TEST_F(Owners, ShareTheTriangulationAndTheOperators) {
   EXPECT_EQ(second.node_count, first.node_count);
   EXPECT_EQ(second.operator_bytes, first.operator_bytes);
   EXPECT_EQ(backend.catalogue.find(ann), backend.catalogue.find(bob));
+}
+
+TEST_F(Owners, GetTheOperatorsThoughTheOtherStoppedWaitingForThem) {
+  const std::string ann = create("ann").id;
+  ASSERT_TRUE(ready(ann));
+  const std::string bob = create("bob").id;
+  ASSERT_TRUE(ready(bob));
+  backend.catalogue.evict(ann);
+  backend.door.shut();
+  const auto prepare = [&](const std::string& id, std::stop_token stop) {
+    return std::async(std::launch::async, [this, id, stop] {
+      return backend.catalogue.prepare(
+          id, [](MeshState) {}, stop);
+    });
+  };
+  std::stop_source stop;
+  auto first = prepare(ann, stop.get_token());
+  ASSERT_TRUE(eventually([&] { return backend.door.waiting() == 1; }));
+  auto second = prepare(bob, {});
+  ASSERT_TRUE(eventually([&] { return backend.cache.metrics().joins == 1; }));
+  stop.request_stop();
+  EXPECT_TRUE(throws([&] { first.get(); }, Reason::cancelled));
+  EXPECT_EQ(backend.door.waiting(), 1);
+  backend.door.open();
+  EXPECT_NE(second.get(), nullptr);
+  EXPECT_EQ(backend.cache.metrics().factorizations, 2U);
 }
 
 TEST_F(Owners, KeepWhatTheOtherErases) {

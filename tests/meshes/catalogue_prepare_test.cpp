@@ -128,6 +128,44 @@ TEST_F(Prepare, SaysEvictedAgainAfterTheOnlyCallerStopped) {
   EXPECT_NE(prepare(id), nullptr);
 }
 
+TEST_F(Prepare, GoesOnForTheOthersWhenTheFirstCallerStops) {
+  const std::string id = backend.create();
+  ASSERT_TRUE(reaches(id, MeshState::ready));
+  backend.catalogue.evict(id);
+  backend.door.shut();
+  std::stop_source stop;
+  auto first = std::async(std::launch::async, [&] { return prepare(id, stop.get_token()); });
+  ASSERT_TRUE(eventually([&] { return backend.cache.metrics().factorizations == 2; }));
+  auto second = std::async(std::launch::async, [&] { return prepare(id); });
+  ASSERT_TRUE(eventually([&] { return backend.cache.metrics().joins == 1; }));
+  stop.request_stop();
+  EXPECT_TRUE(throws([&] { first.get(); }, Reason::cancelled));  // while the door is shut
+  EXPECT_EQ(state(id), MeshState::factorizing);
+  backend.door.open();
+  EXPECT_NE(second.get(), nullptr);
+  EXPECT_EQ(backend.cache.metrics().factorizations, 2U);
+}
+
+TEST_F(Prepare, LetsACallerGoThoughTheFactorisationNoticesItsStopLate) {
+  const std::string id = backend.create();
+  ASSERT_TRUE(reaches(id, MeshState::ready));
+  backend.catalogue.evict(id);
+  backend.deaf = true;
+  backend.door.shut();
+  std::stop_source stop;
+  auto first = std::async(std::launch::async, [&] { return prepare(id, stop.get_token()); });
+  ASSERT_TRUE(eventually([&] { return backend.door.waiting() == 1; }));
+  stop.request_stop();
+  EXPECT_TRUE(throws([&] { first.get(); }, Reason::cancelled));
+  EXPECT_EQ(state(id), MeshState::evicted);
+  auto second = std::async(std::launch::async, [&] { return prepare(id); });
+  ASSERT_TRUE(reaches(id, MeshState::factorizing));
+  EXPECT_EQ(backend.door.waiting(), 1);  // not beside the one that is being stopped
+  backend.door.open();
+  EXPECT_NE(second.get(), nullptr);
+  EXPECT_EQ(state(id), MeshState::ready);
+}
+
 TEST_F(Prepare, KnowsNoOtherMeshes) {
   EXPECT_TRUE(throws([&] { prepare("unknown"); }, Reason::not_found));
 }

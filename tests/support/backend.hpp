@@ -75,7 +75,9 @@ class Backend {
              options.disk_budget})),
         cache(options.memory_budget,
               [this](std::shared_ptr<const mesh::Mesh> mesh, std::stop_token stop) {
-                door.pass(stop);
+                if (mesh->triangle_count() >= kept_out) {
+                  door.pass(deaf ? std::stop_token() : stop);
+                }
                 return operators::MeshOperator::factorise(std::move(mesh), 2, stop);
               }),
         catalogue(catalogue_options(options), *store, cache) {}
@@ -96,7 +98,9 @@ class Backend {
   }
 
   TemporaryFolder folder;
-  Door door;  ///< of the factorisation
+  Door door;                             ///< of the factorisation
+  std::atomic<bool> deaf{false};         ///< a stop is noticed behind the door only
+  std::atomic<std::size_t> kept_out{0};  ///< smaller meshes pass beside the door, triangles
   std::unique_ptr<store::Store> store;
   operators::OperatorCache cache;
   meshes::MeshCatalogue catalogue;
