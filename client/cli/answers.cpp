@@ -44,8 +44,7 @@ std::vector<std::string> row_of(const results::Load& load,
     return answered ? number(value, digits, exponent) : "-";
   };
   std::vector<std::string> row{
-      sanitise(load.name), std::string(word(static_cast<v1::LoadCaseAnswer::Status>(load.status))),
-      std::to_string(load.iterations),
+      sanitise(load.name), std::string(word(load.status)), std::to_string(load.iterations),
       when_answered(by_uzawa ? load.criterion : load.kkt_relative.largest(), 2, true)};
   for (const std::string& name : inclusions) {
     row.push_back(answered ? displacement_of(load, name) : "-");

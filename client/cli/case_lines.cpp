@@ -76,7 +76,7 @@ Layout widest_layout(const JobProgress& job, const std::vector<std::size_t>& sho
   }
   layout.name_width = std::min(layout.name_width, widest_name);
   // So that the columns do not move at the end.
-  layout.status_width = word(v1::LoadCaseAnswer::STATUS_NOT_CONVERGED).size();
+  layout.status_width = word(results::Status::not_converged).size();
   return layout;
 }
 
@@ -120,7 +120,7 @@ Layout layout_of(const JobProgress& job, const std::vector<std::size_t>& shown, 
 
 // Smaller is shown sooner.
 std::size_t rank(const CaseProgress& progress, std::size_t ended_count) {
-  if (progress.status == v1::LoadCaseAnswer::STATUS_RUNNING) {
+  if (progress.status == results::Status::running) {
     return 0;
   }
   constexpr std::size_t ended_shown = 3;
@@ -149,7 +149,7 @@ std::vector<std::size_t> shown_cases(const JobProgress& progress, std::size_t co
 
 // "  and 38 more: 20 waiting, 18 converged".
 std::string others(const JobProgress& progress, const std::vector<std::size_t>& shown) {
-  std::map<v1::LoadCaseAnswer::Status, std::size_t> counts;
+  std::map<results::Status, std::size_t> counts;
   for (const CaseProgress& load_case : progress.cases) {
     ++counts[load_case.status];
   }

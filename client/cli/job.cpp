@@ -55,7 +55,7 @@ std::string ended_text(const v1::Job& job) {
   }
   const auto ended_cases =
       std::count_if(job.answers().begin(), job.answers().end(),
-                    [](const v1::LoadCaseAnswer& answer) { return ended(answer.status()); });
+                    [](const v1::LoadCaseAnswer& answer) { return ended(status_of(answer)); });
   return std::to_string(ended_cases) + "/" + std::to_string(job.load_cases_size());
 }
 
@@ -88,7 +88,7 @@ int exit_code_of_answers(const v1::Job& job) {
       job.has_sweep()
           ? job.sweep_answer().converged() == job.sweep_answer().rows()
           : std::all_of(job.answers().begin(), job.answers().end(), [](const auto& answer) {
-              return answer.status() == v1::LoadCaseAnswer::STATUS_CONVERGED;
+              return status_of(answer) == results::Status::converged;
             });
   const int code = exit_code_of(job.state());
   return code == exit_ok && !all_converged ? exit_not_converged : code;

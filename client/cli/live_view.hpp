@@ -32,7 +32,7 @@ class PlainLog {
 
  private:
   struct Seen {
-    v1::LoadCaseAnswer::Status status = v1::LoadCaseAnswer::STATUS_PENDING;
+    results::Status status = results::Status::pending;
     std::int64_t due = first_told;  ///< iterations that are told of next
   };
   void add_sweep_line(const SweepProgress& sweep, std::vector<std::string>& lines);

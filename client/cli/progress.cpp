@@ -12,6 +12,7 @@
 namespace anticrack::cli {
 
 using google::protobuf::util::TimeUtil;
+using results::Status;
 
 void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
   notice.clear();
@@ -112,7 +113,7 @@ void JobProgress::apply(const v1::Samples& samples) {
     if (ended(progress.status) || samples.iteration(i) <= progress.iteration) {
       continue;
     }
-    progress.status = v1::LoadCaseAnswer::STATUS_RUNNING;
+    progress.status = Status::running;
     progress.iteration = samples.iteration(i);
     progress.criterion = samples.criterion(i);
     progress.contact_count = samples.contact_count(i);
@@ -124,10 +125,11 @@ void JobProgress::apply(std::size_t index, const v1::LoadCaseAnswer& answer) {
     return;
   }
   CaseProgress& progress = cases[index];
-  if (ended(answer.status()) && !ended(progress.status)) {
+  const auto status = status_of(answer);
+  if (ended(status) && !ended(progress.status)) {
     progress.end_rank = ++ended_count;
   }
-  progress.status = answer.status();
+  progress.status = status;
   if (answer.iterations() > 0) {
     progress.iteration = answer.iterations();
     progress.criterion = answer.criterion();
@@ -137,23 +139,11 @@ void JobProgress::apply(std::size_t index, const v1::LoadCaseAnswer& answer) {
   progress.remark = sanitise(answer.has_error() ? answer.error().message() : answer.reason());
 }
 
-std::string_view word(v1::LoadCaseAnswer::Status status) noexcept {
-  switch (status) {
-    case v1::LoadCaseAnswer::STATUS_PENDING:
-      return "waiting";
-    case v1::LoadCaseAnswer::STATUS_RUNNING:
-      return "running";
-    case v1::LoadCaseAnswer::STATUS_CONVERGED:
-      return "converged";
-    case v1::LoadCaseAnswer::STATUS_NOT_CONVERGED:
-      return "not converged";
-    case v1::LoadCaseAnswer::STATUS_FAILED:
-      return "failed";
-    case v1::LoadCaseAnswer::STATUS_CANCELLED:
-      return "cancelled";
-    default:
-      return "unknown";
-  }
+std::string_view word(Status status) noexcept {
+  return status == Status::pending                               ? "waiting"
+         : status == Status::not_converged                       ? "not converged"
+         : status == Status::unspecified || name(status).empty() ? "unknown"
+                                                                 : name(status);
 }
 
 std::string_view word(v1::Job::State state) noexcept {
@@ -202,11 +192,8 @@ double seconds_between(const google::protobuf::Timestamp& from,
   return static_cast<double>(TimeUtil::DurationToMilliseconds(to - from)) / milliseconds;
 }
 
-bool ended(v1::LoadCaseAnswer::Status status) noexcept {
-  return status == v1::LoadCaseAnswer::STATUS_CONVERGED ||
-         status == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED ||
-         status == v1::LoadCaseAnswer::STATUS_FAILED ||
-         status == v1::LoadCaseAnswer::STATUS_CANCELLED;
+bool ended(Status status) noexcept {
+  return status >= Status::converged && status <= Status::cancelled;
 }
 
 double bar_fraction(double criterion, double target) noexcept {

@@ -13,12 +13,13 @@
 
 #include "anticrack/v1/solve.pb.h"
 #include "cli/sweep_progress.hpp"
+#include "results/status.hpp"
 
 namespace anticrack::cli {
 
 struct CaseProgress {
   std::string name;
-  v1::LoadCaseAnswer::Status status = v1::LoadCaseAnswer::STATUS_PENDING;
+  results::Status status = results::Status::pending;
   std::int32_t iteration = 0;
   double criterion = std::numeric_limits<double>::quiet_NaN();  ///< NaN before the first iteration
   std::int32_t contact_count = 0;
@@ -55,13 +56,18 @@ struct JobProgress {
 };
 
 /// "converged", "not converged", "running", ... for people.
-std::string_view word(v1::LoadCaseAnswer::Status status) noexcept;
+std::string_view word(results::Status status) noexcept;
 /// "queued", "waiting for the mesh", ... for people.
 std::string_view word(v1::Job::State state) noexcept;
 std::string_view word(v1::Mesh::State state) noexcept;
 
+/// The API's, of which a later server may have more than there are names.
+inline results::Status status_of(const v1::LoadCaseAnswer& answer) {
+  return static_cast<results::Status>(answer.status());
+}
+
 /// Whether the load case will not change any more.
-bool ended(v1::LoadCaseAnswer::Status status) noexcept;
+bool ended(results::Status status) noexcept;
 
 /// From one time to another, e.g. of creation and end of a job.
 double seconds_between(const google::protobuf::Timestamp& from,

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "results/status.hpp"
+
 namespace anticrack::cli {
 namespace {
 
@@ -57,9 +59,10 @@ double SweepProgress::seconds_left() const noexcept {
 
 void SweepProgress::count(const v1::SweepRows& rows, const RowSet::Interval& interval) {
   for (std::uint64_t row = interval.first; row < interval.second; ++row) {
-    const std::int32_t status = rows.status(static_cast<int>(row - rows.first_row()));
-    _seen.not_converged += status == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED ? 1U : 0U;
-    _seen.failed += status == v1::LoadCaseAnswer::STATUS_FAILED ? 1U : 0U;
+    const auto status =
+        static_cast<results::Status>(rows.status(static_cast<int>(row - rows.first_row())));
+    _seen.not_converged += status == results::Status::not_converged ? 1U : 0U;
+    _seen.failed += status == results::Status::failed ? 1U : 0U;
   }
   _seen.done += interval.second - interval.first;
 }

@@ -122,7 +122,7 @@ std::string sweep_csv(const results::Sweep& sweep) {
   const std::size_t inclusions = sweep.inclusions.size();
   std::string text = csv_head(sweep, loads);
   for (std::size_t row = 0; row < sweep.rows(); ++row) {
-    const auto status = static_cast<results::Status>(sweep.status[row]);
+    const auto status = sweep.status[row];
     const bool right = status == results::Status::converged;
     const auto add = [&text, right](double value) {
       text += ',';

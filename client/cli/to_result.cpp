@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/to_result.hpp"
 
-#include <algorithm>
+#include <functional>
 #include <map>
-#include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "results/assemble.hpp"
+#include "results/tables.hpp"
 
 namespace anticrack::cli {
 namespace {
+
+static_assert(static_cast<int>(results::Status::pending) == v1::LoadCaseAnswer::STATUS_PENDING &&
+              static_cast<int>(results::Status::cancelled) == v1::LoadCaseAnswer::STATUS_CANCELLED);
 
 double seconds_of(const google::protobuf::Duration& duration) {
   return static_cast<double>(duration.seconds()) + 1e-9 * duration.nanos();
@@ -49,6 +53,37 @@ void set_solver(const v1::Solver& solver, results::Load& load) {
   }
 }
 
+void get(const google::protobuf::Message& from, const google::protobuf::FieldDescriptor& field,
+         double& value) {
+  value = from.GetReflection()->GetDouble(from, &field);
+}
+void get(const google::protobuf::Message& from, const google::protobuf::FieldDescriptor& field,
+         std::int32_t& value) {
+  value = from.GetReflection()->GetInt32(from, &field);
+}
+void get(const google::protobuf::Message& from, const google::protobuf::FieldDescriptor& field,
+         std::string& value) {
+  value = from.GetReflection()->GetString(from, &field);
+}
+
+/// What the answer has under the name it has in the file.
+void copy_scalars(const v1::LoadCaseAnswer& answer, results::Load& load) {
+  using Type = google::protobuf::FieldDescriptor;
+  arrays::for_each(
+      [&](const auto& row) {
+        const Type* field = answer.GetDescriptor()->FindFieldByName(std::string(row.name));
+        auto& member = std::invoke(row.member, load);
+        using Value = std::remove_cvref_t<decltype(member)>;
+        if constexpr (!std::is_same_v<Value, results::Status>) {
+          constexpr auto wanted = std::is_same_v<Value, double>        ? Type::CPPTYPE_DOUBLE
+                                  : std::is_same_v<Value, std::string> ? Type::CPPTYPE_STRING
+                                                                       : Type::CPPTYPE_INT32;
+          if (field != nullptr && field->cpp_type() == wanted) get(answer, *field, member);
+        }
+      },
+      results::tables::load);
+}
+
 results::Load to_load(const v1::LoadCase& load_case, const v1::LoadCaseAnswer& answer,
                       const v1::Solver& solver) {
   results::Load load;
@@ -62,14 +97,11 @@ results::Load to_load(const v1::LoadCase& load_case, const v1::LoadCaseAnswer& a
   if (load.status != results::Status::converged && load.status != results::Status::not_converged) {
     return load;
   }
-  load.criterion = answer.criterion();
-  load.theta = positive_or_unknown(answer.theta());
-  load.theta_star = positive_or_unknown(answer.theta_star());
-  load.energy = answer.energy();
+  copy_scalars(answer, load);
+  load.theta = positive_or_unknown(load.theta);
+  load.theta_star = positive_or_unknown(load.theta_star);
   load.kkt = absolute(answer.kkt());
   load.kkt_relative = relative(answer.kkt());
-  load.contact_length = answer.contact_length();
-  load.weakly_active = answer.weakly_active();
   load.warnings.assign(answer.warnings().begin(), answer.warnings().end());
   for (const v1::InclusionAnswer& inclusion : answer.inclusions()) {
     load.inclusions.push_back({inclusion.name(), inclusion.displacement(), inclusion.resultant(),
@@ -91,28 +123,16 @@ void add_contact(const v1::LoadCaseAnswer& answer,
   }
 }
 
-std::optional<results::ArrayView::Type> type_of(v1::ArrayLayout::Type type) {
-  switch (type) {
-    case v1::ArrayLayout::TYPE_FLOAT64:
-      return results::ArrayView::Type::float64;
-    case v1::ArrayLayout::TYPE_INT32:
-      return results::ArrayView::Type::int32;
-    case v1::ArrayLayout::TYPE_UINT8:
-      return results::ArrayView::Type::uint8;
-    default:
-      return std::nullopt;
-  }
-}
-
 std::vector<results::ArrayView> views_of(const client::Block& block) {
   std::vector<results::ArrayView> views;
   for (const v1::ArrayLayout& array : block.layout.arrays()) {
-    const auto type = type_of(array.type());
-    if (!type) {
+    if (array.type() < v1::ArrayLayout::TYPE_FLOAT64 ||
+        array.type() > v1::ArrayLayout::TYPE_UINT8) {
       continue;  // of a later version
     }
-    views.push_back(results::view(array.name(), *type, {array.shape().begin(), array.shape().end()},
-                                  array.offset(), std::span(block.bytes)));
+    views.push_back(results::view(array.name(), static_cast<results::ValueType>(array.type()),
+                                  {array.shape().begin(), array.shape().end()}, array.offset(),
+                                  std::span(block.bytes)));
   }
   return views;
 }
@@ -122,7 +142,6 @@ void add_names(const v1::Mesh& from, results::Mesh& to) {
   to.tension.reserve(static_cast<std::size_t>(from.subdomains_size()));
   for (const v1::SubdomainInfo& subdomain : from.subdomains()) {
     to.subdomains.push_back(subdomain.name());
-    // A server that knows no tension solves with 1.
     to.tension.push_back(subdomain.tension() > 0 ? subdomain.tension() : 1);
   }
   to.inclusions.assign(from.inclusions().begin(), from.inclusions().end());

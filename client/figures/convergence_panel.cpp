@@ -27,9 +27,9 @@ std::vector<Series> series_of(const Load& load) {
     return {{&history.criterion, "relative change of u, squared", blue_solid}};
   }
   return {
-      {&history.kkt_gap, "gap", blue_solid},
-      {&history.kkt_sign, "sign", "linecolor " + vermillion + " dashtype (8,4)"},
-      {&history.kkt_complementarity, "complementarity", "linecolor " + black + " dashtype (2,3)"}};
+      {&history.kkt.gap, "gap", blue_solid},
+      {&history.kkt.sign, "sign", "linecolor " + vermillion + " dashtype (8,4)"},
+      {&history.kkt.complementarity, "complementarity", "linecolor " + black + " dashtype (2,3)"}};
 }
 
 bool drawable(double value) {

@@ -17,7 +17,7 @@ namespace {
 using results::Sweep;
 
 bool converged(const Sweep& sweep, std::size_t row) {
-  return sweep.status[row] == static_cast<std::int32_t>(results::Status::converged);
+  return sweep.status[row] == results::Status::converged;
 }
 
 /// The columns of the coefficients that are not constant.

@@ -68,12 +68,12 @@ std::size_t first_odd(const std::vector<double>& values) {
 }
 
 Matrix matrix_of(const Handle& group, const std::string& name, std::uint64_t budget) {
-  hdf5::Rows rows = hdf5::get_rows(group, name, budget);
-  Matrix matrix{std::move(rows.values), rows.rows, rows.columns, {}};
-  const Handle opened(H5Dopen2(group.get(), name.c_str(), H5P_DEFAULT), H5Dclose,
-                      "dataset " + name + " is damaged");
-  if (hdf5::has_attribute(opened, "loads")) {
-    matrix.loads = hdf5::get_text_list(opened, "loads", rows.columns);
+  const hdf5::Dataset dataset =
+      hdf5::open_array(group, name, ValueType::float64, budget, hdf5::any_columns);
+  Matrix matrix{std::vector<double>(dataset.count()), dataset.rows, dataset.columns, {}};
+  hdf5::read_values(dataset, matrix.values.data());
+  if (hdf5::has_attribute(dataset.id, "loads")) {
+    hdf5::get(dataset.id, "loads", matrix.loads, dataset.columns);
   }
   return matrix;
 }
@@ -84,7 +84,9 @@ std::vector<double> read_array(const std::filesystem::path& file, const std::str
   const std::string cure = "name a one-dimensional dataset of float64 in an HDF5 file";
   std::vector<double> values = read<std::vector<double>>(
       file, dataset, cure, [](const auto& group, const auto& name, std::uint64_t budget) {
-        return hdf5::get_doubles(group, name, budget);
+        std::vector<double> found;
+        hdf5::get_array(group, name, budget, 0, found);
+        return found;
       });
   if (values.empty()) throw Error(file.string(), "dataset " + dataset + " has no values", cure);
   if (const std::size_t odd = first_odd(values); odd < values.size()) {

@@ -11,13 +11,14 @@
 
 #include "results/error.hpp"
 #include "results/result.hpp"
+#include "results/value_type.hpp"
 
 namespace anticrack::results {
 
 /// One array of a block: ArrayLayout of the API plus the bytes it points at (little-endian,
 /// row-major, any alignment).
 struct ArrayView {
-  enum class Type { float64, int32, uint8 };
+  using Type = ValueType;
   std::string name;
   Type type = Type::float64;
   std::vector<std::uint64_t> shape;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/assemble_sweep.hpp"
 
+#include <functional>
 #include <utility>
+
+#include "results/tables.hpp"
 
 namespace anticrack::results {
 namespace {
@@ -24,7 +27,7 @@ Load load_of(const Sweep& sweep, std::size_t row, std::vector<Trace> traces,
              const std::vector<Interface>& interfaces) {
   Load load;
   load.name = row_name(static_cast<std::int64_t>(row));
-  load.status = static_cast<Status>(sweep.status[row]);
+  load.status = sweep.status[row];
   load.method = "active-set";
   load.iterations = sweep.steps[row];
   load.energy = sweep.energy[row];
@@ -45,15 +48,16 @@ Load load_of(const Sweep& sweep, std::size_t row, std::vector<Trace> traces,
 
 void add_sweep(const Block& block, Result& result) {
   Sweep& sweep = *result.sweep;
-  sweep.status = block.get<std::int32_t>("sweep/status");
-  const std::size_t rows = sweep.rows();
-  sweep.steps = block.get<std::int32_t>("sweep/steps");
-  sweep.energy = block.get<double>("sweep/energy");
-  sweep.contact_length = block.get<double>("sweep/contact_length");
-  sweep.kkt = block.get<double>("sweep/kkt");
-  sweep.displacement = block.get_rows<double>("sweep/displacement", rows);
-  sweep.contact = block.get_rows<std::uint8_t>("sweep/contact", rows);
-  sweep.contact_nodes = block.get<std::int32_t>("sweep/contact_nodes", 2);
+  const std::string folder = arrays::sweep_folder();
+  get_arrays(block, folder, sweep, arrays::sweep_rows<Sweep>);
+  get_arrays(block, folder, sweep, arrays::sweep_contacts<Sweep>);
+  arrays::for_each(
+      [&](const auto& row) {
+        auto& values = std::invoke(row.member, sweep);
+        using Value = typename std::remove_cvref_t<decltype(values)>::value_type;
+        values = block.get_rows<Value>(folder + std::string(row.name), sweep.rows());
+      },
+      arrays::sweep_matrices<Sweep>);
   std::vector<std::size_t> nodes;
   for (const Interface& interface : result.interfaces) nodes.push_back(interface.node_count());
   const std::string fault = first_fault(sweep, nodes);
@@ -61,8 +65,8 @@ void add_sweep(const Block& block, Result& result) {
 
   std::vector<std::int32_t> kept;
   for (const std::int32_t row : sweep.kept) {
-    const std::string at = "traces/" + std::to_string(row);
-    if (!block.has_below(at + "/")) continue;  // of a row that did not come to an end
+    const std::string at = arrays::row_traces(static_cast<std::size_t>(row));
+    if (!block.has_below(at)) continue;  // of a row that did not come to an end
     kept.push_back(row);
     result.loads.push_back(load_of(sweep, static_cast<std::size_t>(row),
                                    traces_of(block, at, result.interfaces.size()),

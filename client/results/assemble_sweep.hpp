@@ -8,7 +8,7 @@
 
 namespace anticrack::results {
 
-/// Traces along interfaces 0, 1, ... below "AT/".
+/// Traces along interfaces 0, 1, ... below `at`, which ends with a slash.
 std::vector<Trace> traces_of(const Block& block, const std::string& at, std::size_t interfaces);
 
 /// Fills in the columns of result.sweep and makes the loads of its kept rows; result.interfaces are

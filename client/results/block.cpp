@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/block.hpp"
 
+#include "results/tables.hpp"
+
 namespace anticrack::results {
 namespace {
 
@@ -8,31 +10,7 @@ constexpr const char* fetch_again =
     "the server and this client do not understand each other: compare their versions with "
     "`anticrack server`";
 
-std::size_t size_of(ArrayView::Type type) {
-  switch (type) {
-    case ArrayView::Type::float64:
-      return 8;
-    case ArrayView::Type::int32:
-      return 4;
-    case ArrayView::Type::uint8:
-      return 1;
-  }
-  return 1;
-}
-
 }  // namespace
-
-const char* name_of(ArrayView::Type type) {
-  switch (type) {
-    case ArrayView::Type::float64:
-      return "float64";
-    case ArrayView::Type::int32:
-      return "int32";
-    case ArrayView::Type::uint8:
-      return "uint8";
-  }
-  return "";
-}
 
 std::string text_of(const std::vector<std::uint64_t>& shape) {
   std::string text = "(";
@@ -43,7 +21,7 @@ std::string text_of(const std::vector<std::uint64_t>& shape) {
 }
 
 std::uint64_t byte_count(const std::string& subject, const ArrayView& array) {
-  std::uint64_t bytes = size_of(array.type);
+  std::uint64_t bytes = bytes_of(array.type);
   for (const std::uint64_t extent : array.shape) {
     if (__builtin_mul_overflow(bytes, extent, &bytes)) {
       throw Error(subject,
@@ -60,15 +38,11 @@ void Block::fail(const std::string& cause) const {
 
 Edges edges_of(const Block& block, const std::string& interface) {
   const std::string at = "interfaces/" + interface;
-  return {kinds_of(block.get<std::int32_t>(at + "/kind")),
-          block.get<std::int32_t>(at + "/inclusion")};
+  return {block.get<Kind>(at + "/kind"), block.get<std::int32_t>(at + "/inclusion")};
 }
 
 void add_mesh(const Block& block, Mesh& mesh) {
-  mesh.xy = block.get<double>("nodes", 2);
-  mesh.triangles = block.get<std::int32_t>("triangles", 3);
-  mesh.subdomain = block.get<std::int32_t>("subdomain");
-  mesh.boundary = block.get<std::int32_t>("boundary", 2);
+  get_arrays(block, "", mesh, tables::mesh);
   const std::string fault = first_mesh_fault(mesh);
   if (!fault.empty()) block.fail(fault);
 }

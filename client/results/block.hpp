@@ -7,20 +7,20 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "arrays/table.hpp"
 #include "results/assemble.hpp"
 
 namespace anticrack::results {
 
 static_assert(std::endian::native == std::endian::little, "blocks are little-endian");
 
-/// For messages: "float64".
-const char* name_of(ArrayView::Type type);
 /// For messages: "(3,2)".
 std::string text_of(const std::vector<std::uint64_t>& shape);
 /// Bytes of an array of its type and shape; throws where their product leaves 64 bits.
@@ -78,9 +78,7 @@ class Block {
   const ArrayView& find(const std::string& name) const {
     const auto found = _arrays.find(name);
     if (found == _arrays.end()) fail("array " + name + " is missing");
-    constexpr auto wanted = sizeof(T) == 8   ? ArrayView::Type::float64
-                            : sizeof(T) == 4 ? ArrayView::Type::int32
-                                             : ArrayView::Type::uint8;
+    constexpr ValueType wanted = value_type<T>;
     if (found->second->type != wanted) {
       fail("array " + name + " is " + name_of(found->second->type) + ", not " + name_of(wanted));
     }
@@ -101,6 +99,18 @@ class Block {
   std::string _subject;
   std::map<std::string, const ArrayView*> _arrays;
 };
+
+/// The arrays of a table, of shapes that are no words; `folder` ends with a slash.
+template <class Record, class Table>
+void get_arrays(const Block& block, const std::string& folder, Record& record, const Table& table) {
+  arrays::for_each(
+      [&](const auto& row) {
+        auto& values = std::invoke(row.member, record);
+        using Value = typename std::remove_cvref_t<decltype(values)>::value_type;
+        values = block.get<Value>(folder + std::string(row.name), arrays::columns_of(row.shape));
+      },
+      table);
+}
 
 /// What the block of a mesh says of the edges of an interface. Not checked.
 Edges edges_of(const Block& block, const std::string& interface);

@@ -1,41 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The result file, HDF5, format "anticrack-result/1":
-//
-//     /                        attributes format, title, case (the TOML), client_version,
-//                              server_version, mesh, job, mesh_sha256, mesh_seconds,
-//                              factorize_seconds, solve_seconds, total_seconds
-//     /mesh                    nodes (n,2), triangles (m,3), subdomain (m), boundary (b,2),
-//                              subdomain_names, tension, inclusions (names)
-//     /interfaces/I            s, x, y, kind (k) of its nodes, edge_kind, edge_inclusion (k-1) of
-//                              the edges between them; attribute name; of a closed one the first
-//                              node is there again as the last
-//     /loads/NAME              attributes index, status, reason, error, method, mass, epsilon, p,
-//                              kkt_tolerance, tolerance, iterations (or steps), criterion, theta,
-//                              theta_star, energy, kkt_*, kkt_relative_*, contact_length,
-//                              weakly_active, solve_seconds; NaN or "" where a method has none
-//     /loads/NAME/warnings     text (one entry a warning)
-//     /loads/NAME/inclusions   name, A, resultant, contact_length (one entry an inclusion)
-//     /loads/NAME/contact_intervals   interface, begin, end (one entry an interval)
-//     /loads/NAME/traces/I     u_minus, u_plus, jump, pressure, contact (k)
-//     /loads/NAME/history      iteration, criterion, energy, contact_count, kkt_*
-//     /loads/NAME/fields/D     nodes, u (n_D), triangles (m_D,3) into nodes; attribute name (only
-//                              when asked for)
-//     /sweep                   of a sweep: attributes description, source, loads, inclusions,
-//                              error, solve_seconds, converged, not_converged, failed; (rows)
-//                              status, steps, energy, contact_length, kkt; displacement
-//                              (rows,inclusions), contact (rows,contacts) uint8, contact_nodes
-//                              (contacts,2), coefficients (rows,loads) where known; kept: rows
-//                              whose traces are /loads/row-K
-//
-// I and D are indices in decimal (an interface, a subdomain); the attribute `name` has their names.
-// Every dataset has the attribute `units` ("-": dimensionless), `kind`, `edge_kind`,
-// `edge_inclusion` and those of /sweep also what their numbers mean (`meaning`). Needs HDF5 1.10 to
-// read. Numbers are float64, int32 and uint8, little-endian; text is variable-length UTF-8.
-//
-// Files of earlier clients have no /mesh/inclusions and nothing of edges. They are still read: the
-// conditions on edges are told from those at nodes, and which inclusion lies on an edge is known
-// only where there is but one.
+// The result file, HDF5, format "anticrack-result/1": README.md has the table of what is in it,
+// made of tables.hpp. Every dataset has the attribute `units`, some their `meaning`. Numbers are
+// float64, int32 and uint8, little-endian; text is variable-length UTF-8. Needs HDF5 1.10 to read.
 #pragma once
 
 #include <filesystem>

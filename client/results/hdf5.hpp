@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What the result file needs of HDF5's C API: owned handles, and attributes and datasets of
-// float64, int32 and UTF-8 text. Every function throws Fault, without the path: file.hpp adds it.
+// numbers and UTF-8 text. Every function throws Fault, without the path: file.hpp adds it.
 #pragma once
 
 #include <hdf5.h>
@@ -13,6 +13,8 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "results/value_type.hpp"
 
 namespace anticrack::results::hdf5 {
 
@@ -71,16 +73,15 @@ void put(const Handle& object, const std::string& attribute, std::int32_t value)
 void put(const Handle& object, const std::string& attribute, const std::string& text);
 /// A list of texts.
 void put(const Handle& object, const std::string& attribute, std::span<const std::string> texts);
-/// Dataset of shape (n) for columns 0, else (n / columns, columns). It carries a
-/// checksum; a large one is compressed. `units` becomes its attribute. Returns it, for further
-/// attributes.
-Handle put_array(const Handle& group, const std::string& name, std::span<const double> values,
-                 const std::string& units, std::size_t columns = 0);
-Handle put_array(const Handle& group, const std::string& name, std::span<const std::int32_t> values,
-                 const std::string& units, std::size_t columns = 0);
-Handle put_array(const Handle& group, const std::string& name, std::span<const std::uint8_t> values,
-                 const std::string& units, std::size_t columns = 0);
-void put_array(const Handle& group, const std::string& name, std::span<const std::string> values);
+/// Dataset of `count` values, of shape (n) for columns 0, else (n / columns, columns). Numbers
+/// carry a checksum; a large one is compressed. Returns it, for further attributes.
+Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
+                 std::size_t count, std::size_t columns);
+template <class T>
+Handle put_array(const Handle& group, const std::string& name, const std::vector<T>& values,
+                 std::size_t columns = 0) {
+  return put_array(group, name, value_type<T>, values.data(), values.size(), columns);
+}
 
 // Reading. Only hard links are followed and only data inside the file is read, so a file from
 // elsewhere cannot pull in others.
@@ -88,28 +89,38 @@ bool has(const Handle& group, const std::string& name);
 bool has_attribute(const Handle& object, const std::string& name);
 Handle open_group(const Handle& parent, const std::string& name);
 std::vector<std::string> names_in(const Handle& group);
-double get_double(const Handle& object, const std::string& attribute);
-std::int32_t get_int(const Handle& object, const std::string& attribute);
-std::string get_text(const Handle& object, const std::string& attribute);
+void get(const Handle& object, const std::string& attribute, double& value);
+void get(const Handle& object, const std::string& attribute, std::int32_t& value);
+void get(const Handle& object, const std::string& attribute, std::string& text);
 /// A list of texts, at most `most` of them.
-std::vector<std::string> get_text_list(const Handle& object, const std::string& attribute,
-                                       std::uint64_t most);
-/// `budget`: largest number of bytes the dataset may take in memory.
-std::vector<double> get_doubles(const Handle& group, const std::string& name, std::uint64_t budget,
-                                std::size_t columns = 0);
-std::vector<std::int32_t> get_ints(const Handle& group, const std::string& name,
-                                   std::uint64_t budget, std::size_t columns = 0);
-std::vector<std::uint8_t> get_bytes(const Handle& group, const std::string& name,
-                                    std::uint64_t budget, std::size_t columns = 0);
-/// A dataset of float64 and any shape (rows, columns), row by row.
-struct Rows {
-  std::vector<double> values;
-  std::size_t rows = 0;
-  std::size_t columns = 0;
+void get(const Handle& object, const std::string& attribute, std::vector<std::string>& texts,
+         std::uint64_t most = 1'000'000);
+
+inline constexpr std::size_t any_columns = static_cast<std::size_t>(-1);
+
+/// A dataset to be read; its shape is known.
+struct Dataset {
+  Handle id;
+  std::string name;
+  ValueType type;
+  std::size_t rows;
+  std::size_t columns;  ///< 1 for one dimension
+
+  /// Entries in all.
+  std::size_t count() const { return rows * columns; }
 };
-/// `budget` as above. Throw Fault.
-Rows get_rows(const Handle& group, const std::string& name, std::uint64_t budget);
-std::vector<std::string> get_texts(const Handle& group, const std::string& name,
-                                   std::uint64_t budget);
+/// Of the type and shape asked for: (n) for columns 0, else (n, columns). Nothing is allocated for
+/// it yet; `budget` is the largest number of bytes it may take in memory.
+Dataset open_array(const Handle& group, const std::string& name, ValueType type,
+                   std::uint64_t budget, std::size_t columns);
+/// Puts all entries of a dataset where there is room for them; of text they are std::string.
+void read_values(const Dataset& dataset, void* values);
+template <class T>
+void get_array(const Handle& group, const std::string& name, std::uint64_t budget,
+               std::size_t columns, std::vector<T>& values) {
+  const Dataset dataset = open_array(group, name, value_type<T>, budget, columns);
+  values.resize(dataset.count());
+  read_values(dataset, values.data());
+}
 
 }  // namespace anticrack::results::hdf5

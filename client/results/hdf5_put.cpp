@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "results/hdf5.hpp"
 
@@ -60,25 +61,19 @@ Handle creation_properties(std::size_t rows, std::size_t columns, bool checked,
   return properties;
 }
 
-Handle put_numbers(const Handle& group, const std::string& name, hid_t file_type, hid_t memory_type,
-                   const void* values, std::size_t count, const std::string& units,
-                   std::size_t columns) {
-  const std::string what = "cannot write dataset " + name;
-  if (columns != 0 && count % columns != 0) throw Fault(what + ": not whole rows");
-  const std::size_t rows = columns == 0 ? count : count / columns;
-  const std::array<hsize_t, 2> shape{rows, columns};
-  const Handle space(H5Screate_simple(columns == 0 ? 1 : 2, shape.data(), nullptr), H5Sclose, what);
-  // A checksum over text would be one over pointers into the heap: HDF5 refuses it.
-  const bool text = H5Tis_variable_str(file_type) > 0;
-  const Handle properties = creation_properties(rows, columns, !text, what);
-  Handle dataset(H5Dcreate2(group.get(), name.c_str(), file_type, space.get(), H5P_DEFAULT,
-                            properties.get(), H5P_DEFAULT),
-                 H5Dclose, what);
-  if (count != 0) {
-    require(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), what);
+/// In the file and in memory; `text` is what text has.
+std::pair<hid_t, hid_t> types_of(ValueType type, const Handle& text) {
+  switch (type) {
+    case ValueType::float64:
+      return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE};
+    case ValueType::int32:
+      return {H5T_STD_I32LE, H5T_NATIVE_INT32};
+    case ValueType::uint8:
+      return {H5T_STD_U8LE, H5T_NATIVE_UINT8};
+    case ValueType::text:
+      break;
   }
-  put(dataset, "units", units);
-  return dataset;
+  return {text.get(), text.get()};
 }
 
 }  // namespace
@@ -119,24 +114,6 @@ void put(const Handle& object, const std::string& attribute, const std::string& 
   put_scalar(object, attribute, type.get(), type.get(), &pointer);
 }
 
-Handle put_array(const Handle& group, const std::string& name, std::span<const double> values,
-                 const std::string& units, std::size_t columns) {
-  return put_numbers(group, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data(), values.size(),
-                     units, columns);
-}
-
-Handle put_array(const Handle& group, const std::string& name, std::span<const std::int32_t> values,
-                 const std::string& units, std::size_t columns) {
-  return put_numbers(group, name, H5T_STD_I32LE, H5T_NATIVE_INT32, values.data(), values.size(),
-                     units, columns);
-}
-
-Handle put_array(const Handle& group, const std::string& name, std::span<const std::uint8_t> values,
-                 const std::string& units, std::size_t columns) {
-  return put_numbers(group, name, H5T_STD_U8LE, H5T_NATIVE_UINT8, values.data(), values.size(),
-                     units, columns);
-}
-
 void put(const Handle& object, const std::string& attribute, std::span<const std::string> texts) {
   const std::string what = "cannot write attribute " + attribute;
   const Handle type = text_type();
@@ -149,10 +126,30 @@ void put(const Handle& object, const std::string& attribute, std::span<const std
   if (count != 0) require(H5Awrite(id.get(), type.get(), pointers.data()), what);
 }
 
-void put_array(const Handle& group, const std::string& name, std::span<const std::string> values) {
-  const Handle type = text_type();
-  const std::vector<const char*> pointers = pointers_to(values);
-  put_numbers(group, name, type.get(), type.get(), pointers.data(), pointers.size(), "-", 0);
+Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
+                 std::size_t count, std::size_t columns) {
+  const std::string what = "cannot write dataset " + name;
+  if (columns != 0 && count % columns != 0) throw Fault(what + ": not whole rows");
+  const std::size_t rows = columns == 0 ? count : count / columns;
+  const std::array<hsize_t, 2> shape{rows, columns};
+  const Handle space(H5Screate_simple(columns == 0 ? 1 : 2, shape.data(), nullptr), H5Sclose, what);
+  const Handle text = text_type();
+  const auto [file_type, memory_type] = types_of(type, text);
+  // A checksum over text would be one over pointers into the heap: HDF5 refuses it.
+  const Handle properties = creation_properties(rows, columns, type != ValueType::text, what);
+  Handle dataset(H5Dcreate2(group.get(), name.c_str(), file_type, space.get(), H5P_DEFAULT,
+                            properties.get(), H5P_DEFAULT),
+                 H5Dclose, what);
+  std::vector<const char*> pointers;
+  if (type == ValueType::text) {
+    pointers = pointers_to({static_cast<const std::string*>(values), count});
+    values = pointers.data();
+  }
+  if (count != 0) {
+    require(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), what);
+  }
+  put(dataset, "units", "-");  // the API has none: every quantity is in those of the case
+  return dataset;
 }
 
 }  // namespace anticrack::results::hdf5

@@ -2,23 +2,14 @@
 #include "results/result.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
 #include <set>
-#include <utility>
+
+#include "results/tables.hpp"
 
 namespace anticrack::results {
 namespace {
-
-constexpr std::array<std::pair<Status, std::string_view>, 7> statuses{{
-    {Status::unspecified, "unspecified"},
-    {Status::pending, "pending"},
-    {Status::running, "running"},
-    {Status::converged, "converged"},
-    {Status::not_converged, "not_converged"},
-    {Status::failed, "failed"},
-    {Status::cancelled, "cancelled"},
-}};
 
 /// Collects the first fault only: later ones often follow from it.
 class Faults {
@@ -35,6 +26,18 @@ class Faults {
       _first =
           what + " has " + std::to_string(have) + " entries for " + std::to_string(want) + " " + of;
     }
+  }
+
+  /// Every array of the tables has `want` entries.
+  template <class Record, class... Tables>
+  void lengths(const std::string& at, const Record& record, std::size_t want, const char* of,
+               const Tables&... tables) {
+    arrays::for_each(
+        [&](const auto& row) {
+          length(at + "." + std::string(row.name), std::invoke(row.member, record).size(), want,
+                 of);
+        },
+        tables...);
   }
 
   void in_range(const std::string& what, const std::vector<std::int32_t>& values,
@@ -71,9 +74,14 @@ std::string item(const std::string& list, std::size_t index) {
 }
 
 void check_mesh(const Mesh& mesh, Faults& faults) {
-  faults.require(mesh.xy.size() % 2 == 0, "mesh.nodes is not of shape (n,2)");
-  faults.require(mesh.triangles.size() % 3 == 0, "mesh.triangles is not of shape (m,3)");
-  faults.require(mesh.boundary.size() % 2 == 0, "mesh.boundary is not of shape (b,2)");
+  arrays::for_each(
+      [&](const auto& row) {
+        const std::size_t columns = std::max<std::size_t>(arrays::columns_of(row.shape), 1);
+        faults.require(
+            std::invoke(row.member, mesh).size() % columns == 0,
+            "mesh." + std::string(row.name) + " is not of shape (" + std::string(row.shape) + ")");
+      },
+      tables::mesh);
   faults.length("mesh.subdomain", mesh.subdomain.size(), mesh.triangle_count(), "triangles");
   faults.finite("mesh.nodes", mesh.xy);
   faults.in_range("mesh.triangles", mesh.triangles, mesh.node_count());
@@ -94,15 +102,13 @@ void check_kinds(const std::string& at, const std::vector<Kind>& kinds, Faults& 
 void check_edges(const std::string& at, const Edges& edges, std::size_t nodes, const Mesh& mesh,
                  Faults& faults) {
   const std::size_t count = nodes == 0 ? 0 : nodes - 1;
-  faults.length(at + ".edge_kind", edges.kind.size(), count, "edges");
-  faults.length(at + ".edge_inclusion", edges.inclusion.size(), count, "edges");
+  faults.lengths(at, edges, count, "edges", tables::edges);
   check_kinds(at + ".edge_kind", edges.kind, faults);
   const auto inclusions = static_cast<std::int64_t>(mesh.inclusions.size());
   for (std::size_t e = 0; e < count && !faults.any(); ++e) {
     const std::int32_t inclusion = edges.inclusion[e];
     const bool rigid = edges.kind[e] == Kind::inclusion || edges.kind[e] == Kind::delaminated;
-    // A file of an earlier client may not say which one.
-    faults.require(inclusion == -1 || (rigid && inclusion >= 0 && inclusion < inclusions),
+    faults.require(rigid ? inclusion >= 0 && inclusion < inclusions : inclusion == -1,
                    item(at + ".edge_inclusion", e) + " is " + std::to_string(inclusion) +
                        (rigid ? ", there are " + std::to_string(inclusions) + " inclusions"
                               : ", but its edge_kind is that of no inclusion"));
@@ -112,9 +118,7 @@ void check_edges(const std::string& at, const Edges& edges, std::size_t nodes, c
 void check_interface(const std::string& at, const Interface& interface, const Mesh& mesh,
                      Faults& faults) {
   const std::size_t k = interface.node_count();
-  faults.length(at + ".x", interface.x.size(), k, "nodes");
-  faults.length(at + ".y", interface.y.size(), k, "nodes");
-  faults.length(at + ".kind", interface.kind.size(), k, "nodes");
+  faults.lengths(at, interface, k, "nodes", arrays::interface_nodes<Interface>);
   faults.finite(at + ".s", interface.s);
   faults.finite(at + ".x", interface.x);
   faults.finite(at + ".y", interface.y);
@@ -124,23 +128,12 @@ void check_interface(const std::string& at, const Interface& interface, const Me
 }
 
 void check_trace(const std::string& at, const Trace& trace, std::size_t k, Faults& faults) {
-  faults.length(at + ".u_minus", trace.u_minus.size(), k, "nodes");
-  faults.length(at + ".u_plus", trace.u_plus.size(), k, "nodes");
-  faults.length(at + ".jump", trace.jump.size(), k, "nodes");
-  faults.length(at + ".pressure", trace.pressure.size(), k, "nodes");
-  faults.length(at + ".contact", trace.contact.size(), k, "nodes");
+  faults.lengths(at, trace, k, "nodes", arrays::trace<Trace>);
   faults.in_range(at + ".contact", trace.contact, 2);
 }
 
 void check_history(const std::string& at, const History& history, Faults& faults) {
-  const std::size_t n = history.size();
-  faults.length(at + ".criterion", history.criterion.size(), n, "iterations");
-  faults.length(at + ".energy", history.energy.size(), n, "iterations");
-  faults.length(at + ".contact_count", history.contact_count.size(), n, "iterations");
-  faults.length(at + ".kkt_equilibrium", history.kkt_equilibrium.size(), n, "iterations");
-  faults.length(at + ".kkt_gap", history.kkt_gap.size(), n, "iterations");
-  faults.length(at + ".kkt_sign", history.kkt_sign.size(), n, "iterations");
-  faults.length(at + ".kkt_complementarity", history.kkt_complementarity.size(), n, "iterations");
+  faults.lengths(at, history, history.size(), "iterations", arrays::history<History>);
   faults.increasing(at + ".iteration", history.iteration);
 }
 
@@ -198,13 +191,6 @@ void check_sweep(const Result& result, Faults& faults) {
 
 }  // namespace
 
-std::vector<Kind> kinds_of(const std::vector<std::int32_t>& numbers) {
-  std::vector<Kind> kinds;
-  kinds.reserve(numbers.size());
-  for (const std::int32_t number : numbers) kinds.push_back(static_cast<Kind>(number));
-  return kinds;
-}
-
 double Kkt::largest() const noexcept {
   double result = 0;
   for (const double residual : {equilibrium, gap, sign, complementarity}) {
@@ -212,20 +198,6 @@ double Kkt::largest() const noexcept {
     result = std::max(result, residual);
   }
   return result;
-}
-
-std::string_view name(Status status) noexcept {
-  for (const auto& [value, text] : statuses) {
-    if (value == status) return text;
-  }
-  return {};
-}
-
-std::optional<Status> status_from(std::string_view name) noexcept {
-  for (const auto& [value, text] : statuses) {
-    if (text == name) return value;
-  }
-  return std::nullopt;
 }
 
 bool is_load_name(std::string_view name) noexcept {
@@ -238,27 +210,6 @@ bool is_load_name(std::string_view name) noexcept {
     if (!alphanumeric(c) && c != '_' && c != '.' && c != ' ' && c != '-') return false;
   }
   return true;
-}
-
-std::optional<std::vector<std::int32_t>> triangles_of(const Mesh& mesh, std::size_t subdomain,
-                                                      const std::vector<std::int32_t>& nodes) {
-  std::vector<std::int32_t> local(mesh.node_count(), -1);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto node = static_cast<std::size_t>(nodes[i]);
-    if (nodes[i] < 0 || node >= local.size() || local[node] >= 0) return std::nullopt;
-    local[node] = static_cast<std::int32_t>(i);
-  }
-  std::vector<std::int32_t> triangles;
-  triangles.reserve(mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    if (static_cast<std::size_t>(mesh.subdomain[t]) != subdomain) continue;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::int32_t corner = local[static_cast<std::size_t>(mesh.triangles[3 * t + c])];
-      if (corner < 0) return std::nullopt;
-      triangles.push_back(corner);
-    }
-  }
-  return triangles;
 }
 
 std::string first_mesh_fault(const Mesh& mesh) {

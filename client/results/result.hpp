@@ -28,25 +28,6 @@ enum class Kind : std::int32_t {
   delaminated = 4,  ///< u+ = A, [u] >= 0             gamma_c, (3)-(6)
 };
 
-/// The conditions of these numbers, which may be none: first_fault tells.
-std::vector<Kind> kinds_of(const std::vector<std::int32_t>& numbers);
-
-/// How a load case ended. The numbers are those of the API's LoadCaseAnswer.Status.
-enum class Status : std::int32_t {
-  unspecified = 0,
-  pending = 1,
-  running = 2,
-  converged = 3,
-  not_converged = 4,  ///< keeps its last traces; `reason` says why
-  failed = 5,         ///< no traces; `error` says why
-  cancelled = 6,
-};
-
-/// "converged", "not_converged", ...: the attribute `status` of the file. Empty for no Status.
-std::string_view name(Status status) noexcept;
-/// Inverse of `name`; empty for an unknown name.
-std::optional<Status> status_from(std::string_view name) noexcept;
-
 struct Mesh {
   std::vector<double> xy;               ///< (n,2) row-major
   std::vector<std::int32_t> triangles;  ///< (m,3) row-major, counterclockwise
@@ -59,12 +40,14 @@ struct Mesh {
   /// n and m of the shapes above.
   std::size_t node_count() const noexcept { return xy.size() / 2; }
   std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
+  bool operator==(const Mesh&) const = default;
 };
 
 /// What lies along a chain of k nodes, one array entry an edge.
 struct Edges {
   std::vector<Kind> kind;               ///< (k-1)
   std::vector<std::int32_t> inclusion;  ///< (k-1) index into Mesh::inclusions, -1 for none
+  bool operator==(const Edges&) const = default;
 };
 
 /// A chain of k nodes, one array entry a node. A closed one has its first node again at its end.
@@ -77,6 +60,7 @@ struct Interface {
 
   /// k of the shapes above.
   std::size_t node_count() const noexcept { return s.size(); }
+  bool operator==(const Interface&) const = default;
 };
 
 /// Residuals of the optimality conditions: see KktResiduals of the API.
@@ -87,6 +71,7 @@ struct Kkt {
   double complementarity = 0;
 
   double largest() const noexcept;  ///< NaN where one of them is
+  bool operator==(const Kkt&) const = default;
 };
 
 struct Inclusion {
@@ -94,6 +79,7 @@ struct Inclusion {
   double displacement = 0;    ///< A of equation (5)
   double resultant = 0;       ///< int [T du/dnu] ds over it, equation (6): the force on it
   double contact_length = 0;  ///< length of its delaminated part in contact
+  bool operator==(const Inclusion&) const = default;
 };
 
 /// Contact along an interface, by arc length; begin == end: contact in a single node.
@@ -101,6 +87,7 @@ struct ContactInterval {
   std::size_t interface = 0;  ///< index into Result::interfaces
   double begin = 0;
   double end = 0;
+  bool operator==(const ContactInterval&) const = default;
 };
 
 /// Along one interface, all (k).
@@ -110,6 +97,7 @@ struct Trace {
   std::vector<double> jump;           ///< u_plus - u_minus
   std::vector<double> pressure;       ///< contact pressure on cracks, flux on glue
   std::vector<std::int32_t> contact;  ///< 1: crack node closed under pressure
+  bool operator==(const Trace&) const = default;
 };
 
 /// One entry an iteration kept by the server, all of one length.
@@ -118,10 +106,14 @@ struct History {
   std::vector<double> criterion;        ///< step 3 of Algorithm 2; 1 in the first iteration
   std::vector<double> energy;           ///< Pi(u_k)
   std::vector<std::int32_t> contact_count;
-  std::vector<double> kkt_equilibrium, kkt_gap, kkt_sign, kkt_complementarity;  ///< absolute
+  struct Residuals {
+    std::vector<double> equilibrium, gap, sign, complementarity;
+    bool operator==(const Residuals&) const = default;
+  } kkt;  ///< absolute
 
   /// Iterations kept.
   std::size_t size() const noexcept { return iteration.size(); }
+  bool operator==(const History&) const = default;
 };
 
 /// u on the nodes of one subdomain, those on an interface with its own trace. A node inside a slit
@@ -131,12 +123,8 @@ struct Field {
   std::vector<std::int32_t>
       triangles;          ///< (m_i,3) row-major, index into nodes; all of the subdomain
   std::vector<double> u;  ///< (n_i)
+  bool operator==(const Field&) const = default;
 };
-
-/// Field::triangles where every node is there once, in the order of the mesh; empty where one is
-/// there twice or missing. For servers and files that do not say. O(n + m).
-std::optional<std::vector<std::int32_t>> triangles_of(const Mesh& mesh, std::size_t subdomain,
-                                                      const std::vector<std::int32_t>& nodes);
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -168,6 +156,7 @@ struct Load {
   std::vector<Trace> traces;  ///< one per Result::interfaces, or none
   History history;
   std::vector<Field> fields;  ///< one per Mesh::subdomains, or none (not asked for)
+  bool operator==(const Load&) const = default;
 };
 
 struct Timings {
@@ -175,6 +164,7 @@ struct Timings {
   double factorize_seconds = 0;
   double solve_seconds = 0;  ///< all load cases
   double total_seconds = 0;  ///< as the user waited
+  bool operator==(const Timings&) const = default;
 };
 
 struct Result {
@@ -190,6 +180,7 @@ struct Result {
   std::vector<Interface> interfaces;
   std::vector<Load> loads;     ///< of a sweep: its kept rows, without history
   std::optional<Sweep> sweep;  ///< of a sweep
+  bool operator==(const Result&) const = default;
 };
 
 /// The first invariant above that does not hold (shapes, index ranges, names, enums, finite

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
-#include "results/result.hpp"
+#include "results/tables.hpp"
 
 namespace anticrack::results {
 namespace {
@@ -14,32 +15,24 @@ void widen(SweepSummary::Range& range, double value) {
   range.high = std::fmax(range.high, value);
 }
 
-bool has_status(std::int32_t status, Status wanted) {
-  return status == static_cast<std::int32_t>(wanted);
-}
-
-std::string wrong_length(const char* name, std::size_t have, std::size_t want) {
-  return have == want ? std::string()
-                      : std::string("sweep.") + name + " has " + std::to_string(have) +
-                            " entries instead of " + std::to_string(want);
-}
-
 std::string length_fault(const Sweep& sweep) {
-  const std::size_t rows = sweep.rows();
-  for (const std::string& fault :
-       {wrong_length("steps", sweep.steps.size(), rows),
-        wrong_length("energy", sweep.energy.size(), rows),
-        wrong_length("contact_length", sweep.contact_length.size(), rows),
-        wrong_length("kkt", sweep.kkt.size(), rows),
-        wrong_length("displacement", sweep.displacement.size(), rows * sweep.inclusions.size()),
-        wrong_length("contact_nodes", sweep.contact_nodes.size(), 2 * sweep.contacts()),
-        wrong_length("contact", sweep.contact.size(), rows * sweep.contacts()),
-        sweep.coefficients.empty()
-            ? std::string()
-            : wrong_length("coefficients", sweep.coefficients.size(), rows * sweep.loads.size())}) {
-    if (!fault.empty()) return fault;
-  }
-  return {};
+  std::string fault;
+  arrays::for_each(
+      [&](const auto& row) {
+        const std::size_t have = std::invoke(row.member, sweep).size();
+        if (!fault.empty() || (have == 0 && row.name == "coefficients")) return;
+        const std::size_t columns = arrays::columns_of(row.shape);
+        const std::size_t want =
+            sweep.extent(row.shape.substr(0, row.shape.find(','))) *
+            (columns == 0               ? 1
+             : columns == arrays::named ? sweep.extent(row.shape.substr(row.shape.find(',') + 1))
+                                        : columns);
+        if (have == want) return;
+        fault = "sweep." + std::string(row.name) + " has " + std::to_string(have) +
+                " entries instead of " + std::to_string(want);
+      },
+      tables::sweep_arrays);
+  return fault;
 }
 
 std::string entry(const char* name, std::size_t index) {
@@ -55,8 +48,9 @@ bool is_node(std::int32_t interface, std::int32_t node,
 
 std::string range_fault(const Sweep& sweep, const std::vector<std::size_t>& interface_nodes) {
   for (std::size_t i = 0; i < sweep.rows(); ++i) {
-    if (name(static_cast<Status>(sweep.status[i])).empty()) {
-      return entry("status", i) + " is " + std::to_string(sweep.status[i]) + ", no status";
+    if (name(sweep.status[i]).empty()) {
+      return entry("status", i) + " is " +
+             std::to_string(static_cast<std::int32_t>(sweep.status[i])) + ", no status";
     }
   }
   for (std::size_t i = 0; i < sweep.contacts(); ++i) {
@@ -80,15 +74,23 @@ std::string range_fault(const Sweep& sweep, const std::vector<std::size_t>& inte
 
 }  // namespace
 
+std::size_t Sweep::extent(std::string_view word) const noexcept {
+  return word == "rows"         ? rows()
+         : word == "contacts"   ? contacts()
+         : word == "inclusions" ? inclusions.size()
+         : word == "loads"      ? loads.size()
+                                : kept.size();
+}
+
 SweepSummary summary(const Sweep& sweep) {
   SweepSummary result;
   const std::size_t inclusions = sweep.inclusions.size();
   result.displacement.resize(inclusions);
   for (std::size_t row = 0; row < sweep.rows(); ++row) {
-    const std::int32_t status = sweep.status[row];
-    result.not_converged += has_status(status, Status::not_converged) ? 1U : 0U;
-    result.failed += has_status(status, Status::failed) ? 1U : 0U;
-    if (!has_status(status, Status::converged)) continue;
+    const Status status = sweep.status[row];
+    result.not_converged += status == Status::not_converged ? 1U : 0U;
+    result.failed += status == Status::failed ? 1U : 0U;
+    if (status != Status::converged) continue;
     ++result.converged;
     result.most_steps = std::max(result.most_steps, sweep.steps[row]);
     result.worst_kkt = std::fmax(result.worst_kkt, sweep.kkt[row]);

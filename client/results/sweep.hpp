@@ -7,7 +7,10 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "results/status.hpp"
 
 namespace anticrack::results {
 
@@ -19,13 +22,13 @@ struct Sweep {
   /// where they are not known: a server does not give them back.
   std::vector<double> coefficients;
 
-  std::vector<std::int32_t> status;  ///< (rows) a Status; no number of a row is right but converged
-  std::vector<std::int32_t> steps;   ///< (rows) of the active set
-  std::vector<double> energy;        ///< (rows) Pi(u)
-  std::vector<double> contact_length;       ///< (rows) over all cracks and delaminated parts
-  std::vector<double> kkt;                  ///< (rows) largest relative residual
-  std::vector<double> displacement;         ///< (rows, inclusions) row-major: A of equation (5)
-  std::vector<std::uint8_t> contact;        ///< (rows, contacts) row-major: 1 closed under pressure
+  std::vector<Status> status;          ///< (rows) no number of a row is right but where converged
+  std::vector<std::int32_t> steps;     ///< (rows) of the active set
+  std::vector<double> energy;          ///< (rows) Pi(u)
+  std::vector<double> contact_length;  ///< (rows) over all cracks and delaminated parts
+  std::vector<double> kkt;             ///< (rows) largest relative residual
+  std::vector<double> displacement;    ///< (rows, inclusions) row-major: A of equation (5)
+  std::vector<std::uint8_t> contact;   ///< (rows, contacts) row-major: 1 closed under pressure
   std::vector<std::int32_t> contact_nodes;  ///< (contacts, 2): interface, and node of it
 
   /// Rows whose traces were kept, ascending: Result::loads has one load for each, "row-17".
@@ -37,6 +40,9 @@ struct Sweep {
   /// Of all columns; crack nodes of the mesh.
   std::size_t rows() const noexcept { return status.size(); }
   std::size_t contacts() const noexcept { return contact_nodes.size() / 2; }
+  /// Of a shape's word: "rows", "contacts", "inclusions", "loads", "kept".
+  std::size_t extent(std::string_view word) const noexcept;
+  bool operator==(const Sweep&) const = default;
 };
 
 /// How many rows ended how, and what the converged ones span.

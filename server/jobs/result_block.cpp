@@ -2,6 +2,8 @@
 #include "jobs/result_block.hpp"
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 
 #include "jobs/trace_arrays.hpp"
@@ -12,42 +14,24 @@ namespace {
 
 using store::BlockBuilder;
 
-template <class Value, class Get>
-void add_column(BlockBuilder& builder, const std::string& name,
-                const std::vector<contact::Sample>& history, Get get) {
-  std::vector<Value> column;
-  column.reserve(history.size());
-  for (const contact::Sample& sample : history) {
-    column.push_back(get(sample));
-  }
-  builder.add(name, column);
+void add_history(BlockBuilder& builder, const std::string& folder,
+                 const std::vector<contact::Sample>& history) {
+  arrays::for_each(
+      [&](const auto& row) {
+        std::vector<arrays::MemberOf<const contact::Sample, decltype(row.member)>> column;
+        column.reserve(history.size());
+        for (const contact::Sample& sample : history) {
+          column.push_back(std::invoke(row.member, sample));
+        }
+        builder.add(folder + std::string(row.name), column);
+      },
+      arrays::history<contact::Sample>);
 }
 
-void add_history(BlockBuilder& builder, const std::string& load,
-                 const std::vector<contact::Sample>& history) {
-  using Sample = contact::Sample;
-  const std::string path = load + "history/";
-  const auto integers = [&](const char* name, int Sample::*member) {
-    add_column<std::int32_t>(builder, path + name, history,
-                             [&](const Sample& sample) { return sample.*member; });
-  };
-  const auto doubles = [&](const char* name, double Sample::*member) {
-    add_column<double>(builder, path + name, history,
-                       [&](const Sample& sample) { return sample.*member; });
-  };
-  const auto residuals = [&](const char* name, double contact::KktResiduals::*member) {
-    add_column<double>(builder, path + name, history,
-                       [&](const Sample& sample) { return sample.kkt.*member; });
-  };
-  integers("iteration", &Sample::iteration);
-  integers("contact_count", &Sample::contact_count);
-  doubles("criterion", &Sample::criterion);
-  doubles("energy", &Sample::energy);
-  residuals("kkt_equilibrium", &contact::KktResiduals::equilibrium);
-  residuals("kkt_gap", &contact::KktResiduals::gap);
-  residuals("kkt_sign", &contact::KktResiduals::sign);
-  residuals("kkt_complementarity", &contact::KktResiduals::complementarity);
-}
+/// Of a subdomain, for all loads.
+struct Subdomain {
+  std::span<const std::int32_t> nodes, triangles;
+};
 
 }  // namespace
 
@@ -65,17 +49,14 @@ std::shared_ptr<const store::Block> result_block(const operators::MeshOperator& 
       any = true;
     }
     const contact::Answer& answer = cases[l].solved->answer;
-    const std::string load = "loads/" + std::to_string(l) + "/";
-    add_traces(builder, load + "traces/", answer.traces);
-    add_history(builder, load, cases[l].solved->history);
+    add_traces(builder, arrays::load_traces(l), answer.traces);
+    add_history(builder, arrays::load_history(l), cases[l].solved->history);
     for (std::size_t i = 0; i < answer.fields.size(); ++i) {
-      const std::string subdomain = std::to_string(i);
       if (!nodes_added) {
-        builder.add("fields/" + subdomain + "/nodes", answer.fields[i].nodes);
-        const std::vector<std::int32_t>& triangles = mesh_operator.field_triangles(i);
-        builder.add("fields/" + subdomain + "/triangles", triangles, {triangles.size() / 3, 3});
+        add_arrays(builder, arrays::field_folder(i), arrays::subdomain<Subdomain>,
+                   Subdomain{answer.fields[i].nodes, mesh_operator.field_triangles(i)});
       }
-      builder.add(load + "fields/" + subdomain, answer.fields[i].u);
+      builder.add(arrays::load_fields(l) + std::to_string(i), answer.fields[i].u);
     }
     nodes_added = nodes_added || !answer.fields.empty();
     cases[l].solved.reset();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -20,17 +21,19 @@ using contact::SweepColumns;
 using store::ArrayType;
 using store::BlockBuilder;
 
-/// Puts the columns that `get` takes out of each chunk one after the other.
-template <class Get>
-void add_column(BlockBuilder& builder, const std::string& name, ArrayType type,
-                std::vector<std::uint64_t> shape, const LiveSweep& sweep, const Get& get) {
-  const std::span<std::byte> bytes = builder.add_zeros("sweep/" + name, type, std::move(shape));
+/// Puts the chunks' columns of a row of the table one after the other.
+template <class Row>
+void add_column(BlockBuilder& builder, const Row& row, std::vector<std::uint64_t> shape,
+                const LiveSweep& sweep) {
+  using Column = arrays::MemberOf<const SweepColumns, decltype(row.member)>;
+  constexpr ArrayType type = store::array_type<typename Column::value_type>;
+  const std::span<std::byte> bytes =
+      builder.add_zeros(arrays::sweep_folder() + std::string(row.name), type, std::move(shape));
   const std::size_t a_row = bytes.size() / sweep.plan.rows;
   for (std::size_t i = 0; i < sweep.chunks.size(); ++i) {
     if (const SweepColumns* columns = sweep.chunks[i].columns.get()) {
-      const auto& values = get(*columns);
       const auto place = bytes.subspan(sweep.plan.first_row(i) * a_row);
-      std::ranges::copy(std::as_bytes(std::span(values)), place.begin());
+      std::ranges::copy(std::as_bytes(std::span(std::invoke(row.member, *columns))), place.begin());
     }
   }
 }
@@ -45,34 +48,37 @@ void add_status(BlockBuilder& builder, const LiveSweep& sweep, Status unsolved) 
                      number_of);
     }
   }
-  builder.add("sweep/status", numbers);
+  builder.add(arrays::sweep_folder() + "status", numbers);
 }
 
 void add_columns(BlockBuilder& builder, const LiveSweep& sweep, std::uint64_t inclusions,
                  std::uint64_t contacts) {
   const std::uint64_t rows = sweep.plan.rows;
-  const auto add = [&](const char* name, ArrayType type, std::vector<std::uint64_t> shape,
-                       auto SweepColumns::*member) {
-    add_column(
-        builder, name, type, std::move(shape),
-        sweep, [member](const SweepColumns& columns) -> const auto& { return columns.*member; });
-  };
-  add("steps", ArrayType::int32, {rows}, &SweepColumns::steps);
-  add("energy", ArrayType::float64, {rows}, &SweepColumns::energy);
-  add("contact_length", ArrayType::float64, {rows}, &SweepColumns::contact_length);
-  add("kkt", ArrayType::float64, {rows}, &SweepColumns::kkt);
-  add("displacement", ArrayType::float64, {rows, inclusions}, &SweepColumns::displacement);
-  add("contact", ArrayType::uint8, {rows, contacts}, &SweepColumns::contact);
+  arrays::for_each(
+      [&](const auto& row) {
+        if (row.name == "status") return;  // also of rows that no chunk has
+        add_column(builder, row, {rows}, sweep);
+      },
+      arrays::sweep_rows<SweepColumns>);
+  arrays::for_each(
+      [&](const auto& row) {
+        const std::uint64_t columns = row.shape.ends_with(",inclusions") ? inclusions : contacts;
+        add_column(builder, row, {rows, columns}, sweep);
+      },
+      arrays::sweep_matrices<SweepColumns>);
 }
 
-void add_contact_nodes(BlockBuilder& builder,
-                       const std::vector<std::array<std::int32_t, 2>>& nodes) {
-  std::vector<std::int32_t> pairs;
-  pairs.reserve(2 * nodes.size());
+struct Contacts {
+  std::vector<std::int32_t> contact_nodes;
+};
+
+Contacts contacts_of(const std::vector<std::array<std::int32_t, 2>>& nodes) {
+  Contacts contacts;
+  contacts.contact_nodes.reserve(2 * nodes.size());
   for (const auto& node : nodes) {
-    pairs.insert(pairs.end(), node.begin(), node.end());
+    contacts.contact_nodes.insert(contacts.contact_nodes.end(), node.begin(), node.end());
   }
-  builder.add("sweep/contact_nodes", pairs, {nodes.size(), 2});
+  return contacts;
 }
 
 }  // namespace
@@ -89,10 +95,11 @@ std::shared_ptr<const store::Block> sweep_result(const operators::MeshOperator& 
   add_status(builder, sweep, unsolved);
   const auto& contact_nodes = mesh_operator.contact_nodes();
   add_columns(builder, sweep, mesh_operator.mesh().inclusions.size(), contact_nodes.size());
-  add_contact_nodes(builder, contact_nodes);
+  add_arrays(builder, arrays::sweep_folder(), arrays::sweep_contacts<Contacts>,
+             contacts_of(contact_nodes));
   for (SweepChunk& chunk : sweep.chunks) {
     for (const RowTraces& traces : chunk.traces) {
-      add_traces(builder, "traces/" + std::to_string(traces.row) + "/", traces.traces);
+      add_traces(builder, arrays::row_traces(traces.row), traces.traces);
     }
     chunk = {};
   }

@@ -3,20 +3,47 @@
 // The arrays that the results of load cases and of sweeps have in common.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "arrays/result_arrays.hpp"
 #include "contact/answer.hpp"
 #include "store/block.hpp"
 
 namespace anticrack::jobs {
 
-/// interfaces/I/s, x, y, kind.
-void add_geometry(store::BlockBuilder& builder,
-                  const std::vector<contact::TraceGeometry>& interfaces);
+/// The arrays of a table, from one record; `folder` ends with a slash.
+template <class Table, class Record>
+void add_arrays(store::BlockBuilder& builder, const std::string& folder, const Table& table,
+                const Record& record) {
+  arrays::for_each(
+      [&](const auto& row) {
+        const auto& values = std::invoke(row.member, record);
+        std::vector<std::uint64_t> shape{values.size()};
+        if (const std::size_t columns = arrays::columns_of(row.shape); columns != 0) {
+          shape = {values.size() / columns, columns};
+        }
+        builder.add(folder + std::string(row.name), values, std::move(shape));
+      },
+      table);
+}
 
-/// FOLDER I/u_minus, u_plus, jump, pressure, contact; `folder` ends with a slash.
-void add_traces(store::BlockBuilder& builder, const std::string& folder,
-                const std::vector<contact::Trace>& traces);
+/// The nodes of all interfaces.
+inline void add_geometry(store::BlockBuilder& builder,
+                         const std::vector<contact::TraceGeometry>& interfaces) {
+  for (std::size_t i = 0; i < interfaces.size(); ++i) {
+    add_arrays(builder, arrays::interface_folder(i),
+               arrays::interface_nodes<contact::TraceGeometry>, interfaces[i]);
+  }
+}
+
+/// The traces along all interfaces; `folder` ends with a slash.
+inline void add_traces(store::BlockBuilder& builder, const std::string& folder,
+                       const std::vector<contact::Trace>& traces) {
+  for (std::size_t i = 0; i < traces.size(); ++i) {
+    add_arrays(builder, folder + std::to_string(i) + "/", arrays::trace<contact::Trace>, traces[i]);
+  }
+}
 
 }  // namespace anticrack::jobs

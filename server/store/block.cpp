@@ -60,22 +60,6 @@ std::span<std::byte> extend(Block& block, std::string name, ArrayType type,
   return std::span(block.bytes).subspan(offset);
 }
 
-template <class T>
-void append(Block& block, std::string name, ArrayType type, std::span<const T> values,
-            std::vector<std::uint64_t> shape) {
-  if (shape.empty()) {
-    shape = {values.size()};
-  }
-  if (!fits(shape, values.size())) {
-    throw std::invalid_argument("array " + name + ": its shape does not hold " +
-                                std::to_string(values.size()) + " values");
-  }
-  const std::span<const std::byte> bytes = std::as_bytes(values);
-  const std::span<std::byte> room =
-      extend(block, std::move(name), type, std::move(shape), bytes.size());
-  std::ranges::copy(bytes, room.begin());
-}
-
 class MemoryBlock final : public BlockSource {
  public:
   explicit MemoryBlock(std::shared_ptr<const Block> block) : _block(std::move(block)) {}
@@ -97,19 +81,18 @@ std::shared_ptr<const BlockSource> in_memory(std::shared_ptr<const Block> block)
   return std::make_shared<MemoryBlock>(std::move(block));
 }
 
-void BlockBuilder::add(std::string name, std::span<const double> values,
-                       std::vector<std::uint64_t> shape) {
-  append(_block, std::move(name), ArrayType::float64, values, std::move(shape));
-}
-
-void BlockBuilder::add(std::string name, std::span<const std::int32_t> values,
-                       std::vector<std::uint64_t> shape) {
-  append(_block, std::move(name), ArrayType::int32, values, std::move(shape));
-}
-
-void BlockBuilder::add(std::string name, std::span<const std::uint8_t> values,
-                       std::vector<std::uint64_t> shape) {
-  append(_block, std::move(name), ArrayType::uint8, values, std::move(shape));
+void BlockBuilder::append(std::string name, ArrayType type, std::span<const std::byte> values,
+                          std::uint64_t count, std::vector<std::uint64_t> shape) {
+  if (shape.empty()) {
+    shape = {count};
+  }
+  if (!fits(shape, count)) {
+    throw std::invalid_argument("array " + name + ": its shape does not hold " +
+                                std::to_string(count) + " values");
+  }
+  const std::span<std::byte> room =
+      extend(_block, std::move(name), type, std::move(shape), values.size());
+  std::ranges::copy(values, room.begin());
 }
 
 std::span<std::byte> BlockBuilder::add_zeros(std::string name, ArrayType type,

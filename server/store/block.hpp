@@ -6,8 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <ranges>
 #include <span>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "fields/fields.hpp"
@@ -16,6 +19,17 @@ namespace anticrack::store {
 
 /// Its numbers are those of the API.
 enum class ArrayType { float64 = 1, int32, uint8 };
+
+/// Of an array of these values: double, std::int32_t and enums as large, std::uint8_t.
+template <class Value>
+inline constexpr ArrayType array_type = [] {
+  static_assert(std::is_same_v<Value, double> || std::is_same_v<Value, std::int32_t> ||
+                std::is_same_v<Value, std::uint8_t> ||
+                (std::is_enum_v<Value> && sizeof(Value) == sizeof(std::int32_t)));
+  return std::is_same_v<Value, double> ? ArrayType::float64
+         : sizeof(Value) == 1          ? ArrayType::uint8
+                                       : ArrayType::int32;
+}();
 
 /// One array: little-endian, row-major, at an offset that is a multiple of 8.
 struct ArrayLayout {
@@ -51,12 +65,14 @@ std::shared_ptr<const BlockSource> in_memory(std::shared_ptr<const Block> block)
 
 class BlockBuilder {
  public:
-  /// `shape` empty: (values.size()). Throws std::invalid_argument where the shape does not fit.
-  void add(std::string name, std::span<const double> values, std::vector<std::uint64_t> shape = {});
-  void add(std::string name, std::span<const std::int32_t> values,
-           std::vector<std::uint64_t> shape = {});
-  void add(std::string name, std::span<const std::uint8_t> values,
-           std::vector<std::uint64_t> shape = {});
+  /// A contiguous range of values that have an array_type. `shape` empty: (values.size()). Throws
+  /// std::invalid_argument where the shape does not fit.
+  template <class Values>
+  void add(std::string name, const Values& values, std::vector<std::uint64_t> shape = {}) {
+    using Value = std::ranges::range_value_t<Values>;
+    append(std::move(name), array_type<Value>, std::as_bytes(std::span(values)), values.size(),
+           std::move(shape));
+  }
   /// An array of zeros, to be filled until anything else is called: what is put together from many
   /// pieces need not be in memory twice. Throws std::length_error for a shape beyond all memory.
   std::span<std::byte> add_zeros(std::string name, ArrayType type,
@@ -67,6 +83,9 @@ class BlockBuilder {
   Block finish();
 
  private:
+  void append(std::string name, ArrayType type, std::span<const std::byte> values,
+              std::uint64_t count, std::vector<std::uint64_t> shape);
+
   Block _block;
 };
 

@@ -29,7 +29,8 @@ inline results::Result sample_sweep(std::size_t rows = 21, int n = 10) {
   for (std::size_t row = 0; row < rows; ++row) {
     const double c = -1 + 2 * static_cast<double>(row) / static_cast<double>(rows - 1);
     sweep.coefficients.insert(sweep.coefficients.end(), {1, c});
-    sweep.status.push_back(row + 2 == rows ? 4 : 3);
+    sweep.status.push_back(row + 2 == rows ? results::Status::not_converged
+                                           : results::Status::converged);
     sweep.steps.push_back(static_cast<std::int32_t>(2 + row % 4));
     sweep.energy.push_back(-1 - c * c);
     sweep.kkt.push_back(1e-13);

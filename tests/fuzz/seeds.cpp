@@ -251,10 +251,10 @@ void add_load(Block& block, const std::string& at, const results::Load& load) {
   block.add(at + "history/criterion", history.criterion);
   block.add(at + "history/energy", history.energy);
   block.add(at + "history/contact_count", history.contact_count);
-  block.add(at + "history/kkt_equilibrium", history.kkt_equilibrium);
-  block.add(at + "history/kkt_gap", history.kkt_gap);
-  block.add(at + "history/kkt_sign", history.kkt_sign);
-  block.add(at + "history/kkt_complementarity", history.kkt_complementarity);
+  block.add(at + "history/kkt_equilibrium", history.kkt.equilibrium);
+  block.add(at + "history/kkt_gap", history.kkt.gap);
+  block.add(at + "history/kkt_sign", history.kkt.sign);
+  block.add(at + "history/kkt_complementarity", history.kkt.complementarity);
   for (std::size_t i = 0; i < load.fields.size(); ++i) {
     block.add(at + "fields/" + std::to_string(i), load.fields[i].u);
   }

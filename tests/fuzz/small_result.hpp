@@ -12,8 +12,8 @@ inline results::Result small_result() {
   for (auto& load : result.loads) {
     auto& history = load.history;
     history.iteration.resize(2);
-    for (auto* values : {&history.criterion, &history.energy, &history.kkt_equilibrium,
-                         &history.kkt_gap, &history.kkt_sign, &history.kkt_complementarity}) {
+    for (auto* values : {&history.criterion, &history.energy, &history.kkt.equilibrium,
+                         &history.kkt.gap, &history.kkt.sign, &history.kkt.complementarity}) {
       values->resize(2);
     }
     history.contact_count.resize(2);

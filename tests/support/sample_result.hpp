@@ -124,10 +124,10 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
         k == 1 ? 1.0 : 0.3 * std::exp(-0.148 * k) * (1 + 0.3 * std::sin(0.5 * k)));
     load.history.energy.push_back(load.energy * (1 + std::exp(-0.1 * k)));
     load.history.contact_count.push_back(contact ? 12 : 0);
-    load.history.kkt_equilibrium.push_back(1e-15);
-    load.history.kkt_gap.push_back(std::exp(-0.08 * k));
-    load.history.kkt_sign.push_back(0);
-    load.history.kkt_complementarity.push_back(0.1 * std::exp(-0.08 * k));
+    load.history.kkt.equilibrium.push_back(1e-15);
+    load.history.kkt.gap.push_back(std::exp(-0.08 * k));
+    load.history.kkt.sign.push_back(0);
+    load.history.kkt.complementarity.push_back(0.1 * std::exp(-0.08 * k));
   }
 
   for (const bool plus : {false, true}) {
@@ -139,7 +139,12 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
       field.nodes.push_back(static_cast<std::int32_t>(i));
       field.u.push_back(sample_u(x, y, plus, contact));
     }
-    field.triangles = *results::triangles_of(mesh, plus ? 1 : 0, field.nodes);
+    for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
+      if (mesh.subdomain[corner / 3] != (plus ? 1 : 0)) continue;
+      const auto found =
+          std::lower_bound(field.nodes.begin(), field.nodes.end(), mesh.triangles[corner]);
+      field.triangles.push_back(static_cast<std::int32_t>(found - field.nodes.begin()));
+    }
     load.fields.push_back(field);
   }
   return load;

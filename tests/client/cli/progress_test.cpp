@@ -16,15 +16,15 @@ TEST(JobProgress, FollowsALoadCaseFromSnapshotToEnd) {
   progress.apply(snapshot(2));
   ASSERT_EQ(progress.cases.size(), 2U);
   EXPECT_EQ(progress.cases[1].name, "load-1");
-  EXPECT_EQ(progress.cases[1].status, v1::LoadCaseAnswer::STATUS_PENDING);
+  EXPECT_EQ(progress.cases[1].status, results::Status::pending);
 
   progress.apply(sample(1, 7, 1e-3, 12));
-  EXPECT_EQ(progress.cases[1].status, v1::LoadCaseAnswer::STATUS_RUNNING);
+  EXPECT_EQ(progress.cases[1].status, results::Status::running);
   EXPECT_EQ(progress.cases[1].iteration, 7);
   EXPECT_EQ(progress.cases[1].contact_count, 12);
 
   progress.apply(load_ended(1, 9, 1e-13));
-  EXPECT_EQ(progress.cases[1].status, v1::LoadCaseAnswer::STATUS_CONVERGED);
+  EXPECT_EQ(progress.cases[1].status, results::Status::converged);
   EXPECT_EQ(progress.cases[1].iteration, 9);
   EXPECT_DOUBLE_EQ(progress.cases[1].seconds, 0.0125);
   EXPECT_EQ(progress.cases[1].end_rank, 1U);
@@ -40,7 +40,7 @@ TEST(JobProgress, IsNotSetBackByOldEvents) {
   progress.apply(load_ended(0, 9, 1e-13));
   progress.apply(sample(0, 10, 1e-1, 1));
   progress.apply(load_ended(0, 9, 1e-13));
-  EXPECT_EQ(progress.cases[0].status, v1::LoadCaseAnswer::STATUS_CONVERGED);
+  EXPECT_EQ(progress.cases[0].status, results::Status::converged);
   EXPECT_EQ(progress.ended_count, 1U);
 }
 

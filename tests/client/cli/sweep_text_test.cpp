@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 void set_status(results::Result& result, std::size_t row, Status status) {
-  result.sweep->status.at(row) = static_cast<std::int32_t>(status);
+  result.sweep->status.at(row) = status;
 }
 
 TEST(SweepTable, SumsUp) {

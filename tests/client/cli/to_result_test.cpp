@@ -261,7 +261,9 @@ TEST(ToResult, KeepsTheColumnsOfASweep) {
   const results::Sweep& sweep = *result.sweep;
   EXPECT_EQ(sweep.loads, (std::vector<std::string>{"one", "two"}));
   EXPECT_EQ(sweep.inclusions, std::vector<std::string>{"fibre"});
-  EXPECT_EQ(sweep.status, (Integers{3, 4, 3}));
+  using results::Status;
+  EXPECT_EQ(sweep.status,
+            (std::vector<Status>{Status::converged, Status::not_converged, Status::converged}));
   EXPECT_EQ(sweep.steps, (Integers{1, 7, 2}));
   EXPECT_EQ(sweep.energy, (Reals{-1, 0, -3}));
   EXPECT_EQ(sweep.contact_length, (Reals{0, 0, 1}));

@@ -105,8 +105,8 @@ TEST(Draw, says_what_it_left_out) {
   result.loads[2].name = "single step";
   for (auto* values :
        {&result.loads[2].history.criterion, &result.loads[2].history.energy,
-        &result.loads[2].history.kkt_equilibrium, &result.loads[2].history.kkt_gap,
-        &result.loads[2].history.kkt_sign, &result.loads[2].history.kkt_complementarity}) {
+        &result.loads[2].history.kkt.equilibrium, &result.loads[2].history.kkt.gap,
+        &result.loads[2].history.kkt.sign, &result.loads[2].history.kkt.complementarity}) {
     values->resize(1);
   }
   result.loads[2].history.iteration.resize(1);
@@ -152,8 +152,8 @@ TEST(Draw, survives_degenerate_answers) {
   }
   still.history.iteration = {1};
   for (auto* values :
-       {&still.history.criterion, &still.history.energy, &still.history.kkt_equilibrium,
-        &still.history.kkt_gap, &still.history.kkt_sign, &still.history.kkt_complementarity}) {
+       {&still.history.criterion, &still.history.energy, &still.history.kkt.equilibrium,
+        &still.history.kkt.gap, &still.history.kkt.sign, &still.history.kkt.complementarity}) {
     *values = {0.0};
   }
   still.history.contact_count = {0};

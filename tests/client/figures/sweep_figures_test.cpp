@@ -163,7 +163,7 @@ TEST(SweepScript, LabelsRowsWithWholeNumbersAndKeepsTheUnitOfALongName) {
 
 TEST(ContactScript, HasNoSeamsBetweenRows) {
   results::Result result = sample_sweep(5);
-  for (auto& status : result.sweep->status) status = 3;
+  for (auto& status : result.sweep->status) status = results::Status::converged;
   const SweepAxis axis = sweep_axis(*result.sweep);
   ContactMap map;
   map.boxes = {{0, 1, 0, 1, 1}, {0, 1, 1, 2, 1}, {0, 1, 3, 4, 1}};
@@ -190,7 +190,7 @@ TEST(DrawSweep, MakesThePicturesOfTheSweepAndOfItsFirstKeptRows) {
 TEST(DrawSweep, SaysThatThereIsNothingToDraw) {
   const TemporaryFolder folder;
   results::Result result = sample_sweep(3);
-  result.sweep->status.assign(3, 6);
+  result.sweep->status.assign(3, results::Status::cancelled);
   result.sweep->kept.clear();
   result.loads.clear();
   const Drawn drawn = draw(result, folder.path());

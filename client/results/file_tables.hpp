@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Tables of arrays to and from groups of a file. For the sources of this folder only.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "arrays/table.hpp"
+#include "results/hdf5.hpp"
+#include "results/result.hpp"
+
+namespace anticrack::results::hdf5 {
+
+inline void put(const Handle& object, const std::string& attribute, Status status) {
+  put(object, attribute, std::string(name(status)));
+}
+inline void get(const Handle& object, const std::string& attribute, Status& status) {
+  std::string text;
+  get(object, attribute, text);
+  const auto known = status_from(text);
+  if (!known) throw Fault("attribute " + attribute + " is the unknown status \"" + text + "\"");
+  status = *known;
+}
+
+/// Columns of a row's array; 0 for one of one dimension.
+template <class Row, class Record>
+std::size_t columns_of(const Row& row, const Record& record) {
+  if constexpr (requires { record.extent(row.shape); }) {
+    if (arrays::columns_of(row.shape) == arrays::named) {
+      return record.extent(row.shape.substr(row.shape.find(',') + 1));
+    }
+  }
+  return arrays::columns_of(row.shape);
+}
+
+/// A dataset, with its meaning where the table wants that in the file.
+template <class Row, class T>
+void put_row(const Handle& group, const Row& row, const std::vector<T>& values,
+             std::size_t columns) {
+  const Handle dataset = put_array(group, std::string(row.name), values, columns);
+  if (row.explained) put(dataset, "meaning", std::string(row.what));
+}
+
+/// Attributes of an object.
+template <class Record, class Table>
+void put_values(const Handle& object, const Record& record, const Table& table) {
+  arrays::for_each(
+      [&](const auto& row) { put(object, std::string(row.name), std::invoke(row.member, record)); },
+      table);
+}
+template <class Record, class Table>
+void get_values(const Handle& object, Record& record, const Table& table) {
+  arrays::for_each(
+      [&](const auto& row) { get(object, std::string(row.name), std::invoke(row.member, record)); },
+      table);
+}
+
+/// Datasets of a group. What has columns by name is left out where it is empty: HDF5 has no chunks
+/// without extent.
+template <class Record, class... Tables>
+void put_arrays(const Handle& group, const Record& record, const Tables&... tables) {
+  arrays::for_each(
+      [&](const auto& row) {
+        const auto& values = std::invoke(row.member, record);
+        if (values.empty() && arrays::columns_of(row.shape) == arrays::named) return;
+        put_row(group, row, values, columns_of(row, record));
+      },
+      tables...);
+}
+template <class Record, class... Tables>
+void get_arrays(const Handle& group, std::uint64_t budget, Record& record,
+                const Tables&... tables) {
+  arrays::for_each(
+      [&](const auto& row) {
+        const std::string name(row.name);
+        if (arrays::columns_of(row.shape) == arrays::named && !has(group, name)) return;
+        get_array(group, name, budget, columns_of(row, record), std::invoke(row.member, record));
+      },
+      tables...);
+}
+
+/// As a list keeps a member: indices are int32.
+template <class T>
+using Stored = std::conditional_t<std::is_same_v<T, std::size_t>, std::int32_t, T>;
+
+/// A list of records as datasets, one a member.
+template <class Record, class Table>
+void put_list(const Handle& group, const std::vector<Record>& records, const Table& table) {
+  arrays::for_each(
+      [&](const auto& row) {
+        using Value = Stored<arrays::MemberOf<const Record, decltype(row.member)>>;
+        std::vector<Value> column;
+        column.reserve(records.size());
+        for (const Record& record : records) {
+          column.push_back(static_cast<Value>(std::invoke(row.member, record)));
+        }
+        put_row(group, row, column, 0);
+      },
+      table);
+}
+/// Throws Fault where the datasets differ in length; `what` names the list.
+template <class Record, class Table>
+std::vector<Record> get_list(const Handle& group, std::uint64_t budget, const char* what,
+                             const Table& table) {
+  std::vector<Record> records;
+  bool first = true;
+  arrays::for_each(
+      [&](const auto& row) {
+        using Value = arrays::MemberOf<Record, decltype(row.member)>;
+        std::vector<Stored<Value>> column;
+        get_array(group, std::string(row.name), budget, 0, column);
+        if (first) records.resize(column.size());
+        first = false;
+        if (column.size() != records.size()) {
+          throw Fault(std::string(what) + " has datasets of different lengths");
+        }
+        for (std::size_t i = 0; i < records.size(); ++i) {
+          // A negative index becomes a huge one, which first_fault refuses.
+          std::invoke(row.member, records[i]) = static_cast<Value>(column[i]);
+        }
+      },
+      table);
+  return records;
+}
+
+}  // namespace anticrack::results::hdf5

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a result file holds beside the arrays of arrays/result_arrays.hpp, in the order of the file.
+// README.md's table is made of these tables: see tests/client/results/readme_test.cpp.
+#pragma once
+
+#include "arrays/result_arrays.hpp"
+#include "results/result.hpp"
+
+namespace anticrack::results::tables {
+
+using arrays::array;
+using arrays::explained;
+using arrays::scalar;
+using arrays::within;
+
+// Of the file: attributes of /.
+
+inline constexpr auto result = std::tuple{
+    scalar("title", &Result::title, "of the case"),
+    scalar("case", &Result::case_text, "the TOML as it was run"),
+    scalar("client_version", &Result::client_version, "that wrote the file"),
+    scalar("server_version", &Result::server_version, "that solved the case"),
+    scalar("mesh", &Result::mesh_name, ""),
+    scalar("job", &Result::job_name, "names on the server"),
+    scalar("mesh_sha256", &Result::mesh_sha256, "of the mesh's arrays"),
+};
+inline constexpr auto timings = std::tuple{
+    scalar("mesh_seconds", &Timings::mesh_seconds, "meshing", "s"),
+    scalar("factorize_seconds", &Timings::factorize_seconds, "factorising", "s"),
+    scalar("solve_seconds", &Timings::solve_seconds, "all load cases", "s"),
+    scalar("total_seconds", &Timings::total_seconds, "as the user waited", "s"),
+};
+
+// Of /mesh: what ReadMesh streams under the same names, and what the message Mesh says.
+
+inline constexpr auto mesh = std::tuple{
+    array("nodes", "n,2", &Mesh::xy, "coordinates"),
+    array("triangles", "m,3", &Mesh::triangles, "indices into nodes, counterclockwise"),
+    array("subdomain", "m", &Mesh::subdomain, "of a triangle: index into subdomain_names"),
+    array("boundary", "b,2", &Mesh::boundary, "edges where u is prescribed"),
+};
+inline constexpr auto mesh_names = std::tuple{
+    array("subdomain_names", "d", &Mesh::subdomains, "in the order of the numbers above"),
+    array("tension", "d", &Mesh::tension, "T of -div(T grad u) = f"),
+    array("inclusions", "i", &Mesh::inclusions, "names"),
+};
+
+// Of /interfaces/I, behind arrays::interface_nodes: attribute, and arrays of the edges.
+
+inline constexpr auto interface = std::tuple{
+    scalar("name", &Interface::name, "of the interface"),
+};
+inline constexpr auto edges = std::tuple{
+    explained("edge_kind", "k-1", &Edges::kind,
+              "1 glue, 2 crack, 3 bonded inclusion, 4 delaminated inclusion"),
+    explained("edge_inclusion", "k-1", &Edges::inclusion, "index into /mesh/inclusions, -1 none"),
+};
+
+// Of /loads/NAME: attributes, and what is in it. Those that LoadCaseAnswer has under the same name
+// are copied by it.
+
+inline constexpr auto load = std::tuple{
+    scalar("status", &Load::status, "converged, not_converged, failed or cancelled"),
+    scalar("reason", &Load::reason, "why it did not converge"),
+    scalar("error", &Load::error, "why it failed"),
+    scalar("method", &Load::method, "active-set or uzawa"),
+    scalar("mass", &Load::mass, "lumped or consistent"),
+    scalar("epsilon", &Load::epsilon, "stopping criterion asked of Algorithm 2"),
+    scalar("p", &Load::p, "bound on the multipliers asked for"),
+    scalar("kkt_tolerance", &Load::kkt_tolerance, "asked for in place of epsilon"),
+    scalar("tolerance", &Load::tolerance, "asked of the active set"),
+    scalar("iterations", &Load::iterations, "or steps of the active set"),
+    scalar("criterion", &Load::criterion, "of the last iteration"),
+    scalar("theta", &Load::theta, "used by Algorithm 2"),
+    scalar("theta_star", &Load::theta_star, "of Theorem 4"),
+    scalar("energy", &Load::energy, "Pi(u)"),
+    scalar("kkt_equilibrium", within(&Load::kkt, &Kkt::equilibrium), ""),
+    scalar("kkt_gap", within(&Load::kkt, &Kkt::gap), ""),
+    scalar("kkt_sign", within(&Load::kkt, &Kkt::sign), ""),
+    scalar("kkt_complementarity", within(&Load::kkt, &Kkt::complementarity),
+           "absolute residuals of the optimality conditions"),
+    scalar("kkt_relative_equilibrium", within(&Load::kkt_relative, &Kkt::equilibrium), ""),
+    scalar("kkt_relative_gap", within(&Load::kkt_relative, &Kkt::gap), ""),
+    scalar("kkt_relative_sign", within(&Load::kkt_relative, &Kkt::sign), ""),
+    scalar("kkt_relative_complementarity", within(&Load::kkt_relative, &Kkt::complementarity),
+           "the same, relative"),
+    scalar("contact_length", &Load::contact_length, "of all cracks and delaminated parts"),
+    scalar("weakly_active", &Load::weakly_active, "crack nodes with neither jump nor pressure"),
+    scalar("solve_seconds", &Load::solve_seconds, "on the server", "s"),
+};
+inline constexpr auto load_arrays = std::tuple{
+    array("warnings", "w", &Load::warnings, "e.g. of a load not integrated as exactly as asked"),
+};
+inline constexpr auto inclusions = std::tuple{
+    array("name", "i", &Inclusion::name, "of the inclusion"),
+    array("A", "i", &Inclusion::displacement, "equation (5)"),
+    array("resultant", "i", &Inclusion::resultant, "the force on it, equation (6)"),
+    array("contact_length", "i", &Inclusion::contact_length, "of its delaminated part"),
+};
+inline constexpr auto contact_intervals = std::tuple{
+    array("interface", "c", &ContactInterval::interface, "index into /interfaces"),
+    array("begin", "c", &ContactInterval::begin, "arc length"),
+    array("end", "c", &ContactInterval::end, "arc length; begin: contact in a single node"),
+};
+
+// Of /sweep, around the arrays of ReadResult.
+
+inline constexpr auto sweep = std::tuple{
+    scalar("source", &Sweep::source, "file of the coefficients or nodal forces"),
+    scalar("loads", &Sweep::loads, "names"),
+    scalar("inclusions", &Sweep::inclusions, "names"),
+    scalar("error", &Sweep::error, "of the first row that failed"),
+    scalar("solve_seconds", &Sweep::solve_seconds, "on the server's threads, added up", "s"),
+};
+inline constexpr auto sweep_kept = std::tuple{
+    explained("kept", "kept", &Sweep::kept, "rows whose traces are in /loads/row-K"),
+};
+inline constexpr auto sweep_loads = std::tuple{
+    explained("coefficients", "rows,loads", &Sweep::coefficients,
+              "of each load, in the order of the attribute loads"),
+};
+/// All arrays of /sweep.
+inline constexpr auto sweep_arrays =
+    std::tuple_cat(arrays::sweep_rows<Sweep>, sweep_kept, arrays::sweep_contacts<Sweep>,
+                   arrays::sweep_matrices<Sweep>, sweep_loads);
+
+}  // namespace anticrack::results::tables

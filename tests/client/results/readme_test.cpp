@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// README.md's table of the result file is what the tables say, and a file holds what it lists.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include "client/sample_sweep.hpp"
+#include "results/file.hpp"
+#include "results/tables.hpp"
+#include "results/value_type.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace anticrack::results {
+namespace {
+
+/// What the entries of an array are, unless float64.
+template <class T>
+std::string type_text(const std::vector<T>&) {
+  return value_type<T> == ValueType::float64 ? ""
+         : value_type<T> == ValueType::text  ? " text"
+                                             : std::string(" ") + name_of(value_type<T>);
+}
+template <class T>
+std::string type_text(const T&) {
+  return "";
+}
+
+/// "`x`, `y` (k): coordinates; ...". A row that says nothing has the words of the next that does.
+template <class Record, class... Tables>
+std::string entries(const Tables&... tables) {
+  std::string text;
+  bool joined = false;
+  arrays::for_each(
+      [&](const auto& row) {
+        text += (joined ? ", `" : text.empty() ? "`" : "; `") + std::string(row.name) + "`";
+        joined = row.what.empty();
+        if (joined) return;
+        if (!row.shape.empty()) {
+          text += " (" + std::string(row.shape) + ")" +
+                  type_text(arrays::MemberOf<Record, decltype(row.member)>());
+        }
+        text += ": " + std::string(row.what);
+        if (!row.unit.empty()) text += " [" + std::string(row.unit) + "]";
+      },
+      tables...);
+  return text;
+}
+
+std::string line(const std::string& where, const std::string& what) {
+  return "| `" + where + "` | " + what + " |\n";
+}
+
+std::string readme_table() {
+  const std::string values = "attributes ";
+  return "| where | what |\n|---|---|\n" +
+         line("/", values + "`format`; " + entries<Result>(tables::result) + "; " +
+                       entries<Timings>(tables::timings)) +
+         line("/mesh", entries<Mesh>(tables::mesh, tables::mesh_names)) +
+         line("/interfaces/I", "attribute " + entries<Interface>(tables::interface)) +
+         line("/interfaces/I", entries<Interface>(arrays::interface_nodes<Interface>) + "; " +
+                                   entries<Edges>(tables::edges)) +
+         line("/loads/LOAD", values + "`index`: from 0; " + entries<Load>(tables::load)) +
+         line("/loads/LOAD", entries<Load>(tables::load_arrays)) +
+         line("/loads/LOAD/inclusions", entries<Inclusion>(tables::inclusions)) +
+         line("/loads/LOAD/contact_intervals",
+              entries<ContactInterval>(tables::contact_intervals)) +
+         line("/loads/LOAD/traces/I", entries<Trace>(arrays::trace<Trace>)) +
+         line("/loads/LOAD/history", entries<History>(arrays::history<History>)) +
+         line("/loads/LOAD/fields/D",
+              "when asked for: attribute `name`; " +
+                  entries<Field>(arrays::subdomain<Field>, arrays::field<Field>)) +
+         line("/sweep", "of a sweep: " + values + "`description`; " +
+                            entries<Sweep>(tables::sweep) +
+                            "; `converged`, `not_converged`, `failed`: numbers of rows") +
+         line("/sweep", entries<Sweep>(tables::sweep_arrays));
+}
+
+TEST(Readme, has_the_table_of_the_result_file) {
+  std::ifstream file(ANTICRACK_README);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(text, ::testing::HasSubstr("\n" + readme_table() + "\n"))
+      << "put this table into README.md:\n"
+      << readme_table();
+}
+
+/// Where in the table an object of a file is: "/loads/row-3/traces/0" is "/loads/LOAD/traces/I".
+std::string where(const std::string& path) {
+  std::istringstream parts(path);
+  std::string at, part, parent;
+  while (std::getline(parts, part, '/')) {
+    if (part.empty()) continue;
+    at += "/" + (parent == "loads"                              ? "LOAD"
+                 : parent == "fields"                           ? "D"
+                 : parent == "interfaces" || parent == "traces" ? "I"
+                                                                : part);
+    parent = part;
+  }
+  return at.empty() ? "/" : at;
+}
+
+using Names = std::set<std::pair<std::string, std::string>>;
+
+herr_t add_attribute(hid_t, const char* name, const H5A_info_t*, void* names) {
+  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+  return 0;
+}
+
+herr_t add_object(hid_t file, const char* path, const H5O_info_t* info, void* names) {
+  const std::string full = std::string("/") + (std::string(path) == "." ? "" : path);
+  Names& all = *static_cast<Names*>(names);
+  if (info->type == H5O_TYPE_DATASET) {
+    const std::size_t slash = full.rfind('/');
+    all.emplace(where(full.substr(0, slash)), full.substr(slash + 1));
+    return 0;
+  }
+  std::vector<std::string> attributes;
+  H5Aiterate_by_name(file, path, H5_INDEX_NAME, H5_ITER_INC, nullptr, add_attribute, &attributes,
+                     H5P_DEFAULT);
+  for (const std::string& attribute : attributes) all.emplace(where(full), attribute);
+  return 0;
+}
+
+void add_names(const Result& result, Names& names) {
+  const anticrack::testing::TemporaryFolder folder;
+  write(folder / "a.h5", result);
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, add_object, &names);
+  H5Fclose(file);
+}
+
+TEST(Readme, lists_what_a_file_holds_and_nothing_else) {
+  Names held;
+  add_names(anticrack::testing::sample_result(2), held);
+  add_names(anticrack::testing::sample_sweep(5), held);
+  Names listed;
+  std::istringstream lines(readme_table());
+  for (std::string text; std::getline(lines, text);) {
+    const std::size_t end = text.find('`', 3);
+    if (!text.starts_with("| `")) continue;
+    const std::string at = text.substr(3, end - 3);
+    // A name is what stands in `` at the start of an entry.
+    for (std::size_t i = text.find('`', end + 1); i != std::string::npos;) {
+      const std::size_t close = text.find('`', i + 1);
+      const std::string before = text.substr(0, i);
+      if (before.ends_with("; ") || before.ends_with("`, ") || before.ends_with("| ") ||
+          before.ends_with("attributes ") || before.ends_with("attribute ")) {
+        listed.emplace(at, text.substr(i + 1, close - i - 1));
+      }
+      i = text.find('`', close + 1);
+    }
+  }
+  EXPECT_EQ(listed, held);
+}
+
+}  // namespace
+}  // namespace anticrack::results
