@@ -3,6 +3,7 @@
 
 #include <google/protobuf/util/time_util.h>
 
+#include <array>
 #include <vector>
 
 #include "cli/answers.hpp"
@@ -15,20 +16,10 @@ namespace {
 
 using google::protobuf::util::TimeUtil;
 
-std::string_view name_of(v1::Job::Priority priority) {
-  switch (priority) {
-    case v1::Job::PRIORITY_INTERACTIVE:
-      return "interactive";
-    case v1::Job::PRIORITY_BULK:
-      return "bulk";
-    default:
-      return "normal";
-  }
-}
-
 // What is not as usual, in one line.
 std::string circumstances(const v1::Job& job) {
-  std::string text = "priority " + std::string(name_of(job.priority()));
+  constexpr std::array<std::string_view, 4> priorities{"normal", "interactive", "normal", "bulk"};
+  std::string text = "priority " + std::string(word_of(priorities, job.priority()));
   if (!job.owner().empty()) {
     text += ", of " + sanitise(job.owner());
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/mesh_text.hpp"
 
+#include <array>
 #include <vector>
 
 #include "cli/progress.hpp"
@@ -12,18 +13,9 @@ namespace {
 using Rows = std::vector<std::vector<std::string>>;
 
 std::string kind_of(v1::InterfaceKind kind) {
-  switch (kind) {
-    case v1::INTERFACE_KIND_GLUE:
-      return "glue";
-    case v1::INTERFACE_KIND_CRACK:
-      return "crack";
-    case v1::INTERFACE_KIND_INCLUSION:
-      return "bonded";
-    case v1::INTERFACE_KIND_DELAMINATED:
-      return "delaminated";
-    default:
-      return "unknown";
-  }
+  constexpr std::array<std::string_view, 5> words{"unknown", "glue", "crack", "bonded",
+                                                  "delaminated"};
+  return std::string(word_of(words, kind));
 }
 
 std::string inclusion_of(const v1::Mesh& mesh, int inclusion) {

@@ -4,6 +4,7 @@
 #include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cli/text.hpp"
@@ -140,50 +141,22 @@ void JobProgress::apply(std::size_t index, const v1::LoadCaseAnswer& answer) {
 }
 
 std::string_view word(Status status) noexcept {
-  return status == Status::pending                               ? "waiting"
-         : status == Status::not_converged                       ? "not converged"
-         : status == Status::unspecified || name(status).empty() ? "unknown"
-                                                                 : name(status);
+  constexpr std::array<std::string_view, 7> words{
+      "unknown", "waiting", "running", "converged", "not converged", "failed", "cancelled"};
+  return word_of(words, static_cast<int>(status));
 }
 
 std::string_view word(v1::Job::State state) noexcept {
-  switch (state) {
-    case v1::Job::STATE_QUEUED:
-      return "queued";
-    case v1::Job::STATE_WAITING_FOR_MESH:
-      return "waiting for the mesh";
-    case v1::Job::STATE_RUNNING:
-      return "running";
-    case v1::Job::STATE_SUCCEEDED:
-      return "done";
-    case v1::Job::STATE_FAILED:
-      return "failed";
-    case v1::Job::STATE_CANCELLED:
-      return "cancelled";
-    case v1::Job::STATE_EXPIRED:
-      return "expired";
-    default:
-      return "submitted";
-  }
+  constexpr std::array<std::string_view, 8> words{"submitted", "queued", "waiting for the mesh",
+                                                  "running",   "done",   "failed",
+                                                  "cancelled", "expired"};
+  return word_of(words, state);
 }
 
 std::string_view word(v1::Mesh::State state) noexcept {
-  switch (state) {
-    case v1::Mesh::STATE_PENDING:
-      return "waiting";
-    case v1::Mesh::STATE_MESHING:
-      return "meshing";
-    case v1::Mesh::STATE_FACTORIZING:
-      return "factorising";
-    case v1::Mesh::STATE_READY:
-      return "ready";
-    case v1::Mesh::STATE_EVICTED:
-      return "evicted";
-    case v1::Mesh::STATE_FAILED:
-      return "failed";
-    default:
-      return "unknown";
-  }
+  constexpr std::array<std::string_view, 7> words{"unknown", "waiting", "meshing", "factorising",
+                                                  "ready",   "evicted", "failed"};
+  return word_of(words, state);
 }
 
 double seconds_between(const google::protobuf::Timestamp& from,

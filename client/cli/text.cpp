@@ -11,6 +11,8 @@
 #include <cstdio>
 #include <ctime>
 
+#include "figures/text.hpp"
+
 namespace anticrack::cli {
 namespace {
 
@@ -20,34 +22,6 @@ std::uint8_t byte_at(std::string_view text, std::size_t i) {
 
 bool is_continuation(std::string_view text, std::size_t i) {
   return i < text.size() && (byte_at(text, i) & 0xc0) == 0x80;
-}
-
-// Length of the printable code point at `i`, 0 where there is none.
-std::size_t printable_length(std::string_view text, std::size_t i) {
-  const std::uint8_t lead = byte_at(text, i);
-  if (lead < 0x80) {
-    return lead >= 0x20 && lead != 0x7f ? 1 : 0;
-  }
-  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  if (lead < 0xc2 || lead > 0xf4) {
-    return 0;
-  }
-  std::uint32_t point = lead & (0xffu >> (length + 1));
-  for (std::size_t k = 1; k < length; ++k) {
-    if (!is_continuation(text, i + k)) {
-      return 0;
-    }
-    point = (point << 6) | (byte_at(text, i + k) & 0x3fu);
-  }
-  const bool overlong = (length == 3 && point < 0x800) || (length == 4 && point < 0x10000);
-  const bool surrogate = point >= 0xd800 && point < 0xe000;
-  const bool control = point < 0xa0;
-  // Marks that turn the direction of writing can make a line read as another one.
-  const bool direction = (point >= 0x202a && point <= 0x202e) ||
-                         (point >= 0x2066 && point <= 0x2069) || point == 0x200e || point == 0x200f;
-  const bool line_end = point == 0x2028 || point == 0x2029;
-  const bool bad = overlong || surrogate || control || direction || line_end || point > 0x10ffff;
-  return bad ? 0 : length;
 }
 
 // wcwidth knows what is wide or combining, but only in a locale of Unicode; C.UTF-8 comes with
@@ -92,7 +66,7 @@ std::string sanitise(std::string_view text) {
   std::string clean;
   clean.reserve(text.size());
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = printable_length(text, i);
+    const std::size_t length = figures::character(text.substr(i));
     clean += length > 0 ? text.substr(i, length) : std::string_view("?");
     i += std::max<std::size_t>(length, 1);
   }

@@ -3,6 +3,7 @@
 // Text for a terminal. Pure.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -44,5 +45,12 @@ std::string clock_text(std::int64_t seconds);
 /// aligned left. No space at line ends.
 std::string table(const std::vector<std::vector<std::string>>& rows,
                   const std::vector<std::size_t>& left = {});
+
+/// Of an enum's number; the first for a number of a later server.
+template <std::size_t count>
+std::string_view word_of(const std::array<std::string_view, count>& words, int number) noexcept {
+  const auto index = static_cast<std::size_t>(number);
+  return words[index < count ? index : 0];
+}
 
 }  // namespace anticrack::cli

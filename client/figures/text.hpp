@@ -12,6 +12,11 @@
 
 namespace anticrack::figures {
 
+/// Bytes of the character that a text begins with; 0 where that is not UTF-8, not printable, or
+/// would disguise the text: a control character, a mark of the direction of writing. `text` is not
+/// empty.
+std::size_t character(std::string_view text);
+
 /// `text` as a single-quoted string of gnuplot on one line: quotes doubled, backquotes, control
 /// characters and bytes that are no UTF-8 replaced. Longer than `limit` characters: cut, with an
 /// ellipsis. For places marked `noenhanced`.

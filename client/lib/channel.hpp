@@ -78,41 +78,33 @@ grpc::Status try_call(const Connection::State& state, Stub& stub,
 }
 
 /// What a unary method answers; a lost connection is retried with back-off. Throws Error, and
-/// Interrupted once `stop` is requested.
+/// Interrupted once `stop` is requested. `deletes`: NOT_FOUND after a lost answer means that it
+/// went through.
 template <class Stub, class Request, class Response>
 Response call(Connection::State& state, Stub& stub,
               grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
-              const Request& request, const std::stop_token& stop) {
-  Retries retries(state, *state.channel);
-  while (true) {
-    Response response;
-    const grpc::Status status = try_call(state, stub, method, request, response, stop);
-    if (status.ok()) {
-      retries.succeeded();
-      return response;
-    }
-    retries.wait(error_of(state, status), stop);
-  }
-}
-
-/// The same for a delete, where NOT_FOUND after a lost answer means that it went through.
-template <class Stub, class Request, class Response>
-void call_delete(Connection::State& state, Stub& stub,
-                 grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
-                 const Request& request, const std::stop_token& stop) {
+              const Request& request, const std::stop_token& stop, bool deletes = false) {
   Retries retries(state, *state.channel);
   bool lost = false;
   while (true) {
     Response response;
     const grpc::Status status = try_call(state, stub, method, request, response, stop);
-    if (status.ok() || (lost && status.error_code() == grpc::StatusCode::NOT_FOUND)) {
+    if (status.ok() || (deletes && lost && status.error_code() == grpc::StatusCode::NOT_FOUND)) {
       retries.succeeded();
-      return;
+      return response;
     }
     const Error error = error_of(state, status);
     lost = lost || is_lost_connection(error);
     retries.wait(error, stop);
   }
+}
+
+/// A request that has a name and nothing else.
+template <class Request>
+Request named(const std::string& name) {
+  Request request;
+  request.set_name(name);
+  return request;
 }
 
 }  // namespace anticrack::client

@@ -17,9 +17,8 @@ v1::Job create_job(Connection& connection, const v1::Job& job, const std::string
 
 v1::Job get_job(Connection& connection, const std::string& name, const std::stop_token& stop) {
   Connection::State& state = connection.state();
-  v1::GetJobRequest request;
-  request.set_name(name);
-  return call(state, *state.jobs, &v1::SolveService::Stub::GetJob, request, stop);
+  return call(state, *state.jobs, &v1::SolveService::Stub::GetJob, named<v1::GetJobRequest>(name),
+              stop);
 }
 
 v1::ListJobsResponse list_jobs(Connection& connection, const v1::ListJobsRequest& request,
@@ -30,16 +29,14 @@ v1::ListJobsResponse list_jobs(Connection& connection, const v1::ListJobsRequest
 
 v1::Job cancel_job(Connection& connection, const std::string& name, const std::stop_token& stop) {
   Connection::State& state = connection.state();
-  v1::CancelJobRequest request;
-  request.set_name(name);
-  return call(state, *state.jobs, &v1::SolveService::Stub::CancelJob, request, stop);
+  return call(state, *state.jobs, &v1::SolveService::Stub::CancelJob,
+              named<v1::CancelJobRequest>(name), stop);
 }
 
 void delete_job(Connection& connection, const std::string& name, const std::stop_token& stop) {
   Connection::State& state = connection.state();
-  v1::DeleteJobRequest request;
-  request.set_name(name);
-  call_delete(state, *state.jobs, &v1::SolveService::Stub::DeleteJob, request, stop);
+  call(state, *state.jobs, &v1::SolveService::Stub::DeleteJob, named<v1::DeleteJobRequest>(name),
+       stop, true);
 }
 
 bool ended(v1::Job::State state) {

@@ -142,9 +142,8 @@ v1::Mesh create_mesh(Connection& connection, const v1::CreateMeshRequest& reques
 
 v1::Mesh get_mesh(Connection& connection, const std::string& name, const std::stop_token& stop) {
   Connection::State& state = connection.state();
-  v1::GetMeshRequest request;
-  request.set_name(name);
-  return call(state, *state.meshes, &v1::MeshService::Stub::GetMesh, request, stop);
+  return call(state, *state.meshes, &v1::MeshService::Stub::GetMesh,
+              named<v1::GetMeshRequest>(name), stop);
 }
 
 v1::ListMeshesResponse list_meshes(Connection& connection, const v1::ListMeshesRequest& request,
@@ -164,16 +163,14 @@ v1::Mesh warm_mesh(Connection& connection, const std::string& name, bool pin,
 
 v1::Mesh evict_mesh(Connection& connection, const std::string& name, const std::stop_token& stop) {
   Connection::State& state = connection.state();
-  v1::EvictMeshRequest request;
-  request.set_name(name);
-  return call(state, *state.meshes, &v1::MeshService::Stub::EvictMesh, request, stop);
+  return call(state, *state.meshes, &v1::MeshService::Stub::EvictMesh,
+              named<v1::EvictMeshRequest>(name), stop);
 }
 
 void delete_mesh(Connection& connection, const std::string& name, const std::stop_token& stop) {
   Connection::State& state = connection.state();
-  v1::DeleteMeshRequest request;
-  request.set_name(name);
-  call_delete(state, *state.meshes, &v1::MeshService::Stub::DeleteMesh, request, stop);
+  call(state, *state.meshes, &v1::MeshService::Stub::DeleteMesh, named<v1::DeleteMeshRequest>(name),
+       stop, true);
 }
 
 bool settled(v1::Mesh::State state) {

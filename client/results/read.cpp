@@ -130,16 +130,21 @@ void check_format(const fs::path& path, const Handle& root) {
 Result read(const fs::path& path) {
   const hdf5::Quiet quiet;
   Result result;
+  std::string writer;
   try {
     const Handle file =
         hdf5::open_file(path, "name a result file, as `anticrack run CASE.toml -o FILE` makes one");
     const Handle root(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, "has no root group");
     check_format(path, root);
+    hdf5::get(root, "client_version", writer);
     result = get_result(root, hdf5::memory_budget(path));
     const std::string fault = first_fault(result);
     if (!fault.empty()) throw hdf5::Fault("is inconsistent: " + fault);
   } catch (const hdf5::Fault& fault) {
-    throw Error(path.string(), fault.what(), "copy it again from where it was made, or run again");
+    throw Error(
+        path.string(),
+        std::string(fault.what()) + (writer.empty() ? "" : ", in a file of anticrack " + writer),
+        "copy it again from where it was made, or run again");
   }
   return result;
 }

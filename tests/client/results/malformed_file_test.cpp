@@ -167,7 +167,7 @@ TEST_P(Damaged, is_refused) {
   expect_refused(folder / "a.h5", GetParam().complaint);
 }
 
-const std::array<Damage, 31> damages{{
+const std::array<Damage, 34> damages{{
     {"format_missing", [](hid_t f) { H5Adelete(f, "format"); },
      "is HDF5, but no result of anticrack"},
     {"format_foreign", [](hid_t f) { replace_text(f, "/", "format", "netcdf"); },
@@ -233,6 +233,15 @@ const std::array<Damage, 31> damages{{
        H5Dclose(id);
      },
      "is inconsistent: mesh.triangles[0] is 1000"},
+    {"of_a_client_that_knew_no_inclusions",
+     [](hid_t f) { H5Ldelete(f, "/mesh/inclusions", H5P_DEFAULT); },
+     "\"inclusions\" is missing, in a file of anticrack 0.1.0"},
+    {"of_a_client_that_knew_one_method",
+     [](hid_t f) { H5Adelete_by_name(f, "/loads/opening", "weakly_active", H5P_DEFAULT); },
+     "attribute weakly_active is missing"},
+    {"of_a_client_that_knew_no_slits",
+     [](hid_t f) { H5Ldelete(f, "/loads/opening/fields/0/triangles", H5P_DEFAULT); },
+     "\"triangles\" is missing"},
     {"edge_kinds_missing", [](hid_t f) { H5Ldelete(f, "/interfaces/0/edge_kind", H5P_DEFAULT); },
      "\"edge_kind\" is missing"},
     {"edge_inclusions_of_another_type",
