@@ -29,8 +29,6 @@ class Admission {
 
   /// A job that was counted has started.
   void started() noexcept { --_jobs; }
-  /// Back among those that have not started.
-  void requeued() noexcept { ++_jobs; }
   void cases_ended(const std::string& mesh, std::uint64_t count);
   void ended(std::uint64_t bytes) noexcept { _bytes -= bytes; }
 
