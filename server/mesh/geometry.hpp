@@ -137,9 +137,9 @@ struct Plan {
   std::vector<std::string> inclusions;
   double growth = 0.3;  ///< how much longer edges become per length away from a finer curve
   GradingSpec grading;
-  std::size_t triangles = 0;  ///< to be expected, before grading; not sent to the helper
+  std::size_t triangles = 0;  ///< to be expected, before grading
 };
-ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, growth, grading)
+ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, growth, grading, triangles)
 
 /// Checks a geometry and cuts it into curves with the intervals of the preset.
 /// Throws errors::Error (geometry_invalid; invalid_argument for options; limit_exceeded for too
