@@ -39,16 +39,14 @@ void add_column(BlockBuilder& builder, const Row& row, std::vector<std::uint64_t
 }
 
 void add_status(BlockBuilder& builder, const LiveSweep& sweep, Status unsolved) {
-  const auto number_of = [](Status status) { return static_cast<std::int32_t>(status); };
-  std::vector<std::int32_t> numbers(sweep.plan.rows, number_of(unsolved));
+  std::vector<Status> all(sweep.plan.rows, unsolved);
   for (std::size_t i = 0; i < sweep.chunks.size(); ++i) {
     if (const SweepColumns* columns = sweep.chunks[i].columns.get()) {
-      std::transform(columns->status.begin(), columns->status.end(),
-                     numbers.begin() + static_cast<std::ptrdiff_t>(sweep.plan.first_row(i)),
-                     number_of);
+      std::ranges::copy(columns->status,
+                        all.begin() + static_cast<std::ptrdiff_t>(sweep.plan.first_row(i)));
     }
   }
-  builder.add(arrays::sweep_folder() + "status", numbers);
+  builder.add(arrays::sweep_folder() + "status", all);
 }
 
 void add_columns(BlockBuilder& builder, const LiveSweep& sweep, std::uint64_t inclusions,

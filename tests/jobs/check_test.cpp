@@ -7,6 +7,7 @@
 #include <functional>
 #include <set>
 
+#include "fields/walk.hpp"
 #include "support/errors.hpp"
 
 namespace anticrack::jobs {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <set>
 
+#include "fields/walk.hpp"
 #include "jobs/check.hpp"
 #include "jobs/sweep_plan.hpp"
 #include "jobs/sweep_support.hpp"

@@ -207,8 +207,11 @@ TEST(Draw, draws_the_steps_of_the_active_set) {
   load.method = "active-set";
   load.epsilon = load.theta = load.theta_star = results::unknown;
   load.iterations = 3;
-  load.history = {{1, 2, 3}, {1, 0.5, 0},        {-1, -2, -2}, {5, 4, 4},
-                  {0, 0, 0}, {0.1, 0.01, 1e-17}, {0, 0, 0},    {0.2, 0, 0}};
+  load.history = {{1, 2, 3},
+                  {1, 0.5, 0},
+                  {-1, -2, -2},
+                  {5, 4, 4},
+                  {{0, 0, 0}, {0.1, 0.01, 1e-17}, {0, 0, 0}, {0.2, 0, 0}}};
   draw(result, folder.path(), {.formats = {Format::svg}});
   const std::string svg = bytes_of(folder / "opening-convergence.svg");
   EXPECT_THAT(svg, HasSubstr("converged after 3 steps"));
