@@ -56,7 +56,7 @@ std::string reason(int error) {
 
 toml::table parse(const std::string& text, const std::string& name) {
   if (text.find('\0') != std::string::npos) {
-    throw Error({"", name, 0}, "this is no text; name a case, a TOML file");
+    throw Error({"", name, 0}, "this is not text; name a case, a TOML file");
   }
   try {
     return toml::parse(text, name);

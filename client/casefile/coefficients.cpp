@@ -38,7 +38,7 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields) 
   }
 }
 
-/// Independent of the locale. Empty where it is no number as a whole; infinity where too large.
+/// Independent of the locale. Empty where it is not a number as a whole; infinity where too large.
 std::optional<double> number(std::string_view text) {
   if (!text.empty() && text.front() == '+') {
     text.remove_prefix(1);
@@ -136,7 +136,7 @@ class Reader {
     for (std::size_t i = 0; i < _fields.size(); ++i) {
       const auto found = std::find(_loads.begin(), _loads.end(), _fields[i]);
       if (found == _loads.end()) {
-        fail(i, shown_field(_fields[i]) + " is no load of the case; " +
+        fail(i, shown_field(_fields[i]) + " is not a load of the case; " +
                     suggestion(_fields[i], _loads));
       }
       const auto load = static_cast<std::size_t>(found - _loads.begin());
@@ -166,7 +166,7 @@ class Reader {
     for (std::size_t i = 0; i < _fields.size(); ++i) {
       const std::optional<double> value = number(_fields[i]);
       if (!value) {
-        fail(i, shown_field(_fields[i]) + " is no number; write one as 1.5 or -2e-3");
+        fail(i, shown_field(_fields[i]) + " is not a number; write one as 1.5 or -2e-3");
       }
       if (!std::isfinite(*value)) {
         fail(i, shown_field(_fields[i]) + " is not finite; write a finite number");

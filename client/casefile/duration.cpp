@@ -34,7 +34,7 @@ std::optional<std::chrono::milliseconds> parse_duration(std::string_view text) {
   for (const Unit& unit : units) {
     if (rest == unit.name) {
       const double time = std::round(number * unit.milliseconds);
-      const bool fits = time >= 1 && time <= longest;  // false for what is no number
+      const bool fits = time >= 1 && time <= longest;  // false for NaN
       return fits ? std::optional(std::chrono::milliseconds(static_cast<std::int64_t>(time)))
                   : std::nullopt;
     }

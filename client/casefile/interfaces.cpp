@@ -12,9 +12,10 @@ void read_arc(const Section& section, const std::string& field, v1::Arc& arc, Sp
   const toml::node& node = section.need("arc", shapes);
   const std::vector<Point> points = points_of(node, section.path_of("arc"));
   if (points.size() != 3) {
-    throw Error(section.spot_of("arc"), shown(node) +
-                                            " is no arc; write [from, through, to], three points "
-                                            "of which the second lies between the others");
+    throw Error(section.spot_of("arc"),
+                shown(node) +
+                    " is not an arc; write [from, through, to], three points "
+                    "of which the second lies between the others");
   }
   set(*arc.mutable_from(), points[0]);
   set(*arc.mutable_through(), points[1]);

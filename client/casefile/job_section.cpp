@@ -22,7 +22,7 @@ std::optional<google::protobuf::Duration> time_of(const Section& section, const 
   }
   if (!time) {
     throw Error(section.spot_of(key), shown(*node) +
-                                          " is no time above 0; write seconds, or \"90s\", "
+                                          " is not a time above 0; write seconds, or \"90s\", "
                                           "\"10min\", \"2h\", \"1d\"");
   }
   google::protobuf::Duration duration;

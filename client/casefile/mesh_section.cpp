@@ -53,7 +53,7 @@ void read_align(const Section& section, v1::MeshOptions& options, Spots& spots) 
   const toml::array* lines = node->as_array();
   if (!lines) {
     throw Error(spot_of(*node, key),
-                shown(*node) + " is no list of lines; write [[[x, y], [x, y], ...], ...]");
+                shown(*node) + " is not a list of lines; write [[[x, y], [x, y], ...], ...]");
   }
   for (std::size_t i = 0; i < lines->size(); ++i) {
     const std::string field = entry_field("options.align", i);
@@ -73,7 +73,7 @@ void read_groups(const Section& section, const char* key, const std::string& fie
   spots[field] = section.spot_of(key);
   const toml::table* table = node->as_table();
   if (!table) {
-    throw Error(section.spot_of(key), shown(*node) + " is no table; " + group_cure);
+    throw Error(section.spot_of(key), shown(*node) + " is not a table; " + group_cure);
   }
   for (const auto& [name, entry] : *table) {
     const std::string tag_text(name.str());
@@ -82,11 +82,11 @@ void read_groups(const Section& section, const char* key, const std::string& fie
     const char* end = tag_text.data() + tag_text.size();
     const auto [stopped, error] = std::from_chars(tag_text.data(), end, tag);
     if (error != std::errc() || stopped != end || tag < 1) {
-      throw Error(spot, "'" + tag_text + "' is no tag; " + group_cure);
+      throw Error(spot, "'" + tag_text + "' is not a tag; " + group_cure);
     }
     const auto meaning = entry.template value_exact<std::string>();
     if (!meaning || meaning->empty()) {
-      throw Error(spot, shown(entry) + " is no meaning of a group; " + group_cure);
+      throw Error(spot, shown(entry) + " is not a meaning of a group; " + group_cure);
     }
     groups[tag] = *meaning;
     set_entry(spots, field, tag_text, spot);

@@ -78,7 +78,7 @@ std::string shown(const toml::node& node) {
 double number_of(const toml::node& node, const std::string& key, std::string_view cure) {
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
   if (!value || !std::isfinite(*value)) {
-    throw Error(spot_of(node, key), shown(node) + " is no finite number; " + std::string(cure));
+    throw Error(spot_of(node, key), shown(node) + " is not a finite number; " + std::string(cure));
   }
   return *value;
 }
@@ -86,7 +86,7 @@ double number_of(const toml::node& node, const std::string& key, std::string_vie
 Point point_of(const toml::node& node, const std::string& key) {
   const toml::array* pair = node.as_array();
   if (!pair || pair->size() != 2) {
-    throw Error(spot_of(node, key), shown(node) + " is no point; write [x, y]");
+    throw Error(spot_of(node, key), shown(node) + " is not a point; write [x, y]");
   }
   return {number_of(*pair->get(0), key, "write [x, y]"),
           number_of(*pair->get(1), key, "write [x, y]")};
@@ -96,7 +96,7 @@ std::vector<Point> points_of(const toml::node& node, const std::string& key) {
   const toml::array* list = node.as_array();
   if (!list) {
     throw Error(spot_of(node, key),
-                shown(node) + " is no list of points; write [[x, y], [x, y], ...]");
+                shown(node) + " is not a list of points; write [[x, y], [x, y], ...]");
   }
   std::vector<Point> points;
   points.reserve(list->size());
@@ -135,7 +135,7 @@ std::optional<std::string> Section::text(std::string_view key) const {
   }
   auto value = node->value_exact<std::string>();
   if (!value) {
-    throw Error(spot_of(key), shown(*node) + " is no text; write it in quotes");
+    throw Error(spot_of(key), shown(*node) + " is not text; write it in quotes");
   }
   return value;
 }
@@ -179,7 +179,7 @@ std::vector<std::pair<std::string, double>> Section::numbers(std::string_view ke
   }
   const toml::table* table = node->as_table();
   if (!table) {
-    throw Error(spot_of(key), shown(*node) + " is no table; " + std::string(cure));
+    throw Error(spot_of(key), shown(*node) + " is not a table; " + std::string(cure));
   }
   std::vector<std::pair<std::string, double>> values;
   values.reserve(table->size());
@@ -198,7 +198,7 @@ std::optional<std::int32_t> Section::count(std::string_view key) const {
   constexpr std::int64_t largest = std::numeric_limits<std::int32_t>::max();
   const auto value = node->value_exact<std::int64_t>();
   if (!value || *value < 1 || *value > largest) {
-    throw Error(spot_of(key), shown(*node) + " is no count; write a whole number from 1 to " +
+    throw Error(spot_of(key), shown(*node) + " is not a count; write a whole number from 1 to " +
                                   std::to_string(largest));
   }
   return static_cast<std::int32_t>(*value);
@@ -224,7 +224,7 @@ std::optional<Section> Section::section(std::string_view key,
   }
   const toml::table* table = node->as_table();
   if (!table) {
-    throw Error(spot_of(key), shown(*node) + " is no table; write [" + path_of(key) + "]");
+    throw Error(spot_of(key), shown(*node) + " is not a table; write [" + path_of(key) + "]");
   }
   return Section(*table, path_of(key), std::move(known));
 }
@@ -238,7 +238,7 @@ std::vector<Section> Section::sections(std::string_view key,
   const std::string cure = "; write [[" + path_of(key) + "]] above each of them";
   const toml::array* list = node->as_array();
   if (!list) {
-    throw Error(spot_of(key), shown(*node) + " is no list of tables" + cure);
+    throw Error(spot_of(key), shown(*node) + " is not a list of tables" + cure);
   }
   std::vector<Section> sections;
   sections.reserve(list->size());
@@ -247,7 +247,7 @@ std::vector<Section> Section::sections(std::string_view key,
     const toml::node& entry = *list->get(i);
     const toml::table* table = entry.as_table();
     if (!table) {
-      throw Error(casefile::spot_of(entry, path), shown(entry) + " is no table" + cure);
+      throw Error(casefile::spot_of(entry, path), shown(entry) + " is not a table" + cure);
     }
     sections.emplace_back(*table, path, known);
   }

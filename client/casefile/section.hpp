@@ -25,7 +25,7 @@ Spot spot_of(const toml::node& node, std::string key);
 /// A value as it stands in the case, shortened, for error messages.
 std::string shown(const toml::node& node);
 
-/// A finite number. Throws Error: "... is no number; CURE".
+/// A finite number. Throws Error: "... is not a number; CURE".
 double number_of(const toml::node& node, const std::string& key, std::string_view cure);
 /// [x, y], both finite.
 Point point_of(const toml::node& node, const std::string& key);

@@ -47,7 +47,7 @@ void add_connection_flags(CLI::App& app, ConnectionFlags& flags) {
            flags.retry_for = casefile::parse_duration(text);
            if (!flags.retry_for) {
              throw CLI::ValidationError("--retry-for",
-                                        text + " is no time; write 30s, 10min or 2h");
+                                        text + " is not a time; write 30s, 10min or 2h");
            }
          },
          "How long a server that is gone is tried again (default: 5min, 3s if it was never there)")

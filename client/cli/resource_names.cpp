@@ -64,8 +64,8 @@ std::string full_name(Collection collection, const std::string& given) {
   }
   const bool whole = given.starts_with(words.prefix);
   if (!is_id(whole ? given.substr(words.prefix.size()) : given)) {
-    throw UsageError("\"" + given + "\" is no name of a " + words.one + "; write " + words.prefix +
-                     "ID" + words.see);
+    throw UsageError("\"" + given + "\" is not a name of a " + words.one + "; write " +
+                     words.prefix + "ID" + words.see);
   }
   return whole ? given : words.prefix + given;
 }

@@ -51,7 +51,7 @@ class Selection {
     std::uint64_t row = 0;
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), row);
     if (part.empty() || end != part.data() + part.size() || error == std::errc::invalid_argument) {
-      fail("\"" + std::string(item) + "\" is no row; write all, none, or rows as 0,10,20-30");
+      fail("\"" + std::string(item) + "\" is not a row; write all, none, or rows as 0,10,20-30");
     }
     if (error == std::errc::result_out_of_range || row >= _rows) {
       fail("there is no row " + std::string(part) + "; the last one is " +

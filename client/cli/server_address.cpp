@@ -49,7 +49,7 @@ void check_server_address(const std::string& address) {
     refuse(address, "no host is named; write HOST:PORT, for example localhost" + address);
   }
   if (!is_port(port)) {
-    refuse(address, "\"" + port + "\" is no port; write a number from 1 to 65535");
+    refuse(address, "\"" + port + "\" is not a port; write a number from 1 to 65535");
   }
 }
 

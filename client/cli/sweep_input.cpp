@@ -62,7 +62,7 @@ std::vector<std::size_t> loads_of_columns(const std::vector<std::string>& names,
     const auto found = std::find(loads.begin(), loads.end(), name);
     const auto load = static_cast<std::size_t>(found - loads.begin());
     if (found == loads.end()) {
-      fail(source, "its attribute loads: " + name + " is no load of the case; " +
+      fail(source, "its attribute loads: " + name + " is not a load of the case; " +
                        casefile::suggestion(name, loads));
     }
     if (std::find(columns.begin(), columns.end(), load) != columns.end()) {

@@ -154,7 +154,7 @@ results::Sweep to_sweep(const Fetched& fetched) {
     sweep.loads.push_back(load.name());
   }
   sweep.inclusions.assign(fetched.mesh.inclusions().begin(), fetched.mesh.inclusions().end());
-  // A row that is no int32 becomes a negative one, which is refused.
+  // A row that is not an int32 becomes a negative one, which is refused.
   sweep.kept.assign(fetched.job.sweep().traces().begin(), fetched.job.sweep().traces().end());
   sweep.error = fetched.job.error().message();
   sweep.solve_seconds = seconds_of(fetched.job.sweep_answer().solve_time());

@@ -18,7 +18,7 @@ namespace anticrack::figures {
 std::size_t character(std::string_view text);
 
 /// `text` as a single-quoted string of gnuplot on one line: quotes doubled, backquotes, control
-/// characters and bytes that are no UTF-8 replaced. Longer than `limit` characters: cut, with an
+/// characters and bytes that are not UTF-8 replaced. Longer than `limit` characters: cut, with an
 /// ellipsis. For places marked `noenhanced`.
 std::string quoted(std::string_view text, std::size_t limit = 110);
 

@@ -32,7 +32,7 @@ std::string bash_value(const Value& value) {
     case Value::Kind::text:
       break;
   }
-  return ":";  // whatever it is, it is no command and no file
+  return ":";  // whatever it is, it is not a command and no file
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ std::string fish_script(const Command& program);
 /// 'text', as all three shells read it back.
 std::string shell_word(const std::string& text);
 
-/// Of the options of all commands that take a value: what follows one is no command.
+/// Of the options of all commands that take a value: what follows one is not a command.
 std::vector<std::string> with_value(const Command& program);
 
 /// No command has a second one.

@@ -33,7 +33,7 @@ std::string content_of(const std::filesystem::path& path, const std::string& opt
   std::ifstream file(path, std::ios::binary);
   // A pipe has no size and is read all the same: `--token-file <(command)`.
   if (std::filesystem::is_directory(path) || !file || (!error && size > largest_pem)) {
-    refuse(option + ": " + path.string() + " is no readable file of at most 4 MiB");
+    refuse(option + ": " + path.string() + " is not a readable file of at most 4 MiB");
   }
   return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -94,7 +94,7 @@ std::string read_token(const CredentialFiles& files) {
       std::all_of(token.begin(), token.end(), [](char c) { return c > ' ' && c < '\x7f'; });
   if (token.empty() || token.size() > longest_token || !printable) {
     refuse(origin +
-           " is no token; one line of at most 4096 printable characters without blanks is");
+           " is not a token; one line of at most 4096 printable characters without blanks is");
   }
   return token;
 }

@@ -33,8 +33,8 @@ struct Credentials {
 bool is_loopback(std::string_view address);
 
 /// Reads and checks them before anything is sent. Throws Error (invalid_argument) that names the
-/// file and the cure: one that cannot be read, is no PEM, or whose key is of another certificate; a
-/// certificate without its key; a token that is none, or that would cross a network unencrypted.
+/// file and the cure: one that cannot be read, is not PEM, or whose key is of another certificate;
+/// a certificate without its key; a token that is none, or that would cross a network unencrypted.
 Credentials read_credentials(const CredentialFiles& files, std::string_view address);
 
 }  // namespace anticrack::client

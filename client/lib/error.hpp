@@ -38,7 +38,7 @@ enum class Code {
   unauthenticated = 16,
 };
 
-/// "INVALID_ARGUMENT" and so on; "UNKNOWN" for what is no code.
+/// "INVALID_ARGUMENT" and so on; "UNKNOWN" for what is not a code.
 std::string_view name(Code code) noexcept;
 
 struct FieldViolation {

@@ -31,7 +31,7 @@ class FileChunks {
   explicit FileChunks(std::filesystem::path path)
       : _path(std::move(path)), _file(_path, std::ios::binary) {
     if (std::filesystem::is_directory(_path) || !_file) {
-      throw std::runtime_error("cannot read " + _path.string() + ": it is no readable file");
+      throw std::runtime_error("cannot read " + _path.string() + ": it is not a readable file");
     }
   }
 

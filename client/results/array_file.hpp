@@ -9,9 +9,9 @@
 namespace anticrack::results {
 
 /// A one-dimensional float64 dataset of any HDF5 file, in the byte order of this machine; `dataset`
-/// is its path, as "/f" or "/loads/f". Throws Error for what is no HDF5, for another type or shape,
-/// for no values, and for one that is not finite. Follows hard links only, and takes memory for no
-/// more than the file can hold.
+/// is its path, as "/f" or "/loads/f". Throws Error for what is not HDF5, for another type or
+/// shape, for no values, and for one that is not finite. Follows hard links only, and takes memory
+/// for no more than the file can hold.
 std::vector<double> read_array(const std::filesystem::path& file, const std::string& dataset);
 
 struct Matrix {

@@ -100,7 +100,7 @@ class Block {
   std::map<std::string, const ArrayView*> _arrays;
 };
 
-/// The arrays of a table, of shapes that are no words; `folder` ends with a slash.
+/// The arrays of a table, of shapes that are not words; `folder` ends with a slash.
 template <class Record, class Table>
 void get_arrays(const Block& block, const std::string& folder, Record& record, const Table& table) {
   arrays::for_each(

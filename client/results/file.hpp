@@ -20,7 +20,7 @@ inline constexpr std::string_view format = "anticrack-result/1";
 /// Needs memory for a copy of the file. Not from two threads at a time unless HDF5 is thread-safe.
 void write(const std::filesystem::path& path, const Result& result);
 
-/// Reads a file of `format`. Throws Error for what is no HDF5, truncated, foreign, of another
+/// Reads a file of `format`. Throws Error for what is not HDF5, truncated, foreign, of another
 /// format version or inconsistent. Sizes are checked before memory is taken for them.
 Result read(const std::filesystem::path& path);
 

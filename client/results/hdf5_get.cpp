@@ -111,7 +111,7 @@ void get(const Handle& object, const std::string& attribute, std::vector<std::st
   const Handle space(H5Aget_space(id.get()), H5Sclose, what + " is damaged");
   const hssize_t count = H5Sget_simple_extent_npoints(space.get());
   if (!is(type, ValueType::text) || count < 0 || static_cast<std::uint64_t>(count) > most) {
-    throw Fault(what + " is no list of texts");
+    throw Fault(what + " is not a list of texts");
   }
   std::vector<char*> pointers(static_cast<std::size_t>(count), nullptr);
   if (!pointers.empty()) read_scalar(id, attribute, type.get(), pointers.data());

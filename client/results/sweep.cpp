@@ -55,7 +55,7 @@ std::string range_fault(const Sweep& sweep, const std::vector<std::size_t>& inte
   }
   for (std::size_t i = 0; i < sweep.contacts(); ++i) {
     if (!is_node(sweep.contact_nodes[2 * i], sweep.contact_nodes[2 * i + 1], interface_nodes)) {
-      return entry("contact_nodes", i) + " is no node of an interface";
+      return entry("contact_nodes", i) + " is not a node of an interface";
     }
   }
   const auto odd = std::find_if(sweep.contact.begin(), sweep.contact.end(),

@@ -39,7 +39,7 @@ void require_time(const google::protobuf::Duration& duration, std::chrono::milli
   constexpr std::int64_t second = 1'000'000'000;
   if (duration.seconds() < 0 || duration.nanos() < 0 || duration.nanos() >= second) {
     throw Error(Reason::invalid_argument,
-                "the time is no duration of at least 0 s with 0 to 999999999 ns")
+                "the time is not a duration of at least 0 s with 0 to 999999999 ns")
         .at(field);
   }
   const auto limit = std::chrono::floor<std::chrono::seconds>(longest).count();
@@ -174,7 +174,7 @@ void require_request_id(const std::string& id) {
       });
   if (!fits) {
     throw Error(Reason::invalid_argument,
-                "request_id is no UUID, e.g. 123e4567-e89b-12d3-a456-426614174000")
+                "request_id is not a UUID, e.g. 123e4567-e89b-12d3-a456-426614174000")
         .at("request_id");
   }
 }

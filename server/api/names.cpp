@@ -21,7 +21,7 @@ std::string id_below(std::string_view collection, const std::string& name, std::
                     text[collection.size()] == '/' && is_id(text.substr(collection.size() + 1));
   if (!fits) {
     throw Error(Reason::invalid_argument, "\"" + printable(name, 100) +
-                                              "\" is no name of the form \"" +
+                                              "\" is not a name of the form \"" +
                                               std::string(collection) + "/ID\"")
         .at(std::string(field));
   }
@@ -70,7 +70,7 @@ std::string after_slash(const std::string& name, std::string_view field) {
   const std::size_t slash = name.find('/');
   if (slash == std::string::npos) {
     throw Error(Reason::invalid_argument,
-                "\"" + printable(name, 100) + "\" is no name of the form \"COLLECTION/ID\"")
+                "\"" + printable(name, 100) + "\" is not a name of the form \"COLLECTION/ID\"")
         .at(std::string(field));
   }
   return name.substr(slash + 1);

@@ -75,7 +75,7 @@ void put(Message& to, const FieldDescriptor& field, T value) {
   const auto set = field.is_repeated() ? Access<T>::add : Access<T>::set;
   (to.GetReflection()->*set)(&to, &field, std::move(value));
 }
-/// `index` -1: the field is no list.
+/// `index` -1: the field is not a list.
 template <class T>
 T get(const Message& from, const FieldDescriptor& field, int index) {
   const Reflection& access = *from.GetReflection();
@@ -89,7 +89,7 @@ void put_number(Message& to, const FieldDescriptor& field, int number);
 int get_number(const Message& from, const FieldDescriptor& field, int index);
 /// A message in a field: a new one where it is a list.
 Message& add(Message& to, const FieldDescriptor& field);
-/// Unset: the default. `index` -1: it is no list.
+/// Unset: the default. `index` -1: it is not a list.
 const Message& message_in(const Message& from, const FieldDescriptor& field, int index);
 /// Throws errors::Error unless the field is set.
 void require(const Message& from, const FieldDescriptor& field);

@@ -83,7 +83,7 @@ void clear_stale_socket(const ListenAddress& address) {
   struct stat found {};
   if (::lstat(path.c_str(), &found) != 0) return;
   if (!S_ISSOCK(found.st_mode)) {
-    throw ConfigError("listen: " + path + " exists and is no socket; choose another path");
+    throw ConfigError("listen: " + path + " exists and is not a socket; choose another path");
   }
   if (somebody_answers(path)) {
     throw ConfigError("listen: another server answers on " + path +

@@ -14,7 +14,7 @@ namespace anticrack::app {
 
 /// The part of the configuration that each layer takes.
 store::StoreOptions store_options(const Config& config);
-/// Throws ConfigError where the helper is no program.
+/// Throws ConfigError where the helper is not a program.
 meshes::CatalogueOptions catalogue_options(const Config& config);
 jobs::EngineOptions engine_options(const Config& config);
 rpc::ServerOptions server_options(const Config& config);

@@ -60,7 +60,7 @@ std::string read_guarded_file(const std::string& key, const std::string& path,
     throw ConfigError(where + " is open to everybody on this machine; chmod o-rw it");
   }
   if (content.size() > longest) {
-    throw ConfigError(where + " has more than 1 MiB, which is no such file");
+    throw ConfigError(where + " has more than 1 MiB, which is too large for such a file");
   }
   return content;
 }

@@ -59,7 +59,7 @@ std::uint64_t to_bytes(const std::string& text) {
       }
     }
   }
-  throw std::invalid_argument("\"" + text + "\" is no number of bytes; write e.g. 2GiB or 500M");
+  throw std::invalid_argument("\"" + text + "\" is not a number of bytes; write e.g. 2GiB or 500M");
 }
 
 std::string from_bytes(std::uint64_t bytes) {
@@ -76,8 +76,8 @@ std::int64_t to_integer(const std::string& text, std::int64_t least, std::int64_
   const char* end = text.data() + text.size();
   const auto [stop, problem] = std::from_chars(text.data(), end, value);
   if (problem != std::errc() || stop != end || value < least || value > most) {
-    throw std::invalid_argument("\"" + text + "\" is no integer between " + std::to_string(least) +
-                                " and " + std::to_string(most));
+    throw std::invalid_argument("\"" + text + "\" is not an integer between " +
+                                std::to_string(least) + " and " + std::to_string(most));
   }
   return value;
 }
@@ -96,7 +96,7 @@ std::chrono::milliseconds to_time(const std::string& text) {
     }
   }
   throw std::invalid_argument(
-      "\"" + text + "\" is no time of at most 30 days; write e.g. 0.5, 90s, 5m, 12h or 7d");
+      "\"" + text + "\" is not a time of at most 30 days; write e.g. 0.5, 90s, 5m, 12h or 7d");
 }
 
 std::string from_time(std::chrono::milliseconds time) {

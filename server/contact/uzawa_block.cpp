@@ -109,7 +109,8 @@ UzawaBlock::End UzawaBlock::judge(int c) {
   return iterate.number >= seen.options.max_iterations ? End::limit : End::running;
 }
 
-/// Whether all relative residuals are below the tolerance; equilibrium, the dear one, comes last.
+/// Whether all relative residuals are below the tolerance; equilibrium comes last because it costs
+/// most.
 bool UzawaBlock::within_tolerance(int c) {
   KktResiduals& absolute = column(c).sample.kkt;
   const double tolerance = *column(c).options.kkt_tolerance;

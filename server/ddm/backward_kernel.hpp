@@ -33,7 +33,7 @@ inline double total(const Rows& sums) {
   return (half[0] + half[2]) + (half[1] + half[3]);
 }
 
-// Rows that are no whole number of lanes end with the last of the column: lanes whose rows were
+// Rows that are not a whole number of lanes end with the last of the column: lanes whose rows were
 // taken before add nothing. What a factor has above its diagonal is multiplied by zero there.
 
 /// sum_k = sum of L_ik y_i over the rows from `from` on, for columns that follow each other from l

@@ -10,7 +10,7 @@ bool ANTICRACK_FRONT(int columns, int height, double* __restrict panel, double* 
   const long stride = height;
   for (int k = 0; k < columns; ++k) {
     double* __restrict column = panel + k * stride;
-    // pivot > 0 is false for what is no number, too
+    // pivot > 0 is false for NaN too
     const double pivot = column[k];
     if (!(pivot > 0)) return false;
     const double root = __builtin_sqrt(pivot), inverse = 1 / root;

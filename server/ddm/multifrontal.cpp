@@ -274,7 +274,7 @@ bool eliminate_front(int columns, int height, double* panel, double* update, boo
   int info = 0;
   dpotrf_("L", &columns, panel, &height, &info);
   if (info != 0) return false;
-  for (int k = 0; k < columns; ++k) {  // OpenBLAS lets what is no number pass
+  for (int k = 0; k < columns; ++k) {  // OpenBLAS does not stop at NaN
     if (!(panel[std::ptrdiff_t{k} * (height + 1)] > 0)) return false;
   }
   if (rest == 0) return true;

@@ -18,7 +18,7 @@ namespace anticrack::errors {
 enum class Reason {
   invalid_argument,     ///< a value no state of the server could accept
   geometry_invalid,     ///< geometry that describes no membrane cut by an interface
-  mesh_invalid,         ///< a .msh that cannot be read, or is no cut membrane
+  mesh_invalid,         ///< a .msh that cannot be read, or is not a cut membrane
   expression_invalid,   ///< syntax error, unknown symbol, or a value that is not finite
   request_id_reused,    ///< same request id, other body
   limit_exceeded,       ///< larger than a bound of the server could ever allow

@@ -12,7 +12,7 @@
 
 namespace anticrack::fem {
 
-/// What integrating a load is to know and to tell besides its values.
+/// What integration of a load needs and reports besides the values.
 struct LoadContext {
   /// Mesh numbers of the subdomain's nodes and triangles: where its entries of an Array are.
   std::span<const std::int32_t> node = {};

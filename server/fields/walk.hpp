@@ -30,7 +30,7 @@ concept Whole = std::is_integral_v<T> || std::is_enum_v<T>;
 
 /// Calls sink(leaf) with every std::uint64_t (integers, enums, times, lengths of lists, index of an
 /// alternative), double and std::string, in order: two values that differ give other leaves.
-/// What is behind a shared pointer is no part of the value. O(size).
+/// What is behind a shared pointer is not a part of the value. O(size).
 template <class T, class Sink>
 void walk(const T& value, Sink&& sink) {
   const auto number = [&sink](auto whole) { sink(static_cast<std::uint64_t>(whole)); };

@@ -43,7 +43,7 @@ void check_names(const std::vector<fem::Load>& loads) {
     if (!is_name(name)) {
       throw Error(Reason::invalid_argument,
                   "\"" + name.substr(0, max_name_bytes) +
-                      "\" is no name of a load case: use 1 to 64 letters, digits, '_', '.', '-' "
+                      "\" is not a name of a load case: use 1 to 64 letters, digits, '_', '.', '-' "
                       "and spaces, a letter or digit first")
           .at(load_path(i) + ".name");
     }
@@ -71,8 +71,9 @@ void check_count(std::size_t loads, const EngineOptions& options) {
 void check_time(std::chrono::milliseconds wanted, std::chrono::milliseconds longest,
                 const char* field) {
   if (wanted.count() < 0) {
-    throw Error(Reason::invalid_argument, std::to_string(wanted.count()) +
-                                              " ms is no time limit: give a positive one, or none")
+    throw Error(
+        Reason::invalid_argument,
+        std::to_string(wanted.count()) + " ms is not a time limit: give a positive one, or none")
         .at(field);
   }
   if (wanted > longest) {

@@ -31,7 +31,7 @@ class Deadlines {
     _times.emplace(Entry{job, due}, time);
     _order.emplace(time, Entry{job, due});
   }
-  /// Nothing to do is no error.
+  /// Does nothing if there is none.
   void clear(std::uint64_t job, Due due) {
     const auto found = _times.find({job, due});
     if (found != _times.end()) {

@@ -50,7 +50,7 @@ void recover_fields(const std::vector<PreparedCase>& cases, std::vector<Solved>&
   }
   try {
     cases.front().task.job->mesh_operator->recover_fields(loads, answers);
-  } catch (...) {  // no memory: nobody's fault, everybody's end
+  } catch (...) {  // out of memory fails every load case of the block
     for (std::exception_ptr* failure : failures) {
       *failure = std::current_exception();
     }

@@ -15,7 +15,7 @@
 namespace anticrack::jobs {
 
 /// Throws errors::Error at "load_cases[i].force.array": not_found where the store has no such
-/// upload of this owner, invalid_argument where it is no array.
+/// upload of this owner, invalid_argument where it is not an array.
 void require_arrays(const std::vector<fem::Load>& loads, const store::Store& store,
                     const std::string& owner);
 

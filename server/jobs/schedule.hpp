@@ -66,7 +66,7 @@ class Schedule {
 
   /// A job none of whose units is taken yet, or that is back in the queue.
   void add(const Waiting& job);
-  void remove(std::uint64_t number);  ///< nothing to do is no error
+  void remove(std::uint64_t number);  ///< does nothing if it is not there
   /// The job whose load case is taken next.
   std::optional<std::uint64_t> next_job(const std::string& mesh, Lane lane, Time now) const;
   /// The priority of the most urgent job there, however long it has waited.

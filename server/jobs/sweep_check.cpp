@@ -122,7 +122,7 @@ std::uint64_t rows_of(const SweepSpec& sweep, std::uint64_t values, std::uint64_
   const std::string what = combines(sweep) ? " load cases" : " nodes of the mesh";
   if (values == 0 || values % columns != 0) {
     throw Error(Reason::invalid_argument, "the matrix has " + std::to_string(values) +
-                                              " values, which is no number of rows of " +
+                                              " values, which is not a number of rows of " +
                                               std::to_string(columns) +
                                               ": give a value for each of the " +
                                               std::to_string(columns) + what + " in every row")

@@ -26,12 +26,12 @@ struct MatrixFile {
 };
 
 /// Throws errors::Error at matrix_field: not_found where the store has no such upload of this
-/// owner, invalid_argument where it is no array.
+/// owner, invalid_argument where it is not an array.
 MatrixFile find_matrix(const store::SweepSpec& sweep, const store::Store& store,
                        const std::string& owner);
 
 /// Rows of a matrix of so many values and columns. Throws errors::Error: invalid_argument at
-/// matrix_field where that is no whole number of rows and at "sweep.traces[i]" for a row it does
+/// matrix_field where that is not a whole number of rows and at "sweep.traces[i]" for a row it does
 /// not have, limit_exceeded at matrix_field.
 std::uint64_t rows_of(const store::SweepSpec& sweep, std::uint64_t values, std::uint64_t columns,
                       std::uint64_t max_rows);

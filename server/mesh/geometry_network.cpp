@@ -84,13 +84,13 @@ Line arc_of(const InterfaceSpec& spec, const std::string& owner, const Outline& 
   const double ab = distance(a, b), bc = distance(b, c), ac = distance(a, c);
   const double twice_area = std::abs(signed_area(std::array{a, b, c})) * 2;
   // Flatter than this, its centre is lost to rounding: nearly on the line, or of a radius, ab bc ac
-  // / (2 twice_area), far beyond the membrane; also where that is no number.
+  // / (2 twice_area), far beyond the membrane; also where that is not a number.
   const bool flat = distance(b, Segment{a, c}) <= 1e3 * tolerance ||
                     !(ab * bc * ac <= 1e15 * tolerance * twice_area);
   if (flat || ab <= tolerance || bc <= tolerance) {
     refuse(owner + ".through", owner, ".through ", show(b), " lies ", show(twice_area / ac),
            " off the straight line through ", show(a), " and ", show(c),
-           "; that is no arc, give a polyline instead");
+           "; that is not an arc, give a polyline instead");
   }
   return Line::arc(a, b, c);
 }
@@ -311,7 +311,7 @@ void cut(Network& network, double size, std::size_t max_chords) {
                               " points; at most " + std::to_string(max_chords) + " are taken")
           .at("interfaces");
     }
-    network.points.resize(known);  // a crossing is no end of a chord that is cut anew
+    network.points.resize(known);  // a crossing is not an end of a chord that is cut anew
     for (const Crossing& crossing : found) {
       const int point = point_at(network, crossing.at);
       add_station(network.lines[static_cast<std::size_t>(crossing.line[0])], crossing.t[0], point);

@@ -46,8 +46,8 @@ struct CurveGroups {
 
 /// `given` (physical tag -> meaning) wins over the names of the file.
 /// Throws errors::Error: invalid_argument at "options.curve_groups[TAG]" for a tag the file lacks
-/// and for what is no keyword; mesh_invalid for a keyword with a bad NAME, and for a NAME shared by
-/// a crack and an inclusion.
+/// and for what is not a keyword; mesh_invalid for a keyword with a bad NAME, and for a NAME shared
+/// by a crack and an inclusion.
 CurveGroups read_curve_groups(const MshFile& file,
                               const std::map<std::int32_t, std::string>& given);
 

@@ -49,7 +49,7 @@ struct EdgeRoles {
 /// subdomains is glue where the file says anything of its curves.
 /// `mesh` has its nodes, triangles and subdomains.
 /// Throws errors::Error (mesh_invalid): an edge with two meanings, a meaning that does not fit the
-/// place, a line with a meaning that is no edge, nothing dirichlet. O(m log m).
+/// place, a line with a meaning that is not an edge, nothing dirichlet. O(m log m).
 EdgeRoles read_edges(const mesh::EdgeTable& edges, std::span<const CurveEdge> lines,
                      const CurveGroups& groups, const Welding& welding, mesh::Mesh& mesh);
 

@@ -299,7 +299,7 @@ Gmsh::Gmsh() {
   gmsh::initialize(0, nullptr, false);
   gmsh::option::setNumber("General.Terminal", 0);
   gmsh::option::setNumber("General.NumThreads", 1);
-  // it would ask what kind of file the standard output is, which the filter takes amiss
+  // it would ask what kind of file the standard output is, which the filter forbids
   gmsh::option::setNumber("General.ProgressMeterStep", 0);
 }
 

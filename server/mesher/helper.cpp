@@ -233,7 +233,7 @@ mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
   try {
     mesh::validate(mesh);
   } catch (const Error& error) {
-    // the user drew no triangles, so they are no field of his to mend
+    // the user drew no triangles, so no field of the request is at fault
     if (std::holds_alternative<mesh::ImportRequest>(request)) throw;
     throw failed(std::string("the mesh made of this geometry is not usable: ") + error.what() +
                  "; choose preset uniform, or remove details far smaller than the rest");

@@ -34,7 +34,7 @@ class SizeField {
     double least = 0;  ///< smallest size inside
     std::size_t begin = 0;
     std::size_t end = 0;   ///< of its curves
-    std::size_t left = 0;  ///< its parts, 0 for none: the root is no part
+    std::size_t left = 0;  ///< its parts, 0 for none: the root is not a part
     std::size_t right = 0;
   };
 

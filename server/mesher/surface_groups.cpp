@@ -146,7 +146,7 @@ void take_tension(const std::map<std::string, double>& given, Mesh& mesh) {
     if (found == mesh.subdomains.end()) {
       throw errors::Error(errors::Reason::invalid_argument,
                           "tension is given for \"" + printable(name) +
-                              "\", which is no subdomain; they are " + quoted(mesh.subdomains))
+                              "\", which is not a subdomain; they are " + quoted(mesh.subdomains))
           .at(field);
     }
     if (!(value > 0) || !std::isfinite(value)) {

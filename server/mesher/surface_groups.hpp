@@ -23,8 +23,8 @@ namespace anticrack::mesher {
 ///
 /// `cuts` (sorted pairs low, high): edges with lines of the file, or doubled.
 /// Throws errors::Error: mesh_invalid; invalid_argument at "options.surface_groups[TAG]" for a tag
-/// the file lacks, at "options.tension[NAME]" for a name that is no subdomain's or a tension that
-/// is not a finite number above 0. O(m log m).
+/// the file lacks, at "options.tension[NAME]" for a name that is not a subdomain's or a tension
+/// that is not a finite number above 0. O(m log m).
 void read_surfaces(const MshFile& file, const mesh::MeshOptions& options,
                    const mesh::EdgeTable& edges,
                    std::span<const std::pair<std::int32_t, std::int32_t>> cuts, mesh::Mesh& mesh);

@@ -170,7 +170,7 @@ void match(const Places& places, mesh::UnionFind& same, std::vector<RimEdge>& ri
   }
 }
 
-/// Edges that start in one place in the same direction, but are no pair: a node hangs.
+/// Edges that start in one place in the same direction, but are not a pair: a node hangs.
 void refuse_hanging(const Places& places, mesh::UnionFind& same, const std::vector<RimEdge>& rim) {
   struct Ray {
     std::int32_t place = 0;

@@ -59,7 +59,7 @@ class MeshCatalogue {
   /// Has the operators made in the background, as creating does; with `pin` they are kept in memory
   /// until evicted. Returns at once. Throws not_found, busy, the mesh's error if it failed.
   store::MeshRecord warm(const std::string& id, bool pin);
-  /// Frees the operators; the definition and the triangulation stay. Nothing to do is no error.
+  /// Frees the operators; the definition and the triangulation stay. Does nothing if there is none.
   /// Throws not_found, in_use (a running job or a factorisation holds them).
   store::MeshRecord evict(const std::string& id);
   /// Throws not_found, in_use (being prepared, or a job that has not ended uses it).

@@ -107,7 +107,7 @@ class Block {
       for (std::size_t k = 0; k < sound.size(); ++k) {
         std::get<LoadOnTraces>(_outcomes[sound[k]]).subdomains.push_back(std::move(condensed[k]));
       }
-    } catch (const errors::Error& error) {  // out of memory: nobody's fault, everybody's end
+    } catch (const errors::Error& error) {  // out of memory fails every load of the block
       for (const std::size_t i : sound) {
         _outcomes[i] = error;
       }

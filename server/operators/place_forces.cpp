@@ -38,7 +38,7 @@ Error refused(std::size_t index, const fem::PointForce& force, const std::string
       .at("point_forces[" + std::to_string(index) + "].at");
 }
 
-/// What a point lies on of all that is no glue.
+/// What a point lies on of all that is not glue.
 struct OnInterface {
   std::int32_t inclusion = -1;
   const mesh::Interface* crack = nullptr;

@@ -57,7 +57,7 @@ access::Identity Authentication::identify(const grpc::CallbackServerContext& cal
       const std::optional<access::Identity> who = token ? _tokens.find(*token) : std::nullopt;
       if (who) return *who;
       throw Error(Reason::unauthenticated,
-                  token ? "the token is none of this server's; ask its administrator for one"
+                  token ? "this server does not know the token; ask its administrator for one"
                         : "send one metadata entry \"authorization: Bearer TOKEN\"");
     }
   }

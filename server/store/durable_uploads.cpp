@@ -32,10 +32,10 @@ void DurableStore::keep_upload(const std::string& path, const std::string& sha25
                                const std::string& owner) {
   if (!is_sha256(sha256)) {
     throw Error(Reason::invalid_argument,
-                "\"" + sha256 + "\" is no sha256: give its 64 lower-case hexadecimal digits");
+                "\"" + sha256 + "\" is not a sha256: give its 64 lower-case hexadecimal digits");
   }
   if (!_uploads.is_part(path)) {
-    throw Error(Reason::internal, path + " is no upload on its way");
+    throw Error(Reason::internal, path + " is not an upload on its way");
   }
   std::optional<Part> copy;
   if (_parts.unflushed(path)) {

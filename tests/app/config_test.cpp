@@ -107,7 +107,8 @@ TEST(Config, NamesFileLineAndTheNearestKey) {
 }
 
 TEST(Config, NamesFileLineAndKeyOfABadValue) {
-  EXPECT_THAT(problem_with("\nthreads = 0\n"), HasSubstr("c.toml:2: threads: \"0\" is no integer"));
+  EXPECT_THAT(problem_with("\nthreads = 0\n"),
+              HasSubstr("c.toml:2: threads: \"0\" is not an integer"));
   EXPECT_THAT(problem_with("listen = \"here\""), HasSubstr("c.toml:1: listen: \"here\""));
   EXPECT_THAT(problem_with("log-level = \"inof\""), HasSubstr("did you mean \"info\"?"));
   EXPECT_THAT(problem_with("memory-budget = \"1KiB\""), HasSubstr("at least 1MiB"));

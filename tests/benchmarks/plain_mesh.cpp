@@ -30,7 +30,7 @@ class Reader {
     std::error_code none;
     _left = std::filesystem::file_size(path, none);
     if (!_file.read(first.data(), first.size()) || first != magic) {
-      throw std::runtime_error(path + " is no mesh of the benchmarks");
+      throw std::runtime_error(path + " is not a mesh of the benchmarks");
     }
   }
 

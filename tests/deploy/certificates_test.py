@@ -45,8 +45,8 @@ class Certificates(FolderTest):
         self.assertEqual(ended.returncode, 0, ended.stderr)
         ended = self.verify("sslclient", "client-trial.crt")
         self.assertEqual(ended.returncode, 0, ended.stderr)
-        self.assertNotEqual(self.verify("sslclient", "server.crt").returncode, 0, "a server is no client")
-        self.assertNotEqual(self.verify("sslserver", "client-trial.crt").returncode, 0, "a client is no server")
+        self.assertNotEqual(self.verify("sslclient", "server.crt").returncode, 0, "a server is not a client")
+        self.assertNotEqual(self.verify("sslserver", "client-trial.crt").returncode, 0, "a client is not a server")
 
     def test_keep_their_keys_to_themselves(self):
         keys = sorted(self.made.glob("*.key"))

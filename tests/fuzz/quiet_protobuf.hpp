@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// For targets that parse messages: protobuf says nothing of the texts that are no UTF-8.
+// For targets that parse messages: protobuf says nothing of the texts that are not UTF-8.
 #pragma once
 
 #include <google/protobuf/stubs/logging.h>

@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text = fuzz::text_of(data, size);
   try {
     const auto table = access::TokenTable::parse(text, "tokens");
-    fuzz::require(!table.find(text.substr(0, 64)), "what is no token opens");
+    fuzz::require(!table.find(text.substr(0, 64)), "what is not a token opens");
   } catch (const errors::Error&) {
   }
   return 0;

@@ -195,9 +195,10 @@ TEST(ImportGroups, TensionIsPerSubdomain) {
   options.tension = {{"plus", 2.5}};
   EXPECT_THAT(import_sample(square_sample(), options).tension, ElementsAre(1, 2.5));
   options.tension = {{"top", 1}};
-  EXPECT_THAT(fault(options, "options.tension[top]"),
-              HasSubstr("tension is given for \"top\", which is no subdomain; they are \"minus\", "
-                        "\"plus\""));
+  EXPECT_THAT(
+      fault(options, "options.tension[top]"),
+      HasSubstr("tension is given for \"top\", which is not a subdomain; they are \"minus\", "
+                "\"plus\""));
   for (const double value : {0.0, -1.0, std::numeric_limits<double>::infinity(),
                              std::numeric_limits<double>::quiet_NaN()}) {
     options.tension = {{"minus", value}};

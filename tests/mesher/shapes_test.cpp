@@ -175,7 +175,7 @@ TEST(Shapes, ThreeSubdomainsAtACrossPoint) {
   EXPECT_NEAR(areas(mesh)["left"], 1.25, 1e-12);
   EXPECT_NEAR(areas(mesh)["right"], 0.75, 1e-12);
   EXPECT_NEAR(length(mesh, Kind::glue), 2.75, 1e-12);
-  // glue alone meets in the cross point, so it is no tip
+  // glue alone meets in the cross point, so it is not a tip
   EXPECT_THAT(tip_points(mesh), UnorderedElementsAre(Point{-0.5, 0}, Point{-0.25, 0}));
   expect_graded(geometry, 2);
 }

@@ -31,7 +31,7 @@ v1::LoadCase row_alone(const std::string& name, const double* row);
 /// A job that iterates until it is cancelled.
 v1::CreateJobRequest endless_job(const std::string& mesh);
 
-/// A .msh (2.2, ascii) of two triangles that is read, but is no cut membrane.
+/// A .msh (2.2, ascii) of two triangles that can be read but is not a cut membrane.
 std::string small_msh();
 
 }  // namespace anticrack::testing

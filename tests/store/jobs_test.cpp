@@ -36,7 +36,7 @@ TEST_F(StoredJobs, AreListedNewestFirstAndStablyUnderInsertion) {
   for (const char* id : {"a", "b", "c", "d"}) create(id);
   EXPECT_THAT(jobs({"", 2, {}}), ElementsAre("d", "c"));
   create("e");
-  store->put(job_record("b"));  // a change is no insertion
+  store->put(job_record("b"));  // a change is not an insertion
   EXPECT_THAT(jobs({"c", 2, {}}), ElementsAre("b", "a"));
   store->erase_job("e");
   reopen();

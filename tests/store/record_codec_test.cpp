@@ -85,10 +85,10 @@ TEST(RecordCodec, MakesUtf8OfWhatIsNot) {
   MeshRecord record;
   record.id = "m";
   record.inclusions = {"fibre \xff\n"};
-  record.error = errors::Error(Reason::mesh_invalid, "\xc3 is no name");
+  record.error = errors::Error(Reason::mesh_invalid, "\xc3 is not a name");
   const MeshRecord back = decode_mesh_record(encode(record));
   EXPECT_EQ(back.inclusions[0], "fibre ??");
-  EXPECT_STREQ(back.error->what(), "? is no name");
+  EXPECT_STREQ(back.error->what(), "? is not a name");
 }
 
 TEST(RecordCodec, KeepsNoArrays) {

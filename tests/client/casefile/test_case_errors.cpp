@@ -41,39 +41,41 @@ const Mistake mistakes[] = {
      "plate.toml:17: load.0.force: unknown key; known are boundary_value, f, "
      "inclusion_forces, name, point_forces, traction"},
     {"theta_text", "theta = 1.5", "theta = \"fast\"",
-     "plate.toml:13: solver.theta: 'fast' is no finite number; write a number above 0, or "
+     "plate.toml:13: solver.theta: 'fast' is not a finite number; write a number above 0, or "
      "\"auto\""},
     {"theta_nan", "theta = 1.5", "theta = nan",
-     "plate.toml:13: solver.theta: nan is no finite number; write a number above 0, or \"auto\""},
+     "plate.toml:13: solver.theta: nan is not a finite number; write a number above 0, or "
+     "\"auto\""},
     {"epsilon_text", "theta = 1.5", "epsilon = \"1e-12\"",
-     "plate.toml:13: solver.epsilon: '1e-12' is no finite number; write a number without quotes"},
+     "plate.toml:13: solver.epsilon: '1e-12' is not a finite number; write a number without "
+     "quotes"},
     {"iterations_fraction", "theta = 1.5", "max_iterations = 1.5",
-     "plate.toml:13: solver.max_iterations: 1.5 is no count; write a whole number from 1 to "
+     "plate.toml:13: solver.max_iterations: 1.5 is not a count; write a whole number from 1 to "
      "2147483647"},
     {"iterations_zero", "theta = 1.5", "max_iterations = 0",
-     "plate.toml:13: solver.max_iterations: 0 is no count; write a whole number from 1 to "
+     "plate.toml:13: solver.max_iterations: 0 is not a count; write a whole number from 1 to "
      "2147483647"},
     {"unknown_method", "theta = 1.5\nmethod = \"uzawa\"", "method = \"usawa\"",
      "plate.toml:13: solver.method: 'usawa' is not possible; did you mean uzawa?"},
     {"method_number", "theta = 1.5\nmethod = \"uzawa\"", "method = 3",
-     "plate.toml:13: solver.method: 3 is no text; write it in quotes"},
+     "plate.toml:13: solver.method: 3 is not text; write it in quotes"},
     {"foreign_parameter", "theta = 1.5\nmethod = \"uzawa\"", "method = \"active-set\"\ntheta = 1.5",
      "plate.toml:14: solver.theta: belongs to method \"uzawa\"; remove it, or write method = "
      "\"uzawa\""},
     {"solver_number", "[solver]\ntheta = 1.5\nmethod = \"uzawa\"", "[mesh]\npreset = 3",
-     "plate.toml:13: mesh.preset: 3 is no text; write it in quotes"},
+     "plate.toml:13: mesh.preset: 3 is not text; write it in quotes"},
     {"file_and_geometry", "[solver]\ntheta = 1.5\nmethod = \"uzawa\"", "[mesh]\nfile = \"a.msh\"",
      "plate.toml:3: geometry: there is a mesh.file too; remove one of the two"},
     {"no_boundary", "boundary  = [[-1, -1], [1, -1], [1, 1], [-1, 1]]\n", "",
      "plate.toml:3: geometry.boundary: missing; write [[x, y], [x, y], ...]"},
     {"boundary_number", "[[-1, -1], [1, -1], [1, 1], [-1, 1]]", "3",
-     "plate.toml:4: geometry.boundary: 3 is no list of points; write [[x, y], [x, y], ...]"},
+     "plate.toml:4: geometry.boundary: 3 is not a list of points; write [[x, y], [x, y], ...]"},
     {"point_of_three", "[1, -1]", "[1, -1, 0]",
-     "plate.toml:4: geometry.boundary.1: [ 1, -1, 0 ] is no point; write [x, y]"},
+     "plate.toml:4: geometry.boundary.1: [ 1, -1, 0 ] is not a point; write [x, y]"},
     {"point_of_text", "[1, -1]", "[1, \"a\"]",
-     "plate.toml:4: geometry.boundary.1: 'a' is no finite number; write [x, y]"},
+     "plate.toml:4: geometry.boundary.1: 'a' is not a finite number; write [x, y]"},
     {"point_infinite", "[1, -1]", "[1, inf]",
-     "plate.toml:4: geometry.boundary.1: inf is no finite number; write [x, y]"},
+     "plate.toml:4: geometry.boundary.1: inf is not a finite number; write [x, y]"},
     {"no_name", "name = \"fibre\"\n", "",
      "plate.toml:7: geometry.inclusion.0.name: missing; give the inclusion a name"},
     {"no_from", "from = [-0.5, 0]\n", "",
@@ -85,19 +87,21 @@ const Mistake mistakes[] = {
      "plate.toml:11: geometry.inclusion.0.delaminated: 'yes' is not possible; write true, false or "
      "[[from, to], ...]"},
     {"delaminated_points", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = [[0, 0, 0]]",
-     "plate.toml:11: geometry.inclusion.0.delaminated.0: [ 0, 0, 0 ] is no part; write [from, to] "
+     "plate.toml:11: geometry.inclusion.0.delaminated.0: [ 0, 0, 0 ] is not a part; write [from, "
+     "to] "
      "with points from and to"},
     {"no_f", "f = 1\n", "",
      "plate.toml:15: load.0.f: missing; write a number, an expression in x and y in quotes, "
      "{region = number} or {file = \"f.h5\", dataset = \"/f\", per = \"triangle\"}"},
     {"f_list", "f = 1\n", "f = [1]\n",
-     "plate.toml:17: load.0.f: [ 1 ] is no finite number; write a number, an expression in x and y "
+     "plate.toml:17: load.0.f: [ 1 ] is not a finite number; write a number, an expression in x "
+     "and y "
      "in quotes, "
      "{region = number} or {file = \"f.h5\", dataset = \"/f\", per = \"triangle\"}"},
     {"f_region_text", "f = 1\n", "f = {a = \"b\"}\n",
-     "plate.toml:17: load.0.f.a: 'b' is no finite number; write one number for each region"},
+     "plate.toml:17: load.0.f.a: 'b' is not a finite number; write one number for each region"},
     {"title_number", "title = \"A plate\"", "title = 3",
-     "plate.toml:1: title: 3 is no text; write it in quotes"},
+     "plate.toml:1: title: 3 is not text; write it in quotes"},
     {"fields_text", "[solver]\ntheta = 1.5\nmethod = \"uzawa\"", "[output]\nfields = \"yes\"",
      "plate.toml:13: output.fields: 'yes' is neither true nor false"},
 };
@@ -119,7 +123,7 @@ Mistake load(const char* what, const char* to, const char* complaint) {
 
 const Mistake geometry_mistakes[] = {
     interface("interface_number", "interface = 3\n",
-              "plate.toml:5: geometry.interface: 3 is no list of points; write [[x, y], [x, y], "
+              "plate.toml:5: geometry.interface: 3 is not a list of points; write [[x, y], [x, y], "
               "...]"),
     interface("interface_key", "[[geometry.interface]]\npoint = [[0, 0], [1, 0]]\n",
               "plate.toml:6: geometry.interface.0.point: unknown key; did you mean points?"),
@@ -131,9 +135,10 @@ const Mistake geometry_mistakes[] = {
               "0]]\n",
               "plate.toml:7: geometry.interface.0.arc: the interface has points too; remove one of "
               "the two"),
-    interface("arc_of_two", "[[geometry.interface]]\narc = [[-1, 0], [1, 0]]\n",
-              "plate.toml:6: geometry.interface.0.arc: [ [ -1, 0 ], [ 1, 0 ] ] is no arc; write "
-              "[from, through, to], three points of which the second lies between the others"),
+    interface(
+        "arc_of_two", "[[geometry.interface]]\narc = [[-1, 0], [1, 0]]\n",
+        "plate.toml:6: geometry.interface.0.arc: [ [ -1, 0 ], [ 1, 0 ] ] is not an arc; write "
+        "[from, through, to], three points of which the second lies between the others"),
     interface("closed_arc",
               "[[geometry.interface]]\narc = [[-1, 0], [0, 1], [1, 0]]\nclosed = true\n",
               "plate.toml:7: geometry.interface.0.closed: an arc has two ends; remove the key, or "
@@ -141,16 +146,16 @@ const Mistake geometry_mistakes[] = {
     interface("closed_text", "[[geometry.interface]]\nspline = [[-1, 0], [1, 0]]\nclosed = 1\n",
               "plate.toml:7: geometry.interface.0.closed: 1 is neither true nor false"),
     interface("interface_name", "[[geometry.interface]]\nname = 1\n",
-              "plate.toml:6: geometry.interface.0.name: 1 is no text; write it in quotes"),
+              "plate.toml:6: geometry.interface.0.name: 1 is not text; write it in quotes"),
     interface("spline_point", "[[geometry.interface]]\nspline = [[-1, 0], [1]]\n",
-              "plate.toml:6: geometry.interface.0.spline.1: [ 1 ] is no point; write [x, y]"),
+              "plate.toml:6: geometry.interface.0.spline.1: [ 1 ] is not a point; write [x, y]"),
     interface("neumann_text", "neumann = \"left\"\n",
               "plate.toml:5: geometry.neumann: 'left' is not possible; write [[from, to], ...], "
               "parts of the boundary walked counterclockwise, or \"all\""),
     interface("neumann_point", "neumann = [[1, -1], [1, 1]]\n",
-              "plate.toml:5: geometry.neumann.0.0: 1 is no point; write [x, y]"),
+              "plate.toml:5: geometry.neumann.0.0: 1 is not a point; write [x, y]"),
     interface("neumann_three", "neumann = [[[1, -1], [1, 1], [0, 0]]]\n",
-              "plate.toml:5: geometry.neumann.0: [ [ 1, -1 ], [ 1, 1 ], [ 0, 0 ] ] is no part; "
+              "plate.toml:5: geometry.neumann.0: [ [ 1, -1 ], [ 1, 1 ], [ 0, 0 ] ] is not a part; "
               "write [from, to] with points from and to"),
     interface("region_without_name", "[[geometry.region]]\nat = [0, 1]\n",
               "plate.toml:5: geometry.region.0.name: missing; give the region a name"),
@@ -179,15 +184,15 @@ const Mistake mesh_mistakes[] = {
         "plate.toml:13: mesh.size: -1 is not above 0; write a number above 0, or leave the key out "
         "for its default"),
     mesh("tip_size_text", "[mesh]\ntip_size = \"small\"",
-         "plate.toml:13: mesh.tip_size: 'small' is no finite number; write a number without "
+         "plate.toml:13: mesh.tip_size: 'small' is not a finite number; write a number without "
          "quotes"),
     mesh("grading_zero", "[mesh]\ngrading = 0",
          "plate.toml:13: mesh.grading: 0 is not above 0; write a number above 0, or leave the key "
          "out for its default"),
     mesh("align_number", "[mesh]\nalign = 3",
-         "plate.toml:13: mesh.align: 3 is no list of lines; write [[[x, y], [x, y], ...], ...]"),
+         "plate.toml:13: mesh.align: 3 is not a list of lines; write [[[x, y], [x, y], ...], ...]"),
     mesh("align_one_line", "[mesh]\nalign = [[0, 0], [1, 1]]",
-         "plate.toml:13: mesh.align.0.0: 0 is no point; write [x, y]"),
+         "plate.toml:13: mesh.align.0.0: 0 is not a point; write [x, y]"),
     mesh("align_and_file", "[mesh]\nalign = [[[0, 0], [1, 1]]]\nfile = \"a.msh\"",
          "plate.toml:13: mesh.align: means nothing with mesh.file; remove one of the two"),
     mesh("groups_without_file", "[mesh.groups]\ncurve.7 = \"crack\"",
@@ -197,21 +202,25 @@ const Mistake mesh_mistakes[] = {
          "[[geometry.region]] with name, at and tension"),
     mesh("groups_key", "[mesh]\nfile = \"a.msh\"\n[mesh.groups]\ncurves.7 = \"crack\"",
          "plate.toml:15: mesh.groups.curves: unknown key; did you mean curve?"),
-    mesh("group_tag", "[mesh]\nfile = \"a.msh\"\n[mesh.groups]\ncurve.seven = \"crack\"",
-         "plate.toml:15: mesh.groups.curve.seven: 'seven' is no tag; write the tag of a physical "
-         "group and in quotes what it is, as in curve.7 = \"crack\" or surface.1 = \"top\""),
+    mesh(
+        "group_tag", "[mesh]\nfile = \"a.msh\"\n[mesh.groups]\ncurve.seven = \"crack\"",
+        "plate.toml:15: mesh.groups.curve.seven: 'seven' is not a tag; write the tag of a physical "
+        "group and in quotes what it is, as in curve.7 = \"crack\" or surface.1 = \"top\""),
     mesh("group_meaning", "[mesh]\nfile = \"a.msh\"\n[mesh.groups.surface]\n1 = 2",
-         "plate.toml:15: mesh.groups.surface.1: 2 is no meaning of a group; write the tag of a "
+         "plate.toml:15: mesh.groups.surface.1: 2 is not a meaning of a group; write the tag of a "
          "physical group and in quotes what it is, as in curve.7 = \"crack\" or surface.1 = "
          "\"top\""),
-    mesh("group_list", "[mesh]\nfile = \"a.msh\"\ngroups.curve = [7]",
-         "plate.toml:14: mesh.groups.curve: [ 7 ] is no table; write the tag of a physical group "
-         "and in quotes what it is, as in curve.7 = \"crack\" or surface.1 = \"top\""),
-    mesh("mesh_tension_text", "[mesh]\nfile = \"a.msh\"\ntension.top = \"2\"",
-         "plate.toml:14: mesh.tension.top: '2' is no finite number; write subdomain = number for "
-         "each of them"),
-    mesh("mesh_tension_number", "[mesh]\nfile = \"a.msh\"\ntension = 2",
-         "plate.toml:14: mesh.tension: 2 is no table; write subdomain = number for each of them"),
+    mesh(
+        "group_list", "[mesh]\nfile = \"a.msh\"\ngroups.curve = [7]",
+        "plate.toml:14: mesh.groups.curve: [ 7 ] is not a table; write the tag of a physical group "
+        "and in quotes what it is, as in curve.7 = \"crack\" or surface.1 = \"top\""),
+    mesh(
+        "mesh_tension_text", "[mesh]\nfile = \"a.msh\"\ntension.top = \"2\"",
+        "plate.toml:14: mesh.tension.top: '2' is not a finite number; write subdomain = number for "
+        "each of them"),
+    mesh(
+        "mesh_tension_number", "[mesh]\nfile = \"a.msh\"\ntension = 2",
+        "plate.toml:14: mesh.tension: 2 is not a table; write subdomain = number for each of them"),
     mesh("steps_of_uzawa", "[solver]\nmethod = \"uzawa\"\nmax_steps = 3",
          "plate.toml:14: solver.max_steps: belongs to method \"active-set\"; remove it, or write "
          "method = \"active-set\""),
@@ -219,10 +228,10 @@ const Mistake mesh_mistakes[] = {
          "plate.toml:13: solver.kkt_tolerance: belongs to method \"uzawa\"; remove it, or write "
          "method = \"uzawa\""),
     mesh("tolerance_text", "[solver]\ntolerance = \"tiny\"",
-         "plate.toml:13: solver.tolerance: 'tiny' is no finite number; write a number without "
+         "plate.toml:13: solver.tolerance: 'tiny' is not a finite number; write a number without "
          "quotes"),
     mesh("steps_zero", "[solver]\nmax_steps = 0",
-         "plate.toml:13: solver.max_steps: 0 is no count; write a whole number from 1 to "
+         "plate.toml:13: solver.max_steps: 0 is not a count; write a whole number from 1 to "
          "2147483647"),
 };
 
@@ -238,10 +247,10 @@ const Mistake load_mistakes[] = {
     load("file_key", "f = {file = \"f.h5\", datset = \"/f\", per = \"node\"}\n",
          "plate.toml:17: load.0.f.datset: unknown key; did you mean dataset?"),
     load("traction_list", "traction = [1]\n",
-         "plate.toml:17: load.0.traction: [ 1 ] is no finite number; write a number, or an "
+         "plate.toml:17: load.0.traction: [ 1 ] is not a finite number; write a number, or an "
          "expression in x and y in quotes"),
     load("boundary_value_nan", "boundary_value = nan\n",
-         "plate.toml:17: load.0.boundary_value: nan is no finite number; write a number, or an "
+         "plate.toml:17: load.0.boundary_value: nan is not a finite number; write a number, or an "
          "expression in x and y in quotes"),
     load("point_force_key", "point_forces = [{at = [0, 0], valeu = 1}]\n",
          "plate.toml:17: load.0.point_forces.0.valeu: unknown key; did you mean value?"),
@@ -250,13 +259,15 @@ const Mistake load_mistakes[] = {
     load("point_force_without_value", "point_forces = [{at = [0, 0]}]\n",
          "plate.toml:17: load.0.point_forces.0.value: missing; write the force, a number"),
     load("point_force_text", "point_forces = [{at = [0, 0], value = \"1\"}]\n",
-         "plate.toml:17: load.0.point_forces.0.value: '1' is no finite number; write a number "
+         "plate.toml:17: load.0.point_forces.0.value: '1' is not a finite number; write a number "
          "without quotes"),
     load("inclusion_forces_number", "inclusion_forces = 2\n",
-         "plate.toml:17: load.0.inclusion_forces: 2 is no table; write inclusion = number for each "
+         "plate.toml:17: load.0.inclusion_forces: 2 is not a table; write inclusion = number for "
+         "each "
          "of them"),
     load("inclusion_force_text", "inclusion_forces = {fibre = \"2\"}\n",
-         "plate.toml:17: load.0.inclusion_forces.fibre: '2' is no finite number; write inclusion = "
+         "plate.toml:17: load.0.inclusion_forces.fibre: '2' is not a finite number; write "
+         "inclusion = "
          "number for each of them"),
 };
 
@@ -274,7 +285,7 @@ TEST(CaseErrors, SyntaxNamesTheLine) {
               AllOf(StartsWith("plate.toml:2: column 10: this is not TOML: "),
                     EndsWith("; the line is: [geometry")));
   EXPECT_EQ(complaint(std::string("title\0", 6)),
-            "plate.toml: this is no text; name a case, a TOML file");
+            "plate.toml: this is not text; name a case, a TOML file");
 }
 
 TEST(CaseErrors, NoLoadsAndNoGeometry) {

@@ -72,7 +72,7 @@ TEST(Overrides, NameThemselvesInErrors) {
   EXPECT_EQ(complaint(sample_text, {"solver.thta=1"}),
             "--set solver.thta=1: solver.thta: unknown key; did you mean theta?");
   EXPECT_EQ(complaint(sample_text, {"solver.epsilon=small"}),
-            "--set solver.epsilon=small: solver.epsilon: 'small' is no finite number; write a "
+            "--set solver.epsilon=small: solver.epsilon: 'small' is not a finite number; write a "
             "number without quotes");
 }
 

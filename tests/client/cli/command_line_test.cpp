@@ -151,7 +151,7 @@ TEST(CommandLine, NamesTheCredentialThatCannotBeUsed) {
   const Ran open =
       run({"server", "--server", "far.example:7433", "--token-file", EXAMPLES "/arc.toml"});
   EXPECT_EQ(open.code, exit_usage);
-  EXPECT_THAT(open.error, HasSubstr("arc.toml is no token"));
+  EXPECT_THAT(open.error, HasSubstr("arc.toml is not a token"));
 }
 
 TEST(CommandLine, AFlagOfAJobIsTheKeyOfTheCase) {

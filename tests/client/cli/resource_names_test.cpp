@@ -30,7 +30,7 @@ TEST(FullName, RefusesWhatIsNoNameWithTheCure) {
   for (const char* given : {"", "jobs/", "a b", "a/b", "jobs/a/b", "case.toml"}) {
     EXPECT_EQ(complaint(Collection::jobs, given),
               "\"" + std::string(given) +
-                  "\" is no name of a job; write jobs/ID; see anticrack job list");
+                  "\" is not a name of a job; write jobs/ID; see anticrack job list");
   }
 }
 

@@ -199,7 +199,7 @@ TEST(SweepCommand, ChecksItsInputBeforeItLooksForAServer) {
   const std::string bad = written(folder, "bad.csv", "skew,opening\n1,x\n");
   const std::string good = written(folder, "good.csv", "1,2\n");
   const std::vector<std::pair<std::vector<std::string>, std::string>> table{
-      {{"--coefficients", bad}, "bad.csv:2: column 2: \"x\" is no number"},
+      {{"--coefficients", bad}, "bad.csv:2: column 2: \"x\" is not a number"},
       {{"--coefficients", folder / "no.csv"}, "no.csv: cannot be read"},
       {{"--coefficients", good, "-o", folder / "no/a.h5"}, "create the folder first"},
       {{"--coefficients", good, "-o", folder / "a.h5", "--csv", folder / "no/a.csv"},

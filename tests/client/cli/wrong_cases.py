@@ -78,9 +78,9 @@ CASES = [
      "wrong.toml:5: mesh.file: x.msh: there is no such file; name a .msh file"),
     # Types and values.
     ([("size = 0.5", 'size = "fine"')], 2,
-     "wrong.toml:15: mesh.size: 'fine' is no finite number; write a number without quotes"),
+     "wrong.toml:15: mesh.size: 'fine' is not a finite number; write a number without quotes"),
     ([("size = 0.5", "size = nan")], 2,
-     "wrong.toml:15: mesh.size: nan is no finite number; write a finite number"),
+     "wrong.toml:15: mesh.size: nan is not a finite number; write a finite number"),
     ([("size = 0.5", "size = -1")], 2,
      "wrong.toml:15: mesh.size: -1 is not above 0; write a number above 0, or leave the key out for "
      "its default"),
@@ -92,13 +92,13 @@ CASES = [
     ([("1.5", "-2")], 2,
      "wrong.toml:19: solver.theta: theta is -2; it must be a finite number above 0, or auto"),
     ([("1.5", '"automatic"')], 2,
-     "wrong.toml:19: solver.theta: 'automatic' is no finite number; write a number above 0, or \"auto\""),
+     "wrong.toml:19: solver.theta: 'automatic' is not a finite number; write a number above 0, or \"auto\""),
     ([("theta = 1.5", "p = -1")], 2,
      "wrong.toml:19: solver.p: p is -1; it must be finite and not negative"),
     ([("theta = 1.5", "epsilon = 0")], 2,
      "wrong.toml:19: solver.epsilon: epsilon is 0; it must be a finite number above 0"),
     ([("theta = 1.5", "max_iterations = 0")], 2,
-     "wrong.toml:19: solver.max_iterations: 0 is no count; write a whole number from 1 to 2147483647"),
+     "wrong.toml:19: solver.max_iterations: 0 is not a count; write a whole number from 1 to 2147483647"),
     ([("theta = 1.5", "max_iterations = 2000000000")], 2,
      "wrong.toml:19: solver.max_iterations: max_iterations is 2000000000; it must be from 1 to 1000000"),
     ([('"uzawa"', '"usawa"')], 2,
@@ -106,11 +106,11 @@ CASES = [
     ([('"uniform"', '"unifrom"')], 2,
      "wrong.toml:14: mesh.preset: 'unifrom' is not possible; did you mean uniform?"),
     ([('"Plate"', "3")], 2,
-     "wrong.toml:1: title: 3 is no text; write it in quotes"),
+     "wrong.toml:1: title: 3 is not text; write it in quotes"),
     (more('[job]\npriority = "fast"'), 2,
      "wrong.toml:14: job.priority: 'fast' is not possible; known are bulk, interactive, normal"),
     (more('[job]\nrun_timeout = "soon"'), 2,
-     "wrong.toml:14: job.run_timeout: 'soon' is no time above 0; write seconds, or \"90s\", \"10min\", "
+     "wrong.toml:14: job.run_timeout: 'soon' is not a time above 0; write seconds, or \"90s\", \"10min\", "
      '"2h", "1d"'),
     (more('[output]\nfields = "yes"'), 2,
      "wrong.toml:14: output.fields: 'yes' is neither true nor false"),
@@ -121,7 +121,7 @@ CASES = [
     ([("[1, -1], [1, 1], [-1, 1]]", "[1, -1]]")], 2,
      "wrong.toml:4: geometry.boundary: boundary has 2 vertices; a polygon takes at least 3"),
     ([("[[-1, -1], [1", "[[-1, -1, 0], [1")], 2,
-     "wrong.toml:4: geometry.boundary.0: [ -1, -1, 0 ] is no point; write [x, y]"),
+     "wrong.toml:4: geometry.boundary.0: [ -1, -1, 0 ] is not a point; write [x, y]"),
     ([("[[-1, 0], [1, 0]]", "[[-2, 0], [1, 0]]")], 2,
      "wrong.toml:5: geometry.interface: interfaces[0].polyline leaves the polygon or touches its "
      "boundary in between: the stretch from (-2, 0) to (1, 0) meets the boundary's edge (-1, 1)-(-1, "
@@ -152,11 +152,11 @@ CASES = [
      "0), so it could move as a whole: glue a part of its interface or hold its boundary"),
     ([("interface = [[-1, 0], [1, 0]]\n", ""),
       *more('[[geometry.interface]]\narc = [[-1, 0], [1, 0]]')], 2,
-     "wrong.toml:13: geometry.interface.0.arc: [ [ -1, 0 ], [ 1, 0 ] ] is no arc; write [from, "
+     "wrong.toml:13: geometry.interface.0.arc: [ [ -1, 0 ], [ 1, 0 ] ] is not an arc; write [from, "
      "through, to], three points of which the second lies between the others"),
     # Loads.
     ([("[[load]]", "[load]")], 2,
-     "wrong.toml:21: load: { f = 'y > 0 ? 1 : -1', name = 'opening' } is no list of tables; write "
+     "wrong.toml:21: load: { f = 'y > 0 ? 1 : -1', name = 'opening' } is not a list of tables; write "
      "[[load]] above each of them"),
     ([(F + "\n", "")], 2,
      "wrong.toml:21: load.0.f: missing; write a number, an expression in x and y in quotes, {region = "
@@ -164,7 +164,7 @@ CASES = [
     ([('name = "opening"\n', "")], 2,
      "wrong.toml:21: load.0.name: missing; give the load case a name"),
     ([('"opening"', '"a/b"')], 2,
-     "wrong.toml:22: load.0.name: \"a/b\" is no name of a load case: use 1 to 64 letters, digits, '_', "
+     "wrong.toml:22: load.0.name: \"a/b\" is not a name of a load case: use 1 to 64 letters, digits, '_', "
      "'.', '-' and spaces, a letter or digit first"),
     (more('[[load]]\nname = "opening"\nf = 1'), 2,
      'wrong.toml:26: load.1.name: two load cases are named "opening": give each its own name'),

@@ -47,7 +47,7 @@ COMMANDS = [
     ("server --local=maybe", 2,
      "--local = maybe is not possible; see anticrack server --help"),
     ("server --retry-for soon", 2,
-     "--retry-for: soon is no time; write 30s, 10min or 2h; see anticrack server --help"),
+     "--retry-for: soon is not a time; write 30s, 10min or 2h; see anticrack server --help"),
     ("job list --limit 0", 2,
      "--limit: Value 0 not in range 1 to 1000; see anticrack job list --help"),
     ("job list --limit ten", 2,
@@ -84,7 +84,7 @@ COMMANDS = [
      "--set job.priority='urgent': job.priority: 'urgent' is not possible; known are bulk, "
      "interactive, normal"),
     ("run case.toml --run-timeout 0", 2,
-     "--set job.run_timeout='0': job.run_timeout: '0' is no time above 0; write seconds, or \"90s\", "
+     "--set job.run_timeout='0': job.run_timeout: '0' is not a time above 0; write seconds, or \"90s\", "
      '"10min", "2h", "1d"'),
     ("mesh show meshes/1 --set mesh.size=1", 2,
      "--set means nothing for a mesh on the server; name a case"),
@@ -97,12 +97,12 @@ COMMANDS = [
      "empty.toml: geometry: missing; write [geometry] with boundary and interface, or mesh.file = "
      '"x.msh"'),
     ("run binary.toml", 2,
-     "binary.toml: this is no text; name a case, a TOML file"),
+     "binary.toml: this is not text; name a case, a TOML file"),
     ("run latin.toml", 2,
      "latin.toml:1: column 10: this is not TOML: Encountered invalid utf-8 sequence; the line is: "
      'title = "B?schung"'),
     ("run result.h5", 2,
-     "result.h5: this is no text; name a case, a TOML file"),
+     "result.h5: this is not text; name a case, a TOML file"),
     ("run case.toml -o no/a.h5", 2,
      "no/a.h5: cannot create a file in this folder: No such file or directory; create the folder "
      "first, or choose another path with -o"),
@@ -148,11 +148,11 @@ COMMANDS = [
      "short.csv:3: 1 value in this line, the case has 2 loads; write one coefficient for each of "
      "opening, skew, with commas between"),
     ("sweep two.toml --coefficients letters.csv", 2,
-     'letters.csv:2: column 2: "four" is no number; write one as 1.5 or -2e-3'),
+     'letters.csv:2: column 2: "four" is not a number; write one as 1.5 or -2e-3'),
     ("sweep two.toml --coefficients nan.csv", 2,
      'nan.csv:1: column 2: "nan" is not finite; write a finite number'),
     ("sweep two.toml --coefficients unknown.csv", 2,
-     'unknown.csv:1: column 2: "skwe" is no load of the case; did you mean skew?'),
+     'unknown.csv:1: column 2: "skwe" is not a load of the case; did you mean skew?'),
     ("sweep two.toml --coefficients twice.csv", 2,
      "twice.csv:1: column 2: load skew is named twice; keep one of the two columns"),
     ("sweep two.toml --coefficients partial.csv", 2,
@@ -171,7 +171,7 @@ COMMANDS = [
      "plain.h5:/wide: it has 5 columns, the case 2 loads; write one column for each load, in their "
      "order, or name them in an attribute loads of the dataset"),
     ("sweep two.toml --coefficients plain.h5:/named", 2,
-     "plain.h5:/named: its attribute loads: skwe is no load of the case; did you mean skew?"),
+     "plain.h5:/named: its attribute loads: skwe is not a load of the case; did you mean skew?"),
     ("sweep two.toml --nodal plain.h5", 2,
      "plain.h5: no dataset is named; write FILE.h5:/PATH, for example plain.h5:/f"),
     ("sweep two.toml --nodal plain.h5:/matrix", 2,
@@ -182,7 +182,7 @@ COMMANDS = [
     ("sweep two.toml --coefficients good.csv --traces 1-0", 2,
      "--traces 1-0: the range 1-0 ends before it begins; write 0-1"),
     ("sweep two.toml --coefficients good.csv --traces frist", 2,
-     '--traces frist: "frist" is no row; write all, none, or rows as 0,10,20-30'),
+     '--traces frist: "frist" is not a row; write all, none, or rows as 0,10,20-30'),
     ("sweep two.toml --coefficients good.csv --csv two.h5", 2,
      "--csv two.h5: this is the result file too; name another one"),
     ("sweep two.toml --coefficients good.csv --set solver.method=uzawa", 2,
@@ -200,7 +200,7 @@ COMMANDS = [
     ("job fetch {job:10} -o a.h5", 2,
      "there is no jobs/ID; did you mean jobs/ID?"),
     ("job delete a/b", 2,
-     '"a/b" is no name of a job; write jobs/ID; see anticrack job list'),
+     '"a/b" is not a name of a job; write jobs/ID; see anticrack job list'),
     ("mesh show {mesh:-1}", 2,
      "there is no meshes/ID; did you mean meshes/ID?"),
     ("mesh warm jobs/1", 2,
@@ -229,7 +229,7 @@ COMMANDS = [
     ("--server localhost server", 2,
      "--server localhost: no port is named; write HOST:PORT, for example localhost:7433"),
     ("--server localhost:99999 server", 2,
-     '--server localhost:99999: "99999" is no port; write a number from 1 to 65535'),
+     '--server localhost:99999: "99999" is not a port; write a number from 1 to 65535'),
     ("--server ::1 server", 2,
      "--server ::1: no port is named; write HOST:PORT, for example [::1]:7433"),
     ("--server :7433 server", 2,
@@ -238,15 +238,15 @@ COMMANDS = [
      "--server http://localhost:7433: no address of a server; write HOST:PORT, or unix:PATH for a "
      "socket"),
     ("server --ca no.pem", 2,
-     "--ca: no.pem is no readable file of at most 4 MiB"),
+     "--ca: no.pem is not a readable file of at most 4 MiB"),
     ("server --ca case.toml", 2,
      "--ca: case.toml holds no certificate; it should contain -----BEGIN CERTIFICATE-----"),
     ("server --cert case.toml", 2,
      "--cert needs --key, the private key of case.toml"),
     ("server --token-file no.token", 2,
-     "--token-file: no.token is no readable file of at most 4 MiB"),
+     "--token-file: no.token is not a readable file of at most 4 MiB"),
     ("server --token-file case.toml", 2,
-     "--token-file: case.toml is no token; one line of at most 4096 printable characters without "
+     "--token-file: case.toml is not a token; one line of at most 4096 printable characters without "
      "blanks is"),
     ("--server far.example:7433 --token-file token server", 2,
      "the token would go to far.example:7433 unencrypted, for anybody on the way to read; add --ca "
@@ -255,7 +255,7 @@ COMMANDS = [
      'this server asks who calls: send the metadata "authorization: Bearer TOKEN"; give a token with '
      "--token-file FILE or in ANTICRACK_TOKEN"),
     ("--server {guarded} --token-file token server", 4,
-     "the token is none of this server's; ask its administrator for one; check the token in token"),
+     "this server does not know the token; ask its administrator for one; check the token in token"),
 ]
 
 # What is only wrong for who is not root.

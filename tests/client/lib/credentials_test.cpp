@@ -87,7 +87,7 @@ TEST_F(CredentialsTest, ReadsOneTokenFromAFileOrTheEnvironment) {
   EXPECT_EQ(read_credentials(files, "localhost:1").token, "abc.DEF-123");
   for (const char* bad : {"", "\n", "two words\n", "two\nlines\n", "\x01"}) {
     files.token = write("bad", bad);
-    EXPECT_THAT(complaint(files), HasSubstr("bad is no token")) << bad;
+    EXPECT_THAT(complaint(files), HasSubstr("bad is not a token")) << bad;
   }
   files = {};
   files.token_text = "two words";

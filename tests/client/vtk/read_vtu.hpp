@@ -51,7 +51,7 @@ inline std::string array_at(const std::string& data, std::size_t offset) {
   return data.substr(offset + 8, length);
 }
 
-/// Throws for what is no VTK XML with raw appended data, or has an element that does not close.
+/// Throws for what is not VTK XML with raw appended data, or has an element that does not close.
 inline ReadVtu read_vtu(const std::string& file) {
   const std::string begin = "<AppendedData encoding=\"raw\">\n_";
   const std::string end = "\n  </AppendedData>\n</VTKFile>\n";
