@@ -15,6 +15,12 @@ using errors::Error;
 using errors::Reason;
 using std::chrono::milliseconds;
 
+// Enums travel as their numbers.
+static_assert(int(contact::Status::cancelled) == v1::LoadCaseAnswer::STATUS_CANCELLED);
+static_assert(int(contact::Mass::consistent) == v1::MASS_CONSISTENT);
+static_assert(int(store::JobState::expired) == v1::Job::STATE_EXPIRED);
+static_assert(int(store::Priority::bulk) == v1::Job::PRIORITY_BULK);
+
 namespace {
 
 /// Absolute and relative residuals are one message.

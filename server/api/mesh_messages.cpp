@@ -12,6 +12,11 @@ using errors::Error;
 using errors::Reason;
 using Points = google::protobuf::RepeatedPtrField<v1::Point>;
 
+// Enums travel as their numbers, but for mesh::Preset.
+static_assert(int(store::MeshState::failed) == v1::Mesh::STATE_FAILED);
+static_assert(int(mesh::Kind::delaminated) == v1::INTERFACE_KIND_DELAMINATED);
+static_assert(int(store::ArrayType::uint8) == v1::ArrayLayout::TYPE_UINT8);
+
 namespace {
 
 /// The order of mesh::Preset, whose numbers are part of the identity of meshes.

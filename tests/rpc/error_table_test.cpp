@@ -12,6 +12,7 @@
 namespace anticrack::rpc {
 namespace {
 
+using api::printable;
 using anticrack::testing::Details;
 using anticrack::testing::details_of;
 using errors::Error;

@@ -4,11 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "rpc/from_domain.hpp"
+#include "api/translations.hpp"
 
 namespace anticrack::rpc {
 namespace {
 
+using api::layout_of;
 using ::testing::ElementsAre;
 
 /// Rows that tell their number: 100 + k, 200 + k, ...
@@ -67,9 +68,14 @@ TEST(FromSweep, TellsRowsOfAMeshWithoutInclusions) {
 }
 
 TEST(FromSweep, TellsHowARowEnded) {
-  EXPECT_EQ(from_domain(contact::Status::converged), v1::LoadCaseAnswer::STATUS_CONVERGED);
-  EXPECT_EQ(from_domain(contact::Status::not_converged), v1::LoadCaseAnswer::STATUS_NOT_CONVERGED);
-  EXPECT_EQ(from_domain(contact::Status::cancelled), v1::LoadCaseAnswer::STATUS_CANCELLED);
+  auto columns = std::make_shared<contact::SweepColumns>(3, 0, 0);
+  columns->status = {contact::Status::converged, contact::Status::not_converged,
+                     contact::Status::cancelled};
+  v1::SweepRows rows;
+  append(rows, {0, columns}, 0, 3);
+  EXPECT_THAT(rows.status(), ElementsAre(v1::LoadCaseAnswer::STATUS_CONVERGED,
+                                         v1::LoadCaseAnswer::STATUS_NOT_CONVERGED,
+                                         v1::LoadCaseAnswer::STATUS_CANCELLED));
 }
 
 TEST(FromSweep, TellsTheSweepOfAJobAndHowItEnded) {
@@ -85,7 +91,7 @@ TEST(FromSweep, TellsTheSweepOfAJobAndHowItEnded) {
   record.sweep.failed = 1;
   record.sweep.most_steps = 9;
   record.sweep.worst_kkt = 1e-13;
-  record.sweep.seconds = 1.5;
+  record.sweep.solve_time = std::chrono::milliseconds(1'500);
   record.sweep.warnings = {"rough"};
   const v1::Job job = from_domain(record);
   EXPECT_EQ(job.sweep().coefficients().upload(), "uploads/" + std::string(64, 'a'));
@@ -101,8 +107,7 @@ TEST(FromSweep, TellsTheSweepOfAJobAndHowItEnded) {
   EXPECT_EQ(job.sweep_answer().solve_time().nanos(), 500'000'000);
 
   record.spec.sweep->cases = store::SweepSpec::Cases::nodal_forces;
-  EXPECT_EQ(from_domain(record).sweep().nodal_forces().upload(),
-            "uploads/" + std::string(64, 'a'));
+  EXPECT_EQ(from_domain(record).sweep().nodal_forces().upload(), "uploads/" + std::string(64, 'a'));
 }
 
 TEST(FromSweep, TellsArraysOfBytes) {

@@ -13,6 +13,10 @@
 namespace anticrack::rpc {
 namespace {
 
+using api::JobLimits;
+using api::max_job_bytes;
+using api::require_request_id;
+using api::to_spec;
 using anticrack::testing::opening_job;
 using errors::Error;
 using errors::Reason;

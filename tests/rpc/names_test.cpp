@@ -4,10 +4,17 @@
 #include <gtest/gtest.h>
 
 #include "errors/errors.hpp"
+#include "rpc/pages.hpp"
 
 namespace anticrack::rpc {
 namespace {
 
+using api::job_id;
+using api::job_name;
+using api::mesh_id;
+using api::mesh_name;
+using api::upload_name;
+using api::upload_sha256;
 using errors::Error;
 
 TEST(Names, AreReadBack) {

@@ -13,6 +13,10 @@
 namespace anticrack::rpc {
 namespace {
 
+using api::JobLimits;
+using api::max_job_bytes;
+using api::max_packed_bytes;
+using api::to_spec;
 using anticrack::testing::packed;
 using anticrack::testing::sweep_job;
 using errors::Reason;

@@ -15,6 +15,8 @@
 namespace anticrack::rpc {
 namespace {
 
+using api::max_packed_bytes;
+using api::to_spec;
 using anticrack::testing::opening_job;
 using anticrack::testing::packed;
 using anticrack::testing::sweep_job;
