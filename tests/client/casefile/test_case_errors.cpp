@@ -82,7 +82,7 @@ const Mistake mistakes[] = {
      "plate.toml:7: geometry.inclusion.0.from: missing; write [x, y], a point of an interface"},
     {"single_brackets", "[[geometry.inclusion]]", "[geometry.inclusion]",
      "plate.toml:7: geometry.inclusion: { from = [ -0.5, 0 ], name = 'fibre', to = [ 0.5, 0 ] } is "
-     "no list of tables; write [[geometry.inclusion]] above each of them"},
+     "not a list of tables; write [[geometry.inclusion]] above each of them"},
     {"delaminated_text", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = \"yes\"",
      "plate.toml:11: geometry.inclusion.0.delaminated: 'yes' is not possible; write true, false or "
      "[[from, to], ...]"},
