@@ -45,9 +45,9 @@ void for_each(T& value, Visit&& visit) {
 
 // The preprocessor has no loops: each pass over the text expands one more step.
 #define ANTICRACK_FIELDS_EACH(...) ANTICRACK_FIELDS_64(ANTICRACK_FIELDS_STEP(__VA_ARGS__))
-#define ANTICRACK_FIELDS_STEP(first, ...)         \
-  ::anticrack::fields::Field { #first, of.first } \
-  __VA_OPT__(, ANTICRACK_FIELDS_NEXT ANTICRACK_FIELDS_PARENS(__VA_ARGS__))
+#define ANTICRACK_FIELDS_STEP(first, ...) \
+  ::anticrack::fields::Field{             \
+      #first, of.first} __VA_OPT__(, ANTICRACK_FIELDS_NEXT ANTICRACK_FIELDS_PARENS(__VA_ARGS__))
 #define ANTICRACK_FIELDS_NEXT() ANTICRACK_FIELDS_STEP
 #define ANTICRACK_FIELDS_PARENS ()
 #define ANTICRACK_FIELDS_64(...) \

@@ -6,15 +6,15 @@
 #include <map>
 #include <stdexcept>
 
-#include "rpc/details.hpp"
 #include "api/text.hpp"
+#include "rpc/details.hpp"
 
 namespace anticrack::rpc {
 namespace {
 
-using api::printable;
 using anticrack::testing::Details;
 using anticrack::testing::details_of;
+using api::printable;
 using errors::Error;
 using errors::Reason;
 

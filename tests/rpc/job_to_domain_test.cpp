@@ -5,19 +5,19 @@
 #include <cstdint>
 #include <functional>
 
+#include "api/requests.hpp"
 #include "rpc/from_domain.hpp"
 #include "rpc/refusals.hpp"
 #include "rpc/requests.hpp"
-#include "api/requests.hpp"
 
 namespace anticrack::rpc {
 namespace {
 
+using anticrack::testing::opening_job;
 using api::JobLimits;
 using api::max_job_bytes;
 using api::require_request_id;
 using api::to_spec;
-using anticrack::testing::opening_job;
 using errors::Error;
 using errors::Reason;
 

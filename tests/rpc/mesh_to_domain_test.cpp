@@ -11,13 +11,13 @@
 namespace anticrack::rpc {
 namespace {
 
+using anticrack::testing::paper_mesh;
 using api::below_mesh_request;
 using api::max_interfaces;
 using api::max_parts;
 using api::max_regions;
 using api::max_vertices;
 using api::to_definition;
-using anticrack::testing::paper_mesh;
 using errors::Error;
 using errors::Reason;
 

@@ -4,21 +4,21 @@
 
 #include <functional>
 
+#include "api/requests.hpp"
 #include "rpc/from_domain.hpp"
 #include "rpc/refusals.hpp"
 #include "rpc/requests.hpp"
-#include "api/requests.hpp"
 #include "store/digest.hpp"
 
 namespace anticrack::rpc {
 namespace {
 
+using anticrack::testing::packed;
+using anticrack::testing::sweep_job;
 using api::JobLimits;
 using api::max_job_bytes;
 using api::max_packed_bytes;
 using api::to_spec;
-using anticrack::testing::packed;
-using anticrack::testing::sweep_job;
 using errors::Reason;
 using ::testing::ElementsAre;
 

@@ -6,20 +6,20 @@
 #include <filesystem>
 #include <limits>
 
+#include "api/requests.hpp"
 #include "rpc/refusals.hpp"
 #include "rpc/requests.hpp"
-#include "api/requests.hpp"
 #include "store/array_upload.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace anticrack::rpc {
 namespace {
 
-using api::max_packed_bytes;
-using api::to_spec;
 using anticrack::testing::opening_job;
 using anticrack::testing::packed;
 using anticrack::testing::sweep_job;
+using api::max_packed_bytes;
+using api::to_spec;
 using errors::Reason;
 
 class SweepUpload : public ::testing::Test {
