@@ -55,7 +55,7 @@ class Writer {
     } else if constexpr (std::is_same_v<T, std::string>) {
       text(from);
     } else if constexpr (fields::Listed<const T>) {
-      fields::for_each(from, [this](const auto& field) { value(field.value); });
+      fields::for_each(from, [this](const auto& field) { this->value(field.value); });
     } else if constexpr (fields::is_a<T, std::pair>) {
       value(from.first);
       value(from.second);
@@ -152,7 +152,7 @@ class Reader {
     } else if constexpr (std::is_same_v<T, std::string>) {
       to = text();
     } else if constexpr (fields::Listed<T>) {
-      fields::for_each(to, [this](const auto& field) { read(field.value); });
+      fields::for_each(to, [this](const auto& field) { this->read(field.value); });
     } else if constexpr (fields::is_a<T, std::vector>) {
       using Item = typename T::value_type;
       to.resize(count(least_bytes<Item>()));
