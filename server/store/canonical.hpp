@@ -38,7 +38,7 @@ class CanonicalHash {
   /// Every field of it, and of what it holds.
   template <class T>
   CanonicalHash& add_all(const T& value) {
-    fields::walk(value, [this](const auto& leaf) { add(leaf); });
+    fields::walk(value, [this](const auto& leaf) { this->add(leaf); });
     return *this;
   }
   /// 64 lower-case hexadecimal digits. The object may not be used after.
