@@ -16,7 +16,7 @@ struct Unit {
 
 constexpr std::array<Unit, 6> units{
     {{"", 1e3}, {"s", 1e3}, {"ms", 1}, {"min", 60e3}, {"h", 3'600e3}, {"d", 86'400e3}}};
-constexpr double longest = 366 * 86'400e3;
+constexpr double longest_time = 366 * 86'400e3;
 
 }  // namespace
 
@@ -34,7 +34,7 @@ std::optional<std::chrono::milliseconds> parse_duration(std::string_view text) {
   for (const Unit& unit : units) {
     if (rest == unit.name) {
       const double time = std::round(number * unit.milliseconds);
-      const bool fits = time >= 1 && time <= longest;  // false for NaN
+      const bool fits = time >= 1 && time <= longest_time;  // false for NaN
       return fits ? std::optional(std::chrono::milliseconds(static_cast<std::int64_t>(time)))
                   : std::nullopt;
     }
