@@ -18,6 +18,14 @@ void describe(CLI::App& parser, CommandLine& result, const std::string& version)
       ->type_name("FILE");
   parser.add_flag("--check-config", result.check_config,
                   "Print the configuration in effect and stop");
+  CLI::Option* check = parser.add_flag("--check-store", result.check_store,
+                                       "Check every record and file of the data folder and stop; "
+                                       "the server must not be running; exit code 3 "
+                                       "if something is wrong");
+  parser
+      .add_flag("--repair", result.repair,
+                "Move what --check-store finds wrong to a folder set-aside-N in the data folder")
+      ->needs(check);
   for (const Key& key : keys()) {
     const std::string flag = "--" + key.name;
     if (key.type == KeyType::flag) {

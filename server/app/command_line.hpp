@@ -17,6 +17,8 @@ struct CommandLine {
   std::vector<Setting> settings;
   std::string config_file;  ///< empty: none
   bool check_config = false;
+  bool check_store = false;
+  bool repair = false;  ///< what check_store finds
   /// What --help or --version print: nothing else is to be done.
   std::optional<std::string> text;
 };

@@ -12,6 +12,7 @@
 #include "app/notify.hpp"
 #include "app/service.hpp"
 #include "app/signals.hpp"
+#include "app/store_check.hpp"
 #include "errors/errors.hpp"
 #include "log/log.hpp"
 #include "rpc/version.hpp"
@@ -79,6 +80,7 @@ int run(int argc, char** argv) {
     std::cout << app::to_toml(config);
     return 0;
   }
+  if (line.check_store) return app::check_store(config, line.repair, std::cout);
   return start(config);
 }
 

@@ -7,6 +7,7 @@
 
 #include "errors/errors.hpp"
 #include "store/array_upload.hpp"
+#include "store/files.hpp"
 
 namespace anticrack::jobs {
 namespace {
@@ -72,8 +73,9 @@ ForceArrays::Values ForceArrays::take(const std::string& sha256, const store::St
   const bool last = --entry.cases_left == 0;
   Values values = entry.in_use.lock();
   if (!values) {
-    values = std::make_shared<const std::vector<double>>(
-        store::read_array(path_of(store, sha256, _owner)));
+    const std::string path = path_of(store, sha256, _owner);
+    store::require_intact_upload(path, sha256);
+    values = std::make_shared<const std::vector<double>>(store::read_array(path));
     entry.in_use = values;
   }
   const std::size_t bytes = values->size() * sizeof(double);

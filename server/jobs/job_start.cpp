@@ -10,6 +10,7 @@
 #include "jobs/sweep_check.hpp"
 #include "jobs/sweep_chunk.hpp"
 #include "jobs/sweep_plan.hpp"
+#include "store/files.hpp"
 
 namespace anticrack::jobs {
 
@@ -31,8 +32,14 @@ std::optional<SweepPlan> plan_of(const EngineCore& core, const LiveJob& job,
   if (!sweep) {
     return std::nullopt;
   }
-  return plan_sweep(*job.spec, find_matrix(*sweep, core.store, job.created.owner), mesh_operator,
-                    core.options);
+  MatrixFile matrix = find_matrix(*sweep, core.store, job.created.owner);
+  try {
+    store::require_intact_upload(matrix.path, sweep->upload);
+  } catch (Error& error) {
+    error.at(matrix_field(*sweep));
+    throw;
+  }
+  return plan_sweep(*job.spec, std::move(matrix), mesh_operator, core.options);
 }
 
 /// False where the store could not take it.

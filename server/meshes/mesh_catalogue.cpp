@@ -146,7 +146,9 @@ MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const 
   }
   MeshRecord record;
   try {
-    if (std::optional<MeshRecord> failed = _state->store.mesh(id)) {
+    std::optional<MeshRecord> failed = _state->store.mesh(id);
+    // No mesh fails for the disk: that is one whose record is damaged, and has nothing to keep.
+    if (failed && !(failed->error && failed->error->reason() == Reason::storage)) {
       record = std::move(*failed);
       record.error.reset();
     } else {

@@ -11,6 +11,7 @@
 #include "mesh/codec.hpp"
 #include "meshes/summary.hpp"
 #include "store/digest.hpp"
+#include "store/files.hpp"
 
 namespace anticrack::meshes {
 
@@ -24,8 +25,9 @@ mesh::MesherRequest request_for(const store::MeshRecord& record, const Catalogue
         options.max_triangles};
   }
   const auto& upload = std::get<store::UploadRef>(record.definition);
-  return mesh::ImportRequest{require_upload(store, upload, record.owner), upload.options,
-                             options.max_triangles};
+  std::string path = require_upload(store, upload, record.owner);
+  store::require_intact_upload(path, upload.sha256);
+  return mesh::ImportRequest{std::move(path), upload.options, options.max_triangles};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <vector>
 
 namespace anticrack::store {
 
@@ -57,6 +58,20 @@ std::string Sha256::finish() {
     text += digits[byte & 15U];
   }
   return text;
+}
+
+std::string sha256_of(
+    std::uint64_t size,
+    const std::function<void(std::uint64_t offset, std::span<std::byte> bytes)>& read) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 20U;
+  std::vector<std::byte> piece(static_cast<std::size_t>(std::min(most, size)));
+  Sha256 hash;
+  for (std::uint64_t offset = 0; offset < size; offset += piece.size()) {
+    piece.resize(static_cast<std::size_t>(std::min(most, size - offset)));
+    read(offset, piece);
+    hash.add(piece);
+  }
+  return hash.finish();
 }
 
 std::uint32_t crc32c(std::span<const std::byte> bytes) noexcept {

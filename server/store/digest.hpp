@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -27,6 +28,11 @@ class Sha256 {
   struct Context;
   std::unique_ptr<Context> _context;
 };
+
+/// Of the `size` bytes that read(offset, bytes) fills in, piece by piece.
+std::string sha256_of(
+    std::uint64_t size,
+    const std::function<void(std::uint64_t offset, std::span<std::byte> bytes)>& read);
 
 /// CRC-32C (Castagnoli), as in iSCSI (ISA-L).
 std::uint32_t crc32c(std::span<const std::byte> bytes) noexcept;

@@ -44,8 +44,9 @@ void insert(Connection& connection, const JobRecord& record, const std::string& 
             const std::string& bytes) {
   {
     Statement statement = connection.prepare(
-        "INSERT INTO jobs (id, owner, request, fingerprint, ended, result, result_bytes, record) "
-        "VALUES (?, ?, ?, ?, ?, '', 0, ?)");
+        "INSERT INTO jobs (id, owner, request, fingerprint, ended, result, result_bytes, record, "
+        "checksum) VALUES (?1, ?2, ?3, ?4, ?5, '', 0, ?6, "
+        "crc32c(?1, ?2, ?3, ?4, ?5, '', 0, ?6))");
     statement.bind(std::string_view(record.id))
         .bind(std::string_view(record.owner))
         .bind(std::string_view(record.request_id))
@@ -62,25 +63,26 @@ void insert(Connection& connection, const JobRecord& record, const std::string& 
 }
 
 /// The job the owner made with this request id before.
-std::optional<std::string> find_request(Connection& connection, const JobRecord& record,
-                                        const std::string& fingerprint) {
+std::optional<Row> find_request(Connection& connection, const JobRecord& record,
+                                const std::string& fingerprint) {
   if (record.request_id.empty()) {
     return std::nullopt;
   }
   Statement select = connection.prepare(
-      "SELECT fingerprint, id, record FROM jobs WHERE owner = ? AND request = ? AND request <> ''");
+      "SELECT id, fingerprint FROM jobs WHERE owner = ? AND request = ? AND request <> ''");
   if (!select.bind(std::string_view(record.owner))
            .bind(std::string_view(record.request_id))
            .step()) {
     return std::nullopt;
   }
-  if (select.text(0) != fingerprint) {
+  std::optional<Row> row = find_row(connection, FileKind::result, select.text(0));
+  if (row && row->intact && select.text(1) != fingerprint) {
     throw Error(Reason::request_id_reused,
-                "request id \"" + record.request_id + "\" was used for jobs/" + select.text(1) +
+                "request id \"" + record.request_id + "\" was used for jobs/" + row->id +
                     ", which is another job: make a new request id for each job")
         .at("request_id");
   }
-  return select.text(2);
+  return row;
 }
 
 /// Name of the result's file; empty: none.
@@ -102,8 +104,8 @@ struct ResultColumns {
 void end(Connection& connection, const JobRecord& record, const ResultColumns& result,
          const std::string& bytes) {
   Statement update = connection.prepare(
-      "UPDATE jobs SET ended = ?, result = ?, small_result = ?, result_bytes = ?, record = ? "
-      "WHERE id = ?");
+      "UPDATE jobs SET ended = ?1, result = ?2, small_result = ?3, result_bytes = ?4, record = ?5, "
+      "checksum = crc32c(?6, ?7, ?8, fingerprint, ?1, ?2, ?4, ?5) WHERE id = ?6");
   bind_end(update, record);
   update.bind(std::string_view(result.name));
   if (result.small.empty()) {
@@ -114,14 +116,16 @@ void end(Connection& connection, const JobRecord& record, const ResultColumns& r
   update.bind(static_cast<std::int64_t>(result.bytes))
       .bind_blob(bytes)
       .bind(std::string_view(record.id))
+      .bind(std::string_view(record.owner))
+      .bind(std::string_view(record.request_id))
       .run();
 }
 
-std::vector<JobRecord> decoded(const std::vector<std::string>& rows) {
+std::vector<JobRecord> jobs_of(const std::vector<Row>& rows) {
   std::vector<JobRecord> records;
   records.reserve(rows.size());
-  for (const std::string& bytes : rows) {
-    records.push_back(decode_job_record(bytes));
+  for (const Row& row : rows) {
+    records.push_back(job_of(row));
   }
   return records;
 }
@@ -130,29 +134,35 @@ std::vector<JobRecord> decoded(const std::vector<std::string>& rows) {
 
 JobRecord DurableStore::create(const JobRecord& record, const std::string& fingerprint) {
   const std::string bytes = encode(record);
-  std::optional<std::string> existing;
+  std::optional<Row> existing;
   _writer.run([&](Connection& connection) {
     existing = find_request(connection, record, fingerprint);
     if (!existing) {
       insert(connection, record, fingerprint, bytes);
     }
   });
-  return existing ? decode_job_record(*existing) : record;
+  return existing ? job_of(*existing) : record;
 }
 
 std::optional<JobRecord> DurableStore::created_before(const JobRecord& record,
                                                       const std::string& fingerprint) const {
   const auto existing = reading(
       [&](Connection& connection) { return find_request(connection, record, fingerprint); });
-  return existing ? std::optional(decode_job_record(*existing)) : std::nullopt;
+  return existing ? std::optional(job_of(*existing)) : std::nullopt;
 }
 
 void DurableStore::put(const JobRecord& record) {
   const std::string bytes = encode(record);
   _writer.run([&](Connection& connection) {
-    Statement update = connection.prepare("UPDATE jobs SET ended = ?, record = ? WHERE id = ?");
+    Statement update = connection.prepare(
+        "UPDATE jobs SET ended = ?1, record = ?2, checksum = "
+        "crc32c(?3, ?4, ?5, fingerprint, ?1, result, result_bytes, ?2) WHERE id = ?3");
     bind_end(update, record);
-    update.bind_blob(bytes).bind(std::string_view(record.id)).run();
+    update.bind_blob(bytes)
+        .bind(std::string_view(record.id))
+        .bind(std::string_view(record.owner))
+        .bind(std::string_view(record.request_id))
+        .run();
     if (connection.changes() == 0) {
       throw unknown("jobs", record.id);
     }
@@ -192,16 +202,26 @@ void DurableStore::finish(const JobRecord& record, std::shared_ptr<const Block> 
 }
 
 std::optional<JobRecord> DurableStore::job(const std::string& id) const {
-  const auto bytes = record("SELECT record FROM jobs WHERE id = ?", id);
-  return bytes ? std::optional(decode_job_record(*bytes)) : std::nullopt;
+  const std::optional<Row> found = row(FileKind::result, id);
+  return found ? std::optional(job_of(*found)) : std::nullopt;
 }
 
 std::vector<JobRecord> DurableStore::jobs(const Page& asked) const {
-  return decoded(page("jobs", asked));
+  return jobs_of(page(FileKind::result, asked));
 }
 
 std::vector<JobRecord> DurableStore::unfinished() const {
-  return decoded(records("SELECT record FROM jobs WHERE ended IS NULL ORDER BY number"));
+  std::vector<JobRecord> records = jobs_of(reading([](Connection& connection) {
+    std::vector<Row> rows;
+    Statement select =
+        connection.prepare(select_rows(FileKind::result) + " WHERE ended IS NULL ORDER BY number");
+    while (select.step()) {
+      rows.push_back(row_at(select));
+    }
+    return rows;
+  }));
+  std::erase_if(records, [](const JobRecord& record) { return store::ended(record.state); });
+  return records;
 }
 
 std::vector<EndedJob> DurableStore::ended() const {
@@ -220,9 +240,14 @@ std::vector<EndedJob> DurableStore::ended() const {
 std::shared_ptr<const BlockSource> DurableStore::result(const std::string& job) const {
   const auto look = [&]() -> ResultColumns {
     return reading([&](Connection& connection) {
-      Statement select = connection.prepare("SELECT result, small_result FROM jobs WHERE id = ?");
+      if (const std::optional<Row> row = find_row(connection, FileKind::result, job)) {
+        read_job(*row);  // throws where it is damaged, and so what it says of its result
+      }
+      Statement select =
+          connection.prepare("SELECT result, small_result, result_bytes FROM jobs WHERE id = ?");
       return select.bind(std::string_view(job)).step()
-                 ? ResultColumns{select.text(0), select.text(1)}
+                 ? ResultColumns{select.text(0), select.text(1),
+                                 static_cast<std::uint64_t>(select.integer(2))}
                  : ResultColumns{};
     });
   };
@@ -230,7 +255,7 @@ std::shared_ptr<const BlockSource> DurableStore::result(const std::string& job) 
   while (!found.name.empty()) {
     const std::string path = _results.path(found.name);
     if (Descriptor file = open_to_read(path)) {
-      return open_result(std::move(file), path);
+      return open_result(std::move(file), path, found.name);
     }
     ResultColumns now = look();  // it may have expired just now
     if (now.name == found.name) {
@@ -239,20 +264,15 @@ std::shared_ptr<const BlockSource> DurableStore::result(const std::string& job) 
     }
     found = std::move(now);
   }
-  return found.small.empty() ? nullptr
-                             : open_result(std::move(found.small), "the row of jobs/" + job);
+  return found.bytes == 0 && found.small.empty()
+             ? nullptr
+             : open_result(std::move(found.small), "the row of jobs/" + job);
 }
 
 void DurableStore::expire(const std::string& job) {
   _writer.run([&](Connection& connection) {
     const std::string result = result_name(connection, job);
-    std::string bytes;
-    {
-      Statement select = connection.prepare("SELECT record FROM jobs WHERE id = ?");
-      select.bind(std::string_view(job)).step();
-      bytes = select.text(0);
-    }
-    JobRecord record = decode_job_record(bytes);
+    JobRecord record = read_job(*find_row(connection, FileKind::result, job));
     if (!store::ended(record.state)) {
       throw Error(Reason::in_use, "jobs/" + job + " has not ended: cancel it first");
     }

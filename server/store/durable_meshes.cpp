@@ -32,9 +32,10 @@ void DurableStore::save(Connection& connection, const MeshRecord& record,
   }
   const std::string upload = upload_of(record);
   Statement upsert = connection.prepare(
-      "INSERT INTO meshes (id, owner, sha256, upload, record) VALUES (?, ?, ?, ?, ?) "
+      "INSERT INTO meshes (id, owner, sha256, upload, record, checksum) "
+      "VALUES (?1, ?2, ?3, ?4, ?5, crc32c(?1, ?2, ?3, ?4, ?5)) "
       "ON CONFLICT (id) DO UPDATE SET owner = excluded.owner, sha256 = excluded.sha256, "
-      "upload = excluded.upload, record = excluded.record");
+      "upload = excluded.upload, record = excluded.record, checksum = excluded.checksum");
   upsert.bind(std::string_view(record.id))
       .bind(std::string_view(record.owner))
       .bind(std::string_view(record.sha256))
@@ -66,14 +67,14 @@ void DurableStore::put(const MeshRecord& record, const mesh::Mesh& triangulation
 }
 
 std::optional<MeshRecord> DurableStore::mesh(const std::string& id) const {
-  const auto bytes = record("SELECT record FROM meshes WHERE id = ?", id);
-  return bytes ? std::optional(decode_mesh_record(*bytes)) : std::nullopt;
+  const std::optional<Row> found = row(FileKind::mesh, id);
+  return found ? std::optional(mesh_of(*found)) : std::nullopt;
 }
 
 std::vector<MeshRecord> DurableStore::meshes(const Page& asked) const {
   std::vector<MeshRecord> found;
-  for (const std::string& bytes : page("meshes", asked)) {
-    found.push_back(decode_mesh_record(bytes));
+  for (const Row& row : page(FileKind::mesh, asked)) {
+    found.push_back(mesh_of(row));
   }
   return found;
 }

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "store/identity.hpp"
-#include "store/references.hpp"
+#include "store/rows.hpp"
 #include "store/schema.hpp"
 
 namespace anticrack::store {
@@ -68,9 +68,20 @@ DurableStore::DurableStore(const StoreOptions& options)
       _writer(open_writer(_folder),
               [this](Connection& connection) { remove_unreferenced(connection); }),
       _reader(open_reader(_folder)) {
+  std::vector<FileName> spare;
   for (const FileKind kind : file_kinds) {
-    files(kind).sweep(
-        [&](const std::string& sha256) { return is_referenced(_reader, kind, sha256); });
+    for (std::string& name : files(kind).sweep(
+             [&](const std::string& sha256) { return is_referenced(_reader, kind, sha256); })) {
+      spare.push_back({kind, std::move(name)});
+    }
+  }
+  // A damaged index does not name what its rows do, and a damaged row may have named anything.
+  if (!spare.empty() && all_intact(_reader)) {
+    for (const auto& [kind, sha256] : spare) {
+      if (!is_referenced(_reader, kind, sha256, true)) {
+        files(kind).remove(sha256);
+      }
+    }
   }
 }
 
@@ -111,26 +122,12 @@ void DurableStore::remove_unreferenced(Connection& connection) {
   }
 }
 
-std::vector<std::string> DurableStore::records(const std::string& sql) const {
-  return reading([&](Connection& connection) {
-    std::vector<std::string> rows;
-    Statement select = connection.prepare(sql);
-    while (select.step()) {
-      rows.push_back(select.text(0));
-    }
-    return rows;
-  });
+std::optional<Row> DurableStore::row(FileKind kind, const std::string& id) const {
+  return reading([&](Connection& connection) { return find_row(connection, kind, id); });
 }
 
-std::optional<std::string> DurableStore::record(const std::string& sql,
-                                                const std::string& id) const {
-  return reading([&](Connection& connection) {
-    Statement select = connection.prepare(sql);
-    return select.bind(std::string_view(id)).step() ? std::optional(select.text(0)) : std::nullopt;
-  });
-}
-
-std::vector<std::string> DurableStore::page(const std::string& table, const Page& page) const {
+std::vector<Row> DurableStore::page(FileKind kind, const Page& page) const {
+  const std::string& table = table_of(kind).name;
   const std::string of_owner = page.owner ? " AND owner = ?" : "";
   return reading([&](Connection& connection) {
     std::int64_t before = std::numeric_limits<std::int64_t>::max();
@@ -146,17 +143,17 @@ std::vector<std::string> DurableStore::page(const std::string& table, const Page
       }
       before = select.integer(0);
     }
-    Statement select = connection.prepare("SELECT record FROM " + table + " WHERE number < ?" +
-                                          of_owner + " ORDER BY number DESC LIMIT ?");
+    Statement select = connection.prepare(select_rows(kind) + " WHERE number < ?" + of_owner +
+                                          " ORDER BY number DESC LIMIT ?");
     select.bind(before);
     if (page.owner) {
       select.bind(std::string_view(*page.owner));
     }
     constexpr std::size_t most = std::numeric_limits<std::int64_t>::max();
     select.bind(static_cast<std::int64_t>(std::min(page.count, most)));
-    std::vector<std::string> rows;
+    std::vector<Row> rows;
     while (select.step()) {
-      rows.push_back(select.text(0));
+      rows.push_back(row_at(select));
     }
     return rows;
   });

@@ -16,6 +16,7 @@
 #include "store/disk_usage.hpp"
 #include "store/files.hpp"
 #include "store/group_commit.hpp"
+#include "store/rows.hpp"
 #include "store/sqlite.hpp"
 #include "store/store.hpp"
 #include "store/triangulations.hpp"
@@ -76,10 +77,8 @@ class DurableStore final : public Store {
     const std::lock_guard lock(_reader_mutex);
     return read(_reader);
   }
-  /// Bytes of records: the first column of all rows.
-  std::vector<std::string> records(const std::string& sql) const;
-  std::optional<std::string> record(const std::string& sql, const std::string& id) const;
-  std::vector<std::string> page(const std::string& table, const Page& page) const;
+  std::optional<Row> row(FileKind kind, const std::string& id) const;
+  std::vector<Row> page(FileKind kind, const Page& page) const;
 
   const std::string _folder;
   DiskUsage _usage;

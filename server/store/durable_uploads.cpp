@@ -11,13 +11,15 @@ using errors::Reason;
 
 std::optional<std::string> DurableStore::upload_path(const std::string& sha256,
                                                      const std::string& owner) const {
-  const bool kept = reading([&](Connection& connection) {
-    return connection.prepare("SELECT 1 FROM uploads WHERE sha256 = ? AND owner = ?")
-        .bind(std::string_view(sha256))
-        .bind(std::string_view(owner))
-        .step();
+  return reading([&](Connection& connection) -> std::optional<std::string> {
+    Statement select =
+        connection.prepare(select_rows(FileKind::upload) + " WHERE sha256 = ? AND owner = ?");
+    if (!select.bind(std::string_view(sha256)).bind(std::string_view(owner)).step()) {
+      return std::nullopt;
+    }
+    require_intact(row_at(select), FileKind::upload);
+    return _uploads.path(sha256);
   });
-  return kept ? std::optional(_uploads.path(sha256)) : std::nullopt;
 }
 
 std::string DurableStore::new_upload_path(std::uint64_t bytes) {
@@ -38,7 +40,9 @@ void DurableStore::keep_upload(const std::string& path, const std::string& sha25
     throw Error(Reason::internal, path + " is not an upload on its way");
   }
   std::optional<Part> copy;
-  if (_parts.unflushed(path)) {
+  const std::string there = sha256_of(_uploads.path(sha256));
+  const bool damaged = !there.empty() && there != sha256;
+  if (damaged || _parts.unflushed(path)) {
     copy.emplace(_uploads.copy(path));
   } else {
     _parts.mark_unflushed(path);
@@ -50,9 +54,17 @@ void DurableStore::keep_upload(const std::string& path, const std::string& sha25
   // A link, so that the upload is still there when this fails and is tried again.
   _writer.run([&](Connection& connection) {
     _unreferenced.push_back({FileKind::upload, sha256});
-    _uploads.link(flushed, sha256);
+    if (damaged) {
+      _uploads.rename(flushed, sha256);
+      copy->release();
+    } else {
+      _uploads.link(flushed, sha256);
+    }
     _uploads.flush_names();
-    connection.prepare("INSERT OR REPLACE INTO uploads (sha256, owner, created) VALUES (?, ?, ?)")
+    connection
+        .prepare(
+            "INSERT OR REPLACE INTO uploads (sha256, owner, created, checksum) "
+            "VALUES (?1, ?2, ?3, crc32c(?1, ?2, ?3))")
         .bind(std::string_view(sha256))
         .bind(std::string_view(owner))
         .bind(now)
@@ -66,7 +78,9 @@ std::size_t DurableStore::expire_uploads(Clock::time_point before) {
   std::size_t removed = 0;
   _writer.run([&](Connection& connection) {
     Statement erase = connection.prepare(
-        "DELETE FROM uploads WHERE created < ? "
+        "DELETE FROM uploads WHERE created < ? AND checksum IS " +
+        table_of(FileKind::upload).checksum +
+        " "
         "AND NOT EXISTS (SELECT 1 FROM job_uploads r JOIN jobs j ON j.number = r.job "
         "                WHERE r.upload = uploads.sha256 AND j.ended IS NULL) "
         "AND NOT EXISTS (SELECT 1 FROM meshes m "

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "store/digest.hpp"
 #include "store/disk_errors.hpp"
 
 namespace anticrack::store {
@@ -161,6 +162,22 @@ std::optional<std::vector<std::byte>> read_file(const std::string& path) {
   return bytes;
 }
 
+std::string sha256_of(const std::string& path) {
+  const Descriptor file = open_to_read(path);
+  return file ? sha256_of(file_size(file, path),
+                          [&](std::uint64_t offset, std::span<std::byte> bytes) {
+                            read_at(file, path, offset, bytes);
+                          })
+              : std::string();
+}
+
+void require_intact_upload(const std::string& path, const std::string& sha256) {
+  if (sha256_of(path) != sha256) {
+    throw errors::Error(errors::Reason::storage,
+                        "uploads/" + sha256 + " is damaged or gone from the disk: upload it again");
+  }
+}
+
 void replace_file(const std::string& path, std::span<const std::byte> bytes) {
   const std::string made = path + ".new";
   {
@@ -260,26 +277,32 @@ void Files::remove(const std::string& sha256) {
   _usage.remove(_kind, *bytes);
 }
 
-void Files::sweep(const std::function<bool(const std::string& sha256)>& wanted) {
+std::vector<std::string> Files::sweep(
+    const std::function<bool(const std::string& sha256)>& wanted) {
   std::error_code code;
+  std::vector<std::string> parts;
   std::vector<std::string> unwanted;
   for (fs::directory_iterator entry(_folder, code), end; !code && entry != end;
        entry.increment(code)) {
     const std::string name = entry->path().filename().string();
-    if (name.starts_with(part_prefix) || (is_sha256(name) && !wanted(name))) {
+    if (name.starts_with(part_prefix)) {
+      parts.push_back(name);
+      continue;
+    }
+    _usage.add(_kind, file_size(entry->path().string()).value_or(0));
+    if (is_sha256(name) && !wanted(name)) {
       unwanted.push_back(name);
-    } else {
-      _usage.add(_kind, file_size(entry->path().string()).value_or(0));
     }
   }
   if (code) {
     throw disk_error("list " + _folder, code.value());
   }
-  for (const std::string& name : unwanted) {
+  for (const std::string& name : parts) {
     if (::unlink(path(name).c_str()) != 0 && errno != ENOENT) {
       throw disk_error("remove " + path(name), errno);
     }
   }
+  return unwanted;
 }
 
 }  // namespace anticrack::store

@@ -55,6 +55,10 @@ void read_at(const Descriptor& file, const std::string& path, std::uint64_t offs
              std::span<std::byte> bytes);
 /// The whole file; none where there is no such file.
 std::optional<std::vector<std::byte>> read_file(const std::string& path);
+/// The hash of a file's content; empty where there is no such file. Throws as read_at does.
+std::string sha256_of(const std::string& path);
+/// Reads the file. Throws errors::Error (storage) where it is not uploads/SHA256 any more.
+void require_intact_upload(const std::string& path, const std::string& sha256);
 /// Makes the file or gives it other bytes, on the disk: all or nothing. Throws as disk_error does.
 void replace_file(const std::string& path, std::span<const std::byte> bytes);
 
@@ -99,8 +103,8 @@ class Files {
   void flush_names() const { flush(_folder); }
   /// Nothing to do where there is no such file. Throws as disk_error does.
   void remove(const std::string& sha256);
-  /// Removes parts and what is not `wanted`, and counts the bytes of the rest.
-  void sweep(const std::function<bool(const std::string& sha256)>& wanted);
+  /// Removes parts, counts the bytes of the rest and returns what of it is not `wanted`.
+  std::vector<std::string> sweep(const std::function<bool(const std::string& sha256)>& wanted);
 
  private:
   std::string _folder;

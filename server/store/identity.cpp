@@ -2,14 +2,14 @@
 #include "store/identity.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <span>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "store/files.hpp"
-#include "store/references.hpp"
+#include "store/rows.hpp"
+#include "store/schema.hpp"
 
 namespace anticrack::store {
 
@@ -28,68 +28,50 @@ std::string identity_in(const std::string& folder) {
   return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "";
 }
 
-/// Empty: the database was made before there were any.
 std::string identity_in(Connection& connection) {
-  if (connection.integer("SELECT count(*) FROM sqlite_schema WHERE name = 'store'") == 0) {
-    return {};
-  }
   Statement select = connection.prepare("SELECT identity FROM store");
   return select.step() ? select.text(0) : std::string();
-}
-
-std::string count(std::size_t number, const std::string& one, const std::string& many) {
-  return std::to_string(number) + " " + (number == 1 ? one : many);
 }
 
 /// What a store has left in a folder.
 struct Left {
   explicit Left(const std::string& in) : folder(in), identity(identity_in(in)) {
     for (const FileKind kind : file_kinds) {
-      files[static_cast<std::size_t>(kind)] = file_names(folder_of(in, kind));
+      for (std::string& name : file_names(folder_of(in, kind))) {
+        files.emplace_back(kind, std::move(name));
+      }
     }
   }
 
-  const std::vector<std::string>& of(FileKind kind) const {
-    return files[static_cast<std::size_t>(kind)];
-  }
-  bool any_file() const {
-    return std::ranges::any_of(files, [](const auto& names) { return !names.empty(); });
-  }
-  bool anything() const { return !identity.empty() || any_file(); }
+  bool anything() const { return !identity.empty() || !files.empty(); }
 
-  /// That the database is no good for it, for it `is` so.
+  std::string count(FileKind kind) const {
+    return std::to_string(std::ranges::count(files, kind, &File::first));
+  }
+
+  /// The error of a database that cannot be used for it; `is` says why.
   Error refused(const std::string& is) const {
     return {Reason::storage,
-            "the data folder " + folder + " has " +
-                count(of(FileKind::mesh).size(), "mesh", "meshes") + ", " +
-                count(of(FileKind::result).size(), "result", "results") + " and " +
-                count(of(FileKind::upload).size(), "upload", "uploads") + " of a store, but " +
-                database_path(folder) + " " + is +
-                ": restore the database of that store from a backup, or move the folder away to "
-                "start anew"};
+            "the data folder " + folder +
+                " has the files of a store (meshes: " + count(FileKind::mesh) +
+                ", results: " + count(FileKind::result) + ", uploads: " + count(FileKind::upload) +
+                "), but " + database_path(folder) + " " + is +
+                ": restore the database of that store from a backup, move the folder away to start "
+                "anew, or let anticrackd --check-store --repair move aside what does not belong "
+                "together"};
   }
 
+  using File = std::pair<FileKind, std::string>;  ///< with its name
   std::string folder;
-  std::string identity;
-  std::array<std::vector<std::string>, file_kinds.size()> files;
+  std::string identity;  ///< empty: none
+  std::vector<File> files;
 };
-
-bool names_one(Connection& connection, const Left& left) {
-  return std::ranges::any_of(file_kinds, [&](FileKind kind) {
-    return std::ranges::any_of(left.of(kind), [&](const std::string& name) {
-      return is_referenced(connection, kind, name);
-    });
-  });
-}
 
 }  // namespace
 
 void require_database(const std::string& folder) {
   const std::optional<std::uint64_t> bytes = file_size(database_path(folder));
-  if (bytes.value_or(0) > 0) {
-    return;
-  }
-  if (const Left left(folder); left.anything()) {
+  if (const Left left(folder); bytes.value_or(0) == 0 && left.anything()) {
     throw left.refused(bytes ? "is empty" : "is missing");
   }
 }
@@ -102,13 +84,16 @@ void require_own(Connection& connection, const std::string& folder) {
     }
     return;
   }
+  require_version(connection);
   const std::string identity = identity_in(connection);
-  if (!identity.empty() && !left.identity.empty()) {
+  if (!left.identity.empty()) {
     if (identity != left.identity) {
       throw left.refused("is another store's (" + identity + ", not " + left.identity + ")");
     }
-  } else if (left.any_file() && !names_one(connection, left)) {
-    throw left.refused("names none of them");
+  } else if (!left.files.empty() && std::ranges::none_of(left.files, [&](const auto& file) {
+               return is_referenced(connection, file.first, file.second);
+             })) {
+    throw left.refused("refers to none of them");
   }
 }
 

@@ -15,9 +15,9 @@ namespace anticrack::store {
 /// is missing or has no byte. To be called before SQLite makes one.
 void require_database(const std::string& folder);
 
-/// Throws errors::Error (storage) where the database is empty or another store's, before anything
-/// is changed in either. A database that has no identity, for it was made before there were any, or
-/// whose folder has none, is taken for the folder's where it names a file there, or there is none.
+/// Throws errors::Error (storage) where the database is empty, of another version or another
+/// store's, before anything is changed in either. Where the folder has no identity the database is
+/// its own if it names a file there, or there is none.
 void require_own(Connection& connection, const std::string& folder);
 
 /// Writes the database's identity into the folder, where it is not there yet. Throws as disk_error

@@ -11,12 +11,13 @@ namespace anticrack::store {
 using errors::Error;
 using errors::Reason;
 
-namespace {
-
 Error damaged_record(const std::string& what) {
-  return {Reason::storage, "a record in the database is damaged (" + what +
-                               "): restore the data folder from a backup"};
+  return {Reason::storage, "its record in the database is damaged (" + what +
+                               "): delete it and make it again, or restore the data folder from a "
+                               "backup"};
 }
+
+namespace {
 
 /// read(message), whose errors say what is wrong with the record.
 template <class Record, class Read>

@@ -27,7 +27,10 @@ inline Clock::time_point time_of(std::int64_t nanoseconds) {
 std::string encode(const MeshRecord& record);
 std::string encode(const JobRecord& record);
 
-/// Throw errors::Error (storage) where the bytes are not a record.
+/// The error (storage) of a record that is not as it was written; `what` is wrong with it.
+errors::Error damaged_record(const std::string& what);
+
+/// Throw damaged_record() where the bytes are not a record.
 MeshRecord decode_mesh_record(std::string_view bytes);
 JobRecord decode_job_record(std::string_view bytes);
 

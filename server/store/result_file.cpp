@@ -67,8 +67,9 @@ Error damaged(const std::string& place) {
           "the result in " + place + " is damaged: delete its job and run it again"};
 }
 
-std::shared_ptr<const BlockSource> open_at(Read read, std::uint64_t size,
-                                           const std::string& place) {
+/// `name`: the hash of all before the bytes; empty: not known.
+std::shared_ptr<const BlockSource> open_at(Read read, std::uint64_t size, const std::string& place,
+                                           const std::string& name) {
   std::array<std::byte, magic.size() + lengths> start{};
   read(0, start);
   const std::uint32_t length = number_at(start.data() + magic.size());
@@ -79,6 +80,9 @@ std::shared_ptr<const BlockSource> open_at(Read read, std::uint64_t size,
   read(start.size(), std::as_writable_bytes(std::span(bytes)));
   if (crc32c(std::as_bytes(std::span(bytes))) !=
       number_at(start.data() + magic.size() + sizeof length)) {
+    throw damaged(place);
+  }
+  if (!name.empty() && Sha256().add(start).add(bytes).finish() != name) {
     throw damaged(place);
   }
   v1::BlockLayout layout;
@@ -105,26 +109,38 @@ std::string result_header(const Block& block) {
          number_bytes(crc32c(std::as_bytes(std::span(bytes)))) + bytes;
 }
 
-std::shared_ptr<const BlockSource> open_result(Descriptor file, const std::string& path) {
+std::shared_ptr<const BlockSource> open_result(Descriptor file, const std::string& path,
+                                               const std::string& name) {
   const std::uint64_t size = file_size(file, path);
   const auto shared = std::make_shared<const Descriptor>(std::move(file));
   return open_at(
       [shared, path](std::uint64_t offset, std::span<std::byte> bytes) {
         read_at(*shared, path, offset, bytes);
       },
-      size, path);
+      size, path, name);
 }
 
 std::shared_ptr<const BlockSource> open_result(std::string stored, const std::string& place) {
   const std::uint64_t size = stored.size();
-  return open_at(
+  auto block = open_at(
       [stored = std::move(stored), place](std::uint64_t offset, std::span<std::byte> bytes) {
         if (offset > stored.size() || bytes.size() > stored.size() - offset) {
           throw damaged(place);
         }
         std::memcpy(bytes.data(), stored.data() + offset, bytes.size());
       },
-      size, place);
+      size, place, {});
+  require_whole(*block, place);
+  return block;
+}
+
+void require_whole(const BlockSource& block, const std::string& place) {
+  const auto read = [&](std::uint64_t offset, std::span<std::byte> bytes) {
+    block.read(offset, bytes);
+  };
+  if (sha256_of(block.size(), read) != block.sha256()) {
+    throw damaged(place);
+  }
 }
 
 }  // namespace anticrack::store

@@ -12,12 +12,13 @@ using errors::Error;
 using errors::Reason;
 
 /// Raised with every change of the tables or of what records are (records.proto), since a database
-/// of another version is refused. Versions 1 to 3 had records of their own form.
-constexpr std::int64_t schema_version = 4;
+/// of another version is refused. Versions 1 to 3 had records of their own form, 4 no checksums.
+constexpr std::int64_t schema_version = 5;
 
 /// Columns beside a record are those that are searched for. `number` is the order of creation;
 /// AUTOINCREMENT gives none twice, so that a page stays where it is when records are erased.
 /// `store` says that this database and the files beside it are of one store (identity.hpp).
+/// `checksum` says whether the row is as it was written (rows.hpp).
 /// A small result is one that is not worth a file of its own, as it would be in one.
 constexpr const char* tables = R"(
 CREATE TABLE meshes (
@@ -26,7 +27,8 @@ CREATE TABLE meshes (
   owner TEXT NOT NULL,
   sha256 TEXT NOT NULL,
   upload TEXT NOT NULL,
-  record BLOB NOT NULL
+  record BLOB NOT NULL,
+  checksum INTEGER NOT NULL
 ) STRICT;
 CREATE INDEX meshes_owner ON meshes (owner, number);
 CREATE INDEX meshes_sha256 ON meshes (sha256) WHERE sha256 <> '';
@@ -42,7 +44,8 @@ CREATE TABLE jobs (
   result TEXT NOT NULL,
   result_bytes INTEGER NOT NULL,
   small_result BLOB,
-  record BLOB NOT NULL
+  record BLOB NOT NULL,
+  checksum INTEGER NOT NULL
 ) STRICT;
 CREATE INDEX jobs_owner ON jobs (owner, number);
 CREATE UNIQUE INDEX jobs_request ON jobs (owner, request) WHERE request <> '';
@@ -54,6 +57,7 @@ CREATE TABLE uploads (
   sha256 TEXT NOT NULL,
   owner TEXT NOT NULL,
   created INTEGER NOT NULL,
+  checksum INTEGER NOT NULL,
   PRIMARY KEY (sha256, owner)
 ) STRICT, WITHOUT ROWID;
 
@@ -71,13 +75,18 @@ INSERT INTO store VALUES (lower(hex(randomblob(16))));
 }  // namespace
 
 void make_tables(Connection& connection) {
-  const std::int64_t version = connection.integer("PRAGMA user_version");
-  if (version == 0) {
+  if (connection.integer("PRAGMA user_version") == 0) {
     Transaction transaction(connection);
     connection.execute(tables);
     connection.execute("PRAGMA user_version = " + std::to_string(schema_version));
     transaction.commit();
-  } else if (version != schema_version) {
+  }
+  require_version(connection);
+}
+
+void require_version(Connection& connection) {
+  const std::int64_t version = connection.integer("PRAGMA user_version");
+  if (version != schema_version) {
     throw Error(Reason::storage,
                 "the database " + connection.path() + " has version " + std::to_string(version) +
                     ", this anticrack reads version " + std::to_string(schema_version) +
@@ -92,8 +101,8 @@ void require_sound(Connection& connection) {
   if (answer != "ok") {
     throw Error(Reason::storage,
                 "the database " + connection.path() + " is damaged (" + answer +
-                    "): stop the server and restore the data folder from a backup, or move it "
-                    "away to start anew");
+                    "): stop the server and restore the data folder from a backup, recover the "
+                    "database with sqlite3's .recover, or move the folder away to start anew");
   }
 }
 

@@ -1,16 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "store/sqlite.hpp"
 
+#include <array>
 #include <cerrno>
 #include <new>
+#include <span>
 #include <utility>
 
+#include "store/digest.hpp"
 #include "store/disk_errors.hpp"
 
 namespace anticrack::store {
 
 using errors::Error;
 using errors::Reason;
+
+namespace {
+
+/// SQL's crc32c(...): CRC-32C of all arguments, each with its type and its length.
+void crc32c_of(sqlite3_context* context, int count, sqlite3_value** values) {
+  std::uint32_t sum = 0;
+  for (sqlite3_value* value : std::span(values, static_cast<std::size_t>(count))) {
+    const int type = sqlite3_value_type(value);
+    std::array<std::int64_t, 4> parts{sum, type, 0, 0};
+    if (type == SQLITE_INTEGER) {
+      parts[2] = sqlite3_value_int64(value);
+    } else if (type != SQLITE_NULL) {
+      const auto* bytes = static_cast<const std::byte*>(sqlite3_value_blob(value));
+      parts[2] = sqlite3_value_bytes(value);
+      parts[3] = crc32c({bytes, static_cast<std::size_t>(parts[2])});
+    }
+    sum = crc32c(std::as_bytes(std::span(parts)));
+  }
+  sqlite3_result_int64(context, sum);
+}
+
+}  // namespace
 
 Statement::~Statement() {
   sqlite3_reset(_statement);
@@ -83,6 +108,8 @@ Connection::Connection(std::string path) : _path(std::move(path)) {
     throw error(SQLITE_READONLY);
   }
   sqlite3_busy_timeout(database, 5000);  // of a backup tool, or the other connection's checkpoint
+  sqlite3_create_function_v2(database, "crc32c", -1, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr,
+                             crc32c_of, nullptr, nullptr, nullptr);
 }
 
 Statement Connection::prepare(const std::string& sql) {

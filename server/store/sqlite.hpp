@@ -54,7 +54,7 @@ class Statement {
 /// failure of the disk and for a damaged file, internal for a bug; std::bad_alloc.
 class Connection {
  public:
-  /// Opens or makes the file.
+  /// Opens or makes the file. SQL has a function crc32c(...) besides its own.
   explicit Connection(std::string path);
 
   /// Compiled once for each text.

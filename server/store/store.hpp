@@ -67,7 +67,10 @@ struct StoreOptions {
 ///    it has written nothing, and the same call may succeed later. Nothing but a bad disk makes the
 ///    store unusable.
 /// 3. Lists are stable under insertion; an unknown `after` throws not_found.
-/// 4. Ids are unique for ever; an erased id does not come back by itself.
+/// 4. A record that has changed on the disk comes as FAILED with an error (storage) that names it
+/// and
+///    gives the cure; no more is known of it than id and owner.
+/// 5. Ids are unique for ever; an erased id does not come back by itself.
 class Store {
  public:
   virtual ~Store() = default;
@@ -97,19 +100,23 @@ class Store {
   /// Empty where there is none.
   virtual std::optional<JobRecord> job(const std::string& id) const = 0;
   virtual std::vector<JobRecord> jobs(const Page& page) const = 0;
-  virtual std::vector<JobRecord> unfinished() const = 0;  ///< oldest first: to be queued at a start
-  virtual std::vector<EndedJob> ended() const = 0;        ///< oldest end first
-  /// Null where the job has none. The file is not read as a whole.
+  /// Oldest first: to be queued at a start; without those that are damaged.
+  virtual std::vector<JobRecord> unfinished() const = 0;
+  virtual std::vector<EndedJob> ended() const = 0;  ///< oldest end first
+  /// Null where the job has none; throws storage where its record, a small result or the layout of
+  /// a large one is damaged. The file is not read as a whole.
   virtual std::shared_ptr<const BlockSource> result(const std::string& job) const = 0;
   /// Removes the result of an ended job and sets its state to `expired`; throws not_found.
   virtual void expire(const std::string& job) = 0;
   virtual void erase_job(const std::string& id) = 0;  ///< and its result; throws not_found
 
-  /// Where the upload with this hash lies that `owner` made; empty where there is none.
+  /// Where the upload with this hash lies that `owner` made; empty where there is none. Whether the
+  /// content still has the hash: require_intact_upload() (files.hpp).
   virtual std::optional<std::string> upload_path(const std::string& sha256,
                                                  const std::string& owner) const = 0;
   /// A fresh file to receive an upload of `bytes`; `keep_upload` moves it to its place.
   virtual std::string new_upload_path(std::uint64_t bytes) = 0;
+  /// In place of the same file where that has changed on the disk.
   virtual void keep_upload(const std::string& path, const std::string& sha256,
                            const std::string& owner) = 0;
   /// Removes uploads made before `before` that no unfinished job and no mesh without a

@@ -116,5 +116,24 @@ TEST_F(Daemon, RefusesAMesherThatIsNotThere) {
   EXPECT_THAT(daemon->error(), HasSubstr("--mesher PATH"));
 }
 
+TEST_F(Daemon, ChecksItsStoreAndSetsAsideWhatHasNoDatabase) {
+  EXPECT_EQ(start({"--check-store"})->wait(), 2) << "there is no folder";
+  EXPECT_FALSE(std::filesystem::exists(_folder / "data"));
+  std::filesystem::create_directories(_folder / "data/results");
+  EXPECT_EQ(start({"--check-store"})->wait(), 0) << "there is nothing in it";
+  const std::string name = "results/" + std::string(64, 'a');
+  std::ofstream(_folder / ("data/" + name)) << "x";
+  EXPECT_EQ(start({"--listen", "127.0.0.1:0"})->wait(), 1);
+  const auto check = start({"--check-store"});
+  EXPECT_EQ(check->wait(), 3);
+  EXPECT_THAT(check->output(), HasSubstr(name + " belongs to no record\n"));
+  EXPECT_TRUE(std::filesystem::exists(_folder / ("data/" + name)));
+  EXPECT_EQ(start({"--repair"})->wait(), 2);
+  EXPECT_EQ(start({"--check-store", "--repair"})->wait(), 0);
+  EXPECT_TRUE(std::filesystem::exists(_folder / ("data/set-aside-1/" + name)));
+  const auto daemon = start({"--listen", "127.0.0.1:0"});
+  EXPECT_TRUE(daemon->wait_for_output("\n")) << daemon->error();
+}
+
 }  // namespace
 }  // namespace anticrack::app

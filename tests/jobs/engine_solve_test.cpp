@@ -256,11 +256,8 @@ TEST(EngineSolve, StopsWhileALoadIsIntegrated) {
 
 TEST(EngineFailure, OfTheMeshFailsTheJob) {
   Engine test;
-  const std::string part = test.backend.store->new_upload_path(100);
-  std::ofstream(part) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
-  const std::string hash(64, '1');
-  test.backend.store->keep_upload(part, hash, "");
-  const std::string mesh = test.backend.catalogue.create(store::UploadRef{hash}, "", "").id;
+  const store::UploadRef upload = test.backend.upload("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
+  const std::string mesh = test.backend.catalogue.create(upload, "", "").id;
   const std::string id = test.submit(short_job(mesh));
   const JobRecord record = test.ended(id);
   EXPECT_EQ(record.state, JobState::failed);

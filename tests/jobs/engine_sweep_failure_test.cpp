@@ -8,6 +8,7 @@
 
 #include "jobs/sweep_support.hpp"
 #include "support/errors.hpp"
+#include "support/flip.hpp"
 
 namespace anticrack::jobs {
 namespace {
@@ -73,6 +74,15 @@ TEST(EngineSweepFailure, FailsWhereTheNodalForcesAreNotOfTheMesh) {
                    "no row 1");
   EXPECT_EQ(test.engine.metrics().jobs_queued, 0);
   EXPECT_EQ(test.engine.metrics().jobs_running, 0);
+}
+
+TEST(EngineSweepFailure, FailsWhereTheMatrixHasChangedOnTheDisk) {
+  Engine test;
+  const std::string mesh = test.ready_mesh(mesh_size);
+  const std::string matrix = upload(test.backend, {1, 2, 3});
+  anticrack::testing::flip(test.backend.store->upload_path(matrix, "").value(), 7);
+  const JobRecord record = test.ended(test.submit(combinations(mesh, matrix)));
+  expect_failed_at(record, "sweep.coefficients", Reason::storage, "upload it again");
 }
 
 TEST(EngineSweepFailure, FailsAtAValueThatIsNotFinite) {

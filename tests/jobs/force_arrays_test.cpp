@@ -7,7 +7,9 @@
 #include <fstream>
 #include <string>
 
+#include "store/files.hpp"
 #include "support/errors.hpp"
+#include "support/flip.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace anticrack::jobs {
@@ -18,14 +20,14 @@ using errors::Reason;
 
 class Arrays : public ::testing::Test {
  protected:
-  /// An upload of `count` values under a made-up hash.
-  std::string upload(char digit, std::size_t count) {
+  /// An upload of `count` values.
+  std::string upload(std::size_t count) {
     const std::string part = store->new_upload_path(count * sizeof(double));
     const std::vector<double> values(count, 1.5);
     std::ofstream(part, std::ios::binary)
         .write(reinterpret_cast<const char*>(values.data()),
                static_cast<std::streamsize>(count * sizeof(double)));
-    const std::string hash(64, digit);
+    const std::string hash = store::sha256_of(part);
     store->keep_upload(part, hash, owner);
     return hash;
   }
@@ -44,7 +46,7 @@ class Arrays : public ::testing::Test {
 };
 
 TEST_F(Arrays, AreReadOnceAndGoWithTheLastCase) {
-  const std::string hash = upload('a', 5);
+  const std::string hash = upload(5);
   const std::vector<fem::Load> loads{of(hash), fem::Load{}, of(hash), of(hash)};
   ForceArrays arrays(loads, owner);
   const fem::Load first = arrays.resolve(loads[0], *store);
@@ -59,7 +61,7 @@ TEST_F(Arrays, AreReadOnceAndGoWithTheLastCase) {
 }
 
 TEST_F(Arrays, AreLookedForBeforeTheyAreNeeded) {
-  const std::string good = upload('a', 1), empty = upload('c', 0);
+  const std::string good = upload(1), empty = upload(0);
   EXPECT_NO_THROW(require_arrays({of(good), fem::Load{}}, *store, owner));
   EXPECT_TRUE(throws(
       [&] {
@@ -73,10 +75,22 @@ TEST_F(Arrays, AreLookedForBeforeTheyAreNeeded) {
 }
 
 TEST_F(Arrays, ThatWentMeanwhileFailTheirCase) {
-  const std::vector<fem::Load> loads{of(upload('a', 1))};
+  const std::string hash = upload(1);
+  const std::vector<fem::Load> loads{of(hash)};
   ForceArrays arrays(loads, owner);
-  std::filesystem::remove(*store->upload_path(std::string(64, 'a'), owner));
+  std::filesystem::remove(*store->upload_path(hash, owner));
   EXPECT_TRUE(throws([&] { arrays.resolve(loads[0], *store); }, Reason::storage, "force.array"));
+}
+
+TEST_F(Arrays, ThatHaveChangedOnTheDiskFailTheirCase) {
+  const std::string hash = upload(5);
+  const std::vector<fem::Load> loads{of(hash), of(hash)};
+  ForceArrays arrays(loads, owner);
+  const std::string path = *store->upload_path(hash, owner);
+  anticrack::testing::flip(path, 17);
+  EXPECT_TRUE(throws([&] { arrays.resolve(loads[0], *store); }, Reason::storage, "force.array"));
+  EXPECT_EQ(upload(5), hash);  // again
+  EXPECT_EQ(*values(arrays.resolve(loads[1], *store)), std::vector<double>(5, 1.5));
 }
 
 }  // namespace

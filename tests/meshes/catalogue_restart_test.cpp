@@ -9,6 +9,7 @@
 #include "support/backend.hpp"
 #include "support/errors.hpp"
 #include "support/eventually.hpp"
+#include "support/flip.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace anticrack::meshes {
@@ -89,6 +90,43 @@ TEST_F(Restart, FindsAFailedMeshWithItsError) {
   EXPECT_TRUE(
       throws([&] { backend.catalogue.prepare(id, [](MeshState) {}, {}); }, record.error->reason()));
   EXPECT_EQ(backend.catalogue.meshings(), 0U);
+}
+
+TEST_F(Restart, MakesAMeshWhoseRecordIsDamagedAgain) {
+  std::string id;
+  {
+    Backend backend(options);
+    id = backend.catalogue.create(Backend::definition(), "a long title", "").id;
+    ASSERT_TRUE(reaches(backend, id, MeshState::ready));
+  }
+  const std::string database = options.data_folder + "/anticrack.db";
+  const auto places = anticrack::testing::places_of("a long title", database);
+  ASSERT_FALSE(places.empty());
+  for (const std::size_t place : places) anticrack::testing::flip(database, place, 10);
+  Backend backend(options);
+  const MeshRecord damaged = backend.catalogue.get(id);
+  EXPECT_EQ(damaged.state, MeshState::failed);
+  EXPECT_EQ(damaged.error.value().reason(), Reason::storage);
+  EXPECT_EQ(backend.catalogue.list({{}, 9, {}}).size(), 1U);
+  EXPECT_TRUE(
+      throws([&] { backend.catalogue.prepare(id, [](MeshState) {}, {}); }, Reason::storage));
+  EXPECT_EQ(backend.catalogue.create(Backend::definition(), "again", "").id, id);
+  ASSERT_TRUE(reaches(backend, id, MeshState::ready));
+  EXPECT_EQ(backend.catalogue.get(id).title, "again");
+  EXPECT_FALSE(backend.catalogue.get(id).error);
+}
+
+TEST_F(Restart, DoesNotMeshAnUploadThatHasChangedOnTheDisk) {
+  const std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n9";
+  Backend backend(options);
+  const store::UploadRef upload = backend.upload(text);
+  anticrack::testing::flip(backend.store->upload_path(upload.sha256, "").value(), text.size() - 1);
+  const std::string id = backend.catalogue.create(upload, "", "").id;
+  EXPECT_TRUE(
+      throws([&] { backend.catalogue.prepare(id, [](MeshState) {}, {}); }, Reason::storage));
+  backend.upload(text);
+  EXPECT_TRUE(
+      throws([&] { backend.catalogue.prepare(id, [](MeshState) {}, {}); }, Reason::mesh_invalid));
 }
 
 TEST_F(Restart, MeshesWhatTheDiskHadNoRoomFor) {

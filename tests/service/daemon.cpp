@@ -51,6 +51,13 @@ int Daemon::stop() {
   return *code;
 }
 
+Ended Daemon::run_on_data(std::vector<std::string> options) const {
+  options.insert(options.begin(), {ANTICRACKD, "--data-dir", data()});
+  anticrack::testing::Process process(options);
+  const int code = process.wait().value_or(-1);
+  return {code, process.output(), process.error()};
+}
+
 client::ConnectionOptions Daemon::connection() const {
   client::ConnectionOptions options;
   options.address = address();

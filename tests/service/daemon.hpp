@@ -40,6 +40,9 @@ class Daemon {
   /// SIGTERM, and waits for its end; its exit code.
   int stop();
 
+  /// Runs anticrackd with these options on the data folder to its end, while this one is stopped.
+  Ended run_on_data(std::vector<std::string> options) const;
+
   /// Of a client that waits patiently for it.
   client::ConnectionOptions connection() const;
 

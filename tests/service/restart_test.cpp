@@ -12,6 +12,7 @@
 #include "service/stored_data.hpp"
 #include "service/workload.hpp"
 #include "support/eventually.hpp"
+#include "support/flip.hpp"
 
 namespace anticrack::service_test {
 namespace {
@@ -138,11 +139,53 @@ TEST(Restart, RefusesAFolderThatLostItsDatabaseAndRemovesNothing) {
   daemon.launch();
   EXPECT_EQ(daemon.process().wait(), 1);
   EXPECT_THAT(daemon.process().error(),
-              AllOf(HasSubstr(daemon.data() + " has 1 mesh, "), HasSubstr("from a backup")));
+              AllOf(HasSubstr(daemon.data() + " has the files of a store (meshes: 1, "),
+                    HasSubstr("from a backup")));
   daemon.kill();
   std::filesystem::rename(backup, database);
   daemon.start();
   EXPECT_EQ(difference(client::read_result(connection, name), result), "");
+  EXPECT_EQ(daemon.stop(), 0);
+  EXPECT_THAT(flaws_of(daemon.data()), IsEmpty());
+}
+
+TEST(Restart, ServesAroundADamagedRecordAndSetsItAside) {
+  Daemon daemon;
+  client::Connection connection(daemon.connection());
+  Work quick = work("slit.toml", {"mesh.preset=uniform", "mesh.size=0.2"});
+  const std::string sound = submit(connection, quick, client::make_uuid()).name();
+  quick.job.set_title("a title to be found");
+  const std::string damaged = submit(connection, quick, client::make_uuid()).name();
+  wait_for_end(connection, sound);
+  wait_for_end(connection, damaged);
+  const client::Block result = client::read_result(connection, sound);
+  EXPECT_EQ(daemon.stop(), 0);
+  EXPECT_EQ(daemon.run_on_data({"--check-store"}).code, 0);
+
+  const std::string database = daemon.data() + "/anticrack.db";
+  const auto places = anticrack::testing::places_of(quick.job.title(), database);
+  ASSERT_FALSE(places.empty());
+  for (const std::size_t place : places) anticrack::testing::flip(database, place, 20);
+  daemon.start();
+  const v1::Job job = client::get_job(connection, damaged);
+  EXPECT_EQ(job.state(), v1::Job::STATE_FAILED);
+  EXPECT_THAT(job.error().message(), AllOf(HasSubstr(damaged), HasSubstr("damaged")));
+  EXPECT_EQ(job.answers_size(), 0);
+  EXPECT_THROW(client::read_result(connection, damaged), client::Error);
+  EXPECT_EQ(client::list_jobs(connection, {}).jobs_size(), 2);
+  EXPECT_EQ(difference(client::read_result(connection, sound), result), "");
+  EXPECT_EQ(daemon.run_on_data({"--check-store"}).code, 2) << "a server uses it";
+  EXPECT_EQ(daemon.stop(), 0);
+
+  const Ended found = daemon.run_on_data({"--check-store"});
+  EXPECT_EQ(found.code, 3) << found.error;
+  EXPECT_THAT(found.output, AllOf(HasSubstr(damaged), HasSubstr("--repair")));
+  const Ended repaired = daemon.run_on_data({"--check-store", "--repair"});
+  EXPECT_EQ(repaired.code, 0) << repaired.error;
+  EXPECT_THAT(repaired.output, HasSubstr("set-aside-1"));
+  daemon.start();
+  EXPECT_EQ(client::list_jobs(connection, {}).jobs_size(), 1);
+  EXPECT_EQ(difference(client::read_result(connection, sound), result), "");
   EXPECT_EQ(daemon.stop(), 0);
   EXPECT_THAT(flaws_of(daemon.data()), IsEmpty());
 }

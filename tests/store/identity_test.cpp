@@ -64,7 +64,7 @@ TEST_F(Identity, RefusesFilesWithoutTheirDatabase) {
   store.reset();
   std::filesystem::copy(folder / "anticrack.db", folder / "backup.db");
   remove_database();
-  expect_refused("1 mesh, 1 result and 1 upload");
+  expect_refused("(meshes: 1, results: 1, uploads: 1)");
   expect_refused("is missing");
   EXPECT_FALSE(std::filesystem::exists(folder / "anticrack.db")) << "it was made anew";
   std::filesystem::rename(folder / "backup.db", folder / "anticrack.db");
@@ -106,11 +106,12 @@ TEST_F(Identity, LeavesAFolderOfAnOlderVersionAsItIs) {
   EXPECT_FALSE(std::filesystem::exists(folder / "identity"));
 }
 
-TEST_F(Identity, RefusesAnOlderDatabaseThatNamesNoneOfTheFiles) {
+TEST_F(Identity, RefusesADatabaseThatNamesNoneOfTheFilesWhereTheFolderHasNoIdentity) {
   create("j");
-  make_older();
+  store.reset();
+  std::filesystem::remove(folder / "identity");
   std::ofstream(folder / ("results/" + std::string(64, 'a'))) << "x";
-  expect_refused("names none of them");
+  expect_refused("refers to none of them");
 }
 
 TEST_F(Identity, TakesADatabaseWithoutTheFoldersFileWhereItNamesTheFiles) {
