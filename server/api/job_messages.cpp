@@ -197,7 +197,8 @@ store::JobSpec Translation<store::JobSpec>::read(const v1::Job& from) {
   return value;
 }
 
-const Except of_record{"id", "request_id", "spec", "created", "started", "ended", "cases", "sweep"};
+const Except of_record{"id",    "request_id", "spec",  "created", "started",
+                       "ended", "cases",      "sweep", "crashes"};
 
 void Translation<store::JobRecord>::write(const store::JobRecord& value, v1::Job& to) {
   Translation<store::JobSpec>::write(value.spec, to);

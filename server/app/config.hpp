@@ -46,6 +46,7 @@ struct Config {
   int expression_bytes = 4'096;
   int columns = 32;
   int queued_jobs = 1'000;
+  int crashes = 3;
   int queued_cases = 100'000;
   std::uint64_t queued_bytes = 256ULL << 20;
   std::chrono::milliseconds queue_time{std::chrono::hours(24)};

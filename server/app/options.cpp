@@ -39,6 +39,7 @@ jobs::EngineOptions engine_options(const Config& config) {
   options.max_iterations = config.iterations;
   options.max_expression_bytes = static_cast<std::size_t>(config.expression_bytes);
   options.max_queued_jobs = config.queued_jobs;
+  options.max_crashes = config.crashes;
   options.max_queued_cases = config.queued_cases;
   options.max_queued_bytes = config.queued_bytes;
   options.queue_time = config.queue_time;

@@ -40,7 +40,8 @@ void Admission::check(const std::string& mesh, std::uint64_t cases, std::uint64_
     return error.retry_after(retry_delay());
   };
   if (_jobs >= _limits.jobs) {
-    throw full(std::to_string(_jobs) + " jobs wait, at most " + std::to_string(_limits.jobs));
+    throw full(std::to_string(_jobs) + " jobs have not ended, at most " +
+               std::to_string(_limits.jobs));
   }
   const auto found = _cases.find(mesh);
   const std::uint64_t waiting = found == _cases.end() ? 0 : found->second;
@@ -58,6 +59,7 @@ void Admission::add(const std::string& mesh, std::uint64_t cases, std::uint64_t 
   _cases[mesh] += cases;
   _bytes += bytes;
   ++_jobs;
+  ++_waiting;
 }
 
 void Admission::cases_ended(const std::string& mesh, std::uint64_t count) {

@@ -12,7 +12,7 @@
 namespace anticrack::jobs {
 
 struct AdmissionLimits {
-  std::size_t jobs = 1'000;            ///< that have not started
+  std::size_t jobs = 1'000;            ///< that have not ended
   std::uint64_t cases = 100'000;       ///< of one mesh, of jobs started or not, not ended
   std::uint64_t bytes = 256ULL << 20;  ///< of the specs of jobs that have not ended
 };
@@ -27,19 +27,24 @@ class Admission {
   void check(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes) const;
   void add(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes);
 
-  /// A job that was counted has started.
-  void started() noexcept { --_jobs; }
+  /// A job that was counted has started, or ends without a start.
+  void started() noexcept { --_waiting; }
   void cases_ended(const std::string& mesh, std::uint64_t count);
-  void ended(std::uint64_t bytes) noexcept { _bytes -= bytes; }
+  /// A job is known to the store as ended, or left to the next start.
+  void ended(std::uint64_t bytes) noexcept {
+    _bytes -= bytes;
+    --_jobs;
+  }
 
-  std::size_t jobs() const noexcept { return _jobs; }
+  std::size_t waiting() const noexcept { return _waiting; }  ///< jobs that have not started
   std::uint64_t bytes() const noexcept { return _bytes; }
-  /// What a refused client is told to wait; grows with the jobs that have not started.
+  /// What a refused client is told to wait; grows with the jobs that have not ended.
   std::chrono::milliseconds retry_delay() const noexcept;
 
  private:
   AdmissionLimits _limits;
   std::size_t _jobs = 0;
+  std::size_t _waiting = 0;
   std::uint64_t _bytes = 0;
   std::unordered_map<std::string, std::uint64_t> _cases;  ///< by mesh
 };

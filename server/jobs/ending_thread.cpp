@@ -146,6 +146,7 @@ void EndingThread::announce(Lock& lock, const End& end) {
   _core.retention.add({job->id(), *record->ended, record->result_bytes});
   _core.logs.add(job->id(), job->log);
   _core.jobs.erase(job->id());
+  _core.admission.ended(job->spec_bytes);
   ++_core.ended;  // before the end event: who sees that finds the job counted
   lock.unlock();
   job->log->append(EndEvent{record});
@@ -170,6 +171,7 @@ void EndingThread::keep(Lock& lock, End end) {
 void EndingThread::leave_to_next_start(Lock& /*held*/, const End& end) {
   _core.running -= end.job->state == JobState::running ? 1 : 0;
   end.job->state = JobState::queued;
+  _core.admission.ended(end.job->spec_bytes);
   --_core.not_announced;
   _core.settled.notify_all();
 }

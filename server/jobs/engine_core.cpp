@@ -70,6 +70,7 @@ void EngineCore::settle(const JobPtr& job) {
   leave(job);
   --live;
   if (job->why == Stop::interrupted) {
+    admission.ended(job->spec_bytes);
     running -= job->state == JobState::running ? 1 : 0;
     job->state = JobState::queued;
     job->mesh_operator.reset();
@@ -85,7 +86,6 @@ void EngineCore::settle(const JobPtr& job) {
 
 void EngineCore::leave(const JobPtr& job) {
   admission.cases_ended(job->spec->mesh, std::exchange(job->queued_cases, 0));
-  admission.ended(job->spec_bytes);
   if (job->state != JobState::running) {
     admission.started();
   }

@@ -79,6 +79,7 @@ class EngineCore {
   std::condition_variable settled;                             ///< fewer jobs live or end
   bool draining = false;                                       ///< no job starts any more
   bool interrupting = false;  ///< what the store does not take at once is left to the next start
+  bool stop_noted = false;    ///< noted in the store
   bool quitting = false;
   int idle_solvers = 0;
 

@@ -104,6 +104,25 @@ void queue(EngineCore& core, const JobPtr& job, EngineCore::Clock::time_point de
   core.add(job);
 }
 
+/// Whether the last server crashed. A disk that refuses cannot be told; the jobs then count no
+/// crash.
+bool crashed(EngineCore& core) {
+  try {
+    return core.store.set_running(true);
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+std::optional<Error> too_many_crashes(const JobRecord& record, const EngineOptions& options) {
+  if (options.max_crashes == 0 || record.crashes < options.max_crashes) return std::nullopt;
+  return Error(Reason::internal,
+               "the server crashed " + std::to_string(record.crashes) +
+                   " times while this job ran, so it is not run again: it may need more memory "
+                   "than the machine has; split it, use a larger mesh.size or tip_size, or ask "
+                   "the administrator for the server's log");
+}
+
 }  // namespace
 
 TakenIn take_in(EngineCore& core, const Submission& submission) {
@@ -137,12 +156,14 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
 }
 
 void recover(EngineCore& core) {
+  const bool after_crash = crashed(core);
   for (store::EndedJob& job : core.store.ended()) {
     core.retention.add(std::move(job));
   }
   for (JobRecord& record : core.store.unfinished()) {
     if (record.state == JobState::running) {
       ++record.attempt;
+      record.crashes += after_crash ? 1 : 0;
     }
     const bool waits_since_it_was_made = !record.started;
     record.state = JobState::queued;
@@ -151,12 +172,7 @@ void recover(EngineCore& core) {
     record.sweep = {};
     add_step(record.timeline, JobState::queued, "the server was started");
     std::shared_ptr<void> mesh_use;
-    std::optional<Error> gone;
-    try {
-      core.store.put(record);
-    } catch (const Error&) {
-      // A full disk: its start will write the same.
-    }
+    std::optional<Error> gone = too_many_crashes(record, core.options);
     try {
       mesh_use = use(core, record.spec.mesh);
     } catch (const Error& error) {

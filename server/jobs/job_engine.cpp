@@ -192,6 +192,13 @@ void JobEngine::stop(std::chrono::milliseconds grace) {
   core.interrupting = true;
   core.ending.notify_one();
   core.settled.wait(lock, [&] { return core.live == 0 && core.not_announced == 0; });
+  if (std::exchange(core.stop_noted, true)) return;
+  lock.unlock();
+  try {
+    core.store.set_running(false);
+  } catch (const Error&) {
+    // The disk refuses: the jobs that ran count a crash.
+  }
 }
 
 bool JobEngine::idle() const {
@@ -208,7 +215,7 @@ EngineMetrics JobEngine::metrics() const {
   metrics.load_cases_ended = core.cases_ended;
   metrics.iterations = core.iterations;
   metrics.results_expired = core.results_expired;
-  metrics.jobs_queued = static_cast<int>(core.admission.jobs());
+  metrics.jobs_queued = static_cast<int>(core.admission.waiting());
   metrics.jobs_running = core.running;
   metrics.columns = core.columns;
   metrics.queued_bytes = core.admission.bytes();

@@ -25,13 +25,14 @@ struct EngineOptions {
   int max_sweep_basis = 256;                  ///< loads that are combined
   std::size_t max_expression_bytes = 4096;
   // Admission: beyond one of these `busy` with a retry delay.
-  int max_queued_jobs = 1'000;  ///< that have not started
+  int max_queued_jobs = 1'000;  ///< that have not ended, those that run included
   /// Of one mesh, started or not, not ended. 256 rows of a sweep, or a megabyte of nodal forces,
   /// count as one, until the whole sweep has ended.
   int max_queued_cases = 100'000;
   std::uint64_t max_queued_bytes = 256ULL << 20;  ///< of all specs of jobs that have not ended
   std::chrono::milliseconds queue_time{24 * 3600'000};  ///< longest a job may wait; then it fails
   std::chrono::milliseconds run_time{24 * 3600'000};    ///< longest a job may run
+  int max_crashes = 3;  ///< a job during whose runs the server crashed so often fails; 0: never
   std::chrono::milliseconds ageing{30'000};  ///< waiting this long is worth one class of priority
   /// What a solver thread gives one mesh before it looks at the others.
   std::chrono::milliseconds turn{50};
@@ -84,7 +85,8 @@ struct Submission {
 /// method but the destructor and `stop` blocks on a solve.
 class JobEngine {
  public:
-  /// Queues the jobs the store has unfinished; those that had started with attempt + 1.
+  /// Queues the jobs the store has unfinished; those that had started with attempt + 1. Writes
+  /// nothing for them before they start, so that a start takes no longer than reading the records.
   JobEngine(EngineOptions options, store::Store& store, meshes::MeshCatalogue& catalogue);
   /// stop(0s).
   ~JobEngine();

@@ -224,6 +224,15 @@ std::vector<JobRecord> DurableStore::unfinished() const {
   return records;
 }
 
+bool DurableStore::set_running(bool running) {
+  bool before = false;
+  _writer.run([&](Connection& connection) {
+    before = connection.integer("SELECT stopped FROM store") == 0;
+    connection.execute(running ? "UPDATE store SET stopped = 0" : "UPDATE store SET stopped = 1");
+  });
+  return before;
+}
+
 std::vector<EndedJob> DurableStore::ended() const {
   return reading([](Connection& connection) {
     Statement select = connection.prepare(

@@ -46,6 +46,7 @@ class DurableStore final : public Store {
   std::optional<JobRecord> job(const std::string& id) const override;
   std::vector<JobRecord> jobs(const Page& page) const override;
   std::vector<JobRecord> unfinished() const override;
+  bool set_running(bool running) override;
   std::vector<EndedJob> ended() const override;
   std::shared_ptr<const BlockSource> result(const std::string& job) const override;
   void expire(const std::string& job) override;

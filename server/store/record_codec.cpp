@@ -47,6 +47,7 @@ std::string encode(const JobRecord& record) {
   disk::JobRecord out;
   api::Translation<JobRecord>::write(record, *out.mutable_job());
   api::write_field(record.request_id, out, "request_id");
+  api::write_field(record.crashes, out, "crashes");
   return api::serialized(out);
 }
 
@@ -62,6 +63,7 @@ JobRecord decode_job_record(std::string_view bytes) {
   return decoded<disk::JobRecord>(bytes, [](const disk::JobRecord& in) {
     JobRecord record = api::Translation<JobRecord>::read(in.job());
     record.request_id = in.request_id();
+    record.crashes = in.crashes();
     return record;
   });
 }

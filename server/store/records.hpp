@@ -200,9 +200,10 @@ struct JobRecord {
   SweepRecord sweep;              ///< of a sweep
   std::uint64_t result_bytes = 0;
   int attempt = 1;             ///< counts restarts of the server while it ran
+  int crashes = 0;             ///< attempts that ended with the server's process, without a stop
   std::vector<Step> timeline;  ///< of this attempt and those before, at most a few dozen
 };
 ANTICRACK_FIELDS(JobRecord, id, owner, request_id, spec, state, error, created, started, ended,
-                 cases, sweep, result_bytes, attempt, timeline)
+                 cases, sweep, result_bytes, attempt, crashes, timeline)
 
 }  // namespace anticrack::store

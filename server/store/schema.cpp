@@ -17,9 +17,10 @@ constexpr std::int64_t schema_version = 5;
 
 /// Columns beside a record are those that are searched for. `number` is the order of creation;
 /// AUTOINCREMENT gives none twice, so that a page stays where it is when records are erased.
-/// `store` says that this database and the files beside it are of one store (identity.hpp).
-/// `checksum` says whether the row is as it was written (rows.hpp).
-/// A small result is one that is not worth a file of its own, as it would be in one.
+/// `store` identifies the store that this database and the files beside it belong to
+/// (identity.hpp); `stopped` is 0 while a server runs its jobs, and after a crash. `checksum` says
+/// whether the row is as it was written (rows.hpp). A small result is one that is not worth a file
+/// of its own, as it would be in one.
 constexpr const char* tables = R"(
 CREATE TABLE meshes (
   number INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -68,8 +69,8 @@ CREATE TABLE job_uploads (
 ) STRICT, WITHOUT ROWID;
 CREATE INDEX job_uploads_upload ON job_uploads (upload);
 
-CREATE TABLE store (identity TEXT NOT NULL) STRICT;
-INSERT INTO store VALUES (lower(hex(randomblob(16))));
+CREATE TABLE store (identity TEXT NOT NULL, stopped INTEGER NOT NULL) STRICT;
+INSERT INTO store VALUES (lower(hex(randomblob(16))), 1);
 )";
 
 }  // namespace

@@ -102,6 +102,9 @@ class Store {
   virtual std::vector<JobRecord> jobs(const Page& page) const = 0;
   /// Oldest first: to be queued at a start; without those that are damaged.
   virtual std::vector<JobRecord> unfinished() const = 0;
+  /// Notes whether a server is running jobs. Returns what was noted before: true at a start means
+  /// that the last server did not stop but crashed.
+  virtual bool set_running(bool running) = 0;
   virtual std::vector<EndedJob> ended() const = 0;  ///< oldest end first
   /// Null where the job has none; throws storage where its record, a small result or the layout of
   /// a large one is damaged. The file is not read as a whole.

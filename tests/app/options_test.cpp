@@ -35,6 +35,7 @@ Config distinct() {
   config.expression_bytes = 207;
   config.queued_jobs = 208;
   config.queued_cases = 209;
+  config.crashes = 216;
   config.kept_jobs = 210;
   config.watchers = 211;
   config.transfers = 212;
@@ -62,6 +63,7 @@ TEST(Options, OfTheEngineAreTheConfigurations) {
   EXPECT_EQ(options.max_expression_bytes, 207u);
   EXPECT_EQ(options.max_queued_jobs, 208);
   EXPECT_EQ(options.max_queued_cases, 209);
+  EXPECT_EQ(options.max_crashes, 216);
   EXPECT_EQ(options.max_kept_jobs, 210);
   EXPECT_EQ(options.queue_time, milliseconds(302));
   EXPECT_EQ(options.run_time, milliseconds(303));

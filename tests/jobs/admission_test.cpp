@@ -12,12 +12,15 @@ using anticrack::testing::error_of;
 using anticrack::testing::throws;
 using errors::Reason;
 
-TEST(Admission, BoundsTheJobsThatHaveNotStarted) {
+TEST(Admission, BoundsTheJobsThatHaveNotEnded) {
   Admission admission({2, 100, 1000});
   admission.add("a", 1, 1);
   admission.add("b", 1, 1);
   EXPECT_TRUE(throws([&] { admission.check("c", 1, 1); }, Reason::busy));
   admission.started();
+  EXPECT_EQ(admission.waiting(), 1U);
+  EXPECT_TRUE(throws([&] { admission.check("c", 1, 1); }, Reason::busy));
+  admission.ended(1);
   EXPECT_NO_THROW(admission.check("c", 1, 1));
 }
 

@@ -19,7 +19,7 @@ using store::JobState;
 
 TEST(EngineLimits, TheQueueIsBoundedButKnowsItsRequests) {
   EngineOptions options = one_thread();
-  options.max_queued_jobs = 2;
+  options.max_queued_jobs = 3;
   Engine test(options);
   const std::string mesh = test.ready_mesh();
   const std::string running = test.submit(endless_job(mesh));

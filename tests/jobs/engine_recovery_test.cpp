@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "jobs/engine_support.hpp"
+#include "jobs/failing_store.hpp"
 #include "support/errors.hpp"
 
 namespace anticrack::jobs {
@@ -120,6 +121,55 @@ TEST(EngineRecovery, FailsTheJobOfAMeshThatIsGone) {
   ASSERT_TRUE(record.error);
   EXPECT_EQ(record.error->reason(), Reason::not_found);
   EXPECT_EQ(record.error->fields().at(0).field, "mesh");
+}
+
+/// Leaves a job that runs, as a crash would if `crash`, else as a stop.
+void run_and_leave(Backend& backend, const std::string& id, bool crash) {
+  {
+    JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
+    ASSERT_TRUE(eventually([&] { return engine.metrics().iterations > 0; }));
+    EXPECT_EQ(engine.get(id).state, JobState::running);
+  }
+  if (crash) backend.store->set_running(true);  // as a server that died has left it
+}
+
+TEST(EngineRecovery, EndsAJobThatTheServerDoesNotSurvive) {
+  Backend backend;
+  const std::string mesh = ready_mesh(backend);
+  JobRecord created;
+  created.id = "job";
+  created.spec = endless_job(mesh);
+  created.cases.resize(1);
+  created.created = store::Clock::now();
+  backend.store->create(created, "print");
+  for (const bool crash : {true, false, true, false, true}) {
+    run_and_leave(backend, "job", crash);
+  }
+  JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
+  const JobRecord record = ended(engine, "job");
+  EXPECT_EQ(record.state, JobState::failed);
+  ASSERT_TRUE(record.error);
+  EXPECT_THAT(record.error->what(), ::testing::HasSubstr("crashed 3 times"));
+  EXPECT_EQ(record.attempt, 6);
+}
+
+TEST(EngineRecovery, WritesNoJobBeforeItStarts) {
+  Backend backend;
+  const std::string mesh = ready_mesh(backend);
+  std::string id;
+  {
+    JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
+    id = engine.submit({endless_job(mesh), "", ""}).id;
+    ASSERT_TRUE(eventually([&] { return engine.metrics().iterations > 0; }));
+  }
+  anticrack::testing::FailingStore store(*backend.store);
+  store.put_fails = true;
+  JobEngine engine(unlimited(one_thread()), store, backend.catalogue);
+  EXPECT_EQ(engine.get(id).attempt, 2);
+  EXPECT_TRUE(eventually([&] { return store.failures > 1; }));  // set_running, then its start
+  EXPECT_EQ(backend.store->job(id)->attempt, 1);
+  engine.cancel(id);
+  EXPECT_EQ(ended(engine, id).state, JobState::cancelled);
 }
 
 TEST(EngineRecovery, AMeshIsKeptWhileAJobNeedsIt) {

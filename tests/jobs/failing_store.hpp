@@ -61,6 +61,10 @@ class FailingStore final : public store::Store {
     return _real.jobs(page);
   }
   std::vector<store::JobRecord> unfinished() const override { return _real.unfinished(); }
+  bool set_running(bool running) override {
+    fail(put_fails);
+    return _real.set_running(running);
+  }
   std::vector<store::EndedJob> ended() const override { return _real.ended(); }
   std::shared_ptr<const store::BlockSource> result(const std::string& id) const override {
     return _real.result(id);

@@ -67,7 +67,8 @@ struct Run {
   }
 };
 
-const std::vector<std::string> server_options{"--log-level", "error", "--threads", "2"};
+const std::vector<std::string> server_options{"--log-level", "error",     "--threads",
+                                              "2",           "--crashes", "0"};
 
 /// Submits one job after another while the server is killed; no more than a few at a time.
 void be_a_client(Run& run, client::ConnectionOptions options, unsigned seed) {
