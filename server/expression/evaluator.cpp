@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "expression/evaluator.hpp"
+
+#include <algorithm>
+
+namespace anticrack::expression {
+namespace {
+
+/// ns a point, measured.
+double cost_of(Code code) {
+  switch (code) {
+    case Code::divide:
+    case Code::square_root:
+      return 1;
+    case Code::power:
+    case Code::tangent:
+    case Code::hyperbolic_sine:
+    case Code::hyperbolic_cosine:
+    case Code::hyperbolic_tangent:
+    case Code::area_sine:
+    case Code::area_cosine:
+    case Code::area_tangent:
+    case Code::arc_tangent:
+    case Code::arc_tangent2:
+    case Code::arc_sine:
+    case Code::arc_cosine:
+      return 8;
+    case Code::exponential:
+    case Code::logarithm:
+    case Code::logarithm2:
+    case Code::logarithm10:
+    case Code::sine:
+    case Code::cosine:
+      return 4;
+    default:
+      return 0.3;
+  }
+}
+
+}  // namespace
+
+Evaluator::Evaluator(const Tape& tape, std::span<const Ref> roots) {
+  const std::vector<Operation>& operations = tape.operations();
+  // When each is used for the last time; those needed at the end, after everything.
+  const std::size_t never = operations.size() + 1;
+  std::vector<std::size_t> last_use(operations.size(), 0);
+  std::vector<char> needed(operations.size(), 0);
+  for (const Ref root : roots) {
+    needed[static_cast<std::size_t>(root)] = 1;
+    last_use[static_cast<std::size_t>(root)] = never;
+  }
+  for (std::size_t i = operations.size(); i-- > 0;) {
+    for (const Ref of : operations[i].of) {
+      if (needed[i] != 0 && of >= 0) {
+        const auto operand = static_cast<std::size_t>(of);
+        needed[operand] = 1;
+        last_use[operand] = std::max(last_use[operand], i);
+      }
+    }
+  }
+  std::vector<std::size_t> slot(operations.size(), 0), unused;
+  std::vector<std::pair<std::size_t, double>> constants;
+  std::size_t slots = 2;
+  for (std::size_t i = 0; i < operations.size(); ++i) {
+    const Operation& operation = operations[i];
+    if (needed[i] == 0) {
+      continue;
+    }
+    if (operation.code == Code::x || operation.code == Code::y) {
+      slot[i] = operation.code == Code::x ? 0 : 1;
+      continue;
+    }
+    if (operation.code == Code::constant) {
+      slot[i] = slots++;
+      constants.emplace_back(slot[i], operation.value);
+      continue;
+    }
+    const auto operand = [&](std::size_t k) {
+      return operation.of[k] < 0 ? 0 : slot[static_cast<std::size_t>(operation.of[k])];
+    };
+    Step step{fastest_kernels()[static_cast<std::size_t>(operation.code)], operand(0), operand(1),
+              operand(2), 0};
+    for (const Ref of : operation.of) {  // an operation may overwrite its operands
+      const auto k = static_cast<std::size_t>(of);
+      if (of >= 0 && last_use[k] == i && operations[k].code > Code::y) {
+        unused.push_back(slot[k]);
+        last_use[k] = 0;  // the same operand twice is freed once
+      }
+    }
+    if (unused.empty()) {
+      step.out = slots++;
+    } else {
+      step.out = unused.back();
+      unused.pop_back();
+    }
+    slot[i] = step.out;
+    _steps.push_back(step);
+    _cost += cost_of(operation.code);
+  }
+  _storage.resize((slots - 2) * block);
+  _pointers.resize(slots);
+  _writable.resize(slots);
+  for (std::size_t s = 2; s < slots; ++s) {
+    _writable[s] = &_storage[(s - 2) * block];
+    _pointers[s] = _writable[s];
+  }
+  for (const auto& [place, value] : constants) {
+    std::fill_n(_writable[place], block, value);
+  }
+  for (const Ref root : roots) {
+    _roots.push_back(slot[static_cast<std::size_t>(root)]);
+  }
+}
+
+void Evaluator::operator()(const double* x, const double* y, std::size_t n) {
+  _pointers[0] = x;
+  _pointers[1] = y;
+  for (const Step& step : _steps) {
+    step.kernel(_pointers[step.a], _pointers[step.b], _pointers[step.c], _writable[step.out], n);
+  }
+}
+
+}  // namespace anticrack::expression
