@@ -2,70 +2,36 @@
 #include "expression/evaluator.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace anticrack::expression {
 namespace {
 
-/// ns a point, measured.
-double cost_of(Code code) {
-  switch (code) {
-    case Code::divide:
-    case Code::square_root:
-      return 1;
-    case Code::power:
-    case Code::tangent:
-    case Code::hyperbolic_sine:
-    case Code::hyperbolic_cosine:
-    case Code::hyperbolic_tangent:
-    case Code::area_sine:
-    case Code::area_cosine:
-    case Code::area_tangent:
-    case Code::arc_tangent:
-    case Code::arc_tangent2:
-    case Code::arc_sine:
-    case Code::arc_cosine:
-      return 8;
-    case Code::exponential:
-    case Code::logarithm:
-    case Code::logarithm2:
-    case Code::logarithm10:
-    case Code::sine:
-    case Code::cosine:
-      return 4;
-    default:
-      return 0.3;
-  }
-}
+/// Time of a point by Code, ns, measured.
+#define COST(code, name, cost, value) cost,
+constexpr double costs[] = {0, 0, 0, ANTICRACK_OPERATIONS(COST)};
+#undef COST
 
 }  // namespace
 
 Evaluator::Evaluator(const Tape& tape, std::span<const Ref> roots) {
   const std::vector<Operation>& operations = tape.operations();
-  // When each is used for the last time; those needed at the end, after everything.
+  // The last operation that uses each; roots are kept to the end.
   const std::size_t never = operations.size() + 1;
   std::vector<std::size_t> last_use(operations.size(), 0);
-  std::vector<char> needed(operations.size(), 0);
-  for (const Ref root : roots) {
-    needed[static_cast<std::size_t>(root)] = 1;
-    last_use[static_cast<std::size_t>(root)] = never;
-  }
-  for (std::size_t i = operations.size(); i-- > 0;) {
+  const std::vector<bool> needed = tape.needed(roots);
+  for (std::size_t i = 0; i < operations.size(); ++i) {
     for (const Ref of : operations[i].of) {
-      if (needed[i] != 0 && of >= 0) {
-        const auto operand = static_cast<std::size_t>(of);
-        needed[operand] = 1;
-        last_use[operand] = std::max(last_use[operand], i);
-      }
+      if (needed[i] && of >= 0) last_use[static_cast<std::size_t>(of)] = i;
     }
   }
+  for (const Ref root : roots) last_use[static_cast<std::size_t>(root)] = never;
   std::vector<std::size_t> slot(operations.size(), 0), unused;
   std::vector<std::pair<std::size_t, double>> constants;
   std::size_t slots = 2;
   for (std::size_t i = 0; i < operations.size(); ++i) {
     const Operation& operation = operations[i];
-    if (needed[i] == 0) {
-      continue;
-    }
+    if (!needed[i]) continue;
     if (operation.code == Code::x || operation.code == Code::y) {
       slot[i] = operation.code == Code::x ? 0 : 1;
       continue;
@@ -95,7 +61,7 @@ Evaluator::Evaluator(const Tape& tape, std::span<const Ref> roots) {
     }
     slot[i] = step.out;
     _steps.push_back(step);
-    _cost += cost_of(operation.code);
+    _cost += costs[static_cast<std::size_t>(operation.code)];
   }
   _storage.resize((slots - 2) * block);
   _pointers.resize(slots);

@@ -116,34 +116,10 @@ constexpr Operator operators[] = {{"&&", 2, Code::both},
                                   {"/", 6, Code::divide},
                                   {"^", precedence_of_power, Code::power}};
 
-constexpr std::pair<std::string_view, Code> functions[] = {{"sin", Code::sine},
-                                                           {"cos", Code::cosine},
-                                                           {"tan", Code::tangent},
-                                                           {"asin", Code::arc_sine},
-                                                           {"acos", Code::arc_cosine},
-                                                           {"atan", Code::arc_tangent},
-                                                           {"sinh", Code::hyperbolic_sine},
-                                                           {"cosh", Code::hyperbolic_cosine},
-                                                           {"tanh", Code::hyperbolic_tangent},
-                                                           {"asinh", Code::area_sine},
-                                                           {"acosh", Code::area_cosine},
-                                                           {"atanh", Code::area_tangent},
-                                                           {"atan2", Code::arc_tangent2},
-                                                           {"exp", Code::exponential},
-                                                           {"log", Code::logarithm},
-                                                           {"ln", Code::logarithm},
-                                                           {"log2", Code::logarithm2},
-                                                           {"log10", Code::logarithm10},
-                                                           {"sqrt", Code::square_root},
-                                                           {"abs", Code::absolute},
-                                                           {"rint", Code::nearest},
-                                                           {"floor", Code::lower},
-                                                           {"ceil", Code::upper},
-                                                           {"sign", Code::sign},
-                                                           {"min", Code::minimum},
-                                                           {"max", Code::maximum},
-                                                           {"sum", Code::add},
-                                                           {"avg", Code::add}};
+#define ANTICRACK_FUNCTION(code, name, cost, value) {name, Code::code},
+constexpr std::pair<std::string_view, Code> functions[] = {
+    {"ln", Code::logarithm}, {"avg", Code::add}, ANTICRACK_OPERATIONS(ANTICRACK_FUNCTION)};
+#undef ANTICRACK_FUNCTION
 
 /// Reads a text that muParser accepts, with the stacks of its shunting yard: nothing recurses,
 /// however deep the text is nested.

@@ -2,8 +2,8 @@
 #include "expression/tape.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include "expression/kernels.hpp"
@@ -13,12 +13,6 @@ namespace {
 
 constexpr int greatest_power = 16, greatest_degree = 20;
 
-std::uint64_t bits(double value) {
-  std::uint64_t result = 0;
-  std::memcpy(&result, &value, sizeof result);
-  return result;
-}
-
 }  // namespace
 
 Ref Tape::constant(double value) {
@@ -26,11 +20,11 @@ Ref Tape::constant(double value) {
 }
 
 bool Tape::constant_operand(Ref a) const {
-  return a < 0 || _operations[static_cast<std::size_t>(a)].code == Code::constant;
+  return a < 0 || (*this)[a].code == Code::constant;
 }
 
 Ref Tape::apply(Code code, Ref a, Ref b, Ref c) {
-  const auto value = [this](Ref of) { return _operations[static_cast<std::size_t>(of)].value; };
+  const auto value = [this](Ref of) { return (*this)[of].value; };
   if (constant_operand(a) && constant_operand(b) && constant_operand(c)) {
     std::array<double, 3> operands{value(a), b < 0 ? 0 : value(b), c < 0 ? 0 : value(c)};
     double result = 0;
@@ -38,17 +32,11 @@ Ref Tape::apply(Code code, Ref a, Ref b, Ref c) {
                                                     &result, 1);
     return constant(result);
   }
-  if (code == Code::select && constant_operand(a)) {
-    return value(a) != 0 ? b : c;
-  }
-  if (code == Code::select && b == c) {
-    return b;
-  }
+  if (code == Code::select && constant_operand(a)) return value(a) != 0 ? b : c;
+  if (code == Code::select && b == c) return b;
   if (code == Code::power && constant_operand(b)) {
     const double exponent = value(b);
-    if (exponent == 0.5) {
-      return push(Code::square_root, a);
-    }
+    if (exponent == 0.5) return push(Code::square_root, a);
     if (std::abs(exponent) <= greatest_power && exponent == std::floor(exponent)) {
       const Ref power = integer_power(a, static_cast<int>(std::abs(exponent)));
       return exponent < 0 ? push(Code::divide, constant(1), power) : power;
@@ -58,9 +46,7 @@ Ref Tape::apply(Code code, Ref a, Ref b, Ref c) {
 }
 
 Ref Tape::integer_power(Ref base, int exponent) {
-  if (exponent == 0) {
-    return constant(1);
-  }
+  if (exponent == 0) return constant(1);
   const Ref half = exponent / 2 > 0 ? integer_power(base, exponent / 2) : -1;
   const Ref even = half < 0 ? -1 : push(Code::multiply, half, half);
   return exponent % 2 == 0 ? even : even < 0 ? base : push(Code::multiply, even, base);
@@ -69,7 +55,7 @@ Ref Tape::integer_power(Ref base, int exponent) {
 void Tape::note_switches(const Operation& operation) {
   const auto [a, b, c] = operation.of;
   const auto zero = [this](Ref of) {
-    const Operation& one = _operations[static_cast<std::size_t>(of)];
+    const Operation& one = (*this)[of];
     return one.code == Code::constant && one.value == 0;
   };
   switch (operation.code) {
@@ -96,10 +82,10 @@ void Tape::note_switches(const Operation& operation) {
   }
 }
 
-/// The factors of a product change their signs along simpler lines than the product; those of
-/// sin(u) lie where u / pi is whole.
+/// The factors of a product change their signs along simpler lines than the product. sin(u) changes
+/// its sign where u / pi passes an integer.
 void Tape::note_sign(Ref of) {
-  const Operation operation = _operations[static_cast<std::size_t>(of)];
+  const Operation operation = (*this)[of];
   const auto [a, b, c] = operation.of;
   switch (operation.code) {
     case Code::multiply:
@@ -125,17 +111,15 @@ void Tape::note(const Switch& one) {
   const bool known = std::any_of(_switches.begin(), _switches.end(), [&](const Switch& other) {
     return other.of == one.of && other.steps == one.steps;
   });
-  if (!known && !constant_operand(one.of)) {
-    _switches.push_back(one);
-  }
+  if (!known && !constant_operand(one.of)) _switches.push_back(one);
 }
 
 Ref Tape::push(Code code, Ref a, Ref b, Ref c, double value) {
   if ((code == Code::add || code == Code::multiply) && b < a) {
     std::swap(a, b);
   }
-  const auto [known, added] =
-      _known.try_emplace({code, a, b, c, bits(value)}, static_cast<Ref>(_operations.size()));
+  const auto [known, added] = _known.try_emplace(
+      {code, a, b, c, std::bit_cast<std::uint64_t>(value)}, static_cast<Ref>(_operations.size()));
   if (added) {
     _operations.push_back({code, {a, b, c}, value});
     _degrees.push_back(degree(_operations.back(), _degrees));
@@ -198,21 +182,22 @@ int Tape::degree_of_piece(const Operation& operation) const {
   }
 }
 
-void Tape::finish(Ref result) {
-  _result = result;
-  std::vector<char> needed(_operations.size(), 0);
-  needed[static_cast<std::size_t>(result)] = 1;
-  for (std::size_t i = needed.size(); i-- > 0;) {
+std::vector<bool> Tape::needed(std::span<const Ref> roots) const {
+  std::vector<bool> result(_operations.size(), false);
+  for (const Ref root : roots) result[static_cast<std::size_t>(root)] = true;
+  for (std::size_t i = result.size(); i-- > 0;) {
     for (const Ref of : _operations[i].of) {
-      if (needed[i] != 0 && of >= 0) {
-        needed[static_cast<std::size_t>(of)] = 1;
-      }
+      if (result[i] && of >= 0) result[static_cast<std::size_t>(of)] = true;
     }
   }
-  for (std::size_t i = 0; i < needed.size(); ++i) {
-    if (needed[i] != 0) {
-      note_switches(Operation(_operations[i]));
-    }
+  return result;
+}
+
+void Tape::finish(Ref result) {
+  _result = result;
+  const std::vector<bool> used = needed({&result, 1});
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i]) note_switches(Operation(_operations[i]));
   }
 }
 

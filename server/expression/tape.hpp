@@ -6,55 +6,23 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <tuple>
 #include <vector>
 
+#include "expression/operations.hpp"
+
 namespace anticrack::expression {
 
-/// The order is that of the table of kernels; the first three compute nothing.
+/// The first three compute nothing, the others are in operations.hpp: select is a != 0 ? b : c.
 enum class Code : std::uint8_t {
   constant,
   x,
   y,
-  add,
-  subtract,
-  multiply,
-  divide,
-  negate,
-  power,
-  square_root,
-  exponential,
-  logarithm,
-  logarithm2,
-  logarithm10,
-  sine,
-  cosine,
-  tangent,
-  arc_sine,
-  arc_cosine,
-  arc_tangent,
-  hyperbolic_sine,
-  hyperbolic_cosine,
-  hyperbolic_tangent,
-  area_sine,
-  area_cosine,
-  area_tangent,
-  arc_tangent2,
-  absolute,
-  minimum,
-  maximum,
-  nearest,  ///< floor(a + 1/2)
-  lower,    ///< floor
-  upper,    ///< ceil
-  sign,
-  less,
-  less_equal,
-  equal,
-  unequal,
-  both,    ///< &&
-  either,  ///< ||
-  select,  ///< a != 0 ? b : c
-  count
+#define ANTICRACK_CODE(code, name, cost, value) code,
+  ANTICRACK_OPERATIONS(ANTICRACK_CODE)
+#undef ANTICRACK_CODE
+      count
 };
 
 /// Number of an operation in its tape.
@@ -73,9 +41,10 @@ struct Switch {
   bool steps;
 };
 
-/// Operands come before what uses them. Equal operations are one, those of constants are computed
-/// at once, powers by small integers are products. Switches are in the order of dependence: one
-/// that jumps or bends itself comes after those that make it do so.
+/// Operands come before the operations that use them. Equal operations are stored once, operations
+/// on constants are computed when they are added, powers by small integers become products.
+/// Switches come in the order of dependence: one that jumps or bends itself comes after those that
+/// cause it.
 class Tape {
  public:
   Ref constant(double value);
@@ -83,14 +52,18 @@ class Tape {
   Ref y() { return push(Code::y, -1); }
   Ref apply(Code code, Ref a, Ref b = -1, Ref c = -1);
 
-  /// Declares the value of the whole and looks for its switches.
+  /// Sets the operation whose value is the expression's, and finds its switches.
   void finish(Ref result);
 
   const std::vector<Operation>& operations() const noexcept { return _operations; }
+  const Operation& operator[](Ref of) const { return _operations[static_cast<std::size_t>(of)]; }
+  /// By number of an operation: whether one of `roots` depends on it.
+  std::vector<bool> needed(std::span<const Ref> roots) const;
   Ref result() const noexcept { return _result; }
   const std::vector<Switch>& switches() const noexcept { return _switches; }
 
-  /// Degree as a polynomial in x and y, at most; `no_polynomial` where it is none, or above 20.
+  /// Upper bound of the degree as a polynomial in x and y; `no_polynomial` for all else, or
+  /// above 20.
   int degree(Ref of) const noexcept { return _degrees[static_cast<std::size_t>(of)]; }
   static constexpr int no_polynomial = 100;
   /// The same where no switch changes.
