@@ -189,7 +189,7 @@ class Refinement {
 
   void settle(std::int32_t triangle, const Moments& found, double error, Trust trust) {
     if (trust >= Trust::singular) error = infinite;
-    if (trust == Trust::oscillating) error = found.absolute;
+    if (trust == Trust::unresolved) error = found.absolute;
     _integration.add(triangle, found, error);
   }
 

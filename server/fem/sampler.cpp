@@ -13,7 +13,7 @@ using expression::Code;
 
 namespace {
 
-/// Orders of magnitude, base e, below its peak at which an exponential is nothing.
+/// An exponential is neglected where its argument is so far below the greatest one.
 constexpr double negligible = 40;
 
 }  // namespace
@@ -24,31 +24,39 @@ void look_at(const std::stop_token& stop) {
   }
 }
 
-Sampler::Sampler(const expression::Function& function, std::stop_token stop)
-    : Sampler(function, std::move(stop), roots(function.tape())) {}
+Sampler::Sampler(const expression::Function& function, std::stop_token stop, Jumps jumps)
+    : Sampler(function, std::move(stop), watches(function.tape(), jumps)) {}
 
-Sampler::Sampler(const expression::Function& function, std::stop_token stop, Roots roots)
+Sampler::Sampler(const expression::Function& function, std::stop_token stop,
+                 std::vector<Watch> watches)
     : _function(function),
       _stop(std::move(stop)),
-      _watches(std::move(roots.watches)),
-      _evaluator(function.tape(), roots.refs) {}
+      _watches(std::move(watches)),
+      _evaluator(function.tape(), roots(function.tape(), _watches)) {}
 
-Sampler::Roots Sampler::roots(const expression::Tape& tape) {
-  Roots result{{tape.result()}, {}};
-  const auto& operations = tape.operations();
-  std::vector<char> needed(operations.size(), 0);
-  needed[static_cast<std::size_t>(tape.result())] = 1;
-  for (std::size_t i = operations.size(); i-- > 0;) {
-    if (needed[i] == 0) continue;
-    const expression::Operation& operation = operations[i];
-    for (const expression::Ref of : operation.of) {
-      if (of >= 0) needed[static_cast<std::size_t>(of)] = 1;
+std::vector<expression::Ref> Sampler::roots(const expression::Tape& tape,
+                                            const std::vector<Watch>& watches) {
+  std::vector<expression::Ref> result{tape.result()};
+  for (const Watch& watch : watches) result.push_back(watch.argument);
+  return result;
+}
+
+std::vector<Sampler::Watch> Sampler::watches(const expression::Tape& tape, Jumps jumps) {
+  std::vector<Watch> result;
+  if (jumps == Jumps::watched) {
+    for (const expression::Switch& one : tape.switches()) {
+      result.push_back({one.of, one.steps ? Kind::stepping : Kind::switching, 0});
     }
+  }
+  const auto& operations = tape.operations();
+  const expression::Ref last = tape.result();
+  const std::vector<bool> needed = tape.needed({&last, 1});
+  for (std::size_t i = 0; i < operations.size(); ++i) {
+    if (!needed[i]) continue;
+    const expression::Operation& operation = operations[i];
     const auto watch = [&](std::size_t operand, Kind kind, double range) {
       const expression::Ref of = operation.of[operand];
-      if (tape.degree(of) == 0) return;
-      result.watches.push_back({result.refs.size(), kind, range});
-      result.refs.push_back(of);
+      if (tape.degree(of) > 0) result.push_back({of, kind, range});
     };
     switch (operation.code) {
       case Code::exponential:
@@ -68,7 +76,7 @@ Sampler::Roots Sampler::roots(const expression::Tape& tape) {
         watch(0, Kind::ratio, 8);
         break;
       case Code::power: {
-        const auto& exponent = operations[static_cast<std::size_t>(operation.of[1])];
+        const expression::Operation& exponent = tape[operation.of[1]];
         const bool known = exponent.code == Code::constant;
         if (!known || exponent.value < 0) {  // others have no poles
           watch(0, Kind::ratio, known ? -2 / exponent.value : 2);
@@ -93,11 +101,10 @@ const double* Sampler::operator()(const double* x, const double* y, std::size_t 
 }
 
 void Sampler::note_peaks(std::size_t n) {
-  for (Watch& watch : _watches) {
-    if (watch.kind == Kind::exponential) {
-      const double* u = _evaluator.values(watch.root);
-      watch.peak = std::max(watch.peak, *std::max_element(u, u + n));
-    }
+  for (std::size_t w = 0; w < _watches.size(); ++w) {
+    if (_watches[w].kind != Kind::exponential) continue;
+    const double* u = _evaluator.values(w + 1);
+    _watches[w].peak = std::max(_watches[w].peak, *std::max_element(u, u + n));
   }
 }
 
@@ -106,27 +113,30 @@ Trust Sampler::judge(const Watch& watch, double low, double high, double room) {
   // A smooth argument goes beyond its samples by less than half their range.
   const double least = low - 0.5 * range, greatest = high + 0.5 * range;
   const double nearest = least > 0 ? least : greatest < 0 ? -greatest : 0;
+  const bool wide = range > watch.range * room;
   switch (watch.kind) {
     case Kind::exponential:
-      return range > watch.range * room && greatest > watch.peak - negligible ? Trust::spiking
-                                                                              : Trust::sound;
+      return wide && greatest > watch.peak - negligible ? Trust::spiking : Trust::sound;
     case Kind::turning:
-      return range > watch.range * room ? Trust::oscillating : Trust::sound;
+      return wide ? Trust::unresolved : Trust::sound;
     case Kind::ratio:
       return range <= watch.range * room * nearest ? Trust::sound : Trust::singular;
     case Kind::saturating:
-      return range > watch.range * room && nearest < negligible / 2 ? Trust::oscillating
-                                                                    : Trust::sound;
+      return wide && nearest < negligible / 2 ? Trust::unresolved : Trust::sound;
+    case Kind::switching:
+      return least < 0 && greatest > 0 ? Trust::unresolved : Trust::sound;
+    case Kind::stepping:
+      return std::floor(least) < std::floor(greatest) ? Trust::unresolved : Trust::sound;
   }
   return Trust::sound;
 }
 
 Trust Sampler::trust(std::size_t first, std::size_t count, double room) const {
   Trust result = Trust::sound;
-  for (const Watch& watch : _watches) {
-    const double* u = _evaluator.values(watch.root) + first;
+  for (std::size_t w = 0; w < _watches.size(); ++w) {
+    const double* u = _evaluator.values(w + 1) + first;
     const auto [low, high] = std::minmax_element(u, u + count);
-    result = std::max(result, judge(watch, *low, *high, room));
+    result = std::max(result, judge(_watches[w], *low, *high, room));
   }
   return result;
 }

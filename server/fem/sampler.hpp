@@ -12,22 +12,25 @@
 
 namespace anticrack::fem {
 
-/// How much of the truth a set of samples tells.
+/// Whether samples of a function show what it does between them.
 enum class Trust {
   sound,
-  oscillating,  ///< an argument of a sine turns too often between the samples
-  singular,     ///< a divisor or the like may vanish near by: only convergence can tell
-  spiking,      ///< the function may be much greater between the samples
+  unresolved,  ///< it may jump or oscillate between them; |f| is about as sampled
+  singular,    ///< a divisor or the like may vanish nearby: only convergence can tell
+  spiking,     ///< it may be much greater between them
 };
 
-/// Evaluates a function in blocks of points, counts, and looks at its stop token at every block.
-/// Knows from the arguments of steep functions (exp, sin, 1/u, ...) whether samples can be trusted:
-/// an argument varies smoothly where its function has a peak that no sample sees.
+/// Evaluates a function in blocks of points, counts the points, and checks the stop token before
+/// every block. The arguments of steep functions (exp, sin, 1/u, ...) show whether samples can be
+/// trusted: an argument varies smoothly where its function has a peak that the samples miss.
 class Sampler {
  public:
   static constexpr std::size_t block = expression::Evaluator::block;
 
-  Sampler(const expression::Function& function, std::stop_token stop);
+  /// Whether samples on both sides of a switch (Tape::switches) are unresolved.
+  enum class Jumps { ignored, watched };
+
+  Sampler(const expression::Function& function, std::stop_token stop, Jumps jumps = Jumps::ignored);
 
   /// Values at n <= block points; both arrays are read to the next multiple of 4. Not all need be
   /// finite. Throws errors::Error (cancelled) soon after a stop was requested.
@@ -41,8 +44,8 @@ class Sampler {
   template <std::size_t lanes>
   void trust(std::size_t count, double room, std::array<Trust, lanes>& result) const {
     result.fill(Trust::sound);
-    for (const Watch& watch : _watches) {
-      const double* u = _evaluator.values(watch.root);
+    for (std::size_t w = 0; w < _watches.size(); ++w) {
+      const double* u = _evaluator.values(w + 1);
       std::array<double, lanes> low, high;
       for (std::size_t t = 0; t < lanes; ++t) low[t] = high[t] = u[t];
       for (std::size_t i = 1; i < count; ++i) {
@@ -53,14 +56,14 @@ class Sampler {
         }
       }
       for (std::size_t t = 0; t < lanes; ++t) {
-        result[t] = std::max(result[t], judge(watch, low[t], high[t], room));
+        result[t] = std::max(result[t], judge(_watches[w], low[t], high[t], room));
       }
     }
   }
   bool watches() const noexcept { return !_watches.empty(); }
 
-  /// The greatest arguments of exponentials among the last call's points are kept: what is e^40
-  /// below the greatest matters nowhere.
+  /// Keeps the greatest argument of each exponential over the n points of the last call: what is
+  /// e^40 below the greatest is neglected.
   void note_peaks(std::size_t n);
 
   const expression::Function& function() const noexcept { return _function; }
@@ -68,22 +71,21 @@ class Sampler {
   double cost() const noexcept { return _evaluator.cost(); }
 
  private:
-  enum class Kind { exponential, turning, ratio, saturating };
+  enum class Kind { exponential, turning, ratio, saturating, switching, stepping };
   struct Watch {
-    std::size_t root;
+    expression::Ref argument;
     Kind kind;
-    double range;  ///< what samples can be trusted with
+    double range;  ///< of the argument over samples that can be trusted
     double peak = -std::numeric_limits<double>::infinity();
-  };
-  struct Roots {
-    std::vector<expression::Ref> refs;
-    std::vector<Watch> watches;
   };
 
   /// Of samples whose argument lies between two values.
   static Trust judge(const Watch& watch, double low, double high, double room);
-  static Roots roots(const expression::Tape& tape);
-  Sampler(const expression::Function& function, std::stop_token stop, Roots roots);
+  static std::vector<Watch> watches(const expression::Tape& tape, Jumps jumps);
+  /// The function, then the arguments.
+  static std::vector<expression::Ref> roots(const expression::Tape& tape,
+                                            const std::vector<Watch>& watches);
+  Sampler(const expression::Function& function, std::stop_token stop, std::vector<Watch> watches);
 
   const expression::Function& _function;
   std::stop_token _stop;

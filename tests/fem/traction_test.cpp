@@ -109,7 +109,7 @@ TEST(Traction, TellsHowWrongItIs) {
   EXPECT_LT(segment.error, 1e-3);
   for (const char* text : {"1/abs(x - 0.75)", "1/(x - 0.1)^2", "1/x"}) {
     segment.load(text);
-    EXPECT_TRUE(std::isinf(segment.error)) << text;
+    EXPECT_TRUE(std::isinf(segment.error)) << text << " " << segment.error;
   }
   // A peak between any two points.
   EXPECT_NEAR(segment.load("1e5*exp(-1e10*(x - 1.2345)^2)").sum(), std::sqrt(3.14159265358979324),
