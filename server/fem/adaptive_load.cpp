@@ -5,218 +5,326 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
-#include "fem/cut_triangle.hpp"
-#include "fem/sampled_triangle.hpp"
-#include "fem/smooth_triangle.hpp"
+#include "fem/cut_cells.hpp"
+#include "fem/integration.hpp"
+#include "fem/triangle_rules.hpp"
 
 namespace anticrack::fem {
 namespace {
 
-constexpr std::size_t points_per_sample = 15;
+/// Triangles that are sampled at once.
+constexpr std::size_t width = Cutter::width;
+static_assert(width * rule_5.size <= Sampler::block);
 
-/// One of the two triangles at an edge.
-struct EdgeSide {
-  std::array<std::int32_t, 2> nodes;  ///< ascending
-  std::size_t triangle;
-  std::size_t edge;  ///< from corner `edge` to the next
+using Lane = Cutter::Lane;
+
+/// Three points on the medians, each nearest to one corner or farthest from it: their numbers in
+/// rule_5 by that corner.
+constexpr std::array<std::size_t, 3> outer_points{4, 6, 5}, inner_points{1, 3, 2};
+
+/// Terms of the samples by degree, on the points of rule_5 and the corners. All are on the medians:
+/// with r the signed distance from the centroid (1 at a corner), what is equal on the three medians
+/// is spanned by 1, r^2, r^3, r^4 there, what differs by r, r^2, r^3: each of the two has a basis
+/// that is orthonormal on the samples.
+struct Terms {
+  using Four = std::array<double, 4>;   // centroid, then as below
+  using Three = std::array<double, 3>;  // inner points, outer points, corners
+  Four equal_2, equal_3, equal_4;
+  Three other_1, other_2, other_3;
+
+  Terms() {
+    const auto distance = [](std::size_t point) {  // the first coordinate is 1/3 + 2/3 r
+      return 1.5 * (1 - rule_5.b[point] - rule_5.c[point] - 1.0 / 3);
+    };
+    const Three r{distance(inner_points[0]), distance(outer_points[0]), 1};
+    std::array<Four, 4> equal{};
+    std::array<Three, 3> other{};
+    for (std::size_t o = 0; o < 3; ++o) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        equal[k][0] = k == 0 ? 1 : 0;
+        equal[k][o + 1] = std::sqrt(3.0) * std::pow(r[o], k == 0 ? 0 : static_cast<double>(k + 1));
+      }
+      for (std::size_t k = 0; k < 3; ++k) other[k][o] = std::pow(r[o], static_cast<double>(k + 1));
+    }
+    orthonormalise(equal);
+    orthonormalise(other);
+    equal_2 = equal[1];
+    equal_3 = equal[2];
+    equal_4 = equal[3];
+    other_1 = other[0];
+    other_2 = other[1];
+    other_3 = other[2];
+  }
+
+ private:
+  template <class Vector, std::size_t N>
+  static void orthonormalise(std::array<Vector, N>& basis) {
+    for (std::size_t k = 0; k < N; ++k) {
+      for (std::size_t i = 0; i < k; ++i) {
+        const double overlap =
+            std::inner_product(basis[k].begin(), basis[k].end(), basis[i].begin(), 0.0);
+        for (std::size_t o = 0; o < basis[k].size(); ++o) basis[k][o] -= overlap * basis[i][o];
+      }
+      const double norm =
+          std::sqrt(std::inner_product(basis[k].begin(), basis[k].end(), basis[k].begin(), 0.0));
+      for (double& value : basis[k]) value /= norm;
+    }
+  }
 };
 
 class LoadIntegrator {
  public:
-  LoadIntegrator(std::span<const double> xy, std::span<const std::int32_t> triangles,
-                 const ScalarField& f, const IntegrationLimits& limits, std::stop_token stop)
-      : _xy(xy),
-        _triangles(triangles),
-        _limits(limits),
-        _field(f, points_per_sample * (triangles.size() / 3) + limits.evaluations, std::move(stop)),
-        _parts(triangles.size() / 3),
-        _swept(_parts.size(), 0) {}
+  LoadIntegrator(Integration& integration, const std::stop_token& stop)
+      : _integration(integration),
+        _cutter(integration, stop),
+        _count(integration.triangles.size() / 3),
+        _exact(integration.exact) {}
 
-  IntegrationReport operator()(std::span<double> load) {
-    double whole = 0;
-    for (std::size_t t = 0; t < _parts.size(); ++t) {
-      const Triangle triangle = corners(t);
-      if (!(area(triangle) > 0)) {  // as small as coordinates resolve
-        _swept[t] = 1;
-        continue;
-      }
-      _parts[t] = sample_triangle(triangle, _field);
-      _absolute += _parts[t].absolute;
-      whole += area(triangle);
+  /// `first_work`: see IntegrationLimits.
+  void operator()(double first_work) {
+    const double each = Integration::price(rule_5.size, _integration.f.cost()) + _cutter.cost();
+    if (each * static_cast<double>(_count) > first_work) {
+      interpolate();
+      return;
     }
-    _mean = whole > 0 ? _absolute / whole : 0;
-    improve();
-    follow_cuts();
-    spend_rest();
-    return collect(load);
+    if (!_exact) sample_nodes();
+    for (std::size_t first = 0; first < _count; first += width) {
+      sample(first, std::min(width, _count - first));
+    }
+    std::vector<Cell> cells;
+    if (!_cut.empty()) {
+      _integration.absolute += _absolute_of_cut;
+      cells = _cutter.cut(_cut);
+    }
+    std::size_t kept = 0;
+    for (const Coarse& one : _rest) {
+      const double area = _integration.frame(one.triangle).area;
+      if (one.error <= _integration.allowed(area, 1, one.found.absolute) &&
+          one.trust == Trust::sound) {
+        _integration.add(one.triangle, one.found, one.error);
+      } else {
+        _rest[kept++] = one;
+      }
+    }
+    _rest.resize(kept);
+    refine_cells(_integration, std::move(_rest), std::move(cells));
   }
 
  private:
-  Triangle corners(std::size_t t) const {
-    Triangle result{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto node = static_cast<std::size_t>(_triangles[3 * t + i]);
-      result[i] = {_xy[2 * node], _xy[2 * node + 1]};
-    }
-    return result;
-  }
-
-  /// Error that triangle t may have; see integrate_load.
-  double tolerance(std::size_t t, const Triangle& triangle) const {
-    const double size = area(triangle);
-    const double level = _mean + _parts[t].absolute / size;
-    const double rounding = 64 * std::numeric_limits<double>::epsilon() * magnitude(triangle);
-    return level * (0.5 * _limits.relative_tolerance * size + rounding * longest_edge(triangle));
-  }
-
-  void improve() {
-    for (std::size_t t = 0; t < _parts.size(); ++t) {
-      const Triangle triangle = corners(t);
-      const double allowed = tolerance(t, triangle);
-      if (!(_parts[t].error > allowed) || _field.spent()) {
-        continue;
+  void sample_nodes() {
+    const std::size_t count = _integration.xy.size() / 2;
+    _at_nodes.resize(count);
+    std::array<double, Sampler::block> x{}, y{};
+    for (std::size_t first = 0; first < count; first += Sampler::block) {
+      const std::size_t n = std::min(Sampler::block, count - first);
+      for (std::size_t i = 0; i < n; ++i) {
+        x[i] = _integration.xy[2 * (first + i)];
+        y[i] = _integration.xy[2 * (first + i) + 1];
       }
-      if (!refine_smooth_triangle(triangle, allowed, _parts[t], _field)) {
-        sweep(t, triangle, allowed, _limits.evaluations_per_triangle);
-      }
+      std::copy_n(_integration.f(x.data(), y.data(), n), n, &_at_nodes[first]);
+      if (_integration.f.watches()) _integration.f.note_peaks(n);
     }
   }
 
-  void sweep(std::size_t t, const Triangle& triangle, double allowed, std::size_t evaluations) {
-    _field.allow(evaluations);
-    std::array<EdgeBreaks, 3> edges;
-    for (std::size_t i = 0; i < 3; ++i) {
-      edges[i] = scan_edge(triangle, i, 0.1 * allowed / area(triangle), _field);
+  /// Takes f for linear between the nodes; every 64th block of triangles tells how wrong that is.
+  void interpolate() {
+    sample_nodes();
+    for (std::size_t i = 0; i < _at_nodes.size(); ++i) {
+      _integration.f.function().require_finite(_integration.xy[2 * i], _integration.xy[2 * i + 1],
+                                               _at_nodes[i]);
     }
-    // No finer than jumps are located, where the samples have seen too little of f.
-    const double attainable = 1e-13 * _field.peak() * area(triangle);
-    const CutTriangle found =
-        integrate_cut_triangle(triangle, edges, std::max(allowed, attainable), _field);
-    _parts[t].nodal = found.nodal;
-    _parts[t].error = found.error;
-    if (found.cut && _swept[t] == 0) {
-      _cut.push_back(t);
-    }
-    _swept[t] = 1;
-  }
-
-  /// Sides of the edges, the two of an edge next to each other.
-  std::vector<EdgeSide> edge_sides() const {
-    std::vector<EdgeSide> sides;
-    sides.reserve(_triangles.size());
-    for (std::size_t t = 0; t < _parts.size(); ++t) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::int32_t a = _triangles[3 * t + i], b = _triangles[3 * t + (i + 1) % 3];
-        sides.push_back({{std::min(a, b), std::max(a, b)}, t, i});
-      }
-    }
-    std::sort(sides.begin(), sides.end(), [](const EdgeSide& a, const EdgeSide& b) {
-      return a.nodes != b.nodes ? a.nodes < b.nodes : a.triangle < b.triangle;
-    });
-    return sides;
-  }
-
-  void follow_cuts() {
-    if (_cut.empty()) {
-      return;
-    }
-    const std::vector<EdgeSide> sides = edge_sides();
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-      const bool paired = (i > 0 && sides[i - 1].nodes == sides[i].nodes) ||
-                          (i + 1 < sides.size() && sides[i + 1].nodes == sides[i].nodes);
-      if (!paired) {
-        sweep_if_cut(sides[i]);
-      }
-    }
-    for (std::size_t next = 0; next < _cut.size(); ++next) {  // grows as it goes
-      const std::size_t t = _cut[next];
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::int32_t a = _triangles[3 * t + i], b = _triangles[3 * t + (i + 1) % 3];
-        const std::array<std::int32_t, 2> nodes{std::min(a, b), std::max(a, b)};
-        for (auto side = std::lower_bound(
-                 sides.begin(), sides.end(), nodes,
-                 [](const EdgeSide&one, const auto&wanted) { return one.nodes < wanted; });
-             side != sides.end() && side->nodes == nodes; ++side) {
-          sweep_if_cut(*side);
+    const bool exact = std::exchange(_exact, false);  // corners are asked for all the same
+    double error = 0, absolute = 0;
+    for (std::size_t first = 0; first < _count; first += width) {
+      const std::size_t n = std::min(width, _count - first);
+      gather(first, n);
+      const bool looked_at = first / width % 64 == 0;
+      const double* values =
+          looked_at ? _integration.f(_x.data(), _y.data(), rule_5.size * width) : nullptr;
+      for (std::size_t t = 0; t < n; ++t) {
+        const double p = _corner[0][t], q = _corner[1][t], r = _corner[2][t];
+        const double part = _area[t] / 12, sum = p + q + r;
+        const Moments linear{{4 * part * sum, part * (sum + q), part * (sum + r)},
+                             4 * part * (std::abs(p) + std::abs(q) + std::abs(r))};
+        _integration.add(static_cast<std::int32_t>(first + t), linear, 0);
+        if (looked_at) {
+          Moments sampled;
+          for (std::size_t k = 0; k < rule_5.size; ++k) {
+            sampled.add(_area[t] * rule_5.weight[k], {rule_5.b[k], rule_5.c[k]},
+                        values[k * width + t]);
+          }
+          error += difference(sampled, linear);
+          absolute += sampled.absolute;
         }
       }
     }
+    _exact = exact;
+    _integration.error = absolute > 0 ? error / absolute * _integration.settled : error;
   }
 
-  void sweep_if_cut(const EdgeSide& side) {
-    if (_swept[side.triangle] != 0 || _field.spent()) {
+  void sample(std::size_t first, std::size_t n) {
+    gather(first, n);
+    std::array<bool, width> cut{};
+    if (_cutter.needed()) _cutter.find(_frames, cut);
+    const double* values = _integration.f(_x.data(), _y.data(), rule_5.size * width);
+    for (std::size_t p = 0; p < rule_5.size; ++p) {
+      const double weight = rule_5.weight[p], b = rule_5.b[p], c = rule_5.c[p];
+      const double* v = values + p * width;
+      for (std::size_t t = 0; t < width; ++t) {
+        const double part = weight * v[t];
+        _whole[t] = (p == 0 ? 0 : _whole[t]) + part;
+        _of_b[t] = (p == 0 ? 0 : _of_b[t]) + part * b;
+        _of_c[t] = (p == 0 ? 0 : _of_c[t]) + part * c;
+        _absolute[t] = (p == 0 ? 0 : _absolute[t]) + std::abs(part);
+      }
+    }
+    if (!_exact) {
+      estimate(values);
+      _integration.f.trust(rule_5.size, 1, _trust);
+    }
+    for (std::size_t t = 0; t < n; ++t) settle(first, t, cut[t], values);
+  }
+
+  void gather(std::size_t first, std::size_t n) {
+    for (std::size_t t = 0; t < width; ++t) {
+      const std::size_t number = first + std::min(t, n - 1);
+      const Frame frame = frame_of(_integration.xy, _integration.triangles, number);
+      _frames.x[t] = frame.x;
+      _frames.y[t] = frame.y;
+      _frames.bx[t] = frame.bx;
+      _frames.by[t] = frame.by;
+      _frames.cx[t] = frame.cx;
+      _frames.cy[t] = frame.cy;
+      _area[t] = std::max(0.0, frame.area);
+      if (!_exact) {
+        for (std::size_t i = 0; i < 3; ++i) {
+          _corner[i][t] =
+              _at_nodes[static_cast<std::size_t>(_integration.triangles[3 * number + i])];
+        }
+      }
+    }
+    for (std::size_t p = 0; p < rule_5.size; ++p) {
+      for (std::size_t t = 0; t < width; ++t) {
+        _x[p * width + t] =
+            _frames.x[t] + rule_5.b[p] * _frames.bx[t] + rule_5.c[p] * _frames.cx[t];
+        _y[p * width + t] =
+            _frames.y[t] + rule_5.b[p] * _frames.by[t] + rule_5.c[p] * _frames.cy[t];
+      }
+    }
+  }
+
+  /// Error of a nodal value over the area: what the terms of degree 5 would leave, if the decay
+  /// goes on.
+  void estimate(const double* values) {
+    static const Terms terms;
+    const auto [e2, e3, e4] = std::array{terms.equal_2, terms.equal_3, terms.equal_4};
+    const auto [o1, o2, o3] = std::array{terms.other_1, terms.other_2, terms.other_3};
+    const double third = std::sqrt(1.0 / 3), half = std::sqrt(0.5), sixth = std::sqrt(1.0 / 6);
+    const auto point = [&](std::size_t number, std::size_t t) {
+      return values[number * width + t];
+    };
+    for (std::size_t t = 0; t < width; ++t) {
+      const double centre = point(0, t);
+      const double i0 = point(inner_points[0], t), i1 = point(inner_points[1], t),
+                   i2 = point(inner_points[2], t);
+      const double p0 = point(outer_points[0], t), p1 = point(outer_points[1], t),
+                   p2 = point(outer_points[2], t);
+      const double c0 = _corner[0][t], c1 = _corner[1][t], c2 = _corner[2][t];
+      const double si = third * (i0 + i1 + i2), sp = third * (p0 + p1 + p2),
+                   sc = third * (c0 + c1 + c2);
+      const double ai = half * (i0 - i1), ap = half * (p0 - p1), ac = half * (c0 - c1);
+      const double bi = sixth * (i0 + i1 - 2 * i2), bp = sixth * (p0 + p1 - 2 * p2),
+                   bc = sixth * (c0 + c1 - 2 * c2);
+      const double equal2 = e2[0] * centre + e2[1] * si + e2[2] * sp + e2[3] * sc;
+      const double equal3 = e3[0] * centre + e3[1] * si + e3[2] * sp + e3[3] * sc;
+      const double equal4 = e4[0] * centre + e4[1] * si + e4[2] * sp + e4[3] * sc;
+      const double a1 = o1[0] * ai + o1[1] * ap + o1[2] * ac,
+                   b1 = o1[0] * bi + o1[1] * bp + o1[2] * bc;
+      const double a2 = o2[0] * ai + o2[1] * ap + o2[2] * ac,
+                   b2 = o2[0] * bi + o2[1] * bp + o2[2] * bc;
+      const double a3 = o3[0] * ai + o3[1] * ap + o3[2] * ac,
+                   b3 = o3[0] * bi + o3[1] * bp + o3[2] * bc;
+      const double linear = a1 * a1 + b1 * b1, quadratic = equal2 * equal2 + a2 * a2 + b2 * b2,
+                   cubic = equal3 * equal3 + equal4 * equal4 + a3 * a3 + b3 * b3;
+      // The quadratic term, or what stands for it where it happens to vanish; 3 for safety.
+      const double mean = std::sqrt(linear * cubic);
+      const double before = quadratic > mean ? quadratic : mean;
+      const double ratio = 3 * cubic / (before + std::numeric_limits<double>::min());
+      _error[t] = 0.2 * std::sqrt(cubic) * (ratio < 1 ? ratio : 1.0);
+    }
+  }
+
+  void settle(std::size_t first, std::size_t t, bool cut, const double* values) {
+    const auto number = static_cast<std::int32_t>(first + t);
+    const double area = _area[t];
+    if (!(area > 0)) return;
+    _integration.area += area;
+    if (cut) {
+      _absolute_of_cut += std::isfinite(_absolute[t]) ? area * _absolute[t] : 0;
+      _cut.push_back(number);
+      ++_integration.cut;
       return;
     }
-    const Triangle triangle = corners(side.triangle);
-    const double allowed = tolerance(side.triangle, triangle);
-    _field.allow(_limits.evaluations_per_triangle);
-    const EdgeBreaks found = scan_edge(triangle, side.edge, 0.1 * allowed / area(triangle), _field);
-    if (!found.jumps.empty() || !found.kinks.empty()) {
-      sweep(side.triangle, triangle, allowed, _limits.evaluations_per_triangle);
+    if (!std::isfinite(_absolute[t])) {
+      for (std::size_t p = 0; p < rule_5.size; ++p) {
+        const std::size_t i = p * width + t;
+        _integration.f.function().require_finite(_x[i], _y[i], values[i]);
+      }
+    }
+    const Moments found{{area * _whole[t], area * _of_b[t], area * _of_c[t]}, area * _absolute[t]};
+    _integration.absolute += found.absolute;
+    const double error = area * _error[t];
+    if (error <= 0.5 * _integration.tolerance * found.absolute && _trust[t] == Trust::sound) {
+      _integration.add(number, found, error);
+    } else {
+      const bool told = std::isfinite(error);
+      _rest.push_back(
+          {number, _trust[t], found, told ? error : std::numeric_limits<double>::max()});
     }
   }
 
-  /// Few triangles need many evaluations, e.g. where a jump turns back: the worst first.
-  void spend_rest() {
-    std::vector<std::size_t> unfinished;
-    for (std::size_t t = 0; t < _parts.size(); ++t) {
-      if (_swept[t] != 0 && _parts[t].error > tolerance(t, corners(t))) {
-        unfinished.push_back(t);
-      }
-    }
-    std::stable_sort(unfinished.begin(), unfinished.end(), [this](std::size_t a, std::size_t b) {
-      return _parts[a].error > _parts[b].error;
-    });
-    for (const std::size_t t : unfinished) {
-      if (_field.spent()) {
-        return;
-      }
-      const Triangle triangle = corners(t);
-      sweep(t, triangle, tolerance(t, triangle), _limits.evaluations / 16);
-    }
-  }
-
-  IntegrationReport collect(std::span<double> load) const {
-    std::fill(load.begin(), load.end(), 0.0);
-    IntegrationReport report;
-    report.evaluations = _field.count();
-    report.cut_triangles = _cut.size();
-    // The samples may have met next to nothing of f, and the sweeps all of it.
-    double whole = 0;
-    for (const SampledTriangle& part : _parts) {
-      whole += part.nodal[0] + part.nodal[1] + part.nodal[2];
-    }
-    const double absolute = std::max(_absolute, std::abs(whole));
-    for (std::size_t t = 0; t < _parts.size(); ++t) {
-      report.relative_error_estimate += absolute > 0 ? _parts[t].error / absolute : 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        load[static_cast<std::size_t>(_triangles[3 * t + i])] += _parts[t].nodal[i];
-      }
-    }
-    return report;
-  }
-
-  std::span<const double> _xy;
-  std::span<const std::int32_t> _triangles;
-  IntegrationLimits _limits;
-  CountedField _field;
-  std::vector<SampledTriangle> _parts;
-  std::vector<char> _swept;  ///< 1: its edges need no look from the neighbours
-  std::vector<std::size_t> _cut;
-  double _absolute = 0;  ///< int |f|, from the samples
-  double _mean = 0;      ///< of |f|
+  Integration& _integration;
+  Cutter _cutter;
+  std::size_t _count;
+  bool _exact;
+  std::vector<double> _at_nodes;
+  std::vector<std::int32_t> _cut;
+  std::vector<Coarse> _rest;
+  double _absolute_of_cut = 0;
+  std::array<double, rule_5.size * width> _x{}, _y{};
+  Cutter::Frames _frames{};
+  Lane _area{};
+  std::array<Trust, width> _trust{};
+  Lane _whole{}, _of_b{}, _of_c{}, _absolute{}, _error{};
+  std::array<Lane, 3> _corner{};
 };
 
 }  // namespace
 
 IntegrationReport integrate_load(std::span<const double> xy,
-                                 std::span<const std::int32_t> triangles, const ScalarField& f,
-                                 std::span<double> load, const IntegrationLimits& limits,
-                                 std::stop_token stop) {
-  return LoadIntegrator(xy, triangles, f, limits, std::move(stop))(load);
+                                 std::span<const std::int32_t> triangles,
+                                 const expression::Function& f, std::span<double> load,
+                                 const IntegrationLimits& limits, std::stop_token stop) {
+  std::fill(load.begin(), load.end(), 0.0);
+  Sampler sampler(f, stop);
+  Integration integration{xy, triangles, sampler, load, limits.relative_tolerance, limits.work};
+  const expression::Tape& tape = f.tape();
+  integration.exact = tape.degree_between_switches(tape.result()) <= 4;
+  LoadIntegrator integrator(integration, stop);
+  integrator(limits.first_work);
+  IntegrationReport report;
+  report.evaluations = sampler.count();
+  report.cut_triangles = integration.cut;
+  // Samples may have met next to nothing of f.
+  double whole = 0;
+  for (const double value : load) whole += value;
+  const double absolute = std::max(integration.settled, std::abs(whole));
+  report.relative_error_estimate = integration.error > 0 ? integration.error / absolute : 0;
+  return report;
 }
 
 }  // namespace anticrack::fem

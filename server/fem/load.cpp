@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "errors/errors.hpp"
-#include "fem/expression.hpp"
+#include "expression/parse.hpp"
 
 namespace anticrack::fem {
 namespace {
@@ -34,7 +34,7 @@ void require_expression(const std::string& text, const std::string& field, std::
                             " bytes long; at most " + std::to_string(max_bytes) + " are allowed")
         .at(field);
   }
-  ExpressionFunction(text, field);
+  expression::parse(text, field);
 }
 
 struct CheckForce {

@@ -14,7 +14,7 @@
 
 namespace anticrack::fem {
 
-/// An expression in x and y (muParser syntax), e.g. "y > 0 ? 1 : -1".
+/// An expression in x and y (expression/parse.hpp), e.g. "y > 0 ? 1 : -1".
 struct Expression {
   std::string text;
 };

@@ -6,102 +6,169 @@
 #include <limits>
 #include <vector>
 
-#include "fem/expression.hpp"
-#include "fem/piecewise_quadrature.hpp"
+#include "fem/load_vector.hpp"
+#include "fem/sampler.hpp"
+#include "fem/triangle_rules.hpp"
 
 namespace anticrack::fem {
 namespace {
 
-constexpr double relative_tolerance = 1e-10;
-constexpr std::size_t evaluations_of_edge = 20'000;
-constexpr std::size_t evaluations_of_all = 10'000'000;
-constexpr std::size_t panels = 8;
+constexpr double rounding = std::numeric_limits<double>::epsilon();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// A jump is enclosed by so many halvings.
+constexpr int most_halvings = 44;
+/// ns, roughly: of a point its price and the rest.
+constexpr double most_work = 2e7, overhead = 20;
 
-/// Points at t in [0, 1], drawn in from both ends so that an edge is asked for its own side of a
-/// jump in its node.
-class Edge {
- public:
-  Edge(const Triangulation& part, const std::array<std::int32_t, 2>& nodes)
-      : _x(at(part, nodes[0], 0)),
-        _y(at(part, nodes[0], 1)),
-        _dx(at(part, nodes[1], 0) - _x),
-        _dy(at(part, nodes[1], 1) - _y),
-        _length(std::hypot(_dx, _dy)) {
-    const double rounding =
-        std::numeric_limits<double>::epsilon() * (std::abs(_x) + std::abs(_y) + _length) / _length;
-    _resolution = std::max(1e-13, 4 * rounding);
-    _inset = std::min(std::max(1e-13, 16 * rounding), 1e-2);
+struct Edge {
+  std::array<std::int32_t, 2> nodes;
+  double x, y, dx, dy, length;
+  double resolved;  ///< shorter parts are too close to rounding
+
+  Edge(const Triangulation& part, const std::array<std::int32_t, 2>& ends) : nodes(ends) {
+    const double* p = &part.xy[2 * static_cast<std::size_t>(ends[0])];
+    const double* q = &part.xy[2 * static_cast<std::size_t>(ends[1])];
+    x = p[0];
+    y = p[1];
+    dx = q[0] - x;
+    dy = q[1] - y;
+    length = std::hypot(dx, dy);
+    resolved = 2048 * rounding * (std::abs(x) + std::abs(y) + length) / length;
   }
-
-  double value(CountedField& field, double t) const {
-    const double drawn = _inset + t * (1 - 2 * _inset);
-    return field(_x + drawn * _dx, _y + drawn * _dy);
-  }
-  double length() const { return _length; }
-  double resolution() const { return _resolution; }
-
- private:
-  static double at(const Triangulation& part, std::int32_t node, std::size_t axis) {
-    return part.xy[2 * static_cast<std::size_t>(node) + axis];
-  }
-
-  double _x;
-  double _y;
-  double _dx;
-  double _dy;
-  double _length;
-  double _resolution = 0;
-  double _inset = 0;
 };
 
-/// Mean of |g| on an edge.
-double level(const Edge& edge, CountedField& field) {
-  double mean = 0;
-  for (std::size_t i = 0; i < lobatto_4_7.nodes.size(); ++i) {
-    mean +=
-        0.5 * lobatto_4_7.fine[i] * std::abs(edge.value(field, 0.5 + 0.5 * lobatto_4_7.nodes[i]));
+struct Segment {
+  std::size_t edge;
+  double from, to;
+  int depth = 0;
+  double whole = 0, at_second = 0, absolute = 0;  ///< int g, int g phi_1, int |g| over the edge
+  double before = 0, first = 0;                   ///< change when it was made, and its edge's first
+  Trust trust = Trust::sound;
+};
+
+class EdgeIntegrator {
+ public:
+  EdgeIntegrator(const Triangulation& part, std::span<const std::array<std::int32_t, 2>> edges,
+                 const expression::Function& function, const std::stop_token& stop)
+      : _sampler(function, stop, Sampler::Jumps::watched),
+        _most_evaluations(static_cast<std::size_t>(most_work / (overhead + _sampler.cost()))) {
+    for (const auto& nodes : edges) _edges.emplace_back(part, nodes);
   }
-  return mean;
-}
+
+  double operator()(Eigen::Ref<Eigen::VectorXd> load) {
+    std::vector<Segment> segments;
+    for (std::size_t e = 0; e < _edges.size(); ++e) {
+      _length += _edges[e].length;
+      segments.push_back({e, 0, 1});
+    }
+    measure(segments);
+    for (const Segment& one : segments) _absolute += one.absolute * _edges[one.edge].length;
+    while (!segments.empty()) segments = halve(segments, load);
+    return _error > 0 ? _error / std::max(_absolute, _settled) : 0;
+  }
+
+ private:
+  static double between(const Segment& one, double part) {
+    return one.from + part * (one.to - one.from);
+  }
+
+  void measure(std::vector<Segment>& segments) {
+    constexpr std::size_t at_once = Sampler::block / line_5.size;
+    for (std::size_t first = 0; first < segments.size(); first += at_once) {
+      const std::size_t count = std::min(at_once, segments.size() - first);
+      std::size_t n = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const Segment& one = segments[first + i];
+        const Edge& edge = _edges[one.edge];
+        for (const double part : line_5.at) {
+          const double t = between(one, part);
+          _x[n] = edge.x + t * edge.dx;
+          _y[n++] = edge.y + t * edge.dy;
+        }
+      }
+      const double* g = _sampler(_x.data(), _y.data(), n);
+      _sampler.note_peaks(n);
+      for (std::size_t i = 0; i < count; ++i) {
+        Segment& one = segments[first + i];
+        one.whole = one.at_second = one.absolute = 0;
+        for (std::size_t k = 0; k < line_5.size; ++k) {
+          const std::size_t m = i * line_5.size + k;
+          _sampler.function().require_finite(_x[m], _y[m], g[m]);
+          const double part = (one.to - one.from) * line_5.weight[k] * g[m];
+          one.whole += part;
+          one.at_second += part * between(one, line_5.at[k]);
+          one.absolute += std::abs(part);
+        }
+        one.trust = _sampler.trust(i * line_5.size, line_5.size, 1);
+      }
+    }
+  }
+
+  /// Halves segments; adds the halves that are accurate enough to the load, returns the others.
+  std::vector<Segment> halve(const std::vector<Segment>& segments,
+                             Eigen::Ref<Eigen::VectorXd> load) {
+    std::vector<Segment> halves, rest;
+    for (const Segment& one : segments) {
+      const double middle = between(one, 0.5);
+      halves.push_back({one.edge, one.from, middle, one.depth + 1});
+      halves.push_back({one.edge, middle, one.to, one.depth + 1});
+    }
+    measure(halves);
+    const double mean = std::max(_absolute, _settled) / _length;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      Segment &low = halves[2 * i], &high = halves[2 * i + 1];
+      const double whole = low.whole + high.whole, at_second = low.at_second + high.at_second,
+                   absolute = low.absolute + high.absolute;
+      const double change = std::max(std::abs(whole - segments[i].whole),
+                                     std::abs(at_second - segments[i].at_second));
+      Trust trust = std::max(low.trust, high.trust);
+      // Further changes are expected to decay like the last one; at a singularity, whose samples
+      // come closer and farther by chance, like all so far.
+      const double before = segments[i].before, first = segments[i].first;
+      double decay = before > 0 ? change / before : 0.5;
+      if (trust >= Trust::singular && first > 0) {
+        decay = std::pow(change / first, 1.0 / (low.depth - 1));
+      }
+      const bool exact = change <= 4 * rounding * absolute, converges = exact || decay <= 0.97;
+      double left = exact ? change : converges ? change * decay / (1 - decay) : 32 * change;
+      if (!converges && low.depth > 6 && trust >= Trust::singular) left = infinite;
+      if (trust == Trust::singular && converges && before > 0) trust = Trust::sound;
+      const double share = std::ldexp(1.0, -low.depth / 2);
+      const Edge& edge = _edges[low.edge];
+      const bool last = low.depth >= most_halvings || _sampler.count() > _most_evaluations ||
+                        low.to - low.from <= edge.resolved;
+      if (last || (trust == Trust::sound &&
+                   (exact || left <= 0.5 * traction_tolerance * (mean * share + absolute)))) {
+        load[edge.nodes[0]] += edge.length * (whole - at_second);
+        load[edge.nodes[1]] += edge.length * at_second;
+        _settled += edge.length * absolute;
+        _error += trust == Trust::sound        ? edge.length * left
+                  : trust == Trust::unresolved ? edge.length * absolute
+                                               : infinite;
+      } else {
+        low.before = high.before = change;
+        low.first = high.first = low.depth == 1 ? change : first;
+        rest.push_back(low);
+        rest.push_back(high);
+      }
+    }
+    return rest;
+  }
+
+  Sampler _sampler;
+  std::size_t _most_evaluations;
+  std::vector<Edge> _edges;
+  std::array<double, Sampler::block> _x{}, _y{};
+  double _length = 0, _absolute = 0, _settled = 0, _error = 0;
+};
 
 }  // namespace
 
 double add_traction(const Triangulation& part, std::span<const std::array<std::int32_t, 2>> edges,
                     const std::string& traction, Eigen::Ref<Eigen::VectorXd> load,
                     const std::stop_token& stop) {
-  ExpressionFunction function(traction, "traction");
-  const ScalarField expression = [&function](double x, double y) { return function(x, y); };
-  // Every edge has the points of its first panels, whatever the others took.
-  CountedField field(expression, evaluations_of_all + 7 * (panels + 1) * edges.size(), stop);
-  std::vector<double> levels;
-  levels.reserve(edges.size());
-  double absolute = 0, length = 0;
-  for (const std::array<std::int32_t, 2>& nodes : edges) {
-    const Edge edge(part, nodes);
-    levels.push_back(level(edge, field));
-    absolute += levels.back() * edge.length();
-    length += edge.length();
-  }
-  const double mean = length > 0 ? absolute / length : 0;
-
-  std::array<double, panels + 1> ends{};
-  for (std::size_t i = 0; i <= panels; ++i) {
-    ends[i] = static_cast<double>(i) / panels;
-  }
-  double error = 0;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const Edge edge(part, edges[e]);
-    const auto along = [&](double t) { return Reading<1>{{edge.value(field, t)}, 0}; };
-    field.allow(evaluations_of_edge);
-    const PiecewiseIntegral<1> found = PiecewiseQuadrature<1, decltype(along)>(
-        along, field, {0.5 * relative_tolerance * (mean + levels[e]), edge.resolution()})(ends);
-    const double at_second = found.first[0], whole = found.zeroth[0];
-    load[edges[e][0]] += edge.length() * (whole - at_second);
-    load[edges[e][1]] += edge.length() * at_second;
-    error += edge.length() * found.error;
-    absolute = std::max(absolute, edge.length() * std::abs(whole));
-  }
-  return absolute > 0 ? error / absolute : 0;
+  const expression::Function function(traction, "traction");
+  return EdgeIntegrator(part, edges, function, stop)(load);
 }
 
 }  // namespace anticrack::fem

@@ -13,11 +13,11 @@
 namespace anticrack::fem {
 
 /// Adds int g_N phi_i ds over `edges` (pairs of the subdomain's nodes) to load_i, shape (n), for
-/// g_N given as an expression. Right to 1e-10 of int |g_N|: each edge is integrated adaptively, a
-/// jump on it is located to 1e-13 of its length (piecewise_quadrature.hpp). Missed is what comes
-/// and goes between two of some 50 points of an edge. Returns the estimated error relative to
-/// int |g_N|, above 1e-10 only where a limit was met.
-/// Throws errors::Error (expression_invalid at "traction" where it is not finite, cancelled).
+/// g_N given as an expression. Edges are halved until the error is below traction_tolerance of
+/// int |g_N|, towards jumps as far as numbers resolve. Returns the estimated error relative to
+/// int |g_N|: above the tolerance only if the work was limited, infinite if no estimate is possible
+/// because the integral may not exist. Throws errors::Error (expression_invalid at "traction" where
+/// it is not finite, cancelled).
 double add_traction(const Triangulation& part, std::span<const std::array<std::int32_t, 2>> edges,
                     const std::string& traction, Eigen::Ref<Eigen::VectorXd> load,
                     const std::stop_token& stop = {});

@@ -2,6 +2,7 @@
 #include "operators/condense_loads.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -39,11 +40,19 @@ void require_array_fits(const fem::Load& load, const mesh::Mesh& mesh) {
   }
 }
 
-std::string inexact(const std::string& what, const std::string& subdomain, double relative_error) {
+std::string inexact(const std::string& what, const std::string& subdomain, double relative_error,
+                    double wanted) {
+  if (!std::isfinite(relative_error)) {
+    return what + " on subdomain \"" + subdomain +
+           "\" cannot be integrated, and no estimate of the error is possible: it has a "
+           "singularity "
+           "or a peak that the mesh does not resolve; refine the mesh there or replace the "
+           "expression";
+  }
   std::ostringstream message;
   message.precision(2);
   message << what << " on subdomain \"" << subdomain << "\" may be wrong by " << relative_error
-          << " of its integral (wanted: " << fem::load_tolerance
+          << " of its integral (wanted: " << wanted
           << "): it is too rough for the limit of evaluations";
   return message.str();
 }
@@ -157,8 +166,9 @@ class Block {
     Eigen::VectorXd of_nodes =
         fem::load_vector(subdomain.part, _loads[i]->force, subdomain.name,
                          {subdomain.node, subdomain.triangle, _stop, &error});
-    if (error > fem::load_tolerance) {
-      result.warnings.push_back(inexact("the force", subdomain.name, error));
+    const double wanted = fem::force_tolerance(subdomain.part.triangle_count());
+    if (error > wanted) {
+      result.warnings.push_back(inexact("the force", subdomain.name, error, wanted));
     }
     return of_nodes;
   }
@@ -171,8 +181,9 @@ class Block {
     if (!load.traction.empty() && !_neumann.of(s).empty()) {
       const double error =
           fem::add_traction(subdomain.part, _neumann.of(s), load.traction, of_nodes, _stop);
-      if (error > fem::load_tolerance) {
-        result.warnings.push_back(inexact("the traction", subdomain.name, error));
+      if (error > fem::traction_tolerance) {
+        result.warnings.push_back(
+            inexact("the traction", subdomain.name, error, fem::traction_tolerance));
       }
     }
     for (const NodalForce& force : _placed[i].subdomains[s]) {

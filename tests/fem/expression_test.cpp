@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fem/expression.hpp"
+#include "expression/function.hpp"
 
 #include <gmock/gmock.h>
 
@@ -45,7 +45,7 @@ std::string field_of(const errors::Error& error) {
 }
 
 TEST(Expression, KnowsCoordinatesFunctionsConstantsAndConditions) {
-  ExpressionFunction function("y > 0 && x <= 1 ? sin(_pi*x)^2 + 0*_e : -abs(y)", "f");
+  const expression::Function function("y > 0 && x <= 1 ? sin(_pi*x)^2 + 0*_e : -abs(y)", "f");
   EXPECT_NEAR(function(0.5, 1), 1.0, 1e-15);
   EXPECT_EQ(function(0.5, -2), -2.0);
   EXPECT_EQ(function(2, 3), -3.0);
@@ -84,7 +84,7 @@ TEST(Expression, LongerThanTheLimitIsRefused) {
 TEST(Expression, NestedAsDeepAsItsLengthAllowsIsRead) {
   constexpr std::size_t depth = 2000;
   const std::string text = std::string(depth, '(') + "x" + std::string(depth, ')');
-  ExpressionFunction function(text, "f");
+  const expression::Function function(text, "f");
   EXPECT_EQ(function(3, 0), 3.0);
 }
 
@@ -96,14 +96,14 @@ TEST(Expression, MayBeTheFirstOnManyThreadsAtOnce) {
     threads.emplace_back([&ready] {
       for (++ready; ready < 4;) {
       }
-      ExpressionFunction function("1.5 * x", "f");
+      const expression::Function function("1.5 * x", "f");
       EXPECT_EQ(function(2, 0), 3.0);
     });
   }
 }
 
 TEST(Expression, ValueThatIsNotFiniteNamesThePlace) {
-  ExpressionFunction function("1/(x-2)", "force.expression");
+  const expression::Function function("1/(x-2)", "force.expression");
   EXPECT_EQ(function(3, 0), 1.0);
   try {
     function(2, 0.25);

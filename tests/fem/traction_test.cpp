@@ -99,6 +99,24 @@ TEST(Traction, OfZeroOrOnNoEdgeIsZero) {
   EXPECT_EQ(segment.error, 0);
 }
 
+TEST(Traction, TellsHowWrongItIs) {
+  const Segment segment(20);
+  for (const char* text : {"rint(1e9*x) - 1e9*x", "sin(1e7*x) > 0", "sin(1e6*x)"}) {
+    segment.load(text);
+    EXPECT_GT(segment.error, 1e-6) << text;
+  }
+  EXPECT_NEAR(segment.load("abs(x - 0.75)^-0.5").sum(), 2 * (std::sqrt(0.75) + 1.5), 1e-4);
+  EXPECT_LT(segment.error, 1e-3);
+  for (const char* text : {"1/abs(x - 0.75)", "1/(x - 0.1)^2", "1/x"}) {
+    segment.load(text);
+    EXPECT_TRUE(std::isinf(segment.error)) << text << " " << segment.error;
+  }
+  // A peak between any two points.
+  EXPECT_NEAR(segment.load("1e5*exp(-1e10*(x - 1.2345)^2)").sum(), std::sqrt(3.14159265358979324),
+              1e-9);
+  EXPECT_LT(segment.error, 1e-10);
+}
+
 TEST(Traction, NamesItsFieldWhereItIsNotFinite) {
   const Segment segment(3);
   EXPECT_TRUE(throws([&] { segment.load("sqrt(x - 1)"); }, Reason::expression_invalid, "traction"));

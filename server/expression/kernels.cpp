@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "expression/kernels.hpp"
+
+#include <cmath>
+
+#define ELEMENTARY(f, ...) std::f(__VA_ARGS__)
+#define EXACT(f, a) std::f(a)
+using Numbers = double;
+#include "expression/kernel_table.hpp"
+
+namespace anticrack::expression {
+
+const Kernels& plain_kernels() {
+  return kernels;
+}
+
+const Kernels& fastest_kernels() {
+#ifdef ANTICRACK_AVX2
+  static const bool wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (wide) return avx2_kernels();
+#endif
+  return kernels;
+}
+
+}  // namespace anticrack::expression

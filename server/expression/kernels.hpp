@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "expression/tape.hpp"
+
+namespace anticrack::expression {
+
+/// out[i] = an operation on a[i], b[i], c[i] for i < n. Reads and writes up to the next multiple of
+/// `kernel_width` numbers, and reads b and c even where the operation has fewer operands.
+using Kernel = void (*)(const double* a, const double* b, const double* c, double* out,
+                        std::size_t n);
+constexpr std::size_t kernel_width = 4;
+
+/// By Code.
+using Kernels = std::array<Kernel, static_cast<std::size_t>(Code::count)>;
+
+/// One number at a time, by the C library. Reads and writes exactly n numbers.
+const Kernels& plain_kernels();
+
+/// Four numbers at a time, by SLEEF. Only in programs for x86-64.
+const Kernels& avx2_kernels();
+
+/// The fastest that this processor can run. Elementary functions are accurate to 1 unit in the last
+/// place; the same processor always gives the same bits.
+const Kernels& fastest_kernels();
+
+}  // namespace anticrack::expression

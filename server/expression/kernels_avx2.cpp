@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Compiled for AVX2 and FMA: only called on processors that have them.
+#include <immintrin.h>
+#include <sleef.h>
+
+#define ELEMENTARY(f, ...) Sleef_##f##d4_u10avx2(__VA_ARGS__)
+#define EXACT(f, a) Sleef_##f##d4_avx2(a)
+using Numbers = __m256d;
+#include "expression/kernel_table.hpp"
+
+namespace anticrack::expression {
+
+const Kernels& avx2_kernels() {
+  return kernels;
+}
+
+}  // namespace anticrack::expression

@@ -1,0 +1,620 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fem/cut_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "fem/triangle_rules.hpp"
+
+namespace anticrack::fem {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// Cells whose switches are sampled at once, at the corners, the middles of the edges (i is
+/// opposite corner i) and the centroid.
+constexpr std::size_t width = Cutter::width, places = 7;
+static_assert(width * places <= expression::Evaluator::block);
+constexpr std::array<double, places> place_b{0, 1, 0, 0.5, 0, 0.5, 1.0 / 3};
+constexpr std::array<double, places> place_c{0, 0, 1, 0.5, 0.5, 0, 1.0 / 3};
+
+/// Samples are drawn in towards the centroid, so that each cell is asked for its own side of what
+/// jumps along its edge; what lies within `nothing` of an edge lies on it.
+constexpr double drawn_in = 1e-12, nothing = 4e-12;
+/// Parts of a triangle that nobody misses.
+constexpr double sliver = 1e-11;
+constexpr std::int32_t deepest = 60;
+
+/// A switch's argument on a cell.
+struct View {
+  std::array<double, places> g{};
+  std::array<double, 6> bernstein{};  ///< of the polynomial of degree 2
+  double low = 0, high = 0;           ///< of g, at least as far apart as it goes
+  double zero = 0;                    ///< below this it is 0 to rounding
+  double bent = 0;                    ///< how far it is from linear
+
+  /// `rounding`: of coordinates over the cell's size.
+  View(const std::array<double, places>& values, double rounding) : g(values) {
+    std::copy_n(g.begin(), 3, bernstein.begin());
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double mean = 0.5 * (g[(i + 1) % 3] + g[(i + 2) % 3]);
+      bernstein[3 + i] = 2 * g[3 + i] - mean;
+      bent = std::max(bent, std::abs(bernstein[3 + i] - mean));
+    }
+    const auto [least, greatest] = std::minmax_element(bernstein.begin(), bernstein.end());
+    zero = (nothing + 8 * rounding) * (*greatest - *least);
+    const double centre = (4 * (g[3] + g[4] + g[5]) - (g[0] + g[1] + g[2])) / 9;
+    const double noise = 16 * epsilon * std::max(std::abs(*least), std::abs(*greatest));
+    const double off = 2 * std::max(0.0, std::abs(g[6] - centre) - zero - noise);
+    bent += off;
+    low = *least - off;
+    high = *greatest + off;
+  }
+
+  bool straight() const { return bent <= 1e-10 * (high - low); }
+
+  /// The value it passes inside the cell; none where it passes none.
+  std::optional<double> level(bool steps) const {
+    if (!std::isfinite(low) || !std::isfinite(high)) return std::nullopt;
+    if (!steps) return low < -zero && high > zero ? std::optional(0.0) : std::nullopt;
+    const double first = std::floor(low + zero) + 1, last = std::ceil(high - zero) - 1;
+    return first <= last ? std::optional(std::floor(0.5 * (first + last))) : std::nullopt;
+  }
+
+  /// -1, 0 or 1.
+  int side(std::size_t place, double level) const {
+    const double off = g[place] - level;
+    return std::abs(off) <= zero ? 0 : off > 0 ? 1 : -1;
+  }
+};
+
+/// From an apex inside or on a cell; t is where the switch changes.
+struct Ray {
+  Place from;
+  Place to;  ///< t = 1
+  double far;
+  double t = 0;
+};
+
+/// A triangle whose side opposite the apex is the line where the switch changes; `beyond`: and what
+/// lies between that line and the chord.
+struct Sector {
+  Place apex;
+  Place u, v;
+  bool beyond;
+};
+
+/// Corners are turned so that the first is the odd one.
+struct Curved {
+  Cell cell;
+  double level;
+  std::array<int, 3> side;
+};
+
+double cross(const Place& o, const Place& p, const Place& q) {
+  return (p.b - o.b) * (q.c - o.c) - (p.c - o.c) * (q.b - o.b);
+}
+
+/// What the rules of 5 and 4 points leave of values that go on as the coefficients of their
+/// Legendre polynomials do.
+double line_error(const std::array<double, 5>& v) {
+  std::array<double, 5> c{};
+  for (std::size_t i = 0; i < 5; ++i) {
+    const double z = 2 * line_5.at[i] - 1, w = line_5.weight[i] * v[i];
+    c[2] += 5 * w * (1.5 * z * z - 0.5);
+    c[3] += 7 * w * (2.5 * z * z - 1.5) * z;
+    c[4] += 9 * w * ((4.375 * z * z - 3.75) * z * z + 0.375);
+  }
+  const double last = std::abs(c[4]), before = std::max(std::abs(c[2]), std::abs(c[3]));
+  const double ratio = before > 0 ? last / before : 1;
+  return last * std::min(1.0, 10 * ratio);
+}
+
+double line_error(const std::array<double, 4>& v) {
+  std::array<double, 4> c{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double z = 2 * line_4.at[i] - 1, w = line_4.weight[i] * v[i];
+    c[1] += 3 * w * z;
+    c[2] += 5 * w * (1.5 * z * z - 0.5);
+    c[3] += 7 * w * (2.5 * z * z - 1.5) * z;
+  }
+  const double last = std::abs(c[3]), before = std::max(std::abs(c[1]), std::abs(c[2]));
+  const double ratio = before > 0 ? last / before : 1;
+  return last * std::min(1.0, 10 * ratio);
+}
+
+std::vector<expression::Switch> in_order(const expression::Tape& tape) {
+  std::vector<expression::Switch> switches = tape.switches();
+  // Straight lines depend on nothing, and leave triangles.
+  std::stable_partition(switches.begin(), switches.end(),
+                        [&](const expression::Switch& one) { return tape.degree(one.of) <= 1; });
+  return switches;
+}
+
+std::vector<expression::Ref> refs(const std::vector<expression::Switch>& switches) {
+  std::vector<expression::Ref> result;
+  for (const expression::Switch& one : switches) result.push_back(one.of);
+  return result;
+}
+
+}  // namespace
+
+class Cutter::Work {
+ public:
+  Work(Integration& integration, std::stop_token stop)
+      : _integration(integration),
+        _stop(std::move(stop)),
+        _switches(in_order(integration.f.function().tape())),
+        _arguments(integration.f.function().tape(), refs(_switches)),
+        _curved(_switches.size()) {}
+
+  bool needed() const noexcept { return !_switches.empty(); }
+
+  double cost() const noexcept {
+    constexpr double each = 10;  // ns, measured
+    return each * static_cast<double>(_switches.size()) +
+           static_cast<double>(places) * _arguments.cost();
+  }
+
+  void find(const Frames& at, std::array<bool, width>& cut) {
+    Lane drawn{};
+    for (std::size_t i = 0; i < width; ++i) {
+      const double size = std::max(std::abs(at.bx[i]) + std::abs(at.by[i]),
+                                   std::abs(at.cx[i]) + std::abs(at.cy[i]));
+      _rounding[i] = epsilon * (std::abs(at.x[i]) + std::abs(at.y[i]) + size) / size;
+      drawn[i] = 1 - std::min(1e-2, drawn_in + 4 * _rounding[i]);
+    }
+    for (std::size_t p = 0; p < places; ++p) {
+      const double b = place_b[p] - 1.0 / 3, c = place_c[p] - 1.0 / 3;
+      for (std::size_t i = 0; i < width; ++i) {
+        const double to_b = 1.0 / 3 + drawn[i] * b, to_c = 1.0 / 3 + drawn[i] * c;
+        _x[p * width + i] = at.x[i] + to_b * at.bx[i] + to_c * at.cx[i];
+        _y[p * width + i] = at.y[i] + to_b * at.by[i] + to_c * at.cy[i];
+      }
+    }
+    _arguments(_x.data(), _y.data(), width * places);
+    cut.fill(false);
+    for (std::size_t s = 0; s < _switches.size(); ++s) {
+      const double* g = _arguments.values(s);
+      Lane low{}, high{};
+      for (std::size_t i = 0; i < width; ++i) low[i] = high[i] = g[i];
+      for (std::size_t p = 1; p < places; ++p) {
+        for (std::size_t i = 0; i < width; ++i) {
+          const double value = g[p * width + i];
+          low[i] = value < low[i] ? value : low[i];
+          high[i] = high[i] < value ? value : high[i];
+        }
+      }
+      for (std::size_t i = 0; i < width; ++i) {
+        // What a View could make of these values goes beyond them by no more.
+        const double beyond = 8 * (high[i] - low[i]);
+        const double least = low[i] - beyond, greatest = high[i] + beyond;
+        const bool far = _switches[s].steps ? std::floor(least) == std::floor(greatest)
+                                            : least > 0 || greatest < 0;
+        if (!far && !cut[i]) cut[i] = view(i, s).level(_switches[s].steps).has_value();
+      }
+    }
+  }
+
+  std::vector<Cell> cut(const std::vector<std::int32_t>& triangles) {
+    const double mean = _integration.area / (4 + static_cast<double>(triangles.size()));
+    _negligible = _integration.tolerance * mean;
+    std::vector<Cell> cells;
+    for (const std::int32_t t : triangles) {
+      Cell cell;
+      cell.triangle = t;
+      cells.push_back(cell);
+    }
+    _integration.work -= static_cast<double>(cells.size()) * price_of_cell();
+    while (!cells.empty()) {
+      _next.clear();
+      for (std::size_t first = 0; first < cells.size(); first += width) {
+        const std::span<const Cell> all(cells);
+        const auto some = all.subspan(first, std::min(width, cells.size() - first));
+        sample(some);
+        for (std::size_t i = 0; i < some.size(); ++i) divide(some[i], i);
+      }
+      for (std::size_t s = 0; s < _switches.size(); ++s) cut_curved(s);
+      cells.swap(_next);
+    }
+    // What measuring them takes is counted where that is done.
+    _integration.work += Integration::price(points_of_cell * _done.size(), _integration.f.cost());
+    return std::move(_done);
+  }
+
+ private:
+  void sample(std::span<const Cell> cells) {
+    look_at(_stop);
+    for (std::size_t i = 0; i < width; ++i) {
+      const Cell& cell = cells[std::min(i, cells.size() - 1)];
+      const Frame frame = _integration.frame(cell.triangle);
+      const double reach = std::abs(frame.x) + std::abs(frame.y) + frame.size();
+      _rounding[i] = epsilon * reach / height(cell, frame);
+      const double drawn = 1 - std::min(1e-2, drawn_in + 4 * _rounding[i]);
+      for (std::size_t p = 0; p < places; ++p) {
+        const Place at = cell.at(1.0 / 3 + drawn * (place_b[p] - 1.0 / 3),
+                                 1.0 / 3 + drawn * (place_c[p] - 1.0 / 3));
+        _x[p * width + i] = frame.at_x(at);
+        _y[p * width + i] = frame.at_y(at);
+      }
+    }
+    _arguments(_x.data(), _y.data(), width * places);
+  }
+
+  /// Over the longest edge.
+  static double height(const Cell& cell, const Frame& frame) {
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Place &p = cell.corners[k], &q = cell.corners[(k + 1) % 3];
+      const double b = q.b - p.b, c = q.c - p.c;
+      longest =
+          std::max(longest, std::hypot(b * frame.bx + c * frame.cx, b * frame.by + c * frame.cy));
+    }
+    return 2 * frame.area * std::abs(cell.part()) / longest;
+  }
+
+  View view(std::size_t i, std::size_t s) const {
+    const double* values = _arguments.values(s);
+    std::array<double, places> g{};
+    for (std::size_t p = 0; p < places; ++p) g[p] = values[p * width + i];
+    return {g, _rounding[i]};
+  }
+
+  void divide(const Cell& cell, std::size_t i) {
+    std::size_t s = 0;
+    std::optional<double> level;
+    const bool worth = std::abs(cell.part()) > sliver && cell.depth < deepest;
+    for (; worth && s < _switches.size(); ++s) {
+      level = view(i, s).level(_switches[s].steps);
+      if (level) break;
+    }
+    if (!level) {
+      finish(cell);
+      return;
+    }
+    const View seen = view(i, s);
+    std::array<int, 3> side{};
+    for (std::size_t k = 0; k < 3; ++k) side[k] = seen.side(k, *level);
+    const bool opposite = side[0] * side[1] < 0 || side[1] * side[2] < 0 || side[2] * side[0] < 0;
+    if (_integration.work <= 0) {
+      quarter(cell);  // or rather not
+    } else if (seen.straight() && opposite) {
+      cut_straight(cell, seen, *level, side);
+    } else if (simple(seen, *level, side, _switches[s].steps) && !others(i, s)) {
+      turn(cell, seen, *level, side, _curved[s].emplace_back());
+    } else {
+      quarter(cell);
+    }
+  }
+
+  bool others(std::size_t i, std::size_t s) const {
+    while (++s < _switches.size()) {
+      if (view(i, s).level(_switches[s].steps)) return true;
+    }
+    return false;
+  }
+
+  /// The first corner: on the line, if it passes between the two others; else the one on a side of
+  /// its own. The last: the one farther from the line.
+  static void turn(const Cell& cell, const View& seen, double level, const std::array<int, 3>& side,
+                   Curved& result) {
+    const std::size_t k = odd_corner(side);
+    std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+    if (std::abs(seen.g[l] - level) > std::abs(seen.g[m] - level)) std::swap(l, m);
+    const auto& corners = cell.corners;
+    result = {cell, level, {side[k], side[l], side[m]}};
+    result.cell.corners = {corners[k], corners[l], corners[m]};
+  }
+
+  /// One line, met once by every edge it meets, and not too bent.
+  static bool simple(const View& seen, double level, const std::array<int, 3>& side, bool steps) {
+    if (steps && seen.high - seen.low > 2) return false;
+    if (seen.bent > 0.25 * (seen.high - seen.low)) return false;
+    const auto zeros = std::count(side.begin(), side.end(), 0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int p = side[(k + 1) % 3], q = side[(k + 2) % 3];
+      // Along an edge between corners of one side, no change at all.
+      if (p == q && p != 0 && (seen.bernstein[3 + k] - level) * p < 0) return false;
+      if (zeros == 1 && (p == 0 || q == 0) && (seen.bernstein[3 + k] - level) * (p + q) < 0) {
+        return false;
+      }
+    }
+    if (zeros == 2) {  // a lens at the edge between the zeros, or nothing
+      const std::size_t corner = odd_corner(side);
+      return seen.side(3 + corner, level) == -side[corner];
+    }
+    const int sum = side[0] + side[1] + side[2];
+    return zeros == 0 ? std::abs(sum) == 1 : zeros == 1 && sum == 0;
+  }
+
+  void finish(const Cell& cell) {
+    if (std::abs(cell.part()) > 0) {
+      _done.push_back(cell);
+    }
+  }
+
+  void quarter(Cell cell) {
+    const double size = _integration.frame(cell.triangle).area * std::abs(cell.part());
+    if (size <= _negligible || cell.depth >= deepest || _integration.work <= 0) {
+      cell.divisible = false;
+      finish(cell);
+      return;
+    }
+    for (const Cell& part : cell.quarters()) push(part);
+  }
+
+  /// The corner on the line, if it passes between the two others; else the one on a side of its
+  /// own.
+  static std::size_t odd_corner(const std::array<int, 3>& side) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (side[k] == 0 && side[(k + 1) % 3] * side[(k + 2) % 3] < 0) return k;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (side[k] != 0 && side[(k + 1) % 3] != side[k] && side[(k + 2) % 3] != side[k]) return k;
+    }
+    return 0;
+  }
+
+  void push(const Cell& cell, const Place& p, const Place& q, const Place& r) {
+    Cell part = cell.with(p, q, r, 0.5);
+    ++part.depth;
+    push(part);
+  }
+  /// Pays for what is to be done with it at least.
+  void push(const Cell& cell) {
+    _next.push_back(cell);
+    _integration.work -= price_of_cell();
+  }
+  double price_of_cell() const {
+    constexpr double looking = 200;
+    return looking + Integration::price(places, _arguments.cost()) +
+           Integration::price(points_of_cell, _integration.f.cost());
+  }
+
+  void cut_straight(const Cell& cell, const View& seen, double level,
+                    const std::array<int, 3>& side) {
+    const std::size_t k = odd_corner(side), l = (k + 1) % 3, m = (k + 2) % 3;
+    const auto& [p, q, r] = std::array{cell.corners[k], cell.corners[l], cell.corners[m]};
+    const auto crossing = [&](std::size_t from, std::size_t to) {
+      const double at_from = seen.g[from] - level, at_to = seen.g[to] - level;
+      return between(cell.corners[from], cell.corners[to], at_from / (at_from - at_to));
+    };
+    if (side[k] == 0) {
+      const Place a = crossing(l, m);
+      push(cell, p, q, a);
+      push(cell, p, a, r);
+      return;
+    }
+    const Place a = crossing(k, l), b = crossing(k, m);
+    push(cell, p, a, b);
+    push(cell, a, q, r);
+    push(cell, a, r, b);
+  }
+
+  /// Cells with one curve of switch s.
+  void cut_curved(std::size_t s) {
+    std::vector<Curved> curved;
+    curved.swap(_curved[s]);
+    if (curved.empty()) return;
+    std::vector<Ray> ends(2 * curved.size());
+    for (std::size_t i = 0; i < curved.size(); ++i) {
+      const auto& [cell, level, side] = curved[i];
+      const auto& [p, q, r] = cell.corners;
+      ends[2 * i] = side[0] == 0 ? Ray{q, r, 1} : Ray{p, q, 1};
+      ends[2 * i + 1] = side[0] == 0 ? Ray{q, r, 1} : Ray{p, r, 1};
+    }
+    follow(s, curved, ends, 2);
+    std::vector<std::array<Sector, 2>> sectors(curved.size());
+    std::vector<Ray> rays;
+    for (std::size_t i = 0; i < curved.size(); ++i) {
+      sectors[i] = sectors_of(curved[i], ends[2 * i].t, ends[2 * i + 1].t);
+      for (const Sector& sector : sectors[i]) {
+        for (const double at : line_5.at) {
+          const Place to = between(sector.u, sector.v, at);
+          rays.push_back({sector.apex, to, far_end(curved[i].cell, sector.apex, to)});
+        }
+      }
+    }
+    follow(s, curved, rays, 10);
+    for (std::size_t i = 0; i < curved.size(); ++i) {
+      const std::span<const Ray, 10> own(&rays[10 * i], 10);
+      if (ends[2 * i].t < 0 || ends[2 * i + 1].t < 0 || !add_sectors(curved[i], sectors[i], own)) {
+        quarter(curved[i].cell);
+      }
+    }
+  }
+
+  /// At which part of a ray, in units of its `to`, it leaves the cell: where the coordinate of its
+  /// corner, the apex, is 0.
+  static double far_end(const Cell& cell, const Place& apex, const Place& to) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (cell.corners[k].b == apex.b && cell.corners[k].c == apex.c) {
+        const double left = cross(to, cell.corners[(k + 1) % 3], cell.corners[(k + 2) % 3]);
+        return 1 / std::max(1e-9, 1 - left / cell.part());
+      }
+    }
+    return 1;
+  }
+
+  std::array<Sector, 2> sectors_of(const Curved& one, double t, double other_t) {
+    const auto& [p, q, r] = one.cell.corners;
+    const auto& side = one.side;
+    if (side[0] == 0) {  // from corner p to the edge q r
+      const Place a = between(q, r, t);
+      return {{{q, p, a, false}, {r, p, a, false}}};
+    }
+    if (side[1] == 0 && side[2] == 0) {
+      return {{{p, q, r, true}, {p, q, q, false}}};
+    }
+    const Place a = between(p, q, t), b = between(p, r, other_t);
+    return {{{p, a, b, false}, {r, a, b, false}}};
+  }
+
+  /// Where the switch changes along rays, `each` of every cell; t < 0: nowhere.
+  void follow(std::size_t s, const std::vector<Curved>& curved, std::span<Ray> rays,
+              std::size_t each) {
+    constexpr std::size_t block = expression::Evaluator::block;
+    constexpr int most = 60;
+    const expression::Ref root = _switches[s].of;
+    expression::Evaluator argument(_integration.f.function().tape(), {&root, 1});
+    std::array<double, block> low{}, high{}, at_low{}, at_high{};
+    for (std::size_t first = 0; first < rays.size(); first += block) {
+      const std::size_t n = std::min(block, rays.size() - first);
+      const auto some = rays.subspan(first, n);
+      const auto value = [&](auto&& place) {
+        look_at(_stop);
+        for (std::size_t i = 0; i < n; ++i) {
+          const Curved& own = curved[(first + i) / each];
+          const Frame frame = _integration.frame(own.cell.triangle);
+          const Place at = between(some[i].from, some[i].to, place(i));
+          _x[i] = frame.at_x(at);
+          _y[i] = frame.at_y(at);
+        }
+        argument(_x.data(), _y.data(), n);
+        _integration.spend(n, argument.cost());
+        return argument.values(0);
+      };
+      const auto level = [&](std::size_t i) { return curved[(first + i) / each].level; };
+      const double* g = value([&](std::size_t i) { return drawn_in * some[i].far; });
+      for (std::size_t i = 0; i < n; ++i) at_low[i] = g[i] - level(i);
+      g = value([&](std::size_t i) { return (1 - drawn_in) * some[i].far; });
+      std::size_t open = 0;
+      for (std::size_t i = 0; i < n; ++i) {
+        low[i] = 0;
+        high[i] = some[i].far;
+        at_high[i] = g[i] - level(i);
+        // At an end of the line, rounding may put the change outside.
+        const bool within = at_low[i] * at_high[i] < 0;
+        const bool nearly = std::abs(at_high[i]) < 1e-6 * std::abs(at_low[i]);
+        some[i].t = within ? 0 : nearly ? high[i] : -1;
+        if (!within) low[i] = high[i];
+        open += within ? 1 : 0;
+      }
+      std::array<double, block> before{};
+      for (int step = 0; step < most && open > 0; ++step) {
+        const auto guess = [&](std::size_t i) {
+          if (low[i] == high[i]) return some[i].t;
+          const double part = at_low[i] / (at_low[i] - at_high[i]);
+          return step % 8 == 7 ? 0.5 * (low[i] + high[i]) : low[i] + part * (high[i] - low[i]);
+        };
+        g = value(guess);
+        open = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+          if (low[i] == high[i]) continue;
+          const double t = guess(i), off = g[i] - level(i);
+          const bool upper = off * at_low[i] <= 0;
+          // Illinois: an end that stays counts half, so that it moves.
+          (upper ? high[i] : low[i]) = t;
+          (upper ? at_high[i] : at_low[i]) = off;
+          if (upper && before[i] > 0) at_low[i] *= 0.5;
+          if (!upper && before[i] < 0) at_high[i] *= 0.5;
+          before[i] = upper ? 1 : -1;
+          const double moved = std::abs(t - some[i].t);
+          some[i].t = t;
+          if (off == 0 || moved <= 1e-14 || high[i] - low[i] <= 1e-14) {
+            low[i] = high[i];
+          } else {
+            ++open;
+          }
+        }
+      }
+    }
+  }
+
+  bool add_sectors(const Curved& one, const std::array<Sector, 2>& sectors,
+                   std::span<const Ray, 10> rays) {
+    if (std::any_of(rays.begin(), rays.end(), [](const Ray& ray) { return ray.t < 0; })) {
+      return false;
+    }
+    const Frame frame = _integration.frame(one.cell.triangle);
+    constexpr std::size_t points = line_4.size;
+    std::array<Place, 60> at{};
+    std::array<double, 60> weight{};
+    std::size_t n = 0;
+    const auto place = [&](const Ray& ray, double scale, double from, double to) {
+      for (std::size_t j = 0; j < points; ++j) {
+        const double t = from + line_4.at[j] * (to - from);
+        at[n] = between(ray.from, ray.to, t);
+        weight[n] = scale * line_4.weight[j] * (to - from) * t;
+        _x[n] = frame.at_x(at[n]);
+        _y[n] = frame.at_y(at[n]);
+        ++n;
+      }
+    };
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Sector& sector = sectors[k];
+      const double scale = 2 * frame.area * std::abs(cross(sector.apex, sector.u, sector.v));
+      if (scale == 0) continue;
+      for (std::size_t i = 0; i < 5; ++i) place(rays[5 * k + i], scale, 0, rays[5 * k + i].t);
+      for (std::size_t i = 0; i < 5 && sector.beyond; ++i) {
+        place(rays[5 * k + i], scale, rays[5 * k + i].t, 1);
+      }
+    }
+    const double* f = _integration.f(_x.data(), _y.data(), n);
+    _integration.spend(n, _integration.f.cost());
+    Moments found;
+    double error = 0;
+    for (std::size_t first = 0; first < n; first += 5 * points) {  // a sector, or what is beyond
+      std::array<double, 5> along{};
+      for (std::size_t i = 0; i < 5; ++i) {
+        std::array<double, points> across{};
+        double size = 0;
+        for (std::size_t j = 0; j < points; ++j) {
+          const std::size_t m = first + points * i + j;
+          _integration.f.function().require_finite(_x[m], _y[m], f[m]);
+          found.add(line_5.weight[i] * weight[m], at[m], f[m]);
+          across[j] = f[m];
+          size += weight[m];
+          along[i] += weight[m] * f[m];
+        }
+        error += line_5.weight[i] * size * line_error(across);
+      }
+      error += line_error(along);
+    }
+    if (error > _integration.allowed(frame.area, one.cell.share, found.absolute) &&
+        std::abs(one.cell.part()) * frame.area > _negligible && _integration.work > 0) {
+      return false;
+    }
+    _integration.add(one.cell.triangle, found, error);
+    if (one.side[0] != 0 && !sectors[0].beyond) {  // what no sector covers
+      push(one.cell, sectors[0].u, one.cell.corners[1], one.cell.corners[2]);
+    }
+    return true;
+  }
+
+  Integration& _integration;
+  std::stop_token _stop;
+  std::vector<expression::Switch> _switches;
+  expression::Evaluator _arguments;
+  std::array<double, expression::Evaluator::block> _x{}, _y{};
+  std::array<double, width> _rounding{};
+  double _negligible = 0;  ///< area
+  std::vector<Cell> _next;
+  std::vector<std::vector<Curved>> _curved;  ///< by switch
+  std::vector<Cell> _done;
+};
+
+Cutter::Cutter(Integration& integration, std::stop_token stop)
+    : _work(std::make_unique<Work>(integration, std::move(stop))) {}
+Cutter::~Cutter() = default;
+
+bool Cutter::needed() const noexcept {
+  return _work->needed();
+}
+
+double Cutter::cost() const noexcept {
+  return _work->cost();
+}
+
+void Cutter::find(const Frames& frames, std::array<bool, width>& cut) {
+  _work->find(frames, cut);
+}
+
+std::vector<Cell> Cutter::cut(const std::vector<std::int32_t>& triangles) {
+  return _work->cut(triangles);
+}
+
+}  // namespace anticrack::fem

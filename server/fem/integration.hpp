@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the parts of the integration of one load share.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "fem/cell.hpp"
+#include "fem/sampler.hpp"
+#include "fem/triangle_rules.hpp"
+
+namespace anticrack::fem {
+
+struct Integration {
+  std::span<const double> xy;
+  std::span<const std::int32_t> triangles;
+  Sampler& f;
+  std::span<double> load;
+  double tolerance;     ///< relative
+  double work;          ///< ns left for what the first samples did not settle, roughly
+  double area = 0;      ///< of all triangles
+  double absolute = 0;  ///< int |f|, as far as known
+  double settled = 0;   ///< int |f| of what was added to the load
+  double error = 0;     ///< of what was added to the load
+  bool exact = false;   ///< between switches f is a polynomial that rule_5 integrates exactly
+  std::size_t cut = 0;  ///< triangles that f jumps or bends in
+
+  Frame frame(std::int32_t t) const { return frame_of(xy, triangles, static_cast<std::size_t>(t)); }
+
+  /// Error that a part of a triangle may have: half by its area, half by its own int |f|.
+  double allowed(double area_of_triangle, double share, double absolute_of_part) const {
+    const double mean = area > 0 ? std::max(absolute, settled) / area : 0;
+    return 0.5 * tolerance * (mean * area_of_triangle * share + absolute_of_part);
+  }
+
+  void add(std::int32_t t, const Moments& found, double found_error) {
+    const auto corner = [&](std::size_t i) -> double& {
+      return load[static_cast<std::size_t>(triangles[3 * static_cast<std::size_t>(t) + i])];
+    };
+    corner(0) += found.value[0] - found.value[1] - found.value[2];
+    corner(1) += found.value[1];
+    corner(2) += found.value[2];
+    settled += found.absolute;
+    error += found_error;
+  }
+
+  /// The work of so many points; `each`: of one, ns.
+  static double price(std::size_t points, double each) {
+    constexpr double overhead = 3;
+    return static_cast<double>(points) * (each + overhead);
+  }
+  void spend(std::size_t points, double each) { work -= price(points, each); }
+};
+
+/// What is known of a triangle whose first samples do not suffice.
+struct Coarse {
+  std::int32_t triangle;
+  Trust trust;
+  Moments found;
+  double error;
+};
+
+/// Points of the first measurement of a cell.
+constexpr std::size_t points_of_cell = rule_5.size + rule_8.size;
+
+/// Adds int f phi_i over triangles and parts of triangles in which f is smooth, or has a
+/// singularity, to the load: by rules of
+/// degree 8 and 12, then by quarters, the worst first where work runs out. Errors are estimated
+/// from how fast the rules converge; where quarters go on, from how fast those do, so that the
+/// error left at a singularity is told as it is, and as infinite where the sums do not converge at
+/// all.
+void refine_cells(Integration& integration, std::vector<Coarse> triangles, std::vector<Cell> cells);
+
+}  // namespace anticrack::fem

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <stop_token>
+#include <vector>
+
+#include "expression/function.hpp"
+
+namespace anticrack::fem {
+
+/// Whether samples of a function show what it does between them.
+enum class Trust {
+  sound,
+  unresolved,  ///< it may jump or oscillate between them; |f| is about as sampled
+  singular,    ///< a divisor or the like may vanish nearby: only convergence can tell
+  spiking,     ///< it may be much greater between them
+};
+
+/// Evaluates a function in blocks of points, counts the points, and checks the stop token before
+/// every block. The arguments of steep functions (exp, sin, 1/u, ...) show whether samples can be
+/// trusted: an argument varies smoothly where its function has a peak that the samples miss.
+class Sampler {
+ public:
+  static constexpr std::size_t block = expression::Evaluator::block;
+
+  /// Whether samples on both sides of a switch (Tape::switches) are unresolved.
+  enum class Jumps { ignored, watched };
+
+  Sampler(const expression::Function& function, std::stop_token stop, Jumps jumps = Jumps::ignored);
+
+  /// Values at n <= block points; both arrays are read to the next multiple of 4. Not all need be
+  /// finite. Throws errors::Error (cancelled) soon after a stop was requested.
+  const double* operator()(const double* x, const double* y, std::size_t n);
+
+  /// Of the `count` points from `first` on of the last call; `room` widens what a rule of so many
+  /// points can be trusted with.
+  Trust trust(std::size_t first, std::size_t count, double room) const;
+
+  /// The same of `lanes` sets of `count` points at once, the points of a set `lanes` apart.
+  template <std::size_t lanes>
+  void trust(std::size_t count, double room, std::array<Trust, lanes>& result) const {
+    result.fill(Trust::sound);
+    for (std::size_t w = 0; w < _watches.size(); ++w) {
+      const double* u = _evaluator.values(w + 1);
+      std::array<double, lanes> low, high;
+      for (std::size_t t = 0; t < lanes; ++t) low[t] = high[t] = u[t];
+      for (std::size_t i = 1; i < count; ++i) {
+        for (std::size_t t = 0; t < lanes; ++t) {
+          const double value = u[i * lanes + t];
+          low[t] = value < low[t] ? value : low[t];
+          high[t] = high[t] < value ? value : high[t];
+        }
+      }
+      for (std::size_t t = 0; t < lanes; ++t) {
+        result[t] = std::max(result[t], judge(_watches[w], low[t], high[t], room));
+      }
+    }
+  }
+  bool watches() const noexcept { return !_watches.empty(); }
+
+  /// Keeps the greatest argument of each exponential over the n points of the last call: what is
+  /// e^40 below the greatest is neglected.
+  void note_peaks(std::size_t n);
+
+  const expression::Function& function() const noexcept { return _function; }
+  std::size_t count() const noexcept { return _count; }
+  double cost() const noexcept { return _evaluator.cost(); }
+
+ private:
+  enum class Kind { exponential, turning, ratio, saturating, switching, stepping };
+  struct Watch {
+    expression::Ref argument;
+    Kind kind;
+    double range;  ///< of the argument over samples that can be trusted
+    double peak = -std::numeric_limits<double>::infinity();
+  };
+
+  /// Of samples whose argument lies between two values.
+  static Trust judge(const Watch& watch, double low, double high, double room);
+  static std::vector<Watch> watches(const expression::Tape& tape, Jumps jumps);
+  /// The function, then the arguments.
+  static std::vector<expression::Ref> roots(const expression::Tape& tape,
+                                            const std::vector<Watch>& watches);
+  Sampler(const expression::Function& function, std::stop_token stop, std::vector<Watch> watches);
+
+  const expression::Function& _function;
+  std::stop_token _stop;
+  std::vector<Watch> _watches;
+  expression::Evaluator _evaluator;
+  std::size_t _count = 0;
+};
+
+/// Throws errors::Error (cancelled) if a stop was requested.
+void look_at(const std::stop_token& stop);
+
+}  // namespace anticrack::fem
