@@ -27,9 +27,7 @@ void read_mesh(const Section& root, Case& result) {
     result.mesh.mutable_options()->set_preset(v1::MESH_PRESET_GRADED);
   }
   if (const auto file = mesh ? mesh->text("file") : std::nullopt) {
-    if (geometry) {
-      throw Error(geometry->spot(), "there is a mesh.file too; remove one of the two");
-    }
+    if (geometry) throw Error(geometry->spot(), "there is a mesh.file too; remove one of the two");
     result.mesh_file = result.path.parent_path() / *file;
     for (const char* field : {"upload", "header", "chunk"}) {
       result.spots[field] = mesh->spot_of("file");
@@ -74,9 +72,7 @@ std::optional<Spot> Case::locate(const std::string& field) const {
   std::string place = field.rfind("job.", 0) == 0 ? field.substr(4) : field;
   while (!place.empty()) {
     const auto found = spots.find(place);
-    if (found != spots.end()) {
-      return found->second;
-    }
+    if (found != spots.end()) return found->second;
     const std::size_t cut = place.find_last_of(".[");
     place.resize(cut == std::string::npos ? 0 : cut);
   }
@@ -89,9 +85,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
   result.path = path;
   result.text = text;
   toml::table table = parse(text, path.string());
-  for (const std::string& assignment : overrides) {
-    apply_override(table, assignment);
-  }
+  for (const std::string& assignment : overrides) apply_override(table, assignment);
   if (!overrides.empty()) {
     std::ostringstream out;
     out << table << '\n';
@@ -105,9 +99,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
   }
   read_mesh(root, result);
   *result.job.mutable_solver() = read_solver(root, result.spots);
-  if (loads == Loads::needed || root.find("load")) {
-    read_loads(root, result);
-  }
+  if (loads == Loads::needed || root.find("load")) read_loads(root, result);
   read_job(root, result.job, result.spots);
   if (const auto output = root.section("output", {"fields"})) {
     result.job.set_fields(output->boolean("fields").value_or(false));
@@ -121,9 +113,7 @@ Case mesh_file_case(const std::filesystem::path& file, const std::string& title,
   Case result;
   result.path = file;
   toml::table table;
-  for (const std::string& assignment : overrides) {
-    apply_override(table, assignment);
-  }
+  for (const std::string& assignment : overrides) apply_override(table, assignment);
   const Section given(table, "", {"mesh"});
   if (const auto mesh = given.section("mesh", mesh_keys); mesh && mesh->find("file")) {
     throw Error(mesh->spot_of("file"), "the file is given as an argument; remove one of the two");

@@ -24,13 +24,9 @@ std::optional<std::chrono::milliseconds> parse_duration(std::string_view text) {
   double number = 0;
   const char* end = text.data() + text.size();
   const auto [stop, problem] = std::from_chars(text.data(), end, number);
-  if (problem != std::errc()) {
-    return std::nullopt;
-  }
+  if (problem != std::errc()) return std::nullopt;
   std::string_view rest(stop, static_cast<std::size_t>(end - stop));
-  while (rest.starts_with(' ')) {
-    rest.remove_prefix(1);
-  }
+  while (rest.starts_with(' ')) rest.remove_prefix(1);
   for (const Unit& unit : units) {
     if (rest == unit.name) {
       const double time = std::round(number * unit.milliseconds);

@@ -47,9 +47,7 @@ void read_delaminated_parts(const toml::array& list, const std::string& key,
 void read_delamination(const Section& section, const std::string& field, v1::Inclusion& inclusion,
                        Spots& spots) {
   const toml::node* node = section.find("delaminated");
-  if (!node) {
-    return;
-  }
+  if (!node) return;
   const std::string key = section.path_of("delaminated");
   spots[field + ".delaminated"] = section.spot_of("delaminated");
   spots[field + ".delaminated_parts"] = section.spot_of("delaminated");
@@ -66,9 +64,7 @@ void read_delamination(const Section& section, const std::string& field, v1::Inc
 
 void read_neumann(const Section& section, v1::Geometry& geometry, Spots& spots) {
   const toml::node* node = section.find("neumann");
-  if (!node) {
-    return;
-  }
+  if (!node) return;
   const std::string key = section.path_of("neumann");
   spots["geometry.neumann"] = section.spot_of("neumann");
   if (node->value_exact<std::string>() == "all") {

@@ -34,9 +34,7 @@ void read_line(const Section& section, const char* key, const std::string& field
 std::string shape_of(const Section& section) {
   std::string shape;
   for (const char* key : {"points", "arc", "spline"}) {
-    if (!section.find(key)) {
-      continue;
-    }
+    if (!section.find(key)) continue;
     if (!shape.empty()) {
       throw Error(section.spot_of(key),
                   "the interface has " + shape + " too; remove one of the two");
@@ -83,9 +81,7 @@ bool lists_tables(const toml::node& node) {
 
 void read_interfaces(const Section& section, v1::Geometry& geometry, Spots& spots) {
   const toml::node* node = section.find("interface");
-  if (!node) {
-    return;
-  }
+  if (!node) return;
   spots["geometry.interfaces"] = section.spot_of("interface");
   if (!lists_tables(*node)) {
     const std::string field = entry_field("geometry.interfaces", 0);

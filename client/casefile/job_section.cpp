@@ -11,9 +11,7 @@ namespace {
 /// Seconds as a number, or a text with a unit.
 std::optional<google::protobuf::Duration> time_of(const Section& section, const std::string& key) {
   const toml::node* node = section.find(key);
-  if (!node) {
-    return std::nullopt;
-  }
+  if (!node) return std::nullopt;
   std::optional<std::chrono::milliseconds> time;
   if (const auto text = node->value_exact<std::string>()) {
     time = parse_duration(*text);
@@ -35,9 +33,7 @@ std::optional<google::protobuf::Duration> time_of(const Section& section, const 
 
 void read_job(const Section& root, v1::Job& job, Spots& spots) {
   const auto section = root.section("job", {"priority", "queue_timeout", "run_timeout"});
-  if (!section) {
-    return;
-  }
+  if (!section) return;
   if (const auto priority = section->choice("priority", {"interactive", "normal", "bulk"})) {
     constexpr std::array<v1::Job::Priority, 3> priorities{
         v1::Job::PRIORITY_INTERACTIVE, v1::Job::PRIORITY_NORMAL, v1::Job::PRIORITY_BULK};

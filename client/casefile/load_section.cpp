@@ -67,9 +67,7 @@ void read_point_forces(const Section& section, const std::string& field, v1::Loa
 
 void read_inclusion_forces(const Section& section, const std::string& field, v1::LoadCase& load,
                            Spots& spots) {
-  if (!section.find("inclusion_forces")) {
-    return;
-  }
+  if (!section.find("inclusion_forces")) return;
   spots[field + ".inclusion_forces"] = section.spot_of("inclusion_forces");
   for (const auto& [name, value] :
        section.numbers("inclusion_forces", "write inclusion = number for each of them")) {
@@ -113,9 +111,7 @@ void read_loads(const Section& root, Case& result) {
   root.need("load", "write [[load]] with name and f for each load case");
   const std::vector<Section> loads = root.sections(
       "load", {"name", "f", "boundary_value", "traction", "point_forces", "inclusion_forces"});
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    read_load(loads[i], i, result);
-  }
+  for (std::size_t i = 0; i < loads.size(); ++i) read_load(loads[i], i, result);
 }
 
 }  // namespace anticrack::casefile

@@ -12,9 +12,7 @@ constexpr const char* group_cure =
 
 void refuse_keys(const Section& section, const std::vector<const char*>& keys, const char* why) {
   for (const char* key : keys) {
-    if (section.find(key)) {
-      throw Error(section.spot_of(key), why);
-    }
+    if (section.find(key)) throw Error(section.spot_of(key), why);
   }
 }
 
@@ -45,9 +43,7 @@ void refuse_what_means_nothing(const Section& section, v1::MeshPreset preset) {
 
 void read_align(const Section& section, v1::MeshOptions& options, Spots& spots) {
   const toml::node* node = section.find("align");
-  if (!node) {
-    return;
-  }
+  if (!node) return;
   const std::string key = section.path_of("align");
   spots["options.align"] = section.spot_of("align");
   const toml::array* lines = node->as_array();
@@ -67,14 +63,10 @@ template <class Groups>
 void read_groups(const Section& section, const char* key, const std::string& field, Groups& groups,
                  Spots& spots) {
   const toml::node* node = section.find(key);
-  if (!node) {
-    return;
-  }
+  if (!node) return;
   spots[field] = section.spot_of(key);
   const toml::table* table = node->as_table();
-  if (!table) {
-    throw Error(section.spot_of(key), shown(*node) + " is not a table; " + group_cure);
-  }
+  if (!table) throw Error(section.spot_of(key), shown(*node) + " is not a table; " + group_cure);
   for (const auto& [name, entry] : *table) {
     const std::string tag_text(name.str());
     const Spot spot = spot_of(entry, section.path_of(key) + "." + tag_text);
@@ -112,9 +104,7 @@ v1::MeshOptions read_mesh_options(const Section& section, Spots& spots) {
     read_groups(*groups, "surface", "options.surface_groups", *options.mutable_surface_groups(),
                 spots);
   }
-  if (section.find("tension")) {
-    spots["options.tension"] = section.spot_of("tension");
-  }
+  if (section.find("tension")) spots["options.tension"] = section.spot_of("tension");
   for (const auto& [name, tension] :
        section.numbers("tension", "write subdomain = number for each of them")) {
     (*options.mutable_tension())[name] = tension;

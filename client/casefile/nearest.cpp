@@ -19,9 +19,7 @@ std::string lower_case(std::string_view text) {
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   const std::size_t width = b.size() + 1;
   std::vector<std::size_t> two_ago(width), one_ago(width), row(width);
-  for (std::size_t j = 0; j < width; ++j) {
-    row[j] = j;
-  }
+  for (std::size_t j = 0; j < width; ++j) row[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
     std::swap(two_ago, one_ago);
     std::swap(one_ago, row);
@@ -41,9 +39,7 @@ std::optional<std::string> nearest(std::string_view word,
                                    const std::vector<std::string>& candidates) {
   // Words longer than any key cannot be meant, and would make the distance expensive.
   constexpr std::size_t longest_word = 100;
-  if (word.size() > longest_word) {
-    return std::nullopt;
-  }
+  if (word.size() > longest_word) return std::nullopt;
   const std::string sought = lower_case(word);
   std::optional<std::string> best;
   std::size_t best_distance = 0;
@@ -61,15 +57,11 @@ std::optional<std::string> nearest(std::string_view word,
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
-  if (const auto meant = nearest(word, candidates)) {
-    return "did you mean " + *meant + "?";
-  }
+  if (const auto meant = nearest(word, candidates)) return "did you mean " + *meant + "?";
   std::vector<std::string> known = candidates;
   std::sort(known.begin(), known.end());
   std::string list = "known are ";
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    list += (i == 0 ? "" : ", ") + known[i];
-  }
+  for (std::size_t i = 0; i < known.size(); ++i) list += (i == 0 ? "" : ", ") + known[i];
   return list;
 }
 

@@ -19,9 +19,7 @@ std::vector<std::string> split_path(const std::string& path) {
   while (true) {
     const std::size_t dot = path.find('.', begin);
     parts.push_back(path.substr(begin, dot == std::string::npos ? dot : dot - begin));
-    if (dot == std::string::npos) {
-      return parts;
-    }
+    if (dot == std::string::npos) return parts;
     begin = dot + 1;
   }
 }
@@ -71,9 +69,7 @@ std::vector<std::string> names_in(const toml::array& array) {
   for (const toml::node& entry : array) {
     const toml::table* table = entry.as_table();
     const auto name = table ? (*table)["name"].value_exact<std::string>() : std::nullopt;
-    if (!name) {
-      return {};
-    }
+    if (!name) return {};
     names.push_back(*name);
   }
   return names;
@@ -87,18 +83,14 @@ class Walk {
 
   void assign(toml::node& root, toml::node&& value) {
     toml::node* place = &root;
-    for (_depth = 0; _depth + 1 < _parts.size(); ++_depth) {
-      place = &step(*place);
-    }
+    for (_depth = 0; _depth + 1 < _parts.size(); ++_depth) place = &step(*place);
     put(*place, std::move(value));
   }
 
  private:
   [[noreturn]] void fail(const std::string& problem) const {
     std::string walked;
-    for (std::size_t i = 0; i <= _depth; ++i) {
-      walked += (i == 0 ? "" : ".") + _parts[i];
-    }
+    for (std::size_t i = 0; i <= _depth; ++i) walked += (i == 0 ? "" : ".") + _parts[i];
     throw Error({walked, _source, 0}, problem);
   }
 
@@ -106,14 +98,10 @@ class Walk {
   std::size_t index_in(const toml::array& array) const {
     const std::string& part = _parts[_depth];
     const auto index = index_of(part);
-    if (index && *index <= array.size()) {
-      return *index;
-    }
+    if (index && *index <= array.size()) return *index;
     const std::vector<std::string> names = names_in(array);
     const auto found = std::find(names.begin(), names.end(), part);
-    if (found != names.end()) {
-      return static_cast<std::size_t>(found - names.begin());
-    }
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
     if (!index && !names.empty()) {
       fail("none of them is called " + part + "; " + suggestion(part, names));
     }
@@ -137,9 +125,7 @@ class Walk {
     }
     if (toml::array* array = place.as_array()) {
       const std::size_t index = index_in(*array);
-      if (index == array->size()) {
-        array->push_back(toml::table());
-      }
+      if (index == array->size()) array->push_back(toml::table());
       return *array->get(index);
     }
     fail("nothing lies below a plain value; set the key above it");
@@ -148,9 +134,7 @@ class Walk {
   void put(toml::node& place, toml::node&& value) const {
     toml::table* table = place.as_table();
     toml::array* array = place.as_array();
-    if (!table && !array) {
-      fail("nothing lies below a plain value; set the key above it");
-    }
+    if (!table && !array) fail("nothing lies below a plain value; set the key above it");
     // Moved, not copied: only a moved node keeps its source.
     std::move(value).visit([&](auto&& node) {
       if (table) {

@@ -29,9 +29,7 @@ std::string numbers(const CaseProgress& progress, bool active_set, const Layout&
   const std::string iteration =
       pad_left(std::to_string(progress.iteration), layout.iteration_width);
   const std::string criterion = number(progress.criterion, 1, true);
-  if (layout.detail == Detail::criterion) {
-    return active_set ? "step " + iteration : criterion;
-  }
+  if (layout.detail == Detail::criterion) return active_set ? "step " + iteration : criterion;
   const std::string text = active_set ? "step " + iteration
                            : layout.detail == Detail::labels
                                ? "iteration " + iteration + "  criterion " + criterion
@@ -82,9 +80,7 @@ Layout widest_layout(const JobProgress& job, const std::vector<std::size_t>& sho
 
 std::size_t widest_status(const JobProgress& job, const std::vector<std::size_t>& shown) {
   std::size_t widest = 0;
-  for (const std::size_t i : shown) {
-    widest = std::max(widest, word(job.cases[i].status).size());
-  }
+  for (const std::size_t i : shown) widest = std::max(widest, word(job.cases[i].status).size());
   return widest;
 }
 
@@ -120,9 +116,7 @@ Layout layout_of(const JobProgress& job, const std::vector<std::size_t>& shown, 
 
 // Smaller is shown sooner.
 std::size_t rank(const CaseProgress& progress, std::size_t ended_count) {
-  if (progress.status == results::Status::running) {
-    return 0;
-  }
+  if (progress.status == results::Status::running) return 0;
   constexpr std::size_t ended_shown = 3;
   if (progress.end_rank > 0) {
     const std::size_t age = ended_count - progress.end_rank;
@@ -133,9 +127,7 @@ std::size_t rank(const CaseProgress& progress, std::size_t ended_count) {
 
 std::vector<std::size_t> shown_cases(const JobProgress& progress, std::size_t count) {
   std::vector<std::size_t> order(progress.cases.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    order[i] = i;
-  }
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   if (order.size() > count) {
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return rank(progress.cases[a], progress.ended_count) <
@@ -150,12 +142,8 @@ std::vector<std::size_t> shown_cases(const JobProgress& progress, std::size_t co
 // "  and 38 more: 20 waiting, 18 converged".
 std::string others(const JobProgress& progress, const std::vector<std::size_t>& shown) {
   std::map<results::Status, std::size_t> counts;
-  for (const CaseProgress& load_case : progress.cases) {
-    ++counts[load_case.status];
-  }
-  for (const std::size_t i : shown) {
-    --counts[progress.cases[i].status];
-  }
+  for (const CaseProgress& load_case : progress.cases) ++counts[load_case.status];
+  for (const std::size_t i : shown) --counts[progress.cases[i].status];
   std::string text = "  and " + std::to_string(progress.cases.size() - shown.size()) + " more";
   std::string_view separator = ": ";
   for (const auto& [status, count] : counts) {
@@ -189,9 +177,7 @@ std::vector<std::string> case_lines(const JobProgress& progress, std::size_t wid
   for (const std::size_t i : shown) {
     lines.push_back(case_line(progress, progress.cases[i], layout, width));
   }
-  if (!all) {
-    lines.push_back(fit(others(progress, shown), width));
-  }
+  if (!all) lines.push_back(fit(others(progress, shown), width));
   return lines;
 }
 

@@ -36,9 +36,7 @@ int write_manual(const CLI::App& app, const std::filesystem::path& folder, const
   if (globals.json) {
     JsonWriter json;
     json.begin_object().begin_array("files");
-    for (const guide::Page& page : pages) {
-      json.element((folder / page.file).string());
-    }
+    for (const guide::Page& page : pages) json.element((folder / page.file).string());
     print_document(json.end_array().end_object().text());
   } else {
     say(globals, std::to_string(pages.size()) + " pages in " + folder.string());

@@ -76,9 +76,7 @@ int list_jobs(const JobOptions& options, const Globals& globals) {
                     sanitise(job.title())});
   }
   print_document(table(rows, {1, 2, 4, 5}));
-  if (!response.next_page_token().empty()) {
-    say(globals, "There are more; see --limit");
-  }
+  if (!response.next_page_token().empty()) say(globals, "There are more; see --limit");
   return exit_ok;
 }
 
@@ -105,9 +103,7 @@ int watch_job(const JobOptions& options, const Globals& globals) {
   const v1::Job job = get_job(session, name);
   const Followed followed = follow(session, job);
   if (followed.how == Followed::How::detached) {
-    if (globals.json) {
-      print_document(to_json(followed.job));
-    }
+    if (globals.json) print_document(to_json(followed.job));
     return exit_interrupted;
   }
   return show_job(globals, followed.job,

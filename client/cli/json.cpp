@@ -23,14 +23,10 @@ std::string json_string(std::string_view text) {
     // sanitise() leaves valid UTF-8 without control characters: only these two need escaping.
     const std::size_t end = text.find_first_of("\n\t");
     for (const char c : sanitise(text.substr(0, end))) {
-      if (c == '"' || c == '\\') {
-        result += '\\';
-      }
+      if (c == '"' || c == '\\') result += '\\';
       result += c;
     }
-    if (end == std::string_view::npos) {
-      return result + "\"";
-    }
+    if (end == std::string_view::npos) return result + "\"";
     result += text[end] == '\n' ? "\\n" : "\\t";
     text.remove_prefix(end + 1);
   }
@@ -76,9 +72,7 @@ void JsonWriter::open(std::string_view key) {
     _text.append(2 * _depth, ' ');
   }
   _first = false;
-  if (!key.empty()) {
-    _text += json_string(key) + ": ";
-  }
+  if (!key.empty()) _text += json_string(key) + ": ";
 }
 
 void JsonWriter::close(char bracket) {
@@ -161,9 +155,7 @@ std::string to_json(const google::protobuf::Message& message) {
     throw std::runtime_error("cannot write " + message.GetTypeName() +
                              " as JSON: " + std::string(status.message()));
   }
-  while (!text.empty() && text.back() == '\n') {
-    text.pop_back();
-  }
+  while (!text.empty() && text.back() == '\n') text.pop_back();
   return text;
 }
 

@@ -37,9 +37,7 @@ std::string pace_of(const SweepProgress& sweep) {
   if (sweep.not_converged() > 0) {
     text += "  " + std::to_string(sweep.not_converged()) + " not converged";
   }
-  if (sweep.failed() > 0) {
-    text += "  " + std::to_string(sweep.failed()) + " failed";
-  }
+  if (sweep.failed() > 0) text += "  " + std::to_string(sweep.failed()) + " failed";
   return text;
 }
 
@@ -56,9 +54,7 @@ std::string state_of(const JobProgress& progress) {
 
 // Whole seconds as long as they run, else the text would flicker.
 std::string elapsed_of(const JobProgress& progress) {
-  if (!std::isfinite(progress.elapsed)) {
-    return "";
-  }
+  if (!std::isfinite(progress.elapsed)) return "";
   return ", " +
          time_text(client::ended(progress.state) ? progress.elapsed : std::floor(progress.elapsed));
 }
@@ -80,9 +76,7 @@ std::string head_of(const JobProgress& progress, std::size_t width) {
   std::string text;
   for (const std::string& candidate : {name + state + done, state + done, state + short_done}) {
     text = candidate;
-    if (columns_of(text) <= width) {
-      break;
-    }
+    if (columns_of(text) <= width) break;
   }
   return fit(text, width);
 }
@@ -91,9 +85,7 @@ std::string head_of(const JobProgress& progress, std::size_t width) {
 std::string sweep_line(const SweepProgress& sweep, std::size_t width) {
   const std::string pace = pace_of(sweep);
   const std::size_t used = columns_of(pace);
-  if (sweep.total == 0 || used + bar_room > width) {
-    return fit(pace, width);
-  }
+  if (sweep.total == 0 || used + bar_room > width) return fit(pace, width);
   return bar(fraction_of(sweep), width - used) + pace;
 }
 
@@ -114,18 +106,14 @@ std::vector<std::string> frame(const JobProgress& progress, std::size_t width, s
   const std::size_t room = std::max<std::size_t>(width, 2) - 1;
   std::vector<std::string> lines{head_of(progress, room)};
   for (const std::string& message : {progress.notice, progress.prompt}) {
-    if (!message.empty() && lines.size() < height) {
-      lines.push_back(fit("  " + message, room));
-    }
+    if (!message.empty() && lines.size() < height) lines.push_back(fit("  " + message, room));
   }
   if (progress.sweep) {
     lines.push_back(sweep_line(*progress.sweep, room));
     return lines;
   }
   const std::size_t left = std::max<std::size_t>(height, lines.size() + 2) - lines.size();
-  for (std::string& line : case_lines(progress, room, left)) {
-    lines.push_back(std::move(line));
-  }
+  for (std::string& line : case_lines(progress, room, left)) lines.push_back(std::move(line));
   return lines;
 }
 
@@ -144,27 +132,21 @@ void PlainLog::add_sweep_line(const SweepProgress& sweep, std::vector<std::strin
 std::vector<std::string> PlainLog::lines(const JobProgress& progress) {
   std::vector<std::string> lines;
   std::string head = progress.job + ": " + state_of(progress);
-  if (!progress.notice.empty()) {
-    head += "; " + progress.notice;
-  }
+  if (!progress.notice.empty()) head += "; " + progress.notice;
   if (head != _head) {
     lines.push_back(head);
     _head = std::move(head);
   }
   if (progress.prompt != _prompt) {
     _prompt = progress.prompt;
-    if (!_prompt.empty()) {
-      lines.push_back(_prompt);
-    }
+    if (!_prompt.empty()) lines.push_back(_prompt);
   }
   if (progress.attempt != _attempt) {
     _cases.clear();  // the iterations begin anew
     _rows = 0;
     _attempt = progress.attempt;
   }
-  if (progress.sweep) {
-    add_sweep_line(*progress.sweep, lines);
-  }
+  if (progress.sweep) add_sweep_line(*progress.sweep, lines);
   _cases.resize(progress.cases.size());
   for (std::size_t i = 0; i < _cases.size(); ++i) {
     const CaseProgress& now = progress.cases[i];
@@ -178,9 +160,7 @@ std::vector<std::string> PlainLog::lines(const JobProgress& progress) {
                                  criterion_of(now, progress.active_set)) +
                       (now.remark.empty() ? "" : "; " + now.remark));
     } else if (!ended(now.status) && now.iteration >= seen.due) {
-      while (seen.due <= now.iteration) {
-        seen.due *= 2;
-      }
+      while (seen.due <= now.iteration) seen.due *= 2;
       lines.push_back(now.name + (progress.active_set ? ": step " : ": iteration ") +
                       std::to_string(now.iteration) + criterion_of(now, progress.active_set) +
                       ", " + std::to_string(now.contact_count) + " nodes in contact");

@@ -51,9 +51,7 @@ v1::Mesh get_mesh(Session& session, const std::string& name) {
 /// Waits until the server is done with it; throws what it failed of.
 v1::Mesh wait_for(Session& session, const std::string& name) {
   v1::Mesh mesh = follow_mesh(session, name);
-  if (mesh.state() == v1::Mesh::STATE_FAILED) {
-    throw client::decode_error(mesh.error());
-  }
+  if (mesh.state() == v1::Mesh::STATE_FAILED) throw client::decode_error(mesh.error());
   return mesh;
 }
 
@@ -61,9 +59,7 @@ int create(const casefile::Case& the_case, bool wait, const Globals& globals) {
   Session session(globals);
   const v1::Mesh mesh = create_mesh(session, the_case);
   return translated(the_case, [&] {
-    if (mesh.state() == v1::Mesh::STATE_FAILED) {
-      throw client::decode_error(mesh.error());
-    }
+    if (mesh.state() == v1::Mesh::STATE_FAILED) throw client::decode_error(mesh.error());
     return show_mesh(globals, wait ? wait_for(session, mesh.name()) : mesh);
   });
 }
@@ -76,12 +72,8 @@ int upload(const MeshOptions& options, const Globals& globals) {
 /// The case of a .toml or .msh file; empty for the name of a mesh.
 std::optional<casefile::Case> case_of(const MeshOptions& options) {
   const std::string extension = std::filesystem::path(options.name).extension();
-  if (extension == ".msh") {
-    return casefile::mesh_file_case(options.name, "", options.overrides);
-  }
-  if (extension == ".toml") {
-    return casefile::read_case(options.name, options.overrides);
-  }
+  if (extension == ".msh") return casefile::mesh_file_case(options.name, "", options.overrides);
+  if (extension == ".toml") return casefile::read_case(options.name, options.overrides);
   if (!options.overrides.empty()) {
     throw UsageError("--set means nothing for a mesh on the server; name a case");
   }
@@ -93,25 +85,17 @@ int show_mesh(const MeshOptions& options, const Globals& globals) {
   const std::string given = the_case ? "" : full_name(Collection::meshes, options.name);
   Session session(globals);
   const std::string name = the_case ? create_mesh(session, *the_case).name() : given;
-  if (options.folder.empty() && !the_case) {
-    return show_mesh(globals, get_mesh(session, name));
-  }
+  if (options.folder.empty() && !the_case) return show_mesh(globals, get_mesh(session, name));
   const v1::Mesh mesh =
       about(session, Collection::meshes, name, [&] { return wait_for(session, name); });
   show_mesh(globals, mesh);
-  if (options.folder.empty()) {
-    return exit_ok;
-  }
+  if (options.folder.empty()) return exit_ok;
   const client::Block block = client::read_mesh(session.connection(), name, session.stop());
   const std::string stem = name.substr(std::string("meshes/").size());
   const figures::Drawn drawn = figures::draw_mesh(to_mesh_plan(mesh, block), "mesh-" + stem,
                                                   options.folder, options.figures);
-  for (const auto& file : drawn.files) {
-    say(globals, file.string());
-  }
-  for (const std::string& note : drawn.notes) {
-    say(globals, note);
-  }
+  for (const auto& file : drawn.files) say(globals, file.string());
+  for (const std::string& note : drawn.notes) say(globals, note);
   return exit_ok;
 }
 
@@ -132,9 +116,7 @@ int list_meshes(const MeshOptions& options, const Globals& globals) {
                     std::to_string(mesh.node_count()), sanitise(mesh.title())});
   }
   print_document(table(rows, {1, 2, 5}));
-  if (!response.next_page_token().empty()) {
-    say(globals, "There are more; see --limit");
-  }
+  if (!response.next_page_token().empty()) say(globals, "There are more; see --limit");
   return exit_ok;
 }
 

@@ -37,9 +37,7 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
       apply(event.ended());
       break;
     case v1::WatchJobResponse::kSweepRows:
-      if (sweep) {
-        sweep->apply(event.sweep_rows(), seconds);
-      }
+      if (sweep) sweep->apply(event.sweep_rows(), seconds);
       break;
     case v1::WatchJobResponse::EVENT_NOT_SET:
       break;  // ended load cases alone, or an event of a later version
@@ -64,18 +62,12 @@ void JobProgress::apply(const v1::Job& job_now) {
   if (job_now.attempt() > attempt && attempt > 0) {
     cases.clear();  // the server stopped meanwhile and runs it anew
     ended_count = 0;
-    if (sweep) {
-      sweep->restart();
-    }
+    if (sweep) sweep->restart();
   }
   attempt = std::max(attempt, job_now.attempt());
-  if (state != job_now.state()) {
-    detail.clear();
-  }
+  if (state != job_now.state()) detail.clear();
   state = job_now.state();
-  if (job_now.has_end_time()) {
-    elapsed = seconds_between(job_now.create_time(), job_now.end_time());
-  }
+  if (job_now.has_end_time()) elapsed = seconds_between(job_now.create_time(), job_now.end_time());
   const v1::Uzawa& uzawa = job_now.solver().uzawa();
   active_set = !job_now.solver().has_uzawa();
   target = active_set || uzawa.has_kkt_tolerance() ? 0
@@ -95,9 +87,7 @@ void JobProgress::apply(const v1::Job& job_now) {
 }
 
 void JobProgress::apply_sweep(const v1::Job& job_now) {
-  if (!sweep) {
-    sweep.emplace();
-  }
+  if (!sweep) sweep.emplace();
   sweep->apply(job_now.sweep_answer());
 }
 
@@ -106,14 +96,10 @@ void JobProgress::apply(const v1::Samples& samples) {
                               samples.criterion_size(), samples.contact_count_size()});
   for (int i = 0; i < count; ++i) {
     const auto index = static_cast<std::size_t>(samples.load_case(i));
-    if (samples.load_case(i) < 0 || index >= cases.size()) {
-      continue;
-    }
+    if (samples.load_case(i) < 0 || index >= cases.size()) continue;
     CaseProgress& progress = cases[index];
     // Started over from an old event, or late: an ended case is not running again.
-    if (ended(progress.status) || samples.iteration(i) <= progress.iteration) {
-      continue;
-    }
+    if (ended(progress.status) || samples.iteration(i) <= progress.iteration) continue;
     progress.status = Status::running;
     progress.iteration = samples.iteration(i);
     progress.criterion = samples.criterion(i);
@@ -122,14 +108,10 @@ void JobProgress::apply(const v1::Samples& samples) {
 }
 
 void JobProgress::apply(std::size_t index, const v1::LoadCaseAnswer& answer) {
-  if (index >= cases.size()) {
-    return;
-  }
+  if (index >= cases.size()) return;
   CaseProgress& progress = cases[index];
   const auto status = status_of(answer);
-  if (ended(status) && !ended(progress.status)) {
-    progress.end_rank = ++ended_count;
-  }
+  if (ended(status) && !ended(progress.status)) progress.end_rank = ++ended_count;
   progress.status = status;
   if (answer.iterations() > 0) {
     progress.iteration = answer.iterations();
@@ -170,15 +152,9 @@ bool ended(Status status) noexcept {
 }
 
 double bar_fraction(double criterion, double target) noexcept {
-  if (std::isnan(criterion)) {
-    return 0;
-  }
-  if (criterion <= target) {
-    return 1;
-  }
-  if (criterion >= 1 || !(target > 0)) {
-    return 0;
-  }
+  if (std::isnan(criterion)) return 0;
+  if (criterion <= target) return 1;
+  if (criterion >= 1 || !(target > 0)) return 0;
   return std::log(criterion) / std::log(target);
 }
 

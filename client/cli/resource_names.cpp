@@ -39,16 +39,12 @@ std::vector<std::string> names_of(Session& session, Collection collection) {
     v1::ListMeshesRequest request;
     request.set_page_size(names_looked_at);
     const auto response = client::list_meshes(session.connection(), request, session.stop());
-    for (const v1::Mesh& mesh : response.meshes()) {
-      names.push_back(mesh.name());
-    }
+    for (const v1::Mesh& mesh : response.meshes()) names.push_back(mesh.name());
   } else {
     v1::ListJobsRequest request;
     request.set_page_size(names_looked_at);
     const auto response = client::list_jobs(session.connection(), request, session.stop());
-    for (const v1::Job& job : response.jobs()) {
-      names.push_back(job.name());
-    }
+    for (const v1::Job& job : response.jobs()) names.push_back(job.name());
   }
   return names;
 }
@@ -78,9 +74,7 @@ std::string name_cure(Collection collection, const std::string& name,
   const std::string id = name.substr(words.prefix.size());
   for (const std::string& each : known) {
     ids.push_back(each.substr(words.prefix.size()));
-    if (each.starts_with(name)) {
-      longer.push_back(ids.back());
-    }
+    if (each.starts_with(name)) longer.push_back(ids.back());
   }
   const auto meant = longer.size() == 1 ? longer.front() : casefile::nearest(id, ids).value_or("");
   return meant.empty() ? words.see : "; did you mean " + words.prefix + meant + "?";

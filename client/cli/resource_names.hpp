@@ -34,9 +34,7 @@ auto about(Session& session, Collection collection, const std::string& name, con
   try {
     return call();
   } catch (const client::Error& error) {
-    if (error.code() != client::Code::not_found) {
-      throw;
-    }
+    if (error.code() != client::Code::not_found) throw;
     throw with_cure(session, collection, name, error);
   }
 }

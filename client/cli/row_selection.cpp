@@ -28,19 +28,13 @@ class Selection {
 
   /// Sorted, without overlaps.
   std::vector<Range> ranges() const {
-    if (_text == "none" || _rows == 0) {
-      return {};
-    }
-    if (_text == "all") {
-      return {{0, _rows - 1}};
-    }
+    if (_text == "none" || _rows == 0) return {};
+    if (_text == "all") return {{0, _rows - 1}};
     std::vector<Range> ranges;
     for (std::string_view rest = _text;;) {
       const std::size_t comma = rest.find(',');
       ranges.push_back(range_of(rest.substr(0, comma)));
-      if (comma == std::string_view::npos) {
-        break;
-      }
+      if (comma == std::string_view::npos) break;
       rest.remove_prefix(comma + 1);
     }
     return merged(std::move(ranges));
@@ -99,9 +93,7 @@ std::vector<std::uint32_t> select_rows(const std::string& text, std::uint64_t ro
   const Selection selection(text, rows);
   const std::vector<Range> ranges = selection.ranges();
   std::uint64_t count = 0;
-  for (const Range& range : ranges) {
-    count += range.last - range.first + 1;
-  }
+  for (const Range& range : ranges) count += range.last - range.first + 1;
   if (count > most) {
     selection.fail("these are " + std::to_string(count) + " rows, the server keeps the traces of " +
                    std::to_string(most) + " at most; name fewer");

@@ -50,9 +50,7 @@ casefile::Case read_case(const SweepOptions& options, const Globals& globals) {
 
 // Rows of f can only be checked against a mesh that is there.
 void check_mesh(Session& session, const casefile::Case& the_case, const SweepInput& input) {
-  if (!input.nodal) {
-    return;
-  }
+  if (!input.nodal) return;
   const v1::Mesh mesh = follow_mesh(session, create_mesh(session, the_case).name());
   if (mesh.state() != v1::Mesh::STATE_FAILED) {  // else the job says why
     check_nodes(input, mesh.node_count());
@@ -70,9 +68,7 @@ void add_matrix(Session& session, const SweepInput& input, v1::Job& job) {
 }
 
 void save_csv(const fs::path& csv, const results::Sweep& sweep, const Globals& globals) {
-  if (csv.empty()) {
-    return;
-  }
+  if (csv.empty()) return;
   const std::string text = sweep_csv(sweep);
   results::replace_file(csv, std::as_bytes(std::span(text)));
   say(globals, "Rows: " + csv.string());
@@ -86,9 +82,7 @@ struct Targets {
 
 Targets check_targets(const SweepOptions& options) {
   Targets targets;
-  if (!options.detach) {
-    targets.result = result_file(options.case_file, options.output);
-  }
+  if (!options.detach) targets.result = result_file(options.case_file, options.output);
   if (!options.csv.empty()) {
     targets.csv = options.csv;
     results::check_writable(targets.csv);
@@ -106,17 +100,11 @@ int follow_sweep(Session& session, const Targets& targets, const casefile::Case&
   const Followed followed = submit_and_follow(
       session, the_case, [&](v1::Job& job) { add_matrix(session, input, job); }, input.rows);
   const int job_code = exit_code_of(globals, followed);
-  if (followed.how == Followed::How::detached) {
-    return job_code;
-  }
+  if (followed.how == Followed::How::detached) return job_code;
   auto result = results_of(session, the_case, followed, begin);
-  if (!result) {
-    return job_code;
-  }
+  if (!result) return job_code;
   result->sweep.value().source = input.source;
-  if (!input.nodal) {
-    result->sweep->coefficients = std::move(input.values);
-  }
+  if (!input.nodal) result->sweep->coefficients = std::move(input.values);
   save(targets.result, *result, session);
   save_csv(targets.csv, *result->sweep, globals);
   print_answers(globals, *result, targets.result);
@@ -136,9 +124,7 @@ int sweep(const SweepOptions& options, const Globals& globals) {
                                    [&](v1::Job& job) { add_matrix(session, input, job); }));
     return exit_ok;
   }
-  if (!the_case.job.title().empty()) {
-    say(globals, the_case.job.title());
-  }
+  if (!the_case.job.title().empty()) say(globals, the_case.job.title());
   return follow_sweep(session, targets, the_case, std::move(input), begin);
 }
 

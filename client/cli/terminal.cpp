@@ -93,9 +93,7 @@ void Painter::pause() {
   constexpr std::chrono::milliseconds patience{500};
   _paused = true;
   const std::unique_lock lock(_drawing, patience);
-  if (lock.owns_lock()) {
-    leave_frame();
-  }
+  if (lock.owns_lock()) leave_frame();
 }
 
 void Painter::resume() {
@@ -107,9 +105,7 @@ void Painter::work() {
   std::unique_lock lock(_mutex);
   while (!_ending) {
     _woken.wait_for(lock, _tick, [this] { return _stale || _ending; });
-    if (_ending) {
-      return;
-    }
+    if (_ending) return;
     _stale = false;
     const Draw how = std::exchange(_anew, false) ? Draw::anew : Draw::if_new;
     lock.unlock();
@@ -121,9 +117,7 @@ void Painter::work() {
 
 void Painter::draw(Draw how) {
   const std::lock_guard lock(_drawing);
-  if (how != Draw::last && (_paused || in_background(_terminal))) {
-    return;
-  }
+  if (how != Draw::last && (_paused || in_background(_terminal))) return;
   const std::vector<std::string> lines = _render(size_of(_terminal));
   std::string frame = joined(lines);
   if (how != Draw::if_new || frame != _drawn) {
@@ -133,9 +127,7 @@ void Painter::draw(Draw how) {
     _drawn = std::move(frame);
     _drawn_lines = lines.size();
   }
-  if (how == Draw::last) {
-    leave_frame();
-  }
+  if (how == Draw::last) leave_frame();
 }
 
 void Painter::leave_frame() {
@@ -162,9 +154,7 @@ void Painter::hide_keys() {
 }
 
 void Painter::show_keys() {
-  if (_before && !in_background(_terminal)) {
-    tcsetattr(fileno(_terminal), TCSANOW, &*_before);
-  }
+  if (_before && !in_background(_terminal)) tcsetattr(fileno(_terminal), TCSANOW, &*_before);
   _before.reset();
 }
 

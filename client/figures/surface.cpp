@@ -191,9 +191,8 @@ double amplification(const Surface& surface) {
   const double power = std::pow(10.0, std::floor(std::log10(wanted)));
   const double leading = wanted / power;
   double factor = 1;
-  for (const double step : {1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+  for (const double step : {1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0})
     if (step <= leading) factor = step;
-  }
   return factor * power;
 }
 

@@ -164,9 +164,7 @@ std::string sweep_script(const Result& result, const SweepAxis& axis,
             place);
         const std::string foot = below(axis_label(axis), 0.04, place) + axes();
         const std::string head = caption(counted_rows(sweep), place);
-        if (inclusions == 0) {
-          return margins(place, 0.16, 0.905) + foot + head + contact;
-        }
+        if (inclusions == 0) return margins(place, 0.16, 0.905) + foot + head + contact;
         // One above the other, over one axis; the legend in between.
         const bool legend = inclusions > 1;
         std::string text = margins(place, legend ? 0.6 : 0.545, 0.935) + axes();

@@ -159,9 +159,7 @@ void read_values(const Dataset& dataset, void* values) {
   if (dataset.count() == 0) return;
   const std::string what = "dataset " + dataset.name + " is damaged";
   const auto read_as = [&](hid_t type, void* into) {
-    if (H5Dread(dataset.id.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, into) < 0) {
-      throw Fault(what);
-    }
+    if (H5Dread(dataset.id.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, into) < 0) throw Fault(what);
   };
   switch (dataset.type) {
     case ValueType::float64:

@@ -28,9 +28,7 @@ auto list_of(const Handle& parent, const char* name, const Get& get) {
   std::vector<decltype(get(list))> items;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string number = std::to_string(i);
-    if (!hdf5::has(list, number)) {
-      throw hdf5::Fault(std::string(name) + " are not numbered from 0");
-    }
+    if (!hdf5::has(list, number)) throw hdf5::Fault(std::string(name) + " are not numbered from 0");
     items.push_back(get(open_group(list, number)));
   }
   return items;

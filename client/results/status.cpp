@@ -20,16 +20,14 @@ constexpr std::array<std::pair<Status, std::string_view>, 7> statuses{{
 }  // namespace
 
 std::string_view name(Status status) noexcept {
-  for (const auto& [value, text] : statuses) {
+  for (const auto& [value, text] : statuses)
     if (value == status) return text;
-  }
   return {};
 }
 
 std::optional<Status> status_from(std::string_view name) noexcept {
-  for (const auto& [value, text] : statuses) {
+  for (const auto& [value, text] : statuses)
     if (text == name) return value;
-  }
   return std::nullopt;
 }
 
