@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -43,14 +44,14 @@ std::optional<double> number(std::string_view text) {
     return std::nullopt;
   }
   if (error == std::errc::result_out_of_range) {
-    // Too small is zero to anybody; the exponent tells the two apart.
+    // Too small counts as zero; a negative exponent tells it from too large.
     const bool small = text.find("e-") != text.npos || text.find("E-") != text.npos;
     return small ? 0.0 : HUGE_VAL;
   }
   return value;
 }
 
-/// Cut, and without bytes that would end or disguise a message.
+/// Shortened, without control characters.
 std::string shown_field(std::string_view value) {
   constexpr std::size_t longest = 40;
   std::string text(value.substr(0, longest));
@@ -72,8 +73,8 @@ std::string listed(const std::vector<std::string>& names) {
 class Reader {
  public:
   Reader(std::string source, const std::vector<std::string>& loads)
-      : _source(std::move(source)), _loads(loads) {
-    for (std::size_t i = 0; i < loads.size(); ++i) _columns.push_back(i);
+      : _source(std::move(source)), _loads(loads), _columns(loads.size()) {
+    std::iota(_columns.begin(), _columns.end(), std::size_t{0});
   }
 
   void line(std::string_view text, unsigned number) {
@@ -109,7 +110,8 @@ class Reader {
     throw Error({"column " + std::to_string(column + 1), _source, _line}, problem);
   }
 
-  /// Names of loads may look like numbers.
+  /// The first line is a header if all its fields are names of loads (which may look like numbers)
+  /// or none is a number.
   bool is_header() const {
     const auto is_load = [this](std::string_view field) {
       return std::find(_loads.begin(), _loads.end(), field) != _loads.end();

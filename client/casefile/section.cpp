@@ -118,12 +118,21 @@ Spot Section::spot_of(std::string_view key) const {
   return node ? casefile::spot_of(*node, path_of(key)) : spot();
 }
 
-std::optional<std::string> Section::text(std::string_view key) const {
+template <class T>
+std::optional<T> Section::exact(std::string_view key, const char* problem) const {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;
-  auto value = node->value_exact<std::string>();
-  if (!value) throw Error(spot_of(key), shown(*node) + " is not text; write it in quotes");
+  auto value = node->value_exact<T>();
+  if (!value) throw Error(spot_of(key), shown(*node) + problem);
   return value;
+}
+
+std::optional<std::string> Section::text(std::string_view key) const {
+  return exact<std::string>(key, " is not text; write it in quotes");
+}
+
+std::optional<bool> Section::boolean(std::string_view key) const {
+  return exact<bool>(key, " is neither true nor false");
 }
 
 std::optional<double> Section::number(std::string_view key) const {
@@ -178,14 +187,6 @@ std::optional<std::int32_t> Section::count(std::string_view key) const {
                                   std::to_string(largest));
   }
   return static_cast<std::int32_t>(*value);
-}
-
-std::optional<bool> Section::boolean(std::string_view key) const {
-  const toml::node* node = find(key);
-  if (!node) return std::nullopt;
-  const auto value = node->value_exact<bool>();
-  if (!value) throw Error(spot_of(key), shown(*node) + " is neither true nor false");
-  return value;
 }
 
 std::optional<Section> Section::section(std::string_view key,
