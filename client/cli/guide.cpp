@@ -16,7 +16,7 @@
 #include "cli/session.hpp"
 #include "guide/completion.hpp"
 #include "guide/manual.hpp"
-#include "results/make_folder.hpp"
+#include "results/replace_file.hpp"
 
 namespace anticrack::cli {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "figures/gnuplot.hpp"
 #include "figures/svg.hpp"
-#include "results/make_folder.hpp"
+#include "results/replace_file.hpp"
 
 namespace anticrack::figures {
 namespace {
