@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Pictures on their way into a folder. For the sources of this folder only.
+// Draws pictures into a folder. For the sources of this folder only.
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,13 +14,11 @@ namespace anticrack::figures {
 
 class Drawing {
  public:
-  /// Makes the folder if it is missing; throws results::Error where it cannot be written.
+  /// Creates the folder if missing; throws results::Error where it is not writable.
   Drawing(std::filesystem::path folder, Options options);
 
-  /// Runs the script for STEM.png, STEM.svg, ..., as the options ask; all are written under
-  /// temporary names first.
-  void draw(const std::string& stem,
-            const std::function<std::string(const std::vector<Output>&)>& script);
+  /// Draws STEM.png, STEM.svg, ..., as the options say, each under a temporary name first.
+  void draw(const std::string& stem, const Picture& picture);
 
   Drawn drawn;
 

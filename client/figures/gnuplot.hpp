@@ -7,9 +7,9 @@
 
 namespace anticrack::figures {
 
-/// Runs gnuplot in `folder` with `script` on its standard input and waits for it. Reads no start-up
-/// files of the user. Throws Error when gnuplot is not installed, fails (with what it printed) or
-/// takes longer than `limit` (it is killed). Raises no SIGPIPE; starts with default signals.
+/// Runs gnuplot in `folder` with `script` as its standard input and waits for it. It reads no
+/// start-up files of the user and starts with default signals. Throws Error when gnuplot is not
+/// installed, fails (with what it printed) or takes longer than `limit` (it is killed).
 void run_gnuplot(const std::string& script, const std::filesystem::path& folder,
                  std::chrono::milliseconds limit);
 

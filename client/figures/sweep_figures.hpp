@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Pictures of a sweep. For the sources of this folder only.
+// Pictures of a sweep, which refer to the arguments they were made of. For the sources of this
+// folder only.
 #pragma once
 
 #include <string>
@@ -14,12 +15,11 @@
 namespace anticrack::figures {
 
 /// A of every inclusion above, contact length below, over the axis.
-std::string sweep_script(const results::Result& result, const SweepAxis& axis,
-                         const std::vector<Output>& outputs);
+Picture sweep_picture(const results::Result& result, const SweepAxis& axis);
 
 /// Where the cracks of one interface are closed, over the axis.
-std::string contact_script(const results::Result& result, const SweepAxis& axis,
-                           const ContactMap& map, const std::vector<Output>& outputs);
+Picture contact_picture(const results::Result& result, const SweepAxis& axis,
+                        const ContactMap& map);
 
 /// Draws "sweep" and, for each interface with cracks, "sweep-contact"; what is left out is noted.
 void draw_sweep(const results::Result& result, Drawing& drawing);
