@@ -18,7 +18,7 @@ bool has_answer(const results::Load& load) {
   return load.status == results::Status::converged || load.status == results::Status::not_converged;
 }
 
-// Names of all inclusions, in order of appearance.
+// Names of all inclusions, each once.
 std::vector<std::string> inclusions_of(const std::vector<results::Load>& loads) {
   std::vector<std::string> names;
   for (const results::Load& load : loads) {
@@ -145,9 +145,7 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
           .value("contact_length", inclusion.contact_length)
           .end_object();
     }
-    json.end_array().begin_array("warnings");
-    for (const std::string& warning : load.warnings) json.element(warning);
-    json.end_array().end_object();
+    json.end_array().texts("warnings", load.warnings).end_object();
   }
   json.end_array().end_object();
   return json.text();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The load cases of a job, a line each. Pure.
+// One line per load case of a job. Pure.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace anticrack::cli {
 std::vector<std::string> case_lines(const JobProgress& progress, std::size_t width,
                                     std::size_t height);
 
-inline constexpr std::size_t bar_room = 12;  ///< columns that a bar needs at least
+inline constexpr std::size_t bar_room = 12;  ///< fewest columns of a bar
 /// "  [####----]", `fraction` of it full, in at most `room` columns, at least bar_room.
 std::string bar(double fraction, std::size_t room);
 

@@ -21,7 +21,7 @@ std::string rows_of(const SweepProgress& sweep) {
          (sweep.total > 0 ? " of " + std::to_string(sweep.total) : std::string()) + " rows";
 }
 
-// "  10300 rows/s  5 s left  3 not converged"; what is not known is left out.
+// "  10300 rows/s  5 s left  3 not converged", without the unknown parts.
 std::string pace_of(const SweepProgress& sweep) {
   std::string text;
   if (std::isfinite(sweep.rate())) {
@@ -52,14 +52,14 @@ std::string state_of(const JobProgress& progress) {
          (progress.detail.empty() ? "" : " (" + progress.detail + ")");
 }
 
-// Whole seconds as long as they run, else the text would flicker.
+// Whole seconds while the job runs, else the text would flicker.
 std::string elapsed_of(const JobProgress& progress) {
   if (!std::isfinite(progress.elapsed)) return "";
   return ", " +
          time_text(client::ended(progress.state) ? progress.elapsed : std::floor(progress.elapsed));
 }
 
-// In a narrow terminal the name of the job goes first: it was told before.
+// A narrow terminal drops the name of the job first: it was printed before.
 std::string head_of(const JobProgress& progress, std::size_t width) {
   const std::string name = (progress.job.empty() ? "job" : progress.job) + ": ";
   const std::string state = state_of(progress) + elapsed_of(progress);
@@ -73,12 +73,10 @@ std::string head_of(const JobProgress& progress, std::size_t width) {
     done = ended_cases + " of " + count + " load cases ended";
     short_done = ended_cases + "/" + count + " ended";
   }
-  std::string text;
-  for (const std::string& candidate : {name + state + done, state + done, state + short_done}) {
-    text = candidate;
-    if (columns_of(text) <= width) break;
+  for (const std::string& text : {name + state + done, state + done}) {
+    if (columns_of(text) <= width) return text;
   }
-  return fit(text, width);
+  return fit(state + short_done, width);
 }
 
 // A narrow terminal has no room for the bar.
@@ -94,7 +92,7 @@ std::string count_of(std::int32_t iterations, bool active_set) {
          (iterations == 1 ? "" : "s");
 }
 
-// The active set has none: it ends when nothing changes any more.
+// Not for the active set, which ends when nothing changes any more.
 std::string criterion_of(const CaseProgress& progress, bool active_set) {
   return active_set ? "" : ", criterion " + number(progress.criterion, 2, true);
 }
@@ -102,7 +100,7 @@ std::string criterion_of(const CaseProgress& progress, bool active_set) {
 }  // namespace
 
 std::vector<std::string> frame(const JobProgress& progress, std::size_t width, std::size_t height) {
-  // The last column stays empty: a terminal may wrap when it is written.
+  // The last column stays empty: writing it may wrap the line.
   const std::size_t room = std::max<std::size_t>(width, 2) - 1;
   std::vector<std::string> lines{head_of(progress, room)};
   for (const std::string& message : {progress.notice, progress.prompt}) {
@@ -113,13 +111,13 @@ std::vector<std::string> frame(const JobProgress& progress, std::size_t width, s
     return lines;
   }
   const std::size_t left = std::max<std::size_t>(height, lines.size() + 2) - lines.size();
-  for (std::string& line : case_lines(progress, room, left)) lines.push_back(std::move(line));
+  std::ranges::move(case_lines(progress, room, left), std::back_inserter(lines));
   return lines;
 }
 
 void PlainLog::add_sweep_line(const SweepProgress& sweep, std::vector<std::string>& lines) {
   constexpr std::uint64_t first = 1000;
-  // Ten lines of a sweep; where its end is not known, one each time there are twice as many rows.
+  // Ten lines per sweep; if its size is unknown, a line whenever the rows have doubled.
   const std::uint64_t due = sweep.total > 0 ? _rows + std::max<std::uint64_t>(sweep.total / 10, 1)
                                             : std::max(2 * _rows, first);
   const bool finished = sweep.total > 0 && sweep.done() >= sweep.total && _rows < sweep.total;
@@ -142,7 +140,7 @@ std::vector<std::string> PlainLog::lines(const JobProgress& progress) {
     if (!_prompt.empty()) lines.push_back(_prompt);
   }
   if (progress.attempt != _attempt) {
-    _cases.clear();  // the iterations begin anew
+    _cases.clear();  // the iterations start again
     _rows = 0;
     _attempt = progress.attempt;
   }

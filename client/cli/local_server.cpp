@@ -13,7 +13,9 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <deque>
 #include <fstream>
+#include <numeric>
 #include <sstream>
 #include <thread>
 #include <vector>
@@ -42,13 +44,13 @@ fs::path make_folder() {
   return pattern;
 }
 
-// Between fork and exec: only calls that are safe in a signal handler.
+// Between fork and exec: async-signal-safe calls only.
 [[noreturn]] void become(const char* const* arguments, int output, int log, pid_t parent) {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   signal(SIGPIPE, SIG_DFL);
-  // Ctrl-C in the terminal is for the client, which then stops the server.
+  // Ctrl-C goes to the client only, which then stops the server.
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   const int null = open("/dev/null", O_RDONLY);
@@ -167,14 +169,12 @@ void LocalServer::stop_process() noexcept {
 std::string LocalServer::last_words() const {
   constexpr std::size_t kept_lines = 5;
   std::ifstream log(_folder / "log");
-  std::vector<std::string> lines;
+  std::deque<std::string> lines;
   for (std::string line; std::getline(log, line);) {
-    lines.push_back(sanitise(line));
-    if (lines.size() > kept_lines) lines.erase(lines.begin());
+    lines.push_back("\n  " + sanitise(line));
+    if (lines.size() > kept_lines) lines.pop_front();
   }
-  std::string text = lines.empty() ? "" : ":";
-  for (const std::string& line : lines) text += "\n  " + line;
-  return text;
+  return std::accumulate(lines.begin(), lines.end(), std::string(lines.empty() ? "" : ":"));
 }
 
 }  // namespace anticrack::cli

@@ -40,7 +40,7 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
       if (sweep) sweep->apply(event.sweep_rows(), seconds);
       break;
     case v1::WatchJobResponse::EVENT_NOT_SET:
-      break;  // ended load cases alone, or an event of a later version
+      break;  // only ended load cases, or an event of a later version
   }
   for (const v1::LoadCaseEnded& load_case : event.load_cases_ended()) {
     if (load_case.load_case() >= 0) {
@@ -50,9 +50,7 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
 }
 
 void JobProgress::enter(v1::Job::State next, const std::string& what) {
-  if (client::ended(state)) {
-    return;  // told again to who attaches late
-  }
+  if (client::ended(state)) return;  // a late watch repeats old phases
   state = next;
   detail = sanitise(what);
 }
@@ -60,7 +58,7 @@ void JobProgress::enter(v1::Job::State next, const std::string& what) {
 void JobProgress::apply(const v1::Job& job_now) {
   job = sanitise(job_now.name());
   if (job_now.attempt() > attempt && attempt > 0) {
-    cases.clear();  // the server stopped meanwhile and runs it anew
+    cases.clear();  // the server was restarted and runs the job again
     ended_count = 0;
     if (sweep) sweep->restart();
   }
@@ -74,8 +72,9 @@ void JobProgress::apply(const v1::Job& job_now) {
            : uzawa.has_epsilon()                   ? uzawa.epsilon()
                                                    : 1e-12;
   if (job_now.has_sweep()) {
-    apply_sweep(job_now);
-    return;  // its load cases are not solved one by one
+    if (!sweep) sweep.emplace();
+    sweep->apply(job_now.sweep_answer());
+    return;
   }
   cases.resize(static_cast<std::size_t>(job_now.load_cases_size()));
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -86,11 +85,6 @@ void JobProgress::apply(const v1::Job& job_now) {
   }
 }
 
-void JobProgress::apply_sweep(const v1::Job& job_now) {
-  if (!sweep) sweep.emplace();
-  sweep->apply(job_now.sweep_answer());
-}
-
 void JobProgress::apply(const v1::Samples& samples) {
   const int count = std::min({samples.load_case_size(), samples.iteration_size(),
                               samples.criterion_size(), samples.contact_count_size()});
@@ -98,7 +92,7 @@ void JobProgress::apply(const v1::Samples& samples) {
     const auto index = static_cast<std::size_t>(samples.load_case(i));
     if (samples.load_case(i) < 0 || index >= cases.size()) continue;
     CaseProgress& progress = cases[index];
-    // Started over from an old event, or late: an ended case is not running again.
+    // Old or late samples: a case that has ended does not run again.
     if (ended(progress.status) || samples.iteration(i) <= progress.iteration) continue;
     progress.status = Status::running;
     progress.iteration = samples.iteration(i);

@@ -32,7 +32,7 @@ sigset_t listened_set() {
 
 Signals::Signals() : _set(listened_set()) {
   pthread_sigmask(SIG_BLOCK, &_set, nullptr);
-  // A reader that goes away (| head) shall not end a command that still has results to save.
+  // A closed pipe (| head) must not end a command that still has results to save.
   signal(SIGPIPE, SIG_IGN);
   _thread = std::thread([this] { listen(); });
 }
@@ -90,7 +90,7 @@ void Signals::listen() {
   }
 }
 
-// By the signal itself: nothing stops where no shell is there to let the process go on.
+// Stops by the signal itself, which does nothing without a shell that could continue the process.
 void Signals::stop_as_asked() {
   screen(Screen::leaving);
   sigset_t stopping;

@@ -8,7 +8,7 @@
 namespace anticrack::cli {
 namespace {
 
-constexpr double window = 10;  // seconds the rate is taken over
+constexpr double window = 10;  // of the rate, seconds
 constexpr double spacing = 0.25;
 
 }  // namespace
@@ -16,9 +16,7 @@ constexpr double spacing = 0.25;
 std::vector<RowSet::Interval> RowSet::add(std::uint64_t begin, std::uint64_t end) {
   std::vector<Interval> added;
   if (begin >= end) return added;
-  std::uint64_t from = begin;
-  std::uint64_t joined_begin = begin;
-  std::uint64_t joined_end = end;
+  std::uint64_t from = begin, joined_begin = begin, joined_end = end;
   auto it = _ends.upper_bound(begin);
   if (it != _ends.begin() && std::prev(it)->second >= begin) --it;
   while (it != _ends.end() && it->first <= end) {
@@ -69,7 +67,7 @@ void SweepProgress::apply(const v1::SweepRows& rows, double seconds) {
   const auto count_of_rows = static_cast<std::uint64_t>(rows.status_size());
   const std::uint64_t limit = total > 0 ? total : std::numeric_limits<std::uint64_t>::max();
   if (rows.first_row() >= limit) {
-    return;  // nonsense
+    return;
   }
   if (_samples.empty()) _samples.push_back({seconds, _counts.done});
   const std::uint64_t end = rows.first_row() + std::min(count_of_rows, limit - rows.first_row());

@@ -93,9 +93,7 @@ void add_sweep(const results::Sweep& sweep, JsonWriter& json) {
       .value("most_steps", std::int64_t{counts.most_steps})
       .value("worst_kkt", counts.worst_kkt)
       .value("error", sweep.error);
-  json.begin_array("loads");
-  for (const std::string& load : sweep.loads) json.element(load);
-  json.end_array().begin_array("inclusions");
+  json.texts("loads", sweep.loads).begin_array("inclusions");
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
     json.begin_object().value("name", sweep.inclusions[i]);
     add_range("A", counts.displacement[i], json);

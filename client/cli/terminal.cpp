@@ -13,14 +13,13 @@ namespace {
 
 constexpr std::chrono::milliseconds frame_time{67};
 
-// A frame is never wider than the terminal was when it was measured; should it have shrunk since,
-// lines are cut rather than wrapped.
+// If the terminal has shrunk since it was measured, lines are cut and not wrapped.
 constexpr std::string_view cut_lines = "\x1b[?7l";
 constexpr std::string_view wrap_lines = "\x1b[?7h";
-constexpr std::string_view wipe_line = "\x1b[2K";  // all of it: else tmux may join it to another
+constexpr std::string_view wipe_line = "\x1b[2K";  // whole: else tmux may join it to another
 constexpr std::string_view wipe_below = "\x1b[J";
 
-// Each line over what is there, the cursor after the last one.
+// Overwrites the lines; the cursor ends after the last one.
 std::string joined(const std::vector<std::string>& lines) {
   std::string text = "\r";
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -32,8 +31,8 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-// A process in the background would write into what its user types; changing the modes of the
-// terminal would stop it.
+// In the background output would mix with what the user types, and changing the modes of the
+// terminal would stop the process.
 bool in_background(std::FILE* terminal) {
   const pid_t group = tcgetpgrp(fileno(terminal));
   return group != -1 && group != getpgrp();
@@ -89,7 +88,7 @@ void Painter::redraw() {
 }
 
 void Painter::pause() {
-  // Where the terminal takes no text (Ctrl-S) a draw waits for it; that shall not keep the process.
+  // While the terminal takes no text (Ctrl-S) a draw waits; the process does not.
   constexpr std::chrono::milliseconds patience{500};
   _paused = true;
   const std::unique_lock lock(_drawing, patience);
@@ -141,7 +140,7 @@ void Painter::write(const std::string& text) {
   std::fflush(_terminal);
 }
 
-// An Enter that is echoed would move the cursor off the frame.
+// An echoed Enter would move the cursor off the frame.
 void Painter::hide_keys() {
   termios modes{};
   if (in_background(_terminal) || tcgetattr(fileno(_terminal), &modes) != 0 ||

@@ -178,11 +178,11 @@ COMMANDS = [
      "plain.h5:/matrix: it has 2 columns, the mesh 31 nodes; write f on every node, in the order of "
      "the mesh (the dataset /mesh/nodes of a result file on it)"),
     ("sweep two.toml --coefficients good.csv --traces 0,7", 2,
-     "--traces 0,7: there is no row 7; the last one is 1, the first one 0"),
+     "--traces 0,7: there is no row 7; rows are 0 to 1"),
     ("sweep two.toml --coefficients good.csv --traces 1-0", 2,
      "--traces 1-0: the range 1-0 ends before it begins; write 0-1"),
     ("sweep two.toml --coefficients good.csv --traces frist", 2,
-     '--traces frist: "frist" is not a row; write all, none, or rows as 0,10,20-30'),
+     '--traces frist: "frist" is not a row; write all, none, or rows, for example 0,10,20-30'),
     ("sweep two.toml --coefficients good.csv --csv two.h5", 2,
      "--csv two.h5: this is the result file too; name another one"),
     ("sweep two.toml --coefficients good.csv --set solver.method=uzawa", 2,
