@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/case_lines.hpp"
+#include "cli/live_view.hpp"
 
 #include <algorithm>
 #include <map>

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "casefile/duration.hpp"
-#include "cli/server_address.hpp"
 #include "guide/shells.hpp"
 
 namespace anticrack::cli {

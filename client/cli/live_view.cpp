@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "cli/case_lines.hpp"
 #include "cli/text.hpp"
 #include "client/jobs.hpp"
 

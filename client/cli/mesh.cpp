@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "cli/exit_codes.hpp"
-#include "cli/figure_options.hpp"
 #include "cli/follow_mesh.hpp"
 #include "cli/json.hpp"
 #include "cli/mesh_text.hpp"

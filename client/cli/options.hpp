@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the commands have in common on their way into the parser.
+// What several commands add to the parser.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "cli/commands.hpp"
+#include "figures/figures.hpp"
 
 namespace anticrack::cli {
 
@@ -33,5 +34,8 @@ inline void add_limit(CLI::App& command, int& limit) {
       ->type_name("COUNT")
       ->capture_default_str();
 }
+
+/// The options of commands that draw. `options`, which must outlive the app, has their defaults.
+void add_figure_options(CLI::App& app, figures::Options& options);
 
 }  // namespace anticrack::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/row_selection.hpp"
+#include "cli/sweep_input.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -8,7 +8,6 @@
 
 #include "casefile/coefficients.hpp"
 #include "casefile/nearest.hpp"
-#include "cli/row_selection.hpp"
 #include "cli/text.hpp"
 #include "results/array_file.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/usage_text.hpp"
+#include "cli/commands.hpp"
 
 #include <CLI/CLI.hpp>
 

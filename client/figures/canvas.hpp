@@ -27,7 +27,7 @@ struct Canvas {
   double height = 0;
 };
 
-inline constexpr Canvas column{85, 68};  ///< a column of a journal
+inline constexpr Canvas narrow{85, 68};  ///< a column of a journal
 inline constexpr Canvas page{170, 68};   ///< two panels side by side, over both columns
 inline constexpr Canvas tall{85, 104};   ///< two panels, one above the other
 

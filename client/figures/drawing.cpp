@@ -11,8 +11,6 @@
 #include <system_error>
 #include <utility>
 
-#include "figures/gnuplot.hpp"
-#include "figures/svg.hpp"
 #include "results/replace_file.hpp"
 
 namespace anticrack::figures {

@@ -3,9 +3,10 @@
 // Draws pictures into a folder. For the sources of this folder only.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include "figures/canvas.hpp"
 #include "figures/figures.hpp"
@@ -26,5 +27,15 @@ class Drawing {
   std::filesystem::path _folder;
   Options _options;
 };
+
+/// gnuplot's SVG without its empty groups: it opens several per triangle, most of the file and slow
+/// to display. Expects gnuplot's lines, which begin with one tag each. O(length).
+std::string without_empty_groups(std::string_view svg);
+
+/// Runs gnuplot in `folder` with `script` as its standard input and waits for it. It reads no
+/// start-up files of the user and starts with default signals. Throws Error when gnuplot is not
+/// installed, fails (with what it printed) or takes longer than `limit` (it is killed).
+void run_gnuplot(const std::string& script, const std::filesystem::path& folder,
+                 std::chrono::milliseconds limit);
 
 }  // namespace anticrack::figures

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "figures/drawing.hpp"
-#include "figures/mesh_panel.hpp"
+#include "figures/mesh_layers.hpp"
 #include "figures/text.hpp"
 
 namespace anticrack::figures {

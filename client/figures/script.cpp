@@ -14,7 +14,7 @@ Picture membrane_picture(const Result& result, const Load& load, const Surface& 
           [&](Format format, const Place& place) {
             return membrane_panel(surface, load, membrane_view(result), place, format);
           },
-          column};
+          narrow};
 }
 
 Picture traces_picture(const Result& result, const Load& load, std::size_t interface) {
@@ -24,14 +24,14 @@ Picture traces_picture(const Result& result, const Load& load, std::size_t inter
       traces_data(along, trace),
       {result.title, load.name},
       [&, along](Format, const Place& place) { return traces_panel(along, trace, load, place); },
-      column};
+      narrow};
 }
 
 Picture convergence_picture(const Result& result, const Load& load) {
   return {convergence_data(load),
           {result.title, load.name},
           [&](Format, const Place& place) { return convergence_panel(load, place); },
-          column};
+          narrow};
 }
 
 Picture combined_picture(const Result& result, const Load& load, const Surface& surface) {

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "figures/outer_edges.hpp"
+#include "figures/mesh_layers.hpp"
 
 namespace anticrack::figures {
 namespace {

@@ -176,7 +176,7 @@ Picture sweep_picture(const Result& result, const SweepAxis& axis) {
             text += margins(place, 0.11, legend ? 0.475 : 0.5);
             return text + "set format x\nunset key\n" + foot + contact;
           },
-          inclusions == 0 ? column : tall};
+          inclusions == 0 ? narrow : tall};
 }
 
 Picture contact_picture(const Result& result, const SweepAxis& axis, const ContactMap& map) {
@@ -223,7 +223,7 @@ Picture contact_picture(const Result& result, const SweepAxis& axis, const Conta
         text += key(closed_shade, map.shades ? "closed (pale: in some rows)" : "closed");
         return text + "\nunset label\n";
       },
-      column};
+      narrow};
 }
 
 void draw_sweep(const Result& result, Drawing& drawing) {
