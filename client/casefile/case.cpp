@@ -7,13 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "casefile/geometry.hpp"
-#include "casefile/job_section.hpp"
-#include "casefile/load_section.hpp"
-#include "casefile/mesh_section.hpp"
-#include "casefile/overrides.hpp"
-#include "casefile/section.hpp"
-#include "casefile/solver_section.hpp"
+#include "casefile/sections.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -27,9 +21,7 @@ void read_mesh(const Section& root, Case& result) {
     result.mesh.mutable_options()->set_preset(v1::MESH_PRESET_GRADED);
   }
   if (const auto file = mesh ? mesh->text("file") : std::nullopt) {
-    if (geometry) {
-      throw Error(geometry->spot(), "there is a mesh.file too; remove one of the two");
-    }
+    if (geometry) throw Error(geometry->spot(), "there is a mesh.file too; remove one of the two");
     result.mesh_file = result.path.parent_path() / *file;
     for (const char* field : {"upload", "header", "chunk"}) {
       result.spots[field] = mesh->spot_of("file");
@@ -40,7 +32,7 @@ void read_mesh(const Section& root, Case& result) {
   *result.mesh.mutable_geometry() = read_geometry(*geometry, result.spots);
 }
 
-// The text of a line (from 1), cut where it is long.
+// The text of a line (from 1), shortened.
 std::string line_of(const std::string& text, unsigned line) {
   constexpr std::size_t longest = 60;
   std::istringstream lines(text);
@@ -74,13 +66,19 @@ std::optional<Spot> Case::locate(const std::string& field) const {
   std::string place = field.rfind("job.", 0) == 0 ? field.substr(4) : field;
   while (!place.empty()) {
     const auto found = spots.find(place);
-    if (found != spots.end()) {
-      return found->second;
-    }
+    if (found != spots.end()) return found->second;
     const std::size_t cut = place.find_last_of(".[");
     place.resize(cut == std::string::npos ? 0 : cut);
   }
   return std::nullopt;
+}
+
+void note(const Section& section, const std::string& field, Spots& spots) {
+  if (!field.empty()) spots[field] = section.spot();
+  for (const auto& [key, node] : section.table()) {
+    const std::string name(key.str());
+    spots[field.empty() ? name : field + "." + name] = section.spot_of(name);
+  }
 }
 
 Case parse_case(const std::string& text, const std::filesystem::path& path,
@@ -89,9 +87,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
   result.path = path;
   result.text = text;
   toml::table table = parse(text, path.string());
-  for (const std::string& assignment : overrides) {
-    apply_override(table, assignment);
-  }
+  for (const std::string& assignment : overrides) apply_override(table, assignment);
   if (!overrides.empty()) {
     std::ostringstream out;
     out << table << '\n';
@@ -105,13 +101,11 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
   }
   read_mesh(root, result);
   *result.job.mutable_solver() = read_solver(root, result.spots);
-  if (loads == Loads::needed || root.find("load")) {
-    read_loads(root, result);
-  }
+  if (loads == Loads::needed || root.find("load")) read_loads(root, result);
   read_job(root, result.job, result.spots);
   if (const auto output = root.section("output", {"fields"})) {
     result.job.set_fields(output->boolean("fields").value_or(false));
-    result.spots["fields"] = output->spot_of("fields");
+    note(*output, "", result.spots);
   }
   return result;
 }
@@ -121,14 +115,12 @@ Case mesh_file_case(const std::filesystem::path& file, const std::string& title,
   Case result;
   result.path = file;
   toml::table table;
-  for (const std::string& assignment : overrides) {
-    apply_override(table, assignment);
-  }
+  for (const std::string& assignment : overrides) apply_override(table, assignment);
   const Section given(table, "", {"mesh"});
   if (const auto mesh = given.section("mesh", mesh_keys); mesh && mesh->find("file")) {
     throw Error(mesh->spot_of("file"), "the file is given as an argument; remove one of the two");
   }
-  apply_override(table, "mesh.file=.");  // so that the keys of files are allowed; its path is below
+  apply_override(table, "mesh.file=.");  // allows the keys of files; the path is set below
   *result.mesh.mutable_options() =
       read_mesh_options(*Section(table, "", {"mesh"}).section("mesh", mesh_keys), result.spots);
   result.mesh.set_title(title);
@@ -148,8 +140,8 @@ Case read_case(const std::filesystem::path& path, const std::vector<std::string>
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) {
-    // An empty file fails to insert as well; it is caught below by what it lacks.
+  if (!(text << file.rdbuf())) {
+    // Inserting an empty file fails too; parse_case says what it lacks.
     if (!std::filesystem::is_regular_file(path) || !file) {
       throw Error({"", path.string(), 0}, "cannot be read" + reason(errno) + cure);
     }

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -18,9 +19,7 @@ namespace {
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blank = " \t\r";
   const std::size_t begin = text.find_first_not_of(blank);
-  if (begin == std::string_view::npos) {
-    return {};
-  }
+  if (begin == std::string_view::npos) return {};
   text = text.substr(begin, text.find_last_not_of(blank) - begin + 1);
   const bool in_quotes = text.size() >= 2 && text.front() == '"' && text.back() == '"';
   return in_quotes ? text.substr(1, text.size() - 2) : text;
@@ -31,32 +30,28 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields) 
   while (true) {
     const std::size_t comma = line.find(',');
     fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) {
-      return;
-    }
+    if (comma == std::string_view::npos) return;
     line.remove_prefix(comma + 1);
   }
 }
 
 /// Independent of the locale. Empty where it is not a number as a whole; infinity where too large.
 std::optional<double> number(std::string_view text) {
-  if (!text.empty() && text.front() == '+') {
-    text.remove_prefix(1);
-  }
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument) {
     return std::nullopt;
   }
   if (error == std::errc::result_out_of_range) {
-    // Too small is zero to anybody; the exponent tells the two apart.
+    // Too small counts as zero; a negative exponent tells it from too large.
     const bool small = text.find("e-") != text.npos || text.find("E-") != text.npos;
     return small ? 0.0 : HUGE_VAL;
   }
   return value;
 }
 
-/// Cut, and without bytes that would end or disguise a message.
+/// Shortened, without control characters.
 std::string shown_field(std::string_view value) {
   constexpr std::size_t longest = 40;
   std::string text(value.substr(0, longest));
@@ -71,19 +66,15 @@ std::string counted(std::size_t count, const char* what) {
 
 std::string listed(const std::vector<std::string>& names) {
   std::string list;
-  for (const std::string& name : names) {
-    list += (list.empty() ? "" : ", ") + name;
-  }
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   return list;
 }
 
 class Reader {
  public:
   Reader(std::string source, const std::vector<std::string>& loads)
-      : _source(std::move(source)), _loads(loads) {
-    for (std::size_t i = 0; i < loads.size(); ++i) {
-      _columns.push_back(i);
-    }
+      : _source(std::move(source)), _loads(loads), _columns(loads.size()) {
+    std::iota(_columns.begin(), _columns.end(), std::size_t{0});
   }
 
   void line(std::string_view text, unsigned number) {
@@ -93,9 +84,7 @@ class Reader {
       text.remove_prefix(byte_order_mark.size());
     }
     const std::size_t begin = text.find_first_not_of(" \t\r");
-    if (begin == std::string_view::npos || text[begin] == '#') {
-      return;
-    }
+    if (begin == std::string_view::npos || text[begin] == '#') return;
     split_fields(text, _fields);
     if (!std::exchange(_begun, true) && is_header()) {
       take_header();
@@ -121,7 +110,8 @@ class Reader {
     throw Error({"column " + std::to_string(column + 1), _source, _line}, problem);
   }
 
-  /// Names of loads may look like numbers.
+  /// The first line is a header if all its fields are names of loads (which may look like numbers)
+  /// or none is a number.
   bool is_header() const {
     const auto is_load = [this](std::string_view field) {
       return std::find(_loads.begin(), _loads.end(), field) != _loads.end();
@@ -140,9 +130,7 @@ class Reader {
                     suggestion(_fields[i], _loads));
       }
       const auto load = static_cast<std::size_t>(found - _loads.begin());
-      if (named[load]) {
-        fail(i, "load " + *found + " is named twice; keep one of the two columns");
-      }
+      if (named[load]) fail(i, "load " + *found + " is named twice; keep one of the two columns");
       named[load] = true;
       columns.push_back(load);
     }
@@ -165,9 +153,7 @@ class Reader {
     _values.resize(row + _loads.size());
     for (std::size_t i = 0; i < _fields.size(); ++i) {
       const std::optional<double> value = number(_fields[i]);
-      if (!value) {
-        fail(i, shown_field(_fields[i]) + " is not a number; write one as 1.5 or -2e-3");
-      }
+      if (!value) fail(i, shown_field(_fields[i]) + " is not a number; write one as 1.5 or -2e-3");
       if (!std::isfinite(*value)) {
         fail(i, shown_field(_fields[i]) + " is not finite; write a finite number");
       }
@@ -190,9 +176,7 @@ std::vector<double> parse_coefficients(std::istream& text, const std::string& so
                                        const std::vector<std::string>& loads) {
   Reader reader(source, loads);
   std::string line;
-  for (unsigned number = 1; std::getline(text, line); ++number) {
-    reader.line(line, number);
-  }
+  for (unsigned number = 1; std::getline(text, line); ++number) reader.line(line, number);
   if (text.bad()) {
     throw Error({"", source, 0}, "cannot be read to its end; the disk reports an error");
   }

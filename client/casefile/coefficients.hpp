@@ -12,11 +12,10 @@
 
 namespace anticrack::casefile {
 
-/// Comma-separated numbers, a line per row. Blank lines and lines that begin with # are passed
-/// over. The first line may name the loads instead, in any order; without it the columns are the
-/// loads in their order. Quotes around a field are taken off. Returns (rows, loads) row-major, in
-/// the order of `loads`, at least one row, all finite. Throws Error with line, column, value and
-/// cure; `source` names the text in it. O(length of the text).
+/// Comma-separated numbers, a line per row. Blank lines and lines that begin with # are skipped.
+/// The first line may name the loads, in any order; without it the columns follow `loads`. Quotes
+/// around a field are removed. Returns (rows, loads) row-major, in the order of `loads`: at least
+/// one row, all values finite. Throws Error with `source`, line, column, value and cure. O(length).
 std::vector<double> parse_coefficients(std::istream& text, const std::string& source,
                                        const std::vector<std::string>& loads);
 

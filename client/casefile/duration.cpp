@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "casefile/duration.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -24,22 +25,14 @@ std::optional<std::chrono::milliseconds> parse_duration(std::string_view text) {
   double number = 0;
   const char* end = text.data() + text.size();
   const auto [stop, problem] = std::from_chars(text.data(), end, number);
-  if (problem != std::errc()) {
-    return std::nullopt;
-  }
+  if (problem != std::errc()) return std::nullopt;
   std::string_view rest(stop, static_cast<std::size_t>(end - stop));
-  while (rest.starts_with(' ')) {
-    rest.remove_prefix(1);
-  }
-  for (const Unit& unit : units) {
-    if (rest == unit.name) {
-      const double time = std::round(number * unit.milliseconds);
-      const bool fits = time >= 1 && time <= longest_time;  // false for NaN
-      return fits ? std::optional(std::chrono::milliseconds(static_cast<std::int64_t>(time)))
-                  : std::nullopt;
-    }
-  }
-  return std::nullopt;
+  while (rest.starts_with(' ')) rest.remove_prefix(1);
+  const auto* unit = std::ranges::find(units, rest, &Unit::name);
+  if (unit == units.end()) return std::nullopt;
+  const double time = std::round(number * unit->milliseconds);
+  if (!(time >= 1 && time <= longest_time)) return std::nullopt;  // NaN as well
+  return std::chrono::milliseconds(static_cast<std::int64_t>(time));
 }
 
 }  // namespace anticrack::casefile

@@ -13,10 +13,10 @@ struct Spot {
   unsigned line = 0;   ///< from 1; 0: no line (a --set, or the whole file)
 };
 
-/// "case.toml:12: solver.theta: " or as much of it as is known.
+/// "case.toml:12: solver.theta: ", without the parts that are unknown.
 std::string prefix(const Spot& spot);
 
-/// A case that cannot be read. what() names file, line and key, gives the bad value and the cure.
+/// A case that cannot be read. what() gives file, line, key, the bad value and the cure.
 class Error : public std::runtime_error {
  public:
   Error(Spot spot, const std::string& problem)

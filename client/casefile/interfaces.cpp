@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "casefile/geometry.hpp"
+#include "casefile/sections.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -8,19 +8,18 @@ constexpr const char* shapes =
     "points = [[x, y], ...], arc = [from, through, to] or spline = "
     "[[x, y], ...]";
 
-void read_arc(const Section& section, const std::string& field, v1::Arc& arc, Spots& spots) {
+void read_arc(const Section& section, v1::Arc& arc) {
   const toml::node& node = section.need("arc", shapes);
   const std::vector<Point> points = points_of(node, section.path_of("arc"));
   if (points.size() != 3) {
     throw Error(section.spot_of("arc"),
                 shown(node) +
                     " is not an arc; write [from, through, to], three points "
-                    "of which the second lies between the others");
+                    "with the second between the others");
   }
   set(*arc.mutable_from(), points[0]);
   set(*arc.mutable_through(), points[1]);
   set(*arc.mutable_to(), points[2]);
-  spots[field + ".arc"] = section.spot_of("arc");
 }
 
 void read_line(const Section& section, const char* key, const std::string& field,
@@ -34,9 +33,7 @@ void read_line(const Section& section, const char* key, const std::string& field
 std::string shape_of(const Section& section) {
   std::string shape;
   for (const char* key : {"points", "arc", "spline"}) {
-    if (!section.find(key)) {
-      continue;
-    }
+    if (!section.find(key)) continue;
     if (!shape.empty()) {
       throw Error(section.spot_of(key),
                   "the interface has " + shape + " too; remove one of the two");
@@ -51,14 +48,11 @@ std::string shape_of(const Section& section) {
 
 void read_interface(const Section& section, const std::string& field, v1::InterfaceCurve& curve,
                     Spots& spots) {
-  spots[field] = section.spot();
-  if (const auto name = section.text("name")) {
-    curve.set_name(*name);
-    spots[field + ".name"] = section.spot_of("name");
-  }
+  note(section, field, spots);
+  curve.set_name(section.text("name").value_or(""));
   const std::string shape = shape_of(section);
   if (shape == "arc") {
-    read_arc(section, field, *curve.mutable_arc(), spots);
+    read_arc(section, *curve.mutable_arc());
     if (section.find("closed")) {
       throw Error(section.spot_of("closed"),
                   "an arc has two ends; remove the key, or write a spline through the points");
@@ -68,10 +62,7 @@ void read_interface(const Section& section, const std::string& field, v1::Interf
   } else {
     read_line(section, "spline", field + ".spline", *curve.mutable_spline(), spots);
   }
-  if (const auto closed = section.boolean("closed")) {
-    curve.set_closed(*closed);
-    spots[field + ".closed"] = section.spot_of("closed");
-  }
+  curve.set_closed(section.boolean("closed").value_or(false));
 }
 
 bool lists_tables(const toml::node& node) {
@@ -83,9 +74,7 @@ bool lists_tables(const toml::node& node) {
 
 void read_interfaces(const Section& section, v1::Geometry& geometry, Spots& spots) {
   const toml::node* node = section.find("interface");
-  if (!node) {
-    return;
-  }
+  if (!node) return;
   spots["geometry.interfaces"] = section.spot_of("interface");
   if (!lists_tables(*node)) {
     const std::string field = entry_field("geometry.interfaces", 0);
@@ -94,11 +83,10 @@ void read_interfaces(const Section& section, v1::Geometry& geometry, Spots& spot
               *geometry.add_interfaces()->mutable_polyline(), spots);
     return;
   }
-  const std::vector<Section> interfaces =
-      section.sections("interface", {"name", "points", "arc", "spline", "closed"});
-  for (std::size_t i = 0; i < interfaces.size(); ++i) {
-    read_interface(interfaces[i], entry_field("geometry.interfaces", i), *geometry.add_interfaces(),
-                   spots);
+  for (const Section& interface :
+       section.sections("interface", {"name", "points", "arc", "spline", "closed"})) {
+    const std::string field = entry_field("geometry.interfaces", geometry.interfaces().size());
+    read_interface(interface, field, *geometry.add_interfaces(), spots);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "casefile/load_section.hpp"
+#include "casefile/sections.hpp"
 
 #include <optional>
 
@@ -50,33 +50,13 @@ std::optional<ForceFile> read_force(const Section& section, const std::filesyste
 
 void read_point_forces(const Section& section, const std::string& field, v1::LoadCase& load,
                        Spots& spots) {
-  const std::vector<Section> forces = section.sections("point_forces", {"at", "value"});
-  for (std::size_t i = 0; i < forces.size(); ++i) {
-    const Section& force = forces[i];
+  for (const Section& force : section.sections("point_forces", {"at", "value"})) {
+    note(force, entry_field(field + ".point_forces", load.point_forces().size()), spots);
     v1::PointForce& point_force = *load.add_point_forces();
     set(*point_force.mutable_at(),
         point_of(force.need("at", "write [x, y], where the force acts"), force.path_of("at")));
     force.need("value", "write the force, a number");
     point_force.set_value(*force.number("value"));
-    const std::string entry = entry_field(field + ".point_forces", i);
-    spots[entry] = force.spot();
-    spots[entry + ".at"] = force.spot_of("at");
-    spots[entry + ".value"] = force.spot_of("value");
-  }
-}
-
-void read_inclusion_forces(const Section& section, const std::string& field, v1::LoadCase& load,
-                           Spots& spots) {
-  if (!section.find("inclusion_forces")) {
-    return;
-  }
-  spots[field + ".inclusion_forces"] = section.spot_of("inclusion_forces");
-  for (const auto& [name, value] :
-       section.numbers("inclusion_forces", "write inclusion = number for each of them")) {
-    (*load.mutable_inclusion_forces())[name] = value;
-    const toml::node& entry = *section.find("inclusion_forces")->as_table()->get(name);
-    set_entry(spots, field + ".inclusion_forces", name,
-              spot_of(entry, section.path_of("inclusion_forces") + "." + name));
   }
 }
 
@@ -87,14 +67,12 @@ void read_load(const Section& section, std::size_t index, Case& result) {
   load.set_name(section.need_text("name", "give the load case a name"));
   load.set_boundary_value(section.expression("boundary_value").value_or(""));
   load.set_traction(section.expression("traction").value_or(""));
-  spots[field] = section.spot();
-  for (const char* key : {"name", "boundary_value", "traction"}) {
-    spots[field + "." + key] = section.spot_of(key);
-  }
+  note(section, field, spots);
   read_point_forces(section, field, load, spots);
-  read_inclusion_forces(section, field, load, spots);
+  add_numbers(section, "inclusion_forces", "write inclusion = number for each of them",
+              field + ".inclusion_forces", *load.mutable_inclusion_forces(), spots);
 
-  // A load case of nothing at all is most likely one that was forgotten.
+  // Without any other load, a missing f is most likely forgotten.
   const bool loaded = !load.boundary_value().empty() || !load.traction().empty() ||
                       !load.point_forces().empty() || !load.inclusion_forces().empty();
   if (section.find("f") || !loaded) {
@@ -113,9 +91,7 @@ void read_loads(const Section& root, Case& result) {
   root.need("load", "write [[load]] with name and f for each load case");
   const std::vector<Section> loads = root.sections(
       "load", {"name", "f", "boundary_value", "traction", "point_forces", "inclusion_forces"});
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    read_load(loads[i], i, result);
-  }
+  for (std::size_t i = 0; i < loads.size(); ++i) read_load(loads[i], i, result);
 }
 
 }  // namespace anticrack::casefile

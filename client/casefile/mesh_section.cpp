@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "casefile/mesh_section.hpp"
+#include "casefile/sections.hpp"
 
 #include <charconv>
 
@@ -7,14 +7,12 @@ namespace anticrack::casefile {
 namespace {
 
 constexpr const char* group_cure =
-    "write the tag of a physical group and in quotes what it is, as in curve.7 = \"crack\" or "
-    "surface.1 = \"top\"";
+    "write the tag of a physical group and its meaning in quotes, for example curve.7 = "
+    "\"crack\" or surface.1 = \"top\"";
 
 void refuse_keys(const Section& section, const std::vector<const char*>& keys, const char* why) {
   for (const char* key : keys) {
-    if (section.find(key)) {
-      throw Error(section.spot_of(key), why);
-    }
+    if (section.find(key)) throw Error(section.spot_of(key), why);
   }
 }
 
@@ -45,11 +43,8 @@ void refuse_what_means_nothing(const Section& section, v1::MeshPreset preset) {
 
 void read_align(const Section& section, v1::MeshOptions& options, Spots& spots) {
   const toml::node* node = section.find("align");
-  if (!node) {
-    return;
-  }
+  if (!node) return;
   const std::string key = section.path_of("align");
-  spots["options.align"] = section.spot_of("align");
   const toml::array* lines = node->as_array();
   if (!lines) {
     throw Error(spot_of(*node, key),
@@ -67,14 +62,10 @@ template <class Groups>
 void read_groups(const Section& section, const char* key, const std::string& field, Groups& groups,
                  Spots& spots) {
   const toml::node* node = section.find(key);
-  if (!node) {
-    return;
-  }
+  if (!node) return;
   spots[field] = section.spot_of(key);
   const toml::table* table = node->as_table();
-  if (!table) {
-    throw Error(section.spot_of(key), shown(*node) + " is not a table; " + group_cure);
-  }
+  if (!table) throw Error(section.spot_of(key), shown(*node) + " is not a table; " + group_cure);
   for (const auto& [name, entry] : *table) {
     const std::string tag_text(name.str());
     const Spot spot = spot_of(entry, section.path_of(key) + "." + tag_text);
@@ -102,26 +93,15 @@ v1::MeshOptions read_mesh_options(const Section& section, Spots& spots) {
   options.set_size(section.positive("size").value_or(0));
   options.set_tip_size(section.positive("tip_size").value_or(0));
   options.set_grading(section.positive("grading").value_or(0));
-  spots["options"] = section.spot();
-  for (const char* key : {"preset", "size", "tip_size", "grading"}) {
-    spots[std::string("options.") + key] = section.spot_of(key);
-  }
+  note(section, "options", spots);
   read_align(section, options, spots);
   if (const auto groups = section.section("groups", {"curve", "surface"})) {
     read_groups(*groups, "curve", "options.curve_groups", *options.mutable_curve_groups(), spots);
     read_groups(*groups, "surface", "options.surface_groups", *options.mutable_surface_groups(),
                 spots);
   }
-  if (section.find("tension")) {
-    spots["options.tension"] = section.spot_of("tension");
-  }
-  for (const auto& [name, tension] :
-       section.numbers("tension", "write subdomain = number for each of them")) {
-    (*options.mutable_tension())[name] = tension;
-    const toml::node& entry = *section.find("tension")->as_table()->get(name);
-    set_entry(spots, "options.tension", name,
-              spot_of(entry, section.path_of("tension") + "." + name));
-  }
+  add_numbers(section, "tension", "write subdomain = number for each of them", "options.tension",
+              *options.mutable_tension(), spots);
   return options;
 }
 

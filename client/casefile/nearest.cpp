@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <numeric>
 
 namespace anticrack::casefile {
 namespace {
@@ -19,9 +20,7 @@ std::string lower_case(std::string_view text) {
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   const std::size_t width = b.size() + 1;
   std::vector<std::size_t> two_ago(width), one_ago(width), row(width);
-  for (std::size_t j = 0; j < width; ++j) {
-    row[j] = j;
-  }
+  std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
     std::swap(two_ago, one_ago);
     std::swap(one_ago, row);
@@ -39,11 +38,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> nearest(std::string_view word,
                                    const std::vector<std::string>& candidates) {
-  // Words longer than any key cannot be meant, and would make the distance expensive.
+  // Bounds the cost of the distance; no key is this long.
   constexpr std::size_t longest_word = 100;
-  if (word.size() > longest_word) {
-    return std::nullopt;
-  }
+  if (word.size() > longest_word) return std::nullopt;
   const std::string sought = lower_case(word);
   std::optional<std::string> best;
   std::size_t best_distance = 0;
@@ -61,15 +58,11 @@ std::optional<std::string> nearest(std::string_view word,
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
-  if (const auto meant = nearest(word, candidates)) {
-    return "did you mean " + *meant + "?";
-  }
+  if (const auto meant = nearest(word, candidates)) return "did you mean " + *meant + "?";
   std::vector<std::string> known = candidates;
   std::sort(known.begin(), known.end());
   std::string list = "known are ";
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    list += (i == 0 ? "" : ", ") + known[i];
-  }
+  for (std::size_t i = 0; i < known.size(); ++i) list += (i == 0 ? "" : ", ") + known[i];
   return list;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a mistyped word was meant to be.
+// Suggestions for mistyped words.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +15,12 @@ namespace anticrack::casefile {
 /// string alignment). O(|a| |b|).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate nearest to `word`, upper and lower case alike, the first of equals; empty when
-/// none is so near that it could be meant (more than a third of the letters differ).
+/// The candidate nearest to `word`, ignoring case, the first of equals; empty when more than a
+/// third of the letters differ from every candidate.
 std::optional<std::string> nearest(std::string_view word,
                                    const std::vector<std::string>& candidates);
 
-/// "did you mean theta?", or, when nothing is near, "known are epsilon, p, theta".
+/// "did you mean theta?", or "known are epsilon, p, theta" when nothing is near.
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace anticrack::casefile

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "casefile/overrides.hpp"
+#include "casefile/sections.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -14,44 +14,38 @@ namespace anticrack::casefile {
 namespace {
 
 std::vector<std::string> split_path(const std::string& path) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  while (true) {
-    const std::size_t dot = path.find('.', begin);
-    parts.push_back(path.substr(begin, dot == std::string::npos ? dot : dot - begin));
-    if (dot == std::string::npos) {
-      return parts;
+  std::vector<std::string> parts{""};
+  for (const char c : path) {
+    if (c == '.') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
     }
-    begin = dot + 1;
   }
+  return parts;
 }
 
-/// Bytes that no case file could hold would not come back from the text that is kept.
+/// Throws for bytes that TOML does not allow: the case is kept as text and must parse again.
 void require_text(const std::string& assignment) {
-  std::string escaped;
-  for (const char c : assignment) {
-    const bool layout = c == '\n' || c == '\r' || c == '\t';
-    escaped += layout                  ? std::string(" ")
-               : c == '"' || c == '\\' ? std::string("\\") + c
-                                       : std::string(1, c);
+  std::string harmless = assignment;
+  for (char& c : harmless) {
+    if (std::string_view("\n\r\t\"\\").find(c) != std::string_view::npos) c = ' ';
   }
   try {
-    static_cast<void>(toml::parse("text = \"" + escaped + "\""));
+    static_cast<void>(toml::parse("text = \"" + harmless + "\""));
   } catch (const toml::parse_error&) {
     throw Error({"", "--set", 0},
                 "it holds control characters or bytes that are not UTF-8; write plain text");
   }
 }
 
-// A table with the one key `value`, its source the override.
+// A table with the single key `value`; its source is the override.
 toml::table parse_value(const std::string& text, const std::string& source) {
-  const bool one_line = text.find_first_of("\r\n") == std::string::npos;
-  if (one_line) {
-    try {
-      return toml::parse("value = " + text, source);
-    } catch (const toml::parse_error&) {
-      // A bare word, taken as text below.
-    }
+  try {
+    const bool one_line = text.find_first_of("\r\n") == std::string::npos;
+    if (one_line) return toml::parse("value = " + text, source);
+  } catch (const toml::parse_error&) {
+    // A bare word: text.
   }
   toml::table quoted = toml::parse("value = ''", source);
   quoted.get("value")->ref<std::string>() = text;
@@ -71,15 +65,13 @@ std::vector<std::string> names_in(const toml::array& array) {
   for (const toml::node& entry : array) {
     const toml::table* table = entry.as_table();
     const auto name = table ? (*table)["name"].value_exact<std::string>() : std::nullopt;
-    if (!name) {
-      return {};
-    }
+    if (!name) return {};
     names.push_back(*name);
   }
   return names;
 }
 
-/// Walks down the case; knows what it has walked for its errors.
+/// Walks down a path of the case; its errors name the part walked so far.
 class Walk {
  public:
   Walk(std::string source, std::vector<std::string> parts)
@@ -87,33 +79,25 @@ class Walk {
 
   void assign(toml::node& root, toml::node&& value) {
     toml::node* place = &root;
-    for (_depth = 0; _depth + 1 < _parts.size(); ++_depth) {
-      place = &step(*place);
-    }
+    for (_depth = 0; _depth + 1 < _parts.size(); ++_depth) place = &step(*place);
     put(*place, std::move(value));
   }
 
  private:
   [[noreturn]] void fail(const std::string& problem) const {
     std::string walked;
-    for (std::size_t i = 0; i <= _depth; ++i) {
-      walked += (i == 0 ? "" : ".") + _parts[i];
-    }
+    for (std::size_t i = 0; i <= _depth; ++i) walked += (i == 0 ? "" : ".") + _parts[i];
     throw Error({walked, _source, 0}, problem);
   }
 
-  /// Of an entry by its index or its name; the size of the array for a new one.
+  /// Index of the entry with this index or name; the size of the array for a new one.
   std::size_t index_in(const toml::array& array) const {
     const std::string& part = _parts[_depth];
     const auto index = index_of(part);
-    if (index && *index <= array.size()) {
-      return *index;
-    }
+    if (index && *index <= array.size()) return *index;
     const std::vector<std::string> names = names_in(array);
     const auto found = std::find(names.begin(), names.end(), part);
-    if (found != names.end()) {
-      return static_cast<std::size_t>(found - names.begin());
-    }
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
     if (!index && !names.empty()) {
       fail("none of them is called " + part + "; " + suggestion(part, names));
     }
@@ -125,9 +109,8 @@ class Walk {
     const std::string& part = _parts[_depth];
     if (toml::table* table = place.as_table()) {
       if (!table->contains(part)) {
-        // Index 0 begins a list; another number is a name, such as the tag of a group.
-        const bool list = index_of(_parts[_depth + 1]) == std::size_t{0};
-        if (list) {
+        // Index 0 starts a list; any other number is a name, such as the tag of a group.
+        if (index_of(_parts[_depth + 1]) == std::size_t{0}) {
           table->insert(part, toml::array());
         } else {
           table->insert(part, toml::table());
@@ -137,9 +120,7 @@ class Walk {
     }
     if (toml::array* array = place.as_array()) {
       const std::size_t index = index_in(*array);
-      if (index == array->size()) {
-        array->push_back(toml::table());
-      }
+      if (index == array->size()) array->push_back(toml::table());
       return *array->get(index);
     }
     fail("nothing lies below a plain value; set the key above it");
@@ -148,9 +129,7 @@ class Walk {
   void put(toml::node& place, toml::node&& value) const {
     toml::table* table = place.as_table();
     toml::array* array = place.as_array();
-    if (!table && !array) {
-      fail("nothing lies below a plain value; set the key above it");
-    }
+    if (!table && !array) fail("nothing lies below a plain value; set the key above it");
     // Moved, not copied: only a moved node keeps its source.
     std::move(value).visit([&](auto&& node) {
       if (table) {

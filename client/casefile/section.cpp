@@ -25,12 +25,8 @@ std::string entry_key(const std::string& list, std::size_t index) {
 
 std::string prefix(const Spot& spot) {
   std::string text = spot.source;
-  if (spot.line > 0) {
-    text += ":" + std::to_string(spot.line);
-  }
-  if (!spot.key.empty()) {
-    text += (text.empty() ? "" : ": ") + spot.key;
-  }
+  if (spot.line > 0) text += ":" + std::to_string(spot.line);
+  if (!spot.key.empty()) text += (text.empty() ? "" : ": ") + spot.key;
   return text.empty() ? text : text + ": ";
 }
 
@@ -40,9 +36,7 @@ namespace {
 const toml::node& first_written(const toml::node& node) {
   const toml::table* table = node.as_table();
   const toml::array* array = node.as_array();
-  if (node.source().path || (table ? table->empty() : !array || array->empty())) {
-    return node;
-  }
+  if (node.source().path || (table ? table->empty() : !array || array->empty())) return node;
   return first_written(table ? table->cbegin()->second : *array->get(0));
 }
 
@@ -69,9 +63,7 @@ std::string shown(const toml::node& node) {
   }
   std::string text = out.str();
   std::replace(text.begin(), text.end(), '\n', ' ');
-  if (text.size() > longest) {
-    text = text.substr(0, longest) + "...";
-  }
+  if (text.size() > longest) text = text.substr(0, longest) + "...";
   return text;
 }
 
@@ -111,9 +103,7 @@ Section::Section(const toml::table& table, std::string path, std::vector<std::st
   for (const auto& [key, node] : _table) {
     if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
       Spot spot = casefile::spot_of(node, path_of(key.str()));
-      if (spot.line > 0 && key.source().begin.line > 0) {
-        spot.line = key.source().begin.line;
-      }
+      if (spot.line > 0 && key.source().begin.line > 0) spot.line = key.source().begin.line;
       throw Error(std::move(spot), "unknown key; " + suggestion(key.str(), known));
     }
   }
@@ -128,23 +118,26 @@ Spot Section::spot_of(std::string_view key) const {
   return node ? casefile::spot_of(*node, path_of(key)) : spot();
 }
 
-std::optional<std::string> Section::text(std::string_view key) const {
+template <class T>
+std::optional<T> Section::exact(std::string_view key, const char* problem) const {
   const toml::node* node = find(key);
-  if (!node) {
-    return std::nullopt;
-  }
-  auto value = node->value_exact<std::string>();
-  if (!value) {
-    throw Error(spot_of(key), shown(*node) + " is not text; write it in quotes");
-  }
+  if (!node) return std::nullopt;
+  auto value = node->value_exact<T>();
+  if (!value) throw Error(spot_of(key), shown(*node) + problem);
   return value;
+}
+
+std::optional<std::string> Section::text(std::string_view key) const {
+  return exact<std::string>(key, " is not text; write it in quotes");
+}
+
+std::optional<bool> Section::boolean(std::string_view key) const {
+  return exact<bool>(key, " is neither true nor false");
 }
 
 std::optional<double> Section::number(std::string_view key) const {
   const toml::node* node = find(key);
-  if (!node) {
-    return std::nullopt;
-  }
+  if (!node) return std::nullopt;
   return number_of(*node, path_of(key),
                    node->is_string() ? "write a number without quotes" : "write a finite number");
 }
@@ -161,9 +154,7 @@ std::optional<double> Section::positive(std::string_view key) const {
 
 std::optional<std::string> Section::expression(std::string_view key) const {
   const toml::node* node = find(key);
-  if (!node || node->is_string()) {
-    return text(key);
-  }
+  if (!node || node->is_string()) return text(key);
   const double value =
       number_of(*node, path_of(key), "write a number, or an expression in x and y in quotes");
   std::array<char, 32> digits{};  // of the shortest text that reads back as the same number
@@ -174,13 +165,9 @@ std::optional<std::string> Section::expression(std::string_view key) const {
 std::vector<std::pair<std::string, double>> Section::numbers(std::string_view key,
                                                              std::string_view cure) const {
   const toml::node* node = find(key);
-  if (!node) {
-    return {};
-  }
+  if (!node) return {};
   const toml::table* table = node->as_table();
-  if (!table) {
-    throw Error(spot_of(key), shown(*node) + " is not a table; " + std::string(cure));
-  }
+  if (!table) throw Error(spot_of(key), shown(*node) + " is not a table; " + std::string(cure));
   std::vector<std::pair<std::string, double>> values;
   values.reserve(table->size());
   for (const auto& [name, entry] : *table) {
@@ -192,9 +179,7 @@ std::vector<std::pair<std::string, double>> Section::numbers(std::string_view ke
 
 std::optional<std::int32_t> Section::count(std::string_view key) const {
   const toml::node* node = find(key);
-  if (!node) {
-    return std::nullopt;
-  }
+  if (!node) return std::nullopt;
   constexpr std::int64_t largest = std::numeric_limits<std::int32_t>::max();
   const auto value = node->value_exact<std::int64_t>();
   if (!value || *value < 1 || *value > largest) {
@@ -204,24 +189,10 @@ std::optional<std::int32_t> Section::count(std::string_view key) const {
   return static_cast<std::int32_t>(*value);
 }
 
-std::optional<bool> Section::boolean(std::string_view key) const {
-  const toml::node* node = find(key);
-  if (!node) {
-    return std::nullopt;
-  }
-  const auto value = node->value_exact<bool>();
-  if (!value) {
-    throw Error(spot_of(key), shown(*node) + " is neither true nor false");
-  }
-  return value;
-}
-
 std::optional<Section> Section::section(std::string_view key,
                                         std::vector<std::string> known) const {
   const toml::node* node = find(key);
-  if (!node) {
-    return std::nullopt;
-  }
+  if (!node) return std::nullopt;
   const toml::table* table = node->as_table();
   if (!table) {
     throw Error(spot_of(key), shown(*node) + " is not a table; write [" + path_of(key) + "]");
@@ -232,14 +203,10 @@ std::optional<Section> Section::section(std::string_view key,
 std::vector<Section> Section::sections(std::string_view key,
                                        const std::vector<std::string>& known) const {
   const toml::node* node = find(key);
-  if (!node) {
-    return {};
-  }
+  if (!node) return {};
   const std::string cure = "; write [[" + path_of(key) + "]] above each of them";
   const toml::array* list = node->as_array();
-  if (!list) {
-    throw Error(spot_of(key), shown(*node) + " is not a list of tables" + cure);
-  }
+  if (!list) throw Error(spot_of(key), shown(*node) + " is not a list of tables" + cure);
   std::vector<Section> sections;
   sections.reserve(list->size());
   for (std::size_t i = 0; i < list->size(); ++i) {
@@ -257,9 +224,7 @@ std::vector<Section> Section::sections(std::string_view key,
 std::optional<std::size_t> Section::choice(std::string_view key,
                                            const std::vector<std::string>& choices) const {
   const std::optional<std::string> value = text(key);
-  if (!value) {
-    return std::nullopt;
-  }
+  if (!value) return std::nullopt;
   const auto found = std::find(choices.begin(), choices.end(), *value);
   if (found == choices.end()) {
     throw Error(spot_of(key),

@@ -19,10 +19,10 @@ namespace anticrack::casefile {
 
 using Point = std::array<double, 2>;
 
-/// Where a node was written; `key` is its path.
+/// Where a node was written. `key`: its path.
 Spot spot_of(const toml::node& node, std::string key);
 
-/// A value as it stands in the case, shortened, for error messages.
+/// A value as written in the case, shortened, for error messages.
 std::string shown(const toml::node& node);
 
 /// A finite number. Throws Error: "... is not a number; CURE".
@@ -43,8 +43,9 @@ class Section {
   /// Null where the key is absent.
   const toml::node* find(std::string_view key) const { return _table.get(key); }
   const toml::table& table() const { return _table; }
-  /// For messages: "load.force"; the place of the key's value, or of the table where it is absent.
+  /// For messages: "load.force".
   std::string path_of(std::string_view key) const;
+  /// Where the value of the key was written; of an absent key where the table begins.
   Spot spot_of(std::string_view key) const;
   /// Where the table itself begins.
   Spot spot() const { return casefile::spot_of(_table, _path); }
@@ -52,9 +53,9 @@ class Section {
   // Empty where the key is absent; Error where the value has another type.
   std::optional<std::string> text(std::string_view key) const;
   std::optional<double> number(std::string_view key) const;
-  /// A number above 0, where the API takes 0 for a default: that is said by leaving the key out.
+  /// A number above 0: in the API 0 stands for the default, which here is an absent key.
   std::optional<double> positive(std::string_view key) const;
-  /// An expression in quotes, or a number, which is one too.
+  /// An expression in quotes, or a number.
   std::optional<std::string> expression(std::string_view key) const;
   /// {name = number, ...}, in order of the names.
   std::vector<std::pair<std::string, double>> numbers(std::string_view key,
@@ -62,7 +63,7 @@ class Section {
   std::optional<std::int32_t> count(std::string_view key) const;
   std::optional<bool> boolean(std::string_view key) const;
   std::optional<Section> section(std::string_view key, std::vector<std::string> known) const;
-  /// The tables of [[path.key]], none where it is absent.
+  /// The tables of [[path.key]]; empty where it is absent.
   std::vector<Section> sections(std::string_view key, const std::vector<std::string>& known) const;
   /// One of `choices` by name; its index. Error names the nearest.
   std::optional<std::size_t> choice(std::string_view key,
@@ -73,6 +74,9 @@ class Section {
   const toml::node& need(std::string_view key, std::string_view cure) const;
 
  private:
+  template <class T>
+  std::optional<T> exact(std::string_view key, const char* problem) const;
+
   const toml::table& _table;
   std::string _path;
 };

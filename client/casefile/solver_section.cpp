@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "casefile/solver_section.hpp"
+#include "casefile/sections.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -25,20 +25,9 @@ void refuse_other_method(const Section& section, const Keys& keys, const std::st
   }
 }
 
-void set_spots(const Section& section, const Keys& keys, const std::string& field, Spots& spots) {
-  spots[field] = section.spot_of("method");
-  for (const std::string& key : keys) {
-    if (section.find(key)) {
-      spots[field + "." + key] = section.spot_of(key);
-    }
-  }
-}
-
 void read_step(const Section& section, v1::Uzawa& uzawa) {
   const toml::node* node = section.find("theta");
-  if (!node) {
-    return;
-  }
+  if (!node) return;
   if (node->value_exact<std::string>() == "auto") {
     uzawa.set_theta_auto(true);
   } else {
@@ -50,36 +39,24 @@ void read_step(const Section& section, v1::Uzawa& uzawa) {
 void read_uzawa(const Section& section, v1::Uzawa& uzawa, Spots& spots) {
   refuse_other_method(section, active_set_keys, "active-set");
   read_step(section, uzawa);
-  if (const auto epsilon = section.number("epsilon")) {
-    uzawa.set_epsilon(*epsilon);
-  }
-  if (const auto p = section.number("p")) {
-    uzawa.set_p(*p);
-  }
-  if (const auto limit = section.count("max_iterations")) {
-    uzawa.set_max_iterations(*limit);
-  }
+  if (const auto epsilon = section.number("epsilon")) uzawa.set_epsilon(*epsilon);
+  if (const auto p = section.number("p")) uzawa.set_p(*p);
+  if (const auto limit = section.count("max_iterations")) uzawa.set_max_iterations(*limit);
   if (const auto mass = section.choice("mass", {"lumped", "consistent"})) {
     uzawa.set_mass(*mass == 0 ? v1::MASS_LUMPED : v1::MASS_CONSISTENT);
   }
-  if (const auto tolerance = section.number("kkt_tolerance")) {
-    uzawa.set_kkt_tolerance(*tolerance);
-  }
-  set_spots(section, uzawa_keys, "solver.uzawa", spots);
-  if (uzawa.theta_auto()) {
-    spots["solver.uzawa.theta_auto"] = section.spot_of("theta");
-  }
+  if (const auto tolerance = section.number("kkt_tolerance")) uzawa.set_kkt_tolerance(*tolerance);
+  note(section, "solver.uzawa", spots);
+  spots["solver.uzawa"] = section.spot_of("method");
+  if (uzawa.theta_auto()) spots["solver.uzawa.theta_auto"] = section.spot_of("theta");
 }
 
 void read_active_set(const Section& section, v1::ActiveSet& active_set, Spots& spots) {
   refuse_other_method(section, uzawa_keys, "uzawa");
-  if (const auto tolerance = section.number("tolerance")) {
-    active_set.set_tolerance(*tolerance);
-  }
-  if (const auto limit = section.count("max_steps")) {
-    active_set.set_max_steps(*limit);
-  }
-  set_spots(section, active_set_keys, "solver.active_set", spots);
+  if (const auto tolerance = section.number("tolerance")) active_set.set_tolerance(*tolerance);
+  if (const auto limit = section.count("max_steps")) active_set.set_max_steps(*limit);
+  note(section, "solver.active_set", spots);
+  spots["solver.active_set"] = section.spot_of("method");
 }
 
 }  // namespace
@@ -91,12 +68,8 @@ v1::Solver read_solver(const Section& root, Spots& spots) {
     solver.mutable_active_set();
     return solver;
   }
-  spots["solver"] = section->spot();
-  const auto method = section->choice("method", {"active-set", "uzawa"});
-  if (method) {
-    spots["solver.method"] = section->spot_of("method");
-  }
-  if (method.value_or(0) == 0) {
+  note(*section, "solver", spots);
+  if (section->choice("method", {"active-set", "uzawa"}).value_or(0) == 0) {
     read_active_set(*section, *solver.mutable_active_set(), spots);
   } else {
     read_uzawa(*section, *solver.mutable_uzawa(), spots);

@@ -18,7 +18,7 @@ bool has_answer(const results::Load& load) {
   return load.status == results::Status::converged || load.status == results::Status::not_converged;
 }
 
-// Names of all inclusions, in order of appearance.
+// Names of all inclusions, each once.
 std::vector<std::string> inclusions_of(const std::vector<results::Load>& loads) {
   std::vector<std::string> names;
   for (const results::Load& load : loads) {
@@ -71,9 +71,7 @@ std::vector<std::string> remarks_on(const results::Load& load) {
                       (load.weakly_active == 1 ? " node just touches" : " nodes just touch") +
                       ": neither jump nor pressure");
   }
-  for (const std::string& warning : load.warnings) {
-    remarks.push_back("warning: " + warning);
-  }
+  for (const std::string& warning : load.warnings) remarks.push_back("warning: " + warning);
   return remarks;
 }
 
@@ -89,9 +87,7 @@ std::string answers_table(const std::vector<results::Load>& loads) {
     head.push_back(inclusions.size() == 1 ? "A" : "A " + sanitise(name));
   }
   head.insert(head.end(), {"energy", "contact length"});
-  if (by_uzawa) {
-    head.insert(head.end(), {"theta", "theta*"});
-  }
+  if (by_uzawa) head.insert(head.end(), {"theta", "theta*"});
   head.emplace_back("wall time");
   std::vector<std::string> units(head.size(), "-");
   units[0] = units[1] = "";
@@ -122,9 +118,7 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
       .value("factorize_seconds", result.timings.factorize_seconds)
       .value("solve_seconds", result.timings.solve_seconds)
       .value("total_seconds", result.timings.total_seconds);
-  if (result.sweep) {
-    add_sweep(*result.sweep, json);
-  }
+  if (result.sweep) add_sweep(*result.sweep, json);
   json.begin_array("answers");
   for (const results::Load& load : result.loads) {
     json.begin_object()
@@ -151,20 +145,14 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
           .value("contact_length", inclusion.contact_length)
           .end_object();
     }
-    json.end_array().begin_array("warnings");
-    for (const std::string& warning : load.warnings) {
-      json.element(warning);
-    }
-    json.end_array().end_object();
+    json.end_array().texts("warnings", load.warnings).end_object();
   }
   json.end_array().end_object();
   return json.text();
 }
 
 int exit_code_of(const results::Result& result) {
-  if (result.sweep) {
-    return exit_code_of(*result.sweep);
-  }
+  if (result.sweep) return exit_code_of(*result.sweep);
   const auto some = [&](auto... statuses) {
     return std::any_of(result.loads.begin(), result.loads.end(), [&](const results::Load& load) {
       return ((load.status == statuses) || ...);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/case_lines.hpp"
+#include "cli/live_view.hpp"
 
 #include <algorithm>
 #include <map>
-#include <string_view>
+#include <numeric>
+#include <utility>
 
 #include "cli/text.hpp"
 
@@ -13,10 +14,10 @@ namespace {
 constexpr std::size_t widest_name = 24;
 constexpr std::size_t narrowest_name = 8;
 
-/// What a line tells of a load case, the most first.
+/// What a line says about a load case, most detailed first.
 enum class Detail { labels, brief, criterion, status };
 
-/// How all lines of a frame are laid out, so that they stand in columns.
+/// The columns of all lines of a frame.
 struct Layout {
   Detail detail = Detail::status;
   std::size_t name_width = 0;
@@ -29,9 +30,7 @@ std::string numbers(const CaseProgress& progress, bool active_set, const Layout&
   const std::string iteration =
       pad_left(std::to_string(progress.iteration), layout.iteration_width);
   const std::string criterion = number(progress.criterion, 1, true);
-  if (layout.detail == Detail::criterion) {
-    return active_set ? "step " + iteration : criterion;
-  }
+  if (layout.detail == Detail::criterion) return active_set ? "step " + iteration : criterion;
   const std::string text = active_set ? "step " + iteration
                            : layout.detail == Detail::labels
                                ? "iteration " + iteration + "  criterion " + criterion
@@ -57,15 +56,15 @@ std::string case_line(const JobProgress& job, const CaseProgress& progress, cons
 
 std::size_t widest_line(const JobProgress& job, const std::vector<std::size_t>& shown,
                         const Layout& layout) {
+  constexpr std::size_t uncut = 1000;  // wider than any terminal
   std::size_t widest = 0;
   for (const std::size_t i : shown) {
-    // Wider than any terminal, so that nothing is cut.
-    widest = std::max(widest, columns_of(case_line(job, job.cases[i], layout, 1000)));
+    widest = std::max(widest, columns_of(case_line(job, job.cases[i], layout, uncut)));
   }
   return widest;
 }
 
-// With room for everything.
+// With room for all columns.
 Layout widest_layout(const JobProgress& job, const std::vector<std::size_t>& shown) {
   Layout layout;
   for (const std::size_t i : shown) {
@@ -75,16 +74,14 @@ Layout widest_layout(const JobProgress& job, const std::vector<std::size_t>& sho
         std::max(layout.iteration_width, std::to_string(progress.iteration).size());
   }
   layout.name_width = std::min(layout.name_width, widest_name);
-  // So that the columns do not move at the end.
+  // The columns do not move when load cases end.
   layout.status_width = word(results::Status::not_converged).size();
   return layout;
 }
 
 std::size_t widest_status(const JobProgress& job, const std::vector<std::size_t>& shown) {
   std::size_t widest = 0;
-  for (const std::size_t i : shown) {
-    widest = std::max(widest, word(job.cases[i].status).size());
-  }
+  for (const std::size_t i : shown) widest = std::max(widest, word(job.cases[i].status).size());
   return widest;
 }
 
@@ -118,11 +115,9 @@ Layout layout_of(const JobProgress& job, const std::vector<std::size_t>& shown, 
   return layout;
 }
 
-// Smaller is shown sooner.
+// Smaller ranks are shown first.
 std::size_t rank(const CaseProgress& progress, std::size_t ended_count) {
-  if (progress.status == results::Status::running) {
-    return 0;
-  }
+  if (progress.status == results::Status::running) return 0;
   constexpr std::size_t ended_shown = 3;
   if (progress.end_rank > 0) {
     const std::size_t age = ended_count - progress.end_rank;
@@ -133,14 +128,10 @@ std::size_t rank(const CaseProgress& progress, std::size_t ended_count) {
 
 std::vector<std::size_t> shown_cases(const JobProgress& progress, std::size_t count) {
   std::vector<std::size_t> order(progress.cases.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    order[i] = i;
-  }
+  std::iota(order.begin(), order.end(), std::size_t{0});
   if (order.size() > count) {
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return rank(progress.cases[a], progress.ended_count) <
-             rank(progress.cases[b], progress.ended_count);
-    });
+    std::ranges::stable_sort(
+        order, {}, [&](std::size_t i) { return rank(progress.cases[i], progress.ended_count); });
     order.resize(count);
     std::sort(order.begin(), order.end());
   }
@@ -150,21 +141,14 @@ std::vector<std::size_t> shown_cases(const JobProgress& progress, std::size_t co
 // "  and 38 more: 20 waiting, 18 converged".
 std::string others(const JobProgress& progress, const std::vector<std::size_t>& shown) {
   std::map<results::Status, std::size_t> counts;
-  for (const CaseProgress& load_case : progress.cases) {
-    ++counts[load_case.status];
-  }
-  for (const std::size_t i : shown) {
-    --counts[progress.cases[i].status];
-  }
+  for (const CaseProgress& load_case : progress.cases) ++counts[load_case.status];
+  for (const std::size_t i : shown) --counts[progress.cases[i].status];
   std::string text = "  and " + std::to_string(progress.cases.size() - shown.size()) + " more";
-  std::string_view separator = ": ";
+  const char* separator = ": ";
   for (const auto& [status, count] : counts) {
-    if (count > 0) {
-      text += separator;
-      text += std::to_string(count) + " ";
-      text += word(status);
-      separator = ", ";
-    }
+    if (count == 0) continue;
+    text +=
+        std::exchange(separator, ", ") + std::to_string(count) + " " + std::string(word(status));
   }
   return text;
 }
@@ -189,9 +173,7 @@ std::vector<std::string> case_lines(const JobProgress& progress, std::size_t wid
   for (const std::size_t i : shown) {
     lines.push_back(case_line(progress, progress.cases[i], layout, width));
   }
-  if (!all) {
-    lines.push_back(fit(others(progress, shown), width));
-  }
+  if (!all) lines.push_back(fit(others(progress, shown), width));
   return lines;
 }
 

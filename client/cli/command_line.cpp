@@ -9,7 +9,6 @@
 #include "cli/connection_flags.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/report.hpp"
-#include "cli/usage_text.hpp"
 
 namespace anticrack::cli {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The commands, one file per group. Each adds its subcommands to the parser and, when one of them
-// is meant, leaves in `chosen` what to do.
+// The commands, one file per group, and the command line they make up.
 #pragma once
 
 #include <functional>
@@ -12,14 +11,15 @@
 
 namespace CLI {
 class App;
-}
+class ParseError;
+}  // namespace CLI
 
 namespace anticrack::cli {
 
 using Command = std::function<int()>;
 
-/// Each adds a command with its options to `app`; parsed, it puts what is to be done into `chosen`,
-/// which returns the exit code.
+/// Each adds commands with their options to `app`. When one is parsed, it leaves its action, which
+/// returns the exit code, in `chosen`.
 void add_run(CLI::App& app, const Globals& globals, Command& chosen);
 void add_sweep(CLI::App& app, const Globals& globals, Command& chosen);
 void add_mesh(CLI::App& app, const Globals& globals, Command& chosen);
@@ -31,5 +31,10 @@ void add_guide(CLI::App& app, const Globals& globals, Command& chosen);
 
 /// The whole command line: parses, runs, returns the exit code.
 int run_command_line(int argc, char** argv);
+
+/// One sentence about a command line (without the program's name) that `app` rejected with `error`:
+/// the command, the bad word and the cure.
+std::string usage_text(CLI::App& app, const CLI::ParseError& error,
+                       const std::vector<std::string>& words);
 
 }  // namespace anticrack::cli

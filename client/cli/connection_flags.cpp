@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "casefile/duration.hpp"
-#include "cli/server_address.hpp"
 #include "guide/shells.hpp"
 
 namespace anticrack::cli {
@@ -62,9 +61,7 @@ client::ConnectionOptions connection_options(const ConnectionFlags& flags,
     options.address = flags.server;
   }
   client::CredentialFiles files = flags.credentials;
-  if (const char* token = std::getenv("ANTICRACK_TOKEN")) {
-    files.token_text = token;
-  }
+  if (const char* token = std::getenv("ANTICRACK_TOKEN")) files.token_text = token;
   options.credentials = client::read_credentials(files, options.address);
   if (flags.retry_for) {
     options.retry.patience = *flags.retry_for;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which server, by what it is known, who asks, and for how long a lost one is waited for: the
-// options of every command that talks to a server.
+// The options of every command that talks to a server: address, credentials, retries.
 #pragma once
 
 #include <chrono>
@@ -25,14 +24,18 @@ struct ConnectionFlags {
   std::optional<std::chrono::milliseconds> retry_for;
 };
 
-/// The flags, and the variables of the environment that stand in for them.
+/// The flags, and the environment variables that replace them.
 void add_connection_flags(CLI::App& app, ConnectionFlags& flags);
 
 /// Reads the files. `notice` as in ConnectionOptions. Throws client::Error.
 client::ConnectionOptions connection_options(const ConnectionFlags& flags,
                                              std::function<void(const std::string&)> notice);
 
-/// The flags again, to be put at the end of a shell's command line; empty where none was given.
+/// The flags as given, for the end of a command line; may be empty.
 std::string as_flags(const ConnectionFlags& flags);
+
+/// Throws UsageError unless the address is HOST:PORT or has a scheme of gRPC, as unix:PATH: gRPC
+/// would silently use another port.
+void check_server_address(const std::string& address);
 
 }  // namespace anticrack::cli

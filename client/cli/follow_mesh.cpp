@@ -20,9 +20,7 @@ using std::chrono::steady_clock;
 class MeshView {
  public:
   explicit MeshView(Session& session) : _session(session) {
-    if (!shows_frames(session.globals())) {
-      return;
-    }
+    if (!shows_frames(session.globals())) return;
     _frames = std::make_unique<Frames>(session, [this](Size size) { return frame_now(size); });
     session.tell([this](const std::string& message) {
       const std::lock_guard lock(_mutex);
@@ -52,17 +50,11 @@ class MeshView {
   // The end is told by who asked for the mesh.
   std::vector<std::string> frame_now(Size size) {
     const std::lock_guard lock(_mutex);
-    if (_text.empty()) {
-      return {};
-    }
+    if (_text.empty()) return {};
     const std::chrono::duration<double> elapsed = steady_clock::now() - _begin;
     std::vector<std::string> lines{_text + ", " + time_text(std::floor(elapsed.count()))};
-    if (!_notice.empty()) {
-      lines.push_back("  " + _notice);
-    }
-    for (std::string& line : lines) {
-      line = fit(line, size.width - 1);
-    }
+    if (!_notice.empty()) lines.push_back("  " + _notice);
+    for (std::string& line : lines) line = fit(line, size.width - 1);
     return lines;
   }
 

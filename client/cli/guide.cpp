@@ -16,7 +16,7 @@
 #include "cli/session.hpp"
 #include "guide/completion.hpp"
 #include "guide/manual.hpp"
-#include "results/make_folder.hpp"
+#include "results/replace_file.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -34,12 +34,9 @@ int write_manual(const CLI::App& app, const std::filesystem::path& folder, const
     }
   }
   if (globals.json) {
-    JsonWriter json;
-    json.begin_object().begin_array("files");
-    for (const guide::Page& page : pages) {
-      json.element((folder / page.file).string());
-    }
-    print_document(json.end_array().end_object().text());
+    std::vector<std::string> files;
+    for (const guide::Page& page : pages) files.push_back((folder / page.file).string());
+    print_document(JsonWriter().begin_object().texts("files", files).end_object().text());
   } else {
     say(globals, std::to_string(pages.size()) + " pages in " + folder.string());
   }
@@ -74,8 +71,8 @@ void add_guide(CLI::App& app, const Globals& globals, Command& chosen) {
   add("fish", Shell::fish, "anticrack completion fish | source");
 
   const auto folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("manual", "Write the manual pages, one a command");
-  command->add_option("DIR", *folder, "Folder for them, made if it is not there")
+  CLI::App* command = app.add_subcommand("manual", "Write the manual pages, one per command");
+  command->add_option("DIR", *folder, "Folder for the pages, created if missing")
       ->required()
       ->type_name("DIR");
   command->footer("Example:\n  anticrack manual man1 && man -l man1/anticrack-run.1");

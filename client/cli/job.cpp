@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 //   anticrack job submit | list | show | watch | cancel | fetch | delete
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <memory>
 
 #include "cli/answers.hpp"
-#include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/follow.hpp"
 #include "cli/job_text.hpp"
 #include "cli/json.hpp"
+#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/resource_names.hpp"
 #include "cli/submit.hpp"
@@ -46,7 +44,7 @@ int submit_case(const JobOptions& options, const Globals& globals) {
   return exit_ok;
 }
 
-// "3/4": of the load cases of a job, or of the rows of a sweep.
+// "3/4": load cases, or rows of a sweep, that have ended.
 std::string ended_text(const v1::Job& job) {
   if (job.has_sweep()) {
     const v1::SweepAnswer& sweep = job.sweep_answer();
@@ -76,13 +74,11 @@ int list_jobs(const JobOptions& options, const Globals& globals) {
                     sanitise(job.title())});
   }
   print_document(table(rows, {1, 2, 4, 5}));
-  if (!response.next_page_token().empty()) {
-    say(globals, "There are more; see --limit");
-  }
+  if (!response.next_page_token().empty()) say(globals, "There are more; see --limit");
   return exit_ok;
 }
 
-// As exit_code_of a result, from a job's own answers.
+// As exit_code_of(Result), from the answers of the job.
 int exit_code_of_answers(const v1::Job& job) {
   const bool all_converged =
       job.has_sweep()
@@ -95,8 +91,27 @@ int exit_code_of_answers(const v1::Job& job) {
 }
 
 v1::Job get_job(Session& session, const std::string& name) {
-  return about(session, Collection::jobs, name,
-               [&] { return client::get_job(session.connection(), name, session.stop()); });
+  return call_about(session, Collection::jobs, name, client::get_job);
+}
+
+int show(const JobOptions& options, const Globals& globals) {
+  const std::string name = options.full();
+  Session session(globals);
+  return show_job(globals, get_job(session, name));
+}
+
+int cancel(const JobOptions& options, const Globals& globals) {
+  const std::string name = options.full();
+  Session session(globals);
+  return show_job(globals, call_about(session, Collection::jobs, name, client::cancel_job));
+}
+
+int remove(const JobOptions& options, const Globals& globals) {
+  const std::string name = options.full();
+  Session session(globals);
+  call_about(session, Collection::jobs, name, client::delete_job);
+  tell_deleted(globals, name);
+  return exit_ok;
 }
 
 int watch_job(const JobOptions& options, const Globals& globals) {
@@ -105,9 +120,7 @@ int watch_job(const JobOptions& options, const Globals& globals) {
   const v1::Job job = get_job(session, name);
   const Followed followed = follow(session, job);
   if (followed.how == Followed::How::detached) {
-    if (globals.json) {
-      print_document(to_json(followed.job));
-    }
+    if (globals.json) print_document(to_json(followed.job));
     return exit_interrupted;
   }
   return show_job(globals, followed.job,
@@ -140,70 +153,36 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
   group->require_subcommand(1);
   const auto options = std::make_shared<JobOptions>();
   const auto add = [&](const std::string& name, const std::string& help, const std::string& example,
-                       const std::function<int(const JobOptions&)>& action) {
+                       int (*action)(const JobOptions&, const Globals&)) {
     CLI::App* command = group->add_subcommand(name, help);
     command->footer("Example:\n  anticrack job " + name + " " + example);
-    command->callback(
-        [options, action, &chosen] { chosen = [options, action] { return action(*options); }; });
+    on(*command, options, globals, chosen, action);
     return command;
   };
   const auto add_named = [&](const std::string& name, const std::string& help,
                              const std::string& example,
-                             const std::function<int(const JobOptions&)>& action) {
+                             int (*action)(const JobOptions&, const Globals&)) {
     CLI::App* command = add(name, help, "jobs/0123456789abcdef" + example, action);
     command->add_option("JOB", options->name, "jobs/ID")->required();
     return command;
   };
-
   CLI::App* submit_command =
-      add("submit", "Submit a case and return at once", "paper.toml",
-          [&globals](const JobOptions& o) { return submit_case(o, globals); });
-  submit_command->add_option("CASE", options->case_file, "The case, a TOML file")
-      ->required()
-      ->type_name("FILE");
+      add("submit", "Submit a case and return at once", "paper.toml", submit_case);
+  add_case(*submit_command, options->case_file);
   add_case_flags(*submit_command, options->overrides);
-
-  CLI::App* list_command = add("list", "List the newest jobs", "--limit 10",
-                               [&globals](const JobOptions& o) { return list_jobs(o, globals); });
-  list_command->add_option("--limit", options->limit, "At most so many, from 1 to 1000")
-      ->check(CLI::Range(1, 1000).description(""))
-      ->type_name("COUNT")
-      ->capture_default_str();
-
-  add_named("show", "Show a job", "", [&globals](const JobOptions& o) {
-    const std::string name = o.full();
-    Session session(globals);
-    return show_job(globals, get_job(session, name));
-  });
-  add_named("watch", "Watch a job until it ends", "",
-            [&globals](const JobOptions& o) { return watch_job(o, globals); })
+  add_limit(*add("list", "List the newest jobs", "--limit 10", list_jobs), options->limit);
+  add_named("show", "Show a job", "", show);
+  add_named("watch", "Watch a job until it ends", "", watch_job)
       ->footer(
           "Ctrl-C detaches and prints the command that attaches again; a second Ctrl-C within two\n"
-          "seconds cancels the job. Either exits with 130.\n\n"
+          "seconds cancels the job. The exit code is then 130.\n\n"
           "Example:\n  anticrack job watch jobs/0123456789abcdef");
-  add_named("cancel", "Cancel a job", "", [&globals](const JobOptions& o) {
-    const std::string name = o.full();
-    Session session(globals);
-    return show_job(globals, about(session, Collection::jobs, name, [&] {
-                      return client::cancel_job(session.connection(), name, session.stop());
-                    }));
-  });
-  CLI::App* fetch_command =
-      add_named("fetch", "Save the results of a job that has ended", " -o plate.h5",
-                [&globals](const JobOptions& o) { return fetch_result(o, globals); });
-  fetch_command
+  add_named("cancel", "Cancel a job", "", cancel);
+  add_named("fetch", "Save the results of a job that has ended", " -o plate.h5", fetch_result)
       ->add_option("-o,--output", options->output,
                    "Result file, HDF5 (default: ID.h5 in this folder)")
       ->type_name("FILE");
-  add_named("delete", "Delete a job that has ended, and its results", "",
-            [&globals](const JobOptions& o) {
-              const std::string name = o.full();
-              Session session(globals);
-              about(session, Collection::jobs, name,
-                    [&] { client::delete_job(session.connection(), name, session.stop()); });
-              tell_deleted(globals, name);
-              return exit_ok;
-            });
+  add_named("delete", "Delete a job that has ended, and its results", "", remove);
 }
 
 }  // namespace anticrack::cli

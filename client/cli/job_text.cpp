@@ -20,9 +20,7 @@ using google::protobuf::util::TimeUtil;
 std::string circumstances(const v1::Job& job) {
   constexpr std::array<std::string_view, 4> priorities{"normal", "interactive", "normal", "bulk"};
   std::string text = "priority " + std::string(word_of(priorities, job.priority()));
-  if (!job.owner().empty()) {
-    text += ", of " + sanitise(job.owner());
-  }
+  if (!job.owner().empty()) text += ", of " + sanitise(job.owner());
   if (job.attempt() > 1) {
     text += ", attempt " + std::to_string(job.attempt()) + ": the server stopped while it ran";
   }
@@ -55,9 +53,7 @@ std::string sweep_answer(const v1::Job& job) {
 
 // Seconds since it was created: what a person wants to know is what took how long.
 std::string timeline(const v1::Job& job) {
-  if (job.timeline().empty()) {
-    return "";
-  }
+  if (job.timeline().empty()) return "";
   const auto& begin = job.has_create_time() ? job.create_time() : job.timeline(0).time();
   const bool again = job.timeline(job.timeline_size() - 1).attempt() > 1;
   std::vector<std::vector<std::string>> rows{{"seconds", "state"}};
@@ -82,15 +78,9 @@ std::string expired_text(const v1::Job& job) {
 std::string job_text(const v1::Job& job) {
   std::string text = sanitise(job.name()) + " on " + sanitise(job.mesh()) + ": " +
                      std::string(word(job.state())) + "\n";
-  if (!job.title().empty()) {
-    text += sanitise(job.title()) + "\n";
-  }
-  if (job.has_error()) {
-    text += sanitise(job.error().message()) + "\n";
-  }
-  if (job.state() == v1::Job::STATE_EXPIRED) {
-    text += expired_text(job) + "\n";
-  }
+  if (!job.title().empty()) text += sanitise(job.title()) + "\n";
+  if (job.has_error()) text += sanitise(job.error().message()) + "\n";
+  if (job.state() == v1::Job::STATE_EXPIRED) text += expired_text(job) + "\n";
   return text + circumstances(job) + "\n" +
          (job.has_sweep() ? sweep_answer(job) : answers_table(to_loads(job))) + timeline(job);
 }

@@ -20,17 +20,13 @@ namespace {
 std::string json_string(std::string_view text) {
   std::string result = "\"";
   while (true) {
-    // sanitise() leaves valid UTF-8 without control characters: only these two need escaping.
+    // After sanitise() only these two need escaping.
     const std::size_t end = text.find_first_of("\n\t");
     for (const char c : sanitise(text.substr(0, end))) {
-      if (c == '"' || c == '\\') {
-        result += '\\';
-      }
+      if (c == '"' || c == '\\') result += '\\';
       result += c;
     }
-    if (end == std::string_view::npos) {
-      return result + "\"";
-    }
+    if (end == std::string_view::npos) return result + "\"";
     result += text[end] == '\n' ? "\\n" : "\\t";
     text.remove_prefix(end + 1);
   }
@@ -38,7 +34,7 @@ std::string json_string(std::string_view text) {
 
 constexpr const char* type_prefix = "type.googleapis.com";
 
-/// Our messages, and the details of errors, which carry the type names of google.rpc but are ours.
+/// Types of our messages, and of error details, which have the type names of google.rpc.
 class Types : public google::protobuf::util::TypeResolver {
  public:
   using Status = google::protobuf::util::Status;
@@ -50,7 +46,7 @@ class Types : public google::protobuf::util::TypeResolver {
         detail ? std::string(type_prefix) + "/anticrack.v1." + url.substr(rpc.size()) : url;
     const Status status = _known->ResolveMessageType(ours, type);
     if (!status.ok() && detail) {
-      // A detail that a newer server sends: its name is shown, and nothing of it.
+      // An unknown detail of a newer server: only its name is shown.
       type->Clear();
       type->set_name(url.substr(url.rfind('/') + 1));
       return {};
@@ -70,18 +66,24 @@ class Types : public google::protobuf::util::TypeResolver {
 
 }  // namespace
 
-void JsonWriter::open(std::string_view key) {
+void JsonWriter::item(std::string_view key) {
   if (_depth > 0) {
     _text += _first ? "\n" : ",\n";
     _text.append(2 * _depth, ' ');
   }
   _first = false;
-  if (!key.empty()) {
-    _text += json_string(key) + ": ";
-  }
+  if (!key.empty()) _text += json_string(key) + ": ";
 }
 
-void JsonWriter::close(char bracket) {
+JsonWriter& JsonWriter::open(std::string_view key, char bracket) {
+  item(key);
+  _text += bracket;
+  ++_depth;
+  _first = true;
+  return *this;
+}
+
+JsonWriter& JsonWriter::close(char bracket) {
   --_depth;
   if (!_first) {
     _text += '\n';
@@ -89,42 +91,17 @@ void JsonWriter::close(char bracket) {
   }
   _text += bracket;
   _first = false;
-}
-
-JsonWriter& JsonWriter::begin_object(std::string_view key) {
-  open(key);
-  _text += '{';
-  ++_depth;
-  _first = true;
-  return *this;
-}
-
-JsonWriter& JsonWriter::end_object() {
-  close('}');
-  return *this;
-}
-
-JsonWriter& JsonWriter::begin_array(std::string_view key) {
-  open(key);
-  _text += '[';
-  ++_depth;
-  _first = true;
-  return *this;
-}
-
-JsonWriter& JsonWriter::end_array() {
-  close(']');
   return *this;
 }
 
 JsonWriter& JsonWriter::value(std::string_view key, std::string_view text) {
-  open(key);
+  item(key);
   _text += json_string(text);
   return *this;
 }
 
 JsonWriter& JsonWriter::value(std::string_view key, double number) {
-  open(key);
+  item(key);
   if (!std::isfinite(number)) {
     _text += "null";
     return *this;
@@ -136,15 +113,19 @@ JsonWriter& JsonWriter::value(std::string_view key, double number) {
 }
 
 JsonWriter& JsonWriter::value(std::string_view key, std::int64_t number) {
-  open(key);
+  item(key);
   _text += std::to_string(number);
   return *this;
 }
 
 JsonWriter& JsonWriter::element(std::string_view text) {
-  open({});
-  _text += json_string(text);
-  return *this;
+  return value({}, text);
+}
+
+JsonWriter& JsonWriter::texts(std::string_view key, const std::vector<std::string>& texts) {
+  begin_array(key);
+  for (const std::string& text : texts) element(text);
+  return end_array();
 }
 
 std::string to_json(const google::protobuf::Message& message) {
@@ -161,9 +142,7 @@ std::string to_json(const google::protobuf::Message& message) {
     throw std::runtime_error("cannot write " + message.GetTypeName() +
                              " as JSON: " + std::string(status.message()));
   }
-  while (!text.empty() && text.back() == '\n') {
-    text.pop_back();
-  }
+  while (!text.empty() && text.back() == '\n') text.pop_back();
   return text;
 }
 

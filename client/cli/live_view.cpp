@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "cli/case_lines.hpp"
 #include "cli/text.hpp"
 #include "client/jobs.hpp"
 
@@ -21,7 +20,7 @@ std::string rows_of(const SweepProgress& sweep) {
          (sweep.total > 0 ? " of " + std::to_string(sweep.total) : std::string()) + " rows";
 }
 
-// "  10300 rows/s  5 s left  3 not converged"; what is not known is left out.
+// "  10300 rows/s  5 s left  3 not converged", without the unknown parts.
 std::string pace_of(const SweepProgress& sweep) {
   std::string text;
   if (std::isfinite(sweep.rate())) {
@@ -37,9 +36,7 @@ std::string pace_of(const SweepProgress& sweep) {
   if (sweep.not_converged() > 0) {
     text += "  " + std::to_string(sweep.not_converged()) + " not converged";
   }
-  if (sweep.failed() > 0) {
-    text += "  " + std::to_string(sweep.failed()) + " failed";
-  }
+  if (sweep.failed() > 0) text += "  " + std::to_string(sweep.failed()) + " failed";
   return text;
 }
 
@@ -54,16 +51,14 @@ std::string state_of(const JobProgress& progress) {
          (progress.detail.empty() ? "" : " (" + progress.detail + ")");
 }
 
-// Whole seconds as long as they run, else the text would flicker.
+// Whole seconds while the job runs, else the text would flicker.
 std::string elapsed_of(const JobProgress& progress) {
-  if (!std::isfinite(progress.elapsed)) {
-    return "";
-  }
+  if (!std::isfinite(progress.elapsed)) return "";
   return ", " +
          time_text(client::ended(progress.state) ? progress.elapsed : std::floor(progress.elapsed));
 }
 
-// In a narrow terminal the name of the job goes first: it was told before.
+// A narrow terminal drops the name of the job first: it was printed before.
 std::string head_of(const JobProgress& progress, std::size_t width) {
   const std::string name = (progress.job.empty() ? "job" : progress.job) + ": ";
   const std::string state = state_of(progress) + elapsed_of(progress);
@@ -77,23 +72,17 @@ std::string head_of(const JobProgress& progress, std::size_t width) {
     done = ended_cases + " of " + count + " load cases ended";
     short_done = ended_cases + "/" + count + " ended";
   }
-  std::string text;
-  for (const std::string& candidate : {name + state + done, state + done, state + short_done}) {
-    text = candidate;
-    if (columns_of(text) <= width) {
-      break;
-    }
+  for (const std::string& text : {name + state + done, state + done}) {
+    if (columns_of(text) <= width) return text;
   }
-  return fit(text, width);
+  return fit(state + short_done, width);
 }
 
 // A narrow terminal has no room for the bar.
 std::string sweep_line(const SweepProgress& sweep, std::size_t width) {
   const std::string pace = pace_of(sweep);
   const std::size_t used = columns_of(pace);
-  if (sweep.total == 0 || used + bar_room > width) {
-    return fit(pace, width);
-  }
+  if (sweep.total == 0 || used + bar_room > width) return fit(pace, width);
   return bar(fraction_of(sweep), width - used) + pace;
 }
 
@@ -102,7 +91,7 @@ std::string count_of(std::int32_t iterations, bool active_set) {
          (iterations == 1 ? "" : "s");
 }
 
-// The active set has none: it ends when nothing changes any more.
+// Not for the active set, which ends when nothing changes any more.
 std::string criterion_of(const CaseProgress& progress, bool active_set) {
   return active_set ? "" : ", criterion " + number(progress.criterion, 2, true);
 }
@@ -110,28 +99,24 @@ std::string criterion_of(const CaseProgress& progress, bool active_set) {
 }  // namespace
 
 std::vector<std::string> frame(const JobProgress& progress, std::size_t width, std::size_t height) {
-  // The last column stays empty: a terminal may wrap when it is written.
+  // The last column stays empty: writing it may wrap the line.
   const std::size_t room = std::max<std::size_t>(width, 2) - 1;
   std::vector<std::string> lines{head_of(progress, room)};
   for (const std::string& message : {progress.notice, progress.prompt}) {
-    if (!message.empty() && lines.size() < height) {
-      lines.push_back(fit("  " + message, room));
-    }
+    if (!message.empty() && lines.size() < height) lines.push_back(fit("  " + message, room));
   }
   if (progress.sweep) {
     lines.push_back(sweep_line(*progress.sweep, room));
     return lines;
   }
   const std::size_t left = std::max<std::size_t>(height, lines.size() + 2) - lines.size();
-  for (std::string& line : case_lines(progress, room, left)) {
-    lines.push_back(std::move(line));
-  }
+  std::ranges::move(case_lines(progress, room, left), std::back_inserter(lines));
   return lines;
 }
 
 void PlainLog::add_sweep_line(const SweepProgress& sweep, std::vector<std::string>& lines) {
   constexpr std::uint64_t first = 1000;
-  // Ten lines of a sweep; where its end is not known, one each time there are twice as many rows.
+  // Ten lines per sweep; if its size is unknown, a line whenever the rows have doubled.
   const std::uint64_t due = sweep.total > 0 ? _rows + std::max<std::uint64_t>(sweep.total / 10, 1)
                                             : std::max(2 * _rows, first);
   const bool finished = sweep.total > 0 && sweep.done() >= sweep.total && _rows < sweep.total;
@@ -144,27 +129,21 @@ void PlainLog::add_sweep_line(const SweepProgress& sweep, std::vector<std::strin
 std::vector<std::string> PlainLog::lines(const JobProgress& progress) {
   std::vector<std::string> lines;
   std::string head = progress.job + ": " + state_of(progress);
-  if (!progress.notice.empty()) {
-    head += "; " + progress.notice;
-  }
+  if (!progress.notice.empty()) head += "; " + progress.notice;
   if (head != _head) {
     lines.push_back(head);
     _head = std::move(head);
   }
   if (progress.prompt != _prompt) {
     _prompt = progress.prompt;
-    if (!_prompt.empty()) {
-      lines.push_back(_prompt);
-    }
+    if (!_prompt.empty()) lines.push_back(_prompt);
   }
   if (progress.attempt != _attempt) {
-    _cases.clear();  // the iterations begin anew
+    _cases.clear();  // the iterations start again
     _rows = 0;
     _attempt = progress.attempt;
   }
-  if (progress.sweep) {
-    add_sweep_line(*progress.sweep, lines);
-  }
+  if (progress.sweep) add_sweep_line(*progress.sweep, lines);
   _cases.resize(progress.cases.size());
   for (std::size_t i = 0; i < _cases.size(); ++i) {
     const CaseProgress& now = progress.cases[i];
@@ -178,9 +157,7 @@ std::vector<std::string> PlainLog::lines(const JobProgress& progress) {
                                  criterion_of(now, progress.active_set)) +
                       (now.remark.empty() ? "" : "; " + now.remark));
     } else if (!ended(now.status) && now.iteration >= seen.due) {
-      while (seen.due <= now.iteration) {
-        seen.due *= 2;
-      }
+      while (seen.due <= now.iteration) seen.due *= 2;
       lines.push_back(now.name + (progress.active_set ? ": step " : ": iteration ") +
                       std::to_string(now.iteration) + criterion_of(now, progress.active_set) +
                       ", " + std::to_string(now.contact_count) + " nodes in contact");

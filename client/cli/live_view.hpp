@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A job's progress as text: frames for a terminal, lines for a pipe. Pure functions of the
-// progress.
+// A job's progress as text: frames for a terminal, lines for a pipe. Pure.
 #pragma once
 
 #include <cstddef>
@@ -12,20 +11,18 @@
 
 namespace anticrack::cli {
 
-/// At most `height` lines (three, if that is more) of fewer than `width` columns each: a head line,
-/// a line each for what is wrong and for what Ctrl-C has brought about, then one line per load
-/// case. With more load cases than lines: those running, the last ones that ended, the next ones,
-/// in their order in the job, and a last line that counts the others. Of a sweep one line: a bar,
-/// rows a second, time left, rows that did not converge. What does not fit is left out in an order
-/// that keeps state, progress and criterion longest.
+/// At most max(`height`, 3) lines of fewer than `width` columns: a head line, lines for a notice
+/// and for the effect of Ctrl-C, then one line per load case. If they do not fit: those running,
+/// the last ones that ended and the next ones, in the order of the job, and a line that counts the
+/// others. For a sweep one line: bar, rows per second, time left, rows that did not converge.
+/// Narrow terminals keep state, progress and criterion longest.
 std::vector<std::string> frame(const JobProgress& progress, std::size_t width, std::size_t height);
 
-/// What a pipe is told: changes of state, ends of load cases, and iterations 50, 100, 200, ...,
-/// each time twice as many, so that a long iteration does not fill a log; of a sweep each tenth of
-/// its rows.
+/// Lines for a pipe: changes of state, ends of load cases, iterations 50, 100, 200, ... (doubling,
+/// so that a long iteration does not fill a log), and every tenth of a sweep.
 class PlainLog {
  public:
-  /// Lines for what has changed since the last call.
+  /// What has changed since the last call.
   std::vector<std::string> lines(const JobProgress& progress);
 
   static constexpr std::int64_t first_told = 50;
@@ -33,7 +30,7 @@ class PlainLog {
  private:
   struct Seen {
     results::Status status = results::Status::pending;
-    std::int64_t due = first_told;  ///< iterations that are told of next
+    std::int64_t due = first_told;  ///< next iteration to print
   };
   void add_sweep_line(const SweepProgress& sweep, std::vector<std::string>& lines);
 
@@ -41,7 +38,15 @@ class PlainLog {
   std::string _prompt;
   std::int32_t _attempt = 0;
   std::vector<Seen> _cases;
-  std::uint64_t _rows = 0;  // told of a sweep
+  std::uint64_t _rows = 0;  // printed last
 };
+
+/// At most `height` lines, at least 1, of at most `width` columns; see frame.
+std::vector<std::string> case_lines(const JobProgress& progress, std::size_t width,
+                                    std::size_t height);
+
+inline constexpr std::size_t bar_room = 12;  ///< fewest columns of a bar
+/// "  [####----]", `fraction` of it full, in at most `room` columns, at least bar_room.
+std::string bar(double fraction, std::size_t room);
 
 }  // namespace anticrack::cli

@@ -13,7 +13,9 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <deque>
 #include <fstream>
+#include <numeric>
 #include <sstream>
 #include <thread>
 #include <vector>
@@ -42,21 +44,19 @@ fs::path make_folder() {
   return pattern;
 }
 
-// Between fork and exec: only calls that are safe in a signal handler.
+// Between fork and exec: async-signal-safe calls only.
 [[noreturn]] void become(const char* const* arguments, int output, int log, pid_t parent) {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   signal(SIGPIPE, SIG_DFL);
-  // Ctrl-C in the terminal is for the client, which then stops the server.
+  // Ctrl-C goes to the client only, which then stops the server.
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   const int null = open("/dev/null", O_RDONLY);
   const bool ready = getppid() == parent && null >= 0 && dup2(null, 0) == 0 &&
                      dup2(output, 1) == 1 && dup2(log, 2) == 2;
-  if (ready) {
-    execv(arguments[0], const_cast<char* const*>(arguments));
-  }
+  if (ready) execv(arguments[0], const_cast<char* const*>(arguments));
   _exit(127);
 }
 
@@ -118,14 +118,10 @@ void LocalServer::start(const fs::path& program) {
   const int log = open((_folder / "log").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
   const pid_t parent = getpid();
   _process = log < 0 ? -1 : fork();
-  if (_process == 0) {
-    become(arguments.data(), pipe_ends[1], log, parent);
-  }
+  if (_process == 0) become(arguments.data(), pipe_ends[1], log, parent);
   const int cause = errno;
   close(pipe_ends[1]);
-  if (log >= 0) {
-    close(log);
-  }
+  if (log >= 0) close(log);
   if (_process < 0) {
     throw LocalServerError("cannot start " + program.string() + ": " + std::strerror(cause));
   }
@@ -136,22 +132,16 @@ void LocalServer::wait_until_ready(const std::stop_token& stop) {
   const auto limit = steady_clock::now() + start_limit;
   std::string said;
   while (said.find('\n') == std::string::npos) {
-    if (stop.stop_requested()) {
-      throw client::Interrupted();
-    }
+    if (stop.stop_requested()) throw client::Interrupted();
     if (steady_clock::now() > limit) {
       throw LocalServerError("anticrackd did not get ready within " +
                              std::to_string(start_limit.count() / 1000) + " s" + last_words());
     }
     pollfd waiting{_output, POLLIN, 0};
-    if (poll(&waiting, 1, poll_milliseconds) <= 0) {
-      continue;
-    }
+    if (poll(&waiting, 1, poll_milliseconds) <= 0) continue;
     std::array<char, 512> buffer{};
     const ssize_t count = read(_output, buffer.data(), buffer.size());
-    if (count <= 0) {
-      throw LocalServerError("anticrackd ended before it was ready" + last_words());
-    }
+    if (count <= 0) throw LocalServerError("anticrackd ended before it was ready" + last_words());
     said.append(buffer.data(), static_cast<std::size_t>(count));
   }
 }
@@ -179,18 +169,12 @@ void LocalServer::stop_process() noexcept {
 std::string LocalServer::last_words() const {
   constexpr std::size_t kept_lines = 5;
   std::ifstream log(_folder / "log");
-  std::vector<std::string> lines;
+  std::deque<std::string> lines;
   for (std::string line; std::getline(log, line);) {
-    lines.push_back(sanitise(line));
-    if (lines.size() > kept_lines) {
-      lines.erase(lines.begin());
-    }
+    lines.push_back("\n  " + sanitise(line));
+    if (lines.size() > kept_lines) lines.pop_front();
   }
-  std::string text = lines.empty() ? "" : ":";
-  for (const std::string& line : lines) {
-    text += "\n  " + line;
-  }
-  return text;
+  return std::accumulate(lines.begin(), lines.end(), std::string(lines.empty() ? "" : ":"));
 }
 
 }  // namespace anticrack::cli

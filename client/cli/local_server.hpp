@@ -18,12 +18,12 @@ class LocalServerError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Starts anticrackd, found beside this executable or on PATH, on a unix socket in a new temporary
-/// folder; stops it and removes the folder in the end. The server also stops when this process, or
-/// the thread that started it, dies. Make it before gRPC is used (it forks).
+/// An anticrackd, found beside this executable or on PATH, on a unix socket in a new temporary
+/// folder, both removed at the end. The server also stops when this process, or the thread that
+/// started it, dies. Create it before gRPC is used (it forks).
 class LocalServer {
  public:
-  /// Returns once the server listens. Throws LocalServerError with the server's own last words;
+  /// Returns once the server listens. Throws LocalServerError with the end of the server's log, and
   /// client::Interrupted on `stop`.
   explicit LocalServer(const std::stop_token& stop);
   ~LocalServer();

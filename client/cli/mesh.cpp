@@ -3,18 +3,15 @@
 //   anticrack mesh create | upload | list | show | warm | evict | delete
 #include "client/meshes.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <memory>
 #include <optional>
 
-#include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/figure_options.hpp"
 #include "cli/follow_mesh.hpp"
 #include "cli/json.hpp"
 #include "cli/mesh_text.hpp"
+#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
 #include "cli/resource_names.hpp"
@@ -44,46 +41,44 @@ int show_mesh(const Globals& globals, const v1::Mesh& mesh) {
 }
 
 v1::Mesh get_mesh(Session& session, const std::string& name) {
-  return about(session, Collection::meshes, name,
-               [&] { return client::get_mesh(session.connection(), name, session.stop()); });
+  return call_about(session, Collection::meshes, name, client::get_mesh);
 }
 
-/// Waits until the server is done with it; throws what it failed of.
-v1::Mesh wait_for(Session& session, const std::string& name) {
-  v1::Mesh mesh = follow_mesh(session, name);
-  if (mesh.state() == v1::Mesh::STATE_FAILED) {
-    throw client::decode_error(mesh.error());
-  }
+v1::Mesh checked(v1::Mesh mesh) {
+  if (mesh.state() == v1::Mesh::STATE_FAILED) throw client::decode_error(mesh.error());
   return mesh;
 }
 
-int create(const casefile::Case& the_case, bool wait, const Globals& globals) {
+/// Waits until the mesh is ready or evicted; throws the error of a mesh that failed.
+v1::Mesh wait_for(Session& session, const std::string& name) {
+  return checked(follow_mesh(session, name));
+}
+
+int create(const casefile::Case& the_case, const MeshOptions& options, const Globals& globals) {
   Session session(globals);
   const v1::Mesh mesh = create_mesh(session, the_case);
   return translated(the_case, [&] {
-    if (mesh.state() == v1::Mesh::STATE_FAILED) {
-      throw client::decode_error(mesh.error());
-    }
-    return show_mesh(globals, wait ? wait_for(session, mesh.name()) : mesh);
+    checked(mesh);
+    return show_mesh(globals, options.no_wait ? mesh : wait_for(session, mesh.name()));
   });
 }
 
+int create_of_case(const MeshOptions& options, const Globals& globals) {
+  return create(casefile::read_case(options.file, options.overrides), options, globals);
+}
+
 int upload(const MeshOptions& options, const Globals& globals) {
-  return create(casefile::mesh_file_case(options.file, options.title, options.overrides),
-                !options.no_wait, globals);
+  return create(casefile::mesh_file_case(options.file, options.title, options.overrides), options,
+                globals);
 }
 
 /// The case of a .toml or .msh file; empty for the name of a mesh.
 std::optional<casefile::Case> case_of(const MeshOptions& options) {
   const std::string extension = std::filesystem::path(options.name).extension();
-  if (extension == ".msh") {
-    return casefile::mesh_file_case(options.name, "", options.overrides);
-  }
-  if (extension == ".toml") {
-    return casefile::read_case(options.name, options.overrides);
-  }
+  if (extension == ".msh") return casefile::mesh_file_case(options.name, "", options.overrides);
+  if (extension == ".toml") return casefile::read_case(options.name, options.overrides);
   if (!options.overrides.empty()) {
-    throw UsageError("--set means nothing for a mesh on the server; name a case");
+    throw UsageError("--set does not apply to a mesh on the server; name a case");
   }
   return std::nullopt;
 }
@@ -93,25 +88,17 @@ int show_mesh(const MeshOptions& options, const Globals& globals) {
   const std::string given = the_case ? "" : full_name(Collection::meshes, options.name);
   Session session(globals);
   const std::string name = the_case ? create_mesh(session, *the_case).name() : given;
-  if (options.folder.empty() && !the_case) {
-    return show_mesh(globals, get_mesh(session, name));
-  }
+  if (options.folder.empty() && !the_case) return show_mesh(globals, get_mesh(session, name));
   const v1::Mesh mesh =
       about(session, Collection::meshes, name, [&] { return wait_for(session, name); });
   show_mesh(globals, mesh);
-  if (options.folder.empty()) {
-    return exit_ok;
-  }
+  if (options.folder.empty()) return exit_ok;
   const client::Block block = client::read_mesh(session.connection(), name, session.stop());
   const std::string stem = name.substr(std::string("meshes/").size());
   const figures::Drawn drawn = figures::draw_mesh(to_mesh_plan(mesh, block), "mesh-" + stem,
                                                   options.folder, options.figures);
-  for (const auto& file : drawn.files) {
-    say(globals, file.string());
-  }
-  for (const std::string& note : drawn.notes) {
-    say(globals, note);
-  }
+  for (const auto& file : drawn.files) say(globals, file.string());
+  for (const std::string& note : drawn.notes) say(globals, note);
   return exit_ok;
 }
 
@@ -132,34 +119,28 @@ int list_meshes(const MeshOptions& options, const Globals& globals) {
                     std::to_string(mesh.node_count()), sanitise(mesh.title())});
   }
   print_document(table(rows, {1, 2, 5}));
-  if (!response.next_page_token().empty()) {
-    say(globals, "There are more; see --limit");
-  }
+  if (!response.next_page_token().empty()) say(globals, "There are more; see --limit");
   return exit_ok;
 }
 
 int warm(const MeshOptions& options, const Globals& globals) {
   const std::string name = full_name(Collection::meshes, options.name);
   Session session(globals);
-  const v1::Mesh mesh = about(session, Collection::meshes, name, [&] {
-    return client::warm_mesh(session.connection(), name, options.pin, session.stop());
-  });
+  const v1::Mesh mesh =
+      call_about(session, Collection::meshes, name, client::warm_mesh, options.pin);
   return show_mesh(globals, options.no_wait ? mesh : wait_for(session, mesh.name()));
 }
 
 int evict(const MeshOptions& options, const Globals& globals) {
   const std::string name = full_name(Collection::meshes, options.name);
   Session session(globals);
-  return show_mesh(globals, about(session, Collection::meshes, name, [&] {
-                     return client::evict_mesh(session.connection(), name, session.stop());
-                   }));
+  return show_mesh(globals, call_about(session, Collection::meshes, name, client::evict_mesh));
 }
 
 int delete_mesh(const MeshOptions& options, const Globals& globals) {
   const std::string name = full_name(Collection::meshes, options.name);
   Session session(globals);
-  about(session, Collection::meshes, name,
-        [&] { client::delete_mesh(session.connection(), name, session.stop()); });
+  call_about(session, Collection::meshes, name, client::delete_mesh);
   tell_deleted(globals, name);
   return exit_ok;
 }
@@ -170,79 +151,68 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
   CLI::App* group = app.add_subcommand("mesh", "Meshes on the server");
   group->require_subcommand(1);
   const auto options = std::make_shared<MeshOptions>();
-  const auto on = [&](CLI::App* command, const std::function<int(const MeshOptions&)>& action) {
-    command->callback(
-        [options, action, &chosen] { chosen = [options, action] { return action(*options); }; });
+  const auto add = [&](const std::string& name, const std::string& help,
+                       const std::string& examples,
+                       int (*action)(const MeshOptions&, const Globals&)) {
+    CLI::App* command = group->add_subcommand(name, help);
+    command->footer("Example:\n  anticrack mesh " + name + " " + examples);
+    on(*command, options, globals, chosen, action);
+    return command;
   };
-
+  const auto add_named = [&](const std::string& name, const std::string& help,
+                             const std::string& flags,
+                             int (*action)(const MeshOptions&, const Globals&)) {
+    CLI::App* command = add(name, help, "meshes/0123456789abcdef" + flags, action);
+    command->add_option("MESH", options->name, "meshes/ID")->required();
+    return command;
+  };
+  const auto add_no_wait = [&](CLI::App* command) {
+    command->add_flag("--no-wait", options->no_wait, "Do not wait until it is factorised");
+  };
   const auto add_overrides = [&](CLI::App* command) {
     command
         ->add_option("--set", options->overrides,
-                     "Override a key of the case; of a .msh one of [mesh], for example "
+                     "Override a key of the case, or of a .msh one of [mesh], for example "
                      "mesh.groups.curve.7=crack")
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");
   };
 
-  CLI::App* create_command = group->add_subcommand("create", "Create the mesh of a case");
-  create_command->add_option("CASE", options->file, "The case, a TOML file")
-      ->required()
-      ->type_name("FILE");
+  CLI::App* create_command =
+      add("create", "Create the mesh of a case", "paper.toml", create_of_case);
+  add_case(*create_command, options->file);
   add_overrides(create_command);
-  create_command->add_flag("--no-wait", options->no_wait, "Do not wait until it is factorised");
-  create_command->footer("Example:\n  anticrack mesh create paper.toml");
-  on(create_command, [&globals](const MeshOptions& o) {
-    return create(casefile::read_case(o.file, o.overrides), !o.no_wait, globals);
-  });
+  add_no_wait(create_command);
 
-  CLI::App* upload_command = group->add_subcommand("upload", "Create a mesh from a .msh file");
+  CLI::App* upload_command = add("upload", "Create a mesh from a .msh file",
+                                 "plate.msh --set mesh.preset=uniform", upload);
   upload_command->add_option("MESH", options->file, "MSH 2.2 or 4.1, ascii or binary")
       ->required()
       ->type_name("FILE");
   upload_command->add_option("--title", options->title, "A title for people");
-  upload_command->add_flag("--no-wait", options->no_wait, "Do not wait until it is factorised");
+  add_no_wait(upload_command);
   add_overrides(upload_command);
-  upload_command->footer("Example:\n  anticrack mesh upload plate.msh --set mesh.preset=uniform");
-  on(upload_command, [&globals](const MeshOptions& o) { return upload(o, globals); });
 
-  CLI::App* list_command = group->add_subcommand("list", "List the newest meshes");
-  list_command->add_option("--limit", options->limit, "At most so many, from 1 to 1000")
-      ->check(CLI::Range(1, 1000).description(""))
-      ->type_name("COUNT")
-      ->capture_default_str();
-  list_command->footer("Example:\n  anticrack mesh list --limit 10");
-  on(list_command, [&globals](const MeshOptions& o) { return list_meshes(o, globals); });
+  add_limit(*add("list", "List the newest meshes", "--limit 10", list_meshes), options->limit);
 
   CLI::App* show_command =
-      group->add_subcommand("show", "Show a mesh as the server understood it, and draw it");
+      add("show", "Show a mesh as the server understood it, and draw it",
+          "plate.msh -o figures\n  anticrack mesh show meshes/0123456789abcdef", show_mesh);
   show_command
-      ->add_option("MESH", options->name,
-                   "meshes/ID, or a case (.toml) or .msh file to make the mesh of")
+      ->add_option("MESH", options->name, "meshes/ID, or a case (.toml) or .msh file to mesh")
       ->required()
       ->type_name("FILE");
-  show_command->add_option("-o,--output", options->folder, "Folder to draw it into")
+  show_command->add_option("-o,--output", options->folder, "Folder for the figure")
       ->type_name("DIR");
   add_figure_options(*show_command, options->figures);
   add_overrides(show_command);
-  show_command->footer(
-      "Example:\n  anticrack mesh show plate.msh -o figures\n"
-      "  anticrack mesh show meshes/0123456789abcdef");
-  on(show_command, [&globals](const MeshOptions& o) { return show_mesh(o, globals); });
 
-  const auto add_named = [&](const std::string& name, const std::string& help,
-                             const std::string& example, const auto& action) {
-    CLI::App* command = group->add_subcommand(name, help);
-    command->add_option("MESH", options->name, "meshes/ID")->required();
-    command->footer("Example:\n  anticrack mesh " + name + " meshes/0123456789abcdef" + example);
-    on(command, [&globals, action](const MeshOptions& o) { return action(o, globals); });
-    return command;
-  };
   CLI::App* warm_command =
       add_named("warm", "Factorise a mesh now, so that the next job need not wait", " --pin", warm);
   warm_command->add_flag("--pin", options->pin,
                          "Keep it in memory until it is evicted (administrators)");
-  warm_command->add_flag("--no-wait", options->no_wait, "Do not wait until it is factorised");
-  add_named("evict", "Free the memory of a mesh; the next job factorises again", "", evict);
+  add_no_wait(warm_command);
+  add_named("evict", "Free the memory of a mesh; the next job factorises it again", "", evict);
   add_named("delete", "Delete a mesh that no unfinished job uses", "", delete_mesh);
 }
 

@@ -25,17 +25,13 @@ std::string inclusion_of(const v1::Mesh& mesh, int inclusion) {
 
 std::string head(const v1::Mesh& mesh) {
   std::string text = sanitise(mesh.name()) + ": " + std::string(word(mesh.state())) + "\n";
-  if (!mesh.title().empty()) {
-    text += sanitise(mesh.title()) + "\n";
-  }
+  if (!mesh.title().empty()) text += sanitise(mesh.title()) + "\n";
   if (!mesh.owner().empty() || mesh.pinned()) {
     text += mesh.owner().empty() ? "" : "of " + sanitise(mesh.owner());
     text += mesh.owner().empty() || !mesh.pinned() ? "" : ", ";
     text += mesh.pinned() ? "kept in memory until it is evicted\n" : "\n";
   }
-  if (mesh.has_error()) {
-    text += sanitise(mesh.error().message()) + "\n";
-  }
+  if (mesh.has_error()) text += sanitise(mesh.error().message()) + "\n";
   return text;
 }
 
@@ -106,9 +102,7 @@ std::string mesh_text(const v1::Mesh& mesh) {
     text += sizes(mesh) + "\n" + subdomains(mesh) + "\n" + interfaces(mesh) + tips(mesh) +
             boundary(mesh);
   }
-  for (const std::string& warning : mesh.warnings()) {
-    text += "warning: " + sanitise(warning) + "\n";
-  }
+  for (const std::string& warning : mesh.warnings()) text += "warning: " + sanitise(warning) + "\n";
   return text;
 }
 

@@ -37,12 +37,10 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
       apply(event.ended());
       break;
     case v1::WatchJobResponse::kSweepRows:
-      if (sweep) {
-        sweep->apply(event.sweep_rows(), seconds);
-      }
+      if (sweep) sweep->apply(event.sweep_rows(), seconds);
       break;
     case v1::WatchJobResponse::EVENT_NOT_SET:
-      break;  // ended load cases alone, or an event of a later version
+      break;  // only ended load cases, or an event of a later version
   }
   for (const v1::LoadCaseEnded& load_case : event.load_cases_ended()) {
     if (load_case.load_case() >= 0) {
@@ -52,9 +50,7 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
 }
 
 void JobProgress::enter(v1::Job::State next, const std::string& what) {
-  if (client::ended(state)) {
-    return;  // told again to who attaches late
-  }
+  if (client::ended(state)) return;  // a late watch repeats old phases
   state = next;
   detail = sanitise(what);
 }
@@ -62,28 +58,23 @@ void JobProgress::enter(v1::Job::State next, const std::string& what) {
 void JobProgress::apply(const v1::Job& job_now) {
   job = sanitise(job_now.name());
   if (job_now.attempt() > attempt && attempt > 0) {
-    cases.clear();  // the server stopped meanwhile and runs it anew
+    cases.clear();  // the server was restarted and runs the job again
     ended_count = 0;
-    if (sweep) {
-      sweep->restart();
-    }
+    if (sweep) sweep->restart();
   }
   attempt = std::max(attempt, job_now.attempt());
-  if (state != job_now.state()) {
-    detail.clear();
-  }
+  if (state != job_now.state()) detail.clear();
   state = job_now.state();
-  if (job_now.has_end_time()) {
-    elapsed = seconds_between(job_now.create_time(), job_now.end_time());
-  }
+  if (job_now.has_end_time()) elapsed = seconds_between(job_now.create_time(), job_now.end_time());
   const v1::Uzawa& uzawa = job_now.solver().uzawa();
   active_set = !job_now.solver().has_uzawa();
   target = active_set || uzawa.has_kkt_tolerance() ? 0
            : uzawa.has_epsilon()                   ? uzawa.epsilon()
                                                    : 1e-12;
   if (job_now.has_sweep()) {
-    apply_sweep(job_now);
-    return;  // its load cases are not solved one by one
+    if (!sweep) sweep.emplace();
+    sweep->apply(job_now.sweep_answer());
+    return;
   }
   cases.resize(static_cast<std::size_t>(job_now.load_cases_size()));
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -94,26 +85,15 @@ void JobProgress::apply(const v1::Job& job_now) {
   }
 }
 
-void JobProgress::apply_sweep(const v1::Job& job_now) {
-  if (!sweep) {
-    sweep.emplace();
-  }
-  sweep->apply(job_now.sweep_answer());
-}
-
 void JobProgress::apply(const v1::Samples& samples) {
   const int count = std::min({samples.load_case_size(), samples.iteration_size(),
                               samples.criterion_size(), samples.contact_count_size()});
   for (int i = 0; i < count; ++i) {
     const auto index = static_cast<std::size_t>(samples.load_case(i));
-    if (samples.load_case(i) < 0 || index >= cases.size()) {
-      continue;
-    }
+    if (samples.load_case(i) < 0 || index >= cases.size()) continue;
     CaseProgress& progress = cases[index];
-    // Started over from an old event, or late: an ended case is not running again.
-    if (ended(progress.status) || samples.iteration(i) <= progress.iteration) {
-      continue;
-    }
+    // Old or late samples: a case that has ended does not run again.
+    if (ended(progress.status) || samples.iteration(i) <= progress.iteration) continue;
     progress.status = Status::running;
     progress.iteration = samples.iteration(i);
     progress.criterion = samples.criterion(i);
@@ -122,14 +102,10 @@ void JobProgress::apply(const v1::Samples& samples) {
 }
 
 void JobProgress::apply(std::size_t index, const v1::LoadCaseAnswer& answer) {
-  if (index >= cases.size()) {
-    return;
-  }
+  if (index >= cases.size()) return;
   CaseProgress& progress = cases[index];
   const auto status = status_of(answer);
-  if (ended(status) && !ended(progress.status)) {
-    progress.end_rank = ++ended_count;
-  }
+  if (ended(status) && !ended(progress.status)) progress.end_rank = ++ended_count;
   progress.status = status;
   if (answer.iterations() > 0) {
     progress.iteration = answer.iterations();
@@ -170,15 +146,9 @@ bool ended(Status status) noexcept {
 }
 
 double bar_fraction(double criterion, double target) noexcept {
-  if (std::isnan(criterion)) {
-    return 0;
-  }
-  if (criterion <= target) {
-    return 1;
-  }
-  if (criterion >= 1 || !(target > 0)) {
-    return 0;
-  }
+  if (std::isnan(criterion)) return 0;
+  if (criterion <= target) return 1;
+  if (criterion >= 1 || !(target > 0)) return 0;
   return std::log(criterion) / std::log(target);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How far a job has come, folded from its events. Pure.
+// The progress of a job, folded from its events. Pure.
 #pragma once
 
 #include <cstddef>
@@ -32,25 +32,23 @@ struct JobProgress {
   std::string job;
   v1::Job::State state = v1::Job::STATE_UNSPECIFIED;
   std::string detail;        ///< phase, e.g. "meshing"
-  std::string notice;        ///< e.g. that the connection is lost; empty when all is well
-  std::string prompt;        ///< what Ctrl-C has brought about; empty before
+  std::string notice;        ///< e.g. that the connection is lost; empty: none
+  std::string prompt;        ///< the effect of Ctrl-C; empty before
   std::int32_t attempt = 0;  ///< of the server at the job; 0 before the first snapshot
   bool active_set = false;   ///< a handful of steps, no criterion; else iterations of Algorithm 2
   double target = 1e-12;     ///< of the criterion; 0: something else ends the iteration
   std::vector<CaseProgress> cases;     ///< none of a sweep
   std::optional<SweepProgress> sweep;  ///< of a sweep
   std::size_t ended_count = 0;
-  /// Since it was submitted; NaN: not known. Of a job that has ended the server tells, else it is
-  /// for the caller to set.
+  /// Seconds since it was submitted; NaN: unknown. Set by the caller until the job has ended.
   double elapsed = std::numeric_limits<double>::quiet_NaN();
 
-  /// `seconds`: when it came, on any clock that does not go back.
+  /// `seconds`: when the event arrived, on any monotonic clock.
   void apply(const v1::WatchJobResponse& event, double seconds = 0);
 
  private:
   void apply(const v1::Job& job_now);
   void enter(v1::Job::State next, const std::string& what);
-  void apply_sweep(const v1::Job& job_now);
   void apply(const v1::Samples& samples);
   void apply(std::size_t index, const v1::LoadCaseAnswer& answer);
 };
@@ -61,7 +59,7 @@ std::string_view word(results::Status status) noexcept;
 std::string_view word(v1::Job::State state) noexcept;
 std::string_view word(v1::Mesh::State state) noexcept;
 
-/// The API's, of which a later server may have more than there are names.
+/// The status of the API; a later server may send unknown values.
 inline results::Status status_of(const v1::LoadCaseAnswer& answer) {
   return static_cast<results::Status>(answer.status());
 }
@@ -69,11 +67,11 @@ inline results::Status status_of(const v1::LoadCaseAnswer& answer) {
 /// Whether the load case will not change any more.
 bool ended(results::Status status) noexcept;
 
-/// From one time to another, e.g. of creation and end of a job.
+/// For example from creation to end of a job.
 double seconds_between(const google::protobuf::Timestamp& from,
                        const google::protobuf::Timestamp& to);
 
-/// Part of the way from 1 down to `target` that `criterion` has gone on a log scale, 0 to 1.
+/// The part, 0 to 1, of the way from 1 down to `target` on a log scale.
 double bar_fraction(double criterion, double target) noexcept;
 
 }  // namespace anticrack::cli

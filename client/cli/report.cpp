@@ -94,9 +94,7 @@ int guarded(const Globals& globals, const std::function<int()>& command) {
     for (std::string line; std::getline(lines, line);) {
       std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
     }
-    if (globals.json) {
-      print_document(document_of(complaint));
-    }
+    if (globals.json) print_document(document_of(complaint));
     return complaint.exit_code;
   }
 }

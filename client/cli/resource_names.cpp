@@ -35,20 +35,16 @@ bool is_id(const std::string& text) {
 
 std::vector<std::string> names_of(Session& session, Collection collection) {
   std::vector<std::string> names;
+  const auto list = [&](const auto& call, auto request) {
+    request.set_page_size(names_looked_at);
+    return call(session.connection(), request, session.stop());
+  };
   if (collection == Collection::meshes) {
-    v1::ListMeshesRequest request;
-    request.set_page_size(names_looked_at);
-    const auto response = client::list_meshes(session.connection(), request, session.stop());
-    for (const v1::Mesh& mesh : response.meshes()) {
-      names.push_back(mesh.name());
-    }
+    const auto response = list(client::list_meshes, v1::ListMeshesRequest());
+    for (const v1::Mesh& mesh : response.meshes()) names.push_back(mesh.name());
   } else {
-    v1::ListJobsRequest request;
-    request.set_page_size(names_looked_at);
-    const auto response = client::list_jobs(session.connection(), request, session.stop());
-    for (const v1::Job& job : response.jobs()) {
-      names.push_back(job.name());
-    }
+    const auto response = list(client::list_jobs, v1::ListJobsRequest());
+    for (const v1::Job& job : response.jobs()) names.push_back(job.name());
   }
   return names;
 }
@@ -73,14 +69,12 @@ std::string full_name(Collection collection, const std::string& given) {
 std::string name_cure(Collection collection, const std::string& name,
                       const std::vector<std::string>& known) {
   const CollectionWords words = words_of(collection);
-  std::vector<std::string> ids;  // without what all names have alike
+  std::vector<std::string> ids;  // without the common prefix
   std::vector<std::string> longer;
   const std::string id = name.substr(words.prefix.size());
   for (const std::string& each : known) {
     ids.push_back(each.substr(words.prefix.size()));
-    if (each.starts_with(name)) {
-      longer.push_back(ids.back());
-    }
+    if (each.starts_with(name)) longer.push_back(ids.back());
   }
   const auto meant = longer.size() == 1 ? longer.front() : casefile::nearest(id, ids).value_or("");
   return meant.empty() ? words.see : "; did you mean " + words.prefix + meant + "?";
@@ -92,7 +86,7 @@ client::Error with_cure(Session& session, Collection collection, const std::stri
   try {
     cure = name_cure(collection, name, names_of(session, collection));
   } catch (const client::Error&) {
-    // The first error is the one to tell.
+    // Report the first error.
   }
   return client::Error(error.code(), error.what() + cure, error.details());
 }

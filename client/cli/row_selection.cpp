@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/row_selection.hpp"
+#include "cli/sweep_input.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <limits>
-#include <optional>
 #include <string_view>
-#include <utility>
 
 #include "casefile/error.hpp"
 
@@ -28,64 +26,49 @@ class Selection {
 
   /// Sorted, without overlaps.
   std::vector<Range> ranges() const {
-    if (_text == "none" || _rows == 0) {
-      return {};
-    }
-    if (_text == "all") {
-      return {{0, _rows - 1}};
-    }
+    if (_text == "none" || _rows == 0) return {};
+    if (_text == "all") return {{0, _rows - 1}};
     std::vector<Range> ranges;
-    for (std::string_view rest = _text;;) {
-      const std::size_t comma = rest.find(',');
-      ranges.push_back(range_of(rest.substr(0, comma)));
-      if (comma == std::string_view::npos) {
-        break;
-      }
-      rest.remove_prefix(comma + 1);
+    for (std::size_t begin = 0; begin <= _text.size();) {
+      const std::size_t comma = std::min(_text.find(',', begin), _text.size());
+      ranges.push_back(range_of(std::string_view(_text).substr(begin, comma - begin)));
+      begin = comma + 1;
     }
-    return merged(std::move(ranges));
+    std::ranges::sort(ranges, {}, &Range::first);
+    std::vector<Range> merged;
+    for (const Range& range : ranges) {
+      if (!merged.empty() && range.first <= merged.back().last) {
+        merged.back().last = std::max(merged.back().last, range.last);
+      } else {
+        merged.push_back(range);
+      }
+    }
+    return merged;
   }
 
  private:
   std::uint64_t row_of(std::string_view part, std::string_view item) const {
     std::uint64_t row = 0;
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), row);
-    if (part.empty() || end != part.data() + part.size() || error == std::errc::invalid_argument) {
-      fail("\"" + std::string(item) + "\" is not a row; write all, none, or rows as 0,10,20-30");
+    if (end != part.data() + part.size() || error == std::errc::invalid_argument) {
+      fail("\"" + std::string(item) +
+           "\" is not a row; write all, none, or rows, for example 0,10,20-30");
     }
     if (error == std::errc::result_out_of_range || row >= _rows) {
-      fail("there is no row " + std::string(part) + "; the last one is " +
-           std::to_string(_rows - 1) + ", the first one 0");
+      fail("there is no row " + std::string(part) + "; rows are 0 to " + std::to_string(_rows - 1));
     }
     return row;
   }
 
   Range range_of(std::string_view item) const {
-    const std::size_t dash = item.find('-');
-    if (dash == std::string_view::npos) {
-      const std::uint64_t row = row_of(item, item);
-      return {row, row};
-    }
-    const Range range{row_of(item.substr(0, dash), item), row_of(item.substr(dash + 1), item)};
-    if (range.last < range.first) {
+    const std::size_t dash = std::min(item.find('-'), item.size());
+    const std::uint64_t first = row_of(item.substr(0, dash), item);
+    const std::uint64_t last = dash < item.size() ? row_of(item.substr(dash + 1), item) : first;
+    if (last < first) {
       fail("the range " + std::string(item) + " ends before it begins; write " +
-           std::to_string(range.last) + "-" + std::to_string(range.first));
+           std::to_string(last) + "-" + std::to_string(first));
     }
-    return range;
-  }
-
-  static std::vector<Range> merged(std::vector<Range> ranges) {
-    std::sort(ranges.begin(), ranges.end(),
-              [](const Range& a, const Range& b) { return a.first < b.first; });
-    std::vector<Range> result;
-    for (const Range& range : ranges) {
-      if (!result.empty() && range.first <= result.back().last) {
-        result.back().last = std::max(result.back().last, range.last);
-      } else {
-        result.push_back(range);
-      }
-    }
-    return result;
+    return {first, last};
   }
 
   const std::string& _text;
@@ -99,9 +82,7 @@ std::vector<std::uint32_t> select_rows(const std::string& text, std::uint64_t ro
   const Selection selection(text, rows);
   const std::vector<Range> ranges = selection.ranges();
   std::uint64_t count = 0;
-  for (const Range& range : ranges) {
-    count += range.last - range.first + 1;
-  }
+  for (const Range& range : ranges) count += range.last - range.first + 1;
   if (count > most) {
     selection.fail("these are " + std::to_string(count) + " rows, the server keeps the traces of " +
                    std::to_string(most) + " at most; name fewer");

@@ -16,8 +16,7 @@
 namespace anticrack::cli {
 namespace {
 
-// "force: array, constant, ..." for those that share what stands before their dot, in one line the
-// others.
+// "force: array, constant, ...": a line for each prefix before a dot, one line for the others.
 std::vector<std::string> feature_lines(const v1::ServerInfo& info) {
   std::map<std::string, std::string> groups;
   for (const std::string& feature : info.features()) {
@@ -95,7 +94,7 @@ std::string info_text(const v1::ServerInfo& info, const std::string& address) {
 
 void add_server(CLI::App& app, const Globals& globals, Command& chosen) {
   CLI::App* command =
-      app.add_subcommand("server", "What the server is, what it allows, how busy it is");
+      app.add_subcommand("server", "Show version, limits and counters of the server");
   command->footer("Example:\n  anticrack --server localhost:7433 server");
   command->callback([&globals, &chosen] {
     chosen = [&globals] {

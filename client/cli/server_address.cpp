@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/server_address.hpp"
+#include "cli/connection_flags.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,9 +31,7 @@ bool is_port(std::string_view text) {
 }  // namespace
 
 void check_server_address(const std::string& address) {
-  if (has_scheme(address)) {
-    return;
-  }
+  if (has_scheme(address)) return;
   if (address.find('/') != std::string::npos) {
     refuse(address, "no address of a server; write HOST:PORT, or unix:PATH for a socket");
   }

@@ -26,12 +26,8 @@ void say(const Globals& globals, std::string_view line) {
 
 void print_document(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
-  if (text.empty() || text.back() != '\n') {
-    std::fputc('\n', stdout);
-  }
-  if (std::fflush(stdout) != 0) {
-    throw std::runtime_error("standard output cannot be written");
-  }
+  if (text.empty() || text.back() != '\n') std::fputc('\n', stdout);
+  if (std::fflush(stdout) != 0) throw std::runtime_error("standard output cannot be written");
 }
 
 void tell_deleted(const Globals& globals, const std::string& name) {

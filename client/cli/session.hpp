@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a command that talks to a server works with.
+// What commands share: global options, output, the connection to a server.
 #pragma once
 
 #include <cstdio>
@@ -24,16 +24,16 @@ struct Globals {
   bool quiet = false;  ///< plain lines also on a terminal
 };
 
-/// Where people are told what goes on: standard output, with --json standard error.
+/// Stream for messages: standard output, with --json standard error.
 std::FILE* people(const Globals& globals);
-/// Whether people see frames that are drawn over each other there, rather than lines.
+/// Whether messages are frames drawn over each other and not lines.
 bool shows_frames(const Globals& globals);
-/// A line for people.
+/// Prints a message.
 void say(const Globals& globals, std::string_view line);
-/// The one document of --json, or what a command was asked to show.
+/// Prints the document of --json, or the answer of a command.
 void print_document(std::string_view text);
 
-/// That a resource is gone.
+/// Says that a resource was deleted.
 void tell_deleted(const Globals& globals, const std::string& name);
 
 class Session {
@@ -46,17 +46,17 @@ class Session {
   /// Requested by the first signal.
   std::stop_token stop() const noexcept { return _signals.first(); }
   const Globals& globals() const noexcept { return _globals; }
-  /// What leads to this server at the end of a command line; empty where not needed.
+  /// The flags that lead to this server, for the end of a command line; may be empty.
   std::string server_option() const;
 
-  /// Who is told of retries; empty: standard error, each message once.
+  /// Sets who is told of retries; empty: standard error, each message once.
   void tell(std::function<void(const std::string&)> listener) { _listener = std::move(listener); }
 
  private:
   void notice(const std::string& message);
 
   Globals _globals;
-  Signals _signals;                   // first: all threads shall inherit its mask
+  Signals _signals;                   // first: all threads inherit its mask
   std::optional<LocalServer> _local;  // second: it forks, and gRPC starts threads
   std::optional<client::Connection> _connection;
   std::function<void(const std::string&)> _listener;

@@ -23,9 +23,7 @@ sigset_t listened_set() {
   sigemptyset(&set);
   sigaddset(&set, end_of_listening);
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGTSTP, SIGCONT, SIGWINCH}) {
-    if (!is_ignored(number)) {
-      sigaddset(&set, number);
-    }
+    if (!is_ignored(number)) sigaddset(&set, number);
   }
   return set;
 }
@@ -34,7 +32,7 @@ sigset_t listened_set() {
 
 Signals::Signals() : _set(listened_set()) {
   pthread_sigmask(SIG_BLOCK, &_set, nullptr);
-  // A reader that goes away (| head) shall not end a command that still has results to save.
+  // A closed pipe (| head) must not end a command that still has results to save.
   signal(SIGPIPE, SIG_IGN);
   _thread = std::thread([this] { listen(); });
 }
@@ -53,9 +51,7 @@ bool Signals::wait_for_first(const std::stop_token& stop) {
 
 bool Signals::second_within(std::chrono::milliseconds time, const std::stop_token& stop) {
   std::unique_lock lock(_mutex);
-  if (!_interactive) {
-    return _count > 1;
-  }
+  if (!_interactive) return _count > 1;
   return _came.wait_for(lock, stop, time, [this] { return _count > 1; });
 }
 
@@ -71,17 +67,13 @@ void Signals::tell_screen(std::function<void(Screen)> listener) {
 
 void Signals::screen(Screen event) {
   const std::lock_guard lock(_screen_mutex);
-  if (_screen) {
-    _screen(event);
-  }
+  if (_screen) _screen(event);
 }
 
 void Signals::listen() {
   while (true) {
     int number = 0;
-    if (sigwait(&_set, &number) != 0 || number == end_of_listening) {
-      return;
-    }
+    if (sigwait(&_set, &number) != 0 || number == end_of_listening) return;
     switch (number) {
       case SIGTSTP:
         stop_as_asked();
@@ -98,7 +90,7 @@ void Signals::listen() {
   }
 }
 
-// By the signal itself: nothing stops where no shell is there to let the process go on.
+// Stops by the signal itself, which does nothing without a shell that could continue the process.
 void Signals::stop_as_asked() {
   screen(Screen::leaving);
   sigset_t stopping;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Ctrl-C, SIGTERM and SIGHUP as stop tokens, and what a terminal tells by signals.
+// Ctrl-C, SIGTERM and SIGHUP as stop tokens, and the signals of a terminal.
 #pragma once
 
 #include <signal.h>
@@ -14,36 +14,35 @@
 
 namespace anticrack::cli {
 
-/// Takes the signals over for as long as it lives, but those that were ignored before (nohup). Make
-/// it before any other thread: threads inherit that the signals are blocked. The third signal that
-/// asks for an end ends the process at once. SIGPIPE is ignored.
+/// Handles the signals while it lives, except those ignored before (nohup). Create it before any
+/// other thread: threads inherit the blocked signals. The third Ctrl-C, SIGTERM or SIGHUP ends the
+/// process at once. SIGPIPE is ignored.
 class Signals {
  public:
-  /// What may have come over a frame on the terminal.
+  /// Events that affect a frame on the terminal.
   enum class Screen {
-    leaving,  ///< this process is about to be stopped (Ctrl-Z) or ended
-    back,     ///< it goes on, perhaps after others have written
+    leaving,  ///< the process is about to be stopped (Ctrl-Z) or ended
+    back,     ///< it continues; others may have written meanwhile
     resized,
   };
 
-  /// Begins to wait for them, on a thread of its own.
+  /// Starts a thread that waits for them.
   Signals();
   ~Signals();
   Signals(const Signals&) = delete;
   Signals& operator=(const Signals&) = delete;
 
-  /// Requested by the first signal that asks for an end.
+  /// Requested by the first Ctrl-C, SIGTERM or SIGHUP.
   std::stop_token first() const noexcept { return _first.get_token(); }
   /// Waits for the first signal, or for `stop`; whether the signal came.
   bool wait_for_first(const std::stop_token& stop);
-  /// Waits for the second signal, or for `stop`; whether the signal came. No wait where the first
-  /// one was not Ctrl-C: nobody is there to send another.
+  /// Waits for the second signal, or for `stop`; whether the signal came. Does not wait if the
+  /// first was not Ctrl-C.
   bool second_within(std::chrono::milliseconds time, const std::stop_token& stop = {});
   /// Whether all that came was Ctrl-C.
   bool interactive();
 
-  /// Who is told of the screen, on the thread of the signals. Once another one is named, or none,
-  /// the one before is not called any more.
+  /// Sets who is called, on the thread of the signals; replaces the one before. Empty: nobody.
   void tell_screen(std::function<void(Screen)> listener);
 
  private:

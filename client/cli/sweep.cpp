@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 //   anticrack sweep CASE.toml --coefficients FILE
-#include <CLI/CLI.hpp>
-
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -10,10 +8,10 @@
 #include <utility>
 
 #include "cli/answers.hpp"
-#include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/follow_mesh.hpp"
 #include "cli/job_run.hpp"
+#include "cli/options.hpp"
 #include "cli/sweep_input.hpp"
 #include "cli/sweep_text.hpp"
 #include "client/jobs.hpp"
@@ -42,19 +40,17 @@ casefile::Case read_case(const SweepOptions& options, const Globals& globals) {
       casefile::read_case(options.case_file, options.overrides,
                           nodal ? casefile::Loads::optional : casefile::Loads::needed);
   if (nodal && the_case.job.load_cases_size() > 0) {
-    say(globals, "The loads of the case take no part: each row of " + options.files.nodal +
-                     " is a load of its own");
+    say(globals,
+        "The loads of the case are not used: each row of " + options.files.nodal + " is a load");
   }
   return the_case;
 }
 
-// Rows of f can only be checked against a mesh that is there.
+// Nodal rows can only be checked against an existing mesh.
 void check_mesh(Session& session, const casefile::Case& the_case, const SweepInput& input) {
-  if (!input.nodal) {
-    return;
-  }
+  if (!input.nodal) return;
   const v1::Mesh mesh = follow_mesh(session, create_mesh(session, the_case).name());
-  if (mesh.state() != v1::Mesh::STATE_FAILED) {  // else the job says why
+  if (mesh.state() != v1::Mesh::STATE_FAILED) {  // else the job gives the reason
     check_nodes(input, mesh.node_count());
   }
 }
@@ -70,15 +66,13 @@ void add_matrix(Session& session, const SweepInput& input, v1::Job& job) {
 }
 
 void save_csv(const fs::path& csv, const results::Sweep& sweep, const Globals& globals) {
-  if (csv.empty()) {
-    return;
-  }
+  if (csv.empty()) return;
   const std::string text = sweep_csv(sweep);
   results::replace_file(csv, std::as_bytes(std::span(text)));
   say(globals, "Rows: " + csv.string());
 }
 
-/// Where the answers go; empty: not there.
+/// Where the answers are written; empty: nowhere.
 struct Targets {
   fs::path result;
   fs::path csv;
@@ -86,15 +80,13 @@ struct Targets {
 
 Targets check_targets(const SweepOptions& options) {
   Targets targets;
-  if (!options.detach) {
-    targets.result = result_file(options.case_file, options.output);
-  }
+  if (!options.detach) targets.result = result_file(options.case_file, options.output);
   if (!options.csv.empty()) {
     targets.csv = options.csv;
     results::check_writable(targets.csv);
     if (fs::absolute(targets.csv) == fs::absolute(targets.result)) {
       throw casefile::Error({"", "--csv " + options.csv, 0},
-                            "this is the result file too; name another one");
+                            "this is also the result file; name another one");
     }
   }
   return targets;
@@ -106,17 +98,11 @@ int follow_sweep(Session& session, const Targets& targets, const casefile::Case&
   const Followed followed = submit_and_follow(
       session, the_case, [&](v1::Job& job) { add_matrix(session, input, job); }, input.rows);
   const int job_code = exit_code_of(globals, followed);
-  if (followed.how == Followed::How::detached) {
-    return job_code;
-  }
+  if (followed.how == Followed::How::detached) return job_code;
   auto result = results_of(session, the_case, followed, begin);
-  if (!result) {
-    return job_code;
-  }
+  if (!result) return job_code;
   result->sweep.value().source = input.source;
-  if (!input.nodal) {
-    result->sweep->coefficients = std::move(input.values);
-  }
+  if (!input.nodal) result->sweep->coefficients = std::move(input.values);
   save(targets.result, *result, session);
   save_csv(targets.csv, *result->sweep, globals);
   print_answers(globals, *result, targets.result);
@@ -136,33 +122,28 @@ int sweep(const SweepOptions& options, const Globals& globals) {
                                    [&](v1::Job& job) { add_matrix(session, input, job); }));
     return exit_ok;
   }
-  if (!the_case.job.title().empty()) {
-    say(globals, the_case.job.title());
-  }
+  if (!the_case.job.title().empty()) say(globals, the_case.job.title());
   return follow_sweep(session, targets, the_case, std::move(input), begin);
 }
 
 void add_options(CLI::App& command, SweepOptions& options) {
-  command.add_option("CASE", options.case_file, "The case, a TOML file")
-      ->required()
-      ->type_name("FILE");
+  add_case(command, options.case_file);
   CLI::Option_group& input = *command.add_option_group("Load cases");
   input
       .add_option(
           "--coefficients,--combinations", options.files.coefficients,
-          "A row of coefficients of the case's loads per load case: comma-separated text, "
-          "with or without a line of their names, or a dataset (rows,loads) of an HDF5 "
-          "file (/coefficients if none is named), with or without an attribute loads, their "
-          "names")
+          "One row per load case: the coefficients of the case's loads. Comma-separated text, "
+          "optionally with a first line of their names, or a dataset (rows,loads) of an HDF5 "
+          "file (default /coefficients), optionally with their names as attribute loads")
       ->type_name("FILE.csv|FILE.h5:/PATH");
   input
       .add_option("--nodal", options.files.nodal,
-                  "A row of f on the mesh's nodes per load case: a dataset (rows,nodes)")
+                  "One row per load case: f on the nodes of the mesh. A dataset (rows,nodes)")
       ->type_name("FILE.h5:/PATH");
   input.require_option(1);
   command
       .add_option("--traces", options.files.traces,
-                  "Rows from 0 whose traces are kept: all, none, or as 0,10,20-30")
+                  "Rows, from 0, whose traces are kept: all, none, or for example 0,10,20-30")
       ->type_name("ROWS")
       ->capture_default_str();
   CLI::Option* output = command
@@ -170,7 +151,7 @@ void add_options(CLI::App& command, SweepOptions& options) {
                                         "Result file, HDF5 (default: CASE.h5 in this folder)")
                             ->type_name("FILE");
   CLI::Option* csv =
-      command.add_option("--csv", options.csv, "Also a line per row as comma-separated text")
+      command.add_option("--csv", options.csv, "Also write comma-separated text, one line per row")
           ->type_name("FILE.csv");
   command.add_flag("--detach", options.detach, "Submit and return at once")
       ->excludes(output)
@@ -181,19 +162,17 @@ void add_options(CLI::App& command, SweepOptions& options) {
 }  // namespace
 
 void add_sweep(CLI::App& app, const Globals& globals, Command& chosen) {
-  CLI::App* command =
-      app.add_subcommand("sweep", "Many combinations of a case's loads, on one mesh in one job");
+  CLI::App* command = app.add_subcommand(
+      "sweep", "Solve many combinations of a case's loads on one mesh, in one job");
   const auto options = std::make_shared<SweepOptions>();
   add_options(*command, *options);
   command->footer(
       "Row k of the file is the load case c_k1 load_1 + c_k2 load_2 + ..., solved by the active\n"
-      "set. Answers are columns: A, energy, contact length, steps, status and contact of every\n"
-      "row; traces of those named. Ctrl-C detaches, as in run.\n\n"
+      "set. The answers are columns: A, energy, contact length, steps, status and contact of\n"
+      "every row, and traces of the rows you name. Ctrl-C detaches, as in run.\n\n"
       "Example:\n  anticrack sweep load-ratio.toml --coefficients load-ratio.csv\n"
       "  anticrack sweep plate.toml --coefficients runs.h5:/c --traces 0,100-110 --csv runs.csv");
-  command->callback([=, &globals, &chosen] {
-    chosen = [options, &globals] { return sweep(*options, globals); };
-  });
+  on(*command, options, globals, chosen, sweep);
 }
 
 }  // namespace anticrack::cli

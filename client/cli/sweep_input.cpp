@@ -8,7 +8,6 @@
 
 #include "casefile/coefficients.hpp"
 #include "casefile/nearest.hpp"
-#include "cli/row_selection.hpp"
 #include "cli/text.hpp"
 #include "results/array_file.hpp"
 
@@ -27,9 +26,7 @@ struct Dataset {
 // "FILE.h5:/PATH"; empty for the name of a file.
 std::optional<Dataset> dataset_of(const std::string& name) {
   const std::size_t colon = name.rfind(":/");
-  if (colon == std::string::npos || colon == 0) {
-    return std::nullopt;
-  }
+  if (colon == std::string::npos || colon == 0) return std::nullopt;
   return Dataset{name.substr(0, colon), name.substr(colon + 1)};
 }
 
@@ -87,9 +84,7 @@ void sort_columns(const std::vector<std::size_t>& loads_of, SweepInput& input) {
 
 void read_combinations(const SweepFiles& files, const casefile::Case& the_case, SweepInput& input) {
   std::vector<std::string> loads;
-  for (const v1::LoadCase& load : the_case.job.load_cases()) {
-    loads.push_back(load.name());
-  }
+  for (const v1::LoadCase& load : the_case.job.load_cases()) loads.push_back(load.name());
   if (!dataset_of(files.coefficients) && !is_hdf5_name(files.coefficients)) {
     input.values = casefile::read_coefficients(files.coefficients, loads);
     input.columns = loads.size();

@@ -50,4 +50,10 @@ void check_nodes(const SweepInput& input, std::uint64_t node_count);
 /// Where the job keeps the matrix.
 v1::Sweep::Matrix& matrix_of(const SweepInput& input, v1::Job& job);
 
+/// "all", "none", or numbers from 0 and inclusive ranges, "0,10,20-30", in any order, possibly
+/// overlapping. Returns each row once, ascending. Throws casefile::Error for anything else, for a
+/// row outside 0..rows, and for more than `most` rows. O(rows returned).
+std::vector<std::uint32_t> select_rows(const std::string& text, std::uint64_t rows,
+                                       std::uint64_t most);
+
 }  // namespace anticrack::cli

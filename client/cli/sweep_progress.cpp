@@ -8,35 +8,25 @@
 namespace anticrack::cli {
 namespace {
 
-constexpr double window = 10;  // seconds the rate is taken over
+constexpr double window = 10;  // of the rate, seconds
 constexpr double spacing = 0.25;
 
 }  // namespace
 
 std::vector<RowSet::Interval> RowSet::add(std::uint64_t begin, std::uint64_t end) {
   std::vector<Interval> added;
-  if (begin >= end) {
-    return added;
-  }
-  std::uint64_t from = begin;
-  std::uint64_t joined_begin = begin;
-  std::uint64_t joined_end = end;
+  if (begin >= end) return added;
+  std::uint64_t from = begin, joined_begin = begin, joined_end = end;
   auto it = _ends.upper_bound(begin);
-  if (it != _ends.begin() && std::prev(it)->second >= begin) {
-    --it;
-  }
+  if (it != _ends.begin() && std::prev(it)->second >= begin) --it;
   while (it != _ends.end() && it->first <= end) {
-    if (it->first > from) {
-      added.emplace_back(from, it->first);
-    }
+    if (it->first > from) added.emplace_back(from, it->first);
     from = std::max(from, it->second);
     joined_begin = std::min(joined_begin, it->first);
     joined_end = std::max(joined_end, it->second);
     it = _ends.erase(it);
   }
-  if (from < end) {
-    added.emplace_back(from, end);
-  }
+  if (from < end) added.emplace_back(from, end);
   _ends.emplace(joined_begin, joined_end);
   return added;
 }
@@ -77,29 +67,19 @@ void SweepProgress::apply(const v1::SweepRows& rows, double seconds) {
   const auto count_of_rows = static_cast<std::uint64_t>(rows.status_size());
   const std::uint64_t limit = total > 0 ? total : std::numeric_limits<std::uint64_t>::max();
   if (rows.first_row() >= limit) {
-    return;  // nonsense
+    return;
   }
-  if (_samples.empty()) {
-    _samples.push_back({seconds, _counts.done});
-  }
+  if (_samples.empty()) _samples.push_back({seconds, _counts.done});
   const std::uint64_t end = rows.first_row() + std::min(count_of_rows, limit - rows.first_row());
-  for (const RowSet::Interval& interval : _rows.add(rows.first_row(), end)) {
-    count(rows, interval);
-  }
+  for (const RowSet::Interval& interval : _rows.add(rows.first_row(), end)) count(rows, interval);
   raise(_seen);
   _now = seconds;
-  if (seconds - _samples.back().seconds >= spacing) {
-    _samples.push_back({seconds, _counts.done});
-  }
-  while (_samples.size() > 2 && seconds - _samples.front().seconds > window) {
-    _samples.pop_front();
-  }
+  if (seconds - _samples.back().seconds >= spacing) _samples.push_back({seconds, _counts.done});
+  while (_samples.size() > 2 && seconds - _samples.front().seconds > window) _samples.pop_front();
 }
 
 void SweepProgress::apply(const v1::SweepAnswer& answer) {
-  if (answer.rows() > 0) {
-    total = answer.rows();
-  }
+  if (answer.rows() > 0) total = answer.rows();
   raise({answer.converged() + answer.not_converged() + answer.failed(), answer.not_converged(),
          answer.failed()});
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How far a sweep has come, folded from its events. Pure: the time is told.
+// The progress of a sweep, folded from its events. Pure: times are arguments.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@
 
 namespace anticrack::cli {
 
-/// Rows that were seen. O(log k) an interval, k of them apart from each other.
+/// A set of rows as k disjoint intervals. O(log k) per interval.
 class RowSet {
  public:
   using Interval = std::pair<std::uint64_t, std::uint64_t>;  ///< end excluded
-  /// What of [begin, end) is new.
+  /// Adds [begin, end) and returns the parts that are new.
   std::vector<Interval> add(std::uint64_t begin, std::uint64_t end);
 
  private:
@@ -29,20 +29,19 @@ class SweepProgress {
  public:
   std::uint64_t total = 0;  ///< rows; 0: not known yet
 
-  /// Rows: that ended, of these without an answer for want of steps, and with an error.
+  /// Rows that have ended; of these, rows that did not converge and rows that failed.
   std::uint64_t done() const noexcept { return _counts.done; }
   std::uint64_t not_converged() const noexcept { return _counts.not_converged; }
   std::uint64_t failed() const noexcept { return _counts.failed; }
-  /// Rows a second over the last few seconds; NaN before there is anything to measure.
+  /// Rows per second over the last few seconds; NaN: unknown.
   double rate() const noexcept;
-  double seconds_left() const noexcept;  ///< NaN where it cannot be told
+  double seconds_left() const noexcept;  ///< NaN: unknown
 
-  /// Rows may come again, after a watch that began anew. `seconds`: when they came, on any clock
-  /// that does not go back.
+  /// Rows may repeat, after a new watch. `seconds`: when they arrived, on any monotonic clock.
   void apply(const v1::SweepRows& rows, double seconds);
-  /// What the server counted. Never less than what was seen.
+  /// Counts of the server; used where larger than those of the rows seen.
   void apply(const v1::SweepAnswer& answer);
-  /// The server runs the sweep anew.
+  /// The server runs the sweep again.
   void restart();
 
  private:
@@ -60,7 +59,7 @@ class SweepProgress {
 
   RowSet _rows;
   Counts _seen;    // by rows
-  Counts _counts;  // by rows or by the server, whoever knows more
+  Counts _counts;  // of rows or of the server, the larger
   std::deque<Sample> _samples;
   double _now = std::numeric_limits<double>::quiet_NaN();
 };

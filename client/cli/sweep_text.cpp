@@ -47,9 +47,7 @@ void append(std::string& text, double value) {
 
 std::string csv_head(const results::Sweep& sweep, std::size_t loads) {
   std::string head = "row";
-  for (std::size_t i = 0; i < loads; ++i) {
-    head += "," + sweep.loads[i];
-  }
+  for (std::size_t i = 0; i < loads; ++i) head += "," + sweep.loads[i];
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
     head += "," + name_of_displacement(sweep, i);
   }
@@ -61,9 +59,7 @@ std::string csv_head(const results::Sweep& sweep, std::size_t loads) {
 std::string sweep_table(const results::Sweep& sweep) {
   const SweepSummary counts = summary(sweep);
   std::string text = counted(sweep.rows(), "row");
-  if (!sweep.source.empty()) {
-    text += " of " + sanitise(sweep.source);
-  }
+  if (!sweep.source.empty()) text += " of " + sanitise(sweep.source);
   text += ": " + endings(counts) + "\n";
   if (counts.converged > 0) {
     text += "at most " + counted(static_cast<std::size_t>(counts.most_steps), "step") +
@@ -79,12 +75,8 @@ std::string sweep_table(const results::Sweep& sweep) {
     add("energy", counts.energy);
     text += table(rows);
   }
-  if (!sweep.kept.empty()) {
-    text += "traces of " + counted(sweep.kept.size(), "row") + "\n";
-  }
-  if (!sweep.error.empty()) {
-    text += sanitise(sweep.error) + "\n";
-  }
+  if (!sweep.kept.empty()) text += "traces of " + counted(sweep.kept.size(), "row") + "\n";
+  if (!sweep.error.empty()) text += sanitise(sweep.error) + "\n";
   return text;
 }
 
@@ -101,11 +93,7 @@ void add_sweep(const results::Sweep& sweep, JsonWriter& json) {
       .value("most_steps", std::int64_t{counts.most_steps})
       .value("worst_kkt", counts.worst_kkt)
       .value("error", sweep.error);
-  json.begin_array("loads");
-  for (const std::string& load : sweep.loads) {
-    json.element(load);
-  }
-  json.end_array().begin_array("inclusions");
+  json.texts("loads", sweep.loads).begin_array("inclusions");
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
     json.begin_object().value("name", sweep.inclusions[i]);
     add_range("A", counts.displacement[i], json);
@@ -126,18 +114,14 @@ std::string sweep_csv(const results::Sweep& sweep) {
     const bool right = status == results::Status::converged;
     const auto add = [&text, right](double value) {
       text += ',';
-      if (right) {
-        append(text, value);
-      }
+      if (right) append(text, value);
     };
     text += std::to_string(row);
     for (std::size_t i = 0; i < loads; ++i) {
       text += ',';
       append(text, sweep.coefficients[row * loads + i]);
     }
-    for (std::size_t i = 0; i < inclusions; ++i) {
-      add(sweep.displacement[row * inclusions + i]);
-    }
+    for (std::size_t i = 0; i < inclusions; ++i) add(sweep.displacement[row * inclusions + i]);
     add(sweep.energy[row]);
     add(sweep.contact_length[row]);
     text += "," + std::to_string(sweep.steps[row]) + ",";
@@ -149,9 +133,7 @@ std::string sweep_csv(const results::Sweep& sweep) {
 
 int exit_code_of(const results::Sweep& sweep) {
   const SweepSummary counts = summary(sweep);
-  if (counts.failed + counts.other > 0) {
-    return exit_job_failed;
-  }
+  if (counts.failed + counts.other > 0) return exit_job_failed;
   return counts.not_converged > 0 ? exit_not_converged : exit_ok;
 }
 

@@ -13,14 +13,13 @@ namespace {
 
 constexpr std::chrono::milliseconds frame_time{67};
 
-// A frame is never wider than the terminal was when it was measured; should it have shrunk since,
-// lines are cut rather than wrapped.
+// If the terminal has shrunk since it was measured, lines are cut and not wrapped.
 constexpr std::string_view cut_lines = "\x1b[?7l";
 constexpr std::string_view wrap_lines = "\x1b[?7h";
-constexpr std::string_view wipe_line = "\x1b[2K";  // all of it: else tmux may join it to another
+constexpr std::string_view wipe_line = "\x1b[2K";  // whole: else tmux may join it to another
 constexpr std::string_view wipe_below = "\x1b[J";
 
-// Each line over what is there, the cursor after the last one.
+// Overwrites the lines; the cursor ends after the last one.
 std::string joined(const std::vector<std::string>& lines) {
   std::string text = "\r";
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -32,8 +31,8 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-// A process in the background would write into what its user types; changing the modes of the
-// terminal would stop it.
+// In the background output would mix with what the user types, and changing the modes of the
+// terminal would stop the process.
 bool in_background(std::FILE* terminal) {
   const pid_t group = tcgetpgrp(fileno(terminal));
   return group != -1 && group != getpgrp();
@@ -89,13 +88,11 @@ void Painter::redraw() {
 }
 
 void Painter::pause() {
-  // Where the terminal takes no text (Ctrl-S) a draw waits for it; that shall not keep the process.
+  // While the terminal takes no text (Ctrl-S) a draw waits; the process does not.
   constexpr std::chrono::milliseconds patience{500};
   _paused = true;
   const std::unique_lock lock(_drawing, patience);
-  if (lock.owns_lock()) {
-    leave_frame();
-  }
+  if (lock.owns_lock()) leave_frame();
 }
 
 void Painter::resume() {
@@ -107,9 +104,7 @@ void Painter::work() {
   std::unique_lock lock(_mutex);
   while (!_ending) {
     _woken.wait_for(lock, _tick, [this] { return _stale || _ending; });
-    if (_ending) {
-      return;
-    }
+    if (_ending) return;
     _stale = false;
     const Draw how = std::exchange(_anew, false) ? Draw::anew : Draw::if_new;
     lock.unlock();
@@ -121,9 +116,7 @@ void Painter::work() {
 
 void Painter::draw(Draw how) {
   const std::lock_guard lock(_drawing);
-  if (how != Draw::last && (_paused || in_background(_terminal))) {
-    return;
-  }
+  if (how != Draw::last && (_paused || in_background(_terminal))) return;
   const std::vector<std::string> lines = _render(size_of(_terminal));
   std::string frame = joined(lines);
   if (how != Draw::if_new || frame != _drawn) {
@@ -133,9 +126,7 @@ void Painter::draw(Draw how) {
     _drawn = std::move(frame);
     _drawn_lines = lines.size();
   }
-  if (how == Draw::last) {
-    leave_frame();
-  }
+  if (how == Draw::last) leave_frame();
 }
 
 void Painter::leave_frame() {
@@ -149,7 +140,7 @@ void Painter::write(const std::string& text) {
   std::fflush(_terminal);
 }
 
-// An Enter that is echoed would move the cursor off the frame.
+// An echoed Enter would move the cursor off the frame.
 void Painter::hide_keys() {
   termios modes{};
   if (in_background(_terminal) || tcgetattr(fileno(_terminal), &modes) != 0 ||
@@ -162,9 +153,7 @@ void Painter::hide_keys() {
 }
 
 void Painter::show_keys() {
-  if (_before && !in_background(_terminal)) {
-    tcsetattr(fileno(_terminal), TCSANOW, &*_before);
-  }
+  if (_before && !in_background(_terminal)) tcsetattr(fileno(_terminal), TCSANOW, &*_before);
   _before.reset();
 }
 

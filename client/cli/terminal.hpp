@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A terminal that frames are drawn on, each over the one before.
+// A terminal on which each frame is drawn over the one before.
 #pragma once
 
 #include <termios.h>
@@ -19,27 +19,24 @@
 
 namespace anticrack::cli {
 
-/// Whether frames can be drawn on it: a terminal that can move its cursor, and whose user does not
-/// want plain text (TERM, NO_COLOR; see redraws).
+/// Whether frames can be drawn: a terminal that can move its cursor and `redraws`.
 bool takes_frames(std::FILE* stream);
 
-/// By the environment: not on a TERM that is "dumb" or not set, nor with any NO_COLOR. Either may
-/// be null.
+/// By the environment: not if TERM is "dumb" or unset or NO_COLOR is set. Either may be null.
 bool redraws(const char* term, const char* no_color) noexcept;
 
 struct Size {
   std::size_t width = 80;
   std::size_t height = 24;
 };
-/// As it is now; 80 by 24 where it cannot be told.
+/// The current size; 80 by 24 if unknown.
 Size size_of(std::FILE* terminal);
 
-/// Draws on a thread of its own, at most 15 times a second, so that a burst of events costs
-/// nothing and the last of them is always seen; each `tick` also without an event, for clocks.
+/// Draws on a thread of its own, at most 15 times a second; also at each `tick`, for clocks.
 ///
-/// Between two frames the cursor stands on the frame's first character: wherever a terminal moves
-/// or wraps the frame when its size changes, the cursor goes with it, and the next frame can start
-/// there and wipe out all below. Keys are not echoed meanwhile. In the background nothing is drawn.
+/// Between frames the cursor is on the frame's first character: a terminal that moves or wraps the
+/// frame when resized moves the cursor along, and the next frame starts there and wipes all below.
+/// Keys are not echoed. In the background nothing is drawn.
 class Painter {
  public:
   /// `render` gives the lines of a frame; it is called on the painter's thread.
@@ -50,14 +47,14 @@ class Painter {
   Painter(const Painter&) = delete;
   Painter& operator=(const Painter&) = delete;
 
-  /// There is something new to draw.
+  /// Something new is to be drawn.
   void refresh();
-  /// Draws even what is not new: the terminal's size has changed.
+  /// Draws again, even if nothing is new: the size of the terminal has changed.
   void redraw();
-  /// Leaves the frame as it stands, puts the cursor below and the terminal back as it was; draws no
-  /// more before `resume`. For a process that is about to be stopped or ended.
+  /// Leaves the frame, puts the cursor below it and restores the terminal; draws nothing until
+  /// `resume`. For a process about to be stopped or ended.
   void pause();
-  /// The next frame is drawn where the cursor is now.
+  /// Draws the next frame at the cursor.
   void resume();
 
  private:
@@ -76,7 +73,7 @@ class Painter {
 
   std::timed_mutex _drawing;  // the terminal, and what follows
   std::string _drawn;
-  std::size_t _drawn_lines = 0;    // of the frame that the cursor stands on; 0: none
+  std::size_t _drawn_lines = 0;    // of the frame on the terminal; 0: none
   std::optional<termios> _before;  // the terminal's modes, while keys are not echoed
   std::atomic<bool> _paused = false;
 

@@ -48,9 +48,7 @@ struct Character {
 // The one at `i` of valid UTF-8.
 Character character_at(std::string_view text, std::size_t i) {
   const std::uint8_t lead = byte_at(text, i);
-  if (lead < 0x80) {
-    return {1, 1};
-  }
+  if (lead < 0x80) return {1, 1};
   std::size_t length = 1;
   auto point = static_cast<wchar_t>(lead & (lead >= 0xf0 ? 0x07 : lead >= 0xe0 ? 0x0f : 0x1f));
   for (; is_continuation(text, i + length); ++length) {
@@ -85,20 +83,14 @@ std::size_t columns_of(std::string_view text) noexcept {
 }
 
 std::string fit(std::string_view text, std::size_t width) {
-  if (columns_of(text) <= width) {
-    return std::string(text);
-  }
-  if (width == 0) {
-    return "";
-  }
+  if (columns_of(text) <= width) return std::string(text);
+  if (width == 0) return "";
   const UnicodeLocale unicode;
   std::size_t end = 0;
   std::size_t columns = 0;
   while (true) {
     const Character character = character_at(text, end);
-    if (columns + character.columns >= width) {
-      return std::string(text.substr(0, end)) + "~";
-    }
+    if (columns + character.columns >= width) return std::string(text.substr(0, end)) + "~";
     columns += character.columns;
     end += character.length;
   }
@@ -115,9 +107,7 @@ std::string pad_left(std::string_view text, std::size_t width) {
 }
 
 std::string number(double value, int digits, bool exponent) {
-  if (!std::isfinite(value)) {
-    return "-";
-  }
+  if (!std::isfinite(value)) return "-";
   std::array<char, 64> buffer{};
   const int length =
       std::snprintf(buffer.data(), buffer.size(), exponent ? "%.*e" : "%.*g", digits, value);
@@ -141,18 +131,12 @@ std::string bytes(std::uint64_t count) {
 }
 
 std::string time_text(double seconds) {
-  if (!(seconds >= 0) || seconds >= 1e9) {
-    return "-";
-  }
-  if (seconds < 9.5) {
-    return number(seconds, 2) + " s";
-  }
+  if (!(seconds >= 0) || seconds >= 1e9) return "-";
+  if (seconds < 9.5) return number(seconds, 2) + " s";
   const auto whole = static_cast<std::int64_t>(std::lround(seconds));
   constexpr std::int64_t minute = 60;
   constexpr std::int64_t hour = 60 * minute;
-  if (whole < minute) {
-    return std::to_string(whole) + " s";
-  }
+  if (whole < minute) return std::to_string(whole) + " s";
   if (whole < hour) {
     return std::to_string(whole / minute) + " min " + std::to_string(whole % minute) + " s";
   }

@@ -150,9 +150,7 @@ void add_names(const v1::Mesh& from, results::Mesh& to) {
 // All but its columns.
 results::Sweep to_sweep(const Fetched& fetched) {
   results::Sweep sweep;
-  for (const v1::LoadCase& load : fetched.job.load_cases()) {
-    sweep.loads.push_back(load.name());
-  }
+  for (const v1::LoadCase& load : fetched.job.load_cases()) sweep.loads.push_back(load.name());
   sweep.inclusions.assign(fetched.mesh.inclusions().begin(), fetched.mesh.inclusions().end());
   // A row that is not an int32 becomes a negative one, which is refused.
   sweep.kept.assign(fetched.job.sweep().traces().begin(), fetched.job.sweep().traces().end());

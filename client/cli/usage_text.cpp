@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/usage_text.hpp"
+#include "cli/commands.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -32,31 +32,23 @@ std::string path_of(const CLI::App& app) {
 // An option of a command or of one above it, whose options it takes too; null for none.
 const CLI::Option* option_of(const CLI::App* app, const std::string& name) {
   for (; app != nullptr; app = app->get_parent()) {
-    if (const CLI::Option* option = app->get_option_no_throw(name)) {
-      return option;
-    }
+    if (const CLI::Option* option = app->get_option_no_throw(name)) return option;
   }
   return nullptr;
 }
 
 void add_options_of(const CLI::App& app, Words& names) {
   for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) {
-      names.push_back("--" + name);
-    }
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
   const auto is_group = [](const CLI::App* below) { return below->get_name().empty(); };
-  for (const CLI::App* group : app.get_subcommands(is_group)) {
-    add_options_of(*group, names);
-  }
+  for (const CLI::App* group : app.get_subcommands(is_group)) add_options_of(*group, names);
 }
 
 // Long names of all options that a command takes, its own first.
 Words options_of(const CLI::App* app) {
   Words names;
-  for (; app != nullptr; app = app->get_parent()) {
-    add_options_of(*app, names);
-  }
+  for (; app != nullptr; app = app->get_parent()) add_options_of(*app, names);
   return names;
 }
 
@@ -97,9 +89,7 @@ class Walk {
   std::string problem() {
     for (; _next < _words.size(); ++_next) {
       const std::string& word = _words[_next];
-      if (word == "--") {
-        return "";
-      }
+      if (word == "--") return "";
       const bool option = word.size() > 1 && word.front() == '-';
       if (std::string found = option ? of_option(word) : of_word(word); !found.empty()) {
         return found;
@@ -115,9 +105,7 @@ class Walk {
     const bool is_long = word[1] == '-';
     const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
     const CLI::Option* option = option_of(_level, name);
-    if (option == nullptr) {
-      return unknown_option(*_level, is_long ? name : word);
-    }
+    if (option == nullptr) return unknown_option(*_level, is_long ? name : word);
     const bool holds_value = word.size() > name.size();
     _next += option->get_items_expected_max() > 0 && !holds_value ? 1 : 0;
     return "";
@@ -173,9 +161,7 @@ std::string of_error(const CLI::ParseError& error) {
     return text.substr(0, word) + " and " + text.substr(word + 10) +
            " exclude each other; leave one out";
   }
-  if (kind == "ConversionError") {
-    return text.substr(text.find(": ") + 2) + " is not possible";
-  }
+  if (kind == "ConversionError") return text.substr(text.find(": ") + 2) + " is not possible";
   const std::size_t list = text.find('[');
   if (text.starts_with("Exactly 1 ") && list != std::string::npos) {
     std::string names;
@@ -191,9 +177,7 @@ std::string of_error(const CLI::ParseError& error) {
 
 std::string usage_text(CLI::App& app, const CLI::ParseError& error, const Words& words) {
   Walk walk(app, words);
-  if (std::string problem = walk.problem(); !problem.empty()) {
-    return problem;
-  }
+  if (std::string problem = walk.problem(); !problem.empty()) return problem;
   const Words commands = commands_of(walk.level());
   if (!commands.empty()) {
     return "a command is missing after " + path_of(walk.level()) + "; " +

@@ -62,9 +62,8 @@ Range empty_range() noexcept {
 double label_step(const Range& range, int most) {
   const double least = range.size() / most;
   const double power = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double step : {1.0, 2.0, 5.0}) {
+  for (const double step : {1.0, 2.0, 5.0})
     if (least <= step * power * 1.05) return step * power;
-  }
   return 10 * power;
 }
 

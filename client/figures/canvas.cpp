@@ -10,13 +10,10 @@ namespace anticrack::figures {
 namespace {
 
 bool is_bare_name(const std::string& file) {
-  if (file.empty() || file[0] == '-') return false;
-  for (const char c : file) {
-    const bool plain = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
-                       c == '_' || c == '.' || c == '-';
-    if (!plain) return false;
-  }
-  return true;
+  return !file.empty() && file[0] != '-' &&
+         file.find_first_not_of(
+             "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.-") ==
+             std::string::npos;
 }
 
 constexpr double mm_per_inch = 25.4;
@@ -72,13 +69,13 @@ std::vector<std::string> title_lines(const Title& title, std::size_t most) {
 
 }  // namespace
 
-std::string script(const std::string& data, const Title& title, const Plots& plots,
-                   const Canvas& canvas, const std::vector<Output>& outputs) {
+std::string script(const Picture& picture, const std::vector<Output>& outputs) {
   constexpr double character_width = 1.85;  // mm, of the title's font
+  const Canvas& canvas = picture.canvas;
   const auto most = static_cast<std::size_t>(canvas.width / character_width);
-  std::string text = "set encoding utf8\n" + data;
+  std::string text = "set encoding utf8\n" + picture.data;
   for (const Output& output : outputs) {
-    const auto lines = output.title ? title_lines(title, most) : std::vector<std::string>{};
+    const auto lines = output.title ? title_lines(picture.title, most) : std::vector<std::string>{};
     const double head = lines.empty() ? 0 : 1 + line_height * static_cast<double>(lines.size());
     const Canvas size{canvas.width, canvas.height + head};
     text += "reset\nset encoding utf8\nset minussign\n" + terminal(output, size);
@@ -89,7 +86,7 @@ std::string script(const std::string& data, const Title& title, const Plots& plo
               " at screen 0.5, screen " + number(1 - from_top / size.height) +
               " center noenhanced font ',9' textcolor rgb '#222222'\n";
     }
-    text += plots(output.format, {0, 0, 1, canvas.height / size.height});
+    text += picture.plots(output.format, {0, 0, 1, canvas.height / size.height});
     text += "unset multiplot\nset output\n";
   }
   return text;

@@ -11,8 +11,8 @@
 
 namespace anticrack::figures {
 
-/// Where one run of gnuplot draws to. `file` is a bare name in its working folder, of the
-/// characters [A-Za-z0-9_.-] and not beginning with "-"; anything else throws.
+/// Output of one run of gnuplot. `file` is a bare name in its working folder, of the characters
+/// [A-Za-z0-9_.-] and not beginning with "-"; anything else throws.
 struct Output {
   Format format;
   std::string file;
@@ -20,28 +20,34 @@ struct Output {
   bool title = true;  ///< written above the panels
 };
 
-/// Size of the panels on paper, mm; a title comes on top. Fonts and lines have the same size in
-/// print in every picture and format: text has at least 6.5 points.
+/// Size of the panels on paper, mm, without the title. Fonts and lines have the same size in print
+/// in every picture and format; text is at least 6.5 points.
 struct Canvas {
   double width = 0;
   double height = 0;
 };
 
-inline constexpr Canvas column{85, 68};  ///< a column of a journal
+inline constexpr Canvas narrow{85, 68};  ///< a column of a journal
 inline constexpr Canvas page{170, 68};   ///< two panels side by side, over both columns
 inline constexpr Canvas tall{85, 104};   ///< two panels, one above the other
 
-/// Draws into a part of the picture.
+/// The commands that draw the panels into a part of the picture.
 using Plots = std::function<std::string(Format, const Place&)>;
 
-/// Of a case and of the load; one of them may be empty.
+/// Of the case and of the load; either may be empty.
 struct Title {
   std::string first;
   std::string second;
 };
 
-/// `data` once, then for every output the title, on one line or on a few, and what `plots` draws.
-std::string script(const std::string& data, const Title& title, const Plots& plots,
-                   const Canvas& canvas, const std::vector<Output>& outputs);
+struct Picture {
+  std::string data;  ///< blocks of data
+  Title title;
+  Plots plots;
+  Canvas canvas;
+};
+
+/// The data once, then for every output the title, wrapped, and what `plots` draws.
+std::string script(const Picture& picture, const std::vector<Output>& outputs);
 
 }  // namespace anticrack::figures

@@ -44,9 +44,8 @@ bool has_epsilon(const Load& load) {
 double foot(const Load& load) {
   double least = has_epsilon(load) ? load.epsilon : 1;
   for (const Series& series : series_of(load)) {
-    for (const double value : *series.values) {
+    for (const double value : *series.values)
       if (drawable(value)) least = std::min(least, value);
-    }
   }
   return std::pow(10.0, std::floor(std::log10(std::max(least, 1e-300)) - 0.5));
 }

@@ -11,45 +11,32 @@
 #include <system_error>
 #include <utility>
 
-#include "figures/gnuplot.hpp"
-#include "figures/svg.hpp"
-#include "results/make_folder.hpp"
+#include "results/replace_file.hpp"
 
 namespace anticrack::figures {
 namespace {
 
 namespace fs = std::filesystem;
 
-const char* extension(Format format) {
-  switch (format) {
-    case Format::png:
-      return ".png";
-    case Format::svg:
-      return ".svg";
-    case Format::pdf:
-      break;
-  }
-  return ".pdf";
+struct FileKind {
+  const char* extension;
+  std::string_view signature;  ///< the first bytes of a file
+};
+
+/// By Format.
+constexpr std::array<FileKind, 3> kinds{
+    {{".png", "\x89PNG\r"}, {".svg", "<?xml"}, {".pdf", "%PDF-"}}};
+
+const FileKind& kind_of(Format format) {
+  return kinds.at(static_cast<std::size_t>(format));
 }
 
-std::string_view signature(Format format) {
-  switch (format) {
-    case Format::png:
-      return "\x89PNG\r";
-    case Format::svg:
-      return "<?xml";
-    case Format::pdf:
-      break;
-  }
-  return "%PDF-";
-}
-
-/// gnuplot leaves an empty file where a terminal is missing.
+/// gnuplot leaves an empty file if it lacks the terminal.
 bool has_signature(const fs::path& path, Format format) {
   std::ifstream file(path, std::ios::binary);
   std::array<char, 5> head{};
   file.read(head.data(), head.size());
-  return file && std::string_view(head.data(), head.size()) == signature(format);
+  return file && std::string_view(head.data(), head.size()) == kind_of(format).signature;
 }
 
 void shrink(const fs::path& svg) {
@@ -61,7 +48,7 @@ void shrink(const fs::path& svg) {
   if (!from || !to) throw Error(svg.string() + ": cannot be written; free space there");
 }
 
-/// Removes its files unless they were renamed.
+/// Temporary files, removed unless renamed.
 class Partials {
  public:
   Partials(fs::path folder, const Options& options) : _folder(std::move(folder)) {
@@ -69,7 +56,7 @@ class Partials {
     const std::string stem = ".anticrack-" + std::to_string(getpid()) + "-" +
                              std::to_string(counter.fetch_add(1)) + ".partial";
     for (const Format format : options.formats) {
-      outputs.push_back({format, stem + extension(format), options.dpi, options.titles});
+      outputs.push_back({format, stem + kind_of(format).extension, options.dpi, options.titles});
     }
   }
   Partials(const Partials&) = delete;
@@ -83,11 +70,11 @@ class Partials {
     for (const Output& output : outputs) {
       const fs::path partial = _folder / output.file;
       if (!has_signature(partial, output.format)) {
-        throw Error("gnuplot made no " + std::string(extension(output.format)) +
+        throw Error("gnuplot made no " + std::string(kind_of(output.format).extension) +
                     " file; its package gnuplot-nox may be damaged");
       }
       if (output.format == Format::svg) shrink(partial);
-      const fs::path target = _folder / (stem + extension(output.format));
+      const fs::path target = _folder / (stem + kind_of(output.format).extension);
       std::error_code error;
       fs::rename(partial, target, error);
       if (error) throw Error(target.string() + ": " + error.message());
@@ -107,10 +94,9 @@ Drawing::Drawing(fs::path folder, Options options) : _folder(std::move(folder)),
   results::make_folder(_folder);
 }
 
-void Drawing::draw(const std::string& stem,
-                   const std::function<std::string(const std::vector<Output>&)>& script) {
+void Drawing::draw(const std::string& stem, const Picture& picture) {
   Partials partials(_folder, _options);
-  run_gnuplot(script(partials.outputs), _folder, _options.time_limit);
+  run_gnuplot(script(picture, partials.outputs), _folder, _options.time_limit);
   partials.rename_to(stem, drawn.files);
 }
 

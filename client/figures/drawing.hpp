@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Pictures on their way into a folder. For the sources of this folder only.
+// Draws pictures into a folder. For the sources of this folder only.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
-#include <functional>
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include "figures/canvas.hpp"
 #include "figures/figures.hpp"
@@ -15,13 +15,11 @@ namespace anticrack::figures {
 
 class Drawing {
  public:
-  /// Makes the folder if it is missing; throws results::Error where it cannot be written.
+  /// Creates the folder if missing; throws results::Error where it is not writable.
   Drawing(std::filesystem::path folder, Options options);
 
-  /// Runs the script for STEM.png, STEM.svg, ..., as the options ask; all are written under
-  /// temporary names first.
-  void draw(const std::string& stem,
-            const std::function<std::string(const std::vector<Output>&)>& script);
+  /// Draws STEM.png, STEM.svg, ..., as the options say, each under a temporary name first.
+  void draw(const std::string& stem, const Picture& picture);
 
   Drawn drawn;
 
@@ -29,5 +27,15 @@ class Drawing {
   std::filesystem::path _folder;
   Options _options;
 };
+
+/// gnuplot's SVG without its empty groups: it opens several per triangle, most of the file and slow
+/// to display. Expects gnuplot's lines, which begin with one tag each. O(length).
+std::string without_empty_groups(std::string_view svg);
+
+/// Runs gnuplot in `folder` with `script` as its standard input and waits for it. It reads no
+/// start-up files of the user and starts with default signals. Throws Error when gnuplot is not
+/// installed, fails (with what it printed) or takes longer than `limit` (it is killed).
+void run_gnuplot(const std::string& script, const std::filesystem::path& folder,
+                 std::chrono::milliseconds limit);
 
 }  // namespace anticrack::figures

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using results::Load;
 using results::Result;
 
-/// Triangles drawn at most: more cannot be told apart, and an SVG grows by 200 bytes each.
+/// Most triangles drawn: more are too small to see, and each adds 200 bytes to an SVG.
 constexpr std::size_t surface_triangles = 24000;
 
 std::string traces_suffix(std::size_t interface) {
@@ -27,8 +27,7 @@ std::string traces_suffix(std::size_t interface) {
 void draw_traces(const Result& result, const Load& load, const std::string& stem,
                  Drawing& drawing) {
   for (std::size_t i = 0; i < load.traces.size(); ++i) {
-    drawing.draw(stem + traces_suffix(i),
-                 [&](const auto& outputs) { return traces_script(result, load, i, outputs); });
+    drawing.draw(stem + traces_suffix(i), traces_picture(result, load, i));
   }
 }
 
@@ -60,17 +59,12 @@ void draw_load(const Result& result, const Load& load, const std::string& stem, 
     drawing.drawn.notes.push_back(
         "load \"" + load.name + "\": no membrane drawn, the result has no fields; run with fields");
   } else {
-    drawing.draw(stem, [&](const auto& outputs) {
-      return combined_script(result, load, membrane, outputs);
-    });
-    drawing.draw(stem + "-membrane", [&](const auto& outputs) {
-      return membrane_script(result, load, membrane, outputs);
-    });
+    drawing.draw(stem, combined_picture(result, load, membrane));
+    drawing.draw(stem + "-membrane", membrane_picture(result, load, membrane));
   }
   draw_traces(result, load, stem, drawing);
   if (has_convergence(load)) {
-    drawing.draw(stem + "-convergence",
-                 [&](const auto& outputs) { return convergence_script(result, load, outputs); });
+    drawing.draw(stem + "-convergence", convergence_picture(result, load));
   }
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figures/gnuplot.hpp"
+#include "figures/drawing.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -24,69 +25,57 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// gnuplot repeats the failing line, which may be a long one.
-constexpr std::size_t kept_output = 4000;
+/// Bytes of standard error in messages: gnuplot repeats the failing line, which may be long.
+constexpr off_t kept_output = 4000;
 
 [[noreturn]] void fail(const std::string& what, int error) {
   throw Error("gnuplot: " + what + ": " + std::generic_category().message(error));
 }
 
+/// A file descriptor, closed once.
 class Descriptor {
  public:
-  explicit Descriptor(int number = -1) : _number(number) {}
+  explicit Descriptor(int number) : _number(number) {}
   Descriptor(Descriptor&& other) noexcept : _number(std::exchange(other._number, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(_number, other._number);
-    return *this;
+  Descriptor& operator=(Descriptor&&) = delete;
+  ~Descriptor() {
+    if (_number >= 0) close(_number);
   }
-  ~Descriptor() { reset(); }
 
   int get() const noexcept { return _number; }
-  void reset() noexcept {
-    if (_number >= 0) close(std::exchange(_number, -1));
-  }
 
  private:
   int _number;
 };
 
-/// As pidfd_open of <sys/pidfd.h>, which glibc 2.36 declares without C linkage.
-int open_pidfd(pid_t pid) {
-  return static_cast<int>(syscall(SYS_pidfd_open, pid, 0));
+/// A file in memory that holds `content`.
+Descriptor memory_file(std::string_view content) {
+  Descriptor file(memfd_create("anticrack-gnuplot", MFD_CLOEXEC));
+  if (file.get() < 0) fail("memfd_create", errno);
+  while (!content.empty()) {
+    const ssize_t written = ::write(file.get(), content.data(), content.size());
+    if (written < 0 && errno != EINTR) fail("write", errno);
+    content.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
+  }
+  return file;
 }
 
-/// Keeps SIGPIPE from this thread until the end of the scope; a write to a child that has stopped
-/// reading then only fails.
-class NoBrokenPipeSignal {
- public:
-  NoBrokenPipeSignal() {
-    sigemptyset(&_pipe);
-    sigaddset(&_pipe, SIGPIPE);
-    sigset_t pending;
-    sigpending(&pending);
-    _was_pending = sigismember(&pending, SIGPIPE) == 1;
-    pthread_sigmask(SIG_BLOCK, &_pipe, &_before);
-  }
-  NoBrokenPipeSignal(const NoBrokenPipeSignal&) = delete;
-  NoBrokenPipeSignal& operator=(const NoBrokenPipeSignal&) = delete;
-  ~NoBrokenPipeSignal() {
-    const timespec at_once{};
-    if (!_was_pending) {
-      while (sigtimedwait(&_pipe, nullptr, &at_once) < 0 && errno == EINTR) {
-      }
-    }
-    pthread_sigmask(SIG_SETMASK, &_before, nullptr);
-  }
-
- private:
-  sigset_t _pipe, _before;
-  bool _was_pending = false;
-};
+/// The last `most` bytes of a file.
+std::string tail_of(const Descriptor& file, off_t most) {
+  const off_t size = lseek(file.get(), 0, SEEK_END);
+  const off_t begin = std::max<off_t>(size - most, 0);
+  std::string text(static_cast<std::size_t>(std::max<off_t>(size - begin, 0)), '\0');
+  const ssize_t count = pread(file.get(), text.data(), text.size(), begin);
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  return text;
+}
 
 /// A child that does not outlive its owner.
 class Child {
  public:
-  explicit Child(pid_t pid) : _pid(pid), _ended(open_pidfd(pid)) {}
+  // Not pidfd_open: glibc 2.36 declares it without C linkage.
+  explicit Child(pid_t pid)
+      : _pid(pid), _ended(static_cast<int>(syscall(SYS_pidfd_open, pid, 0))) {}
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
   ~Child() {
@@ -95,8 +84,17 @@ class Child {
     wait();
   }
 
-  /// Readable once the child has ended.
-  int descriptor() const noexcept { return _ended.get(); }
+  bool ends_before(Clock::time_point deadline) const {
+    if (_ended.get() < 0) fail("cannot be watched", errno);
+    for (;;) {
+      const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+      if (left.count() <= 0) return false;
+      pollfd waiting{_ended.get(), POLLIN, 0};
+      const int found = poll(&waiting, 1, static_cast<int>(std::min<long>(left.count(), 1000)));
+      if (found > 0) return true;
+      if (found < 0 && errno != EINTR) fail("poll", errno);
+    }
+  }
 
   int wait() {
     int status = 0;
@@ -140,8 +138,8 @@ pid_t spawn(const std::filesystem::path& folder, int in, int err) {
 
   std::string program = "gnuplot";
   std::string no_startup_files = "-d";
-  // Named, gnuplot reads it through a buffer; by default byte by byte, which takes three times as
-  // long as drawing.
+  // Named, gnuplot reads it through a buffer; standard input it reads byte by byte, which takes
+  // three times as long as drawing.
   std::string input = "/dev/stdin";
   std::array<char*, 4> arguments{program.data(), no_startup_files.data(), input.data(), nullptr};
   std::string locale = "LC_ALL=C.UTF-8";
@@ -157,80 +155,14 @@ pid_t spawn(const std::filesystem::path& folder, int in, int err) {
   return pid;
 }
 
-/// Feeds the script and collects standard error until the child has ended.
-class Conversation {
- public:
-  Conversation(std::string_view script, Descriptor to, Descriptor from)
-      : _script(script), _to(std::move(to)), _from(std::move(from)) {}
-
-  /// False when the deadline passed first.
-  bool hold(const Child& child, Clock::time_point deadline) {
-    for (;;) {
-      const auto left =
-          std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
-      if (left <= 0) return false;
-      std::array<pollfd, 3> waits{
-          {{_to.get(), POLLOUT, 0}, {_from.get(), POLLIN, 0}, {child.descriptor(), POLLIN, 0}}};
-      const int wait = static_cast<int>(std::min<long>(left, 1000));
-      if (poll(waits.data(), waits.size(), wait) < 0 && errno != EINTR) fail("poll", errno);
-      if (waits[0].revents != 0) feed();
-      if (waits[1].revents != 0) collect();
-      if (waits[2].revents != 0) {
-        while (collect()) {
-        }
-        return true;
-      }
-    }
-  }
-
-  const std::string& output() const noexcept { return _output; }
-
- private:
-  void feed() {
-    const ssize_t sent = ::write(_to.get(), _script.data(), _script.size());
-    if (sent >= 0) {
-      _script.remove_prefix(static_cast<std::size_t>(sent));
-    } else if (errno != EINTR && errno != EAGAIN) {
-      _script = {};  // it has stopped reading; its exit status and standard error say why
-    }
-    if (_script.empty()) _to.reset();
-  }
-
-  /// True if there was something.
-  bool collect() {
-    std::array<char, 4096> buffer{};
-    const ssize_t count = ::read(_from.get(), buffer.data(), buffer.size());
-    if (count == 0) _from.reset();
-    if (count <= 0) return false;
-    _output.append(buffer.data(), static_cast<std::size_t>(count));
-    if (_output.size() > kept_output) _output.erase(0, _output.size() - kept_output);
-    return true;
-  }
-
-  std::string_view _script;
-  Descriptor _to, _from;
-  std::string _output;
-};
-
 }  // namespace
 
 void run_gnuplot(const std::string& script, const std::filesystem::path& folder,
                  std::chrono::milliseconds limit) {
-  const NoBrokenPipeSignal quiet;
-  std::array<int, 2> in{}, err{};
-  if (pipe2(in.data(), O_CLOEXEC) != 0) fail("pipe", errno);
-  Descriptor childs_in(in[0]), to(in[1]);
-  if (pipe2(err.data(), O_CLOEXEC) != 0) fail("pipe", errno);
-  Descriptor from(err[0]), childs_err(err[1]);
-  fcntl(to.get(), F_SETFL, O_NONBLOCK);
-  fcntl(from.get(), F_SETFL, O_NONBLOCK);
-
-  Child child(spawn(folder, childs_in.get(), childs_err.get()));
-  if (child.descriptor() < 0) fail("cannot be watched", errno);
-  childs_in.reset();
-  childs_err.reset();
-  Conversation conversation(script, std::move(to), std::move(from));
-  if (!conversation.hold(child, Clock::now() + limit)) {
+  const Descriptor in = memory_file(script);
+  const Descriptor err = memory_file({});
+  Child child(spawn(folder, in.get(), err.get()));
+  if (!child.ends_before(Clock::now() + limit)) {
     throw Error("gnuplot took longer than " + std::to_string(limit.count()) +
                 " ms and was stopped; draw a coarser mesh or allow more time");
   }
@@ -239,7 +171,7 @@ void run_gnuplot(const std::string& script, const std::filesystem::path& folder,
     throw Error("gnuplot failed (" +
                 (WIFEXITED(status) ? "exit code " + std::to_string(WEXITSTATUS(status))
                                    : "signal " + std::to_string(WTERMSIG(status))) +
-                "): " + conversation.output());
+                "): " + tail_of(err, kept_output));
   }
 }
 

@@ -4,19 +4,19 @@
 #include <utility>
 
 #include "figures/drawing.hpp"
-#include "figures/mesh_panel.hpp"
+#include "figures/mesh_layers.hpp"
 #include "figures/text.hpp"
 
 namespace anticrack::figures {
 namespace {
 
-/// More cannot be told apart, and make an SVG that no program shows.
+/// Most triangles drawn: more are too small to see, and the SVG is too large for any program.
 constexpr std::size_t drawn_triangles = 60000;
 
 constexpr Canvas one_panel{85, 98};
 constexpr Canvas two_panels{170, 91};
 
-/// The place of the panels and, below, that of the legend; `legend_height` in mm.
+/// The places of the panels and of the legend below; `legend_height` in mm.
 std::pair<Place, Place> panels_and_legend(const Place& area, const Canvas& canvas,
                                           double legend_height) {
   const double part = area.height * legend_height / canvas.height;
@@ -48,38 +48,35 @@ bool few(const MeshLayers& layers, const std::string& where, std::vector<std::st
 
 }  // namespace
 
-std::string mesh_script(const results::MeshPlan& plan, const std::vector<Output>& outputs,
-                        std::vector<std::string>& notes) {
+Picture mesh_picture(const results::MeshPlan& plan, std::vector<std::string>& notes) {
   const Window everything = whole(plan.mesh);
   const MeshLayers overview = layers(plan, everything);
-  const bool overview_triangles = few(overview, "in the whole", notes);
+  const MeshPanel first{"A", everything, counts(plan.mesh), few(overview, "in the whole", notes)};
   const Title title{plan.title.empty() ? "mesh" : plan.title, ""};
-  const MeshPanel first{"A", everything, counts(plan.mesh), overview_triangles};
+  const std::string data = mesh_data(overview, first.tag);
   Window near;
   results::Tip tip;
   if (!finest_tip(plan, near, tip)) {
-    return script(
-        mesh_data(overview, first.tag), title,
-        [&](Format, const Place& area) {
-          const auto [panel, foot] = panels_and_legend(area, one_panel, 14);
-          return mesh_panel(overview, first, panel, height_of_picture(area, one_panel)) +
-                 mesh_legend(overview, 4, foot);
-        },
-        one_panel, outputs);
+    return {data, title,
+            [=](Format, const Place& area) {
+              const auto [panel, foot] = panels_and_legend(area, one_panel, 14);
+              return mesh_panel(overview, first, panel, height_of_picture(area, one_panel)) +
+                     mesh_legend(overview, 4, foot);
+            },
+            one_panel};
   }
   const MeshLayers detail = layers(plan, near);
-  const bool detail_triangles = few(detail, "around the tip", notes);
-  const MeshPanel second{"B", near, caption_of(tip, near, everything), detail_triangles};
-  return script(
-      mesh_data(overview, first.tag) + mesh_data(detail, second.tag), title,
-      [&](Format, const Place& area) {
-        const auto [panels, foot] = panels_and_legend(area, two_panels, 8);
-        const auto [left, right] = halves(panels);
-        const double height = height_of_picture(area, two_panels);
-        return mesh_panel(overview, first, left, height) +
-               mesh_panel(detail, second, right, height) + mesh_legend(overview, 2, foot);
-      },
-      two_panels, outputs);
+  const MeshPanel second{"B", near, caption_of(tip, near, everything),
+                         few(detail, "around the tip", notes)};
+  return {data + mesh_data(detail, second.tag), title,
+          [=](Format, const Place& area) {
+            const auto [panels, foot] = panels_and_legend(area, two_panels, 8);
+            const auto [left, right] = halves(panels);
+            const double height = height_of_picture(area, two_panels);
+            return mesh_panel(overview, first, left, height) +
+                   mesh_panel(detail, second, right, height) + mesh_legend(overview, 2, foot);
+          },
+          two_panels};
 }
 
 Drawn draw_mesh(const results::MeshPlan& plan, const std::string& name,
@@ -87,10 +84,7 @@ Drawn draw_mesh(const results::MeshPlan& plan, const std::string& name,
   const std::string fault = results::first_fault(plan);
   if (!fault.empty()) throw Error("the mesh is inconsistent: " + fault);
   Drawing drawing(folder, options);
-  drawing.draw(file_stems({name}, {}).front(), [&](const auto& outputs) {
-    drawing.drawn.notes.clear();
-    return mesh_script(plan, outputs, drawing.drawn.notes);
-  });
+  drawing.draw(file_stems({name}, {}).front(), mesh_picture(plan, drawing.drawn.notes));
   return std::move(drawing.drawn);
 }
 

@@ -7,8 +7,6 @@
 #include <limits>
 #include <optional>
 
-#include "figures/outer_edges.hpp"
-
 namespace anticrack::figures {
 namespace {
 

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a picture of a mesh consists of, cut down to what can be seen of it. For the sources of this
-// folder only.
+// A picture of a mesh: its layers, reduced to what can be seen, and its panels. For the sources of
+// this folder only.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "figures/panels.hpp"
 #include "results/mesh_plan.hpp"
 
 namespace anticrack::figures {
@@ -49,11 +51,35 @@ struct MeshLayers {
 /// The whole mesh with a margin.
 Window whole(const results::Mesh& mesh);
 
-/// The neighbourhood of the tip with the smallest edge, so large that its triangles are a few
-/// pixels or else a fortieth of the mesh; false where no tip is finer than the mesh around it.
+/// The neighbourhood of the tip with the smallest edge: a fortieth of the mesh, or more if its
+/// triangles would be larger than a few pixels. False if no tip is finer than the mesh around it.
 bool finest_tip(const results::MeshPlan& plan, Window& window, results::Tip& tip);
 
-/// What is inside the window and larger than about a pixel of it. O(triangles log triangles).
+/// All that is inside the window and larger than about a pixel. O(triangles log triangles).
 MeshLayers layers(const results::MeshPlan& plan, const Window& window);
+
+/// Two nodes, the lower number first.
+using Edge = std::pair<std::int32_t, std::int32_t>;
+
+/// The boundary of the membrane: edges of only one triangle, sorted. O(m log m).
+std::vector<Edge> outer_edges(const results::Mesh& mesh);
+
+/// The data blocks of the layers; `tag` distinguishes panels.
+std::string mesh_data(const MeshLayers& layers, const std::string& tag);
+
+struct MeshPanel {
+  std::string tag;  ///< of its data
+  Window window;
+  std::string caption;
+  bool with_triangles = true;
+};
+
+/// Draws the layers with equal scales in the middle of the place. `height`: of the picture, divided
+/// by its width.
+std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const Place& place,
+                       double height);
+
+/// The legend of all panels, in columns of `rows` entries.
+std::string mesh_legend(const MeshLayers& layers, int rows, const Place& place);
 
 }  // namespace anticrack::figures

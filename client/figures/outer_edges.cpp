@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figures/outer_edges.hpp"
+#include "figures/mesh_layers.hpp"
 
 #include <algorithm>
 

@@ -1,61 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "figures/script.hpp"
 
-#include "figures/canvas.hpp"
 #include "figures/panels.hpp"
-#include "figures/text.hpp"
 
 namespace anticrack::figures {
-namespace {
 
 using results::Load;
 using results::Result;
 
-Title title_of(const Result& result, const Load& load) {
-  return {result.title, load.name};
+Picture membrane_picture(const Result& result, const Load& load, const Surface& surface) {
+  return {membrane_data(surface),
+          {result.title, load.name},
+          [&](Format format, const Place& place) {
+            return membrane_panel(surface, load, membrane_view(result), place, format);
+          },
+          narrow};
 }
 
-}  // namespace
-
-std::string membrane_script(const Result& result, const Load& load, const Surface& surface,
-                            const std::vector<Output>& outputs) {
-  return script(
-      membrane_data(surface), title_of(result, load),
-      [&](Format format, const Place& place) {
-        return membrane_panel(surface, load, membrane_view(result), place, format);
-      },
-      column, outputs);
+Picture traces_picture(const Result& result, const Load& load, std::size_t interface) {
+  const results::Trace& trace = load.traces.at(interface);
+  const Profile along = profile(result, interface, trace);
+  return {
+      traces_data(along, trace),
+      {result.title, load.name},
+      [&, along](Format, const Place& place) { return traces_panel(along, trace, load, place); },
+      narrow};
 }
 
-std::string traces_script(const Result& result, const Load& load, std::size_t interface,
-                          const std::vector<Output>& outputs) {
-  const Profile along = profile(result, interface, load.traces.at(interface));
-  const results::Trace& trace = load.traces[interface];
-  return script(
-      traces_data(along, trace), title_of(result, load),
-      [&](Format, const Place& place) { return traces_panel(along, trace, load, place); }, column,
-      outputs);
+Picture convergence_picture(const Result& result, const Load& load) {
+  return {convergence_data(load),
+          {result.title, load.name},
+          [&](Format, const Place& place) { return convergence_panel(load, place); },
+          narrow};
 }
 
-std::string convergence_script(const Result& result, const Load& load,
-                               const std::vector<Output>& outputs) {
-  return script(
-      convergence_data(load), title_of(result, load),
-      [&](Format, const Place& place) { return convergence_panel(load, place); }, column, outputs);
-}
-
-std::string combined_script(const Result& result, const Load& load, const Surface& surface,
-                            const std::vector<Output>& outputs) {
-  const Profile along = profile(result, 0, load.traces.at(0));
-  const results::Trace& trace = load.traces[0];
-  return script(
-      membrane_data(surface) + traces_data(along, trace), title_of(result, load),
-      [&](Format format, const Place& place) {
-        const auto [left, right] = halves(place);
-        return membrane_panel(surface, load, membrane_view(result), left, format) +
-               traces_panel(along, trace, load, right);
-      },
-      page, outputs);
+Picture combined_picture(const Result& result, const Load& load, const Surface& surface) {
+  const Picture left = membrane_picture(result, load, surface);
+  const Picture right = traces_picture(result, load, 0);
+  return {left.data + right.data, left.title,
+          [left = left.plots, right = right.plots](Format format, const Place& place) {
+            const auto [left_half, right_half] = halves(place);
+            return left(format, left_half) + right(format, right_half);
+          },
+          page};
 }
 
 }  // namespace anticrack::figures

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "figures/outer_edges.hpp"
+#include "figures/mesh_layers.hpp"
 
 namespace anticrack::figures {
 namespace {
@@ -191,9 +191,8 @@ double amplification(const Surface& surface) {
   const double power = std::pow(10.0, std::floor(std::log10(wanted)));
   const double leading = wanted / power;
   double factor = 1;
-  for (const double step : {1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+  for (const double step : {1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0})
     if (step <= leading) factor = step;
-  }
   return factor * power;
 }
 

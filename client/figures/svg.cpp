@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figures/svg.hpp"
+#include "figures/drawing.hpp"
 
 #include <vector>
 

@@ -37,7 +37,7 @@ CurveStyle style_of(std::size_t i) {
   return styles[i % styles.size()];
 }
 
-/// As a data block; `heights` is told its values.
+/// As a data block; extends `heights` by its values.
 std::string curve_block(const std::string& name, const std::vector<CurvePoint>& points,
                         Range& heights) {
   std::string text = "$" + name + " << EOD\n";
@@ -61,7 +61,7 @@ std::string counted_rows(const Sweep& sweep) {
   return text;
 }
 
-/// Rows next to each other on the axis of a parameter differ by little: a curve joins them.
+/// On the axis of a parameter neighbouring rows differ little: a curve joins them.
 std::string drawn_as(const SweepAxis& axis, const CurveStyle& style) {
   constexpr std::size_t few = 60;
   const bool points = !axis.joined() || axis.order.size() <= few;
@@ -137,8 +137,7 @@ std::string displacement_plots(const SweepAxis& axis, const std::vector<std::str
 
 }  // namespace
 
-std::string sweep_script(const Result& result, const SweepAxis& axis,
-                         const std::vector<Output>& outputs) {
+Picture sweep_picture(const Result& result, const SweepAxis& axis) {
   const Sweep& sweep = *result.sweep;
   const std::size_t inclusions = sweep.inclusions.size();
   Range lengths{0, 0};
@@ -155,35 +154,32 @@ std::string sweep_script(const Result& result, const SweepAxis& axis,
   const Scale of_lengths(lengths);
   const Scale of_displacements(displacements);
 
-  return script(
-      data, sweep_title(result),
-      [&](Format, const Place& place) {
-        const std::string contact = panel(
-            axis, "contact length", lengths, of_lengths,
-            "$length using 1:" + of_lengths.column(2) + drawn_as(axis, style_of(0)) + " notitle",
-            place);
-        const std::string foot = below(axis_label(axis), 0.04, place) + axes();
-        const std::string head = caption(counted_rows(sweep), place);
-        if (inclusions == 0) {
-          return margins(place, 0.16, 0.905) + foot + head + contact;
-        }
-        // One above the other, over one axis; the legend in between.
-        const bool legend = inclusions > 1;
-        std::string text = margins(place, legend ? 0.6 : 0.545, 0.935) + axes();
-        text += "set format x ''\n" + head;
-        text += "set key at screen " + number(place.x + 0.54 * place.width) + ", screen " +
+  return {data, sweep_title(result),
+          [=, &sweep, &axis](Format, const Place& place) {
+            const std::string contact = panel(axis, "contact length", lengths, of_lengths,
+                                              "$length using 1:" + of_lengths.column(2) +
+                                                  drawn_as(axis, style_of(0)) + " notitle",
+                                              place);
+            const std::string foot = below(axis_label(axis), 0.04, place) + axes();
+            const std::string head = caption(counted_rows(sweep), place);
+            if (inclusions == 0) return margins(place, 0.16, 0.905) + foot + head + contact;
+            // One above the other, over one axis; the legend in between.
+            const bool legend = inclusions > 1;
+            std::string text = margins(place, legend ? 0.6 : 0.545, 0.935) + axes();
+            text += "set format x ''\n" + head;
+            text +=
+                "set key at screen " + number(place.x + 0.54 * place.width) + ", screen " +
                 number(place.y + 0.59 * place.height) +
                 " center top horizontal maxrows 3 Left reverse noenhanced samplen 2.5 font ',7'\n";
-        text += panel(axis, "A", with_room(displacements), of_displacements,
-                      displacement_plots(axis, sweep.inclusions, of_displacements), place);
-        text += margins(place, 0.11, legend ? 0.475 : 0.5);
-        return text + "set format x\nunset key\n" + foot + contact;
-      },
-      inclusions == 0 ? column : tall, outputs);
+            text += panel(axis, "A", with_room(displacements), of_displacements,
+                          displacement_plots(axis, sweep.inclusions, of_displacements), place);
+            text += margins(place, 0.11, legend ? 0.475 : 0.5);
+            return text + "set format x\nunset key\n" + foot + contact;
+          },
+          inclusions == 0 ? narrow : tall};
 }
 
-std::string contact_script(const Result& result, const SweepAxis& axis, const ContactMap& map,
-                           const std::vector<Output>& outputs) {
+Picture contact_picture(const Result& result, const SweepAxis& axis, const ContactMap& map) {
   std::string data = "$contact << EOD\n";
   Range along = empty_range();
   Range rows = empty_range();
@@ -205,9 +201,9 @@ std::string contact_script(const Result& result, const SweepAxis& axis, const Co
   }
   data += "EOD\n";
   const std::string where = map.interface.empty() ? std::string("the crack") : map.interface;
-  return script(
+  return {
       data, sweep_title(result),
-      [&](Format, const Place& place) {
+      [=, &result, &axis, &map](Format, const Place& place) {
         std::string text = margins(place, 0.25, 0.905) + axes();
         text += caption("where " + where + " is closed,  " + counted_rows(*result.sweep), place);
         text += axis_range('x', along) + axis_range('y', rows, 6, step_of(axis));
@@ -227,7 +223,7 @@ std::string contact_script(const Result& result, const SweepAxis& axis, const Co
         text += key(closed_shade, map.shades ? "closed (pale: in some rows)" : "closed");
         return text + "\nunset label\n";
       },
-      column, outputs);
+      narrow};
 }
 
 void draw_sweep(const Result& result, Drawing& drawing) {
@@ -236,14 +232,13 @@ void draw_sweep(const Result& result, Drawing& drawing) {
     drawing.drawn.notes.push_back("no row of the sweep converged: nothing to draw of it");
     return;
   }
-  drawing.draw("sweep", [&](const auto& outputs) { return sweep_script(result, axis, outputs); });
+  drawing.draw("sweep", sweep_picture(result, axis));
   for (std::size_t i = 0; i < result.interfaces.size(); ++i) {
     const ContactMap map = contact_map(result, axis, i, strip_limit);
     if (map.boxes.empty()) continue;
     const std::string stem =
         i == 0 ? std::string("sweep-contact") : "sweep-contact-" + std::to_string(i + 1);
-    drawing.draw(stem,
-                 [&](const auto& outputs) { return contact_script(result, axis, map, outputs); });
+    drawing.draw(stem, contact_picture(result, axis, map));
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figures/sweep_layers.hpp"
+#include "figures/sweep_figures.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -34,9 +34,8 @@ std::string superscript(int exponent) {
 }
 
 std::string lower(std::string text) {
-  for (char& c : text) {
+  for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
   return text;
 }
 
@@ -152,9 +151,7 @@ std::vector<std::string> file_stems(const std::vector<std::string>& names,
   std::vector<std::string> stems;
   for (const std::string& name : names) {
     std::string base;
-    for (const char c : name) {
-      base += is_alphanumeric(c) || c == '.' || c == '-' ? c : '_';
-    }
+    for (const char c : name) base += is_alphanumeric(c) || c == '.' || c == '-' ? c : '_';
     if (base.empty() || !is_alphanumeric(base[0])) base.insert(0, "load");
     std::string stem = base;
     for (int copy = 2;; ++copy) {

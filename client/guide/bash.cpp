@@ -8,9 +8,7 @@ namespace {
 
 /// A case of a shell's `case`: the patterns, and what is done then.
 void add_case(std::ostream& out, const std::string& patterns, const std::string& action) {
-  if (!patterns.empty()) {
-    out << "    " << patterns << ") " << action << " ;;\n";
-  }
+  if (!patterns.empty()) out << "    " << patterns << ") " << action << " ;;\n";
 }
 
 std::string either(const std::string& patterns, const std::string& pattern) {

@@ -10,22 +10,16 @@ namespace anticrack::guide {
 namespace {
 
 Value value_of(const CLI::Option& option) {
-  if (option.get_items_expected_max() == 0) {
-    return {};
-  }
+  if (option.get_items_expected_max() == 0) return {};
   const std::string type = option.get_type_name();
   if (type.rfind("FILE", 0) == 0) {  // also FILE.csv
     return {Value::Kind::file, {}};
   }
-  if (type == "DIR") {
-    return {Value::Kind::folder, {}};
-  }
+  if (type == "DIR") return {Value::Kind::folder, {}};
   if (type.size() > 2 && type.front() == '{' && type.back() == '}') {
     Value value{Value::Kind::word, {}};
     std::istringstream words(type.substr(1, type.size() - 2));
-    for (std::string word; std::getline(words, word, ',');) {
-      value.words.push_back(word);
-    }
+    for (std::string word; std::getline(words, word, ',');) value.words.push_back(word);
     return value;
   }
   return {Value::Kind::text, {}};
@@ -41,12 +35,8 @@ void add_options(const CLI::App& app, Command& command) {
       continue;
     }
     Option result{{}, type, option->get_description(), value};
-    for (const std::string& name : option->get_snames()) {
-      result.names.push_back("-" + name);
-    }
-    for (const std::string& name : option->get_lnames()) {
-      result.names.push_back("--" + name);
-    }
+    for (const std::string& name : option->get_snames()) result.names.push_back("-" + name);
+    for (const std::string& name : option->get_lnames()) result.names.push_back("--" + name);
     const bool known = std::any_of(command.options.begin(), command.options.end(),
                                    [&](const Option& o) { return o.names == result.names; });
     if (!known) {  // --help is in each group of options again

@@ -8,9 +8,7 @@ namespace anticrack::guide {
 
 std::string shell_word(const std::string& text) {
   std::string result = "'";
-  for (const char c : text) {
-    result += c == '\'' ? "'\\''" : std::string(1, c);
-  }
+  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
   return result + "'";
 }
 

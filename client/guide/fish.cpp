@@ -71,9 +71,7 @@ std::string fish_script(const Command& program) {
       out << here << " -a " << shell_word(below.name) << " -d " << shell_word(below.description)
           << '\n';
     }
-    if (first_positional(*command).kind == Value::Kind::file) {
-      out << here << " -F\n";
-    }
+    if (first_positional(*command).kind == Value::Kind::file) out << here << " -F\n";
     for (const Option& option : options_of(*command, program)) {
       out << here << flags(option.names) << fish_value(option.value) << " -d "
           << shell_word(option.description) << '\n';

@@ -3,23 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "results/error.hpp"
 #include "results/hdf5.hpp"
-#include "results/open_file.hpp"
 
 namespace anticrack::results {
 namespace {
 
 using hdf5::Handle;
 
-/// Reads a dataset of a group, by its name in it and a budget of memory.
-template <class Values>
-using Get = std::function<Values(const Handle&, const std::string&, std::uint64_t)>;
-
-// What a mistyped name was meant to be stands among these.
+// Lists what is there: the name may be mistyped.
 std::string missing_text(const Handle& group, const std::string& name) {
   constexpr std::size_t most = 10;
   const std::vector<std::string> names = hdf5::names_in(group);
@@ -32,48 +26,51 @@ std::string missing_text(const Handle& group, const std::string& name) {
          (names.size() > most ? ", ..." : "");
 }
 
-template <class Values>
-Values walk(const Handle& group, const std::string& path, std::uint64_t budget,
-            const Get<Values>& get) {
+/// The dataset at a path below a group.
+hdf5::Dataset open_below(const Handle& group, const std::string& path, std::uint64_t budget,
+                         std::size_t columns) {
   const std::size_t slash = path.find('/');
-  if (slash == 0) return walk(group, path.substr(1), budget, get);
-  if (const std::string name = path.substr(0, slash); !hdf5::has(group, name)) {
-    throw hdf5::Fault(missing_text(group, name));
+  if (slash == 0) return open_below(group, path.substr(1), budget, columns);
+  const std::string name = path.substr(0, slash);
+  if (!hdf5::has(group, name)) throw hdf5::Fault(missing_text(group, name));
+  if (slash == std::string::npos) {
+    return hdf5::open_array(group, name, ValueType::float64, budget, columns);
   }
-  if (slash == std::string::npos) return get(group, path, budget);
-  return walk(hdf5::open_group(group, path.substr(0, slash)), path.substr(slash + 1), budget, get);
+  return open_below(hdf5::open_group(group, name), path.substr(slash + 1), budget, columns);
 }
 
-template <class Values>
-Values read(const std::filesystem::path& file, const std::string& dataset, const std::string& cure,
-            const Get<Values>& get) {
+/// `columns` as open_array; a matrix may have the attribute `loads`.
+Matrix read(const std::filesystem::path& file, const std::string& path, std::size_t columns) {
+  const bool is_matrix = columns != 0;
+  const std::string cure = std::string("name a ") + (is_matrix ? "two" : "one") +
+                           "-dimensional dataset of float64 in an HDF5 file";
   const hdf5::Quiet quiet;
-  if (dataset.empty() || dataset.back() == '/') {
-    throw Error(file.string(), "\"" + dataset + "\" names no dataset", cure);
+  if (path.empty() || path.back() == '/') {
+    throw Error(file.string(), "\"" + path + "\" names no dataset", cure);
   }
+  Matrix matrix;
   try {
-    const Handle opened = hdf5::open_file(file, cure);
-    const Handle root(H5Gopen2(opened.get(), "/", H5P_DEFAULT), H5Gclose, "has no root group");
-    return walk(root, dataset, hdf5::memory_budget(file), get);
+    const Handle root = hdf5::open_root(file, cure);
+    const hdf5::Dataset dataset = open_below(root, path, hdf5::memory_budget(file), columns);
+    matrix = {std::vector<double>(dataset.count()), dataset.rows, dataset.columns, {}};
+    hdf5::read_values(dataset, matrix.values.data());
+    if (is_matrix && hdf5::has_attribute(dataset.id, "loads")) {
+      hdf5::get(dataset.id, "loads", matrix.loads, dataset.columns);
+    }
   } catch (const hdf5::Fault& fault) {
     throw Error(file.string(), fault.what(), cure);
   }
-}
-
-/// Index of the first value that is not finite; the size for none.
-std::size_t first_odd(const std::vector<double>& values) {
-  return static_cast<std::size_t>(
-      std::find_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }) -
-      values.begin());
-}
-
-Matrix matrix_of(const Handle& group, const std::string& name, std::uint64_t budget) {
-  const hdf5::Dataset dataset =
-      hdf5::open_array(group, name, ValueType::float64, budget, hdf5::any_columns);
-  Matrix matrix{std::vector<double>(dataset.count()), dataset.rows, dataset.columns, {}};
-  hdf5::read_values(dataset, matrix.values.data());
-  if (hdf5::has_attribute(dataset.id, "loads")) {
-    hdf5::get(dataset.id, "loads", matrix.loads, dataset.columns);
+  if (matrix.values.empty()) throw Error(file.string(), "dataset " + path + " has no values", cure);
+  const auto odd =
+      std::ranges::find_if_not(matrix.values, [](double v) { return std::isfinite(v); });
+  if (odd != matrix.values.end()) {
+    const auto index = static_cast<std::size_t>(odd - matrix.values.begin());
+    const std::string which = is_matrix ? "the value in row " +
+                                              std::to_string(index / matrix.columns) + ", column " +
+                                              std::to_string(index % matrix.columns) + " (from 0)"
+                                        : "value " + std::to_string(index);
+    throw Error(file.string(), which + " of dataset " + path + " is not finite",
+                "write finite numbers");
   }
   return matrix;
 }
@@ -81,36 +78,11 @@ Matrix matrix_of(const Handle& group, const std::string& name, std::uint64_t bud
 }  // namespace
 
 std::vector<double> read_array(const std::filesystem::path& file, const std::string& dataset) {
-  const std::string cure = "name a one-dimensional dataset of float64 in an HDF5 file";
-  std::vector<double> values = read<std::vector<double>>(
-      file, dataset, cure, [](const auto& group, const auto& name, std::uint64_t budget) {
-        std::vector<double> found;
-        hdf5::get_array(group, name, budget, 0, found);
-        return found;
-      });
-  if (values.empty()) throw Error(file.string(), "dataset " + dataset + " has no values", cure);
-  if (const std::size_t odd = first_odd(values); odd < values.size()) {
-    throw Error(file.string(),
-                "value " + std::to_string(odd) + " of dataset " + dataset + " is not finite",
-                "write finite numbers");
-  }
-  return values;
+  return read(file, dataset, 0).values;
 }
 
 Matrix read_matrix(const std::filesystem::path& file, const std::string& dataset) {
-  const std::string cure = "name a two-dimensional dataset of float64 in an HDF5 file";
-  Matrix rows = read<Matrix>(file, dataset, cure, matrix_of);
-  if (rows.values.empty()) {
-    throw Error(file.string(), "dataset " + dataset + " has no values", cure);
-  }
-  if (const std::size_t odd = first_odd(rows.values); odd < rows.values.size()) {
-    throw Error(file.string(),
-                "the value in row " + std::to_string(odd / rows.columns) + ", column " +
-                    std::to_string(odd % rows.columns) + " (from 0) of dataset " + dataset +
-                    " is not finite",
-                "write finite numbers");
-  }
-  return rows;
+  return read(file, dataset, hdf5::any_columns);
 }
 
 }  // namespace anticrack::results

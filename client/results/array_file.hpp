@@ -8,17 +8,16 @@
 
 namespace anticrack::results {
 
-/// A one-dimensional float64 dataset of any HDF5 file, in the byte order of this machine; `dataset`
-/// is its path, as "/f" or "/loads/f". Throws Error for what is not HDF5, for another type or
-/// shape, for no values, and for one that is not finite. Follows hard links only, and takes memory
-/// for no more than the file can hold.
+/// A one-dimensional float64 dataset of any HDF5 file; `dataset` is its path, as "/f" or
+/// "/loads/f". Throws Error for other files, types and shapes, for an empty dataset and for values
+/// that are not finite. Follows hard links only; allocates no more than the file can hold.
 std::vector<double> read_array(const std::filesystem::path& file, const std::string& dataset);
 
 struct Matrix {
   std::vector<double> values;  ///< row by row
   std::size_t rows = 0;
   std::size_t columns = 0;
-  std::vector<std::string> loads;  ///< whose column is which: the attribute of this name, if any
+  std::vector<std::string> loads;  ///< of the columns: the attribute of this name, if any
 };
 
 /// The same for a two-dimensional dataset, with at least one row and one column.

@@ -3,12 +3,20 @@
 
 #include <utility>
 
-#include "results/assemble_sweep.hpp"
 #include "results/block.hpp"
 #include "results/tables.hpp"
 
 namespace anticrack::results {
 namespace {
+
+/// Traces along interfaces 0, 1, ... below `at`, which ends with a slash.
+std::vector<Trace> traces_of(const Block& block, const std::string& at, std::size_t interfaces) {
+  std::vector<Trace> traces;
+  for (std::size_t i = 0; i < interfaces; ++i) {
+    get_arrays(block, at + std::to_string(i) + "/", traces.emplace_back(), arrays::trace<Trace>);
+  }
+  return traces;
+}
 
 void add_load(const Block& block, std::size_t index, std::size_t interfaces, const Mesh& mesh,
               Load& load) {
@@ -30,15 +38,65 @@ void add_load(const Block& block, std::size_t index, std::size_t interfaces, con
   }
 }
 
-}  // namespace
-
-std::vector<Trace> traces_of(const Block& block, const std::string& at, std::size_t interfaces) {
-  std::vector<Trace> traces;
-  for (std::size_t i = 0; i < interfaces; ++i) {
-    get_arrays(block, at + std::to_string(i) + "/", traces.emplace_back(), arrays::trace<Trace>);
+/// Runs of consecutive nodes in contact.
+void add_contact_intervals(const Interface& interface, std::size_t index, const Trace& trace,
+                           std::vector<ContactInterval>& intervals) {
+  for (std::size_t i = 0; i < interface.node_count() && i < trace.contact.size(); ++i) {
+    if (trace.contact[i] == 0) continue;
+    if (i > 0 && trace.contact[i - 1] != 0) {
+      intervals.back().end = interface.s[i];
+    } else {
+      intervals.push_back({index, interface.s[i], interface.s[i]});
+    }
   }
-  return traces;
 }
+
+Load load_of(const Sweep& sweep, std::size_t row, std::vector<Trace> traces,
+             const std::vector<Interface>& interfaces) {
+  Load load;
+  load.name = row_name(static_cast<std::int64_t>(row));
+  load.status = sweep.status[row];
+  load.method = "active-set";
+  load.iterations = sweep.steps[row];
+  load.energy = sweep.energy[row];
+  load.contact_length = sweep.contact_length[row];
+  const std::size_t inclusions = sweep.inclusions.size();
+  for (std::size_t i = 0; i < inclusions; ++i) {
+    load.inclusions.push_back(
+        {sweep.inclusions[i], sweep.displacement[row * inclusions + i], unknown, unknown});
+  }
+  for (std::size_t i = 0; i < traces.size(); ++i) {
+    add_contact_intervals(interfaces[i], i, traces[i], load.contact_intervals);
+  }
+  load.traces = std::move(traces);
+  return load;
+}
+
+/// Fills in the columns of result.sweep and makes the loads of its kept rows. result.interfaces are
+/// complete. Rows without traces in the block are dropped from `kept`.
+void add_sweep(const Block& block, Result& result) {
+  Sweep& sweep = *result.sweep;
+  const std::string folder = arrays::sweep_folder();
+  get_arrays(block, folder, sweep, arrays::sweep_rows<Sweep>);
+  get_arrays(block, folder, sweep, arrays::sweep_contacts<Sweep>);
+  get_arrays(block, folder, sweep, arrays::sweep_matrices<Sweep>, sweep.rows());
+  std::vector<std::size_t> nodes;
+  for (const Interface& interface : result.interfaces) nodes.push_back(interface.node_count());
+  block.require(first_fault(sweep, nodes));
+
+  std::vector<std::int32_t> kept;
+  for (const std::int32_t row : sweep.kept) {
+    const std::string at = arrays::row_traces(static_cast<std::size_t>(row));
+    if (!block.has_below(at)) continue;  // the row did not end
+    kept.push_back(row);
+    result.loads.push_back(load_of(sweep, static_cast<std::size_t>(row),
+                                   traces_of(block, at, result.interfaces.size()),
+                                   result.interfaces));
+  }
+  sweep.kept = std::move(kept);
+}
+
+}  // namespace
 
 Result assemble(Result answers, std::span<const ArrayView> mesh_block,
                 std::span<const ArrayView> result_block) {
@@ -54,8 +112,7 @@ Result assemble(Result answers, std::span<const ArrayView> mesh_block,
   for (std::size_t i = 0; i < answers.loads.size() && !answers.sweep; ++i) {
     add_load(result, i, answers.interfaces.size(), answers.mesh, answers.loads[i]);
   }
-  const std::string fault = first_fault(answers);
-  if (!fault.empty()) result.fail(fault);
+  result.require(first_fault(answers));
   return answers;
 }
 

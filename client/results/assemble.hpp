@@ -25,23 +25,22 @@ struct ArrayView {
   std::span<const std::byte> bytes;  ///< exactly shape's product times 8, 4 or 1
 };
 
-/// The bytes of an array inside a block received whole. Throws Error if it lies outside.
+/// The bytes of an array inside a complete block. Throws Error if they lie outside.
 ArrayView view(std::string name, ArrayView::Type type, std::vector<std::uint64_t> shape,
                std::uint64_t offset, std::span<const std::byte> block);
 
-/// Adds the arrays to what the messages Job, Mesh and ServerInfo said.
+/// Adds the arrays to what the messages Job, Mesh and ServerInfo contain.
 ///
-/// `answers` comes with everything but arrays: texts, timings, mesh.subdomains, tension and
-/// inclusions, interfaces[].name in the order of Mesh.interfaces, and loads in the order of
-/// Job.load_cases with their attributes, inclusions and contact_intervals. Filled in here: mesh
-/// arrays and interfaces[].edges from `mesh_block`, interfaces[].s,x,y,kind and loads[].traces,
-/// history, fields from `result_block`. A load without arrays in the block keeps none, unless it is
-/// `converged` or `not_converged`.
-/// Of a sweep it comes without loads and with sweep.loads, inclusions, kept and, where known,
-/// coefficients; filled in are the columns, and a load for every kept row (see Sweep::kept).
+/// `answers` has everything but arrays: texts, timings, mesh.subdomains, tension and inclusions,
+/// interfaces[].name in the order of Mesh.interfaces, and loads in the order of Job.load_cases with
+/// attributes, inclusions and contact_intervals. Filled in: mesh arrays and interfaces[].edges from
+/// `mesh_block`, interfaces[].s,x,y,kind and loads[].traces, history, fields from `result_block`. A
+/// load may lack arrays unless it is `converged` or `not_converged`.
+/// For a sweep `answers` has no loads but sweep.loads, inclusions, kept and, if known,
+/// coefficients; filled in: the columns, and a load for every kept row (see Sweep::kept).
 ///
-/// Nothing is believed: a missing array, a type, a shape, an index out of range or a size that
-/// disagrees with another throws Error. Arrays this version does not know are passed over.
+/// Throws Error for a missing array, wrong types and shapes, indices out of range and sizes that
+/// disagree. Unknown arrays are ignored.
 Result assemble(Result answers, std::span<const ArrayView> mesh_block,
                 std::span<const ArrayView> result_block);
 

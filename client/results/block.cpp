@@ -6,7 +6,7 @@
 namespace anticrack::results {
 namespace {
 
-constexpr const char* fetch_again =
+constexpr const char* compare_versions =
     "the server and this client do not understand each other: compare their versions with "
     "`anticrack server`";
 
@@ -26,14 +26,14 @@ std::uint64_t byte_count(const std::string& subject, const ArrayView& array) {
     if (__builtin_mul_overflow(bytes, extent, &bytes)) {
       throw Error(subject,
                   "array " + array.name + " has the impossible shape " + text_of(array.shape),
-                  fetch_again);
+                  compare_versions);
     }
   }
   return bytes;
 }
 
 void Block::fail(const std::string& cause) const {
-  throw Error(_subject, cause, fetch_again);
+  throw Error(_subject, cause, compare_versions);
 }
 
 Edges edges_of(const Block& block, const std::string& interface) {
@@ -43,8 +43,7 @@ Edges edges_of(const Block& block, const std::string& interface) {
 
 void add_mesh(const Block& block, Mesh& mesh) {
   get_arrays(block, "", mesh, tables::mesh);
-  const std::string fault = first_mesh_fault(mesh);
-  if (!fault.empty()) block.fail(fault);
+  block.require(first_mesh_fault(mesh));
 }
 
 ArrayView view(std::string name, ArrayView::Type type, std::vector<std::uint64_t> shape,
@@ -57,7 +56,7 @@ ArrayView view(std::string name, ArrayView::Type type, std::vector<std::uint64_t
                 "array " + array.name + " of shape " + text_of(array.shape) + " at byte " +
                     std::to_string(offset) + " lies outside the " + std::to_string(block.size()) +
                     " bytes",
-                fetch_again);
+                compare_versions);
   }
   array.bytes = block.subspan(offset, bytes);
   return array;

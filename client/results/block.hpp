@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A block of the server, array by array, believed only as far as it fits. For the sources of this
-// folder only.
+// A block of the server, array by array, checked before it is used. For the sources of this folder
+// only.
 #pragma once
 
 #include <bit>
@@ -23,22 +23,19 @@ static_assert(std::endian::native == std::endian::little, "blocks are little-end
 
 /// For messages: "(3,2)".
 std::string text_of(const std::vector<std::uint64_t>& shape);
-/// Bytes of an array of its type and shape; throws where their product leaves 64 bits.
+/// Bytes of an array of its type and shape; throws Error where they exceed 64 bits.
 std::uint64_t byte_count(const std::string& subject, const ArrayView& array);
 
 /// One block, arrays by name.
 class Block {
  public:
-  /// `subject` begins the messages: whose block it is. Throws Error where a name is there twice.
-  /// The arrays must outlive it.
+  /// `subject` begins the messages. Throws Error for a name that occurs twice. The arrays must
+  /// outlive the block.
   Block(std::string subject, std::span<const ArrayView> arrays) : _subject(std::move(subject)) {
     for (const ArrayView& array : arrays) {
       if (!_arrays.emplace(array.name, &array).second) fail("array " + array.name + " twice");
     }
   }
-
-  /// Whether there is an array of this name.
-  bool has(const std::string& name) const { return _arrays.count(name) != 0; }
 
   /// Any array below a folder, e.g. "loads/0/traces/".
   bool has_below(const std::string& prefix) const {
@@ -46,32 +43,35 @@ class Block {
     return found != _arrays.end() && found->first.compare(0, prefix.size(), prefix) == 0;
   }
 
-  /// Array of shape (rows) for columns 0, else (rows, columns).
+  /// Array of shape (n) for columns 0, (rows, n) for columns arrays::named, else (n, columns).
   template <typename T>
-  std::vector<T> get(const std::string& name, std::uint64_t columns = 0) const {
+  std::vector<T> get(const std::string& name, std::uint64_t columns = 0,
+                     std::uint64_t rows = 0) const {
     const ArrayView& array = find<T>(name);
-    const bool fits = columns == 0 ? array.shape.size() == 1
-                                   : array.shape.size() == 2 && array.shape[1] == columns;
+    const std::vector<std::uint64_t>& shape = array.shape;
+    const bool by_rows = columns == arrays::named;
+    const bool fits = shape.size() == (columns == 0 ? 1U : 2U) &&
+                      (columns == 0 || (by_rows ? shape[0] == rows : shape[1] == columns));
     if (!fits) {
-      fail("array " + name + " has shape " + text_of(array.shape) + ", not " +
-           (columns == 0 ? std::string("(n)") : "(n," + std::to_string(columns) + ")"));
+      fail("array " + name + " has shape " + text_of(shape) + ", not (" +
+           (by_rows ? std::to_string(rows) + "," : "") + "n" +
+           (by_rows || columns == 0 ? "" : "," + std::to_string(columns)) + ")");
     }
-    return values_of<T>(array);
-  }
-
-  /// Array of shape (rows, any); also where that is (rows, 0).
-  template <typename T>
-  std::vector<T> get_rows(const std::string& name, std::uint64_t rows) const {
-    const ArrayView& array = find<T>(name);
-    if (array.shape.size() != 2 || array.shape[0] != rows) {
-      fail("array " + name + " has shape " + text_of(array.shape) + ", not (" +
-           std::to_string(rows) + ",n)");
+    if (byte_count(_subject, array) != array.bytes.size()) {
+      fail("array " + name + " of shape " + text_of(shape) + " comes with " +
+           std::to_string(array.bytes.size()) + " bytes");
     }
-    return values_of<T>(array);
+    std::vector<T> values(array.bytes.size() / sizeof(T));
+    if (!values.empty()) std::memcpy(values.data(), array.bytes.data(), array.bytes.size());
+    return values;
   }
 
   /// Throws Error: the subject, `cause`, and the cure.
   [[noreturn]] void fail(const std::string& cause) const;
+  /// The same, unless `fault` is empty.
+  void require(const std::string& fault) const {
+    if (!fault.empty()) fail(fault);
+  }
 
  private:
   template <typename T>
@@ -85,34 +85,25 @@ class Block {
     return *found->second;
   }
 
-  template <typename T>
-  std::vector<T> values_of(const ArrayView& array) const {
-    if (byte_count(_subject, array) != array.bytes.size()) {
-      fail("array " + array.name + " of shape " + text_of(array.shape) + " comes with " +
-           std::to_string(array.bytes.size()) + " bytes");
-    }
-    std::vector<T> values(array.bytes.size() / sizeof(T));
-    if (!values.empty()) std::memcpy(values.data(), array.bytes.data(), array.bytes.size());
-    return values;
-  }
-
   std::string _subject;
   std::map<std::string, const ArrayView*> _arrays;
 };
 
-/// The arrays of a table, of shapes that are not words; `folder` ends with a slash.
+/// The arrays of a table. `folder` ends with a slash; `rows`: of shapes whose columns are a word.
 template <class Record, class Table>
-void get_arrays(const Block& block, const std::string& folder, Record& record, const Table& table) {
+void get_arrays(const Block& block, const std::string& folder, Record& record, const Table& table,
+                std::uint64_t rows = 0) {
   arrays::for_each(
       [&](const auto& row) {
         auto& values = std::invoke(row.member, record);
         using Value = typename std::remove_cvref_t<decltype(values)>::value_type;
-        values = block.get<Value>(folder + std::string(row.name), arrays::columns_of(row.shape));
+        values =
+            block.get<Value>(folder + std::string(row.name), arrays::columns_of(row.shape), rows);
       },
       table);
 }
 
-/// What the block of a mesh says of the edges of an interface. Not checked.
+/// The edges of an interface in the block of a mesh. Not checked.
 Edges edges_of(const Block& block, const std::string& interface);
 
 /// The arrays of a mesh, checked.

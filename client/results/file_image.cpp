@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "results/file_image.hpp"
-
 #include <cstdlib>
 #include <cstring>
+
+#include "results/hdf5.hpp"
 
 namespace anticrack::results::hdf5 {
 namespace {
 
-/// The memory of a file of the core driver, kept when the file is closed. H5Fget_file_image takes
-/// it from an open file, and in HDF5 1.10.8 that leaves a wrong checksum in the superblock.
+/// The memory of a file of the core driver, kept when the file is closed. H5Fget_file_image reads
+/// an open file, and in HDF5 1.10.8 that leaves a wrong checksum in the superblock.
 class Memory {
  public:
   Memory() = default;
@@ -40,7 +40,7 @@ class Memory {
     return std::memcpy(to, from, size);
   }
   static void* reallocate(void* memory, std::size_t size, H5FD_file_image_op_t, void* self) {
-    // Zeros in the gaps of the file, or the same result would not give the same bytes.
+    // Zeros in the gaps: the same result gives the same bytes.
     auto& known = static_cast<Memory*>(self)->_size;
     void* grown = std::realloc(memory, size);
     if (grown == nullptr) return nullptr;
@@ -62,7 +62,7 @@ class Memory {
 
 }  // namespace
 
-std::vector<std::byte> file_image(const std::function<void(const Handle& file)>& fill) {
+std::vector<std::byte> file_image(const std::function<void(const Handle& root)>& fill) {
   constexpr std::size_t increment = 1 << 20;
   Memory memory;
   {
@@ -72,15 +72,15 @@ std::vector<std::byte> file_image(const std::function<void(const Handle& file)>&
         H5Pset_file_image_callbacks(access.get(), &callbacks) < 0) {
       throw Fault("HDF5 has no core driver");
     }
-    // The formats since 1.10 have checksums on all metadata; with older ones a damaged file can
-    // lead the library to read outside its buffers.
+    // Formats since 1.10 have checksums on all metadata; damaged files of older ones can make the
+    // library read outside its buffers.
     if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110) < 0) {
       throw Fault("HDF5 is older than 1.10");
     }
     const Handle creation = without_times(H5P_FILE_CREATE);
     Handle file(H5Fcreate("result", H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose,
                 "HDF5 cannot create a file in memory");
-    fill(file);
+    fill({H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, "has no root group"});
     file.close_now("HDF5 cannot finish the file");
   }
   return memory.bytes();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Tables of arrays to and from groups of a file. For the sources of this folder only.
+// Writes and reads tables of arrays as groups of a file. For the sources of this folder only.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,8 @@ std::size_t columns_of(const Row& row, const Record& record) {
 template <class Row, class T>
 void put_row(const Handle& group, const Row& row, const std::vector<T>& values,
              std::size_t columns) {
-  const Handle dataset = put_array(group, std::string(row.name), values, columns);
+  const Handle dataset =
+      put_array(group, std::string(row.name), value_type<T>, values.data(), values.size(), columns);
   if (row.explained) put(dataset, "meaning", std::string(row.what));
 }
 

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What the result file needs of HDF5's C API: owned handles, and attributes and datasets of
-// numbers and UTF-8 text. Every function throws Fault, without the path: file.hpp adds it.
+// numbers and UTF-8 text. Functions throw Fault without the path, which their callers add.
 #pragma once
 
 #include <hdf5.h>
 
 #include <cstdint>
-#include <span>
+#include <filesystem>
+#include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -37,9 +38,9 @@ class Handle {
     if (_id >= 0) _close(_id);
   }
 
-  /// Stays the handle's; below 0: none.
+  /// Still owned by the handle; below 0: none.
   hid_t get() const noexcept { return _id; }
-  /// Closes it now; throws Fault(`what`) where the destructor would keep silent.
+  /// Closes it now; throws Fault(`what`) where the destructor would ignore an error.
   void close_now(const std::string& what) {
     if (_close(std::exchange(_id, -1)) < 0) throw Fault(what);
   }
@@ -49,10 +50,10 @@ class Handle {
   Close _close;
 };
 
-/// Keeps HDF5 from printing its error stack; Faults say what a user can use.
+/// Keeps HDF5 from printing its error stack until the end of the scope.
 class Quiet {
  public:
-  /// Until the end of the scope.
+  /// Silences it.
   Quiet();
   ~Quiet();
   Quiet(const Quiet&) = delete;
@@ -65,34 +66,52 @@ class Quiet {
 
 // Writing.
 
-/// Creation properties of a class, times off: so the same result gives the same bytes.
+/// The bytes of an HDF5 file (format 1.10) that `fill` writes into, given its root group. Made in
+/// memory: a full disk while HDF5 closes a file makes it crash when the program ends.
+std::vector<std::byte> file_image(const std::function<void(const Handle& root)>& fill);
+
+/// Creation properties of a class, without times: the same result gives the same bytes.
 Handle without_times(hid_t property_class);
 Handle create_group(const Handle& parent, const std::string& name);
-void put(const Handle& object, const std::string& attribute, double value);
-void put(const Handle& object, const std::string& attribute, std::int32_t value);
-void put(const Handle& object, const std::string& attribute, const std::string& text);
-/// A list of texts.
-void put(const Handle& object, const std::string& attribute, std::span<const std::string> texts);
+
+/// An attribute of one value or, with `count`, a list. `values` are doubles, int32 or std::string.
+void put_attribute(const Handle& object, const std::string& name, ValueType type,
+                   const void* values, std::optional<std::size_t> count = {});
+template <class T>
+void put(const Handle& object, const std::string& attribute, const T& value) {
+  put_attribute(object, attribute, value_type<T>, &value);
+}
+inline void put(const Handle& object, const std::string& attribute,
+                const std::vector<std::string>& texts) {
+  put_attribute(object, attribute, ValueType::text, texts.data(), texts.size());
+}
+
 /// Dataset of `count` values, of shape (n) for columns 0, else (n / columns, columns). Numbers
-/// carry a checksum; a large one is compressed. Returns it, for further attributes.
+/// carry a checksum; large datasets are compressed. Returned for further attributes.
 Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
                  std::size_t count, std::size_t columns);
-template <class T>
-Handle put_array(const Handle& group, const std::string& name, const std::vector<T>& values,
-                 std::size_t columns = 0) {
-  return put_array(group, name, value_type<T>, values.data(), values.size(), columns);
-}
 
 // Reading. Only hard links are followed and only data inside the file is read, so a file from
 // elsewhere cannot pull in others.
+
+/// The root group of a file. Throws Error with `cure` where there is no HDF5 file, Fault where it
+/// is damaged.
+Handle open_root(const std::filesystem::path& path, const std::string& cure);
+/// The largest number of bytes a dataset of the file can take in memory.
+std::uint64_t memory_budget(const std::filesystem::path& path);
+
 bool has(const Handle& group, const std::string& name);
 bool has_attribute(const Handle& object, const std::string& name);
 Handle open_group(const Handle& parent, const std::string& name);
 std::vector<std::string> names_in(const Handle& group);
-void get(const Handle& object, const std::string& attribute, double& value);
-void get(const Handle& object, const std::string& attribute, std::int32_t& value);
-void get(const Handle& object, const std::string& attribute, std::string& text);
-/// A list of texts, at most `most` of them.
+
+/// An attribute of one value: double, int32 or std::string.
+void get_attribute(const Handle& object, const std::string& name, ValueType type, void* value);
+template <class T>
+void get(const Handle& object, const std::string& attribute, T& value) {
+  get_attribute(object, attribute, value_type<T>, &value);
+}
+/// A list of at most `most` texts.
 void get(const Handle& object, const std::string& attribute, std::vector<std::string>& texts,
          std::uint64_t most = 1'000'000);
 
@@ -106,14 +125,14 @@ struct Dataset {
   std::size_t rows;
   std::size_t columns;  ///< 1 for one dimension
 
-  /// Entries in all.
+  /// Entries in total.
   std::size_t count() const { return rows * columns; }
 };
-/// Of the type and shape asked for: (n) for columns 0, else (n, columns). Nothing is allocated for
-/// it yet; `budget` is the largest number of bytes it may take in memory.
+/// Throws Fault unless it has the type and shape: (n) for columns 0, else (n, columns). Allocates
+/// nothing; `budget` is the largest number of bytes it may take in memory.
 Dataset open_array(const Handle& group, const std::string& name, ValueType type,
                    std::uint64_t budget, std::size_t columns);
-/// Puts all entries of a dataset where there is room for them; of text they are std::string.
+/// Reads all entries into `values`, which has room for them.
 void read_values(const Dataset& dataset, void* values);
 template <class T>
 void get_array(const Handle& group, const std::string& name, std::uint64_t budget,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
 
+#include "results/error.hpp"
 #include "results/hdf5.hpp"
 
 namespace anticrack::results::hdf5 {
@@ -28,30 +29,76 @@ bool is(const Handle& type, ValueType wanted) {
   return false;
 }
 
-/// An attribute that holds one value of the type asked for.
-Handle open_scalar(const Handle& object, const std::string& name, ValueType wanted) {
+struct Attribute {
+  Handle id;
+  Handle type;  ///< its own: HDF5 does not convert between ASCII and UTF-8
+  hssize_t count;
+};
+
+Attribute open_attribute(const Handle& object, const std::string& name) {
   const std::string what = "attribute " + name;
-  Handle attribute(H5Aopen(object.get(), name.c_str(), H5P_DEFAULT), H5Aclose,
-                   what + " is missing");
-  const Handle type(H5Aget_type(attribute.get()), H5Tclose, what + " cannot be read");
-  const Handle space(H5Aget_space(attribute.get()), H5Sclose, what + " cannot be read");
-  if (H5Sget_simple_extent_npoints(space.get()) != 1 || !is(type, wanted)) {
-    throw Fault(what + " is not one " + name_of(wanted));
-  }
-  return attribute;
+  Handle id(H5Aopen(object.get(), name.c_str(), H5P_DEFAULT), H5Aclose, what + " is missing");
+  Handle type(H5Aget_type(id.get()), H5Tclose, what + " cannot be read");
+  const Handle space(H5Aget_space(id.get()), H5Sclose, what + " cannot be read");
+  const hssize_t count = H5Sget_simple_extent_npoints(space.get());
+  return {std::move(id), std::move(type), count};
 }
 
-void read_scalar(const Handle& attribute, const std::string& name, hid_t type, void* value) {
-  if (H5Aread(attribute.get(), type, value) < 0) throw Fault("attribute " + name + " is damaged");
+hid_t native(ValueType type) {
+  return type == ValueType::float64 ? H5T_NATIVE_DOUBLE
+         : type == ValueType::int32 ? H5T_NATIVE_INT32
+                                    : H5T_NATIVE_UINT8;
 }
 
-/// Copies the texts that HDF5 allocated, and frees them.
-void take(const std::vector<char*>& pointers, std::string* texts) {
-  for (char* pointer : pointers) *texts++ = pointer == nullptr ? "" : pointer;
+/// Fills in `count` values by `read(type in memory, where to)`. Texts, of HDF5's type `own`, are
+/// copied out of HDF5's memory, which is freed.
+template <class Read>
+void read_entries(ValueType type, const Handle& own, std::size_t count, void* values,
+                  const Read& read) {
+  if (count == 0) return;
+  if (type != ValueType::text) return read(native(type), values);
+  std::vector<char*> pointers(count, nullptr);
+  read(own.get(), pointers.data());
+  auto* text = static_cast<std::string*>(values);
+  for (char* pointer : pointers) *text++ = pointer == nullptr ? "" : pointer;
   for (char* pointer : pointers) H5free_memory(pointer);
 }
 
+void read_attribute(const Attribute& attribute, const std::string& name, ValueType type,
+                    void* values) {
+  read_entries(type, attribute.type, static_cast<std::size_t>(attribute.count), values,
+               [&](hid_t memory, void* to) {
+                 if (H5Aread(attribute.id.get(), memory, to) < 0) {
+                   throw Fault("attribute " + name + " is damaged");
+                 }
+               });
+}
+
 }  // namespace
+
+Handle open_root(const std::filesystem::path& path, const std::string& cure) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) throw Error(path.string(), "no such file", cure);
+  if (status.type() != fs::file_type::regular) {
+    throw Error(path.string(), error ? error.message() : "is not a regular file", cure);
+  }
+  const htri_t is_hdf5 = H5Fis_hdf5(path.c_str());
+  if (is_hdf5 < 0) throw Error(path.string(), "cannot be opened", "check its permissions");
+  if (is_hdf5 == 0) throw Error(path.string(), "is not an HDF5 file", cure);
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "HDF5 does not start");
+  // Reading needs no lock, and some network file systems have none.
+  H5Pset_file_locking(access.get(), false, true);
+  const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose,
+                    "is truncated or damaged");
+  return {H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, "has no root group"};
+}
+
+std::uint64_t memory_budget(const std::filesystem::path& path) {
+  constexpr std::uint64_t largest_ratio = 1032;  // of deflate
+  return std::filesystem::file_size(path) * largest_ratio;
+}
 
 bool has(const Handle& group, const std::string& name) {
   return H5Lexists(group.get(), name.c_str(), H5P_DEFAULT) > 0;
@@ -74,7 +121,7 @@ std::vector<std::string> names_in(const Handle& group) {
       static_cast<std::vector<std::string>*>(list)->emplace_back(name);
       return 0;
     } catch (...) {
-      return -1;  // an exception may not cross the C library
+      return -1;  // no exception may cross the C library
     }
   };
   if (H5Literate(group.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names) < 0) {
@@ -83,40 +130,23 @@ std::vector<std::string> names_in(const Handle& group) {
   return names;
 }
 
-void get(const Handle& object, const std::string& attribute, double& value) {
-  read_scalar(open_scalar(object, attribute, ValueType::float64), attribute, H5T_NATIVE_DOUBLE,
-              &value);
-}
-
-void get(const Handle& object, const std::string& attribute, std::int32_t& value) {
-  read_scalar(open_scalar(object, attribute, ValueType::int32), attribute, H5T_NATIVE_INT32,
-              &value);
-}
-
-void get(const Handle& object, const std::string& attribute, std::string& value) {
-  const Handle id = open_scalar(object, attribute, ValueType::text);
-  // Its own type: HDF5 does not convert between ASCII and UTF-8.
-  const Handle type(H5Aget_type(id.get()), H5Tclose, "attribute " + attribute + " is damaged");
-  char* text = nullptr;
-  read_scalar(id, attribute, type.get(), &text);
-  take({text}, &value);
+void get_attribute(const Handle& object, const std::string& name, ValueType type, void* value) {
+  const Attribute attribute = open_attribute(object, name);
+  if (attribute.count != 1 || !is(attribute.type, type)) {
+    throw Fault("attribute " + name + " is not one " + name_of(type));
+  }
+  read_attribute(attribute, name, type, value);
 }
 
 void get(const Handle& object, const std::string& attribute, std::vector<std::string>& texts,
          std::uint64_t most) {
-  const std::string what = "attribute " + attribute;
-  const Handle id(H5Aopen(object.get(), attribute.c_str(), H5P_DEFAULT), H5Aclose,
-                  what + " is missing");
-  const Handle type(H5Aget_type(id.get()), H5Tclose, what + " is damaged");
-  const Handle space(H5Aget_space(id.get()), H5Sclose, what + " is damaged");
-  const hssize_t count = H5Sget_simple_extent_npoints(space.get());
-  if (!is(type, ValueType::text) || count < 0 || static_cast<std::uint64_t>(count) > most) {
-    throw Fault(what + " is not a list of texts");
+  const Attribute found = open_attribute(object, attribute);
+  if (!is(found.type, ValueType::text) || found.count < 0 ||
+      static_cast<std::uint64_t>(found.count) > most) {
+    throw Fault("attribute " + attribute + " is not a list of texts");
   }
-  std::vector<char*> pointers(static_cast<std::size_t>(count), nullptr);
-  if (!pointers.empty()) read_scalar(id, attribute, type.get(), pointers.data());
-  texts.resize(pointers.size());
-  take(pointers, texts.data());
+  texts.resize(static_cast<std::size_t>(found.count));
+  read_attribute(found, attribute, ValueType::text, texts.data());
 }
 
 Dataset open_array(const Handle& group, const std::string& name, ValueType wanted,
@@ -156,27 +186,13 @@ Dataset open_array(const Handle& group, const std::string& name, ValueType wante
 }
 
 void read_values(const Dataset& dataset, void* values) {
-  if (dataset.count() == 0) return;
   const std::string what = "dataset " + dataset.name + " is damaged";
-  const auto read_as = [&](hid_t type, void* into) {
-    if (H5Dread(dataset.id.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, into) < 0) {
+  const Handle type(H5Dget_type(dataset.id.get()), H5Tclose, what);
+  read_entries(dataset.type, type, dataset.count(), values, [&](hid_t memory, void* to) {
+    if (H5Dread(dataset.id.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, to) < 0) {
       throw Fault(what);
     }
-  };
-  switch (dataset.type) {
-    case ValueType::float64:
-      return read_as(H5T_NATIVE_DOUBLE, values);
-    case ValueType::int32:
-      return read_as(H5T_NATIVE_INT32, values);
-    case ValueType::uint8:
-      return read_as(H5T_NATIVE_UINT8, values);
-    case ValueType::text:
-      break;
-  }
-  const Handle type(H5Dget_type(dataset.id.get()), H5Tclose, what);
-  std::vector<char*> pointers(dataset.count(), nullptr);
-  read_as(type.get(), pointers.data());
-  take(pointers, static_cast<std::string*>(values));
+  });
 }
 
 }  // namespace anticrack::results::hdf5

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "results/hdf5.hpp"
 
 namespace anticrack::results::hdf5 {
 namespace {
 
-/// Below this compression saves nothing to speak of.
-constexpr std::size_t compressed_from = 2048;  // entries
+constexpr std::size_t compressed_from = 2048;  // entries; compressing fewer saves little
 constexpr std::size_t chunk_entries = 65536;
 constexpr unsigned deflate_level = 6;
 
@@ -24,26 +22,37 @@ Handle text_type() {
   return type;
 }
 
-Handle scalar_space() {
-  return {H5Screate(H5S_SCALAR), H5Sclose, "cannot create a dataspace"};
-}
+/// Values as HDF5 takes them: their types in the file and in memory, and where they are.
+struct Values {
+  Values(ValueType type, const void* values, std::size_t count) : text(text_type()), data(values) {
+    switch (type) {
+      case ValueType::float64:
+        in_file = H5T_IEEE_F64LE;
+        in_memory = H5T_NATIVE_DOUBLE;
+        break;
+      case ValueType::int32:
+        in_file = H5T_STD_I32LE;
+        in_memory = H5T_NATIVE_INT32;
+        break;
+      case ValueType::uint8:
+        in_file = H5T_STD_U8LE;
+        in_memory = H5T_NATIVE_UINT8;
+        break;
+      case ValueType::text:
+        in_file = in_memory = text.get();
+        for (std::size_t i = 0; i < count; ++i) {
+          pointers.push_back(static_cast<const std::string*>(values)[i].c_str());
+        }
+        data = pointers.data();
+        break;
+    }
+  }
 
-void put_scalar(const Handle& object, const std::string& name, hid_t file_type, hid_t memory_type,
-                const void* value) {
-  const std::string what = "cannot write attribute " + name;
-  const Handle space = scalar_space();
-  const Handle attribute(
-      H5Acreate2(object.get(), name.c_str(), file_type, space.get(), H5P_DEFAULT, H5P_DEFAULT),
-      H5Aclose, what);
-  require(H5Awrite(attribute.get(), memory_type, value), what);
-}
-
-std::vector<const char*> pointers_to(std::span<const std::string> texts) {
+  Handle text;
   std::vector<const char*> pointers;
-  pointers.reserve(texts.size());
-  for (const std::string& text : texts) pointers.push_back(text.c_str());
-  return pointers;
-}
+  const void* data;
+  hid_t in_file = -1, in_memory = -1;
+};
 
 Handle creation_properties(std::size_t rows, std::size_t columns, bool checked,
                            const std::string& what) {
@@ -59,21 +68,6 @@ Handle creation_properties(std::size_t rows, std::size_t columns, bool checked,
   }
   require(H5Pset_fletcher32(properties.get()), what);
   return properties;
-}
-
-/// In the file and in memory; `text` is what text has.
-std::pair<hid_t, hid_t> types_of(ValueType type, const Handle& text) {
-  switch (type) {
-    case ValueType::float64:
-      return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE};
-    case ValueType::int32:
-      return {H5T_STD_I32LE, H5T_NATIVE_INT32};
-    case ValueType::uint8:
-      return {H5T_STD_U8LE, H5T_NATIVE_UINT8};
-    case ValueType::text:
-      break;
-  }
-  return {text.get(), text.get()};
 }
 
 }  // namespace
@@ -100,30 +94,17 @@ Handle create_group(const Handle& parent, const std::string& name) {
           H5Gclose, "cannot create group " + name};
 }
 
-void put(const Handle& object, const std::string& attribute, double value) {
-  put_scalar(object, attribute, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
-}
-
-void put(const Handle& object, const std::string& attribute, std::int32_t value) {
-  put_scalar(object, attribute, H5T_STD_I32LE, H5T_NATIVE_INT32, &value);
-}
-
-void put(const Handle& object, const std::string& attribute, const std::string& text) {
-  const Handle type = text_type();
-  const char* pointer = text.c_str();
-  put_scalar(object, attribute, type.get(), type.get(), &pointer);
-}
-
-void put(const Handle& object, const std::string& attribute, std::span<const std::string> texts) {
-  const std::string what = "cannot write attribute " + attribute;
-  const Handle type = text_type();
-  const std::vector<const char*> pointers = pointers_to(texts);
-  const hsize_t count = pointers.size();
-  const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, what);
-  const Handle id(H5Acreate2(object.get(), attribute.c_str(), type.get(), space.get(), H5P_DEFAULT,
-                             H5P_DEFAULT),
-                  H5Aclose, what);
-  if (count != 0) require(H5Awrite(id.get(), type.get(), pointers.data()), what);
+void put_attribute(const Handle& object, const std::string& name, ValueType type,
+                   const void* values, std::optional<std::size_t> count) {
+  const std::string what = "cannot write attribute " + name;
+  const Values source(type, values, count.value_or(1));
+  const hsize_t extent = count.value_or(1);
+  const Handle space(count ? H5Screate_simple(1, &extent, nullptr) : H5Screate(H5S_SCALAR),
+                     H5Sclose, what);
+  const Handle id(
+      H5Acreate2(object.get(), name.c_str(), source.in_file, space.get(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose, what);
+  if (extent != 0) require(H5Awrite(id.get(), source.in_memory, source.data), what);
 }
 
 Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
@@ -133,22 +114,17 @@ Handle put_array(const Handle& group, const std::string& name, ValueType type, c
   const std::size_t rows = columns == 0 ? count : count / columns;
   const std::array<hsize_t, 2> shape{rows, columns};
   const Handle space(H5Screate_simple(columns == 0 ? 1 : 2, shape.data(), nullptr), H5Sclose, what);
-  const Handle text = text_type();
-  const auto [file_type, memory_type] = types_of(type, text);
-  // A checksum over text would be one over pointers into the heap: HDF5 refuses it.
+  const Values source(type, values, count);
+  // HDF5 refuses a checksum over text, which would cover pointers into the heap.
   const Handle properties = creation_properties(rows, columns, type != ValueType::text, what);
-  Handle dataset(H5Dcreate2(group.get(), name.c_str(), file_type, space.get(), H5P_DEFAULT,
+  Handle dataset(H5Dcreate2(group.get(), name.c_str(), source.in_file, space.get(), H5P_DEFAULT,
                             properties.get(), H5P_DEFAULT),
                  H5Dclose, what);
-  std::vector<const char*> pointers;
-  if (type == ValueType::text) {
-    pointers = pointers_to({static_cast<const std::string*>(values), count});
-    values = pointers.data();
-  }
   if (count != 0) {
-    require(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), what);
+    require(H5Dwrite(dataset.get(), source.in_memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, source.data),
+            what);
   }
-  put(dataset, "units", "-");  // the API has none: every quantity is in those of the case
+  put(dataset, "units", std::string("-"));  // quantities are in the units of the case
   return dataset;
 }
 

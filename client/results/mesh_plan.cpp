@@ -39,8 +39,7 @@ MeshPlan assemble_mesh(MeshPlan messages, std::span<const ArrayView> mesh_block)
     line.nodes = block.get<std::int32_t>("interfaces/" + line.name + "/nodes");
     line.edges = edges_of(block, line.name);
   }
-  const std::string fault = first_fault(messages);
-  if (!fault.empty()) block.fail(fault);
+  block.require(first_fault(messages));
   return messages;
 }
 

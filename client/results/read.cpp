@@ -7,7 +7,6 @@
 
 #include "results/file.hpp"
 #include "results/file_tables.hpp"
-#include "results/open_file.hpp"
 #include "results/tables.hpp"
 
 namespace anticrack::results {
@@ -20,7 +19,7 @@ using hdf5::get_values;
 using hdf5::Handle;
 using hdf5::open_group;
 
-/// Of each of the groups "0", "1", ... of a list. Other names are a fault.
+/// get(group) of each of the groups "0", "1", ... of a list. Throws Fault for other names.
 template <class Get>
 auto list_of(const Handle& parent, const char* name, const Get& get) {
   const Handle list = open_group(parent, name);
@@ -28,9 +27,7 @@ auto list_of(const Handle& parent, const char* name, const Get& get) {
   std::vector<decltype(get(list))> items;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string number = std::to_string(i);
-    if (!hdf5::has(list, number)) {
-      throw hdf5::Fault(std::string(name) + " are not numbered from 0");
-    }
+    if (!hdf5::has(list, number)) throw hdf5::Fault(std::string(name) + " are not numbered from 0");
     items.push_back(get(open_group(list, number)));
   }
   return items;
@@ -61,7 +58,7 @@ Load get_load(const Handle& group, const std::string& name, std::uint64_t budget
   return load;
 }
 
-/// Loads in their order in the job; a group lists its members by name.
+/// Loads in their order in the job: groups are listed by name.
 std::vector<Load> get_loads(const Handle& root, std::uint64_t budget) {
   const Handle list = open_group(root, "loads");
   const std::vector<std::string> names = hdf5::names_in(list);
@@ -132,9 +129,8 @@ Result read(const fs::path& path) {
   Result result;
   std::string writer;
   try {
-    const Handle file =
-        hdf5::open_file(path, "name a result file, as `anticrack run CASE.toml -o FILE` makes one");
-    const Handle root(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, "has no root group");
+    const Handle root =
+        hdf5::open_root(path, "name a result file, as `anticrack run CASE.toml -o FILE` makes one");
     check_format(path, root);
     hdf5::get(root, "client_version", writer);
     result = get_result(root, hdf5::memory_budget(path));

@@ -8,7 +8,11 @@
 namespace anticrack::results {
 
 /// Makes `bytes` the content of `path`: temporary file in the same folder, fsync, rename, fsync of
-/// the folder. On failure throws Error, removes the temporary file and leaves `path` as it was.
+/// the folder. On failure throws Error, removes the temporary file and leaves `path` unchanged.
 void replace_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+/// Creates `folder` and its parents where missing. Throws Error where that fails or the folder is
+/// not writable.
+void make_folder(const std::filesystem::path& folder);
 
 }  // namespace anticrack::results

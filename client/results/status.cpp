@@ -1,36 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results/status.hpp"
 
+#include <algorithm>
 #include <array>
-#include <utility>
 
 namespace anticrack::results {
 namespace {
 
-constexpr std::array<std::pair<Status, std::string_view>, 7> statuses{{
-    {Status::unspecified, "unspecified"},
-    {Status::pending, "pending"},
-    {Status::running, "running"},
-    {Status::converged, "converged"},
-    {Status::not_converged, "not_converged"},
-    {Status::failed, "failed"},
-    {Status::cancelled, "cancelled"},
-}};
+/// By the number of the Status.
+constexpr std::array<std::string_view, 7> names{"unspecified",   "pending", "running",  "converged",
+                                                "not_converged", "failed",  "cancelled"};
 
 }  // namespace
 
 std::string_view name(Status status) noexcept {
-  for (const auto& [value, text] : statuses) {
-    if (value == status) return text;
-  }
-  return {};
+  const auto index = static_cast<std::size_t>(status);
+  return index < names.size() ? names[index] : std::string_view();
 }
 
 std::optional<Status> status_from(std::string_view name) noexcept {
-  for (const auto& [value, text] : statuses) {
-    if (text == name) return value;
-  }
-  return std::nullopt;
+  const auto* found = std::ranges::find(names, name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<Status>(found - names.begin());
 }
 
 }  // namespace anticrack::results

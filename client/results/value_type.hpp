@@ -8,11 +8,11 @@
 
 namespace anticrack::results {
 
-/// What the entries of an array are, in a block and in a file. The first have the numbers of the
-/// API's ArrayLayout.Type; there is no text in blocks.
+/// Type of the entries of an array, in a block and in a file. The first three have the numbers of
+/// the API's ArrayLayout.Type; blocks hold no text.
 enum class ValueType { float64 = 1, int32, uint8, text };
 
-/// Of double, std::int32_t and enums as large, std::uint8_t, std::string.
+/// Of double, std::int32_t and enums of that size, std::uint8_t, std::string.
 template <class T>
 inline constexpr ValueType value_type = [] {
   static_assert(std::is_same_v<T, double> || std::is_same_v<T, std::int32_t> ||
@@ -25,8 +25,15 @@ inline constexpr ValueType value_type = [] {
 }();
 
 /// For messages: "float64".
-const char* name_of(ValueType type);
-/// Of an entry; of text those of the pointer to it.
-std::size_t bytes_of(ValueType type);
+constexpr const char* name_of(ValueType type) {
+  return type == ValueType::float64 ? "float64"
+         : type == ValueType::int32 ? "int32"
+         : type == ValueType::uint8 ? "uint8"
+                                    : "variable-length text";
+}
+/// Size of an entry; of text that of the pointer to it.
+constexpr std::size_t bytes_of(ValueType type) {
+  return type == ValueType::int32 ? 4 : type == ValueType::uint8 ? 1 : 8;
+}
 
 }  // namespace anticrack::results

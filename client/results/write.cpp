@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "results/file.hpp"
-#include "results/file_image.hpp"
 #include "results/file_tables.hpp"
 #include "results/replace_file.hpp"
 #include "results/tables.hpp"
@@ -51,7 +50,7 @@ void put_load(const Handle& parent, std::size_t index, const Load& load, const M
 void put_sweep(const Handle& root, const Sweep& sweep) {
   const Handle group = create_group(root, "sweep");
   const SweepSummary counts = summary(sweep);
-  put(group, "description", "row k of every dataset belongs to load case k");
+  put(group, "description", std::string("row k of every dataset belongs to load case k"));
   put_values(group, sweep, tables::sweep);
   put(group, "converged", static_cast<std::int32_t>(counts.converged));
   put(group, "not_converged", static_cast<std::int32_t>(counts.not_converged));
@@ -59,8 +58,7 @@ void put_sweep(const Handle& root, const Sweep& sweep) {
   put_arrays(group, sweep, tables::sweep_arrays);
 }
 
-void put_all(const Handle& file, const Result& result) {
-  const Handle root(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, "has no root group");
+void put_all(const Handle& root, const Result& result) {
   put(root, "format", std::string(format));
   put_values(root, result, tables::result);
   put_values(root, result.timings, tables::timings);
@@ -84,7 +82,7 @@ void write(const std::filesystem::path& path, const Result& result) {
   const hdf5::Quiet quiet;
   std::vector<std::byte> bytes;
   try {
-    bytes = hdf5::file_image([&](const Handle& file) { put_all(file, result); });
+    bytes = hdf5::file_image([&](const Handle& root) { put_all(root, result); });
   } catch (const hdf5::Fault& error) {
     throw Error(path.string(), error.what(), "");
   }

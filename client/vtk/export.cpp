@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "figures/text.hpp"
-#include "results/make_folder.hpp"
 #include "results/replace_file.hpp"
 
 namespace anticrack::vtk {

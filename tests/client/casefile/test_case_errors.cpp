@@ -138,7 +138,7 @@ const Mistake geometry_mistakes[] = {
     interface(
         "arc_of_two", "[[geometry.interface]]\narc = [[-1, 0], [1, 0]]\n",
         "plate.toml:6: geometry.interface.0.arc: [ [ -1, 0 ], [ 1, 0 ] ] is not an arc; write "
-        "[from, through, to], three points of which the second lies between the others"),
+        "[from, through, to], three points with the second between the others"),
     interface("closed_arc",
               "[[geometry.interface]]\narc = [[-1, 0], [0, 1], [1, 0]]\nclosed = true\n",
               "plate.toml:7: geometry.interface.0.closed: an arc has two ends; remove the key, or "
@@ -205,15 +205,16 @@ const Mistake mesh_mistakes[] = {
     mesh(
         "group_tag", "[mesh]\nfile = \"a.msh\"\n[mesh.groups]\ncurve.seven = \"crack\"",
         "plate.toml:15: mesh.groups.curve.seven: 'seven' is not a tag; write the tag of a physical "
-        "group and in quotes what it is, as in curve.7 = \"crack\" or surface.1 = \"top\""),
+        "group and its meaning in quotes, for example curve.7 = \"crack\" or surface.1 = "
+        "\"top\""),
     mesh("group_meaning", "[mesh]\nfile = \"a.msh\"\n[mesh.groups.surface]\n1 = 2",
          "plate.toml:15: mesh.groups.surface.1: 2 is not a meaning of a group; write the tag of a "
-         "physical group and in quotes what it is, as in curve.7 = \"crack\" or surface.1 = "
+         "physical group and its meaning in quotes, for example curve.7 = \"crack\" or surface.1 = "
          "\"top\""),
     mesh(
         "group_list", "[mesh]\nfile = \"a.msh\"\ngroups.curve = [7]",
         "plate.toml:14: mesh.groups.curve: [ 7 ] is not a table; write the tag of a physical group "
-        "and in quotes what it is, as in curve.7 = \"crack\" or surface.1 = \"top\""),
+        "and its meaning in quotes, for example curve.7 = \"crack\" or surface.1 = \"top\""),
     mesh(
         "mesh_tension_text", "[mesh]\nfile = \"a.msh\"\ntension.top = \"2\"",
         "plate.toml:14: mesh.tension.top: '2' is not a finite number; write subdomain = number for "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/row_selection.hpp"
+#include "cli/sweep_input.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(SelectRows, TakesAllAndNone) {
 
 TEST(SelectRows, RefusesWhatIsNoSelectionWithTheCure) {
   const std::vector<std::pair<std::string, std::string>> table{
-      {"", "\"\" is not a row; write all, none, or rows as 0,10,20-30"},
+      {"", "\"\" is not a row; write all, none, or rows, for example 0,10,20-30"},
       {"first", "\"first\" is not a row"},
       {"1,,2", "\"\" is not a row"},
       {"1,", "\"\" is not a row"},
@@ -43,7 +43,7 @@ TEST(SelectRows, RefusesWhatIsNoSelectionWithTheCure) {
       {"1.5", "\"1.5\" is not a row"},
       {" 1", "\" 1\" is not a row"},
       {"0x1", "\"0x1\" is not a row"},
-      {"100", "there is no row 100; the last one is 99, the first one 0"},
+      {"100", "there is no row 100; rows are 0 to 99"},
       {"5-100", "there is no row 100"},
       {"99999999999999999999", "there is no row 99999999999999999999"},
       {"0-18446744073709551615", "there is no row 18446744073709551615"},

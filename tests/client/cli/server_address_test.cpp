@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/server_address.hpp"
+#include "cli/connection_flags.hpp"
 
 #include <gtest/gtest.h>
 

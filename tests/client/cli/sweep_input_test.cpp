@@ -207,7 +207,7 @@ TEST(SweepCommand, ChecksItsInputBeforeItLooksForAServer) {
       {{"--coefficients", good, "-o", folder / "a.h5", "--set", "solver.method=uzawa"},
        "a sweep is solved by the active set"},
       {{"--coefficients", good, "-o", folder / "a.h5", "--csv", folder / "a.h5"},
-       "this is the result file too; name another one"},
+       "this is also the result file; name another one"},
       {{}, "--coefficients"},
       {{"--coefficients", good, "--nodal", good}, "--nodal"},
       {{"--coefficients", good, "--detach", "--csv", folder / "a.csv"}, "--detach"},

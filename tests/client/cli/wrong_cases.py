@@ -153,7 +153,7 @@ CASES = [
     ([("interface = [[-1, 0], [1, 0]]\n", ""),
       *more('[[geometry.interface]]\narc = [[-1, 0], [1, 0]]')], 2,
      "wrong.toml:13: geometry.interface.0.arc: [ [ -1, 0 ], [ 1, 0 ] ] is not an arc; write [from, "
-     "through, to], three points of which the second lies between the others"),
+     "through, to], three points with the second between the others"),
     # Loads.
     ([("[[load]]", "[load]")], 2,
      "wrong.toml:21: load: { f = 'y > 0 ? 1 : -1', name = 'opening' } is not a list of tables; write "

@@ -87,7 +87,7 @@ COMMANDS = [
      "--set job.run_timeout='0': job.run_timeout: '0' is not a time above 0; write seconds, or \"90s\", "
      '"10min", "2h", "1d"'),
     ("mesh show meshes/1 --set mesh.size=1", 2,
-     "--set means nothing for a mesh on the server; name a case"),
+     "--set does not apply to a mesh on the server; name a case"),
     # Cases that cannot be read, and places where nothing can be written.
     ("run no.toml", 2,
      "no.toml: cannot be read: No such file or directory; name a case, a TOML file"),
@@ -178,13 +178,13 @@ COMMANDS = [
      "plain.h5:/matrix: it has 2 columns, the mesh 31 nodes; write f on every node, in the order of "
      "the mesh (the dataset /mesh/nodes of a result file on it)"),
     ("sweep two.toml --coefficients good.csv --traces 0,7", 2,
-     "--traces 0,7: there is no row 7; the last one is 1, the first one 0"),
+     "--traces 0,7: there is no row 7; rows are 0 to 1"),
     ("sweep two.toml --coefficients good.csv --traces 1-0", 2,
      "--traces 1-0: the range 1-0 ends before it begins; write 0-1"),
     ("sweep two.toml --coefficients good.csv --traces frist", 2,
-     '--traces frist: "frist" is not a row; write all, none, or rows as 0,10,20-30'),
+     '--traces frist: "frist" is not a row; write all, none, or rows, for example 0,10,20-30'),
     ("sweep two.toml --coefficients good.csv --csv two.h5", 2,
-     "--csv two.h5: this is the result file too; name another one"),
+     "--csv two.h5: this is also the result file; name another one"),
     ("sweep two.toml --coefficients good.csv --set solver.method=uzawa", 2,
      "--set solver.method=uzawa: solver.method: a sweep is solved by the active set; take [solver] "
      "out of the case, or add --set 'solver={method=\"active-set\"}'"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figures/gnuplot.hpp"
+#include "figures/drawing.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

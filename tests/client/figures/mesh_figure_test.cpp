@@ -120,14 +120,16 @@ TEST(MeshFigure, is_drawn_with_its_legend_and_the_finest_tip) {
 
 TEST(MeshFigure, of_a_uniform_mesh_is_one_panel) {
   std::vector<std::string> notes;
-  const std::string text = mesh_script(sample_mesh_plan(10), {{Format::png, "a.png"}}, notes);
+  const std::string text =
+      script(mesh_picture(sample_mesh_plan(10), notes), {{Format::png, "a.png"}});
   EXPECT_THAT(text, Not(HasSubstr("around the tip")));
   EXPECT_THAT(notes, IsEmpty());
 }
 
 TEST(MeshFigure, of_too_many_triangles_shows_lines_and_says_so) {
   std::vector<std::string> notes;
-  const std::string text = mesh_script(sample_mesh_plan(100), {{Format::png, "a.png"}}, notes);
+  const std::string text =
+      script(mesh_picture(sample_mesh_plan(100), notes), {{Format::png, "a.png"}});
   EXPECT_THAT(notes, ElementsAre(HasSubstr("80000 of them")));
   EXPECT_THAT(text, Not(HasSubstr("filledcurves")));
 }

@@ -23,9 +23,10 @@ const std::vector<Output> both{{Format::png, "a.png"}, {Format::svg, "a.svg"}};
 /// All scripts of a load, one after the other.
 std::string scripts(const results::Result& result, const results::Load& load) {
   const Surface membrane = surface(result, load, 10000);
-  return combined_script(result, load, membrane, both) +
-         membrane_script(result, load, membrane, both) + traces_script(result, load, 0, both) +
-         convergence_script(result, load, both);
+  return script(combined_picture(result, load, membrane), both) +
+         script(membrane_picture(result, load, membrane), both) +
+         script(traces_picture(result, load, 0), both) +
+         script(convergence_picture(result, load), both);
 }
 
 /// What gnuplot would take for commands: the script without the insides of quoted strings. Throws
@@ -47,25 +48,27 @@ std::string commands(const std::string& script) {
 
 TEST(Script, draws_both_formats_from_one_copy_of_the_data) {
   const auto result = sample_result(4);
-  const std::string script =
-      combined_script(result, result.loads[0], surface(result, result.loads[0], 1000), both);
-  EXPECT_THAT(script, HasSubstr("set output 'a.png'"));
-  EXPECT_THAT(script, HasSubstr("set output 'a.svg'"));
-  EXPECT_EQ(script.find("$membrane << EOD"), script.rfind("$membrane << EOD"));
-  EXPECT_THAT(script, HasSubstr("amplified"));
-  EXPECT_THAT(script, HasSubstr("u [-]"));
+  const std::string drawn = script(
+      combined_picture(result, result.loads[0], surface(result, result.loads[0], 1000)), both);
+  EXPECT_THAT(drawn, HasSubstr("set output 'a.png'"));
+  EXPECT_THAT(drawn, HasSubstr("set output 'a.svg'"));
+  EXPECT_EQ(drawn.find("$membrane << EOD"), drawn.rfind("$membrane << EOD"));
+  EXPECT_THAT(drawn, HasSubstr("amplified"));
+  EXPECT_THAT(drawn, HasSubstr("u [-]"));
 }
 
 TEST(Script, marks_contact_only_where_there_is_some) {
   const auto result = sample_result(10);
-  EXPECT_THAT(traces_script(result, result.loads[0], 0, both), Not(HasSubstr("title 'contact'")));
-  EXPECT_THAT(traces_script(result, result.loads[1], 0, both), HasSubstr("title 'contact'"));
+  EXPECT_THAT(script(traces_picture(result, result.loads[0], 0), both),
+              Not(HasSubstr("title 'contact'")));
+  EXPECT_THAT(script(traces_picture(result, result.loads[1], 0), both),
+              HasSubstr("title 'contact'"));
 }
 
 TEST(Script, names_an_inclusion_where_it_lies) {
   auto result = sample_result(4);
   auto& load = result.loads[0];
-  const auto named = [&] { return traces_script(result, load, 0, both); };
+  const auto named = [&] { return script(traces_picture(result, load, 0), both); };
   EXPECT_THAT(named(), HasSubstr("'fibre' at graph 0.5"));
   EXPECT_THAT(named(), HasSubstr("A = 0.0863'"));
   // Not one that lies on no edge here, whatever its A.
@@ -77,10 +80,10 @@ TEST(Script, names_an_inclusion_where_it_lies) {
 
 TEST(Script, names_two_inclusions_of_one_displacement) {
   const auto result = sample_pair(4);
-  const std::string script = traces_script(result, result.loads[0], 0, both);
-  EXPECT_THAT(script, HasSubstr("'left' at graph 0.375"));
-  EXPECT_THAT(script, HasSubstr("'right' at graph 0.625"));
-  EXPECT_THAT(script, HasSubstr("A = 0.0863 (right),  A = 0.0863 (left)'"));
+  const std::string drawn = script(traces_picture(result, result.loads[0], 0), both);
+  EXPECT_THAT(drawn, HasSubstr("'left' at graph 0.375"));
+  EXPECT_THAT(drawn, HasSubstr("'right' at graph 0.625"));
+  EXPECT_THAT(drawn, HasSubstr("A = 0.0863 (right),  A = 0.0863 (left)'"));
 }
 
 TEST(Script, says_in_every_panel_that_a_load_did_not_converge) {
@@ -88,8 +91,8 @@ TEST(Script, says_in_every_panel_that_a_load_did_not_converge) {
   auto& load = result.loads[0];
   EXPECT_THAT(scripts(result, load), Not(HasSubstr("not converged")));
   load.status = results::Status::not_converged;
-  EXPECT_THAT(traces_script(result, load, 0, both), HasSubstr("not converged"));
-  EXPECT_THAT(membrane_script(result, load, surface(result, load, 1000), both),
+  EXPECT_THAT(script(traces_picture(result, load, 0), both), HasSubstr("not converged"));
+  EXPECT_THAT(script(membrane_picture(result, load, surface(result, load, 1000)), both),
               HasSubstr("not converged"));
 }
 
@@ -100,16 +103,17 @@ TEST(Script, shows_rounding_as_zero) {
     for (double& value : *values) value *= 1e-14;
   }
   result.loads[0].energy = -6;  // u is about 1
-  EXPECT_THAT(traces_script(result, result.loads[0], 0, both), HasSubstr("'displacement [-]'"));
+  EXPECT_THAT(script(traces_picture(result, result.loads[0], 0), both),
+              HasSubstr("'displacement [-]'"));
   result.loads[0].energy = -6e-30;  // all of u is that small
-  EXPECT_THAT(traces_script(result, result.loads[0], 0, both),
+  EXPECT_THAT(script(traces_picture(result, result.loads[0], 0), both),
               HasSubstr("'displacement [10\xE2\x81\xBB\xC2\xB9\xE2\x81\xB5]'"));
 }
 
 TEST(Script, breaks_a_title_and_keeps_the_name_of_the_load) {
   auto result = sample_result(4);
   const std::vector<Output> png{{Format::png, "a.png"}};
-  const auto titled = [&] { return traces_script(result, result.loads[0], 0, png); };
+  const auto titled = [&] { return script(traces_picture(result, result.loads[0], 0), png); };
   EXPECT_THAT(titled(), HasSubstr("'A made-up membrane \xE2\x80\x94 opening'"));
   result.title = "A membrane with a title that fills its line";
   EXPECT_THAT(titled(), HasSubstr("label 101 'A membrane with a title that fills its line'"));
@@ -121,23 +125,26 @@ TEST(Script, breaks_a_title_and_keeps_the_name_of_the_load) {
 TEST(Script, gives_zero_a_place_on_the_log_axis) {
   auto result = sample_result(4);
   auto& load = result.loads[0];
-  EXPECT_THAT(convergence_script(result, load, both), Not(HasSubstr("ytics add")));
+  EXPECT_THAT(script(convergence_picture(result, load), both), Not(HasSubstr("ytics add")));
   load.history.criterion[4] = 0;
-  EXPECT_THAT(convergence_script(result, load, both), HasSubstr("set ytics add ('0' 1e-13)"));
-  EXPECT_THAT(convergence_script(result, load, both), HasSubstr("\n5 1e-13\n"));
+  EXPECT_THAT(script(convergence_picture(result, load), both),
+              HasSubstr("set ytics add ('0' 1e-13)"));
+  EXPECT_THAT(script(convergence_picture(result, load), both), HasSubstr("\n5 1e-13\n"));
 }
 
 TEST(Script, draws_epsilon_where_it_is_known) {
   auto result = sample_result(4);
-  EXPECT_THAT(convergence_script(result, result.loads[0], both), HasSubstr("1e-12 with lines"));
+  EXPECT_THAT(script(convergence_picture(result, result.loads[0]), both),
+              HasSubstr("1e-12 with lines"));
   result.loads[0].epsilon = results::unknown;
-  EXPECT_THAT(convergence_script(result, result.loads[0], both), Not(HasSubstr("\xCE\xB5 =")));
+  EXPECT_THAT(script(convergence_picture(result, result.loads[0]), both),
+              Not(HasSubstr("\xCE\xB5 =")));
 }
 
 TEST(Script, says_how_a_load_ended) {
   auto result = sample_result(4);
   result.loads[0].status = results::Status::not_converged;
-  EXPECT_THAT(convergence_script(result, result.loads[0], both),
+  EXPECT_THAT(script(convergence_picture(result, result.loads[0]), both),
               HasSubstr("not converged after 180 iterations"));
 }
 
@@ -171,17 +178,17 @@ TEST(Script, lets_nothing_hostile_through) {
     for (char& c : harmless) {
       if (c != ' ' && static_cast<unsigned char>(c) < 0x80) c = 'x';
     }
-    const std::string script = scripts_saying(text);
-    EXPECT_THAT(script, HasSubstr("graph 0.075"));  // the name of an inclusion
-    EXPECT_EQ(commands(script), commands(scripts_saying(harmless))) << text;
-    EXPECT_THAT(script, Not(HasSubstr("`")));
+    const std::string drawn = scripts_saying(text);
+    EXPECT_THAT(drawn, HasSubstr("graph 0.075"));  // the name of an inclusion
+    EXPECT_EQ(commands(drawn), commands(scripts_saying(harmless))) << text;
+    EXPECT_THAT(drawn, Not(HasSubstr("`")));
   }
 }
 
 TEST(Script, takes_only_bare_file_names) {
   const auto result = sample_result(4);
   for (const char* file : {"", "| sh", "../a.png", "a'b.png", "-a", "a b", "/a.png", "a\nb"}) {
-    EXPECT_THROW(convergence_script(result, result.loads[0], {{Format::png, file}}),
+    EXPECT_THROW(script(convergence_picture(result, result.loads[0]), {{Format::png, file}}),
                  std::invalid_argument)
         << file;
   }
@@ -193,10 +200,10 @@ TEST(Script, has_only_numbers_gnuplot_can_read) {
   result.loads[0].history.criterion[3] = 0;
   result.loads[0].history.criterion[4] = -std::numeric_limits<double>::infinity();
   result.loads[0].theta_star = results::unknown;
-  const std::string script = scripts(result, result.loads[0]);
-  EXPECT_THAT(script, Not(HasSubstr("inf")));
-  EXPECT_THAT(script, Not(HasSubstr("nan")));
-  EXPECT_THAT(script, HasSubstr("\n5 NaN\n"));
+  const std::string drawn = scripts(result, result.loads[0]);
+  EXPECT_THAT(drawn, Not(HasSubstr("inf")));
+  EXPECT_THAT(drawn, Not(HasSubstr("nan")));
+  EXPECT_THAT(drawn, HasSubstr("\n5 NaN\n"));
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST(SweepAxis, IsTheAngleOfTwoThatGoRoundACircle) {
   EXPECT_TRUE(turn.joined());
   EXPECT_THAT(turn.position, ElementsAre(0, 90, 180, 270, 360));
   EXPECT_THAT(turn.order, ElementsAre(0, 1, 2, 3, 4));
-  EXPECT_THAT(sweep_script(result, turn, png), HasSubstr("set xtics 90\n"));
+  EXPECT_THAT(script(sweep_picture(result, turn), png), HasSubstr("set xtics 90\n"));
 
   // Of more than one turn, rows at the same angle stand at the same place.
   const double x = -1, y = std::sqrt(3.0);
@@ -133,12 +133,12 @@ TEST(SweepScript, HasACurvePerInclusionAndKeepsStrangeNamesQuoted) {
   results::Result result = sample_sweep(3);
   result.sweep->inclusions = {"one", "t'wo\n!rm"};
   result.sweep->displacement = {1, 2, 3, 4, 5, 6};
-  const std::string script = sweep_script(result, sweep_axis(*result.sweep), png);
-  EXPECT_THAT(script, HasSubstr("$A1 << EOD"));
-  EXPECT_THAT(script, HasSubstr("title 'one'"));
-  EXPECT_THAT(script, HasSubstr("title 't''wo !rm'"));
-  EXPECT_THAT(script, HasSubstr("'coefficient of opening [-]'"));
-  EXPECT_THAT(script, HasSubstr("3 rows, 1 without an answer left out"));
+  const std::string drawn = script(sweep_picture(result, sweep_axis(*result.sweep)), png);
+  EXPECT_THAT(drawn, HasSubstr("$A1 << EOD"));
+  EXPECT_THAT(drawn, HasSubstr("title 'one'"));
+  EXPECT_THAT(drawn, HasSubstr("title 't''wo !rm'"));
+  EXPECT_THAT(drawn, HasSubstr("'coefficient of opening [-]'"));
+  EXPECT_THAT(drawn, HasSubstr("3 rows, 1 without an answer left out"));
 }
 
 TEST(SweepScript, CountsInclusionsThatAreTooManyToName) {
@@ -147,10 +147,10 @@ TEST(SweepScript, CountsInclusionsThatAreTooManyToName) {
   result.sweep->displacement.clear();
   for (int i = 0; i < 9; ++i) result.sweep->inclusions.push_back("fibre " + std::to_string(i));
   result.sweep->displacement.assign(27, 0.1);
-  const std::string script = sweep_script(result, sweep_axis(*result.sweep), png);
-  EXPECT_THAT(script, HasSubstr("title 'fibre 5'"));
-  EXPECT_THAT(script, Not(HasSubstr("title 'fibre 6'")));
-  EXPECT_THAT(script, HasSubstr("title '3 more'"));
+  const std::string drawn = script(sweep_picture(result, sweep_axis(*result.sweep)), png);
+  EXPECT_THAT(drawn, HasSubstr("title 'fibre 5'"));
+  EXPECT_THAT(drawn, Not(HasSubstr("title 'fibre 6'")));
+  EXPECT_THAT(drawn, HasSubstr("title '3 more'"));
 }
 
 TEST(SweepScript, LabelsRowsWithWholeNumbersAndKeepsTheUnitOfALongName) {
@@ -158,7 +158,8 @@ TEST(SweepScript, LabelsRowsWithWholeNumbersAndKeepsTheUnitOfALongName) {
   result.sweep->loads[1] = "a load whose name is longer than an axis";
   EXPECT_EQ(sweep_axis(*result.sweep).label, "coefficient of a load whose name i\xE2\x80\xA6 [-]");
   result.sweep->coefficients.clear();
-  EXPECT_THAT(sweep_script(result, sweep_axis(*result.sweep), png), HasSubstr("set xtics 1\n"));
+  EXPECT_THAT(script(sweep_picture(result, sweep_axis(*result.sweep)), png),
+              HasSubstr("set xtics 1\n"));
 }
 
 TEST(ContactScript, HasNoSeamsBetweenRows) {
@@ -167,9 +168,9 @@ TEST(ContactScript, HasNoSeamsBetweenRows) {
   const SweepAxis axis = sweep_axis(*result.sweep);
   ContactMap map;
   map.boxes = {{0, 1, 0, 1, 1}, {0, 1, 1, 2, 1}, {0, 1, 3, 4, 1}};
-  const std::string script = contact_script(result, axis, map, png);
-  EXPECT_THAT(script, HasSubstr("\n0.5 1 0 1 0 2 1\n"));    // reaches under the next
-  EXPECT_THAT(script, HasSubstr("\n0.5 1.5 0 1 1 2 1\n"));  // not into a gap
+  const std::string drawn = script(contact_picture(result, axis, map), png);
+  EXPECT_THAT(drawn, HasSubstr("\n0.5 1 0 1 0 2 1\n"));    // reaches under the next
+  EXPECT_THAT(drawn, HasSubstr("\n0.5 1.5 0 1 1 2 1\n"));  // not into a gap
 }
 
 TEST(DrawSweep, MakesThePicturesOfTheSweepAndOfItsFirstKeptRows) {

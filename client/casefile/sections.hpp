@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One function per section of a case, and what they share. For the sources of this folder only.
+// Each reads its section into a message and records in `spots` where every field was written.
+#pragma once
+
+#include <concepts>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "casefile/case.hpp"
+#include "casefile/section.hpp"
+
+namespace anticrack::casefile {
+
+/// Field of a request -> where its value was written.
+using Spots = std::map<std::string, Spot>;
+
+inline const std::vector<std::string> geometry_keys{"boundary", "interface", "inclusion",
+                                                    "crack",    "neumann",   "region"};
+inline const std::vector<std::string> mesh_keys{"preset", "size", "tip_size", "grading",
+                                                "align",  "file", "groups",   "tension"};
+
+/// `section` is [geometry], read with geometry_keys.
+v1::Geometry read_geometry(const Section& section, Spots& spots);
+
+/// `interface` of [geometry]: a list of points, or tables with points, arc or spline. Optional.
+void read_interfaces(const Section& section, v1::Geometry& geometry, Spots& spots);
+
+/// `section` is [mesh], read with mesh_keys. Throws Error for a key that has no meaning beside the
+/// others: sizes of another preset, `align` with a file, groups and tension without one.
+v1::MeshOptions read_mesh_options(const Section& section, Spots& spots);
+
+/// [solver] of the root. Throws Error for a key of the other method.
+v1::Solver read_solver(const Section& root, Spots& spots);
+
+/// Every [[load]] of the root: fills in the job's load cases, force_files and spots.
+void read_loads(const Section& root, Case& result);
+
+/// [job] of the root: priority and time limits.
+void read_job(const Section& root, v1::Job& job, Spots& spots);
+
+/// Writes the value of "key=value" into the case. The key is a dotted path. An entry of an array is
+/// an index from 0 (one past the end appends a table) or, where all entries have one, a `name`.
+/// Missing tables are created. The value is TOML; anything else is text, so quotes may be omitted.
+/// Throws Error for a key that does not exist, control characters and invalid UTF-8.
+void apply_override(toml::table& root, const std::string& assignment);
+
+/// Records where the section and its values were written, as FIELD and FIELD.KEY.
+void note(const Section& section, const std::string& field, Spots& spots);
+
+/// Writes both coordinates.
+inline void set(v1::Point& point, const Point& xy) {
+  point.set_x(xy[0]);
+  point.set_y(xy[1]);
+}
+
+/// "list[3]": the field of an entry of a repeated field.
+inline std::string entry_field(const std::string& list, std::integral auto index) {
+  return list + "[" + std::to_string(index) + "]";
+}
+
+/// Records the spot of an entry of a map, in both notations of a field violation.
+inline void set_entry(Spots& spots, const std::string& map, const std::string& key,
+                      const Spot& spot) {
+  spots[map + "[" + key + "]"] = spot;
+  spots[map + "." + key] = spot;
+}
+
+/// Adds the points of a node [[x, y], ...] to a repeated field, and their spots.
+template <class Points>
+void add_points(const toml::node& node, const std::string& key, const std::string& field,
+                Points& points, Spots& spots) {
+  const std::vector<Point> list = points_of(node, key);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    set(*points.Add(), list[i]);
+    spots[entry_field(field, i)] = spot_of(*node.as_array()->get(i), entry_key(key, i));
+  }
+}
+
+/// Copies {name = number, ...} of a key into a map, and records the spots of its entries.
+template <class Map>
+void add_numbers(const Section& section, const std::string& key, const char* cure,
+                 const std::string& field, Map& map, Spots& spots) {
+  for (const auto& [name, value] : section.numbers(key, cure)) {
+    map[name] = value;
+    const toml::node& entry = *section.find(key)->as_table()->get(name);
+    set_entry(spots, field, name, spot_of(entry, section.path_of(key) + "." + name));
+  }
+}
+
+}  // namespace anticrack::casefile

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What several commands add to the parser.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+#include <type_traits>
+
+#include "cli/commands.hpp"
+#include "figures/figures.hpp"
+
+namespace anticrack::cli {
+
+/// When `command` is parsed, leaves action(options, globals) in `chosen`.
+template <class Options>
+void on(CLI::App& command, const std::shared_ptr<Options>& options, const Globals& globals,
+        Command& chosen, std::type_identity_t<int (*)(const Options&, const Globals&)> action) {
+  command.callback(
+      [=, &globals, &chosen] { chosen = [=, &globals] { return action(*options, globals); }; });
+}
+
+/// CASE
+inline void add_case(CLI::App& command, std::string& file) {
+  command.add_option("CASE", file, "The case, a TOML file")->required()->type_name("FILE");
+}
+
+/// --limit
+inline void add_limit(CLI::App& command, int& limit) {
+  command.add_option("--limit", limit, "Show at most this many, from 1 to 1000")
+      ->check(CLI::Range(1, 1000).description(""))
+      ->type_name("COUNT")
+      ->capture_default_str();
+}
+
+/// The options of commands that draw. `options`, which must outlive the app, has their defaults.
+void add_figure_options(CLI::App& app, figures::Options& options);
+
+}  // namespace anticrack::cli
