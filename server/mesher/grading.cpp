@@ -25,14 +25,6 @@ std::string option_of(const std::string& field) {
   return "options." + field;
 }
 
-[[noreturn]] void rethrow_in_options(const errors::Error& error) {
-  errors::Error renamed(error.reason(), error.what());
-  for (const errors::FieldViolation& violation : error.fields()) {
-    renamed.at(option_of(violation.field));
-  }
-  throw errors::Error(renamed);
-}
-
 [[noreturn]] void refuse_count(std::size_t base_triangles, const mesh::GradingSpec& spec,
                                std::size_t tip_count, std::size_t limit) {
   const bool graded = spec.m < 1;
@@ -66,11 +58,12 @@ mesh::Mesh bisected(const mesh::Mesh& base, const std::vector<std::int32_t>& tip
   }
   try {
     return mesh::grade(base, tips, grading, max_triangles);
-  } catch (const errors::Error& error) {
+  } catch (errors::Error& error) {
     if (error.reason() == errors::Reason::limit_exceeded) {
       refuse_count(base.triangle_count(), spec, tips.size(), max_triangles);
     }
-    rethrow_in_options(error);
+    error.rename(option_of);
+    throw;
   }
 }
 
