@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Prints the manual page anticrackd(8), made from the texts of --help. A program of the build: the
-// server itself does not carry the writer of manuals.
+// Prints the manual page anticrackd(8), made from the texts of --help. Used by the build only.
 #include <CLI/CLI.hpp>
 
 #include <iostream>

@@ -11,9 +11,8 @@ bool may_see(const Identity& who, const std::string& owner) noexcept {
 
 void require_admin(const Identity& who, const std::string& action) {
   if (who.role == Role::admin) return;
-  throw errors::Error(
-      errors::Reason::permission_denied,
-      "only an administrator may " + action + "; ask one, \"" + who.name + "\" is a user");
+  throw errors::Error(errors::Reason::permission_denied,
+                      "only an administrator may " + action + "; \"" + who.name + "\" is a user");
 }
 
 }  // namespace anticrack::access

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Who asks, and what he may do: plain values and pure functions; knows no transport.
+// Callers and their permissions: plain values and pure functions.
 #pragma once
 
 #include <string>
@@ -8,19 +8,19 @@
 namespace anticrack::access {
 
 enum class Role {
-  user,   ///< sees and changes what he made
-  admin,  ///< everything of everybody, and what touches everybody: evict, pin
+  user,   ///< sees and changes his own resources
+  admin,  ///< sees and changes everything; may evict and pin
 };
 
 struct Identity {
-  std::string name;  ///< empty on a server that asks for none
+  std::string name;  ///< empty if the server does not identify callers
   Role role = Role::user;
 
   friend bool operator==(const Identity&, const Identity&) = default;
 };
 
-/// A resource of `owner` is there for `who`. To anybody else it is as if it did not exist
-/// (not_found), so that nobody learns of it by asking.
+/// Whether `who` may see a resource of `owner`. If not, it must look as if it did not exist
+/// (not_found).
 bool may_see(const Identity& who, const std::string& owner) noexcept;
 
 /// Throws errors::Error (permission_denied) unless `who` is an administrator; `action` as in

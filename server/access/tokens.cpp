@@ -4,8 +4,10 @@
 #include <openssl/crypto.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <span>
+#include <sstream>
 #include <utility>
 
 #include "errors/errors.hpp"
@@ -17,23 +19,15 @@ namespace {
 using Hash = std::array<std::uint8_t, 32>;
 
 constexpr std::size_t max_name_bytes = 64;
-constexpr std::string_view blanks = " \t\r";
 
 errors::Error bad_line(const std::string& origin, std::size_t line, const std::string& what) {
   return {errors::Reason::invalid_argument,
           std::string(origin) + ", line " + std::to_string(line) + ": " + what};
 }
 
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (;;) {
-    const std::size_t begin = line.find_first_not_of(blanks);
-    if (begin == std::string_view::npos) return words;
-    line.remove_prefix(begin);
-    const std::size_t length = std::min(line.find_first_of(blanks), line.size());
-    words.push_back(line.substr(0, length));
-    line.remove_prefix(length);
-  }
+std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream stream(line);
+  return {std::istream_iterator<std::string>(stream), {}};
 }
 
 bool is_alphanumeric(char c) {
@@ -53,20 +47,14 @@ std::optional<Role> to_role(std::string_view text) {
   return std::nullopt;
 }
 
-int digit_of(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  return -1;
-}
-
 std::optional<Hash> to_hash(std::string_view text) {
+  constexpr std::string_view digits = "0123456789abcdef";
   Hash hash{};
   if (text.size() != 2 * hash.size()) return std::nullopt;
+  if (text.find_first_not_of(digits) != std::string_view::npos) return std::nullopt;
   for (std::size_t i = 0; i < hash.size(); ++i) {
-    const int high = digit_of(text[2 * i]);
-    const int low = digit_of(text[2 * i + 1]);
-    if (high < 0 || low < 0) return std::nullopt;
-    hash[i] = static_cast<std::uint8_t>(16 * high + low);
+    hash[i] =
+        static_cast<std::uint8_t>(16 * digits.find(text[2 * i]) + digits.find(text[2 * i + 1]));
   }
   return hash;
 }
@@ -76,22 +64,20 @@ std::optional<Hash> to_hash(std::string_view text) {
 TokenTable TokenTable::parse(std::string_view text, const std::string& origin) {
   TokenTable table;
   std::map<std::string, Role, std::less<>> roles;
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    line = line.substr(0, line.find('#'));
-    const std::vector<std::string_view> words = words_of(line);
+  std::istringstream lines{std::string(text)};
+  std::string line;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    const std::vector<std::string> words = words_of(line.substr(0, line.find('#')));
     if (words.empty()) continue;
-    // What stands there may be a token by mistake: errors never repeat it.
+    // The line may contain a token by mistake: errors never repeat it.
     if (words.size() != 3) {
       throw bad_line(origin, number,
                      std::to_string(words.size()) + " words; write NAME ROLE SHA256");
     }
     if (!is_name(words[0])) {
       throw bad_line(origin, number,
-                     "the name must begin with a letter or digit and go on with letters, digits "
-                     "and any of _.@-, at most 64 of them");
+                     "a name is at most 64 letters, digits and _.@-, beginning with a letter or "
+                     "digit");
     }
     const std::optional<Role> role = to_role(words[1]);
     if (!role) throw bad_line(origin, number, "the role must be user or admin");
@@ -103,12 +89,13 @@ TokenTable TokenTable::parse(std::string_view text, const std::string& origin) {
     }
     const auto [known, fresh] = roles.emplace(words[0], *role);
     if (!fresh && known->second != *role) {
-      throw bad_line(origin, number, "\"" + known->first + "\" has another role further up");
+      throw bad_line(origin, number,
+                     "\"" + known->first + "\" has another role on an earlier line");
     }
     for (const Entry& entry : table._entries) {
       if (entry.hash == *hash) {
         throw bad_line(origin, number,
-                       "the same token stands further up, for \"" + entry.identity.name + "\"");
+                       "the same token is on an earlier line, for \"" + entry.identity.name + "\"");
       }
     }
     table._entries.push_back({*hash, {known->first, *role}});
@@ -121,7 +108,7 @@ std::optional<Identity> TokenTable::find(std::string_view token) const {
   digest.add(std::as_bytes(std::span(token)));
   const std::optional<Hash> hash = to_hash(digest.finish());
   const Entry* found = nullptr;
-  for (const Entry& entry : _entries) {  // all of them: how long it takes tells nothing
+  for (const Entry& entry : _entries) {  // all of them, so that the time reveals nothing
     if (CRYPTO_memcmp(entry.hash.data(), hash->data(), hash->size()) == 0) found = &entry;
   }
   if (found == nullptr) return std::nullopt;

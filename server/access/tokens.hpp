@@ -12,17 +12,17 @@
 
 namespace anticrack::access {
 
-/// Bearer tokens by their SHA-256, so that the file they come from holds no secret that opens
-/// anything. One a line: NAME ROLE SHA256, ROLE user or admin, # comments. NAME is
+/// Bearer tokens, known by their SHA-256 only, so that their file contains no secrets. Lines: NAME
+/// ROLE SHA256; ROLE is user or admin, # begins a comment, NAME is
 /// [A-Za-z0-9][A-Za-z0-9_.@-]{0,63}.
 class TokenTable {
  public:
   TokenTable() = default;
-  /// Throws errors::Error (invalid_argument) with the line's number: what cannot be read, a name
-  /// with two roles, a hash twice. `origin` names the file in errors.
+  /// `origin` is the file's name for errors. Throws errors::Error (invalid_argument) with the
+  /// line's number: a bad line, a name with two roles, a repeated hash.
   static TokenTable parse(std::string_view text, const std::string& origin);
 
-  /// Whose token this is. Compares with every entry in constant time.
+  /// The owner of a token, if any. Compares with every entry in constant time.
   std::optional<Identity> find(std::string_view token) const;
   bool empty() const noexcept { return _entries.empty(); }
 

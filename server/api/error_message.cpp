@@ -14,7 +14,7 @@ using errors::Reason;
 
 namespace {
 
-/// As in google.rpc, which they are wire-compatible with.
+/// As in google.rpc; the messages are wire-compatible.
 template <class Detail>
 std::string type_url() {
   return "type.googleapis.com/google.rpc." + Detail::descriptor()->name();
@@ -38,7 +38,7 @@ Detail unpacked(const v1::Status& status) {
   return detail;
 }
 
-/// By name, since the enum's numbers change when a reason is added.
+/// By name: the numbers of the enum change when a reason is added.
 Reason reason_of(const std::string& name) {
   for (int i = 0; i <= static_cast<int>(Reason::internal); ++i) {
     if (errors::name(static_cast<Reason>(i)) == name) return static_cast<Reason>(i);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Errors as messages: text, reason, fields, metadata and retry delay. What number a gRPC call fails
-// with (Status.code) is the server's to say: rpc/error_table.hpp.
+// Errors as messages: text, reason, fields, metadata and retry delay. rpc/error_table.hpp sets
+// Status.code.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace anticrack::api {
 
-/// How much is told: bytes of texts, entries of lists. By default all of it.
+/// Limits of the message: bytes of texts, entries of lists. By default none.
 struct Budget {
   static constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
   std::size_t message = all;
@@ -23,8 +23,8 @@ struct Budget {
   std::size_t value = all;
 };
 
-/// Message, ErrorInfo, and BadRequest and RetryInfo where the error has fields or a delay. Control
-/// characters and bytes that are not UTF-8 become '?'.
+/// Message, ErrorInfo, and BadRequest and RetryInfo if the error has fields or a delay. Control
+/// characters and invalid UTF-8 become '?'.
 v1::Status to_message(const errors::Error& error, const Budget& budget = {});
 
 }  // namespace anticrack::api

@@ -23,7 +23,7 @@ static_assert(int(store::Priority::bulk) == v1::Job::PRIORITY_BULK);
 
 namespace {
 
-/// Absolute and relative residuals are one message.
+/// Absolute and relative residuals share a message.
 constexpr const char* relative = "_relative";
 
 /// 0: unset.
@@ -31,7 +31,7 @@ void write_limit(milliseconds limit, v1::Job& to, const char* name) {
   if (limit.count() > 0) write_field(std::chrono::nanoseconds(limit), to, name);
 }
 
-/// What is not 0 is rounded up, so that it does not become that: unset.
+/// Rounded up, so that a short limit does not become 0 (unset).
 milliseconds limit_of(const v1::Job& from, const char* name) {
   return std::chrono::ceil<milliseconds>(read_one<std::chrono::nanoseconds>(from, name));
 }
@@ -125,14 +125,11 @@ contact::ActiveSetOptions Translation<contact::ActiveSetOptions>::read(const v1:
 
 void Translation<contact::SolverOptions>::write(const contact::SolverOptions& value,
                                                 v1::Solver& to) {
-  struct Visitor {
-    v1::Solver& to;
-    void operator()(const contact::UzawaOptions& uzawa) const { write_field(uzawa, to, "uzawa"); }
-    void operator()(const contact::ActiveSetOptions& active_set) const {
-      write_field(active_set, to, "active_set");
-    }
-  };
-  std::visit(Visitor{to}, value);
+  if (const auto* uzawa = std::get_if<contact::UzawaOptions>(&value)) {
+    write_field(*uzawa, to, "uzawa");
+  } else {
+    write_field(std::get<contact::ActiveSetOptions>(value), to, "active_set");
+  }
 }
 
 contact::SolverOptions Translation<contact::SolverOptions>::read(const v1::Solver& from) {
@@ -215,7 +212,7 @@ void Translation<store::JobRecord>::write(const store::JobRecord& value, v1::Job
     write_field(value.sweep, to, "sweep_answer");
     to.mutable_sweep_answer()->set_rows(value.spec.sweep->rows);
   }
-  // A job that is queued again was started once more, by the next start of the server.
+  // A job that is queued again begins a new attempt.
   int attempt = 1;
   for (int i = 0; i < to.timeline_size(); ++i) {
     v1::Job::Step& step = *to.mutable_timeline(i);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -20,7 +22,7 @@ using errors::Reason;
 void require_loads(const v1::Job& job) {
   for (int i = 0; i < job.load_cases_size(); ++i) {
     const v1::LoadCase& load = job.load_cases(i);
-    const std::string field = "job.load_cases[" + std::to_string(i) + "]";
+    const std::string field = fmt::format("job.load_cases[{}]", i);
     require_count(load.force().per_region().values().size(), fem::max_named_forces,
                   field + ".force.per_region", "regions");
     require_count(load.point_forces().size(), fem::max_point_forces, field + ".point_forces",
@@ -33,7 +35,7 @@ void require_loads(const v1::Job& job) {
   }
 }
 
-/// Rounded up to milliseconds, as it is read.
+/// Compares in milliseconds, rounded up as on reading.
 void require_time(const google::protobuf::Duration& duration, std::chrono::milliseconds longest,
                   const std::string& field) {
   constexpr std::int64_t second = 1'000'000'000;
@@ -48,9 +50,9 @@ void require_time(const google::protobuf::Duration& duration, std::chrono::milli
           ? std::numeric_limits<std::int64_t>::max()  // a product would overflow
           : 1000 * duration.seconds() + (duration.nanos() + 999'999) / 1'000'000;
   if (milliseconds > longest.count()) {
-    throw Error(Reason::limit_exceeded, "a time of " + std::to_string(duration.seconds()) +
-                                            " s: at most " + std::to_string(limit) +
-                                            " s are allowed (see GetServerInfo)")
+    throw Error(Reason::limit_exceeded,
+                fmt::format("a time of {} s: at most {} s are allowed (see GetServerInfo)",
+                            duration.seconds(), limit))
         .at(field);
   }
 }
@@ -63,16 +65,16 @@ std::size_t packed_bytes(const v1::Job& job) {
 void require_packed(const std::string& packed, const std::string& field) {
   if (packed.size() > max_packed_bytes) {
     throw Error(Reason::limit_exceeded,
-                "a matrix of " + std::to_string(packed.size()) + " bytes: at most " +
-                    std::to_string(max_packed_bytes) +
-                    " come with a job; upload it with UploadMesh as CONTENT_ARRAY and name it in "
-                    "`upload`")
+                fmt::format("a matrix of {} bytes: a job may contain at most {}; upload it with "
+                            "UploadMesh as CONTENT_ARRAY and name it in `upload`",
+                            packed.size(), max_packed_bytes))
         .at(field);
   }
   if (packed.empty() || packed.size() % sizeof(double) != 0) {
-    throw Error(Reason::invalid_argument, "a matrix of " + std::to_string(packed.size()) +
-                                              " bytes: give at least one value, and for each 8 "
-                                              "(f64, little-endian)")
+    throw Error(Reason::invalid_argument,
+                fmt::format("a matrix of {} bytes: give at least one value, each of 8 bytes (f64, "
+                            "little-endian)",
+                            packed.size()))
         .at(field);
   }
 }
@@ -99,15 +101,15 @@ void require_sweep(const v1::Sweep& sweep, const JobLimits& limits) {
         .at(field);
   }
   if (sweep.traces_size() > limits.load_cases) {
-    throw Error(Reason::limit_exceeded, "traces of " + std::to_string(sweep.traces_size()) +
-                                            " rows: at most " + std::to_string(limits.load_cases) +
-                                            " are kept (see GetServerInfo)")
+    throw Error(Reason::limit_exceeded,
+                fmt::format("traces of {} rows: at most {} are kept (see GetServerInfo)",
+                            sweep.traces_size(), limits.load_cases))
         .at("job.sweep.traces");
   }
   require_matrix(*matrix, field);
 }
 
-/// What is not asked for is no more than the server allows.
+/// Limits the default number of iterations to what the server allows.
 void bound_iterations(const v1::Solver& asked, int limit, contact::SolverOptions& options) {
   if (auto* uzawa = std::get_if<contact::UzawaOptions>(&options)) {
     if (asked.uzawa().max_iterations() == 0) {
@@ -125,15 +127,15 @@ store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
   require_title(job.title(), "job.title");
   if (job.load_cases_size() > limits.load_cases) {
     throw Error(Reason::limit_exceeded,
-                std::to_string(job.load_cases_size()) + " load cases: a job has at most " +
-                    std::to_string(limits.load_cases) + "; make several jobs of it")
+                fmt::format("{} load cases: a job has at most {}; make several jobs",
+                            job.load_cases_size(), limits.load_cases))
         .at("job.load_cases");
   }
   const std::size_t bytes = job.ByteSizeLong() - packed_bytes(job);
   if (bytes > max_job_bytes) {
-    throw Error(Reason::limit_exceeded, "the job has " + std::to_string(bytes) +
-                                            " bytes: at most " + std::to_string(max_job_bytes) +
-                                            " are accepted; make several jobs of it")
+    throw Error(Reason::limit_exceeded,
+                fmt::format("the job has {} bytes: at most {} are accepted; make several jobs",
+                            bytes, max_job_bytes))
         .at("job");
   }
   mesh_id(job.mesh(), "job.mesh");
@@ -167,16 +169,10 @@ MatrixOf matrix_of(const v1::Sweep& sweep) {
 }
 
 void require_request_id(const std::string& id) {
-  const bool fits =
-      id.size() <= max_request_id_bytes && std::all_of(id.begin(), id.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               c == '-' || c == '_';
-      });
-  if (!fits) {
-    throw Error(Reason::invalid_argument,
-                "request_id is not a UUID, e.g. 123e4567-e89b-12d3-a456-426614174000")
-        .at("request_id");
-  }
+  if (id.empty() || is_id(id)) return;
+  throw Error(Reason::invalid_argument,
+              "request_id is not a UUID, e.g. 123e4567-e89b-12d3-a456-426614174000")
+      .at("request_id");
 }
 
 }  // namespace anticrack::api

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/core.h>
+
 #include <string>
 #include <variant>
 
@@ -20,10 +22,6 @@ std::size_t part_count(const v1::Geometry& geometry) {
   return count;
 }
 
-std::string indexed(const char* list, int i) {
-  return std::string(list) + "[" + std::to_string(i) + "]";
-}
-
 int vertex_count(const v1::InterfaceCurve& curve) {
   return curve.polyline().points_size() + curve.spline().points_size();
 }
@@ -35,9 +33,9 @@ void require_counts(const v1::Geometry& geometry) {
   for (int i = 0; i < geometry.interfaces_size(); ++i) {
     vertices += static_cast<std::size_t>(vertex_count(geometry.interfaces(i)));
     if (vertices > max_vertices) {
-      throw Error(Reason::limit_exceeded, "more than " + std::to_string(max_vertices) +
-                                              " points in all interfaces together")
-          .at(indexed("geometry.interfaces", i));
+      throw Error(Reason::limit_exceeded,
+                  fmt::format("more than {} points in all interfaces together", max_vertices))
+          .at(fmt::format("geometry.interfaces[{}]", i));
     }
   }
   require_count(part_count(geometry), max_parts, "geometry.inclusions",
@@ -58,18 +56,6 @@ void require_counts(const v1::MeshOptions& options) {
   require_count(options.tension().size(), max_regions, "options.tension", "subdomains");
 }
 
-/// A copy of `error` whose fields are `rename(field)`.
-template <class Rename>
-Error renamed(const Error& error, Rename rename) {
-  Error result(error.reason(), error.what());
-  for (const errors::FieldViolation& violation : error.fields()) {
-    result.at(rename(violation.field));
-  }
-  for (const auto& [key, value] : error.metadata()) result.with(key, value);
-  result.retry_after(error.retry_delay());
-  return result;
-}
-
 }  // namespace
 
 store::MeshDefinition to_definition(const v1::CreateMeshRequest& request) {
@@ -86,27 +72,25 @@ store::MeshDefinition to_definition(const v1::CreateMeshRequest& request) {
 
 void require_count(std::size_t count, std::size_t limit, const std::string& field,
                    const char* what) {
-  if (count > limit) {
-    throw Error(Reason::limit_exceeded, std::to_string(count) + " " + what + ": at most " +
-                                            std::to_string(limit) + " are accepted")
-        .at(field);
-  }
+  if (count <= limit) return;
+  throw Error(Reason::limit_exceeded,
+              fmt::format("{} {}: at most {} are accepted", count, what, limit))
+      .at(field);
 }
 
 void require_title(const std::string& title, const char* field) {
-  if (title.size() > max_title_bytes) {
-    throw Error(Reason::limit_exceeded, "the title has " + std::to_string(title.size()) +
-                                            " bytes: at most " + std::to_string(max_title_bytes) +
-                                            " are accepted")
-        .at(field);
-  }
+  if (title.size() <= max_title_bytes) return;
+  throw Error(Reason::limit_exceeded, fmt::format("the title has {} bytes: at most {} are accepted",
+                                                  title.size(), max_title_bytes))
+      .at(field);
 }
 
 Error below_mesh_request(const Error& error) {
-  Error result = renamed(error, [](const std::string& field) {
+  Error result = error;
+  result.rename([](const std::string& field) {
     const bool own = field.starts_with("options") || field.starts_with("upload");
     if (own) return field;
-    // the request has a message around the list
+    // in the request, the list is inside a message
     const std::string list = ".delaminated_parts";
     std::string path = "geometry." + field;
     const std::size_t at = path.find(list);

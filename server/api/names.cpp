@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "api/names.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <string>
 
@@ -16,16 +18,13 @@ using errors::Reason;
 constexpr std::size_t max_id_bytes = 64;
 
 std::string id_below(std::string_view collection, const std::string& name, std::string_view field) {
-  const std::string_view text = name;
-  const bool fits = text.size() > collection.size() + 1 && text.starts_with(collection) &&
-                    text[collection.size()] == '/' && is_id(text.substr(collection.size() + 1));
-  if (!fits) {
-    throw Error(Reason::invalid_argument, "\"" + printable(name, 100) +
-                                              "\" is not a name of the form \"" +
-                                              std::string(collection) + "/ID\"")
+  const std::string prefix = std::string(collection) + "/";
+  if (!name.starts_with(prefix) || !is_id(std::string_view(name).substr(prefix.size()))) {
+    throw Error(Reason::invalid_argument, fmt::format("\"{}\" is not a name of the form \"{}/ID\"",
+                                                      printable(name, 100), collection))
         .at(std::string(field));
   }
-  return name.substr(collection.size() + 1);
+  return name.substr(prefix.size());
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Resource names ("meshes/ID") and the ids behind them. Every function that reads one throws
-// errors::Error (invalid_argument) with `field` at fault.
+// Resource names ("meshes/ID") and their ids. Functions that read a name throw errors::Error
+// (invalid_argument) with `field` at fault.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace anticrack::api {
 
-/// The name of what has an id.
+/// From an id to a name.
 std::string mesh_name(const std::string& id);
 std::string job_name(const std::string& id);
 std::string upload_name(const std::string& sha256);
 
-/// The id in a name.
+/// From a name to its id.
 std::string mesh_id(const std::string& name, std::string_view field);
 std::string job_id(const std::string& name, std::string_view field);
 /// The sha256 of "uploads/SHA256".
 std::string upload_sha256(const std::string& name, std::string_view field);
 
-/// The same of a name that was checked before: what is behind its '/'.
+/// The part after the '/' of a name that was checked before.
 std::string after_slash(const std::string& name, std::string_view field);
 
 /// 1 to 64 letters, digits, '-' and '_'.

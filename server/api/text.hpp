@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Text that came from outside, made fit to be sent in an error or written to a log.
+// Text from outside, made safe for errors and logs.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace anticrack::api {
 
-/// `text` as valid UTF-8 of at most `max_bytes` (>= 3): control characters and broken sequences
-/// become '?', what is too long is cut between characters and ends in "...". O(n).
+/// `text` as valid UTF-8 of at most `max_bytes` (>= 3). Control characters and invalid bytes become
+/// '?'; longer text is cut between characters and ends in "...". O(n).
 std::string printable(std::string_view text, std::size_t max_bytes);
 
-/// Whether it is well-formed. O(n).
+/// Whether `text` is valid UTF-8. O(n).
 bool is_utf8(std::string_view text);
 
 }  // namespace anticrack::api

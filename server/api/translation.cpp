@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "api/translation.hpp"
 
+#include <fmt/core.h>
+
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
@@ -26,7 +28,7 @@ std::string choices(const google::protobuf::EnumDescriptor& type) {
     for (const char c : type.value(i)->name().substr(prefix)) {
       text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     }
-    text += " (" + std::to_string(type.value(i)->number()) + ")";
+    text += fmt::format(" ({})", type.value(i)->number());
   }
   return text;
 }
@@ -58,8 +60,8 @@ int get_number(const Message& from, const FieldDescriptor& field, int index) {
   const int number = index < 0 ? access.GetEnumValue(from, &field)
                                : access.GetRepeatedEnumValue(from, &field, index);
   if (field.enum_type()->FindValueByNumber(number) == nullptr) {
-    throw Error(Reason::invalid_argument, field.name() + " " + std::to_string(number) +
-                                              " is unknown; use " + choices(*field.enum_type()))
+    throw Error(Reason::invalid_argument, fmt::format("{} {} is unknown; use {}", field.name(),
+                                                      number, choices(*field.enum_type())))
         .at(path_of(field, index));
   }
   return number;
@@ -103,7 +105,7 @@ std::string serialized(const Message& message) {
 }
 
 std::string path_of(const FieldDescriptor& field, int index) {
-  return index < 0 ? field.name() : field.name() + "[" + std::to_string(index) + "]";
+  return index < 0 ? field.name() : fmt::format("{}[{}]", field.name(), index);
 }
 
 }  // namespace anticrack::api

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Structs as messages of the API, and back: each listed field of a struct (fields/fields.hpp) is
-// the field of the message that has its name. What is told in another shape has a Translation of
-// its own in translations.hpp. A field the message lacks is a bug that every use of the struct
-// shows.
+// Translates structs to messages of the API and back: each listed field of a struct
+// (fields/fields.hpp) is the field of the message with the same name. translations.hpp specialises
+// Translation for other shapes. A field that the message lacks fails at the first use.
 #pragma once
 
 #include <google/protobuf/message.h>
@@ -24,7 +23,7 @@ namespace anticrack::api {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::Reflection;
-/// Fields that the caller translates himself.
+/// Fields that the caller translates.
 using Except = std::initializer_list<std::string_view>;
 
 template <fields::Listed T>
@@ -33,7 +32,7 @@ void write_fields(const T& value, Message& to, Except except = {});
 template <fields::Listed T>
 void read_fields(const Message& from, T& value, Except except = {});
 
-/// A value that is a message `Of` its own. To be specialised where the fields are not all the same.
+/// Translates a value to a message of type `Of`. Specialised where fields differ.
 template <class T>
 struct Translation {};
 template <fields::Listed T>
@@ -47,10 +46,10 @@ struct Translation<T> {
   }
 };
 
-/// Of the message, which has it: else errors::Error (internal).
+/// A field of the message. Throws errors::Error (internal) if there is none.
 const FieldDescriptor& field_of(const Message& message, std::string_view name);
 
-/// How Reflection calls what it does with a number or text of type T in a field.
+/// Reflection's methods for a number or text of type T.
 template <class T>
 struct Access;
 #define ANTICRACK_ACCESS(Type, Name)                                     \
@@ -69,7 +68,7 @@ ANTICRACK_ACCESS(std::uint64_t, UInt64);
 ANTICRACK_ACCESS(std::string, String);
 #undef ANTICRACK_ACCESS
 
-/// A number or text: appended where the field is a list.
+/// Sets a number or text, or appends it to a list.
 template <class T>
 void put(Message& to, const FieldDescriptor& field, T value) {
   const auto set = field.is_repeated() ? Access<T>::add : Access<T>::set;
@@ -82,20 +81,20 @@ T get(const Message& from, const FieldDescriptor& field, int index) {
   return index < 0 ? (access.*Access<T>::get)(from, &field)
                    : (access.*Access<T>::get_repeated)(from, &field, index);
 }
-/// The text, but bytes that are not UTF-8, which no message can hold, become '?'.
+/// The text with '?' for invalid UTF-8, which messages cannot hold.
 std::string utf8(const std::string& text);
-/// Of an enum: its number. Throws errors::Error for one that the API does not have.
+/// The number of an enum. Reading throws errors::Error for a number that the API does not have.
 void put_number(Message& to, const FieldDescriptor& field, int number);
 int get_number(const Message& from, const FieldDescriptor& field, int index);
-/// A message in a field: a new one where it is a list.
+/// The message in a field; a new one if the field is a list.
 Message& add(Message& to, const FieldDescriptor& field);
-/// Unset: the default. `index` -1: it is not a list.
+/// The default if unset. `index` -1: the field is not a list.
 const Message& message_in(const Message& from, const FieldDescriptor& field, int index);
 /// Throws errors::Error unless the field is set.
 void require(const Message& from, const FieldDescriptor& field);
 int size_of(const Message& from, const FieldDescriptor& field);
 bool has(const Message& from, const FieldDescriptor& field);
-/// errors::Error (internal): a bug that the first use shows.
+/// errors::Error (internal): a field without translation.
 errors::Error untranslated(std::string_view field);
 /// "name" or "name[2]".
 std::string path_of(const FieldDescriptor& field, int index);
@@ -154,7 +153,7 @@ void write_field(const T& value, Message& to, const FieldDescriptor& field) {
   }
 }
 
-/// Leaves what the message says nothing of: an unset optional number, an enum that is unspecified.
+/// Leaves `value` unchanged if the message does not set an optional number or an enum.
 template <class T>
 void read_field(const Message& from, const FieldDescriptor& field, T& value) {
   if constexpr (fields::is_a<T, std::optional>) {
@@ -179,7 +178,7 @@ void read_field(const Message& from, const FieldDescriptor& field, T& value) {
   }
 }
 
-/// What is not has to be among the exceptions of a struct that has it.
+/// Other fields must be among the exceptions of their struct.
 template <class T>
 concept Translated = Simple<T> || fields::is_a<T, std::optional> || fields::is_a<T, std::vector> ||
     fields::is_a<T, std::map> || requires {
@@ -220,17 +219,16 @@ template <class T>
 void read_field(const Message& from, std::string_view name, T& value) {
   read_field(from, field_of(from, name), value);
 }
-/// What the field says, whether it is set or not.
+/// The value of the field, or the default if it is not set.
 template <class T>
 T read_one(const Message& from, std::string_view name) {
   return read_one<T>(from, field_of(from, name));
 }
 
-/// Bytes that are the same for equal messages. Throws std::length_error beyond the 2 GB that a
-/// message can hold.
+/// Deterministic bytes of a message. Throws std::length_error beyond 2 GB.
 std::string serialized(const Message& message);
 
-/// The message of a value whose Translation names one.
+/// A value as the message of its Translation.
 template <class T>
 typename Translation<T>::Of message(const T& value) {
   typename Translation<T>::Of to;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What is not the same fields in the struct and in the message of the API, each way. All else is
-// translated by its name (translation.hpp). Reading throws errors::Error (invalid_argument, with
-// the field at fault) where the message is no such value; what the value means is checked below.
+// Translations of structs whose fields differ from those of the message. All others are translated
+// by name (translation.hpp). Reading throws errors::Error (invalid_argument, with the field at
+// fault); the domain checks the values.
 #pragma once
 
 #include <chrono>
@@ -26,15 +26,15 @@ namespace anticrack::api {
     static Type read(const Message& from);             \
   }
 
-// times: to the nanosecond
+// times, in nanoseconds
 ANTICRACK_TRANSLATION(store::Clock::time_point, google::protobuf::Timestamp);
 ANTICRACK_TRANSLATION(std::chrono::nanoseconds, google::protobuf::Duration);
 
-/// Its code is left 0, and nothing is cut; see error_message.hpp.
+/// Without the code, at full length; see error_message.hpp.
 ANTICRACK_TRANSLATION(errors::Error, v1::Status);
 
 // mesh/
-/// write() and read() as of all others; unset where one is due, reading throws.
+/// As the others, but reading throws if a single point is not set.
 template <>
 struct Translation<mesh::Point> {
   using Of = v1::Point;
@@ -56,24 +56,24 @@ ANTICRACK_TRANSLATION(contact::ActiveSetOptions, v1::ActiveSet);
 ANTICRACK_TRANSLATION(contact::SolverOptions, v1::Solver);
 
 // store/
-/// But for the title, which is the mesh's.
+/// Without the title, which is the mesh's.
 ANTICRACK_TRANSLATION(store::MeshDefinition, v1::CreateMeshRequest);
-/// But for its definition.
+/// Without its definition.
 ANTICRACK_TRANSLATION(store::MeshRecord, v1::Mesh);
 /// Its rows are in Job.sweep_answer.
 ANTICRACK_TRANSLATION(store::SweepSpec, v1::Sweep);
-/// But for the name, which is the load's.
+/// Without the name, which is the load's.
 ANTICRACK_TRANSLATION(store::CaseRecord, v1::LoadCaseAnswer);
-/// Of Job, what the client set.
+/// The part of Job that the client sets.
 ANTICRACK_TRANSLATION(store::JobSpec, v1::Job);
-/// But for its request id.
+/// Without its request id.
 ANTICRACK_TRANSLATION(store::JobRecord, v1::Job);
 #undef ANTICRACK_TRANSLATION
 
-/// Where the arrays of a block of `size` bytes lie.
+/// The layout of the arrays in a block of `size` bytes.
 v1::BlockLayout layout_of(const std::vector<store::ArrayLayout>& arrays, std::uint64_t size,
                           const std::string& sha256);
-/// The same of a block.
+/// The layout of a block.
 inline v1::BlockLayout layout_of(const store::BlockSource& block) {
   return layout_of(block.arrays(), block.size(), block.sha256());
 }

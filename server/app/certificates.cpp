@@ -28,7 +28,7 @@ Bio over(const std::string& text) {
   return Bio(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
 }
 
-/// Instead of asking on the terminal.
+/// Keeps OpenSSL from asking on the terminal.
 int no_passphrase(char* /*buffer*/, int /*size*/, int /*writing*/, void* /*data*/) {
   return -1;
 }
@@ -52,7 +52,7 @@ int check_certificate(const std::string& certificate, const std::string& key) {
   }
   const bool together = X509_check_private_key(own.get(), secret.get()) == 1;
   ERR_clear_error();
-  if (!together) throw ConfigError("tls-key: is not the key of the certificate in tls-certificate");
+  if (!together) throw ConfigError("tls-key: not the key of the certificate in tls-certificate");
   int days = 0;
   int seconds = 0;
   ASN1_TIME_diff(&days, &seconds, nullptr, X509_get0_notAfter(own.get()));

@@ -5,9 +5,9 @@
 
 namespace anticrack::app {
 
-/// Days until the first certificate of `certificate` (PEM) runs out; negative where it has. Throws
-/// ConfigError: not a certificate, not a key (or one with a passphrase), or they do not belong
-/// together. Without this gRPC would say no more than that it cannot listen.
+/// Days until the first certificate of `certificate` (PEM) expires; negative if it has. Throws
+/// ConfigError: not a certificate, not a key (or one with a passphrase), or a key of another
+/// certificate. Without this check gRPC only reports that it cannot listen.
 int check_certificate(const std::string& certificate, const std::string& key);
 
 /// Throws ConfigError unless `roots` (PEM) begins with a certificate.

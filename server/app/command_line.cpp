@@ -10,8 +10,8 @@ void describe(CLI::App& parser, CommandLine& result, const std::string& version)
   parser.name("anticrackd");
   parser.description("Solves membranes with cracks and thin rigid inclusions, over gRPC.");
   parser.footer(
-      "Every flag is also a key of the file, e.g. memory-budget = \"2GiB\"; the command line "
-      "wins.\n\n"
+      "Every flag is also a key of the file, e.g. memory-budget = \"2GiB\"; flags take "
+      "precedence.\n\n"
       "Example:\n  anticrackd --listen 127.0.0.1:0 --data-dir data --memory-budget 2GiB");
   parser.set_version_flag("--version", "anticrackd " + version);
   parser.add_option("--config", result.config_file, "TOML file with any of the keys below")

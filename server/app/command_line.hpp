@@ -19,14 +19,14 @@ struct CommandLine {
   bool check_config = false;
   bool check_store = false;
   bool repair = false;  ///< what check_store finds
-  /// What --help or --version print: nothing else is to be done.
+  /// The output of --help or --version, if one of them was given.
   std::optional<std::string> text;
 };
 
-/// Gives the parser its texts and options; what it then parses lands in `result`.
+/// Sets up the parser, which writes to `result`.
 void describe(CLI::App& parser, CommandLine& result, const std::string& version);
 
-/// Throws ConfigError.
+/// Throws ConfigError for a bad command line.
 CommandLine parse_command_line(int argc, const char* const* argv, const std::string& version);
 
 }  // namespace anticrack::app

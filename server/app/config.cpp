@@ -44,22 +44,20 @@ bool is_plain_number(const std::string& text) {
   return text.find_first_not_of("0123456789.") == std::string::npos;
 }
 
-/// Keys that mean nothing, or something weaker than it looks, without another.
+/// Keys that need other keys.
 void check_together(const Config& config) {
   if (config.tls_certificate.empty() != config.tls_key.empty()) {
     throw ConfigError(
         "tls-certificate and tls-key belong together: give both (deploy/make-certificates makes "
-        "some for a trial), or neither");
+        "test certificates) or neither");
   }
   if (!config.tls_client_roots.empty() && !has_tls(config)) {
-    throw ConfigError(
-        "tls-client-roots asks clients for certificates, which needs TLS: give tls-certificate "
-        "and tls-key as well");
+    throw ConfigError("tls-client-roots needs TLS: give tls-certificate and tls-key as well");
   }
   if (!config.admins.empty() && config.tls_client_roots.empty()) {
     throw ConfigError(
-        "admins names owners of client certificates, but none are asked for: give "
-        "tls-client-roots, or make them administrators in the file of tokens");
+        "admins names client certificates, but clients need none: give tls-client-roots, or make "
+        "them administrators in the token file");
   }
   require_local(parse_listen_address(config.listen),
                 has_tls(config) || config.allow_insecure_remote);
@@ -100,8 +98,7 @@ std::string default_data_dir() {
   if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/') {
     return std::string(home) + "/.local/state/anticrack";
   }
-  throw ConfigError(
-      "neither XDG_STATE_HOME nor HOME is set: say where to keep data, --data-dir DIR");
+  throw ConfigError("neither XDG_STATE_HOME nor HOME is set: choose a folder with --data-dir DIR");
 }
 
 std::uint64_t default_memory_budget() {

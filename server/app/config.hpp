@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What can be set: one table of keys, each a flag of the command line and a key of the TOML file.
+// The configuration: one table of keys. Each is a flag of the command line and a key of the TOML
+// file.
 #pragma once
 
 #include <chrono>
@@ -17,11 +18,11 @@ struct Config {
   bool allow_insecure_remote = false;
   std::string data_dir;             ///< empty: default_data_dir()
   std::uint64_t memory_budget = 0;  ///< 0: default_memory_budget()
-  int threads = 0;                  ///< 0: as many as processors
+  int threads = 0;                  ///< 0: the number of processors
   std::string log_level = "info";
   std::string log_format = "text";
   std::string metrics_listen;                ///< empty: no metrics
-  std::chrono::milliseconds drain_delay{0};  ///< not ready any more, but serving
+  std::chrono::milliseconds drain_delay{0};  ///< still serving, but not ready
   std::chrono::milliseconds drain_time{3'000};
 
   // Paths; empty: none.
@@ -58,14 +59,14 @@ struct Config {
   std::chrono::milliseconds result_ttl{std::chrono::hours(7 * 24)};
   std::uint64_t result_budget = 4ULL << 30;
   std::chrono::milliseconds upload_ttl{std::chrono::hours(7 * 24)};
-  std::uint64_t disk_budget = 0;  ///< 0: as much as there is
+  std::uint64_t disk_budget = 0;  ///< 0: the size of the disk
 
   int watchers = 2'000;
   int transfers = 64;
   int streams_a_client = 1'024;
 };
 
-/// Says where (file and line, or flag), the bad value and the cure, in one line.
+/// One line: where (file and line, or flag), the bad value and the cure.
 class ConfigError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -84,31 +85,31 @@ struct Key {
   std::function<std::string(const Config&)> get;
 };
 
-/// All of them, in the order of the help. Names are told apart.
+/// All keys, in the order of the help. Names are unique.
 const std::vector<Key>& keys();
 
-/// Throws ConfigError, which names the nearest known key, where there is none of this name.
+/// Throws ConfigError for an unknown name; it suggests the most similar key.
 const Key& find_key(const std::string& name, const std::string& where);
 
-/// A value somebody wrote, and where.
+/// A value that was given, and where.
 struct Setting {
   std::string key;
   std::string value;
   std::string where;  ///< "FILE:LINE" or "--FLAG"
 };
 
-/// Defaults, overridden by `file`, overridden by `command_line`; what was left to be found out is,
-/// and what contradicts itself, or is open to strangers without saying so, is refused.
-/// Throws ConfigError.
+/// Defaults, overridden by `file`, overridden by `command_line`; values that depend on the machine
+/// are filled in. Throws ConfigError for bad values, contradictions, and a server that is open to
+/// other machines without --allow-insecure-remote.
 Config make_config(const std::vector<Setting>& file, const std::vector<Setting>& command_line);
 
-/// Whether there is a certificate, without which nothing is encrypted.
+/// Whether connections are encrypted.
 bool has_tls(const Config& config);
 
-/// As a TOML file that gives the same configuration.
+/// A TOML file with the same configuration.
 std::string to_toml(const Config& config);
 
-/// $XDG_STATE_HOME/anticrack or ~/.local/state/anticrack. Throws ConfigError where neither is set.
+/// $XDG_STATE_HOME/anticrack or ~/.local/state/anticrack. Throws ConfigError if neither is set.
 std::string default_data_dir();
 
 /// Half of the machine's memory, bytes.

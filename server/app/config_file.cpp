@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/config_file.hpp"
 
+#include <fmt/core.h>
 #include <toml++/toml.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <sstream>
@@ -11,14 +11,6 @@
 
 namespace anticrack::app {
 namespace {
-
-std::string number_text(double number) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(17);
-  out << number;
-  return out.str();
-}
 
 std::string value_text(const Key& key, const toml::node& node, const std::string& where) {
   const bool number = key.type == KeyType::number;
@@ -29,7 +21,7 @@ std::string value_text(const Key& key, const toml::node& node, const std::string
   if (const auto text = node.value_exact<std::string>()) return *text;
   if (number) {
     if (const auto integer = node.value_exact<std::int64_t>()) return std::to_string(*integer);
-    if (const auto real = node.value_exact<double>()) return number_text(*real);
+    if (const auto real = node.value_exact<double>()) return fmt::format("{:.17g}", *real);
   }
   throw ConfigError(where + ": " + key.name + " takes a " +
                     (number ? "number, or a text like \"2GiB\"" : "text in quotes"));

@@ -8,8 +8,8 @@
 
 namespace anticrack::app {
 
-/// The settings of a TOML file, in its order. Throws ConfigError: the file cannot be read, is no
-/// TOML, or holds a key or a type of value that is not known; says file and line.
+/// The settings of a TOML file, in its order. Throws ConfigError with file and line: the file
+/// cannot be read or is not TOML, an unknown key, a value of the wrong type.
 std::vector<Setting> read_config_file(const std::string& path);
 
 /// The same for a text; `path` names it in errors.

@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <filesystem>
@@ -28,21 +27,18 @@ void make_private(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace
-
-DataFolder::DataFolder(const std::string& path) {
+int open_lock(const std::string& path) {
   make_private(std::filesystem::absolute(path).lexically_normal());
-  const std::string lock = path + "/lock";
-  _lock = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (_lock < 0) refuse(path, "cannot be written: " + std::generic_category().message(errno));
-  if (::flock(_lock, LOCK_EX | LOCK_NB) != 0) {
-    ::close(_lock);
-    refuse(path, "another anticrackd uses it");
-  }
+  const int lock =
+      ::open((path + "/lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
+  if (lock < 0) refuse(path, "cannot be written: " + std::generic_category().message(errno));
+  return lock;
 }
 
-DataFolder::~DataFolder() {
-  ::close(_lock);
+}  // namespace
+
+DataFolder::DataFolder(const std::string& path) : _lock(open_lock(path)) {
+  if (::flock(_lock.get(), LOCK_EX | LOCK_NB) != 0) refuse(path, "another anticrackd uses it");
 }
 
 }  // namespace anticrack::app

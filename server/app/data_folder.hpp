@@ -3,20 +3,19 @@
 
 #include <string>
 
+#include "store/files.hpp"
+
 namespace anticrack::app {
 
-/// The server's folder, held by one process at a time.
+/// The server's folder, locked by one process at a time.
 class DataFolder {
  public:
-  /// Makes the folder (and those above it) for its owner alone where it is not there yet. Throws
-  /// ConfigError: it cannot be made or written, or another anticrackd holds it.
+  /// Makes missing folders, accessible to their owner only. Throws ConfigError if the folder cannot
+  /// be made or written, or if another anticrackd uses it.
   explicit DataFolder(const std::string& path);
-  ~DataFolder();
-  DataFolder(const DataFolder&) = delete;
-  DataFolder& operator=(const DataFolder&) = delete;
 
  private:
-  int _lock = -1;
+  store::Descriptor _lock;
 };
 
 }  // namespace anticrack::app

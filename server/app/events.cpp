@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/events.hpp"
 
-#include <array>
-#include <cstdio>
+#include <fmt/core.h>
+
 #include <exception>
 #include <string>
 
@@ -16,9 +16,7 @@ namespace {
 using metrics::Phase;
 
 std::string shown_seconds(std::chrono::duration<double> time) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.3f", time.count());
-  return text.data();
+  return fmt::format("{:.3f}", time.count());
 }
 
 std::string reason(const std::optional<errors::Error>& error) {
@@ -29,7 +27,7 @@ std::string message(const std::optional<errors::Error>& error) {
   return error ? std::string(error->what()) : std::string();
 }
 
-/// A line that cannot be written is no reason to fail.
+/// Ignores errors: a log line that cannot be written must not make anything fail.
 template <class Action>
 void quietly(const Action& action) noexcept {
   try {

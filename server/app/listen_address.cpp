@@ -28,7 +28,7 @@ ListenAddress parse_socket(const std::string& text) {
   return address;
 }
 
-bool somebody_answers(const std::string& path) {
+bool in_use(const std::string& path) {
   const int socket = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (socket < 0)
     throw ConfigError("cannot make a socket: " + std::generic_category().message(errno));
@@ -38,7 +38,7 @@ bool somebody_answers(const std::string& path) {
   const int connected = ::connect(socket, reinterpret_cast<const sockaddr*>(&name), sizeof(name));
   const bool refused = connected != 0 && errno == ECONNREFUSED;
   ::close(socket);
-  return !refused;  // anything unclear counts as an answer: nobody's socket is taken away
+  return !refused;  // in doubt it is in use
 }
 
 }  // namespace
@@ -72,9 +72,9 @@ void require_local(const ListenAddress& address, bool allow_remote) {
   if (allow_remote || is_local(address)) return;
   throw ConfigError(
       "listen: " + address.text +
-      " is beyond this machine, and nothing would be encrypted: give tls-certificate and tls-key "
-      "(deploy/make-certificates makes some for a trial), use a loopback address or unix:PATH, or "
-      "accept that with --allow-insecure-remote");
+      " is reachable from other machines, and nothing would be encrypted: give tls-certificate and "
+      "tls-key (deploy/make-certificates makes test certificates), use a loopback address or "
+      "unix:PATH, or accept this with --allow-insecure-remote");
 }
 
 void clear_stale_socket(const ListenAddress& address) {
@@ -85,7 +85,7 @@ void clear_stale_socket(const ListenAddress& address) {
   if (!S_ISSOCK(found.st_mode)) {
     throw ConfigError("listen: " + path + " exists and is not a socket; choose another path");
   }
-  if (somebody_answers(path)) {
+  if (in_use(path)) {
     throw ConfigError("listen: another server answers on " + path +
                       "; stop it or choose another path");
   }

@@ -7,7 +7,7 @@ namespace anticrack::app {
 
 /// Where the server listens.
 struct ListenAddress {
-  std::string text;         ///< as written
+  std::string text;         ///< as given
   std::string socket_path;  ///< of unix:PATH, else empty
   std::string host;         ///< of HOST:PORT, brackets removed
   int port = 0;
@@ -20,12 +20,11 @@ ListenAddress parse_listen_address(const std::string& text);
 /// True for unix sockets, 127.0.0.0/8, ::1 and localhost.
 bool is_local(const ListenAddress& address);
 
-/// Throws ConfigError unless the address is local or `allow_remote`: with TLS, or because somebody
-/// said so.
+/// Throws ConfigError unless the address is local or `allow_remote` (TLS, or the user's choice).
 void require_local(const ListenAddress& address, bool allow_remote);
 
-/// Makes room for a unix socket: a socket file nobody answers on is removed. Throws ConfigError
-/// when a server answers on it, or when something else is there. Nothing to do for other addresses.
+/// Removes a unix socket on which no server answers; does nothing for other addresses. Throws
+/// ConfigError if a server answers or the path is not a socket.
 void clear_stale_socket(const ListenAddress& address);
 
 }  // namespace anticrack::app

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// anticrackd: configuration, signals, and the service between them.
+// anticrackd: reads the configuration and runs the service until a signal.
 #include <sys/stat.h>
 
 #include <iostream>
@@ -23,7 +23,7 @@ using namespace anticrack;
 
 constexpr int usage_error = 2;
 
-/// The first signal; meanwhile systemd's watchdog, where there is one, hears that all is well.
+/// Waits for the first signal and meanwhile keeps systemd's watchdog informed, if there is one.
 int wait_for_signal(const app::Signals& signals, const app::Service& service) {
   const std::optional<std::chrono::milliseconds> interval = app::watchdog_interval();
   if (!interval) return signals.wait();
@@ -60,7 +60,7 @@ int start(const app::Config& config) {
   try {
     return serve(config);
   } catch (const std::exception& error) {
-    // As text main says it in words.
+    // In text format main() prints it.
     if (json) log::error("refused to start", {{"message", error.what()}});
     throw;
   }

@@ -7,8 +7,8 @@
 
 namespace anticrack::app {
 
-/// The candidate with the smallest edit distance to `word`; the first of equals. `candidates` is
-/// not empty. O(total length * |word|).
+/// The first candidate with the smallest edit distance to `word`. `candidates` must not be empty.
+/// O(total length * |word|).
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace anticrack::app

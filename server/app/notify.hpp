@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What systemd is told; without systemd (no NOTIFY_SOCKET) nothing happens.
+// Messages to systemd. Without systemd (no NOTIFY_SOCKET) they do nothing.
 #pragma once
 
 #include <chrono>
@@ -9,13 +9,12 @@
 
 namespace anticrack::app {
 
-/// Tell systemd, where it started this process, else nobody: that calls are taken, that no more
-/// will be, that the process is not stuck. `status`: a line for systemctl status.
+/// The server accepts calls; accepts no more; is not stuck. `status`: a line for systemctl status.
 void notify_ready(const std::string& status);
 void notify_stopping(const std::string& status);
 void notify_alive();
 
-/// How often systemd's watchdog wants to hear notify_alive(); none: never.
+/// How often to call notify_alive() for systemd's watchdog; none: never.
 std::optional<std::chrono::milliseconds> watchdog_interval();
 
 }  // namespace anticrack::app

@@ -24,7 +24,7 @@ meshes::CatalogueOptions catalogue_options(const Config& config) {
   options.max_meshes = static_cast<std::size_t>(config.kept_meshes);
   if (::access(options.helper.executable.c_str(), X_OK) != 0) {
     throw ConfigError("mesher: " + options.helper.executable +
-                      " is not a program; say where anticrack-mesher is with --mesher PATH");
+                      " is not a program; give the path of anticrack-mesher with --mesher PATH");
   }
   return options;
 }

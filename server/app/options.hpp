@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The configuration as the layers take it. Callbacks are left to whoever has something to call.
+// The configuration as options of the layers. Callbacks are not set.
 #pragma once
 
 #include "app/config.hpp"
@@ -12,9 +12,8 @@
 
 namespace anticrack::app {
 
-/// The part of the configuration that each layer takes.
 store::StoreOptions store_options(const Config& config);
-/// Throws ConfigError where the helper is not a program.
+/// Throws ConfigError if the helper is not a program.
 meshes::CatalogueOptions catalogue_options(const Config& config);
 jobs::EngineOptions engine_options(const Config& config);
 rpc::ServerOptions server_options(const Config& config);

@@ -9,30 +9,17 @@
 #include <system_error>
 
 #include "app/config.hpp"
+#include "store/files.hpp"
 
 namespace anticrack::app {
 namespace {
 
-constexpr std::size_t longest = std::size_t{1} << 20;
+constexpr std::size_t max_bytes = std::size_t{1} << 20;
 
-class Descriptor {
- public:
-  explicit Descriptor(const std::string& path) : _fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
-  ~Descriptor() {
-    if (_fd >= 0) ::close(_fd);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const noexcept { return _fd; }
-
- private:
-  int _fd;
-};
-
-/// All of it, or one byte more than `longest`; false on an error (errno).
+/// Reads the whole file, or one byte more than `max_bytes`; false on an error (errno).
 bool read_all(int descriptor, std::string& content) {
   std::size_t filled = 0;
-  content.resize(longest + 1);
+  content.resize(max_bytes + 1);
   while (filled < content.size()) {
     const ssize_t count = ::read(descriptor, content.data() + filled, content.size() - filled);
     if (count < 0 && errno == EINTR) continue;
@@ -49,18 +36,18 @@ bool read_all(int descriptor, std::string& content) {
 std::string read_guarded_file(const std::string& key, const std::string& path,
                               OthersMay others_may) {
   const std::string where = key + ": " + path;
-  const Descriptor file(path);
+  const store::Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat found {};
   std::string content;
-  if (file.get() < 0 || ::fstat(file.get(), &found) != 0 || !read_all(file.get(), content)) {
+  if (!file || ::fstat(file.get(), &found) != 0 || !read_all(file.get(), content)) {
     throw ConfigError(where + " cannot be read: " + std::generic_category().message(errno));
   }
   const mode_t forbidden = others_may == OthersMay::read ? S_IWOTH : (S_IROTH | S_IWOTH);
   if ((found.st_mode & forbidden) != 0) {
-    throw ConfigError(where + " is open to everybody on this machine; chmod o-rw it");
+    throw ConfigError(where + " is accessible to every user of this machine; run chmod o-rw on it");
   }
-  if (content.size() > longest) {
-    throw ConfigError(where + " has more than 1 MiB, which is too large for such a file");
+  if (content.size() > max_bytes) {
+    throw ConfigError(where + " is larger than 1 MiB, too large for such a file");
   }
   return content;
 }

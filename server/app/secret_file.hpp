@@ -5,12 +5,12 @@
 
 namespace anticrack::app {
 
-/// What somebody else on this machine may do with a file that decides who is let in.
+/// What other users of the machine may do with a file that controls access.
 enum class OthersMay { nothing, read };
 
-/// The content of a file of at most 1 MiB. Throws ConfigError, which begins with `key`, the setting
-/// that named it: it cannot be read, is too large, or others may do more with it than `others_may`
-/// (its group is the administrator's business: that is how credentials are handed to services).
+/// The content of a file of at most 1 MiB. `key`: the setting that names it, with which messages
+/// begin. Throws ConfigError: the file cannot be read, is too large, or others may do more than
+/// `others_may`. Permissions of its group are not checked: services get credentials through it.
 std::string read_guarded_file(const std::string& key, const std::string& path,
                               OthersMay others_may);
 

@@ -20,8 +20,8 @@ rpc::Tls load_tls(const Config& config, std::vector<std::string>& warnings) {
   tls.key = read_guarded_file("tls-key", config.tls_key, OthersMay::nothing);
   const int days = check_certificate(tls.certificate, tls.key);
   if (days < warn_days) {
-    warnings.push_back(days < 0 ? std::string("the certificate has run out")
-                                : std::string("the certificate runs out in ") +
+    warnings.push_back(days < 0 ? std::string("the certificate has expired")
+                                : std::string("the certificate expires in ") +
                                       std::to_string(days) + " days");
   }
   if (!config.tls_client_roots.empty()) {
@@ -40,7 +40,7 @@ access::TokenTable load_tokens(const std::string& path) {
   } catch (const errors::Error& error) {
     throw ConfigError(std::string("tokens: ") + error.what());
   }
-  // An empty table would let everybody in.
+  // An empty table would let everyone in.
   if (tokens.empty()) {
     throw ConfigError("tokens: " + path +
                       " holds no token; make one with deploy/make-certificates");
@@ -70,12 +70,11 @@ LoadedSecurity load_security(const Config& config) {
   if (is_local(parse_listen_address(config.listen))) return loaded;
   if (config.tokens.empty() && config.tls_client_roots.empty()) {
     loaded.warnings.emplace_back(
-        "whoever reaches this server is an administrator: give tokens or tls-client-roots");
+        "everyone who reaches this server is an administrator: give tokens or tls-client-roots");
   }
   if (!has_tls(config)) {
     loaded.warnings.emplace_back(
-        "nothing is encrypted beyond this machine, tokens neither: give tls-certificate and "
-        "tls-key");
+        "nothing is encrypted, not even tokens: give tls-certificate and tls-key");
   }
   return loaded;
 }

@@ -11,12 +11,12 @@ namespace anticrack::app {
 
 struct LoadedSecurity {
   rpc::Security security;
-  /// What is allowed, and not wise; for the log.
+  /// Risky settings, for the log.
   std::vector<std::string> warnings;
 };
 
-/// Reads certificates, key and tokens, once: what changes in the files takes effect at the next
-/// start. Throws ConfigError.
+/// Reads certificates, key and tokens. Changes of the files take effect at the next start. Throws
+/// ConfigError.
 LoadedSecurity load_security(const Config& config);
 
 /// "ann, bob" -> {"ann", "bob"}; empty names are left out.

@@ -30,8 +30,8 @@ struct Service::Parts {
         store(store::open(store_options(config))),
         cache(config.memory_budget, factorise_function(config),
               [this](std::chrono::duration<double> time) { factorised(metrics, time); }),
-        catalogue(told_of_meshes(catalogue_options(config)), *store, cache),
-        engine(told_of_jobs(engine_options(config)), *store, catalogue) {}
+        catalogue(with_listener(catalogue_options(config)), *store, cache),
+        engine(with_listener(engine_options(config)), *store, catalogue) {}
 
   void listen(const Config& config, rpc::Security security) {
     clear_stale_socket(address);
@@ -63,12 +63,12 @@ struct Service::Parts {
     return now;
   }
 
-  meshes::CatalogueOptions told_of_meshes(meshes::CatalogueOptions options) {
+  meshes::CatalogueOptions with_listener(meshes::CatalogueOptions options) {
     options.meshed = [this](const store::MeshRecord& mesh) { meshed(metrics, mesh); };
     return options;
   }
 
-  jobs::EngineOptions told_of_jobs(jobs::EngineOptions options) {
+  jobs::EngineOptions with_listener(jobs::EngineOptions options) {
     options.ended = [this](const store::JobRecord& job) { job_ended(metrics, job); };
     return options;
   }
@@ -108,7 +108,7 @@ void Service::check_alive() const noexcept {
   try {
     _parts->snapshot();
   } catch (const std::exception&) {
-    // An error is an answer too: a bad disk is no reason to be killed.
+    // An error shows that nothing is stuck: a bad disk must not get the process killed.
   }
 }
 

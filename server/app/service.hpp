@@ -14,17 +14,16 @@ class Service {
  public:
   /// Everything up to listening. Throws ConfigError or errors::Error.
   explicit Service(const Config& config);
-  /// Stops at once: metrics first, then calls, jobs, meshes, operators, the store. Jobs that have
-  /// not ended are queued again at the next start.
+  /// Stops at once: metrics first, then calls, jobs, meshes, operators, the store. Unfinished jobs
+  /// are queued again at the next start.
   ~Service();
 
   /// HOST:PORT with the real port, or unix:PATH.
   const std::string& address() const noexcept;
-  /// Returns once every part has answered a question that takes its lock: one that is stuck keeps
-  /// it waiting, and so keeps systemd's watchdog from hearing of it.
+  /// Takes the lock of every part. It does not return if one of them is stuck, so that systemd's
+  /// watchdog ends the process.
   void check_alive() const noexcept;
-  /// Not ready any more, and serving on for drain-delay; then stops gently within drain-time and a
-  /// little.
+  /// Serves as not ready for drain-delay, then stops gently in about drain-time.
   void drain();
 
  private:

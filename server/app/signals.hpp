@@ -7,13 +7,11 @@
 
 namespace anticrack::app {
 
-/// SIGTERM and SIGINT as something to wait for; SIGPIPE and SIGHUP ignored: nothing is read anew
-/// while the server runs, and a closed terminal is no reason to stop. By handlers that write into a
-/// pipe: blocking the signals would not do, OpenBLAS starts threads before main which do not
-/// inherit that. One object at a time.
+/// Waits for SIGTERM and SIGINT and ignores SIGPIPE and SIGHUP. Uses handlers that write to a pipe:
+/// the signals cannot be blocked, as OpenBLAS starts threads before main. One object at a time.
 class Signals {
  public:
-  /// Throws std::runtime_error where the system refuses a pipe or a handler.
+  /// Throws std::system_error if the system refuses a pipe or a handler.
   Signals();
   ~Signals();
   Signals(const Signals&) = delete;
@@ -21,10 +19,9 @@ class Signals {
 
   /// Waits for a signal and returns its number.
   int wait() const;
-  /// The same for at most this long; none: there was no signal.
+  /// The same for at most `time`; none: there was no signal.
   std::optional<int> wait_for(std::chrono::milliseconds time) const;
-  /// Runs `work` on a thread of its own; a signal meanwhile ends the process at once, with
-  /// 128 + its number.
+  /// Runs `work` on another thread. A signal ends the process at once with status 128 + number.
   void run_unless_interrupted(const std::function<void()>& work) const;
 
  private:

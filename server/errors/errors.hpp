@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The one exception of the server. A layer that knows what is wrong throws it with the bad value
-// and the cure in the message; rpc/error_table.cpp maps its reason to a gRPC code.
+// The server's exception. The message gives the bad value and the cure; rpc/error_table.cpp maps
+// the reason to a gRPC code.
 #pragma once
 
 #include <chrono>
@@ -14,45 +14,45 @@
 
 namespace anticrack::errors {
 
-/// What went wrong, as far as a caller would act differently on it.
+/// The kind of an error, as far as callers can react to it.
 enum class Reason {
-  invalid_argument,     ///< a value no state of the server could accept
-  geometry_invalid,     ///< geometry that describes no membrane cut by an interface
-  mesh_invalid,         ///< a .msh that cannot be read, or is not a cut membrane
+  invalid_argument,     ///< a value that is never accepted
+  geometry_invalid,     ///< not a membrane cut by interfaces
+  mesh_invalid,         ///< a .msh that cannot be read or is not a cut membrane
   expression_invalid,   ///< syntax error, unknown symbol, or a value that is not finite
-  request_id_reused,    ///< same request id, other body
-  limit_exceeded,       ///< larger than a bound of the server could ever allow
+  request_id_reused,    ///< same request id, different request
+  limit_exceeded,       ///< beyond a fixed limit of the server
   not_found,            ///< no such mesh, job or upload
-  not_ready,            ///< needs another state first (not meshed, not ended)
-  in_use,               ///< held by something that has not ended
-  sequence_trimmed,     ///< events asked for are no longer, or not yet, in the log
-  offset_out_of_range,  ///< past the end of a block
-  busy,                 ///< a queue or budget is full now; try again after retry_delay
+  not_ready,            ///< another state is needed first (not meshed, not ended)
+  in_use,               ///< needed by something unfinished
+  sequence_trimmed,     ///< these events are no longer, or not yet, in the log
+  offset_out_of_range,  ///< beyond the end of a block
+  busy,                 ///< a queue or budget is full; retry after retry_delay
   draining,             ///< the server is stopping
-  disk_full,            ///< no space, or the disk budget is spent; try again after retry_delay
-  result_expired,       ///< the result was removed by age or by the disk budget
-  timed_out,            ///< a job waited or ran longer than it may
-  unauthenticated,      ///< nobody this server knows
-  permission_denied,    ///< known, but only an administrator may
-  not_implemented,      ///< in the API, not in this version
-  cancelled,            ///< asked to stop
+  disk_full,            ///< no space, or the disk budget is used up; retry after retry_delay
+  result_expired,       ///< the result was removed (age or disk budget)
+  timed_out,            ///< a job waited or ran too long
+  unauthenticated,      ///< unknown caller
+  permission_denied,    ///< for administrators only
+  not_implemented,      ///< part of the API, but not of this version
+  cancelled,            ///< stopped on request
   mesher_failed,        ///< the helper crashed, timed out or ran out of memory
-  numerical,            ///< factorisation or iteration broke down (e.g. a floating subdomain)
-  storage,              ///< the disk refused
+  numerical,            ///< a factorisation or iteration failed (e.g. a floating subdomain)
+  storage,              ///< the disk failed
   internal,             ///< a bug
 };
 
 /// Stable upper-case name of a reason, e.g. "EXPRESSION_INVALID".
 std::string_view name(Reason reason) noexcept;
 
-/// A field of the request and what is wrong with it.
+/// A field of the request, and its fault.
 struct FieldViolation {
   std::string field;  ///< path, e.g. "load_cases[1].force.expression"
   std::string description;
 };
 
-/// Error with everything a client is told. Copyable, so it can also be kept in a job or mesh. It
-/// holds its own message: copies of std::runtime_error share one among threads.
+/// An error with all details for the client. Copyable, as jobs and meshes keep their errors. Copies
+/// have their own messages; those of std::runtime_error are shared between threads.
 class Error : public std::exception {
  public:
   Error(Reason reason, std::string message) : _reason(reason), _message(std::move(message)) {}
@@ -63,8 +63,13 @@ class Error : public std::exception {
   Error& at(std::string field);
   Error& with(std::string key, std::string value);
   Error& retry_after(std::chrono::milliseconds delay);
-  /// Puts `prefix` before the path of every field, as the error climbs to the layer that knows
-  /// where the part stands in the request.
+  /// Replaces the path of every field by rename(path).
+  template <class Rename>
+  Error& rename(const Rename& rename) {
+    for (FieldViolation& violation : _fields) violation.field = rename(violation.field);
+    return *this;
+  }
+  /// Prepends "prefix." to the path of every field, for the layer above.
   Error& below(std::string_view prefix);
 
   Reason reason() const noexcept { return _reason; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The fields of a struct, listed once beside it. What has to go through all of them (the API's
-// messages and with them the records, hashes, byte counts, the tests' generators) walks the list.
+// The fields of a struct, listed once beside it. Code that handles all of them (messages, records,
+// hashes, byte counts, the tests' generators) walks the list.
 #pragma once
 
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace anticrack::fields {
 
-/// A field of one value, under the name it has in the struct and in the API's message.
+/// A field of one value, with its name in the struct and in the API's message.
 template <class T>
 struct Field {
   std::string_view name;
@@ -19,7 +19,7 @@ struct Field {
 template <class T>
 Field(std::string_view, T&) -> Field<T>;
 
-/// Has an ANTICRACK_FIELDS.
+/// A struct with ANTICRACK_FIELDS.
 template <class T>
 concept Listed = requires(T& value) {
   fields_of(value);
@@ -33,8 +33,8 @@ void for_each(T& value, Visit&& visit) {
 
 }  // namespace anticrack::fields
 
-// ANTICRACK_FIELDS(Struct, field, ...) after a struct, in its namespace. A field that is missing
-// does not compile: the structured binding asks for as many names as there are fields.
+// ANTICRACK_FIELDS(Struct, field, ...) follows a struct, in its namespace. The structured binding
+// makes the compiler require all fields.
 #define ANTICRACK_FIELDS(Type, ...)                          \
   template <class Struct>                                    \
   requires std::is_same_v<std::remove_const_t<Struct>, Type> \

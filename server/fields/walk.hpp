@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Through all of a value that is made of listed structs, containers, numbers and texts.
+// Walks through values made of listed structs, containers, numbers and texts.
 #pragma once
 
 #include <array>
@@ -24,13 +24,13 @@ inline constexpr bool is_a = false;
 template <template <class...> class Container, class... Items>
 inline constexpr bool is_a<Container<Items...>, Container> = true;
 
-/// Numbers that are walked as they are; enums and truth values among them.
+/// Integers, enums and bool.
 template <class T>
 concept Whole = std::is_integral_v<T> || std::is_enum_v<T>;
 
-/// Calls sink(leaf) with every std::uint64_t (integers, enums, times, lengths of lists, index of an
-/// alternative), double and std::string, in order: two values that differ give other leaves.
-/// What is behind a shared pointer is not a part of the value. O(size).
+/// Calls sink(leaf) in order with every std::uint64_t (integers, enums, times, lengths of lists,
+/// indices of alternatives), double and std::string. Different values give different leaves;
+/// targets of shared pointers do not count. O(size).
 template <class T, class Sink>
 void walk(const T& value, Sink&& sink) {
   const auto number = [&sink](auto whole) { sink(static_cast<std::uint64_t>(whole)); };
@@ -65,10 +65,10 @@ void walk(const T& value, Sink&& sink) {
   }
 }
 
-/// Memory the value owns beside its own bytes, about. O(size).
+/// Approximate bytes that the value owns in addition to sizeof. O(size).
 template <class T>
 std::size_t owned_bytes(const T& value) {
-  constexpr std::size_t node = 48;  // of a map, beside what it holds
+  constexpr std::size_t node = 48;  // overhead of a map's node
   std::size_t bytes = 0;
   if constexpr (std::is_same_v<T, std::string>) {
     bytes = value.size();
@@ -92,7 +92,7 @@ std::size_t owned_bytes(const T& value) {
   return bytes;
 }
 
-/// Memory of the whole value, about.
+/// Approximate bytes of the whole value.
 template <class T>
 std::size_t bytes_of(const T& value) {
   return sizeof(value) + owned_bytes(value);

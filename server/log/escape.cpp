@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "log/escape.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
-#include <cstdint>
 
 namespace anticrack::log {
 namespace {
 
-struct Character {
-  std::uint32_t code = 0;
-  std::size_t bytes = 1;
-  bool valid = false;
-};
+/// Control characters, line and paragraph separators, marks of writing direction.
+bool is_hidden(std::uint32_t code) {
+  return code < 0x20 || (code >= 0x7F && code < 0xA0) || (code >= 0x200E && code <= 0x200F) ||
+         (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF;
+}
 
-/// The UTF-8 sequence at the start of `text`, which is not empty. What is invalid is one byte long.
+bool is_plain(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+         std::string_view("-_./:+@,").find(c) != std::string_view::npos;
+}
+
+}  // namespace
+
 Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(text[i]) & 0xFFU; };
   const std::uint32_t lead = byte(0);
@@ -32,25 +39,6 @@ Character first_character(std::string_view text) {
   return {code, bytes, true};
 }
 
-/// Control characters, line and paragraph separators, and what turns the writing direction.
-bool is_hidden(std::uint32_t code) {
-  return code < 0x20 || (code >= 0x7F && code < 0xA0) || (code >= 0x200E && code <= 0x200F) ||
-         (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF;
-}
-
-void append_code(std::string& text, std::uint32_t code) {
-  constexpr std::string_view digits = "0123456789abcdef";
-  text += "\\u";
-  for (int shift = 12; shift >= 0; shift -= 4) text += digits[(code >> shift) & 0xF];
-}
-
-bool is_plain(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-         std::string_view("-_./:+@,").find(c) != std::string_view::npos;
-}
-
-}  // namespace
-
 std::string escape(std::string_view value) {
   const bool cut = value.size() > longest_value;
   if (cut) value = value.substr(0, longest_value);
@@ -59,13 +47,13 @@ std::string escape(std::string_view value) {
   while (!value.empty()) {
     const Character character = first_character(value);
     if (!character.valid) {
-      append_code(result, 0xFFFD);
+      result += "\\ufffd";
     } else if (character.code == '\n') {
       result += "\\n";
     } else if (character.code == '\t') {
       result += "\\t";
     } else if (is_hidden(character.code)) {
-      append_code(result, character.code);
+      result += fmt::format("\\u{:04x}", character.code);
     } else {
       if (character.code == '"' || character.code == '\\') result += '\\';
       result += value.substr(0, character.bytes);

@@ -1,21 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace anticrack::log {
 
-/// Bytes of a value that are kept; of a longer one the rest is cut off and "..." says so.
+/// A character of a UTF-8 text.
+struct Character {
+  std::uint32_t code = 0;
+  std::size_t bytes = 1;
+  bool valid = false;
+};
+/// The character at the start of `text`, which is not empty. Invalid ones are one byte long.
+Character first_character(std::string_view text);
+
+/// Bytes kept of a value; a longer one is cut and ends in "...".
 inline constexpr std::size_t longest_value = 4096;
 
-/// `value` as the inside of a JSON string, in one line: quotes, backslashes and control characters
-/// escaped, among them those of Unicode that break lines or turn the writing direction; what is no
-/// UTF-8 becomes \ufffd. O(n).
+/// `value` for the inside of a JSON string. Escapes quotes, backslashes and control characters,
+/// including Unicode's line breaks and marks of writing direction; invalid UTF-8 becomes \ufffd.
+/// O(n).
 std::string escape(std::string_view value);
 
-/// As a value of a text line: bare where nobody could take it for anything else, else in quotes and
-/// escaped.
+/// `value` for a text line: bare if that is unambiguous, else escaped and in quotes.
 std::string quote_if_needed(std::string_view value);
 
 }  // namespace anticrack::log

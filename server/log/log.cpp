@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "log/log.hpp"
 
+#include <fmt/core.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -18,7 +19,7 @@ struct Logger {
   Format format = Format::text;
 };
 
-/// Written by start() alone, before there are threads that log.
+/// Set by start() before any thread logs.
 Logger& current() {
   static Logger logger;
   return logger;
@@ -27,30 +28,21 @@ Logger& current() {
 std::string text_line(std::string_view event, const Fields& fields) {
   std::string line = escape(event);
   for (const auto& [key, value] : fields) {
-    line += ' ';
-    line += escape(key);
-    line += '=';
-    line += quote_if_needed(value);
+    line += fmt::format(" {}={}", escape(key), quote_if_needed(value));
   }
   return line;
 }
 
-/// The pattern puts time and level before it and closes the object.
+/// The pattern adds time, level and braces.
 std::string json_members(std::string_view event, const Fields& fields) {
-  std::string line = "\"event\":\"";
-  line += escape(event);
-  line += '"';
+  std::string line = fmt::format(R"("event":"{}")", escape(event));
   for (const auto& [key, value] : fields) {
-    line += ",\"";
-    line += escape(key);
-    line += "\":\"";
-    line += escape(value);
-    line += '"';
+    line += fmt::format(R"(,"{}":"{}")", escape(key), escape(value));
   }
   return line;
 }
 
-/// The text of a line that was given to spdlog itself, escaped: where the pattern says %*.
+/// %* in a pattern: the text of a line logged through spdlog itself, escaped.
 class EscapedText : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm& /*time*/,
@@ -89,7 +81,7 @@ void start(const std::string& level, Format format) {
   const std::string json_begin = R"({"time":"%Y-%m-%dT%H:%M:%S.%e%z","level":"%l",)";
   const std::string text_begin = "%Y-%m-%dT%H:%M:%S.%e%z %l ";
   current() = {make_logger(level, json ? json_begin + "%v}" : text_begin + "%v"), format};
-  // What a library says goes the same way, in the same form.
+  // for libraries that log through spdlog
   spdlog::set_default_logger(
       make_logger(level, json ? json_begin + R"("event":"%*"})" : text_begin + "%*"));
 }

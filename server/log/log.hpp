@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One line an event on standard error: for people, or JSON for machines. On spdlog.
+// A log on standard error with one line per event, as text or JSON. Uses spdlog.
 #pragma once
 
 #include <initializer_list>
@@ -12,10 +12,10 @@ namespace anticrack::log {
 
 enum class Format { text, json };
 
-/// To be called once, before anything is logged. `level`: trace, debug, info, warn, error or off.
+/// Call it once before logging. `level`: trace, debug, info, warn, error or off.
 void start(const std::string& level, Format format);
 
-/// Values are escaped: nothing a client sends can forge a line or a key.
+/// Values are escaped, so that clients cannot forge lines or keys.
 using Fields = std::initializer_list<std::pair<std::string_view, std::string>>;
 
 /// text: 2026-11-21T17:40:00.123+00:00 info job ended job=jobs/ab12 state=SUCCEEDED

@@ -1,68 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/assumptions.hpp"
 
+#include <array>
 #include <string>
 
-#include "mesher/edge_roles.hpp"
+#include "mesher/messages.hpp"
 
 namespace anticrack::mesher {
 namespace {
 
-/// Continues "it lies ..." and "they lie ...".
-std::string place(Assumed assumed) {
-  switch (assumed) {
-    case Assumed::dirichlet:
-    case Assumed::neumann:
-      return " on the boundary: taken for ";
-    case Assumed::glue:
-      return " between two subdomains: taken for ";
-    case Assumed::welded:
-      return " between two subdomains that were meshed separately: taken for ";
-    case Assumed::joined:
-      return " between parts of one subdomain that were meshed separately: taken for ";
-    case Assumed::crack:
-      return " on doubled nodes: taken for ";
-    case Assumed::nothing:
-      return " inside one subdomain: taken for ";
-    case Assumed::left_out:
-      break;
-  }
-  return " on no edge of a triangle: ";
+/// Continue "it lies" and "they lie", in the order of Assumed.
+constexpr std::array words{
+    "on the boundary: taken for dirichlet",
+    "on the boundary: taken for neumann",
+    "between two subdomains: taken for glue",
+    "between two subdomains that were meshed separately: taken for glue",
+    "between parts of one subdomain that were meshed separately: taken for one piece",
+    "on doubled nodes: taken for crack",
+    "inside one subdomain: taken for a line the mesh follows, no interface",
+    "on no edge of a triangle: left out"};
+
+const char* words_of(Assumed assumed) {
+  return words.at(static_cast<std::size_t>(assumed));
 }
 
-std::string taken(Assumed assumed) {
-  switch (assumed) {
-    case Assumed::dirichlet:
-      return "dirichlet";
-    case Assumed::neumann:
-      return "neumann";
-    case Assumed::glue:
-    case Assumed::welded:
-      return "glue";
-    case Assumed::crack:
-      return "crack";
-    case Assumed::joined:
-      return "one piece";
-    case Assumed::nothing:
-      return "a line the mesh follows, no interface";
-    case Assumed::left_out:
-      break;
-  }
-  return "left out";
-}
-
-/// `it` is "it" or "them", `tag` what the map of the request would have to name.
-std::string cure(Assumed assumed, bool physical, const std::string& it, const std::string& tag) {
+/// `name`: how to name the edges; `tag`: their key in the groups of the mesh options.
+std::string cure(Assumed assumed, const std::string& name, const std::string& tag) {
   if (assumed == Assumed::left_out) return "";
   const bool boundary = assumed == Assumed::dirichlet || assumed == Assumed::neumann;
-  return "; to choose, " +
-         (physical ? "name " + it + " " : "put " + it + " in physical curves called ") +
-         (boundary ? "dirichlet or neumann" : "glue, crack, inclusion:NAME or delaminated:NAME") +
-         ", or give " + tag + " a meaning in the groups of the mesh options";
+  return fmt::format(
+      "; to choose, {} {}, or give {} a meaning in the groups of the mesh options", name,
+      boundary ? "dirichlet or neumann" : "glue, crack, inclusion:NAME or delaminated:NAME", tag);
 }
 
 std::string edges(std::size_t count) {
-  return std::to_string(count) + (count == 1 ? " edge" : " edges");
+  return fmt::format("{} edge{}", count, count == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -84,23 +56,24 @@ void Assumptions::tell(const CurveGroups& groups, mesh::Mesh& mesh) const {
       curves[assumed].push_back(tag);
       continue;
     }
-    mesh.warnings.push_back(groups.groups.at(tag).title + " lies" + place(assumed) +
-                            taken(assumed) + " (" + edges(count) + ")" +
-                            cure(assumed, true, "it", std::to_string(tag)));
+    mesh.warnings.push_back(fmt::format("{} lies {} ({}){}", groups.groups.at(tag).title,
+                                        words_of(assumed), edges(count),
+                                        cure(assumed, "name it", std::to_string(tag))));
   }
   for (const auto& [assumed, tags] : curves) {
     const bool one = tags.size() == 1;
-    mesh.warnings.push_back((one ? "curve " : "curves ") + list_of(tags) +
-                            (one ? " (in no group) lies" : " (in no group) lie") + place(assumed) +
-                            taken(assumed) +
-                            cure(assumed, false, one ? "it" : "them", one ? "it" : "them"));
+    const std::string them = one ? "it" : "them";
+    mesh.warnings.push_back(
+        fmt::format("{} {} (in no group) {} {}{}", one ? "curve" : "curves", list_of(tags),
+                    one ? "lies" : "lie", words_of(assumed),
+                    cure(assumed, "put " + them + " in physical curves called", them)));
   }
   for (const auto& [assumed, bare] : _bare) {
     const bool one = bare.edges == 1;
-    mesh.warnings.push_back(edges(bare.edges) + " in no curve group, the first at " +
-                            place_of(mesh, bare.node) + ", " + (one ? "lies" : "lie") +
-                            place(assumed) + taken(assumed) + "; to choose, put " +
-                            (one ? "it" : "them") + " in a physical curve");
+    mesh.warnings.push_back(fmt::format(
+        "{} in no curve group, the first at {}, {} {}; to choose, put {} in a physical curve",
+        edges(bare.edges), place_of(mesh, bare.node), one ? "lies" : "lie", words_of(assumed),
+        one ? "it" : "them"));
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the groups of curves are called, by the file or by the request.
+// Groups of curves and their meanings, from the file or from the request.
 #pragma once
 
 #include <cstdint>
@@ -20,38 +20,34 @@ struct CurveMeaning {
   std::string name;  ///< of the inclusion or crack, else empty
 };
 
-/// One keyword of the API read: dirichlet, neumann, glue, crack, crack:NAME, inclusion:NAME,
-/// delaminated:NAME, in upper or lower case. Neither a meaning nor a fault: a name of one's own.
+/// A text read as a keyword. Neither a meaning nor a fault: the text is not a keyword.
 struct ReadMeaning {
   std::optional<CurveMeaning> meaning;
   std::string fault;  ///< not empty: what is wrong with the NAME of a keyword
 };
-/// Blanks around its words do not count.
+/// Reads dirichlet, neumann, glue, crack, crack:NAME, inclusion:NAME or delaminated:NAME, in upper
+/// or lower case, with or without blanks around the words.
 ReadMeaning read_meaning(const std::string& text);
 
 struct CurveGroup {
   std::int32_t tag = 0;
   std::string title;                    ///< for messages: curve group 7 "gamma_c"
-  std::optional<CurveMeaning> meaning;  ///< none: adjacency decides
+  std::optional<CurveMeaning> meaning;  ///< none: the surroundings decide
 };
 
 struct CurveGroups {
-  /// In a file whose lines are in no physical group the elementary curves take their place.
+  /// False if no line is in a physical group: the groups are then the elementary curves.
   bool physical = true;
   std::map<std::int32_t, CurveGroup> groups;
 
-  /// Group of a line, null for none.
+  /// The group of a line, or null.
   const CurveGroup* of(const MshElement<2>& line) const;
 };
 
-/// `given` (physical tag -> meaning) wins over the names of the file.
-/// Throws errors::Error: invalid_argument at "options.curve_groups[TAG]" for a tag the file lacks
-/// and for what is not a keyword; mesh_invalid for a keyword with a bad NAME, and for a NAME shared
-/// by a crack and an inclusion.
+/// `given` (physical tag -> meaning) overrides the names of the file. Throws errors::Error:
+/// invalid_argument at "options.curve_groups[TAG]" for a tag that the file lacks or a text that is
+/// not a keyword; mesh_invalid for a bad NAME, or one shared by a crack and an inclusion.
 CurveGroups read_curve_groups(const MshFile& file,
                               const std::map<std::int32_t, std::string>& given);
-
-/// "3, 4, 7", at most twenty of them.
-std::string list_of(const std::vector<std::int32_t>& tags);
 
 }  // namespace anticrack::mesher

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
-#include <sstream>
 #include <tuple>
 #include <utility>
 
 #include "mesher/assumptions.hpp"
-#include "mesher/refuse.hpp"
+#include "mesher/messages.hpp"
 
 namespace anticrack::mesher {
 namespace {
@@ -19,10 +18,10 @@ using mesh::Mesh;
 using Uses = std::span<const EdgeUse>;
 
 std::string edge_of(const Mesh& mesh, std::int32_t a, std::int32_t b) {
-  return "the edge " + place_of(mesh, a) + "-" + place_of(mesh, b);
+  return fmt::format("the edge {}-{}", place_of(mesh, a), place_of(mesh, b));
 }
 
-/// An edge and a group it is in.
+/// An edge and one of its groups.
 struct Mark {
   std::int32_t low = 0;
   std::int32_t high = 0;
@@ -45,7 +44,7 @@ std::vector<Mark> sorted_marks(std::span<const CurveEdge> lines) {
   return marks;
 }
 
-/// The meaning that covers both, if there is one.
+/// The meaning that includes both, or null.
 const CurveMeaning* agree(const CurveMeaning& a, const CurveMeaning& b) {
   if (a.role == b.role) {
     const bool rigid = a.role == CurveRole::inclusion || a.role == CurveRole::delaminated;
@@ -57,7 +56,7 @@ const CurveMeaning* agree(const CurveMeaning& a, const CurveMeaning& b) {
   return nullptr;
 }
 
-/// The group whose meaning the edge takes, null if none has one.
+/// The group that gives the edge its meaning, or null.
 const CurveGroup* deciding(const Mesh& mesh, std::span<const Mark> marks) {
   const CurveGroup* found = nullptr;
   for (const Mark& mark : marks) {
@@ -68,8 +67,8 @@ const CurveGroup* deciding(const Mesh& mesh, std::span<const Mark> marks) {
     }
     const CurveMeaning* both = agree(*found->meaning, *mark.group->meaning);
     if (both == nullptr) {
-      refuse(edge_of(mesh, mark.low, mark.high) + " is in " + found->title + " and in " +
-             mark.group->title + ", which do not go together; put it in one of them");
+      refuse("{} is in {} and in {}, which do not go together; put it in one of them",
+             edge_of(mesh, mark.low, mark.high), found->title, mark.group->title);
     }
     if (both != &*found->meaning) found = mark.group;
   }
@@ -78,7 +77,7 @@ const CurveGroup* deciding(const Mesh& mesh, std::span<const Mark> marks) {
 
 enum class Side { boundary, between, inside };
 
-/// Goes over the edges of the mesh in order.
+/// Decides edge by edge, in the order of the table.
 class Reading {
  public:
   Reading(const CurveGroups& groups, const Welding& welding, Mesh& mesh)
@@ -91,7 +90,7 @@ class Reading {
     each(edges, marks, [&](Uses uses, std::span<const Mark> on) { decide(uses, on); });
     if (_roles.dirichlet.empty()) {
       refuse(
-          "no edge of the boundary is dirichlet, so nothing holds the membrane; put some of its "
+          "no edge of the boundary is dirichlet, so nothing holds the membrane; put part of its "
           "boundary in a physical curve \"dirichlet\"");
     }
     _assumptions.tell(_groups, _mesh);
@@ -103,15 +102,16 @@ class Reading {
     for (const Mark& mark : marks) {
       if (!edges.find(mark.low, mark.high).empty()) continue;
       if (mark.group->meaning) {
-        refuse(edge_of(_mesh, mark.low, mark.high) + " of " + mark.group->title +
-               " is the edge of no triangle; mesh surfaces and curves together, so that they share "
-               "nodes");
+        refuse(
+            "{} of {} is the edge of no triangle; mesh surfaces and curves together, so that "
+            "they share nodes",
+            edge_of(_mesh, mark.low, mark.high), mark.group->title);
       }
       _assumptions.add(*mark.group, Assumed::left_out);
     }
   }
 
-  /// Calls with the uses of each edge and its marks; both come sorted by (low, high).
+  /// visit(uses, marks) for each edge; both lists are sorted by (low, high).
   static void each(const mesh::EdgeTable& edges, std::span<const Mark> marks,
                    const std::function<void(Uses, std::span<const Mark>)>& visit) {
     std::size_t at = 0;
@@ -126,7 +126,7 @@ class Reading {
     });
   }
 
-  /// What must be known of all edges before one is decided.
+  /// Collects what all edges say before any is decided.
   void look(Uses uses, std::span<const Mark> marks) {
     const CurveGroup* group = deciding(_mesh, marks);
     if (group != nullptr) _any_meaning = true;
@@ -136,9 +136,7 @@ class Reading {
 
   Side side_of(Uses uses) const {
     if (uses.size() == 1) return Side::boundary;
-    const auto of = [&](std::size_t i) {
-      return _mesh.subdomain[static_cast<std::size_t>(uses[i].triangle)];
-    };
+    const auto of = [&](std::size_t i) { return _mesh.subdomain[at(uses[i].triangle)]; };
     return of(0) == of(1) ? Side::inside : Side::between;
   }
 
@@ -151,7 +149,7 @@ class Reading {
       return;
     }
     const DoubledEdge* doubled = _welding.find(uses[0].low(), uses[0].high());
-    // the rule for what lies inside needs no telling
+    // edges inside a subdomain need no warning
     if (side == Side::inside && doubled == nullptr && marks.empty()) return;
     const Assumed assumed = assume(side, doubled, marks.empty());
     const bool plain = assumed == Assumed::glue && marks.empty() && _any_meaning;
@@ -182,25 +180,26 @@ class Reading {
     if (for_boundary == (side == Side::boundary)) return;
     const std::string edge = edge_of(_mesh, uses[0].from, uses[0].to) + " of " + group.title;
     if (for_boundary) {
-      refuse(edge +
-             " lies inside the membrane; what it is called is for the boundary (a crack is "
-             "free on both sides: call it \"crack\")");
+      refuse(
+          "{} lies inside the membrane, but its name is for the boundary (a crack is free on "
+          "both sides: call it \"crack\")",
+          edge);
     }
-    refuse(edge +
-           " has a triangle on one side only and no other edge lies on it; it must lie inside the "
-           "membrane, on the boundary only \"dirichlet\" and \"neumann\" do");
+    refuse(
+        "{} has a triangle on one side only and no other edge lies on it; only \"dirichlet\" and "
+        "\"neumann\" may lie on the boundary",
+        edge);
   }
 
   void take(Uses uses, Side side, const CurveMeaning& meaning) {
     const EdgeUse& use = uses[0];
     if (meaning.role == CurveRole::dirichlet) _roles.dirichlet.push_back({use.from, use.to});
-    // glue inside a subdomain asks for nothing that does not hold
+    // glue inside a subdomain changes nothing
     const bool nothing = side == Side::inside && meaning.role == CurveRole::glue;
     if (side == Side::boundary || nothing) return;
-    // counterclockwise triangles lie on the left of their edges
-    _roles.interfaces.push_back(
-        {use.from, use.to, _mesh.subdomain[static_cast<std::size_t>(use.triangle)],
-         _mesh.subdomain[static_cast<std::size_t>(uses[1].triangle)], meaning});
+    // triangles are counterclockwise, so they lie to the left of their edges
+    _roles.interfaces.push_back({use.from, use.to, _mesh.subdomain[at(use.triangle)],
+                                 _mesh.subdomain[at(uses[1].triangle)], meaning});
   }
 
   const CurveGroups& _groups;
@@ -217,13 +216,6 @@ class Reading {
 EdgeRoles read_edges(const mesh::EdgeTable& edges, std::span<const CurveEdge> lines,
                      const CurveGroups& groups, const Welding& welding, Mesh& mesh) {
   return Reading(groups, welding, mesh).read(edges, lines);
-}
-
-std::string place_of(const Mesh& mesh, std::int32_t node) {
-  std::ostringstream text;
-  const auto i = 2 * static_cast<std::size_t>(node);
-  text << "(" << mesh.xy[i] << ", " << mesh.xy[i + 1] << ")";
-  return text.str();
 }
 
 }  // namespace anticrack::mesher

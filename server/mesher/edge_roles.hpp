@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What every edge of the mesh is, by the groups it is in or by what lies beside it.
+// The role of every edge of the mesh, from its groups or from its surroundings.
 #pragma once
 
 #include <array>
@@ -16,11 +16,11 @@
 
 namespace anticrack::mesher {
 
-/// A line of the file, its nodes as numbers of the mesh.
+/// A line of the file with node numbers of the mesh.
 struct CurveEdge {
   std::int32_t from = 0;
   std::int32_t to = 0;
-  const CurveGroup* group = nullptr;  ///< null: in none
+  const CurveGroup* group = nullptr;  ///< null: no group
 };
 
 /// Walked from -> to, with subdomain `left` on its left; left == right inside a subdomain.
@@ -37,23 +37,18 @@ struct EdgeRoles {
   std::vector<InterfaceEdge> interfaces;  ///< by (low, high)
 };
 
-/// Groups with a meaning decide; an edge in several takes the one they agree on (a name of one's
-/// own says nothing; inclusion:NAME and delaminated:NAME are delaminated:NAME; all cracks are
-/// alike). Else adjacency does:
-///   - on the boundary: dirichlet in a group, or where no boundary edge is; else neumann;
-///   - on doubled nodes: crack; but where both sides were meshed separately as between two
-///     subdomains;
+/// Groups with a meaning decide. Several groups must agree: names that are not keywords do not
+/// count, inclusion:NAME with delaminated:NAME gives delaminated:NAME, and any two cracks agree.
+/// Without a meaning the surroundings decide:
+///   - on the boundary: dirichlet if the edge is in a group or no boundary edge is; else neumann;
+///   - on doubled nodes: crack, unless both sides were meshed separately;
 ///   - between two subdomains: glue;
-///   - inside one: nothing, as for glue.
-/// What was so decided is told in mesh.warnings, except that an edge in no group between two
-/// subdomains is glue where the file says anything of its curves.
-/// `mesh` has its nodes, triangles and subdomains.
-/// Throws errors::Error (mesh_invalid): an edge with two meanings, a meaning that does not fit the
-/// place, a line with a meaning that is not an edge, nothing dirichlet. O(m log m).
+///   - inside a subdomain: nothing, as for glue.
+/// mesh.warnings lists these decisions, except glue of edges in no group if the file gives any
+/// curve a meaning. `mesh` has its nodes, triangles and subdomains. Throws errors::Error
+/// (mesh_invalid): an edge with two meanings or one that does not fit its place, a line with a
+/// meaning that is not an edge, no dirichlet edge. O(m log m).
 EdgeRoles read_edges(const mesh::EdgeTable& edges, std::span<const CurveEdge> lines,
                      const CurveGroups& groups, const Welding& welding, mesh::Mesh& mesh);
-
-/// "(x, y)" of a node.
-std::string place_of(const mesh::Mesh& mesh, std::int32_t node);
 
 }  // namespace anticrack::mesher

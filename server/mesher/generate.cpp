@@ -8,15 +8,14 @@
 #include <cstdlib>
 #include <new>
 #include <numeric>
-#include <sstream>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "errors/errors.hpp"
 #include "mesh/edges.hpp"
 #include "mesher/frame.hpp"
+#include "mesher/messages.hpp"
 #include "mesher/sanitized.hpp"
 #include "mesher/size_field.hpp"
 
@@ -30,23 +29,29 @@ using mesh::Point;
 constexpr int triangle_type = 2;
 constexpr int frontal_delaunay = 6;
 
-[[noreturn]] void gave_up(const std::string& what) {
+template <class... Values>
+[[noreturn]] void fail(fmt::format_string<Values...> message, Values&&... values) {
   throw errors::Error(errors::Reason::mesher_failed,
-                      "gmsh could not mesh this geometry: " + what +
-                          "; choose another options.size, or remove details far smaller than the "
-                          "rest");
+                      fmt::format(message, std::forward<Values>(values)...));
 }
 
-/// gmsh's tags are the plan's indices + 1: of points, curves and faces.
+[[noreturn]] void gave_up(const std::string& what) {
+  fail(
+      "gmsh could not mesh this geometry: {}; choose another options.size, or remove details far "
+      "smaller than the rest",
+      what);
+}
+
+/// The tag of a point, curve or face in gmsh: its index + 1.
 int tag_of(std::size_t index) {
   return static_cast<int>(index) + 1;
 }
 
-/// gmsh's mesh depends on where a loop begins: always where its first interface does, so that it
-/// does not depend on which vertex of the boundary the user wrote first.
+/// Makes the loop begin at its first interface. gmsh's mesh depends on where a loop begins; it must
+/// not depend on which vertex of the boundary the user wrote first.
 std::vector<int> begun_at_interface(const Plan& plan, std::vector<int> loop) {
   const auto on_interface = [&](int curve) {
-    return plan.curves[static_cast<std::size_t>(std::abs(curve)) - 1].role == mesh::Role::interface;
+    return plan.curves[at(std::abs(curve)) - 1].role == mesh::Role::interface;
   };
   for (std::size_t i = 0; i < loop.size(); ++i) {
     if (!on_interface(loop[i]) || on_interface(loop[(i + loop.size() - 1) % loop.size()])) continue;
@@ -93,16 +98,16 @@ std::vector<SizedCurve> sized_curves(const Plan& plan, const Frame& frame) {
   std::vector<SizedCurve> curves;
   curves.reserve(plan.curves.size());
   for (const PlannedCurve& curve : plan.curves) {
-    const Point a = frame.to_gmsh(plan.points[static_cast<std::size_t>(curve.a)]);
-    const Point b = frame.to_gmsh(plan.points[static_cast<std::size_t>(curve.b)]);
+    const Point a = frame.to_gmsh(plan.points[at(curve.a)]);
+    const Point b = frame.to_gmsh(plan.points[at(curve.b)]);
     curves.push_back({a, b, std::hypot(b[0] - a[0], b[1] - a[1]) / curve.intervals});
   }
   return curves;
 }
 
-/// gmsh moves points at random, by this part of the box, for its first triangulation. Were that not
-/// far less than the shortest interval, nodes of one line would leave it and make triangles of it.
-/// Below 1e-13 gmsh itself gives up on points in a line.
+/// For its first triangulation gmsh moves points at random by this fraction of the box. It must be
+/// far below the shortest interval, or nodes on a straight line form triangles. Below 1e-13 gmsh
+/// fails for points on a line.
 double random_factor(const std::vector<SizedCurve>& curves) {
   constexpr double gmsh_default = 1e-9;
   double shortest = curves.front().size;
@@ -122,40 +127,32 @@ void choose_options(std::vector<SizedCurve> curves, double growth) {
   });
 }
 
-/// Collects gmsh's nodes into a mesh, numbered in the order they are asked for.
+/// Numbers gmsh's nodes in the order of their first use and adds them to a mesh.
 class Nodes {
  public:
-  Nodes(mesh::Mesh& mesh, const Frame& frame) : _mesh(mesh) {
+  Nodes(mesh::Mesh& mesh, const Frame& frame) : _mesh(mesh), _frame(frame) {
     std::vector<double> parameters;
     gmsh::model::mesh::getNodes(_tags, _xyz, parameters);
     for (std::size_t i = 0; i < _tags.size(); ++i) _place.emplace(_tags[i], i);
     _index.assign(_tags.size(), -1);
-    _frame = &frame;
   }
   std::int32_t operator()(std::size_t tag) {
+    const std::size_t i = 3 * _place.at(tag);
+    return with_place(tag, _frame.from_gmsh(_xyz[i], _xyz[i + 1]));
+  }
+  /// The same, at an exact place if it is new.
+  std::int32_t with_place(std::size_t tag, const Point& p) {
     std::int32_t& index = _index[_place.at(tag)];
     if (index < 0) {
-      const std::size_t i = 3 * _place.at(tag);
-      index = put(_frame->from_gmsh(_xyz[i], _xyz[i + 1]));
+      index = static_cast<std::int32_t>(_mesh.node_count());
+      _mesh.xy.insert(_mesh.xy.end(), p.begin(), p.end());
     }
-    return index;
-  }
-  /// The node a curve has at this place, which we know better than gmsh.
-  std::int32_t at(std::size_t tag, const Point& p) {
-    std::int32_t& index = _index[_place.at(tag)];
-    if (index < 0) index = put(p);
     return index;
   }
 
  private:
-  std::int32_t put(const Point& p) {
-    _mesh.xy.push_back(p[0]);
-    _mesh.xy.push_back(p[1]);
-    return static_cast<std::int32_t>(_mesh.node_count()) - 1;
-  }
-
   mesh::Mesh& _mesh;
-  const Frame* _frame = nullptr;
+  const Frame& _frame;
   std::vector<std::size_t> _tags;
   std::vector<double> _xyz;
   std::unordered_map<std::size_t, std::size_t> _place;
@@ -167,10 +164,7 @@ std::size_t point_tag(int point) {
   std::vector<double> xyz;
   std::vector<double> parameters;
   gmsh::model::mesh::getNodes(tags, xyz, parameters, 0, point + 1);
-  if (tags.size() != 1) {
-    throw errors::Error(errors::Reason::mesher_failed,
-                        "gmsh made no node for vertex " + std::to_string(point));
-  }
+  if (tags.size() != 1) fail("gmsh made no node for vertex {}", point);
   return tags[0];
 }
 
@@ -181,26 +175,23 @@ std::vector<std::int32_t> curve_nodes(const Plan& plan, std::size_t index, Nodes
   std::vector<double> xyz;
   std::vector<double> parameters;
   gmsh::model::mesh::getNodes(tags, xyz, parameters, 1, tag_of(index));
-  if (tags.size() + 1 != static_cast<std::size_t>(curve.intervals) ||
-      parameters.size() != tags.size()) {
-    throw errors::Error(errors::Reason::mesher_failed,
-                        "gmsh cut a curve of " + std::to_string(curve.intervals) +
-                            " intervals at " + std::to_string(tags.size()) + " places");
+  if (tags.size() + 1 != at(curve.intervals) || parameters.size() != tags.size()) {
+    fail("gmsh cut a curve of {} intervals at {} places", curve.intervals, tags.size());
   }
   std::vector<std::size_t> order(tags.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
             [&](std::size_t i, std::size_t j) { return parameters[i] < parameters[j]; });
-  const Point& a = plan.points[static_cast<std::size_t>(curve.a)];
-  const Point& b = plan.points[static_cast<std::size_t>(curve.b)];
-  std::vector<std::int32_t> chain{nodes.at(point_tag(curve.a), a)};
+  const Point& a = plan.points[at(curve.a)];
+  const Point& b = plan.points[at(curve.b)];
+  std::vector<std::int32_t> chain{nodes.with_place(point_tag(curve.a), a)};
   chain.reserve(order.size() + 2);
   for (std::size_t k = 0; k < order.size(); ++k) {
     const auto part = static_cast<double>(k + 1) / curve.intervals;
-    chain.push_back(
-        nodes.at(tags[order[k]], {a[0] + (b[0] - a[0]) * part, a[1] + (b[1] - a[1]) * part}));
+    chain.push_back(nodes.with_place(tags[order[k]],
+                                     {a[0] + (b[0] - a[0]) * part, a[1] + (b[1] - a[1]) * part}));
   }
-  chain.push_back(nodes.at(point_tag(curve.b), b));
+  chain.push_back(nodes.with_place(point_tag(curve.b), b));
   return chain;
 }
 
@@ -209,18 +200,18 @@ mesh::Interface read_interface(const Plan& plan, const mesh::PlannedInterface& p
   mesh::Interface interface;
   interface.name = planned.name;
   for (const int index : planned.curves) {
-    const PlannedCurve& curve = plan.curves[static_cast<std::size_t>(index)];
-    const auto& chain = chains[static_cast<std::size_t>(index)];
+    const PlannedCurve& curve = plan.curves[at(index)];
+    const auto& chain = chains[at(index)];
     const auto first = chain.begin() + (interface.nodes.empty() ? 0 : 1);
     interface.nodes.insert(interface.nodes.end(), first, chain.end());
-    const auto edges = static_cast<std::size_t>(curve.intervals);
+    const auto edges = at(curve.intervals);
     interface.kind.insert(interface.kind.end(), edges, curve.kind);
     interface.inclusion.insert(interface.inclusion.end(), edges, curve.inclusion);
   }
   return interface;
 }
 
-/// Faces of one name are one subdomain. Returns the subdomain of each face.
+/// Adds the subdomains and returns that of each face; faces with the same name share one.
 std::vector<std::int32_t> name_subdomains(const Plan& plan, mesh::Mesh& mesh) {
   std::vector<std::int32_t> subdomain_of;
   subdomain_of.reserve(plan.faces.size());
@@ -243,14 +234,14 @@ void read_triangles(mesh::Mesh& mesh, int face_tag, std::int32_t subdomain, Node
   mesh.subdomain.insert(mesh.subdomain.end(), elements.size(), subdomain);
 }
 
-/// gmsh orients a plane surface by its own rules.
+/// Makes all triangles counterclockwise: gmsh chooses the orientation of a plane surface.
 void orient(mesh::Mesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh::area(mesh, t) < 0) std::swap(mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]);
   }
 }
 
-/// gmsh may give up an embedded curve that it cannot recover, and only says so in its log.
+/// gmsh may drop an embedded curve that it cannot recover, and only logs it.
 void require_curves(const mesh::Mesh& mesh, const Plan& plan,
                     const std::vector<std::vector<std::int32_t>>& chains) {
   const mesh::EdgeTable edges(mesh.triangles);
@@ -258,12 +249,12 @@ void require_curves(const mesh::Mesh& mesh, const Plan& plan,
     const bool inside = plan.curves[i].left >= 0 && plan.curves[i].right >= 0;
     for (std::size_t k = 0; k + 1 < chains[i].size(); ++k) {
       if (edges.find(chains[i][k], chains[i][k + 1]).size() == (inside ? 2U : 1U)) continue;
-      std::ostringstream text;
-      const Point& p = plan.points[static_cast<std::size_t>(plan.curves[i].a)];
-      const Point& q = plan.points[static_cast<std::size_t>(plan.curves[i].b)];
-      text << "gmsh made no edges along the line from (" << p[0] << ", " << p[1] << ") to (" << q[0]
-           << ", " << q[1] << "); choose a smaller options.size, or move what is close to it";
-      throw errors::Error(errors::Reason::mesher_failed, text.str());
+      const Point& p = plan.points[at(plan.curves[i].a)];
+      const Point& q = plan.points[at(plan.curves[i].b)];
+      fail(
+          "gmsh made no edges along the line from ({:g}, {:g}) to ({:g}, {:g}); choose a smaller "
+          "options.size, or move what is close to it",
+          p[0], p[1], q[0], q[1]);
     }
   }
 }
@@ -299,12 +290,12 @@ Gmsh::Gmsh() {
   gmsh::initialize(0, nullptr, false);
   gmsh::option::setNumber("General.Terminal", 0);
   gmsh::option::setNumber("General.NumThreads", 1);
-  // it would ask what kind of file the standard output is, which the filter forbids
+  // the progress meter makes a system call that the filter forbids
   gmsh::option::setNumber("General.ProgressMeterStep", 0);
 }
 
 Gmsh::~Gmsh() {
-  // it would remove files, and the process ends anyway; a sanitizer looks for leaks then
+  // finalize() would remove files; the process ends anyway, but a sanitizer would report leaks
   if (sanitized) gmsh::finalize();
 }
 
@@ -324,9 +315,9 @@ mesh::Mesh generate(const Gmsh& /*its presence is needed*/, const mesh::Generate
   mesh::Mesh mesh = read_mesh(request.plan, frame);
   if (mesh.triangle_count() > request.max_triangles) {
     throw errors::Error(errors::Reason::limit_exceeded,
-                        "the mesh has " + std::to_string(mesh.triangle_count()) +
-                            " triangles; at most " + std::to_string(request.max_triangles) +
-                            " are taken, so choose a coarser one")
+                        fmt::format("the mesh has {} triangles, at most {} are allowed; choose a "
+                                    "coarser one",
+                                    mesh.triangle_count(), request.max_triangles))
         .at("options.size");
   }
   return mesh;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From a plan to a mesh, by gmsh. The only file that sees it.
+// From a plan to a mesh with gmsh. The only file that uses gmsh.
 #pragma once
 
 #include "mesh/codec.hpp"
@@ -8,21 +8,19 @@
 
 namespace anticrack::mesher {
 
-/// gmsh, ready for a model. Making it looks for files (preferences), using it does not.
-/// One a process: gmsh is global.
+/// gmsh, silent and on one thread. The constructor reads files (preferences), later calls do not.
+/// One per process: gmsh is global.
 class Gmsh {
  public:
-  /// Starts gmsh, silent and on one thread.
   Gmsh();
   ~Gmsh();
   Gmsh(const Gmsh&) = delete;
   Gmsh& operator=(const Gmsh&) = delete;
 };
 
-/// Meshes every face of the plan; it is not graded yet. Faces of one name are one subdomain. The
-/// nodes of every planned curve lie exactly at a + (b-a) k/n. The same request gives the same mesh.
-/// One call a process. Throws errors::Error: limit_exceeded (more triangles than asked for),
-/// mesher_failed (gmsh gave up).
+/// Meshes every face of the plan, ungraded; faces with the same name are one subdomain. The nodes
+/// of every planned curve lie exactly at a + (b-a) k/n. Deterministic. One call per process. Throws
+/// errors::Error: limit_exceeded (too many triangles), mesher_failed (gmsh failed).
 mesh::Mesh generate(const Gmsh& gmsh, const mesh::GenerateRequest& request);
 
 }  // namespace anticrack::mesher

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/grading.hpp"
 
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "errors/errors.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
+#include "mesher/messages.hpp"
 
 namespace anticrack::mesher {
 namespace {
@@ -19,43 +18,34 @@ constexpr double sound_angle = 10;
 /// How far rounding of midpoints may push an angle below the bound at the smallest tip size.
 constexpr double angle_slack = 0.05;
 
-/// A field of mesh::Grading as the user knows it.
+/// The mesh option of a field of mesh::Grading.
 std::string option_of(const std::string& field) {
   if (field == "h0") return "options.size";
   if (field == "m") return "options.grading";
   return "options." + field;
 }
 
-[[noreturn]] void rethrow_in_options(const errors::Error& error) {
-  errors::Error renamed(error.reason(), error.what());
-  for (const errors::FieldViolation& violation : error.fields()) {
-    renamed.at(option_of(violation.field));
-  }
-  throw errors::Error(renamed);
-}
-
 [[noreturn]] void refuse_count(std::size_t base_triangles, const mesh::GradingSpec& spec,
                                std::size_t tip_count, std::size_t limit) {
-  std::ostringstream text;
-  text << "options.size = " << spec.h0;
-  if (spec.m < 1) text << " with options.grading = " << spec.m;
-  text << " takes more than the " << limit << " triangles allowed, from a base mesh of "
-       << base_triangles << " and towards " << tip_count
-       << " tips; raise options.size (twice the size takes a quarter of the triangles)";
-  if (spec.m < 1) text << ", or options.tip_size if there are many tips";
-  errors::Error error(errors::Reason::limit_exceeded, text.str());
+  const bool graded = spec.m < 1;
+  const std::string text = fmt::format(
+      "options.size = {:g}{} takes more than the {} triangles allowed, from a base mesh of {} and "
+      "towards {} tips; raise options.size (twice the size takes a quarter of the triangles){}",
+      spec.h0, graded ? fmt::format(" with options.grading = {:g}", spec.m) : "", limit,
+      base_triangles, tip_count, graded ? ", or options.tip_size if there are many tips" : "");
+  errors::Error error(errors::Reason::limit_exceeded, text);
   error.at("options.size");
-  if (spec.m < 1) error.at("options.tip_size");
+  if (graded) error.at("options.tip_size");
   throw errors::Error(error);
 }
 
 [[noreturn]] void refuse_tip_size(double tip_size, double smallest, double bound) {
-  std::ostringstream text;
-  text << "options.tip_size is " << tip_size
-       << "; the base mesh has angles so small (bisection may "
-       << "make one of " << bound << " degrees) that " << smallest
-       << " is the least that keeps its triangles in shape";
-  throw errors::Error(errors::Reason::invalid_argument, text.str()).at("options.tip_size");
+  throw errors::Error(errors::Reason::invalid_argument,
+                      fmt::format("options.tip_size is {:g}; the base mesh has such small angles "
+                                  "(bisection may make one of {:g} degrees) that at least {:g} is "
+                                  "needed to keep its triangles in shape",
+                                  tip_size, bound, smallest))
+      .at("options.tip_size");
 }
 
 mesh::Mesh bisected(const mesh::Mesh& base, const std::vector<std::int32_t>& tips,
@@ -68,11 +58,12 @@ mesh::Mesh bisected(const mesh::Mesh& base, const std::vector<std::int32_t>& tip
   }
   try {
     return mesh::grade(base, tips, grading, max_triangles);
-  } catch (const errors::Error& error) {
+  } catch (errors::Error& error) {
     if (error.reason() == errors::Reason::limit_exceeded) {
       refuse_count(base.triangle_count(), spec, tips.size(), max_triangles);
     }
-    rethrow_in_options(error);
+    error.rename(option_of);
+    throw;
   }
 }
 
@@ -86,10 +77,11 @@ mesh::Mesh graded(mesh::Mesh base, const mesh::GradingSpec& spec, std::size_t ma
   mesh::Mesh fine = bisected(base, tips, spec, bound, max_triangles);
   fine.bisection_bound = bound;
   if (const double angle = mesh::minimum_angle(fine); !(angle >= bound * (1 - angle_slack))) {
-    std::ostringstream text;
-    text << "grading made an angle of " << angle << " degrees, below its bound of " << bound
-         << "; choose a larger options.tip_size, and report this mesh";
-    throw errors::Error(errors::Reason::internal, text.str());
+    throw errors::Error(
+        errors::Reason::internal,
+        fmt::format("grading made an angle of {:g} degrees, below its bound of {:g}; "
+                    "choose a larger options.tip_size, and report this mesh",
+                    angle, bound));
   }
   return fine;
 }

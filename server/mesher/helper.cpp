@@ -8,6 +8,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
@@ -28,12 +30,11 @@ using errors::Error;
 using errors::Reason;
 
 constexpr std::string_view msh_token = "$MeshFormat";
-/// Processor time beyond the wall time, so that the wall clock, whose message is better, wins.
+/// Processor time beyond the wall time: the wall clock, with its better message, comes first.
 constexpr std::chrono::seconds cpu_slack{10};
-/// A triangle with its three nodes, interface and boundary edges takes less; names and warnings
-/// come on top.
+/// More than a triangle with its nodes and edges takes; names and warnings come on top.
 constexpr std::size_t reply_bytes_a_triangle = 256;
-constexpr std::size_t reply_bytes_besides = 16U << 20;
+constexpr std::size_t other_reply_bytes = 16U << 20;
 
 Error failed(const std::string& message) {
   return {Reason::mesher_failed, message};
@@ -42,19 +43,15 @@ Error failed(const std::string& message) {
 std::size_t most_reply_bytes(const mesh::MesherRequest& request) {
   const std::size_t triangles =
       std::visit([](const auto& wanted) { return wanted.max_triangles; }, request);
-  const std::size_t most = (SIZE_MAX - reply_bytes_besides) / reply_bytes_a_triangle;
-  return reply_bytes_besides + std::min(triangles, most) * reply_bytes_a_triangle;
-}
-
-std::string time_limit_message(std::chrono::seconds limit) {
-  return "the mesher was stopped after " + std::to_string(limit.count()) +
-         " s, its time limit; choose a coarser mesh or raise the limit";
+  const std::size_t most = (SIZE_MAX - other_reply_bytes) / reply_bytes_a_triangle;
+  return other_reply_bytes + std::min(triangles, most) * reply_bytes_a_triangle;
 }
 
 std::string ending(int status, const HelperOptions& options) {
   if (WIFEXITED(status)) {
-    return "the mesher ended with status " + std::to_string(WEXITSTATUS(status)) +
-           " and no answer; the server's error output may say why";
+    return fmt::format(
+        "the mesher ended with status {} and no answer; see the server's error output",
+        WEXITSTATUS(status));
   }
   const int signal = WTERMSIG(status);
   const char* abbreviation = sigabbrev_np(signal);
@@ -62,21 +59,27 @@ std::string ending(int status, const HelperOptions& options) {
       abbreviation == nullptr ? std::to_string(signal) : std::string("SIG") + abbreviation;
   switch (signal) {
     case SIGXCPU:
-      return "the mesher was stopped by " + name + ", its limit of processor time; choose a " +
-             "coarser mesh or raise the time limit";
+      return fmt::format(
+          "the mesher was stopped by {}, its limit of processor time; choose a "
+          "coarser mesh or raise the time limit",
+          name);
     case SIGSYS:
-      return "the mesher was stopped by " + name + ": it tried a system call it may not use";
+      return fmt::format("the mesher was stopped by {}: it tried a system call it may not use",
+                         name);
     case SIGKILL:
-      return "the mesher was killed (" + name + "), perhaps because the machine ran out of " +
-             "memory; choose a coarser mesh";
+      return fmt::format(
+          "the mesher was killed ({}), perhaps because the machine ran out of memory; "
+          "choose a coarser mesh",
+          name);
     default:
-      return "the mesher crashed (" + name + "), perhaps at its limit of " +
-             std::to_string(options.memory_limit >> 20) +
-             " MiB of memory; choose a coarser mesh or change the geometry";
+      return fmt::format(
+          "the mesher crashed ({}), perhaps at its limit of {} MiB of memory; choose "
+          "a coarser mesh or change the geometry",
+          name, options.memory_limit >> 20);
   }
 }
 
-/// Turns a stop request into something poll() sees.
+/// Makes a stop request visible to poll().
 class StopSignal {
  public:
   explicit StopSignal(const std::stop_token& stop)
@@ -88,14 +91,14 @@ class StopSignal {
  private:
   struct Wake {
     int descriptor;
-    // A full counter is as readable as one that took the number.
+    // If the counter is full, it is readable already.
     void operator()() const noexcept { eventfd_write(descriptor, 1); }
   };
   Descriptor _event;
   std::stop_callback<Wake> _callback;
 };
 
-/// One conversation with a helper: the request in, the reply out, in the time there is.
+/// Sends a request to a helper and receives the reply within the time limit.
 class Conversation {
  public:
   /// `kind`: "import" of `file`, or "generate" without one.
@@ -122,7 +125,7 @@ class Conversation {
       }
       if ((events & (POLLIN | POLLHUP | POLLERR)) != 0) open = receive(reply);
     }
-    // The end of its output comes just before its end.
+    // It closes its output just before it ends.
     while (!_child.ended()) wait(0, std::chrono::milliseconds(2));
     if (!WIFEXITED(_child.status()) || WEXITSTATUS(_child.status()) != 0 || reply.empty()) {
       throw failed(ending(_child.status(), _options));
@@ -131,14 +134,19 @@ class Conversation {
   }
 
  private:
-  /// Waits for the child (or `longest`) and returns what poll says about its socket. Throws, and
-  /// with it kills the child, when stopped or out of time.
+  /// Waits for the child, at most `longest`, and returns poll's events of its socket. Throws when
+  /// stopped or out of time, which kills the child.
   short wait(short events, std::chrono::milliseconds longest = std::chrono::hours(1)) {
     if (_stop.stop_requested()) throw Error(Reason::cancelled, "meshing was cancelled");
     const auto left =
         std::chrono::duration_cast<std::chrono::milliseconds>(_deadline - Clock::now());
-    if (left.count() <= 0) throw failed(time_limit_message(_options.time_limit));
-    // poll ignores a negative descriptor; an ended socket would be ready for ever
+    if (left.count() <= 0) {
+      throw failed(
+          fmt::format("the mesher was stopped after {} s, its time limit; choose a coarser "
+                      "mesh or raise the limit",
+                      _options.time_limit.count()));
+    }
+    // poll ignores a negative descriptor; a closed socket would always be ready
     pollfd polled[2] = {{events == 0 ? -1 : _child.socket(), events, 0},
                         {_wake.descriptor(), POLLIN, 0}};
     const auto timeout = std::min(left + std::chrono::milliseconds(1), longest);
@@ -148,7 +156,7 @@ class Conversation {
     return polled[0].revents;
   }
 
-  /// False at the end of what the child says.
+  /// False at the end of the child's output.
   bool receive(mesh::Bytes& reply) {
     constexpr std::size_t step = 1U << 18;
     const std::size_t used = reply.size();
@@ -156,8 +164,10 @@ class Conversation {
     const ssize_t n = recv(_child.socket(), reply.data() + used, step, 0);
     reply.resize(used + static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
     if (reply.size() > _most_bytes) {
-      throw failed("the mesher's answer is longer than " + std::to_string(_most_bytes) +
-                   " bytes, more than the triangles asked for can take");
+      throw failed(
+          fmt::format("the mesher's answer is longer than {} bytes, too long for the "
+                      "triangles asked for",
+                      _most_bytes));
     }
     if (n > 0) return true;
     return n < 0 && (errno == EAGAIN || errno == EINTR);
@@ -179,17 +189,19 @@ mesh::Bytes converse(const HelperOptions& options, const mesh::MesherRequest& re
                               std::move(file));
     return conversation.exchange(mesh::encode(request));
   } catch (const std::system_error& error) {
-    throw failed("cannot run the mesher \"" + options.executable + "\": " + error.code().message() +
-                 "; it is installed with the server, beside it or in ../libexec/anticrack");
+    throw failed(
+        fmt::format("cannot run the mesher \"{}\": {}; it is installed with the server, "
+                    "beside it or in ../libexec/anticrack",
+                    options.executable, error.code().message()));
   }
 }
 
-/// The file, found to begin as a .msh does. What is checked is what is read: through the
-/// descriptor, whatever happens to the path.
+/// Opens a file that begins as a .msh does. The check and the child use the same descriptor, so the
+/// file cannot be exchanged in between.
 Descriptor open_msh(const std::string& path) {
   Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   char start[msh_token.size() + 1] = {};
-  // leaves the offset, which the child shares, at the beginning
+  // pread leaves the offset, which the child shares, at 0
   const ssize_t n = file.empty() ? -1 : pread(file.get(), start, sizeof start, 0);
   if (n < 0) {
     throw Error(Reason::mesh_invalid,
@@ -203,7 +215,7 @@ Descriptor open_msh(const std::string& path) {
                     (first.back() == '\n' || first.back() == '\r' || first.back() == ' ');
   if (!first.starts_with(msh_token) || !ends) {
     throw Error(Reason::mesh_invalid,
-                "the file does not begin with $MeshFormat, so it is no .msh file; save the mesh "
+                "the file does not begin with $MeshFormat, so it is not a .msh file; save the mesh "
                 "as MSH 4.1 or 2.2 (gmsh case.geo -2 -o case.msh)");
   }
   return file;
@@ -233,7 +245,7 @@ mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
   try {
     mesh::validate(mesh);
   } catch (const Error& error) {
-    // the user drew no triangles, so no field of the request is at fault
+    // the triangles are not the user's, so no field of the request is at fault
     if (std::holds_alternative<mesh::ImportRequest>(request)) throw;
     throw failed(std::string("the mesh made of this geometry is not usable: ") + error.what() +
                  "; choose preset uniform, or remove details far smaller than the rest");

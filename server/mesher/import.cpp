@@ -9,9 +9,9 @@
 #include "mesher/curve_groups.hpp"
 #include "mesher/edge_roles.hpp"
 #include "mesher/interface_chains.hpp"
+#include "mesher/messages.hpp"
 #include "mesher/plane_mesh.hpp"
 #include "mesher/plus_side.hpp"
-#include "mesher/refuse.hpp"
 #include "mesher/surface_groups.hpp"
 #include "mesher/welding.hpp"
 
@@ -21,8 +21,7 @@ namespace {
 using mesh::Kind;
 using mesh::Mesh;
 
-/// Of warnings: more are not read.
-constexpr std::size_t most_warnings = 100;
+constexpr std::size_t max_warnings = 100;
 
 /// The mesh after welding, without subdomains and interfaces.
 Mesh welded_mesh(const PlaneMesh& plane, const Welding& welding) {
@@ -30,26 +29,27 @@ Mesh welded_mesh(const PlaneMesh& plane, const Welding& welding) {
   mesh.warnings = plane.warnings;
   mesh.xy.reserve(2 * welding.node_count);
   for (std::size_t i = 0; i < welding.node.size(); ++i) {
-    if (static_cast<std::size_t>(welding.node[i]) < mesh.node_count()) continue;
+    if (at(welding.node[i]) < mesh.node_count()) continue;
     mesh.xy.push_back(plane.xy[2 * i]);
     mesh.xy.push_back(plane.xy[2 * i + 1]);
   }
   mesh.triangles.reserve(plane.triangles.size());
   for (const std::int32_t node : plane.triangles) {
-    mesh.triangles.push_back(welding.node[static_cast<std::size_t>(node)]);
+    mesh.triangles.push_back(welding.node[at(node)]);
   }
   const std::size_t doubles = welding.node.size() - welding.node_count;
   if (doubles > 0) {
     mesh.warnings.push_back(
-        std::to_string(doubles) + (doubles == 1 ? " node that lies" : " nodes that lie") +
-        " on another made one with it, as are " + std::to_string(welding.doubled.size()) +
-        " pairs of edges: cracks are opened again by the solver");
+        fmt::format("{} on another made one with it, as are {} pairs of edges: cracks are opened "
+                    "again by the solver",
+                    doubles == 1 ? "1 node that lies" : fmt::format("{} nodes that lie", doubles),
+                    welding.doubled.size()));
   }
   return mesh;
 }
 
 std::array<std::int32_t, 3> sorted_nodes(const PlaneMesh& plane, std::int32_t triangle) {
-  const auto i = 3 * static_cast<std::size_t>(triangle);
+  const auto i = 3 * at(triangle);
   std::array<std::int32_t, 3> nodes{plane.triangles[i], plane.triangles[i + 1],
                                     plane.triangles[i + 2]};
   std::sort(nodes.begin(), nodes.end());
@@ -58,26 +58,25 @@ std::array<std::int32_t, 3> sorted_nodes(const PlaneMesh& plane, std::int32_t tr
 
 [[noreturn]] void refuse_overlap(const MshFile& file, const PlaneMesh& plane,
                                  const mesh::EdgeUse& a, const mesh::EdgeUse& b) {
-  const auto& first = file.triangles[static_cast<std::size_t>(a.triangle)];
-  const auto& second = file.triangles[static_cast<std::size_t>(b.triangle)];
-  const auto tag = [&](std::int32_t node) {
-    return std::to_string(plane.tags[static_cast<std::size_t>(node)]);
-  };
-  const std::string edge = "the edge of nodes " + tag(a.from) + " and " + tag(a.to);
+  const auto& first = file.triangles[at(a.triangle)];
+  const auto& second = file.triangles[at(b.triangle)];
+  const auto tag = [&](std::int32_t node) { return plane.tags[at(node)]; };
+  const std::string edge = fmt::format("the edge of nodes {} and {}", tag(a.from), tag(a.to));
   if (sorted_nodes(plane, a.triangle) != sorted_nodes(plane, b.triangle)) {
-    refuse("triangles " + std::to_string(first.tag) + " and " + std::to_string(second.tag) +
-           " overlap at " + edge + "; mesh every surface once");
+    refuse("triangles {} and {} overlap at {}; mesh every surface once", first.tag, second.tag,
+           edge);
   }
   if (first.group != second.group) {
-    refuse("a triangle at " + edge + " is in the physical surfaces " + std::to_string(first.group) +
-           " and " + std::to_string(second.group) +
-           "; a surface belongs to one subdomain, so put it in one group");
+    refuse(
+        "a triangle at {} is in the physical surfaces {} and {}; a surface belongs to one "
+        "subdomain, so put it in one group",
+        edge, first.group, second.group);
   }
-  refuse("triangles " + std::to_string(first.tag) + " and " + std::to_string(second.tag) +
-         " are the same, at " + edge + "; mesh every surface once");
+  refuse("triangles {} and {} are the same, at {}; mesh every surface once", first.tag, second.tag,
+         edge);
 }
 
-/// Of three triangles at one edge two lie on the same side.
+/// Refuses two triangles on the same side of an edge.
 void check_sides(const MshFile& file, const PlaneMesh& plane) {
   mesh::EdgeTable(plane.triangles).each([&](std::span<const mesh::EdgeUse> uses) {
     for (std::size_t i = 1; i < uses.size(); ++i) {
@@ -88,7 +87,7 @@ void check_sides(const MshFile& file, const PlaneMesh& plane) {
   });
 }
 
-/// Lines between nodes of triangles; others are left out, or refused if they say something.
+/// Lines between nodes of triangles. Others are left out, or refused if they have a meaning.
 std::vector<CurveEdge> take_lines(const MshFile& file, const PlaneMesh& plane,
                                   const Welding& welding, const CurveGroups& groups, Mesh& mesh) {
   std::vector<CurveEdge> lines;
@@ -99,24 +98,24 @@ std::vector<CurveEdge> take_lines(const MshFile& file, const PlaneMesh& plane,
     const auto a = plane.of.find(line.nodes[0]);
     const auto b = plane.of.find(line.nodes[1]);
     if (a != plane.of.end() && b != plane.of.end() && a->second >= 0 && b->second >= 0) {
-      lines.push_back({welding.node[static_cast<std::size_t>(a->second)],
-                       welding.node[static_cast<std::size_t>(b->second)], group});
+      lines.push_back({welding.node[at(a->second)], welding.node[at(b->second)], group});
     } else if (group != nullptr && group->meaning) {
-      refuse("line " + std::to_string(line.tag) + " of " + group->title +
-             " has a node that belongs to no triangle; mesh surfaces and curves together");
+      refuse(
+          "line {} of {} has a node that belongs to no triangle; mesh surfaces and curves together",
+          line.tag, group->title);
     } else if (group != nullptr) {
       ++stray[group->tag];
     }
   }
   for (const auto& [tag, count] : stray) {
-    mesh.warnings.push_back(groups.groups.at(tag).title + " has " + std::to_string(count) +
-                            (count == 1 ? " line" : " lines") +
-                            " with nodes that belong to no triangle: left out");
+    mesh.warnings.push_back(
+        fmt::format("{} has {} line{} with nodes that belong to no triangle: left out",
+                    groups.groups.at(tag).title, count, count == 1 ? "" : "s"));
   }
   return lines;
 }
 
-/// Where elementary curves and doubled nodes may part a surface.
+/// Edges at which lines and doubled nodes may divide a surface.
 std::vector<std::pair<std::int32_t, std::int32_t>> cuts_of(const std::vector<CurveEdge>& lines,
                                                            const Welding& welding) {
   std::vector<std::pair<std::int32_t, std::int32_t>> cuts;
@@ -131,8 +130,8 @@ std::vector<bool> boundary_nodes(const mesh::EdgeTable& edges, const Mesh& mesh)
   std::vector<bool> found(mesh.node_count(), false);
   edges.each([&](std::span<const mesh::EdgeUse> uses) {
     if (uses.size() != 1) return;
-    found[static_cast<std::size_t>(uses[0].from)] = true;
-    found[static_cast<std::size_t>(uses[0].to)] = true;
+    found[at(uses[0].from)] = true;
+    found[at(uses[0].to)] = true;
   });
   return found;
 }
@@ -143,54 +142,40 @@ Kind kind_of(CurveRole role) {
   return role == CurveRole::delaminated ? Kind::delaminated : Kind::glue;
 }
 
-/// Numbers inclusions in the order in which they are met.
-class InclusionNumbers {
- public:
-  explicit InclusionNumbers(Mesh& mesh) : _mesh(mesh) {}
-
-  std::int32_t of(const CurveMeaning& meaning) {
-    if (meaning.role != CurveRole::inclusion && meaning.role != CurveRole::delaminated) return -1;
-    const auto next = static_cast<std::int32_t>(_mesh.inclusions.size());
-    const auto [entry, added] = _known.emplace(meaning.name, next);
-    if (added) _mesh.inclusions.push_back(meaning.name);
-    return entry->second;
-  }
-
- private:
-  Mesh& _mesh;
-  std::map<std::string, std::int32_t> _known;
-};
-
 void take_interfaces(const EdgeRoles& roles, const std::vector<bool>& on_boundary,
                      const LineDirections& directions, Mesh& mesh) {
   std::vector<Chain> chains = build_chains(roles.interfaces, on_boundary);
   const bool single = chains.size() == 1;
-  InclusionNumbers numbers(mesh);
+  std::map<std::string, std::int32_t> inclusions;  // numbered in the order in which they are met
+  const auto inclusion_of = [&](const CurveMeaning& meaning) -> std::int32_t {
+    if (meaning.role != CurveRole::inclusion && meaning.role != CurveRole::delaminated) return -1;
+    const auto next = static_cast<std::int32_t>(inclusions.size());
+    const auto [entry, added] = inclusions.emplace(meaning.name, next);
+    if (added) mesh.inclusions.push_back(meaning.name);
+    return entry->second;
+  };
   mesh.interfaces.reserve(chains.size());
   for (Chain& found : chains) {
     Oriented oriented = orient(std::move(found), mesh, directions);
     mesh::Interface interface;
-    interface.name =
-        single ? "interface" : "interface-" + std::to_string(mesh.interfaces.size() + 1);
+    interface.name = single ? "interface" : fmt::format("interface-{}", mesh.interfaces.size() + 1);
     interface.nodes = std::move(oriented.chain.nodes);
     interface.kind.reserve(oriented.chain.edges.size());
     interface.inclusion.reserve(oriented.chain.edges.size());
     for (const InterfaceEdge* edge : oriented.chain.edges) {
       interface.kind.push_back(kind_of(edge->meaning.role));
-      interface.inclusion.push_back(numbers.of(edge->meaning));
+      interface.inclusion.push_back(inclusion_of(edge->meaning));
     }
-    if (!oriented.note.empty()) {
-      mesh.warnings.push_back(interface.name + ": " + oriented.note);
-    }
+    if (!oriented.note.empty()) mesh.warnings.push_back(interface.name + ": " + oriented.note);
     mesh.interfaces.push_back(std::move(interface));
   }
 }
 
 void shorten(std::vector<std::string>& warnings) {
-  if (warnings.size() <= most_warnings) return;
-  const std::size_t more = warnings.size() - most_warnings;
-  warnings.resize(most_warnings);
-  warnings.push_back("and " + std::to_string(more) + " more");
+  if (warnings.size() <= max_warnings) return;
+  const std::size_t more = warnings.size() - max_warnings;
+  warnings.resize(max_warnings);
+  warnings.push_back(fmt::format("and {} more", more));
 }
 
 }  // namespace

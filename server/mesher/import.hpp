@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From a .msh file to a mesh: by its groups, by what the request says of them, else by adjacency.
+// From a .msh file to a mesh: by its groups, by the request's options, else by adjacency.
 //
-// Subdomains: surface_groups.hpp. Curves: curve_groups.hpp (names), edge_roles.hpp (what has none).
-// Doubled nodes: welding.hpp. Plus side of an interface: plus_side.hpp. What was repaired or
-// assumed is told in Mesh::warnings.
+// Subdomains: surface_groups.hpp. Curves: curve_groups.hpp (named), edge_roles.hpp (unnamed).
+// Doubled nodes: welding.hpp. Plus side of an interface: plus_side.hpp. Mesh::warnings lists
+// repairs and assumptions.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ namespace anticrack::mesher {
 mesh::Mesh import_msh(std::string_view bytes, const mesh::MeshOptions& options,
                       std::size_t max_triangles);
 
-/// Understands what was read. The result satisfies mesh::validate. Interfaces are called
+/// From a file that was read. The result satisfies mesh::validate. Interfaces are called
 /// "interface" (the only one) or "interface-1", "interface-2", ...; inclusions are numbered along
 /// them. O(m log m).
 mesh::Mesh to_mesh(const MshFile& file, const mesh::MeshOptions& options);

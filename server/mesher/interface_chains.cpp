@@ -36,7 +36,7 @@ class Walker {
 
  private:
   bool ends_at(std::int32_t node) const {
-    return _at.at(node).size() != 2 || _on_boundary[static_cast<std::size_t>(node)];
+    return _at.at(node).size() != 2 || _on_boundary[at(node)];
   }
 
   Chain walk(std::int32_t node, std::size_t next) {

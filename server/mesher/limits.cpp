@@ -18,11 +18,11 @@ namespace {
   throw std::system_error(errno, std::system_category(), what);
 }
 
-/// `slack`: how far the hard limit lies above, where reaching the soft one is only a signal.
+/// `slack`: how far the hard limit is above the soft one, which only sends a signal.
 void limit(decltype(RLIMIT_AS) resource, rlim_t value, const char* name, rlim_t slack = 0) {
   rlimit current{};
   if (getrlimit(resource, &current) != 0) fail(name);
-  // whoever started the server may have set less, and it cannot be raised
+  // limits below these cannot be raised
   const rlimit wanted{std::min(value, current.rlim_max), std::min(value + slack, current.rlim_max)};
   if (setrlimit(resource, &wanted) != 0) fail(name);
 }
@@ -30,13 +30,13 @@ void limit(decltype(RLIMIT_AS) resource, rlim_t value, const char* name, rlim_t 
 }  // namespace
 
 void restrict_process(const Limits& limits) {
-  // at the hard limit it would be SIGKILL, which says nothing
+  // the hard limit would send SIGKILL, which does not show the reason
   limit(RLIMIT_CPU, limits.cpu_seconds, "RLIMIT_CPU", 2);
   limit(RLIMIT_CORE, 0, "RLIMIT_CORE");
   if (!sanitized) {
     limit(RLIMIT_AS, limits.memory_bytes, "RLIMIT_AS");
     limit(RLIMIT_NOFILE, 0, "RLIMIT_NOFILE");
-    // a write beyond the next limit is to fail, not to kill
+    // writes beyond the next limit must fail instead of killing
     if (signal(SIGXFSZ, SIG_IGN) == SIG_ERR) fail("SIGXFSZ");
     limit(RLIMIT_FSIZE, 0, "RLIMIT_FSIZE");
   }

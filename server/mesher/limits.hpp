@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the helper process denies itself before it looks at its input.
+// Resource limits that the helper process sets for itself before it reads its input.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@ struct Limits {
   std::uint64_t cpu_seconds = 0;   ///< RLIMIT_CPU: SIGXCPU
 };
 
-/// Sets the limits, and beyond them: no descriptor but those it has (not under a sanitizer), no
-/// core dump, no bytes written to files, no new privileges, death with the parent. Throws
-/// std::system_error. Call it while the process has one thread.
+/// Sets the limits and also forbids new descriptors and bytes written to files (not under a
+/// sanitizer), core dumps and new privileges; the process ends with its parent. Call it while the
+/// process has one thread. Throws std::system_error.
 void restrict_process(const Limits& limits);
 
 }  // namespace anticrack::mesher

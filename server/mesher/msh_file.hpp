@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a .msh file says, before any of it is understood as a membrane.
+// The content of a .msh file, not yet a membrane.
 #pragma once
 
 #include <array>
@@ -26,17 +26,16 @@ struct MshFile {
   std::map<int, std::string> surface_names;  ///< as above
   std::vector<std::uint64_t> node_tags;      ///< (n)
   std::vector<double> xyz;                   ///< (n,3) row-major
-  /// One entry for each physical group the line is in; direction as in the file, turned round where
-  /// the group takes the curve backwards.
+  /// One entry for each physical group of a line. The direction is that of the file, reversed if
+  /// the group contains the curve backwards.
   std::vector<MshElement<2>> lines;
   std::vector<MshElement<3>> triangles;
 };
 
-/// Reads MSH 2.2 and 4.1, ascii and binary, without gmsh: its own reader is lenient about damaged
-/// files and cannot be kept from taking one for a script. Points are passed over.
-/// Throws errors::Error: mesh_invalid (damaged, another version, elements other than 2-node lines
-/// and 3-node triangles, names used twice), limit_exceeded (more than `max_triangles`).
-/// Linear in the size of the file.
+/// Reads MSH 2.2 and 4.1, ascii and binary, without gmsh: its reader tolerates damaged files and
+/// may take a file for a script. Skips points. Throws errors::Error: mesh_invalid (damaged, another
+/// version, elements other than 2-node lines and 3-node triangles, names used twice),
+/// limit_exceeded (more than `max_triangles`). Linear in the size of the file.
 MshFile read_msh(std::string_view bytes, std::size_t max_triangles);
 
 }  // namespace anticrack::mesher

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "errors/errors.hpp"
-
 namespace anticrack::mesher {
 namespace {
 
@@ -50,7 +48,7 @@ std::string_view MshScanner::rest_of_line() {
 void MshScanner::expect(std::string_view wanted) {
   const std::string_view found = word();
   if (found != wanted) {
-    fail("expected " + std::string(wanted) + ", found \"" + printable(found) + "\"");
+    fail("expected {}, found \"{}\"", wanted, printable(found));
   }
 }
 
@@ -70,30 +68,24 @@ bool MshScanner::skip_past(std::string_view wanted) {
 
 void MshScanner::require_room(std::size_t count, std::size_t least_bytes) const {
   if (count > (_bytes.size() - _at) / least_bytes) {
-    fail("announces " + std::to_string(count) + " entries, more than the " +
-         std::to_string(_bytes.size() - _at) +
-         " bytes that follow can hold; the file is truncated or damaged, save it again");
+    fail(
+        "announces {} entries, more than the {} bytes that follow can hold; the file is truncated "
+        "or "
+        "damaged, save it again",
+        count, _bytes.size() - _at);
   }
 }
 
-void MshScanner::fail(const std::string& why) const {
-  std::string where = "byte " + std::to_string(_at);
-  if (!_binary) {
-    const auto lines =
-        std::count(_bytes.begin(), _bytes.begin() + static_cast<std::ptrdiff_t>(_at), '\n');
-    where = "line " + std::to_string(lines + 1);
-  }
-  throw errors::Error(
-      errors::Reason::mesh_invalid,
-      ".msh file, " + where + (_section.empty() ? "" : ", in " + _section) + ": " + why);
+std::string MshScanner::place() const {
+  const auto at = static_cast<std::ptrdiff_t>(_at);
+  const std::string where =
+      _binary ? fmt::format("byte {}", _at)
+              : fmt::format("line {}", std::count(_bytes.begin(), _bytes.begin() + at, '\n') + 1);
+  return fmt::format(".msh file, {}{}{}", where, _section.empty() ? "" : ", in ", _section);
 }
 
 void MshScanner::truncated() const {
   fail("the file ends too early; it is truncated, save it again");
-}
-
-void MshScanner::not_a_number(std::string_view token) const {
-  fail("expected a number, found \"" + printable(token) + "\"");
 }
 
 }  // namespace anticrack::mesher

@@ -9,38 +9,44 @@
 #include <string_view>
 #include <type_traits>
 
+#include "mesher/messages.hpp"
+
 namespace anticrack::mesher {
 
-/// Walks over the bytes of a file. Every failure is an errors::Error (mesh_invalid) that says
+/// For messages: at most 32 characters, '?' for those that cannot be printed.
+std::string printable(std::string_view text);
+
+/// Reads the bytes of a file in order. Every failure is an errors::Error (mesh_invalid) that says
 /// where.
 class MshScanner {
  public:
   explicit MshScanner(std::string_view bytes) noexcept : _bytes(bytes) {}
 
-  /// How the numbers that come are written; text at first.
+  /// The format of the numbers that follow; at first text.
   void set_binary(bool binary) noexcept { _binary = binary; }
   bool binary() const noexcept { return _binary; }
-  /// Named in messages, "$Nodes".
+  /// The section for messages, "$Nodes".
   void enter(std::string section) { _section = std::move(section); }
 
   /// True when only white space is left.
   bool at_end() noexcept;
   /// The next word between white space; fails at the end of the file.
   std::string_view word();
-  /// The rest of the line, its end consumed.
+  /// The rest of the line, without its end.
   std::string_view rest_of_line();
   /// Fails unless the next word is this one.
   void expect(std::string_view wanted);
-  /// Moves behind the next line that is this word; false if there is none.
+  /// Moves past the next line that begins with this word; false if there is none.
   bool skip_past(std::string_view wanted);
 
-  /// A number as text, in binary files too (counts of format 2.2 and the head).
+  /// A number as text, also in binary files (counts of format 2.2 and the header).
   template <class T>
   T text_number() {
     const std::string_view token = word();
     T value{};
     const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
-    if (error != std::errc{} || end != token.data() + token.size()) not_a_number(token);
+    if (error != std::errc{} || end != token.data() + token.size())
+      fail("expected a number, found \"{}\"", printable(token));
     return value;
   }
   /// A number in the format of the file.
@@ -48,7 +54,7 @@ class MshScanner {
   T number() {
     return _binary ? raw<T>() : text_number<T>();
   }
-  /// A number as it is in memory. Fails where the file ends before.
+  /// A number as in memory, little-endian. Fails at the end of the file.
   template <class T>
   T raw() {
     static_assert(std::is_arithmetic_v<T>);
@@ -62,12 +68,15 @@ class MshScanner {
   /// Fails unless the rest of the file can hold this many items of `least_bytes` each.
   void require_room(std::size_t count, std::size_t least_bytes) const;
 
-  /// Throw errors::Error (mesh_invalid): the section, the line or byte, and why.
-  [[noreturn]] void fail(const std::string& why) const;
-  [[noreturn]] void truncated() const;
+  /// Throws errors::Error (mesh_invalid) with the section, the line or byte, and the message.
+  template <class... Values>
+  [[noreturn]] void fail(fmt::format_string<Values...> message, Values&&... values) const {
+    refuse("{}: {}", place(), fmt::format(message, std::forward<Values>(values)...));
+  }
 
  private:
-  [[noreturn]] void not_a_number(std::string_view token) const;
+  [[noreturn]] void truncated() const;
+  std::string place() const;
   void skip_space() noexcept;
 
   std::string_view _bytes;
@@ -75,8 +84,5 @@ class MshScanner {
   bool _binary = false;
   std::string _section;
 };
-
-/// For messages: at most 32 characters, what is not printable as '?'.
-std::string printable(std::string_view text);
 
 }  // namespace anticrack::mesher

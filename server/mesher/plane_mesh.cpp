@@ -1,56 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesher/plane_mesh.hpp"
-#include "mesher/refuse.hpp"
+#include "mesher/messages.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 namespace anticrack::mesher {
 namespace {
 
-/// What a plane geometry that was rotated or scaled may leave in z, relative to its size.
+/// Rounding in z of a plane geometry that was rotated or scaled, relative to its size.
 constexpr double plane_tolerance = 1e-9;
-/// Squares of lengths below it, and their sums, are finite.
+/// Keeps squares of lengths and their sums finite.
 constexpr double largest_coordinate = 1e100;
 
-template <class... Parts>
-std::string text_of(const Parts&... parts) {
-  std::ostringstream text;
-  (text << ... << parts);
-  return text.str();
-}
-
 double area(const std::vector<double>& xy, const std::array<std::int32_t, 3>& nodes) {
-  const auto x = [&](std::size_t i) { return xy[2 * static_cast<std::size_t>(nodes[i])]; };
-  const auto y = [&](std::size_t i) { return xy[2 * static_cast<std::size_t>(nodes[i]) + 1]; };
+  const auto x = [&](std::size_t i) { return xy[2 * at(nodes[i])]; };
+  const auto y = [&](std::size_t i) { return xy[2 * at(nodes[i]) + 1]; };
   return 0.5 * ((x(1) - x(0)) * (y(2) - y(0)) - (y(1) - y(0)) * (x(2) - x(0)));
 }
 
-/// Finds the nodes of triangles: 0 for those, -1 for others.
+/// Sets mesh.of to 0 for nodes of triangles, to -1 for others.
 void find_used(const MshFile& file, PlaneMesh& mesh) {
   mesh.of.reserve(file.node_tags.size());
   for (const std::uint64_t tag : file.node_tags) {
     if (!mesh.of.emplace(tag, -1).second) {
-      refuse("node " + std::to_string(tag) + " is there twice; save the mesh again");
+      refuse("node {} is defined twice; save the mesh again", tag);
     }
   }
   for (const auto& t : file.triangles) {
     for (const std::uint64_t tag : t.nodes) {
       const auto found = mesh.of.find(tag);
       if (found == mesh.of.end()) {
-        refuse("triangle " + std::to_string(t.tag) + " has node " + std::to_string(tag) +
-               ", which the file does not define; save the mesh again");
+        refuse("triangle {} has node {}, which the file does not define; save the mesh again",
+               t.tag, tag);
       }
       found->second = 0;
     }
   }
 }
 
-/// The z of the used nodes, one for all.
+/// The common z of the used nodes.
 double plane_of(const MshFile& file, const PlaneMesh& mesh) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::array<double, 3> low{infinity, infinity, infinity};
@@ -61,8 +53,8 @@ double plane_of(const MshFile& file, const PlaneMesh& mesh) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double value = file.xyz[3 * i + k];
       if (std::abs(value) > largest_coordinate) {
-        refuse(text_of("node ", file.node_tags[i], " has a coordinate of ", value,
-                       "; choose a unit of length in which the membrane is smaller"));
+        refuse("node {} has a coordinate of {:g}; choose a larger unit of length",
+               file.node_tags[i], value);
       }
       if (k == 2 && value < low[2]) lowest_highest[0] = file.node_tags[i];
       if (k == 2 && value > high[2]) lowest_highest[1] = file.node_tags[i];
@@ -72,9 +64,8 @@ double plane_of(const MshFile& file, const PlaneMesh& mesh) {
   }
   const double extent = std::max(high[0] - low[0], high[1] - low[1]);
   if (high[2] - low[2] > plane_tolerance * extent) {
-    refuse(text_of("node ", lowest_highest[0], " lies at z = ", low[2], ", node ",
-                   lowest_highest[1], " at z = ", high[2],
-                   "; a membrane lies in a plane of one z"));
+    refuse("node {} lies at z = {:g}, node {} at z = {:g}; a membrane lies in a plane of one z",
+           lowest_highest[0], low[2], lowest_highest[1], high[2]);
   }
   return std::abs(high[2]) > plane_tolerance * extent ? high[2] : 0;
 }
@@ -90,9 +81,9 @@ void take_nodes(const MshFile& file, PlaneMesh& mesh) {
   }
   const std::size_t unused = file.node_tags.size() - mesh.tags.size();
   if (unused > 0) {
-    mesh.warnings.push_back(text_of(unused,
-                                    unused == 1 ? " node that belongs" : " nodes that belong",
-                                    " to no triangle left out"));
+    mesh.warnings.push_back(fmt::format(
+        "{} to no triangle left out",
+        unused == 1 ? "1 node that belongs" : fmt::format("{} nodes that belong", unused)));
   }
 }
 
@@ -107,15 +98,16 @@ void take_triangles(const MshFile& file, PlaneMesh& mesh) {
       ++turned;
     }
     if (!(area(mesh.xy, nodes) > 0)) {
-      const auto i = 2 * static_cast<std::size_t>(nodes[0]);
-      refuse(text_of("triangle ", t.tag, " at (", mesh.xy[i], ", ", mesh.xy[i + 1],
-                     ") has no area; mesh again"));
+      const auto i = 2 * at(nodes[0]);
+      refuse("triangle {} at ({:g}, {:g}) has no area; mesh again", t.tag, mesh.xy[i],
+             mesh.xy[i + 1]);
     }
     mesh.triangles.insert(mesh.triangles.end(), nodes.begin(), nodes.end());
   }
   if (turned > 0) {
-    mesh.warnings.push_back(text_of(turned, turned == 1 ? " triangle was" : " triangles were",
-                                    " clockwise, turned round"));
+    mesh.warnings.push_back(
+        fmt::format("{} clockwise, turned round",
+                    turned == 1 ? "1 triangle was" : fmt::format("{} triangles were", turned)));
   }
 }
 
@@ -128,12 +120,12 @@ PlaneMesh read_plane(const MshFile& file) {
         "physical groups before saving");
   }
   if (file.node_tags.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    refuse(text_of("the mesh has ", file.node_tags.size(), " nodes, too many to number"));
+    refuse("the mesh has {} nodes, too many to number", file.node_tags.size());
   }
   PlaneMesh mesh;
   find_used(file, mesh);
   const double z = plane_of(file, mesh);
-  if (z != 0) mesh.warnings.push_back(text_of("the mesh lies at z = ", z, ": taken for z = 0"));
+  if (z != 0) mesh.warnings.push_back(fmt::format("the mesh lies at z = {:g}: taken for z = 0", z));
   take_nodes(file, mesh);
   take_triangles(file, mesh);
   return mesh;

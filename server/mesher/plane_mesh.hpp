@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Nodes and triangles of a file, checked and repaired, before groups are looked at.
+// Nodes and triangles of a file, checked and repaired; groups come later.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,10 @@ struct PlaneMesh {
   std::vector<std::string> warnings;
 };
 
-/// Drops nodes that no triangle uses, turns clockwise triangles round, lets z go where it is the
-/// same everywhere (to 1e-9 of the extent), each with a warning unless z = 0.
-/// Throws errors::Error (mesh_invalid): no triangle, too many nodes, a node there twice or not at
-/// all, coordinates too large, z that varies, a triangle without area. O(n + m).
+/// Drops nodes that no triangle uses, turns clockwise triangles round and drops a constant z (to
+/// 1e-9 of the extent), with warnings. Throws errors::Error (mesh_invalid): no triangle, too many
+/// nodes, a node defined twice or not at all, too large coordinates, varying z, a triangle without
+/// area. O(n + m).
 PlaneMesh read_plane(const MshFile& file);
 
 }  // namespace anticrack::mesher

@@ -11,7 +11,7 @@ bool is_glue(const InterfaceEdge* edge) {
 }
 
 std::pair<double, double> point(const mesh::Mesh& mesh, std::int32_t node) {
-  const auto i = 2 * static_cast<std::size_t>(node);
+  const auto i = 2 * at(node);
   return {mesh.xy[i], mesh.xy[i + 1]};
 }
 
@@ -38,7 +38,7 @@ std::string note(const mesh::Mesh& mesh, const Chain& chain, bool lines_differ) 
   const std::string why =
       lines_differ ? "the lines on it run both ways" : "no line of the file lies on it";
   if (chain.left != chain.right) {
-    return "subdomain \"" + mesh.subdomains[static_cast<std::size_t>(chain.left)] +
+    return "subdomain \"" + mesh.subdomains[at(chain.left)] +
            "\" is taken for its plus side: " + why +
            "; call the one on that side \"plus\", or let all lines run with it on their left, to "
            "choose";
@@ -74,7 +74,7 @@ LineDirections::Along LineDirections::of(const Chain& chain) const {
 
 Oriented orient(Chain chain, const mesh::Mesh& mesh, const LineDirections& directions) {
   using Along = LineDirections::Along;
-  const auto name = [&](std::int32_t s) { return mesh.subdomains[static_cast<std::size_t>(s)]; };
+  const auto name = [&](std::int32_t s) { return mesh.subdomains[at(s)]; };
   const auto is_plus = [&](std::int32_t s, std::int32_t facing) {
     return s != facing && (name(s) == "plus" || name(facing) == "minus");
   };

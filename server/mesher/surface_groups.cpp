@@ -5,30 +5,21 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "errors/errors.hpp"
 #include "mesh/names.hpp"
 #include "mesh/union_find.hpp"
-#include "mesher/curve_groups.hpp"
+#include "mesher/messages.hpp"
 #include "mesher/msh_scanner.hpp"
-#include "mesher/refuse.hpp"
 
 namespace anticrack::mesher {
 namespace {
 
 using mesh::Mesh;
 
-std::string quoted(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 20;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
-    text += std::string(i == 0 ? "" : ", ") + "\"" + names[i] + "\"";
-  }
-  if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
-  return text;
+[[noreturn]] void refuse_option(const std::string& field, const std::string& message) {
+  throw errors::Error(errors::Reason::invalid_argument, message).at(field);
 }
 
 /// The surfaces of the file: physical ones if it has any, else elementary ones.
@@ -39,8 +30,11 @@ class Surfaces {
                             [](const auto& t) { return t.group != 0; });
     for (const auto& t : file.triangles) {
       if (_physical && t.group == 0) {
-        refuse("triangle " + std::to_string(t.tag) + " of surface " + std::to_string(t.entity) +
-               " is in no physical surface, but others are; put every surface in one");
+        refuse(
+            "triangle {} of surface {} is in no physical surface, but others are; put every "
+            "surface "
+            "in one",
+            t.tag, t.entity);
       }
       _tags.insert(tag_of(t));
     }
@@ -63,26 +57,21 @@ class Surfaces {
 };
 
 void check_given(const Surfaces& surfaces, const std::map<std::int32_t, std::string>& given) {
+  const char* what = surfaces.physical() ? "surface group" : "surface";
   for (const auto& [tag, name] : given) {
-    const std::string field = "options.surface_groups[" + std::to_string(tag) + "]";
-    const std::string what = surfaces.physical() ? "surface group" : "surface";
+    const std::string field = fmt::format("options.surface_groups[{}]", tag);
     if (!surfaces.tags().contains(tag)) {
-      throw errors::Error(
-          errors::Reason::invalid_argument,
-          "the file has no " + what + " " + std::to_string(tag) + "; its " + what + "s are " +
-              list_of(std::vector<std::int32_t>(surfaces.tags().begin(), surfaces.tags().end())))
-          .at(field);
+      refuse_option(field, fmt::format("the file has no {0} {1}; its {0}s are {2}", what, tag,
+                                       list_of(surfaces.tags())));
     }
     if (!mesh::valid_name(name)) {
-      throw errors::Error(errors::Reason::invalid_argument,
-                          what + " " + std::to_string(tag) + " is said to be \"" + printable(name) +
-                              "\"; a subdomain's name is " + std::string(mesh::name_rule))
-          .at(field);
+      refuse_option(field, fmt::format("{} {} is given the name \"{}\"; a subdomain's name is {}",
+                                       what, tag, printable(name), mesh::name_rule));
     }
   }
 }
 
-/// Surfaces that the request gives one name are one subdomain; other names must differ.
+/// Surfaces to which the request gives the same name are one subdomain; other names must differ.
 void take_tags(const MshFile& file, const Surfaces& surfaces,
                const std::map<std::int32_t, std::string>& given, Mesh& mesh) {
   struct Named {
@@ -101,9 +90,10 @@ void take_tags(const MshFile& file, const Surfaces& surfaces,
     if (added) {
       mesh.subdomains.push_back(name);
     } else if (!is_given || !entry->second.given) {
-      refuse("surfaces " + std::to_string(entry->second.tag) + " and " + std::to_string(tag) +
-             " have the same name, \"" + name +
-             "\"; give each its own, or make them one physical group");
+      refuse(
+          "surfaces {} and {} have the same name, \"{}\"; give each its own, or make them one "
+          "physical group",
+          entry->second.tag, tag, name);
     }
     index_of[tag] = entry->second.index;
   }
@@ -126,36 +116,34 @@ void take_pieces(const mesh::EdgeTable& edges,
       mesh.subdomain.push_back(static_cast<std::int32_t>(mesh.subdomains.size()));
       mesh.subdomains.push_back(std::to_string(mesh.subdomains.size() + 1));
     } else {
-      mesh.subdomain.push_back(mesh.subdomain[static_cast<std::size_t>(first)]);
+      mesh.subdomain.push_back(mesh.subdomain[at(first)]);
     }
   }
-  mesh.warnings.push_back("the file has one surface and no physical one: " +
-                          (mesh.subdomains.size() == 1
-                               ? std::string("it is one subdomain, \"1\"")
-                               : "the " + std::to_string(mesh.subdomains.size()) +
-                                     " pieces into which its lines cut it are the subdomains " +
-                                     quoted(mesh.subdomains)));
+  const std::size_t count = mesh.subdomains.size();
+  mesh.warnings.push_back(
+      "the file has one surface and no physical one: " +
+      (count == 1 ? "it is one subdomain, \"1\""
+                  : fmt::format("the {} pieces into which its lines cut it are the subdomains {}",
+                                count, list_of(mesh.subdomains, "\""))));
 }
 
 void take_tension(const std::map<std::string, double>& given, Mesh& mesh) {
   if (given.empty()) return;
   mesh.tension.assign(mesh.subdomains.size(), 1.0);
   for (const auto& [name, value] : given) {
-    const std::string field = "options.tension[" + printable(name) + "]";
+    const std::string field = fmt::format("options.tension[{}]", printable(name));
     const auto found = std::find(mesh.subdomains.begin(), mesh.subdomains.end(), name);
     if (found == mesh.subdomains.end()) {
-      throw errors::Error(errors::Reason::invalid_argument,
-                          "tension is given for \"" + printable(name) +
-                              "\", which is not a subdomain; they are " + quoted(mesh.subdomains))
-          .at(field);
+      refuse_option(
+          field, fmt::format("tension is given for \"{}\", which is not a subdomain; they are {}",
+                             printable(name), list_of(mesh.subdomains, "\"")));
     }
     if (!(value > 0) || !std::isfinite(value)) {
-      std::ostringstream text;
-      text << "the tension of \"" << name << "\" is " << value
-           << "; it takes a finite number above 0";
-      throw errors::Error(errors::Reason::invalid_argument, text.str()).at(field);
+      refuse_option(
+          field,
+          fmt::format("the tension of \"{}\" is {:g}; give a finite number above 0", name, value));
     }
-    mesh.tension[static_cast<std::size_t>(found - mesh.subdomains.begin())] = value;
+    mesh.tension[at(found - mesh.subdomains.begin())] = value;
   }
 }
 
@@ -174,7 +162,7 @@ void read_surfaces(const MshFile& file, const mesh::MeshOptions& options,
     take_tags(file, surfaces, options.surface_groups, mesh);
     if (!surfaces.physical() && options.surface_groups.size() < surfaces.tags().size()) {
       mesh.warnings.push_back("the file has no physical surface: its surfaces are the subdomains " +
-                              quoted(mesh.subdomains));
+                              list_of(mesh.subdomains, "\""));
     }
   }
   take_tension(options.tension, mesh);

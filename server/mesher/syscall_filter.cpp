@@ -14,33 +14,31 @@
 namespace anticrack::mesher {
 namespace {
 
-/// What computing takes: seen with strace while gmsh meshed and while .msh files were read, and
-/// what else the C library's allocator, qsort (sysinfo), abort and clocks may use.
-constexpr int allowed[] = {
-    SCMP_SYS(read),
-    SCMP_SYS(write),
-    SCMP_SYS(brk),
-    SCMP_SYS(munmap),
-    SCMP_SYS(mremap),
-    SCMP_SYS(madvise),
-    SCMP_SYS(futex),
-    SCMP_SYS(getrandom),
-    SCMP_SYS(clock_gettime),
-    SCMP_SYS(gettimeofday),
-    SCMP_SYS(time),
-    SCMP_SYS(getrusage),
-    SCMP_SYS(times),
-    SCMP_SYS(sched_yield),
-    SCMP_SYS(getpid),
-    SCMP_SYS(gettid),
-    SCMP_SYS(restart_syscall),
-    SCMP_SYS(rt_sigprocmask),
-    SCMP_SYS(rt_sigaction),
-    SCMP_SYS(rt_sigreturn),
-    SCMP_SYS(exit),
-    SCMP_SYS(exit_group),
-    SCMP_SYS(sysinfo),
-};
+/// Calls needed to compute: those seen with strace while gmsh meshed and .msh files were read, and
+/// others that the C library's allocator, qsort (sysinfo), abort and clocks may make.
+constexpr int allowed[] = {SCMP_SYS(read),
+                           SCMP_SYS(write),
+                           SCMP_SYS(brk),
+                           SCMP_SYS(munmap),
+                           SCMP_SYS(mremap),
+                           SCMP_SYS(madvise),
+                           SCMP_SYS(futex),
+                           SCMP_SYS(getrandom),
+                           SCMP_SYS(clock_gettime),
+                           SCMP_SYS(gettimeofday),
+                           SCMP_SYS(time),
+                           SCMP_SYS(getrusage),
+                           SCMP_SYS(times),
+                           SCMP_SYS(sched_yield),
+                           SCMP_SYS(getpid),
+                           SCMP_SYS(gettid),
+                           SCMP_SYS(restart_syscall),
+                           SCMP_SYS(rt_sigprocmask),
+                           SCMP_SYS(rt_sigaction),
+                           SCMP_SYS(rt_sigreturn),
+                           SCMP_SYS(exit),
+                           SCMP_SYS(exit_group),
+                           SCMP_SYS(sysinfo)};
 
 void check(int result, const char* what) {
   if (result != 0) throw std::system_error(-result, std::system_category(), what);
@@ -50,7 +48,7 @@ struct Release {
   void operator()(void* filter) const noexcept { seccomp_release(filter); }
 };
 
-/// Where all of `conditions` on the arguments hold.
+/// Allows a call if all conditions on its arguments hold.
 void allow(void* filter, int call, const std::vector<scmp_arg_cmp>& conditions = {}) {
   check(seccomp_rule_add_array(filter, SCMP_ACT_ALLOW, call,
                                static_cast<unsigned>(conditions.size()), conditions.data()),
@@ -60,13 +58,11 @@ void allow(void* filter, int call, const std::vector<scmp_arg_cmp>& conditions =
 void load_filter() {
   const std::unique_ptr<void, Release> filter(seccomp_init(SCMP_ACT_KILL_PROCESS));
   check(filter ? 0 : -ENOMEM, "seccomp_init");
-  // a call of another architecture goes round the numbers below
+  // calls of another architecture have other numbers
   check(seccomp_attr_set(filter.get(), SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS), "seccomp");
   // a library may have started a thread
   check(seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1), "seccomp");
-  for (const int call : allowed) {
-    allow(filter.get(), call);
-  }
+  for (const int call : allowed) allow(filter.get(), call);
   // memory, never code
   for (const int call : {SCMP_SYS(mmap), SCMP_SYS(mprotect)}) {
     allow(filter.get(), call, {{2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0}});

@@ -6,28 +6,31 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <tuple>
 #include <utility>
 
 #include "mesh/edges.hpp"
 #include "mesh/union_find.hpp"
-#include "mesher/refuse.hpp"
+#include "mesher/messages.hpp"
 
 namespace anticrack::mesher {
 namespace {
 
-/// Of the extent. gmsh integrates along curves: on one line meshed from either end its nodes are
-/// 3e-12 apart.
+/// Relative to the extent. gmsh integrates along curves: nodes of a line meshed from either end
+/// differ by 3e-12.
 constexpr double same_place = 1e-9;
-/// Of the shortest rim edge: keeps the nodes of a mesh graded below `same_place` apart.
+/// Relative to the shortest rim edge, for meshes graded below `same_place`.
 constexpr double same_place_of_edge = 1e-3;
-/// Radians within which two edges from one node lie on one another. Opened notches are wider.
+/// Radians within which two edges from one node lie on each other. Opened notches are wider.
 constexpr double same_direction = 1e-9;
-/// Bounds what rounding of short edges adds to that.
+/// Limit of the same with the rounding of short edges.
 constexpr double widest_same_direction = 1e-3;
 
-/// Coordinates of the nodes, with what is asked of them.
+constexpr const char* matching_nodes =
+    "both sides must have the same nodes along their common line (in gmsh: one curve for both "
+    "surfaces, or Coherence, or the same Transfinite Curve on both)";
+
+/// Coordinates of the nodes, and their geometry.
 class Places {
  public:
   Places(std::span<const double> xy, std::span<const std::uint64_t> tags) : _xy(xy), _tags(tags) {
@@ -41,8 +44,8 @@ class Places {
     _extent = std::max(high[0] - low[0], high[1] - low[1]);
   }
 
-  double x(std::int32_t node) const { return _xy[2 * static_cast<std::size_t>(node)]; }
-  double y(std::int32_t node) const { return _xy[2 * static_cast<std::size_t>(node) + 1]; }
+  double x(std::int32_t node) const { return _xy[2 * at(node)]; }
+  double y(std::int32_t node) const { return _xy[2 * at(node) + 1]; }
   double distance(std::int32_t a, std::int32_t b) const {
     return std::hypot(x(b) - x(a), y(b) - y(a));
   }
@@ -59,10 +62,7 @@ class Places {
   }
 
   std::string describe(std::int32_t node) const {
-    std::ostringstream text;
-    text << "node " << _tags[static_cast<std::size_t>(node)] << " (" << x(node) << ", " << y(node)
-         << ")";
-    return text.str();
+    return fmt::format("node {} ({:g}, {:g})", _tags[at(node)], x(node), y(node));
   }
 
  private:
@@ -72,7 +72,7 @@ class Places {
   double _extent = 0;
 };
 
-/// An edge of one triangle; `low` and `high` stand for all nodes at the same places.
+/// An edge of one triangle; `low` and `high` represent all nodes at their places.
 struct RimEdge {
   std::int32_t low = 0;
   std::int32_t high = 0;
@@ -100,7 +100,7 @@ std::vector<std::int32_t> nodes_of(const std::vector<RimEdge>& rim) {
   return nodes;
 }
 
-/// Puts nodes that lie on one another into one set of `same`.
+/// Unites nodes at the same place.
 void find_coincident(const Places& places, const std::vector<RimEdge>& rim,
                      const std::vector<std::int32_t>& nodes, std::size_t node_count,
                      mesh::UnionFind& same) {
@@ -108,7 +108,7 @@ void find_coincident(const Places& places, const std::vector<RimEdge>& rim,
   for (const RimEdge& edge : rim) {
     const double length = places.distance(edge.use.from, edge.use.to);
     for (const std::int32_t node : {edge.use.from, edge.use.to}) {
-      double& known = shortest[static_cast<std::size_t>(node)];
+      double& known = shortest[at(node)];
       known = std::min(known, length);
     }
   }
@@ -127,15 +127,14 @@ void find_coincident(const Places& places, const std::vector<RimEdge>& rim,
         std::lower_bound(entries.begin(), entries.end(), cell,
                          [](const Entry& e, const auto& wanted) { return e.cell < wanted; });
     for (; other != entries.end() && other->cell == cell; ++other) {
-      const double bound =
-          std::min(same_place * places.extent(),
-                   same_place_of_edge * std::min(shortest[static_cast<std::size_t>(entry.node)],
-                                                 shortest[static_cast<std::size_t>(other->node)]));
+      const double bound = std::min(
+          same_place * places.extent(),
+          same_place_of_edge * std::min(shortest[at(entry.node)], shortest[at(other->node)]));
       if (places.distance(entry.node, other->node) <= bound) same.unite(entry.node, other->node);
     }
   };
   for (const Entry& entry : entries) {
-    // half of the neighbours, the others see this one
+    // half of the neighbours; the other half find this cell
     const auto [i, j] = entry.cell;
     for (const auto& cell : {std::array{i, j}, std::array{i, j + 1}, std::array{i + 1, j - 1},
                              std::array{i + 1, j}, std::array{i + 1, j + 1}}) {
@@ -144,7 +143,7 @@ void find_coincident(const Places& places, const std::vector<RimEdge>& rim,
   }
 }
 
-/// Marks edges that lie on one another in pairs; the rim comes out sorted by (low, high).
+/// Marks pairs of edges at the same place; sorts the rim by (low, high).
 void match(const Places& places, mesh::UnionFind& same, std::vector<RimEdge>& rim) {
   for (RimEdge& edge : rim) {
     const std::int32_t from = same.find(edge.use.from);
@@ -161,16 +160,15 @@ void match(const Places& places, mesh::UnionFind& same, std::vector<RimEdge>& ri
     if (a.low != b.low || a.high != b.high) continue;
     const bool same_side = same.find(a.use.from) == same.find(b.use.from);
     if (a.matched || same_side) {
-      refuse("triangles overlap at the edge from " + places.describe(b.use.from) + " to " +
-             places.describe(b.use.to) + ": " +
-             (same_side ? "two lie on the same side of it" : "more than two meet in it") +
-             "; mesh every surface once");
+      refuse("triangles overlap at the edge from {} to {}: {}; mesh every surface once",
+             places.describe(b.use.from), places.describe(b.use.to),
+             same_side ? "two lie on the same side of it" : "more than two meet in it");
     }
     a.matched = b.matched = true;
   }
 }
 
-/// Edges that start in one place in the same direction, but are not a pair: a node hangs.
+/// Refuses edges from one place in the same direction that are not a pair: hanging nodes.
 void refuse_hanging(const Places& places, mesh::UnionFind& same, const std::vector<RimEdge>& rim) {
   struct Ray {
     std::int32_t place = 0;
@@ -195,12 +193,11 @@ void refuse_hanging(const Places& places, mesh::UnionFind& same, const std::vect
     const double rounding = same_place * places.extent() / std::min(a.length, b.length);
     if (turn > std::min(same_direction + rounding, widest_same_direction)) return;
     const auto& [shorter, longer] = a.length < b.length ? std::tie(a, b) : std::tie(b, a);
-    refuse("the edge from " + places.describe(longer.from) + " to " + places.describe(longer.to) +
-           " lies on that from " + places.describe(shorter.from) + " to " +
-           places.describe(shorter.to) +
-           ", but they do not end in the same place: a node hangs; let both sides have the same "
-           "nodes along their common line (in gmsh: one curve for both surfaces, or Coherence, or "
-           "the same Transfinite Curve on both)");
+    refuse(
+        "the edge from {} to {} lies on the edge from {} to {}, but they end at different nodes "
+        "(hanging node); {}",
+        places.describe(longer.from), places.describe(longer.to), places.describe(shorter.from),
+        places.describe(shorter.to), matching_nodes);
   };
   for (std::size_t first = 0; first < rays.size();) {
     std::size_t last = first;
@@ -215,29 +212,26 @@ void refuse_hanging(const Places& places, mesh::UnionFind& same, const std::vect
   }
 }
 
-/// Nodes that lie on one another must do so along an edge.
+/// Nodes at the same place must belong to paired edges.
 void refuse_touching(const Places& places, mesh::UnionFind& same, const std::vector<RimEdge>& rim,
                      const std::vector<std::int32_t>& nodes, std::size_t node_count) {
   std::vector<bool> met(node_count, false);
   for (const RimEdge& edge : rim) {
     if (!edge.matched) continue;
-    met[static_cast<std::size_t>(edge.use.from)] = met[static_cast<std::size_t>(edge.use.to)] =
-        true;
+    met[at(edge.use.from)] = met[at(edge.use.to)] = true;
   }
   std::vector<std::int32_t> partner(node_count, -1);
   for (const std::int32_t node : nodes) {
     const std::int32_t first = same.find(node);
     if (first == node) continue;
-    partner[static_cast<std::size_t>(node)] = first;
-    partner[static_cast<std::size_t>(first)] = node;
+    partner[at(node)] = first;
+    partner[at(first)] = node;
   }
   for (const std::int32_t node : nodes) {
-    const std::int32_t other = partner[static_cast<std::size_t>(node)];
-    if (other < 0 || met[static_cast<std::size_t>(node)]) continue;
-    refuse(places.describe(node) + " lies on " + places.describe(other) +
-           ", but no edge of the one on an edge of the other; let both sides have the same nodes "
-           "along their common line (in gmsh: one curve for both surfaces, or Coherence, or the "
-           "same Transfinite Curve on both)");
+    const std::int32_t other = partner[at(node)];
+    if (other < 0 || met[at(node)]) continue;
+    refuse("{} lies on {}, but no edge of one lies on an edge of the other; {}",
+           places.describe(node), places.describe(other), matching_nodes);
   }
 }
 
@@ -247,9 +241,9 @@ Welding number(std::size_t node_count, mesh::UnionFind& same) {
   for (std::size_t i = 0; i < node_count; ++i) {
     const auto node = static_cast<std::int32_t>(i);
     const std::int32_t first = same.find(node);
-    // the first of its place comes before it and has its number already
+    // the first node of a place already has its number
     welding.node.push_back(first == node ? static_cast<std::int32_t>(welding.node_count++)
-                                         : welding.node[static_cast<std::size_t>(first)]);
+                                         : welding.node[at(first)]);
   }
   return welding;
 }
@@ -286,8 +280,8 @@ Welding weld(std::span<const double> xy, std::span<const std::int32_t> triangles
   for (std::size_t i = 1; i < rim.size(); ++i) {
     const RimEdge& edge = rim[i];
     if (!edge.matched || edge.low != rim[i - 1].low || edge.high != rim[i - 1].high) continue;
-    const auto low = welding.node[static_cast<std::size_t>(edge.low)];
-    const auto high = welding.node[static_cast<std::size_t>(edge.high)];
+    const auto low = welding.node[at(edge.low)];
+    const auto high = welding.node[at(edge.high)];
     welding.doubled.push_back(
         {low, high, joined.find(edge.use.from) != joined.find(rim[i - 1].use.from)});
   }

@@ -9,11 +9,9 @@ namespace anticrack::meshes {
 
 namespace {
 
-/// Without what has no effect on the preset.
+/// Clears options that have no effect with the preset.
 mesh::MeshOptions effective(mesh::MeshOptions options) {
-  if (options.preset == mesh::Preset::paper) {
-    options.size = 0;
-  }
+  if (options.preset == mesh::Preset::paper) options.size = 0;
   if (options.preset != mesh::Preset::graded) {
     options.tip_size = 0;
     options.grading = 0;

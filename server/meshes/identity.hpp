@@ -7,13 +7,12 @@
 
 namespace anticrack::meshes {
 
-/// Hash of all that decides what mesh a definition gives, 64 hexadecimal digits. Options without
-/// effect on a preset (the tip size of one that is not graded) do not count. O(size of the
-/// definition).
+/// Hash of a definition, 64 hexadecimal digits: equal if they give the same mesh. Ignores options
+/// without effect (tip size without grading). O(size of the definition).
 std::string identity(const store::MeshDefinition& definition);
 
-/// Hash of the definition and who owns the mesh: what its id is cut from. An empty owner gives the
-/// definition's.
+/// Hash of the definition and the owner, whose first digits are the mesh's id; for an empty owner
+/// that of the definition.
 std::string identity(const store::MeshDefinition& definition, const std::string& owner);
 
 }  // namespace anticrack::meshes

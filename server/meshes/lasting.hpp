@@ -5,8 +5,13 @@
 
 namespace anticrack::meshes {
 
-/// An error that the same mesh would meet again, however long one waits: the mesh has failed. After
-/// any other it is as it was, and who waits is told.
-bool lasting(const errors::Error& error) noexcept;
+/// Whether the same mesh would always meet this error again, so that the mesh has failed. After any
+/// other error it stays as it was, and its waiters get the error.
+inline bool lasting(const errors::Error& error) noexcept {
+  using errors::Reason;
+  const Reason reason = error.reason();
+  return reason != Reason::busy && reason != Reason::cancelled && reason != Reason::disk_full &&
+         reason != Reason::storage;
+}
 
 }  // namespace anticrack::meshes

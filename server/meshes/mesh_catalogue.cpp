@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/mesh_catalogue.hpp"
 
+#include <fmt/core.h>
+
 #include <optional>
 #include <utility>
 #include <variant>
@@ -24,28 +26,15 @@ using store::MeshState;
 constexpr std::size_t id_digits = 16;
 constexpr std::size_t max_title_bytes = 200;
 
-Error queue_full(std::size_t pending) {
-  Error error(Reason::busy, std::to_string(pending) +
-                                " meshes wait for the mesher already: try again in a while");
-  return error.retry_after(operators::retry_delay);
-}
-
-Error too_many(std::size_t count) {
-  return {Reason::limit_exceeded,
-          "the server keeps " + std::to_string(count) + " meshes and no more: delete some"};
-}
-
-Error in_use(const std::string& id, const std::string& by) {
-  return {Reason::in_use, "meshes/" + id + " is in use: " + by};
+Error in_use(const std::string& id, const char* why) {
+  return {Reason::in_use, fmt::format("meshes/{} is in use: {}", id, why)};
 }
 
 void check_title(const std::string& title) {
-  if (title.size() > max_title_bytes) {
-    throw Error(Reason::invalid_argument, "a title of " + std::to_string(title.size()) +
-                                              " bytes: use at most " +
-                                              std::to_string(max_title_bytes))
-        .at("title");
-  }
+  if (title.size() <= max_title_bytes) return;
+  throw Error(Reason::invalid_argument,
+              fmt::format("a title of {} bytes: use at most {}", title.size(), max_title_bytes))
+      .at("title");
 }
 
 }  // namespace
@@ -66,7 +55,7 @@ struct MeshCatalogue::State {
 
   MeshIndex& index() { return preparation.index(); }
 
-  /// Of a mesh's operators in the cache; empty when it cannot have any.
+  /// The cache's key for the operators of a mesh; empty if it is not meshed.
   std::string key(const std::string& id) {
     const auto lock = preparation.lock();
     const LiveMesh* mesh = index().find(id);
@@ -75,17 +64,16 @@ struct MeshCatalogue::State {
 
   // With the lock held:
   void require_room() const {
-    if (preparation.queued() + claims >= options.max_pending) {
-      throw queue_full(options.max_pending);
-    }
+    if (preparation.queued() + claims < options.max_pending) return;
+    throw Error(Reason::busy, fmt::format("{} meshes are waiting for the mesher: try again later",
+                                          options.max_pending))
+        .retry_after(operators::retry_delay);
   }
 
-  /// What is there already of a mesh that is asked for again; its preparation goes on where it was
-  /// cut short. False: it is to be made.
+  /// For a mesh that is created again: resumes its preparation if that was interrupted. False: the
+  /// mesh must be made.
   bool resume(const LiveMesh* mesh, const std::string& id) {
-    if (mesh == nullptr || mesh->stage == Stage::failed) {
-      return false;
-    }
+    if (mesh == nullptr || mesh->stage == Stage::failed) return false;
     if (mesh->stage == Stage::pending && !mesh->run) {
       require_room();
       preparation.begin(id, true);
@@ -93,11 +81,13 @@ struct MeshCatalogue::State {
     return true;
   }
 
-  /// Makes room in the index for a mesh that is to be made, and keeps others from making it.
+  /// Reserves a place in the index for a new mesh; nobody else can make it meanwhile.
   LiveMesh& claim(const std::string& id) {
     require_room();
     if (index().find(id) == nullptr && index().size() >= options.max_meshes) {
-      throw too_many(options.max_meshes);
+      throw Error(
+          Reason::limit_exceeded,
+          fmt::format("the server keeps at most {} meshes: delete some", options.max_meshes));
     }
     LiveMesh& mesh = index().add(id);
     mesh.claimed = true;
@@ -105,7 +95,7 @@ struct MeshCatalogue::State {
     return mesh;
   }
 
-  /// The record that was claimed is on the disk, or (null) could not be written.
+  /// The claimed record has been written, or (null) could not be.
   void end_claim(const std::string& id, const MeshRecord* record) {
     LiveMesh& mesh = index().add(id);
     mesh.claimed = false;
@@ -158,7 +148,7 @@ MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const 
       record.definition = definition;
       record.created = store::Clock::now();
     }
-    // A failed one that was meshed has only its operators to be made again.
+    // A failed mesh with a triangulation needs only its operators again.
     record.state = record.sha256.empty() ? MeshState::pending : MeshState::evicted;
     _state->store.put(record);
   } catch (...) {
@@ -191,12 +181,12 @@ std::shared_ptr<const store::BlockSource> MeshCatalogue::read(const std::string&
   if (record.sha256.empty()) {
     throw Error(Reason::not_ready,
                 record.error
-                    ? "meshes/" + id + " failed: " + record.error->what()
-                    : "meshes/" + id + " is not meshed yet: wait until its state is READY");
+                    ? fmt::format("meshes/{} failed: {}", id, record.error->what())
+                    : fmt::format("meshes/{} is not meshed yet: wait until it is READY", id));
   }
   const std::shared_ptr<const mesh::Mesh> mesh = _state->store.triangulation(record.sha256);
   if (!mesh) {
-    get(id);  // throws where it was erased meanwhile
+    get(id);  // throws if it was erased meanwhile
     throw Error(Reason::storage, "the triangulation of meshes/" + id + " is missing");
   }
   return store::in_memory(std::make_shared<const store::Block>(mesh_block(*mesh)));
@@ -207,16 +197,12 @@ MeshRecord MeshCatalogue::warm(const std::string& id, bool pin) {
     auto lock = _state->preparation.lock();
     _state->preparation.settled(lock, id);
     LiveMesh& mesh = _state->index().known(id);
-    if (mesh.stage == Stage::failed) {
-      throw Error(*mesh.error);
-    }
+    if (mesh.stage == Stage::failed) throw Error(*mesh.error);
     const bool there = mesh.stage == Stage::meshed &&
                        (pin ? _state->cache.pin(mesh.sha256) : _state->cache.contains(mesh.sha256));
-    // Operators that another mesh brought to memory have to be looked at for this one as well.
+    // Operators in memory through an equal mesh have not been measured for this one.
     if (!there || mesh.operators.bytes == 0) {
-      if (!mesh.run) {
-        _state->require_room();
-      }
+      if (!mesh.run) _state->require_room();
       _state->preparation.begin(id, true);
     }
     mesh.pin = mesh.pin || (pin && !there);
@@ -248,9 +234,7 @@ void MeshCatalogue::erase(const std::string& id) {
   auto lock = preparation.lock();
   preparation.settled(lock, id);
   LiveMesh& mesh = index.known(id);
-  if (mesh.run) {
-    throw in_use(id, "it is being prepared; wait until it is READY");
-  }
+  if (mesh.run) throw in_use(id, "it is being prepared; wait until it is READY");
   if (!mesh.users.expired()) {
     throw in_use(id, "a job that has not ended needs it; wait for it or cancel it");
   }
@@ -271,9 +255,7 @@ void MeshCatalogue::erase(const std::string& id) {
   index.remove(id);
   preparation.notify();
   lock.unlock();
-  if (!orphan.empty()) {
-    _state->cache.evict(orphan);
-  }
+  if (!orphan.empty()) _state->cache.evict(orphan);
 }
 
 std::shared_ptr<void> MeshCatalogue::use(const std::string& id) {

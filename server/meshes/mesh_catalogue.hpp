@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The meshes the server knows: from their definition to a triangulation (in the helper process) to
-// factorised operators (in the cache).
+// The server's meshes: from a definition to a triangulation (by the helper process) to factorised
+// operators (in the cache).
 #pragma once
 
 #include <cstdint>
@@ -20,34 +20,32 @@ namespace anticrack::meshes {
 struct CatalogueOptions {
   mesher::HelperOptions helper;
   std::size_t max_triangles = 4'000'000;
-  std::size_t max_pending = 64;     ///< meshes waiting for the mesher, then `busy`
-  std::size_t max_meshes = 10'000;  ///< records; then limit_exceeded: delete some
-  /// Told of each mesh the helper made or failed to make, without a lock. Must not throw.
+  std::size_t max_pending = 64;     ///< meshes waiting for the mesher; then `busy`
+  std::size_t max_meshes = 10'000;  ///< records; then limit_exceeded
+  /// Called without a lock for each mesh that the helper made or failed to make. Must not throw.
   std::function<void(const store::MeshRecord&)> meshed = {};
 };
 
-/// A mesh on its way to READY: phases for whoever waits.
+/// Receives the phases of a mesh on its way to READY.
 using PhaseListener = std::function<void(store::MeshState)>;
 
-/// Meshes and factorises new meshes in the background, two of each class of sizes (size_class.hpp)
-/// at a time in the order they came: a large mesh holds up no smaller one. Thread-safe.
+/// Meshes and factorises new meshes in the background in the order they came, two per size class
+/// (size_class.hpp) at a time, so that large meshes do not delay small ones. Thread-safe.
 ///
-/// The disk knows a mesh as PENDING, EVICTED (meshed) or FAILED. What an earlier run of the server
-/// left unmeshed is scheduled at its start, oldest first; the rest is as it was, without operators.
-/// A mesh the disk has no room for is PENDING again, and who waits for it is told; it is tried
-/// again when somebody creates, warms or prepares it.
+/// On disk a mesh is PENDING, EVICTED (meshed) or FAILED. At start, meshes that are still PENDING
+/// are scheduled, oldest first. A mesh for which the disk has no room stays PENDING; its waiters
+/// get the error, and it is tried again when it is created, warmed or prepared.
 class MeshCatalogue {
  public:
-  /// Takes up what an earlier run left. `store` and `cache` must outlive it.
+  /// Schedules the pending meshes of the store. `store` and `cache` must outlive the catalogue.
   MeshCatalogue(CatalogueOptions options, store::Store& store, operators::OperatorCache& cache);
-  /// Stops what is under way (kills the helper).
+  /// Stops running preparations (kills the helper).
   ~MeshCatalogue();
 
-  /// Checks the definition (errors::Error: geometry_invalid, invalid_argument, not_found for an
-  /// upload, busy, limit_exceeded, disk_full) and returns its record: the one that is there already
-  /// for the same definition, or a new one, `pending`, which is on the disk then. A failed one is
-  /// tried again. Does not wait for the mesher.
-  /// Owners share triangulations and operators of equal meshes, but no records.
+  /// Returns the record of an equal definition, or writes and returns a new, pending one. A failed
+  /// mesh is tried again. Does not wait for the mesher. Owners share triangulations and operators
+  /// of equal meshes, but not records. Throws errors::Error: geometry_invalid, invalid_argument,
+  /// not_found (upload), busy, limit_exceeded, disk_full.
   store::MeshRecord create(const store::MeshDefinition& definition, const std::string& title,
                            const std::string& owner);
 
@@ -56,33 +54,33 @@ class MeshCatalogue {
   /// Throws not_found, not_ready (not meshed). O(m): reads the triangulation.
   std::shared_ptr<const store::BlockSource> read(const std::string& id) const;
 
-  /// Has the operators made in the background, as creating does; with `pin` they are kept in memory
-  /// until evicted. Returns at once. Throws not_found, busy, the mesh's error if it failed.
+  /// Prepares the operators in the background, as create() does; `pin` keeps them in memory until
+  /// evict(). Returns at once. Throws not_found, busy, the error of a failed mesh.
   store::MeshRecord warm(const std::string& id, bool pin);
-  /// Frees the operators; the definition and the triangulation stay. Does nothing if there is none.
-  /// Throws not_found, in_use (a running job or a factorisation holds them).
+  /// Frees the operators, if any; the definition and the triangulation stay. Throws not_found,
+  /// in_use (a running job or a factorisation needs them).
   store::MeshRecord evict(const std::string& id);
   /// Throws not_found, in_use (being prepared, or a job that has not ended uses it).
   void erase(const std::string& id);
-  /// A job that has not ended uses the mesh: erase() refuses until the last of them lets go. Throws
-  /// not_found.
+  /// Marks the mesh as used by an unfinished job: erase() refuses until all results are released.
+  /// Throws not_found.
   std::shared_ptr<void> use(const std::string& id);
 
-  /// Meshes and factorises if need be, and returns the pinned operator. Blocks; `listener` hears of
-  /// each phase on the calling thread. Throws the mesh's error if it failed; busy when the memory
-  /// budget is held by others; disk_full or storage when the disk did not take the mesh; cancelled
-  /// on `stop`, which ends this wait alone.
+  /// Meshes and factorises if necessary and returns the operator, pinned while held. Blocks and
+  /// calls `listener` with each phase. Throws the error of a failed mesh; busy if others use up the
+  /// memory budget; disk_full or storage if the mesh could not be written; cancelled on `stop`,
+  /// which ends this wait only.
   std::shared_ptr<const operators::MeshOperator> prepare(const std::string& id,
                                                          const PhaseListener& listener,
                                                          std::stop_token stop);
-  /// The pinned operator when it is in memory, else null. Does not block.
+  /// The operator if it is in memory, else null. Does not block.
   std::shared_ptr<const operators::MeshOperator> find(const std::string& id) const;
-  /// True when prepare() would not block: operators in memory.
+  /// Whether the operators are in memory, so that prepare() would not block.
   bool ready(const std::string& id) const;
 
-  /// meshes/size_class.hpp, by the triangles the mesh has or is expected to have.
+  /// The class (size_class.hpp) of its actual or expected number of triangles.
   int size_class(const std::string& id) const;
-  bool pinned(const std::string& id) const;  ///< by warm(), of whichever owner of an equal mesh
+  bool pinned(const std::string& id) const;  ///< by warm(), for any owner of an equal mesh
   std::uint64_t meshings() const noexcept;   ///< runs of the helper so far
   int pending() const;                       ///< meshes waiting for the mesher or in it
 

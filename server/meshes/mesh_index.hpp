@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the catalogue keeps in memory of every mesh: enough to say where it stands without the disk.
-// Not thread-safe: guarded by the catalogue's mutex (preparation.hpp).
+// The state of every mesh in memory. Not thread-safe: guarded by Preparation's mutex.
 #pragma once
 
 #include <cstdint>
@@ -17,67 +16,68 @@
 
 namespace anticrack::meshes {
 
-/// What has been reached for good, as the record on the disk says it.
+/// The state of the record on disk.
 enum class Stage {
-  absent,  ///< being made or being erased: as good as not there
+  absent,  ///< being made or erased: treated as missing
   pending,
   meshed,
   failed,
 };
 
-/// Of the operators, when they were last in memory.
+/// Measured when the operators were last in memory.
 struct Measured {
-  std::uint64_t bytes = 0;  ///< 0: they never were
+  std::uint64_t bytes = 0;  ///< 0: never measured
   double theta_star = 0;
   double seconds = 0;
 };
 
-/// A mesh on its way to its operators. All who want them share one run. When the last waiter leaves
-/// a run that is not in the background, it is stopped and is the mesh's no more.
+/// The preparation of a mesh up to its operators, shared by all its waiters. When the last waiter
+/// leaves a run that is not in the background, the run is stopped and detached from the mesh.
 struct Run {
   const std::string id;
   const int size_class;
   std::stop_source stop = {};
 
   store::MeshState phase = store::MeshState::pending;  ///< or meshing, factorizing
-  bool background = false;                             ///< goes on where nobody waits
+  bool background = false;                             ///< goes on without waiters
   int waiters = 0;
-  bool told = false;    ///< the operators are there for all to see
-  bool ending = false;  ///< only its outcome is left to be written
-  std::shared_ptr<const operators::MeshOperator> result = {};  ///< until the last waiter has it
+  bool told = false;    ///< the operators are visible to everyone
+  bool ending = false;  ///< only its outcome has to be written
+  std::shared_ptr<const operators::MeshOperator> result =
+      {};  ///< until the last waiter has taken it
   std::optional<errors::Error> error = {};
 };
 
 struct LiveMesh {
   Stage stage = Stage::absent;
-  bool claimed = false;                ///< somebody writes its record to make or to erase it
-  std::uint64_t version = 0;           ///< grows with each change of what the record says
-  std::string definition;              ///< hash, whoever owns it
+  bool claimed = false;                ///< its record is being made or erased
+  std::uint64_t version = 0;           ///< incremented with each change of the record
+  std::string definition;              ///< hash, without the owner
   std::string sha256;                  ///< of the triangulation; empty: not meshed
   std::optional<errors::Error> error;  ///< when failed
   Measured operators;
-  int size_class = 0;         ///< by the triangles it has, or is expected to have
-  bool pin = false;           ///< to be pinned once its operators are there
+  int size_class = 0;         ///< by its actual or expected triangles
+  bool pin = false;           ///< pin its operators once they are made
   std::shared_ptr<Run> run;   ///< null: it is not being prepared
   std::weak_ptr<void> users;  ///< jobs that have not ended
 };
 
-/// The record with the state it is in at this moment; `in_memory`: its operators are.
+/// The record with its current state. `in_memory`: its operators are in memory.
 store::MeshRecord seen(const LiveMesh& mesh, store::MeshRecord record, bool in_memory);
 
 class MeshIndex {
  public:
-  /// A mesh of an earlier run of the server.
+  /// Adds a mesh from the store.
   LiveMesh& add(const store::MeshRecord& record);
-  /// An absent one, unless it is there.
+  /// Finds the mesh or adds an absent one.
   LiveMesh& add(const std::string& id) { return _meshes[id]; }
   void remove(const std::string& id) { _meshes.erase(id); }
   std::size_t size() const { return _meshes.size(); }
 
   // References stay good until remove().
-  /// Null where there is none.
+  /// Null if there is none.
   LiveMesh* find(const std::string& id);
-  /// Throws errors::Error (not_found), also where it is absent.
+  /// Throws errors::Error (not_found), also for an absent one.
   LiveMesh& known(const std::string& id);
 
   /// Meshes waiting for the mesher or in it. O(n).

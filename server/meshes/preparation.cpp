@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshes/preparation.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <new>
@@ -24,7 +26,7 @@ using Steady = std::chrono::steady_clock;
 constexpr int runs_at_once = 2;  // of one class of sizes
 constexpr std::size_t records_a_page = 100;
 
-/// 0 where it cannot be computed: Algorithm 2 tells who asks for it.
+/// 0 if it cannot be computed; Algorithm 2 reports why.
 double theta_star(const operators::MeshOperator& mesh_operator) {
   try {
     return mesh_operator.theta_star();
@@ -48,9 +50,7 @@ Preparation::~Preparation() {
   {
     const auto held = lock();
     _stopping.request_stop();
-    for (const RunPtr& run : _under_way) {
-      run->stop.request_stop();
-    }
+    for (const RunPtr& run : _under_way) run->stop.request_stop();
     threads = std::move(_threads);
   }
 }
@@ -67,21 +67,15 @@ void Preparation::recover() {
         unmeshed.push_back(record.id);
       }
     }
-    if (records.size() < records_a_page) {
-      break;
-    }
+    if (records.size() < records_a_page) break;
     page.after = records.back().id;
   }
-  for (auto id = unmeshed.rbegin(); id != unmeshed.rend(); ++id) {
-    begin(*id, true);
-  }
+  for (auto id = unmeshed.rbegin(); id != unmeshed.rend(); ++id) begin(*id, true);
 }
 
 MeshRecord Preparation::stored(const std::string& id) const {
   std::optional<MeshRecord> record = _store.mesh(id);
-  if (!record) {
-    throw Error(Reason::not_found, "there is no meshes/" + id + ": create it first");
-  }
+  if (!record) throw Error(Reason::not_found, "there is no meshes/" + id + ": create it first");
   return std::move(*record);
 }
 
@@ -92,7 +86,7 @@ MeshRecord Preparation::record(const std::string& id) {
     held.unlock();
     MeshRecord record = stored(id);
     held.lock();
-    // Else the record may be older than what the index says.
+    // Otherwise the record may be older than the index.
     if (const LiveMesh& mesh = _index.known(id); mesh.version == version) {
       return seen(mesh, std::move(record), _cache.contains(mesh.sha256));
     }
@@ -139,9 +133,7 @@ void Preparation::await(Lock& lock, Run& run, bool joins, const PhaseListener& l
       continue;
     }
     told = phase;
-    if (joins && phase == MeshState::factorizing && !ended()) {
-      _cache.count_join();
-    }
+    if (joins && phase == MeshState::factorizing && !ended()) _cache.count_join();
     lock.unlock();
     listener(phase);
     lock.lock();
@@ -153,13 +145,9 @@ Preparation::Operator Preparation::prepare(const std::string& id, const PhaseLis
   Lock held = lock();
   settled(held, id);
   LiveMesh& mesh = _index.known(id);
-  if (mesh.stage == Stage::failed) {
-    throw Error(*mesh.error);
-  }
+  if (mesh.stage == Stage::failed) throw Error(*mesh.error);
   if (mesh.stage == Stage::meshed && mesh.operators.bytes > 0 && (!mesh.run || mesh.run->told)) {
-    if (Operator ready = _cache.find(mesh.sha256)) {
-      return ready;
-    }
+    if (Operator ready = _cache.find(mesh.sha256)) return ready;
   }
   const bool joins = mesh.run != nullptr;
   const RunPtr run = begin(id, false);
@@ -167,37 +155,27 @@ Preparation::Operator Preparation::prepare(const std::string& id, const PhaseLis
   try {
     await(held, *run, joins, listener, stop);
   } catch (...) {
-    if (!held) {
-      held.lock();
-    }
+    if (!held) held.lock();
     const bool unwanted = leave(*run);
     held.unlock();
-    if (unwanted) {
-      run->stop.request_stop();
-    }
+    if (unwanted) run->stop.request_stop();
     throw;
   }
   Operator result = run->result;
   run->told = run->told || result;
   leave(*run);
-  if (!result) {
-    throw Error(*run->error);
-  }
+  if (!result) throw Error(*run->error);
   return result;
 }
 
 bool Preparation::leave(Run& run) {
-  if (--run.waiters > 0) {
-    return false;
-  }
+  if (--run.waiters > 0) return false;
   LiveMesh* mesh = mesh_of(run);
   if (mesh == nullptr) {
-    run.result.reset();  // it is over, and would pin the operators
+    run.result.reset();  // the run is over; its result would pin the operators
     return false;
   }
-  if (run.background || run.result || run.ending) {
-    return false;
-  }
+  if (run.background || run.result || run.ending) return false;
   _queue.remove(mesh->run);
   mesh->run.reset();
   _changed.notify_all();
@@ -217,14 +195,12 @@ void Preparation::work() {
     ++_idle;
     _changed.wait(held, stop, [&] { return stop.stop_requested() || (run = take()); });
     --_idle;
-    if (!run) {
-      return;
-    }
+    if (!run) return;
     if (_idle == 0) {
       try {
         _threads.emplace_back([this] { work(); });
       } catch (const std::system_error&) {
-        // The threads there are take what waits one after the other.
+        // The existing threads take the waiting runs one after the other.
       }
     }
     held.unlock();
@@ -274,9 +250,7 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
   }
   const MeshRecord record = stored(run.id);
   std::optional<Triangulation> made;
-  if (!twin.empty()) {
-    made = copy_of(twin, record, _store);
-  }
+  if (!twin.empty()) made = copy_of(twin, record, _store);
   const bool copied = made.has_value();
   if (!copied) {
     ++_meshings;
@@ -293,41 +267,34 @@ std::shared_ptr<const mesh::Mesh> Preparation::triangulate(Run& run) {
     run.phase = MeshState::factorizing;
     _changed.notify_all();
   }
-  if (!copied && _options.meshed) {
-    _options.meshed(made->record);
-  }
+  if (!copied && _options.meshed) _options.meshed(made->record);
   return std::move(made->mesh);
 }
 
-/// Who waits has the operators before theta* is known, which is for people to read and for
-/// Algorithm 2, and takes longer than all else at a large interface. Where nobody waits all is told
-/// at once.
+/// Waiters get the operators before theta* is known: at a large interface it takes longer than all
+/// the rest, and only Algorithm 2 and reports need it.
 void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangulation) {
   const auto start = Steady::now();
   Lock held = lock();
   LiveMesh* mesh = mesh_of(run);
-  if (mesh == nullptr) {
-    return;
-  }
+  if (mesh == nullptr) return;
   const std::string sha256 = mesh->sha256;
   held.unlock();
   Operator result = _cache.find(sha256);
   if (!result) {
     triangulation = triangulation ? std::move(triangulation) : _store.triangulation(sha256);
     if (!triangulation) {
-      throw Error(Reason::storage, "the triangulation of meshes/" + run.id +
-                                       " is not in the data folder: delete the mesh and create it "
-                                       "again");
+      throw Error(Reason::storage, fmt::format("the triangulation of meshes/{} is not in the data "
+                                               "folder: delete the mesh and create it again",
+                                               run.id));
     }
     result = _cache.acquire(sha256, std::move(triangulation), run.stop.get_token());
   }
   held.lock();
   mesh = mesh_of(run);
-  if (mesh == nullptr) {
-    return;
-  }
+  if (mesh == nullptr) return;
   if (std::exchange(mesh->pin, false)) {
-    _cache.pin(sha256);  // cannot go before: it is held here
+    _cache.pin(sha256);  // `result` keeps it from being evicted first
   }
   mesh->operators.seconds = std::chrono::duration<double>(Steady::now() - start).count();
   const auto measure = [&](double theta) {
@@ -347,10 +314,8 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
     const double theta = theta_star(*result);
     held.lock();
     measure(theta);
-    result.reset();  // before anybody is told that they are there, and could be evicted
-    if (run.waiters == 0) {
-      run.result.reset();
-    }
+    result.reset();  // first, so that the operators can be evicted once they are announced
+    if (run.waiters == 0) run.result.reset();
     run.told = true;
     run.ending = true;
     record_outcome(held, *mesh, run.id);
@@ -358,7 +323,7 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
   finish(run);
 }
 
-/// What was measured is true whether or not there is room on the disk to keep it.
+/// The measured values are valid even if the disk has no room for them.
 void Preparation::record_outcome(Lock& lock, LiveMesh& mesh, const std::string& id) {
   const Measured measured = mesh.operators;
   lock.unlock();
@@ -377,9 +342,7 @@ void Preparation::record_outcome(Lock& lock, LiveMesh& mesh, const std::string& 
 void Preparation::fail(Run& run, Error error) {
   Lock held = lock();
   LiveMesh* mesh = mesh_of(run);
-  if (mesh == nullptr) {
-    return;
-  }
+  if (mesh == nullptr) return;
   run.ending = true;
   const bool meshed = mesh->stage == Stage::meshed;
   held.unlock();
@@ -391,7 +354,7 @@ void Preparation::fail(Run& run, Error error) {
       failed->error = error;
       _store.put(*failed);
     } catch (const Error& disk) {
-      // What cannot be written is told to those who wait, and met again.
+      // Not recorded: waiters get the error, and a later attempt fails again.
       failed.reset();
       error = meshed ? error : disk;
     }
@@ -404,18 +367,14 @@ void Preparation::fail(Run& run, Error error) {
   run.error = std::move(error);
   finish(run);
   held.unlock();
-  if (failed && !meshed && _options.meshed) {
-    _options.meshed(*failed);
-  }
+  if (failed && !meshed && _options.meshed) _options.meshed(*failed);
 }
 
 void Preparation::finish(Run& run) {
   if (LiveMesh* mesh = mesh_of(run)) {
     mesh->pin = false;
     ++mesh->version;
-    if (run.waiters == 0) {
-      run.result.reset();
-    }
+    if (run.waiters == 0) run.result.reset();
     mesh->run.reset();
   }
   _changed.notify_all();

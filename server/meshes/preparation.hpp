@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How a mesh gets from its definition to its operators.
+// Prepares meshes: from the definition to the operators.
 #pragma once
 
 #include <atomic>
@@ -23,45 +23,41 @@
 
 namespace anticrack::meshes {
 
-/// Each mesh that is wanted has a run (mesh_index.hpp), on a thread from its first step to its
-/// last. Of each class of sizes (size_class.hpp) two runs are under way at a time, the others wait
-/// in the order they came.
+/// Each requested mesh has a run (mesh_index.hpp) on one thread. Two runs per size class
+/// (size_class.hpp) are active at a time, the others wait in order of arrival.
 ///
-/// The mutex guards the index and the runs and is never held while the store is asked or written. A
-/// record has one writer at a time: whoever claimed it (to make or to erase it), else its run. The
-/// index follows the disk: a stage is entered when the record that says so has been written. Of the
-/// states of a mesh the disk knows PENDING, EVICTED (meshed) and FAILED; the others are what goes
-/// on in memory.
+/// The mutex guards the index and the runs; it is never held during calls of the store. A record
+/// has one writer at a time: whoever claimed it (to make or erase it), else its run. The index
+/// follows the disk: a stage changes after the record has been written.
 class Preparation {
  public:
   using Lock = std::unique_lock<std::mutex>;
   using Operator = std::shared_ptr<const operators::MeshOperator>;
 
-  /// Reads all records. What an earlier run of the server left unmeshed is begun at once, oldest
-  /// first.
+  /// Reads all records and begins those that are pending, oldest first.
   Preparation(CatalogueOptions options, store::Store& store, operators::OperatorCache& cache);
-  /// Stops what is under way.
+  /// Stops all runs.
   ~Preparation();
 
   Preparation(const Preparation&) = delete;
   Preparation& operator=(const Preparation&) = delete;
 
-  /// Of everything here.
+  /// Locks the index and the runs.
   Lock lock() const { return Lock(_mutex); }
 
   // With the lock held:
   MeshIndex& index() noexcept { return _index; }
-  /// Wakes all who wait for a change of the index.
+  /// Wakes all waiters after a change of the index.
   void notify() { _changed.notify_all(); }
-  /// Waits until the record of the mesh is not being written; null where there is no such mesh.
+  /// Waits until nobody writes the record of the mesh; null if there is no such mesh.
   LiveMesh* settled(Lock& lock, const std::string& id);
-  /// Has the mesh prepared, however little is left to do. The mesh must be known and settled.
+  /// Starts or joins a run. The mesh must be known and settled.
   std::shared_ptr<Run> begin(const std::string& id, bool background);
-  /// Runs in the background that have not begun.
+  /// Number of background runs that have not begun.
   std::size_t queued() const;
 
   // Without it:
-  /// The record with the state of this moment. Throws errors::Error (not_found).
+  /// The record with its current state. Throws errors::Error (not_found).
   store::MeshRecord record(const std::string& id);
   /// MeshCatalogue::prepare.
   Operator prepare(const std::string& id, const PhaseListener& listener,
@@ -73,17 +69,17 @@ class Preparation {
 
   void recover();
   store::MeshRecord stored(const std::string& id) const;
-  /// The mesh of a run; null where the run is over, or nobody wants it any more.
+  /// The mesh of a run; null if the run is over or was abandoned.
   LiveMesh* mesh_of(const Run& run);
-  /// Returns when the run has ended.
+  /// Waits for the end of the run.
   void await(Lock& lock, Run& run, bool joins, const PhaseListener& listener,
              const std::stop_token& stop);
-  /// One waiter fewer. True where the run is to be stopped, as nobody wants it any more.
+  /// Removes a waiter. True if the run must be stopped because nobody needs it.
   bool leave(Run& run);
 
   // On the thread of a run:
   void work();
-  /// The next run that may begin, under way now; null where there is none.
+  /// Activates the next run that may begin; null if there is none.
   RunPtr take();
   void perform(Run& run);
   std::shared_ptr<const mesh::Mesh> triangulate(Run& run);
@@ -104,7 +100,7 @@ class Preparation {
   std::list<RunPtr> _under_way;
   std::stop_source _stopping;
   int _idle = 0;
-  std::list<std::jthread> _threads;  ///< as many as there ever were runs at a time, and one
+  std::list<std::jthread> _threads;  ///< one more than the most active runs so far
 };
 
 }  // namespace anticrack::meshes

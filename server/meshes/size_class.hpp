@@ -7,8 +7,8 @@
 
 namespace anticrack::meshes {
 
-/// Meshes of about one size: a factor of four, and all below 4,096 triangles. What is done with a
-/// mesh waits for others of its class alone, so that large meshes hold up no small one.
+/// Classes of mesh sizes: each covers a factor of four, the first everything below 4,096 triangles.
+/// Work on a mesh waits only for meshes of its class, so that large meshes do not delay small ones.
 constexpr int size_class(std::uint64_t triangles) noexcept {
   return static_cast<int>(std::bit_width(std::max<std::uint64_t>(triangles, 4095)) - 1) / 2;
 }

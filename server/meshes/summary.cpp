@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/at.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
@@ -25,8 +26,8 @@ EdgeKey key(std::int32_t a, std::int32_t b) noexcept {
 }
 
 double length(const mesh::Mesh& mesh, std::int32_t a, std::int32_t b) noexcept {
-  const auto i = 2 * static_cast<std::size_t>(a);
-  const auto j = 2 * static_cast<std::size_t>(b);
+  const auto i = 2 * at(a);
+  const auto j = 2 * at(b);
   return std::hypot(mesh.xy[j] - mesh.xy[i], mesh.xy[j + 1] - mesh.xy[i + 1]);
 }
 
@@ -49,7 +50,7 @@ void measure_triangles(const mesh::Mesh& mesh, std::vector<store::SubdomainSumma
     to.shortest_edge = std::numeric_limits<double>::infinity();
   }
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    store::SubdomainSummary& to = result[static_cast<std::size_t>(mesh.subdomain[t])];
+    store::SubdomainSummary& to = result[at(mesh.subdomain[t])];
     ++to.triangle_count;
     to.area += mesh::area(mesh, t);
     const auto angles =
@@ -64,14 +65,14 @@ void measure_triangles(const mesh::Mesh& mesh, std::vector<store::SubdomainSumma
 void count_nodes(const mesh::Mesh& mesh, std::vector<store::SubdomainSummary>& result) {
   std::vector<std::vector<std::size_t>> triangles(result.size());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    triangles[static_cast<std::size_t>(mesh.subdomain[t])].push_back(t);
+    triangles[at(mesh.subdomain[t])].push_back(t);
   }
   constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> last_seen_in(mesh.node_count(), nowhere);
   for (std::size_t i = 0; i < result.size(); ++i) {
     for (const std::size_t t : triangles[i]) {
       for (std::size_t corner = 3 * t; corner < 3 * t + 3; ++corner) {
-        std::size_t& last = last_seen_in[static_cast<std::size_t>(mesh.triangles[corner])];
+        std::size_t& last = last_seen_in[at(mesh.triangles[corner])];
         result[i].node_count += last != i ? 1 : 0;
         last = i;
       }
@@ -79,8 +80,8 @@ void count_nodes(const mesh::Mesh& mesh, std::vector<store::SubdomainSummary>& r
   }
 }
 
-/// A part is what one reaches from triangle to triangle without crossing an interface, so a slit
-/// parts nothing unless it goes all the way; it floats when none of its nodes is a Dirichlet node.
+/// A part consists of triangles connected without crossing an interface; it floats if none of its
+/// nodes is a Dirichlet node.
 void find_floating(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
                    std::vector<store::SubdomainSummary>& result) {
   std::vector<EdgeKey> cuts;
@@ -98,18 +99,18 @@ void find_floating(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
   });
   std::vector<bool> fixed(mesh.node_count(), false);
   for (const auto& [a, b] : mesh.dirichlet) {
-    fixed[static_cast<std::size_t>(a)] = true;
-    fixed[static_cast<std::size_t>(b)] = true;
+    fixed[at(a)] = true;
+    fixed[at(b)] = true;
   }
   std::vector<bool> held(mesh.triangle_count(), false);
   const auto part_of = [&](std::size_t triangle) {
-    return static_cast<std::size_t>(parts.find(static_cast<std::int32_t>(triangle)));
+    return at(parts.find(static_cast<std::int32_t>(triangle)));
   };
   for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
-    if (fixed[static_cast<std::size_t>(mesh.triangles[corner])]) held[part_of(corner / 3)] = true;
+    if (fixed[at(mesh.triangles[corner])]) held[part_of(corner / 3)] = true;
   }
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    if (!held[part_of(t)]) result[static_cast<std::size_t>(mesh.subdomain[t])].floating = true;
+    if (!held[part_of(t)]) result[at(mesh.subdomain[t])].floating = true;
   }
 }
 
@@ -133,19 +134,19 @@ std::vector<store::TipSummary> tip_summaries(const mesh::Mesh& mesh) {
   std::vector<store::TipSummary> result;
   result.reserve(nodes.size());
   for (const std::int32_t node : nodes) {
-    const auto n = static_cast<std::size_t>(node);
+    const auto n = at(node);
     tip_at[n] = result.size();
     result.push_back(
         {{mesh.xy[2 * n], mesh.xy[2 * n + 1]}, "", std::numeric_limits<double>::infinity()});
   }
   for (const mesh::Interface& interface : mesh.interfaces) {
     for (const std::int32_t node : interface.nodes) {
-      const std::size_t tip = tip_at[static_cast<std::size_t>(node)];
+      const std::size_t tip = tip_at[at(node)];
       if (tip != none && result[tip].interface.empty()) result[tip].interface = interface.name;
     }
   }
   for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
-    const std::size_t tip = tip_at[static_cast<std::size_t>(mesh.triangles[corner])];
+    const std::size_t tip = tip_at[at(mesh.triangles[corner])];
     if (tip == none) continue;
     double& smallest = result[tip].smallest_edge;
     smallest = std::min(smallest, edge_lengths(mesh, corner / 3).shortest);
@@ -211,19 +212,12 @@ store::Block mesh_block(const mesh::Mesh& mesh) {
   builder.add("subdomain", mesh.subdomain);
   std::vector<std::int32_t> boundary;
   boundary.reserve(2 * mesh.dirichlet.size());
-  for (const auto& edge : mesh.dirichlet) {
-    boundary.insert(boundary.end(), edge.begin(), edge.end());
-  }
+  for (const auto& edge : mesh.dirichlet) boundary.insert(boundary.end(), edge.begin(), edge.end());
   builder.add("boundary", boundary, {mesh.dirichlet.size(), 2});
   for (const mesh::Interface& interface : mesh.interfaces) {
     const std::string path = "interfaces/" + interface.name + "/";
-    std::vector<std::int32_t> kinds;
-    kinds.reserve(interface.kind.size());
-    for (const mesh::Kind kind : interface.kind) {
-      kinds.push_back(static_cast<std::int32_t>(kind));
-    }
     builder.add(path + "nodes", interface.nodes);
-    builder.add(path + "kind", kinds);
+    builder.add(path + "kind", interface.kind);
     builder.add(path + "inclusion", interface.inclusion);
   }
   return builder.finish();

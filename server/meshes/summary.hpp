@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What is told of a triangulation, and the block it is read as.
+// The summary of a triangulation, and its arrays.
 #pragma once
 
 #include "mesh/mesh.hpp"
@@ -9,9 +9,9 @@
 
 namespace anticrack::meshes {
 
-/// Fills in what is known of a record once it is meshed (not `sha256` and the times): counts,
-/// areas, angles and edges of each subdomain and whether it floats; runs of edges with one kind and
-/// inclusion; tips; lengths of the boundary; warnings. O(m log m).
+/// Fills in the fields of a record that follow from its triangulation (not `sha256` and times):
+/// subdomains, interfaces in segments of one kind and inclusion, tips, boundary lengths, warnings.
+/// O(m log m).
 void summarize(const mesh::Mesh& mesh, store::MeshRecord& record);
 
 /// The arrays of ReadMesh: nodes (n,2), triangles (m,3), subdomain (m), boundary (b,2),

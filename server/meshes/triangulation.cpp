@@ -83,13 +83,9 @@ Triangulation triangulate(store::MeshRecord record, const CatalogueOptions& opti
 std::optional<Triangulation> copy_of(const std::string& twin, store::MeshRecord record,
                                      const store::Store& store) {
   std::optional<store::MeshRecord> copy = store.mesh(twin);
-  if (!copy || copy->sha256.empty()) {
-    return std::nullopt;
-  }
+  if (!copy || copy->sha256.empty()) return std::nullopt;
   std::shared_ptr<const mesh::Mesh> mesh = store.triangulation(copy->sha256);
-  if (!mesh) {
-    return std::nullopt;
-  }
+  if (!mesh) return std::nullopt;
   copy->id = std::move(record.id);
   copy->owner = std::move(record.owner);
   copy->title = std::move(record.title);

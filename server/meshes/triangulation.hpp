@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From a mesh's definition to its triangulation and what is told of it.
+// From the definition of a mesh to its triangulation and summary.
 #pragma once
 
 #include <memory>
@@ -16,18 +16,18 @@ namespace anticrack::meshes {
 
 struct Triangulation {
   std::shared_ptr<const mesh::Mesh> mesh;
-  store::MeshRecord record;  ///< with all that is known once meshed; not in the store yet
+  store::MeshRecord record;  ///< with the summary; not in the store yet
 };
 
-/// Where the upload lies that `owner` made. Throws errors::Error (not_found, at "upload").
+/// Path of an upload of `owner`. Throws errors::Error (not_found, at "upload").
 std::string require_upload(const store::Store& store, const store::UploadRef& upload,
                            const std::string& owner);
 
-/// Checks what can be checked without the mesher; the triangles to be expected, roughly. Throws as
+/// Checks a definition without the mesher and returns a rough number of triangles. Throws as
 /// mesh::plan, mesh::check_for_upload, require_upload and mesher::require_msh do.
 std::size_t check_definition(const store::MeshDefinition& definition, const std::string& owner,
                              const CatalogueOptions& options, const store::Store& store);
-/// The triangles to be expected of a mesh that is not made yet; 0 where its definition is wrong.
+/// The same for a record; 0 if its definition is wrong.
 std::size_t expected_triangles(const store::MeshRecord& record, const CatalogueOptions& options,
                                const store::Store& store);
 
@@ -35,7 +35,7 @@ std::size_t expected_triangles(const store::MeshRecord& record, const CatalogueO
 Triangulation triangulate(store::MeshRecord record, const CatalogueOptions& options,
                           const store::Store& store, const std::stop_token& stop);
 
-/// The triangulation of another mesh of the same definition; none where that has gone. O(m).
+/// The triangulation of another mesh with the same definition; none if that has gone. O(m).
 std::optional<Triangulation> copy_of(const std::string& twin, store::MeshRecord record,
                                      const store::Store& store);
 

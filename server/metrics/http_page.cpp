@@ -17,19 +17,14 @@ namespace {
 constexpr unsigned most_connections = 32;
 constexpr unsigned connection_seconds = 10;
 
-struct FreeAddresses {
-  void operator()(addrinfo* list) const { ::freeaddrinfo(list); }
+template <auto release>
+struct Release {
+  void operator()(auto* object) const { release(object); }
 };
+using Addresses = std::unique_ptr<addrinfo, Release<freeaddrinfo>>;
+using Response = std::unique_ptr<MHD_Response, Release<MHD_destroy_response>>;
 
-struct DestroyResponse {
-  void operator()(MHD_Response* response) const { MHD_destroy_response(response); }
-};
-
-struct StopDaemon {
-  void operator()(MHD_Daemon* daemon) const { MHD_stop_daemon(daemon); }
-};
-
-std::unique_ptr<addrinfo, FreeAddresses> resolve(std::string host, const std::string& port) {
+Addresses resolve(std::string host, const std::string& port) {
   if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
@@ -38,13 +33,13 @@ std::unique_ptr<addrinfo, FreeAddresses> resolve(std::string host, const std::st
   if (const int problem = ::getaddrinfo(host.c_str(), port.c_str(), &hints, &list); problem != 0) {
     throw std::runtime_error(::gai_strerror(problem));
   }
-  return std::unique_ptr<addrinfo, FreeAddresses>(list);
+  return Addresses(list);
 }
 
 MHD_Result respond(MHD_Connection* connection, unsigned status, const std::string& body,
                    const std::string& type) {
   // MHD copies the body and does not change it, whatever its signature says.
-  const std::unique_ptr<MHD_Response, DestroyResponse> response(MHD_create_response_from_buffer(
+  const Response response(MHD_create_response_from_buffer(
       body.size(), const_cast<char*>(body.data()), MHD_RESPMEM_MUST_COPY));
   if (!response) return MHD_NO;
   MHD_add_response_header(response.get(), MHD_HTTP_HEADER_CONTENT_TYPE, type.c_str());
@@ -58,17 +53,18 @@ struct HttpPage::State {
   std::string content_type;
   std::function<std::string()> make;
   std::string address;
-  std::unique_ptr<MHD_Daemon, StopDaemon> daemon;  ///< the first to go
+  std::unique_ptr<MHD_Daemon, Release<MHD_stop_daemon>>
+      daemon;  ///< declared last: it uses the others
 
   static MHD_Result answer(void* self, MHD_Connection* connection, const char* url,
                            const char* method, const char* /*version*/, const char* /*upload*/,
                            std::size_t* upload_bytes, void** seen) {
-    // Called first when the header is there; a response then would close the connection.
+    // The first call only announces the request; a response to it would close the connection.
     if (*seen == nullptr) {
       *seen = self;
       return MHD_YES;
     }
-    if (*upload_bytes != 0) {  // whatever somebody sends along is dropped
+    if (*upload_bytes != 0) {  // a body is ignored
       *upload_bytes = 0;
       return MHD_YES;
     }

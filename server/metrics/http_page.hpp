@@ -7,18 +7,18 @@
 
 namespace anticrack::metrics {
 
-/// One page over HTTP, made anew for each GET, on a thread of its own. Nobody who connects and says
-/// nothing keeps others from it: connections are few, and not for long.
+/// Serves one page over HTTP, made anew for each GET, on a separate thread. The number and the idle
+/// time of connections are limited, so that idle clients cannot block others.
 ///
-/// By libmicrohttpd and not by prometheus-cpp's exposer: that one's threads have 100 kB of stack,
-/// of which OpenBLAS and METIS take 90 kB for their thread-local variables.
+/// Uses libmicrohttpd instead of prometheus-cpp's exposer, whose threads have 100 kB of stack:
+/// thread-local variables of OpenBLAS and METIS take 90 kB of it.
 class HttpPage {
  public:
-  /// Listens at HOST:PORT (port 0 picks one) when it returns. `make` must not throw. Throws
-  /// std::runtime_error with a sentence where it cannot.
+  /// Listens at HOST:PORT (port 0: any free port) when it returns. `make` must not throw. Throws
+  /// std::runtime_error if the address cannot be used.
   HttpPage(const std::string& address, std::string path, std::string content_type,
            std::function<std::string()> make);
-  /// Waits for a page being made.
+  /// Waits for a page that is being made.
   ~HttpPage();
   HttpPage(const HttpPage&) = delete;
   HttpPage& operator=(const HttpPage&) = delete;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The server as Prometheus sees it: text over HTTP on a port of its own. Names begin with
-// "anticrack_" (but for the process_* every program has), units are base units, counters end in
-// "_total"; no label names a job, mesh or user.
+// Metrics for Prometheus: text over HTTP on a separate port. Names begin with "anticrack_" (except
+// the standard process_*), units are base units, counters end in "_total". No label names a job, a
+// mesh or a user.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@
 
 namespace anticrack::metrics {
 
-/// What is read at each scrape.
+/// The values read at each scrape.
 struct Snapshot {
   jobs::EngineMetrics engine;
   operators::CacheMetrics cache;
@@ -30,8 +30,7 @@ struct Snapshot {
   bool ready = false;
 };
 
-/// Counts and times what happens between scrapes. Thread-safe; every method is quick and throws
-/// nothing.
+/// Counts and times events between scrapes. Thread-safe. Counting is quick and never throws.
 class Metrics {
  public:
   /// Both are labels of anticrack_build_info.
@@ -40,7 +39,7 @@ class Metrics {
 
   /// `method`: "/anticrack.v1.MeshService/UploadMesh"; `code`: gRPC's.
   void call_ended(const std::string& method, int code, std::chrono::duration<double> time) noexcept;
-  /// By its timeline: waiting, meshing, factorising, solving, writing; by state and reason.
+  /// Counts the job by state and reason, and its time in each phase.
   void job_ended(const store::JobRecord& job) noexcept;
   void meshed(const store::MeshRecord& mesh) noexcept;
   void factorised(std::chrono::duration<double> time) noexcept;

@@ -14,35 +14,15 @@ std::string_view name(Phase phase) noexcept {
 }
 
 std::string_view name(JobState state) noexcept {
-  switch (state) {
-    case JobState::queued:
-      return "QUEUED";
-    case JobState::waiting_for_mesh:
-      return "WAITING_FOR_MESH";
-    case JobState::running:
-      return "RUNNING";
-    case JobState::succeeded:
-      return "SUCCEEDED";
-    case JobState::failed:
-      return "FAILED";
-    case JobState::cancelled:
-      return "CANCELLED";
-    case JobState::expired:
-      return "EXPIRED";
-  }
-  return "UNKNOWN";
+  constexpr std::array<std::string_view, 8> names{"UNKNOWN",   "QUEUED",    "WAITING_FOR_MESH",
+                                                  "RUNNING",   "SUCCEEDED", "FAILED",
+                                                  "CANCELLED", "EXPIRED"};
+  return names[static_cast<std::size_t>(state)];
 }
 
 std::string_view name(store::Priority priority) noexcept {
-  switch (priority) {
-    case store::Priority::interactive:
-      return "INTERACTIVE";
-    case store::Priority::normal:
-      return "NORMAL";
-    case store::Priority::bulk:
-      return "BULK";
-  }
-  return "UNKNOWN";
+  constexpr std::array<std::string_view, 4> names{"UNKNOWN", "INTERACTIVE", "NORMAL", "BULK"};
+  return names[static_cast<std::size_t>(priority)];
 }
 
 Phase phase_of(const store::Step& step) noexcept {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where a job's time went, by its timeline; and the names of states as the API has them.
+// How long a job spent in each phase, and the API's names of states.
 #pragma once
 
 #include <array>
@@ -14,18 +14,18 @@ namespace anticrack::metrics {
 enum class Phase { queued, waiting, meshing, factorizing, solving, writing };
 inline constexpr std::size_t phase_count = 6;
 
-/// As labels have them, "factorizing".
+/// The label of a phase, "factorizing".
 std::string_view name(Phase phase) noexcept;
 std::string_view name(store::JobState state) noexcept;     ///< "SUCCEEDED"
 std::string_view name(store::Priority priority) noexcept;  ///< "BULK"
 
-/// The phase a step begins; `waiting` where it waits for a mesh somebody else prepares.
+/// The phase that begins with a step; `waiting`: for a mesh that another job is preparing.
 Phase phase_of(const store::Step& step) noexcept;
 
 using PhaseTimes = std::array<std::chrono::duration<double>, phase_count>;
 
-/// Each step lasts until the next, the last until the job ended; a clock set back counts as no
-/// time. All attempts together. O(steps).
+/// Seconds per phase, summed over all attempts. A step lasts until the next one, the last until the
+/// job's end; a negative time (the clock was set back) counts as 0. O(steps).
 PhaseTimes phase_times(const store::JobRecord& job);
 
 }  // namespace anticrack::metrics

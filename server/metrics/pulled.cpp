@@ -16,24 +16,18 @@ using prometheus::ClientMetric;
 using prometheus::MetricFamily;
 using prometheus::MetricType;
 
-MetricFamily counter(std::string name, std::string help, double value) {
+template <class Number>
+MetricFamily counter(std::string name, std::string help, Number value) {
   ClientMetric metric;
-  metric.counter.value = value;
+  metric.counter.value = static_cast<double>(value);
   return {std::move(name), std::move(help), MetricType::Counter, {metric}};
 }
 
-MetricFamily counter(std::string name, std::string help, std::uint64_t value) {
-  return counter(std::move(name), std::move(help), static_cast<double>(value));
-}
-
-MetricFamily gauge(std::string name, std::string help, double value) {
+template <class Number>
+MetricFamily gauge(std::string name, std::string help, Number value) {
   ClientMetric metric;
-  metric.gauge.value = value;
+  metric.gauge.value = static_cast<double>(value);
   return {std::move(name), std::move(help), MetricType::Gauge, {metric}};
-}
-
-MetricFamily gauge(std::string name, std::string help, std::uint64_t value) {
-  return gauge(std::move(name), std::move(help), static_cast<double>(value));
 }
 
 MetricFamily disk_family(const store::Usage& disk) {
@@ -62,14 +56,9 @@ double resident_bytes() {
   return resident * static_cast<double>(::sysconf(_SC_PAGESIZE));
 }
 
-std::uint64_t open_descriptors() {
+std::ptrdiff_t open_descriptors() {
   std::error_code ignored;
-  std::uint64_t count = 0;
-  for (auto entry = std::filesystem::directory_iterator("/proc/self/fd", ignored);
-       entry != std::filesystem::directory_iterator(); entry.increment(ignored)) {
-    ++count;
-  }
-  return count;
+  return std::distance(std::filesystem::directory_iterator("/proc/self/fd", ignored), {});
 }
 
 }  // namespace
@@ -84,11 +73,9 @@ std::vector<MetricFamily> server_families(const Snapshot& now) {
       counter("anticrack_iterations_total", "Iterations of all load cases.", engine.iterations),
       counter("anticrack_results_expired_total", "Results removed by age or by the budget.",
               engine.results_expired),
-      gauge("anticrack_jobs_queued", "Jobs that have not started.",
-            static_cast<double>(engine.jobs_queued)),
-      gauge("anticrack_jobs_running", "Jobs that run.", static_cast<double>(engine.jobs_running)),
-      gauge("anticrack_batch_columns", "Load cases on solver threads now.",
-            static_cast<double>(engine.columns)),
+      gauge("anticrack_jobs_queued", "Jobs that have not started.", engine.jobs_queued),
+      gauge("anticrack_jobs_running", "Jobs that run.", engine.jobs_running),
+      gauge("anticrack_batch_columns", "Load cases on solver threads now.", engine.columns),
       gauge("anticrack_queue_bytes", "Bytes of the definitions of jobs that have not ended.",
             engine.queued_bytes),
       gauge("anticrack_queue_oldest_wait_seconds", "Longest wait of those that have not started.",
@@ -102,17 +89,15 @@ std::vector<MetricFamily> server_families(const Snapshot& now) {
       gauge("anticrack_cache_pinned_bytes", "Of these, bytes that cannot be evicted now.",
             cache.pinned),
       gauge("anticrack_cache_budget_bytes", "Most bytes operators may take.", cache.budget),
-      gauge("anticrack_cache_meshes", "Meshes whose operators are in memory.",
-            static_cast<double>(cache.entries)),
+      gauge("anticrack_cache_meshes", "Meshes whose operators are in memory.", cache.entries),
       counter("anticrack_meshings_total", "Runs of the mesher.", now.meshings),
       gauge("anticrack_meshes_pending", "Meshes that wait for the mesher or are in it.",
-            static_cast<double>(now.pending_meshes)),
+            now.pending_meshes),
       disk_family(now.disk),
-      gauge("anticrack_watchers", "Watches that are open.", static_cast<double>(now.watchers)),
+      gauge("anticrack_watchers", "Watches that are open.", now.watchers),
       gauge("anticrack_watch_lag_events", "Events the slowest watcher is behind.", now.largest_lag),
-      gauge("anticrack_transfers", "Uploads and downloads under way.",
-            static_cast<double>(now.transfers)),
-      gauge("anticrack_ready", "1 while new work is taken.", now.ready ? 1.0 : 0.0),
+      gauge("anticrack_transfers", "Uploads and downloads under way.", now.transfers),
+      gauge("anticrack_ready", "1 while new work is taken.", now.ready),
   };
 }
 
@@ -127,7 +112,7 @@ std::vector<MetricFamily> process_families(double started) {
               seconds(usage.ru_utime) + seconds(usage.ru_stime)),
       gauge("process_start_time_seconds", "Start time since 1970 in seconds.", started),
       gauge("process_open_fds", "Open file descriptors.", open_descriptors()),
-      gauge("process_max_fds", "Most open file descriptors.", static_cast<double>(files.rlim_cur)),
+      gauge("process_max_fds", "Most open file descriptors.", files.rlim_cur),
   };
 }
 

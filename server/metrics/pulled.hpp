@@ -9,11 +9,10 @@
 
 namespace anticrack::metrics {
 
-/// The families that are read, not counted. Pure.
+/// The families that are read at a scrape. Pure.
 std::vector<prometheus::MetricFamily> server_families(const Snapshot& snapshot);
 
-/// What every process has, under the names Prometheus' own clients use. `started`: seconds since
-/// 1970.
+/// The process_* families of Prometheus' own clients. `started`: seconds since 1970.
 std::vector<prometheus::MetricFamily> process_families(double started);
 
 }  // namespace anticrack::metrics

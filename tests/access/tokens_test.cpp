@@ -85,7 +85,7 @@ TEST(Tokens, ContradictionsAreRefused) {
   EXPECT_THAT(refusal(line("ada", "user", "x") + line("ada", "admin", "y")),
               HasSubstr("another role"));
   EXPECT_THAT(refusal(line("ada", "user", "x") + line("bob", "user", "x")),
-              HasSubstr("further up, for \"ada\""));
+              HasSubstr("earlier line, for \"ada\""));
 }
 
 TEST(Tokens, NoErrorRepeatsWhatMayBeASecret) {

@@ -114,7 +114,7 @@ TEST_F(Security, RefusesTokensOthersCanWrite) {
   EXPECT_EQ(problem_of(config), "accepted") << "they are hashes";
   std::filesystem::permissions(config.tokens, std::filesystem::perms::others_write,
                                std::filesystem::perm_options::add);
-  EXPECT_THAT(problem_of(config), HasSubstr("open to everybody"));
+  EXPECT_THAT(problem_of(config), HasSubstr("accessible to every user"));
 }
 
 TEST_F(Security, DoesNotTakeAnEmptyFileOfTokensForNoTokens) {
@@ -171,9 +171,9 @@ TEST_F(Security, KnowsWhenACertificateRunsOut) {
 
   Config config = files;
   config.tls_certificate = write("brief.crt", with_end(tls.certificate, 5 * day));
-  EXPECT_THAT(load_security(config).warnings, ElementsAre(HasSubstr("runs out in")));
+  EXPECT_THAT(load_security(config).warnings, ElementsAre(HasSubstr("expires in")));
   config.tls_certificate = write("old.crt", with_end(tls.certificate, -5 * day));
-  EXPECT_THAT(load_security(config).warnings, ElementsAre(HasSubstr("has run out")));
+  EXPECT_THAT(load_security(config).warnings, ElementsAre(HasSubstr("has expired")));
 }
 
 TEST(Names, AreSplitAtCommas) {

@@ -156,20 +156,20 @@ TEST(ImportGroups, AMapThatDoesNotFitIsRefused) {
               HasSubstr("the file has no curve group 7; its curve groups are 3, 4"));
   options.curve_groups = {{4, "fissure"}};
   EXPECT_THAT(fault(options, "options.curve_groups[4]"),
-              AllOf(HasSubstr("curve group 4 is said to be \"fissure\"; it is dirichlet, neumann"),
+              AllOf(HasSubstr("curve group 4 is given as \"fissure\"; choose dirichlet, neumann"),
                     HasSubstr("delaminated:NAME")));
   options.curve_groups = {{4, "inclusion"}};
   EXPECT_THAT(fault(options, "options.curve_groups[4]"),
               HasSubstr("which takes a name, \"inclusion:NAME\""));
   options.curve_groups = {{4, ""}};
-  EXPECT_THAT(fault(options, "options.curve_groups[4]"), HasSubstr("is said to be \"\""));
+  EXPECT_THAT(fault(options, "options.curve_groups[4]"), HasSubstr("is given as \"\""));
   options.curve_groups.clear();
   options.surface_groups = {{3, "third"}};
   EXPECT_THAT(fault(options, "options.surface_groups[3]"),
               HasSubstr("the file has no surface group 3; its surface groups are 1, 2"));
   options.surface_groups = {{1, "a b"}};
   EXPECT_THAT(fault(options, "options.surface_groups[1]"),
-              HasSubstr("surface group 1 is said to be \"a b\"; a subdomain's name is a letter"));
+              HasSubstr("surface group 1 is given the name \"a b\"; a subdomain's name is a letter"));
   MshSample bare = square_sample();
   bare.lines.clear();
   bare.names.clear();

@@ -62,7 +62,7 @@ const Fault faults[] = {
      "the same name"},
     {"OutOfPlane", [](MshSample& s) { s.points[12][2] = 0.25; },
      "node 10 lies at z = 0, node 130 at z = 0.25"},
-    {"NodeTwice", [](MshSample& s) { s.tags[1] = 10; }, "node 10 is there twice"},
+    {"NodeTwice", [](MshSample& s) { s.tags[1] = 10; }, "node 10 is defined twice"},
     {"UnknownNode", [](MshSample& s) { s.triangles[0].nodes[0] = 999; },
      "triangle 19 has node 999, which the file does not define"},
     {"NoArea", [](MshSample& s) { s.points[6] = s.points[0]; }, "has no area"},

@@ -152,7 +152,7 @@ const Text texts[] = {
     {"NoNodes", head22, "there is no $Nodes"},
     {"NoElements", head22 + nodes22, "there is no $Elements"},
     {"NoSection", head22 + "hello", "expected a section, found \"hello\""},
-    {"SectionTwice", head22 + nodes22 + nodes22, "line 11, in $Nodes: the section is there twice"},
+    {"SectionTwice", head22 + nodes22 + nodes22, "line 11, in $Nodes: the section occurs twice"},
     {"OpenSection", head22 + "$Comments\nabc\n", "there is no $EndComments"},
     {"NotANumber", head22 + "$Nodes\n1\n1 zero 0 0\n$EndNodes\n", "found \"zero\""},
     {"MoreAnnounced", head22 + "$Nodes\n1000000\n1 0 0 0\n$EndNodes\n", "announces 1000000"},
