@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
-#include "contact/answer_parts.hpp"
 #include "contact/solve.hpp"
 #include "mesh/at.hpp"
 
@@ -111,14 +110,17 @@ Eigen::Map<Eigen::VectorXd> view(std::vector<double>& values) {
 
 }  // namespace
 
-void describe(const TraceProblem& problem, const mesh::Mesh& mesh,
-              std::span<const ddm::CondensedLoad> loads, std::span<const double> inclusion_forces,
-              const TraceState& state, Answer& answer) {
+void describe(const TraceProblem& problem, const mesh::Mesh& mesh, const CaseLoads& loads,
+              const TraceState& state, const Sample& sample, Answer& answer) {
   const ddm::Decomposition& decomposition = problem.decomposition();
-  fill_inclusions(problem, mesh, inclusion_forces, state, answer);
+  answer.energy = sample.energy;
+  answer.kkt = sample.kkt;
+  answer.kkt_relative = relative_residuals(decomposition, state.mu, state.jump,
+                                           scales_of(loads.subdomains, state), answer.kkt);
+  fill_inclusions(problem, mesh, loads.inclusion_forces, state, answer);
   for (std::size_t c = 0; c < mesh.interfaces.size(); ++c) {
-    answer.traces.push_back(
-        trace_of(problem, loads, state, mesh.interfaces[c], decomposition.interface_sides[c]));
+    answer.traces.push_back(trace_of(problem, loads.subdomains, state, mesh.interfaces[c],
+                                     decomposition.interface_sides[c]));
     append_intervals(mesh.interfaces[c].name, mesh::arc_length(mesh, mesh.interfaces[c]),
                      answer.traces.back().contact, answer.contact_intervals);
   }
@@ -149,9 +151,9 @@ std::vector<TraceGeometry> trace_geometry(const ddm::Decomposition& decompositio
     TraceGeometry geometry;
     geometry.s = mesh::arc_length(mesh, mesh.interfaces[c]);
     for (std::size_t i = 0; i < mesh.interfaces[c].nodes.size(); ++i) {
-      const std::size_t node = at(mesh.interfaces[c].nodes[i]);
-      geometry.x.push_back(mesh.xy[2 * node]);
-      geometry.y.push_back(mesh.xy[2 * node + 1]);
+      const auto [x, y] = mesh::position(mesh, mesh.interfaces[c].nodes[i]);
+      geometry.x.push_back(x);
+      geometry.y.push_back(y);
       geometry.kind.push_back(decomposition.interface_sides[c][i].kind);
     }
     result.push_back(std::move(geometry));

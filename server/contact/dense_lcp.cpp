@@ -53,17 +53,14 @@ class Run {
   bool fell_back = false;
   std::optional<LcpStatus> status;  ///< once the run has ended
 
-  /// Of the nodes that are open now; kept until it is asked for those of another set.
+  /// Factor for the nodes that are open now.
   const OpenFactor& factor() {
-    if (!_factor || _factored != closed) {
-      _factored = closed;
-      _factor.emplace(_matrix, closed);
-    }
-    return *_factor;
+    _factor.factorise(_matrix, closed);
+    return _factor;
   }
   OpenFactor take_factor() {
     factor();
-    return std::move(*_factor);
+    return std::move(_factor);
   }
 
  private:
@@ -75,8 +72,8 @@ class Run {
     }
   }
 
-  /// Counts and tells of a step; false ends the run.
-  bool tell() {
+  /// Counts and reports a step; false ends the run.
+  bool report() {
     ++steps;
     if (!_on_step(*this)) {
       status = LcpStatus::stopped;
@@ -91,7 +88,7 @@ class Run {
     return !status;
   }
 
-  /// True when settled; false when a set came back, or S is singular on the open nodes.
+  /// True when settled; false when a set recurs or S is singular on the open nodes.
   bool primal_dual() {
     std::set<std::vector<char>> met;
     while (met.insert(closed).second) {
@@ -109,7 +106,7 @@ class Run {
         }
       }
       const bool settled = next == closed;
-      if (!tell() || settled) {
+      if (!report() || settled) {
         return settled;
       }
       if (!may_go_on()) {
@@ -122,8 +119,8 @@ class Run {
 
   double energy() const { return -_r.dot(d) / 2; }  // in the minimum over a face
 
-  /// From d >= 0 to the minimum over the face of the open nodes; nodes whose d would turn negative
-  /// are closed on the way, at least one a pass. S must be regular on the open nodes.
+  /// Moves d >= 0 to the minimum over the face of the open nodes, closing nodes whose d would turn
+  /// negative, at least one a pass. S must be regular on the open nodes.
   void settle() {
     for (;;) {
       const VectorXd target = factor().solve(_r);
@@ -158,7 +155,7 @@ class Run {
     settle();
     for (;;) {
       set_multipliers();
-      if (!tell()) {
+      if (!report()) {
         return;
       }
       Index first;
@@ -220,7 +217,7 @@ class Run {
     settle();
   }
 
-  /// A node that is open or closed by rounding only is closed, for a unique set.
+  /// Closes nodes that are open by rounding only, which makes the set unique.
   void close_undecided() {
     bool changed = false;
     for (Index i = 0; i < d.size(); ++i) {
@@ -241,8 +238,7 @@ class Run {
   const VectorXd& _r;
   const LcpOptions& _options;
   std::function<bool(const Run&)> _on_step;
-  std::vector<char> _factored;
-  std::optional<OpenFactor> _factor;
+  OpenFactor _factor;
 };
 
 }  // namespace
@@ -291,7 +287,7 @@ VectorXd DenseLcp::solve_open(const OpenFactor& open, const VectorXd& b) const {
 }
 
 std::size_t DenseLcp::bytes() const noexcept {
-  return sizeof(double) * static_cast<std::size_t>(_matrix.size() + _scale.size());
+  return sizeof(double) * at(_matrix.size() + _scale.size());
 }
 
 }  // namespace anticrack::contact

@@ -12,16 +12,16 @@
 
 namespace anticrack::contact {
 
-/// What is below this times the load is rounding: neither opens nor closes a node.
+/// Values below this fraction of the load are rounding and neither open nor close a node.
 constexpr double lcp_rounding = 256 * std::numeric_limits<double>::epsilon();
 
-/// Whether S on n nodes is regular to rounding, from the smallest squared pivot of its Cholesky
-/// factor: what is left of a diagonal of 1.
+/// Whether S on n nodes is regular to rounding; `smallest`: least squared pivot of its Cholesky
+/// factor, whose diagonal was 1.
 constexpr bool regular_pivot(double smallest, Eigen::Index n) {
   return smallest > 64 * std::numeric_limits<double>::epsilon() * static_cast<double>(n);
 }
 
-/// A node that is closed has d = 0, one that is open has lambda = 0.
+/// Closed nodes have d = 0, open ones lambda = 0.
 struct LcpStep {
   int number = 0;  ///< from 1
   const std::vector<char>& closed;
@@ -62,34 +62,32 @@ struct LcpOptions {
 /// ones with lambda < 0, until nothing changes. Everything is scaled to a unit diagonal of S, that
 /// is c_i = S_ii.
 ///
-/// It terminates. Every set met is remembered; when one comes back (or S is singular on the open
-/// nodes) a monotone method takes over, Lawson and Hanson's. There every outer step ends in the
-/// minimum over {d : d = 0 on the closed nodes} with d > 0 on the open ones, found on the straight
-/// way from the last d, and is taken only if the computed energy is less than before. The computed
-/// energy is a function of the open set alone, so no set comes back, and there are finitely many.
-/// If opening the node with the most negative lambda brings no less energy, then lambda is zero to
-/// rounding: in exact arithmetic that step always does, for its direction descends and no open node
-/// has d = 0.
+/// Termination: all sets met are remembered. If one recurs, or S is singular on the open nodes, the
+/// monotone method of Lawson and Hanson takes over. Each of its outer steps ends in the minimum
+/// over {d : d = 0 on the closed nodes} with d > 0 on the open ones, reached along the segment from
+/// the last d, and is accepted only if it lowers the computed energy, a function of the open set
+/// alone. So no set recurs, and there are finitely many. If opening the node with the most negative
+/// lambda does not lower the energy, lambda is zero to rounding, for in exact arithmetic it always
+/// does.
 ///
-/// Immutable after construction. Same r, same answer to the last bit whatever the start: the answer
-/// is computed from the final set, in which a node with neither d nor lambda to rounding is closed.
+/// Immutable after construction. The answer's bits depend on r alone, not on the start: it is
+/// computed from the final set, in which nodes with neither d nor lambda to rounding are closed.
 class DenseLcp {
  public:
   using OnStep = std::function<bool(const LcpStep&)>;
 
-  /// `matrix`: (c,c) symmetric, positive semidefinite, with positive diagonal. May be singular
-  /// where the parts of a membrane hold each other by contact only.
+  /// `matrix`: (c,c) symmetric, positive semidefinite, positive diagonal. Singular where parts of a
+  /// membrane hold each other by contact only.
   explicit DenseLcp(Eigen::MatrixXd matrix);
 
-  /// `magnitude`: (c) of the terms whose sum r is: what r's rounding errors are relative to;
-  /// empty: |r|. `start`: closed nodes to start from; empty: all. on_step returns false to stop.
-  /// O(c^3) a step.
+  /// `magnitude`: (c) sums of the absolute terms of r, the scale of its rounding errors; empty:
+  /// |r|. `start`: closed nodes to start from; empty: all. on_step returns false to stop. O(c^3) a
+  /// step.
   LcpAnswer solve(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude,
                   const LcpOptions& options, std::span<const char> start,
                   const OnStep& on_step) const;
 
-  /// x with (S x)_i = b_i on the open nodes of an answer's factor, x = 0 on the closed ones. For
-  /// iterative refinement. O(c^2).
+  /// x with (S x)_i = b_i on the open nodes of an answer's factor, else 0, for refinement. O(c^2).
   Eigen::VectorXd solve_open(const OpenFactor& open, const Eigen::VectorXd& b) const;
 
   /// 1 / sqrt(S_ii), and S with it on both sides: what the steps compute with.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ddm/decomposition.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 
@@ -23,9 +24,7 @@ class Forest {
   Eigen::Index contact_count() const noexcept { return static_cast<Eigen::Index>(_hung.size()); }
 
   /// Root of each unknown's tree.
-  std::int32_t root(std::int32_t unknown) const noexcept {
-    return _root[static_cast<std::size_t>(unknown)];
-  }
+  std::int32_t root(std::int32_t unknown) const noexcept { return _root[at(unknown)]; }
   /// Unknowns that are roots, increasing: w of root k is q_k.
   const std::vector<Eigen::Index>& roots() const noexcept { return _roots; }
   /// The unknown that hangs on each contact.

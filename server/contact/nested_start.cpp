@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "mesh/at.hpp"
+
 namespace anticrack::contact {
 namespace {
 
@@ -74,9 +76,9 @@ std::vector<char> NestedStart::closed(const VectorXd& r, const VectorXd& magnitu
       return {};
     }
     const VectorXd jump = level.prolongation * answer.d;
-    start.resize(static_cast<std::size_t>(jump.size()));
+    start.resize(at(jump.size()));
     for (Index i = 0; i < jump.size(); ++i) {
-      start[static_cast<std::size_t>(i)] = jump[i] > 0 ? 0 : 1;
+      start[at(i)] = jump[i] > 0 ? 0 : 1;
     }
   }
   return start;
@@ -85,8 +87,7 @@ std::vector<char> NestedStart::closed(const VectorXd& r, const VectorXd& magnitu
 std::size_t NestedStart::bytes() const noexcept {
   std::size_t bytes = 0;
   for (const Level& level : _levels) {
-    bytes += level.lcp.bytes() + static_cast<std::size_t>(level.prolongation.nonZeros()) *
-                                     (sizeof(double) + sizeof(int));
+    bytes += level.lcp.bytes() + at(level.prolongation.nonZeros()) * (sizeof(double) + sizeof(int));
   }
   return bytes;
 }

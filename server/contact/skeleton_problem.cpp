@@ -197,9 +197,8 @@ std::vector<VectorXd> SkeletonProblem::scatter(const VectorXd& w) const {
 }
 
 std::size_t SkeletonProblem::bytes() const noexcept {
-  return sizeof(double) * static_cast<std::size_t>(_h.size() + _closed_to_open.size()) +
-         _nested_start.bytes() + _lcp.bytes() +
-         static_cast<std::size_t>(forest().unknowns()) * 6 * sizeof(Index);
+  return sizeof(double) * at(_h.size() + _closed_to_open.size()) + _nested_start.bytes() +
+         _lcp.bytes() + at(forest().unknowns()) * 6 * sizeof(Index);
 }
 
 }  // namespace anticrack::contact

@@ -4,8 +4,8 @@
 #include <sstream>
 #include <utility>
 
-#include "contact/answer_parts.hpp"
 #include "contact/solve.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// From the unknowns of one load to the states and samples the paper's users know.
+/// Traces, multipliers and samples of one load from the skeleton's unknowns.
 class Case {
  public:
   Case(const SkeletonProblem& problem, std::size_t inclusions, const CaseLoads& loads)
@@ -41,7 +41,7 @@ class Case {
   /// One step of iterative refinement, and multipliers from the forces themselves.
   void refine(const LcpAnswer& solution) {
     VectorXd d = solution.d;
-    if (d != _d) {  // not that of the last step told: nodes were closed that were open by rounding
+    if (d != _d) {  // after the last sample, nodes open by rounding were closed
       move_to(_problem.unknowns(_reduced, d));
     }
     _problem.refine(-_problem.gather(_state.flux), solution.factor, _reduced, d);
@@ -49,7 +49,7 @@ class Case {
     move_to(_problem.unknowns(_reduced, d));
     VectorXd lambda = _problem.multipliers(-_problem.gather(_state.flux));
     for (Index c = 0; c < lambda.size(); ++c) {
-      lambda[c] = solution.closed[static_cast<std::size_t>(c)] != 0 ? std::max(lambda[c], 0.0) : 0;
+      lambda[c] = solution.closed[at(c)] != 0 ? std::max(lambda[c], 0.0) : 0;
     }
     fill(d, lambda);
   }
@@ -64,8 +64,8 @@ class Case {
     _sample.criterion = previous_trace.empty() ? 1 : criterion(previous_trace, previous_flux);
   }
 
-  /// max_i |u_k - u_{k-1}|_V^2 / |u_k|_V^2, formed with traces and fluxes over their sizes: loads
-  /// have squares beyond the range of double.
+  /// max_i |u_k - u_{k-1}|_V^2 / |u_k|_V^2, of scaled traces and fluxes, whose squares do not
+  /// overflow.
   double criterion(const std::vector<VectorXd>& previous_trace,
                    const std::vector<VectorXd>& previous_flux) const {
     double worst = 0;
@@ -96,13 +96,11 @@ class Case {
     _state.force = _traces.lumped_mass().cwiseProduct(_state.mu);
     _state.jump = VectorXd::Zero(_traces.pair_count());
     for (Index i = 0; i < _state.jump.size(); ++i) {
-      const ddm::NodePair& pair = pairs[static_cast<std::size_t>(i)];
-      // d itself where it is known: the difference of the traces is rounded.
-      _state.jump[i] =
-          pair.contact >= 0
-              ? d[pair.contact]
-              : _state.trace[static_cast<std::size_t>(pair.plus)][pair.plus_trace] -
-                    _state.trace[static_cast<std::size_t>(pair.minus)][pair.minus_trace];
+      const ddm::NodePair& pair = pairs[at(i)];
+      // d where it is known; the difference of the traces has rounding errors.
+      _state.jump[i] = pair.contact >= 0 ? d[pair.contact]
+                                         : _state.trace[at(pair.plus)][pair.plus_trace] -
+                                               _state.trace[at(pair.minus)][pair.minus_trace];
     }
     _sample.energy = energy(_loads, _state);
     _sample.contact_count = contact_count(_traces.decomposition(), _state.mu);
@@ -162,17 +160,12 @@ Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
       answer.status = Status::cancelled;
       break;
   }
-  answer.energy = load_case.sample().energy;
-  answer.kkt = load_case.sample().kkt;
-  const TraceState& state = load_case.state();
-  answer.kkt_relative = relative_residuals(problem.traces().decomposition(), state.mu, state.jump,
-                                           scales_of(loads.subdomains, state), answer.kkt);
   answer.weakly_active = solution.weakly_active;
   answer.closed = solution.closed;
+  describe(problem.traces(), mesh, loads, load_case.state(), load_case.sample(), answer);
   if (!std::isfinite(answer.energy)) {
-    answer.warnings.emplace_back("the energy is beyond the range of double; scale the load down");
+    answer.warnings.emplace_back("the energy overflows double precision; scale the load down");
   }
-  describe(problem.traces(), mesh, loads.subdomains, loads.inclusion_forces, state, answer);
   if (fields) {
     const SolvedCase solved{loads.subdomains, answer};
     recover_fields(problem.traces(), {&solved, 1});

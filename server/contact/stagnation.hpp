@@ -1,23 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 namespace anticrack::contact {
 
-/// Recognises an iteration that oscillates for ever. Above theta* the map of Algorithm 2 need not
-/// contract: a mode with 1 - theta lambda < -1 grows, its sign turning in every iteration, until
-/// the projection bounds it; the criterion then stays where it is. A convergent iteration either
-/// approaches slowly from one side (no turns) or turns with a criterion that falls.
-/// So: in a window of 40 iterations mu turned in most, and the smallest criterion is no smaller
-/// than in the window before (by at least one part in 1000, a contraction of 0.99999 an iteration),
-/// and this twice in a row. Only asked when theta > theta*: below it convergence is a theorem.
+/// Detects an iteration that oscillates without converging. Above theta* the map of Algorithm 2
+/// need not contract: a mode with 1 - theta lambda < -1 grows, changing sign in every iteration,
+/// until the projection bounds it, and the criterion stagnates. A convergent iteration approaches
+/// from one side (no turns) or turns while the criterion falls. Criterion: in two successive
+/// windows of 40 iterations mu turns in most of them and the smallest criterion falls by less than
+/// one part in 1000 (a contraction of 0.99999 an iteration). Used for theta > theta* only; below,
+/// Theorem 4 guarantees convergence.
 class StagnationMonitor {
  public:
   static constexpr int window = 40;
 
-  /// Returns true once the iteration is recognised as one that cannot converge.
-  bool add(double criterion, bool turned);
+  /// Records an iteration; true once it is clear that the iteration cannot converge.
+  bool add(double criterion, bool turned) {
+    ++_count;
+    _turns += turned ? 1 : 0;
+    _smallest = std::min(_smallest, criterion);
+    if (_count < window) {
+      return false;
+    }
+    const bool stagnant =
+        _smallest > rounding && _smallest >= progress * _previous_smallest && 2 * _turns > window;
+    _count = _turns = 0;
+    _previous_smallest = _smallest;
+    _smallest = std::numeric_limits<double>::infinity();
+    _stagnant_windows = stagnant ? _stagnant_windows + 1 : 0;
+    return _stagnant_windows >= 2;
+  }
 
  private:
   static constexpr double progress = 0.999;

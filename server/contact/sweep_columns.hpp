@@ -11,17 +11,24 @@
 
 namespace anticrack::contact {
 
-/// Entry k of every column belongs to row k. Made at its size once; filled row by row.
+/// Entry k of every column belongs to row k.
 struct SweepColumns {
-  /// Every entry of every column is there, to be written.
-  SweepColumns(std::size_t row_count, std::size_t inclusion_count, std::size_t contact_count);
+  SweepColumns(std::size_t row_count, std::size_t inclusion_count, std::size_t contact_count)
+      : inclusions(inclusion_count),
+        contacts(contact_count),
+        status(row_count, Status::not_converged),
+        steps(row_count, 0),
+        energy(row_count, 0),
+        contact_length(row_count, 0),
+        kkt(row_count, 0),
+        displacement(row_count * inclusion_count, 0),
+        contact(row_count * contact_count, 0) {}
 
-  /// Of all columns.
   std::size_t rows() const noexcept { return status.size(); }
 
   std::size_t inclusions = 0;
   std::size_t contacts = 0;
-  std::vector<Status> status;          ///< no number of a row is right but where converged
+  std::vector<Status> status;          ///< only converged rows hold results
   std::vector<std::int32_t> steps;     ///< of the active set
   std::vector<double> energy;          ///< Pi(u)
   std::vector<double> contact_length;  ///< over all cracks and delaminated parts

@@ -37,9 +37,9 @@ SweepGeometry::SweepGeometry(const SkeletonProblem& problem, std::size_t inclusi
     const std::vector<ddm::SidePair>& sides = decomposition.interface_sides[c];
     for (std::size_t i = 0; i < sides.size(); ++i) {
       const std::int32_t pair = sides[i].pair;
-      if (pair >= 0 && decomposition.pairs[static_cast<std::size_t>(pair)].contact >= 0) {
+      if (pair >= 0 && decomposition.pairs[at(pair)].contact >= 0) {
         nodes.push_back({static_cast<std::int32_t>(c), static_cast<std::int32_t>(i)});
-        contact.push_back(decomposition.pairs[static_cast<std::size_t>(pair)].contact);
+        contact.push_back(decomposition.pairs[at(pair)].contact);
       }
     }
   }

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -33,20 +34,18 @@ class Product {
     }
     Eigen::VectorXd jump(rows());
     for (Eigen::Index i = 0; i < rows(); ++i) {
-      const ddm::NodePair& pair = _decomposition.pairs[static_cast<std::size_t>(i)];
-      jump[i] = traces[static_cast<std::size_t>(pair.plus)][pair.plus_trace] -
-                traces[static_cast<std::size_t>(pair.minus)][pair.minus_trace];
+      const ddm::NodePair& pair = _decomposition.pairs[at(i)];
+      jump[i] = traces[at(pair.plus)][pair.plus_trace] - traces[at(pair.minus)][pair.minus_trace];
     }
     Eigen::Map<Eigen::VectorXd>(y_out, rows()) = _root.transpose() * jump;
   }
 
  private:
   Eigen::VectorXd answer(std::int32_t subdomain, const Eigen::VectorXd& force) const {
-    const ddm::Flexibility& flexibility =
-        *_operators[static_cast<std::size_t>(subdomain)].flexibility();
+    const ddm::Flexibility& flexibility = *_operators[at(subdomain)].flexibility();
     Eigen::VectorXd load = Eigen::VectorXd::Zero(flexibility.trace_size());
     for (Eigen::Index i = 0; i < rows(); ++i) {
-      const ddm::NodePair& pair = _decomposition.pairs[static_cast<std::size_t>(i)];
+      const ddm::NodePair& pair = _decomposition.pairs[at(i)];
       if (pair.plus == subdomain) {
         load[pair.plus_trace] += force[i];
       }

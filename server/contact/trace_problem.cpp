@@ -9,7 +9,7 @@
 namespace anticrack::contact {
 namespace {
 
-/// Any root R with M = R R' will do: F M and R'F R have the same eigenvalues.
+/// R with M = R R'; F M and R'F R have the same eigenvalues.
 Eigen::SparseMatrix<double> root(const Eigen::SparseMatrix<double>& mass) {
   if (mass.rows() == 0) {
     return {};
@@ -42,17 +42,14 @@ double TraceProblem::theta_star(Mass mass) const {
   if (!_uzawa) {
     return 0;
   }
-  if (mass == Mass::lumped) {
-    return _theta_star_lumped.get(
-        [this] { return contact::theta_star(_decomposition, _operators, root(_lumped)); });
-  }
-  return _theta_star_consistent.get(
-      [this] { return contact::theta_star(_decomposition, _operators, root(_consistent)); });
+  return lazy_theta_star(mass).get([this, mass] {
+    return contact::theta_star(_decomposition, _operators,
+                               mass == Mass::lumped ? root(_lumped) : root(_consistent));
+  });
 }
 
 bool TraceProblem::knows_theta_star(Mass mass) const noexcept {
-  const auto& value = mass == Mass::lumped ? _theta_star_lumped : _theta_star_consistent;
-  return !_uzawa || value.known() != nullptr;
+  return !_uzawa || lazy_theta_star(mass).known() != nullptr;
 }
 
 void TraceProblem::apply_mass(Mass mass, const Eigen::Ref<const Eigen::MatrixXd>& mu,

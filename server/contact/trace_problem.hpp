@@ -15,9 +15,9 @@
 namespace anticrack::contact {
 
 /// The contact problem on the interfaces alone. Multipliers mu, one per node pair, act on the
-/// traces as forces M mu: down on the minus side, up on the plus side. Keeps references: the
-/// decomposition and the operators (one per subdomain, same order) must outlive it.
-/// Safe to share among threads; stays where it is (parts of it refer to each other).
+/// traces as forces M mu, down on the minus and up on the plus side. Keeps references: the
+/// decomposition and the operators (one per subdomain, same order) must outlive it. Thread-safe;
+/// not movable.
 class TraceProblem {
  public:
   TraceProblem(const TraceProblem&) = delete;
@@ -41,16 +41,19 @@ class TraceProblem {
   void apply_mass(Mass mass, const Eigen::Ref<const Eigen::MatrixXd>& mu,
                   Eigen::Ref<Eigen::MatrixXd> force) const;
 
-  /// theta* = 2 / lambda_max(M^1/2 (F1 + F2) M^1/2): the iteration contracts for every load when
-  /// 0 < theta < theta* (Theorem 4). Infinite when there is no interface, 0 where Algorithm 2 does
-  /// not apply. Computed when it is first asked for, with the flexibilities, O(n_G^3): at a large
-  /// interface that is more than all else, and the active set does without. Throws errors::Error
-  /// (numerical) when it cannot be computed.
+  /// theta* = 2 / lambda_max(M^1/2 (F1 + F2) M^1/2): for 0 < theta < theta* the iteration contracts
+  /// for every load (Theorem 4). Infinite without interfaces, 0 where Algorithm 2 does not apply.
+  /// Computed at the first call, with the flexibilities: O(n_G^3), on large interfaces more than
+  /// everything else. Throws errors::Error (numerical) when it cannot be computed.
   double theta_star(Mass mass) const;
-  /// Whether theta_star() has it at hand.
+  /// Whether theta_star() is known already.
   bool knows_theta_star(Mass mass) const noexcept;
 
  private:
+  const ddm::Lazy<double>& lazy_theta_star(Mass mass) const noexcept {
+    return mass == Mass::lumped ? _theta_star_lumped : _theta_star_consistent;
+  }
+
   const ddm::Decomposition& _decomposition;
   const std::vector<ddm::SubdomainOperator>& _operators;
   Forest _forest;

@@ -83,7 +83,7 @@ void Uzawa::update_multipliers(int c) {
   const auto jump = _jump.col(c);
   double turn = 0;
   for (Index i = 0; i < mu.size(); ++i) {
-    const double lower = _pairs[static_cast<std::size_t>(i)].unilateral ? 0.0 : -column.p;
+    const double lower = _pairs[at(i)].unilateral ? 0.0 : -column.p;
     const double next = std::clamp(mu[i] - column.theta * jump[i], lower, column.p);
     const double step = next - mu[i];
     turn += mass[i] * step * change[i];
@@ -101,7 +101,7 @@ void Uzawa::apply_forces(int columns) {
     auto force = _force.col(c);
     const auto of_pair = _pair_force.col(c);
     for (Index i = 0; i < of_pair.size(); ++i) {
-      const Pair& pair = _pairs[static_cast<std::size_t>(i)];
+      const Pair& pair = _pairs[at(i)];
       force[pair.minus] -= of_pair[i];
       force[pair.plus] += of_pair[i];
     }
@@ -143,7 +143,7 @@ void Uzawa::measure_jump(int c) {
   const auto trace = _trace.col(c);
   auto jump = _jump.col(c);
   for (Index i = 0; i < jump.size(); ++i) {
-    const Pair& pair = _pairs[static_cast<std::size_t>(i)];
+    const Pair& pair = _pairs[at(i)];
     jump[i] = trace[pair.plus] - trace[pair.minus];
   }
 }

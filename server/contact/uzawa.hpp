@@ -8,6 +8,7 @@
 #include "contact/answer.hpp"
 #include "contact/trace_problem.hpp"
 #include "contact/trace_state.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 
@@ -84,7 +85,7 @@ class Uzawa {
     bool unilateral = false;
   };
 
-  static std::size_t index(int column) noexcept { return static_cast<std::size_t>(column); }
+  static std::size_t index(int column) noexcept { return at(column); }
   void update_multipliers(int column);
   void apply_forces(int columns);
   void solve_sides(int columns);

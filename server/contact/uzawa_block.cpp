@@ -3,20 +3,56 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
 
-#include "contact/answer_parts.hpp"
 #include "contact/solve.hpp"
 #include "contact/trace_state.hpp"
-#include "contact/uzawa_reasons.hpp"
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 namespace {
 
 constexpr double safety = 0.97;  // of theta*, for `auto`
 constexpr int equilibrium_period = 64;
+
+std::string oscillation_reason(const Answer& answer) {
+  std::ostringstream text;
+  text << "the iteration oscillates and cannot converge: theta = " << answer.theta
+       << " is above theta* = " << answer.theta_star
+       << " of this mesh (Theorem 4), criterion stuck near " << answer.criterion
+       << "; set theta to auto, or below " << answer.theta_star;
+  return text.str();
+}
+
+std::string overflow_reason(const Answer& answer) {
+  std::ostringstream text;
+  text << "the iterates are no longer finite with theta = " << answer.theta
+       << ", theta* = " << answer.theta_star << "; scale the load down"
+       << (answer.theta > answer.theta_star ? ", and set theta to auto" : "");
+  return text.str();
+}
+
+std::string limit_reason(const Answer& answer, const UzawaOptions& options) {
+  const KktResiduals& relative = answer.kkt_relative;
+  std::ostringstream text;
+  text << "after " << options.max_iterations << " iterations ";
+  if (options.kkt_tolerance) {
+    text << "the relative residuals are " << relative.equilibrium << " (equilibrium), "
+         << relative.gap << " (gap), " << relative.sign << " (sign), " << relative.complementarity
+         << " (complementarity), not all below kkt_tolerance = " << *options.kkt_tolerance;
+  } else {
+    text << "the criterion is " << answer.criterion << ", not below epsilon = " << options.epsilon;
+  }
+  text << " (theta = " << answer.theta << ", theta* = " << answer.theta_star
+       << "); raise max_iterations or " << (options.kkt_tolerance ? "kkt_tolerance" : "epsilon");
+  if (answer.theta < answer.theta_star / 2 || answer.theta > answer.theta_star) {
+    text << ", or set theta to auto";
+  }
+  return text.str();
+}
 
 }  // namespace
 
@@ -26,7 +62,7 @@ UzawaBlock::UzawaBlock(const TraceProblem& problem, const mesh::Mesh& mesh, Mass
       _mass(mass),
       _theta_star(problem.theta_star(mass)),
       _uzawa(problem, mass, capacity),
-      _cases(static_cast<std::size_t>(capacity)) {
+      _cases(at(capacity)) {
   for (int c = 0; c < capacity; ++c) {
     column(c).place = c;
   }
@@ -61,7 +97,7 @@ void UzawaBlock::exchange(int a, int b) {
 
 void UzawaBlock::step() {
   _uzawa.step(_running);
-  // Backwards: what takes the place of a column that ends has been seen already.
+  // Backwards, so that a column moved to the place of one that ends has been observed already.
   for (int c = _running - 1; c >= 0; --c) {
     observe(c);
     if (column(c).end != End::running) {
@@ -109,8 +145,7 @@ UzawaBlock::End UzawaBlock::judge(int c) {
   return iterate.number >= seen.options.max_iterations ? End::limit : End::running;
 }
 
-/// Whether all relative residuals are below the tolerance; equilibrium comes last because it costs
-/// most.
+/// Whether all relative residuals are below the tolerance; the costly equilibrium comes last.
 bool UzawaBlock::within_tolerance(int c) {
   KktResiduals& absolute = column(c).sample.kkt;
   const double tolerance = *column(c).options.kkt_tolerance;
@@ -128,7 +163,7 @@ bool UzawaBlock::within_tolerance(int c) {
 
 std::vector<UzawaBlock::Ended> UzawaBlock::take_ended() {
   std::vector<Ended> ended;
-  ended.reserve(static_cast<std::size_t>(_ended));
+  ended.reserve(at(_ended));
   for (int c = _running; c < _running + _ended; ++c) {
     ended.push_back({column(c).place, answer(c)});
   }
@@ -136,7 +171,7 @@ std::vector<UzawaBlock::Ended> UzawaBlock::take_ended() {
   for (int c = 0; c < _ended; ++c) {
     const Case& one = column(_running + c);
     if (one.fields) {
-      wanted.push_back({one.loads.subdomains, ended[static_cast<std::size_t>(c)].answer});
+      wanted.push_back({one.loads.subdomains, ended[at(c)].answer});
     }
   }
   recover_fields(_problem, wanted);
@@ -154,10 +189,7 @@ Answer UzawaBlock::answer(int c) {
   answer.theta_star = _theta_star;
   answer.iterations = ended.sample.iteration;
   answer.criterion = ended.sample.criterion;
-  answer.energy = ended.sample.energy;
-  answer.kkt = ended.sample.kkt;
-  answer.kkt_relative = relative_residuals(_problem.decomposition(), state.mu, state.jump,
-                                           scales_of(ended.loads.subdomains, state), answer.kkt);
+  describe(_problem, _mesh, ended.loads, state, ended.sample, answer);
   switch (ended.end) {
     case End::running:
       break;
@@ -177,7 +209,6 @@ Answer UzawaBlock::answer(int c) {
       answer.reason = limit_reason(answer, ended.options);
       break;
   }
-  describe(_problem, _mesh, ended.loads.subdomains, ended.loads.inclusion_forces, state, answer);
   return answer;
 }
 

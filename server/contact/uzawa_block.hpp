@@ -6,6 +6,7 @@
 #include "contact/solve.hpp"
 #include "contact/stagnation.hpp"
 #include "contact/uzawa.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 
@@ -54,7 +55,7 @@ class UzawaBlock {
     End end = End::running;
   };
 
-  Case& column(int c) { return _cases[static_cast<std::size_t>(c)]; }
+  Case& column(int c) { return _cases[at(c)]; }
   void exchange(int a, int b);
   void observe(int c);
   End judge(int c);

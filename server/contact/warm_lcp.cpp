@@ -5,7 +5,6 @@
 #include <bit>
 #include <utility>
 
-#include "contact/dense.hpp"
 #include "mesh/at.hpp"
 
 namespace anticrack::contact {
@@ -15,8 +14,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Where more nodes change than these, the load is another and the set before it says little: then
-/// coarse problems are quicker than steps from there. Their steps cost as much as small problems'.
+/// If more nodes than `far_off` change in the first step, coarse problems give a better start than
+/// the last set. Not worth while for `small` problems.
 constexpr Index far_off = 8, small = 128;
 
 }  // namespace
@@ -26,13 +25,11 @@ WarmLcp::WarmLcp(const DenseLcp& lcp, int max_steps, std::span<const char> start
     : _lcp(lcp),
       _nested(lcp.size() > small ? nested : nullptr),
       _max_steps(max_steps),
-      _closed(start.begin(), start.end()),
-      _factor(lcp.size() * lcp.size()) {
+      _closed(start.begin(), start.end()) {
   _closed.resize(at(lcp.size()), 1);
   _met.reserve(_closed.size());
-  _factored.reserve(_closed.size());
-  _open.reserve(_closed.size());
-  for (VectorXd* vector : {&_r, &_d, &_force, &_jump, &_pressure, &_right_hand_side}) {
+  _open.reserve(lcp.size());
+  for (VectorXd* vector : {&_r, &_d, &_force, &_jump, &_pressure}) {
     vector->setZero(lcp.size());
   }
 }
@@ -50,7 +47,6 @@ LcpStatus WarmLcp::solve(const VectorXd& r, const VectorXd& magnitude) {
   return status;
 }
 
-/// The closed nodes, with d and the forces where nothing was in the way.
 LcpStatus WarmLcp::find_set(const VectorXd& r, const VectorXd& magnitude) {
   _met.clear();
   for (;;) {
@@ -72,7 +68,7 @@ LcpStatus WarmLcp::find_set(const VectorXd& r, const VectorXd& magnitude) {
     if (_steps >= _max_steps) {
       return LcpStatus::step_limit;
     }
-    // Brent's way to see a circle: the set of the last step whose number is a power of two.
+    // Brent's cycle detection: compare with the set of the last step whose number is a power of 2.
     if (_closed == _met) {
       return start_over(r, magnitude);
     }
@@ -82,56 +78,18 @@ LcpStatus WarmLcp::find_set(const VectorXd& r, const VectorXd& magnitude) {
   }
 }
 
-/// Of the open nodes, in increasing order. False where S is singular on them.
-bool WarmLcp::factorise() {
-  if (_factored == _closed && !_factored.empty()) {
-    return _regular;
-  }
-  _factored = _closed;
-  _open.clear();
-  for (std::size_t i = 0; i < _closed.size(); ++i) {
-    if (_closed[i] == 0) {
-      _open.push_back(static_cast<Index>(i));
-    }
-  }
-  const auto n = static_cast<Index>(_open.size());
-  const MatrixXd& s = _lcp.scaled_matrix();
-  Eigen::Map<MatrixXd> factor(_factor.data(), n, n);
-  for (Index j = 0; j < n; ++j) {
-    const double* from = s.col(_open[at(j)]).data();
-    double* to = factor.col(j).data();
-    for (Index i = j; i < n; ++i) {
-      to[i] = from[_open[at(i)]];
-    }
-  }
-  _regular = cholesky(factor) &&
-             (n == 0 || regular_pivot(factor.diagonal().array().square().minCoeff(), n));
-  return _regular;
-}
-
-/// d for the open nodes that were factorised, and the forces it takes.
+/// d for the open nodes that were factorised, and the force S d - r.
 void WarmLcp::solve_open() {
-  const auto n = static_cast<Index>(_open.size());
-  const Eigen::Map<const MatrixXd> factor(_factor.data(), n, n);
-  Eigen::Map<VectorXd> x(_right_hand_side.data(), n);
-  for (Index i = 0; i < n; ++i) {
-    x[i] = _r[_open[at(i)]];
-  }
-  _d.setZero();
-  if (n > 0) {
-    solve_lower(factor, x);
-    solve_lower_transposed(factor, x);
-    for (Index i = 0; i < n; ++i) {
-      _d[_open[at(i)]] = x[i];
-    }
+  _open.solve(_r, _d);
+  if (_open.empty()) {
+    _force = -_r;
+  } else {
     _force.noalias() = _lcp.scaled_matrix() * _d;
     _force -= _r;
-  } else {
-    _force = -_r;
   }
 }
 
-/// The next set; how many nodes have changed.
+/// Changes the set; returns how many nodes changed.
 Index WarmLcp::step() {
   Index changed = 0;
   for (Index i = 0; i < _d.size(); ++i) {
@@ -160,7 +118,7 @@ LcpStatus WarmLcp::start_over(const VectorXd& r, const VectorXd& magnitude) {
   return answer.status;
 }
 
-/// A node that is open by rounding only is closed, for a unique set.
+/// Closes nodes that are open by rounding only, which makes the set unique.
 void WarmLcp::close_undecided() {
   bool changed = false;
   for (Index i = 0; i < _d.size(); ++i) {

@@ -10,37 +10,35 @@
 
 namespace anticrack::contact {
 
-/// DenseLcp for one r after another, each from the closed nodes of the one before: the same
-/// primal-dual steps, with the Cholesky factor of the open nodes kept as long as they stay the
-/// same. Then an r costs two triangular solves and a product, O(c^2); a step that changes the set
-/// O(c^3). Where the sets go round in a circle, or S is singular on the open nodes, DenseLcp starts
-/// over from all closed, with all it promises.
-/// d and lambda are computed from the final set alone, with a factor that is a function of the
-/// set alone: same r, same answer to the last bit whatever came before.
-/// No allocation in solve() but where DenseLcp or NestedStart takes over. One object belongs to one
-/// thread.
+/// DenseLcp for a sequence of r, each started from the closed nodes of the one before: the same
+/// primal-dual steps, keeping the factor of the open nodes while they stay the same. An r then
+/// costs two triangular solves and a product, O(c^2); a step that changes the set O(c^3). If sets
+/// recur, or S is singular on the open nodes, DenseLcp starts over from all closed. d and lambda
+/// are computed from the final set alone: same r, same bits, whatever came before. solve()
+/// allocates only where DenseLcp or NestedStart takes over. For one thread.
 class WarmLcp {
  public:
-  /// Keeps references. `start`: closed nodes to start from; empty: all. `nested`: of the same
-  /// problem, where a load that is far from the one before starts; null: there as well.
+  /// Keeps references. `start`: closed nodes; empty: all. `nested`: of the same problem, gives the
+  /// start for a load far from the one before; may be null.
   WarmLcp(const DenseLcp& lcp, int max_steps, std::span<const char> start,
           const NestedStart* nested = nullptr);
 
-  /// `r` and `magnitude` as DenseLcp::solve takes them, both given. The rest is valid where the
-  /// answer is `solved`, until the next call.
+  /// `r`, `magnitude`: as for DenseLcp::solve, both given. The results below are valid until the
+  /// next call if this returns `solved`.
   LcpStatus solve(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude);
 
   const Eigen::VectorXd& d() const noexcept { return _jump; }           ///< >= 0
   const Eigen::VectorXd& lambda() const noexcept { return _pressure; }  ///< >= 0
-  /// max_i |lambda - (S d - r)|_i, relative to the largest of |r| and lambda: what d and lambda,
-  /// both clipped at 0, leave of all conditions.
+  /// max_i |lambda - (S d - r)|_i over the largest of |r| and lambda, with d and lambda clipped at
+  /// 0.
   double residual() const noexcept { return _residual; }
   int steps() const noexcept { return _steps; }
   const std::vector<char>& closed() const noexcept { return _closed; }
 
  private:
   LcpStatus find_set(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude);
-  bool factorise();
+  /// Factorises S on the open nodes; false if it is singular there.
+  bool factorise() { return _open.factorise(_lcp.scaled_matrix(), _closed); }
   void solve_open();
   Eigen::Index step();
   LcpStatus start_over(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude);
@@ -56,11 +54,7 @@ class WarmLcp {
   Eigen::VectorXd _jump, _pressure;
   double _residual = 0;
   int _steps = 0;
-  // Cholesky factor of S on the open nodes of `_factored`, lower, (n,n) column-major at the front.
-  std::vector<char> _factored;
-  std::vector<Eigen::Index> _open;
-  Eigen::VectorXd _factor, _right_hand_side;
-  bool _regular = false;
+  OpenFactor _open;
 };
 
 }  // namespace anticrack::contact

@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "mesh/at.hpp"
+
 namespace anticrack::ddm {
 
 /// Calls what `make_worker()` gives, of which each thread makes its own, with 0, 1, ..., count - 1
@@ -31,7 +33,7 @@ void at_once(std::size_t count, int threads, const MakeWorker& make_worker) {
   };
   if (count > 0) {
     std::vector<std::jthread> helpers;
-    const auto wanted = std::min(static_cast<std::size_t>(std::max(threads, 1)), count);
+    const auto wanted = std::min(at(std::max(threads, 1)), count);
     for (std::size_t t = 1; t < wanted; ++t) helpers.emplace_back(run);
     run();
   }

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -41,10 +42,10 @@ Flexibility::Flexibility(const Eigen::MatrixXd& schur, std::span<const std::int3
       _column[i] = size++;
     }
   }
-  std::vector<Eigen::Index> inclusion_column(static_cast<std::size_t>(inclusions), -1);
+  std::vector<Eigen::Index> inclusion_column(at(inclusions), -1);
   for (std::size_t i = 0; i < rigid.size(); ++i) {
     if (rigid[i] >= 0) {
-      Eigen::Index& column = inclusion_column[static_cast<std::size_t>(rigid[i])];
+      Eigen::Index& column = inclusion_column[at(rigid[i])];
       if (column < 0) {
         column = size++;
       }
@@ -57,8 +58,7 @@ Flexibility::Flexibility(const Eigen::MatrixXd& schur, std::span<const std::int3
   Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(size, size);
   for (Eigen::Index j = 0; j < schur.cols(); ++j) {
     for (Eigen::Index i = 0; i < schur.rows(); ++i) {
-      reduced(_column[static_cast<std::size_t>(i)], _column[static_cast<std::size_t>(j)]) +=
-          schur(i, j);
+      reduced(_column[at(i)], _column[at(j)]) += schur(i, j);
     }
   }
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(reduced);
@@ -84,7 +84,7 @@ void Flexibility::apply(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
     const auto given = rhs.col(j);
     auto sums = reduced.col(j);
     for (Eigen::Index i = 0; i < given.size(); ++i) {
-      sums[_column[static_cast<std::size_t>(i)]] += given[i];
+      sums[_column[at(i)]] += given[i];
     }
   }
   multiply(_inverse, reduced, skeleton);
@@ -92,14 +92,13 @@ void Flexibility::apply(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
     const auto values = skeleton.col(j);
     auto wanted = trace.col(j);
     for (Eigen::Index i = 0; i < wanted.size(); ++i) {
-      wanted[i] = values[_column[static_cast<std::size_t>(i)]];
+      wanted[i] = values[_column[at(i)]];
     }
   }
 }
 
 std::size_t Flexibility::bytes() const noexcept {
-  return sizeof(double) * static_cast<std::size_t>(_inverse.size()) +
-         sizeof(Eigen::Index) * _column.capacity();
+  return sizeof(double) * at(_inverse.size()) + sizeof(Eigen::Index) * _column.capacity();
 }
 
 }  // namespace anticrack::ddm

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "mesh/at.hpp"
+
 namespace anticrack::ddm {
 namespace {
 
@@ -24,7 +26,7 @@ class Columns {
   MatrixXd block(Index first, Index count) const {
     MatrixXd result = MatrixXd::Zero(count, static_cast<Index>(_loads.size()));
     for (Index j = 0; j < result.cols(); ++j) {
-      const VectorXd& column = _loads[static_cast<std::size_t>(j)]->*part;
+      const VectorXd& column = _loads[at(j)]->*part;
       if (column.size() > 0) {
         result.col(j) = column.segment(first, count);
       }
@@ -73,7 +75,7 @@ CondensedLoad combine(std::span<const CondensedLoad* const> loads, const LoadPro
                       const Eigen::Ref<const VectorXd>& coefficients) {
   CondensedLoad result;
   for (Index j = 0; j < coefficients.size(); ++j) {
-    const CondensedLoad& load = *loads[static_cast<std::size_t>(j)];
+    const CondensedLoad& load = *loads[at(j)];
     if (j == 0) {
       result.g = result.g_boundary = VectorXd::Zero(load.g.size());
       result.dirichlet = VectorXd::Zero(load.dirichlet.size());

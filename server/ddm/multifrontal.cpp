@@ -157,9 +157,7 @@ class Elimination {
   }
 
  private:
-  Front new_front() const {
-    return Front(at(_pattern.columns) + static_cast<std::size_t>(_schur.rows()));
-  }
+  Front new_front() const { return Front(at(_pattern.columns) + at(_schur.rows())); }
   int own(int s) const {
     return std::min(_pattern.super[s + 1], _pattern.columns) - _pattern.super[s];
   }

@@ -168,7 +168,7 @@ class Dissection {
       met[1] += (y < 0) & (y + static_cast<double>(node.reach_y) >= 0);
       met[2] += circle.meets(node);
     }
-    return cuts[static_cast<std::size_t>(std::min_element(met.begin(), met.end()) - met.begin())];
+    return cuts[at(std::min_element(met.begin(), met.end()) - met.begin())];
   }
 
   /// Gives each node of the set its new part.
@@ -211,7 +211,7 @@ class Dissection {
     if (_taken.empty()) {
       return;
     }
-    const std::size_t size = static_cast<std::size_t>(sizes[0] + sizes[1]);
+    const std::size_t size = at(sizes[0] + sizes[1]);
     const std::size_t at_cut = _taken.size();
     const std::array<std::ptrdiff_t, 2> in_cut = in_band;
     std::size_t done = 0;

@@ -14,6 +14,7 @@
 #include "ddm/multifrontal.hpp"
 #include "ddm/values.hpp"
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::ddm {
 
@@ -32,9 +33,9 @@ using Sparse = Eigen::SparseMatrix<double>;
 /// without const but only reads it.
 cholmod_sparse view(const Sparse& matrix) {
   cholmod_sparse result{};
-  result.nrow = static_cast<std::size_t>(matrix.rows());
-  result.ncol = static_cast<std::size_t>(matrix.cols());
-  result.nzmax = static_cast<std::size_t>(matrix.nonZeros());
+  result.nrow = at(matrix.rows());
+  result.ncol = at(matrix.cols());
+  result.nzmax = at(matrix.nonZeros());
   result.p = const_cast<int*>(matrix.outerIndexPtr());
   result.i = const_cast<int*>(matrix.innerIndexPtr());
   result.x = const_cast<double*>(matrix.valuePtr());
@@ -49,7 +50,7 @@ cholmod_sparse view(const Sparse& matrix) {
 
 bool keeps_trace_last(const cholmod_factor& factor, Eigen::Index interior) {
   const int* permutation = static_cast<const int*>(factor.Perm);
-  for (auto i = static_cast<std::size_t>(interior); i < factor.n; ++i) {
+  for (auto i = at(interior); i < factor.n; ++i) {
     if (permutation[i] != static_cast<int>(i)) {
       return false;
     }
@@ -99,7 +100,7 @@ std::size_t value_count(const Supernodes& l) {
   while (end < l.count && l.super[end] < l.columns) {
     ++end;
   }
-  return static_cast<std::size_t>(l.value_begin[end]);
+  return at(l.value_begin[end]);
 }
 
 /// Calls take(begin, end, column) for parts of few rows, so that the rows of a block that it reads
@@ -121,7 +122,7 @@ void in_blocks(int rows, int columns, const Put& put, const Solve& solve, const 
   const auto whole = [](int count) { return count == 1 ? 1 : (count + lanes - 1) / lanes * lanes; };
   const int most = static_cast<int>(columns_at_once(rows));
   const int widest = whole(std::min(columns, most));
-  const Values y = make_values(static_cast<std::size_t>(rows) * static_cast<std::size_t>(widest));
+  const Values y = make_values(at(rows) * at(widest));
   for (int first = 0; first < columns; first += most) {
     const int count = std::min(most, columns - first);
     const std::ptrdiff_t width = whole(count);
@@ -151,7 +152,7 @@ SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior,
   if (stiffness.rows() == 0) {
     return;  // u is prescribed in every node; CHOLMOD refuses empty matrices
   }
-  std::vector<int> permutation(static_cast<std::size_t>(stiffness.rows()));
+  std::vector<int> permutation(at(stiffness.rows()));
   std::iota(std::copy(order.begin(), order.end(), permutation.begin()), permutation.end(),
             static_cast<int>(interior));
   auto factor = std::make_unique<Factor>();
@@ -160,7 +161,7 @@ SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior,
   const int* unknown = static_cast<const int*>(factor->analysis->Perm);
   factor->place.resize(factor->analysis->n);
   for (int k = 0; k < static_cast<int>(stiffness.rows()); ++k) {
-    factor->place[static_cast<std::size_t>(unknown[k])] = k;
+    factor->place[at(unknown[k])] = k;
   }
   factor->values = make_values(value_count(factor->l));
   factor->l.values = factor->values.get();
@@ -187,7 +188,7 @@ std::vector<SubdomainFactor::Forward> SubdomainFactor::forward(
 
 void SubdomainFactor::forward(const Eigen::Ref<const Eigen::MatrixXd>& f,
                               std::vector<Forward>& result) const {
-  result.resize(static_cast<std::size_t>(f.cols()));
+  result.resize(at(f.cols()));
   for (Forward& column : result) {
     column.z_interior.resize(_interior);
     column.g.resize(trace());
@@ -205,7 +206,7 @@ void SubdomainFactor::forward(const Eigen::Ref<const Eigen::MatrixXd>& f,
       },
       [&](int width, double* y) { forward_solve(_factor->l, width, y); },
       [&](int j, int begin, int end, const double* from, std::ptrdiff_t stride) {
-        Forward& column = result[static_cast<std::size_t>(j)];
+        Forward& column = result[at(j)];
         const int middle = std::clamp(interior, begin, end);
         for (int i = begin; i < middle; ++i) column.z_interior[i] = from[i * stride];
         for (int i = middle; i < end; ++i) column.g[i - interior] = from[i * stride];
@@ -221,14 +222,14 @@ void SubdomainFactor::recover(std::span<Backward> columns) const {
   in_blocks(
       static_cast<int>(_interior + trace()), static_cast<int>(columns.size()),
       [&](int j, int begin, int end, double* to, std::ptrdiff_t stride) {
-        const auto& [z_interior, trace_values, u] = columns[static_cast<std::size_t>(j)];
+        const auto& [z_interior, trace_values, u] = columns[at(j)];
         const int middle = std::clamp(interior, begin, end);
         for (int i = begin; i < middle; ++i) to[i * stride] = z_interior[i];
         for (int i = middle; i < end; ++i) to[i * stride] = trace_values[i - interior];
       },
       [&](int width, double* y) { backward_solve(_factor->l, width, y); },
       [&](int j, int begin, int end, const double* from, std::ptrdiff_t stride) {
-        Eigen::Ref<Eigen::VectorXd>& to = columns[static_cast<std::size_t>(j)].u;
+        Eigen::Ref<Eigen::VectorXd>& to = columns[at(j)].u;
         for (int i = begin; i < end; ++i) to[i] = from[place[i] * stride];
       });
 }
@@ -254,8 +255,8 @@ std::size_t SubdomainFactor::bytes() const noexcept {
   }
   const cholmod_factor& analysis = *_factor->analysis;
   const std::size_t integers = analysis.ssize + 3 * (analysis.nsuper + 1) + 3 * analysis.n;
-  return sizeof(double) * (value_count(_factor->l) + static_cast<std::size_t>(_schur.size())) +
-         sizeof(int) * integers + sizeof(cholmod_factor);
+  return sizeof(double) * (value_count(_factor->l) + at(_schur.size())) + sizeof(int) * integers +
+         sizeof(cholmod_factor);
 }
 
 }  // namespace anticrack::ddm

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "ddm/elimination_order.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -13,12 +14,12 @@ Eigen::Index index(std::size_t i) {
 }
 
 std::size_t index_of(Eigen::Index i) {
-  return static_cast<std::size_t>(i);
+  return at(i);
 }
 
 std::size_t bytes_of(const Eigen::SparseMatrix<double>& matrix) {
-  return static_cast<std::size_t>(matrix.nonZeros()) * (sizeof(double) + sizeof(int)) +
-         static_cast<std::size_t>(matrix.cols() + 1) * sizeof(int);
+  return at(matrix.nonZeros()) * (sizeof(double) + sizeof(int)) +
+         at(matrix.cols() + 1) * sizeof(int);
 }
 
 }  // namespace

@@ -6,11 +6,12 @@
 #include <queue>
 #include <utility>
 
+#include "mesh/at.hpp"
+
 namespace anticrack::ddm {
 
 Subtrees part(const EliminationTree& tree, int threads) {
   constexpr double subtrees_a_thread = 4;
-  const auto at = [](int i) { return static_cast<std::size_t>(i); };
   const int count = static_cast<int>(tree.parent.size());
   std::vector<double> work = tree.work;  // of the subtree
   std::vector<std::vector<int>> children(at(count));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ddm/decomposition.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::ddm {
 
@@ -16,7 +17,7 @@ std::string uzawa_obstacle(const Decomposition& decomposition, const mesh::Mesh&
       if (inclusion < 0) {
         continue;
       }
-      const auto j = static_cast<std::size_t>(inclusion);
+      const auto j = at(inclusion);
       if (owner[j] != nullptr && owner[j] != &subdomain) {
         return "the plus side of the inclusion \"" + mesh.inclusions[j] +
                "\" lies in two subdomains, \"" + owner[j]->name + "\" and \"" + subdomain.name +

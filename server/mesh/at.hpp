@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Signed numbers as places in arrays: meshes count in std::int32_t and matrices in Eigen::Index,
-// while containers want std::size_t. `values[at(i)]` says that i is not negative.
+// Signed indices (std::int32_t of meshes, Eigen::Index) as std::size_t of containers:
+// values[at(i)].
 #pragma once
 
 #include <concepts>

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
+#include "mesh/geometry_primitives.hpp"
 #include "mesh/midpoints.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
@@ -14,16 +16,13 @@ namespace anticrack::mesh {
 namespace {
 
 std::size_t side_of(const Mesh& mesh, const EdgeUse& use) noexcept {
-  const auto t = 3 * static_cast<std::size_t>(use.triangle);
+  const auto t = 3 * at(use.triangle);
   if (mesh.triangles[t] == use.from) return 0;
   return mesh.triangles[t + 1] == use.from ? 1 : 2;
 }
 
 double squared_length(const Mesh& mesh, std::int32_t a, std::int32_t b) noexcept {
-  const auto i = 2 * static_cast<std::size_t>(a);
-  const auto j = 2 * static_cast<std::size_t>(b);
-  const double dx = mesh.xy[j] - mesh.xy[i];
-  const double dy = mesh.xy[j + 1] - mesh.xy[i + 1];
+  const auto [dx, dy] = minus(position(mesh, b), position(mesh, a));
   return dx * dx + dy * dy;
 }
 
@@ -36,10 +35,6 @@ void check_plane(std::span<const EdgeUse> uses) {
                           " triangles; refinement takes one on each side at most");
 }
 
-Point between(const Point& a, const Point& b) noexcept {
-  return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> reference_sides(const Mesh& mesh, const EdgeTable& edges) {
@@ -48,7 +43,7 @@ std::vector<std::uint8_t> reference_sides(const Mesh& mesh, const EdgeTable& edg
   edges.each([&](std::span<const EdgeUse> uses) {
     const double length = squared_length(mesh, uses[0].low(), uses[0].high());
     for (const EdgeUse& use : uses) {
-      const auto t = static_cast<std::size_t>(use.triangle);
+      const auto t = at(use.triangle);
       if (length > longest[t]) {
         longest[t] = length;
         sides[t] = static_cast<std::uint8_t>(side_of(mesh, use));
@@ -73,7 +68,7 @@ Bisection::Bisection(const Mesh& base, std::size_t max_triangles)
     check_plane(uses);
     if (uses.size() < 2) return;
     for (std::size_t i = 0; i < 2; ++i) {
-      const auto t = static_cast<std::size_t>(uses[i].triangle);
+      const auto t = at(uses[i].triangle);
       _across[t][(side_of(base, uses[i]) + 3 - reference[t]) % 3] = uses[1 - i].triangle;
     }
   });
@@ -82,7 +77,7 @@ Bisection::Bisection(const Mesh& base, std::size_t max_triangles)
 std::array<Point, 3> Bisection::corners(std::size_t triangle) const noexcept {
   std::array<Point, 3> points;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto node = 2 * static_cast<std::size_t>(_corners[triangle][i]);
+    const auto node = 2 * at(_corners[triangle][i]);
     points[i] = {_xy[node], _xy[node + 1]};
   }
   return points;
@@ -90,8 +85,8 @@ std::array<Point, 3> Bisection::corners(std::size_t triangle) const noexcept {
 
 std::int32_t Bisection::midpoint(std::int32_t a, std::int32_t b) {
   const auto node = static_cast<std::int32_t>(_xy.size() / 2);
-  const auto i = 2 * static_cast<std::size_t>(a);
-  const auto j = 2 * static_cast<std::size_t>(b);
+  const auto i = 2 * at(a);
+  const auto j = 2 * at(b);
   _xy.push_back(0.5 * (_xy[i] + _xy[j]));
   _xy.push_back(0.5 * (_xy[i + 1] + _xy[j + 1]));
   _parents.push_back({a, b});
@@ -102,15 +97,15 @@ std::int32_t Bisection::append_triangle(std::int32_t like) {
   const auto t = static_cast<std::int32_t>(triangle_count());
   _corners.emplace_back();
   _across.emplace_back();
-  _subdomain.push_back(_subdomain[static_cast<std::size_t>(like)]);
+  _subdomain.push_back(_subdomain[at(like)]);
   return t;
 }
 
 /// Precondition: the triangle across the reference edge, if any, has the same reference edge.
 void Bisection::bisect_along_reference(std::int32_t t) {
-  const std::int32_t n = _across[static_cast<std::size_t>(t)][0];
-  const auto start = _corners[static_cast<std::size_t>(t)][0];
-  const std::int32_t m = midpoint(start, _corners[static_cast<std::size_t>(t)][1]);
+  const std::int32_t n = _across[at(t)][0];
+  const auto start = _corners[at(t)][0];
+  const std::int32_t m = midpoint(start, _corners[at(t)][1]);
   const std::int32_t t_new = append_triangle(t);
   const std::int32_t n_new = n < 0 ? -1 : append_triangle(n);
 
@@ -118,34 +113,34 @@ void Bisection::bisect_along_reference(std::int32_t t) {
   // across ab, where a and b change roles, the half at a borders the new triangle there.
   const auto split = [&](std::int32_t old, std::int32_t fresh, std::int32_t across_old,
                          std::int32_t across_fresh) {
-    const auto i = static_cast<std::size_t>(old);
-    const auto j = static_cast<std::size_t>(fresh);
+    const auto i = at(old);
+    const auto j = at(fresh);
     const auto [a, b, c] = _corners[i];
     const auto [ab, bc, ca] = _across[i];
     _corners[i] = {c, a, m};
     _across[i] = {ca, across_fresh, fresh};
     _corners[j] = {b, c, m};
     _across[j] = {bc, old, across_old};
-    if (bc >= 0) std::ranges::replace(_across[static_cast<std::size_t>(bc)], old, fresh);
+    if (bc >= 0) std::ranges::replace(_across[at(bc)], old, fresh);
   };
   split(t, t_new, n, n_new);
   if (n >= 0) split(n, n_new, t, t_new);
 }
 
-// Why the walk across reference edges ends. Give a triangle of the base generation 0, children one
-// more than their parent, and an edge of a triangle of generation g level g if it is the reference
-// edge, g + 1 if not. Inside a triangle of the base both sides of an edge agree on its level. On an
-// edge of the base, and the pieces of it, they differ by one at most, and the side where it was the
-// reference edge has the lower level. So a step from T across its reference edge e to N, where e is
-// not the reference edge, never raises the generation, and keeps it only when e is a piece of the
-// reference edge of T's ancestor in the base and not of N's: then N's ancestor has an edge larger
-// in the strict order than T's has. No triangle is met twice.
+// Why the walk across reference edges ends. A base triangle has generation 0, children one more
+// than their parent. An edge of a triangle of generation g has level g if it is the reference edge,
+// else g + 1. Within a base triangle both sides of an edge agree on its level; on an edge of the
+// base, and its pieces, they differ by at most one, the lower level being on the side where it was
+// the reference edge. So a step from T across its reference edge e to N, of which e is not the
+// reference edge, never raises the generation. It keeps the generation only if e is a piece of the
+// reference edge of T's base ancestor but not of N's; N's ancestor then has an edge that is larger
+// in the strict order than any of T's. So no triangle is met twice.
 bool Bisection::bisect(std::size_t triangle) {
   _waiting.assign(1, static_cast<std::int32_t>(triangle));
   while (!_waiting.empty()) {
     const std::int32_t t = _waiting.back();
-    const std::int32_t n = _across[static_cast<std::size_t>(t)][0];
-    if (n >= 0 && _across[static_cast<std::size_t>(n)][0] != t) {
+    const std::int32_t n = _across[at(t)][0];
+    if (n >= 0 && _across[at(n)][0] != t) {
       _waiting.push_back(n);
       continue;
     }
@@ -181,10 +176,9 @@ double bisection_bound(const Mesh& base) {
     const Point a = corner(base, t, reference[t]);
     const Point b = corner(base, t, (reference[t] + 1U) % 3);
     const Point c = corner(base, t, (reference[t] + 2U) % 3);
-    const Point m = between(a, b);
-    // The triangle and its children. Of the grandchildren two are similar to it; the other two are
-    // congruent, with children like the first children, and their angles are the two parts of the
-    // angle at c and the sum of those at a and b: never the smallest.
+    const Point m{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+    // The triangle and its children suffice: two grandchildren are similar to it; the other two are
+    // congruent, have children similar to the first ones, and none of the smallest angles.
     for (const auto& similar : {angles(a, b, c), angles(c, a, m), angles(b, c, m)}) {
       smallest = std::min(smallest, *std::ranges::min_element(similar));
     }

@@ -2,10 +2,9 @@
 //
 // Newest-vertex bisection of a conforming triangulation, conforming after every step.
 //
-// Each triangle has a reference edge; bisection joins its midpoint to the opposite corner, and the
-// reference edges of the two children are the other two edges of the parent. At first it is the
-// longest edge, of equals that of the smaller (low, high) pair of nodes: a strict order of all
-// edges.
+// Bisection joins the midpoint of a triangle's reference edge to the opposite corner; the reference
+// edges of the children are the other two edges of the parent. At first it is the longest edge; of
+// equal ones that with the smaller (low, high) pair of nodes, which makes the order strict.
 #pragma once
 
 #include <array>
@@ -13,7 +12,6 @@
 #include <vector>
 
 #include "mesh/edges.hpp"
-#include "mesh/geometry.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::mesh {
@@ -34,9 +32,9 @@ class Bisection {
   /// Counterclockwise.
   std::array<Point, 3> corners(std::size_t triangle) const noexcept;
 
-  /// Bisects a triangle, after those that must be bisected for the mesh to conform. One child takes
-  /// its number, the other the next free one. False, and as much done as fitted, if the mesh would
-  /// get more than `max_triangles`. Terminates: see the source. O(1) amortised over all calls.
+  /// Bisects a triangle, after the neighbours that must be bisected for the mesh to conform. One
+  /// child takes its number, the other the next free one. False when the mesh would exceed
+  /// `max_triangles`; part of the work may be done then. O(1) amortised over all calls.
   [[nodiscard]] bool bisect(std::size_t triangle);
 
   /// The mesh as it stands, interfaces and dirichlet edges cut with it. O(n log n).

@@ -12,14 +12,14 @@
 namespace anticrack::mesh {
 namespace {
 
-// The first eight bytes say what follows and in which version of the format.
+// The first eight bytes: what follows, and the version of the format.
 constexpr std::string_view mesh_tag = "ACMESH2\n";
 constexpr std::string_view request_tag = "ACMREQ2\n";
 constexpr std::string_view reply_tag = "ACMREP2\n";
 
 constexpr auto last_reason = static_cast<std::int32_t>(errors::Reason::internal);
 
-/// Of a mesh, but not of what its hash is taken of.
+/// Fields that do not count for the hash of a mesh.
 bool is_beside(std::string_view field) {
   return field == "warnings" || field == "bisection_bound";
 }
@@ -42,14 +42,14 @@ Mesh get_mesh(Reader& in) {
   return mesh;
 }
 
-/// A place in an array of `size` items.
+/// Refuses an index outside an array of `size` items.
 void check_index(int index, std::size_t size, const char* what) {
   if (index >= 0 && static_cast<std::size_t>(index) < size) return;
   Reader::fail(std::string(what) + " has the number " + std::to_string(index) + " of " +
                std::to_string(size));
 }
 
-/// The mesher walks these numbers without looking.
+/// The mesher uses these indices unchecked.
 void check_indices(const Plan& plan) {
   for (const PlannedCurve& curve : plan.curves) {
     check_index(curve.a, plan.points.size(), "a point");
@@ -79,8 +79,7 @@ void check_indices(const Plan& plan) {
   }
 }
 
-/// The description of every field violation is the message itself (errors::Error::at), so the
-/// paths are enough.
+/// Field violations are sent as paths; their description is the message (errors::Error::at).
 void put(Writer& out, const errors::Error& error) {
   out.number(static_cast<std::int32_t>(error.reason()));
   out.text(error.what());

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What travels between the server and the helper process, and what a mesh is stored as: bytes,
-// little-endian, each array with its length before it. Reading checks every length against what is
-// there before it allocates.
+// Messages between the server and the helper process, and the stored form of a mesh: little-endian
+// bytes, each array after its length, which is checked before memory is allocated.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +18,10 @@ namespace anticrack::mesh {
 
 using Bytes = std::vector<std::byte>;
 
-/// Canonical: equal meshes give equal bytes (warnings are not part of it), so a hash of them
-/// identifies the mesh.
+/// Canonical: equal meshes (apart from their warnings) give equal bytes, whose hash identifies
+/// them.
 Bytes encode(const Mesh& mesh);
-/// Throws errors::Error (mesh_invalid) where the bytes are not those of a mesh.
+/// Throws errors::Error (mesh_invalid) for malformed bytes.
 Mesh decode_mesh(std::span<const std::byte> bytes);
 
 /// Mesh this plan, then grade.
@@ -41,11 +40,10 @@ ANTICRACK_FIELDS(ImportRequest, path, options, max_triangles)
 using MesherRequest = std::variant<GenerateRequest, ImportRequest>;
 using MesherReply = std::variant<Mesh, errors::Error>;
 
-/// What goes to the helper; decode_request throws errors::Error (mesh_invalid) for what encode does
-/// not make.
+/// Requests to the helper. Decoding throws errors::Error (mesh_invalid) for malformed bytes.
 Bytes encode(const MesherRequest& request);
 MesherRequest decode_request(std::span<const std::byte> bytes);
-/// The reply carries the mesh's warnings and its bisection bound as well.
+/// Replies carry the mesh's warnings and bisection bound as well.
 Bytes encode(const MesherReply& reply);
 MesherReply decode_reply(std::span<const std::byte> bytes);
 

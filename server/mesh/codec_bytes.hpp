@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Structs, numbers, texts and lists as bytes and back. The reader checks every length against the
-// bytes that are left before it allocates.
+// Structs, numbers, texts and lists as bytes and back.
 #pragma once
 
 #include <bit>
@@ -28,7 +27,6 @@ static_assert(std::endian::native == std::endian::little,
 
 class Writer {
  public:
-  /// `tag` comes first: what the bytes are, in which version.
   explicit Writer(std::string_view tag) { raw(tag.data(), tag.size()); }
 
   /// Little-endian, as in memory.
@@ -45,7 +43,7 @@ class Writer {
     count(value.size());
     raw(value.data(), value.size());
   }
-  /// Whatever is made of numbers, texts, containers and listed structs; a list with its length.
+  /// Numbers, texts, containers and listed structs, nested at will; a list after its length.
   template <class T>
   void value(const T& from) {
     if constexpr (std::is_enum_v<T>) {
@@ -65,7 +63,7 @@ class Writer {
     }
   }
 
-  /// All of them; the writer is empty then.
+  /// All bytes; empties the writer.
   Bytes take() { return std::move(_bytes); }
 
  private:
@@ -77,14 +75,14 @@ class Writer {
   Bytes _bytes;
 };
 
-/// What the number of an enum may be; `what` it says.
+/// The range of an enum's numbers, and its name in messages.
 struct Choices {
   std::int32_t first;
   std::int32_t last;
   const char* what;
 };
 
-/// Bytes that a value takes at least.
+/// Fewest bytes of an encoded value.
 template <class T>
 std::size_t least_bytes() {
   std::size_t bytes = 8;  // the length of a text or list
@@ -106,7 +104,7 @@ std::size_t least_bytes() {
 
 class Reader {
  public:
-  /// Every call throws errors::Error (mesh_invalid) where the bytes are not what it asks for.
+  /// All calls throw errors::Error (mesh_invalid) for bytes that do not fit.
   Reader(std::span<const std::byte> bytes, std::string_view tag) : _bytes(bytes) {
     if (left() < tag.size() || std::memcmp(_bytes.data(), tag.data(), tag.size()) != 0) {
       fail("they do not begin with the tag " + std::string(tag.substr(0, tag.size() - 1)));
@@ -124,7 +122,8 @@ class Reader {
     _at += sizeof value;
     return value;
   }
-  /// The length of a list whose items take at least `item_bytes` each; what is left bounds it.
+  /// The length of a list whose items take at least `item_bytes` each, checked against what is
+  /// left.
   std::size_t count(std::size_t item_bytes) {
     const auto n = number<std::uint64_t>();
     if (n > left() / item_bytes) {

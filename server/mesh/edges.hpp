@@ -21,8 +21,7 @@ struct EdgeUse {
   std::int32_t high() const noexcept { return from < to ? to : from; }
 };
 
-/// All sides of all triangles, those of one edge next to one another: sorted by (low, high), then
-/// by triangle. Memory 12 bytes a side.
+/// All sides of all triangles, sorted by (low, high), then by triangle. 12 bytes a side.
 class EdgeTable {
  public:
   /// `triangles` (m,3) row-major. O(m log m).

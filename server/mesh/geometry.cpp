@@ -5,10 +5,10 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "mesh/at.hpp"
 #include "mesh/geometry_intervals.hpp"
 #include "mesh/geometry_names.hpp"
 #include "mesh/geometry_network.hpp"
-#include "mesh/geometry_options.hpp"
 #include "mesh/geometry_parts.hpp"
 #include "mesh/geometry_primitives.hpp"
 #include "mesh/geometry_subdomains.hpp"
@@ -24,7 +24,7 @@ constexpr double paper_growth = 0.057;
 constexpr double uniform_divisions = 50;
 constexpr double graded_divisions = 20.3;
 
-/// Curves a plan may have: everything that is done with them is nearly quadratic.
+/// Limit of the curves of a plan; the work on them grows nearly quadratically.
 constexpr std::size_t curve_limit = 50'000;
 
 /// Equilateral triangles of this edge length fill the area, or line its boundary.
@@ -39,11 +39,11 @@ std::size_t bounded(double expected, std::size_t max_triangles, const std::strin
   throw errors::Error(errors::Reason::limit_exceeded,
                       cause + " gives about " + show(std::round(expected)) +
                           " triangles; at most " + std::to_string(max_triangles) +
-                          " are taken, so choose a coarser mesh")
+                          " are allowed, so choose a coarser mesh")
       .at(field);
 }
 
-/// Whether the boundary on both sides of a station is Neumann's.
+/// Whether the boundary is Neumann on both sides of a station.
 bool neumann_around(const Layout& layout, const Network& network, double t) {
   const double spans = network.lines.front().line.spans();
   bool before = false;
@@ -57,7 +57,7 @@ bool neumann_around(const Layout& layout, const Network& network, double t) {
   return before && after;
 }
 
-/// No inclusion touches the boundary, no crack its Dirichlet part.
+/// Refuses inclusions that touch the boundary and cracks that touch its Dirichlet part.
 void check_contacts(const Layout& layout, const Network& network) {
   for (const PlacedPart& part : layout.parts) {
     for (const bool end : {false, true}) {
@@ -66,15 +66,15 @@ void check_contacts(const Layout& layout, const Network& network) {
       if (t < 0) continue;
       if (part.inclusion < 0 && neumann_around(layout, network, t)) continue;
       const std::string field = part.field + ".part" + (end != part.reversed ? ".to" : ".from");
-      refuse(field, field, " ", show(network.points[static_cast<std::size_t>(point)]),
+      refuse(field, field, " ", show(network.points[at(point)]),
              " touches the boundary, at an end of the interface; a tip must lie inside the "
              "membrane",
-             part.inclusion < 0 ? ", or where the boundary is Neumann's on both sides of it" : "");
+             part.inclusion < 0 ? ", or where the boundary is Neumann on both sides of it" : "");
     }
   }
 }
 
-/// No two inclusions have a point in common where their interfaces meet.
+/// Refuses two inclusions that share a point where their interfaces meet.
 void check_inclusions_apart(const Plan& plan) {
   std::unordered_map<int, int> holder;  // of a point
   for (const PlannedCurve& curve : plan.curves) {
@@ -82,11 +82,10 @@ void check_inclusions_apart(const Plan& plan) {
     for (const int point : {curve.a, curve.b}) {
       const int other = holder.emplace(point, curve.inclusion).first->second;
       if (other == curve.inclusion) continue;
-      const auto last = static_cast<std::size_t>(std::max(other, curve.inclusion));
-      const auto first = static_cast<std::size_t>(std::min(other, curve.inclusion));
+      const auto last = at(std::max(other, curve.inclusion));
+      const auto first = at(std::min(other, curve.inclusion));
       refuse(indexed("inclusions", last) + ".part", indexed("inclusions", last), " and ",
-             indexed("inclusions", first), " share the point ",
-             show(plan.points[static_cast<std::size_t>(point)]),
+             indexed("inclusions", first), " share the point ", show(plan.points[at(point)]),
              "; the membrane is tied to both there, so leave glue between them");
     }
   }
@@ -99,7 +98,7 @@ void add_curves(const Layout& layout, const Network& network, Plan& plan) {
     PlannedCurve curve;
     curve.a = chord.a;
     curve.b = chord.b;
-    curve.role = network.lines[static_cast<std::size_t>(chord.line)].role;
+    curve.role = network.lines[at(chord.line)].role;
     if (curve.role == Role::dirichlet && stretch_of(layout.neumann, network, chord) != nullptr) {
       curve.role = Role::neumann;
     }
@@ -140,7 +139,7 @@ void plan_paper(double area, std::size_t max_triangles, Plan& plan) {
                            "options.preset");
 }
 
-/// Before anything is cut: neither the area nor the lines take more triangles than allowed.
+/// Before anything is cut: the area and the lines need at most `max_triangles`.
 std::size_t check_size(const Network& network, double area, double size,
                        std::size_t max_triangles) {
   double pieces = 0;
@@ -161,7 +160,7 @@ Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_
   const double size = options.size > 0 ? options.size : diagonal(polygon) / divisions;
   std::size_t triangles = 0;
   if (options.preset != Preset::paper) triangles = check_size(network, area, size, max_triangles);
-  // once before anything lies on the lines: a part is not to be blamed for a fault of its line
+  // The lines alone first, so that their faults are not reported as faults of the parts on them.
   Network lines = network;
   cut(lines, size, curve_limit);
   const Layout layout = lay_parts(geometry, network);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The parametric geometry of a case: a polygon, interfaces in it, what lies on them. Pure data and
-// checks; no mesher is needed to refuse a bad one.
+// checks, without the mesher.
 #pragma once
 
 #include <array>
@@ -15,10 +15,8 @@
 
 namespace anticrack::mesh {
 
-using Point = std::array<double, 2>;
-
-/// From one point of an interface to another; either order, but on a closed interface the part is
-/// what lies between them in the interface's order.
+/// The stretch of an interface between two of its points, given in either order; on a closed
+/// interface the stretch from `from` to `to` in the interface's direction.
 struct Part {
   Point from{};
   Point to{};
@@ -94,7 +92,7 @@ struct PlannedCurve {
   int intervals = 1;
   Role role = Role::dirichlet;
   int left = -1;   ///< face on the left of a-b, -1: outside the membrane
-  int right = -1;  ///< and on its right; the same as `left`: the curve hangs in that face
+  int right = -1;  ///< and on its right; equal to `left` for a curve inside a face
   // of an interface:
   Kind kind = Kind::glue;
   int inclusion = -1;
@@ -108,19 +106,19 @@ struct PlannedInterface {
 };
 ANTICRACK_FIELDS(PlannedInterface, name, curves)
 
-/// A face of the arrangement of all curves. Faces that only align lines part are one subdomain and
-/// have one name and tension; those of a subdomain follow each other. Curves are +-(index + 1), the
-/// sign negative where the loop walks from b to a.
+/// A face of the arrangement of all curves. Faces separated by align lines only are one subdomain,
+/// share its name and tension, and follow each other. Loops hold +-(curve index + 1), negative
+/// where they walk from b to a.
 struct PlannedFace {
   std::string name;
   double tension = 1;
   std::vector<int> outer;               ///< counterclockwise, the face on its left
   std::vector<std::vector<int>> holes;  ///< clockwise, the face on its left
-  std::vector<int> embedded;            ///< indices of curves that hang in it or swim in it
+  std::vector<int> embedded;            ///< indices of curves inside it that bound no other face
 };
 ANTICRACK_FIELDS(PlannedFace, name, tension, outer, holes, embedded)
 
-/// How a mesh is to be graded; see mesh/refine.hpp. h0 = 0: not at all.
+/// How to grade a mesh; see mesh/refine.hpp. h0 = 0: no grading.
 struct GradingSpec {
   double h0 = 0;
   double m = 0.2;
@@ -128,7 +126,7 @@ struct GradingSpec {
 };
 ANTICRACK_FIELDS(GradingSpec, h0, m, tip_size)
 
-/// What the mesher needs to know: the geometry cut into straight curves and faces.
+/// The mesher's input: the geometry cut into straight curves and faces.
 struct Plan {
   std::vector<Point> points;
   std::vector<PlannedCurve> curves;
@@ -141,18 +139,19 @@ struct Plan {
 };
 ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, growth, grading, triangles)
 
-/// Checks a geometry and cuts it into curves with the intervals of the preset.
-/// Throws errors::Error (geometry_invalid; invalid_argument for options; limit_exceeded for too
-/// many vertices or triangles) with the field at fault ("boundary", "interfaces[0].polyline",
-/// "inclusions[1].part.from", "regions[0].at", "options.size", ...): boundary that crosses itself,
-/// interface outside the membrane or along another, part off every interface or touching the
-/// boundary, parts overlapping, values not finite, names empty, wrong or used twice, more triangles
-/// than `max_triangles` to be expected. O(v^2) in the vertices, at most 10,000.
+/// Checks a geometry and cuts it into curves with the intervals of the preset. Throws errors::Error
+/// with the field at fault ("boundary", "interfaces[0].polyline", "inclusions[1].part.from",
+/// "regions[0].at", "options.size", ...): geometry_invalid (the boundary crosses itself, an
+/// interface leaves the membrane or runs along another, a part lies on no interface, touches the
+/// boundary or overlaps another, values are not finite, names are empty, malformed or used twice);
+/// invalid_argument for options; limit_exceeded for more than 10,000 vertices or more than
+/// `max_triangles` expected triangles. O(v^2) for v vertices.
 Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_triangles);
 
-/// Checks what of the options can be checked for an upload, before its mesh is known. Throws
-/// errors::Error (invalid_argument) with the field at fault ("options.preset", "options.align",
-/// "options.curve_groups[3]", ...).
+/// Check the options of a geometry (all but the points of `align`, which plan() checks) and of an
+/// upload, before a mesh is known. Throw errors::Error (invalid_argument) with the field at fault
+/// ("options.size", "options.align", "options.curve_groups[3]", ...).
+void check_for_geometry(const MeshOptions& options);
 void check_for_upload(const MeshOptions& options);
 
 }  // namespace anticrack::mesh

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
+#include "mesh/at.hpp"
 #include "mesh/geometry_primitives.hpp"
 
 namespace anticrack::mesh {
@@ -19,7 +19,6 @@ class Meetings {
   explicit Meetings(const Network& network) : _network(network), _tolerance(network.tolerance) {}
 
   void meet(const Chord& s, const Chord& t) {
-    if (!boxes_meet(segment(s), segment(t), _tolerance)) return;
     if (s.line == t.line) {
       same_line(s, t);
     } else if (s.line > t.line) {
@@ -30,16 +29,13 @@ class Meetings {
   }
 
   Segment segment(const Chord& chord) const {
-    return {_network.points[static_cast<std::size_t>(chord.a)],
-            _network.points[static_cast<std::size_t>(chord.b)]};
+    return {_network.points[at(chord.a)], _network.points[at(chord.b)]};
   }
   std::vector<Crossing> take() { return std::move(_crossings); }
 
  private:
-  const NetworkLine& line(const Chord& chord) const {
-    return _network.lines[static_cast<std::size_t>(chord.line)];
-  }
-  const Point& point(int i) const { return _network.points[static_cast<std::size_t>(i)]; }
+  const NetworkLine& line(const Chord& chord) const { return _network.lines[at(chord.line)]; }
+  const Point& point(int i) const { return _network.points[at(i)]; }
 
   static int shared(const Chord& s, const Chord& t) {
     if (s.a == t.a || s.a == t.b) return s.a;
@@ -52,7 +48,7 @@ class Meetings {
     return distance(point(other(s, common)), segment(t)) <= _tolerance ||
            distance(point(other(t, common)), segment(s)) <= _tolerance;
   }
-  /// Of the line where the chord leaves `end`; a curve's tangent, which its chord only comes near.
+  /// Direction of the line where the chord leaves `end`: on a curve its tangent, not the chord.
   Point direction(const Chord& chord, int end) const {
     const Line& on = line(chord).line;
     if (on.straight()) {
@@ -150,8 +146,8 @@ class Meetings {
     _crossings.push_back(crossing);
   }
 
-  /// Newton on c1(t1) = c2(t2). Within their chords the two are nearly straight. Where they run
-  /// along each other its steps would be rounding over rounding: that is refused first.
+  /// Newton on c1(t1) = c2(t2), which are nearly straight within their chords. Lines along each
+  /// other, where the system is singular to rounding, are refused first.
   void refine(const Chord& s, const Chord& other, std::array<double, 2>& t) const {
     const Line& first = line(s).line;
     const Line& second = line(other).line;
@@ -187,26 +183,13 @@ class Meetings {
 }  // namespace
 
 std::vector<Crossing> find_crossings(const Network& network) {
-  const double tolerance = network.tolerance;
   Meetings meetings(network);
-  const std::size_t n = network.chords.size();
-  std::vector<double> low(n);
-  std::vector<double> high(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Segment s = meetings.segment(network.chords[i]);
-    low[i] = std::min(s.a[0], s.b[0]);
-    high[i] = std::max(s.a[0], s.b[0]);
-  }
-  std::vector<std::size_t> order(n);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) { return low[i] < low[j]; });
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t s = order[i];
-    for (std::size_t j = i + 1; j < n && low[order[j]] <= high[s] + tolerance; ++j) {
-      meetings.meet(network.chords[s], network.chords[order[j]]);
-    }
-  }
+  std::vector<Segment> segments;
+  segments.reserve(network.chords.size());
+  for (const Chord& chord : network.chords) segments.push_back(meetings.segment(chord));
+  each_near_pair(segments, network.tolerance, [&](std::size_t s, std::size_t t) {
+    meetings.meet(network.chords[s], network.chords[t]);
+  });
   return meetings.take();
 }
 

@@ -17,10 +17,10 @@ struct Crossing {
   Point at{};
 };
 
-/// Checks every pair of chords and finds the crossings still to be made stations. Throws
+/// Checks every pair of chords and returns the crossings that are no stations yet. Throws
 /// geometry_invalid for a line that meets itself, leaves the polygon, touches the boundary other
-/// than with its ends, runs along another or meets it at less than a degree.
-/// O(c log c) and the pairs of chords over the same stretch of the x axis.
+/// than with its ends, runs along another line or meets it at less than a degree.
+/// O(c log c + pairs of chords over the same x).
 std::vector<Crossing> find_crossings(const Network& network);
 
 }  // namespace anticrack::mesh

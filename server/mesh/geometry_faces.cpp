@@ -5,11 +5,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 
+#include "mesh/at.hpp"
 #include "mesh/geometry_primitives.hpp"
+#include "mesh/union_find.hpp"
 
 namespace anticrack::mesh {
 namespace {
@@ -24,12 +25,8 @@ class Walker {
     link();
   }
 
-  int start(int half) const {
-    return _edges[static_cast<std::size_t>(half / 2)][static_cast<std::size_t>(half % 2)];
-  }
-  const Point& start_point(int half) const {
-    return _points[static_cast<std::size_t>(start(half))];
-  }
+  int start(int half) const { return _edges[at(half / 2)][at(half % 2)]; }
+  const Point& start_point(int half) const { return _points[at(start(half))]; }
 
   std::vector<std::vector<int>> loops() const {
     std::vector<std::vector<int>> all;
@@ -37,9 +34,8 @@ class Walker {
     for (std::size_t first = 0; first < _next.size(); ++first) {
       if (walked[first] || !_used[first / 2]) continue;
       std::vector<int> loop;
-      for (int half = static_cast<int>(first); !walked[static_cast<std::size_t>(half)];
-           half = _next[static_cast<std::size_t>(half)]) {
-        walked[static_cast<std::size_t>(half)] = true;
+      for (int half = static_cast<int>(first); !walked[at(half)]; half = _next[at(half)]) {
+        walked[at(half)] = true;
         loop.push_back(half);
       }
       all.push_back(std::move(loop));
@@ -70,23 +66,15 @@ class Walker {
     return odd;
   }
 
-  /// For each vertex the connected part it lies in.
+  /// For each vertex the number of its connected part.
   std::vector<int> parts() const {
-    std::vector<int> root(_points.size());
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](int v) {
-      while (root[static_cast<std::size_t>(v)] != v) {
-        const auto at = static_cast<std::size_t>(v);
-        root[at] = root[static_cast<std::size_t>(root[at])];
-        v = root[at];
-      }
-      return v;
-    };
+    UnionFind sets(_points.size());
     for (std::size_t e = 0; e < _edges.size(); ++e) {
-      if (_used[e]) root[static_cast<std::size_t>(find(_edges[e][0]))] = find(_edges[e][1]);
+      if (_used[e]) sets.unite(_edges[e][0], _edges[e][1]);
     }
-    for (std::size_t v = 0; v < root.size(); ++v) root[v] = find(static_cast<int>(v));
-    return root;
+    std::vector<int> part(_points.size());
+    for (std::size_t v = 0; v < part.size(); ++v) part[v] = sets.find(static_cast<int>(v));
+    return part;
   }
 
  private:
@@ -112,10 +100,10 @@ class Walker {
     for (std::size_t first = 0; first < spokes.size();) {
       std::size_t end = first;
       while (end < spokes.size() && spokes[end].vertex == spokes[first].vertex) ++end;
-      // who comes in along a spoke goes on along the next one clockwise
+      // a walk that arrives along a spoke leaves along the next one clockwise
       for (std::size_t i = first; i < end; ++i) {
         const std::size_t clockwise = i == first ? end - 1 : i - 1;
-        _next[static_cast<std::size_t>(spokes[i].half ^ 1)] = spokes[clockwise].half;
+        _next[at(spokes[i].half ^ 1)] = spokes[clockwise].half;
       }
       first = end;
     }
@@ -159,8 +147,7 @@ void add_loop(const Walker& walker, const std::vector<int>& halves, bool is_oute
   std::size_t outer = simple.size();
   if (is_outer) {
     const auto less = [&](const auto& a, const auto& b) { return walker.area(a) < walker.area(b); };
-    outer = static_cast<std::size_t>(std::max_element(simple.begin(), simple.end(), less) -
-                                     simple.begin());
+    outer = at(std::max_element(simple.begin(), simple.end(), less) - simple.begin());
   }
   for (std::size_t i = 0; i < simple.size(); ++i) {
     if (i == outer) {
@@ -178,21 +165,21 @@ Arrangement arrange(std::span<const Point> points, EdgeSpan edges, const std::ve
   const std::vector<std::vector<int>> loops = walker.loops();
   const std::vector<int> part = walker.parts();
   const auto part_of = [&](std::size_t loop) {
-    return part[static_cast<std::size_t>(walker.start(loops[loop].front()))];
+    return part[at(walker.start(loops[loop].front()))];
   };
   std::vector<double> area(loops.size());
   // each connected part has one loop around it, the one with the least area
   std::vector<std::size_t> around(points.size(), loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i) {
     area[i] = walker.area(loops[i]);
-    std::size_t& best = around[static_cast<std::size_t>(part_of(i))];
+    std::size_t& best = around[at(part_of(i))];
     if (best == loops.size() || area[i] < area[best]) best = i;
   }
   Arrangement result;
   std::vector<int> face_of(loops.size(), Arrangement::outside);
   std::vector<std::size_t> loop_of;
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (around[static_cast<std::size_t>(part_of(i))] == i) continue;
+    if (around[at(part_of(i))] == i) continue;
     face_of[i] = static_cast<int>(result.faces.size());
     loop_of.push_back(i);
     result.faces.emplace_back();
@@ -200,7 +187,7 @@ Arrangement arrange(std::span<const Point> points, EdgeSpan edges, const std::ve
     add_loop(walker, loops[i], true, result.faces.back());
   }
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (around[static_cast<std::size_t>(part_of(i))] != i) continue;
+    if (around[at(part_of(i))] != i) continue;
     // the smallest loop of another part that holds it
     int home = Arrangement::outside;
     double least = std::numeric_limits<double>::infinity();
@@ -213,14 +200,14 @@ Arrangement arrange(std::span<const Point> points, EdgeSpan edges, const std::ve
     }
     face_of[i] = home;
     if (home != Arrangement::outside) {
-      add_loop(walker, loops[i], false, result.faces[static_cast<std::size_t>(home)]);
+      add_loop(walker, loops[i], false, result.faces[at(home)]);
     }
   }
   result.left.assign(edges.size(), Arrangement::outside);
   result.right.assign(edges.size(), Arrangement::outside);
   for (std::size_t i = 0; i < loops.size(); ++i) {
     for (const int half : loops[i]) {
-      (half % 2 == 0 ? result.left : result.right)[static_cast<std::size_t>(half / 2)] = face_of[i];
+      (half % 2 == 0 ? result.left : result.right)[at(half / 2)] = face_of[i];
     }
   }
   return result;
@@ -236,8 +223,8 @@ int face_at(const Arrangement& arrangement, std::span<const Point> points, EdgeS
     std::vector<Point> polygon;
     polygon.reserve(face.outer.size());
     for (const int edge : face.outer) {
-      const auto& ends = edges[static_cast<std::size_t>(std::abs(edge) - 1)];
-      polygon.push_back(points[static_cast<std::size_t>(edge > 0 ? ends[0] : ends[1])]);
+      const auto& ends = edges[at(std::abs(edge) - 1)];
+      polygon.push_back(points[at(edge > 0 ? ends[0] : ends[1])]);
     }
     if (!inside(p, polygon)) continue;
     best = static_cast<int>(f);

@@ -29,12 +29,12 @@ struct Arrangement {
   std::vector<int> right;  ///< and on its right
 };
 
-/// The faces between the used edges, which meet only at their ends. Loops pass a vertex once.
-/// O(e log e), and the edges for every connected part but the first.
+/// The faces between the used edges, which meet only at their ends. A loop passes each vertex once.
+/// O(e log e) for e edges, and O(e) for each connected part after the first.
 Arrangement arrange(std::span<const Point> points, std::span<const std::array<int, 2>> edges,
                     const std::vector<bool>& used);
 
-/// The face that holds a point that is on no edge.
+/// The face that contains a point not on an edge, or `outside`.
 int face_at(const Arrangement& arrangement, std::span<const Point> points,
             std::span<const std::array<int, 2>> edges, const Point& p);
 

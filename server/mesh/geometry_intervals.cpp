@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "mesh/at.hpp"
 #include "mesh/geometry_primitives.hpp"
 
 namespace anticrack::mesh {
@@ -25,8 +26,7 @@ void share(const Plan& plan, const std::vector<PlannedCurve*>& curves) {
 }  // namespace
 
 double length_of(const Plan& plan, const PlannedCurve& curve) noexcept {
-  return distance(plan.points[static_cast<std::size_t>(curve.a)],
-                  plan.points[static_cast<std::size_t>(curve.b)]);
+  return distance(plan.points[at(curve.a)], plan.points[at(curve.b)]);
 }
 
 void set_paper_intervals(Plan& plan) {
@@ -37,7 +37,7 @@ void set_paper_intervals(Plan& plan) {
     if (curve.role == Role::interface) {
       (curve.kind == Kind::glue ? glue : rest).push_back(&curve);
     } else {
-      outer[static_cast<std::size_t>(curve.left)].push_back(&curve);
+      outer[at(curve.left)].push_back(&curve);
     }
   }
   share(plan, glue);

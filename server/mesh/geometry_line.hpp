@@ -34,8 +34,7 @@ class Line {
   /// Points at the parameters 0, 1, ...; of a closed line the last is left out.
   const std::vector<Point>& vertices() const noexcept { return _vertices; }
 
-  /// The point at a parameter, which is clipped to the line; its derivative by the parameter, which
-  /// points along the line.
+  /// The point at a parameter, clipped to the line, and its derivative by the parameter.
   Point at(double t) const noexcept;
   Point derivative(double t) const noexcept;
 
@@ -43,8 +42,8 @@ class Line {
   std::optional<double> locate(const Point& p, double tolerance) const;
   /// Of `p` from the line; exact for a polyline, else from fine chords.
   double distance_to(const Point& p) const noexcept;
-  /// How many of the longest chords allowed, of length `size` and a turn of ten degrees, the line
-  /// takes from one parameter to another. Not for polylines.
+  /// How many chords of length `size` or a turn of ten degrees the line takes from one parameter to
+  /// another. Not for polylines.
   double chords_between(double from, double to, double size) const;
   /// Parameters strictly between that cut this part of the line into such chords.
   std::vector<double> cuts_between(double from, double to, double size) const;

@@ -36,14 +36,6 @@ class Names {
   std::map<std::string, std::string> _used;
 };
 
-void check_count(std::size_t count, const std::string& field) {
-  if (count <= max_vertices) return;
-  throw errors::Error(errors::Reason::limit_exceeded,
-                      field + " has " + std::to_string(count) + " entries; at most " +
-                          std::to_string(max_vertices) + " are taken")
-      .at(field);
-}
-
 }  // namespace
 
 std::vector<std::string> check_names(const Geometry& geometry) {

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
 #include <string>
 #include <utility>
 
+#include "mesh/at.hpp"
 #include "mesh/geometry_intervals.hpp"
 #include "mesh/geometry_primitives.hpp"
 
@@ -22,8 +22,7 @@ struct Fine {
 };
 
 Segment segment_of(const Plan& plan, const PlannedCurve& curve) {
-  return {plan.points[static_cast<std::size_t>(curve.a)],
-          plan.points[static_cast<std::size_t>(curve.b)]};
+  return {plan.points[at(curve.a)], plan.points[at(curve.b)]};
 }
 
 bool joined(const PlannedCurve& s, const PlannedCurve& t) {
@@ -35,7 +34,7 @@ std::vector<Fine> fine_points(const Plan& plan, double size) {
   std::vector<double> least(plan.points.size(), size);
   for (const PlannedCurve& curve : plan.curves) {
     for (const int end : {curve.a, curve.b}) {
-      double& own = least[static_cast<std::size_t>(end)];
+      double& own = least[at(end)];
       own = std::min(own, ratio * length_of(plan, curve));
     }
   }
@@ -47,32 +46,20 @@ std::vector<Fine> fine_points(const Plan& plan, double size) {
   return fine;
 }
 
-/// Per curve those it is long for, without a point in common.
+/// For each curve, the curves it is too long for; none that shares a point with it.
 std::vector<std::vector<int>> near_curves(const Plan& plan, double size) {
-  const std::size_t n = plan.curves.size();
   std::vector<Segment> segments;
-  segments.reserve(n);
+  segments.reserve(plan.curves.size());
   for (const PlannedCurve& curve : plan.curves) segments.push_back(segment_of(plan, curve));
-  const auto low = [&](std::size_t i) { return std::min(segments[i].a[0], segments[i].b[0]); };
-  const auto high = [&](std::size_t i) { return std::max(segments[i].a[0], segments[i].b[0]); };
-  std::vector<std::size_t> order(n);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) { return low(i) < low(j); });
   const double reach = size / ratio;
-  std::vector<std::vector<int>> near(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t s = order[i];
-    for (std::size_t j = i + 1; j < n && low(order[j]) <= high(s) + reach; ++j) {
-      const std::size_t t = order[j];
-      if (!boxes_meet(segments[s], segments[t], reach)) continue;
-      if (joined(plan.curves[s], plan.curves[t])) continue;
-      const double limit = ratio * distance(segments[s], segments[t]);
-      if (limit >= size) continue;
-      if (limit < length_of(plan, plan.curves[s])) near[s].push_back(static_cast<int>(t));
-      if (limit < length_of(plan, plan.curves[t])) near[t].push_back(static_cast<int>(s));
-    }
-  }
+  std::vector<std::vector<int>> near(plan.curves.size());
+  each_near_pair(segments, reach, [&](std::size_t s, std::size_t t) {
+    if (joined(plan.curves[s], plan.curves[t])) return;
+    const double limit = ratio * distance(segments[s], segments[t]);
+    if (limit >= size) return;
+    if (limit < length_of(plan, plan.curves[s])) near[s].push_back(static_cast<int>(t));
+    if (limit < length_of(plan, plan.curves[t])) near[t].push_back(static_cast<int>(s));
+  });
   return near;
 }
 
@@ -112,14 +99,10 @@ class Cutter {
     return fine.size + _growth * distance(fine.at, piece);
   }
 
-  /// Halves the stretch of the curve until nothing near asks for shorter edges.
+  /// Halves the stretch until nothing near it requires shorter edges.
   void cut(const Segment& whole, double from, double to, const std::vector<Fine>& fine,
            const std::vector<int>& near) {
-    const auto at = [&](double t) {
-      return Point{whole.a[0] + t * (whole.b[0] - whole.a[0]),
-                   whole.a[1] + t * (whole.b[1] - whole.a[1])};
-    };
-    const Segment piece{at(from), at(to)};
+    const Segment piece{point_on(whole, from), point_on(whole, to)};
     const double length = distance(piece.a, piece.b);
     const double wanted = std::min(length, _size);
     std::vector<Fine> still_fine;
@@ -128,7 +111,7 @@ class Cutter {
     }
     std::vector<int> still_near;
     for (const int t : near) {
-      const Segment other = segment_of(_plan, _plan.curves[static_cast<std::size_t>(t)]);
+      const Segment other = segment_of(_plan, _plan.curves[at(t)]);
       if (ratio * distance(piece, other) < wanted) still_near.push_back(t);
     }
     if (still_fine.empty() && still_near.empty()) return;
@@ -156,11 +139,14 @@ class Cutter {
   std::vector<double> _cuts;
 };
 
-/// The pieces of every curve, in its order.
-using Pieces = std::vector<std::vector<int>>;
+}  // namespace
 
-Pieces cut_curves(Plan& plan, const std::vector<std::vector<double>>& cuts) {
-  Pieces pieces(plan.curves.size());
+void cut_near(Plan& plan, double size, double growth, std::size_t max_curves) {
+  Cutter cutter(plan, size, growth, max_curves);
+  std::vector<std::vector<double>> cuts;
+  cuts.reserve(plan.curves.size());
+  for (std::size_t e = 0; e < plan.curves.size(); ++e) cuts.push_back(cutter.cuts(e));
+  std::vector<std::vector<int>> pieces(plan.curves.size());
   std::vector<PlannedCurve> curves;
   curves.reserve(plan.curves.size());
   for (std::size_t e = 0; e < cuts.size(); ++e) {
@@ -174,51 +160,39 @@ Pieces cut_curves(Plan& plan, const std::vector<std::vector<double>>& cuts) {
       piece.a = b;
     };
     for (const double t : cuts[e]) {
-      plan.points.push_back(
-          {whole.a[0] + t * (whole.b[0] - whole.a[0]), whole.a[1] + t * (whole.b[1] - whole.a[1])});
+      plan.points.push_back(point_on(whole, t));
       add(static_cast<int>(plan.points.size()) - 1);
     }
     add(last);
   }
-  plan.curves = std::move(curves);
-  return pieces;
+  replace_curves(plan, std::move(curves), pieces);
 }
 
-void replace_curves(const Pieces& pieces, std::vector<int>& list) {
-  std::vector<int> now;
-  for (const int curve : list) {
-    const auto& own = pieces[static_cast<std::size_t>(curve)];
-    now.insert(now.end(), own.begin(), own.end());
-  }
-  list = std::move(now);
-}
-
-void replace_loop(const Pieces& pieces, std::vector<int>& loop) {
-  std::vector<int> now;
-  for (const int edge : loop) {
-    const auto& own = pieces[static_cast<std::size_t>(std::abs(edge) - 1)];
-    if (edge > 0) {
-      for (const int piece : own) now.push_back(piece + 1);
-    } else {
-      for (auto piece = own.rbegin(); piece != own.rend(); ++piece) now.push_back(-*piece - 1);
+void replace_curves(Plan& plan, std::vector<PlannedCurve> curves,
+                    const std::vector<std::vector<int>>& pieces) {
+  const auto replace = [&](std::vector<int>& list) {
+    std::vector<int> now;
+    for (const int curve : list) {
+      now.insert(now.end(), pieces[at(curve)].begin(), pieces[at(curve)].end());
     }
-  }
-  loop = std::move(now);
-}
-
-}  // namespace
-
-void cut_near(Plan& plan, double size, double growth, std::size_t max_curves) {
-  Cutter cutter(plan, size, growth, max_curves);
-  std::vector<std::vector<double>> cuts;
-  cuts.reserve(plan.curves.size());
-  for (std::size_t e = 0; e < plan.curves.size(); ++e) cuts.push_back(cutter.cuts(e));
-  const Pieces pieces = cut_curves(plan, cuts);
-  for (PlannedInterface& interface : plan.interfaces) replace_curves(pieces, interface.curves);
+    list = std::move(now);
+  };
+  const auto replace_loop = [&](std::vector<int>& loop) {
+    std::vector<int> now;
+    for (const int edge : loop) {
+      const std::vector<int>& own = pieces[at(std::abs(edge) - 1)];
+      const auto first = static_cast<std::ptrdiff_t>(now.size());
+      for (const int piece : own) now.push_back(edge > 0 ? piece + 1 : -piece - 1);
+      if (edge < 0) std::reverse(now.begin() + first, now.end());
+    }
+    loop = std::move(now);
+  };
+  plan.curves = std::move(curves);
+  for (PlannedInterface& interface : plan.interfaces) replace(interface.curves);
   for (PlannedFace& face : plan.faces) {
-    replace_loop(pieces, face.outer);
-    for (auto& hole : face.holes) replace_loop(pieces, hole);
-    replace_curves(pieces, face.embedded);
+    replace_loop(face.outer);
+    for (auto& hole : face.holes) replace_loop(hole);
+    replace(face.embedded);
   }
 }
 

@@ -6,58 +6,51 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh/at.hpp"
 #include "mesh/geometry_crossings.hpp"
 #include "mesh/geometry_primitives.hpp"
 
 namespace anticrack::mesh {
 namespace {
 
-/// Lines lie in the membrane. Far outside they are refused at once: the squares and products of
-/// such coordinates would be no numbers.
+/// Refuses points far outside the membrane first: products of such coordinates would overflow.
 void check_near(const Point& p, const std::string& field, const Outline& outline) {
   if (distance(p, outline.boundary.front()) > 10 * outline.tolerance / relative_tolerance) {
     refuse(field, field, " ", show(p), " lies outside the polygon; it must lie in the membrane");
   }
 }
 
-void check_vertices(const std::vector<Point>& points, const std::string& field,
-                    const Outline& outline) {
+/// Of a polyline or spline.
+void check_vertices(const std::vector<Point>& points, const std::string& owner,
+                    const std::string& field, const Outline& outline) {
   check_points(points, field);
   for (std::size_t i = 0; i < points.size(); ++i) {
     check_near(points[i], indexed(field, i), outline);
+  }
+  check_distinct(points, field, outline.tolerance);
+  if (distance(points.front(), points.back()) <= outline.tolerance) {
+    refuse(owner, owner, " starts and ends at the same point ", show(points.front()),
+           "; for a closed line set `closed` and leave the last point out");
   }
 }
 
 Line polyline_of(const std::vector<Point>& points, bool closed, const std::string& owner,
                  const std::string& field, const Outline& outline) {
-  const double tolerance = outline.tolerance;
   const std::size_t least = closed ? 3 : 2;
   if (points.size() < least) {
     refuse(owner, owner, " has ", points.size(), " vertices; a ", (closed ? "closed " : ""),
            "polyline takes at least ", least);
   }
-  check_vertices(points, field, outline);
-  check_distinct(points, field, tolerance);
-  if (distance(points.front(), points.back()) <= tolerance) {
-    refuse(owner, owner, " starts and ends at the same point ", show(points.front()),
-           "; for a closed line set `closed` and leave the last point out");
-  }
-  check_simple(points, closed, owner, field, tolerance);
+  check_vertices(points, owner, field, outline);
+  check_simple(points, closed, owner, field, outline.tolerance);
   return Line::polyline(points, closed);
 }
 
 Line spline_of(const InterfaceSpec& spec, const std::string& owner, const Outline& outline) {
-  const double tolerance = outline.tolerance;
-  const std::string field = owner + ".points";
   if (spec.points.size() < 3) {
     refuse(owner, owner, " has ", spec.points.size(), " points; a spline takes at least 3");
   }
-  check_vertices(spec.points, field, outline);
-  check_distinct(spec.points, field, tolerance);
-  if (distance(spec.points.front(), spec.points.back()) <= tolerance) {
-    refuse(owner, owner, " starts and ends at the same point ", show(spec.points.front()),
-           "; for a closed line set `closed` and leave the last point out");
-  }
+  check_vertices(spec.points, owner, owner + ".points", outline);
   return Line::spline(spec.points, spec.closed);
 }
 
@@ -83,8 +76,8 @@ Line arc_of(const InterfaceSpec& spec, const std::string& owner, const Outline& 
   }
   const double ab = distance(a, b), bc = distance(b, c), ac = distance(a, c);
   const double twice_area = std::abs(signed_area(std::array{a, b, c})) * 2;
-  // Flatter than this, its centre is lost to rounding: nearly on the line, or of a radius, ab bc ac
-  // / (2 twice_area), far beyond the membrane; also where that is not a number.
+  // A flatter arc's centre is lost to rounding: its radius ab bc ac / (2 twice_area) exceeds the
+  // membrane by far. The negation also catches NaN.
   const bool flat = distance(b, Segment{a, c}) <= 1e3 * tolerance ||
                     !(ab * bc * ac <= 1e15 * tolerance * twice_area);
   if (flat || ab <= tolerance || bc <= tolerance) {
@@ -112,23 +105,15 @@ NetworkLine interface_line(const InterfaceSpec& spec, const std::string& name,
           {}};
 }
 
-void check_limit(std::size_t count, std::size_t limit, const std::string& field, const char* what) {
-  if (count <= limit) return;
-  throw errors::Error(errors::Reason::limit_exceeded, field + " has " + std::to_string(count) +
-                                                          " " + what + "; at most " +
-                                                          std::to_string(limit) + " are taken")
-      .at(field);
-}
-
 void check_counts(const Geometry& geometry, const MeshOptions& options) {
-  check_limit(geometry.interfaces.size(), max_interfaces, "interfaces", "entries");
-  check_limit(options.align.size(), max_interfaces, "options.align", "lines");
+  check_count(geometry.interfaces.size(), "interfaces", "entries", max_interfaces);
+  check_count(options.align.size(), "options.align", "lines", max_interfaces);
   std::size_t vertices = 0;
   for (const InterfaceSpec& spec : geometry.interfaces) vertices += spec.points.size();
-  check_limit(vertices, max_vertices, "interfaces", "vertices");
+  check_count(vertices, "interfaces", "vertices");
   vertices = 0;
   for (const auto& line : options.align) vertices += line.size();
-  check_limit(vertices, max_vertices, "options.align", "vertices");
+  check_count(vertices, "options.align", "vertices");
 }
 
 void add_station(NetworkLine& line, double t, int point) {
@@ -150,7 +135,7 @@ int point_at(Network& network, const Point& p) {
   return point;
 }
 
-/// Stations at a point on all lines that pass it but one.
+/// Adds a station at a point to all lines through it except one.
 void mark_others(Network& network, const Point& p, int point, std::size_t but) {
   for (std::size_t l = 0; l < network.lines.size(); ++l) {
     if (l == but) continue;
@@ -169,7 +154,7 @@ std::uint64_t cell(const Point& p, double tolerance, int dx, int dy) {
   return part(p[0], dx) * 0x9E3779B97F4A7C15U ^ part(p[1], dy);
 }
 
-/// Chords between two stations of a line; those of a curve bring points of their own.
+/// Adds the chords between two stations of a line, with new points on curved lines.
 void cut_stretch(Network& network, std::size_t l, const Station& from, const Station& to,
                  double size, std::size_t max_chords) {
   const Line& line = network.lines[l].line;
@@ -215,11 +200,11 @@ void check_inside(const Network& network, const std::vector<Point>& polygon) {
   for (const Chord& chord : network.chords) {
     if (chord.line == before || chord.line == 0) continue;
     before = chord.line;
-    const Point& a = network.points[static_cast<std::size_t>(chord.a)];
-    const Point& b = network.points[static_cast<std::size_t>(chord.b)];
+    const Point& a = network.points[at(chord.a)];
+    const Point& b = network.points[at(chord.b)];
     const Point middle{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
     if (inside(middle, polygon)) continue;
-    const std::string& field = network.lines[static_cast<std::size_t>(chord.line)].field;
+    const std::string& field = network.lines[at(chord.line)].field;
     refuse(field, field, " runs outside the polygon, at ", show(middle),
            "; it must lie in the membrane");
   }
@@ -265,7 +250,7 @@ int PointIndex::find(const std::vector<Point>& points, const Point& p, double to
       const auto [first, last] = _cells.equal_range(cell(p, tolerance, dx, dy));
       for (auto entry = first; entry != last; ++entry) {
         const int number = entry->second;
-        if (distance(points[static_cast<std::size_t>(number)], p) > tolerance) continue;
+        if (distance(points[at(number)], p) > tolerance) continue;
         // the first of several, whatever the order of the table
         if (best < 0 || number < best) best = number;
       }
@@ -308,20 +293,21 @@ void cut(Network& network, double size, std::size_t max_chords) {
     if (found.size() > max_chords) {
       throw errors::Error(errors::Reason::limit_exceeded,
                           "the lines cross in " + std::to_string(found.size()) +
-                              " points; at most " + std::to_string(max_chords) + " are taken")
+                              " points; at most " + std::to_string(max_chords) + " are allowed")
           .at("interfaces");
     }
     network.points.resize(known);  // a crossing is not an end of a chord that is cut anew
     for (const Crossing& crossing : found) {
       const int point = point_at(network, crossing.at);
-      add_station(network.lines[static_cast<std::size_t>(crossing.line[0])], crossing.t[0], point);
-      add_station(network.lines[static_cast<std::size_t>(crossing.line[1])], crossing.t[1], point);
+      add_station(network.lines[at(crossing.line[0])], crossing.t[0], point);
+      add_station(network.lines[at(crossing.line[1])], crossing.t[1], point);
     }
     known = network.points.size();
   }
   refuse("interfaces",
-         "the lines cross again and again in so small a space that the crossings "
-         "cannot be told apart; let them meet at a larger angle");
+         "the lines cross repeatedly in so small a region that the crossings cannot be told apart; "
+         "let "
+         "them meet at a larger angle");
 }
 
 }  // namespace anticrack::mesh

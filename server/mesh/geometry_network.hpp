@@ -36,7 +36,7 @@ struct Chord {
   double to = 0;
 };
 
-/// Points by the cell of a grid they lie in, to find the one that is within a tolerance.
+/// Finds a point within a tolerance, by the cells of a grid.
 class PointIndex {
  public:
   /// The number of the point within `tolerance` of `p`, -1 for none.
@@ -51,25 +51,25 @@ struct Network {
   std::vector<NetworkLine> lines;  ///< the boundary (counterclockwise), interfaces, align
   std::vector<Point> points;
   PointIndex stations;        ///< the points that are stations of a line
-  double tolerance = 0;       ///< two points nearer to one another are one
+  double tolerance = 0;       ///< points closer than this are one
   std::vector<Chord> chords;  ///< line by line, each in its order
 };
 
-/// The boundary, the interfaces and the lines to be followed, checked one by one, no chords yet.
+/// The boundary, the interfaces and the align lines, each checked by itself; no chords yet.
 /// Throws errors::Error (geometry_invalid, limit_exceeded).
 Network lay_lines(const Geometry& geometry, const MeshOptions& options);
 
-/// A point of the geometry: every line that passes it within its tolerance gets a station there,
-/// which has these coordinates unless a point is there already. The number of the point.
+/// Adds a station at `p` to every line that passes within the tolerance. Uses an existing point
+/// there, if any. Returns the number of the point.
 int mark(Network& network, const Point& p);
 
 /// The parameter of the line's station at a point of the network; -1 where it has none.
 double station_of(const NetworkLine& line, int point) noexcept;
 
-/// Cuts the lines at their stations and where they cross, curved ones into chords no longer than
-/// `size` with ends on the curve. Throws errors::Error: geometry_invalid where lines run along each
-/// other, leave the membrane or meet at too small an angle; limit_exceeded at "options.size" for
-/// more than `max_chords`.
+/// Cuts the lines at their stations and crossings; curved lines into chords of at most `size` with
+/// ends on the curve. Throws errors::Error: geometry_invalid where lines run along each other,
+/// leave the membrane or meet at too small an angle; limit_exceeded at "options.size" beyond
+/// `max_chords`.
 void cut(Network& network, double size, std::size_t max_chords);
 
 }  // namespace anticrack::mesh

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/geometry_options.hpp"
+#include "mesh/geometry.hpp"
 
 #include <cmath>
 
@@ -28,7 +28,7 @@ void check_sizes(const MeshOptions& options) {
   }
   if (options.tip_size > 0 && options.preset != Preset::graded) {
     refuse_option("options.tip_size", "options.tip_size is " + show(options.tip_size) +
-                                          ", but only preset graded knows tips; leave it 0");
+                                          ", but only preset graded uses it; leave it 0");
   }
   if (options.size > 0 && options.tip_size > options.size) {
     refuse_option("options.tip_size", "options.tip_size is " + show(options.tip_size) +
@@ -100,7 +100,7 @@ void check_for_upload(const MeshOptions& options) {
     check_subdomain(name, "options.surface_groups[" + std::to_string(tag) + "]");
   }
   for (const auto& [name, tension] : options.tension) {
-    // Which subdomains there are, the import knows: an unnamed one is called by its number.
+    // Whether such a subdomain exists is checked by the import, which numbers unnamed ones.
     if (std::isfinite(tension) && tension > 0) continue;
     const std::string field = "options.tension[" + name + "]";
     refuse_option(field, field + " is " + show(tension) + "; a tension is a number above 0");

@@ -10,12 +10,18 @@
 namespace anticrack::mesh {
 namespace {
 
-// products of three of them are numbers
+// so that products of three coordinates stay finite
 constexpr double max_coordinate = 1e100;
 constexpr double min_extent = 1e-60;
 
 Segment edge_of(std::span<const Point> polygon, std::size_t i) {
   return {polygon[i], polygon[(i + 1) % polygon.size()]};
+}
+
+/// Whether two edges with the common vertex `middle` lie on each other.
+bool folds_back(const Point& before, const Point& middle, const Point& after, double tolerance) {
+  return distance(before, Segment{middle, after}) <= tolerance ||
+         distance(after, Segment{middle, before}) <= tolerance;
 }
 
 std::string edge_name(const std::string& field, std::size_t i, std::size_t vertices) {
@@ -24,13 +30,17 @@ std::string edge_name(const std::string& field, std::size_t i, std::size_t verti
 
 }  // namespace
 
+void check_count(std::size_t count, const std::string& field, const char* items,
+                 std::size_t limit) {
+  if (count <= limit) return;
+  throw errors::Error(errors::Reason::limit_exceeded, field + " has " + std::to_string(count) +
+                                                          " " + items + "; at most " +
+                                                          std::to_string(limit) + " are allowed")
+      .at(field);
+}
+
 void check_points(const std::vector<Point>& points, const std::string& field) {
-  if (points.size() > max_vertices) {
-    throw errors::Error(errors::Reason::limit_exceeded,
-                        field + " has " + std::to_string(points.size()) + " vertices; at most " +
-                            std::to_string(max_vertices) + " are taken")
-        .at(field);
-  }
+  check_count(points.size(), field, "vertices");
   for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], indexed(field, i));
 }
 
@@ -42,16 +52,6 @@ void check_distinct(std::span<const Point> points, const std::string& field, dou
     }
   }
 }
-
-namespace {
-
-/// Whether two edges with a common vertex lie on one another: `middle` is common.
-bool folds_back(const Point& before, const Point& middle, const Point& after, double tolerance) {
-  return distance(before, Segment{middle, after}) <= tolerance ||
-         distance(after, Segment{middle, before}) <= tolerance;
-}
-
-}  // namespace
 
 void check_simple(std::span<const Point> points, bool closed, const std::string& owner,
                   const std::string& field, double tolerance) {
@@ -107,11 +107,11 @@ double check_polygon(const std::vector<Point>& boundary) {
   }
   if (extent > 0 && extent < 1e-6 * largest) {
     refuse("boundary", "boundary is ", show(extent), " across, but lies ", show(largest),
-           " from the origin: too far for the digits of a number; move it to the origin");
+           " from the origin: too far for double precision; move it to the origin");
   }
   if (extent > 0 && extent < min_extent) {
     refuse("boundary", "boundary is ", show(extent), " across; at least ", show(min_extent),
-           " is taken, choose a smaller unit of length");
+           " is required; choose a smaller unit of length");
   }
   check_distinct(boundary, "boundary", tolerance);
   if (distance(boundary.front(), boundary.back()) <= tolerance) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The polygon of the membrane, and what is asked of any list of vertices.
+// Checks of the polygon of the membrane and of any list of vertices.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace anticrack::mesh {
 
-/// Two points nearer to one another than this part of the boundary's diagonal count as one.
+/// Points closer than this fraction of the boundary's diagonal count as one.
 inline constexpr double relative_tolerance = 1e-9;
 inline constexpr std::size_t max_vertices = 10'000;
 inline constexpr std::size_t max_interfaces = 1'000;
@@ -26,18 +26,21 @@ struct Outline {
 /// "boundary[i]". O(v^2).
 Outline check_outline(const std::vector<Point>& boundary);
 
-/// Throws geometry_invalid at `field` unless both coordinates are finite and of a size that can be
-/// squared and summed.
+/// Throws geometry_invalid at `field` unless both coordinates are finite and at most 1e100 in size.
 void check_point(const Point& p, const std::string& field);
 
-/// The same of each of them, which are at most `max_vertices`.
+/// Throws limit_exceeded at `field` where it has more than `limit` `items` ("entries").
+void check_count(std::size_t count, const std::string& field, const char* items = "entries",
+                 std::size_t limit = max_vertices);
+
+/// check_point for each of at most `max_vertices` points.
 void check_points(const std::vector<Point>& points, const std::string& field);
 
 /// No two consecutive ones are equal.
 void check_distinct(std::span<const Point> points, const std::string& field, double tolerance);
 
-/// The polyline through the points `field` neither crosses itself nor folds back; else `owner` is
-/// refused. `closed`: the last vertex is joined to the first. O(v^2).
+/// Refuses `owner` if the polyline through the points `field` crosses itself or folds back.
+/// `closed`: the last vertex is joined to the first. O(v^2).
 void check_simple(std::span<const Point> points, bool closed, const std::string& owner,
                   const std::string& field, double tolerance);
 

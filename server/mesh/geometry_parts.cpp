@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "mesh/at.hpp"
 #include "mesh/geometry_primitives.hpp"
 
 namespace anticrack::mesh {
@@ -57,7 +58,7 @@ int line_of(const Network& network, const Part& part, const Ends& ends, const st
   }
   std::vector<int> both;
   std::set_intersection(from.begin(), from.end(), to.begin(), to.end(), std::back_inserter(both));
-  const auto name = [&](int line) { return network.lines[static_cast<std::size_t>(line)].field; };
+  const auto name = [&](int line) { return network.lines[at(line)].field; };
   if (both.empty()) {
     refuse(field, field, " starts on ", name(from[0]), " and ends on ", name(to[0]),
            "; it must lie on one interface");
@@ -71,7 +72,7 @@ int line_of(const Network& network, const Part& part, const Ends& ends, const st
 
 /// The stations of a part on its line, in order.
 PlacedPart place(const Network& network, int l, const Ends& ends) {
-  const NetworkLine& line = network.lines[static_cast<std::size_t>(l)];
+  const NetworkLine& line = network.lines[at(l)];
   PlacedPart placed;
   placed.line = l;
   placed.begin = {station_of(line, ends.from), ends.from};
@@ -91,21 +92,16 @@ PlacedPart place(const Network& network, int l, const Ends& ends) {
 std::vector<PlacedPart> place_delaminated(Network& network, const InclusionSpec& inclusion,
                                           const PlacedPart& whole) {
   const std::string list = whole.field + ".delaminated_parts";
-  if (inclusion.delaminated.size() > max_vertices) {
-    throw errors::Error(errors::Reason::limit_exceeded,
-                        list + " has " + std::to_string(inclusion.delaminated.size()) +
-                            " entries; at most " + std::to_string(max_vertices) + " are taken")
-        .at(list);
-  }
+  check_count(inclusion.delaminated.size(), list);
   std::vector<PlacedPart> parts;
   parts.reserve(inclusion.delaminated.size());
-  const Point begin = network.points[static_cast<std::size_t>(whole.begin.point)];
-  const Point end = network.points[static_cast<std::size_t>(whole.end.point)];
+  const Point begin = network.points[at(whole.begin.point)];
+  const Point end = network.points[at(whole.end.point)];
   for (std::size_t k = 0; k < inclusion.delaminated.size(); ++k) {
     const std::string field = indexed(list, k);
     const Part& part = inclusion.delaminated[k];
     const Ends ends = mark_ends(network, part, field);
-    const NetworkLine& line = network.lines[static_cast<std::size_t>(whole.line)];
+    const NetworkLine& line = network.lines[at(whole.line)];
     const auto within = [&](int point, const Point& p, const char* which) {
       double t = station_of(line, point);
       if (t < 0) refuse_off(network, p, field + which);
@@ -132,8 +128,7 @@ std::vector<PlacedPart> place_delaminated(Network& network, const InclusionSpec&
   for (std::size_t k = 1; k < parts.size(); ++k) {
     if (parts[k].begin.t > parts[k - 1].end.t) continue;
     refuse(parts[k].field, parts[k].field, " and ", parts[k - 1].field, " overlap or touch at ",
-           show(network.points[static_cast<std::size_t>(parts[k].begin.point)]),
-           "; make them one part");
+           show(network.points[at(parts[k].begin.point)]), "; make them one part");
   }
   return parts;
 }
@@ -158,13 +153,13 @@ void check_pair(const Network& network, const PlacedPart& left, const PlacedPart
   const double begin = right.begin.t + shift;
   if (begin > left.end.t) return;
   const std::string field = right.field + ".part";
-  const std::string at = show(network.points[static_cast<std::size_t>(right.begin.point)]);
+  const std::string place = show(network.points[at(right.begin.point)]);
   if (begin == left.end.t) {
-    refuse(field, right.field, " and ", left.field, " share the tip ", at,
+    refuse(field, right.field, " and ", left.field, " share the tip ", place,
            "; the membrane is tied to both at a common tip, so leave glue between them or make "
            "them one");
   }
-  refuse(field, right.field, " and ", left.field, " overlap from ", at,
+  refuse(field, right.field, " and ", left.field, " overlap from ", place,
          " on; a piece of the interface belongs to one inclusion or crack");
 }
 
@@ -178,7 +173,7 @@ void check_apart(const Network& network, std::vector<PlacedPart> parts) {
       check_pair(network, parts[last], parts[last + 1], 0);
       ++last;
     }
-    const Line& line = network.lines[static_cast<std::size_t>(parts[first].line)].line;
+    const Line& line = network.lines[at(parts[first].line)].line;
     if (line.closed()) {
       if (last > first) check_pair(network, parts[last], parts[first], line.spans());
     }
@@ -257,7 +252,7 @@ Layout lay_parts(const Geometry& geometry, Network& network) {
 
 const Stretch* stretch_of(const std::vector<Stretch>& stretches, const Network& network,
                           const Chord& chord) noexcept {
-  const double spans = network.lines[static_cast<std::size_t>(chord.line)].line.spans();
+  const double spans = network.lines[at(chord.line)].line.spans();
   const double middle = (chord.from + chord.to) / 2;
   for (const Stretch& stretch : stretches) {
     if (stretch.line != chord.line) continue;

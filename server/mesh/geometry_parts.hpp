@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What lies on the interfaces, and which of the boundary is Neumann's, as stretches of the lines'
-// parameters.
+// Inclusions and cracks on the interfaces, and the Neumann boundary, as parameter stretches of
+// lines.
 #pragma once
 
 #include <string>
@@ -38,10 +38,10 @@ struct Layout {
   std::vector<Stretch> neumann;  ///< of line 0
 };
 
-/// Finds the parts on the lines, which get stations at their ends; a tip takes the coordinates it
-/// was given. A part of a closed interface runs from `from` to `to` in the interface's order.
-/// Throws errors::Error (geometry_invalid) with fields like "inclusions[1].part.from",
-/// "neumann[0].to" for a part on no interface, without length, or over another one.
+/// Places the parts on the lines, which get stations at their ends; a tip keeps the coordinates it
+/// was given. Throws errors::Error (geometry_invalid) at "inclusions[1].part.from",
+/// "neumann[0].to",
+/// ... for a part off every interface, without length, or overlapping another one.
 Layout lay_parts(const Geometry& geometry, Network& network);
 
 /// The stretch that holds a chord; none: null.

@@ -5,6 +5,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 namespace anticrack::mesh {
 namespace {
@@ -36,8 +38,7 @@ double nearest(const Point& p, const Segment& s) noexcept {
 }
 
 double distance(const Point& p, const Segment& s) noexcept {
-  const double t = nearest(p, s);
-  return distance(p, Point{s.a[0] + t * (s.b[0] - s.a[0]), s.a[1] + t * (s.b[1] - s.a[1])});
+  return distance(p, point_on(s, nearest(p, s)));
 }
 
 double distance(const Segment& s, const Segment& t) noexcept {
@@ -75,6 +76,21 @@ bool boxes_meet(const Segment& s, const Segment& t, double tolerance) noexcept {
   return true;
 }
 
+void each_near_pair(std::span<const Segment> segments, double reach,
+                    const std::function<void(std::size_t, std::size_t)>& visit) {
+  const auto low = [&](std::size_t i) { return std::min(segments[i].a[0], segments[i].b[0]); };
+  const auto high = [&](std::size_t i) { return std::max(segments[i].a[0], segments[i].b[0]); };
+  std::vector<std::size_t> order(segments.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, low);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const double end = high(order[i]) + reach;
+    for (std::size_t j = i + 1; j < order.size() && low(order[j]) <= end; ++j) {
+      if (boxes_meet(segments[order[i]], segments[order[j]], reach)) visit(order[i], order[j]);
+    }
+  }
+}
+
 double signed_area(std::span<const Point> polygon) noexcept {
   double twice = 0;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
@@ -93,12 +109,6 @@ bool inside(const Point& p, std::span<const Point> polygon) noexcept {
     if (cross(a, b, p) > 0) odd = !odd;
   }
   return odd;
-}
-
-double polyline_length(std::span<const Point> line) noexcept {
-  double length = 0;
-  for (std::size_t i = 1; i < line.size(); ++i) length += distance(line[i - 1], line[i]);
-  return length;
 }
 
 double diagonal(std::span<const Point> points) noexcept {

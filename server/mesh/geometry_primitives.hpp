@@ -3,6 +3,8 @@
 // Points, segments and polylines of the plane. Lengths in the unit of the geometry.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <span>
 #include <sstream>
 #include <string>
@@ -13,7 +15,6 @@
 
 namespace anticrack::mesh {
 
-/// a - b.
 constexpr Point minus(const Point& a, const Point& b) noexcept {
   return {a[0] - b[0], a[1] - b[1]};
 }
@@ -26,7 +27,11 @@ struct Segment {
 /// From a point to a point, or to the nearest one of a segment.
 double distance(const Point& a, const Point& b) noexcept;
 double distance(const Point& p, const Segment& s) noexcept;
-/// Where on `s` the point nearest to `p` lies: 0 at a, 1 at b.
+/// a + t (b - a).
+constexpr Point point_on(const Segment& s, double t) noexcept {
+  return {s.a[0] + t * (s.b[0] - s.a[0]), s.a[1] + t * (s.b[1] - s.a[1])};
+}
+/// The t of the point of `s` nearest to `p`, in [0, 1].
 double nearest(const Point& p, const Segment& s) noexcept;
 /// 0 where they cross.
 double distance(const Segment& s, const Segment& t) noexcept;
@@ -35,11 +40,15 @@ std::pair<double, double> meeting_point(const Segment& s, const Segment& t) noex
 /// Whether the bounding boxes, grown by `tolerance`, have a point in common. Cheap.
 bool boxes_meet(const Segment& s, const Segment& t, double tolerance) noexcept;
 
+/// Calls visit(i, j) for the pairs of segments whose bounding boxes come within `reach`, once each,
+/// in a sweep along x. O(n log n + pairs over the same x).
+void each_near_pair(std::span<const Segment> segments, double reach,
+                    const std::function<void(std::size_t, std::size_t)>& visit);
+
 /// Positive for a counterclockwise polygon. Shoelace about the first vertex.
 double signed_area(std::span<const Point> polygon) noexcept;
 /// Whether a point that is not on the boundary lies inside.
 bool inside(const Point& p, std::span<const Point> polygon) noexcept;
-double polyline_length(std::span<const Point> line) noexcept;
 /// Diagonal of the bounding box.
 double diagonal(std::span<const Point> points) noexcept;
 

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include "mesh/at.hpp"
 #include "mesh/geometry_faces.hpp"
+#include "mesh/geometry_intervals.hpp"
 #include "mesh/geometry_names.hpp"
 #include "mesh/geometry_primitives.hpp"
+#include "mesh/union_find.hpp"
 
 namespace anticrack::mesh {
 namespace {
@@ -23,42 +25,31 @@ Edges edges_of(const Plan& plan) {
   return edges;
 }
 
-/// Faces that belong to one subdomain have one root.
-class Subdomains {
- public:
-  Subdomains(const Plan& plan, const Arrangement& arrangement, const std::vector<bool>& used)
-      : _root(arrangement.faces.size()) {
-    std::iota(_root.begin(), _root.end(), 0);
-    for (std::size_t e = 0; e < plan.curves.size(); ++e) {
-      if (!used[e] || plan.curves[e].role != Role::align) continue;
-      _root[static_cast<std::size_t>(of(arrangement.left[e]))] = of(arrangement.right[e]);
-    }
+/// The faces of one subdomain as a set: align lines do not separate subdomains.
+UnionFind join_faces(const Plan& plan, const Arrangement& arrangement,
+                     const std::vector<bool>& used) {
+  UnionFind subdomains(arrangement.faces.size());
+  for (std::size_t e = 0; e < plan.curves.size(); ++e) {
+    if (!used[e] || plan.curves[e].role != Role::align) continue;
+    subdomains.unite(arrangement.left[e], arrangement.right[e]);
   }
-  int of(int face) const {
-    while (face >= 0 && _root[static_cast<std::size_t>(face)] != face) {
-      face = _root[static_cast<std::size_t>(face)];
-    }
-    return face;
-  }
+  return subdomains;
+}
 
- private:
-  std::vector<int> _root;
-};
-
-/// The curves that stay: all but glue with one subdomain on both sides.
+/// The curves to keep: all but glue with the same subdomain on both sides.
 std::vector<bool> kept_curves(const Plan& plan, const Edges& edges) {
   std::vector<bool> kept(edges.size(), true);
   const Arrangement all = arrange(plan.points, edges, kept);
-  const Subdomains subdomains(plan, all, kept);
+  UnionFind subdomains = join_faces(plan, all, kept);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const PlannedCurve& curve = plan.curves[e];
     if (curve.role != Role::interface || curve.kind != Kind::glue) continue;
-    kept[e] = subdomains.of(all.left[e]) != subdomains.of(all.right[e]);
+    kept[e] = !subdomains.same(all.left[e], all.right[e]);
   }
   return kept;
 }
 
-/// Faces bounded by loops, and the curves that hang or swim in them.
+/// Faces bounded by loops, and the curves inside each that bound no other face.
 struct Faces {
   Arrangement loops;
   std::vector<std::vector<int>> embedded;
@@ -73,24 +64,24 @@ Faces find_faces(const Plan& plan, const Edges& edges, const std::vector<bool>& 
   Faces faces{arrange(plan.points, edges, bounding), {}};
   Arrangement& loops = faces.loops;
   faces.embedded.resize(loops.faces.size());
-  // every face has curves that bound it, so these say what has become of it
+  // every face is bounded by curves, which tell its new number
   std::vector<int> now(first.faces.size(), Arrangement::outside);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (!bounding[e]) continue;
-    if (first.left[e] >= 0) now[static_cast<std::size_t>(first.left[e])] = loops.left[e];
-    if (first.right[e] >= 0) now[static_cast<std::size_t>(first.right[e])] = loops.right[e];
+    if (first.left[e] >= 0) now[at(first.left[e])] = loops.left[e];
+    if (first.right[e] >= 0) now[at(first.right[e])] = loops.right[e];
   }
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (!kept[e] || bounding[e]) continue;
-    const int face = now[static_cast<std::size_t>(first.left[e])];
+    const int face = now[at(first.left[e])];
     loops.left[e] = loops.right[e] = face;
-    faces.embedded[static_cast<std::size_t>(face)].push_back(static_cast<int>(e));
+    faces.embedded[at(face)].push_back(static_cast<int>(e));
   }
   return faces;
 }
 
-/// Faces in the order in which a walk along interfaces, then all curves, meets them: those of one
-/// subdomain together.
+/// Faces in the order in which a walk along the interfaces, then along the other curves, meets
+/// them, grouped by subdomain.
 struct Order {
   std::vector<int> subdomain;  ///< per face: its number
   std::vector<int> faces;      ///< in order
@@ -98,18 +89,18 @@ struct Order {
 };
 
 Order order_faces(const Plan& plan, const Arrangement& loops, const std::vector<bool>& kept) {
-  const Subdomains roots(plan, loops, kept);
+  UnionFind subdomains = join_faces(plan, loops, kept);
   Order order;
   const std::size_t n = loops.faces.size();
   order.subdomain.assign(n, -1);
-  std::vector<int> number(n, -1);  // of a root
+  std::vector<int> number(n, -1);  // of the set of a face
   std::vector<bool> met(n, false);
   const auto meet = [&](int face) {
-    if (face < 0 || met[static_cast<std::size_t>(face)]) return;
-    met[static_cast<std::size_t>(face)] = true;
-    int& of_root = number[static_cast<std::size_t>(roots.of(face))];
-    if (of_root < 0) of_root = order.count++;
-    order.subdomain[static_cast<std::size_t>(face)] = of_root;
+    if (face < 0 || met[at(face)]) return;
+    met[at(face)] = true;
+    int& of_set = number[at(subdomains.find(face))];
+    if (of_set < 0) of_set = order.count++;
+    order.subdomain[at(face)] = of_set;
     order.faces.push_back(face);
   };
   for (const bool interfaces : {true, false}) {
@@ -119,10 +110,8 @@ Order order_faces(const Plan& plan, const Arrangement& loops, const std::vector<
       meet(loops.left[e]);
     }
   }
-  std::stable_sort(order.faces.begin(), order.faces.end(), [&](int a, int b) {
-    return order.subdomain[static_cast<std::size_t>(a)] <
-           order.subdomain[static_cast<std::size_t>(b)];
-  });
+  std::stable_sort(order.faces.begin(), order.faces.end(),
+                   [&](int a, int b) { return order.subdomain[at(a)] < order.subdomain[at(b)]; });
   return order;
 }
 
@@ -139,7 +128,7 @@ void check_given_tension(double tension, const std::string& field) {
 Named name_subdomains(const Geometry& geometry, const Network& network, const Plan& plan,
                       const Edges& edges, const std::vector<bool>& kept, const Arrangement& loops,
                       const Order& order) {
-  const auto count = static_cast<std::size_t>(order.count);
+  const auto count = at(order.count);
   Named named{std::vector<std::string>(count), std::vector<double>(count, 1)};
   std::vector<std::size_t> owner(count);
   std::vector<std::string> used;
@@ -150,11 +139,10 @@ Named name_subdomains(const Geometry& geometry, const Network& network, const Pl
     check_point(region.at, field);
     check_given_tension(region.tension, indexed("regions", i) + ".tension");
     for (std::size_t e = 0; e < edges.size(); ++e) {
-      const Segment s{plan.points[static_cast<std::size_t>(edges[e][0])],
-                      plan.points[static_cast<std::size_t>(edges[e][1])]};
+      const Segment s{plan.points[at(edges[e][0])], plan.points[at(edges[e][1])]};
       if (!kept[e] || distance(region.at, s) > network.tolerance) continue;
       refuse(field, field, " ", show(region.at), " lies on ",
-             network.lines[static_cast<std::size_t>(network.chords[e].line)].field,
+             network.lines[at(network.chords[e].line)].field,
              "; it must lie inside the subdomain it names");
     }
     const int face = face_at(loops, plan.points, edges, region.at);
@@ -162,8 +150,7 @@ Named name_subdomains(const Geometry& geometry, const Network& network, const Pl
       refuse(field, field, " ", show(region.at),
              " lies outside the membrane; it must lie inside the subdomain it names");
     }
-    const auto subdomain =
-        static_cast<std::size_t>(order.subdomain[static_cast<std::size_t>(face)]);
+    const auto subdomain = at(order.subdomain[at(face)]);
     if (!named.name[subdomain].empty()) {
       refuse(field, field, " ", show(region.at), " lies in the subdomain that ",
              indexed("regions", owner[subdomain]), " names already; leave one of them out");
@@ -180,14 +167,12 @@ Named name_subdomains(const Geometry& geometry, const Network& network, const Pl
   return named;
 }
 
-/// What is left of an interface: chains of its curves.
+/// Splits what is left of each interface into chains of curves.
 void add_chains(const Network& network, const std::vector<std::string>& names,
                 const std::vector<bool>& kept, Plan& plan) {
-  std::vector<std::string> used;
-  used.reserve(2 * names.size());
   std::vector<std::vector<std::vector<int>>> chains(names.size());
   for (std::size_t e = 0; e < network.chords.size(); ++e) {
-    const auto line = static_cast<std::size_t>(network.chords[e].line);
+    const auto line = at(network.chords[e].line);
     if (network.lines[line].role != Role::interface || !kept[e]) continue;
     auto& own = chains[line - 1];
     const bool goes_on = !own.empty() && own.back().back() + 1 == static_cast<int>(e);
@@ -200,12 +185,11 @@ void add_chains(const Network& network, const std::vector<std::string>& names,
     if (own.empty()) {
       refuse(line.field, line.field,
              " separates nothing and carries nothing: the same subdomain lies on both of its "
-             "sides; put a crack or an inclusion on it, prolong it to the boundary or to another "
+             "sides; put a crack or an inclusion on it, extend it to the boundary or to another "
              "interface, or make it a line of options.align");
     }
     const auto joined = [&](int before, int after) {
-      return plan.curves[static_cast<std::size_t>(before)].b ==
-             plan.curves[static_cast<std::size_t>(after)].a;
+      return plan.curves[at(before)].b == plan.curves[at(after)].a;
     };
     if (line.line.closed() && own.size() > 1 && joined(own.back().back(), own.front().front())) {
       own.back().insert(own.back().end(), own.front().begin(), own.front().end());
@@ -213,60 +197,40 @@ void add_chains(const Network& network, const std::vector<std::string>& names,
     }
     for (auto& chain : own) plan.interfaces.push_back({names[i], std::move(chain)});
   }
-  // whole interfaces keep their names, pieces take those that are left
-  for (const std::string& name : names) used.push_back(name);
+  // the first chain of an interface keeps its name; the others get unused ones
+  std::vector<std::string> used = names;
   for (std::size_t i = 1; i < plan.interfaces.size(); ++i) {
     if (plan.interfaces[i].name != plan.interfaces[i - 1].name) continue;
-    std::size_t k = i;
-    for (; k < plan.interfaces.size() && plan.interfaces[k].name == plan.interfaces[i - 1].name;) {
-      ++k;
-    }
     const std::string name = plan.interfaces[i].name;
-    for (std::size_t j = i; j < k; ++j) plan.interfaces[j].name = unused_name(name, used);
-    i = k - 1;
+    for (; i < plan.interfaces.size() && plan.interfaces[i].name == name; ++i) {
+      plan.interfaces[i].name = unused_name(name, used);
+    }
   }
 }
 
-/// Takes the curves out that are not kept, and the points only they had.
+/// Removes the curves that are not kept, and the points only they use.
 void compact(const std::vector<bool>& kept, Plan& plan) {
-  std::vector<int> curve_now(plan.curves.size(), -1);
+  std::vector<std::vector<int>> pieces(plan.curves.size());
   std::vector<int> point_now(plan.points.size(), -1);
   std::vector<PlannedCurve> curves;
   std::vector<Point> points;
-  curves.reserve(plan.curves.size());
-  points.reserve(plan.points.size());
   const auto renumber = [&](int& point) {
-    int& now = point_now[static_cast<std::size_t>(point)];
+    int& now = point_now[at(point)];
     if (now < 0) {
       now = static_cast<int>(points.size());
-      points.push_back(plan.points[static_cast<std::size_t>(point)]);
+      points.push_back(plan.points[at(point)]);
     }
     point = now;
   };
   for (std::size_t e = 0; e < plan.curves.size(); ++e) {
     if (!kept[e]) continue;
-    curve_now[e] = static_cast<int>(curves.size());
+    pieces[e] = {static_cast<int>(curves.size())};
     curves.push_back(plan.curves[e]);
     renumber(curves.back().a);
     renumber(curves.back().b);
   }
-  const auto renumber_loop = [&](std::vector<int>& loop) {
-    for (int& edge : loop) {
-      const int now = curve_now[static_cast<std::size_t>(std::abs(edge) - 1)] + 1;
-      edge = edge > 0 ? now : -now;
-    }
-  };
-  const auto renumber_curves = [&](std::vector<int>& list) {
-    for (int& curve : list) curve = curve_now[static_cast<std::size_t>(curve)];
-  };
-  for (PlannedInterface& interface : plan.interfaces) renumber_curves(interface.curves);
-  for (PlannedFace& face : plan.faces) {
-    renumber_loop(face.outer);
-    for (auto& hole : face.holes) renumber_loop(hole);
-    renumber_curves(face.embedded);
-  }
-  plan.curves = std::move(curves);
   plan.points = std::move(points);
+  replace_curves(plan, std::move(curves), pieces);
 }
 
 }  // namespace
@@ -282,16 +246,14 @@ void lay_subdomains(const Geometry& geometry, const Network& network,
   std::vector<int> place(faces.loops.faces.size(), -1);
   plan.faces.reserve(order.faces.size());
   for (const int f : order.faces) {
-    const auto face = static_cast<std::size_t>(f);
+    const auto face = at(f);
     place[face] = static_cast<int>(plan.faces.size());
-    const auto subdomain = static_cast<std::size_t>(order.subdomain[face]);
+    const auto subdomain = at(order.subdomain[face]);
     plan.faces.push_back(
         {named.name[subdomain], named.tension[subdomain], std::move(faces.loops.faces[face].outer),
          std::move(faces.loops.faces[face].holes), std::move(faces.embedded[face])});
   }
-  const auto placed = [&](int face) {
-    return face < 0 ? -1 : place[static_cast<std::size_t>(face)];
-  };
+  const auto placed = [&](int face) { return face < 0 ? -1 : place[at(face)]; };
   for (std::size_t e = 0; e < edges.size(); ++e) {
     plan.curves[e].left = placed(faces.loops.left[e]);
     plan.curves[e].right = placed(faces.loops.right[e]);

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <sstream>
 #include <utility>
 
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
 #include "mesh/edges.hpp"
+#include "mesh/geometry_primitives.hpp"
 
 namespace anticrack::mesh {
 namespace {
@@ -30,8 +31,8 @@ template <class... Parts>
 
 std::string where(const Mesh& mesh, std::int32_t node) {
   std::ostringstream text;
-  const auto i = 2 * static_cast<std::size_t>(node);
-  text << "node " << node << " (" << mesh.xy[i] << ", " << mesh.xy[i + 1] << ")";
+  const auto [x, y] = position(mesh, node);
+  text << "node " << node << " (" << x << ", " << y << ")";
   return text.str();
 }
 
@@ -40,7 +41,7 @@ std::string where_edge(const Mesh& mesh, std::int32_t a, std::int32_t b) {
 }
 
 void check_shapes(const Mesh& mesh) {
-  constexpr auto limit = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+  constexpr auto limit = at(std::numeric_limits<std::int32_t>::max());
   if (mesh.xy.size() % 2 != 0) fail("xy has ", mesh.xy.size(), " numbers; it takes two a node");
   if (mesh.triangles.size() % 3 != 0) {
     fail("triangles has ", mesh.triangles.size(), " indices; it takes three a triangle");
@@ -75,13 +76,13 @@ void check_triangles(const Mesh& mesh) {
       if (node < 0 || node >= nodes) {
         fail("triangle ", t, " has node ", node, "; the nodes are 0 to ", nodes - 1);
       }
-      node_used[static_cast<std::size_t>(node)] = true;
+      node_used[at(node)] = true;
     }
     const std::int32_t s = mesh.subdomain[t];
     if (s < 0 || s >= subdomains) {
       fail("triangle ", t, " is in subdomain ", s, "; there are ", subdomains);
     }
-    subdomain_used[static_cast<std::size_t>(s)] = true;
+    subdomain_used[at(s)] = true;
     const double size = area(mesh, t);
     // written so that an area that is not a number fails as well
     if (!(size > 0)) {
@@ -112,6 +113,13 @@ void check_tension(const Mesh& mesh) {
   }
 }
 
+/// Sorts edges; fails where one is there twice.
+void sort_once(const Mesh& mesh, std::vector<EdgeKey>& edges, const char* fault) {
+  std::ranges::sort(edges);
+  const auto twice = std::ranges::adjacent_find(edges);
+  if (twice != edges.end()) fail(where_edge(mesh, twice->first, twice->second), fault);
+}
+
 bool needs_inclusion(Kind kind) noexcept {
   return kind == Kind::inclusion || kind == Kind::delaminated;
 }
@@ -128,7 +136,7 @@ void check_interface_shape(const Mesh& mesh, const Interface& interface) {
   }
   for (std::size_t i = 0; i < interface.nodes.size(); ++i) {
     const std::int32_t node = interface.nodes[i];
-    if (node < 0 || static_cast<std::size_t>(node) >= mesh.node_count()) {
+    if (node < 0 || at(node) >= mesh.node_count()) {
       fail("interface \"", name, "\" has node ", node, " at place ", i, "; the nodes are 0 to ",
            mesh.node_count() - 1);
     }
@@ -164,8 +172,8 @@ std::vector<EdgeKey> check_interfaces(const Mesh& mesh, const EdgeTable& edges) 
         fail(where_edge(mesh, a, b), " of interface \"", interface.name, "\" belongs to ",
              uses.size(), " triangles; it takes one on each side");
       }
-      const auto left = mesh.subdomain[static_cast<std::size_t>(uses[0].triangle)];
-      const auto right = mesh.subdomain[static_cast<std::size_t>(uses[1].triangle)];
+      const auto left = mesh.subdomain[at(uses[0].triangle)];
+      const auto right = mesh.subdomain[at(uses[1].triangle)];
       if (left == right && interface.kind[i] == Kind::glue) {
         fail(where_edge(mesh, a, b), " of interface \"", interface.name,
              "\" is glue and has subdomain ", left,
@@ -174,11 +182,7 @@ std::vector<EdgeKey> check_interfaces(const Mesh& mesh, const EdgeTable& edges) 
       seen.push_back(key(a, b));
     }
   }
-  std::sort(seen.begin(), seen.end());
-  const auto twice = std::adjacent_find(seen.begin(), seen.end());
-  if (twice != seen.end()) {
-    fail(where_edge(mesh, twice->first, twice->second), " lies on the interfaces more than once");
-  }
+  sort_once(mesh, seen, " lies on the interfaces more than once");
   return seen;
 }
 
@@ -194,8 +198,8 @@ void check_edges(const Mesh& mesh, const EdgeTable& edges, const std::vector<Edg
       fail("triangles ", first.triangle, " and ", uses[1].triangle, " lie on the same side of ",
            where_edge(mesh, first.low(), first.high()), ": they overlap");
     }
-    const auto s = mesh.subdomain[static_cast<std::size_t>(first.triangle)];
-    const auto other = mesh.subdomain[static_cast<std::size_t>(uses[1].triangle)];
+    const auto s = mesh.subdomain[at(first.triangle)];
+    const auto other = mesh.subdomain[at(uses[1].triangle)];
     if (s != other &&
         !std::binary_search(interfaces.begin(), interfaces.end(), key(first.from, first.to))) {
       fail(where_edge(mesh, first.low(), first.high()), " between subdomains ", s, " and ", other,
@@ -221,56 +225,23 @@ void check_boundary(const Mesh& mesh, const EdgeTable& edges) {
     }
     seen.push_back(key(a, b));
   }
-  std::sort(seen.begin(), seen.end());
-  const auto twice = std::adjacent_find(seen.begin(), seen.end());
-  if (twice != seen.end()) {
-    fail(where_edge(mesh, twice->first, twice->second), " is listed as dirichlet twice");
-  }
-}
-
-double distance(const Mesh& mesh, std::int32_t a, std::int32_t b) noexcept {
-  const auto i = 2 * static_cast<std::size_t>(a);
-  const auto j = 2 * static_cast<std::size_t>(b);
-  return std::hypot(mesh.xy[j] - mesh.xy[i], mesh.xy[j + 1] - mesh.xy[i + 1]);
+  sort_once(mesh, seen, " is listed as dirichlet twice");
 }
 
 }  // namespace
 
 double area(const Mesh& mesh, std::size_t triangle) noexcept {
-  const auto corner = [&](std::size_t i) {
-    return 2 * static_cast<std::size_t>(mesh.triangles[3 * triangle + i]);
-  };
-  const std::size_t a = corner(0);
-  const std::size_t b = corner(1);
-  const std::size_t c = corner(2);
-  const double abx = mesh.xy[b] - mesh.xy[a];
-  const double aby = mesh.xy[b + 1] - mesh.xy[a + 1];
-  const double acx = mesh.xy[c] - mesh.xy[a];
-  const double acy = mesh.xy[c + 1] - mesh.xy[a + 1];
-  return 0.5 * (abx * acy - aby * acx);
-}
-
-double minimum_angle(const Mesh& mesh) noexcept {
-  double smallest = std::numbers::pi;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto at = 2 * static_cast<std::size_t>(mesh.triangles[3 * t + i]);
-      const auto next = 2 * static_cast<std::size_t>(mesh.triangles[3 * t + (i + 1) % 3]);
-      const auto last = 2 * static_cast<std::size_t>(mesh.triangles[3 * t + (i + 2) % 3]);
-      const double ux = mesh.xy[next] - mesh.xy[at];
-      const double uy = mesh.xy[next + 1] - mesh.xy[at + 1];
-      const double vx = mesh.xy[last] - mesh.xy[at];
-      const double vy = mesh.xy[last + 1] - mesh.xy[at + 1];
-      smallest = std::min(smallest, std::atan2(std::abs(ux * vy - uy * vx), ux * vx + uy * vy));
-    }
-  }
-  return smallest * 180 / std::numbers::pi;
+  const Point a = corner(mesh, triangle, 0);
+  const Point b = corner(mesh, triangle, 1);
+  const Point c = corner(mesh, triangle, 2);
+  return 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
 }
 
 std::vector<double> arc_length(const Mesh& mesh, const Interface& interface) {
   std::vector<double> s(interface.nodes.size(), 0.0);
   for (std::size_t i = 1; i < s.size(); ++i) {
-    s[i] = s[i - 1] + distance(mesh, interface.nodes[i - 1], interface.nodes[i]);
+    s[i] = s[i - 1] +
+           distance(position(mesh, interface.nodes[i - 1]), position(mesh, interface.nodes[i]));
   }
   return s;
 }

@@ -12,6 +12,8 @@
 
 namespace anticrack::mesh {
 
+using Point = std::array<double, 2>;
+
 /// Condition on an edge of an interface; u+ is the trace on its plus side, [u] = u+ - u-.
 /// The numbers are those of the API's InterfaceKind.
 enum class Kind : std::int32_t {
@@ -21,8 +23,8 @@ enum class Kind : std::int32_t {
   delaminated = 4,  ///< u+ = A_j, [u] >= 0                        (gamma_c, paper (3)-(6))
 };
 
-/// A chain of k nodes and k-1 edges. Its plus side (the paper's Omega_2) is on the left, walked in
-/// the order given. A closed chain has its first node again as its last.
+/// A chain of k nodes and k-1 edges, its plus side (the paper's Omega_2) on the left. A closed
+/// chain repeats its first node as its last.
 struct Interface {
   std::string name;
   std::vector<std::int32_t> nodes;      ///< (k) indices into Mesh::xy
@@ -31,15 +33,13 @@ struct Interface {
 };
 ANTICRACK_FIELDS(Interface, name, nodes, kind, inclusion)
 
-/// Conforming triangulation, index base 0. Nodes on an interface are stored once: the doubling of
-/// u across it is made by ddm::cut.
-/// Invariants (checked by `validate`): indices in range, triangles counterclockwise with positive
-/// area, every subdomain has a triangle, every interface edge is an edge of exactly two triangles,
-/// of different subdomains where it is glue (a slit has one subdomain on both sides), every edge
-/// between two subdomains lies on exactly one interface, every Dirichlet edge belongs to exactly
-/// one triangle; every node belongs to a triangle, triangles do not overlap at an edge, an edge has
-/// an inclusion just if its kind needs one, tension is positive.
-/// Edges of one triangle that are not in `dirichlet` are the Neumann boundary.
+/// Conforming triangulation, index base 0. Interface nodes are stored once; ddm::cut doubles u
+/// there. Invariants (`validate`): indices in range; triangles counterclockwise with positive area,
+/// not overlapping at an edge; every node and subdomain has a triangle; an interface edge is an
+/// edge of exactly two triangles, of different subdomains if it is glue; an edge between two
+/// subdomains lies on exactly one interface; a Dirichlet edge belongs to exactly one triangle; an
+/// edge has an inclusion if and only if its kind needs one; tension is positive. Edges of one
+/// triangle that are not in `dirichlet` are the Neumann boundary.
 struct Mesh {
   std::vector<double> xy;               ///< (n,2) row-major, unit of the geometry
   std::vector<std::int32_t> triangles;  ///< (m,3) row-major
@@ -50,8 +50,7 @@ struct Mesh {
   std::vector<Interface> interfaces;
   std::vector<std::array<std::int32_t, 2>> dirichlet;  ///< edges of the boundary where u = g_D
   std::vector<std::string> warnings;                   ///< what an import repaired or assumed
-  /// Degrees: no bisection of the mesh this one was refined from has a smaller angle. 0: not
-  /// refined
+  /// Degrees: lower bound of the angles of any bisection of the unrefined mesh. 0: not refined
   double bisection_bound = 0;
 
   /// n and m of the shapes above.
@@ -61,15 +60,21 @@ struct Mesh {
 ANTICRACK_FIELDS(Mesh, xy, triangles, subdomain, subdomains, tension, inclusions, interfaces,
                  dirichlet, warnings, bisection_bound)
 
-/// Throws errors::Error (mesh_invalid) naming the first invariant that does not hold and where.
-/// O(m log m).
+/// Throws errors::Error (mesh_invalid) naming the first invariant violated and where. O(m log m).
 void validate(const Mesh& mesh);
 
 /// Signed area of a triangle, length unit squared; positive when counterclockwise.
 double area(const Mesh& mesh, std::size_t triangle) noexcept;
 
-/// Smallest angle over all triangles, degrees. O(m).
-double minimum_angle(const Mesh& mesh) noexcept;
+inline Point position(const Mesh& mesh, std::int32_t node) noexcept {
+  const auto i = 2 * static_cast<std::size_t>(node);
+  return {mesh.xy[i], mesh.xy[i + 1]};
+}
+
+/// Position of corner 0, 1 or 2 of a triangle.
+inline Point corner(const Mesh& mesh, std::size_t triangle, std::size_t i) noexcept {
+  return position(mesh, mesh.triangles[3 * triangle + i]);
+}
 
 /// Arc length of each node of an interface from its first node, shape (k).
 std::vector<double> arc_length(const Mesh& mesh, const Interface& interface);

@@ -26,9 +26,8 @@ class Midpoints {
   std::vector<std::pair<std::uint64_t, std::int32_t>> _cuts;  ///< (edge, midpoint), ascending
 };
 
-/// Cuts the edges of all interfaces and of the dirichlet boundary, their pieces again, and so on,
-/// until none is left that was cut. Pieces take the place, direction, kind and inclusion of the
-/// edge.
+/// Replaces the edges of all interfaces and of the Dirichlet boundary by their pieces, recursively.
+/// Pieces take the place, direction, kind and inclusion of the edge.
 void cut_lines(Mesh& mesh, const Midpoints& midpoints);
 
 }  // namespace anticrack::mesh

@@ -6,19 +6,15 @@
 #include <limits>
 #include <numbers>
 
+#include "mesh/geometry_primitives.hpp"
+
 namespace anticrack::mesh {
 namespace {
 
 double angle_at(const Point& p, const Point& q, const Point& r) noexcept {
-  const double ux = q[0] - p[0];
-  const double uy = q[1] - p[1];
-  const double vx = r[0] - p[0];
-  const double vy = r[1] - p[1];
+  const auto [ux, uy] = minus(q, p);
+  const auto [vx, vy] = minus(r, p);
   return std::atan2(std::abs(ux * vy - uy * vx), ux * vx + uy * vy) * 180 / std::numbers::pi;
-}
-
-double length(const Point& p, const Point& q) noexcept {
-  return std::hypot(q[0] - p[0], q[1] - p[1]);
 }
 
 }  // namespace
@@ -37,12 +33,21 @@ Quality quality(const Mesh& mesh) noexcept {
     const auto [low, high] = std::ranges::minmax(angles(a, b, c));
     found.minimum_angle = std::min(found.minimum_angle, low);
     found.maximum_angle = std::max(found.maximum_angle, high);
-    const auto [shortest, diameter] = std::minmax({length(a, b), length(b, c), length(c, a)});
+    const auto [shortest, diameter] = std::minmax({distance(a, b), distance(b, c), distance(c, a)});
     found.shortest_edge = std::min(found.shortest_edge, shortest);
     found.smallest_diameter = std::min(found.smallest_diameter, diameter);
     found.largest_diameter = std::max(found.largest_diameter, diameter);
   }
   return found;
+}
+
+double minimum_angle(const Mesh& mesh) noexcept {
+  double smallest = 180;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const auto of_triangle = angles(corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2));
+    smallest = std::min(smallest, std::ranges::min(of_triangle));
+  }
+  return smallest;
 }
 
 }  // namespace anticrack::mesh

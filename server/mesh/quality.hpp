@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "mesh/geometry.hpp"
+#include "mesh/at.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::mesh {
@@ -22,14 +22,11 @@ struct Quality {
 /// Of a mesh with at least one triangle. O(m).
 Quality quality(const Mesh& mesh) noexcept;
 
-/// The angles at a, b and c, degrees. From differences of coordinates, so as right for a triangle
-/// of 1e-13 as its corners are.
-std::array<double, 3> angles(const Point& a, const Point& b, const Point& c) noexcept;
+/// Smallest angle over all triangles, degrees. O(m).
+double minimum_angle(const Mesh& mesh) noexcept;
 
-/// Corner 0, 1 or 2 of a triangle.
-inline Point corner(const Mesh& mesh, std::size_t triangle, std::size_t i) noexcept {
-  const auto node = 2 * static_cast<std::size_t>(mesh.triangles[3 * triangle + i]);
-  return {mesh.xy[node], mesh.xy[node + 1]};
-}
+/// The angles at a, b and c, degrees; from differences of coordinates, so accurate for tiny
+/// triangles.
+std::array<double, 3> angles(const Point& a, const Point& b, const Point& c) noexcept;
 
 }  // namespace anticrack::mesh

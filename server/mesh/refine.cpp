@@ -13,7 +13,7 @@
 namespace anticrack::mesh {
 namespace {
 
-constexpr auto index_limit = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+constexpr auto index_limit = at(std::numeric_limits<std::int32_t>::max());
 
 [[noreturn]] void refuse_count(const Mesh& base, const Grading& grading, std::size_t limit) {
   std::ostringstream text;
@@ -35,7 +35,7 @@ Mesh grade(const Mesh& base, std::span<const std::int32_t> centres, const Gradin
   const SizeRule rule(base, centres, grading);
   if (base.triangle_count() > max_triangles) refuse_count(base, grading, max_triangles);
   Bisection mesh(base, std::min(max_triangles, index_limit));
-  // One pass suffices: a child keeps the rule its parent keeps, and new triangles come behind.
+  // One pass suffices: children of a small enough triangle are small enough, new ones come last.
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     while (rule.too_large(mesh.corners(t))) {
       if (!mesh.bisect(t)) refuse_count(base, grading, max_triangles);
@@ -54,10 +54,10 @@ Mesh refine_uniform(const Mesh& base) {
   std::vector<std::array<std::int32_t, 2>> parents;
   const auto first = static_cast<std::int32_t>(base.node_count());
   EdgeTable(base.triangles).each([&](std::span<const EdgeUse> uses) {
-    const auto i = 2 * static_cast<std::size_t>(uses[0].low());
-    const auto j = 2 * static_cast<std::size_t>(uses[0].high());
-    mesh.xy.push_back(0.5 * (base.xy[i] + base.xy[j]));
-    mesh.xy.push_back(0.5 * (base.xy[i + 1] + base.xy[j + 1]));
+    const auto [ax, ay] = position(base, uses[0].low());
+    const auto [bx, by] = position(base, uses[0].high());
+    mesh.xy.push_back(0.5 * (ax + bx));
+    mesh.xy.push_back(0.5 * (ay + by));
     parents.push_back({uses[0].low(), uses[0].high()});
   });
   const Midpoints midpoints(first, parents);

@@ -5,17 +5,16 @@
 // At an open delaminated tip one face of the crack is Dirichlet, the other Neumann, and
 // u ~ r^{1/4}; elements of size h0 r^{1-m} with m < 1/4 restore the rates of smooth solutions.
 //
-// What holds of every mesh returned, if the base satisfies `validate`:
-//   - it satisfies `validate`; nodes of the base come first and keep their numbers, new ones
-//   follow;
+// Every mesh returned satisfies `validate` if the base does, and:
+//   - nodes of the base keep their numbers, new ones follow;
 //   - a new node is the midpoint 0.5 (a + b) of an edge, so dyadic coordinates stay exact;
-//   - triangles inherit the subdomain, pieces of interface and dirichlet edges their edge's kind,
-//     inclusion, direction and place in the chain; names, tension and warnings are copied;
+//   - triangles inherit the subdomain; pieces of interface and Dirichlet edges the kind, inclusion,
+//     direction and place in the chain; names, tension and warnings are copied;
 //   - equal input gives equal bits.
 //
-// Source: R. Stevenson, The completion of locally refined simplicial partitions created by
-// bisection, Math. Comp. 77 (2008); M. Karkulik, D. Pavlicek, D. Praetorius, On 2D newest vertex
-// bisection, Constr. Approx. 38 (2013), for initial labels that are not compatible.
+// R. Stevenson, The completion of locally refined simplicial partitions created by bisection, Math.
+// Comp. 77 (2008); M. Karkulik, D. Pavlicek, D. Praetorius, On 2D newest vertex bisection, Constr.
+// Approx. 38 (2013), for initial labels that are not compatible.
 #pragma once
 
 #include <cstddef>
@@ -31,45 +30,39 @@ namespace anticrack::mesh {
 ///
 ///   h_T <= min(h0, max(h_tip, h0 (r/R)^{1-m})),   R = characteristic_length(mesh).
 ///
-/// R makes the answer independent of the unit of length. Lengths in the unit of the mesh.
-///
-/// Closer to a tip than R (h0/R)^{1/m} the rule asks for less than the distance itself; only
-/// triangles that touch the tip are cut from there on, about a dozen for each halving of h_tip.
-/// What is left uncut costs an error of the order (h_tip/R)^{1/2} in A: with h_tip = R (h0/R)^{1/m}
-/// that doubles the error of Example 3 at 20,000 triangles, so 0 goes all the way down.
+/// Lengths in the unit of the mesh; R makes the rule independent of it.
+/// Closer to a tip than R (h0/R)^{1/m} the rule requires less than the distance itself, and only
+/// triangles at the tip are still cut, about a dozen per halving of h_tip. Stopping at h_tip costs
+/// an error of order (h_tip/R)^{1/2} in A; h_tip = R (h0/R)^{1/m} doubles the error of Example 3 at
+/// 20,000 triangles, so the default is the smallest.
 struct Grading {
   double h0 = 0;        ///< longest edge allowed at a distance of R and more, > 0
   double m = 0.2;       ///< 0 < m < 1 below the exponent of the solution at a tip; 1: uniform
   double tip_size = 0;  ///< h_tip; 0: `smallest_tip_size`
 };
 
-/// Half the side of the square of the mesh's area: 1 for the square (-1,1) x (-1,1). Does not
-/// change when the membrane is moved or turned.
+/// Half the side of a square of the mesh's area: 1 for (-1,1) x (-1,1).
 double characteristic_length(const Mesh& mesh);
 
-/// 1e-13 max(R, largest coordinate of a node of `centres` in absolute value): at least 450 units in
-/// the last place of a coordinate there, so rounding of midpoints leaves the angles right to about
-/// a hundredth.
+/// 1e-13 max(R, largest |coordinate| of a node of `centres`): at least 450 ulp there, so rounding
+/// of midpoints changes angles by about a hundredth at most.
 double smallest_tip_size(const Mesh& mesh, std::span<const std::int32_t> centres);
 
-/// Nodes where the solution is singular because the condition on an interface changes, ascending:
-///   - two interface edges meet there, of one interface or of several, that differ in kind or in
-///     inclusion (glue | crack, bonded | delaminated, inclusion 0 | inclusion 1, ...);
-///   - one single interface edge other than glue ends there, and the end is free: inside the
-///     domain, or the edge itself lies on the boundary. A crack that leaves through the boundary
-///     has no tip there.
-/// Corners of an interface or of the boundary are not tips. O(m log m).
+/// Nodes, ascending, where the condition on an interface changes and the solution is singular:
+///   - two interface edges that differ in kind or inclusion meet there;
+///   - a single interface edge other than glue ends there, inside the domain or, if the edge itself
+///     lies on the boundary, on it. A crack that leaves through the boundary has no tip there.
+/// Corners of an interface or of the boundary are no tips. O(m log m).
 std::vector<std::int32_t> tips(const Mesh& mesh);
 
-/// Grades towards tips(base). Without a tip every edge is at most h0. Triangles of the base that
-/// are fine enough stay as they are; grade a base once and not its graded mesh again, whose longest
-/// edges are not those the bisection would go on with.
-/// Throws errors::Error: invalid_argument at "h0", "m" or "tip_size"; limit_exceeded at "h0" when
-/// the result would have more than `max_triangles`; mesh_invalid for an edge of three triangles.
-/// O(n log n) in the triangles of the result, memory about 60 bytes a triangle besides the result.
+/// Grades towards tips(base); without tips every edge is at most h0. Triangles that are fine enough
+/// stay. Grade a base once, not its graded mesh: the longest edges there are not the reference
+/// edges. Throws errors::Error: invalid_argument at "h0", "m" or "tip_size"; limit_exceeded at "h0"
+/// beyond `max_triangles`; mesh_invalid for an edge of three triangles. O(n log n) for n triangles
+/// of the result; 60 bytes a triangle besides the result.
 Mesh grade(const Mesh& base, const Grading& grading, std::size_t max_triangles);
 
-/// The same towards given nodes of the base instead of its tips.
+/// The same towards given nodes of the base.
 Mesh grade(const Mesh& base, std::span<const std::int32_t> centres, const Grading& grading,
            std::size_t max_triangles);
 
@@ -77,8 +70,8 @@ Mesh grade(const Mesh& base, std::span<const std::int32_t> centres, const Gradin
 /// Throws errors::Error (limit_exceeded) if the result's indices do not fit. O(m log m).
 Mesh refine_uniform(const Mesh& base);
 
-/// The smallest angle, degrees, that `grade` can ever make of this base: bisection produces four
-/// classes of similar triangles from each triangle and its longest edge. O(m log m).
+/// Lower bound, degrees, of all angles `grade` can make of this base: bisection produces four
+/// classes of similar triangles from each triangle. O(m log m).
 double bisection_bound(const Mesh& base);
 
 }  // namespace anticrack::mesh

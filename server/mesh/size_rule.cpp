@@ -8,7 +8,6 @@
 
 #include "errors/errors.hpp"
 #include "mesh/geometry_primitives.hpp"
-#include "mesh/quality.hpp"
 
 namespace anticrack::mesh {
 namespace {
@@ -70,8 +69,8 @@ double characteristic_length(const Mesh& mesh) {
 double smallest_tip_size(const Mesh& mesh, std::span<const std::int32_t> centres) {
   double largest = characteristic_length(mesh);
   for (const std::int32_t node : centres) {
-    const auto i = 2 * static_cast<std::size_t>(node);
-    largest = std::max({largest, std::abs(mesh.xy[i]), std::abs(mesh.xy[i + 1])});
+    const auto [x, y] = position(mesh, node);
+    largest = std::max({largest, std::abs(x), std::abs(y)});
   }
   return relative_floor * largest;
 }
@@ -95,10 +94,7 @@ SizeRule::SizeRule(const Mesh& mesh, std::span<const std::int32_t> centres, cons
   if (grading.m == 1) _tip_size = _h0;
   _exponent = grading.m == 1 ? 1 : 1 / (1 - grading.m);
 
-  for (const std::int32_t node : centres) {
-    const auto i = 2 * static_cast<std::size_t>(node);
-    _centres.push_back({mesh.xy[i], mesh.xy[i + 1]});
-  }
+  for (const std::int32_t node : centres) _centres.push_back(position(mesh, node));
   std::array<double, 2> spread{};
   for (std::size_t axis = 0; axis < 2 && !_centres.empty(); ++axis) {
     const auto [low, high] =

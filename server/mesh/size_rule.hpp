@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "mesh/geometry.hpp"
 #include "mesh/refine.hpp"
 
 namespace anticrack::mesh {
@@ -19,9 +18,8 @@ class SizeRule {
   /// Throws errors::Error (invalid_argument) at "h0", "m" or "tip_size". O(m + c log c).
   SizeRule(const Mesh& mesh, std::span<const std::int32_t> centres, const Grading& grading);
 
-  /// Whether the longest edge exceeds what the distance to the nearest centre allows. Distances are
-  /// taken from differences to the centre, which are exact close by. O(log c) and the centres in
-  /// reach.
+  /// Whether the longest edge exceeds what the distance to the nearest centre allows; distances
+  /// from exact differences to the centre. O(log c + centres in reach).
   bool too_large(const std::array<Point, 3>& triangle) const noexcept;
 
  private:

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "mesh/at.hpp"
 #include "mesh/edges.hpp"
 #include "mesh/refine.hpp"
 
@@ -36,8 +37,8 @@ std::vector<bool> nodes_on_boundary(const Mesh& mesh, const EdgeTable& edges) {
   std::vector<bool> found(mesh.node_count(), false);
   edges.each([&](std::span<const EdgeUse> uses) {
     if (uses.size() != 1) return;
-    found[static_cast<std::size_t>(uses[0].from)] = true;
-    found[static_cast<std::size_t>(uses[0].to)] = true;
+    found[at(uses[0].from)] = true;
+    found[at(uses[0].to)] = true;
   });
   return found;
 }
@@ -50,8 +51,7 @@ std::vector<std::int32_t> tips(const Mesh& mesh) {
   const std::vector<bool> on_boundary = nodes_on_boundary(mesh, edges);
   const auto free_end = [&](const EdgeEnd& end) {
     if (end.kind == Kind::glue) return false;
-    return !on_boundary[static_cast<std::size_t>(end.node)] ||
-           edges.find(end.node, end.other).size() == 1;
+    return !on_boundary[at(end.node)] || edges.find(end.node, end.other).size() == 1;
   };
 
   std::vector<std::int32_t> found;

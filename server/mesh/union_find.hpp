@@ -6,16 +6,17 @@
 #include <numeric>
 #include <vector>
 
+#include "mesh/at.hpp"
+
 namespace anticrack::mesh {
 
-/// Disjoint sets of 0..n-1. The smallest member stands for its set, whatever the order in which
-/// they were united. O(log n) a call, amortised.
+/// Disjoint sets of 0..n-1, each represented by its smallest member. O(log n) a call, amortised.
 class UnionFind {
  public:
-  /// Each a set of its own.
+  /// n sets of one member.
   explicit UnionFind(std::size_t n) : _parent(n) { std::iota(_parent.begin(), _parent.end(), 0); }
 
-  /// What stands for the set of i.
+  /// The representative of the set of i.
   std::int32_t find(std::int32_t i) {
     while (parent(i) != i) {
       parent(i) = parent(parent(i));
@@ -23,7 +24,7 @@ class UnionFind {
     }
     return i;
   }
-  /// False when they were one set before.
+  /// False if they were in one set already.
   bool unite(std::int32_t a, std::int32_t b) {
     a = find(a);
     b = find(b);
@@ -34,7 +35,7 @@ class UnionFind {
   bool same(std::int32_t a, std::int32_t b) { return find(a) == find(b); }
 
  private:
-  std::int32_t& parent(std::int32_t i) { return _parent[static_cast<std::size_t>(i)]; }
+  std::int32_t& parent(std::int32_t i) { return _parent[at(i)]; }
 
   std::vector<std::int32_t> _parent;
 };

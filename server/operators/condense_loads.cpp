@@ -9,6 +9,7 @@
 #include "errors/errors.hpp"
 #include "fem/load_vector.hpp"
 #include "fem/traction.hpp"
+#include "mesh/at.hpp"
 #include "operators/known_names.hpp"
 #include "operators/place_forces.hpp"
 
@@ -221,7 +222,7 @@ std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> l
                                              std::span<const ddm::SubdomainOperator> operators,
                                              const ddm::NeumannBoundary& neumann,
                                              const std::stop_token& stop) {
-  const auto at_once = static_cast<std::size_t>(ddm::columns_at_once(most_nodes(decomposition)));
+  const auto at_once = at(ddm::columns_at_once(most_nodes(decomposition)));
   std::vector<CondensedOutcome> result;
   result.reserve(loads.size());
   for (std::size_t first = 0; first < loads.size(); first += at_once) {

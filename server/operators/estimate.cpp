@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "ddm/sides.hpp"
+#include "mesh/at.hpp"
 #include "operators/mesh_operator.hpp"
 
 namespace anticrack::operators {
@@ -18,15 +19,15 @@ std::vector<Size> subdomain_sizes(const mesh::Mesh& mesh, const ddm::Sides& side
   std::vector<Size> sizes(mesh.subdomains.size());
   std::vector<char> seen(mesh.node_count(), 0);
   for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
-    const auto node = static_cast<std::size_t>(mesh.triangles[c]);
+    const auto node = at(mesh.triangles[c]);
     if (sides.corner[c] < 0 && seen[node] == 0) {
       seen[node] = 1;
-      sizes[static_cast<std::size_t>(mesh.subdomain[c / 3])].nodes += 1;
+      sizes[at(mesh.subdomain[c / 3])].nodes += 1;
     }
   }
   for (const ddm::Side& side : sides.sides) {
-    sizes[static_cast<std::size_t>(side.subdomain)].nodes += 1;
-    sizes[static_cast<std::size_t>(side.subdomain)].trace += 1;
+    sizes[at(side.subdomain)].nodes += 1;
+    sizes[at(side.subdomain)].trace += 1;
   }
   return sizes;
 }
@@ -44,13 +45,13 @@ SkeletonSize skeleton_size(const mesh::Mesh& mesh, const ddm::Sides& sides) {
   for (const ddm::CutEdge& edge : sides.edges) {
     if (edge.kind == mesh::Kind::crack || edge.kind == mesh::Kind::delaminated) {
       for (const std::int32_t node : edge.node) {
-        open[static_cast<std::size_t>(node)] = 1;
+        open[at(node)] = 1;
       }
     }
   }
   SkeletonSize size{static_cast<double>(mesh.inclusions.size()), 0};
   for (const ddm::Side& side : sides.sides) {
-    const auto node = static_cast<std::size_t>(side.node);
+    const auto node = at(side.node);
     const bool another = seen[node] != 0;
     seen[node] = 1;
     size.unknowns += another && open[node] == 0 ? 0 : 1;

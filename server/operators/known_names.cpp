@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
 
 namespace anticrack::operators {
 
@@ -11,7 +12,7 @@ std::size_t index_of(const std::vector<std::string>& names, const std::string& n
                      const std::string& what, const std::string& field) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) {
-    return static_cast<std::size_t>(found - names.begin());
+    return at(found - names.begin());
   }
   constexpr std::size_t most_listed = 20;
   std::string known;

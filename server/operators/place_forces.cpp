@@ -8,6 +8,7 @@
 
 #include "errors/errors.hpp"
 #include "fem/point_location.hpp"
+#include "mesh/at.hpp"
 #include "operators/known_names.hpp"
 
 namespace anticrack::operators {
@@ -16,13 +17,8 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-fem::PlanePoint point_of(const mesh::Mesh& mesh, std::int32_t node) {
-  return {mesh.xy[2 * static_cast<std::size_t>(node)],
-          mesh.xy[2 * static_cast<std::size_t>(node) + 1]};
-}
-
 double diagonal(const mesh::Mesh& mesh) {
-  fem::PlanePoint low = point_of(mesh, 0), high = low;
+  fem::PlanePoint low = mesh::position(mesh, 0), high = low;
   for (std::size_t i = 0; i < mesh.xy.size(); ++i) {
     low[i % 2] = std::min(low[i % 2], mesh.xy[i]);
     high[i % 2] = std::max(high[i % 2], mesh.xy[i]);
@@ -52,8 +48,8 @@ std::vector<OnInterface> find_on_interfaces(const mesh::Mesh& mesh, const fem::P
       if (interface.kind[e] == mesh::Kind::glue) {
         continue;
       }
-      const std::array<fem::PlanePoint, 2> ends{point_of(mesh, interface.nodes[e]),
-                                                point_of(mesh, interface.nodes[e + 1])};
+      const std::array<fem::PlanePoint, 2> ends{mesh::position(mesh, interface.nodes[e]),
+                                                mesh::position(mesh, interface.nodes[e + 1])};
       points.visit_near(ends, tolerance, [&](std::size_t i) {
         if (fem::distance_to_segment(points[i], ends[0], ends[1]) > tolerance) {
           return;
@@ -95,18 +91,18 @@ void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& 
   if (forces.empty()) {
     return;
   }
-  std::vector<fem::PlanePoint> at;
-  at.reserve(forces.size());
+  std::vector<fem::PlanePoint> positions;
+  positions.reserve(forces.size());
   for (const fem::PointForce& force : forces) {
-    at.push_back({force.x, force.y});
+    positions.push_back({force.x, force.y});
   }
-  const fem::PointSet points(at);
+  const fem::PointSet points(positions);
   const double tolerance = point_tolerance * diagonal(mesh);
   const std::vector<OnInterface> on = find_on_interfaces(mesh, points, tolerance);
   const std::vector<Placed> in = find_in_subdomains(decomposition, points, tolerance);
   for (std::size_t i = 0; i < forces.size(); ++i) {
     if (on[i].inclusion >= 0) {
-      placed.inclusions[static_cast<std::size_t>(on[i].inclusion)] += forces[i].value;
+      placed.inclusions[at(on[i].inclusion)] += forces[i].value;
       continue;
     }
     if (on[i].crack != nullptr) {
@@ -121,7 +117,7 @@ void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& 
     const ddm::Subdomain& subdomain = decomposition.subdomains[in[i].subdomain];
     for (std::size_t a = 0; a < 3; ++a) {
       placed.subdomains[in[i].subdomain].push_back(
-          {subdomain.part.triangles[3 * static_cast<std::size_t>(location.triangle) + a],
+          {subdomain.part.triangles[3 * at(location.triangle) + a],
            location.weight[a] * forces[i].value});
     }
   }
@@ -134,7 +130,7 @@ void place_on_inclusion(std::size_t inclusion, double force,
     const auto held = std::find(subdomain.rigid.begin(), subdomain.rigid.end(),
                                 static_cast<std::int32_t>(inclusion));
     if (held != subdomain.rigid.end()) {
-      const auto trace = static_cast<std::size_t>(held - subdomain.rigid.begin());
+      const auto trace = at(held - subdomain.rigid.begin());
       placed.subdomains[s].push_back(
           {static_cast<std::int32_t>(subdomain.interior + trace), force});
       return;

@@ -7,6 +7,7 @@
 
 #include "contact/sweep_solver.hpp"
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
 #include "operators/load_key.hpp"
 #include "operators/mesh_parts.hpp"
 
@@ -119,7 +120,7 @@ std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* 
 
 void MeshOperator::require_shape(const contact::SweepColumns& rows,
                                  std::span<const char> start) const {
-  const auto contacts = static_cast<std::size_t>(_parts->skeleton.lcp().size());
+  const auto contacts = at(_parts->skeleton.lcp().size());
   if (rows.inclusions != _parts->mesh->inclusions.size() ||
       rows.contacts != contact_nodes().size() || (!start.empty() && start.size() != contacts)) {
     throw errors::Error(errors::Reason::internal, "rows of a sweep on another mesh");

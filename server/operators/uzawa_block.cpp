@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
 #include "operators/mesh_parts.hpp"
 
 namespace anticrack::operators {
@@ -14,7 +15,7 @@ struct UzawaBlock::State {
         contact::Mass mass, int capacity)
       : mesh_operator(std::move(of_mesh)),
         columns(problem, mesh_operator->mesh(), mass, capacity),
-        loads(static_cast<std::size_t>(capacity)) {}
+        loads(at(capacity)) {}
 
   std::shared_ptr<const MeshOperator> mesh_operator;
   contact::UzawaBlock columns;                     // refers to the operator and to the loads
@@ -43,7 +44,7 @@ int UzawaBlock::add(PreparedLoad load, const contact::UzawaOptions& options, boo
   _state->mesh_operator->require_prepared(load, fields);
   // What the column refers to does not move with the PreparedLoad.
   const int place = _state->columns.add(load._data->loads(), options, fields, observer);
-  _state->loads[static_cast<std::size_t>(place)] = std::move(load);
+  _state->loads[at(place)] = std::move(load);
   return place;
 }
 
@@ -54,7 +55,7 @@ void UzawaBlock::step() {
 std::vector<UzawaBlock::Ended> UzawaBlock::take_ended() {
   std::vector<Ended> ended;
   for (contact::UzawaBlock::Ended& one : _state->columns.take_ended()) {
-    std::optional<PreparedLoad>& load = _state->loads[static_cast<std::size_t>(one.place)];
+    std::optional<PreparedLoad>& load = _state->loads[at(one.place)];
     load->_data->add_warnings(one.answer);
     load.reset();
     ended.push_back({one.place, std::move(one.answer)});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/mesh.hpp"
+#include "mesh/quality.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

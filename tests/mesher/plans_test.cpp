@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "mesh/edges.hpp"
+#include "mesh/quality.hpp"
 #include "mesher/real_helper.hpp"
 #include "support/errors.hpp"
 
