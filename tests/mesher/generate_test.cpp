@@ -7,6 +7,7 @@
 #include <set>
 #include <thread>
 
+#include "mesh/quality.hpp"
 #include "mesher/real_helper.hpp"
 #include "support/errors.hpp"
 #include "support/paper_geometry.hpp"
