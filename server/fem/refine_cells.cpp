@@ -29,18 +29,16 @@ struct Measured {
   double area = 0;  ///< of the whole triangle
 };
 
-/// By local barycentric coordinates.
-using Nodal = std::array<double, 3>;
-
 /// Cells of one call of the sampler, `Rule` after `Rule` for each.
 class Batch {
  public:
   explicit Batch(Integration& integration) : _integration(integration) {}
 
   template <class... Rules>
-  const double* sample(std::span<Measured> cells, const Rules&... used) {
+  const double* sample(std::span<Measured* const> cells, const Rules&... used) {
     std::size_t n = 0;
-    for (Measured& one : cells) {
+    for (Measured* const cell : cells) {
+      Measured& one = *cell;
       const Frame frame = _integration.frame(one.cell.triangle);
       one.area = frame.area;
       const Place& p = one.cell.corners[0];
@@ -79,8 +77,15 @@ class Batch {
   std::array<double, Sampler::block> _x{}, _y{};
 };
 
+/// Means over a cell.
+struct Means {
+  std::array<double, 3> nodal;  ///< of f phi_i, for the cell's own phi_i
+  double absolute;              ///< of |f|
+  double bend;                  ///< of |f - its linear part|
+};
+
 template <class Rule>
-Nodal moments(const Rule& rule, const double* values) {
+Means means(const Rule& rule, const double* values) {
   double whole = 0, b = 0, c = 0;
   for (std::size_t i = 0; i < rule.size; ++i) {
     const double part = rule.weight[i] * values[i];
@@ -88,39 +93,24 @@ Nodal moments(const Rule& rule, const double* values) {
     b += part * rule.b[i];
     c += part * rule.c[i];
   }
-  return {whole - b - c, b, c};
-}
-
-double square(double a) {
-  return a * a;
-}
-
-double difference(const Nodal& p, const Nodal& q) {
-  return std::max({std::abs(p[0] - q[0]), std::abs(p[1] - q[1]), std::abs(p[2] - q[2])});
-}
-
-/// Mean of |f| and of what a straight line leaves of f.
-template <class Rule>
-std::pair<double, double> sizes(const Rule& rule, const double* values, const Nodal& nodal) {
-  const double whole = nodal[0] + nodal[1] + nodal[2];
-  const double p = 12 * nodal[0] - 3 * whole, q = 12 * nodal[1] - 3 * whole - p,
-               r = 12 * nodal[2] - 3 * whole - p;
-  double absolute = 0, bend = 0;
+  Means result{{whole - b - c, b, c}, 0, 0};
+  const double p = 12 * result.nodal[0] - 3 * whole, q = 12 * b - 3 * whole - p,
+               r = 12 * c - 3 * whole - p;
   for (std::size_t i = 0; i < rule.size; ++i) {
-    absolute += rule.weight[i] * std::abs(values[i]);
-    bend += rule.weight[i] * std::abs(values[i] - p - q * rule.b[i] - r * rule.c[i]);
+    result.absolute += rule.weight[i] * std::abs(values[i]);
+    result.bend += rule.weight[i] * std::abs(values[i] - p - q * rule.b[i] - r * rule.c[i]);
   }
-  return {absolute, bend};
+  return result;
 }
 
-Moments to_triangle(const Cell& cell, double area, const Nodal& nodal, double absolute) {
+Moments to_triangle(const Cell& cell, double area, const Means& means) {
   Moments result;
   for (std::size_t k = 0; k < 3; ++k) {
-    result.value[0] += area * nodal[k];
-    result.value[1] += area * nodal[k] * cell.corners[k].b;
-    result.value[2] += area * nodal[k] * cell.corners[k].c;
+    result.value[0] += area * means.nodal[k];
+    result.value[1] += area * means.nodal[k] * cell.corners[k].b;
+    result.value[2] += area * means.nodal[k] * cell.corners[k].c;
   }
-  result.absolute = area * absolute;
+  result.absolute = area * means.absolute;
   return result;
 }
 
@@ -135,11 +125,13 @@ class Refinement {
     for (std::size_t first = 0; first < triangles.size(); first += at_once) {
       std::vector<Measured> some;
       for (std::size_t i = first; i < std::min(first + at_once, triangles.size()); ++i) {
-        some.emplace_back().cell.triangle = triangles[i].triangle;
+        Measured& one = some.emplace_back();
+        one.cell.triangle = triangles[i].triangle;
+        one.found = triangles[i].found;
       }
-      measure_and_settle(some, rest);
+      measure_and_settle(some, Known::by_rule_5, rest);
     }
-    measure_and_settle(cells, rest);
+    measure_and_settle(cells, Known::nothing, rest);
     while (!rest.empty()) {
       choose(rest, 4 * (points_a + points_b));
       rest = divide(rest);
@@ -148,6 +140,7 @@ class Refinement {
 
  private:
   static constexpr std::size_t points_a = points_of_cell, points_b = rule_12.size;
+  enum class Known { nothing, by_rule_5 };
 
   double area(const Measured& one) const { return one.area * std::abs(one.cell.part()); }
 
@@ -155,8 +148,8 @@ class Refinement {
     return _integration.allowed(one.area, one.cell.share, one.found.absolute);
   }
 
-  void measure_and_settle(std::vector<Measured>& cells, std::vector<Measured>& rest) {
-    measure(cells);
+  void measure_and_settle(std::vector<Measured>& cells, Known known, std::vector<Measured>& rest) {
+    measure(cells, known);
     note_size(cells);
     for (Measured& one : cells) settle_or_keep(one, one.error, rest);
   }
@@ -170,12 +163,12 @@ class Refinement {
 
   /// Leaves those that are worth the work that is left, the worst; settles the others with what is
   /// known.
-  template <class Known>
-  void choose(std::vector<Known>& all, std::size_t points_each) {
+  template <class Part>
+  void choose(std::vector<Part>& all, std::size_t points_each) {
     const double each = static_cast<double>(points_each) * (_integration.f.cost() + 3);
     const auto affordable = static_cast<std::size_t>(std::max(0.0, _integration.work) / each);
     if (all.size() <= affordable) return;
-    std::stable_sort(all.begin(), all.end(), [](const Known& a, const Known& b) {
+    std::stable_sort(all.begin(), all.end(), [](const Part& a, const Part& b) {
       return a.trust != b.trust ? a.trust > b.trust : a.error > b.error;
     });
     for (std::size_t i = affordable; i < all.size(); ++i) {
@@ -217,7 +210,7 @@ class Refinement {
     for (const Measured& parent : parents) {
       for (const Cell& cell : parent.cell.quarters()) children.push_back({cell, {}});
     }
-    measure(children);
+    measure(children, Known::nothing);
     note_size(children);
     std::vector<Measured> rest;
     for (std::size_t i = 0; i < parents.size(); ++i) {
@@ -262,95 +255,82 @@ class Refinement {
     return change * decay / (1 - decay);
   }
 
-  void measure(std::vector<Measured>& cells) {
-    if (_integration.exact) {
-      measure_exactly(cells);
-      return;
-    }
-    std::vector<std::size_t> finer;
-    const std::span<Measured> all(cells);
-    constexpr std::size_t at_once = Sampler::block / points_a;
-    for (std::size_t first = 0; first < cells.size(); first += at_once) {
-      const auto some = all.subspan(first, std::min(at_once, cells.size() - first));
-      const double* values = _batch.sample(some, rule_5, rule_8);
-      if (_integration.f.watches()) _integration.f.note_peaks(some.size() * points_a);
-      for (std::size_t i = 0; i < some.size(); ++i) {
-        measure_coarse(some[i], values, i * points_a);
-        if (some[i].error > allowed(some[i]) && some[i].error < 0.3 * _bend) {
-          finer.push_back(first + i);
-          _bends.push_back(_bend);
-        }
-      }
-    }
-    measure_finer(cells, finer);
-    _bends.clear();
+  /// Replaces what is known of a cell; the greatest change of a nodal value.
+  double replace(Measured& one, const Means& by) {
+    const Moments found = to_triangle(one.cell, area(one), by);
+    return fem::difference(std::exchange(one.found, found), found);
   }
 
-  void measure_exactly(std::span<Measured> cells) {
-    constexpr std::size_t at_once = Sampler::block / rule_5.size;
+  /// By one rule: judge(cell, means, its number).
+  template <class Rule, class Judge>
+  void measure_by(const Rule& rule, std::span<Measured* const> cells, const Judge& judge) {
+    constexpr std::size_t at_once = Sampler::block / Rule::size;
     for (std::size_t first = 0; first < cells.size(); first += at_once) {
       const auto some = cells.subspan(first, std::min(at_once, cells.size() - first));
-      const double* values = _batch.sample(some, rule_5);
+      const double* values = _batch.sample(some, rule);
       for (std::size_t i = 0; i < some.size(); ++i) {
-        const double* own = values + i * rule_5.size;
-        const Nodal nodal = moments(rule_5, own);
-        const auto [absolute, bend] = sizes(rule_5, own, nodal);
-        if (!std::isfinite(absolute)) _batch.require_finite(values, i * rule_5.size, rule_5.size);
-        some[i].found = to_triangle(some[i].cell, area(some[i]), nodal, absolute);
-        some[i].error = some[i].cell.divisible ? 0 : area(some[i]) * bend;  // a jump is in it
+        const Means found = means(rule, values + i * rule.size);
+        if (!std::isfinite(found.absolute)) _batch.require_finite(values, i * rule.size, rule.size);
+        judge(*some[i], found, first + i);
       }
     }
   }
 
-  void measure_coarse(Measured& one, const double* values, std::size_t first) {
-    const double* coarse = values + first;
-    const double* fine = coarse + rule_5.size;
-    const Nodal of_5 = moments(rule_5, coarse), of_8 = moments(rule_8, fine);
-    const auto [absolute, bend] = sizes(rule_8, fine, of_8);
-    if (!std::isfinite(absolute) || !std::isfinite(of_5[0])) {
-      _batch.require_finite(values, first, points_a);
+  void measure(std::vector<Measured>& cells, Known known) {
+    std::vector<Measured*> all;
+    all.reserve(cells.size());
+    for (Measured& one : cells) all.push_back(&one);
+    if (_integration.exact) {
+      measure_by(rule_5, all, [&](Measured& one, const Means& by_5, std::size_t) {
+        replace(one, by_5);
+        one.error = one.cell.divisible ? 0 : area(one) * by_5.bend;  // a jump is in it
+      });
+      return;
     }
-    const double size = area(one);
-    one.found = to_triangle(one.cell, size, of_8, absolute);
-    _bend = size * bend / 3;
-    one.error = size * difference(of_5, of_8);
-    // Of the smaller rule; the larger one's is as much less as convergence promises.
-    one.error *= std::min(1.0, 10 * one.error / _bend);
-    if (!(_bend > 0)) one.error = 0;
-    one.trust =
-        _integration.f.watches() ? _integration.f.trust(first, points_a, room) : Trust::sound;
-    if (!one.cell.divisible) one.error = std::max(one.error, _bend);  // a jump is in it
+    std::vector<Measured*> finer;
+    std::vector<double> bends;
+    measure_by_8(all, known, finer, bends);
+    measure_by(rule_12, finer, [&](Measured& one, const Means& by_12, std::size_t number) {
+      const double change = replace(one, by_12), part = std::cbrt(change / bends[number]);
+      one.error = change * std::min(1.0, 10 * part * part);
+    });
   }
 
-  void measure_finer(std::vector<Measured>& cells, const std::vector<std::size_t>& chosen) {
-    constexpr std::size_t at_once = Sampler::block / points_b;
-    std::vector<Measured> some;
-    for (std::size_t first = 0; first < chosen.size(); first += at_once) {
-      const std::size_t count = std::min(at_once, chosen.size() - first);
-      some.clear();
-      for (std::size_t i = 0; i < count; ++i) some.push_back(cells[chosen[first + i]]);
-      const double* values = _batch.sample(some, rule_12);
-      for (std::size_t i = 0; i < count; ++i) {
-        Measured& one = cells[chosen[first + i]];
-        const double* own = values + i * points_b;
-        const Nodal nodal = moments(rule_12, own);
-        double absolute = 0;
-        for (std::size_t k = 0; k < points_b; ++k) {
-          absolute += rule_12.weight[k] * std::abs(own[k]);
+  /// By rule_8, and by rule_5 if not known; finds those that rule_12 is likely to settle.
+  void measure_by_8(std::span<Measured* const> cells, Known known, std::vector<Measured*>& finer,
+                    std::vector<double>& bends) {
+    const std::size_t first_of_8 = known == Known::nothing ? rule_5.size : 0;
+    const std::size_t points = first_of_8 + rule_8.size, at_once = Sampler::block / points;
+    for (std::size_t first = 0; first < cells.size(); first += at_once) {
+      const auto some = cells.subspan(first, std::min(at_once, cells.size() - first));
+      const double* values =
+          first_of_8 > 0 ? _batch.sample(some, rule_5, rule_8) : _batch.sample(some, rule_8);
+      if (_integration.f.watches()) _integration.f.note_peaks(some.size() * points);
+      for (std::size_t i = 0; i < some.size(); ++i) {
+        Measured& one = *some[i];
+        const double* own = values + i * points;
+        if (first_of_8 > 0) replace(one, means(rule_5, own));
+        const Means by_8 = means(rule_8, own + first_of_8);
+        if (!std::isfinite(by_8.absolute + one.found.absolute)) {
+          _batch.require_finite(values, i * points, points);
         }
-        if (!std::isfinite(absolute)) _batch.require_finite(values, i * points_b, points_b);
-        const Moments found = to_triangle(one.cell, area(one), nodal, absolute);
-        const double change = fem::difference(found, one.found);
-        one.found = found;
-        one.error = change * std::min(1.0, 10 * square(std::cbrt(change / _bends[first + i])));
+        const double bend = area(one) * by_8.bend / 3, change = replace(one, by_8);
+        // The change is the error of rule_5; that of rule_8 is as much less as convergence
+        // promises.
+        one.error = bend > 0 ? change * std::min(1.0, 10 * change / bend) : 0;
+        one.trust = _integration.f.watches() ? _integration.f.trust(i * points, points, room)
+                                             : Trust::sound;
+        if (!one.cell.divisible) one.error = std::max(one.error, bend);  // a jump is in it
+        if (one.error > allowed(one) && one.error < 0.3 * bend) {
+          finer.push_back(&one);
+          bends.push_back(bend);
+        }
       }
     }
   }
 
   Integration& _integration;
   Batch _batch;
-  double _bend = 0;            ///< of the cell last measured
-  std::vector<double> _bends;  ///< of those that are measured finer
 };
 
 }  // namespace
