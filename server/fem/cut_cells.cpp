@@ -21,20 +21,20 @@ static_assert(width * places <= expression::Evaluator::block);
 constexpr std::array<double, places> place_b{0, 1, 0, 0.5, 0, 0.5, 1.0 / 3};
 constexpr std::array<double, places> place_c{0, 0, 1, 0.5, 0.5, 0, 1.0 / 3};
 
-/// Samples are drawn in towards the centroid, so that each cell is asked for its own side of what
-/// jumps along its edge; what lies within `nothing` of an edge lies on it.
+/// Samples are moved towards the centroid by this part, so that a cell with a jump along its edge
+/// sees its own side only. A line within `nothing` of an edge is taken to lie on it.
 constexpr double drawn_in = 1e-12, nothing = 4e-12;
-/// Parts of a triangle that nobody misses.
+/// Cells below this part of their triangle are not cut.
 constexpr double sliver = 1e-11;
 constexpr std::int32_t deepest = 60;
 
-/// A switch's argument on a cell.
+/// The argument of a switch on a cell.
 struct View {
   std::array<double, places> g{};
   std::array<double, 6> bernstein{};  ///< of the polynomial of degree 2
-  double low = 0, high = 0;           ///< of g, at least as far apart as it goes
-  double zero = 0;                    ///< below this it is 0 to rounding
-  double bent = 0;                    ///< how far it is from linear
+  double low = 0, high = 0;           ///< bounds of g
+  double zero = 0;                    ///< smaller values are 0 to rounding
+  double bent = 0;                    ///< greatest distance from a linear function
 
   /// `rounding`: of coordinates over the cell's size.
   View(const std::array<double, places>& values, double rounding) : g(values) {
@@ -56,7 +56,7 @@ struct View {
 
   bool straight() const { return bent <= 1e-10 * (high - low); }
 
-  /// The value it passes inside the cell; none where it passes none.
+  /// A value where the switch changes inside the cell, if there is one.
   std::optional<double> level(bool steps) const {
     if (!std::isfinite(low) || !std::isfinite(high)) return std::nullopt;
     if (!steps) return low < -zero && high > zero ? std::optional(0.0) : std::nullopt;
@@ -98,37 +98,28 @@ double cross(const Place& o, const Place& p, const Place& q) {
   return (p.b - o.b) * (q.c - o.c) - (p.c - o.c) * (q.b - o.b);
 }
 
-/// What the rules of 5 and 4 points leave of values that go on as the coefficients of their
-/// Legendre polynomials do.
-double line_error(const std::array<double, 5>& v) {
-  std::array<double, 5> c{};
-  for (std::size_t i = 0; i < 5; ++i) {
-    const double z = 2 * line_5.at[i] - 1, w = line_5.weight[i] * v[i];
-    c[2] += 5 * w * (1.5 * z * z - 0.5);
-    c[3] += 7 * w * (2.5 * z * z - 1.5) * z;
-    c[4] += 9 * w * ((4.375 * z * z - 3.75) * z * z + 0.375);
+/// Error of a rule if the coefficients of the Legendre polynomials of the values go on decaying.
+template <std::size_t N>
+double line_error(const LineRule<N>& rule, const std::array<double, N>& values) {
+  std::array<double, N> coefficients{};
+  for (std::size_t i = 0; i < N; ++i) {
+    const double z = 2 * rule.at[i] - 1;
+    double legendre = 1, before = 0;
+    for (std::size_t k = 0; k < N; ++k) {
+      const auto degree = static_cast<double>(k);
+      coefficients[k] += (2 * degree + 1) * rule.weight[i] * values[i] * legendre;
+      const double next = ((2 * degree + 1) * z * legendre - degree * before) / (degree + 1);
+      before = std::exchange(legendre, next);
+    }
   }
-  const double last = std::abs(c[4]), before = std::max(std::abs(c[2]), std::abs(c[3]));
-  const double ratio = before > 0 ? last / before : 1;
-  return last * std::min(1.0, 10 * ratio);
-}
-
-double line_error(const std::array<double, 4>& v) {
-  std::array<double, 4> c{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double z = 2 * line_4.at[i] - 1, w = line_4.weight[i] * v[i];
-    c[1] += 3 * w * z;
-    c[2] += 5 * w * (1.5 * z * z - 0.5);
-    c[3] += 7 * w * (2.5 * z * z - 1.5) * z;
-  }
-  const double last = std::abs(c[3]), before = std::max(std::abs(c[1]), std::abs(c[2]));
-  const double ratio = before > 0 ? last / before : 1;
-  return last * std::min(1.0, 10 * ratio);
+  const double last = std::abs(coefficients[N - 1]);
+  const double before = std::max(std::abs(coefficients[N - 2]), std::abs(coefficients[N - 3]));
+  return last * std::min(1.0, before > 0 ? 10 * last / before : 10.0);
 }
 
 std::vector<expression::Switch> in_order(const expression::Tape& tape) {
   std::vector<expression::Switch> switches = tape.switches();
-  // Straight lines depend on nothing, and leave triangles.
+  // Straight lines come first: they leave triangles.
   std::stable_partition(switches.begin(), switches.end(),
                         [&](const expression::Switch& one) { return tape.degree(one.of) <= 1; });
   return switches;
@@ -189,7 +180,7 @@ class Cutter::Work {
         }
       }
       for (std::size_t i = 0; i < width; ++i) {
-        // What a View could make of these values goes beyond them by no more.
+        // A bound for the low and high of their View.
         const double beyond = 8 * (high[i] - low[i]);
         const double least = low[i] - beyond, greatest = high[i] + beyond;
         const bool far = _switches[s].steps ? std::floor(least) == std::floor(greatest)
@@ -220,7 +211,7 @@ class Cutter::Work {
       for (std::size_t s = 0; s < _switches.size(); ++s) cut_curved(s);
       cells.swap(_next);
     }
-    // What measuring them takes is counted where that is done.
+    // Measuring them is counted by refine_cells().
     _integration.work += Integration::price(points_of_cell * _done.size(), _integration.f.cost());
     return std::move(_done);
   }
@@ -280,7 +271,7 @@ class Cutter::Work {
     for (std::size_t k = 0; k < 3; ++k) side[k] = seen.side(k, *level);
     const bool opposite = side[0] * side[1] < 0 || side[1] * side[2] < 0 || side[2] * side[0] < 0;
     if (_integration.work <= 0) {
-      quarter(cell);  // or rather not
+      finish_uncut(cell);
     } else if (seen.straight() && opposite) {
       cut_straight(cell, seen, *level, side);
     } else if (simple(seen, *level, side, _switches[s].steps) && !others(i, s)) {
@@ -297,8 +288,8 @@ class Cutter::Work {
     return false;
   }
 
-  /// The first corner: on the line, if it passes between the two others; else the one on a side of
-  /// its own. The last: the one farther from the line.
+  /// Turns the corners: first the one on the line if that passes between the two others, else the
+  /// one alone on its side; last the one farther from the line.
   static void turn(const Cell& cell, const View& seen, double level, const std::array<int, 3>& side,
                    Curved& result) {
     const std::size_t k = odd_corner(side);
@@ -309,14 +300,14 @@ class Cutter::Work {
     result.cell.corners = {corners[k], corners[l], corners[m]};
   }
 
-  /// One line, met once by every edge it meets, and not too bent.
+  /// Whether there is one line that is not too bent and crosses no edge twice.
   static bool simple(const View& seen, double level, const std::array<int, 3>& side, bool steps) {
     if (steps && seen.high - seen.low > 2) return false;
     if (seen.bent > 0.25 * (seen.high - seen.low)) return false;
     const auto zeros = std::count(side.begin(), side.end(), 0);
     for (std::size_t k = 0; k < 3; ++k) {
       const int p = side[(k + 1) % 3], q = side[(k + 2) % 3];
-      // Along an edge between corners of one side, no change at all.
+      // No change along an edge whose ends are on the same side.
       if (p == q && p != 0 && (seen.bernstein[3 + k] - level) * p < 0) return false;
       if (zeros == 1 && (p == 0 || q == 0) && (seen.bernstein[3 + k] - level) * (p + q) < 0) {
         return false;
@@ -331,19 +322,21 @@ class Cutter::Work {
   }
 
   void finish(const Cell& cell) {
-    if (std::abs(cell.part()) > 0) {
-      _done.push_back(cell);
-    }
+    if (std::abs(cell.part()) > 0) _done.push_back(cell);
   }
 
-  void quarter(Cell cell) {
+  void finish_uncut(Cell cell) {
+    cell.divisible = false;
+    finish(cell);
+  }
+
+  void quarter(const Cell& cell) {
     const double size = _integration.frame(cell.triangle).area * std::abs(cell.part());
     if (size <= _negligible || cell.depth >= deepest || _integration.work <= 0) {
-      cell.divisible = false;
-      finish(cell);
-      return;
+      finish_uncut(cell);
+    } else {
+      for (const Cell& part : cell.quarters()) push(part);
     }
-    for (const Cell& part : cell.quarters()) push(part);
   }
 
   /// The corner on the line, if it passes between the two others; else the one on a side of its
@@ -363,7 +356,7 @@ class Cutter::Work {
     ++part.depth;
     push(part);
   }
-  /// Pays for what is to be done with it at least.
+  /// Counts the least work that the cell will take.
   void push(const Cell& cell) {
     _next.push_back(cell);
     _integration.work -= price_of_cell();
@@ -453,73 +446,53 @@ class Cutter::Work {
     return {{{p, a, b, false}, {r, a, b, false}}};
   }
 
-  /// Where the switch changes along rays, `each` of every cell; t < 0: nowhere.
+  /// Finds where the switch changes along rays, `each` of every cell; t < 0: nowhere.
   void follow(std::size_t s, const std::vector<Curved>& curved, std::span<Ray> rays,
               std::size_t each) {
     constexpr std::size_t block = expression::Evaluator::block;
-    constexpr int most = 60;
+    constexpr int halvings = 26;  // a secant squares the error that they leave
     const expression::Ref root = _switches[s].of;
     expression::Evaluator argument(_integration.f.function().tape(), {&root, 1});
-    std::array<double, block> low{}, high{}, at_low{}, at_high{};
+    std::array<double, block> low{}, high{}, at_low{}, at_high{}, off{};
     for (std::size_t first = 0; first < rays.size(); first += block) {
       const std::size_t n = std::min(block, rays.size() - first);
       const auto some = rays.subspan(first, n);
-      const auto value = [&](auto&& place) {
+      const auto measure = [&](auto&& part) {
         look_at(_stop);
         for (std::size_t i = 0; i < n; ++i) {
-          const Curved& own = curved[(first + i) / each];
-          const Frame frame = _integration.frame(own.cell.triangle);
-          const Place at = between(some[i].from, some[i].to, place(i));
+          const Frame frame = _integration.frame(curved[(first + i) / each].cell.triangle);
+          const Place at = between(some[i].from, some[i].to, part(i));
           _x[i] = frame.at_x(at);
           _y[i] = frame.at_y(at);
         }
         argument(_x.data(), _y.data(), n);
         _integration.spend(n, argument.cost());
-        return argument.values(0);
-      };
-      const auto level = [&](std::size_t i) { return curved[(first + i) / each].level; };
-      const double* g = value([&](std::size_t i) { return drawn_in * some[i].far; });
-      for (std::size_t i = 0; i < n; ++i) at_low[i] = g[i] - level(i);
-      g = value([&](std::size_t i) { return (1 - drawn_in) * some[i].far; });
-      std::size_t open = 0;
-      for (std::size_t i = 0; i < n; ++i) {
-        low[i] = 0;
-        high[i] = some[i].far;
-        at_high[i] = g[i] - level(i);
-        // At an end of the line, rounding may put the change outside.
-        const bool within = at_low[i] * at_high[i] < 0;
-        const bool nearly = std::abs(at_high[i]) < 1e-6 * std::abs(at_low[i]);
-        some[i].t = within ? 0 : nearly ? high[i] : -1;
-        if (!within) low[i] = high[i];
-        open += within ? 1 : 0;
-      }
-      std::array<double, block> before{};
-      for (int step = 0; step < most && open > 0; ++step) {
-        const auto guess = [&](std::size_t i) {
-          if (low[i] == high[i]) return some[i].t;
-          const double part = at_low[i] / (at_low[i] - at_high[i]);
-          return step % 8 == 7 ? 0.5 * (low[i] + high[i]) : low[i] + part * (high[i] - low[i]);
-        };
-        g = value(guess);
-        open = 0;
         for (std::size_t i = 0; i < n; ++i) {
-          if (low[i] == high[i]) continue;
-          const double t = guess(i), off = g[i] - level(i);
-          const bool upper = off * at_low[i] <= 0;
-          // Illinois: an end that stays counts half, so that it moves.
-          (upper ? high[i] : low[i]) = t;
-          (upper ? at_high[i] : at_low[i]) = off;
-          if (upper && before[i] > 0) at_low[i] *= 0.5;
-          if (!upper && before[i] < 0) at_high[i] *= 0.5;
-          before[i] = upper ? 1 : -1;
-          const double moved = std::abs(t - some[i].t);
-          some[i].t = t;
-          if (off == 0 || moved <= 1e-14 || high[i] - low[i] <= 1e-14) {
-            low[i] = high[i];
-          } else {
-            ++open;
-          }
+          off[i] = argument.values(0)[i] - curved[(first + i) / each].level;
         }
+      };
+      measure([&](std::size_t i) { return drawn_in * some[i].far; });
+      at_low = off;
+      measure([&](std::size_t i) { return (1 - drawn_in) * some[i].far; });
+      at_high = off;
+      low.fill(0);
+      for (std::size_t i = 0; i < n; ++i) {
+        high[i] = some[i].far;
+        // At an end of the line, rounding may put the change outside.
+        const bool nearly = std::abs(at_high[i]) < 1e-6 * std::abs(at_low[i]);
+        some[i].t = at_low[i] * at_high[i] < 0 ? 0 : nearly ? high[i] : -1;
+      }
+      for (int k = 0; k < halvings; ++k) {
+        measure([&](std::size_t i) { return 0.5 * (low[i] + high[i]); });
+        for (std::size_t i = 0; i < n; ++i) {
+          const bool upper = off[i] * at_low[i] <= 0;
+          (upper ? high[i] : low[i]) = 0.5 * (low[i] + high[i]);
+          (upper ? at_high[i] : at_low[i]) = off[i];
+        }
+      }
+      for (std::size_t i = 0; i < n; ++i) {
+        const double part = at_low[i] / (at_low[i] - at_high[i]);
+        if (some[i].t == 0) some[i].t = low[i] + part * (high[i] - low[i]);
       }
     }
   }
@@ -570,16 +543,16 @@ class Cutter::Work {
           size += weight[m];
           along[i] += weight[m] * f[m];
         }
-        error += line_5.weight[i] * size * line_error(across);
+        error += line_5.weight[i] * size * line_error(line_4, across);
       }
-      error += line_error(along);
+      error += line_error(line_5, along);
     }
     if (error > _integration.allowed(frame.area, one.cell.share, found.absolute) &&
         std::abs(one.cell.part()) * frame.area > _negligible && _integration.work > 0) {
       return false;
     }
     _integration.add(one.cell.triangle, found, error);
-    if (one.side[0] != 0 && !sectors[0].beyond) {  // what no sector covers
+    if (one.side[0] != 0 && !sectors[0].beyond) {  // the rest of the cell
       push(one.cell, sectors[0].u, one.cell.corners[1], one.cell.corners[2]);
     }
     return true;
