@@ -26,10 +26,10 @@ using Lane = Cutter::Lane;
 /// rule_5 by that corner.
 constexpr std::array<std::size_t, 3> outer_points{4, 6, 5}, inner_points{1, 3, 2};
 
-/// Terms of the samples by degree, on the points of rule_5 and the corners. All are on the medians:
-/// with r the signed distance from the centroid (1 at a corner), what is equal on the three medians
-/// is spanned by 1, r^2, r^3, r^4 there, what differs by r, r^2, r^3: each of the two has a basis
-/// that is orthonormal on the samples.
+/// Terms of the samples by degree. The points of rule_5 and the corners lie on the medians. With r
+/// the signed distance from the centroid (1 at a corner), the part that is equal on all medians is
+/// spanned by 1, r^2, r^3, r^4, the part that differs by r, r^2, r^3. Each part has a basis that is
+/// orthonormal on the samples.
 struct Terms {
   using Four = std::array<double, 4>;   // centroid, then as below
   using Three = std::array<double, 3>;  // inner points, outer points, corners
@@ -130,14 +130,15 @@ class LoadIntegrator {
     }
   }
 
-  /// Takes f for linear between the nodes; every 64th block of triangles tells how wrong that is.
+  /// Interpolates f linearly between the nodes; every 64th block of triangles is sampled for the
+  /// estimate of the error.
   void interpolate() {
     sample_nodes();
     for (std::size_t i = 0; i < _at_nodes.size(); ++i) {
       _integration.f.function().require_finite(_integration.xy[2 * i], _integration.xy[2 * i + 1],
                                                _at_nodes[i]);
     }
-    const bool exact = std::exchange(_exact, false);  // corners are asked for all the same
+    const bool exact = std::exchange(_exact, false);  // gather() is to read the corners
     double error = 0, absolute = 0;
     for (std::size_t first = 0; first < _count; first += width) {
       const std::size_t n = std::min(width, _count - first);
@@ -217,8 +218,7 @@ class LoadIntegrator {
     }
   }
 
-  /// Error of a nodal value over the area: what the terms of degree 5 would leave, if the decay
-  /// goes on.
+  /// Error of a nodal value over the area: the terms of degree 5, if the decay goes on.
   void estimate(const double* values) {
     static const Terms terms;
     const auto [e2, e3, e4] = std::array{terms.equal_2, terms.equal_3, terms.equal_4};
@@ -250,7 +250,7 @@ class LoadIntegrator {
                    b3 = o3[0] * bi + o3[1] * bp + o3[2] * bc;
       const double linear = a1 * a1 + b1 * b1, quadratic = equal2 * equal2 + a2 * a2 + b2 * b2,
                    cubic = equal3 * equal3 + equal4 * equal4 + a3 * a3 + b3 * b3;
-      // The quadratic term, or what stands for it where it happens to vanish; 3 for safety.
+      // The quadratic term may vanish by chance, then the mean of its neighbours; 3 for safety.
       const double mean = std::sqrt(linear * cubic);
       const double before = quadratic > mean ? quadratic : mean;
       const double ratio = 3 * cubic / (before + std::numeric_limits<double>::min());
@@ -281,9 +281,8 @@ class LoadIntegrator {
     if (error <= 0.5 * _integration.tolerance * found.absolute && _trust[t] == Trust::sound) {
       _integration.add(number, found, error);
     } else {
-      const bool told = std::isfinite(error);
-      _rest.push_back(
-          {number, _trust[t], found, told ? error : std::numeric_limits<double>::max()});
+      _rest.push_back({number, _trust[t], found,
+                       std::isfinite(error) ? error : std::numeric_limits<double>::max()});
     }
   }
 
@@ -319,7 +318,7 @@ IntegrationReport integrate_load(std::span<const double> xy,
   IntegrationReport report;
   report.evaluations = sampler.count();
   report.cut_triangles = integration.cut;
-  // Samples may have met next to nothing of f.
+  // Samples may have missed most of f.
   double whole = 0;
   for (const double value : load) whole += value;
   const double absolute = std::max(integration.settled, std::abs(whole));

@@ -11,11 +11,11 @@
 
 namespace anticrack::fem {
 
-/// Finds the triangles in which a switch of f changes and cuts them along the lines where it does.
-/// A switch's argument is taken for a polynomial of degree 2 on a cell, by 6 samples, and a seventh
-/// says whether it is one. Straight lines leave triangles; a curved one leaves a straight triangle
-/// and two with a curved side, whose points are found along rays; what is more involved (curves
-/// that cross, touch or end) is quartered until it is too small to matter.
+/// Finds the triangles in which a switch of f changes and cuts them along the lines of change. The
+/// argument of a switch is approximated on a cell by a polynomial of degree 2 through 6 samples; a
+/// seventh checks it. A straight line leaves triangles. A curved line leaves a triangle and two
+/// cells with a curved side, whose points are found along rays. Cells with more than one line, or
+/// with the end of one, are quartered until they are too small to matter.
 class Cutter {
  public:
   explicit Cutter(Integration& integration, std::stop_token stop);
@@ -23,13 +23,13 @@ class Cutter {
 
   bool needed() const noexcept;
 
-  /// Of looking for cuts in a triangle, ns.
+  /// Time of find() for a triangle, ns.
   double cost() const noexcept;
 
-  /// Triangles looked at at once.
+  /// Triangles that find() takes at once.
   static constexpr std::size_t width = 32;
   using Lane = std::array<double, width>;
-  /// Where they are: the first corner, and from there to the two others.
+  /// The first corner of each, and the vectors from there to the two others.
   struct Frames {
     Lane x, y, bx, by, cx, cy;
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the parts of the integration of one load share.
+// State shared by the parts of the integration of one load.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,13 @@ struct Integration {
   Sampler& f;
   std::span<double> load;
   double tolerance;     ///< relative
-  double work;          ///< ns left for what the first samples did not settle, roughly
+  double work;          ///< left after the first samples, ns, roughly
   double area = 0;      ///< of all triangles
-  double absolute = 0;  ///< int |f|, as far as known
-  double settled = 0;   ///< int |f| of what was added to the load
-  double error = 0;     ///< of what was added to the load
+  double absolute = 0;  ///< int |f|, from the samples so far
+  double settled = 0;   ///< int |f| of the parts added to the load
+  double error = 0;     ///< estimated, of the parts added to the load
   bool exact = false;   ///< between switches f is a polynomial that rule_5 integrates exactly
-  std::size_t cut = 0;  ///< triangles that f jumps or bends in
+  std::size_t cut = 0;  ///< triangles in which f jumps or bends
 
   Frame frame(std::int32_t t) const { return frame_of(xy, triangles, static_cast<std::size_t>(t)); }
 
@@ -54,7 +54,7 @@ struct Integration {
   void spend(std::size_t points, double each) { work -= price(points, each); }
 };
 
-/// What is known of a triangle whose first samples do not suffice.
+/// A triangle whose first samples do not suffice.
 struct Coarse {
   std::int32_t triangle;
   Trust trust;
@@ -65,12 +65,10 @@ struct Coarse {
 /// Points of the first measurement of a cell.
 constexpr std::size_t points_of_cell = rule_5.size + rule_8.size;
 
-/// Adds int f phi_i over triangles and parts of triangles in which f is smooth, or has a
-/// singularity, to the load: by rules of
-/// degree 8 and 12, then by quarters, the worst first where work runs out. Errors are estimated
-/// from how fast the rules converge; where quarters go on, from how fast those do, so that the
-/// error left at a singularity is told as it is, and as infinite where the sums do not converge at
-/// all.
+/// Adds int f phi_i over triangles and cells without jumps to the load: by rules of degree 8 and
+/// 12, then by quarters; if the work runs out, the worst cells go first. The error is estimated
+/// from the convergence of the rules, and of the quarters once there are some: that holds at
+/// singularities too. It is infinite if the sums do not converge.
 void refine_cells(Integration& integration, std::vector<Coarse> triangles, std::vector<Cell> cells);
 
 }  // namespace anticrack::fem

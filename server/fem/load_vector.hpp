@@ -12,28 +12,27 @@
 
 namespace anticrack::fem {
 
-/// What integration of a load needs and reports besides the values.
+/// Inputs and results of integration besides the values.
 struct LoadContext {
   /// Mesh numbers of the subdomain's nodes and triangles: where its entries of an Array are.
   std::span<const std::int32_t> node = {};
   std::span<const std::int32_t> triangle = {};
   std::stop_token stop = {};
-  /// Told how wrong an expression's integral may be, relative to int |f|; above
-  /// force_tolerance() only where a limit was met, infinite where no estimate is possible.
+  /// Receives the estimated error of an expression's integral, relative to int |f|: above
+  /// force_tolerance() only if the work was limited, infinite if no estimate is possible.
   double* relative_error = nullptr;
 };
 
-/// What the load of an expression is integrated to, relative to int |f| of the subdomain. The
-/// error of linear elements is some 1 / triangles of the solution at best (smooth, or a mesh that
-/// is graded as it should be), so this is a hundredth of it, and never more than 1e-6.
+/// Tolerance of the load of an expression, relative to int |f| of the subdomain. The relative error
+/// of linear elements is about 1 / triangles at best; this is a hundredth of it, at most 1e-6.
 constexpr double force_tolerance(std::size_t triangles) {
   return triangles > 10'000 ? 0.01 / static_cast<double>(triangles) : 1e-6;
 }
-/// Of a traction relative to int |g_N|: edges are few.
+/// Tolerance of a traction relative to int |g_N|.
 constexpr double traction_tolerance = 1e-10;
 
 /// b_i = int f phi_i dx for every node of a subdomain, shape (n). Constants and arrays exactly, an
-/// expression that is linear exactly, any other adaptively, wherever it jumps (adaptive_load.hpp).
+/// expression that is linear exactly, any other adaptively (adaptive_load.hpp).
 /// `region` is the subdomain's name. An Array has its values, as many as the mesh has nodes or
 /// triangles, and the context's numbers point into them. Throws errors::Error (expression_invalid
 /// where the expression is not finite, cancelled). O(m), about 7 evaluations a triangle where the

@@ -45,16 +45,16 @@ std::string inexact(const std::string& what, const std::string& subdomain, doubl
                     double wanted) {
   if (!std::isfinite(relative_error)) {
     return what + " on subdomain \"" + subdomain +
-           "\" cannot be integrated, and no estimate of the error is possible: it has a "
-           "singularity "
-           "or a peak that the mesh does not resolve; refine the mesh there or replace the "
+           "\" cannot be integrated, and no estimate of its error is possible: the integral may "
+           "not exist, or a peak is too narrow for the mesh; refine the mesh there or change the "
            "expression";
   }
   std::ostringstream message;
   message.precision(2);
   message << what << " on subdomain \"" << subdomain << "\" may be wrong by " << relative_error
-          << " of its integral (wanted: " << wanted
-          << "): it is too rough for the limit of evaluations";
+          << " of its integral (tolerance: " << wanted
+          << "): it varies too fast to be integrated in a bounded time; refine the mesh or smooth "
+             "the expression";
   return message.str();
 }
 
