@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "errors/errors.hpp"
@@ -15,6 +16,34 @@ namespace {
 
 /// An exponential is neglected where its argument is so far below the greatest one.
 constexpr double negligible = 40;
+
+/// The branch of a ? b : c through which alone the tape's value depends on an operation.
+struct Branch {
+  expression::Ref condition = -1;  ///< -1: it depends on it elsewhere, too
+  bool taken = true;               ///< b
+  friend bool operator==(const Branch&, const Branch&) = default;
+};
+
+/// By number of an operation. Of nested branches the outermost counts.
+std::vector<Branch> branches(const expression::Tape& tape) {
+  const auto& operations = tape.operations();
+  std::vector<std::optional<Branch>> found(operations.size());
+  found[static_cast<std::size_t>(tape.result())] = Branch{};
+  for (std::size_t i = operations.size(); i-- > 0;) {
+    if (!found[i]) continue;
+    for (std::size_t k = 0; k < operations[i].of.size() && operations[i].of[k] >= 0; ++k) {
+      Branch branch = *found[i];
+      if (branch.condition < 0 && operations[i].code == Code::select && k > 0) {
+        branch = {operations[i].of[0], k == 1};
+      }
+      std::optional<Branch>& operand = found[static_cast<std::size_t>(operations[i].of[k])];
+      operand = !operand || *operand == branch ? branch : Branch{};
+    }
+  }
+  std::vector<Branch> result;
+  for (const std::optional<Branch>& branch : found) result.push_back(branch.value_or(Branch{}));
+  return result;
+}
 
 }  // namespace
 
@@ -35,9 +64,14 @@ Sampler::Sampler(const expression::Function& function, std::stop_token stop,
       _evaluator(function.tape(), roots(function.tape(), _watches)) {}
 
 std::vector<expression::Ref> Sampler::roots(const expression::Tape& tape,
-                                            const std::vector<Watch>& watches) {
+                                            std::vector<Watch>& watches) {
   std::vector<expression::Ref> result{tape.result()};
   for (const Watch& watch : watches) result.push_back(watch.argument);
+  for (Watch& watch : watches) {
+    if (watch.guard < 0) continue;
+    watch.guard_root = result.size();
+    result.push_back(watch.guard);
+  }
   return result;
 }
 
@@ -51,12 +85,15 @@ std::vector<Sampler::Watch> Sampler::watches(const expression::Tape& tape, Jumps
   const auto& operations = tape.operations();
   const expression::Ref last = tape.result();
   const std::vector<bool> needed = tape.needed({&last, 1});
+  const std::vector<Branch> branch = branches(tape);
   for (std::size_t i = 0; i < operations.size(); ++i) {
     if (!needed[i]) continue;
     const expression::Operation& operation = operations[i];
     const auto watch = [&](std::size_t operand, Kind kind, double range) {
       const expression::Ref of = operation.of[operand];
-      if (tape.degree(of) > 0) result.push_back({of, kind, range});
+      if (tape.degree(of) > 0) {
+        result.push_back({of, kind, range, branch[i].condition, branch[i].taken});
+      }
     };
     switch (operation.code) {
       case Code::exponential:
@@ -104,7 +141,9 @@ void Sampler::note_peaks(std::size_t n) {
   for (std::size_t w = 0; w < _watches.size(); ++w) {
     if (_watches[w].kind != Kind::exponential) continue;
     const double* u = _evaluator.values(w + 1);
-    _watches[w].peak = std::max(_watches[w].peak, *std::max_element(u, u + n));
+    for (std::size_t i = 0; i < n; ++i) {
+      if (u[i] > _watches[w].peak && applies(_watches[w], i)) _watches[w].peak = u[i];
+    }
   }
 }
 
@@ -136,7 +175,10 @@ Trust Sampler::trust(std::size_t first, std::size_t count, double room) const {
   for (std::size_t w = 0; w < _watches.size(); ++w) {
     const double* u = _evaluator.values(w + 1) + first;
     const auto [low, high] = std::minmax_element(u, u + count);
-    result = std::max(result, judge(_watches[w], *low, *high, room));
+    const Trust found = judge(_watches[w], *low, *high, room);
+    for (std::size_t i = first; i < first + count && result < found; ++i) {
+      if (applies(_watches[w], i)) result = found;
+    }
   }
   return result;
 }

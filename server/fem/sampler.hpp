@@ -56,7 +56,14 @@ class Sampler {
         }
       }
       for (std::size_t t = 0; t < lanes; ++t) {
-        result[t] = std::max(result[t], judge(_watches[w], low[t], high[t], room));
+        const Trust found = judge(_watches[w], low[t], high[t], room);
+        if (found <= result[t]) continue;
+        for (std::size_t i = 0; i < count; ++i) {
+          if (applies(_watches[w], i * lanes + t)) {
+            result[t] = found;
+            break;
+          }
+        }
       }
     }
   }
@@ -76,15 +83,24 @@ class Sampler {
     expression::Ref argument;
     Kind kind;
     double range;  ///< of the argument over samples that can be trusted
+    /// Only where this operation is not 0 (`taken`) or is 0 does the value depend on the argument:
+    /// a branch of a ? b : c. -1: everywhere.
+    expression::Ref guard = -1;
+    bool taken = true;
+    std::size_t guard_root = 0;  ///< number of the guard's values in the evaluator
     double peak = -std::numeric_limits<double>::infinity();
   };
 
+  /// Whether the value depends on the watched argument at a point of the last call.
+  bool applies(const Watch& watch, std::size_t point) const {
+    return watch.guard < 0 || (_evaluator.values(watch.guard_root)[point] != 0) == watch.taken;
+  }
   /// Of samples whose argument lies between two values.
   static Trust judge(const Watch& watch, double low, double high, double room);
   static std::vector<Watch> watches(const expression::Tape& tape, Jumps jumps);
-  /// The function, then the arguments.
+  /// The function, the arguments, then the guards, whose numbers are noted.
   static std::vector<expression::Ref> roots(const expression::Tape& tape,
-                                            const std::vector<Watch>& watches);
+                                            std::vector<Watch>& watches);
   Sampler(const expression::Function& function, std::stop_token stop, std::vector<Watch> watches);
 
   const expression::Function& _function;

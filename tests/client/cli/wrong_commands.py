@@ -216,7 +216,7 @@ COMMANDS = [
     ("mesh upload folder", 2,
      "folder: is a folder; name a .msh file"),
     ("mesh upload case.toml", 2,
-     "case.toml: the file does not begin with $MeshFormat, so it is no .msh file; save the mesh as "
+     "case.toml: the file does not begin with $MeshFormat, so it is not a .msh file; save the mesh as "
      "MSH 4.1 or 2.2 (gmsh case.geo -2 -o case.msh)"),
     ("mesh upload plate.msh --set geometry.boundary=1", 2,
      "--set geometry.boundary=1: geometry: unknown key; known are mesh"),
