@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/dense.hpp"
+#include "contact/pair_forces.hpp"
 #include "mesh/at.hpp"
 
 namespace anticrack::contact {
@@ -32,6 +33,9 @@ SweepGeometry::SweepGeometry(const SkeletonProblem& problem, std::size_t inclusi
     if (const std::int32_t c = decomposition.pairs[i].contact; c >= 0) {
       length[c] += traces.lumped_mass()[static_cast<Index>(i)];
     }
+  }
+  for (const PairForces::Implied& pair : traces.pair_forces().implied()) {
+    implied.push_back({pair.path, traces.lumped_mass()[pair.pair]});
   }
   for (std::size_t c = 0; c < decomposition.interface_sides.size(); ++c) {
     const std::vector<ddm::SidePair>& sides = decomposition.interface_sides[c];
@@ -82,7 +86,7 @@ SweepLoads reduce(const SkeletonProblem& problem, std::size_t inclusions,
 SweepSolver::SweepSolver(const SkeletonProblem& problem, const SweepGeometry& geometry,
                          const ActiveSetOptions& options, std::span<const char> start)
     : _geometry(geometry),
-      _lcp(problem.lcp(), options.max_steps, start, &problem.nested_start()),
+      _lcp(problem.lcp(), options.max_steps, start, &problem.nested_start(), options.tolerance),
       _r(problem.lcp().size()),
       _magnitude(problem.lcp().size()),
       _displacement(geometry.displacement.rows()),
@@ -124,7 +128,10 @@ bool SweepSolver::write(std::size_t row, SweepColumns& rows) {
   double energy = _energy, length = 0;
   for (Index i = 0; i < d.size(); ++i) {
     energy -= _r[i] * d[i] / 2;
-    length += lambda[i] > 0 ? _geometry.length[i] : 0;
+    length += _lcp.pressed()[at(i)] != 0 ? _geometry.length[i] : 0;
+  }
+  for (const SweepGeometry::Implied& implied : _geometry.implied) {
+    length += pressed_through(implied.path, _lcp.pressed()) ? implied.length : 0;
   }
   multiply(_geometry.displacement, d, _of_jumps);
   _displacement += _of_jumps;
@@ -138,7 +145,7 @@ bool SweepSolver::write(std::size_t row, SweepColumns& rows) {
   std::copy(_displacement.begin(), _displacement.end(), displacement);
   std::uint8_t* contact = rows.contact.data() + row * rows.contacts;
   for (std::size_t i = 0; i < rows.contacts; ++i) {
-    contact[i] = lambda[_geometry.contact[i]] > 0 ? 1 : 0;
+    contact[i] = static_cast<std::uint8_t>(_lcp.pressed()[at(_geometry.contact[i])]);
   }
   return true;
 }

@@ -28,6 +28,12 @@ struct SweepGeometry {
   std::vector<std::int32_t> contact;
   Eigen::MatrixXd displacement;  ///< (inclusions, contacts): A of jumps
   Eigen::VectorXd length;        ///< of each contact: lumped mass of its pairs
+  /// Pairs of cross points that are closed where several contacts are.
+  struct Implied {
+    std::vector<std::int32_t> path;  ///< those contacts
+    double length = 0;
+  };
+  std::vector<Implied> implied;
 
   /// Memory of its arrays.
   std::size_t bytes() const noexcept;
