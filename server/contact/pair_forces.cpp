@@ -168,6 +168,19 @@ PairForces::Knot PairForces::knot_of(const std::vector<std::int32_t>& pairs_of_n
   return knot;
 }
 
+void PairForces::complete_contact(const VectorXd& lambda, std::vector<char>& pressed) const {
+  constexpr double least_pressure = 1e-12;
+  double largest = 0;
+  for (Index c = 0; c < lambda.size(); ++c) {
+    largest = pressed[at(c)] != 0 ? std::max(largest, lambda[c] / _contact_mass[c]) : largest;
+  }
+  for (Index c = 0; c < lambda.size() && largest > 0; ++c) {
+    if (lambda[c] / _contact_mass[c] > least_pressure * largest) {
+      pressed[at(c)] = 1;
+    }
+  }
+}
+
 VectorXd PairForces::multipliers(const std::vector<VectorXd>& fluxes,
                                  const VectorXd& lambda) const {
   VectorXd mu = VectorXd::Zero(_mass.size());

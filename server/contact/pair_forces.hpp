@@ -31,6 +31,11 @@ class PairForces {
   };
   const std::vector<Implied>& implied() const noexcept { return _implied; }
 
+  /// Which contacts are closed under pressure. `pressed`: those with a force above rounding; where
+  /// there are any, a shorter edge's force may be below, so those with a pressure above 1e-12 of
+  /// the largest one join them. `lambda`: shape (contacts), >= 0. O(n), no allocation.
+  void complete_contact(const Eigen::VectorXd& lambda, std::vector<char>& pressed) const;
+
   /// Shape (pairs). `fluxes`: per subdomain, shape (trace); `lambda`: shape (contacts).
   Eigen::VectorXd multipliers(const std::vector<Eigen::VectorXd>& fluxes,
                               const Eigen::VectorXd& lambda) const;

@@ -53,7 +53,7 @@ class Case {
       lambda[c] = solution.closed[at(c)] != 0 ? std::max(lambda[c], 0.0) : 0;
     }
     fill(d, lambda);
-    settle_contact(solution.pressed);
+    settle_contact(solution.pressed, lambda);
   }
 
  private:
@@ -93,7 +93,8 @@ class Case {
   }
 
   /// Nodes that just touch are not in contact: their pressure is rounding.
-  void settle_contact(const std::vector<char>& pressed) {
+  void settle_contact(std::vector<char> pressed, const VectorXd& lambda) {
+    _traces.pair_forces().complete_contact(lambda, pressed);
     const std::vector<ddm::NodePair>& pairs = _traces.decomposition().pairs;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (pairs[i].contact >= 0) {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "contact/dense.hpp"
-#include "contact/pair_forces.hpp"
 #include "mesh/at.hpp"
 
 namespace anticrack::contact {
@@ -86,6 +85,7 @@ SweepLoads reduce(const SkeletonProblem& problem, std::size_t inclusions,
 SweepSolver::SweepSolver(const SkeletonProblem& problem, const SweepGeometry& geometry,
                          const ActiveSetOptions& options, std::span<const char> start)
     : _geometry(geometry),
+      _forces(problem.traces().pair_forces()),
       _lcp(problem.lcp(), options.max_steps, start, &problem.nested_start(), options.tolerance),
       _r(problem.lcp().size()),
       _magnitude(problem.lcp().size()),
@@ -126,12 +126,14 @@ bool SweepSolver::write(std::size_t row, SweepColumns& rows) {
   const VectorXd& d = _lcp.d();
   const VectorXd& lambda = _lcp.lambda();
   double energy = _energy, length = 0;
+  _pressed = _lcp.pressed();
+  _forces.complete_contact(lambda, _pressed);
   for (Index i = 0; i < d.size(); ++i) {
     energy -= _r[i] * d[i] / 2;
-    length += _lcp.pressed()[at(i)] != 0 ? _geometry.length[i] : 0;
+    length += _pressed[at(i)] != 0 ? _geometry.length[i] : 0;
   }
   for (const SweepGeometry::Implied& implied : _geometry.implied) {
-    length += pressed_through(implied.path, _lcp.pressed()) ? implied.length : 0;
+    length += pressed_through(implied.path, _pressed) ? implied.length : 0;
   }
   multiply(_geometry.displacement, d, _of_jumps);
   _displacement += _of_jumps;
@@ -145,7 +147,7 @@ bool SweepSolver::write(std::size_t row, SweepColumns& rows) {
   std::copy(_displacement.begin(), _displacement.end(), displacement);
   std::uint8_t* contact = rows.contact.data() + row * rows.contacts;
   for (std::size_t i = 0; i < rows.contacts; ++i) {
-    contact[i] = static_cast<std::uint8_t>(_lcp.pressed()[at(_geometry.contact[i])]);
+    contact[i] = static_cast<std::uint8_t>(_pressed[at(_geometry.contact[i])]);
   }
   return true;
 }

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/pair_forces.hpp"
 #include "contact/skeleton_problem.hpp"
 #include "contact/solve.hpp"
 #include "contact/sweep_columns.hpp"
@@ -83,7 +84,9 @@ class SweepSolver {
   bool write(std::size_t row, SweepColumns& rows);
 
   const SweepGeometry& _geometry;
+  const PairForces& _forces;
   WarmLcp _lcp;
+  std::vector<char> _pressed;
   Eigen::VectorXd _sizes, _r, _magnitude, _displacement, _of_jumps, _product;
   double _energy = 0;
 };

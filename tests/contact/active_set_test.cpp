@@ -208,6 +208,26 @@ TEST(ActiveSet, LoadWhoseEnergyOverflowsFailsWithItsSize) {
   }
 }
 
+/// Closed under -y the flux goes straight through, also where the inclusion ends in the open.
+TEST(ActiveSet, AnInclusionMayLeaveThroughTheNeumannBoundary) {
+  for (const Kind kind : {Kind::delaminated, Kind::inclusion}) {
+    testing::GridMesh grid(6, 6, {"whole"}, [](int, int) { return 0; });
+    grid.release([](double x, double) { return x > 5.5; });
+    grid.mesh.inclusions = {"bar"};
+    grid.add({{2, 3}, {6, 3}}, std::vector<Kind>(4, kind), 0);
+    const Membrane membrane(grid.mesh);
+    const Answer answer = membrane.exact(0.0, "-0.7*(y - 3)");
+    expect_exact(answer);
+    EXPECT_NEAR(answer.energy, 36 * 0.49 / 2, rounding);
+    EXPECT_NEAR(answer.inclusions[0].displacement, 0, rounding);
+    EXPECT_NEAR(answer.inclusions[0].resultant, 0, rounding);
+    if (kind == Kind::delaminated) {
+      EXPECT_NEAR(answer.contact_length, 3.5, rounding);
+      EXPECT_NEAR(answer.traces[0].pressure[4], 0.7, 100 * rounding) << "at the boundary";
+    }
+  }
+}
+
 /// A crack from below to above a delaminated inclusion, across it.
 testing::GridMesh crack_across_an_inclusion() {
   testing::GridMesh grid(8, 6, {"whole"}, [](int, int) { return 0; });
