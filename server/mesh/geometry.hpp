@@ -146,7 +146,7 @@ ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, growth, gr
 /// "regions[0].at", "options.size", ...): geometry_invalid (the boundary crosses itself, an
 /// interface leaves the membrane or runs along another, a part lies on no interface, touches the
 /// Dirichlet boundary or overlaps another, values are not finite, names are empty, malformed or
-/// used twice); invalid_argument for options; limit_exceeded for more than 40,000 vertices or more
+/// used twice); invalid_argument for options; limit_exceeded for more than 20,000 vertices or more
 /// than `max_triangles` expected triangles. O(v^2) for v vertices.
 Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_triangles);
 
