@@ -148,8 +148,9 @@ CASES = [
      "wrong.toml:6: geometry.neumann: 'left' is not possible; write [[from, to], ...], parts of the "
      'boundary walked counterclockwise, or "all"'),
     ([("[1, 0]]\n", '[1, 0]]\nneumann = "all"\n')], 1,
-     'jobs/ID failed: mesh: meshes/ID: nothing but contact holds the subdomain "omega1" around (-1, '
-     "0), so it could move as a whole: glue a part of its interface or hold its boundary"),
+     'jobs/ID failed: mesh: meshes/ID: nothing holds the subdomain "omega1" around (-1, 0): the whole '
+     "boundary of the membrane is Neumann's, so it could move as a whole; make a part of the boundary "
+     "Dirichlet's"),
     ([("interface = [[-1, 0], [1, 0]]\n", ""),
       *more('[[geometry.interface]]\narc = [[-1, 0], [1, 0]]')], 2,
      "wrong.toml:13: geometry.interface.0.arc: [ [ -1, 0 ], [ 1, 0 ] ] is not an arc; write [from, "
