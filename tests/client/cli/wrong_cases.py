@@ -128,7 +128,7 @@ CASES = [
      "-1); only its two ends may lie on the boundary"),
     ([("from = [-0.5, 0]", "from = [-0.5, 0.1]")], 2,
      "wrong.toml:9: geometry.inclusion.0.from: inclusions[0].part.from (-0.5, 0.1) lies 0.1 off the "
-     "interface; it must lie on it, to 2.8284271247461906e-09"),
+     "interface; it must lie on it, to 2.8284271247461903e-06; nearest is (-0.5, 0)"),
     ([("to = [0.5, 0]", "to = [-0.5, 0]")], 2,
      "wrong.toml:9: geometry.inclusion.0.from: inclusions[0].part has no length: it runs from (-0.5, "
      "0) to (-0.5, 0)"),
