@@ -68,7 +68,8 @@ struct Upload {
 
 /// Contract:
 /// 1. Every method may be called from any thread and is atomic. Writers may wait for the disk.
-/// 2. A method that writes returns when what it wrote is on the disk (but for put(JobRecord)); when it throws errors::Error
+/// 2. A method that writes returns when what it wrote is on the disk (but for put(JobRecord)); when
+/// it throws errors::Error
 ///    (disk_full with a retry delay: no space, or budget; storage: any other failure of the disk)
 ///    it has written nothing, and the same call may succeed later. Nothing but a bad disk makes the
 ///    store unusable.
