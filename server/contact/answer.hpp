@@ -61,7 +61,7 @@ ANTICRACK_FIELDS(KktResiduals, equilibrium, gap, sign, complementarity)
 /// An answer is converged only where none of its relative residuals is above this bound, whatever
 /// stopped the method; kkt_tolerance takes its place where it is set. Algorithm 2's gap is for this
 /// relative to max_i |u_i|_V / sqrt(T_i) where that is larger than all traces, which a closing load
-/// leaves near 0. The paper's examples on the paper's mesh end at 2e-5.
+/// leaves near 0. The paper's examples on the paper's mesh end below 4e-5.
 constexpr double solution_residual = 1e-4;
 
 /// One iteration as the paper and its users see it.
