@@ -133,6 +133,12 @@ std::string fingerprint(const v1::Job& job) {
         v1::Job::kTimelineFieldNumber, v1::Job::kSweepAnswerFieldNumber}) {
     sent.GetReflection()->ClearField(&sent, sent.GetDescriptor()->FindFieldByNumber(number));
   }
+  if (packed_bytes(job) > 0) {  // the same matrix by its name
+    auto& sweep = *sent.mutable_sweep();
+    auto& matrix =
+        sweep.has_coefficients() ? *sweep.mutable_coefficients() : *sweep.mutable_nodal_forces();
+    matrix.set_upload(upload_name(store::Sha256().add(matrix.packed()).finish()));
+  }
   return store::Sha256().add(serialized(sent)).finish();
 }
 
