@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -46,10 +47,26 @@ std::string reason(int error) {
   return error == 0 ? std::string() : ": " + std::generic_category().message(error);
 }
 
+/// toml++ recurses for every part of a dotted key; a run of parts ends at what no key can hold.
+void require_shallow(std::string_view text, const std::string& name) {
+  constexpr int most_parts = 1'000;
+  int parts = 0;
+  unsigned line = 1;
+  for (const char c : text) {
+    line += c == '\n' ? 1 : 0;
+    if (std::string_view("\n=,[]{}()").find(c) != std::string_view::npos) parts = 0;
+    if (c == '.' && ++parts > most_parts) {
+      throw Error({"", name, line}, "a key of more than " + std::to_string(most_parts) +
+                                        " parts; known keys have at most 3");
+    }
+  }
+}
+
 toml::table parse(const std::string& text, const std::string& name) {
   if (text.find('\0') != std::string::npos) {
     throw Error({"", name, 0}, "this is not text; name a case, a TOML file");
   }
+  require_shallow(text, name);
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {

@@ -309,5 +309,14 @@ TEST(CaseErrors, FileThatIsNotThere) {
   EXPECT_THROW(read_case(std::filesystem::temp_directory_path()), Error);
 }
 
+TEST(Complaint, OfAKeyOfManyParts) {
+  std::string key = "a";
+  for (int i = 0; i < 200'000; ++i) key += ".a";
+  for (const std::string& text : {key + " = 1\n", "[" + key + "]\n", "x = { " + key + " = 1 }\n"}) {
+    EXPECT_EQ(complaint("title = \"long\"\n" + text),
+              "plate.toml:2: a key of more than 1000 parts; known keys have at most 3");
+  }
+}
+
 }  // namespace
 }  // namespace anticrack::casefile
