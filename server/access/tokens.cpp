@@ -108,9 +108,8 @@ std::optional<Identity> TokenTable::find(std::string_view token) const {
   digest.add(std::as_bytes(std::span(token)));
   const std::optional<Hash> hash = to_hash(digest.finish());
   const Entry* found = nullptr;
-  for (const Entry& entry : _entries) {  // all of them, so that the time reveals nothing
+  for (const Entry& entry : _entries)  // all of them, so that the time reveals nothing
     if (CRYPTO_memcmp(entry.hash.data(), hash->data(), hash->size()) == 0) found = &entry;
-  }
   if (found == nullptr) return std::nullopt;
   return found->identity;
 }

@@ -57,9 +57,8 @@ void visit(const Message& message, const std::string& path) {
       }
       const int value = repeated ? reflection.GetRepeatedEnumValue(message, field, i)
                                  : reflection.GetEnumValue(message, field);
-      if (field->enum_type()->FindValueByNumber(value) == nullptr) {
+      if (field->enum_type()->FindValueByNumber(value) == nullptr)
         refuse("value " + std::to_string(value) + " of " + field->enum_type()->full_name(), below);
-      }
     }
   }
 }
