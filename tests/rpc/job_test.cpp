@@ -65,11 +65,13 @@ TEST(Job, OpensTheCrackOfExampleThree) {
   const auto x = doubles(block, "interfaces/0/x");
   const auto jump = doubles(block, "loads/0/traces/0/jump");
   ASSERT_EQ(x.size(), jump.size());
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if (std::abs(x[i]) < 0.49)
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (std::abs(x[i]) < 0.49) {
       EXPECT_GT(jump[i], 0) << "at " << x[i];
-    else
+    } else {
       EXPECT_NEAR(jump[i], 0, 1e-4) << "at " << x[i];
+    }
+  }
   EXPECT_EQ(doubles(block, "loads/0/history/criterion").size(),
             static_cast<std::size_t>(answer.iterations()));
 }
@@ -109,8 +111,10 @@ v1::CreateMeshRequest mesh_of_slits() {
     to.set_x(x);
     to.set_y(y);
   };
-  for (const auto& [x, y] : {std::pair(0, 0), std::pair(10, 0), std::pair(10, 9), std::pair(0, 9)})
+  for (const auto& [x, y] :
+       {std::pair(0, 0), std::pair(10, 0), std::pair(10, 9), std::pair(0, 9)}) {
     point(*geometry.add_boundary(), x, y);
+  }
   for (int i = 0; i < 90; ++i) {
     const double x = i % 10 + 0.3, y = i / 10 + 0.5;
     v1::InterfaceCurve& slit = *geometry.add_interfaces();

@@ -36,9 +36,11 @@ std::vector<const MethodDescriptor*> methods() {
   for (const char* file : {"mesh", "solve", "server"}) {
     const auto* described = google::protobuf::DescriptorPool::generated_pool()->FindFileByName(
         std::string("anticrack/v1/") + file + ".proto");
-    for (int s = 0; s < described->service_count(); ++s)
-      for (int m = 0; m < described->service(s)->method_count(); ++m)
+    for (int s = 0; s < described->service_count(); ++s) {
+      for (int m = 0; m < described->service(s)->method_count(); ++m) {
         found.push_back(described->service(s)->method(m));
+      }
+    }
   }
   return found;
 }
@@ -56,8 +58,9 @@ Message& part_of(Message& message, const FieldDescriptor* field) {
 
 std::string path_of(const std::vector<const FieldDescriptor*>& fields) {
   std::string path;
-  for (const FieldDescriptor* field : fields)
+  for (const FieldDescriptor* field : fields) {
     path += (path.empty() ? "" : ".") + field->name() + (field->is_repeated() ? "[0]" : "");
+  }
   return path;
 }
 
@@ -108,10 +111,11 @@ TEST(UnknownFields, OfEveryMessageInEveryRequestAreRefused) {
         const std::string path = path_of(fields);
         fields.pop_back();
         expect_refused(method->input_type(), fields, path, [&](Message& inner) {
-          if (field->is_repeated())
+          if (field->is_repeated()) {
             inner.GetReflection()->AddEnumValue(&inner, field, unknown_number);
-          else
+          } else {
             inner.GetReflection()->SetEnumValue(&inner, field, unknown_number);
+          }
         });
       }
     });

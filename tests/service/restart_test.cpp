@@ -25,8 +25,9 @@ constexpr int long_run = 100'000;
 
 std::vector<std::string> run_long(const std::string& output) {
   std::vector<std::string> arguments = {"run", example("paper-3.toml"), "-o", output};
-  for (const std::string& override_text : iterations(long_run))
+  for (const std::string& override_text : iterations(long_run)) {
     arguments.insert(arguments.end(), {"--set", override_text});
+  }
   return arguments;
 }
 
@@ -35,8 +36,9 @@ std::string iterating_job(client::Connection& connection) {
   std::string name;
   EXPECT_TRUE(anticrack::testing::eventually([&] {
     const v1::ListJobsResponse response = client::list_jobs(connection, {});
-    if (response.jobs_size() != 1 || response.jobs(0).state() != v1::Job::STATE_RUNNING)
+    if (response.jobs_size() != 1 || response.jobs(0).state() != v1::Job::STATE_RUNNING) {
       return false;
+    }
     name = response.jobs(0).name();
     return true;
   }));
@@ -72,16 +74,18 @@ TEST(Restart, ARetryGivesTheSameJobThoughLimitsHaveChanged) {
   Daemon first;
   std::vector<std::pair<Work, std::string>> asked;  // by default as many iterations, and explicitly
   for (const std::vector<std::string>& changes :
-       {std::vector<std::string>{}, std::vector<std::string>{"solver.max_iterations=2000"}})
+       {std::vector<std::string>{}, std::vector<std::string>{"solver.max_iterations=2000"}}) {
     asked.emplace_back(work("paper-3.toml", changes), client::make_uuid());
+  }
   std::vector<std::string> names;
   client::Connection connection(first.connection());
   for (const auto& [job, id] : asked) names.push_back(submit(connection, job, id).name());
   EXPECT_EQ(first.stop(), 0);
   Daemon limited(first.data(), {"--iterations", "500"});
   client::Connection again(limited.connection());
-  for (std::size_t i = 0; i < asked.size(); ++i)
+  for (std::size_t i = 0; i < asked.size(); ++i) {
     EXPECT_EQ(submit(again, asked[i].first, asked[i].second).name(), names[i]);
+  }
   EXPECT_THROW(submit(again, asked[1].first, client::make_uuid()), client::Error);
 }
 
