@@ -63,7 +63,7 @@ void require_shallow(std::string_view text, const std::string& name) {
     } else if (comment) {
       continue;
     } else if (quote != 0) {
-      if (c == '\\' && quote == '"')
+      if (c == '\\' && quote == '"' && i + 1 < text.size() && text[i + 1] != '\n')
         ++i;
       else if (c == quote)
         quote = 0;

@@ -90,7 +90,9 @@ void expect_refused(const Descriptor* request, const std::vector<const FieldDesc
   const auto error = error_of([&] { api::require_known(*message); });
   ASSERT_TRUE(error) << request->name() << " " << path;
   EXPECT_EQ(error->reason(), errors::Reason::not_implemented);
-  if (!path.empty()) EXPECT_EQ(error->fields().at(0).field, path) << request->name();
+  if (!path.empty()) {
+    EXPECT_EQ(error->fields().at(0).field, path) << request->name();
+  }
   EXPECT_THAT(error->what(), ::testing::HasSubstr(std::to_string(unknown_number)));
 }
 
