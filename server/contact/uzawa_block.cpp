@@ -7,10 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "contact/solve.hpp"
 #include "contact/trace_state.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 namespace {

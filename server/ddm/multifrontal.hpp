@@ -13,7 +13,7 @@
 #include <Eigen/SparseCore>
 #include <span>
 
-#include "ddm/substitution.hpp"
+#include "ddm/kernels.hpp"
 
 namespace anticrack::ddm {
 
@@ -35,8 +35,7 @@ bool eliminate_interior(const Supernodes& pattern, std::span<const int> place,
 
 /// For a front [A .; B C] with `columns` columns of A and `panel` = [A; B], column-major with
 /// `height` rows: A = LL', A <- L, B <- B L'^-1, and the lower triangle of `update` = -BB', or with
-/// `add` update
-/// <- update - BB'. False if A is not positive definite to rounding.
+/// `add` update <- update - BB'. False if A is not positive definite to rounding.
 bool eliminate_front(int columns, int height, double* panel, double* update, bool add = false);
 
 }  // namespace anticrack::ddm

@@ -2,7 +2,6 @@
 #include "ddm/subtrees.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <queue>
 #include <utility>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/geometry_crossings.hpp"
+#include "mesh/geometry_network.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "mesh/at.hpp"
-#include "mesh/geometry_intervals.hpp"
 #include "mesh/geometry_primitives.hpp"
+#include "mesh/geometry_steps.hpp"
 
 namespace anticrack::mesh {
 namespace {

@@ -33,22 +33,12 @@ std::vector<EdgeEnd> interface_edge_ends(const Mesh& mesh) {
   return ends;
 }
 
-std::vector<bool> nodes_on_boundary(const Mesh& mesh, const EdgeTable& edges) {
-  std::vector<bool> found(mesh.node_count(), false);
-  edges.each([&](std::span<const EdgeUse> uses) {
-    if (uses.size() != 1) return;
-    found[at(uses[0].from)] = true;
-    found[at(uses[0].to)] = true;
-  });
-  return found;
-}
-
 }  // namespace
 
 std::vector<std::int32_t> tips(const Mesh& mesh) {
   const std::vector<EdgeEnd> ends = interface_edge_ends(mesh);
   const EdgeTable edges(mesh.triangles);
-  const std::vector<bool> on_boundary = nodes_on_boundary(mesh, edges);
+  const std::vector<bool> on_boundary = edges.boundary_nodes(mesh.node_count());
   const auto free_end = [&](const EdgeEnd& end) {
     if (end.kind == Kind::glue) return false;
     return !on_boundary[at(end.node)] || edges.find(end.node, end.other).size() == 1;

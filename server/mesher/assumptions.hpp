@@ -7,10 +7,9 @@
 #include <cstdint>
 #include <map>
 #include <utility>
-#include <vector>
 
 #include "mesh/mesh.hpp"
-#include "mesher/curve_groups.hpp"
+#include "mesher/import_steps.hpp"
 
 namespace anticrack::mesher {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesher/edge_roles.hpp"
+#include "mesher/import_steps.hpp"
 
 #include <algorithm>
 #include <functional>
-#include <optional>
 #include <tuple>
 #include <utility>
 

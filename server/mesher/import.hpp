@@ -3,7 +3,7 @@
 // From a .msh file to a mesh: by its groups, by the request's options, else by adjacency.
 //
 // Subdomains: surface_groups.hpp. Curves: curve_groups.hpp (named), edge_roles.hpp (unnamed).
-// Doubled nodes: welding.hpp. Plus side of an interface: plus_side.hpp. Mesh::warnings lists
+// Doubled nodes: welding.hpp. Plus side of an interface: interface_chains.hpp. Mesh::warnings lists
 // repairs and assumptions.
 #pragma once
 

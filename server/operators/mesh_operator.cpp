@@ -2,13 +2,10 @@
 #include "operators/mesh_operator.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
-#include <string>
 
 #include "ddm/at_once.hpp"
 #include "ddm/blas.hpp"
-#include "errors/errors.hpp"
 #include "operators/mesh_parts.hpp"
 
 namespace anticrack::operators {

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "contact/answer.hpp"
-#include "contact/sweep_columns.hpp"
 #include "errors/errors.hpp"
 #include "fem/load.hpp"
 #include "mesh/mesh.hpp"

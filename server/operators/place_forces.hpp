@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "ddm/decomposition.hpp"
@@ -12,6 +13,11 @@
 #include "mesh/mesh.hpp"
 
 namespace anticrack::operators {
+
+/// Index of `name` among the mesh's `what` ("subdomain", "inclusion"). Throws errors::Error
+/// (invalid_argument at `field`) with the names there are.
+std::size_t index_of(const std::vector<std::string>& names, const std::string& name,
+                     const std::string& what, const std::string& field);
 
 /// Added to the load of one node of a subdomain.
 struct NodalForce {

@@ -8,7 +8,6 @@
 #include "contact/sweep_solver.hpp"
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
-#include "operators/load_key.hpp"
 #include "operators/mesh_parts.hpp"
 
 namespace anticrack::operators {

@@ -14,8 +14,6 @@
 #include <utility>
 
 #include "ddm/curve_order.hpp"
-#include "ddm/minimum_degree.hpp"
-#include "ddm/nested_dissection.hpp"
 #include "ddm/vertex_separator.hpp"
 #include "mesh/at.hpp"
 
