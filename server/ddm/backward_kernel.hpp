@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Backward substitution, for kernel_loops.hpp.
-#pragma once
-
 namespace anticrack::ddm {
 namespace {
 

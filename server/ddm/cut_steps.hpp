@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -70,5 +71,9 @@ Ties tie(const mesh::Mesh& mesh, const Sides& sides);
 /// Dirichlet nor interface nodes; numerical for a part that no chain of tied sides joins to a
 /// Dirichlet node.
 void find_floating_parts(Decomposition& decomposition);
+
+/// Sorts nodes along a Z-order curve (G. Morton, 1966) over their bounding box, 2^16 cells a side,
+/// stable within a cell, so that nearby nodes share cache lines. `xy`: (n,2) row-major. O(k).
+void sort_along_curve(std::vector<std::int32_t>& nodes, std::span<const double> xy);
 
 }  // namespace anticrack::ddm

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "ddm/curve_order.hpp"
 #include "ddm/cut_steps.hpp"
 #include "mesh/at.hpp"
 

@@ -24,6 +24,7 @@ struct Supernodes {
 constexpr int lanes = 8;
 constexpr int most_lanes = 4 * lanes;
 
+/// One version of the loops.
 struct Kernels {
   /// With I the first `columns` unknowns, G the others and L = [L_II; L_GI]:
   ///

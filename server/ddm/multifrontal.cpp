@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "ddm/at_once.hpp"
-#include "ddm/subtrees.hpp"
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
 

@@ -6,7 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "mesher/assumptions.hpp"
 #include "mesher/messages.hpp"
 
 namespace anticrack::mesher {

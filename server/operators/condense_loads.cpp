@@ -9,7 +9,6 @@
 #include "fem/load_vector.hpp"
 #include "fem/traction.hpp"
 #include "mesh/at.hpp"
-#include "operators/place_forces.hpp"
 
 namespace anticrack::operators {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "operators/place_forces.hpp"
+#include "operators/condense_loads.hpp"
 
 #include <algorithm>
 #include <cmath>
