@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "contact/solve.hpp"
@@ -127,6 +129,14 @@ void recover_fields(const TraceProblem& problem, std::span<const SolvedCase> cas
     }
     problem.operators()[s].recover(solved);
   }
+}
+
+std::string residuals_of(const Answer& answer) {
+  const auto& [equilibrium, gap, sign, complementarity] = answer.kkt_relative;
+  return fmt::format(
+      "the relative residuals are {:g} (equilibrium), {:g} (gap), {:g} (sign), {:g} "
+      "(complementarity)",
+      equilibrium, gap, sign, complementarity);
 }
 
 std::vector<TraceGeometry> trace_geometry(const ddm::Decomposition& decomposition,

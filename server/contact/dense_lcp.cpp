@@ -2,7 +2,6 @@
 #include "contact/dense_lcp.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/open_factor.hpp"
+#include "contact/dense.hpp"
 
 namespace anticrack::contact {
 

@@ -4,7 +4,6 @@
 #include <cstddef>
 
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 

@@ -13,8 +13,7 @@ namespace anticrack::contact {
 /// Where the active set is to start: the same problem with jumps that are linear between every
 /// second contact of a crack, solved from the start that the next coarser one gives. The steps of
 /// the active set move the ends of a contact zone by a few nodes each; of a coarse problem they
-/// cost an eighth or less.
-/// Immutable after construction.
+/// cost an eighth or less. Immutable after construction.
 class NestedStart {
  public:
   /// `matrix`: S, as DenseLcp takes it. `chains`: contacts that follow each other along a crack,

@@ -2,7 +2,6 @@
 #include "contact/skeleton_problem.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 
 #include "contact/dense.hpp"

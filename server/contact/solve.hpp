@@ -53,6 +53,9 @@ void recover_fields(const TraceProblem& problem, std::span<const SolvedCase> cas
 void describe(const TraceProblem& problem, const mesh::Mesh& mesh, const CaseLoads& loads,
               const TraceState& state, const Sample& sample, Answer& answer);
 
+/// The relative residuals, for messages.
+std::string residuals_of(const Answer& answer);
+
 /// Positions and conditions of the nodes of every interface.
 std::vector<TraceGeometry> trace_geometry(const ddm::Decomposition& decomposition,
                                           const mesh::Mesh& mesh);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "contact/solve.hpp"
@@ -127,29 +128,13 @@ class Case {
   Sample _sample;
 };
 
-std::string limit_reason(const ActiveSetOptions& options) {
-  std::ostringstream text;
-  text << "after " << options.max_steps
-       << " steps the set of closed nodes still changes; raise max_steps";
-  return text.str();
-}
-
 std::string overflow(std::span<const ddm::CondensedLoad> loads) {
   double force = 0;
   for (const ddm::CondensedLoad& load : loads) force = std::max(force, largest(load.g));
-  std::ostringstream text;
-  text << "the energy overflows: the largest force on a node of the interfaces is " << force
-       << "; scale the load down";
-  return text.str();
-}
-
-std::string inaccurate_reason(const KktResiduals& relative) {
-  std::ostringstream text;
-  text << "rounding spoils the answer: the relative residuals are " << relative.equilibrium
-       << " (equilibrium), " << relative.gap << " (gap), " << relative.sign << " (sign), "
-       << relative.complementarity << " (complementarity), not all below " << solution_residual
-       << "; use a mesh with a larger tip_size, or bring the tensions nearer to each other";
-  return text.str();
+  return fmt::format(
+      "the energy overflows: the largest force on a node of the interfaces is {:g}; scale the load "
+      "down",
+      force);
 }
 
 }  // namespace
@@ -182,7 +167,9 @@ Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
           "glue or a prescribed boundary value, or press it on";
       break;
     case LcpStatus::step_limit:
-      answer.reason = limit_reason(options);
+      answer.reason =
+          fmt::format("after {} steps the set of closed nodes still changes; raise max_steps",
+                      options.max_steps);
       break;
     case LcpStatus::stopped:
       answer.status = Status::cancelled;
@@ -195,7 +182,10 @@ Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
     throw errors::Error(errors::Reason::numerical, overflow(loads.subdomains));
   if (answer.status == Status::converged && !within(answer.kkt_relative, solution_residual)) {
     answer.status = Status::not_converged;
-    answer.reason = inaccurate_reason(answer.kkt_relative);
+    answer.reason = fmt::format(
+        "rounding spoils the answer: {}, not all below {:g}; use a mesh with a larger tip_size, or "
+        "bring the tensions nearer to each other",
+        residuals_of(answer), solution_residual);
   }
   if (fields) {
     const SolvedCase solved{loads.subdomains, answer};

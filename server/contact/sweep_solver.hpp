@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
+#include "contact/answer.hpp"
 #include "contact/pair_forces.hpp"
 #include "contact/skeleton_problem.hpp"
 #include "contact/solve.hpp"
-#include "contact/sweep_columns.hpp"
 #include "contact/warm_lcp.hpp"
 
 namespace anticrack::contact {

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "mesh/at.hpp"
-
 namespace anticrack::contact {
 
 using Eigen::Index;

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/uzawa_block.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
 
-#include "contact/solve.hpp"
 #include "contact/trace_state.hpp"
 #include "errors/errors.hpp"
-#include "mesh/at.hpp"
 
 namespace anticrack::contact {
 namespace {
@@ -18,75 +17,61 @@ namespace {
 constexpr double safety = 0.97;  // of theta*, for `auto`
 constexpr int equilibrium_period = 64;
 
-std::string residuals_of(const Answer& answer) {
-  const KktResiduals& relative = answer.kkt_relative;
-  std::ostringstream text;
-  text << "the relative residuals are " << relative.equilibrium << " (equilibrium), "
-       << relative.gap << " (gap), " << relative.sign << " (sign), " << relative.complementarity
-       << " (complementarity)";
-  return text.str();
+std::string bound_of(const UzawaOptions& options, int held_at_bound) {
+  return fmt::format(
+      "the multipliers are held at their bound p = {:g} in {} node{}, so this is not a solution: "
+      "raise "
+      "p, or use the method \"active-set\"",
+      options.p, held_at_bound, held_at_bound == 1 ? "" : "s");
 }
 
-std::string bound_of(const UzawaOptions& options, int held_at_bound) {
-  std::ostringstream text;
-  text << "the multipliers are held at their bound p = " << options.p << " in " << held_at_bound
-       << (held_at_bound == 1 ? " node" : " nodes") << ", so this is not a solution";
-  return text.str();
+std::string thetas_of(const Answer& answer) {
+  return fmt::format("theta = {:g}, theta* = {:g}", answer.theta, answer.theta_star);
 }
 
 bool far_from_theta_star(const Answer& answer) {
   return answer.theta < answer.theta_star / 2 || answer.theta > answer.theta_star;
 }
 
-constexpr const char* or_exact = ", or use the method \"active-set\"";
-
 std::string oscillation_reason(const Answer& answer) {
-  std::ostringstream text;
-  text << "the iteration oscillates and cannot converge: theta = " << answer.theta
-       << " is above theta* = " << answer.theta_star
-       << " of this mesh (Theorem 4), criterion stuck near " << answer.criterion
-       << "; set theta to auto, or below " << answer.theta_star;
-  return text.str();
+  return fmt::format(
+      "the iteration oscillates and cannot converge: theta = {:g} is above theta* = {:g} of this "
+      "mesh "
+      "(Theorem 4), criterion stuck near {:g}; set theta to auto, or below {:g}",
+      answer.theta, answer.theta_star, answer.criterion, answer.theta_star);
 }
 
 std::string overflow_reason(const Answer& answer) {
-  std::ostringstream text;
-  text << "the iterates are no longer finite with theta = " << answer.theta
-       << ", theta* = " << answer.theta_star << "; scale the load down"
-       << (answer.theta > answer.theta_star ? ", and set theta to auto" : "");
-  return text.str();
+  return fmt::format("the iterates are no longer finite with {}; scale the load down{}",
+                     thetas_of(answer),
+                     answer.theta > answer.theta_star ? ", and set theta to auto" : "");
 }
 
 std::string limit_reason(const Answer& answer, const UzawaOptions& options, int held_at_bound) {
-  std::ostringstream text;
-  text << "after " << options.max_iterations << " iterations ";
-  if (options.kkt_tolerance)
-    text << residuals_of(answer) << ", not all below kkt_tolerance = " << *options.kkt_tolerance;
-  else
-    text << "the criterion is " << answer.criterion << ", not below epsilon = " << options.epsilon;
-  text << " (theta = " << answer.theta << ", theta* = " << answer.theta_star << "); ";
-  if (held_at_bound > 0) {
-    text << bound_of(options, held_at_bound) << ": raise p" << or_exact;
-    return text.str();
-  }
-  text << "raise max_iterations or " << (options.kkt_tolerance ? "kkt_tolerance" : "epsilon");
-  if (far_from_theta_star(answer)) text << ", or set theta to auto";
-  return text.str();
+  const std::optional<double> wanted = options.kkt_tolerance;
+  const std::string fault =
+      wanted ? fmt::format("{}, not all below kkt_tolerance = {:g}", residuals_of(answer), *wanted)
+             : fmt::format("the criterion is {:g}, not below epsilon = {:g}", answer.criterion,
+                           options.epsilon);
+  const std::string cure =
+      held_at_bound > 0
+          ? bound_of(options, held_at_bound)
+          : fmt::format("raise max_iterations or {}{}", wanted ? "kkt_tolerance" : "epsilon",
+                        far_from_theta_star(answer) ? ", or set theta to auto" : "");
+  return fmt::format("after {} iterations {} ({}); {}", options.max_iterations, fault,
+                     thetas_of(answer), cure);
 }
 
 std::string unsolved_reason(const Answer& answer, const UzawaOptions& options, int held_at_bound) {
-  std::ostringstream text;
-  text << "the iteration stopped after " << answer.iterations << " iterations, ";
-  if (held_at_bound > 0) {
-    text << "but " << bound_of(options, held_at_bound) << ": raise p" << or_exact;
-    return text.str();
-  }
-  text << "criterion " << answer.criterion << " below epsilon = " << options.epsilon << ", but "
-       << residuals_of(answer) << ", not all below " << solution_residual
-       << " (theta = " << answer.theta << ", theta* = " << answer.theta_star << "); ";
-  if (far_from_theta_star(answer)) text << "set theta to auto, ";
-  text << "set kkt_tolerance to stop by the residuals" << or_exact;
-  return text.str();
+  const std::string fault =
+      held_at_bound > 0
+          ? "but " + bound_of(options, held_at_bound)
+          : fmt::format(
+                "criterion {:g} below epsilon = {:g}, but {}, not all below {:g} ({}); {}set "
+                "kkt_tolerance to stop by the residuals, or use the method \"active-set\"",
+                answer.criterion, options.epsilon, residuals_of(answer), solution_residual,
+                thetas_of(answer), far_from_theta_star(answer) ? "set theta to auto, " : "");
+  return fmt::format("the iteration stopped after {} iterations, {}", answer.iterations, fault);
 }
 
 }  // namespace

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The inner loops of backward_solve(), compiled once for each instruction set: include it once in
-// a file compiled for that, after forward_kernel.hpp, with ANTICRACK_BACKWARD the name of the
-// function. It includes no library either.
-#include "ddm/fetch_ahead.hpp"
-#include "ddm/substitution.hpp"
-
+// Backward substitution, for kernel_loops.hpp.
 namespace anticrack::ddm {
 namespace {
 
@@ -201,9 +196,7 @@ void solve_block_backward(const Supernodes& factor, Lanes* y) {
       });
 }
 
-}  // namespace
-
-void ANTICRACK_BACKWARD(const Supernodes& factor, int width, double* y) {
+void backward_solve(const Supernodes& factor, int width, double* y) {
   Lanes* block = reinterpret_cast<Lanes*>(y);
   switch (width / lanes) {
     case 0:
@@ -219,4 +212,5 @@ void ANTICRACK_BACKWARD(const Supernodes& factor, int width, double* y) {
   }
 }
 
+}  // namespace
 }  // namespace anticrack::ddm

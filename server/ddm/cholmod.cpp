@@ -5,6 +5,7 @@
 
 #include "ddm/blas.hpp"
 #include "errors/errors.hpp"
+#include "mesh/at.hpp"
 
 // From OpenMP's run-time library, which Debian's libcholmod is linked with. Its header is not
 // included: compiling with OpenMP would make Eigen start threads as well.
@@ -43,35 +44,75 @@ class Context {
   cholmod_common _common{};
 };
 
-}  // namespace
-
+/// The calling thread's workspace and status, never shared among threads.
 cholmod_common& cholmod_context() {
   thread_local Context context;
   return context.common();
 }
 
+/// CHOLMOD's view of the lower triangle of a compressed symmetric matrix, which it only reads.
+cholmod_sparse view(const Eigen::SparseMatrix<double>& matrix) {
+  cholmod_sparse result{};
+  result.nrow = at(matrix.rows());
+  result.ncol = at(matrix.cols());
+  result.nzmax = at(matrix.nonZeros());
+  result.p = const_cast<int*>(matrix.outerIndexPtr());
+  result.i = const_cast<int*>(matrix.innerIndexPtr());
+  result.x = const_cast<double*>(matrix.valuePtr());
+  result.stype = -1;
+  result.itype = CHOLMOD_INT;
+  result.xtype = CHOLMOD_REAL;
+  result.dtype = CHOLMOD_DOUBLE;
+  result.sorted = 1;
+  result.packed = 1;
+  return result;
+}
+
+bool keeps_trace_last(const cholmod_factor& factor, Eigen::Index interior) {
+  const int* permutation = static_cast<const int*>(factor.Perm);
+  for (auto i = at(interior); i < factor.n; ++i)
+    if (permutation[i] != static_cast<int>(i)) return false;
+  return true;
+}
+
+FactorPtr analyse(cholmod_sparse& matrix, std::vector<int>& permutation, bool postorder) {
+  cholmod_common& context = cholmod_context();
+  context.postorder = postorder ? 1 : 0;
+  FactorPtr factor(cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, &context));
+  if (context.status == CHOLMOD_OUT_OF_MEMORY || context.status == CHOLMOD_TOO_LARGE) {
+    throw errors::Error(errors::Reason::limit_exceeded,
+                        "no memory for the analysis of a subdomain; take a coarser mesh");
+  }
+  if (context.status != CHOLMOD_OK) {
+    throw errors::Error(
+        errors::Reason::internal,
+        "CHOLMOD status " + std::to_string(context.status) + " in the analysis of a subdomain");
+  }
+  return factor;
+}
+
+}  // namespace
+
 void FreeFactor::operator()(cholmod_factor* factor) const {
   cholmod_free_factor(&factor, &cholmod_context());
 }
 
-void require_success(const cholmod_common& context, const char* doing) {
-  switch (context.status) {
-    case CHOLMOD_OK:
-    case CHOLMOD_DSMALL:
-      return;
-    case CHOLMOD_OUT_OF_MEMORY:
-    case CHOLMOD_TOO_LARGE:
-      throw errors::Error(errors::Reason::limit_exceeded,
-                          std::string("no memory for ") + doing + "; take a coarser mesh");
-    case CHOLMOD_NOT_POSDEF:
-      throw errors::Error(errors::Reason::numerical,
-                          std::string("the stiffness matrix is not positive definite in ") + doing +
-                              "; the mesh has triangles that are degenerate, or is badly scaled");
-    default:
-      throw errors::Error(
-          errors::Reason::internal,
-          std::string("CHOLMOD status ") + std::to_string(context.status) + " in " + doing);
+FactorPtr analyse(const Eigen::SparseMatrix<double>& lower, std::vector<int> permutation,
+                  Eigen::Index interior) {
+  cholmod_sparse matrix = view(lower);
+  FactorPtr factor = analyse(matrix, permutation, true);
+  // The interface is a clique at the root of the elimination tree, so postordering keeps it last,
+  // unless the interior is disconnected and the tree has several roots.
+  if (!keeps_trace_last(*factor, interior)) {
+    factor = analyse(matrix, permutation, false);
+    if (!keeps_trace_last(*factor, interior)) {
+      throw errors::Error(errors::Reason::internal,
+                          "the analysis of a subdomain moved its interface nodes");
+    }
   }
+  if (factor->is_super == 0)
+    throw errors::Error(errors::Reason::internal, "CHOLMOD found no supernodes");
+  return factor;
 }
 
 }  // namespace anticrack::ddm

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// CHOLMOD's context, owners of its memory and its errors; the only header that includes it.
+// CHOLMOD's analysis; the only header that includes it.
 #pragma once
 
 #include <cholmod.h>
 
+#include <Eigen/SparseCore>
 #include <memory>
+#include <vector>
 
 namespace anticrack::ddm {
-
-/// The calling thread's cholmod_common: workspace and status, never shared among threads.
-cholmod_common& cholmod_context();
 
 struct FreeFactor {
   void operator()(cholmod_factor* factor) const;
@@ -19,8 +18,11 @@ struct FreeFactor {
 /// May be freed by any thread: memory comes from malloc.
 using FactorPtr = std::unique_ptr<cholmod_factor, FreeFactor>;
 
-/// Throws errors::Error (numerical, or limit_exceeded for memory) unless CHOLMOD's last call on
-/// this thread succeeded; `doing` says what it was.
-void require_success(const cholmod_common& context, const char* doing);
+/// Permutation and supernodal pattern of the factor of a symmetric matrix, without values. `lower`:
+/// its lower triangle, compressed; `permutation`: the order of elimination, which keeps the
+/// unknowns from `interior` on last and in their order. Throws errors::Error (limit_exceeded for
+/// memory).
+FactorPtr analyse(const Eigen::SparseMatrix<double>& lower, std::vector<int> permutation,
+                  Eigen::Index interior);
 
 }  // namespace anticrack::ddm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ddm/curve_order.hpp"
+#include "ddm/cut_steps.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,10 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "ddm/curve_order.hpp"
-#include "ddm/sides.hpp"
-#include "ddm/support.hpp"
-#include "ddm/ties.hpp"
+#include "ddm/cut_steps.hpp"
 #include "mesh/at.hpp"
 
 namespace anticrack::ddm {

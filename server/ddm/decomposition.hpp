@@ -4,7 +4,6 @@
 // nodes on both sides of an interface.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ddm/elimination_order.hpp"
 
-#include <cstddef>
-
-#include "ddm/nested_dissection.hpp"
 #include "mesh/at.hpp"
 
 namespace anticrack::ddm {

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The inner loops of forward_solve(), compiled once for each instruction set: include it once in
-// a file compiled for that, with ANTICRACK_KERNEL the name of the function and ANTICRACK_ROWS the
-// rows of a block that fit its registers. It includes no library: an inline function of one
-// compiled here could be linked into code for any processor.
-#include "ddm/fetch_ahead.hpp"
-#include "ddm/substitution.hpp"
-
+// Forward substitution, for kernel_loops.hpp.
 namespace anticrack::ddm {
 namespace {
 
@@ -133,9 +127,7 @@ void solve_block(const Supernodes& factor, Lanes* y) {
   }
 }
 
-}  // namespace
-
-void ANTICRACK_KERNEL(const Supernodes& factor, int width, double* y) {
+void forward_solve(const Supernodes& factor, int width, double* y) {
   Lanes* block = reinterpret_cast<Lanes*>(y);
   switch (width / lanes) {
     case 0:
@@ -151,4 +143,5 @@ void ANTICRACK_KERNEL(const Supernodes& factor, int width, double* y) {
   }
 }
 
+}  // namespace
 }  // namespace anticrack::ddm

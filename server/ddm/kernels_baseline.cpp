@@ -1,10 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#define ANTICRACK_KERNEL forward_solve_baseline
+#define ANTICRACK_KERNELS kernels_baseline
 #define ANTICRACK_ROWS 4
-#include "ddm/forward_kernel.hpp"
-
-#define ANTICRACK_BACKWARD backward_solve_baseline
-#include "ddm/backward_kernel.hpp"
-
-#define ANTICRACK_FRONT eliminate_small_front_baseline
-#include "ddm/front_loops.hpp"
+#include "ddm/kernel_loops.hpp"

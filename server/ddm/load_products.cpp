@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ddm/load_products.hpp"
+#include "ddm/subdomain_operator.hpp"
 
 #include <algorithm>
 

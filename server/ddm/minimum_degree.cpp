@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ddm/minimum_degree.hpp"
+#include "ddm/elimination_order.hpp"
 
 #include <bit>
 

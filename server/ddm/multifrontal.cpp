@@ -7,13 +7,10 @@
 #include <atomic>
 #include <cstddef>
 #include <memory>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "ddm/at_once.hpp"
-#include "ddm/front_kernel.hpp"
-#include "ddm/subtrees.hpp"
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
 
@@ -264,7 +261,7 @@ bool eliminate_front(int columns, int height, double* panel, double* update, boo
   // A call of BLAS costs as much as thousands of operations.
   constexpr double few = 40'000;
   if (static_cast<double>(columns) * height * height < few)
-    return eliminate_small_front(columns, height, panel, update, add);
+    return best_kernels().eliminate_small_front(columns, height, panel, update, add);
   int info = 0;
   dpotrf_("L", &columns, panel, &height, &info);
   if (info != 0) return false;

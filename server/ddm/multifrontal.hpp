@@ -12,8 +12,9 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <span>
+#include <vector>
 
-#include "ddm/substitution.hpp"
+#include "ddm/kernels.hpp"
 
 namespace anticrack::ddm {
 
@@ -35,8 +36,25 @@ bool eliminate_interior(const Supernodes& pattern, std::span<const int> place,
 
 /// For a front [A .; B C] with `columns` columns of A and `panel` = [A; B], column-major with
 /// `height` rows: A = LL', A <- L, B <- B L'^-1, and the lower triangle of `update` = -BB', or with
-/// `add` update
-/// <- update - BB'. False if A is not positive definite to rounding.
+/// `add` update <- update - BB'. False if A is not positive definite to rounding.
 bool eliminate_front(int columns, int height, double* panel, double* update, bool add = false);
+
+// Subtrees that threads eliminate independently.
+
+/// Nodes in an order that has children before their parents; index base 0.
+struct EliminationTree {
+  std::vector<int> parent;   ///< -1: none
+  std::vector<double> work;  ///< of the node alone
+};
+
+/// Disjoint subtrees; the nodes above them belong to none.
+struct Subtrees {
+  std::vector<std::vector<int>> nodes;  ///< of each subtree, increasing; the most work first
+  std::vector<int> root;                ///< of the subtree of each node; -1: none
+};
+
+/// Subtrees to balance over `threads` threads: each a small enough fraction of the work. None
+/// contains a root of the tree. O(n log n).
+Subtrees part(const EliminationTree& tree, int threads);
 
 }  // namespace anticrack::ddm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ddm/nested_dissection.hpp"
+#include "ddm/elimination_order.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "ddm/minimum_degree.hpp"
 #include "ddm/vertex_separator.hpp"
 #include "mesh/at.hpp"
 

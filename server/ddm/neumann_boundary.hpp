@@ -13,7 +13,7 @@
 namespace anticrack::ddm {
 
 /// The Neumann boundary: edges of one triangle that are not in Mesh::dirichlet. Found at the first
-/// call, which only tractions make: O(m), 8 bytes an edge of a triangle meanwhile. Thread-safe.
+/// call, which only tractions make: O(m), 12 bytes a side of a triangle meanwhile. Thread-safe.
 class NeumannBoundary {
  public:
   /// Refers to both; the decomposition is the mesh's.

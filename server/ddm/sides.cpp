@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ddm/sides.hpp"
+#include "ddm/cut_steps.hpp"
 
 #include <algorithm>
 #include <span>

@@ -2,20 +2,46 @@
 #include "ddm/subdomain_factor.hpp"
 
 #include <cblas.h>
+#include <sys/mman.h>
 
 #include <algorithm>
-#include <memory>
+#include <cstdlib>
 #include <numeric>
-#include <vector>
 
 #include "ddm/cholmod.hpp"
+#include "ddm/kernels.hpp"
 #include "ddm/multifrontal.hpp"
-#include "ddm/substitution.hpp"
-#include "ddm/values.hpp"
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
 
 namespace anticrack::ddm {
+namespace {
+
+struct FreeValues {
+  void operator()(double* values) const noexcept { std::free(values); }
+};
+using Values = std::unique_ptr<double, FreeValues>;
+
+/// Uninitialised, aligned to a cache line; large blocks to huge pages, if available, as page faults
+/// took a tenth of the factorisation. Throws errors::Error (limit_exceeded) without memory.
+Values make_values(std::size_t count) {
+  constexpr std::size_t cache_line = 64, huge_page = std::size_t{2} << 20;
+  const std::size_t bytes = sizeof(double) * count;
+  const std::size_t alignment = bytes >= 4 * huge_page ? huge_page : cache_line;
+  Values values(static_cast<double*>(
+      std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment)));
+  if (!values) {
+    throw errors::Error(errors::Reason::limit_exceeded,
+                        "no memory for the factor of a subdomain; take a coarser mesh");
+  }
+  if (alignment == huge_page) {
+    // Advice: where it is not taken, small pages do as well.
+    static_cast<void>(madvise(values.get(), bytes / huge_page * huge_page, MADV_HUGEPAGE));
+  }
+  return values;
+}
+
+}  // namespace
 
 struct SubdomainFactor::Factor {
   FactorPtr analysis;      // CHOLMOD's permutation and pattern, without values
@@ -27,56 +53,6 @@ struct SubdomainFactor::Factor {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-
-/// CHOLMOD's view of the lower triangle of a compressed symmetric matrix, which it only reads.
-cholmod_sparse view(const Sparse& matrix) {
-  cholmod_sparse result{};
-  result.nrow = at(matrix.rows());
-  result.ncol = at(matrix.cols());
-  result.nzmax = at(matrix.nonZeros());
-  result.p = const_cast<int*>(matrix.outerIndexPtr());
-  result.i = const_cast<int*>(matrix.innerIndexPtr());
-  result.x = const_cast<double*>(matrix.valuePtr());
-  result.stype = -1;
-  result.itype = CHOLMOD_INT;
-  result.xtype = CHOLMOD_REAL;
-  result.dtype = CHOLMOD_DOUBLE;
-  result.sorted = 1;
-  result.packed = 1;
-  return result;
-}
-
-bool keeps_trace_last(const cholmod_factor& factor, Eigen::Index interior) {
-  const int* permutation = static_cast<const int*>(factor.Perm);
-  for (auto i = at(interior); i < factor.n; ++i)
-    if (permutation[i] != static_cast<int>(i)) return false;
-  return true;
-}
-
-FactorPtr analyze(cholmod_sparse& matrix, std::vector<int>& permutation, bool postorder) {
-  cholmod_common& context = cholmod_context();
-  context.postorder = postorder ? 1 : 0;
-  FactorPtr factor(cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, &context));
-  require_success(context, "the analysis of a subdomain");
-  return factor;
-}
-
-FactorPtr analyse(const Sparse& lower, std::vector<int>& permutation, Eigen::Index interior) {
-  cholmod_sparse matrix = view(lower);
-  FactorPtr factor = analyze(matrix, permutation, true);
-  // The interface is a clique at the root of the elimination tree, so postordering keeps it last,
-  // unless the interior is disconnected and the tree has several roots.
-  if (!keeps_trace_last(*factor, interior)) {
-    factor = analyze(matrix, permutation, false);
-    if (!keeps_trace_last(*factor, interior)) {
-      throw errors::Error(errors::Reason::internal,
-                          "the analysis of a subdomain moved its interface nodes");
-    }
-  }
-  if (factor->is_super == 0)
-    throw errors::Error(errors::Reason::internal, "CHOLMOD found no supernodes");
-  return factor;
-}
 
 Supernodes pattern(const cholmod_factor& factor, Eigen::Index interior) {
   return {static_cast<int>(factor.nsuper),
@@ -190,7 +166,7 @@ void SubdomainFactor::forward(const Eigen::Ref<const Eigen::MatrixXd>& f,
         const double* from = f.data() + j * f.outerStride();
         for (int i = begin; i < end; ++i) to[place[i] * stride] = from[i];
       },
-      [&](int width, double* y) { forward_solve(_factor->l, width, y); },
+      [&](int width, double* y) { best_kernels().forward(_factor->l, width, y); },
       [&](int j, int begin, int end, const double* from, std::ptrdiff_t stride) {
         Forward& column = result[at(j)];
         const int middle = std::clamp(interior, begin, end);
@@ -211,7 +187,7 @@ void SubdomainFactor::recover(std::span<Backward> columns) const {
         for (int i = begin; i < middle; ++i) to[i * stride] = z_interior[i];
         for (int i = middle; i < end; ++i) to[i * stride] = trace_values[i - interior];
       },
-      [&](int width, double* y) { backward_solve(_factor->l, width, y); },
+      [&](int width, double* y) { best_kernels().backward(_factor->l, width, y); },
       [&](int j, int begin, int end, const double* from, std::ptrdiff_t stride) {
         Eigen::Ref<Eigen::VectorXd>& to = columns[at(j)].u;
         for (int i = begin; i < end; ++i) to[i] = from[place[i] * stride];

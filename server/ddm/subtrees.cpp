@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ddm/subtrees.hpp"
+#include "ddm/multifrontal.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <queue>
 #include <utility>
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ddm/ties.hpp"
+#include "ddm/cut_steps.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
-#include "ddm/order.hpp"
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
 #include "mesh/union_find.hpp"
@@ -95,6 +96,57 @@ class Classes {
   std::int32_t _inclusions;
   mesh::UnionFind _sets;
 };
+
+/// A condition w[upper] >= w[lower] between two values of one node.
+struct Above {
+  std::int32_t upper = 0;
+  std::int32_t lower = 0;
+  auto operator<=>(const Above&) const = default;
+};
+
+/// There is a way down from `upper` to `lower` that does not use `without`.
+bool leads(const std::vector<Above>& conditions, std::int32_t upper, std::int32_t lower,
+           const Above* without) {
+  std::vector<std::int32_t> open = {upper};
+  std::set<std::int32_t> seen = {upper};
+  while (!open.empty()) {
+    const std::int32_t here = open.back();
+    open.pop_back();
+    if (here == lower) return true;
+    const auto first = std::lower_bound(conditions.begin(), conditions.end(), here,
+                                        [](const Above& a, std::int32_t u) { return a.upper < u; });
+    for (auto it = first; it != conditions.end() && it->upper == here; ++it)
+      if ((without == nullptr || *it != *without) && seen.insert(it->lower).second)
+        open.push_back(it->lower);
+  }
+  return false;
+}
+
+std::vector<Above> each_once(std::vector<Above> conditions) {
+  std::sort(conditions.begin(), conditions.end());
+  conditions.erase(std::unique(conditions.begin(), conditions.end()), conditions.end());
+  std::erase_if(conditions, [](const Above& a) { return a.upper == a.lower; });
+  return conditions;
+}
+
+/// The conditions on cycles a >= b >= ... >= a, whose values are all equal. O(k^2).
+std::vector<Above> on_cycles(const std::vector<Above>& conditions) {
+  const std::vector<Above> all = each_once(conditions);
+  std::vector<Above> result;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(result),
+               [&all](const Above& a) { return leads(all, a.lower, a.upper, nullptr); });
+  return result;
+}
+
+/// Transitive reduction: each pair once, none of a value with itself, none that follows from
+/// others. Unique without cycles; sorted. O(k^2).
+std::vector<Above> without_implied(std::vector<Above> conditions) {
+  const std::vector<Above> all = each_once(std::move(conditions));
+  std::vector<Above> result;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(result),
+               [&all](const Above& a) { return !leads(all, a.upper, a.lower, &a); });
+  return result;
+}
 
 /// Every end of an edge that may open, those of one node next to one another.
 struct OpenEnd {

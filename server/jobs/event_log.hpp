@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "contact/sweep_columns.hpp"
+#include "contact/answer.hpp"
 #include "jobs/sample_run.hpp"
 #include "store/records.hpp"
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "contact/answer.hpp"
-#include "contact/sweep_columns.hpp"
 #include "jobs/sweep_plan.hpp"
 #include "operators/mesh_operator.hpp"
 #include "store/records.hpp"

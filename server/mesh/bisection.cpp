@@ -8,7 +8,6 @@
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
 #include "mesh/geometry_primitives.hpp"
-#include "mesh/midpoints.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
 
@@ -33,6 +32,83 @@ void check_plane(std::span<const EdgeUse> uses) {
                           std::to_string(uses[0].high()) + " belongs to " +
                           std::to_string(uses.size()) +
                           " triangles; refinement takes one on each side at most");
+}
+
+std::uint64_t edge_key(std::int32_t a, std::int32_t b) noexcept {
+  const auto low = static_cast<std::uint64_t>(std::min(a, b));
+  const auto high = static_cast<std::uint64_t>(std::max(a, b));
+  return low << 32U | high;
+}
+
+/// The nodes a refinement put on edges. Memory 16 bytes an edge cut.
+class Midpoints {
+ public:
+  /// Node `first + i` is the midpoint of the edge between the two nodes parents[i]. O(k log k).
+  Midpoints(std::int32_t first, std::span<const std::array<std::int32_t, 2>> parents);
+
+  /// The midpoint of the edge, in either direction; -1 if it was not cut. O(log k).
+  std::int32_t find(std::int32_t a, std::int32_t b) const noexcept;
+
+ private:
+  std::vector<std::pair<std::uint64_t, std::int32_t>> _cuts;  ///< (edge, midpoint), ascending
+};
+
+Midpoints::Midpoints(std::int32_t first, std::span<const std::array<std::int32_t, 2>> parents) {
+  _cuts.reserve(parents.size());
+  std::int32_t node = first;
+  for (const auto& [a, b] : parents) _cuts.emplace_back(edge_key(a, b), node++);
+  std::sort(_cuts.begin(), _cuts.end());
+}
+
+std::int32_t Midpoints::find(std::int32_t a, std::int32_t b) const noexcept {
+  const std::uint64_t key = edge_key(a, b);
+  const auto at = std::lower_bound(_cuts.begin(), _cuts.end(), key,
+                                   [](const auto& cut, auto wanted) { return cut.first < wanted; });
+  return at != _cuts.end() && at->first == key ? at->second : -1;
+}
+
+/// Calls `piece(from, to)` for the pieces of the edge a -> b, in order.
+template <class Piece>
+void each_piece(std::int32_t a, std::int32_t b, const Midpoints& midpoints,
+                std::vector<std::int32_t>& targets, Piece&& piece) {
+  targets.assign(1, b);
+  std::int32_t from = a;
+  while (!targets.empty()) {
+    const std::int32_t to = targets.back();
+    const std::int32_t middle = midpoints.find(from, to);
+    if (middle >= 0) {
+      targets.push_back(middle);
+    } else {
+      piece(from, to);
+      from = to;
+      targets.pop_back();
+    }
+  }
+}
+
+/// Replaces the edges of all interfaces and of the Dirichlet boundary by their pieces, recursively.
+/// Pieces take the place, direction, kind and inclusion of the edge.
+void cut_lines(Mesh& mesh, const Midpoints& midpoints) {
+  std::vector<std::int32_t> targets;
+  for (Interface& line : mesh.interfaces) {
+    Interface cut{line.name, {line.nodes.front()}, {}, {}};
+    for (std::size_t i = 0; i + 1 < line.nodes.size(); ++i) {
+      each_piece(line.nodes[i], line.nodes[i + 1], midpoints, targets,
+                 [&](std::int32_t, std::int32_t to) {
+                   cut.nodes.push_back(to);
+                   cut.kind.push_back(line.kind[i]);
+                   cut.inclusion.push_back(line.inclusion[i]);
+                 });
+    }
+    line = std::move(cut);
+  }
+  std::vector<std::array<std::int32_t, 2>> dirichlet;
+  for (const auto& [a, b] : mesh.dirichlet) {
+    each_piece(a, b, midpoints, targets, [&](std::int32_t from, std::int32_t to) {
+      dirichlet.push_back({from, to});
+    });
+  }
+  mesh.dirichlet = std::move(dirichlet);
 }
 
 }  // namespace

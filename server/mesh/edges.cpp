@@ -2,32 +2,47 @@
 #include "mesh/edges.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <numeric>
+#include <utility>
+
+#include "mesh/at.hpp"
 
 namespace anticrack::mesh {
 
-EdgeTable::EdgeTable(std::span<const std::int32_t> triangles) {
-  _uses.reserve(triangles.size());
-  for (std::size_t t = 0; 3 * t + 2 < triangles.size(); ++t) {
-    for (std::size_t side = 0; side < 3; ++side) {
-      _uses.push_back({triangles[3 * t + side], triangles[3 * t + (side + 1) % 3],
-                       static_cast<std::int32_t>(t)});
-    }
+EdgeTable::EdgeTable(std::span<const std::int32_t> triangles) : _uses(triangles.size()) {
+  const auto use = [&](std::size_t corner) {
+    const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
+    return EdgeUse{triangles[corner], triangles[next], static_cast<std::int32_t>(corner / 3)};
+  };
+  // A counting sort by the lower node, then each node's few sides by the others.
+  const std::size_t nodes = triangles.empty() ? 0 : at(std::ranges::max(triangles)) + 1;
+  std::vector<std::size_t> end(nodes + 1, 0);
+  for (std::size_t c = 0; c < triangles.size(); ++c) ++end[at(use(c).low())];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  for (std::size_t c = triangles.size(); c-- > 0;) _uses[--end[at(use(c).low())]] = use(c);
+  // end[n] is now where node n begins.
+  for (std::size_t n = 0; n < nodes; ++n) {
+    std::sort(_uses.begin() + static_cast<std::ptrdiff_t>(end[n]),
+              _uses.begin() + static_cast<std::ptrdiff_t>(end[n + 1]),
+              [](const EdgeUse& a, const EdgeUse& b) {
+                return std::pair(a.high(), a.triangle) < std::pair(b.high(), b.triangle);
+              });
   }
-  std::sort(_uses.begin(), _uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
-    return std::tuple(a.low(), a.high(), a.triangle) < std::tuple(b.low(), b.high(), b.triangle);
+}
+
+std::vector<bool> EdgeTable::boundary_nodes(std::size_t node_count) const {
+  std::vector<bool> found(node_count, false);
+  each([&](std::span<const EdgeUse> uses) {
+    if (uses.size() == 1) found[at(uses[0].from)] = found[at(uses[0].to)] = true;
   });
+  return found;
 }
 
 std::span<const EdgeUse> EdgeTable::find(std::int32_t a, std::int32_t b) const noexcept {
-  const auto key = std::pair(std::min(a, b), std::max(a, b));
-  const auto first =
-      std::lower_bound(_uses.begin(), _uses.end(), key, [](const EdgeUse& use, const auto& wanted) {
-        return std::pair(use.low(), use.high()) < wanted;
-      });
-  auto last = first;
-  while (last != _uses.end() && last->low() == key.first && last->high() == key.second) ++last;
-  return {first, last};
+  const auto found =
+      std::ranges::equal_range(_uses, std::pair(std::min(a, b), std::max(a, b)), {},
+                               [](const EdgeUse& use) { return std::pair(use.low(), use.high()); });
+  return {found.begin(), found.end()};
 }
 
 }  // namespace anticrack::mesh

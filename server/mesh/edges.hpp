@@ -24,7 +24,7 @@ struct EdgeUse {
 /// All sides of all triangles, sorted by (low, high), then by triangle. 12 bytes a side.
 class EdgeTable {
  public:
-  /// `triangles` (m,3) row-major. O(m log m).
+  /// `triangles` (m,3) row-major. O(n + m) for n nodes with few edges each.
   explicit EdgeTable(std::span<const std::int32_t> triangles);
 
   /// The sides of the edge between two nodes, in either order; empty if there is none. O(log m).
@@ -40,6 +40,9 @@ class EdgeTable {
       i = end;
     }
   }
+
+  /// Whether each of `node_count` nodes lies on an edge of one triangle. O(m).
+  std::vector<bool> boundary_nodes(std::size_t node_count) const;
 
  private:
   static bool same_edge(const EdgeUse& a, const EdgeUse& b) noexcept {

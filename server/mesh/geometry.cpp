@@ -6,13 +6,8 @@
 #include <unordered_map>
 
 #include "mesh/at.hpp"
-#include "mesh/geometry_intervals.hpp"
-#include "mesh/geometry_names.hpp"
-#include "mesh/geometry_network.hpp"
-#include "mesh/geometry_parts.hpp"
 #include "mesh/geometry_primitives.hpp"
-#include "mesh/geometry_snap.hpp"
-#include "mesh/geometry_subdomains.hpp"
+#include "mesh/geometry_steps.hpp"
 
 namespace anticrack::mesh {
 namespace {

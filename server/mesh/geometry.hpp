@@ -4,7 +4,6 @@
 // checks, without the mesher.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/geometry_crossings.hpp"
+#include "mesh/geometry_network.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -138,10 +138,6 @@ class Meetings {
     const Line& second = line(t).line;
     refine(s, t, crossing.t);
     crossing.at = first.straight() ? second.at(crossing.t[1]) : first.at(crossing.t[0]);
-    for (std::size_t i = 0; i < 2; ++i) {
-      const Line& on = i == 0 ? first : second;
-      if (on.closed() && crossing.t[i] >= on.spans()) crossing.t[i] -= on.spans();
-    }
     _crossings.push_back(crossing);
   }
 
@@ -160,16 +156,8 @@ class Meetings {
       const Point gap{q[0] - p[0], q[1] - p[1]};
       const double step0 = (gap[1] * e[0] - gap[0] * e[1]) / det;
       const double step1 = (d[0] * gap[1] - d[1] * gap[0]) / det;
-      const auto bounded = [](const Line& line, double value) {
-        return line.closed() ? value : std::clamp(value, 0.0, static_cast<double>(line.spans()));
-      };
-      t[0] = bounded(first, t[0] + std::clamp(step0, -0.25, 0.25));
-      t[1] = bounded(second, t[1] + std::clamp(step1, -0.25, 0.25));
-      for (std::size_t k = 0; k < 2; ++k) {
-        const Line& line = k == 0 ? first : second;
-        if (line.closed() && t[k] < 0) t[k] += line.spans();
-        if (line.closed() && t[k] >= line.spans()) t[k] -= line.spans();
-      }
+      t[0] = first.on_line(t[0] + std::clamp(step0, -0.25, 0.25));
+      t[1] = second.on_line(t[1] + std::clamp(step1, -0.25, 0.25));
       if (step0 == 0 && step1 == 0) return;
     }
   }

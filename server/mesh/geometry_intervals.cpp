@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/geometry_intervals.hpp"
+#include "mesh/geometry_steps.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
+#include <string>
+#include <utility>
 
 #include "mesh/at.hpp"
 #include "mesh/geometry_primitives.hpp"
@@ -22,6 +25,131 @@ void share(const Plan& plan, const std::vector<PlannedCurve*>& curves) {
   const std::vector<int> shares = apportion(lengths, paper_intervals);
   for (std::size_t i = 0; i < curves.size(); ++i) curves[i]->intervals = shares[i];
 }
+
+/// An edge is at most so many times as long as what is near it.
+constexpr double ratio = 2;
+
+/// A point near which edges are no longer than `size`.
+struct Fine {
+  Point at{};
+  double size = 0;
+};
+
+Segment segment_of(const Plan& plan, const PlannedCurve& curve) {
+  return {plan.points[at(curve.a)], plan.points[at(curve.b)]};
+}
+
+bool joined(const PlannedCurve& s, const PlannedCurve& t) {
+  return s.a == t.a || s.a == t.b || s.b == t.a || s.b == t.b;
+}
+
+/// The ends of curves shorter than `size`, by x.
+std::vector<Fine> fine_points(const Plan& plan, double size) {
+  std::vector<double> least(plan.points.size(), size);
+  for (const PlannedCurve& curve : plan.curves) {
+    for (const int end : {curve.a, curve.b}) {
+      double& own = least[at(end)];
+      own = std::min(own, ratio * length_of(plan, curve));
+    }
+  }
+  std::vector<Fine> fine;
+  for (std::size_t i = 0; i < least.size(); ++i)
+    if (least[i] < size) fine.push_back({plan.points[i], least[i]});
+  std::sort(fine.begin(), fine.end(), [](const Fine& a, const Fine& b) { return a.at < b.at; });
+  return fine;
+}
+
+/// For each curve, the curves it is too long for; none that shares a point with it.
+std::vector<std::vector<int>> near_curves(const Plan& plan, double size) {
+  std::vector<Segment> segments;
+  segments.reserve(plan.curves.size());
+  for (const PlannedCurve& curve : plan.curves) segments.push_back(segment_of(plan, curve));
+  const double reach = size / ratio;
+  std::vector<std::vector<int>> near(plan.curves.size());
+  each_near_pair(segments, reach, [&](std::size_t s, std::size_t t) {
+    if (joined(plan.curves[s], plan.curves[t])) return;
+    const double limit = ratio * distance(segments[s], segments[t]);
+    if (limit >= size) return;
+    if (limit < length_of(plan, plan.curves[s])) near[s].push_back(static_cast<int>(t));
+    if (limit < length_of(plan, plan.curves[t])) near[t].push_back(static_cast<int>(s));
+  });
+  return near;
+}
+
+class Cutter {
+ public:
+  Cutter(const Plan& plan, double size, double growth, std::size_t max_curves)
+      : _plan(plan),
+        _size(size),
+        _growth(growth),
+        _max_curves(max_curves),
+        _fine(fine_points(plan, size)),
+        _near(near_curves(plan, size)) {
+    for (const Fine& fine : _fine) _least = std::min(_least, fine.size);
+  }
+
+  /// Where the curve is to be cut, in (0,1), in order.
+  std::vector<double> cuts(std::size_t curve) {
+    _cuts.clear();
+    const Segment whole = segment_of(_plan, _plan.curves[curve]);
+    std::vector<Fine> fine;
+    if (distance(whole.a, whole.b) > _least) {
+      const double reach = _size / _growth;
+      const auto first =
+          std::lower_bound(_fine.begin(), _fine.end(), std::min(whole.a[0], whole.b[0]) - reach,
+                           [](const Fine& f, double x) { return f.at[0] < x; });
+      for (auto f = first; f != _fine.end(); ++f) {
+        if (f->at[0] > std::max(whole.a[0], whole.b[0]) + reach) break;
+        if (allowed(*f, whole) < _size) fine.push_back(*f);
+      }
+    }
+    cut(whole, 0, 1, fine, _near[curve]);
+    return _cuts;
+  }
+
+ private:
+  double allowed(const Fine& fine, const Segment& piece) const {
+    return fine.size + _growth * distance(fine.at, piece);
+  }
+
+  /// Halves the stretch until nothing near it requires shorter edges.
+  void cut(const Segment& whole, double from, double to, const std::vector<Fine>& fine,
+           const std::vector<int>& near) {
+    const Segment piece{point_on(whole, from), point_on(whole, to)};
+    const double length = distance(piece.a, piece.b);
+    const double wanted = std::min(length, _size);
+    std::vector<Fine> still_fine;
+    for (const Fine& f : fine)
+      if (allowed(f, piece) < wanted) still_fine.push_back(f);
+    std::vector<int> still_near;
+    for (const int t : near) {
+      const Segment other = segment_of(_plan, _plan.curves[at(t)]);
+      if (ratio * distance(piece, other) < wanted) still_near.push_back(t);
+    }
+    if (still_fine.empty() && still_near.empty()) return;
+    if (++_count > _max_curves) {
+      throw errors::Error(errors::Reason::limit_exceeded,
+                          "the lines come so near to one another over such a length, at " +
+                              show(piece.a) + ", that more than " + std::to_string(_max_curves) +
+                              " edges are needed there; move them apart or join them")
+          .at("interfaces");
+    }
+    const double middle = (from + to) / 2;
+    cut(whole, from, middle, still_fine, still_near);
+    _cuts.push_back(middle);
+    cut(whole, middle, to, still_fine, still_near);
+  }
+
+  const Plan& _plan;
+  double _size;
+  double _growth;
+  std::size_t _max_curves;
+  std::size_t _count = 0;
+  double _least = 1e300;
+  std::vector<Fine> _fine;
+  std::vector<std::vector<int>> _near;
+  std::vector<double> _cuts;
+};
 
 }  // namespace
 
@@ -82,6 +210,60 @@ std::vector<int> apportion(std::span<const double> lengths, int total) {
     ++left;
   }
   return shares;
+}
+
+void cut_near(Plan& plan, double size, double growth, std::size_t max_curves) {
+  Cutter cutter(plan, size, growth, max_curves);
+  std::vector<std::vector<double>> cuts;
+  cuts.reserve(plan.curves.size());
+  for (std::size_t e = 0; e < plan.curves.size(); ++e) cuts.push_back(cutter.cuts(e));
+  std::vector<std::vector<int>> pieces(plan.curves.size());
+  std::vector<PlannedCurve> curves;
+  curves.reserve(plan.curves.size());
+  for (std::size_t e = 0; e < cuts.size(); ++e) {
+    PlannedCurve piece = plan.curves[e];
+    const Segment whole = segment_of(plan, piece);
+    const int last = piece.b;
+    const auto add = [&](int b) {
+      piece.b = b;
+      pieces[e].push_back(static_cast<int>(curves.size()));
+      curves.push_back(piece);
+      piece.a = b;
+    };
+    for (const double t : cuts[e]) {
+      plan.points.push_back(point_on(whole, t));
+      add(static_cast<int>(plan.points.size()) - 1);
+    }
+    add(last);
+  }
+  replace_curves(plan, std::move(curves), pieces);
+}
+
+void replace_curves(Plan& plan, std::vector<PlannedCurve> curves,
+                    const std::vector<std::vector<int>>& pieces) {
+  const auto replace = [&](std::vector<int>& list) {
+    std::vector<int> now;
+    for (const int curve : list)
+      now.insert(now.end(), pieces[at(curve)].begin(), pieces[at(curve)].end());
+    list = std::move(now);
+  };
+  const auto replace_loop = [&](std::vector<int>& loop) {
+    std::vector<int> now;
+    for (const int edge : loop) {
+      const std::vector<int>& own = pieces[at(std::abs(edge) - 1)];
+      const auto first = static_cast<std::ptrdiff_t>(now.size());
+      for (const int piece : own) now.push_back(edge > 0 ? piece + 1 : -piece - 1);
+      if (edge < 0) std::reverse(now.begin() + first, now.end());
+    }
+    loop = std::move(now);
+  };
+  plan.curves = std::move(curves);
+  for (PlannedInterface& interface : plan.interfaces) replace(interface.curves);
+  for (PlannedFace& face : plan.faces) {
+    replace_loop(face.outer);
+    for (auto& hole : face.holes) replace_loop(hole);
+    replace(face.embedded);
+  }
 }
 
 }  // namespace anticrack::mesh

@@ -151,6 +151,12 @@ double Line::angle_at(int k, double u) const noexcept {
   return _angles[static_cast<std::size_t>(k)] + u * sweep(k);
 }
 
+double Line::on_line(double t) const noexcept {
+  if (!_closed) return std::clamp(t, 0.0, static_cast<double>(_spans));
+  if (t < 0) t += _spans;
+  return t >= _spans ? t - _spans : t;
+}
+
 Point Line::at(double t) const noexcept {
   const int k = span_of(t);
   const double u = t - k;

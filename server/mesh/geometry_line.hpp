@@ -8,7 +8,6 @@
 
 #include <array>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "mesh/geometry.hpp"
@@ -33,6 +32,9 @@ class Line {
   double length() const noexcept { return _length; }
   /// Points at the parameters 0, 1, ...; of a closed line the last is left out.
   const std::vector<Point>& vertices() const noexcept { return _vertices; }
+
+  /// A parameter at most one turn off a closed line in [0, spans), one of an open line clipped.
+  double on_line(double t) const noexcept;
 
   /// The point at a parameter, clipped to the line, and its derivative by the parameter.
   Point at(double t) const noexcept;

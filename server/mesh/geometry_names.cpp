@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/geometry_names.hpp"
+#include "mesh/geometry_steps.hpp"
 
 #include <algorithm>
 #include <map>

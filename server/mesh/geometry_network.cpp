@@ -2,12 +2,9 @@
 #include "mesh/geometry_network.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
 
 #include "mesh/at.hpp"
-#include "mesh/geometry_crossings.hpp"
 #include "mesh/geometry_primitives.hpp"
 
 namespace anticrack::mesh {

@@ -3,6 +3,7 @@
 // All lines of a geometry cut into straight chords that meet only at their ends.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <unordered_map>
@@ -71,5 +72,18 @@ double station_of(const NetworkLine& line, int point) noexcept;
 /// leave the membrane or meet at too small an angle; limit_exceeded at "options.size" beyond
 /// `max_chords`.
 void cut(Network& network, double size, std::size_t max_chords);
+
+/// Two lines that meet where at least one has no station.
+struct Crossing {
+  std::array<int, 2> line{};
+  std::array<double, 2> t{};
+  Point at{};
+};
+
+/// Checks every pair of chords and returns the crossings that are no stations yet. Throws
+/// geometry_invalid for a line that meets itself, leaves the polygon, touches the boundary other
+/// than with its ends, runs along another line or meets it at less than a degree.
+/// O(c log c + pairs of chords over the same x).
+std::vector<Crossing> find_crossings(const Network& network);
 
 }  // namespace anticrack::mesh

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "mesh/geometry_primitives.hpp"
 

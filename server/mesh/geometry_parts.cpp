@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/geometry_parts.hpp"
+#include "mesh/geometry_steps.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "mesh/at.hpp"
 #include "mesh/geometry_primitives.hpp"
-#include "mesh/geometry_snap.hpp"
 
 namespace anticrack::mesh {
 namespace {

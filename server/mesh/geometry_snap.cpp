@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/geometry_snap.hpp"
+#include "mesh/geometry_steps.hpp"
 
 #include <limits>
 #include <optional>

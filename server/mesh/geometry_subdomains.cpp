@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/geometry_subdomains.hpp"
+#include "mesh/geometry_steps.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,6 @@
 
 #include "mesh/at.hpp"
 #include "mesh/geometry_faces.hpp"
-#include "mesh/geometry_intervals.hpp"
-#include "mesh/geometry_names.hpp"
 #include "mesh/geometry_primitives.hpp"
 #include "mesh/union_find.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "mesh/geometry_primitives.hpp"
@@ -23,24 +22,6 @@ std::array<double, 3> angles(const Point& a, const Point& b, const Point& c) noe
   return {angle_at(a, b, c), angle_at(b, c, a), angle_at(c, a, b)};
 }
 
-Quality quality(const Mesh& mesh) noexcept {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Quality found{180, 0, infinity, 0, infinity};
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const Point a = corner(mesh, t, 0);
-    const Point b = corner(mesh, t, 1);
-    const Point c = corner(mesh, t, 2);
-    const auto [low, high] = std::ranges::minmax(angles(a, b, c));
-    found.minimum_angle = std::min(found.minimum_angle, low);
-    found.maximum_angle = std::max(found.maximum_angle, high);
-    const auto [shortest, diameter] = std::minmax({distance(a, b), distance(b, c), distance(c, a)});
-    found.shortest_edge = std::min(found.shortest_edge, shortest);
-    found.smallest_diameter = std::min(found.smallest_diameter, diameter);
-    found.largest_diameter = std::max(found.largest_diameter, diameter);
-  }
-  return found;
-}
-
 double minimum_angle(const Mesh& mesh) noexcept {
   double smallest = 180;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -48,6 +29,15 @@ double minimum_angle(const Mesh& mesh) noexcept {
     smallest = std::min(smallest, std::ranges::min(of_triangle));
   }
   return smallest;
+}
+
+double longest_edge(const Mesh& mesh) noexcept {
+  double longest = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const Point a = corner(mesh, t, 0), b = corner(mesh, t, 1), c = corner(mesh, t, 2);
+    longest = std::max({longest, distance(a, b), distance(b, c), distance(c, a)});
+  }
+  return longest;
 }
 
 }  // namespace anticrack::mesh

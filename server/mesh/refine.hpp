@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Refinement of a mesh: graded towards the tips by newest-vertex bisection, or everywhere by four.
+// Refinement of a mesh, graded towards the tips, by newest-vertex bisection.
 //
 // At an open delaminated tip one face of the crack is Dirichlet, the other Neumann, and
 // u ~ r^{1/4}; elements of size h0 r^{1-m} with m < 1/4 restore the rates of smooth solutions.
@@ -65,10 +65,6 @@ Mesh grade(const Mesh& base, const Grading& grading, std::size_t max_triangles);
 /// The same towards given nodes of the base.
 Mesh grade(const Mesh& base, std::span<const std::int32_t> centres, const Grading& grading,
            std::size_t max_triangles);
-
-/// Cuts every triangle into four similar to it: the angles stay, h halves everywhere.
-/// Throws errors::Error (limit_exceeded) if the result's indices do not fit. O(m log m).
-Mesh refine_uniform(const Mesh& base);
 
 /// Lower bound, degrees, of all angles `grade` can make of this base: bisection produces four
 /// classes of similar triangles from each triangle. O(m log m).

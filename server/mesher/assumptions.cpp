@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesher/assumptions.hpp"
+#include "mesher/import_steps.hpp"
 
 #include <array>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesher/curve_groups.hpp"
+#include "mesher/import_steps.hpp"
 
 #include <algorithm>
 #include <string_view>

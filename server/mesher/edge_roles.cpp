@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesher/edge_roles.hpp"
+#include "mesher/import_steps.hpp"
 
 #include <algorithm>
 #include <functional>
-#include <optional>
 #include <tuple>
 #include <utility>
 
-#include "mesher/assumptions.hpp"
 #include "mesher/messages.hpp"
 
 namespace anticrack::mesher {

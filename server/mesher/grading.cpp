@@ -87,7 +87,7 @@ mesh::Mesh graded(mesh::Mesh base, const mesh::GradingSpec& spec, std::size_t ma
 
 mesh::Mesh graded(mesh::Mesh base, const mesh::MeshOptions& options, std::size_t max_triangles) {
   if (options.preset == mesh::Preset::graded) {
-    const double h0 = options.size > 0 ? options.size : mesh::quality(base).largest_diameter;
+    const double h0 = options.size > 0 ? options.size : mesh::longest_edge(base);
     return graded(std::move(base), {h0, options.grading, options.tip_size}, max_triangles);
   }
   return graded(std::move(base), {options.size, 1, 0}, max_triangles);

@@ -2,8 +2,8 @@
 //
 // Runs the helper process anticrack-mesher, which alone links gmsh: gmsh has global state (two
 // threads in one process gave 21 bad meshes of 40), runs shell commands from any file it takes for
-// a script, and may crash. The helper has limits of memory, time and descriptors (limits.hpp) and
-// can open no files, start no programs and make no connections (syscall_filter.hpp). The .msh to
+// a script, and may crash. The helper has limits of memory, time and descriptors and
+// can open no files, start no programs and make no connections (restrict.hpp). The .msh to
 // import is opened here and handed over.
 #pragma once
 

@@ -6,14 +6,8 @@
 #include <map>
 #include <utility>
 
-#include "mesher/curve_groups.hpp"
-#include "mesher/edge_roles.hpp"
-#include "mesher/interface_chains.hpp"
+#include "mesher/import_steps.hpp"
 #include "mesher/messages.hpp"
-#include "mesher/plane_mesh.hpp"
-#include "mesher/plus_side.hpp"
-#include "mesher/surface_groups.hpp"
-#include "mesher/welding.hpp"
 
 namespace anticrack::mesher {
 namespace {
@@ -123,16 +117,6 @@ std::vector<std::pair<std::int32_t, std::int32_t>> cuts_of(const std::vector<Cur
   return cuts;
 }
 
-std::vector<bool> boundary_nodes(const mesh::EdgeTable& edges, const Mesh& mesh) {
-  std::vector<bool> found(mesh.node_count(), false);
-  edges.each([&](std::span<const mesh::EdgeUse> uses) {
-    if (uses.size() != 1) return;
-    found[at(uses[0].from)] = true;
-    found[at(uses[0].to)] = true;
-  });
-  return found;
-}
-
 Kind kind_of(CurveRole role) {
   if (role == CurveRole::crack) return Kind::crack;
   if (role == CurveRole::inclusion) return Kind::inclusion;
@@ -189,7 +173,7 @@ Mesh to_mesh(const MshFile& file, const mesh::MeshOptions& options) {
   EdgeRoles roles = read_edges(edges, lines, groups, welding, mesh);
   DirectedLines directed;
   for (const CurveEdge& line : lines) directed.insert({line.from, line.to});
-  take_interfaces(roles, boundary_nodes(edges, mesh), directed, mesh);
+  take_interfaces(roles, edges.boundary_nodes(mesh.node_count()), directed, mesh);
   mesh.dirichlet = std::move(roles.dirichlet);
   shorten(mesh.warnings);
   mesh::validate(mesh);

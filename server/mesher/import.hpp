@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From a .msh file to a mesh: by its groups, by the request's options, else by adjacency.
-//
-// Subdomains: surface_groups.hpp. Curves: curve_groups.hpp (named), edge_roles.hpp (unnamed).
-// Doubled nodes: welding.hpp. Plus side of an interface: plus_side.hpp. Mesh::warnings lists
-// repairs and assumptions.
+// From a .msh file to a mesh: by its groups, by the request's options, else by adjacency
+// (import_steps.hpp). Mesh::warnings lists repairs and assumptions.
 #pragma once
 
 #include <cstddef>

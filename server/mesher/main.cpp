@@ -8,7 +8,6 @@
 
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <iostream>
 #include <new>
 #include <optional>
@@ -22,8 +21,7 @@
 #include "mesher/generate.hpp"
 #include "mesher/grading.hpp"
 #include "mesher/import.hpp"
-#include "mesher/limits.hpp"
-#include "mesher/syscall_filter.hpp"
+#include "mesher/restrict.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesher/plane_mesh.hpp"
+#include "mesher/import_steps.hpp"
 #include "mesher/messages.hpp"
 
 #include <algorithm>

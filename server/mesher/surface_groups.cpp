@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesher/surface_groups.hpp"
+#include "mesher/import_steps.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "mesh/names.hpp"
 #include "mesh/union_find.hpp"

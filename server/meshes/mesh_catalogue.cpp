@@ -5,7 +5,6 @@
 
 #include <optional>
 #include <utility>
-#include <variant>
 
 #include "errors/errors.hpp"
 #include "meshes/identity.hpp"

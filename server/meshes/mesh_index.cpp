@@ -2,7 +2,6 @@
 #include "meshes/mesh_index.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "meshes/identity.hpp"
 #include "meshes/size_class.hpp"

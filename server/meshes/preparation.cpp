@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "meshes/lasting.hpp"
+#include "meshes/mesh_index.hpp"
 #include "meshes/size_class.hpp"
 #include "meshes/triangulation.hpp"
 

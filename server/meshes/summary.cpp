@@ -11,6 +11,7 @@
 
 #include "mesh/at.hpp"
 #include "mesh/edges.hpp"
+#include "mesh/geometry_primitives.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
 #include "mesh/union_find.hpp"
@@ -26,22 +27,14 @@ EdgeKey key(std::int32_t a, std::int32_t b) noexcept {
 }
 
 double length(const mesh::Mesh& mesh, std::int32_t a, std::int32_t b) noexcept {
-  const auto i = 2 * at(a);
-  const auto j = 2 * at(b);
-  return std::hypot(mesh.xy[j] - mesh.xy[i], mesh.xy[j + 1] - mesh.xy[i + 1]);
+  return mesh::distance(mesh::position(mesh, a), mesh::position(mesh, b));
 }
 
-struct EdgeLengths {
-  double shortest = 0;
-  double longest = 0;
-};
-
-EdgeLengths edge_lengths(const mesh::Mesh& mesh, std::size_t triangle) noexcept {
+/// The shortest and the longest.
+std::pair<double, double> edge_lengths(const mesh::Mesh& mesh, std::size_t triangle) noexcept {
   const std::int32_t* node = &mesh.triangles[3 * triangle];
-  const auto [shortest, longest] =
-      std::minmax({length(mesh, node[0], node[1]), length(mesh, node[1], node[2]),
-                   length(mesh, node[2], node[0])});
-  return {shortest, longest};
+  return std::minmax({length(mesh, node[0], node[1]), length(mesh, node[1], node[2]),
+                      length(mesh, node[2], node[0])});
 }
 
 void measure_triangles(const mesh::Mesh& mesh, std::vector<store::SubdomainSummary>& result) {
@@ -56,9 +49,9 @@ void measure_triangles(const mesh::Mesh& mesh, std::vector<store::SubdomainSumma
     const auto angles =
         mesh::angles(mesh::corner(mesh, t, 0), mesh::corner(mesh, t, 1), mesh::corner(mesh, t, 2));
     to.minimum_angle = std::min(to.minimum_angle, *std::min_element(angles.begin(), angles.end()));
-    const EdgeLengths edges = edge_lengths(mesh, t);
-    to.shortest_edge = std::min(to.shortest_edge, edges.shortest);
-    to.longest_edge = std::max(to.longest_edge, edges.longest);
+    const auto [shortest, longest] = edge_lengths(mesh, t);
+    to.shortest_edge = std::min(to.shortest_edge, shortest);
+    to.longest_edge = std::max(to.longest_edge, longest);
   }
 }
 
@@ -144,7 +137,7 @@ std::vector<store::TipSummary> tip_summaries(const mesh::Mesh& mesh) {
     const std::size_t tip = tip_at[at(mesh.triangles[corner])];
     if (tip == none) continue;
     double& smallest = result[tip].smallest_edge;
-    smallest = std::min(smallest, edge_lengths(mesh, corner / 3).shortest);
+    smallest = std::min(smallest, edge_lengths(mesh, corner / 3).first);
   }
   return result;
 }
@@ -192,7 +185,9 @@ void summarize(const mesh::Mesh& mesh, store::MeshRecord& record) {
     record.interfaces.push_back(summary(mesh, interface));
   record.inclusions = mesh.inclusions;
   record.warnings = mesh.warnings;
-  record.minimum_angle = mesh::minimum_angle(mesh);
+  record.minimum_angle =
+      std::ranges::min(record.subdomains, {}, &store::SubdomainSummary::minimum_angle)
+          .minimum_angle;
   record.bisection_bound = mesh.bisection_bound;
   record.tips = tip_summaries(mesh);
   measure_boundary(mesh, edges, record);

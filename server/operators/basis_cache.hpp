@@ -8,13 +8,16 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "contact/sweep_solver.hpp"
-#include "ddm/load_products.hpp"
+#include "ddm/subdomain_operator.hpp"
+#include "fem/load.hpp"
 #include "operators/condense_loads.hpp"
 
 namespace anticrack::operators {
@@ -29,6 +32,10 @@ struct CondensedBasis {
   /// Memory of its arrays.
   std::size_t bytes() const noexcept;
 };
+
+/// Key of a list of loads: equal if and only if all their fields but the names are; an array is
+/// represented by the hash of its upload. None if an array has no hash.
+std::optional<std::string> key_of(std::span<const fem::Load* const> loads);
 
 /// The bases of one mesh used last: at most 8, and 64 MiB with their keys. The least recently used
 /// one is dropped first; a basis too large alone is not kept. Thread-safe; no lock is held while a

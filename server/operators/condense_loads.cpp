@@ -6,12 +6,9 @@
 #include <sstream>
 #include <utility>
 
-#include "errors/errors.hpp"
 #include "fem/load_vector.hpp"
 #include "fem/traction.hpp"
 #include "mesh/at.hpp"
-#include "operators/known_names.hpp"
-#include "operators/place_forces.hpp"
 
 namespace anticrack::operators {
 namespace {

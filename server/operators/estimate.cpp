@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "ddm/sides.hpp"
+#include "ddm/cut_steps.hpp"
 #include "mesh/at.hpp"
 #include "operators/mesh_operator.hpp"
 

@@ -2,13 +2,10 @@
 #include "operators/mesh_operator.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
-#include <string>
 
 #include "ddm/at_once.hpp"
 #include "ddm/blas.hpp"
-#include "errors/errors.hpp"
 #include "operators/mesh_parts.hpp"
 
 namespace anticrack::operators {
@@ -81,14 +78,11 @@ void MeshOperator::Parts::require_uzawa() const {
     throw errors::Error(errors::Reason::not_implemented, uzawa_obstacle).at("uzawa");
 }
 
-MeshOperator::MeshOperator(std::unique_ptr<const Parts> parts) : _parts(std::move(parts)) {}
-MeshOperator::~MeshOperator() = default;
-
 std::shared_ptr<const MeshOperator> MeshOperator::factorise(std::shared_ptr<const mesh::Mesh> mesh,
                                                             int threads, std::stop_token stop) {
   require_threadsafe_blas();
   require_running(stop);
-  auto parts = std::make_unique<const Parts>(std::move(mesh), threads, stop);
+  auto parts = std::make_shared<const Parts>(std::move(mesh), threads, stop);
   return std::shared_ptr<const MeshOperator>(new MeshOperator(std::move(parts)));
 }
 

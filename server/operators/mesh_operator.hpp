@@ -11,11 +11,11 @@
 #include <span>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "contact/answer.hpp"
-#include "contact/sweep_columns.hpp"
 #include "errors/errors.hpp"
 #include "fem/load.hpp"
 #include "mesh/mesh.hpp"
@@ -36,8 +36,6 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// Cholesky factorisation per subdomain plus O(n_G^3) for n_G interface nodes.
   static std::shared_ptr<const MeshOperator> factorise(std::shared_ptr<const mesh::Mesh> mesh,
                                                        int threads, std::stop_token stop);
-  ~MeshOperator();
-
   /// One load case. O(n_G^2) an iteration of Algorithm 2, O(c^3) a step of the active set with c
   /// crack nodes, O(N) before and (for fields) after. Same mesh, load and options: same bits.
   /// Throws errors::Error: expression_invalid (a value that is not finite, with the place);
@@ -110,7 +108,7 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
  private:
   friend class UzawaBlock;
   struct Parts;
-  explicit MeshOperator(std::unique_ptr<const Parts> parts);
+  explicit MeshOperator(std::shared_ptr<const Parts> parts) : _parts(std::move(parts)) {}
   /// Throws errors::Error (internal) unless the load is of this mesh, and has fields if asked for.
   void require_prepared(const PreparedLoad& load, bool fields) const;
   /// Calls solve_row(solver, row) for each row. Throws errors::Error (internal) for another shape.
@@ -118,28 +116,27 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   bool sweep_rows(const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
                   std::vector<char>& start, const std::stop_token& stop,
                   const SolveRow& solve_row) const;
-  std::unique_ptr<const Parts> _parts;
+  std::shared_ptr<const Parts> _parts;
 };
 
 /// A load condensed on one mesh. Keeps the mesh's operators alive.
 class PreparedLoad {
  public:
-  PreparedLoad(PreparedLoad&&) noexcept;
-  PreparedLoad& operator=(PreparedLoad&&) noexcept;
-  ~PreparedLoad();
+  struct Data;
+  explicit PreparedLoad(std::shared_ptr<const Data> data) : _data(std::move(data)) {}
 
  private:
   friend class MeshOperator;
   friend class UzawaBlock;
-  struct Data;
-  explicit PreparedLoad(std::unique_ptr<Data> data);
-  std::unique_ptr<Data> _data;
+  std::shared_ptr<const Data> _data;
 };
 
 /// Condensed loads f_1 ... f_m of one mesh, whose operators it keeps alive. Immutable, thread-safe.
 class LoadBasis {
  public:
-  ~LoadBasis();
+  struct Data;
+  explicit LoadBasis(std::shared_ptr<const Data> data) : _data(std::move(data)) {}
+
   std::size_t size() const noexcept;   ///< m
   std::size_t bytes() const noexcept;  ///< memory held
   /// Of all of them, as they stand in an answer.
@@ -147,9 +144,7 @@ class LoadBasis {
 
  private:
   friend class MeshOperator;
-  struct Data;
-  explicit LoadBasis(std::unique_ptr<const Data> data);
-  std::unique_ptr<const Data> _data;
+  std::shared_ptr<const Data> _data;
 };
 
 /// Load cases of one mesh that iterate Algorithm 2 together, one column each: matrix products

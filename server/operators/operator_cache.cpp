@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <map>
 #include <mutex>
 #include <new>
 #include <optional>
@@ -11,7 +12,6 @@
 #include <vector>
 
 #include "errors/errors.hpp"
-#include "operators/eviction.hpp"
 #include "operators/freed_memory.hpp"
 
 namespace anticrack::operators {
@@ -127,19 +127,24 @@ struct OperatorCache::State {
     return taken;
   }
 
-  /// Takes out operators, least recently used first, until the rest and `wanted` fit in `limit`;
-  /// none if that is impossible.
+  /// Takes out operators that are not pinned, least recently used first, until the rest and
+  /// `wanted` fit in `limit`; none if that is impossible. O(n log n).
   std::optional<Operators> evict(std::uint64_t wanted, std::uint64_t limit) {
-    std::vector<Candidate> candidates;
-    std::vector<std::string> keys;
+    if (wanted > limit) return std::nullopt;
+    std::uint64_t held = 0;
+    std::map<std::uint64_t, std::pair<std::string, std::uint64_t>> candidates;  // by last use
     for (const auto& [key, entry] : entries) {
-      candidates.push_back({entry.bytes(), entry.last_use, entry.pinned()});
-      keys.push_back(key);
+      held += entry.bytes();
+      if (!entry.pinned()) candidates[entry.last_use] = {key, entry.bytes()};
     }
-    const auto chosen = evictions(candidates, wanted, limit);
-    if (!chosen) return std::nullopt;
+    std::vector<std::string> chosen;
+    for (auto next = candidates.begin(); held > limit - wanted; ++next) {
+      if (next == candidates.end()) return std::nullopt;
+      held -= next->second.second;
+      chosen.push_back(next->second.first);
+    }
     Operators evicted;
-    for (const std::size_t index : *chosen) evicted.push_back(take(keys[index]));
+    for (const std::string& key : chosen) evicted.push_back(take(key));
     return evicted;
   }
 

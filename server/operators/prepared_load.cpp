@@ -7,11 +7,6 @@
 
 namespace anticrack::operators {
 
-PreparedLoad::PreparedLoad(std::unique_ptr<Data> data) : _data(std::move(data)) {}
-PreparedLoad::PreparedLoad(PreparedLoad&&) noexcept = default;
-PreparedLoad& PreparedLoad::operator=(PreparedLoad&&) noexcept = default;
-PreparedLoad::~PreparedLoad() = default;
-
 void PreparedLoad::Data::add_warnings(contact::Answer& answer) const {
   answer.warnings.insert(answer.warnings.end(), condensed.warnings.begin(),
                          condensed.warnings.end());
@@ -36,7 +31,7 @@ std::vector<std::variant<PreparedLoad, errors::Error>> MeshOperator::prepare(
     if (auto* load = std::get_if<LoadOnTraces>(&one)) {
       for (ddm::CondensedLoad& on_subdomain : load->subdomains)
         on_subdomain.z_boundary.resize(0);  // as long as the interior, and for a basis alone
-      prepared.emplace_back(PreparedLoad(std::make_unique<PreparedLoad::Data>(
+      prepared.emplace_back(PreparedLoad(std::make_shared<const PreparedLoad::Data>(
           PreparedLoad::Data{shared_from_this(), std::move(*load)})));
     } else {
       prepared.emplace_back(std::get<errors::Error>(std::move(one)));

@@ -8,7 +8,6 @@
 #include "contact/sweep_solver.hpp"
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
-#include "operators/load_key.hpp"
 #include "operators/mesh_parts.hpp"
 
 namespace anticrack::operators {
@@ -78,9 +77,6 @@ CondensedBasis basis_of(std::vector<LoadOnTraces> loads, const contact::Skeleton
 
 }  // namespace
 
-LoadBasis::LoadBasis(std::unique_ptr<const Data> data) : _data(std::move(data)) {}
-LoadBasis::~LoadBasis() = default;
-
 std::size_t LoadBasis::size() const noexcept {
   return _data->basis->loads.size();
 }
@@ -107,8 +103,8 @@ std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* 
                  _parts->skeleton, _parts->mesh->inclusions.size()));
   };
   const std::optional<std::string> key = key_of(loads);
-  return std::shared_ptr<const LoadBasis>(new LoadBasis(std::make_unique<const LoadBasis::Data>(
-      LoadBasis::Data{shared_from_this(), key ? _parts->bases.get(*key, stop, make) : make()})));
+  return std::make_shared<const LoadBasis>(std::make_shared<const LoadBasis::Data>(
+      LoadBasis::Data{shared_from_this(), key ? _parts->bases.get(*key, stop, make) : make()}));
 }
 
 template <class SolveRow>
@@ -162,7 +158,7 @@ PreparedLoad MeshOperator::combine(const LoadBasis& basis,
   const CondensedBasis& condensed = *basis._data->basis;
   const Eigen::Map<const Eigen::VectorXd> c(coefficients.data(),
                                             static_cast<Index>(coefficients.size()));
-  auto data = std::make_unique<PreparedLoad::Data>();
+  auto data = std::make_shared<PreparedLoad::Data>();
   data->mesh_operator = shared_from_this();
   data->has_interior = false;
   data->condensed.warnings = condensed.warnings;

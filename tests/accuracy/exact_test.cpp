@@ -11,6 +11,7 @@
 #include "accuracy/error_norms.hpp"
 #include "accuracy/sequence.hpp"
 #include "mesh/refine.hpp"
+#include "support/mesh_quality.hpp"
 
 namespace anticrack::accuracy {
 namespace {

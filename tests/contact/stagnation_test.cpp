@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/stagnation.hpp"
+#include "contact/uzawa_block.hpp"
 
 #include <gtest/gtest.h>
 

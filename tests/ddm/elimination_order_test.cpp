@@ -13,9 +13,7 @@
 #include <random>
 #include <utility>
 
-#include "ddm/curve_order.hpp"
-#include "ddm/minimum_degree.hpp"
-#include "ddm/nested_dissection.hpp"
+#include "ddm/cut_steps.hpp"
 #include "ddm/vertex_separator.hpp"
 #include "mesh/at.hpp"
 

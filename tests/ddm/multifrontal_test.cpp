@@ -13,7 +13,7 @@
 
 #include "ddm/blas.hpp"
 #include "ddm/elimination_order.hpp"
-#include "ddm/front_kernel.hpp"
+#include "ddm/kernels.hpp"
 #include "ddm/subdomain_factor.hpp"
 #include "support/recovered.hpp"
 
@@ -60,10 +60,8 @@ TEST(Front, IsEliminatedByEachKernelAndByBlas) {
   require_threadsafe_blas();  // one thread, as wherever fronts are eliminated
   std::srand(5);
   std::vector<Front> kernels = {eliminate_front};
-  for (const auto instructions :
-       {Instructions::baseline, Instructions::avx2, Instructions::avx512}) {
-    if (const FrontKernel kernel = front_kernel(instructions)) kernels.push_back(kernel);
-  }
+  for (int rank = 0; const Kernels* versions = supported_kernels(rank); ++rank)
+    kernels.push_back(versions->eliminate_small_front);
   constexpr std::array<std::array<int, 2>, 9> sizes = {
       {{1, 0}, {1, 1}, {3, 7}, {4, 8}, {5, 0}, {13, 29}, {32, 40}, {60, 0}, {70, 133}}};
   for (const Front kernel : kernels) {

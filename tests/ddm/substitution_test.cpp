@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ddm/substitution.hpp"
+#include "ddm/kernels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -70,6 +70,8 @@ class RandomFactor {
   std::vector<double> _values;
 };
 
+using SubstitutionKernel = decltype(Kernels::forward);
+
 MatrixXd solve(SubstitutionKernel kernel, const Supernodes& factor, const MatrixXd& f, int width) {
   const auto rows = f.rows();
   const std::unique_ptr<double, Free> y(static_cast<double*>(std::aligned_alloc(
@@ -109,7 +111,7 @@ MatrixXd expected_backward(const MatrixXd& l, int columns, MatrixXd y) {
 
 struct Substitution {
   const char* name;
-  SubstitutionKernel (*kernel)(Instructions);
+  SubstitutionKernel Kernels::*kernel;
   MatrixXd (*expected)(const MatrixXd& l, int columns, MatrixXd y);
 };
 
@@ -121,11 +123,8 @@ class Substitutions : public ::testing::TestWithParam<Substitution> {
  protected:
   static std::vector<SubstitutionKernel> kernels() {
     std::vector<SubstitutionKernel> result;
-    for (const auto instructions :
-         {Instructions::baseline, Instructions::avx2, Instructions::avx512}) {
-      if (const SubstitutionKernel kernel = GetParam().kernel(instructions))
-        result.push_back(kernel);
-    }
+    for (int rank = 0; const Kernels* kernels = supported_kernels(rank); ++rank)
+      result.push_back(kernels->*GetParam().kernel);
     return result;
   }
 };
@@ -164,8 +163,8 @@ TEST_P(Substitutions, GiveAColumnTheSameBitsInAnyCompany) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, Substitutions,
-                         ::testing::Values(Substitution{"forward", forward_kernel, expected},
-                                           Substitution{"backward", backward_kernel,
+                         ::testing::Values(Substitution{"forward", &Kernels::forward, expected},
+                                           Substitution{"backward", &Kernels::backward,
                                                         expected_backward}),
                          [](const auto& both) { return std::string(both.param.name); });
 

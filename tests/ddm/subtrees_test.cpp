@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ddm/subtrees.hpp"
+#include "ddm/multifrontal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

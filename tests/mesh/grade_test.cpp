@@ -8,10 +8,10 @@
 
 #include "errors/errors.hpp"
 #include "mesh/edges.hpp"
-#include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
 #include "mesh/refinement_checks.hpp"
 #include "mesh/refinement_mesh.hpp"
+#include "support/mesh_quality.hpp"
 
 namespace anticrack::mesh {
 namespace {

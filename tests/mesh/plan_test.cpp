@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "mesh/geometry.hpp"
-#include "mesh/geometry_intervals.hpp"
+#include "mesh/geometry_steps.hpp"
 #include "mesh/plan_checks.hpp"
 #include "mesh/plans.hpp"
 #include "support/errors.hpp"

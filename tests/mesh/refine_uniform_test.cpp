@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
 #include "mesh/refinement_checks.hpp"
 #include "mesh/refinement_mesh.hpp"
+#include "support/mesh_quality.hpp"
 
 namespace anticrack::mesh {
 namespace {

@@ -4,6 +4,7 @@
 #include "mesh/refine.hpp"
 #include "mesh/refinement_checks.hpp"
 #include "mesh/refinement_mesh.hpp"
+#include "support/mesh_quality.hpp"
 
 namespace anticrack::mesh {
 namespace {

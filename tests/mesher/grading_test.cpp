@@ -7,6 +7,7 @@
 #include "mesh/refine.hpp"
 #include "mesh/refinement_mesh.hpp"
 #include "support/errors.hpp"
+#include "support/mesh_quality.hpp"
 
 namespace anticrack::mesher {
 namespace {

@@ -17,7 +17,7 @@
 
 #include "mesher/msh_writer.hpp"
 #include "mesher/real_helper.hpp"
-#include "mesher/sanitized.hpp"
+#include "mesher/restrict.hpp"
 #include "support/errors.hpp"
 #include "support/paper_geometry.hpp"
 #include "support/temporary_folder.hpp"

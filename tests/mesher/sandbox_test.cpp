@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "mesher/real_helper.hpp"
-#include "mesher/sanitized.hpp"
+#include "mesher/restrict.hpp"
 #include "support/errors.hpp"
 #include "support/eventually.hpp"
 #include "support/paper_geometry.hpp"

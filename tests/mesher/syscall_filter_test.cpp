@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Each test is a process that forbids itself system calls and then does something.
-#include "mesher/syscall_filter.hpp"
+#include "mesher/restrict.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -22,8 +22,6 @@
 #include <string>
 #include <tuple>
 #include <vector>
-
-#include "mesher/sanitized.hpp"
 
 namespace anticrack {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "meshes/lasting.hpp"
+#include "meshes/mesh_index.hpp"
 #include "support/backend.hpp"
 #include "support/errors.hpp"
 #include "support/eventually.hpp"

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "operators/basis_cache.hpp"
-#include "operators/load_key.hpp"
 #include "operators/sweep_support.hpp"
 #include "support/errors.hpp"
 

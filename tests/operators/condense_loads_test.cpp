@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "operators/place_forces.hpp"
 #include "support/errors.hpp"
 #include "support/structured_mesh.hpp"
 

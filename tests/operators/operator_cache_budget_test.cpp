@@ -48,6 +48,26 @@ TEST_F(OperatorCacheBudget, EvictsTheLeastRecentlyUsed) {
   EXPECT_EQ(cache.metrics().bytes, 2 * measured);
 }
 
+TEST_F(OperatorCacheBudget, EvictsAsManyAsNeededAndNoMore) {
+  const auto large = small_mesh(32);
+  OperatorCache several(estimate_bytes(*large) + measured, std::ref(factorise));
+  for (const char* key : {"a", "b", "c", "a"}) acquire(several, key);
+  several.acquire("large", large, {});
+  EXPECT_TRUE(several.contains("a") && several.contains("large"));
+  EXPECT_FALSE(several.contains("b") || several.contains("c"));
+  EXPECT_EQ(several.metrics().evictions, 2U);
+}
+
+TEST_F(OperatorCacheBudget, EvictsNothingWhereItWouldNotHelp) {
+  const auto large = small_mesh(32);
+  OperatorCache several(estimate_bytes(*large), std::ref(factorise));
+  const Operator a = acquire(several, "a");
+  acquire(several, "b");
+  EXPECT_TRUE(throws([&] { several.acquire("large", large, {}); }, Reason::busy));
+  EXPECT_TRUE(several.contains("b"));
+  EXPECT_EQ(several.metrics().evictions, 0U);
+}
+
 TEST_F(OperatorCacheBudget, NeverEvictsWhatSomebodyHolds) {
   const Operator a = acquire(cache, "a");
   acquire(cache, "b");

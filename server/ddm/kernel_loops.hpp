@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// For the loops of forward_kernel.hpp and backward_kernel.hpp.
-#pragma once
+// The loops of kernels.hpp: include it once in a file compiled for an instruction set, with
+// ANTICRACK_KERNELS the name of the Kernels and ANTICRACK_ROWS the rows of a block that fit its
+// registers. Calls no function of a library: an inline one compiled here could be linked into code
+// for any processor.
+#include "ddm/kernels.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -19,4 +22,15 @@ inline void fetch(const double* values, int count) {
 constexpr int ahead = 1024;
 
 }  // namespace
+}  // namespace anticrack::ddm
+
+#include "ddm/forward_kernel.hpp"
+// Needs the forward kernel.
+#include "ddm/backward_kernel.hpp"
+#include "ddm/front_kernel.hpp"
+
+namespace anticrack::ddm {
+
+extern const Kernels ANTICRACK_KERNELS{forward_solve, backward_solve, eliminate_small_front};
+
 }  // namespace anticrack::ddm

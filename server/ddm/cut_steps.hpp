@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The sides of interface nodes: the fans into which interface edges cut the triangles around a
-// node.
+// The steps of cut(): the sides of interface nodes, what ties them, and what holds the parts.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "ddm/decomposition.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::ddm {
@@ -43,5 +44,36 @@ Sides find_sides(const mesh::Mesh& mesh);
 
 /// "(x, y)" of a node, for messages.
 std::string place(const mesh::Mesh& mesh, std::int32_t node);
+
+// Which sides share one value, and the conditions that remain between the others.
+
+/// Two sides of a node with an interface edge between them.
+struct Couple {
+  std::int32_t minus = 0;
+  std::int32_t plus = 0;
+  std::int32_t contact = -1;
+};
+
+struct Ties {
+  std::vector<std::int32_t> unknown;  ///< (sides) entry of w
+  std::vector<std::int32_t> rigid;    ///< (sides) inclusion it is the plus side of, or -1
+  Skeleton skeleton;
+  std::vector<Couple> couples;                      ///< in the order of the edges
+  std::vector<std::array<std::int32_t, 2>> of_end;  ///< (edges) couple at each end, or -1
+};
+
+/// Throws errors::Error as `cut` does. O(k log k).
+Ties tie(const mesh::Mesh& mesh, const Sides& sides);
+
+// Parts of the membrane that could move as a whole, which makes matrices singular.
+
+/// Sets Subdomain::floating. O(n). Throws errors::Error: mesh_invalid for a part with neither
+/// Dirichlet nor interface nodes; numerical for a part that no chain of tied sides joins to a
+/// Dirichlet node.
+void find_floating_parts(Decomposition& decomposition);
+
+/// Sorts nodes along a Z-order curve (G. Morton, 1966) over their bounding box, 2^16 cells a side,
+/// stable within a cell, so that nearby nodes share cache lines. `xy`: (n,2) row-major. O(k).
+void sort_along_curve(std::vector<std::int32_t>& nodes, std::span<const double> xy);
 
 }  // namespace anticrack::ddm

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The steps of plan(), in their order, over the lines of geometry_network.hpp.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/geometry.hpp"
+#include "mesh/geometry_network.hpp"
+
+namespace anticrack::mesh {
+
+// Ends that lie a little off their line, as rounded coordinates do on an oblique one.
+
+/// A point this near to the line it must lie on is moved onto it: 1e-6 of the boundary's diagonal.
+double snap_distance(const Network& network) noexcept;
+
+/// Moves points of `geometry` that are on no line of the network within its tolerance, but within
+/// snap_distance of one: ends of interfaces onto the boundary or another interface, ends of parts
+/// onto an interface, those of the Neumann boundary onto the boundary. Each is told in `warnings`,
+/// up to a hundred. `network`: of the same geometry. Returns whether a point was moved. O(points
+/// times lines).
+bool snap_ends(const Network& network, Geometry& geometry, std::vector<std::string>& warnings);
+
+/// The names of the interfaces, empty ones filled in. Throws errors::Error (geometry_invalid, or
+/// limit_exceeded) at "interfaces[0].name", "inclusions[0].name", ... for a malformed name or one
+/// used twice; inclusions and cracks share one set of names, interfaces and regions have their own.
+std::vector<std::string> check_names(const Geometry& geometry);
+
+/// `name`, or the first of `name`-2, `name`-3, ... not in `used`; added to `used`.
+std::string unused_name(const std::string& name, std::vector<std::string>& used);
+
+// Inclusions and cracks on the interfaces, and the Neumann boundary, as stretches of lines.
+
+/// A stretch of an interface that is not glue. On a closed one `end` may lie past the line's last
+/// parameter.
+struct Stretch {
+  int line = 0;
+  double begin = 0;
+  double end = 0;
+  Kind kind = Kind::crack;
+  int inclusion = -1;
+};
+
+/// A whole inclusion or crack.
+struct PlacedPart {
+  int line = 0;
+  Station begin;
+  Station end;
+  std::string field;      ///< of the inclusion or crack
+  int inclusion = -1;     ///< -1: a crack
+  bool reversed = false;  ///< `begin` is the part's `to`
+};
+
+struct Layout {
+  std::vector<PlacedPart> parts;
+  std::vector<Stretch> stretches;
+  std::vector<Stretch> neumann;  ///< of line 0
+};
+
+/// Places the parts on the lines, which get stations at their ends; a tip keeps the coordinates it
+/// was given. Throws errors::Error (geometry_invalid) at "inclusions[1].part.from",
+/// "neumann[0].to", ... for a part off every interface, without length, or overlapping another one.
+Layout lay_parts(const Geometry& geometry, Network& network);
+
+/// The stretch that holds a chord; none: null.
+const Stretch* stretch_of(const std::vector<Stretch>& stretches, const Network& network,
+                          const Chord& chord) noexcept;
+
+// From chords with their conditions to faces, subdomains and interface chains.
+
+/// Fills the faces, `left` and `right` of the curves and the interfaces of a plan whose curves are
+/// the chords of the network, one by one, with role, kind and inclusion set. Glue with the same
+/// subdomain on both sides is removed; an interface becomes the chains that are left of it. Faces
+/// separated by align lines only are one subdomain and share its name. Subdomains are numbered in
+/// the order in which a walk along the interfaces meets them, minus side first. `names`: of the
+/// interfaces. Throws errors::Error (geometry_invalid) at "interfaces[i].polyline" for an interface
+/// of which nothing is left, at "regions[i].at" for a region outside the membrane, on a line, or in
+/// a subdomain that another region names.
+void lay_subdomains(const Geometry& geometry, const Network& network,
+                    const std::vector<std::string>& names, Plan& plan);
+
+// How many pieces a curve is cut into.
+
+/// Distributes `total` intervals over curves by length, which is positive: largest remainder, at
+/// least one each (so the sum is max(total, curves)); ties go to the earlier curve.
+/// O(k log k) for k curves and a total of that order.
+std::vector<int> apportion(std::span<const double> lengths, int total);
+
+/// Section 8 of the paper: 80 intervals on all glue together, 80 on the rest of the interface, 80
+/// on the outer boundary of each subdomain. For a plan of two faces and one interface.
+void set_paper_intervals(Plan& plan);
+
+/// Cuts curves that are too long for what is near them: an edge is at most twice as long as the
+/// distance to a curve it shares no point with, or as the shortest curve at its end, and may grow
+/// by `growth` per unit length away from there. Curves that `size` makes short enough stay whole.
+/// Throws errors::Error (limit_exceeded) beyond `max_curves`. O(c^2).
+void cut_near(Plan& plan, double size, double growth, std::size_t max_curves);
+
+/// Replaces the plan's curves. `pieces`: for each old curve, the new ones it became, in its own
+/// direction; empty for a curve that was removed.
+void replace_curves(Plan& plan, std::vector<PlannedCurve> curves,
+                    const std::vector<std::vector<int>>& pieces);
+
+/// Sets the intervals of each curve to pieces of at most `size`.
+void set_intervals(Plan& plan, double size);
+
+/// Distance of its end points.
+double length_of(const Plan& plan, const PlannedCurve& curve) noexcept;
+
+}  // namespace anticrack::mesh
