@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Watching a job with a live view, and what Ctrl-C means meanwhile.
+// Watching a job or a mesh with a live view, and what Ctrl-C means meanwhile.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
+#include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
-#include "cli/ahead.hpp"
 #include "cli/session.hpp"
+#include "cli/submit.hpp"
 
 namespace anticrack::cli {
 
@@ -24,5 +25,10 @@ struct Followed {
 /// would not outlive the command. `rows`: of a sweep, where the caller knows them: the server does
 /// not say before it has the mesh.
 Followed follow(Session& session, const v1::Job& job, std::uint64_t rows = 0);
+
+/// The mesh once the server is done with it: READY, EVICTED or FAILED. On a terminal one line shows
+/// state and time, and is wiped at the end; elsewhere each state is a line. Throws client::Error,
+/// and client::Interrupted on Ctrl-C: the server goes on.
+v1::Mesh follow_mesh(Session& session, const std::string& name);
 
 }  // namespace anticrack::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/follow_mesh.hpp"
+#include "cli/follow.hpp"
 
 #include <chrono>
 #include <cmath>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Frames for who runs a command, as long as it waits for something.
+// Frames shown on the terminal while a command waits.
 #pragma once
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/session.hpp"
@@ -17,9 +18,21 @@ namespace anticrack::cli {
 class Frames {
  public:
   /// `render` gives the lines of a frame; it is called on the painter's thread.
-  Frames(Session& session, std::function<std::vector<std::string>(Size)> render);
+  Frames(Session& session, std::function<std::vector<std::string>(Size)> render)
+      : _signals(session.signals()), _painter(people(session.globals()), std::move(render)) {
+    _signals.tell_screen([this](Signals::Screen event) {
+      switch (event) {
+        case Signals::Screen::leaving:
+          return _painter.pause();
+        case Signals::Screen::back:
+          return _painter.resume();
+        case Signals::Screen::resized:
+          return _painter.redraw();
+      }
+    });
+  }
   /// Draws the last frame and leaves it.
-  ~Frames();
+  ~Frames() { _signals.tell_screen({}); }
   Frames(const Frames&) = delete;
   Frames& operator=(const Frames&) = delete;
 

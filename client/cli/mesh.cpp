@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "cli/exit_codes.hpp"
-#include "cli/follow_mesh.hpp"
+#include "cli/follow.hpp"
 #include "cli/json.hpp"
 #include "cli/mesh_text.hpp"
 #include "cli/options.hpp"

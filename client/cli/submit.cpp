@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <exception>
 #include <map>
 #include <optional>
 #include <utility>
@@ -54,6 +55,18 @@ void upload_forces(Session& session, const casefile::Case& the_case, v1::Job& jo
         ->mutable_array()
         ->set_upload(uploads[indices.at({file.path, file.dataset})]);
   }
+}
+
+std::shared_ptr<Ahead> fetch_now(Session& session, const std::string& mesh) {
+  auto ahead = std::make_shared<Ahead>();
+  client::Connection& connection = session.connection();
+  const std::stop_token stop = session.stop();
+  ahead->mesh = client::get_mesh(connection, mesh, stop);
+  if (ahead->mesh.state() != v1::Mesh::STATE_READY) return nullptr;
+  ahead->server = client::server_info(connection, stop);
+  ahead->mesh_block = client::read_mesh(connection, mesh, stop);
+  ahead->compressed = results::compress(to_mesh_plan(ahead->mesh, ahead->mesh_block).mesh);
+  return ahead;
 }
 
 }  // namespace
@@ -154,6 +167,18 @@ results::Result fetch(Session& session, const v1::Job& job, const std::stop_toke
 
 int exit_code_of(v1::Job::State state) {
   return state == v1::Job::STATE_SUCCEEDED ? exit_ok : exit_job_failed;
+}
+
+AheadFuture fetch_ahead(Session& session, const std::string& mesh) {
+  return std::async(std::launch::async,
+                    [&session, mesh]() -> std::shared_ptr<Ahead> {
+                      try {
+                        return fetch_now(session, mesh);
+                      } catch (const std::exception&) {
+                        return nullptr;
+                      }
+                    })
+      .share();
 }
 
 }  // namespace anticrack::cli

@@ -5,16 +5,19 @@
 
 #include <filesystem>
 #include <functional>
+#include <future>
+#include <memory>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 #include "anticrack/v1/mesh.pb.h"
+#include "anticrack/v1/server.pb.h"
 #include "anticrack/v1/solve.pb.h"
 #include "casefile/case.hpp"
-#include "cli/ahead.hpp"
 #include "cli/session.hpp"
-#include "results/result.hpp"
+#include "client/block.hpp"
+#include "results/file.hpp"
 
 namespace CLI {
 class App;
@@ -53,6 +56,21 @@ v1::Job submit(Session& session, const casefile::Case& the_case, const std::stri
 
 /// What a command that submits and does not wait says.
 void tell_submitted(const Session& session, const v1::Job& job);
+
+/// What a result file needs besides the answers: fetched and compressed while the job is solved.
+struct Ahead {
+  v1::Mesh mesh;
+  v1::ServerInfo server;
+  client::Block mesh_block;
+  results::CompressedMesh compressed;
+};
+
+/// Null if the mesh was not READY yet or something failed. Everything is then fetched at the end,
+/// which also reports what is wrong.
+using AheadFuture = std::shared_future<std::shared_ptr<Ahead>>;
+
+/// Begins on a thread of its own. The session must outlive the future.
+AheadFuture fetch_ahead(Session& session, const std::string& mesh);
 
 /// Everything about a job that has ended and has results. `ahead`: what of it is here already, its
 /// block is taken; may be null.

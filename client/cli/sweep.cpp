@@ -9,7 +9,7 @@
 
 #include "cli/answers.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/follow_mesh.hpp"
+#include "cli/follow.hpp"
 #include "cli/job_run.hpp"
 #include "cli/options.hpp"
 #include "cli/sweep_input.hpp"

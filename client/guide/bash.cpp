@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <sstream>
 
-#include "guide/shells.hpp"
+#include "guide/completion.hpp"
 
 namespace anticrack::guide {
 namespace {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "guide/completion.hpp"
-#include <algorithm>
 
-#include "guide/shells.hpp"
+#include <algorithm>
 
 namespace anticrack::guide {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Named arrays in one run of bytes, as ReadMesh and ReadResult stream them, and how they are put
-// together again from checked pieces.
+// Named arrays in one byte string, as streamed by ReadMesh and ReadResult, reassembled and checked.
 #pragma once
 
 #include <cstddef>

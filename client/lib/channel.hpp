@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// gRPC's side of a Connection and the loop every call runs in: try, wait, try again. For the
-// sources of this folder only.
+// The gRPC part of a Connection, and the retry loop of every call. For this folder only.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -22,7 +21,7 @@
 namespace anticrack::client {
 
 struct Connection::State {
-  /// Opens the channels; connects to nobody yet.
+  /// Creates the channels without connecting.
   explicit State(ConnectionOptions chosen);
 
   ConnectionOptions options;
@@ -39,8 +38,8 @@ struct Connection::State {
 /// Puts the token of the connection, if any, on a call that is about to start.
 void authorise(const Connection::State& state, grpc::ClientContext& context);
 
-/// The error of a call that ended with `status`, which is not OK. UNAVAILABLE without a word from
-/// the server, and a refusal of who we are, get the cure into their messages.
+/// The error of a call that ended with `status`, which is not OK. The messages of
+/// UNAVAILABLE without a reply of the server, and of refused credentials, say how to cure it.
 Error error_of(const Connection::State& state, const grpc::Status& status);
 
 /// Waits before the next try of a call, or gives up.
@@ -49,7 +48,7 @@ class Retries {
   /// `channel`: that of the call.
   Retries(Connection::State& state, grpc::Channel& channel);
 
-  /// Returns when it is time to try again; throws `error` when it is no use, Interrupted on `stop`.
+  /// Returns when it is time to try again. Throws `error` to give up, Interrupted on `stop`.
   void wait(const Error& error, const std::stop_token& stop);
   /// The server has answered.
   void succeeded();
@@ -77,9 +76,8 @@ grpc::Status try_call(const Connection::State& state, Stub& stub,
   return (stub.*method)(&context, request, &response);
 }
 
-/// What a unary method answers; a lost connection is retried with back-off. Throws Error, and
-/// Interrupted once `stop` is requested. `deletes`: NOT_FOUND after a lost answer means that it
-/// went through.
+/// The response of a unary method; a lost connection is retried with back-off. Throws Error, and
+/// Interrupted once `stop` is requested. `deletes`: NOT_FOUND after a lost response is success.
 template <class Stub, class Request, class Response>
 Response call(Connection::State& state, Stub& stub,
               grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),

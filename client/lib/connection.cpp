@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "client/channel.hpp"
-#include "client/failure_text.hpp"
 
 namespace anticrack::client {
 namespace {
@@ -23,11 +22,11 @@ std::shared_ptr<grpc::ChannelCredentials> credentials_of(const Credentials& cred
 
 std::shared_ptr<grpc::Channel> make_channel(const ConnectionOptions& options, bool bulk) {
   grpc::ChannelArguments arguments;
-  // Heartbeats come every 10 s; a stream silent for longer may hang on a dead connection. Shorter
-  // periods are taken for abuse by the server ("too many pings").
+  // Heartbeats come every 10 s; a stream silent for longer may hang on a dead connection. The
+  // server refuses shorter periods as abuse ("too many pings").
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, 30'000);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 10'000);
-  // gRPC's own back-off reaches minutes; ours decides, so its connection is to be tried as often.
+  // gRPC's own back-off reaches minutes; it must try to connect as often as our back-off does.
   const auto longest =
       static_cast<int>(std::clamp<std::int64_t>(options.retry.longest.count(), 100, 1'000));
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
@@ -38,16 +37,90 @@ std::shared_ptr<grpc::Channel> make_channel(const ConnectionOptions& options, bo
   return grpc::CreateCustomChannel(options.address, credentials_of(options.credentials), arguments);
 }
 
-// At most for `time`. gRPC works at a connection while somebody waits on the channel and hardly at
-// all while everybody sleeps: a sleeping client finds its server again seconds late.
+// Waits at most for `time`. gRPC reconnects promptly only while a thread waits on the channel;
+// a client that sleeps reconnects seconds late.
 void wait_for_connection(grpc::Channel& channel, milliseconds time, const std::stop_token& stop) {
-  constexpr milliseconds slice{50};  // a stop has to be heard
+  constexpr milliseconds slice{50};  // how late a stop is noticed
   const auto end = std::chrono::system_clock::now() + time;
   while (!stop.stop_requested()) {
     const auto next = std::min(end, std::chrono::system_clock::now() + slice);
     if (channel.WaitForConnected(next) || next == end) return;
   }
   throw Interrupted();
+}
+
+bool has(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
+}
+
+// gRPC puts the cause last.
+std::string_view cause_of(std::string_view story) {
+  const std::size_t cause = story.rfind(": ");
+  return cause == std::string_view::npos ? story : story.substr(cause + 2);
+}
+
+std::string roots_of(const Credentials& credentials) {
+  return credentials.files.ca.empty()
+             ? std::string("the roots of this system; name its own with --ca FILE")
+             : "--ca " + credentials.files.ca.string();
+}
+
+std::string tls_cure(const std::string& address, const Credentials& credentials,
+                     std::string_view story) {
+  // What OpenSSL sometimes reports for a signature by another authority of the same name.
+  const bool no_signature = has(story, "asn1 encoding routines") && has(story, "EVP lib");
+  if (no_signature || has(story, "CERTIFICATE_VERIFY_FAILED") ||
+      has(story, "certificate verify failed")) {
+    return "the certificate of " + address + " is not signed by " + roots_of(credentials) +
+           ", or it has expired";
+  }
+  if (has(story, "is not in peer certificate") || has(story, "Hostname Verification")) {
+    return "the certificate of the server is for another name than " + address +
+           "; use the name it was made for, or make it again with this one";
+  }
+  if (has(story, "WRONG_VERSION_NUMBER") || has(story, "wrong version number")) {
+    return address +
+           " speaks no TLS; leave out --tls, --ca and --cert, or give the server a "
+           "certificate";
+  }
+  if (has(story, "alert") || (has(story, "andshake") && credentials.certificate.empty())) {
+    return credentials.certificate.empty()
+               ? std::string("the server wants a certificate; give --cert FILE and --key FILE")
+               : "the server does not accept the certificate in " +
+                     credentials.files.certificate.string() + "; is it signed by its authority?";
+  }
+  return "";
+}
+
+/// Why the server cannot be reached and what to check. `story`: gRPC's own message, cause last.
+std::string unreachable_text(const std::string& address, const Credentials& credentials,
+                             std::string_view story) {
+  const std::string head =
+      "cannot reach the server at " + address + " (" + std::string(cause_of(story)) + "); ";
+  if (credentials.tls) {
+    const std::string cure = tls_cure(address, credentials, story);
+    if (!cure.empty()) return head + cure;
+  }
+  // A server with TLS closes connections without TLS.
+  const bool hung_up = has(story, "ocket closed") || has(story, "onnection reset") ||
+                       has(story, "HTTP2") || has(story, "HTTP/2");
+  return head + (hung_up && !credentials.tls
+                     ? "is it anticrackd? If it wants TLS, add --ca FILE or --tls"
+                     : "start anticrackd, name its address with --server, or use --local");
+}
+
+/// UNAUTHENTICATED and PERMISSION_DENIED: the server's message, and the option that cures it.
+std::string refused_text(Code code, const std::string& message, const Credentials& credentials) {
+  const std::string file = credentials.files.token.string();
+  const std::string token = file.empty() ? "in ANTICRACK_TOKEN" : "in " + file;
+  if (code == Code::permission_denied) {
+    return message + (credentials.token.empty()
+                          ? "; to come as somebody else give another --cert, or --token-file FILE"
+                          : "; to come as somebody else replace the token " + token);
+  }
+  return message + (credentials.token.empty()
+                        ? "; give a token with --token-file FILE or in ANTICRACK_TOKEN"
+                        : "; check the token " + token);
 }
 
 }  // namespace
@@ -72,8 +145,8 @@ const std::string& Connection::address() const noexcept {
 }
 
 void authorise(const Connection::State& state, grpc::ClientContext& context) {
-  // Not as call credentials: gRPC sends those over TLS only, and a trial on the own machine, or a
-  // unix socket, needs none.
+  // Not as call credentials: gRPC sends those over TLS only, but localhost and unix sockets need
+  // no TLS.
   if (!state.options.credentials.token.empty())
     context.AddMetadata("authorization", "Bearer " + state.options.credentials.token);
 }
@@ -115,8 +188,8 @@ void Retries::wait(const Error& error, const std::stop_token& stop) {
       lost && !_state.met ? _state.options.first_contact : _state.options.retry.patience;
   const auto delay = _backoff.next(error, failing, patience);
   if (!delay) {
-    // Of a lost connection the first cause tells most ("connection refused"); later ones are
-    // gRPC's own attempts getting in each other's way.
+    // For a lost connection, report the first cause ("connection refused"): later ones come from
+    // gRPC's own attempts to reconnect.
     throw lost && is_lost_connection(*_first_error) ? *_first_error : error;
   }
   if (_state.options.notice)
@@ -124,7 +197,7 @@ void Retries::wait(const Error& error, const std::stop_token& stop) {
   if (lost && _channel.GetState(false) != GRPC_CHANNEL_READY)
     wait_for_connection(_channel, *delay, stop);
   else
-    sleep(*delay, stop);  // a proxy keeps its connection to us and loses the server's
+    sleep(*delay, stop);  // a proxy that lost the server still holds our connection
 }
 
 void Retries::succeeded() {

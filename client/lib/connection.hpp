@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A connection to anticrackd. Made at once, without a word on the wire: the first call connects.
+// A connection to anticrackd. The first call connects.
 #pragma once
 
 #include <chrono>
@@ -18,13 +18,12 @@ inline constexpr std::string_view default_address = "localhost:7433";
 
 struct ConnectionOptions {
   std::string address{default_address};        ///< HOST:PORT or unix:PATH
-  Credentials credentials;                     ///< none: unencrypted, as nobody
+  Credentials credentials;                     ///< none: unencrypted and anonymous
   std::chrono::milliseconds deadline{30'000};  ///< of one try of a unary call
   RetryPolicy retry;                           ///< once the server has answered
-  /// Patience before the first answer: a wrong address should not take a minute to say so.
+  /// Time limit of retries before the first answer: a wrong address should fail soon.
   std::chrono::milliseconds first_contact{3'000};
-  /// Told, for people, when a call is about to be tried again, or a watch begins anew. May be
-  /// empty.
+  /// Called with a message for the user before a call is retried or a watch restarts. May be empty.
   std::function<void(const std::string&)> notice;
 };
 
@@ -32,7 +31,7 @@ struct ConnectionOptions {
 /// channel of their own, so that events are not queued behind them.
 class Connection {
  public:
-  /// Throws nothing of its own: an address where nobody answers is found out by the first call.
+  /// Does not check the address: the first call does.
   explicit Connection(ConnectionOptions options);
   ~Connection();
   Connection(const Connection&) = delete;
@@ -41,7 +40,7 @@ class Connection {
   /// As it was given.
   const std::string& address() const noexcept;
 
-  struct State;  ///< gRPC's side, for the sources of this library only
+  struct State;  ///< the gRPC part, for this library only
   State& state() noexcept { return *_state; }
 
  private:

@@ -31,7 +31,7 @@ std::string content_of(const std::filesystem::path& path, const std::string& opt
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   std::ifstream file(path, std::ios::binary);
-  // A pipe has no size and is read all the same: `--token-file <(command)`.
+  // A pipe, as in `--token-file <(command)`, is read although it has no size.
   if (std::filesystem::is_directory(path) || !file || (!error && size > largest_pem))
     refuse(option + ": " + path.string() + " is not a readable file of at most 4 MiB");
   return {std::istreambuf_iterator<char>(file), {}};
@@ -84,7 +84,7 @@ std::string read_token(const CredentialFiles& files) {
   std::string token =
       files.token.empty() ? files.token_text : content_of(files.token, "--token-file");
   while (!token.empty() && (token.back() == '\n' || token.back() == '\r')) token.pop_back();
-  // What may stand in a header; anything else would be refused far from here.
+  // Characters allowed in a header; others would fail later, with a less clear message.
   const bool printable =
       std::all_of(token.begin(), token.end(), [](char c) { return c > ' ' && c < '\x7f'; });
   if (token.empty() || token.size() > longest_token || !printable) {
@@ -107,7 +107,7 @@ bool is_loopback(std::string_view address) {
   }
   if (address == "::1" || address == "[::1]" || address.starts_with("[::1]:")) return true;
   const std::string_view host = address.substr(0, address.find(':'));
-  // "127.evil.example" is a name somebody owns, hence digits and dots only.
+  // Digits and dots only: "127.evil.example" is an ordinary host name.
   const bool digits = host.find_first_not_of("0123456789.") == std::string_view::npos;
   return host == "localhost" || (host.starts_with("127.") && digits);
 }

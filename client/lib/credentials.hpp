@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// With what a client shows who it is, and by what it knows the server.
+// How a client identifies itself and verifies the server.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,15 @@
 
 namespace anticrack::client {
 
-/// As a person gives them; empty: not given.
+/// As the user gives them; empty: not given.
 struct CredentialFiles {
-  bool tls = false;                   ///< also without a file: by the roots of the system
-  std::filesystem::path ca;           ///< PEM; whom to believe, instead of the system's roots
+  bool tls = false;                   ///< even without files: with the system's roots
+  std::filesystem::path ca;           ///< PEM; trusted instead of the system's roots
   std::filesystem::path certificate;  ///< PEM; of this client
   std::filesystem::path key;          ///< PEM, without a pass phrase
   std::filesystem::path token;        ///< holds one bearer token
-  /// The token itself, where no file is given. Never from the command line, which every user of the
-  /// machine can read.
+  /// The token itself, if no file is given. Never from the command line, which other users can
+  /// read.
   std::string token_text;
 };
 
@@ -25,7 +25,7 @@ struct Credentials {
   bool tls = false;
   std::string roots, certificate, key;  ///< PEM texts; no roots: the system's
   std::string token;                    ///< empty: none
-  CredentialFiles files;                ///< where they are from, for errors
+  CredentialFiles files;                ///< their origin, for error messages
 };
 
 /// Whether what is sent to this address stays on the machine: a unix socket, localhost, 127.x.x.x
@@ -34,7 +34,7 @@ bool is_loopback(std::string_view address);
 
 /// Reads and checks them before anything is sent. Throws Error (invalid_argument) that names the
 /// file and the cure: one that cannot be read, is not PEM, or whose key is of another certificate;
-/// a certificate without its key; a token that is none, or that would cross a network unencrypted.
+/// a certificate without its key; a malformed token, or one that would cross a network unencrypted.
 Credentials read_credentials(const CredentialFiles& files, std::string_view address);
 
 }  // namespace anticrack::client

@@ -15,7 +15,7 @@ Code to_code(int code) {
   return code >= 0 && code <= largest_code ? static_cast<Code>(code) : Code::unknown;
 }
 
-// The details carry the type names of google.rpc, our messages only share their shape.
+// The details have google.rpc's type names; our messages have the same fields.
 bool is(const google::protobuf::Any& detail, std::string_view type) {
   const std::string& url = detail.type_url();
   const std::size_t slash = url.rfind('/');

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The one exception of a call: what the server said, decoded. No gRPC type in sight.
+// The exception of a failed call: the server's error, decoded. Without gRPC types.
 #pragma once
 
 #include <chrono>
@@ -67,14 +67,14 @@ class Error : public std::runtime_error {
   Details _details;
 };
 
-/// Thrown where a stop token ended a call.
+/// A stop token ended the call.
 class Interrupted : public std::runtime_error {
  public:
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
 /// `details_bin`: the trailing metadata "grpc-status-details-bin", possibly empty. What cannot be
-/// decoded is passed over: the code and the message stand for themselves.
+/// decoded is ignored; code and message remain.
 Error decode_error(int code, const std::string& message, std::string_view details_bin);
 
 /// The error inside a job, a load case or a mesh.

@@ -4,11 +4,11 @@
 // requests and answers, with units, are those of anticrack/v1/solve.proto and server.proto).
 //
 // Every function may be called from any thread. It returns when the server has answered, or throws:
-//   Error        what the server said no to, by its code; the codes of each call stand beside it.
-//                A lost connection is retried with back-off (ConnectionOptions::retry) before it
-//                becomes Error (unavailable); so is RESOURCE_EXHAUSTED where the server says when
-//                to come back. Retrying is harmless: every call here can be repeated.
-//   Interrupted  once `stop` is requested. The job goes on all the same; only cancel_job ends it.
+//   Error        the server refused; each call lists its codes. A lost connection is first retried
+//                with back-off (ConnectionOptions::retry) and becomes Error (unavailable) in the
+//                end; RESOURCE_EXHAUSTED with a retry delay is retried, too. Retrying is safe:
+//                every call here can be repeated.
+//   Interrupted  once `stop` is requested. The job continues; only cancel_job ends it.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@
 namespace anticrack::client {
 
 /// Submits a job and returns it with its name, QUEUED or WAITING_FOR_MESH; it outlives this client
-/// and the server's restarts from then on. `request_id` (see make_uuid) makes retries harmless: one
-/// id, one job. Empty: an answer lost on the way may leave two.
+/// and the server's restarts from then on. `request_id` (see make_uuid) makes retries safe: one
+/// id, one job. If it is empty, a lost response may leave two.
 /// Error: invalid_argument (Details::fields names the fields), not_found (the mesh),
 /// resource_exhausted (the queue or the disk is full), unimplemented (an older server).
 v1::Job create_job(Connection& connection, const v1::Job& job, const std::string& request_id,
@@ -40,8 +40,8 @@ v1::Job get_job(Connection& connection, const std::string& name, const std::stop
 v1::ListJobsResponse list_jobs(Connection& connection, const v1::ListJobsRequest& request,
                                const std::stop_token& stop = {});
 
-/// Asks a job to stop. Returns at once; it ends CANCELLED within an iteration and keeps the load
-/// cases it finished. One that has ended is returned as it is. Error: not_found.
+/// Stops a job. Returns at once; the job ends CANCELLED within an iteration and keeps the load
+/// cases it finished. A job that has ended is returned unchanged. Error: not_found.
 v1::Job cancel_job(Connection& connection, const std::string& name,
                    const std::stop_token& stop = {});
 

@@ -4,10 +4,10 @@
 // with units, are those of anticrack/v1/mesh.proto).
 //
 // Every function may be called from any thread. It returns when the server has answered, or throws:
-//   Error        what the server said no to, by its code; the codes of each call stand beside it.
-//                A lost connection is retried with back-off (ConnectionOptions::retry) before it
-//                becomes Error (unavailable); so is RESOURCE_EXHAUSTED where the server says when
-//                to come back. Retrying is harmless: every call here can be repeated.
+//   Error        the server refused; each call lists its codes. A lost connection is first retried
+//                with back-off (ConnectionOptions::retry) and becomes Error (unavailable) in the
+//                end; RESOURCE_EXHAUSTED with a retry delay is retried, too. Retrying is safe:
+//                every call here can be repeated.
 //   Interrupted  once `stop` is requested.
 #pragma once
 
@@ -49,7 +49,7 @@ using ReadArray = std::function<std::vector<double>(std::size_t index)>;
 std::vector<std::string> upload_arrays(Connection& connection, std::size_t count,
                                        const ReadArray& read, const std::stop_token& stop = {});
 
-/// Asks for the mesh of a geometry or of an upload. Returns before it is made, most often PENDING:
+/// Requests the mesh of a geometry or of an upload. Returns before it is made, most often PENDING:
 /// a job may name it at once, wait_for_mesh() waits. Equal requests give the same mesh.
 /// Error: invalid_argument (Details::fields names the fields), not_found (the upload),
 /// resource_exhausted.
@@ -65,8 +65,8 @@ v1::Mesh get_mesh(Connection& connection, const std::string& name,
 v1::ListMeshesResponse list_meshes(Connection& connection, const v1::ListMeshesRequest& request,
                                    const std::stop_token& stop = {});
 
-/// Has it factorised in the background, so that the next job need not wait; `pin`: and kept in
-/// memory until it is evicted, which is for administrators. Returns before that is done.
+/// Starts factorising it, so that the next job need not wait. `pin` (administrators only) keeps it
+/// in memory until it is evicted. Returns before the mesh is factorised.
 /// Error: not_found, failed_precondition (meshing failed), resource_exhausted (memory budget),
 /// permission_denied.
 v1::Mesh warm_mesh(Connection& connection, const std::string& name, bool pin,
@@ -83,8 +83,8 @@ void delete_mesh(Connection& connection, const std::string& name, const std::sto
 /// Whether the server is done with a mesh: READY, EVICTED or FAILED.
 bool settled(v1::Mesh::State state);
 
-/// Asks, at most once a second, until the mesh is settled; tells `seen` of every new state, on this
-/// thread. A mesh that FAILED is returned, not thrown: see Mesh.error. Error: not_found.
+/// Polls, at most once a second, until the mesh is settled; calls `seen` for every new state, on
+/// this thread. A mesh that FAILED is returned, not thrown: see Mesh.error. Error: not_found.
 v1::Mesh wait_for_mesh(Connection& connection, const std::string& name,
                        const std::function<void(const v1::Mesh&)>& seen = {},
                        const std::stop_token& stop = {});

@@ -116,7 +116,7 @@ class ArrayFiles {
   std::future<Outgoing> _pending;
 };
 
-// The server may refuse before everything is sent; its status then says why.
+// The server may refuse before everything is sent; the status then gives the reason.
 grpc::Status send_once(Connection::State& state, const Begin& begin,
                        v1::UploadMeshResponse& response, const std::stop_token& stop) {
   grpc::ClientContext context;
@@ -137,7 +137,7 @@ grpc::Status send_once(Connection::State& state, const Begin& begin,
         writing = writer->Write(request);
       }
     }
-  } catch (...) {  // of a file that cannot be read
+  } catch (...) {  // a file cannot be read
     context.TryCancel();
     writer->Finish();
     throw;

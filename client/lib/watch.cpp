@@ -7,12 +7,12 @@
 namespace anticrack::client {
 namespace {
 
-/// What one stream after another is asked for, and what came of it.
+/// How far the streams have come.
 struct Position {
   std::uint64_t after;
   std::optional<v1::Job> last;
 
-  /// Whether this message is news. A snapshot or a heartbeat has no number of its own.
+  /// Whether this message is new. Snapshots and heartbeats have no numbers of their own.
   bool take(const v1::WatchJobResponse& message) {
     if (message.has_ended()) last = message.ended();
     const bool numbered = !message.has_snapshot() && !message.has_heartbeat();
@@ -34,7 +34,7 @@ v1::Job watch_job(Connection& connection, const std::string& name, std::uint64_t
     v1::WatchJobRequest request;
     request.set_name(name);
     request.set_after_sequence(position.after);
-    grpc::ClientContext context;  // no deadline: a job may take days, heartbeats tell it lives
+    grpc::ClientContext context;  // no deadline: a job may take days, heartbeats show it is alive
     authorise(state, context);
     const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
     const auto reader = state.jobs->WatchJob(&context, request);

@@ -6,15 +6,25 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <string_view>
 
-#include "results/compressed_mesh.hpp"
 #include "results/error.hpp"
+#include "results/filtered_chunks.hpp"
 #include "results/result.hpp"
 
 namespace anticrack::results {
 
 inline constexpr std::string_view format = "anticrack-result/1";
+
+/// The arrays of a mesh as HDF5 keeps them, compressed, by the name of the dataset; small arrays
+/// are left out.
+using CompressedMesh = std::map<std::string, hdf5::FilteredChunks>;
+
+/// Takes longer than the rest of `write` and needs no answers, so it can be done while they are
+/// computed: does not call HDF5 and may run beside it on any thread. About 30 MB/s.
+CompressedMesh compress(const Mesh& mesh);
 
 /// Replaces the file completely or not at all: temporary file in the same folder, fsync, rename.
 /// Needs memory for a copy of the file. Not for two threads at once unless HDF5 is thread-safe.

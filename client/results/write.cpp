@@ -90,6 +90,19 @@ void put_all(const Handle& root, const Result& result, const CompressedMesh& com
 
 }  // namespace
 
+CompressedMesh compress(const Mesh& mesh) {
+  CompressedMesh compressed;
+  arrays::for_each(
+      [&](const auto& row) {
+        const auto& values = std::invoke(row.member, mesh);
+        hdf5::FilteredChunks chunks = hdf5::filtered_chunks(
+            std::as_bytes(std::span(values)), sizeof(values[0]), arrays::columns_of(row.shape));
+        if (!chunks.empty()) compressed.emplace(row.name, std::move(chunks));
+      },
+      tables::mesh);
+  return compressed;
+}
+
 void write(const std::filesystem::path& path, const Result& result,
            const CompressedMesh& compressed) {
   const std::string fault = first_fault(result);
