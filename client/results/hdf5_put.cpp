@@ -15,16 +15,21 @@ void require(herr_t status, const std::string& what) {
   if (status < 0) throw Fault(what);
 }
 
-Handle text_type() {
-  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "HDF5 has no string type");
-  require(H5Tset_size(type.get(), H5T_VARIABLE), "HDF5 has no variable-length strings");
-  require(H5Tset_cset(type.get(), H5T_CSET_UTF8), "HDF5 has no UTF-8 strings");
-  return type;
+// A file has thousands of datasets: what they share is made once and left to HDF5's end.
+
+hid_t text_type() {
+  static const hid_t id = [] {
+    Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "HDF5 has no string type");
+    require(H5Tset_size(type.get(), H5T_VARIABLE), "HDF5 has no variable-length strings");
+    require(H5Tset_cset(type.get(), H5T_CSET_UTF8), "HDF5 has no UTF-8 strings");
+    return type.release();
+  }();
+  return id;
 }
 
 /// Values as HDF5 takes them: their types in the file and in memory, and where they are.
 struct Values {
-  Values(ValueType type, const void* values, std::size_t count) : text(text_type()), data(values) {
+  Values(ValueType type, const void* values, std::size_t count) : data(values) {
     switch (type) {
       case ValueType::float64:
         in_file = H5T_IEEE_F64LE;
@@ -39,7 +44,7 @@ struct Values {
         in_memory = H5T_NATIVE_UINT8;
         break;
       case ValueType::text:
-        in_file = in_memory = text.get();
+        in_file = in_memory = text_type();
         for (std::size_t i = 0; i < count; ++i)
           pointers.push_back(static_cast<const std::string*>(values)[i].c_str());
         data = pointers.data();
@@ -47,7 +52,6 @@ struct Values {
     }
   }
 
-  Handle text;
   std::vector<const char*> pointers;
   const void* data;
   hid_t in_file = -1, in_memory = -1;
@@ -67,8 +71,6 @@ Handle new_creation_properties(std::size_t rows, std::size_t columns) {
   require(H5Pset_fletcher32(properties.get()), what);
   return properties;
 }
-
-// A file has thousands of datasets: what they share is made once and left to HDF5's end.
 
 /// Of a dataset of this shape; 0 rows: of one without a checksum.
 hid_t creation_properties(std::size_t rows, std::size_t columns) {
@@ -131,8 +133,8 @@ Handle without_times(hid_t property_class) {
 }
 
 Handle create_group(const Handle& parent, const std::string& name) {
-  const Handle creation = without_times(H5P_GROUP_CREATE);
-  return {H5Gcreate2(parent.get(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
+  static const hid_t creation = without_times(H5P_GROUP_CREATE).release();
+  return {H5Gcreate2(parent.get(), name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT),
           H5Gclose, "cannot create group " + name};
 }
 
