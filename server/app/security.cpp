@@ -61,6 +61,47 @@ std::vector<std::string> split_names(const std::string& names) {
   return result;
 }
 
+std::vector<std::string> problems_of_security(const Config& config) {
+  std::vector<std::string> problems;
+  const auto attempt = [&problems](const auto& read) -> std::string {
+    try {
+      return read();
+    } catch (const ConfigError& error) {
+      problems.emplace_back(error.what());
+      return {};
+    }
+  };
+  const auto content = [&](const char* key, const std::string& path, OthersMay others_may) {
+    return path.empty() ? path : attempt([&] { return read_guarded_file(key, path, others_may); });
+  };
+  const std::string certificate =
+      content("tls-certificate", config.tls_certificate, OthersMay::read);
+  const std::string key = content("tls-key", config.tls_key, OthersMay::nothing);
+  if (!certificate.empty() && !key.empty()) {
+    attempt([&] {
+      if (check_certificate(certificate, key) < 0) {
+        throw ConfigError("tls-certificate: " + config.tls_certificate +
+                          " has expired; renew it: no client would accept it");
+      }
+      return std::string();
+    });
+  }
+  const std::string roots = content("tls-client-roots", config.tls_client_roots, OthersMay::read);
+  if (!roots.empty()) {
+    attempt([&] {
+      check_roots(roots);
+      return std::string();
+    });
+  }
+  if (!config.tokens.empty()) {
+    attempt([&] {
+      load_tokens(config.tokens);
+      return std::string();
+    });
+  }
+  return problems;
+}
+
 LoadedSecurity load_security(const Config& config) {
   LoadedSecurity loaded;
   if (has_tls(config)) loaded.security.tls = load_tls(config, loaded.warnings);

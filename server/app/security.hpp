@@ -15,9 +15,11 @@ struct LoadedSecurity {
   std::vector<std::string> warnings;
 };
 
-/// Reads certificates, key and tokens. Changes of the files take effect at the next start. Throws
-/// ConfigError.
+/// Reads certificates, key and tokens. Throws ConfigError.
 LoadedSecurity load_security(const Config& config);
+
+/// What load_security() would refuse, each file by itself: a sentence each.
+std::vector<std::string> problems_of_security(const Config& config);
 
 /// "ann, bob" -> {"ann", "bob"}; empty names are left out.
 std::vector<std::string> split_names(const std::string& names);

@@ -59,7 +59,7 @@ grpc::ServerUnaryReactor* SolveService::ListJobs(grpc::CallbackServerContext* co
     response->set_next_page_token(fill_page(
         to_page(request->page_size(), request->page_token()),
         [&](const std::string& after, std::size_t count) {
-          return _edge.backend.engine.list({after, count, owner_filter(who)});
+          return _edge.backend.engine.list({after, count, owner_filter(who, request->owner())});
         },
         [&](const store::JobRecord& record) {
           return (*response->add_jobs() = from_domain(record)).ByteSizeLong();
