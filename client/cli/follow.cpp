@@ -176,10 +176,10 @@ Followed follow(Session& session, const v1::Job& job, std::uint64_t rows) {
     const std::string target = job.name() + session.server_option();
     say(session.globals(), "The job goes on. To attach again: anticrack job watch " + target);
     say(session.globals(), "To save its results in the end: anticrack job fetch " + target);
-    return {Followed::How::detached, job};
+    return {Followed::How::detached, job, {}};
   }
   const bool in_time = cancelling && last->state() == v1::Job::STATE_CANCELLED;
-  return {in_time ? Followed::How::cancelled : Followed::How::ended, *std::move(last)};
+  return {in_time ? Followed::How::cancelled : Followed::How::ended, *std::move(last), {}};
 }
 
 }  // namespace anticrack::cli

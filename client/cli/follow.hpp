@@ -7,6 +7,7 @@
 #include <string>
 
 #include "anticrack/v1/solve.pb.h"
+#include "cli/ahead.hpp"
 #include "cli/session.hpp"
 
 namespace anticrack::cli {
@@ -14,7 +15,8 @@ namespace anticrack::cli {
 struct Followed {
   enum class How { ended, detached, cancelled };  ///< cancelled: by this command, in time
   How how = How::ended;
-  v1::Job job;  ///< as it ended; as it was when detached
+  v1::Job job;        ///< as it ended; as it was when detached
+  AheadFuture ahead;  ///< of submit_and_follow
 };
 
 /// Shows a job's progress until it ends. Ctrl-C detaches and says how to attach again; a second one

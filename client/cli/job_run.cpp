@@ -66,8 +66,10 @@ std::vector<std::string> causes(const casefile::Case& the_case, const v1::Job& j
 }
 
 // What an import took for what, or repaired.
-void tell_warnings(Session& session, const v1::Job& job, const std::stop_token& stop) {
-  const v1::Mesh mesh = client::get_mesh(session.connection(), job.mesh(), stop);
+void tell_warnings(Session& session, const v1::Job& job, const std::stop_token& stop,
+                   const Ahead* ahead) {
+  const v1::Mesh mesh =
+      ahead != nullptr ? ahead->mesh : client::get_mesh(session.connection(), job.mesh(), stop);
   for (const std::string& warning : mesh.warnings()) {
     say(session.globals(), "mesh: " + warning);
   }
@@ -110,8 +112,11 @@ Followed submit_and_follow(Session& session, const casefile::Case& the_case, con
   for (int attempt = 1;; ++attempt) {
     const v1::Job job = submit(session, the_case, request_id, prepare);
     say(session.globals(), job.name() + " on " + job.mesh() + ": " + counted_cases(job, rows));
+    const AheadFuture ahead = fetch_ahead(session, job.mesh());
     try {
-      return follow(session, job, rows);
+      Followed followed = follow(session, job, rows);
+      followed.ahead = ahead;
+      return followed;
     } catch (const client::Error& error) {
       if (error.code() != client::Code::not_found || attempt == tries) {
         throw;
@@ -143,7 +148,8 @@ std::optional<results::Result> results_of(Session& session, const casefile::Case
   // What cancelled the job shall not keep what it had solved from being saved.
   const std::stop_token stop =
       followed.how == Followed::How::cancelled ? std::stop_token() : session.stop();
-  or_later(session, job, [&] { tell_warnings(session, job, stop); });
+  Ahead* const ahead = followed.ahead.get().get();
+  or_later(session, job, [&] { tell_warnings(session, job, stop, ahead); });
   if (job.result_bytes() == 0 || job.state() == v1::Job::STATE_EXPIRED) {
     for (const std::string& line : causes(the_case, job)) {
       std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
@@ -153,16 +159,18 @@ std::optional<results::Result> results_of(Session& session, const casefile::Case
     }
     return std::nullopt;
   }
-  results::Result result = or_later(session, job, [&] { return fetch(session, job, stop); });
+  results::Result result = or_later(session, job, [&] { return fetch(session, job, stop, ahead); });
   result.case_text = the_case.text;
   result.timings.total_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
 
-void save(const fs::path& file, const results::Result& result, const Session& session) {
+void save(const fs::path& file, const results::Result& result, const Session& session,
+          const Followed& followed) {
   try {
-    results::write(file, result);
+    const auto ahead = followed.ahead.get();
+    results::write(file, result, ahead ? ahead->compressed : results::CompressedMesh());
   } catch (const results::Error&) {
     tell_fetch(session, result.job_name);
     throw;

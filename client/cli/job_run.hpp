@@ -35,8 +35,10 @@ std::optional<results::Result> results_of(Session& session, const casefile::Case
                                           const Followed& followed,
                                           std::chrono::steady_clock::time_point begin);
 
-/// Writes the result file; where that fails says how to fetch the results again.
-void save(const std::filesystem::path& file, const results::Result& result, const Session& session);
+/// Writes the result file of a job that was followed; where that fails says how to fetch the
+/// results again.
+void save(const std::filesystem::path& file, const results::Result& result, const Session& session,
+          const Followed& followed);
 
 /// The answers, and where they were saved.
 void print_answers(const Globals& globals, const results::Result& result,

@@ -41,7 +41,7 @@ int run(const RunOptions& options, const Globals& globals) {
   if (!result) {
     return job_code;
   }
-  save(output, *result, session);
+  save(output, *result, session, followed);
   print_answers(globals, *result, output);
   return job_code != exit_ok ? job_code : exit_code_of(*result);
 }

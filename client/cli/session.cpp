@@ -56,6 +56,7 @@ std::string Session::server_option() const {
 }
 
 void Session::notice(const std::string& message) {
+  const std::lock_guard lock(_mutex);
   if (_listener) {
     _listener(message);
     return;

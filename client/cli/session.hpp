@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,7 +51,10 @@ class Session {
   std::string server_option() const;
 
   /// Sets who is told of retries; empty: standard error, each message once.
-  void tell(std::function<void(const std::string&)> listener) { _listener = std::move(listener); }
+  void tell(std::function<void(const std::string&)> listener) {
+    const std::lock_guard lock(_mutex);
+    _listener = std::move(listener);
+  }
 
  private:
   void notice(const std::string& message);
@@ -59,6 +63,7 @@ class Session {
   Signals _signals;                   // first: all threads inherit its mask
   std::optional<LocalServer> _local;  // second: it forks, and gRPC starts threads
   std::optional<client::Connection> _connection;
+  std::mutex _mutex;  ///< of the two below: calls are made on several threads
   std::function<void(const std::string&)> _listener;
   std::string _last_notice;
 };

@@ -18,41 +18,44 @@
 namespace anticrack::cli {
 namespace {
 
-// One upload for every content: loads often share a file.
-class ForceUploads {
- public:
-  explicit ForceUploads(Session& session) : _session(session) {}
-
-  std::string operator()(const casefile::ForceFile& file) {
-    std::string& upload = _uploads[{file.path, file.dataset}];
-    if (upload.empty()) {
-      upload = client::upload_array(_session.connection(),
-                                    results::read_array(file.path, file.dataset), _session.stop());
-    }
-    return upload;
-  }
-
- private:
-  Session& _session;
-  std::map<std::pair<std::filesystem::path, std::string>, std::string> _uploads;
-};
-
 // The refusal of an upload speaks of the upload; its user of the load it is for.
 void upload_forces(Session& session, const casefile::Case& the_case, v1::Job& job) {
-  ForceUploads upload_of(session);
+  // One upload for every content: loads often share a file.
+  std::map<std::pair<std::filesystem::path, std::string>, std::size_t> indices;
+  std::vector<const casefile::ForceFile*> files;
   for (const casefile::ForceFile& file : the_case.force_files) {
-    const auto spot =
-        the_case.locate("load_cases[" + std::to_string(file.load_case) + "].force").value();
-    try {
-      job.mutable_load_cases(file.load_case)
-          ->mutable_force()
-          ->mutable_array()
-          ->set_upload(upload_of(file));
-    } catch (const results::Error& error) {
-      throw casefile::Error(spot, error.what());
-    } catch (const client::Error& error) {
-      throw client::Error(error.code(), casefile::prefix(spot) + error.what(), error.details());
+    if (indices.try_emplace({file.path, file.dataset}, files.size()).second) {
+      files.push_back(&file);
     }
+  }
+  const auto spot_of = [&](std::size_t index) {
+    return the_case.locate("load_cases[" + std::to_string(files[index]->load_case) + "].force")
+        .value();
+  };
+  const auto read = [&](std::size_t index) {
+    try {
+      return results::read_array(files[index]->path, files[index]->dataset);
+    } catch (const results::Error& error) {
+      throw casefile::Error(spot_of(index), error.what());
+    }
+  };
+  std::vector<std::string> uploads;
+  try {
+    uploads = client::upload_arrays(session.connection(), files.size(), read, session.stop());
+  } catch (const client::Error& error) {
+    const auto& metadata = error.details().metadata;
+    if (const auto file = metadata.find("file"); file != metadata.end()) {
+      throw client::Error(error.code(),
+                          casefile::prefix(spot_of(std::stoul(file->second))) + error.what(),
+                          error.details());
+    }
+    throw;
+  }
+  for (const casefile::ForceFile& file : the_case.force_files) {
+    job.mutable_load_cases(file.load_case)
+        ->mutable_force()
+        ->mutable_array()
+        ->set_upload(uploads[indices.at({file.path, file.dataset})]);
   }
 }
 
@@ -137,13 +140,20 @@ void tell_submitted(const Session& session, const v1::Job& job) {
       "To watch it: anticrack job watch " + job.name() + session.server_option());
 }
 
-results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop) {
+results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop,
+                      Ahead* ahead) {
   client::Connection& connection = session.connection();
   Fetched fetched;
   fetched.job = job;
-  fetched.mesh = client::get_mesh(connection, job.mesh(), stop);
-  fetched.server = client::server_info(connection, stop);
-  fetched.mesh_block = client::read_mesh(connection, job.mesh(), stop);
+  if (ahead != nullptr) {
+    fetched.mesh = ahead->mesh;
+    fetched.server = ahead->server;
+    fetched.mesh_block = std::move(ahead->mesh_block);
+  } else {
+    fetched.mesh = client::get_mesh(connection, job.mesh(), stop);
+    fetched.server = client::server_info(connection, stop);
+    fetched.mesh_block = client::read_mesh(connection, job.mesh(), stop);
+  }
   fetched.result_block = client::read_result(connection, job.name(), stop);
   return to_result(fetched);
 }

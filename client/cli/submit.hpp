@@ -12,6 +12,7 @@
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
 #include "casefile/case.hpp"
+#include "cli/ahead.hpp"
 #include "cli/session.hpp"
 #include "results/result.hpp"
 
@@ -53,8 +54,10 @@ v1::Job submit(Session& session, const casefile::Case& the_case, const std::stri
 /// What a command that submits and does not wait says.
 void tell_submitted(const Session& session, const v1::Job& job);
 
-/// Everything about a job that has ended and has results.
-results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop);
+/// Everything about a job that has ended and has results. `ahead`: what of it is here already, its
+/// block is taken; may be null.
+results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop,
+                      Ahead* ahead = nullptr);
 
 /// exit_ok or exit_job_failed, by the state of a job that has ended.
 int exit_code_of(v1::Job::State state);

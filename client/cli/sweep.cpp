@@ -103,7 +103,7 @@ int follow_sweep(Session& session, const Targets& targets, const casefile::Case&
   if (!result) return job_code;
   result->sweep.value().source = input.source;
   if (!input.nodal) result->sweep->coefficients = std::move(input.values);
-  save(targets.result, *result, session);
+  save(targets.result, *result, session, followed);
   save_csv(targets.csv, *result->sweep, globals);
   print_answers(globals, *result, targets.result);
   return job_code != exit_ok ? job_code : exit_code_of(*result);

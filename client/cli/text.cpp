@@ -10,22 +10,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
+#include <cwchar>
 
 #include "figures/text.hpp"
 
 namespace anticrack::cli {
 namespace {
 
-std::uint8_t byte_at(std::string_view text, std::size_t i) {
-  return static_cast<std::uint8_t>(text[i]);
-}
-
-bool is_continuation(std::string_view text, std::size_t i) {
-  return i < text.size() && (byte_at(text, i) & 0xc0) == 0x80;
-}
-
-// wcwidth knows what is wide or combining, but only in a locale of Unicode; C.UTF-8 comes with
-// libc.
+// Until the end of the scope: wcwidth knows wide and combining characters only in a Unicode locale.
 class UnicodeLocale {
  public:
   UnicodeLocale() noexcept {
@@ -45,15 +37,12 @@ struct Character {
   std::size_t columns;
 };
 
-// The one at `i` of valid UTF-8.
-Character character_at(std::string_view text, std::size_t i) {
-  const std::uint8_t lead = byte_at(text, i);
-  if (lead < 0x80) return {1, 1};
-  std::size_t length = 1;
-  auto point = static_cast<wchar_t>(lead & (lead >= 0xf0 ? 0x07 : lead >= 0xe0 ? 0x0f : 0x1f));
-  for (; is_continuation(text, i + length); ++length) {
-    point = (point << 6) | (byte_at(text, i + length) & 0x3f);
-  }
+// The first of a text, in the locale of Unicode.
+Character first_character(std::string_view text) {
+  wchar_t point = 0;
+  std::mbstate_t state{};
+  const std::size_t length = std::mbrtowc(&point, text.data(), text.size(), &state);
+  if (length == 0 || length > text.size()) return {1, 1};  // not UTF-8
   const int columns = wcwidth(point);
   return {length, columns < 0 ? 1 : static_cast<std::size_t>(columns)};
 }
@@ -74,10 +63,10 @@ std::string sanitise(std::string_view text) {
 std::size_t columns_of(std::string_view text) noexcept {
   const UnicodeLocale unicode;
   std::size_t columns = 0;
-  for (std::size_t i = 0; i < text.size();) {
-    const Character character = character_at(text, i);
+  while (!text.empty()) {
+    const Character character = first_character(text);
     columns += character.columns;
-    i += character.length;
+    text.remove_prefix(character.length);
   }
   return columns;
 }
@@ -87,11 +76,10 @@ std::string fit(std::string_view text, std::size_t width) {
   if (width == 0) return "";
   const UnicodeLocale unicode;
   std::size_t end = 0;
-  std::size_t columns = 0;
-  while (true) {
-    const Character character = character_at(text, end);
-    if (columns + character.columns >= width) return std::string(text.substr(0, end)) + "~";
+  for (std::size_t columns = 0;;) {
+    const Character character = first_character(text.substr(end));
     columns += character.columns;
+    if (columns >= width) return std::string(text.substr(0, end)) + "~";
     end += character.length;
   }
 }

@@ -12,14 +12,13 @@
 
 namespace anticrack::cli {
 
-/// Control characters (escape sequences, line ends) and invalid UTF-8 become '?': what a server
-/// sends may not steer the terminal.
+/// Control characters and invalid UTF-8 become '?': text of a server must not control the terminal.
 std::string sanitise(std::string_view text);
 
-/// Columns of a terminal that valid UTF-8 takes: two for wide characters, none for combining ones.
+/// Terminal columns of valid UTF-8: two for wide characters, none for combining ones.
 std::size_t columns_of(std::string_view text) noexcept;
 
-/// Cut to at most `width` columns, the last one "~" where something was cut off.
+/// At most `width` columns, the last one "~" if the text was cut.
 std::string fit(std::string_view text, std::size_t width);
 
 /// Spaces up to `width`, on the right or on the left.
@@ -29,24 +28,24 @@ std::string pad_left(std::string_view text, std::size_t width);
 /// As printf's %.*g or, for `exponent`, %.*e; "-" for what is not finite.
 std::string number(double value, int digits = 6, bool exponent = false);
 
-/// Seconds for people, to three digits but no finer than 0.1 ms: "0.0118", "0.0002", "12.5".
+/// Seconds to three digits, no finer than 0.1 ms: "0.0118", "0.0002", "12.5".
 std::string seconds(double value);
 
-/// In the largest of B, kB, MB, GB, TB that leaves at least 1 before the point, to three digits.
+/// Three digits and the largest unit of B, kB, MB, GB, TB that leaves at least 1.
 std::string bytes(std::uint64_t count);
 
-/// "0.4 s", "42 s", "3 min 5 s", "2 h 10 min": for people.
+/// "0.4 s", "42 s", "3 min 5 s", "2 h 10 min".
 std::string time_text(double seconds);
 
-/// "2026-11-22 10:25:17" in the zone of this computer, of seconds since 1970.
+/// Local time "2026-11-22 10:25:17" of seconds since 1970.
 std::string clock_text(std::int64_t seconds);
 
-/// Rows under each other, two spaces between columns; column 0 and those named in `left` are
-/// aligned left. No space at line ends.
+/// Lines of columns two spaces apart; column 0 and those in `left` are aligned left. No trailing
+/// spaces.
 std::string table(const std::vector<std::vector<std::string>>& rows,
                   const std::vector<std::size_t>& left = {});
 
-/// Of an enum's number; the first for a number of a later server.
+/// The word of an enum's number; the first word for an unknown number.
 template <std::size_t count>
 std::string_view word_of(const std::array<std::string_view, count>& words, int number) noexcept {
   const auto index = static_cast<std::size_t>(number);

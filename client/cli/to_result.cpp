@@ -29,7 +29,7 @@ results::Kkt relative(const v1::KktResiduals& kkt) {
           kkt.complementarity_relative()};
 }
 
-// Zero is how the API says that there is none.
+// In the API 0 means none.
 double positive_or_unknown(double value) {
   return value > 0 ? value : results::unknown;
 }
@@ -53,32 +53,23 @@ void set_solver(const v1::Solver& solver, results::Load& load) {
   }
 }
 
-void get(const google::protobuf::Message& from, const google::protobuf::FieldDescriptor& field,
-         double& value) {
-  value = from.GetReflection()->GetDouble(from, &field);
-}
-void get(const google::protobuf::Message& from, const google::protobuf::FieldDescriptor& field,
-         std::int32_t& value) {
-  value = from.GetReflection()->GetInt32(from, &field);
-}
-void get(const google::protobuf::Message& from, const google::protobuf::FieldDescriptor& field,
-         std::string& value) {
-  value = from.GetReflection()->GetString(from, &field);
-}
-
-/// What the answer has under the name it has in the file.
+/// Copies the fields of the answer that the file has under the same name.
 void copy_scalars(const v1::LoadCaseAnswer& answer, results::Load& load) {
   using Type = google::protobuf::FieldDescriptor;
   arrays::for_each(
       [&](const auto& row) {
         const Type* field = answer.GetDescriptor()->FindFieldByName(std::string(row.name));
+        if (field == nullptr) return;
+        const google::protobuf::Reflection& fields = *answer.GetReflection();
         auto& member = std::invoke(row.member, load);
         using Value = std::remove_cvref_t<decltype(member)>;
-        if constexpr (!std::is_same_v<Value, results::Status>) {
-          constexpr auto wanted = std::is_same_v<Value, double>        ? Type::CPPTYPE_DOUBLE
-                                  : std::is_same_v<Value, std::string> ? Type::CPPTYPE_STRING
-                                                                       : Type::CPPTYPE_INT32;
-          if (field != nullptr && field->cpp_type() == wanted) get(answer, *field, member);
+        const Type::CppType type = field->cpp_type();
+        if constexpr (std::is_same_v<Value, double>) {
+          if (type == Type::CPPTYPE_DOUBLE) member = fields.GetDouble(answer, field);
+        } else if constexpr (std::is_same_v<Value, std::string>) {
+          if (type == Type::CPPTYPE_STRING) member = fields.GetString(answer, field);
+        } else if constexpr (std::is_same_v<Value, std::int32_t>) {
+          if (type == Type::CPPTYPE_INT32) member = fields.GetInt32(answer, field);
         }
       },
       results::tables::load);
@@ -152,7 +143,7 @@ results::Sweep to_sweep(const Fetched& fetched) {
   results::Sweep sweep;
   for (const v1::LoadCase& load : fetched.job.load_cases()) sweep.loads.push_back(load.name());
   sweep.inclusions.assign(fetched.mesh.inclusions().begin(), fetched.mesh.inclusions().end());
-  // A row that is not an int32 becomes a negative one, which is refused.
+  // A row beyond int32 becomes negative, which is refused.
   sweep.kept.assign(fetched.job.sweep().traces().begin(), fetched.job.sweep().traces().end());
   sweep.error = fetched.job.error().message();
   sweep.solve_seconds = seconds_of(fetched.job.sweep_answer().solve_time());
@@ -165,8 +156,8 @@ std::vector<results::Load> to_loads(const v1::Job& job) {
   std::vector<results::Load> loads;
   loads.reserve(static_cast<std::size_t>(job.load_cases_size()));
   for (int i = 0; i < job.load_cases_size(); ++i) {
-    const v1::LoadCaseAnswer answer =
-        i < job.answers_size() ? job.answers(i) : v1::LoadCaseAnswer();
+    const auto& answer =
+        i < job.answers_size() ? job.answers(i) : v1::LoadCaseAnswer::default_instance();
     loads.push_back(to_load(job.load_cases(i), answer, job.solver()));
   }
   return loads;
@@ -206,8 +197,7 @@ results::Result to_result(const Fetched& fetched) {
   if (fetched.job.has_sweep()) {
     result.sweep = to_sweep(fetched);
     result.timings.solve_seconds = result.sweep->solve_seconds;
-  }
-  if (!result.sweep) {
+  } else {
     result.loads = to_loads(fetched.job);
     for (std::size_t i = 0; i < result.loads.size(); ++i) {
       result.timings.solve_seconds += result.loads[i].solve_seconds;

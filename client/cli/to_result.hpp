@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// From what the server sent to what is kept. Pure.
+// From the server's messages to a result. Pure.
 #pragma once
 
 #include <string>
@@ -23,13 +23,13 @@ struct Fetched {
   client::Block result_block;
 };
 
-/// Throws results::Error for what does not fit together.
+/// Throws results::Error for parts that do not fit together.
 results::Result to_result(const Fetched& fetched);
 
 /// The answers so far, without traces, fields, histories and contact intervals: one per load case.
 std::vector<results::Load> to_loads(const v1::Job& job);
 
-/// What ReadMesh gave for a mesh, to be drawn. Throws as to_result.
+/// A mesh with what ReadMesh returned, for drawing. Throws as to_result.
 results::MeshPlan to_mesh_plan(const v1::Mesh& mesh, const client::Block& block);
 
 }  // namespace anticrack::cli

@@ -30,10 +30,10 @@ struct Options {
 
 struct Drawn {
   std::vector<std::filesystem::path> files;  ///< in the order of the loads
-  std::vector<std::string> notes;            ///< what was left out and why, for people
+  std::vector<std::string> notes;            ///< what was left out and why
 };
 
-/// Draws for every load with traces, in each format, in `folder` (made if missing):
+/// Draws for every load with traces, in each format, in `folder` (created if missing):
 ///   LOAD-membrane     the deformed membrane with its slit open; needs fields
 ///   LOAD-traces       u-, u+ and [u] along each interface, contact shaded
 ///   LOAD-convergence  the criterion of every iteration, or the KKT residuals of every step, log;
@@ -43,10 +43,9 @@ struct Drawn {
 ///   sweep             A and the contact length over the rows, or over the coefficient that varies
 ///   sweep-contact     where the cracks are closed, row by row (-2, ... of further interfaces)
 ///   row-K-traces      of the first rows whose traces were kept
-/// LOAD is the load's name made safe for a file name, and unique. With several interfaces the
-/// traces of the second and later are LOAD-traces-2 and so on. Each file is written under a
-/// temporary name and renamed. Throws Error, of a folder results::Error; files drawn before it
-/// stay.
+/// LOAD is the load's name made safe for a file name, and unique; further interfaces are
+/// LOAD-traces-2 and so on. Each file is written under a temporary name and renamed. Throws Error,
+/// for the folder results::Error; files already drawn stay.
 Drawn draw(const results::Result& result, const std::filesystem::path& folder,
            const Options& options = {});
 

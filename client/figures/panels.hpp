@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The parts of the figures: for each kind of panel its data blocks, and the commands that draw it
-// into a part of the picture. Colours are safe for colour-blind readers (Okabe & Ito; viridis).
+// For each kind of panel its data blocks and the commands that draw it into a part of the picture.
+// Colours are safe for colour-blind readers (Okabe & Ito; viridis).
 #pragma once
 
 #include <string>
@@ -28,8 +28,8 @@ inline std::pair<Place, Place> halves(const Place& place) {
   return {{place.x, place.y, half, place.height}, {place.x + half, place.y, half, place.height}};
 }
 
-/// Degrees about the vertical: the reader looks over the minus side at the interface, because the
-/// crack opens upwards on the far side ([u] >= 0).
+/// Degrees about the vertical. The view is over the minus side at the interface: the crack opens
+/// upwards on the far side ([u] >= 0).
 double membrane_view(const results::Result& result);
 
 /// The surface over the plane, seen from `view` degrees.
@@ -42,8 +42,8 @@ std::string traces_data(const Profile& profile, const results::Trace& trace);
 std::string traces_panel(const Profile& profile, const results::Trace& trace,
                          const results::Load& load, const Place& place);
 
-/// The criterion of Algorithm 2, or the KKT residuals of the active set; a log axis, with a place
-/// for zero at its foot.
+/// The criterion of Algorithm 2, or the KKT residuals of the active set, on a log axis with a place
+/// for zero at the bottom.
 std::string convergence_data(const results::Load& load);
 std::string convergence_panel(const results::Load& load, const Place& place);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// An interface as a picture needs it: an axis to draw over, and the parts to mark.
+// An interface for a picture: a horizontal axis, and the parts to mark.
 #pragma once
 
 #include <cstddef>
@@ -24,20 +24,19 @@ struct Fibre {
 };
 
 struct Profile {
-  std::string name;              ///< of the interface, where there are several; else empty
+  std::string name;              ///< of the interface, if there are several
   std::string axis;              ///< label, e.g. "x [-]"
   std::vector<double> position;  ///< (k) along the axis, increasing or decreasing
   std::vector<Band> delaminated;
   std::vector<Band> crack;
   std::vector<Band> bonded;
-  std::vector<Fibre> fibres;  ///< where the result says which lie here; by Band::begin
-  /// Contact, each node standing for half of its edges: their sum is the contact length, and a
-  /// single node in contact can be seen.
+  std::vector<Fibre> fibres;  ///< if known; by Band::begin
+  /// Contact; each node covers half of its edges, so a single node is visible and the bands add up
+  /// to the contact length.
   std::vector<Band> contact;
 };
 
-/// The axis is x or y where the interface is parallel to it (as in the paper), arc length else.
-/// O(k).
+/// The axis is x or y if the interface is parallel to it (as in the paper), else arc length. O(k).
 Profile profile(const results::Result& result, std::size_t interface, const results::Trace& trace);
 
 }  // namespace anticrack::figures

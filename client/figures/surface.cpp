@@ -53,7 +53,7 @@ std::vector<bool> outer_nodes(const Mesh& mesh) {
   return outer;
 }
 
-/// Vertices of the same class may be merged: 0 interior, 1 boundary of the membrane, 2 interface, 3
+/// Only vertices of a class are merged: 0 interior, 1 boundary of the membrane, 2 interface, 3
 /// both.
 std::vector<int> classes(const Mesh& mesh, const Cut& cut) {
   std::vector<int> faces(mesh.node_count(), 0);
@@ -67,7 +67,7 @@ std::vector<int> classes(const Mesh& mesh, const Cut& cut) {
   return of;
 }
 
-/// Sets of vertices that are one.
+/// Disjoint sets of vertices.
 class Merger {
  public:
   explicit Merger(std::size_t count) : _parent(count) {
@@ -80,7 +80,7 @@ class Merger {
     }
     return vertex;
   }
-  /// The first of them stands for all.
+  /// The first vertex represents the set.
   void merge(std::size_t a, std::size_t b) {
     a = find(a);
     b = find(b);
@@ -91,8 +91,8 @@ class Merger {
   std::vector<std::size_t> _parent;
 };
 
-/// Neighbours of one class in one cell of a grid become one. Only neighbours: the two faces of a
-/// slit may lie in one cell.
+/// Merges neighbours of one class in one cell of a grid. Only neighbours: a cell may hold both
+/// faces of a slit.
 std::vector<std::size_t> merged(const Mesh& mesh, const Cut& cut, const std::vector<int>& of,
                                 const Surface& box, double cell) {
   const auto cell_of = [&](std::size_t vertex, std::size_t axis) {

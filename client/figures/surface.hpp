@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The deformed membrane as a soup of triangles, coarsened to what a picture can show.
+// The deformed membrane as triangles, coarsened to what a picture can show.
 #pragma once
 
 #include <array>
@@ -29,13 +29,12 @@ struct Surface {
   double width() const noexcept;    ///< longer side of the bounding box
 };
 
-/// Every triangle with the u of its own face, so that the faces of a crack come apart; triangles
-/// with a value that is not finite are left out. More than `limit` triangles are merged: neighbours
-/// in one cell of a grid become one, interface, boundary and interior apart from each other.
-/// Needs load.fields. O(m log m).
+/// Triangles with the u of their own face, so cracks are open; without values that are not finite.
+/// To stay within `limit`, neighbours in one cell of a grid are merged, interface, boundary and
+/// interior separately. Needs load.fields. O(m log m).
 Surface surface(const results::Result& result, const results::Load& load, std::size_t limit);
 
-/// A round factor that makes u range over about a third of the membrane's width; 1 for u = 0.
+/// A round factor that scales u to about a third of the membrane's width; 1 for u = 0.
 double amplification(const Surface& surface);
 
 }  // namespace anticrack::figures

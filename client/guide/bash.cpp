@@ -6,13 +6,9 @@
 namespace anticrack::guide {
 namespace {
 
-/// A case of a shell's `case`: the patterns, and what is done then.
+/// A branch of `case`.
 void add_case(std::ostream& out, const std::string& patterns, const std::string& action) {
-  if (!patterns.empty()) out << "    " << patterns << ") " << action << " ;;\n";
-}
-
-std::string either(const std::string& patterns, const std::string& pattern) {
-  return patterns.empty() ? pattern : patterns + " | " + pattern;
+  out << "    " << patterns << ") " << action << " ;;\n";
 }
 
 std::string bash_value(const Value& value) {
@@ -21,16 +17,13 @@ std::string bash_value(const Value& value) {
       return "compopt -o filenames; COMPREPLY=($(compgen -f -- \"$current\"))";
     case Value::Kind::folder:
       return "compopt -o filenames; COMPREPLY=($(compgen -d -- \"$current\"))";
-    case Value::Kind::word: {
-      std::string words;
-      for (const std::string& word : value.words) words += (words.empty() ? "" : " ") + word;
-      return "COMPREPLY=($(compgen -W " + shell_word(words) + " -- \"$current\"))";
-    }
+    case Value::Kind::word:
+      return "COMPREPLY=($(compgen -W " + shell_word(joined(value.words)) + " -- \"$current\"))";
     case Value::Kind::none:
     case Value::Kind::text:
       break;
   }
-  return ":";  // whatever it is, it is not a command and no file
+  return ":";  // neither a command nor a file
 }
 
 }  // namespace
@@ -45,27 +38,26 @@ std::string bash_script(const Command& program) {
       << "  COMPREPLY=()\n"
       << "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
       << "    case \"$path:${COMP_WORDS[i]}\" in\n";
-  std::string known;
+  std::vector<std::string> known, valued;
   for (const Command* command : commands) {
     for (const Command& below : command->commands) {
-      known = either(known, shell_word(command->path + ":" + below.name));
+      known.push_back(shell_word(command->path + ":" + below.name));
     }
   }
-  std::string valued;
-  for (const std::string& option : with_value(program)) valued = either(valued, "*:" + option);
-  out << "      " << valued << ") ((++i)) ;;\n"
-      << "      " << known << ") path=\"${path:+$path }${COMP_WORDS[i]}\" ;;\n"
+  for (const std::string& option : with_value(program)) valued.push_back("*:" + option);
+  out << "      " << joined(valued, " | ") << ") ((++i)) ;;\n"
+      << "      " << joined(known, " | ") << ") path=\"${path:+$path }${COMP_WORDS[i]}\" ;;\n"
       << "    esac\n"
       << "  done\n"
       << "  case \"$path:$before\" in\n";
   for (const Command* command : commands) {
     for (const Option& option : options_of(*command, program)) {
       if (option.value.kind == Value::Kind::none) continue;
-      std::string patterns;
+      std::vector<std::string> patterns;
       for (const std::string& of_option : option.names) {
-        patterns = either(patterns, shell_word(command->path + ":" + of_option));
+        patterns.push_back(shell_word(command->path + ":" + of_option));
       }
-      add_case(out, patterns, bash_value(option.value) + "; return");
+      add_case(out, joined(patterns, " | "), bash_value(option.value) + "; return");
     }
   }
   out << "  esac\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What a shell has to know of the parser.
+// The commands and options of the parser, for shells and manual pages.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ class App;
 
 namespace anticrack::guide {
 
-/// What follows an option, or stands where a positional does.
+/// The value of an option or of a positional.
 struct Value {
   enum class Kind { none, text, file, folder, word };
   Kind kind = Kind::none;
@@ -27,8 +27,8 @@ struct Option {
 };
 
 struct Command {
-  std::string path;  ///< words from below the program's name, with spaces between; empty: itself
-  std::string name;  ///< the last of them
+  std::string path;  ///< words after the program's name; empty: the program
+  std::string name;  ///< the last word
   std::string description;
   std::vector<Command> commands;
   std::vector<Option> options;
@@ -36,10 +36,10 @@ struct Command {
   std::string footer;  ///< what --help ends with
 };
 
-/// The program itself. Options in groups are the command's.
+/// The program. Options in groups belong to the command.
 Command command_tree(const CLI::App& app);
 
-/// The command and all below it, the outer first.
+/// The command and all its subcommands, parents first.
 std::vector<const Command*> with_all_below(const Command& command);
 
 }  // namespace anticrack::guide

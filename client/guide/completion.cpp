@@ -12,6 +12,12 @@ std::string shell_word(const std::string& text) {
   return result + "'";
 }
 
+std::string joined(const std::vector<std::string>& words, const std::string& separator) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
+  return text;
+}
+
 std::vector<std::string> with_value(const Command& program) {
   std::vector<std::string> result;
   for (const Command* command : with_all_below(program)) {

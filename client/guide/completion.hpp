@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Completion of the command line in shells, made from the texts of --help.
+// Shell completion, made from the texts of --help.
 #pragma once
 
 #include <string>
@@ -13,9 +13,8 @@ namespace anticrack::guide {
 
 enum class Shell { bash, zsh, fish };
 
-/// A script for the shell to source or to find among its completions. It offers commands, options
-/// with their descriptions (zsh, fish), files where an option's or a positional's type is FILE,
-/// folders where it is DIR, and the words of a type that is written {a,b,c}.
+/// A script to source or to install among the shell's completions. It offers commands, options with
+/// descriptions (zsh, fish), files for the type FILE, folders for DIR, the words of {a,b,c}.
 std::string completion_script(const CLI::App& app, Shell shell);
 
 }  // namespace anticrack::guide

@@ -14,11 +14,8 @@ std::string fish_value(const Value& value) {
       return " -r -F";
     case Value::Kind::folder:
       return " -x -a '(__fish_complete_directories)'";
-    case Value::Kind::word: {
-      std::string words;
-      for (const std::string& word : value.words) words += (words.empty() ? "" : " ") + word;
-      return " -x -a " + shell_word(words);
-    }
+    case Value::Kind::word:
+      return " -x -a " + shell_word(joined(value.words));
     case Value::Kind::text:
       break;
   }

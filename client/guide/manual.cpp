@@ -10,7 +10,7 @@
 namespace anticrack::guide {
 namespace {
 
-/// As roff prints it back: no escapes, no requests, and - as one can type it.
+/// Escaped so that roff prints the text unchanged, "-" included.
 std::string plain(const std::string& text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -77,7 +77,7 @@ class PageWriter {
     _out << '\n';
   }
 
-  /// A section, if `write` has something for it.
+  /// A section, unless `write` adds no item.
   template <class Write>
   void listed(const std::string& title, const Write& write) {
     _title = title;
@@ -99,7 +99,7 @@ class PageWriter {
          option.description);
   }
 
-  /// Paragraphs as they are; one that ends its first line with a colon is a section of that name.
+  /// Paragraphs; one whose first line ends with a colon is a section of that name.
   void footer() {
     std::istringstream lines(_command.footer);
     bool begins = true;
@@ -126,7 +126,7 @@ class PageWriter {
   const Command& _program;
   const Command& _command;
   int _section;
-  std::string _title;  // of the section that has not begun
+  std::string _title;  // of a section still empty
   bool _described = false;
   std::ostringstream _out;
 };

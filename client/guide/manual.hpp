@@ -17,8 +17,8 @@ struct Page {
   std::string text;  ///< in the man macros of roff
 };
 
-/// A page of the program and of each command below it. `section`: 1 for commands, 8 for daemons;
-/// `version`: "anticrack 1.0", for the foot of the pages.
+/// Pages of the program and of each command. `section`: 1 for commands, 8 for daemons; `version`:
+/// for the footer, "anticrack 1.0".
 std::vector<Page> manual(const CLI::App& app, int section, const std::string& version);
 
 }  // namespace anticrack::guide

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A script for each shell. They share how a command line is read: words that name a command below
-// the one so far lead down to it, all others are passed over.
+// A script for each shell. All read a command line alike: a word that names a subcommand of the
+// current command leads to it, other words are skipped.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace anticrack::guide {
 
-/// What the shell reads to complete commands, options and their values.
+/// The script that completes commands, options and their values.
 std::string bash_script(const Command& program);
 std::string zsh_script(const Command& program);
 std::string fish_script(const Command& program);
@@ -18,13 +18,16 @@ std::string fish_script(const Command& program);
 /// 'text', as all three shells read it back.
 std::string shell_word(const std::string& text);
 
-/// Of the options of all commands that take a value: what follows one is not a command.
+/// The words with `separator` between.
+std::string joined(const std::vector<std::string>& words, const std::string& separator = " ");
+
+/// Names of all options that take a value: the word after one is not a command.
 std::vector<std::string> with_value(const Command& program);
 
-/// No command has a second one.
+/// Its value; no command has a second positional.
 Value first_positional(const Command& command);
 
-/// Of the command, and of the program: they may stand behind any command.
+/// Options of the command, and of the program, which may stand after any command.
 std::vector<Option> options_of(const Command& command, const Command& program);
 
 }  // namespace anticrack::guide

@@ -16,6 +16,7 @@
 #include <span>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "anticrack/v1/mesh.pb.h"
 #include "block.hpp"
@@ -36,6 +37,17 @@ std::string upload_mesh(Connection& connection, const std::filesystem::path& pat
 /// Error: invalid_argument (over the server's upload limit), resource_exhausted.
 std::string upload_array(Connection& connection, std::span<const double> values,
                          const std::stop_token& stop = {});
+
+/// The values of an array. Called on a thread of its own, for one array at a time and in order;
+/// once more for those that a lost connection makes it send again.
+using ReadArray = std::function<std::vector<double>(std::size_t index)>;
+
+/// upload_array for `count` arrays. They travel together, each read while the one before is sent,
+/// and the server writes them to the disk together: all of a stream (500 arrays) or none.
+/// Error: as upload_array; Details::metadata "file" is the index of the array at fault. What `read`
+/// throws.
+std::vector<std::string> upload_arrays(Connection& connection, std::size_t count,
+                                       const ReadArray& read, const std::stop_token& stop = {});
 
 /// Asks for the mesh of a geometry or of an upload. Returns before it is made, most often PENDING:
 /// a job may name it at once, wait_for_mesh() waits. Equal requests give the same mesh.

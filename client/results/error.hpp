@@ -17,9 +17,7 @@ class Error : public std::runtime_error {
 
   const std::string& subject() const noexcept { return _subject; }  ///< the path, or whose data
   const std::string& cause() const noexcept { return _cause; }
-  const std::string& cure() const noexcept {
-    return _cure;
-  }  ///< what the user can do; may be empty
+  const std::string& cure() const noexcept { return _cure; }  ///< may be empty
 
  private:
   std::string _subject, _cause, _cure;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "results/compressed_mesh.hpp"
 #include "results/error.hpp"
 #include "results/result.hpp"
 
@@ -17,7 +18,9 @@ inline constexpr std::string_view format = "anticrack-result/1";
 
 /// Replaces the file completely or not at all: temporary file in the same folder, fsync, rename.
 /// Needs memory for a copy of the file. Not for two threads at once unless HDF5 is thread-safe.
-void write(const std::filesystem::path& path, const Result& result);
+/// `compressed`: what compress(result.mesh) gave, or nothing; the file is the same.
+void write(const std::filesystem::path& path, const Result& result,
+           const CompressedMesh& compressed = {});
 
 /// Reads a file of `format`. Throws Error for a file that is not HDF5, truncated, not a result, of
 /// another format version or inconsistent. Sizes are checked before memory is allocated.

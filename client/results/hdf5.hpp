@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "results/filtered_chunks.hpp"
 #include "results/value_type.hpp"
 
 namespace anticrack::results::hdf5 {
@@ -40,6 +41,8 @@ class Handle {
 
   /// Still owned by the handle; below 0: none.
   hid_t get() const noexcept { return _id; }
+  /// Gives it up without closing it.
+  hid_t release() noexcept { return std::exchange(_id, -1); }
   /// Closes it now; throws Fault(`what`) where the destructor would ignore an error.
   void close_now(const std::string& what) {
     if (_close(std::exchange(_id, -1)) < 0) throw Fault(what);
@@ -87,9 +90,10 @@ inline void put(const Handle& object, const std::string& attribute,
 }
 
 /// Dataset of `count` values, of shape (n) for columns 0, else (n / columns, columns). Numbers
-/// carry a checksum; large datasets are compressed. Returned for further attributes.
+/// carry a checksum; large datasets are compressed, unless their chunks come `filtered`. Returned
+/// for further attributes.
 Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
-                 std::size_t count, std::size_t columns);
+                 std::size_t count, std::size_t columns, const FilteredChunks& filtered = {});
 
 // Reading. Only hard links are followed and only data inside the file is read, so a file from
 // elsewhere cannot pull in others.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <map>
+#include <utility>
 
 #include "results/hdf5.hpp"
 
 namespace anticrack::results::hdf5 {
 namespace {
 
-constexpr std::size_t compressed_from = 2048;  // entries; compressing fewer saves little
-constexpr std::size_t chunk_entries = 65536;
-constexpr unsigned deflate_level = 6;
+constexpr std::size_t chunk_cache_bytes = std::size_t{1} << 20;  // HDF5's default
 
 void require(herr_t status, const std::string& what) {
   if (status < 0) throw Fault(what);
@@ -54,13 +54,12 @@ struct Values {
   hid_t in_file = -1, in_memory = -1;
 };
 
-Handle creation_properties(std::size_t rows, std::size_t columns, bool checked,
-                           const std::string& what) {
+Handle new_creation_properties(std::size_t rows, std::size_t columns) {
+  const std::string what = "HDF5 has no creation properties";
   Handle properties = without_times(H5P_DATASET_CREATE);
-  if (!checked || rows == 0) return properties;
+  if (rows == 0) return properties;
   const std::size_t width = std::max<std::size_t>(columns, 1);
-  const std::array<hsize_t, 2> chunk{
-      std::min(rows, std::max<std::size_t>(chunk_entries / width, 1)), width};
+  const std::array<hsize_t, 2> chunk{chunk_rows(rows, columns), width};
   require(H5Pset_chunk(properties.get(), columns == 0 ? 1 : 2, chunk.data()), what);
   if (rows * width >= compressed_from) {
     require(H5Pset_shuffle(properties.get()), what);
@@ -68,6 +67,50 @@ Handle creation_properties(std::size_t rows, std::size_t columns, bool checked,
   }
   require(H5Pset_fletcher32(properties.get()), what);
   return properties;
+}
+
+// A file has thousands of datasets: what they share is made once and left to HDF5's end.
+
+/// Of a dataset of this shape; 0 rows: of one without a checksum.
+hid_t creation_properties(std::size_t rows, std::size_t columns) {
+  static std::map<std::pair<std::size_t, std::size_t>, hid_t> known;
+  const auto place = known.try_emplace({rows, columns}, H5I_INVALID_HID).first;
+  if (place->second < 0) place->second = new_creation_properties(rows, columns).release();
+  return place->second;
+}
+
+/// A dataset of one chunk needs no table of 521 to find it.
+hid_t access_properties() {
+  static const hid_t id = [] {
+    const std::string what = "HDF5 has no access properties";
+    Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose, what);
+    require(H5Pset_chunk_cache(access.get(), 1, H5D_CHUNK_CACHE_NBYTES_DEFAULT,
+                               H5D_CHUNK_CACHE_W0_DEFAULT),
+            what);
+    return access.release();
+  }();
+  return id;
+}
+
+/// Texts are few: HDF5 would clear a megabyte for each list of them.
+hid_t text_transfer() {
+  static const hid_t id = [] {
+    const std::string what = "HDF5 has no transfer properties";
+    Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, what);
+    require(H5Pset_buffer(transfer.get(), 4096, nullptr, nullptr), what);
+    return transfer.release();
+  }();
+  return id;
+}
+
+void write_chunks(const Handle& dataset, const FilteredChunks& chunks, std::size_t begin,
+                  std::size_t end, std::size_t rows, const std::string& what) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::array<hsize_t, 2> offset{i * rows, 0};
+    require(H5Dwrite_chunk(dataset.get(), H5P_DEFAULT, 0, offset.data(), chunks[i].size(),
+                           chunks[i].data()),
+            what);
+  }
 }
 
 }  // namespace
@@ -108,7 +151,7 @@ void put_attribute(const Handle& object, const std::string& name, ValueType type
 }
 
 Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
-                 std::size_t count, std::size_t columns) {
+                 std::size_t count, std::size_t columns, const FilteredChunks& filtered) {
   const std::string what = "cannot write dataset " + name;
   if (columns != 0 && count % columns != 0) throw Fault(what + ": not whole rows");
   const std::size_t rows = columns == 0 ? count : count / columns;
@@ -116,15 +159,27 @@ Handle put_array(const Handle& group, const std::string& name, ValueType type, c
   const Handle space(H5Screate_simple(columns == 0 ? 1 : 2, shape.data(), nullptr), H5Sclose, what);
   const Values source(type, values, count);
   // HDF5 refuses a checksum over text, which would cover pointers into the heap.
-  const Handle properties = creation_properties(rows, columns, type != ValueType::text, what);
+  const bool is_text = type == ValueType::text;
   Handle dataset(H5Dcreate2(group.get(), name.c_str(), source.in_file, space.get(), H5P_DEFAULT,
-                            properties.get(), H5P_DEFAULT),
+                            creation_properties(is_text ? 0 : rows, columns),
+                            count <= chunk_entries ? access_properties() : H5P_DEFAULT),
                  H5Dclose, what);
-  if (count != 0) {
-    require(H5Dwrite(dataset.get(), source.in_memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, source.data),
+  // HDF5 writes a chunk when its cache of 1 MB is full, and those left when the dataset is closed,
+  // behind its attributes: the same order gives the same file.
+  const std::size_t chunk = chunk_rows(rows, columns);
+  std::size_t before = 0;
+  if (!filtered.empty()) {
+    const std::size_t left =
+        chunk_cache_bytes / (chunk * std::max<std::size_t>(columns, 1) * bytes_of(type));
+    before = filtered.size() - std::min(filtered.size(), left);
+    write_chunks(dataset, filtered, 0, before, chunk, what);
+  } else if (count != 0) {
+    require(H5Dwrite(dataset.get(), source.in_memory, H5S_ALL, H5S_ALL,
+                     is_text ? text_transfer() : H5P_DEFAULT, source.data),
             what);
   }
   put(dataset, "units", std::string("-"));  // quantities are in the units of the case
+  write_chunks(dataset, filtered, before, filtered.size(), chunk, what);
   return dataset;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A mesh as the server understood it: what is drawn and tabulated before anything is solved. Units
-// and index base as in result.hpp.
+// A mesh as the server understood it, to be drawn before anything is solved. Units and index base
+// as in result.hpp.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,7 @@
 
 namespace anticrack::results {
 
-/// A chain of k nodes; its plus side is on the left. A closed one has its first node again as its
-/// last.
+/// A chain of k nodes with the plus side on its left; a closed one repeats its first node.
 struct InterfaceLine {
   std::string name;
   std::vector<std::int32_t> nodes;  ///< (k) index into Mesh::xy
@@ -36,11 +35,11 @@ struct MeshPlan {
   std::vector<Tip> tips;
 };
 
-/// Adds the arrays of ReadMesh to what the message Mesh said: title, names and tension of the
+/// Adds the arrays of ReadMesh to the contents of the message Mesh: title, names and tension of the
 /// subdomains, names of interfaces and inclusions, tips. Throws Error as `assemble` does.
 MeshPlan assemble_mesh(MeshPlan messages, std::span<const ArrayView> mesh_block);
 
-/// The first invariant above that does not hold; empty when all hold.
+/// The first invariant that does not hold; empty: all hold.
 std::string first_fault(const MeshPlan& plan);
 
 }  // namespace anticrack::results

@@ -11,7 +11,7 @@
 namespace anticrack::results {
 namespace {
 
-/// Collects the first fault only: later ones often follow from it.
+/// Keeps the first fault only: later ones often follow from it.
 class Faults {
  public:
   bool any() const noexcept { return !_first.empty(); }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The whole answer to a run as plain data: what the result file holds, figures draw and tables
-// show.
+// The whole answer to a run as plain data, for the result file, figures and tables.
 //
 // The membrane problem, its notation and equation numbers: Rudoy & Shcherbakov (2016). Index base
 // 0. Lengths, displacements and forces are in the units of the case (dimensionless in the paper);
@@ -19,8 +18,7 @@
 
 namespace anticrack::results {
 
-/// Condition at a node or on an edge of an interface. The numbers are those of the API's
-/// InterfaceKind.
+/// Condition at a node or on an edge of an interface, numbered as the API's InterfaceKind.
 enum class Kind : std::int32_t {
   glue = 1,         ///< u+ = u-                      gamma_g
   crack = 2,        ///< [u] >= 0, no inclusion
@@ -43,14 +41,14 @@ struct Mesh {
   bool operator==(const Mesh&) const = default;
 };
 
-/// What lies along a chain of k nodes, one array entry an edge.
+/// The edges along a chain of k nodes.
 struct Edges {
   std::vector<Kind> kind;               ///< (k-1)
   std::vector<std::int32_t> inclusion;  ///< (k-1) index into Mesh::inclusions, -1 for none
   bool operator==(const Edges&) const = default;
 };
 
-/// A chain of k nodes, one array entry a node. A closed one has its first node again at its end.
+/// A chain of k nodes; a closed one repeats its first node at the end.
 struct Interface {
   std::string name;
   std::vector<double> s;     ///< (k) arc length from its start, strictly increasing
@@ -82,7 +80,7 @@ struct Inclusion {
   bool operator==(const Inclusion&) const = default;
 };
 
-/// Contact along an interface, by arc length; begin == end: contact in a single node.
+/// Contact along an interface, by arc length; begin == end for a single node.
 struct ContactInterval {
   std::size_t interface = 0;  ///< index into Result::interfaces
   double begin = 0;
@@ -100,7 +98,7 @@ struct Trace {
   bool operator==(const Trace&) const = default;
 };
 
-/// One entry an iteration kept by the server, all of one length.
+/// One entry per iteration kept by the server.
 struct History {
   std::vector<std::int32_t> iteration;  ///< from 1, strictly increasing
   std::vector<double> criterion;        ///< step 3 of Algorithm 2; 1 in the first iteration
@@ -116,13 +114,12 @@ struct History {
   bool operator==(const History&) const = default;
 };
 
-/// u on the nodes of one subdomain, those on an interface with its own trace. A node inside a slit
-/// is there twice, once a face: `triangles` says which of the two a triangle hangs on.
+/// u on the nodes of one subdomain, with its own trace on interfaces. A node inside a slit occurs
+/// twice, once per face; `triangles` refer to the one of their face.
 struct Field {
-  std::vector<std::int32_t> nodes;  ///< (n_i) index into Mesh::xy
-  std::vector<std::int32_t>
-      triangles;          ///< (m_i,3) row-major, index into nodes; all of the subdomain
-  std::vector<double> u;  ///< (n_i)
+  std::vector<std::int32_t> nodes;      ///< (n_i) index into Mesh::xy
+  std::vector<std::int32_t> triangles;  ///< (m_i,3) row-major, index into nodes
+  std::vector<double> u;                ///< (n_i)
   bool operator==(const Field&) const = default;
 };
 
@@ -149,8 +146,7 @@ struct Load {
   double contact_length = 0;
   std::int32_t weakly_active = 0;  ///< crack nodes with neither jump nor pressure
   double solve_seconds = 0;
-  std::vector<std::string>
-      warnings;  ///< e.g. a load that could not be integrated as exactly as asked
+  std::vector<std::string> warnings;  ///< e.g. of a load integrated less exactly than asked
   std::vector<Inclusion> inclusions;
   std::vector<ContactInterval> contact_intervals;
   std::vector<Trace> traces;  ///< one per Result::interfaces, or none
@@ -183,16 +179,14 @@ struct Result {
   bool operator==(const Result&) const = default;
 };
 
-/// The first invariant above that does not hold (shapes, index ranges, names, enums, finite
-/// coordinates), as "loads[1].traces[0].jump has 160 entries for 161 nodes"; empty when all hold.
-/// O(size of the result).
+/// The first invariant that does not hold (shapes, index ranges, names, enums, finite coordinates),
+/// as "loads[1].traces[0].jump has 160 entries for 161 nodes"; empty: all hold. O(size).
 std::string first_fault(const Result& result);
 
 /// The same for the mesh alone.
 std::string first_mesh_fault(const Mesh& mesh);
 
-/// The same for what lies along a chain of `nodes` nodes of the mesh; `at` begins the text, as
-/// "interfaces[0]".
+/// The same for the edges of a chain of `nodes` nodes; `at` begins the text, as "interfaces[0]".
 std::string first_edge_fault(const std::string& at, const Edges& edges, std::size_t nodes,
                              const Mesh& mesh);
 

@@ -18,7 +18,7 @@ enum class Status : std::int32_t {
   cancelled = 6,
 };
 
-/// "converged", "not_converged", ...: the attribute `status` of the file. Empty for no Status.
+/// "converged", "not_converged", ...: the attribute `status` of the file. Empty if unknown.
 std::string_view name(Status status) noexcept;
 /// Inverse of `name`; empty for an unknown name.
 std::optional<Status> status_from(std::string_view name) noexcept;

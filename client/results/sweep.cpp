@@ -11,7 +11,7 @@ namespace anticrack::results {
 namespace {
 
 void widen(SweepSummary::Range& range, double value) {
-  range.low = std::fmin(range.low, value);  // fmin passes over NaN
+  range.low = std::fmin(range.low, value);  // fmin ignores NaN
   range.high = std::fmax(range.high, value);
 }
 
@@ -58,9 +58,9 @@ std::string range_fault(const Sweep& sweep, const std::vector<std::size_t>& inte
       return entry("contact_nodes", i) + " is not a node of an interface";
     }
   }
-  const auto odd = std::find_if(sweep.contact.begin(), sweep.contact.end(),
-                                [](std::uint8_t value) { return value > 1; });
-  if (odd != sweep.contact.end()) return "sweep.contact has a value other than 0 and 1";
+  if (std::ranges::any_of(sweep.contact, [](std::uint8_t value) { return value > 1; })) {
+    return "sweep.contact has a value other than 0 and 1";
+  }
   for (std::size_t i = 0; i < sweep.kept.size(); ++i) {
     const std::int32_t row = sweep.kept[i];
     if (row < 0 || static_cast<std::size_t>(row) >= sweep.rows() ||

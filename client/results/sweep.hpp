@@ -15,20 +15,20 @@
 namespace anticrack::results {
 
 struct Sweep {
-  std::vector<std::string> loads;       ///< names of the basis; none of distinct nodal forces
+  std::vector<std::string> loads;       ///< names of the basis; empty for nodal forces
   std::vector<std::string> inclusions;  ///< names
-  std::string source;                   ///< file of the coefficients or nodal forces, for people
-  /// (rows, loads) row-major: row k is the load sum_j c_kj loads[j]. Empty of nodal forces, and
-  /// where they are not known: a server does not give them back.
+  std::string source;                   ///< file of the coefficients or nodal forces
+  /// (rows, loads) row-major: row k is the load sum_j c_kj loads[j]. Empty for nodal forces, and if
+  /// unknown: the server does not return them.
   std::vector<double> coefficients;
 
-  std::vector<Status> status;          ///< (rows) no number of a row is right but where converged
-  std::vector<std::int32_t> steps;     ///< (rows) of the active set
-  std::vector<double> energy;          ///< (rows) Pi(u)
-  std::vector<double> contact_length;  ///< (rows) over all cracks and delaminated parts
-  std::vector<double> kkt;             ///< (rows) largest relative residual
-  std::vector<double> displacement;    ///< (rows, inclusions) row-major: A of equation (5)
-  std::vector<std::uint8_t> contact;   ///< (rows, contacts) row-major: 1 closed under pressure
+  std::vector<Status> status;               ///< (rows) numbers of a row hold only if converged
+  std::vector<std::int32_t> steps;          ///< (rows) of the active set
+  std::vector<double> energy;               ///< (rows) Pi(u)
+  std::vector<double> contact_length;       ///< (rows) over all cracks and delaminated parts
+  std::vector<double> kkt;                  ///< (rows) largest relative residual
+  std::vector<double> displacement;         ///< (rows, inclusions) row-major: A of equation (5)
+  std::vector<std::uint8_t> contact;        ///< (rows, contacts) row-major: 1 closed under pressure
   std::vector<std::int32_t> contact_nodes;  ///< (contacts, 2): interface, and node of it
 
   /// Rows whose traces were kept, ascending: Result::loads has one load for each, "row-17".
@@ -37,15 +37,15 @@ struct Sweep {
   std::string error;         ///< of the first row that failed
   double solve_seconds = 0;  ///< on the server's solver threads, added up
 
-  /// Of all columns; crack nodes of the mesh.
+  /// Length of the columns; number of crack nodes.
   std::size_t rows() const noexcept { return status.size(); }
   std::size_t contacts() const noexcept { return contact_nodes.size() / 2; }
-  /// Of a shape's word: "rows", "contacts", "inclusions", "loads", "kept".
+  /// The number for a word of a shape: "rows", "contacts", "inclusions", "loads", "kept".
   std::size_t extent(std::string_view word) const noexcept;
   bool operator==(const Sweep&) const = default;
 };
 
-/// How many rows ended how, and what the converged ones span.
+/// Counts of rows by ending, and ranges over the converged rows.
 struct SweepSummary {
   struct Range {
     double low = std::numeric_limits<double>::quiet_NaN();  ///< NaN where no row converged
@@ -65,8 +65,8 @@ SweepSummary summary(const Sweep& sweep);
 /// "row-17".
 std::string row_name(std::int64_t row);
 
-/// The first invariant that does not hold (lengths, ranges, enums), `interface_nodes` being the
-/// numbers of nodes of the interfaces; empty when all hold. O(size of the sweep).
+/// The first invariant that does not hold (lengths, ranges, enums); empty: all hold.
+/// `interface_nodes`: numbers of nodes of the interfaces. O(size).
 std::string first_fault(const Sweep& sweep, const std::vector<std::size_t>& interface_nodes);
 
 }  // namespace anticrack::results

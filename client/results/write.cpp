@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -58,11 +60,26 @@ void put_sweep(const Handle& root, const Sweep& sweep) {
   put_arrays(group, sweep, tables::sweep_arrays);
 }
 
-void put_all(const Handle& root, const Result& result) {
+void put_mesh(const Handle& root, const Mesh& mesh, const CompressedMesh& compressed) {
+  const Handle group = create_group(root, "mesh");
+  arrays::for_each(
+      [&](const auto& row) {
+        const auto& values = std::invoke(row.member, mesh);
+        const auto chunks = compressed.find(std::string(row.name));
+        hdf5::put_array(group, std::string(row.name),
+                        value_type<std::ranges::range_value_t<decltype(values)>>, values.data(),
+                        values.size(), arrays::columns_of(row.shape),
+                        chunks == compressed.end() ? hdf5::FilteredChunks() : chunks->second);
+      },
+      tables::mesh);
+  put_arrays(group, mesh, tables::mesh_names);
+}
+
+void put_all(const Handle& root, const Result& result, const CompressedMesh& compressed) {
   put(root, "format", std::string(format));
   put_values(root, result, tables::result);
   put_values(root, result.timings, tables::timings);
-  put_arrays(create_group(root, "mesh"), result.mesh, tables::mesh, tables::mesh_names);
+  put_mesh(root, result.mesh, compressed);
   const Handle interfaces = create_group(root, "interfaces");
   for (std::size_t i = 0; i < result.interfaces.size(); ++i) {
     put_interface(interfaces, i, result.interfaces[i]);
@@ -76,13 +93,14 @@ void put_all(const Handle& root, const Result& result) {
 
 }  // namespace
 
-void write(const std::filesystem::path& path, const Result& result) {
+void write(const std::filesystem::path& path, const Result& result,
+           const CompressedMesh& compressed) {
   const std::string fault = first_fault(result);
   if (!fault.empty()) throw Error(path.string(), "the result is inconsistent: " + fault, "");
   const hdf5::Quiet quiet;
   std::vector<std::byte> bytes;
   try {
-    bytes = hdf5::file_image([&](const Handle& root) { put_all(root, result); });
+    bytes = hdf5::file_image([&](const Handle& root) { put_all(root, result, compressed); });
   } catch (const hdf5::Fault& error) {
     throw Error(path.string(), error.what(), "");
   }

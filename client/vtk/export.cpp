@@ -33,7 +33,7 @@ bool exportable(const Result& result, const std::string& source, const Load& loa
   }
   if (load.fields.empty() && !result.sweep) {
     throw results::Error(source + ": load \"" + load.name + "\"",
-                         "the result has no fields, u is known along the interfaces only",
+                         "the result has no fields: u is known only along the interfaces",
                          "run the case again with [output] fields = true, or with --set "
                          "output.fields=true");
   }
@@ -44,36 +44,34 @@ bool exportable(const Result& result, const std::string& source, const Load& loa
 
 UnstructuredGrid membrane(const Result& result, const Load& load) {
   UnstructuredGrid grid;
-  RealData u{"u", {}}, tension{"tension", {}};
-  IntegerData node{"node", {}}, subdomain{"subdomain", {}};
+  std::vector<double> u, tension;
+  std::vector<std::int32_t> node, subdomain;
   for (std::size_t d = 0; d < load.fields.size(); ++d) {
     const results::Field& field = load.fields[d];
-    const auto first = static_cast<std::int32_t>(node.values.size());
-    append(node.values, field.nodes);
-    append(u.values, field.u);
+    const auto first = static_cast<std::int32_t>(node.size());
+    append(node, field.nodes);
+    append(u, field.u);
     for (const std::int32_t corner : field.triangles) grid.corners.push_back(first + corner);
     const std::size_t cells = field.triangles.size() / 3;
-    subdomain.values.insert(subdomain.values.end(), cells, static_cast<std::int32_t>(d));
-    tension.values.insert(tension.values.end(), cells, result.mesh.tension[d]);
+    subdomain.insert(subdomain.end(), cells, static_cast<std::int32_t>(d));
+    tension.insert(tension.end(), cells, result.mesh.tension[d]);
   }
-  grid.xy.reserve(2 * node.values.size());
-  for (const std::int32_t index : node.values) {
+  grid.xy.reserve(2 * node.size());
+  for (const std::int32_t index : node) {
     const auto at = 2 * static_cast<std::size_t>(index);
     grid.xy.push_back(result.mesh.xy[at]);
     grid.xy.push_back(result.mesh.xy[at + 1]);
   }
-  grid.points = {{std::move(u)}, {std::move(node)}};
-  grid.cells = {{std::move(tension)}, {std::move(subdomain)}};
+  grid.points = {{"u", std::move(u)}, {"node", std::move(node)}};
+  grid.cells = {{"tension", std::move(tension)}, {"subdomain", std::move(subdomain)}};
   return grid;
 }
 
 UnstructuredGrid interfaces(const Result& result, const Load& load) {
   UnstructuredGrid grid;
   grid.shape = Cell::line;
-  std::vector<RealData> reals{
-      {"u_minus", {}}, {"u_plus", {}}, {"jump", {}}, {"pressure", {}}, {"s", {}}};
-  IntegerData kind{"kind", {}}, contact{"contact", {}}, index{"interface", {}},
-      inclusion{"inclusion", {}};
+  std::vector<double> u_minus, u_plus, jump, pressure, s;
+  std::vector<std::int32_t> kind, contact, index, inclusion;
   for (std::size_t i = 0; i < load.traces.size(); ++i) {
     const results::Interface& line = result.interfaces[i];
     const results::Trace& trace = load.traces[i];
@@ -81,22 +79,24 @@ UnstructuredGrid interfaces(const Result& result, const Load& load) {
     const auto count = static_cast<std::int32_t>(line.node_count());
     for (std::size_t k = 0; k < line.node_count(); ++k) {
       grid.xy.insert(grid.xy.end(), {line.x[k], line.y[k]});
-      kind.values.push_back(static_cast<std::int32_t>(line.kind[k]));
+      kind.push_back(static_cast<std::int32_t>(line.kind[k]));
     }
     for (std::int32_t k = 0; k + 1 < count; ++k) {
       grid.corners.insert(grid.corners.end(), {first + k, first + k + 1});
-      index.values.push_back(static_cast<std::int32_t>(i));
+      index.push_back(static_cast<std::int32_t>(i));
     }
-    append(reals[0].values, trace.u_minus);
-    append(reals[1].values, trace.u_plus);
-    append(reals[2].values, trace.jump);
-    append(reals[3].values, trace.pressure);
-    append(reals[4].values, line.s);
-    append(contact.values, trace.contact);
-    append(inclusion.values, line.edges.inclusion);
+    append(u_minus, trace.u_minus);
+    append(u_plus, trace.u_plus);
+    append(jump, trace.jump);
+    append(pressure, trace.pressure);
+    append(s, line.s);
+    append(contact, trace.contact);
+    append(inclusion, line.edges.inclusion);
   }
-  grid.points = {std::move(reals), {std::move(kind), std::move(contact)}};
-  grid.cells = {{}, {std::move(index), std::move(inclusion)}};
+  grid.points = {{"u_minus", u_minus},   {"u_plus", u_plus}, {"jump", jump},
+                 {"pressure", pressure}, {"s", s},           {"kind", kind},
+                 {"contact", contact}};
+  grid.cells = {{"interface", index}, {"inclusion", inclusion}};
   return grid;
 }
 

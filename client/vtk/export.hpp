@@ -13,9 +13,8 @@
 
 namespace anticrack::vtk {
 
-/// The membrane under a load: every subdomain with points of its own, so that both faces of cracks
-/// and slits are there and a jump of u stays one. Point data u, node (index in the mesh); cell data
-/// subdomain, tension. Needs load.fields.
+/// The membrane under a load. Subdomains share no points, which keeps both faces of cracks and
+/// slits. Point data u, node (index in the mesh); cell data subdomain, tension. Needs load.fields.
 UnstructuredGrid membrane(const results::Result& result, const results::Load& load);
 
 /// The interfaces as lines. Point data u_minus, u_plus, jump, pressure, s (arc length), kind
@@ -25,15 +24,15 @@ UnstructuredGrid interfaces(const results::Result& result, const results::Load& 
 
 struct Exported {
   std::vector<std::filesystem::path> files;
-  std::vector<std::string> notes;  ///< what was left out and why, for people
+  std::vector<std::string> notes;  ///< what was left out and why
 };
 
-/// Writes into `folder` (made if missing) for every load with an answer LOAD.vtu (the membrane) and
-/// LOAD-interfaces.vtu, and result.pvd, which shows load i at time i. LOAD is the load's name made
-/// safe for a file name, and unique. Of a sweep the interfaces of the rows whose traces were kept:
-/// it has no fields. Each file is written whole or not at all. Throws
-/// results::Error where an answer has no fields (but of a sweep), where nothing is answered, and
-/// where a file cannot be written; `source` names the result in it, the file it was read from.
+/// Writes into `folder` (created if missing), for every load with an answer, LOAD.vtu (the
+/// membrane) and LOAD-interfaces.vtu, and result.pvd, which shows load i at time i. LOAD is the
+/// load's name made safe for a file name, and unique. A sweep has no fields: only the interfaces of
+/// kept rows. Each file is written completely or not at all. Throws results::Error for an answer
+/// without fields (except of a sweep), without any answer, and for a file that cannot be written;
+/// `source` names the result in it.
 Exported export_result(const results::Result& result, const std::string& source,
                        const std::filesystem::path& folder);
 

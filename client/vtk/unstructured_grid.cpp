@@ -5,6 +5,7 @@
 #include <cstring>
 #include <span>
 #include <stdexcept>
+#include <type_traits>
 
 namespace anticrack::vtk {
 namespace {
@@ -44,18 +45,19 @@ class Appended {
 };
 
 void require(bool fits, const std::string& name) {
-  if (!fits) throw std::invalid_argument("\"" + name + "\" has not one value an entry");
+  if (!fits) throw std::invalid_argument("\"" + name + "\" does not have one value per entry");
 }
 
-std::string elements(const Attributes& attributes, std::size_t count, Appended& appended) {
+std::string elements(const std::vector<Data>& arrays, std::size_t count, Appended& appended) {
   std::string text;
-  for (const RealData& data : attributes.reals) {
-    require(data.values.size() == count, data.name);
-    text += appended.element<double>(data.name, "Float64", data.values);
-  }
-  for (const IntegerData& data : attributes.integers) {
-    require(data.values.size() == count, data.name);
-    text += appended.element<std::int32_t>(data.name, "Int32", data.values);
+  for (const Data& data : arrays) {
+    std::visit(
+        [&]<class T>(const std::vector<T>& values) {
+          require(values.size() == count, data.name);
+          const char* type = std::is_same_v<T, double> ? "Float64" : "Int32";
+          text += appended.element<T>(data.name, type, values);
+        },
+        data.values);
   }
   return text;
 }

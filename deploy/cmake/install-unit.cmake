@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Part of `cmake --install`: the unit and the configuration, whose places are known once the prefix is. `deploy`: the
-# folder with both.
+# Part of `cmake --install`: the unit and the configuration, whose paths depend on the prefix. `deploy`: their folder.
 set(etc ${CMAKE_INSTALL_PREFIX}/etc)
 if(CMAKE_INSTALL_PREFIX MATCHES "^/usr(/local)?$")
   set(etc /etc)

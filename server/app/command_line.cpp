@@ -35,23 +35,16 @@ void describe(CLI::App& parser, CommandLine& result, const std::string& version)
       ->excludes(check);
   for (const Key& key : keys()) {
     const std::string flag = "--" + key.name;
+    const auto set = [&result, name = key.name, flag](const std::string& value) {
+      result.settings.push_back({name, value, flag});
+    };
     if (key.type == KeyType::flag) {
       parser.add_flag_callback(
-          flag,
-          [&result, key, flag] {
-            result.settings.push_back({key.name, "true", flag});
-          },
-          key.help);
+          flag, [set] { set("true"); }, key.help);
       continue;
     }
-    CLI::Option* option = parser
-                              .add_option_function<std::string>(
-                                  flag,
-                                  [&result, key, flag](const std::string& value) {
-                                    result.settings.push_back({key.name, value, flag});
-                                  },
-                                  key.help)
-                              ->type_name(key.placeholder);
+    CLI::Option* option = parser.add_option_function<std::string>(flag, set, key.help);
+    option->type_name(key.placeholder);
     const std::string fallback = key.get(defaults);
     if (!fallback.empty() && fallback != "0") option->default_str(fallback);
   }

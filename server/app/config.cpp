@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/config.hpp"
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,14 +25,11 @@ void apply(const std::vector<Setting>& settings, Config& config) {
 }
 
 std::string quoted(const std::string& text) {
-  constexpr char digits[] = "0123456789ABCDEF";
   std::string result = "\"";
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);
     if (code < 0x20 || code == 0x7F) {
-      result += "\\u00";
-      result += digits[code >> 4U];
-      result += digits[code & 15U];
+      result += fmt::format("\\u{:04X}", code);
       continue;
     }
     if (c == '"' || c == '\\') result += '\\';
@@ -73,9 +71,11 @@ Config make_config(const std::vector<Setting>& file, const std::vector<Setting>&
   Config config;
   apply(file, config);
   apply(command_line, config);
-  if (config.data_dir.empty()) config.data_dir = default_data_dir();
-  if (config.memory_budget == 0) config.memory_budget = default_memory_budget();
-  if (config.threads == 0) config.threads = std::max(1u, std::thread::hardware_concurrency());
+  if (config.store.folder.empty()) config.store.folder = default_data_dir();
+  if (config.limits.memory_budget_bytes == 0)
+    config.limits.memory_budget_bytes = default_memory_budget();
+  if (config.jobs.threads == 0)
+    config.jobs.threads = std::max(1u, std::thread::hardware_concurrency());
   check_together(config);
   return config;
 }

@@ -11,19 +11,22 @@
 #include <string>
 #include <vector>
 
+#include "jobs/job_engine.hpp"
+#include "meshes/mesh_catalogue.hpp"
+#include "rpc/backend.hpp"
+#include "store/store.hpp"
+
 namespace anticrack::app {
 
 struct Config {
   std::string listen = "127.0.0.1:7433";
   bool allow_insecure_remote = false;
-  std::string data_dir;             ///< empty: default_data_dir()
-  std::uint64_t memory_budget = 0;  ///< 0: default_memory_budget()
-  int threads = 0;                  ///< 0: the number of processors
   std::string log_level = "info";
   std::string log_format = "text";
   std::string metrics_listen;                ///< empty: no metrics
   std::chrono::milliseconds drain_delay{0};  ///< still serving, but not ready
   std::chrono::milliseconds drain_time{3'000};
+  std::chrono::milliseconds meshing_time{600'000};
 
   // Paths; empty: none.
   std::string tls_certificate;
@@ -32,38 +35,12 @@ struct Config {
   std::string tokens;
   std::string admins;  ///< comma separated
 
-  std::string mesher;  ///< empty: beside the executable
-  std::chrono::milliseconds meshing_time{600'000};
-  std::uint64_t mesher_memory = 6ULL << 30;
-  std::uint64_t mesh_triangles = 4'000'000;
-  int pending_meshes = 64;
-  int kept_meshes = 10'000;
-  std::uint64_t upload_limit = 256ULL << 20;
-
-  int load_cases = 1'000;
-  std::uint64_t max_sweep_rows = 10'000'000;
-  int max_sweep_basis = 256;
-  int iterations = 1'000'000;
-  int expression_bytes = 4'096;
-  int columns = 32;
-  int queued_jobs = 1'000;
-  int crashes = 3;
-  int queued_cases = 100'000;
-  std::uint64_t queued_bytes = 256ULL << 20;
-  std::chrono::milliseconds queue_time{std::chrono::hours(24)};
-  std::chrono::milliseconds run_time{std::chrono::hours(24)};
-  std::uint64_t result_limit = 2ULL << 30;
-  std::uint64_t event_log = 8ULL << 20;
-
-  int kept_jobs = 10'000;
-  std::chrono::milliseconds result_ttl{std::chrono::hours(7 * 24)};
-  std::uint64_t result_budget = 4ULL << 30;
-  std::chrono::milliseconds upload_ttl{std::chrono::hours(7 * 24)};
-  std::uint64_t disk_budget = 0;  ///< 0: the size of the disk
-
-  int watchers = 2'000;
-  int transfers = 64;
-  int streams_a_client = 1'024;
+  // Options of the layers; options.hpp completes them.
+  store::StoreOptions store;        ///< no folder: default_data_dir()
+  meshes::CatalogueOptions meshes;  ///< no executable of the helper: beside this one
+  rpc::Limits limits;               ///< memory budget 0: default_memory_budget()
+  /// 0 threads: the number of processors.
+  jobs::EngineOptions jobs{.threads = 0, .max_load_cases = 1'000, .event_log_bytes = 8u << 20};
 };
 
 /// One line: where (file and line, or flag), the bad value and the cure.

@@ -2,6 +2,7 @@
 //
 // The table of keys.
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "app/config.hpp"
@@ -17,17 +18,43 @@ using std::chrono::seconds;
 
 constexpr std::int64_t million = 1'000'000;
 
-/// A key for a member of Config: `read` makes the value from text and checks it, `show` is its
-/// inverse.
-template <class T, class Read, class Show>
-Key key(const char* name, KeyType type, const char* placeholder, const char* help, T Config::*field,
+using Helper = mesher::HelperOptions;
+using Jobs = jobs::EngineOptions;
+using Limits = rpc::Limits;
+using Meshes = meshes::CatalogueOptions;
+using Store = store::StoreOptions;
+
+/// The options of this type in a configuration.
+template <class Part>
+auto& part(auto& config) {
+  if constexpr (std::is_same_v<Part, Jobs>) {
+    return config.jobs;
+  } else if constexpr (std::is_same_v<Part, Limits>) {
+    return config.limits;
+  } else if constexpr (std::is_same_v<Part, Meshes>) {
+    return config.meshes;
+  } else if constexpr (std::is_same_v<Part, Helper>) {
+    return config.meshes.helper;
+  } else if constexpr (std::is_same_v<Part, Store>) {
+    return config.store;
+  } else {
+    return config;
+  }
+}
+
+/// A key for a member of the configuration: `read` makes the value from text and checks it, `show`
+/// is its inverse.
+template <class T, class Part, class Read, class Show>
+Key key(const char* name, KeyType type, const char* placeholder, const char* help, T Part::*field,
         Read read, Show show) {
   return {name,
           type,
           placeholder,
           help,
-          [field, read](Config& config, const std::string& value) { config.*field = read(value); },
-          [field, show](const Config& config) { return show(config.*field); }};
+          [field, read](Config& config, const std::string& value) {
+            part<Part>(config).*field = read(value);
+          },
+          [field, show](const Config& config) { return show(part<Part>(config).*field); }};
 }
 
 std::string same(const std::string& text) {
@@ -35,7 +62,8 @@ std::string same(const std::string& text) {
 }
 
 /// An empty text means that the key is not given; the help says what follows.
-Key text(const char* name, const char* placeholder, const char* help, std::string Config::*field) {
+template <class Part>
+Key text(const char* name, const char* placeholder, const char* help, std::string Part::*field) {
   return key(name, KeyType::text, placeholder, help, field, same, same);
 }
 
@@ -49,7 +77,8 @@ Key word(const char* name, const char* help, const std::vector<std::string>& kno
   return key(name, KeyType::text, "WORD", help, field, read, same);
 }
 
-Key address(const char* name, const char* help, bool may_be_socket, std::string Config::*field) {
+template <class Part>
+Key address(const char* name, const char* help, bool may_be_socket, std::string Part::*field) {
   const auto read = [may_be_socket](const std::string& value) {
     if (!may_be_socket && value.empty()) return value;
     if (!parse_listen_address(value).socket_path.empty() && !may_be_socket) {
@@ -60,13 +89,14 @@ Key address(const char* name, const char* help, bool may_be_socket, std::string 
   return key(name, KeyType::text, "ADDRESS", help, field, read, same);
 }
 
-Key bytes(const char* name, const char* help, std::uint64_t Config::*field, std::uint64_t least) {
+template <class Part>
+Key bytes(const char* name, const char* help, std::uint64_t Part::*field, std::uint64_t least) {
   const auto read = [least](const std::string& value) { return to_bytes(value, least); };
   return key(name, KeyType::number, "BYTES", help, field, read, from_bytes);
 }
 
-template <class Integer>
-Key count(const char* name, const char* help, Integer Config::*field, std::int64_t least,
+template <class Integer, class Part>
+Key count(const char* name, const char* help, Integer Part::*field, std::int64_t least,
           std::int64_t most) {
   const auto read = [least, most](const std::string& value) {
     return static_cast<Integer>(to_integer(value, least, most));
@@ -75,7 +105,8 @@ Key count(const char* name, const char* help, Integer Config::*field, std::int64
              [](Integer value) { return std::to_string(value); });
 }
 
-Key time(const char* name, const char* help, milliseconds Config::*field,
+template <class Part>
+Key time(const char* name, const char* help, milliseconds Part::*field,
          milliseconds least = milliseconds(0)) {
   const auto read = [least](const std::string& value) { return to_time(value, least); };
   return key(name, KeyType::number, "TIME", help, field, read, from_time);
@@ -110,59 +141,59 @@ const std::vector<Key>& keys() {
 
       text("data-dir", "DIR",
            "Folder of all data; default $XDG_STATE_HOME/anticrack or ~/.local/state/anticrack",
-           &Config::data_dir),
-      bytes("disk-budget", "Limit of the data folder; 0: the size of the disk",
-            &Config::disk_budget, 0),
-      count("kept-jobs", "Ended jobs kept; the oldest are removed first", &Config::kept_jobs, 1,
+           &Store::folder),
+      bytes("disk-budget", "Limit of the data folder; 0: the size of the disk", &Store::disk_budget,
+            0),
+      count("kept-jobs", "Ended jobs kept; the oldest are removed first", &Jobs::max_kept_jobs, 1,
             million),
       time("result-ttl", "Time after which the result of an ended job expires; 0: never",
-           &Config::result_ttl),
+           &Jobs::result_ttl),
       bytes("result-budget", "Results of all ended jobs; the oldest expire first",
-            &Config::result_budget, 1 << 20),
-      time("upload-ttl", "Time after which an unused upload is removed", &Config::upload_ttl,
+            &Jobs::result_budget, 1 << 20),
+      time("upload-ttl", "Time after which an unused upload is removed", &Jobs::upload_ttl,
            seconds(60)),
 
       text("mesher", "PATH", "The helper anticrack-mesher; default: beside anticrackd",
-           &Config::mesher),
+           &Helper::executable),
       time("meshing-time", "Time limit for one mesh; then the mesher is killed",
            &Config::meshing_time),
-      bytes("mesher-memory", "Address space of the mesher", &Config::mesher_memory, 256 << 20),
-      count("mesh-triangles", "Triangles of one mesh", &Config::mesh_triangles, 1, 1000 * million),
-      count("pending-meshes", "Meshes that may wait for the mesher", &Config::pending_meshes, 1,
+      bytes("mesher-memory", "Address space of the mesher", &Helper::memory_limit, 256 << 20),
+      count("mesh-triangles", "Triangles of one mesh", &Meshes::max_triangles, 1, 1000 * million),
+      count("pending-meshes", "Meshes that may wait for the mesher", &Meshes::max_pending, 1,
             million),
-      count("kept-meshes", "Meshes kept; to create more, delete some", &Config::kept_meshes, 1,
+      count("kept-meshes", "Meshes kept; to create more, delete some", &Meshes::max_meshes, 1,
             million),
-      bytes("upload-limit", "Size of an uploaded .msh or array", &Config::upload_limit, 1),
+      bytes("upload-limit", "Size of an uploaded .msh or array", &Limits::upload_bytes, 1),
       bytes("memory-budget", "Memory for all factorised meshes, e.g. 2GiB; default: half of memory",
-            &Config::memory_budget, 1 << 20),
+            &Limits::memory_budget_bytes, 1 << 20),
 
-      count("threads", "Solver threads; default: number of processors", &Config::threads, 1, 1024),
-      count("columns", "Load cases of one mesh solved together", &Config::columns, 1, 4'096),
+      count("threads", "Solver threads; default: number of processors", &Jobs::threads, 1, 1024),
+      count("columns", "Load cases of one mesh solved together", &Jobs::columns, 1, 4'096),
       // All of a job's answers, and the layout of its results, must fit in a message of 4 MiB.
-      count("load-cases", "Load cases of one job", &Config::load_cases, 1, 4'000),
-      count("max-sweep-rows", "Rows of one sweep", &Config::max_sweep_rows, 1, 1000 * million),
-      count("max-sweep-basis", "Load cases that one sweep combines", &Config::max_sweep_basis, 1,
+      count("load-cases", "Load cases of one job", &Jobs::max_load_cases, 1, 4'000),
+      count("max-sweep-rows", "Rows of one sweep", &Jobs::max_sweep_rows, 1, 1000 * million),
+      count("max-sweep-basis", "Load cases that one sweep combines", &Jobs::max_sweep_basis, 1,
             4'000),
-      count("iterations", "Iterations of one load case", &Config::iterations, 1, 1000 * million),
-      count("expression-bytes", "Length of an expression", &Config::expression_bytes, 1, 65'536),
-      bytes("result-limit", "Results of one job, histories included", &Config::result_limit,
+      count("iterations", "Iterations of one load case", &Jobs::max_iterations, 1, 1000 * million),
+      count("expression-bytes", "Length of an expression", &Jobs::max_expression_bytes, 1, 65'536),
+      bytes("result-limit", "Results of one job, histories included", &Jobs::max_result_bytes,
             1 << 20),
-      bytes("event-log", "Events kept per job; the oldest are dropped first", &Config::event_log,
-            64 << 10),
-      count("queued-jobs", "Jobs that may wait or run", &Config::queued_jobs, 1, million),
-      count("queued-cases", "Load cases of one mesh that may wait or run", &Config::queued_cases, 1,
-            1000 * million),
-      bytes("queued-bytes", "Definitions of all jobs that have not ended", &Config::queued_bytes,
+      bytes("event-log", "Events kept per job; the oldest are dropped first",
+            &Jobs::event_log_bytes, 64 << 10),
+      count("queued-jobs", "Jobs that may wait or run", &Jobs::max_queued_jobs, 1, million),
+      count("queued-cases", "Load cases of one mesh that may wait or run", &Jobs::max_queued_cases,
+            1, 1000 * million),
+      bytes("queued-bytes", "Definitions of all jobs that have not ended", &Jobs::max_queued_bytes,
             1 << 20),
       count("crashes", "Crashes of the server during a job, after which the job fails; 0: no limit",
-            &Config::crashes, 0, million),
-      time("queue-time", "Longest wait of a job; then it fails", &Config::queue_time, seconds(1)),
-      time("run-time", "Longest run of a job; then it fails", &Config::run_time, seconds(1)),
+            &Jobs::max_crashes, 0, million),
+      time("queue-time", "Longest wait of a job; then it fails", &Jobs::queue_time, seconds(1)),
+      time("run-time", "Longest run of a job; then it fails", &Jobs::run_time, seconds(1)),
 
-      count("watchers", "Watches open at once", &Config::watchers, 1, 100'000),
-      count("transfers", "Uploads and downloads at once", &Config::transfers, 1, 10'000),
+      count("watchers", "Watches open at once", &Limits::watchers, 1, 100'000),
+      count("transfers", "Uploads and downloads at once", &Limits::transfers, 1, 10'000),
       count("streams-a-client", "Watches and transfers that one client may have open",
-            &Config::streams_a_client, 1, 100'000),
+            &Limits::streams_a_client, 1, 100'000),
       time("drain-delay",
            "After SIGTERM: how long to go on serving as not ready, for load balancers",
            &Config::drain_delay),

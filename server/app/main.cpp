@@ -47,9 +47,9 @@ int serve(const app::Config& config) {
   const app::Signals signals;
   auto service = std::make_unique<app::Service>(config);
   std::cout << "anticrackd listening on " << service->address() << std::endl;
-  log::info(
-      "started",
-      {{"version", rpc::version()}, {"address", service->address()}, {"data", config.data_dir}});
+  log::info("started", {{"version", rpc::version()},
+                        {"address", service->address()},
+                        {"data", config.store.folder}});
   app::notify_ready("listening on " + service->address());
   const int number = wait_for_end(signals, *service);
   log::info("stopping", {{"signal", std::to_string(number)}, {"again", "stops at once"}});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The configuration as options of the layers. Callbacks are not set.
+// Options of the layers, completed from the configuration. Callbacks are not set.
 #pragma once
 
 #include "app/config.hpp"
@@ -12,10 +12,8 @@
 
 namespace anticrack::app {
 
-store::StoreOptions store_options(const Config& config);
 /// Throws ConfigError if the helper is not a program.
 meshes::CatalogueOptions catalogue_options(const Config& config);
-jobs::EngineOptions engine_options(const Config& config);
 rpc::ServerOptions server_options(const Config& config);
 operators::OperatorCache::Factorise factorise_function(const Config& config);
 

@@ -27,12 +27,12 @@ struct Service::Parts {
         drain_delay(config.drain_delay),
         drain_time(config.drain_time),
         metrics(rpc::version(), rpc::build()),
-        folder(config.data_dir),
-        store(store::open(store_options(config))),
-        cache(config.memory_budget, factorise_function(config),
+        folder(config.store.folder),
+        store(store::open(config.store)),
+        cache(config.limits.memory_budget_bytes, factorise_function(config),
               [this](std::chrono::duration<double> time) { factorised(metrics, time); }),
         catalogue(with_listener(catalogue_options(config)), *store, cache),
-        engine(with_listener(engine_options(config)), *store, catalogue) {}
+        engine(with_listener(config.jobs), *store, catalogue) {}
 
   void listen(const Config& config, rpc::Security security) {
     clear_stale_socket(address);

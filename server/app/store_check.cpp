@@ -12,10 +12,10 @@ namespace anticrack::app {
 
 int check_store(const Config& config, bool repair, std::ostream& out) {
   constexpr int flawed = 3;
-  const std::string& data = config.data_dir;
+  const std::string& data = config.store.folder;
   if (!std::filesystem::is_directory(data)) {
     throw ConfigError("data-dir: " + data +
-                      " is not a folder: say where the data is with --data-dir");
+                      " is not a folder: give the data folder with --data-dir");
   }
   const DataFolder held(data);
   const store::CheckedStore found = store::check(data);
@@ -33,8 +33,7 @@ int check_store(const Config& config, bool repair, std::ostream& out) {
     throw errors::Error(errors::Reason::storage,
                         "the store cannot be repaired, restore a backup: " + left.flaws.front());
   }
-  out << "The rest is sound. What was damaged, and a copy of the database, are in " << aside
-      << "\n";
+  out << "The rest is sound. The damaged parts and a copy of the database are in " << aside << "\n";
   return 0;
 }
 

@@ -21,10 +21,6 @@ double dirichlet_value(const ddm::Decomposition& decomposition,
   return 0;
 }
 
-bool in_contact(const ddm::NodePair& pair, double mu) {
-  return pair.unilateral() && mu > 0;
-}
-
 /// u on one side; a side on the Dirichlet boundary has no trace.
 double side_value(const TraceState& state, std::int32_t subdomain, std::int32_t trace,
                   double dirichlet) {
@@ -46,10 +42,7 @@ Trace trace_of(const TraceProblem& problem, std::span<const ddm::CondensedLoad> 
     const bool paired = side.pair >= 0;
     trace.jump.push_back(paired ? state.jump[side.pair] : 0);
     trace.pressure.push_back(paired ? state.mu[side.pair] : 0);
-    trace.contact.push_back(
-        paired && in_contact(problem.decomposition().pairs[at(side.pair)], state.mu[side.pair])
-            ? 1
-            : 0);
+    trace.contact.push_back(paired ? state.contact[at(side.pair)] : 0);
   }
   return trace;
 }
@@ -91,7 +84,7 @@ void fill_inclusions(const TraceProblem& problem, const mesh::Mesh& mesh,
   for (std::size_t i = 0; i < decomposition.pairs.size(); ++i) {
     const ddm::NodePair& pair = decomposition.pairs[i];
     const auto k = static_cast<Eigen::Index>(i);
-    if (in_contact(pair, state.mu[k])) {
+    if (state.contact[i] != 0) {
       answer.contact_length += problem.lumped_mass()[k];
       if (pair.inclusion >= 0) {
         answer.inclusions[at(pair.inclusion)].contact_length += problem.lumped_mass()[k];

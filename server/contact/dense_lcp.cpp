@@ -274,6 +274,7 @@ LcpAnswer DenseLcp::solve(const VectorXd& r, const VectorXd& magnitude, const Lc
   const double weak = std::max(options.tolerance, rounding);
   for (Index i = 0; i < size(); ++i) {
     answer.weakly_active += run.d[i] <= weak && run.lambda[i] <= weak ? 1 : 0;
+    answer.pressed.push_back(run.lambda[i] > weak ? 1 : 0);
   }
   if (answer.status == LcpStatus::solved) {
     answer.factor = run.take_factor();

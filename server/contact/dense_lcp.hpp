@@ -42,7 +42,8 @@ struct LcpAnswer {
   Eigen::VectorXd d;       ///< >= 0
   Eigen::VectorXd lambda;  ///< >= 0
   int steps = 0;
-  int weakly_active = 0;  ///< neither d nor lambda above tolerance
+  int weakly_active = 0;      ///< neither d nor lambda above tolerance
+  std::vector<char> pressed;  ///< lambda above tolerance
   bool fell_back = false;
   OpenFactor factor;  ///< of the open nodes, where solved: for solve_open
 };

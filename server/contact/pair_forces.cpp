@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -39,11 +40,79 @@ PairForces::PairForces(const ddm::Decomposition& decomposition, const VectorXd& 
     }
   }
   for (const auto& [node, pairs] : at_node) {
+    for (const std::int32_t i : pairs) {
+      if (_decomposition.pairs[at(i)].contact < 0 && !tied(_decomposition, i)) {
+        if (std::vector<std::int32_t> path = path_of(pairs, i); !path.empty()) {
+          _implied.push_back({i, std::move(path)});
+        }
+      }
+    }
     Knot knot = knot_of(pairs);
     if (!knot.pairs.empty() && !knot.sides.empty()) {
       _knots.push_back(std::move(knot));
     }
   }
+}
+
+/// Down from the unknown of its plus side, over the contacts of the node. Those form a forest:
+/// there is one way at most.
+std::vector<std::int32_t> PairForces::path_of(const std::vector<std::int32_t>& pairs_of_node,
+                                              std::int32_t pair) const {
+  const auto unknown = [this](std::int32_t subdomain, std::int32_t trace) {
+    return _decomposition.subdomains[at(subdomain)].unknown[at(trace)];
+  };
+  const ddm::NodePair& of = _decomposition.pairs[at(pair)];
+  const std::int32_t end = unknown(of.minus, of.minus_trace);
+  std::vector<std::vector<std::int32_t>> ways{{}};
+  std::vector<std::int32_t> reached{unknown(of.plus, of.plus_trace)};
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    if (reached[k] == end) {
+      return ways[k];
+    }
+    for (const std::int32_t i : pairs_of_node) {
+      const std::int32_t contact = _decomposition.pairs[at(i)].contact;
+      if (contact < 0 || _decomposition.skeleton.contacts[at(contact)].plus != reached[k]) {
+        continue;
+      }
+      const std::int32_t below = _decomposition.skeleton.contacts[at(contact)].minus;
+      if (std::find(reached.begin(), reached.end(), below) == reached.end()) {
+        reached.push_back(below);
+        ways.push_back(ways[k]);
+        ways.back().push_back(contact);
+      }
+    }
+  }
+  return {};
+}
+
+/// Sets mu of the implied pairs; what is left of lambda for the contacts. Where several implied
+/// pairs share contacts, each in turn until it settles.
+VectorXd PairForces::share(const VectorXd& lambda, VectorXd& mu) const {
+  constexpr int rounds = 64;
+  VectorXd left = lambda;
+  for (int round = 0; round < (_implied.size() == 1 ? 1 : rounds); ++round) {
+    bool changed = false;
+    for (const Implied& one : _implied) {
+      const double mass = _mass[one.pair], before = mass * mu[one.pair];
+      double wanted = 0, weight = 1 / mass, most = std::numeric_limits<double>::infinity();
+      for (const std::int32_t c : one.path) {
+        const double whole = left[c] + before;
+        wanted += whole / _contact_mass[c];
+        weight += 1 / _contact_mass[c];
+        most = std::min(most, whole);
+      }
+      const double taken = std::clamp(wanted / weight, 0.0, std::max(most, 0.0));
+      for (const std::int32_t c : one.path) {
+        left[c] += before - taken;
+      }
+      mu[one.pair] = taken / mass;
+      changed = changed || taken != before;
+    }
+    if (!changed) {
+      break;
+    }
+  }
+  return left;
 }
 
 PairForces::Knot PairForces::knot_of(const std::vector<std::int32_t>& pairs_of_node) const {
@@ -88,7 +157,7 @@ PairForces::Knot PairForces::knot_of(const std::vector<std::int32_t>& pairs_of_n
         root.cwiseInverse().asDiagonal() * b_root.completeOrthogonalDecomposition().pseudoInverse();
   }
   for (const std::int32_t i : pairs_of_node) {
-    if (_decomposition.pairs[at(i)].contact >= 0) {
+    if (!tied(_decomposition, i)) {
       for (const auto& [side, sign] : ends(i)) {
         if (const Index k = number(side); k >= 0) {
           knot.contacts.push_back({k, i, sign});
@@ -99,13 +168,27 @@ PairForces::Knot PairForces::knot_of(const std::vector<std::int32_t>& pairs_of_n
   return knot;
 }
 
+void PairForces::complete_contact(const VectorXd& lambda, std::vector<char>& pressed) const {
+  constexpr double least_pressure = 1e-12;
+  double largest = 0;
+  for (Index c = 0; c < lambda.size(); ++c) {
+    largest = pressed[at(c)] != 0 ? std::max(largest, lambda[c] / _contact_mass[c]) : largest;
+  }
+  for (Index c = 0; c < lambda.size() && largest > 0; ++c) {
+    if (lambda[c] / _contact_mass[c] > least_pressure * largest) {
+      pressed[at(c)] = 1;
+    }
+  }
+}
+
 VectorXd PairForces::multipliers(const std::vector<VectorXd>& fluxes,
                                  const VectorXd& lambda) const {
   VectorXd mu = VectorXd::Zero(_mass.size());
+  const VectorXd shared = share(lambda, mu);
   for (Index i = 0; i < mu.size(); ++i) {
     const std::int32_t contact = _decomposition.pairs[at(i)].contact;
     if (contact >= 0) {
-      mu[i] = lambda[contact] / _contact_mass[contact];
+      mu[i] = shared[contact] / _contact_mass[contact];
     }
   }
   for (const Knot& knot : _knots) {
@@ -123,6 +206,11 @@ VectorXd PairForces::multipliers(const std::vector<VectorXd>& fluxes,
     }
   }
   return mu;
+}
+
+bool pressed_through(const std::vector<std::int32_t>& path, const std::vector<char>& pressed) {
+  return std::all_of(path.begin(), path.end(),
+                     [&](std::int32_t contact) { return pressed[at(contact)] != 0; });
 }
 
 }  // namespace anticrack::contact

@@ -14,13 +14,27 @@ namespace anticrack::contact {
 ///   tied pairs:  S t - g = B'M mu on every side that is not rigid; where that leaves a choice
 ///                (sides tied in a circle around a cross point) the mu with the least mu'M mu, to
 ///                which Algorithm 2 converges as well.
-/// A side held rigid takes any force; a pair of two such sides has mu = 0. So has a pair whose
-/// condition follows from others of its cross point (contact -1, sides not tied).
-/// Lumped mass. Immutable after construction. O(n) a call.
+/// A side held rigid takes any force; a pair of two such sides has mu = 0.
+/// A pair whose condition follows from contacts of its cross point (contact -1, sides not tied)
+/// shares their forces: it takes the part of them that makes mu'M mu least with no mu below 0.
+/// Where one of them is open, its own mu is 0. Lumped mass. Immutable after construction. O(n) a
+/// call.
 class PairForces {
  public:
   /// Keeps references to both. `lumped_mass`: shape (pairs).
   PairForces(const ddm::Decomposition& decomposition, const Eigen::VectorXd& lumped_mass);
+
+  /// A pair whose condition follows from contacts: its minus side is below its plus side by them.
+  struct Implied {
+    Eigen::Index pair;
+    std::vector<std::int32_t> path;  ///< the contacts between its two sides
+  };
+  const std::vector<Implied>& implied() const noexcept { return _implied; }
+
+  /// Which contacts are closed under pressure. `pressed`: those with a force above rounding; where
+  /// there are any, a shorter edge's force may be below, so those with a pressure above 1e-12 of
+  /// the largest one join them. `lambda`: shape (contacts), >= 0. O(n), no allocation.
+  void complete_contact(const Eigen::VectorXd& lambda, std::vector<char>& pressed) const;
 
   /// Shape (pairs). `fluxes`: per subdomain, shape (trace); `lambda`: shape (contacts).
   Eigen::VectorXd multipliers(const std::vector<Eigen::VectorXd>& fluxes,
@@ -42,12 +56,19 @@ class PairForces {
     std::vector<Touch> contacts;
     Eigen::MatrixXd multipliers;  // (pairs, sides): mu = multipliers * force on the sides
   };
+  std::vector<std::int32_t> path_of(const std::vector<std::int32_t>& pairs_of_node,
+                                    std::int32_t pair) const;
+  Eigen::VectorXd share(const Eigen::VectorXd& lambda, Eigen::VectorXd& mu) const;
   Knot knot_of(const std::vector<std::int32_t>& pairs_of_node) const;
 
   const ddm::Decomposition& _decomposition;
   const Eigen::VectorXd& _mass;
   Eigen::VectorXd _contact_mass;
+  std::vector<Implied> _implied;
   std::vector<Knot> _knots;
 };
+
+/// Whether all contacts of a path are closed under pressure, of which `pressed` tells.
+bool pressed_through(const std::vector<std::int32_t>& path, const std::vector<char>& pressed);
 
 }  // namespace anticrack::contact

@@ -19,18 +19,20 @@ struct CaseLoads {
 
 /// Algorithm 2 from mu_0 = 0 until the criterion of step 3 is below epsilon (or, with
 /// kkt_tolerance, all relative residuals are below that), it is clear that it cannot converge,
-/// `max_iterations`, or the observer stops it. Samples measure `equilibrium`, which costs as much
-/// as an iteration and is zero to rounding, in the first, every 64th and the last iteration (with
-/// kkt_tolerance also where the other residuals are small) and repeat it in between. Deterministic.
-/// `mesh`: the one that was cut; ddm::uzawa_obstacle must be empty.
+/// `max_iterations`, or the observer stops it. Converged only where the relative residuals are at
+/// most solution_residual and no multiplier is held at its bound p. Samples measure `equilibrium`,
+/// which costs as much as an iteration and is zero to rounding, in the first, every 64th and the
+/// last iteration (with kkt_tolerance also where the other residuals are small) and repeat it in
+/// between. Deterministic. `mesh`: the one that was cut; ddm::uzawa_obstacle must be empty.
 Answer solve_uzawa(const TraceProblem& problem, const mesh::Mesh& mesh, const CaseLoads& loads,
                    const UzawaOptions& options, bool fields, Observer& observer);
 
 /// The exact contact problem, by DenseLcp and a step of iterative refinement; one sample a step,
 /// whose criterion is that of step 3 of Algorithm 2, 1 in the first. The bits depend on the final
 /// set only, not on `start`: closed contacts (Answer::closed of another load); empty: those of
-/// NestedStart. Ends not_converged at max_steps, or if a part of the membrane held by contact only
-/// is pulled off.
+/// NestedStart. Ends not_converged at max_steps, if a part of the membrane held by contact only is
+/// pulled off, or if a relative residual is above solution_residual. Throws errors::Error
+/// (numerical) where the energy overflows.
 Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
                         const CaseLoads& loads, const ActiveSetOptions& options, bool fields,
                         Observer& observer, std::span<const char> start = {});

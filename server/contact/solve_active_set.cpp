@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "contact/solve.hpp"
+#include "errors/errors.hpp"
 #include "mesh/at.hpp"
 
 namespace anticrack::contact {
@@ -52,6 +53,7 @@ class Case {
       lambda[c] = solution.closed[at(c)] != 0 ? std::max(lambda[c], 0.0) : 0;
     }
     fill(d, lambda);
+    settle_contact(solution.pressed, lambda);
   }
 
  private:
@@ -90,6 +92,20 @@ class Case {
     return worst;
   }
 
+  /// Nodes that just touch are not in contact: their pressure is rounding.
+  void settle_contact(std::vector<char> pressed, const VectorXd& lambda) {
+    _traces.pair_forces().complete_contact(lambda, pressed);
+    const std::vector<ddm::NodePair>& pairs = _traces.decomposition().pairs;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (pairs[i].contact >= 0) {
+        _state.contact[i] = pressed[at(pairs[i].contact)];
+      }
+    }
+    for (const PairForces::Implied& implied : _traces.pair_forces().implied()) {
+      _state.contact[at(implied.pair)] = pressed_through(implied.path, pressed) ? 1 : 0;
+    }
+  }
+
   void fill(const VectorXd& d, const VectorXd& lambda) {
     const std::vector<ddm::NodePair>& pairs = _traces.decomposition().pairs;
     _state.mu = _traces.pair_forces().multipliers(_state.flux, lambda);
@@ -101,6 +117,15 @@ class Case {
       _state.jump[i] = pair.contact >= 0 ? d[pair.contact]
                                          : _state.trace[at(pair.plus)][pair.plus_trace] -
                                                _state.trace[at(pair.minus)][pair.minus_trace];
+    }
+    for (const PairForces::Implied& implied : _traces.pair_forces().implied()) {
+      if (_state.mu[implied.pair] > 0) {  // closed as its contacts are, which the traces round
+        _state.jump[implied.pair] = 0;
+      }
+    }
+    _state.contact.assign(pairs.size(), 0);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      _state.contact[i] = pairs[i].unilateral() && _state.mu[static_cast<Index>(i)] > 0 ? 1 : 0;
     }
     _sample.energy = energy(_loads, _state);
     _sample.contact_count = contact_count(_traces.decomposition(), _state.mu);
@@ -121,6 +146,26 @@ std::string limit_reason(const ActiveSetOptions& options) {
   std::ostringstream text;
   text << "after " << options.max_steps
        << " steps the set of closed nodes still changes; raise max_steps";
+  return text.str();
+}
+
+std::string overflow(std::span<const ddm::CondensedLoad> loads) {
+  double force = 0;
+  for (const ddm::CondensedLoad& load : loads) {
+    force = std::max(force, largest(load.g));
+  }
+  std::ostringstream text;
+  text << "the energy overflows: the largest force on a node of the interfaces is " << force
+       << "; scale the load down";
+  return text.str();
+}
+
+std::string inaccurate_reason(const KktResiduals& relative) {
+  std::ostringstream text;
+  text << "rounding spoils the answer: the relative residuals are " << relative.equilibrium
+       << " (equilibrium), " << relative.gap << " (gap), " << relative.sign << " (sign), "
+       << relative.complementarity << " (complementarity), not all below " << solution_residual
+       << "; use a mesh with a larger tip_size, or bring the tensions nearer to each other";
   return text.str();
 }
 
@@ -163,8 +208,12 @@ Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
   answer.weakly_active = solution.weakly_active;
   answer.closed = solution.closed;
   describe(problem.traces(), mesh, loads, load_case.state(), load_case.sample(), answer);
-  if (!std::isfinite(answer.energy)) {
-    answer.warnings.emplace_back("the energy overflows double precision; scale the load down");
+  if (!std::isfinite(answer.energy) && answer.status != Status::cancelled) {
+    throw errors::Error(errors::Reason::numerical, overflow(loads.subdomains));
+  }
+  if (answer.status == Status::converged && !within(answer.kkt_relative, solution_residual)) {
+    answer.status = Status::not_converged;
+    answer.reason = inaccurate_reason(answer.kkt_relative);
   }
   if (fields) {
     const SolvedCase solved{loads.subdomains, answer};

@@ -33,6 +33,9 @@ SweepGeometry::SweepGeometry(const SkeletonProblem& problem, std::size_t inclusi
       length[c] += traces.lumped_mass()[static_cast<Index>(i)];
     }
   }
+  for (const PairForces::Implied& pair : traces.pair_forces().implied()) {
+    implied.push_back({pair.path, traces.lumped_mass()[pair.pair]});
+  }
   for (std::size_t c = 0; c < decomposition.interface_sides.size(); ++c) {
     const std::vector<ddm::SidePair>& sides = decomposition.interface_sides[c];
     for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -82,7 +85,8 @@ SweepLoads reduce(const SkeletonProblem& problem, std::size_t inclusions,
 SweepSolver::SweepSolver(const SkeletonProblem& problem, const SweepGeometry& geometry,
                          const ActiveSetOptions& options, std::span<const char> start)
     : _geometry(geometry),
-      _lcp(problem.lcp(), options.max_steps, start, &problem.nested_start()),
+      _forces(problem.traces().pair_forces()),
+      _lcp(problem.lcp(), options.max_steps, start, &problem.nested_start(), options.tolerance),
       _r(problem.lcp().size()),
       _magnitude(problem.lcp().size()),
       _displacement(geometry.displacement.rows()),
@@ -122,9 +126,14 @@ bool SweepSolver::write(std::size_t row, SweepColumns& rows) {
   const VectorXd& d = _lcp.d();
   const VectorXd& lambda = _lcp.lambda();
   double energy = _energy, length = 0;
+  _pressed = _lcp.pressed();
+  _forces.complete_contact(lambda, _pressed);
   for (Index i = 0; i < d.size(); ++i) {
     energy -= _r[i] * d[i] / 2;
-    length += lambda[i] > 0 ? _geometry.length[i] : 0;
+    length += _pressed[at(i)] != 0 ? _geometry.length[i] : 0;
+  }
+  for (const SweepGeometry::Implied& implied : _geometry.implied) {
+    length += pressed_through(implied.path, _pressed) ? implied.length : 0;
   }
   multiply(_geometry.displacement, d, _of_jumps);
   _displacement += _of_jumps;
@@ -138,7 +147,7 @@ bool SweepSolver::write(std::size_t row, SweepColumns& rows) {
   std::copy(_displacement.begin(), _displacement.end(), displacement);
   std::uint8_t* contact = rows.contact.data() + row * rows.contacts;
   for (std::size_t i = 0; i < rows.contacts; ++i) {
-    contact[i] = lambda[_geometry.contact[i]] > 0 ? 1 : 0;
+    contact[i] = static_cast<std::uint8_t>(_pressed[at(_geometry.contact[i])]);
   }
   return true;
 }

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/pair_forces.hpp"
 #include "contact/skeleton_problem.hpp"
 #include "contact/solve.hpp"
 #include "contact/sweep_columns.hpp"
@@ -28,6 +29,12 @@ struct SweepGeometry {
   std::vector<std::int32_t> contact;
   Eigen::MatrixXd displacement;  ///< (inclusions, contacts): A of jumps
   Eigen::VectorXd length;        ///< of each contact: lumped mass of its pairs
+  /// Pairs of cross points that are closed where several contacts are.
+  struct Implied {
+    std::vector<std::int32_t> path;  ///< those contacts
+    double length = 0;
+  };
+  std::vector<Implied> implied;
 
   /// Memory of its arrays.
   std::size_t bytes() const noexcept;
@@ -77,7 +84,9 @@ class SweepSolver {
   bool write(std::size_t row, SweepColumns& rows);
 
   const SweepGeometry& _geometry;
+  const PairForces& _forces;
   WarmLcp _lcp;
+  std::vector<char> _pressed;
   Eigen::VectorXd _sizes, _r, _magnitude, _displacement, _of_jumps, _product;
   double _energy = 0;
 };

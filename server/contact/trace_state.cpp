@@ -32,9 +32,7 @@ double energy(std::span<const ddm::CondensedLoad> loads, const TraceState& state
     of_traces += state.trace[s].dot(state.flux[s] - loads[s].g) / 2;
     constant += loads[s].energy_constant;
   }
-  // Beyond the range of double the two may be infinities of opposite sign.
-  const double total = of_traces + constant;
-  return std::isnan(total) && !std::isnan(constant) ? constant : total;
+  return of_traces + constant;
 }
 
 KktResiduals contact_residuals(const ddm::Decomposition& decomposition, const ConstVectorRef& mu,
@@ -102,6 +100,11 @@ KktResiduals relative_residuals(const ddm::Decomposition& decomposition, const C
     }
   }
   return result;
+}
+
+bool within(const KktResiduals& relative, double bound) {
+  return relative.equilibrium <= bound && relative.gap <= bound && relative.sign <= bound &&
+         relative.complementarity <= bound;
 }
 
 int contact_count(const ddm::Decomposition& decomposition, const ConstVectorRef& mu) {

@@ -19,6 +19,7 @@ struct TraceState {
   Eigen::VectorXd mu;                  ///< per pair
   Eigen::VectorXd force;               ///< M mu, per pair
   Eigen::VectorXd jump;                ///< u+ - u-, per pair
+  std::vector<char> contact;  ///< per pair: 1 where it may open and is closed under pressure
 };
 
 /// S_i t_i - g_i of every subdomain. O(n_G^2).
@@ -26,7 +27,8 @@ std::vector<Eigen::VectorXd> fluxes(const std::vector<ddm::SubdomainOperator>& o
                                     std::span<const ddm::CondensedLoad> loads,
                                     const std::vector<Eigen::VectorXd>& traces);
 
-/// Pi = sum_i (t'S t/2 - g't + constant), of a state with fluxes. O(n_G).
+/// Pi = sum_i (t'S t/2 - g't + constant), of a state with fluxes; not finite where a part of it is
+/// beyond the range of double. O(n_G).
 double energy(std::span<const ddm::CondensedLoad> loads, const TraceState& state);
 
 using ConstVectorRef = Eigen::Ref<const Eigen::VectorXd>;
@@ -63,6 +65,9 @@ Scales scales_of(std::span<const ddm::CondensedLoad> loads, const TraceState& st
 KktResiduals relative_residuals(const ddm::Decomposition& decomposition, const ConstVectorRef& mu,
                                 const ConstVectorRef& jump, const Scales& scales,
                                 const KktResiduals& absolute);
+
+/// Whether each of the relative residuals is a number of at most `bound`.
+bool within(const KktResiduals& relative, double bound);
 
 /// Crack nodes with mu > 0.
 int contact_count(const ddm::Decomposition& decomposition, const ConstVectorRef& mu);

@@ -2,6 +2,7 @@
 #include "contact/uzawa.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "mesh/at.hpp"
@@ -10,6 +11,13 @@ namespace anticrack::contact {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+
+namespace {
+
+/// The tolerance of weakly active nodes by default, see ActiveSetOptions.
+constexpr double weak_pressure = 1e-12;
+
+}  // namespace
 
 Uzawa::Uzawa(const TraceProblem& problem, Mass mass, int capacity)
     : _problem(problem), _mass(mass), _columns(index(capacity)) {
@@ -121,7 +129,7 @@ void Uzawa::solve_sides(int columns) {
 void Uzawa::measure(int c) {
   Column& column = _columns[index(c)];
   Iterate& iterate = column.iterate;
-  iterate.energy = 0;
+  iterate.energy = iterate.size = 0;
   iterate.criterion = iterate.number == 1 ? 1 : 0;
   for (std::size_t s = 0; s < _sides.size(); ++s) {
     const Index first = _sides[s].first, size = _sides[s].size;
@@ -130,8 +138,10 @@ void Uzawa::measure(int c) {
     const auto force = _force.col(c).segment(first, size);
     const double trace_energy = trace.dot(force);  // t'S t
     iterate.energy += trace_energy / 2 - load.g.dot(trace) + load.energy_constant;
+    const double norm = trace_energy - 2 * load.g_boundary.dot(trace) + load.norm_constant;
+    const double tension = _problem.decomposition().subdomains[s].tension;
+    iterate.size = std::max(iterate.size, std::sqrt(std::max(norm, 0.0) / tension));
     if (iterate.number > 1) {
-      const double norm = trace_energy - 2 * load.g_boundary.dot(trace) + load.norm_constant;
       const double change = (trace - _previous_trace.col(c).segment(first, size))
                                 .dot(force - _previous_force.col(c).segment(first, size));  // d'S d
       iterate.criterion = std::max(iterate.criterion, ratio(std::max(change, 0.0), norm));
@@ -161,6 +171,19 @@ Scales Uzawa::scales(int column) const {
           largest(_trace.col(column)), largest(_mu.col(column))};
 }
 
+int Uzawa::held_at_bound(int column) const {
+  constexpr double rounding = 1e-9;  // of the largest trace
+  const double p = _columns[index(column)].p;
+  const double tolerance = rounding * largest(_trace.col(column));
+  int count = 0;
+  for (Index i = 0; i < _mu.rows(); ++i) {
+    const double mu = _mu(i, column), jump = _jump(i, column);
+    const bool lower = !_pairs[at(i)].unilateral && mu <= -p && jump > tolerance;
+    count += (mu >= p && jump < -tolerance) || lower ? 1 : 0;
+  }
+  return count;
+}
+
 TraceState Uzawa::state(int column) const {
   const std::span<const ddm::CondensedLoad> loads = _columns[index(column)].loads;
   TraceState state;
@@ -175,6 +198,11 @@ TraceState Uzawa::state(int column) const {
   state.mu = _mu.col(column);
   state.force = _pair_force.col(column);
   state.jump = _jump.col(column);
+  // A step of mu is theta times a jump: less comes from the rounding of traces that just touch.
+  const double weak = weak_pressure * _problem.theta_star(_mass) * largest(_trace.col(column));
+  for (std::size_t i = 0; i < _pairs.size(); ++i) {
+    state.contact.push_back(_pairs[i].unilateral && _mu(static_cast<Index>(i), column) > weak);
+  }
   return state;
 }
 

@@ -17,6 +17,7 @@ struct Iterate {
   int number = 0;        ///< 1 for the paper's k = 0
   double criterion = 1;  ///< step 3; 1 in the first iteration
   double energy = 0;     ///< Pi_1 + Pi_2
+  double size = 0;       ///< max_i |u_i|_V / sqrt(T_i): of the displacement in the subdomains
   bool turned = false;   ///< the change of mu points against the change before (in the M product)
 };
 
@@ -66,6 +67,9 @@ class Uzawa {
   double equilibrium(int column);
   /// What its residuals are relative to. O(n_G), no allocation.
   Scales scales(int column) const;
+  /// Pairs whose mu is at its bound p and would go beyond it, by a gap above rounding: there the
+  /// iterate tends to another problem's solution. O(n_G), no allocation.
+  int held_at_bound(int column) const;
   /// The iterate with its forces and fluxes. O(n_G^2).
   TraceState state(int column) const;
 

@@ -18,6 +18,28 @@ namespace {
 constexpr double safety = 0.97;  // of theta*, for `auto`
 constexpr int equilibrium_period = 64;
 
+std::string residuals_of(const Answer& answer) {
+  const KktResiduals& relative = answer.kkt_relative;
+  std::ostringstream text;
+  text << "the relative residuals are " << relative.equilibrium << " (equilibrium), "
+       << relative.gap << " (gap), " << relative.sign << " (sign), " << relative.complementarity
+       << " (complementarity)";
+  return text.str();
+}
+
+std::string bound_of(const UzawaOptions& options, int held_at_bound) {
+  std::ostringstream text;
+  text << "the multipliers are held at their bound p = " << options.p << " in " << held_at_bound
+       << (held_at_bound == 1 ? " node" : " nodes") << ", so this is not a solution";
+  return text.str();
+}
+
+bool far_from_theta_star(const Answer& answer) {
+  return answer.theta < answer.theta_star / 2 || answer.theta > answer.theta_star;
+}
+
+constexpr const char* or_exact = ", or use the method \"active-set\"";
+
 std::string oscillation_reason(const Answer& answer) {
   std::ostringstream text;
   text << "the iteration oscillates and cannot converge: theta = " << answer.theta
@@ -35,22 +57,40 @@ std::string overflow_reason(const Answer& answer) {
   return text.str();
 }
 
-std::string limit_reason(const Answer& answer, const UzawaOptions& options) {
-  const KktResiduals& relative = answer.kkt_relative;
+std::string limit_reason(const Answer& answer, const UzawaOptions& options, int held_at_bound) {
   std::ostringstream text;
   text << "after " << options.max_iterations << " iterations ";
   if (options.kkt_tolerance) {
-    text << "the relative residuals are " << relative.equilibrium << " (equilibrium), "
-         << relative.gap << " (gap), " << relative.sign << " (sign), " << relative.complementarity
-         << " (complementarity), not all below kkt_tolerance = " << *options.kkt_tolerance;
+    text << residuals_of(answer) << ", not all below kkt_tolerance = " << *options.kkt_tolerance;
   } else {
     text << "the criterion is " << answer.criterion << ", not below epsilon = " << options.epsilon;
   }
-  text << " (theta = " << answer.theta << ", theta* = " << answer.theta_star
-       << "); raise max_iterations or " << (options.kkt_tolerance ? "kkt_tolerance" : "epsilon");
-  if (answer.theta < answer.theta_star / 2 || answer.theta > answer.theta_star) {
+  text << " (theta = " << answer.theta << ", theta* = " << answer.theta_star << "); ";
+  if (held_at_bound > 0) {
+    text << bound_of(options, held_at_bound) << ": raise p" << or_exact;
+    return text.str();
+  }
+  text << "raise max_iterations or " << (options.kkt_tolerance ? "kkt_tolerance" : "epsilon");
+  if (far_from_theta_star(answer)) {
     text << ", or set theta to auto";
   }
+  return text.str();
+}
+
+std::string unsolved_reason(const Answer& answer, const UzawaOptions& options, int held_at_bound) {
+  std::ostringstream text;
+  text << "the iteration stopped after " << answer.iterations << " iterations, ";
+  if (held_at_bound > 0) {
+    text << "but " << bound_of(options, held_at_bound) << ": raise p" << or_exact;
+    return text.str();
+  }
+  text << "criterion " << answer.criterion << " below epsilon = " << options.epsilon << ", but "
+       << residuals_of(answer) << ", not all below " << solution_residual
+       << " (theta = " << answer.theta << ", theta* = " << answer.theta_star << "); ";
+  if (far_from_theta_star(answer)) {
+    text << "set theta to auto, ";
+  }
+  text << "set kkt_tolerance to stop by the residuals" << or_exact;
   return text.str();
 }
 
@@ -136,8 +176,10 @@ UzawaBlock::End UzawaBlock::judge(int c) {
   if (!std::isfinite(iterate.criterion) || !std::isfinite(iterate.energy)) {
     return End::overflow;
   }
-  if (seen.options.kkt_tolerance ? within_tolerance(c) : iterate.criterion < seen.options.epsilon) {
-    return End::converged;
+  const std::optional<double> wanted = seen.options.kkt_tolerance;
+  if (wanted ? within_tolerance(c, _uzawa.scales(c), *wanted)
+             : iterate.criterion < seen.options.epsilon) {
+    return (wanted || solved(c)) && _uzawa.held_at_bound(c) == 0 ? End::converged : End::unsolved;
   }
   if (seen.theta > _theta_star && seen.monitor.add(iterate.criterion, iterate.turned)) {
     return End::oscillation;
@@ -146,19 +188,24 @@ UzawaBlock::End UzawaBlock::judge(int c) {
 }
 
 /// Whether all relative residuals are below the tolerance; the costly equilibrium comes last.
-bool UzawaBlock::within_tolerance(int c) {
+bool UzawaBlock::within_tolerance(int c, const Scales& scales, double tolerance) {
   KktResiduals& absolute = column(c).sample.kkt;
-  const double tolerance = *column(c).options.kkt_tolerance;
-  const Scales scales = _uzawa.scales(c);
   if (absolute.gap > tolerance * scales.trace || absolute.sign > tolerance * scales.mu ||
       absolute.complementarity > tolerance * scales.mu * scales.trace) {
     return false;
   }
   absolute.equilibrium = _uzawa.equilibrium(c);
-  const KktResiduals relative =
-      relative_residuals(_problem.decomposition(), _uzawa.mu(c), _uzawa.jump(c), scales, absolute);
-  return std::max({relative.equilibrium, relative.gap, relative.sign, relative.complementarity}) <=
-         tolerance;
+  return within(
+      relative_residuals(_problem.decomposition(), _uzawa.mu(c), _uzawa.jump(c), scales, absolute),
+      tolerance);
+}
+
+/// Whether the residuals are those of a solution. A load that closes the crack may leave all traces
+/// near 0, so the gap is measured by the displacement in the subdomains as well.
+bool UzawaBlock::solved(int c) {
+  Scales scales = _uzawa.scales(c);
+  scales.trace = std::max(scales.trace, _uzawa.iterate(c).size);
+  return within_tolerance(c, scales, solution_residual);
 }
 
 std::vector<UzawaBlock::Ended> UzawaBlock::take_ended() {
@@ -196,6 +243,9 @@ Answer UzawaBlock::answer(int c) {
     case End::converged:
       answer.status = Status::converged;
       break;
+    case End::unsolved:
+      answer.reason = unsolved_reason(answer, ended.options, _uzawa.held_at_bound(c));
+      break;
     case End::cancelled:
       answer.status = Status::cancelled;
       break;
@@ -206,7 +256,7 @@ Answer UzawaBlock::answer(int c) {
       answer.reason = oscillation_reason(answer);
       break;
     case End::limit:
-      answer.reason = limit_reason(answer, ended.options);
+      answer.reason = limit_reason(answer, ended.options, _uzawa.held_at_bound(c));
       break;
   }
   return answer;

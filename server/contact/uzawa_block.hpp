@@ -42,7 +42,7 @@ class UzawaBlock {
   std::vector<Ended> take_ended();
 
  private:
-  enum class End { running, converged, overflow, oscillation, limit, cancelled };
+  enum class End { running, converged, unsolved, overflow, oscillation, limit, cancelled };
   struct Case {
     int place = 0;
     CaseLoads loads;
@@ -59,7 +59,8 @@ class UzawaBlock {
   void exchange(int a, int b);
   void observe(int c);
   End judge(int c);
-  bool within_tolerance(int c);
+  bool within_tolerance(int c, const Scales& scales, double tolerance);
+  bool solved(int c);
   Answer answer(int c);
 
   const TraceProblem& _problem;

@@ -21,12 +21,14 @@ constexpr Index far_off = 8, small = 128;
 }  // namespace
 
 WarmLcp::WarmLcp(const DenseLcp& lcp, int max_steps, std::span<const char> start,
-                 const NestedStart* nested)
+                 const NestedStart* nested, double tolerance)
     : _lcp(lcp),
       _nested(lcp.size() > small ? nested : nullptr),
       _max_steps(max_steps),
+      _tolerance(std::max(tolerance, lcp_rounding)),
       _closed(start.begin(), start.end()) {
   _closed.resize(at(lcp.size()), 1);
+  _pressed.resize(_closed.size(), 0);
   _met.reserve(_closed.size());
   _open.reserve(lcp.size());
   for (VectorXd* vector : {&_r, &_d, &_force, &_jump, &_pressure}) {
@@ -142,6 +144,7 @@ void WarmLcp::finish(const VectorXd& r, double unit) {
   double error = 0, size = 0;
   for (Index i = 0; i < _d.size(); ++i) {
     const double lambda = _closed[at(i)] != 0 ? std::max(_force[i], 0.0) : 0;
+    _pressed[at(i)] = lambda > _tolerance ? 1 : 0;
     const double to_force = unit / _lcp.scale()[i];
     _jump[i] = _lcp.scale()[i] * _d[i] * unit;
     _pressure[i] = lambda * to_force;

@@ -20,15 +20,17 @@ class WarmLcp {
  public:
   /// Keeps references. `start`: closed nodes; empty: all. `nested`: of the same problem, gives the
   /// start for a load far from the one before; may be null.
+  /// `tolerance`: of pressed(), as LcpOptions has it.
   WarmLcp(const DenseLcp& lcp, int max_steps, std::span<const char> start,
-          const NestedStart* nested = nullptr);
+          const NestedStart* nested = nullptr, double tolerance = LcpOptions{}.tolerance);
 
   /// `r`, `magnitude`: as for DenseLcp::solve, both given. The results below are valid until the
   /// next call if this returns `solved`.
   LcpStatus solve(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude);
 
-  const Eigen::VectorXd& d() const noexcept { return _jump; }           ///< >= 0
-  const Eigen::VectorXd& lambda() const noexcept { return _pressure; }  ///< >= 0
+  const Eigen::VectorXd& d() const noexcept { return _jump; }             ///< >= 0
+  const Eigen::VectorXd& lambda() const noexcept { return _pressure; }    ///< >= 0
+  const std::vector<char>& pressed() const noexcept { return _pressed; }  ///< LcpAnswer::pressed
   /// max_i |lambda - (S d - r)|_i over the largest of |r| and lambda, with d and lambda clipped at
   /// 0.
   double residual() const noexcept { return _residual; }
@@ -48,7 +50,8 @@ class WarmLcp {
   const DenseLcp& _lcp;
   const NestedStart* const _nested;
   const int _max_steps;
-  std::vector<char> _closed, _met;
+  const double _tolerance;
+  std::vector<char> _closed, _met, _pressed;
   // Scaled: unit diagonal, load of size 1. _force is S d - r.
   Eigen::VectorXd _r, _d, _force;
   Eigen::VectorXd _jump, _pressure;

@@ -13,9 +13,9 @@
 
 namespace anticrack::ddm {
 
-/// Calls what `make_worker()` gives, of which each thread makes its own, with 0, 1, ..., count - 1
-/// from a common counter, on `threads` threads at most, the caller's among them. Returns when all
-/// are done; what a worker throws first is thrown then, and no further index is begun.
+/// Calls worker(i) for i = 0, ..., count - 1 from a shared counter on at most `threads` threads,
+/// the caller's among them, each with its own `make_worker()`. Rethrows the first exception when
+/// all threads have stopped; no index is begun after it.
 template <class MakeWorker>
 void at_once(std::size_t count, int threads, const MakeWorker& make_worker) {
   std::atomic<std::size_t> next{0};

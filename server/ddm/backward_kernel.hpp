@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The inner loops of backward_solve.hpp, compiled once for each instruction set: include it once in
+// The inner loops of backward_solve(), compiled once for each instruction set: include it once in
 // a file compiled for that, after forward_kernel.hpp, with ANTICRACK_BACKWARD the name of the
 // function. It includes no library either.
-#include "ddm/backward_solve.hpp"
 #include "ddm/fetch_ahead.hpp"
+#include "ddm/substitution.hpp"
 
 namespace anticrack::ddm {
 namespace {

@@ -3,9 +3,8 @@
 
 namespace anticrack::ddm {
 
-/// Throws errors::Error (internal) unless BLAS is the pthread build of OpenBLAS: the serial build
-/// gave 40 wrong factors of 44 under threads, silently. Sets it to one thread a caller, once per
-/// process.
+/// Throws errors::Error (internal) unless BLAS is the pthread build of OpenBLAS (the serial build
+/// gave 40 wrong factors of 44 under threads, silently). Sets it to one thread a caller, once.
 void require_threadsafe_blas();
 
 }  // namespace anticrack::ddm

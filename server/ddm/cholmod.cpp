@@ -17,8 +17,8 @@ class Context {
  public:
   Context() {
     require_threadsafe_blas();
-    // CHOLMOD asks for a team of four threads inside every factorisation, whoever calls it. Ours
-    // are parallel already; with no level allowed a team is the calling thread alone.
+    // CHOLMOD starts four threads in every factorisation. Ours run in parallel already; without
+    // active levels the calling thread works alone.
     omp_set_max_active_levels(0);
     cholmod_start(&_common);
     _common.print = 0;  // it would write to the standard output
@@ -27,9 +27,8 @@ class Context {
     _common.supernodal = CHOLMOD_SUPERNODAL;
     _common.final_ll = 1;
     _common.quick_return_if_not_posdef = 1;
-    // Zeros that may be stored to join supernodes, as a part of the joined one: a quarter of
-    // CHOLMOD's own choice, for our small fronts cost little. The factor has a seventh less to be
-    // read in every solve, and takes no longer.
+    // Fraction of zeros allowed in amalgamated supernodes: a quarter of CHOLMOD's default, since
+    // our small fronts are cheap. The factor gets a seventh smaller and takes no longer.
     _common.zrelax[0] = 0.2;
     _common.zrelax[1] = 0.05;
     _common.zrelax[2] = 0.02;
@@ -51,16 +50,8 @@ cholmod_common& cholmod_context() {
   return context.common();
 }
 
-void FreeSparse::operator()(cholmod_sparse* matrix) const {
-  cholmod_free_sparse(&matrix, &cholmod_context());
-}
-
 void FreeFactor::operator()(cholmod_factor* factor) const {
   cholmod_free_factor(&factor, &cholmod_context());
-}
-
-void FreeDense::operator()(cholmod_dense* matrix) const {
-  cholmod_free_dense(&matrix, &cholmod_context());
 }
 
 void require_success(const cholmod_common& context, const char* doing) {

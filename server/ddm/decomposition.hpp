@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The mesh cut along its interfaces: subdomains with numbers of their own, and which nodes face
-// each other across an interface under which condition.
+// The mesh cut along its interfaces: subdomains with local numbers, and the conditions between the
+// nodes on both sides of an interface.
 #pragma once
 
 #include <array>
@@ -15,12 +15,11 @@
 
 namespace anticrack::ddm {
 
-/// One subdomain Omega_i. Its nodes are numbered interior first, then those on interfaces (the
-/// trace), then those on the Dirichlet boundary; index base 0. A node that is on an interface and
-/// on the Dirichlet boundary counts as Dirichlet. Interior nodes with near numbers are near each
-/// other; triangles go by the smallest of their nodes.
-/// A mesh node on interfaces is there once for each of its *sides* in the subdomain: the fans of
-/// triangles into which the interface edges cut its neighbourhood. Two on a slit, one at its tip.
+/// One subdomain Omega_i, index base 0. Nodes are numbered interior, then interfaces (the trace),
+/// then Dirichlet boundary, where a node on both counts as Dirichlet. Nearby interior nodes have
+/// nearby numbers; triangles are sorted by their smallest node. A mesh node on interfaces occurs
+/// once for each of its *sides* in the subdomain: the fans of triangles into which the interface
+/// edges cut its neighbourhood. Two on a slit, one at its tip.
 struct Subdomain {
   std::string name;
   double tension = 1;
@@ -39,10 +38,10 @@ struct Subdomain {
   std::size_t free() const noexcept { return interior + trace; }
 };
 
-/// The two sides of an interface node that is not on the Dirichlet boundary; carries one multiplier
-/// mu, a force per length that pushes the minus side down and the plus side up. Both may lie in one
-/// subdomain (slit). A tip of a slit has one side only and no pair.
-/// In the node of two edges the stricter condition holds: a tip is tied, u+ = u- (= A_j).
+/// The two sides of an interface node off the Dirichlet boundary, with one multiplier mu, a force
+/// per length that pushes the minus side down and the plus side up. Both may lie in one subdomain
+/// (slit); the tip of a slit has one side and no pair. Where two edges meet the stricter condition
+/// holds: a tip is tied, u+ = u- (= A_j).
 struct NodePair {
   std::int32_t node = 0;   ///< index into Mesh::xy
   std::int32_t minus = 0;  ///< subdomain, and number in its trace
@@ -60,11 +59,10 @@ struct NodePair {
   }
 };
 
-/// All traces at once. Sides tied to each other by glue, tips and rigid inclusions share one
-/// unknown of w: the A_j come first, w_j = A_j. The contact conditions on cracks are
-///   d_c = w[plus_c] - w[minus_c] >= 0,
-/// each node of a crack once, also where several pairs of a cross point ask for the same; the graph
-/// of the contacts is a forest, so the d_c are independent of each other.
+/// All traces together. Sides tied by glue, tips and rigid inclusions share one unknown of w; the
+/// A_j come first, w_j = A_j. Contacts on cracks:  d_c = w[plus_c] - w[minus_c] >= 0,  once for
+/// each node of a crack, also where several pairs of a cross point require it. The contacts form a
+/// forest, so the d_c are independent.
 struct Contact {
   std::int32_t plus = 0;
   std::int32_t minus = 0;
@@ -74,7 +72,7 @@ struct Skeleton {
   std::vector<Contact> contacts;
 };
 
-/// Where the traces of an interface's node are read: every side is given, tied or not.
+/// The sides at which the traces of an interface node are read, tied or not.
 struct SidePair {
   std::int32_t pair = -1;                     ///< -1: Dirichlet node, or the tip of a slit
   std::int32_t minus = -1, minus_trace = -1;  ///< subdomain and trace number; -1: Dirichlet
@@ -90,16 +88,15 @@ struct Decomposition {
   Skeleton skeleton;
 };
 
-/// Throws errors::Error: mesh_invalid for an interface edge without a triangle on each side, for an
-/// inclusion without edges, and for a part of the membrane that nothing holds (no Dirichlet node,
-/// no interface); not_implemented with the cure for a crack or inclusion that touches the Dirichlet
-/// boundary, for two inclusions that share a node, for cracks that cross so that their contact
-/// conditions depend on each other. O(m log k), k the number of interface edges.
+/// O(m log k) for k interface edges. Throws errors::Error: mesh_invalid for an interface edge
+/// without a triangle on each side, an inclusion without edges, or a part of the membrane without
+/// Dirichlet node and interface; not_implemented, with the cure, for a crack or inclusion that
+/// touches the Dirichlet boundary, two inclusions that share a node, or crossing cracks whose
+/// contact conditions depend on each other.
 Decomposition cut(const mesh::Mesh& mesh);
 
-/// Why Algorithm 2 of the paper cannot be used, with the cure ("use active-set"), or empty: a
-/// subdomain with a part without Dirichlet nodes (named), an inclusion whose rigid sides lie in two
-/// subdomains (its section 6 works on one).
+/// Why Algorithm 2 of the paper does not apply, with the cure, or empty: a subdomain has a part
+/// without Dirichlet nodes, or the rigid sides of an inclusion lie in two subdomains.
 std::string uzawa_obstacle(const Decomposition& decomposition, const mesh::Mesh& mesh);
 
 }  // namespace anticrack::ddm

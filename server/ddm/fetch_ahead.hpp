@@ -6,10 +6,10 @@
 namespace anticrack::ddm {
 namespace {
 
-/// Asks the memory for `count` values of L that are needed soon. The processor foresees a long
-/// column by itself, but most columns of a factor end before it has seen what they are; a sixth of
-/// forward substitution, and three tenths of a backward one. Into the second-level cache: what
-/// comes into the first one displaces the vector. An address outside of the factor does no harm.
+/// Prefetches `count` values of L. The processor predicts long columns only, and most columns of a
+/// factor are short: without this, forward substitution takes a sixth longer, backward three
+/// tenths. Into the second-level cache, as the first holds the vector. Addresses outside the factor
+/// do no harm.
 inline void fetch(const double* values, int count) {
   constexpr int cache_line = 64 / sizeof(double);
   for (int i = 0; i < count; i += cache_line) __builtin_prefetch(values + i, 0, 2);

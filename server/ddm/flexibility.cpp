@@ -12,8 +12,8 @@
 namespace anticrack::ddm {
 namespace {
 
-/// y = a x. BLAS: Eigen's products are compiled for the oldest x86-64, BLAS picks its kernels for
-/// the machine. One column is bound by memory, and half of a symmetric matrix is half the memory.
+/// y = a x by BLAS, which uses the machine's instructions. One column is bound by memory, so only
+/// half of the symmetric matrix is read.
 void multiply(const Eigen::MatrixXd& a, const Eigen::Ref<const Eigen::MatrixXd>& x,
               Eigen::Ref<Eigen::MatrixXd> y) {
   const int size = static_cast<int>(a.rows()), columns = static_cast<int>(x.cols());
@@ -68,7 +68,7 @@ Flexibility::Flexibility(const Eigen::MatrixXd& schur, std::span<const std::int3
                         "the mesh has triangles that are degenerate, or is badly scaled");
   }
   _inverse = cholesky.solve(Eigen::MatrixXd::Identity(size, size));
-  // One column is multiplied by a triangle, several by the whole: they must be the same matrix.
+  // dsymv reads a triangle, dgemm the whole matrix: make it symmetric to the bit.
   _inverse.triangularView<Eigen::StrictlyUpper>() = _inverse.transpose();
 }
 

@@ -9,20 +9,19 @@
 
 namespace anticrack::ddm {
 
-/// F = T (T'S T)^-1 T', the answer of one subdomain's traces to forces on them while rigid
-/// inclusions hold some constant. T maps the skeleton unknowns (values of free trace nodes, then
-/// one A_j per inclusion) to the trace: row i has its single 1 in column `skeleton(i)`.
-/// What is rigid may lie on both sides of a slit and at its tips.
-/// F applied to a load is the paper's section 6 in trace space: the K-orthogonal projection of the
-/// unconstrained answer onto K = {constant on gamma}. Without inclusions F = S^-1.
+/// F = T (T'S T)^-1 T': the response of one subdomain's traces to forces while rigid inclusions
+/// hold some of them constant. T maps the skeleton unknowns (free trace nodes, then one A_j per
+/// inclusion) to the trace, one 1 per row. Rigid nodes may lie on both sides of a slit and at its
+/// tips. Applying F is section 6 of the paper in trace space: the K-orthogonal projection of the
+/// unconstrained response onto K = {constant on gamma}. Without inclusions F = S^-1.
 class Flexibility {
  public:
   /// `rigid`: per trace node the inclusion that holds it, or -1. O(n_G^3).
   Flexibility(const Eigen::MatrixXd& schur, std::span<const std::int32_t> rigid);
 
-  /// t = F rhs, column by column, as one product of matrices; `reduced` and `skeleton` are
-  /// workspace with skeleton_size() rows and as many columns. A column's bits may depend on how
-  /// many there are, never on what is in the others. No allocation. O(skeleton_size()^2 columns).
+  /// t = F rhs as one matrix product. `reduced`, `skeleton`: workspace, (skeleton_size(), columns).
+  /// A column's bits may depend on the number of columns, not on the others. No allocation.
+  /// O(skeleton_size()^2 columns).
   void apply(const Eigen::Ref<const Eigen::MatrixXd>& rhs, Eigen::Ref<Eigen::MatrixXd> reduced,
              Eigen::Ref<Eigen::MatrixXd> skeleton, Eigen::Ref<Eigen::MatrixXd> trace) const;
 

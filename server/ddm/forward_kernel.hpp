@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The inner loops of forward_solve.hpp, compiled once for each instruction set: include it once in
+// The inner loops of forward_solve(), compiled once for each instruction set: include it once in
 // a file compiled for that, with ANTICRACK_KERNEL the name of the function and ANTICRACK_ROWS the
 // rows of a block that fit its registers. It includes no library: an inline function of one
 // compiled here could be linked into code for any processor.
 #include "ddm/fetch_ahead.hpp"
-#include "ddm/forward_solve.hpp"
+#include "ddm/substitution.hpp"
 
 namespace anticrack::ddm {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sets of instructions that the inner loops are compiled for.
+// Instruction sets that the inner loops are compiled for.
 #pragma once
 
 namespace anticrack::ddm {
@@ -10,11 +10,10 @@ enum class Instructions { baseline, avx2, avx512 };
 /// Whether this processor has them.
 bool has(Instructions instructions) noexcept;
 
-/// The last that it has.
+/// The widest of them it has.
 Instructions best_instructions() noexcept;
 
-/// That of a function's versions that is compiled for the instructions; null where the processor
-/// does not have them.
+/// The version of a function compiled for the instructions; null where the processor lacks them.
 template <class Function>
 Function* version_for(Instructions instructions, Function* baseline, Function* avx2,
                       Function* avx512) noexcept {

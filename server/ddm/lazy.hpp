@@ -7,12 +7,11 @@
 
 namespace anticrack::ddm {
 
-/// A value that is computed when it is first asked for, and once: others that ask meanwhile wait
-/// for it. Thread-safe; stays where it is.
+/// A value computed once, at the first get(); concurrent callers wait. Thread-safe; not movable.
 template <class Value>
 class Lazy {
  public:
-  /// Where compute() throws nothing is kept, and the next who asks tries again.
+  /// If compute() throws, the next call tries again.
   template <class Compute>
   const Value& get(const Compute& compute) const {
     if (const Value* value = known()) {

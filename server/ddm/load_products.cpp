@@ -12,45 +12,38 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A list of vectors as a matrix, some rows at a time: all of it would double the loads' memory.
-/// Empty vectors are zero.
 template <VectorXd CondensedLoad::*part>
-class Columns {
- public:
-  explicit Columns(std::span<const CondensedLoad* const> loads) : _loads(loads) {
-    for (const CondensedLoad* load : loads) {
-      _rows = std::max(_rows, (load->*part).size());
+Index most_rows(std::span<const CondensedLoad* const> loads) {
+  Index rows = 0;
+  for (const CondensedLoad* load : loads) {
+    rows = std::max(rows, (load->*part).size());
+  }
+  return rows;
+}
+
+/// Rows [first, first + count) of the vectors as columns; empty vectors are zero.
+template <VectorXd CondensedLoad::*part>
+MatrixXd block(std::span<const CondensedLoad* const> loads, Index first, Index count) {
+  MatrixXd result = MatrixXd::Zero(count, static_cast<Index>(loads.size()));
+  for (Index j = 0; j < result.cols(); ++j) {
+    const VectorXd& column = loads[at(j)]->*part;
+    if (column.size() > 0) {
+      result.col(j) = column.segment(first, count);
     }
   }
-  Index rows() const { return _rows; }
-  MatrixXd block(Index first, Index count) const {
-    MatrixXd result = MatrixXd::Zero(count, static_cast<Index>(_loads.size()));
-    for (Index j = 0; j < result.cols(); ++j) {
-      const VectorXd& column = _loads[at(j)]->*part;
-      if (column.size() > 0) {
-        result.col(j) = column.segment(first, count);
-      }
-    }
-    return result;
-  }
+  return result;
+}
 
- private:
-  std::span<const CondensedLoad* const> _loads;
-  Index _rows = 0;
-};
-
-/// (loads, loads): a_i'b_j.
+/// (loads, loads): a_i'b_j, by blocks of rows: whole matrices would double the loads' memory.
 template <VectorXd CondensedLoad::*a, VectorXd CondensedLoad::*b>
 MatrixXd inner(std::span<const CondensedLoad* const> loads) {
   constexpr Index at_once = 2048;
-  const Columns<a> left(loads);
-  const Columns<b> right(loads);
   const auto m = static_cast<Index>(loads.size());
   MatrixXd result = MatrixXd::Zero(m, m);
-  const Index rows = std::min(left.rows(), right.rows());
+  const Index rows = std::min(most_rows<a>(loads), most_rows<b>(loads));
   for (Index first = 0; first < rows; first += at_once) {
     const Index count = std::min(at_once, rows - first);
-    const MatrixXd l = left.block(first, count), r = right.block(first, count);
+    const MatrixXd l = block<a>(loads, first, count), r = block<b>(loads, first, count);
     result.noalias() += l.transpose() * r;
   }
   return result;

@@ -18,8 +18,7 @@ struct LoadProducts {
 /// O(n m^2), n the nodes of the subdomain.
 LoadProducts products(std::span<const CondensedLoad* const> loads);
 
-/// sum_j c_j f_j without z_interior, from which no field can be recovered. O((trace + Dirichlet)
-/// m).
+/// sum_j c_j f_j without z_interior, so without fields. O((trace + Dirichlet) m).
 CondensedLoad combine(std::span<const CondensedLoad* const> loads, const LoadProducts& products,
                       const Eigen::Ref<const Eigen::VectorXd>& coefficients);
 

@@ -76,8 +76,8 @@ SparseColumns permuted(const Sparse& stiffness, std::span<const int> place, int 
   return columns;
 }
 
-/// What is left of a front, (size,size) column-major, its lower triangle, for the rows of the
-/// pattern from `row` on.
+/// The remainder of a front, (size,size) column-major, lower triangle, for `size` rows from `row`
+/// on.
 struct Update {
   std::unique_ptr<double[]> values;
   const int* row = nullptr;
@@ -146,7 +146,7 @@ class Elimination {
     const Subtrees subtrees =
         threads > 1 ? part(tree(), threads) : Subtrees{{}, std::vector<int>(at(_count), -1)};
     if (!run(subtrees, threads)) return false;
-    // Updates are passed on in the order of one thread: so are sums formed, and their bits.
+    // Updates are passed on in serial order, so the bits do not depend on the threads.
     Front front = new_front();
     for (int s = 0; s < _count; ++s) {
       const int root = subtrees.root[at(s)];
@@ -207,14 +207,14 @@ class Elimination {
         column[front.place[at(_columns.row[at(e)])]] += _columns.value[at(e)];
       }
     }
-    // How many columns of each child are eliminated here; the others wait for the update.
+    // Columns of the children that are eliminated here; the others are added to the update.
     for (int c = _child[at(s)]; c >= 0; c = _update[at(c)].next) {
       const Update& child = _update[at(c)];
       front.find_places(child);
       front.add(child, 0, front.columns_before(columns), 0,
                 [&](int column) { return panel + std::ptrdiff_t{column} * front.height; });
     }
-    // Often the last front has all of G below it: what is left of it needs no room of its own.
+    // The last front often has all of G below it; its remainder is then formed in S directly.
     const bool onto_schur = rest == static_cast<int>(_schur.rows()) && rest > 0 &&
                             front.rows[columns] >= _pattern.columns;
     Update left{{}, front.rows + columns, rest, -1};

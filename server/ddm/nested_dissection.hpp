@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// An order of elimination that leaves little fill, from the coordinates of the nodes of a mesh:
-// each set of nodes is cut where its halves lie on two sides of a line or a circle, the fewest
-// nodes that part the halves come after both, and the halves are cut in turn.
+// A fill-reducing order from the coordinates of a mesh's nodes: a set of nodes is cut by a line or
+// circle, a smallest separator of the halves comes last, and the halves are cut in turn.
 //
 // A. George, Nested dissection of a regular finite element mesh, SIAM J. Numer. Anal. 10 (1973);
 // R. Lipton, D. Rose and R. Tarjan, Generalized nested dissection, SIAM J. Numer. Anal. 16 (1979);
@@ -28,10 +27,9 @@ struct Graph {
   std::size_t size() const noexcept { return begin.size() - 1; }
 };
 
-/// The vertices in the order of their elimination. `xy`: (n,2) row-major, or longer. Any graph and
-/// any coordinates are allowed; they cost fill, not correctness. The same for the same input. Time
-/// O(n log n) and fill O(n log n) for triangulations; fastest where nodes that are near each other
-/// have near numbers. 50 bytes a vertex beside the graph.
+/// The vertices in order of elimination. `xy`: (n,2) row-major, or longer. Valid for any graph and
+/// any coordinates; deterministic. Time and fill O(n log n) for triangulations; fastest if nearby
+/// nodes have nearby numbers. 50 bytes a vertex besides the graph.
 std::vector<std::int32_t> nested_dissection(const Graph& graph, std::span<const double> xy);
 
 }  // namespace anticrack::ddm

@@ -12,9 +12,8 @@
 
 namespace anticrack::ddm {
 
-/// The Neumann boundary: edges of one triangle that are not in Mesh::dirichlet. Only tractions ask
-/// for it, so it is found when it is first asked for: O(m), 8 bytes an edge of a triangle
-/// meanwhile. Any number of threads may ask at once.
+/// The Neumann boundary: edges of one triangle that are not in Mesh::dirichlet. Found at the first
+/// call, which only tractions make: O(m), 8 bytes an edge of a triangle meanwhile. Thread-safe.
 class NeumannBoundary {
  public:
   /// Refers to both; the decomposition is the mesh's.

@@ -14,11 +14,11 @@ struct Above {
   auto operator<=>(const Above&) const = default;
 };
 
-/// Those on a closed way round: a >= b >= ... >= a, so that all its values are equal. O(k^2).
+/// The conditions on cycles a >= b >= ... >= a, whose values are all equal. O(k^2).
 std::vector<Above> on_cycles(const std::vector<Above>& conditions);
 
-/// Each couple once, none of a value with itself, and none that follows from the others (a >= c
-/// from a >= b and b >= c). Without cycles the result is unique; sorted. O(k^2).
+/// Transitive reduction: each pair once, none of a value with itself, none that follows from
+/// others. Unique without cycles; sorted. O(k^2).
 std::vector<Above> without_implied(std::vector<Above> conditions);
 
 }  // namespace anticrack::ddm

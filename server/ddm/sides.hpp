@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The sides of interface nodes: the fans into which the interface edges at a node cut the triangles
-// around it.
+// The sides of interface nodes: the fans into which interface edges cut the triangles around a
+// node.
 #pragma once
 
 #include <array>

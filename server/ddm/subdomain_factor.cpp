@@ -8,10 +8,9 @@
 #include <numeric>
 #include <vector>
 
-#include "ddm/backward_solve.hpp"
 #include "ddm/cholmod.hpp"
-#include "ddm/forward_solve.hpp"
 #include "ddm/multifrontal.hpp"
+#include "ddm/substitution.hpp"
 #include "ddm/values.hpp"
 #include "errors/errors.hpp"
 #include "mesh/at.hpp"
@@ -29,8 +28,7 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// CHOLMOD's view of the lower triangle of a compressed symmetric matrix. It takes the matrix
-/// without const but only reads it.
+/// CHOLMOD's view of the lower triangle of a compressed symmetric matrix, which it only reads.
 cholmod_sparse view(const Sparse& matrix) {
   cholmod_sparse result{};
   result.nrow = at(matrix.rows());
@@ -69,8 +67,8 @@ FactorPtr analyze(cholmod_sparse& matrix, std::vector<int>& permutation, bool po
 FactorPtr analyse(const Sparse& lower, std::vector<int>& permutation, Eigen::Index interior) {
   cholmod_sparse matrix = view(lower);
   FactorPtr factor = analyze(matrix, permutation, true);
-  // The interface is a clique at the root of the elimination tree, so postordering leaves it where
-  // it is, unless the interior falls apart and the tree has several roots.
+  // The interface is a clique at the root of the elimination tree, so postordering keeps it last,
+  // unless the interior is disconnected and the tree has several roots.
   if (!keeps_trace_last(*factor, interior)) {
     factor = analyze(matrix, permutation, false);
     if (!keeps_trace_last(*factor, interior)) {
@@ -103,8 +101,8 @@ std::size_t value_count(const Supernodes& l) {
   return at(l.value_begin[end]);
 }
 
-/// Calls take(begin, end, column) for parts of few rows, so that the rows of a block that it reads
-/// or writes by columns stay in the first-level cache.
+/// Calls take(begin, end, column) for tiles of few rows, so that the rows of a block stay in the
+/// first-level cache while they are accessed by columns.
 template <class Take>
 void for_tiles(int rows, int columns, const Take& take) {
   constexpr int tile = 256;
@@ -113,10 +111,10 @@ void for_tiles(int rows, int columns, const Take& take) {
   }
 }
 
-/// Columns in blocks of up to columns_at_once(rows), each a row-major block that `solve(width,
-/// block)` works on. `put` and `take` (column, begin, end, at, stride) write and read the rows
-/// [begin, end) of a column, row i of the block at[i * stride]. Where rows are permuted they count
-/// them as the column does: a row of the block is written or read whole, whichever it is.
+/// Solves columns in blocks of up to columns_at_once(rows): `solve(width, block)` works on a
+/// row-major block. `put` and `take` (column, begin, end, at, stride) write and read rows [begin,
+/// end) of a column, row i of the block being at[i * stride]. Where rows are permuted, begin and
+/// end count rows of the column.
 template <class Put, class Solve, class Take>
 void in_blocks(int rows, int columns, const Put& put, const Solve& solve, const Take& take) {
   const auto whole = [](int count) { return count == 1 ? 1 : (count + lanes - 1) / lanes * lanes; };

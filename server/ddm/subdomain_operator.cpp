@@ -13,10 +13,6 @@ Eigen::Index index(std::size_t i) {
   return static_cast<Eigen::Index>(i);
 }
 
-std::size_t index_of(Eigen::Index i) {
-  return at(i);
-}
-
 std::size_t bytes_of(const Eigen::SparseMatrix<double>& matrix) {
   return at(matrix.nonZeros()) * (sizeof(double) + sizeof(int)) +
          at(matrix.cols() + 1) * sizeof(int);
@@ -50,16 +46,16 @@ std::vector<CondensedLoad> SubdomainOperator::condense(
     const Eigen::Ref<const Eigen::MatrixXd>& dirichlet) const {
   const Eigen::Index free = _free_dirichlet.rows(), columns = loads.cols();
   Eigen::Index solves = columns;
-  std::vector<Eigen::Index> boundary(index_of(columns), -1);  // the column of g_D alone
+  std::vector<Eigen::Index> boundary(at(columns), -1);  // the column of g_D alone
   for (Eigen::Index j = 0; j < columns; ++j) {
-    boundary[index_of(j)] = dirichlet.col(j).isZero(0.0) ? -1 : solves++;
+    boundary[at(j)] = dirichlet.col(j).isZero(0.0) ? -1 : solves++;
   }
   const auto solved = [&] {
     if (solves == columns) return _factor.forward(loads.topRows(free));
     Eigen::MatrixXd right_hand_sides(free, solves);
     right_hand_sides.leftCols(columns) = loads.topRows(free);
     for (Eigen::Index j = 0; j < columns; ++j) {
-      if (const Eigen::Index b = boundary[index_of(j)]; b >= 0) {
+      if (const Eigen::Index b = boundary[at(j)]; b >= 0) {
         right_hand_sides.col(b) = -(_free_dirichlet * dirichlet.col(j));
         right_hand_sides.col(j) += right_hand_sides.col(b);
       }
@@ -67,15 +63,15 @@ std::vector<CondensedLoad> SubdomainOperator::condense(
     return _factor.forward(right_hand_sides);
   };
   std::vector<SubdomainFactor::Forward> forward = solved();
-  std::vector<CondensedLoad> result(index_of(columns));
+  std::vector<CondensedLoad> result(at(columns));
   for (Eigen::Index j = 0; j < columns; ++j) {
-    CondensedLoad& load = result[index_of(j)];
+    CondensedLoad& load = result[at(j)];
     load.dirichlet = dirichlet.col(j);
-    load.z_interior = std::move(forward[index_of(j)].z_interior);
-    load.g = std::move(forward[index_of(j)].g);
+    load.z_interior = std::move(forward[at(j)].z_interior);
+    load.g = std::move(forward[at(j)].g);
     load.on_dirichlet = loads.col(j).tail(dirichlet.rows());
     const double interior_energy = load.z_interior.squaredNorm();
-    const Eigen::Index b = boundary[index_of(j)];
+    const Eigen::Index b = boundary[at(j)];
     if (b < 0) {
       load.dirichlet_force = Eigen::VectorXd::Zero(load.dirichlet.size());
       load.g_boundary = Eigen::VectorXd::Zero(load.g.size());
@@ -85,8 +81,8 @@ std::vector<CondensedLoad> SubdomainOperator::condense(
     }
     load.dirichlet_force = _dirichlet_dirichlet * load.dirichlet;
     const double boundary_energy = load.dirichlet.dot(load.dirichlet_force);
-    load.z_boundary = std::move(forward[index_of(b)].z_interior);
-    load.g_boundary = std::move(forward[index_of(b)].g);
+    load.z_boundary = std::move(forward[at(b)].z_interior);
+    load.g_boundary = std::move(forward[at(b)].g);
     load.norm_constant =
         interior_energy - 2 * load.z_interior.dot(load.z_boundary) + boundary_energy;
     load.energy_constant =

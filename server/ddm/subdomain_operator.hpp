@@ -33,15 +33,14 @@ struct CondensedLoad {
   double norm_constant = 0;
 };
 
-/// One subdomain, factorised: everything the methods need of it. Any number of threads may use it
-/// at once.
+/// One factorised subdomain. Thread-safe.
 class SubdomainOperator {
  public:
   /// Throws errors::Error as SubdomainFactor does.
   explicit SubdomainOperator(const Subdomain& subdomain, int threads = 1);
 
-  /// A load a column. `loads`: int f phi_i for all nodes of the subdomain; `dirichlet`: g_D in its
-  /// Dirichlet nodes. One forward solve each, two where g_D is not zero, in blocks.
+  /// One load per column. `loads`: int f phi_i for all nodes of the subdomain; `dirichlet`: g_D in
+  /// its Dirichlet nodes. A forward solve each, two where g_D is not zero, in blocks.
   std::vector<CondensedLoad> condense(const Eigen::Ref<const Eigen::MatrixXd>& loads,
                                       const Eigen::Ref<const Eigen::MatrixXd>& dirichlet) const;
 
@@ -50,16 +49,14 @@ class SubdomainOperator {
     Eigen::Ref<const Eigen::VectorXd> trace;
     Eigen::Ref<Eigen::VectorXd> u;  ///< on all nodes of the subdomain, overwritten
   };
-  /// Of each load u. One backward solve each, in blocks. The bits of one do not depend on the
-  /// others.
+  /// Computes each u: a backward solve each, in blocks; its bits do not depend on the others.
   void recover(std::span<Solved> cases) const;
 
   const SubdomainFactor& factor() const noexcept { return _factor; }
-  /// Null where a part of the subdomain floats: forces alone do not tell where it goes. Computed
-  /// when it is first asked for, O(n_G^3): the active set does without. Throws errors::Error as
-  /// Flexibility does.
+  /// Null where a part of the subdomain floats, since forces do not determine its position.
+  /// Computed at the first call, O(n_G^3). Throws errors::Error as Flexibility does.
   const Flexibility* flexibility() const;
-  /// Of what is there by now.
+  /// Memory held now.
   std::size_t bytes() const noexcept;
 
  private:

@@ -11,14 +11,14 @@ struct EliminationTree {
   std::vector<double> work;  ///< of the node alone
 };
 
-/// Disjoint subtrees; what lies above them is of none.
+/// Disjoint subtrees; the nodes above them belong to none.
 struct Subtrees {
   std::vector<std::vector<int>> nodes;  ///< of each subtree, increasing; the most work first
   std::vector<int> root;                ///< of the subtree of each node; -1: none
 };
 
-/// Subtrees that `threads` threads can share: each a part of the whole work small enough that none
-/// waits long for the last. No root of the tree is in one. O(n log n).
+/// Subtrees to balance over `threads` threads: each a small enough fraction of the work. None
+/// contains a root of the tree. O(n log n).
 Subtrees part(const EliminationTree& tree, int threads);
 
 }  // namespace anticrack::ddm

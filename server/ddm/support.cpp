@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ddm/support.hpp"
 
+#include <algorithm>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -28,6 +29,11 @@ std::string around(const Subdomain& subdomain, std::size_t node) {
        << ", " << subdomain.part.xy[2 * node + 1] << ")";
   return text.str();
 }
+
+constexpr const char* all_neumann =
+    ": the whole boundary of the membrane is Neumann's, so it could move as a whole; make a part "
+    "of "
+    "the boundary Dirichlet's";
 
 /// Per part, by the node that stands for it: has a Dirichlet node; first trace number, or -1.
 struct PartNodes {
@@ -62,6 +68,9 @@ void join(const Subdomain& subdomain, mesh::UnionFind& parts, const PartNodes& n
 }  // namespace
 
 void find_floating_parts(Decomposition& decomposition) {
+  const bool dirichlet =
+      std::any_of(decomposition.subdomains.begin(), decomposition.subdomains.end(),
+                  [](const Subdomain& subdomain) { return subdomain.dirichlet > 0; });
   const auto ground = static_cast<std::int32_t>(decomposition.skeleton.unknowns);
   mesh::UnionFind held(decomposition.skeleton.unknowns + 1);
   for (Subdomain& subdomain : decomposition.subdomains) {
@@ -75,23 +84,26 @@ void find_floating_parts(Decomposition& decomposition) {
       if (nodes.trace[i] < 0) {
         throw errors::Error(errors::Reason::mesh_invalid,
                             "nothing holds " + around(subdomain, i) +
-                                ": it has no Dirichlet node and no interface; hold a part of its "
-                                "boundary, or glue it to a neighbour")
+                                (dirichlet ? ": it has no Dirichlet node and no interface; hold a "
+                                             "part of its boundary, or glue it to a neighbour"
+                                           : all_neumann))
             .with("subdomain", subdomain.name);
       }
       subdomain.floating.push_back(nodes.trace[i]);
     }
     join(subdomain, parts, nodes, ground, held);
   }
-  const char* const holds =
-      decomposition.skeleton.contacts.empty() ? "nothing holds " : "nothing but contact holds ";
+  const char* const holds = decomposition.skeleton.contacts.empty() || !dirichlet
+                                ? "nothing holds "
+                                : "nothing but contact holds ";
   for (const Subdomain& subdomain : decomposition.subdomains) {
     for (const std::int32_t trace : subdomain.floating) {
       if (!held.same(subdomain.unknown[at(trace)], ground)) {
         throw errors::Error(errors::Reason::numerical,
                             holds + around(subdomain, subdomain.interior + at(trace)) +
-                                ", so it could move as a whole: glue a part of its interface or "
-                                "hold its boundary")
+                                (dirichlet ? ", so it could move as a whole: glue a part of its "
+                                             "interface or hold its boundary"
+                                           : all_neumann))
             .with("subdomain", subdomain.name);
       }
     }

@@ -136,8 +136,8 @@ struct NodeContacts {
   std::vector<Above> above;
 };
 
-/// What is left between the classes of each node. Values that must not lie below each other all
-/// the way round are equal: `classes` is told.
+/// The conditions that remain between the classes of each node. Values on a cycle of conditions are
+/// equal: their classes are united.
 std::vector<NodeContacts> contacts_by_node(const Sides& sides, Classes& classes) {
   const std::vector<OpenEnd> ends = open_ends(sides);
   std::vector<NodeContacts> result;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which sides share one value, and which conditions are left between those that do not.
+// Which sides share one value, and the conditions that remain between the others.
 #pragma once
 
 #include <array>

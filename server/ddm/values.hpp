@@ -14,10 +14,8 @@ struct FreeValues {
 };
 using Values = std::unique_ptr<double, FreeValues>;
 
-/// Not initialised, aligned to a cache line; many megabytes are laid into huge pages where the
-/// system has them: a factor is written once and then read from end to end, and a fault for each
-/// small page took a tenth of the factorisation. Throws errors::Error (limit_exceeded) without
-/// memory.
+/// Uninitialised, aligned to a cache line; large blocks to huge pages, if available, as page faults
+/// took a tenth of the factorisation. Throws errors::Error (limit_exceeded) without memory.
 Values make_values(std::size_t count);
 
 }  // namespace anticrack::ddm

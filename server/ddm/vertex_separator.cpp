@@ -9,8 +9,8 @@
 namespace anticrack::ddm {
 namespace {
 
-constexpr std::int32_t none = -1;    // no way through this vertex
-constexpr std::int32_t a_side = -2;  // the way begins or ends here
+constexpr std::int32_t none = -1;    // no path through this vertex
+constexpr std::int32_t a_side = -2;  // the path begins or ends here
 
 constexpr std::int32_t entered(std::int32_t vertex) {
   return 2 * vertex;
@@ -65,8 +65,8 @@ void VertexSeparator::each_after(const Band& band, std::int32_t state, const Rea
   }
 }
 
-/// Steps to the second side, breadth first, until a way leads there from the first side: as many
-/// as that takes, or -1 when the search is exhausted.
+/// Breadth-first distances to the second side, up to the first side. Returns the length of the
+/// shortest path, -1 if there is none.
 std::int32_t VertexSeparator::find_levels(const Band& band) {
   _level.assign(2 * band.size(), -1);
   _open.clear();
@@ -97,7 +97,7 @@ std::int32_t VertexSeparator::find_levels(const Band& band) {
   return last;
 }
 
-/// A state of the level below that `state` leads to and that was not tried, or -1.
+/// An untried state one level below that `state` leads to, or -1.
 std::int32_t VertexSeparator::step(const Band& band, std::int32_t state) {
   const std::int32_t v = vertex_of(state), level = _level[at(state)] - 1;
   if (!is_left(state)) {
@@ -118,7 +118,7 @@ std::int32_t VertexSeparator::step(const Band& band, std::int32_t state) {
   return -1;
 }
 
-/// Depth first down the levels to the second side; a state that leads nowhere loses its level.
+/// Depth-first search down the levels to the second side; dead ends lose their level.
 bool VertexSeparator::find_way(const Band& band, std::int32_t from) {
   _way.assign(1, from);
   while (!_way.empty()) {
@@ -136,7 +136,7 @@ bool VertexSeparator::find_way(const Band& band, std::int32_t from) {
   return false;
 }
 
-/// One more way: `_way`, which may undo parts of the others.
+/// Augments the flow by `_way`, which may undo parts of other paths.
 void VertexSeparator::push() {
   for (std::size_t i = 0; i < _way.size(); ++i) {
     const std::int32_t state = _way[i], v = vertex_of(state);
@@ -151,20 +151,22 @@ void VertexSeparator::push() {
   }
 }
 
-/// From the levels of the last search, which reached all that leads to the second side. Returns
-/// how much larger the first side's part is than the second's.
-std::ptrdiff_t VertexSeparator::part_near_second() {
+/// Parts from the states with a level, which `near` reaches without crossing the separator. Returns
+/// how many more vertices the first part has than the second.
+std::ptrdiff_t VertexSeparator::assign(Part near, std::vector<Part>& parts) const {
+  const Part far = near == Part::first ? Part::second : Part::first;
   std::ptrdiff_t excess = 0;
-  for (std::size_t v = 0; v < _part.size(); ++v) {
+  for (std::size_t v = 0; v < parts.size(); ++v) {
     const bool in = _level[2 * v] >= 0, out = _level[2 * v + 1] >= 0;
-    _part[v] = out && !in ? Part::separator : (in || out ? Part::second : Part::first);
-    excess += _part[v] == Part::first ? 1 : (_part[v] == Part::second ? -1 : 0);
+    const bool cut = near == Part::first ? in && !out : out && !in;
+    parts[v] = cut ? Part::separator : (in || out ? near : far);
+    excess += parts[v] == Part::first ? 1 : (parts[v] == Part::second ? -1 : 0);
   }
   return excess;
 }
 
-/// The same from the first side.
-std::ptrdiff_t VertexSeparator::part_near_first(const Band& band) {
+/// Levels of the states that the first side leads to.
+void VertexSeparator::search_from_first(const Band& band) {
   std::fill(_level.begin(), _level.end(), -1);
   _open.clear();
   const auto reach = [this](std::int32_t state) {
@@ -181,14 +183,6 @@ std::ptrdiff_t VertexSeparator::part_near_first(const Band& band) {
   for (std::size_t i = 0; i < _open.size(); ++i) {
     each_after(band, _open[i], reach);
   }
-  std::ptrdiff_t excess = 0;
-  _other.resize(band.size());
-  for (std::size_t v = 0; v < band.size(); ++v) {
-    const bool in = _level[2 * v] >= 0, out = _level[2 * v + 1] >= 0;
-    _other[v] = in && !out ? Part::separator : (in || out ? Part::first : Part::second);
-    excess += _other[v] == Part::first ? 1 : (_other[v] == Part::second ? -1 : 0);
-  }
-  return excess;
 }
 
 const std::vector<Part>& VertexSeparator::find(const Band& band, std::ptrdiff_t first,
@@ -205,12 +199,15 @@ const std::vector<Part>& VertexSeparator::find(const Band& band, std::ptrdiff_t 
       }
     }
   }
+  // The last search reached all states that lead to the second side.
   _part.resize(band.size());
-  const std::ptrdiff_t excess = first - second + part_near_second();
-  // The other one is looked for only where it may matter.
-  if (8 * std::abs(excess) > first + second + n &&
-      std::abs(first - second + part_near_first(band)) < std::abs(excess)) {
-    _part.swap(_other);
+  const std::ptrdiff_t excess = first - second + assign(Part::second, _part);
+  if (8 * std::abs(excess) > first + second + n) {  // the other separator may be more balanced
+    search_from_first(band);
+    _other.resize(band.size());
+    if (std::abs(first - second + assign(Part::first, _other)) < std::abs(excess)) {
+      _part.swap(_other);
+    }
   }
   return _part;
 }

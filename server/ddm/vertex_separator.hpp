@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The fewest vertices that part two sides of a graph: a maximal flow of ways that share no vertex
-// (Menger). Used to smooth the cuts of a nested dissection, after C. Ashcraft and J. Liu,
-// Applications of the Dulmage-Mendelsohn decomposition and network flow to graph bisection
-// improvement, SIAM J. Matrix Anal. Appl. 19 (1998).
+// The smallest vertex separator of two sides of a graph, by a maximal flow of vertex-disjoint paths
+// (Menger). Smooths the cuts of a nested dissection, after C. Ashcraft and J. Liu, Applications of
+// the Dulmage-Mendelsohn decomposition and network flow to graph bisection improvement, SIAM J.
+// Matrix Anal. Appl. 19 (1998).
 #pragma once
 
 #include <cstddef>
@@ -25,14 +25,13 @@ struct Band {
 
 enum class Part : char { first, second, separator };
 
-/// Keeps its memory from one band to the next; for one thread.
+/// Reuses its memory for the next band; for one thread.
 class VertexSeparator {
  public:
-  /// Where each vertex of the band belongs: no way leads from the first side to the second but
-  /// through the separator, which is as small as can be. Of two such separators, the nearest to
-  /// each side, that is taken which leaves the sides more equal, `first` and `second` being their
-  /// sizes without the band. Valid until the next call. O(e sqrt(s)), s the separator's size; a
-  /// few passes over the band in practice (Dinic's algorithm).
+  /// The part of each vertex of the band: a smallest separator, and of the two nearest to the sides
+  /// the one that leaves them more equal; `first` and `second`: their sizes without the band. Valid
+  /// until the next call. Dinic's algorithm, O(e sqrt(s)) for a separator of s vertices; a few
+  /// passes over the band in practice.
   const std::vector<Part>& find(const Band& band, std::ptrdiff_t first, std::ptrdiff_t second);
 
  private:
@@ -44,8 +43,8 @@ class VertexSeparator {
   std::int32_t step(const Band& band, std::int32_t state);
   bool find_way(const Band& band, std::int32_t from);
   void push();
-  std::ptrdiff_t part_near_first(const Band& band);
-  std::ptrdiff_t part_near_second();
+  std::ptrdiff_t assign(Part near, std::vector<Part>& parts) const;
+  void search_from_first(const Band& band);
 
   // A vertex is entered once at most, so it has two states, 2v when entered and 2v + 1 when left.
   std::vector<std::int32_t> _previous, _next;  // vertices before and after on the way through

@@ -169,16 +169,8 @@ class Cutter::Work {
     _arguments(_x.data(), _y.data(), width * places);
     cut.fill(false);
     for (std::size_t s = 0; s < _switches.size(); ++s) {
-      const double* g = _arguments.values(s);
-      Lane low{}, high{};
-      for (std::size_t i = 0; i < width; ++i) low[i] = high[i] = g[i];
-      for (std::size_t p = 1; p < places; ++p) {
-        for (std::size_t i = 0; i < width; ++i) {
-          const double value = g[p * width + i];
-          low[i] = value < low[i] ? value : low[i];
-          high[i] = high[i] < value ? value : high[i];
-        }
-      }
+      Lane low, high;
+      extremes(_arguments.values(s), places, low, high);
       for (std::size_t i = 0; i < width; ++i) {
         // A bound for the low and high of their View.
         const double beyond = 8 * (high[i] - low[i]);

@@ -8,6 +8,7 @@
 
 #include "expression/function.hpp"
 #include "fem/adaptive_load.hpp"
+#include "fem/cell.hpp"
 #include "fem/sampler.hpp"
 
 namespace anticrack::fem {
@@ -19,12 +20,8 @@ CornerNodes corners(const Triangulation& part, std::size_t t) {
   return {part.triangles[3 * t], part.triangles[3 * t + 1], part.triangles[3 * t + 2]};
 }
 
-double area(const Triangulation& part, const CornerNodes& nodes) {
-  const auto at = [&part](Eigen::Index node) {
-    return Eigen::Map<const Eigen::Vector2d>(&part.xy[2 * static_cast<std::size_t>(node)]);
-  };
-  const Eigen::Vector2d p = at(nodes[1]) - at(nodes[0]), q = at(nodes[2]) - at(nodes[0]);
-  return 0.5 * (p.x() * q.y() - p.y() * q.x());
+double area(const Triangulation& part, std::size_t t) {
+  return frame_of(part.xy, part.triangles, t).area;
 }
 
 template <int width>
@@ -39,7 +36,7 @@ void linear_on_triangles(const Triangulation& part, const Rows<width>& of_node, 
   for (std::size_t t = 0; t < part.triangle_count(); ++t) {
     const CornerNodes nodes = corners(part, t);
     const Values p = of_node.col(nodes[0]), q = of_node.col(nodes[1]), r = of_node.col(nodes[2]);
-    const double part_of_area = area(part, nodes) / 12;
+    const double part_of_area = area(part, t) / 12;
     const Values sum = p + q + r;
     load.col(nodes[0]).array() += part_of_area * (sum + p);
     load.col(nodes[1]).array() += part_of_area * (sum + q);
@@ -118,7 +115,7 @@ struct AssembleForce {
     Eigen::VectorXd load = zero();
     for (std::size_t t = 0; t < part.triangle_count(); ++t) {
       const CornerNodes nodes = corners(part, t);
-      const double third = value(t) * area(part, nodes) / 3;
+      const double third = value(t) * area(part, t) / 3;
       for (const Eigen::Index node : nodes) {
         load[node] += third;
       }

@@ -175,10 +175,7 @@ Trust Sampler::trust(std::size_t first, std::size_t count, double room) const {
   for (std::size_t w = 0; w < _watches.size(); ++w) {
     const double* u = _evaluator.values(w + 1) + first;
     const auto [low, high] = std::minmax_element(u, u + count);
-    const Trust found = judge(_watches[w], *low, *high, room);
-    for (std::size_t i = first; i < first + count && result < found; ++i) {
-      if (applies(_watches[w], i)) result = found;
-    }
+    raise(result, _watches[w], judge(_watches[w], *low, *high, room), first, count, 1);
   }
   return result;
 }

@@ -20,6 +20,21 @@ enum class Trust {
   spiking,     ///< it may be much greater between them
 };
 
+/// The least and the greatest of `lanes` sets of `count` values; the values of a set are `lanes`
+/// apart.
+template <std::size_t lanes>
+void extremes(const double* values, std::size_t count, std::array<double, lanes>& low,
+              std::array<double, lanes>& high) {
+  for (std::size_t t = 0; t < lanes; ++t) low[t] = high[t] = values[t];
+  for (std::size_t i = 1; i < count; ++i) {
+    for (std::size_t t = 0; t < lanes; ++t) {
+      const double value = values[i * lanes + t];
+      low[t] = value < low[t] ? value : low[t];
+      high[t] = high[t] < value ? value : high[t];
+    }
+  }
+}
+
 /// Evaluates a function in blocks of points, counts the points, and checks the stop token before
 /// every block. The arguments of steep functions (exp, sin, 1/u, ...) show whether samples can be
 /// trusted: an argument varies smoothly where its function has a peak that the samples miss.
@@ -45,25 +60,10 @@ class Sampler {
   void trust(std::size_t count, double room, std::array<Trust, lanes>& result) const {
     result.fill(Trust::sound);
     for (std::size_t w = 0; w < _watches.size(); ++w) {
-      const double* u = _evaluator.values(w + 1);
       std::array<double, lanes> low, high;
-      for (std::size_t t = 0; t < lanes; ++t) low[t] = high[t] = u[t];
-      for (std::size_t i = 1; i < count; ++i) {
-        for (std::size_t t = 0; t < lanes; ++t) {
-          const double value = u[i * lanes + t];
-          low[t] = value < low[t] ? value : low[t];
-          high[t] = high[t] < value ? value : high[t];
-        }
-      }
+      extremes(_evaluator.values(w + 1), count, low, high);
       for (std::size_t t = 0; t < lanes; ++t) {
-        const Trust found = judge(_watches[w], low[t], high[t], room);
-        if (found <= result[t]) continue;
-        for (std::size_t i = 0; i < count; ++i) {
-          if (applies(_watches[w], i * lanes + t)) {
-            result[t] = found;
-            break;
-          }
-        }
+        raise(result[t], _watches[w], judge(_watches[w], low[t], high[t], room), t, count, lanes);
       }
     }
   }
@@ -94,6 +94,13 @@ class Sampler {
   /// Whether the value depends on the watched argument at a point of the last call.
   bool applies(const Watch& watch, std::size_t point) const {
     return watch.guard < 0 || (_evaluator.values(watch.guard_root)[point] != 0) == watch.taken;
+  }
+  /// Raises `result` to `found` if the watch applies at one of `count` points, `step` apart.
+  void raise(Trust& result, const Watch& watch, Trust found, std::size_t first, std::size_t count,
+             std::size_t step) const {
+    for (std::size_t i = 0; i < count && result < found; ++i) {
+      if (applies(watch, first + i * step)) result = found;
+    }
   }
   /// Of samples whose argument lies between two values.
   static Trust judge(const Watch& watch, double low, double high, double room);

@@ -11,6 +11,7 @@
 #include "mesh/geometry_network.hpp"
 #include "mesh/geometry_parts.hpp"
 #include "mesh/geometry_primitives.hpp"
+#include "mesh/geometry_snap.hpp"
 #include "mesh/geometry_subdomains.hpp"
 
 namespace anticrack::mesh {
@@ -57,19 +58,18 @@ bool neumann_around(const Layout& layout, const Network& network, double t) {
   return before && after;
 }
 
-/// Refuses inclusions that touch the boundary and cracks that touch its Dirichlet part.
+/// Refuses inclusions and cracks that touch the Dirichlet boundary.
 void check_contacts(const Layout& layout, const Network& network) {
   for (const PlacedPart& part : layout.parts) {
     for (const bool end : {false, true}) {
       const int point = end ? part.end.point : part.begin.point;
       const double t = station_of(network.lines.front(), point);
       if (t < 0) continue;
-      if (part.inclusion < 0 && neumann_around(layout, network, t)) continue;
+      if (neumann_around(layout, network, t)) continue;
       const std::string field = part.field + ".part" + (end != part.reversed ? ".to" : ".from");
       refuse(field, field, " ", show(network.points[at(point)]),
              " touches the boundary, at an end of the interface; a tip must lie inside the "
-             "membrane",
-             part.inclusion < 0 ? ", or where the boundary is Neumann on both sides of it" : "");
+             "membrane, or where the boundary is Neumann on both sides of it");
     }
   }
 }
@@ -150,9 +150,12 @@ std::size_t check_size(const Network& network, double area, double size,
 
 }  // namespace
 
-Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_triangles) {
+Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_triangles) {
   check_for_geometry(options);
-  Network network = lay_lines(geometry, options);
+  Network network = lay_lines(given, options);
+  Plan plan;
+  Geometry geometry = given;
+  if (snap_ends(network, geometry, plan.warnings)) network = lay_lines(geometry, options);
   const std::vector<std::string> names = check_names(geometry);
   const std::vector<Point> polygon = network.lines.front().line.vertices();
   const double area = signed_area(polygon);
@@ -167,7 +170,6 @@ Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_
   check_contacts(layout, network);
   cut(network, size, curve_limit);
 
-  Plan plan;
   plan.triangles = triangles;
   for (const InclusionSpec& inclusion : geometry.inclusions) {
     plan.inclusions.push_back(inclusion.name);

@@ -135,17 +135,19 @@ struct Plan {
   std::vector<std::string> inclusions;
   double growth = 0.3;  ///< how much longer edges become per length away from a finer curve
   GradingSpec grading;
-  std::size_t triangles = 0;  ///< to be expected, before grading
+  std::size_t triangles = 0;            ///< to be expected, before grading
+  std::vector<std::string> warnings{};  ///< for Mesh::warnings: points that were moved onto a line
 };
-ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, growth, grading, triangles)
+ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, growth, grading, triangles,
+                 warnings)
 
 /// Checks a geometry and cuts it into curves with the intervals of the preset. Throws errors::Error
 /// with the field at fault ("boundary", "interfaces[0].polyline", "inclusions[1].part.from",
 /// "regions[0].at", "options.size", ...): geometry_invalid (the boundary crosses itself, an
 /// interface leaves the membrane or runs along another, a part lies on no interface, touches the
-/// boundary or overlaps another, values are not finite, names are empty, malformed or used twice);
-/// invalid_argument for options; limit_exceeded for more than 10,000 vertices or more than
-/// `max_triangles` expected triangles. O(v^2) for v vertices.
+/// Dirichlet boundary or overlaps another, values are not finite, names are empty, malformed or
+/// used twice); invalid_argument for options; limit_exceeded for more than 20,000 vertices or more
+/// than `max_triangles` expected triangles. O(v^2) for v vertices.
 Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_triangles);
 
 /// Check the options of a geometry (all but the points of `align`, which plan() checks) and of an

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "mesh/geometry_primitives.hpp"
 
@@ -53,30 +55,48 @@ void check_distinct(std::span<const Point> points, const std::string& field, dou
   }
 }
 
+namespace {
+
+/// Whether two edges of a line meet where they must not.
+bool meet(std::span<const Point> points, bool closed, std::size_t edges, std::size_t i,
+          std::size_t j, double tolerance) {
+  const Segment s = edge_of(points, i), t = edge_of(points, j);
+  if (j == i + 1) return folds_back(s.a, s.b, t.b, tolerance);
+  if (closed && i == 0 && j + 1 == edges) return folds_back(t.a, t.b, s.b, tolerance);
+  return distance(s, t) <= tolerance;
+}
+
+/// The first two such edges; none: {edges, edges}.
+std::pair<std::size_t, std::size_t> first_meeting(std::span<const Point> points, bool closed,
+                                                  std::size_t edges, double tolerance) {
+  std::vector<Segment> segments;
+  segments.reserve(edges);
+  for (std::size_t i = 0; i < edges; ++i) segments.push_back(edge_of(points, i));
+  std::pair<std::size_t, std::size_t> first{edges, edges};
+  each_near_pair(segments, tolerance, [&](std::size_t s, std::size_t t) {
+    const std::pair<std::size_t, std::size_t> pair = std::minmax(s, t);
+    if (pair < first && meet(points, closed, edges, pair.first, pair.second, tolerance)) {
+      first = pair;
+    }
+  });
+  return first;
+}
+
+}  // namespace
+
 void check_simple(std::span<const Point> points, bool closed, const std::string& owner,
                   const std::string& field, double tolerance) {
   const std::size_t n = points.size();
   const std::size_t edges = closed ? n : n - 1;
-  for (std::size_t i = 0; i < edges; ++i) {
-    const Segment s = edge_of(points, i);
-    for (std::size_t j = i + 1; j < edges; ++j) {
-      const Segment t = edge_of(points, j);
-      if (!boxes_meet(s, t, tolerance)) continue;
-      const bool follows = j == i + 1;
-      const bool precedes = closed && i == 0 && j + 1 == edges;
-      if (follows || precedes) {
-        const bool folded =
-            follows ? folds_back(s.a, s.b, t.b, tolerance) : folds_back(t.a, t.b, s.b, tolerance);
-        if (folded) {
-          refuse(owner, owner, " folds back on itself: ", edge_name(field, i, n), " and ",
-                 edge_name(field, j, n), " lie on one another at ", show(follows ? s.b : s.a));
-        }
-      } else if (distance(s, t) <= tolerance) {
-        refuse(owner, owner, " crosses or touches itself: ", edge_name(field, i, n), " ", show(s.a),
-               "-", show(s.b), " meets ", edge_name(field, j, n), " ", show(t.a), "-", show(t.b));
-      }
-    }
+  const auto [i, j] = first_meeting(points, closed, edges, tolerance);
+  if (i == edges) return;
+  const Segment s = edge_of(points, i), t = edge_of(points, j);
+  if (j == i + 1 || (closed && i == 0 && j + 1 == edges)) {
+    refuse(owner, owner, " folds back on itself: ", edge_name(field, i, n), " and ",
+           edge_name(field, j, n), " lie on one another at ", show(j == i + 1 ? s.b : s.a));
   }
+  refuse(owner, owner, " crosses or touches itself: ", edge_name(field, i, n), " ", show(s.a), "-",
+         show(s.b), " meets ", edge_name(field, j, n), " ", show(t.a), "-", show(t.b));
 }
 
 namespace {

@@ -13,7 +13,7 @@ namespace anticrack::mesh {
 
 /// Points closer than this fraction of the boundary's diagonal count as one.
 inline constexpr double relative_tolerance = 1e-9;
-inline constexpr std::size_t max_vertices = 10'000;
+inline constexpr std::size_t max_vertices = 20'000;
 inline constexpr std::size_t max_interfaces = 1'000;
 
 /// The polygon counterclockwise, and the distance within which two points are one.
@@ -40,7 +40,8 @@ void check_points(const std::vector<Point>& points, const std::string& field);
 void check_distinct(std::span<const Point> points, const std::string& field, double tolerance);
 
 /// Refuses `owner` if the polyline through the points `field` crosses itself or folds back.
-/// `closed`: the last vertex is joined to the first. O(v^2).
+/// `closed`: the last vertex is joined to the first. O(v log v) and
+/// the pairs of edges over the same x.
 void check_simple(std::span<const Point> points, bool closed, const std::string& owner,
                   const std::string& field, double tolerance);
 

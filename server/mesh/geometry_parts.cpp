@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "mesh/at.hpp"
 #include "mesh/geometry_primitives.hpp"
+#include "mesh/geometry_snap.hpp"
 
 namespace anticrack::mesh {
 namespace {
@@ -29,16 +31,20 @@ std::vector<int> lines_at(const Network& network, Role role, int point) {
 
 void refuse_off(const Network& network, const Point& p, const std::string& field) {
   double off = std::numeric_limits<double>::infinity();
+  const Line* nearest = nullptr;
   for (const NetworkLine& line : network.lines) {
     if (line.role != Role::interface) continue;
     const double d = line.line.distance_to(p);
+    if (d < off) nearest = &line.line;
     off = std::min(off, d);
   }
-  if (std::isinf(off)) {
+  if (nearest == nullptr) {
     refuse(field, field, " ", show(p), " lies on no interface: there is none");
   }
+  const std::optional<double> t = nearest->locate(p, 1.01 * off);
   refuse(field, field, " ", show(p), " lies ", show(off),
-         " off the interface; it must lie on it, to ", show(network.tolerance));
+         " off the interface; it must lie on it, to ", show(snap_distance(network)),
+         t ? "; nearest is " + show(nearest->at(*t)) : "");
 }
 
 Ends mark_ends(Network& network, const Part& part, const std::string& field) {
@@ -198,7 +204,7 @@ std::vector<Stretch> lay_neumann(const Geometry& geometry, Network& network) {
       if (t >= 0) return t;
       refuse(field + which, field, which, " ", show(p), " lies ",
              show(network.lines.front().line.distance_to(p)),
-             " off the boundary; it must lie on it, to ", show(network.tolerance));
+             " off the boundary; it must lie on it, to ", show(snap_distance(network)));
     };
     const double begin = on_boundary(ends.from, part.from, ".from");
     double end = on_boundary(ends.to, part.to, ".to");

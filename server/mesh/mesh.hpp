@@ -49,7 +49,7 @@ struct Mesh {
   std::vector<std::string> inclusions;  ///< names
   std::vector<Interface> interfaces;
   std::vector<std::array<std::int32_t, 2>> dirichlet;  ///< edges of the boundary where u = g_D
-  std::vector<std::string> warnings;                   ///< what an import repaired or assumed
+  std::vector<std::string> warnings;                   ///< what was repaired or assumed
   /// Degrees: lower bound of the angles of any bisection of the unrefined mesh. 0: not refined
   double bisection_bound = 0;
 

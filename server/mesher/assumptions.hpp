@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the import took edges for without being told, in words.
+// Warnings about edges whose meaning the import assumed.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +16,10 @@ namespace anticrack::mesher {
 
 enum class Assumed {
   dirichlet,
-  neumann,   ///< of the boundary, in no group
+  neumann,   ///< on the boundary, in no group
   glue,      ///< between two subdomains
-  welded,    ///< glue, the subdomains meshed separately
-  joined,    ///< nothing: parts of one subdomain meshed separately
+  welded,    ///< glue between subdomains that were meshed separately
+  joined,    ///< nothing, between separately meshed parts of a subdomain
   crack,     ///< doubled nodes
   nothing,   ///< a line inside one subdomain
   left_out,  ///< no edge of a triangle
@@ -27,13 +27,13 @@ enum class Assumed {
 
 class Assumptions {
  public:
-  /// Of an edge in a group without meaning.
+  /// Adds an edge in a group without meaning.
   void add(const CurveGroup& group, Assumed assumed);
-  /// Of an edge in no group, at a node of it.
+  /// Adds an edge in no group, by one of its nodes.
   void add(Assumed assumed, std::int32_t node);
 
-  /// Into mesh.warnings: one a group and meaning, one a meaning for edges without group and for
-  /// curves of a file without groups.
+  /// Adds to mesh.warnings: one per group and meaning; one per meaning for edges without group, and
+  /// for curves of a file without groups.
   void tell(const CurveGroups& groups, mesh::Mesh& mesh) const;
 
  private:

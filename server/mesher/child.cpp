@@ -20,24 +20,20 @@ void check_spawn(int error, const std::string& what) {
   if (error != 0) throw std::system_error(error, std::system_category(), what);
 }
 
-struct FileActions {
-  posix_spawn_file_actions_t value;
-  FileActions() { check_spawn(posix_spawn_file_actions_init(&value), "posix_spawn"); }
-  ~FileActions() { posix_spawn_file_actions_destroy(&value); }
-  FileActions(const FileActions&) = delete;
-  FileActions& operator=(const FileActions&) = delete;
+template <class Value, auto initialise, auto destroy>
+struct Owned {
+  Value value;
+  Owned() { check_spawn(initialise(&value), "posix_spawn"); }
+  ~Owned() { destroy(&value); }
+  Owned(const Owned&) = delete;
+  Owned& operator=(const Owned&) = delete;
 };
+using FileActions = Owned<posix_spawn_file_actions_t, posix_spawn_file_actions_init,
+                          posix_spawn_file_actions_destroy>;
+using Attributes = Owned<posix_spawnattr_t, posix_spawnattr_init, posix_spawnattr_destroy>;
 
-struct Attributes {
-  posix_spawnattr_t value;
-  Attributes() { check_spawn(posix_spawnattr_init(&value), "posix_spawn"); }
-  ~Attributes() { posix_spawnattr_destroy(&value); }
-  Attributes(const Attributes&) = delete;
-  Attributes& operator=(const Attributes&) = delete;
-};
-
-/// Standard descriptors a parent may have closed must not become what the child gets: dup2 to 0 and
-/// 1 would overwrite it.
+/// Moves a descriptor out of 0 to 2, which are free if the parent has closed them: dup2 to 0 and 1
+/// would overwrite it.
 Descriptor above_standard(Descriptor descriptor) {
   if (descriptor.get() > STDERR_FILENO) return descriptor;
   Descriptor moved(fcntl(descriptor.get(), F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
@@ -45,8 +41,7 @@ Descriptor above_standard(Descriptor descriptor) {
   return moved;
 }
 
-/// One thread of everything, no message catalogues, and nothing of the server's that could be a
-/// secret.
+/// One thread per library, no message catalogues, none of the server's secrets.
 std::vector<std::string> environment() {
   std::vector<std::string> variables{"LC_ALL=C", "OMP_NUM_THREADS=1", "OPENBLAS_NUM_THREADS=1"};
   for (const char* name :
@@ -88,7 +83,7 @@ int Descriptor::release() noexcept {
 Child::Child(const std::string& executable, const std::vector<std::string>& arguments,
              Descriptor file) {
   int ends[2] = {-1, -1};
-  // close-on-exec from the start: a spawn in another thread must not inherit it
+  // close-on-exec at once: a spawn in another thread must not inherit them
   check_spawn(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0 ? errno : 0,
               "socketpair");
   Descriptor ours(ends[0]);
@@ -105,7 +100,7 @@ Child::Child(const std::string& executable, const std::vector<std::string>& argu
               "dup2");
   int first_closed = STDERR_FILENO + 1;
   if (has_file) {
-    // last, as it may take the number `theirs` has; on itself it only takes off close-on-exec
+    // last, as it may replace `theirs`; dup2 of a number to itself clears close-on-exec
     check_spawn(posix_spawn_file_actions_adddup2(&actions.value, file.get(), file_descriptor),
                 "dup2");
     first_closed = file_descriptor + 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A process with which the parent speaks over one socket.
+// A child process that communicates over one socket.
 #pragma once
 
 #include <sys/types.h>
@@ -19,9 +19,9 @@ class Descriptor {
   ~Descriptor() { reset(); }
   Descriptor(Descriptor&& other) noexcept : _value(other.release()) {}
   Descriptor& operator=(Descriptor&& other) noexcept;
-  /// -1 where it is empty.
+  /// -1 if empty.
   int get() const noexcept { return _value; }
-  /// Whether there is nothing to close.
+  /// Whether there is no descriptor.
   bool empty() const noexcept { return _value < 0; }
   /// Closes it now.
   void reset() noexcept;
@@ -31,32 +31,30 @@ class Descriptor {
   int _value;
 };
 
-/// A child process in its own process group, its standard input and output on the other end of
-/// socket(); its standard error is the parent's. It inherits at most one other descriptor and a
-/// minimal environment. Killed and reaped on destruction at the latest.
-///
-/// A socket and not a pair of pipes: MSG_NOSIGNAL keeps a helper that died from raising SIGPIPE in
-/// the server.
+/// A child process in its own process group. socket() is its standard input and output; its
+/// standard error is the parent's. It inherits at most one other descriptor and a minimal
+/// environment. The destructor kills and reaps it. A socket instead of pipes allows MSG_NOSIGNAL:
+/// no SIGPIPE in the server when the helper dies.
 class Child {
  public:
-  /// Where the child finds its file.
+  /// The child's number of its file.
   static constexpr int file_descriptor = 3;
 
-  /// `file`: becomes the child's `file_descriptor`; the parent may close its own right after. An
-  /// empty one: the child gets none. Throws std::system_error, for a missing executable too.
+  /// `file` becomes the child's `file_descriptor`, unless empty. Throws std::system_error, also for
+  /// a missing executable.
   Child(const std::string& executable, const std::vector<std::string>& arguments, Descriptor file);
   ~Child();
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
   int socket() const noexcept { return _socket.get(); }
-  /// Sends what the socket takes now; how much. 0 also when the child no longer reads.
+  /// Sends what the socket takes now and returns its size; 0 also if the child no longer reads.
   std::size_t send(std::span<const std::byte> bytes);
-  /// Tells the child that nothing more comes.
+  /// Ends the child's input.
   void end_input() noexcept;
   /// SIGKILL to its whole process group.
   void kill() noexcept;
-  /// Reaps it: true once it has ended, then status() is what waitpid gave.
+  /// Reaps it if it has ended; then true, and status() is waitpid's.
   bool ended() noexcept;
   int status() const noexcept { return _status; }
 

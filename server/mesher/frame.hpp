@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Between the user's coordinates and those gmsh works in.
+// Between the user's coordinates and gmsh's.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 
 namespace anticrack::mesher {
 
-/// To a box of about (-1,1)^2, where gmsh's absolute tolerances fit. The factor is a power of two,
-/// so it rounds nothing; the square of the paper stays as it is.
+/// Scales to a box of about (-1,1)^2, for gmsh's absolute tolerances. The factor is a power of two,
+/// so nothing is rounded; the paper's square does not change.
 class Frame {
  public:
-  /// `points`: at least one; the frame is that of their bounding box.
+  /// The frame of the bounding box of `points`, at least one.
   explicit Frame(const std::vector<mesh::Point>& points) {
     mesh::Point low = points.at(0);
     mesh::Point high = low;
@@ -29,11 +29,11 @@ class Frame {
     const double extent = std::max(high[0] - low[0], high[1] - low[1]);
     _exponent = static_cast<int>(std::lround(std::log2(extent / 2)));
   }
-  /// A point of the geometry as gmsh is given it.
+  /// From the user's coordinates.
   mesh::Point to_gmsh(const mesh::Point& p) const {
     return {std::ldexp(p[0] - _centre[0], -_exponent), std::ldexp(p[1] - _centre[1], -_exponent)};
   }
-  /// The way back.
+  /// To the user's coordinates.
   mesh::Point from_gmsh(double x, double y) const {
     return {std::ldexp(x, _exponent) + _centre[0], std::ldexp(y, _exponent) + _centre[1]};
   }

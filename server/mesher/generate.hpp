@@ -12,6 +12,7 @@ namespace anticrack::mesher {
 /// One per process: gmsh is global.
 class Gmsh {
  public:
+  /// Starts gmsh.
   Gmsh();
   ~Gmsh();
   Gmsh(const Gmsh&) = delete;

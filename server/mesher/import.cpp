@@ -143,7 +143,7 @@ Kind kind_of(CurveRole role) {
 }
 
 void take_interfaces(const EdgeRoles& roles, const std::vector<bool>& on_boundary,
-                     const LineDirections& directions, Mesh& mesh) {
+                     const DirectedLines& lines, Mesh& mesh) {
   std::vector<Chain> chains = build_chains(roles.interfaces, on_boundary);
   const bool single = chains.size() == 1;
   std::map<std::string, std::int32_t> inclusions;  // numbered in the order in which they are met
@@ -156,7 +156,7 @@ void take_interfaces(const EdgeRoles& roles, const std::vector<bool>& on_boundar
   };
   mesh.interfaces.reserve(chains.size());
   for (Chain& found : chains) {
-    Oriented oriented = orient(std::move(found), mesh, directions);
+    Oriented oriented = orient(std::move(found), mesh, lines);
     mesh::Interface interface;
     interface.name = single ? "interface" : fmt::format("interface-{}", mesh.interfaces.size() + 1);
     interface.nodes = std::move(oriented.chain.nodes);
@@ -190,7 +190,9 @@ Mesh to_mesh(const MshFile& file, const mesh::MeshOptions& options) {
   const mesh::EdgeTable edges(mesh.triangles);
   read_surfaces(file, options, edges, cuts_of(lines, welding), mesh);
   EdgeRoles roles = read_edges(edges, lines, groups, welding, mesh);
-  take_interfaces(roles, boundary_nodes(edges, mesh), LineDirections(lines), mesh);
+  DirectedLines directed;
+  for (const CurveEdge& line : lines) directed.insert({line.from, line.to});
+  take_interfaces(roles, boundary_nodes(edges, mesh), directed, mesh);
   mesh.dirichlet = std::move(roles.dirichlet);
   shorten(mesh.warnings);
   mesh::validate(mesh);

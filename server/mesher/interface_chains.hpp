@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The edges of interfaces, put in order.
+// Joins edges of interfaces to chains.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,25 @@
 
 namespace anticrack::mesher {
 
-/// A chain of nodes with subdomain `left` on its left and `right` on its right all along; both are
-/// the same for a slit.
+/// A chain of nodes with subdomain `left` on its left and `right` on its right; both are equal for
+/// a slit.
 struct Chain {
   std::int32_t left = 0;
   std::int32_t right = 0;
-  std::vector<std::int32_t> nodes;          ///< k; a closed chain has its first again as last
+  std::vector<std::int32_t> nodes;          ///< k; a closed chain repeats its first node
   std::vector<const InterfaceEdge*> edges;  ///< k-1
 
-  /// Whether it ends where it began.
+  /// Whether it is a ring.
   bool closed() const noexcept { return nodes.front() == nodes.back(); }
 };
 
-/// Chains end at free ends, at the boundary, and in cross points, where other than two edges meet.
-/// By (lower, higher) subdomain, then by node. An open chain starts from its lower end node, a ring
-/// from its lowest node. `on_boundary` (n). O(e log e) in the edges.
+/// Chains end at free ends, at the boundary and at cross points (nodes without exactly two edges).
+/// An open chain starts at its lower end node, a ring at its lowest node. Sorted by (lower, higher)
+/// subdomain, then by node. `on_boundary` (n). O(e log e) for e edges.
 std::vector<Chain> build_chains(std::span<const InterfaceEdge> edges,
                                 const std::vector<bool>& on_boundary);
 
-/// The same chain walked the other way.
+/// The chain in the opposite direction.
 Chain reversed(Chain chain);
 
 }  // namespace anticrack::mesher

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// anticrack-mesher MEMORY_BYTES CPU_SECONDS generate|import: one mesh::MesherRequest of that kind
-// on standard input, one mesh::MesherReply on standard output, and an end. The .msh to import is
-// open as descriptor 3. Input is read under the limits and the filter only.
+// anticrack-mesher MEMORY_BYTES CPU_SECONDS generate|import: reads one mesh::MesherRequest from
+// standard input and writes one mesh::MesherReply to standard output. The .msh to import is
+// descriptor 3. Limits and filter are set before any input is read.
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -89,9 +90,11 @@ mesh::MesherReply answer(bool import, std::uint64_t memory) {
   } catch (const errors::Error& error) {
     return error;
   } catch (const std::bad_alloc&) {
-    return errors::Error(errors::Reason::mesher_failed,
-                         "the mesher ran out of its " + std::to_string(memory >> 20) +
-                             " MiB of memory; choose a coarser mesh or give it more");
+    return errors::Error(
+        errors::Reason::mesher_failed,
+        fmt::format("the mesher ran out of its {} MiB of memory; choose a coarser mesh "
+                    "or raise the limit",
+                    memory >> 20));
   } catch (const std::exception& error) {
     return errors::Error(errors::Reason::mesher_failed,
                          std::string("the mesher failed: ") + error.what());

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "mesher/messages.hpp"
+
 namespace anticrack::mesher {
 namespace {
 
@@ -15,7 +17,7 @@ std::pair<double, double> point(const mesh::Mesh& mesh, std::int32_t node) {
   return {mesh.xy[i], mesh.xy[i + 1]};
 }
 
-/// Twice the area a closed chain walks around, from its first node; positive counterclockwise.
+/// Twice the area inside a closed chain; positive if it runs counterclockwise.
 double turning(const mesh::Mesh& mesh, const Chain& chain) {
   const auto [x0, y0] = point(mesh, chain.nodes[0]);
   double sum = 0;
@@ -27,7 +29,7 @@ double turning(const mesh::Mesh& mesh, const Chain& chain) {
   return sum;
 }
 
-/// By place, so that it does not depend on the numbers of nodes.
+/// Rule 3; by coordinates, so that it does not depend on node numbers.
 bool runs_as_by_rule(const mesh::Mesh& mesh, const Chain& chain) {
   if (chain.left != chain.right) return chain.left > chain.right;
   if (chain.closed()) return turning(mesh, chain) > 0;
@@ -35,52 +37,47 @@ bool runs_as_by_rule(const mesh::Mesh& mesh, const Chain& chain) {
 }
 
 std::string note(const mesh::Mesh& mesh, const Chain& chain, bool lines_differ) {
-  const std::string why =
+  const char* why =
       lines_differ ? "the lines on it run both ways" : "no line of the file lies on it";
   if (chain.left != chain.right) {
-    return "subdomain \"" + mesh.subdomains[at(chain.left)] +
-           "\" is taken for its plus side: " + why +
-           "; call the one on that side \"plus\", or let all lines run with it on their left, to "
-           "choose";
+    return fmt::format(
+        "subdomain \"{}\" is taken for its plus side: {}; to choose, call the one on that "
+        "side \"plus\", or let all lines run with it on their left",
+        mesh.subdomains[at(chain.left)], why);
   }
-  return "its plus side is taken to be the left, walked from " + place_of(mesh, chain.nodes[0]) +
-         " to " + place_of(mesh, chain.nodes[1]) + ": " + why +
-         "; let all lines run with the plus side on their left to choose";
+  return fmt::format(
+      "its plus side is taken to be the left, walked from {} to {}: {}; to choose, let "
+      "all lines run with the plus side on their left",
+      place_of(mesh, chain.nodes[0]), place_of(mesh, chain.nodes[1]), why);
 }
 
-}  // namespace
+enum class Along { forwards, backwards, both, none };
 
-LineDirections::LineDirections(std::span<const CurveEdge> lines) {
-  for (const CurveEdge& line : lines) _directed.insert({line.from, line.to});
-}
-
-LineDirections::Along LineDirections::of(const Chain& chain, bool glue_too) const {
+/// The direction of the lines along a chain, without or with those on glue.
+Along direction(const Chain& chain, const DirectedLines& lines, bool glue_too) {
   bool forwards = false;
   bool backwards = false;
   for (std::size_t i = 0; i < chain.edges.size(); ++i) {
     if (!glue_too && is_glue(chain.edges[i])) continue;
-    forwards |= _directed.contains({chain.nodes[i], chain.nodes[i + 1]});
-    backwards |= _directed.contains({chain.nodes[i + 1], chain.nodes[i]});
+    forwards |= lines.contains({chain.nodes[i], chain.nodes[i + 1]});
+    backwards |= lines.contains({chain.nodes[i + 1], chain.nodes[i]});
   }
   if (forwards && backwards) return Along::both;
   if (forwards) return Along::forwards;
   return backwards ? Along::backwards : Along::none;
 }
 
-LineDirections::Along LineDirections::of(const Chain& chain) const {
-  const Along along = of(chain, false);
-  return along == Along::none ? of(chain, true) : along;
-}
+}  // namespace
 
-Oriented orient(Chain chain, const mesh::Mesh& mesh, const LineDirections& directions) {
-  using Along = LineDirections::Along;
+Oriented orient(Chain chain, const mesh::Mesh& mesh, const DirectedLines& lines) {
   const auto name = [&](std::int32_t s) { return mesh.subdomains[at(s)]; };
   const auto is_plus = [&](std::int32_t s, std::int32_t facing) {
     return s != facing && (name(s) == "plus" || name(facing) == "minus");
   };
   if (is_plus(chain.left, chain.right)) return {std::move(chain), ""};
   if (is_plus(chain.right, chain.left)) return {reversed(std::move(chain)), ""};
-  const Along along = directions.of(chain);
+  Along along = direction(chain, lines, false);
+  if (along == Along::none) along = direction(chain, lines, true);
   if (along == Along::forwards) return {std::move(chain), ""};
   if (along == Along::backwards) return {reversed(std::move(chain)), ""};
   if (!runs_as_by_rule(mesh, chain)) chain = reversed(std::move(chain));

@@ -13,33 +13,20 @@
 
 namespace anticrack::mesher {
 
-/// Directions of the lines of a file.
-class LineDirections {
- public:
-  /// Every line counts from its first node to its second.
-  explicit LineDirections(std::span<const CurveEdge> lines);
-
-  enum class Along { forwards, backwards, both, none };
-  /// Of the lines on its cracks and inclusions if there are any, else of all.
-  Along of(const Chain& chain) const;
-
- private:
-  Along of(const Chain& chain, bool glue_too) const;
-
-  std::set<std::pair<std::int32_t, std::int32_t>> _directed;
-};
+/// The lines of a file: first node, second node.
+using DirectedLines = std::set<std::pair<std::int32_t, std::int32_t>>;
 
 struct Oriented {
   Chain chain;       ///< plus side on its left
-  std::string note;  ///< not empty: how the side was guessed, for a warning
+  std::string note;  ///< not empty: a warning that rule 3 applied
 };
 
-/// The first of these that decides:
-///   1. between two subdomains: the one called `plus`, or the one facing the one called `minus`;
-///   2. what lies left of the lines on it, if all run the same way;
+/// The plus side is, by the first rule that applies:
+///   1. between two subdomains: the one called `plus`, or the one that faces `minus`;
+///   2. the side left of the lines on its cracks and inclusions (else of all lines), if they agree;
 ///   3. between two subdomains: the one with the higher number; inside one: the left of the chain
-///      walked from its end with the lower x (then y), the inside of a ring.
-/// A chain of nothing but glue is guessed without a note: no answer depends on it.
-Oriented orient(Chain chain, const mesh::Mesh& mesh, const LineDirections& directions);
+///      from its end with the lower x (then y), or the inside of a ring.
+/// Rule 3 gives no note for a chain of glue only: no answer depends on it.
+Oriented orient(Chain chain, const mesh::Mesh& mesh, const DirectedLines& lines);
 
 }  // namespace anticrack::mesher

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The edge length wanted at a point.
+// The desired edge length at a point.
 #pragma once
 
 #include <vector>
@@ -16,13 +16,12 @@ struct SizedCurve {
   double size = 0;
 };
 
-/// h(x) = min(longest size, min over curves (size_c + growth dist(x, c))): graded away from curves
-/// that are cut finer. gmsh's own way, to carry the lengths inwards from the boundary, makes 4 %
-/// more triangles than the paper's mesh has.
-/// A tree of bounding boxes: O(log k) a query, as a rule, in the k curves.
+/// h(x) = min(longest size, min over curves c of (size_c + growth dist(x, c))). gmsh's own way, to
+/// extend lengths from the boundary, makes 4 % more triangles than the paper's mesh has. A tree of
+/// bounding boxes: usually O(log k) per query for k curves.
 class SizeField {
  public:
-  /// At least one curve; growth >= 0.
+  /// `curves` must not be empty; growth >= 0.
   SizeField(std::vector<SizedCurve> curves, double growth);
 
   double operator()(const mesh::Point& p) const;
@@ -34,7 +33,7 @@ class SizeField {
     double least = 0;  ///< smallest size inside
     std::size_t begin = 0;
     std::size_t end = 0;   ///< of its curves
-    std::size_t left = 0;  ///< its parts, 0 for none: the root is not a part
+    std::size_t left = 0;  ///< its parts; 0: none
     std::size_t right = 0;
   };
 

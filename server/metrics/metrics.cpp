@@ -91,7 +91,8 @@ void quietly(const Action& action) noexcept {
 
 struct Metrics::State {
   State(const std::string& version, const std::string& build) {
-    family(registry, BuildGauge(), "anticrack_build_info", "1, with the version and the build as labels.")
+    family(registry, BuildGauge(), "anticrack_build_info",
+           "1, with the version and the build as labels.")
         .Add({{"version", version}, {"build", build}})
         .Set(1);
     // From zero: a rate over a counter that appears with its first event misses that event.
@@ -124,24 +125,26 @@ struct Metrics::State {
   prometheus::Registry registry;
   Family<Counter>& handled = family(registry, BuildCounter(), "anticrack_rpc_handled_total",
                                     "Calls that ended, by method and code.");
-  Family<Histogram>& call_time = family(registry, BuildHistogram(), "anticrack_rpc_duration_seconds",
-                                        "Time of a call from its start to its end, by method.");
+  Family<Histogram>& call_time =
+      family(registry, BuildHistogram(), "anticrack_rpc_duration_seconds",
+             "Time of a call from its start to its end, by method.");
   Family<Counter>& jobs_ended =
       family(registry, BuildCounter(), "anticrack_jobs_ended_total", "Jobs that ended, by state.");
-  Family<Counter>& job_failures =
-      family(registry, BuildCounter(), "anticrack_job_failures_total", "Jobs that failed, by reason.");
+  Family<Counter>& job_failures = family(registry, BuildCounter(), "anticrack_job_failures_total",
+                                         "Jobs that failed, by reason.");
   Family<Histogram>& queue_wait = family(registry, BuildHistogram(), "anticrack_queue_wait_seconds",
                                          "Time from a job's creation to its start, by priority.");
   Family<Histogram>& phase_time = family(registry, BuildHistogram(), "anticrack_job_phase_seconds",
                                          "Time an ended job spent in a phase, by phase.");
-  Histogram& mesh_time =
-      family(registry, BuildHistogram(), "anticrack_meshing_seconds", "Time the mesher took for a mesh.")
-          .Add({}, work_buckets);
+  Histogram& mesh_time = family(registry, BuildHistogram(), "anticrack_meshing_seconds",
+                                "Time the mesher took for a mesh.")
+                             .Add({}, work_buckets);
   Family<Counter>& mesh_failures = family(registry, BuildCounter(), "anticrack_mesh_failures_total",
                                           "Meshes that could not be made, by reason.");
-  Histogram& factorization_time = family(registry, BuildHistogram(), "anticrack_factorization_seconds",
-                                         "Time of a factorisation that succeeded.")
-                                      .Add({}, work_buckets);
+  Histogram& factorization_time =
+      family(registry, BuildHistogram(), "anticrack_factorization_seconds",
+             "Time of a factorisation that succeeded.")
+          .Add({}, work_buckets);
   std::mutex methods_mutex;
   std::set<std::string> methods;
   std::mutex http_mutex;

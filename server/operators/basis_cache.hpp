@@ -19,8 +19,7 @@
 
 namespace anticrack::operators {
 
-/// Loads of one mesh, condensed and reduced to what rows of a sweep are made of. Says nothing of
-/// the mesh: whoever uses it keeps that.
+/// Loads of one mesh, condensed and reduced for the rows of a sweep. Does not keep the mesh.
 struct CondensedBasis {
   contact::SweepLoads reduced;
   std::vector<LoadOnTraces> loads;          ///< without z_interior and z_boundary
@@ -31,18 +30,18 @@ struct CondensedBasis {
   std::size_t bytes() const noexcept;
 };
 
-/// The bases of one mesh that were used last: at most 8, and 64 MiB with their keys; the least
-/// recently used one goes first, and one that is too large alone is not kept. Thread-safe; the lock
-/// is never held while a basis is made.
+/// The bases of one mesh used last: at most 8, and 64 MiB with their keys. The least recently used
+/// one is dropped first; a basis too large alone is not kept. Thread-safe; no lock is held while a
+/// basis is made.
 class BasisCache {
  public:
   using Basis = std::shared_ptr<const CondensedBasis>;
   static constexpr std::size_t most_bases = 8;
   static constexpr std::size_t most_bytes = std::size_t{64} << 20;
 
-  /// The basis of `key`, made where it is not there. Of several that ask at once the first makes
-  /// it; the others get the same, or the same error. One whose maker was stopped is made by the
-  /// next. Throws what `make` throws, and errors::Error (cancelled) when stopped while waiting.
+  /// The basis of `key`, made if missing. Of concurrent callers the first makes it, the others get
+  /// the same or the same error; if its maker was stopped, the next one makes it. Throws what
+  /// `make` throws, and errors::Error (cancelled) when stopped while waiting.
   Basis get(const std::string& key, const std::stop_token& stop,
             const std::function<Basis()>& make);
 

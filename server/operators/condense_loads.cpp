@@ -127,7 +127,7 @@ class Block {
   std::vector<CondensedOutcome> take() { return std::move(_outcomes); }
 
  private:
-  /// What is wrong with a load ends it and no other.
+  /// An error of a load becomes its outcome.
   template <class Work>
   void attempt(std::size_t i, const Work& work) {
     if (auto* result = std::get_if<LoadOnTraces>(&_outcomes[i])) {

@@ -16,25 +16,23 @@
 
 namespace anticrack::operators {
 
-/// A load case as the traces feel it.
+/// A load case condensed to the traces.
 struct LoadOnTraces {
   std::vector<ddm::CondensedLoad> subdomains;  ///< one per subdomain
-  /// One per Mesh::inclusions: the force that acts on it, point forces on it counted. It is in `g`
-  /// of `subdomains` already, at one trace node that the inclusion holds.
+  /// Total force on each of Mesh::inclusions, point forces included. Already in `g` of
+  /// `subdomains`, at one trace node of the inclusion.
   std::vector<double> inclusion_forces;
-  std::vector<std::string> warnings;  ///< an integral that met a limit, with how wrong it may be
+  std::vector<std::string> warnings;  ///< integrals that reached a limit, with their error bound
 };
 
 using CondensedOutcome = std::variant<LoadOnTraces, errors::Error>;
 
-/// Integrates everything that acts on the membrane (paper: f, g_D; and tractions, point forces,
-/// forces on inclusions) and condenses it to the traces: one forward solve a subdomain and load,
-/// two where g_D is not zero, in blocks of loads. `operators`: one per subdomain of the
-/// decomposition, `mesh` the one it was cut from. Entry i belongs to loads[i]. What is wrong with a
-/// load is its entry and no other's: invalid_argument for a subdomain or inclusion that the mesh
-/// does not have, an array of another length than the mesh's, a point force outside or on a crack
-/// (place_forces.hpp), an overflow; expression_invalid. `stop` is obeyed within a load: those not
-/// done by then are `cancelled`.
+/// Integrates all loads on the membrane (paper: f, g_D; tractions, point forces, forces on
+/// inclusions) and condenses them to the traces: one forward solve per subdomain and load, two
+/// where g_D is not zero, in blocks of loads. `operators`: one per subdomain of the decomposition
+/// of `mesh`. Entry i holds the result or error of loads[i]: invalid_argument (unknown subdomain or
+/// inclusion, array of another length, point force outside or on a crack, overflow),
+/// expression_invalid, or cancelled if `stop` came first.
 std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> loads,
                                              const mesh::Mesh& mesh,
                                              const ddm::Decomposition& decomposition,

@@ -38,8 +38,8 @@ struct SkeletonSize {
   double contacts = 0;
 };
 
-/// A node whose edges all hold has one value; where one may open, each side may have its own, with
-/// a contact less than there are sides.
+/// A node has one unknown if all its edges are closed; otherwise up to one per side, and one
+/// contact fewer.
 SkeletonSize skeleton_size(const mesh::Mesh& mesh, const ddm::Sides& sides) {
   std::vector<char> open(mesh.node_count(), 0), seen(mesh.node_count(), 0);
   for (const ddm::CutEdge& edge : sides.edges) {
@@ -63,11 +63,10 @@ SkeletonSize skeleton_size(const mesh::Mesh& mesh, const ddm::Sides& sides) {
 }  // namespace
 
 std::size_t estimate_bytes(const mesh::Mesh& mesh) {
-  // The sparse factor of a planar graph in an order of nested dissection has O(n log n) entries.
-  // Measured with everything else that is kept per node: 30 to 42 bytes a node and log2(n) from 1 k
-  // to 2 M nodes, structured and unstructured. Dense on the trace: S and the flexibility; on the
-  // skeleton H and W; on the contacts S^ with its coarser ones, a factor and a block of either
-  // while it is active.
+  // The factor of a planar graph ordered by nested dissection has O(n log n) entries; measured with
+  // all other data per node: 30 to 42 bytes a node and log2(n), from 1 k to 2 M nodes. Dense: S and
+  // the flexibility on the trace; H and W on the skeleton; S^ with its coarser levels, a factor and
+  // a block of either on the contacts.
   constexpr double bytes_per_node_and_level = 60, bytes_per_node = 200;
   constexpr double trace_blocks = 3, skeleton_blocks = 2, contact_blocks = 3.5, fixed = 1 << 14;
   const ddm::Sides sides = ddm::find_sides(mesh);

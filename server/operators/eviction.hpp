@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which operators go when another one needs room.
+// Which operators to evict for another one.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,8 @@ struct Candidate {
   bool pinned = false;
 };
 
-/// Indices of the candidates to evict, least recently used first, so that what is held then and
-/// `wanted` more bytes fit in `budget`. Empty optional, and nothing is to be evicted, where even
-/// all unpinned ones would not be enough. O(n log n).
+/// Indices of the candidates to evict, least recently used first, so that the rest and `wanted`
+/// more bytes fit in `budget`; none if evicting all unpinned ones would not suffice. O(n log n).
 std::optional<std::vector<std::size_t>> evictions(const std::vector<Candidate>& candidates,
                                                   std::uint64_t wanted, std::uint64_t budget);
 

@@ -7,11 +7,11 @@ namespace anticrack::operators {
 
 void set_up_heaps() noexcept {
   static const bool done = [] {
-    // Smaller blocks, a vector of the mesh among them, are many and short-lived: a system call and
-    // page faults for each took a quarter of a load case with a million unknowns.
+    // Smaller blocks are many and short-lived: a system call and page faults for each took a
+    // quarter of a load case with a million unknowns.
     mallopt(M_MMAP_THRESHOLD, 4 << 20);
-    // Each thread that factorises grew and shrank its heap by a few hundred pages, and two at once
-    // waited for each other in the kernel: a mesh of 11,000 triangles took 7 ms, not 5.
+    // Threads that factorise grew and shrank their heaps by a few hundred pages and waited for each
+    // other in the kernel: 7 ms instead of 5 for 11,000 triangles.
     mallopt(M_TOP_PAD, 4 << 20);
     return true;
   }();

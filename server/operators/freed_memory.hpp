@@ -5,15 +5,13 @@
 
 namespace anticrack::operators {
 
-/// Large blocks get pages of their own from now on, which go back the moment they are freed. Left
-/// alone, glibc raises the size from which it does so to that of the largest block ever freed (up
-/// to 32 MiB): after the first eviction all factors would come out of heaps that only shrink from
-/// their end. A heap keeps up to 4 MiB at its end rather than growing and shrinking all the time.
-/// Process-wide, once; later calls do nothing. Thread-safe.
+/// Blocks of 4 MiB and more get pages of their own, which return to the system when freed. By
+/// default glibc raises that threshold to the largest block ever freed (up to 32 MiB), and after
+/// the first eviction factors would come from heaps that shrink at their end only. A heap keeps up
+/// to 4 MiB free at its end. Process-wide, once; thread-safe.
 void set_up_heaps() noexcept;
 
-/// Gives back the free pages within all heaps. O(heaps); waits for their locks one at a time, so
-/// call it with no lock held.
+/// Returns the free pages of all heaps to the system. Takes their locks one at a time; hold none.
 void return_freed_memory() noexcept;
 
 }  // namespace anticrack::operators

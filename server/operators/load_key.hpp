@@ -9,8 +9,8 @@
 
 namespace anticrack::operators {
 
-/// Bytes that are the same for two lists of loads exactly where all their fields are, names apart;
-/// an array stands for itself by the hash of its upload. None where an array has no hash.
+/// Key of a list of loads: equal if and only if all their fields but the names are; an array is
+/// represented by the hash of its upload. None if an array has no hash.
 std::optional<std::string> key_of(std::span<const fem::Load* const> loads);
 
 }  // namespace anticrack::operators

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Everything that is kept of a mesh between load cases, behind plain types: the layers above see
-// neither Eigen nor CHOLMOD.
+// All that is kept of a mesh between load cases, in plain types: the layers above see neither Eigen
+// nor CHOLMOD.
 #pragma once
 
 #include <array>
@@ -26,33 +26,29 @@ class PreparedLoad;
 class LoadBasis;
 class UzawaBlock;
 
-/// Factorised subdomains, Schur complements, the skeleton condensed to the cracks and interface
-/// mass of one mesh; what Algorithm 2 alone needs, and condensed bases of sweeps, from when they
-/// are first asked for. Any number of threads may solve on it at once, with the same answers
-/// whatever else was asked.
+/// Factorised subdomains, Schur complements, the skeleton condensed to the cracks and the interface
+/// mass of one mesh; on demand also the flexibilities and theta* of Algorithm 2 and bases of
+/// sweeps. Thread-safe; answers do not depend on other calls.
 class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
  public:
-  /// Factorises every subdomain (paper: the matrices of Algorithm 2), two at a time where
-  /// `threads` allows. Throws errors::Error: numerical (a part that nothing or
-  /// contact alone holds), cancelled. Cost: one sparse Cholesky per subdomain plus O(n_G^3) on the
-  /// interface nodes.
+  /// Factorises every subdomain (paper: the matrices of Algorithm 2) on `threads` threads. Throws
+  /// errors::Error: numerical (a part that nothing or contact alone holds), cancelled. One sparse
+  /// Cholesky factorisation per subdomain plus O(n_G^3) for n_G interface nodes.
   static std::shared_ptr<const MeshOperator> factorise(std::shared_ptr<const mesh::Mesh> mesh,
                                                        int threads, std::stop_token stop);
   ~MeshOperator();
 
   /// One load case. O(n_G^2) an iteration of Algorithm 2, O(c^3) a step of the active set with c
-  /// crack nodes, O(N) before and (for fields) after.
-  /// Same mesh, load and options: same bits. Throws errors::Error (expression_invalid: a value that
-  /// is not finite, with the place; invalid_argument: a subdomain or inclusion the mesh does not
-  /// have, an array of another length, a point outside; not_implemented: Uzawa where
-  /// ddm::uzawa_obstacle has a reason; cancelled: `stop` was requested while the load was
-  /// integrated, before there is an iteration that the observer could stop).
+  /// crack nodes, O(N) before and (for fields) after. Same mesh, load and options: same bits.
+  /// Throws errors::Error: expression_invalid (a value that is not finite, with the place);
+  /// invalid_argument (an unknown subdomain or inclusion, an array of another length, a point
+  /// outside); not_implemented (Uzawa where uzawa_obstacle() has a reason); cancelled (`stop` while
+  /// the load was integrated).
   contact::Answer solve(const fem::Load& load, const contact::SolverOptions& options, bool fields,
                         contact::Observer& observer, const std::stop_token& stop = {}) const;
 
-  /// Condenses several loads with one pass over the factors: forward solves in blocks of columns.
-  /// Entry i belongs to loads[i]; what is wrong with one load is its entry (as `solve` throws it)
-  /// and no other's. The bits of a load's numbers do not depend on its neighbours.
+  /// Condenses several loads by forward solves in blocks of columns. Entry i belongs to loads[i]
+  /// and holds its error, as `solve` throws it. The bits of a load do not depend on the others.
   std::vector<std::variant<PreparedLoad, errors::Error>> prepare(
       std::span<const fem::Load* const> loads, const std::stop_token& stop = {}) const;
 
@@ -60,30 +56,26 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   contact::Answer solve(const PreparedLoad& load, const contact::SolverOptions& options,
                         bool fields, contact::Observer& observer) const;
 
-  /// Fills the fields of answers that `solve` gave without them, answers[i] from loads[i]: backward
-  /// solves in blocks of columns, the same bits as one by one. Throws errors::Error (internal) for
-  /// loads that have none, limit_exceeded without memory.
+  /// Fills the fields of answers[i] to loads[i] by backward solves in blocks of columns, with the
+  /// bits of single solves. Throws errors::Error: internal for combinations, limit_exceeded without
+  /// memory.
   void recover_fields(std::span<const PreparedLoad* const> loads,
                       std::span<contact::Answer* const> answers) const;
 
-  /// Condenses loads whose combinations are to be solved: O(N) each and O(n_G^2 + N m) for what
-  /// pairs of them say of the energy; N m numbers meanwhile. The last few bases are kept
-  /// (BasisCache): loads that are the same but for their names, arrays by the hash of their upload,
-  /// are condensed once, also where several threads ask at once. Throws errors::Error as `solve`
-  /// does, with "load_cases[j]." before the path of the field; limit_exceeded where the loads take
-  /// more memory than max_basis_bytes together.
+  /// Condenses loads to be combined: O(N) each and O(n_G^2 + N m) for the energy of pairs; N m
+  /// numbers of memory meanwhile. Cached (BasisCache): loads that differ by name only, arrays
+  /// compared by the hash of their upload, are condensed once. Throws errors::Error as `solve`
+  /// does, with "load_cases[j]." before the field; limit_exceeded beyond max_basis_bytes.
   std::shared_ptr<const LoadBasis> basis(std::span<const fem::Load* const> loads,
                                          const std::stop_token& stop = {}) const;
 
-  /// Rows `first` to first + rows.size() of a sweep, row k the load sum_j c_kj f_j, coefficients
-  /// (rows, loads) row-major. Each starts from the contact of the one before, the first from that
-  /// of `start` (empty: all closed), which becomes the last one's; the numbers do not depend on it
-  /// (DenseLcp). O(m c) and a few steps of O(c^3) or less a row, no allocation in a row whose
-  /// contact is near that of the one before. What the numbers of a row are and when it is
-  /// not_converged: contact::SweepSolver.
-  /// `rows` has its width from mesh() and contact_nodes(). Throws errors::Error (internal) for
-  /// another shape, and for a basis of another mesh.
-  /// Returns false where `stop` was requested between two rows.
+  /// Solves the rows of a sweep, row k for the load sum_j c_kj f_j, coefficients (rows, loads)
+  /// row-major. Each starts from the contact of the one before, the first from `start` (empty: all
+  /// closed), which is set to that of the last; results do not depend on it. O(m c) and a few steps
+  /// of at most O(c^3) a row, without allocation where the contact changes little; see
+  /// contact::SweepSolver for the numbers and not_converged. `rows` has its width from mesh() and
+  /// contact_nodes(). Throws errors::Error (internal) for another shape or a basis of another mesh.
+  /// False if `stop` was requested between rows.
   bool sweep(const LoadBasis& basis, std::span<const double> coefficients,
              const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
              std::vector<char>& start, const std::stop_token& stop = {}) const;
@@ -91,12 +83,11 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   bool sweep(std::span<const PreparedLoad> loads, const contact::ActiveSetOptions& options,
              contact::SweepColumns& rows, std::vector<char>& start,
              const std::stop_token& stop = {}) const;
-  /// A row as a load of its own, for its traces; not for fields, which solve() refuses then
-  /// (internal). O((trace + Dirichlet nodes) m).
+  /// A row as a load, to solve for traces but not fields. O((trace + Dirichlet nodes) m).
   PreparedLoad combine(const LoadBasis& basis, std::span<const double> coefficients) const;
 
-  /// Contacts of the sweeps' rows: interface, and index of the node in its trace_geometry(), for
-  /// every node there that may open (one where interfaces cross is there once on each).
+  /// (interface, index in its trace_geometry()) of each node that may open, the columns of
+  /// SweepColumns:: contact; a node where interfaces cross appears once for each.
   const std::vector<std::array<std::int32_t, 2>>& contact_nodes() const noexcept;
 
   /// Why Algorithm 2 does not apply to this mesh; empty where it does.
@@ -105,16 +96,15 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   const mesh::Mesh& mesh() const noexcept;
   /// Per interface of the mesh.
   const std::vector<contact::TraceGeometry>& trace_geometry() const noexcept;
-  /// Triangles of a subdomain, (m_i,3) row-major, as indices into Field::nodes of its answers: with
-  /// two sides of a slit in one subdomain a mesh node is there twice, once a side.
+  /// Triangles of a subdomain, (m_i,3) row-major, as indices into Field::nodes of its answers,
+  /// where a node with two sides (slit) occurs twice.
   const std::vector<std::int32_t>& field_triangles(std::size_t subdomain) const;
   /// Memory held now, measured, bytes (the mesh included).
   std::size_t bytes() const noexcept;
-  /// theta* for lumped mass; 0 where Algorithm 2 does not apply. Computed when it is first asked
-  /// for, here or by Algorithm 2: O(n_G^3), at a large interface more than all else. Throws
-  /// errors::Error (numerical) when it cannot be computed.
+  /// theta* for lumped mass, 0 where Algorithm 2 does not apply. Computed at the first use:
+  /// O(n_G^3). Throws errors::Error (numerical) when it cannot be computed.
   double theta_star() const;
-  /// The same where it is known already, else 0. Does not wait.
+  /// theta_star() if known, else 0. Does not wait.
   double known_theta_star() const noexcept;
 
  private:
@@ -123,7 +113,11 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   explicit MeshOperator(std::unique_ptr<const Parts> parts);
   /// Throws errors::Error (internal) unless the load is of this mesh, and has fields if asked for.
   void require_prepared(const PreparedLoad& load, bool fields) const;
-  void require_shape(const contact::SweepColumns& rows, std::span<const char> start) const;
+  /// Calls solve_row(solver, row) for each row. Throws errors::Error (internal) for another shape.
+  template <class SolveRow>
+  bool sweep_rows(const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
+                  std::vector<char>& start, const std::stop_token& stop,
+                  const SolveRow& solve_row) const;
   std::unique_ptr<const Parts> _parts;
 };
 
@@ -142,8 +136,7 @@ class PreparedLoad {
   std::unique_ptr<Data> _data;
 };
 
-/// Loads f_1 ... f_m of one mesh, condensed. Immutable: any number of threads may sweep over it at
-/// once. Keeps the mesh's operators alive.
+/// Condensed loads f_1 ... f_m of one mesh, whose operators it keeps alive. Immutable, thread-safe.
 class LoadBasis {
  public:
   ~LoadBasis();
@@ -159,11 +152,10 @@ class LoadBasis {
   std::unique_ptr<const Data> _data;
 };
 
-/// Load cases of one mesh that iterate Algorithm 2 together, one column each: a matrix product
-/// where each alone would cost matrix-vector products. Columns join and leave between two
-/// iterations; each has its own theta, p, stopping rule and observer. The numbers of a column do
-/// not depend on the others beyond rounding (1e-12 of a converged answer). One object belongs to
-/// one thread at a time.
+/// Load cases of one mesh that iterate Algorithm 2 together, one column each: matrix products
+/// instead of matrix-vector products. Columns join and leave between iterations, each with its own
+/// theta, p, stopping rule and observer. A column's results depend on the others by rounding only
+/// (1e-12 of a converged answer). For one thread.
 class UzawaBlock {
  public:
   /// Throws errors::Error (not_implemented) where Algorithm 2 does not apply to the mesh.
@@ -175,20 +167,19 @@ class UzawaBlock {
   int columns() const noexcept;   ///< under way
   int capacity() const noexcept;  ///< columns that may be under way at once
 
-  /// The place of the column, below capacity(), until it has ended. `options.mass` is the block's.
-  /// The observer outlives the column.
+  /// Returns the column's place, below capacity(), until it has ended. `options.mass` must be the
+  /// block's; the observer must outlive the column.
   int add(PreparedLoad load, const contact::UzawaOptions& options, bool fields,
           contact::Observer& observer);
-  /// One iteration of every column: O(n_G^2 columns) as one product, no allocation. Each observer
-  /// hears of its column; one that says no ends it as cancelled.
+  /// One iteration of every column, O(n_G^2 columns), no allocation. An observer that returns false
+  /// cancels its column.
   void step();
 
   struct Ended {
     int place = 0;
     contact::Answer answer;
   };
-  /// The columns that ended in the last step, in the order of their places, which are free now. May
-  /// cost a backward solve each (traces, fields).
+  /// The columns that have ended, by place, and frees the places. A backward solve each for fields.
   std::vector<Ended> take_ended();
 
  private:
@@ -202,8 +193,7 @@ constexpr std::size_t max_basis_bytes = std::size_t{4} << 30;
 /// Upper estimate of bytes() before factorising, cached bases apart. O(m).
 std::size_t estimate_bytes(const mesh::Mesh& mesh);
 
-/// Throws errors::Error (internal) unless BLAS is the pthread build of OpenBLAS, and sets it to one
-/// thread: the serial build gave 40 wrong factors of 44 under threads, silently.
+/// ddm::require_threadsafe_blas().
 void require_threadsafe_blas();
 
 }  // namespace anticrack::operators

@@ -22,7 +22,7 @@ using errors::Reason;
 using Operator = std::shared_ptr<const MeshOperator>;
 using Operators = std::vector<Operator>;
 
-/// One factorisation and those who wait for it.
+/// A factorisation under way and its waiters.
 struct Flight {
   std::stop_source stop;
   int waiters = 1;         ///< the caller whose thread factorises is one
@@ -40,7 +40,7 @@ struct Entry {
   std::uint64_t last_use = 0;
   bool kept = false;  ///< pinned without a holder
 
-  /// With the mutex held nobody can get at the operator but through a copy that counts already.
+  /// With the mutex held, the operator can only be reached through copies that are counted.
   bool in_use() const { return !ready || ready.use_count() > 1; }
   bool pinned() const { return kept || in_use(); }
   /// An operator grows: by what Algorithm 2 alone needs, and by bases of sweeps.
@@ -69,7 +69,7 @@ Error full(std::uint64_t estimate, std::uint64_t held, std::uint64_t budget) {
   return error.retry_after(retry_delay);
 }
 
-/// Call without a lock: it takes as long as there are pages to be given back.
+/// Slow for many pages; call without a lock.
 void release(Operators operators) {
   if (!operators.empty()) {
     operators.clear();
@@ -133,8 +133,8 @@ struct OperatorCache::State {
     return taken;
   }
 
-  /// Takes out operators, least recently used first, until the rest and `wanted` are within
-  /// `limit`. None, and nothing has gone, where that cannot be.
+  /// Takes out operators, least recently used first, until the rest and `wanted` fit in `limit`;
+  /// none if that is impossible.
   std::optional<Operators> evict(std::uint64_t wanted, std::uint64_t limit) {
     std::vector<Candidate> candidates;
     std::vector<std::string> keys;
@@ -172,7 +172,7 @@ struct OperatorCache::State {
     if (!done) {
       throw stopped();
     }
-    // What is left of the flight would pin the operator.
+    // A copy in the flight would pin the operator.
     Operator result = flight->waiters == 0 ? std::move(flight->result) : flight->result;
     if (!result) {
       throw Error(*flight->error);
@@ -200,7 +200,7 @@ struct OperatorCache::State {
     return nullptr;
   }
 
-  /// On this thread, for whoever joins meanwhile as well.
+  /// Factorises on this thread, also for callers that join.
   Operator fly(Lock& lock, const std::string& key, std::shared_ptr<const mesh::Mesh> mesh,
                std::uint64_t estimate, const std::stop_token& stop) {
     std::optional<Operators> evicted = evict(estimate, budget);

@@ -14,7 +14,7 @@
 
 namespace anticrack::operators {
 
-/// After which an error `busy` about memory or threads says to try again.
+/// Retry delay of `busy` errors about memory or threads.
 constexpr std::chrono::milliseconds retry_delay{1000};
 
 struct CacheMetrics {
@@ -28,40 +28,38 @@ struct CacheMetrics {
   int entries = 0;           ///< meshes
 };
 
-/// Contract:
-/// 1. One factorisation at a time per key, on the thread of the first who asks for it; others that
-///    ask meanwhile join and get the same operator, or the same error.
-/// 2. An operator somebody still holds (shared_ptr) is pinned: it counts, and is not evicted.
-/// 3. Before a factorisation its estimate is reserved: unpinned entries go, least recently used
-///    first; where that is not enough: errors::Error (busy, or limit_exceeded when the estimate
-///    alone is over the budget). After it the measured size replaces the estimate.
-///    The budget is kept: at no moment do measured and reserved bytes together exceed it. Should a
-///    measured size exceed its estimate (estimate_bytes is an upper bound: a bug in it), unpinned
-///    entries go at once; what is over even then is kept for those who wait, counted as it is, and
-///    nothing more is admitted until the whole is within the budget again. The same holds where an
-///    operator grows in use (theta*, bases of sweeps): it counts as large as it is now.
-/// 4. `pin` keeps an entry until `evict`, also without a holder.
-/// 5. Evicted memory is freed before what it made room for is factorised, and goes back to the
-///    system (freed_memory.hpp).
-/// 6. A joiner's stop ends its wait. The factorisation is stopped when nobody wants it any more;
-/// the
-///    caller whose thread it is on returns when it has ended, `cancelled` where it was stopped.
-/// Thread-safe. Locks are never held while factorising.
+/// 1. One factorisation at a time per key, on the first caller's thread; callers that join get the
+/// same
+///    operator or the same error.
+/// 2. An operator held by somebody (shared_ptr) is pinned: counted and not evicted.
+/// 3. A factorisation first reserves its estimate, evicting unpinned entries, least recently used
+/// first.
+///    If that is not enough: errors::Error busy, or limit_exceeded if the estimate exceeds the
+///    budget. Then its measured size replaces the estimate. Measured and reserved bytes stay within
+///    the budget. If a measured size exceeds its estimate (an error of estimate_bytes), or an
+///    operator grows in use (theta*, bases of sweeps), unpinned entries go at once, and nothing
+///    more is admitted until the total is within the budget.
+/// 4. `pin` keeps an entry until `evict`.
+/// 5. Evicted memory returns to the system before the factorisation it made room for
+///    (freed_memory.hpp).
+/// 6. A joiner's stop ends its wait. The factorisation stops when nobody waits for it any more; its
+/// own
+///    caller returns when it has ended, `cancelled` if it was stopped.
+/// Thread-safe. No lock is held while factorising.
 class OperatorCache {
  public:
   using Factorise = std::function<std::shared_ptr<const MeshOperator>(
       std::shared_ptr<const mesh::Mesh>, std::stop_token)>;
-  /// Told of each factorisation that succeeded, without a lock and before anybody gets the
-  /// operator: how long it took. Must not throw.
+  /// Called after each successful factorisation with its duration, without a lock, before anybody
+  /// gets the operator. Must not throw.
   using Listener = std::function<void(std::chrono::duration<double>)>;
 
-  /// `factorise` may throw what acquire() is to throw, and should obey its stop.
+  /// `factorise` may throw errors for acquire() and should obey its stop.
   OperatorCache(std::uint64_t budget_bytes, Factorise factorise, Listener factorised = {});
-  /// Nobody may be in acquire() any more.
+  /// No call may be under way.
   ~OperatorCache();
 
-  /// The operator of a mesh, from memory or factorised. Blocks.
-  /// `key` is the hash of the mesh's content.
+  /// The operator of a mesh, from memory or factorised; blocks. `key`: hash of the mesh's content.
   std::shared_ptr<const MeshOperator> acquire(const std::string& key,
                                               std::shared_ptr<const mesh::Mesh> mesh,
                                               std::stop_token stop);
@@ -72,9 +70,9 @@ class OperatorCache {
   bool pin(const std::string& key);
   bool pinned(const std::string& key) const;  ///< by `pin`
   enum class Eviction { done, not_there, in_use };
-  /// Drops an entry, a pinned one too; not one that somebody holds or that is being factorised.
+  /// Drops an entry, also one kept by `pin`, unless somebody holds it or it is being factorised.
   Eviction evict(const std::string& key);
-  /// Somebody waits for what another caller of acquire() waits for, without calling it as well.
+  /// Counts a caller that waits for an acquire() of another one instead of its own.
   void count_join();
   CacheMetrics metrics() const;
 

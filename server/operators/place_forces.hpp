@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where forces that act in a point or on an inclusion enter the load.
+// Point forces and forces on inclusions as forces on nodes.
 #pragma once
 
 #include <cstddef>
@@ -24,17 +24,16 @@ struct PlacedForces {
   std::vector<double> inclusions;                   ///< force on each of Mesh::inclusions
 };
 
-/// A point counts as on an edge, and as inside the membrane, when it is no farther from it than
-/// this part of the diagonal of the membrane's bounding box.
+/// Distance, as a fraction of the diagonal of the membrane's bounding box, within which a point
+/// lies on an edge or inside the membrane.
 constexpr double point_tolerance = 1e-9;
 
-/// A point force on an edge of an inclusion, bonded or delaminated, acts on the inclusion; one
-/// elsewhere on the corners of the triangle that holds the point, by its barycentric coordinates
-/// (int delta phi_i). On glue both sides do. A force on an inclusion acts on one trace node
-/// that the inclusion holds: all of them share its displacement.
+/// A point force on an edge of an inclusion, bonded or delaminated, acts on the inclusion;
+/// elsewhere on the corners of the triangle that contains it, by barycentric coordinates (int delta
+/// phi_i). A force on an inclusion acts on one trace node of it, since all share its displacement.
 /// Throws errors::Error (invalid_argument): "point_forces[I].at" for a point outside the membrane
-/// or on a crack without inclusion, whose two sides move apart; "inclusion_forces[NAME]" for an
-/// inclusion that the mesh does not have, with those it has. O(m log k + hits), k points.
+/// or on a crack without inclusion, "inclusion_forces[NAME]" for an unknown inclusion. O(m log k +
+/// hits) for k points.
 PlacedForces place_forces(const fem::Load& load, const mesh::Mesh& mesh,
                           const ddm::Decomposition& decomposition);
 

@@ -54,7 +54,7 @@ std::vector<const ddm::CondensedLoad*> on_subdomain(const std::vector<LoadOnTrac
   return result;
 }
 
-/// Takes what pairs of loads say of the energy, then lets go of their interiors.
+/// Computes the products of loads that the energy needs, then frees their interiors.
 CondensedBasis basis_of(std::vector<LoadOnTraces> loads, const contact::SkeletonProblem& skeleton,
                         std::size_t inclusions) {
   CondensedBasis result;
@@ -118,43 +118,44 @@ std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* 
       LoadBasis::Data{shared_from_this(), key ? _parts->bases.get(*key, stop, make) : make()})));
 }
 
-void MeshOperator::require_shape(const contact::SweepColumns& rows,
-                                 std::span<const char> start) const {
-  const auto contacts = at(_parts->skeleton.lcp().size());
+template <class SolveRow>
+bool MeshOperator::sweep_rows(const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
+                              std::vector<char>& start, const std::stop_token& stop,
+                              const SolveRow& solve_row) const {
+  const auto contacts = static_cast<std::size_t>(_parts->skeleton.lcp().size());
   if (rows.inclusions != _parts->mesh->inclusions.size() ||
       rows.contacts != contact_nodes().size() || (!start.empty() && start.size() != contacts)) {
     throw errors::Error(errors::Reason::internal, "rows of a sweep on another mesh");
   }
+  contact::SweepSolver solver(_parts->skeleton, _parts->sweep_geometry, options, start);
+  std::size_t row = 0;
+  for (; row < rows.rows() && !stop.stop_requested(); ++row) {
+    solve_row(solver, row);
+  }
+  start = solver.closed();
+  return row == rows.rows();
 }
 
 bool MeshOperator::sweep(const LoadBasis& basis, std::span<const double> coefficients,
                          const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
                          std::vector<char>& start, const std::stop_token& stop) const {
   const std::size_t m = basis.size();
-  require_shape(rows, start);
   if (basis._data->mesh_operator.get() != this || coefficients.size() != rows.rows() * m) {
     throw errors::Error(errors::Reason::internal, "coefficients of another basis");
   }
-  contact::SweepSolver solver(_parts->skeleton, _parts->sweep_geometry, options, start);
-  std::size_t row = 0;
-  for (; row < rows.rows() && !stop.stop_requested(); ++row) {
+  return sweep_rows(options, rows, start, stop, [&](contact::SweepSolver& solver, std::size_t row) {
     solver.solve(basis._data->basis->reduced, coefficients.subspan(row * m, m), row, rows);
-  }
-  start = solver.closed();
-  return row == rows.rows();
+  });
 }
 
 bool MeshOperator::sweep(std::span<const PreparedLoad> loads,
                          const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
                          std::vector<char>& start, const std::stop_token& stop) const {
-  require_shape(rows, start);
   if (loads.size() != rows.rows()) {
     throw errors::Error(errors::Reason::internal, "as many rows as loads");
   }
   constexpr double once[] = {1.0};
-  contact::SweepSolver solver(_parts->skeleton, _parts->sweep_geometry, options, start);
-  std::size_t row = 0;
-  for (; row < rows.rows() && !stop.stop_requested(); ++row) {
+  return sweep_rows(options, rows, start, stop, [&](contact::SweepSolver& solver, std::size_t row) {
     require_prepared(loads[row], false);
     const contact::CaseLoads parts[] = {loads[row]._data->loads()};
     MatrixXd constant = MatrixXd::Zero(1, 1);
@@ -164,9 +165,7 @@ bool MeshOperator::sweep(std::span<const PreparedLoad> loads,
     solver.solve(
         contact::reduce(_parts->skeleton, _parts->mesh->inclusions.size(), parts, constant), once,
         row, rows);
-  }
-  start = solver.closed();
-  return row == rows.rows();
+  });
 }
 
 PreparedLoad MeshOperator::combine(const LoadBasis& basis,

@@ -13,7 +13,6 @@
 #include "errors/errors.hpp"
 #include "mesher/helper.hpp"
 #include "rpc/block_feed.hpp"
-#include "store/array_upload.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -42,14 +41,11 @@ bool is_array(v1::UploadMeshRequest::Content content) {
   }
 }
 
-/// Nothing else may reach gmsh, which runs what it takes for a script, nor a load.
-void require_content(const std::string& path, bool array) {
+/// Runs a check of what the file holds.
+template <class Check>
+void at_chunk(const Check& check) {
   try {
-    if (array) {
-      store::require_array(path);
-    } else {
-      mesher::require_msh(path);
-    }
+    check();
   } catch (const Error& error) {
     throw error.fields().empty() ? Error(error).at("chunk") : error;
   }
@@ -82,10 +78,10 @@ class UploadReceiver::File {
     }
   }
 
+  /// The store flushes it.
   void close() {
-    const bool synced = ::fsync(_descriptor) == 0;
-    const bool closed = ::close(std::exchange(_descriptor, -1)) == 0;
-    if (!synced || !closed) throw storage_error("cannot write the upload");
+    if (::close(std::exchange(_descriptor, -1)) != 0)
+      throw storage_error("cannot write the upload");
   }
 
   const std::string& path() const { return _path; }
@@ -102,9 +98,16 @@ UploadReceiver::UploadReceiver(store::Store& store, std::string owner, std::uint
 UploadReceiver::~UploadReceiver() = default;
 
 void UploadReceiver::accept(const v1::UploadMeshRequest& request) {
+  std::size_t index = _complete.size();
   try {
     switch (request.part_case()) {
       case v1::UploadMeshRequest::kHeader:
+        if (_file && _received_bytes < _announced_bytes) {
+          throw Error(Reason::invalid_argument, "a header before the end of the file before it")
+              .at("header");
+        }
+        if (_file) end_file();
+        index = _complete.size();
         return begin(request.header());
       case v1::UploadMeshRequest::kChunk:
         return append(request.chunk());
@@ -112,15 +115,25 @@ void UploadReceiver::accept(const v1::UploadMeshRequest& request) {
         break;
     }
     throw Error(Reason::invalid_argument, "a message with neither header nor chunk").at("chunk");
+  } catch (Error& error) {
+    drop();
+    throw error.with("file", std::to_string(index));
   } catch (...) {
-    _file.reset();
+    drop();
     throw;
   }
 }
 
+void UploadReceiver::drop() {
+  _file.reset();
+  _complete.clear();
+  _sha256s.clear();
+}
+
 void UploadReceiver::begin(const v1::UploadMeshRequest::Header& header) {
-  if (_file) {
-    throw Error(Reason::invalid_argument, "a second header; only the first message has one")
+  if (_complete.size() == max_files) {
+    throw Error(Reason::limit_exceeded,
+                "more than " + std::to_string(max_files) + " files in one stream; use several")
         .at("header");
   }
   const bool array = is_array(header.content());
@@ -146,8 +159,9 @@ void UploadReceiver::begin(const v1::UploadMeshRequest::Header& header) {
         .at("header.sha256");
   }
   _announced_bytes = header.size();
+  _received_bytes = 0;
   _announced_sha256 = header.sha256();
-  _is_array = array;
+  _array = array ? std::optional<store::ArrayCheck>(std::in_place) : std::nullopt;
   _file = std::make_unique<File>(_store.new_upload_path(header.size()));
 }
 
@@ -167,31 +181,49 @@ void UploadReceiver::append(const std::string& chunk) {
         .at("header.size");
   }
   const auto bytes = std::as_bytes(std::span(chunk));
+  if (_array) at_chunk([&] { _array->add(bytes); });
   _file->write(bytes);
   _hash.add(bytes);
   _received_bytes += chunk.size();
 }
 
-std::string UploadReceiver::complete() {
-  const std::unique_ptr<File> file = std::move(_file);
-  if (!file) throw Error(Reason::invalid_argument, "an upload without a header").at("header");
+void UploadReceiver::end_file() {
   if (_received_bytes != _announced_bytes) {
     throw Error(Reason::invalid_argument, std::to_string(_received_bytes) + " of the " +
                                               std::to_string(_announced_bytes) +
                                               " bytes that the header announced")
         .at("header.size");
   }
-  std::string sha256 = _hash.finish();
+  std::string sha256 = std::exchange(_hash, {}).finish();
   if (sha256 != _announced_sha256) {
     throw Error(Reason::invalid_argument,
                 "the bytes received have the sha256 " + sha256 + ", not the one announced")
         .at("header.sha256");
   }
-  file->close();
-  require_content(file->path(), _is_array);
-  _store.keep_upload(file->path(), sha256, _owner);
-  file->release();
-  return sha256;
+  _file->close();
+  // Nothing else may reach gmsh, which runs what it takes for a script.
+  if (!_array) at_chunk([&] { mesher::require_msh(_file->path()); });
+  _complete.push_back(std::move(_file));
+  _sha256s.push_back(std::move(sha256));
+}
+
+std::vector<std::string> UploadReceiver::complete() {
+  try {
+    if (!_file) throw Error(Reason::invalid_argument, "an upload without a header").at("header");
+    end_file();
+  } catch (Error& error) {
+    const std::size_t index = _complete.size();
+    drop();
+    throw error.with("file", std::to_string(index));
+  }
+  const std::vector<std::unique_ptr<File>> files = std::move(_complete);
+  std::vector<store::Upload> uploads;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    uploads.push_back({files[i]->path(), _sha256s[i]});
+  }
+  _store.keep_uploads(uploads, _owner);
+  for (const auto& file : files) file->release();
+  return std::move(_sha256s);
 }
 
 }  // namespace anticrack::rpc

@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// An upload from its first message to the store; knows no transport.
+// The files of an upload stream, from the first message to the store; knows no transport.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "anticrack/v1/mesh.pb.h"
+#include "store/array_upload.hpp"
 #include "store/digest.hpp"
 #include "store/store.hpp"
 
 namespace anticrack::rpc {
 
-/// Order: accept(header), accept(chunk) ..., complete(). Blocks on the disk. After a throw, or when
-/// destroyed before complete(), the temporary file is gone. Not thread-safe.
+/// Order: for each file accept(header), accept(chunk) ...; then complete(). Blocks on the disk.
+/// After a throw, or when destroyed before complete(), all temporary files are gone. Errors name
+/// the file's index in metadata "file". Not thread-safe.
 class UploadReceiver {
  public:
-  /// The upload will belong to `owner`.
+  static constexpr std::size_t max_files = 1000;
+
+  /// The uploads will belong to `owner`.
   UploadReceiver(store::Store& store, std::string owner, std::uint64_t max_bytes);
   UploadReceiver(const UploadReceiver&) = delete;
   UploadReceiver& operator=(const UploadReceiver&) = delete;
@@ -27,25 +33,29 @@ class UploadReceiver {
   /// Throws errors::Error: invalid_argument, limit_exceeded, disk_full, storage.
   void accept(const v1::UploadMeshRequest& request);
 
-  /// The upload's sha256, when it is all there and is what was announced: a .msh begins with
-  /// $MeshFormat, an array is finite values of 8 bytes.
+  /// Keeps all files and returns their sha256s, in order, when each is all there and is what was
+  /// announced: a .msh begins with $MeshFormat, an array is finite values of 8 bytes.
   /// Throws errors::Error: invalid_argument, mesh_invalid, disk_full, storage.
-  std::string complete();
+  std::vector<std::string> complete();
 
  private:
   class File;
 
   void begin(const v1::UploadMeshRequest::Header& header);
   void append(const std::string& chunk);
+  void end_file();
+  void drop();
 
   store::Store& _store;
   const std::string _owner;
   const std::uint64_t _max_bytes;
-  std::unique_ptr<File> _file;
+  std::vector<std::unique_ptr<File>> _complete;
+  std::vector<std::string> _sha256s;  ///< of these
+  std::unique_ptr<File> _file;        ///< that is being received
   store::Sha256 _hash;
   std::string _announced_sha256;
   std::uint64_t _announced_bytes = 0;
-  bool _is_array = false;
+  std::optional<store::ArrayCheck> _array;  ///< for an array, not a .msh
   std::uint64_t _received_bytes = 0;
 };
 

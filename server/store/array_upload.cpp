@@ -5,12 +5,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <span>
+#include <cstring>
 #include <string_view>
 
 #include "errors/errors.hpp"
+#include "store/files.hpp"
 
 namespace anticrack::store {
 namespace {
@@ -24,49 +23,45 @@ Error unreadable(const std::string& path) {
   return {Reason::storage, "cannot read " + path + "; upload it again"};
 }
 
-bool begins_like_msh(const std::string& path) {
+bool begins_like_msh(std::span<const std::byte> start) {
   constexpr std::string_view magic = "$MeshFormat";
-  std::array<char, magic.size()> start{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  return std::string_view(start.data(), static_cast<std::size_t>(file.gcount())) == magic;
+  return start.size() >= magic.size() && std::memcmp(start.data(), magic.data(), magic.size()) == 0;
 }
 
-/// visit(values) for one piece of the file after the other.
-template <class Visit>
-void read_pieces(const std::string& path, std::size_t count, Visit&& visit) {
-  std::ifstream file(path, std::ios::binary);
-  std::array<double, 8192> piece{};
-  for (std::size_t first = 0; first < count; first += piece.size()) {
-    const std::span<double> values(piece.data(), std::min(piece.size(), count - first));
-    if (!file.read(reinterpret_cast<char*>(values.data()),
-                   static_cast<std::streamsize>(values.size_bytes()))) {
-      throw unreadable(path);
-    }
-    const auto bad = std::find_if(values.begin(), values.end(),
-                                  [](double value) { return !std::isfinite(value); });
-    if (bad != values.end()) {
-      throw Error(Reason::invalid_argument,
-                  "value " +
-                      std::to_string(first + static_cast<std::size_t>(bad - values.begin())) +
-                      " of the array is " + std::to_string(*bad) + "; all must be finite");
-    }
-    visit(values);
+Error is_msh() {
+  return {Reason::invalid_argument,
+          "the upload is a .msh, not an array of values; upload the values as CONTENT_ARRAY"};
+}
+
+/// Without a branch for each value, so that the compiler does several at once.
+bool all_finite(std::span<const double> values) {
+  constexpr std::uint64_t exponent = 0x7ff0'0000'0000'0000;
+  bool finite = true;
+  for (const double value : values) {
+    finite &= (std::bit_cast<std::uint64_t>(value) & exponent) != exponent;
   }
+  return finite;
+}
+
+/// `first`: index of the first value.
+void require_finite(std::span<const double> values, std::uint64_t first) {
+  if (all_finite(values)) return;
+  const auto bad = std::ranges::find_if_not(values, [](double v) { return std::isfinite(v); });
+  throw Error(Reason::invalid_argument,
+              "value " + std::to_string(first + static_cast<std::size_t>(bad - values.begin())) +
+                  " of the array is " + std::to_string(*bad) + "; all must be finite");
 }
 
 }  // namespace
 
 std::size_t array_length(const std::string& path) {
-  std::error_code code;
-  const auto bytes = std::filesystem::file_size(path, code);
-  if (code) {
-    throw unreadable(path);
-  }
-  if (begins_like_msh(path)) {
-    throw Error(Reason::invalid_argument,
-                "the upload is a .msh, not an array of values; upload the values as CONTENT_ARRAY");
-  }
+  const Descriptor file = open_to_read(path);
+  if (!file) throw unreadable(path);
+  const std::uint64_t bytes = file_size(file, path);
+  std::array<std::byte, 16> start{};
+  const auto head = std::span(start).first(std::min<std::uint64_t>(bytes, start.size()));
+  read_at(file, path, 0, head);
+  if (begins_like_msh(head)) throw is_msh();
   if (bytes == 0 || bytes % sizeof(double) != 0) {
     throw Error(Reason::invalid_argument, "the upload has " + std::to_string(bytes) +
                                               " bytes; an array of f64 has 8 for each value");
@@ -74,29 +69,42 @@ std::size_t array_length(const std::string& path) {
   return static_cast<std::size_t>(bytes / sizeof(double));
 }
 
-void require_array(const std::string& path) {
-  read_pieces(path, array_length(path), [](std::span<const double>) {});
+void ArrayCheck::add(std::span<const std::byte> bytes) {
+  if (_values == 0 && _part.empty() && begins_like_msh(bytes)) throw is_msh();
+  std::array<double, 4096> values;
+  while (!bytes.empty()) {
+    // Whole values, the first of them begun in the bytes before.
+    const std::size_t count = std::min(_part.size() + bytes.size(), sizeof values) / sizeof(double);
+    const std::size_t taken = count == 0 ? bytes.size() : count * sizeof(double) - _part.size();
+    if (count == 0) {
+      _part.insert(_part.end(), bytes.begin(), bytes.end());
+    } else {
+      auto* to = reinterpret_cast<std::byte*>(values.data());
+      to = std::ranges::copy(_part, to).out;
+      std::ranges::copy(bytes.first(taken), to);
+      _part.clear();
+      require_finite(std::span(values).first(count), _values);
+      _values += count;
+    }
+    bytes = bytes.subspan(taken);
+  }
 }
 
 std::vector<double> read_array_part(const std::string& path, std::uint64_t first,
                                     std::size_t count) {
-  std::ifstream file(path, std::ios::binary);
-  file.seekg(static_cast<std::streamoff>(first * sizeof(double)));
+  const Descriptor file = open_to_read(path);
+  if (!file) throw unreadable(path);
   std::vector<double> values(count);
-  if (!file.read(reinterpret_cast<char*>(values.data()),
-                 static_cast<std::streamsize>(count * sizeof(double)))) {
-    throw unreadable(path);
-  }
+  read_at(file, path, first * sizeof(double), std::as_writable_bytes(std::span(values)));
   return values;
 }
 
 std::vector<double> read_array(const std::string& path) {
-  const std::size_t count = array_length(path);
-  std::vector<double> values;
-  values.reserve(count);
-  read_pieces(path, count, [&](std::span<const double> piece) {
-    values.insert(values.end(), piece.begin(), piece.end());
-  });
+  std::vector<double> values(array_length(path));
+  const Descriptor file = open_to_read(path);
+  if (!file) throw unreadable(path);
+  read_at(file, path, 0, std::as_writable_bytes(std::span(values)));
+  require_finite(values, 0);
   return values;
 }
 

@@ -153,20 +153,22 @@ std::optional<JobRecord> DurableStore::created_before(const JobRecord& record,
 
 void DurableStore::put(const JobRecord& record) {
   const std::string bytes = encode(record);
-  _writer.run([&](Connection& connection) {
-    Statement update = connection.prepare(
-        "UPDATE jobs SET ended = ?1, record = ?2, checksum = "
-        "crc32c(?3, ?4, ?5, fingerprint, ?1, result, result_bytes, ?2) WHERE id = ?3");
-    bind_end(update, record);
-    update.bind_blob(bytes)
-        .bind(std::string_view(record.id))
-        .bind(std::string_view(record.owner))
-        .bind(std::string_view(record.request_id))
-        .run();
-    if (connection.changes() == 0) {
-      throw unknown("jobs", record.id);
-    }
-  });
+  _writer.run(
+      [&](Connection& connection) {
+        Statement update = connection.prepare(
+            "UPDATE jobs SET ended = ?1, record = ?2, checksum = "
+            "crc32c(?3, ?4, ?5, fingerprint, ?1, result, result_bytes, ?2) WHERE id = ?3");
+        bind_end(update, record);
+        update.bind_blob(bytes)
+            .bind(std::string_view(record.id))
+            .bind(std::string_view(record.owner))
+            .bind(std::string_view(record.request_id))
+            .run();
+        if (connection.changes() == 0) {
+          throw unknown("jobs", record.id);
+        }
+      },
+      GroupCommit::Flush::no);
 }
 
 void DurableStore::finish(const JobRecord& record, std::shared_ptr<const Block> result) {

@@ -55,8 +55,7 @@ class DurableStore final : public Store {
   std::optional<std::string> upload_path(const std::string& sha256,
                                          const std::string& owner) const override;
   std::string new_upload_path(std::uint64_t bytes) override;
-  void keep_upload(const std::string& path, const std::string& sha256,
-                   const std::string& owner) override;
+  void keep_uploads(const std::vector<Upload>& uploads, const std::string& owner) override;
   std::size_t expire_uploads(Clock::time_point before) override;
 
   Usage usage() const override;

@@ -30,48 +30,62 @@ std::string DurableStore::new_upload_path(std::uint64_t bytes) {
   return path;
 }
 
-void DurableStore::keep_upload(const std::string& path, const std::string& sha256,
-                               const std::string& owner) {
-  if (!is_sha256(sha256)) {
-    throw Error(Reason::invalid_argument,
-                "\"" + sha256 + "\" is not a sha256: give its 64 lower-case hexadecimal digits");
+void DurableStore::keep_uploads(const std::vector<Upload>& uploads, const std::string& owner) {
+  std::vector<std::string> flushed;  // where the bytes are on the disk
+  std::vector<std::string> to_flush;
+  std::vector<bool> damaged;  // what has the name already
+  std::vector<Part> copies;   // of the bytes, removed in the end where they still have this name
+  for (const Upload& upload : uploads) {
+    if (!is_sha256(upload.sha256)) {
+      throw Error(
+          Reason::invalid_argument,
+          "\"" + upload.sha256 + "\" is not a sha256: give its 64 lower-case hexadecimal digits");
+    }
+    if (!_uploads.is_part(upload.path)) {
+      throw Error(Reason::internal, upload.path + " is not an upload on its way");
+    }
+    const std::string there = sha256_of(_uploads.path(upload.sha256));
+    damaged.push_back(!there.empty() && there != upload.sha256);
+    if (damaged.back() || _parts.unflushed(upload.path)) {
+      copies.push_back(_uploads.copy(upload.path));
+      flushed.push_back(copies.back().path());
+    } else {
+      flushed.push_back(upload.path);
+      to_flush.push_back(upload.path);
+      _parts.mark_unflushed(upload.path);
+    }
   }
-  if (!_uploads.is_part(path)) {
-    throw Error(Reason::internal, path + " is not an upload on its way");
-  }
-  std::optional<Part> copy;
-  const std::string there = sha256_of(_uploads.path(sha256));
-  const bool damaged = !there.empty() && there != sha256;
-  if (damaged || _parts.unflushed(path)) {
-    copy.emplace(_uploads.copy(path));
-  } else {
-    _parts.mark_unflushed(path);
-    flush(path);
+  flush_all(to_flush);
+  for (const std::string& path : to_flush) {
     _parts.mark_flushed(path);
   }
-  const std::string& flushed = copy ? copy->path() : path;
   const std::int64_t now = to_disk(Clock::now());
-  // A link, so that the upload is still there when this fails and is tried again.
+  // Links, so that the uploads are still there when this fails and is tried again.
   _writer.run([&](Connection& connection) {
-    _unreferenced.push_back({FileKind::upload, sha256});
-    if (damaged) {
-      _uploads.rename(flushed, sha256);
-      copy->release();
-    } else {
-      _uploads.link(flushed, sha256);
+    for (std::size_t i = 0; i < uploads.size(); ++i) {
+      _unreferenced.push_back({FileKind::upload, uploads[i].sha256});
+      if (damaged[i]) {
+        _uploads.rename(flushed[i], uploads[i].sha256);
+      } else {
+        _uploads.link(flushed[i], uploads[i].sha256);
+      }
     }
     _uploads.flush_names();
-    connection
-        .prepare(
-            "INSERT OR REPLACE INTO uploads (sha256, owner, created, checksum) "
-            "VALUES (?1, ?2, ?3, crc32c(?1, ?2, ?3))")
-        .bind(std::string_view(sha256))
-        .bind(std::string_view(owner))
-        .bind(now)
-        .run();
+    for (const Upload& upload : uploads) {
+      connection
+          .prepare(
+              "INSERT OR REPLACE INTO uploads (sha256, owner, created, checksum) "
+              "VALUES (?1, ?2, ?3, crc32c(?1, ?2, ?3))")
+          .bind(std::string_view(upload.sha256))
+          .bind(std::string_view(owner))
+          .bind(now)
+          .run();
+    }
   });
-  _parts.forget(path);
-  const Part done(path);
+  for (const Upload& upload : uploads) {
+    _parts.forget(upload.path);
+    const Part done(upload.path);
+  }
 }
 
 std::size_t DurableStore::expire_uploads(Clock::time_point before) {

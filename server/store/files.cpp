@@ -7,9 +7,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <filesystem>
+#include <mutex>
 #include <string_view>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include "store/digest.hpp"
@@ -100,6 +104,37 @@ void flush(const std::string& path) {
     throw disk_error("flush " + path, errno);
   }
   flush_file(file, path);
+}
+
+void flush_all(const std::vector<std::string>& paths) {
+  constexpr std::size_t most_at_once = 16;
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::optional<errors::Error> failure;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < paths.size(); i = next++) {
+      try {
+        flush(paths[i]);
+      } catch (const errors::Error& error) {
+        const std::lock_guard lock(mutex);
+        failure = error;
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    try {
+      for (std::size_t i = 1; i < std::min(paths.size(), most_at_once); ++i) {
+        others.emplace_back(work);
+      }
+    } catch (const std::system_error&) {
+      // No more threads: those there are do the rest.
+    }
+    work();
+  }
+  if (failure) {
+    throw errors::Error(*failure);
+  }
 }
 
 std::optional<std::uint64_t> file_size(const std::string& path) noexcept {

@@ -29,8 +29,8 @@ std::optional<Error> error_of(Call&& call) {
 
 }  // namespace
 
-void GroupCommit::run(const Change& change) {
-  Entry entry{&change};
+void GroupCommit::run(const Change& change, Flush flush) {
+  Entry entry{&change, flush};
   std::unique_lock lock(_mutex);
   _waiting.push_back(&entry);
   _changed.wait(lock, [&] { return entry.done || !_at_work; });
@@ -64,6 +64,7 @@ GroupCommit::Entries GroupCommit::take() {
 void GroupCommit::commit(const Entries& entries) {
   bool committing = false;
   const std::optional<Error> failure = error_of([&] {
+    set_flush(entries);
     Transaction transaction(_connection);
     const bool changed = apply(entries);
     committing = true;
@@ -79,6 +80,15 @@ void GroupCommit::commit(const Entries& entries) {
   if (!_in_doubt) {
     // What was asked for is done or refused already; cleaning up is tried again after the next.
     error_of([&] { _settled(_connection); });
+  }
+}
+
+void GroupCommit::set_flush(const Entries& entries) {
+  const bool any =
+      std::ranges::any_of(entries, [](const Entry* entry) { return entry->flush == Flush::yes; });
+  if (const Flush wanted = any ? Flush::yes : Flush::no; wanted != _flush) {
+    _connection.execute(any ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
+    _flush = wanted;
   }
 }
 

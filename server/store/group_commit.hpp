@@ -28,14 +28,19 @@ class GroupCommit {
   GroupCommit(Connection connection, Settled settled)
       : _connection(std::move(connection)), _settled(std::move(settled)) {}
 
+  /// Whether a change has to survive a power failure from the moment it returned. One that need not
+  /// survives kill -9 all the same, and is on the disk with the next one that has to.
+  enum class Flush { no, yes };
+
   /// Runs the change; returns when it is on the disk. Throws errors::Error: what the change threw,
   /// or why it could not be committed; nothing of it is there then. A change may be run only once
   /// and by another thread, in a transaction of its own as far as it can tell.
-  void run(const Change& change);
+  void run(const Change& change, Flush flush = Flush::yes);
 
  private:
   struct Entry {
     const Change* change;
+    Flush flush;
     std::optional<errors::Error> error{};
     bool done = false;
   };
@@ -44,10 +49,12 @@ class GroupCommit {
   Entries take();
   void commit(const Entries& entries);
   bool apply(const Entries& entries);
+  void set_flush(const Entries& entries);
 
   Connection _connection;
   Settled _settled;
-  bool _in_doubt = false;  ///< a COMMIT failed in flushing and nothing was committed since
+  Flush _flush = Flush::yes;  ///< of the connection's transactions
+  bool _in_doubt = false;     ///< a COMMIT failed in flushing and nothing was committed since
   std::mutex _mutex;
   std::condition_variable _changed;
   std::deque<Entry*> _waiting;

@@ -68,9 +68,16 @@ struct StoreOptions {
   std::uint64_t disk_budget = 0;  ///< bytes for all of it; 0: the disk's size is the limit
 };
 
+/// An upload that is all there, in a file of new_upload_path().
+struct Upload {
+  std::string path;
+  std::string sha256;
+};
+
 /// Contract:
 /// 1. Every method may be called from any thread and is atomic. Writers may wait for the disk.
-/// 2. A method that writes returns when what it wrote is on the disk; when it throws errors::Error
+/// 2. A method that writes returns when what it wrote is on the disk (but for put(JobRecord)); when
+/// it throws errors::Error
 ///    (disk_full with a retry delay: no space, or budget; storage: any other failure of the disk)
 ///    it has written nothing, and the same call may succeed later. Nothing but a bad disk makes the
 ///    store unusable.
@@ -102,7 +109,9 @@ class Store {
   /// What `create` would return in place of this record, without inserting anything; empty: none.
   virtual std::optional<JobRecord> created_before(const JobRecord& record,
                                                   const std::string& fingerprint) const = 0;
-  virtual void put(const JobRecord& record) = 0;  ///< replaces; throws not_found
+  /// Replaces; throws not_found. Survives kill -9, and a power failure once anything was written
+  /// after it: what a start and a recovery say is found out again.
+  virtual void put(const JobRecord& record) = 0;
   /// The end of a job: its last record and its result (null: none), both or neither.
   virtual void finish(const JobRecord& record, std::shared_ptr<const Block> result) = 0;
   /// Empty where there is none.
@@ -125,11 +134,11 @@ class Store {
   /// content still has the hash: require_intact_upload() (files.hpp).
   virtual std::optional<std::string> upload_path(const std::string& sha256,
                                                  const std::string& owner) const = 0;
-  /// A fresh file to receive an upload of `bytes`; `keep_upload` moves it to its place.
+  /// A fresh file to receive an upload of `bytes`; `keep_uploads` moves it to its place.
   virtual std::string new_upload_path(std::uint64_t bytes) = 0;
-  /// In place of the same file where that has changed on the disk.
-  virtual void keep_upload(const std::string& path, const std::string& sha256,
-                           const std::string& owner) = 0;
+  /// Keeps all of them, or none, each in place of the same file where that has changed on the disk.
+  /// They share the waits for the disk.
+  virtual void keep_uploads(const std::vector<Upload>& uploads, const std::string& owner) = 0;
   /// Removes uploads made before `before` that no unfinished job and no mesh without a
   /// triangulation refers to; returns how many.
   virtual std::size_t expire_uploads(Clock::time_point before) = 0;

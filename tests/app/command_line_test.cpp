@@ -19,7 +19,7 @@ TEST(CommandLine, GivesSettingsWithTheirFlags) {
   ASSERT_EQ(line.settings.size(), 3u);
   for (const Setting& setting : line.settings) EXPECT_EQ(setting.where, "--" + setting.key);
   const Config config = make_config({}, line.settings);
-  EXPECT_EQ(config.threads, 3);
+  EXPECT_EQ(config.jobs.threads, 3);
   EXPECT_EQ(config.listen, "unix:/a");
   EXPECT_TRUE(config.allow_insecure_remote);
   EXPECT_FALSE(line.check_config);

@@ -57,47 +57,47 @@ max-sweep-basis = 17
                                                  "c.toml"),
                                     {});
   EXPECT_EQ(config.listen, "127.0.0.1:0");
-  EXPECT_EQ(config.data_dir, "/d");
-  EXPECT_EQ(config.memory_budget, 2ull << 30);
-  EXPECT_EQ(config.threads, 5);
+  EXPECT_EQ(config.store.folder, "/d");
+  EXPECT_EQ(config.limits.memory_budget_bytes, 2ull << 30);
+  EXPECT_EQ(config.jobs.threads, 5);
   EXPECT_EQ(config.log_level, "warn");
   EXPECT_EQ(config.drain_time.count(), 500);
-  EXPECT_EQ(config.mesher, "/m");
+  EXPECT_EQ(config.meshes.helper.executable, "/m");
   EXPECT_EQ(config.meshing_time.count(), 60'000);
-  EXPECT_EQ(config.upload_limit, 1'000'000u);
-  EXPECT_EQ(config.watchers, 7);
+  EXPECT_EQ(config.limits.upload_bytes, 1'000'000u);
+  EXPECT_EQ(config.limits.watchers, 7);
   EXPECT_TRUE(config.allow_insecure_remote);
   EXPECT_EQ(config.log_format, "json");
   EXPECT_EQ(config.metrics_listen, "127.0.0.1:9464");
   EXPECT_EQ(config.drain_delay, std::chrono::seconds(5));
-  EXPECT_EQ(config.result_ttl, std::chrono::hours(7 * 24));
-  EXPECT_EQ(config.queue_time, std::chrono::hours(12));
-  EXPECT_EQ(config.run_time, std::chrono::minutes(5));
-  EXPECT_EQ(config.upload_ttl, std::chrono::seconds(90));
-  EXPECT_EQ(config.result_budget, 1ull << 30);
-  EXPECT_EQ(config.disk_budget, 20'000'000'000u);
-  EXPECT_EQ(config.result_limit, 64ull << 20);
-  EXPECT_EQ(config.queued_cases, 11);
-  EXPECT_EQ(config.queued_bytes, 2ull << 20);
-  EXPECT_EQ(config.columns, 13);
-  EXPECT_EQ(config.max_sweep_rows, 16u);
-  EXPECT_EQ(config.max_sweep_basis, 17);
-  EXPECT_EQ(config.kept_meshes, 14);
-  EXPECT_EQ(config.streams_a_client, 15);
+  EXPECT_EQ(config.jobs.result_ttl, std::chrono::hours(7 * 24));
+  EXPECT_EQ(config.jobs.queue_time, std::chrono::hours(12));
+  EXPECT_EQ(config.jobs.run_time, std::chrono::minutes(5));
+  EXPECT_EQ(config.jobs.upload_ttl, std::chrono::seconds(90));
+  EXPECT_EQ(config.jobs.result_budget, 1ull << 30);
+  EXPECT_EQ(config.store.disk_budget, 20'000'000'000u);
+  EXPECT_EQ(config.jobs.max_result_bytes, 64ull << 20);
+  EXPECT_EQ(config.jobs.max_queued_cases, 11);
+  EXPECT_EQ(config.jobs.max_queued_bytes, 2ull << 20);
+  EXPECT_EQ(config.jobs.columns, 13);
+  EXPECT_EQ(config.jobs.max_sweep_rows, 16u);
+  EXPECT_EQ(config.jobs.max_sweep_basis, 17);
+  EXPECT_EQ(config.meshes.max_meshes, 14);
+  EXPECT_EQ(config.limits.streams_a_client, 15);
 }
 
 TEST(Config, LetsTheCommandLineWin) {
   const Config config = make_config(parse_config("threads = 5\nwatchers = 7\n", "c.toml"),
                                     {{"threads", "6", "--threads"}});
-  EXPECT_EQ(config.threads, 6);
-  EXPECT_EQ(config.watchers, 7);
+  EXPECT_EQ(config.jobs.threads, 6);
+  EXPECT_EQ(config.limits.watchers, 7);
 }
 
 TEST(Config, FindsOutWhatIsLeftOpen) {
   const Config config = make_config({}, {});
-  EXPECT_GT(config.threads, 0);
-  EXPECT_GT(config.memory_budget, 0u);
-  EXPECT_FALSE(config.data_dir.empty());
+  EXPECT_GT(config.jobs.threads, 0);
+  EXPECT_GT(config.limits.memory_budget_bytes, 0u);
+  EXPECT_FALSE(config.store.folder.empty());
 }
 
 TEST(Config, NamesFileLineAndTheNearestKey) {
@@ -157,13 +157,13 @@ TEST(Config, RefusesHalfOfASecurity) {
 TEST(Config, IsWrittenSoThatItIsReadBack) {
   Config config = make_config({}, {});
   config.listen = "127.0.0.1:1";
-  config.data_dir = "/a \"quoted\" \\ folder,\r\n\x1f\x7f\t\xc3\xa9 too";
+  config.store.folder = "/a \"quoted\" \\ folder,\r\n\x1f\x7f\t\xc3\xa9 too";
   config.drain_time = std::chrono::milliseconds(1250);
-  config.upload_limit = 1'234'567;
+  config.limits.upload_bytes = 1'234'567;
   config.allow_insecure_remote = true;
   const std::string text = to_toml(config);
   const Config again = make_config(parse_config(text, "c.toml"), {});
-  EXPECT_EQ(again.data_dir, config.data_dir);
+  EXPECT_EQ(again.store.folder, config.store.folder);
   EXPECT_EQ(to_toml(again), text);
   for (const Key& key : keys()) {
     EXPECT_THAT(text, HasSubstr(key.name + " = "));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "contact/membrane.hpp"
+#include "mesh/refine.hpp"
 #include "support/plain_stiffness.hpp"
 #include "support/recovered.hpp"
 #include "support/structured_mesh.hpp"
@@ -205,6 +206,50 @@ TEST(Uzawa, StopsByTheResiduals) {
   const Answer answer = membrane.solve("1", options, recorder);
   EXPECT_EQ(answer.status, Status::not_converged);
   EXPECT_NE(answer.reason.find("kkt_tolerance"), std::string::npos) << answer.reason;
+}
+
+/// Stopped, but not at a solution: what a user may set must not make an answer look right.
+TEST(Uzawa, StopsWithoutASolutionAreNotConvergedAndSayWhatToChange) {
+  const Membrane membrane(testing::structured_mesh({32, 8, {}, {}, {"bar"}}));
+  const auto ends = [&](const char* force, const UzawaOptions& options, const char* reason) {
+    SCOPED_TRACE(reason);
+    Recorder recorder;
+    const Answer answer = membrane.solve(force, options, recorder);
+    EXPECT_EQ(answer.status, Status::not_converged);
+    EXPECT_NE(answer.reason.find(reason), std::string::npos) << answer.reason;
+    EXPECT_NE(answer.reason.find("active-set"), std::string::npos) << answer.reason;
+    return answer;
+  };
+  UzawaOptions tiny;
+  tiny.theta = 1e-6;
+  EXPECT_GT(ends("1", tiny, "set theta to auto").kkt_relative.gap, 0.1);
+  UzawaOptions loose = tight();
+  loose.epsilon = 1e-5;
+  EXPECT_GT(ends("1", loose, "kkt_tolerance").kkt_relative.gap, solution_residual);
+  for (const double p : {0.0, 0.05}) {
+    UzawaOptions bounded = tight();
+    bounded.epsilon = 1e-12;
+    bounded.p = p;
+    ends("y > 0 ? -1 : 1", bounded, "raise p");
+    bounded.kkt_tolerance = 1e-3;
+    bounded.max_iterations = 1000;
+    ends("y > 0 ? -1 : 1", bounded, "raise p");
+  }
+  const Membrane graded(
+      mesh::grade(testing::structured_mesh({16, 4, {}, {}, {"bar"}}), {.h0 = 0.2}, 100'000));
+  for (const std::optional<double> theta : {std::optional(2.0), std::optional<double>()}) {
+    UzawaOptions options;
+    options.theta = theta;
+    Recorder recorder;
+    const Answer answer = graded.solve("y > 0 ? 1 : -1", options, recorder);
+    EXPECT_EQ(answer.status, Status::not_converged);
+    EXPECT_GT(answer.kkt_relative.gap, solution_residual);
+    EXPECT_NE(answer.reason.find("active-set"), std::string::npos) << answer.reason;
+  }
+  UzawaOptions zero;
+  zero.p = 0;
+  Recorder recorder;
+  EXPECT_EQ(membrane.solve("0", zero, recorder).status, Status::converged) << "nothing to carry";
 }
 
 TEST(Answer, ListsContactIntervalsAndTracesAlongTheInterface) {

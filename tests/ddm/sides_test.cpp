@@ -344,6 +344,12 @@ TEST(Cut, RefusesAPartThatHasNothingToHoldIt) {
   GridMesh grid = one(3, 3);
   grid.mesh.dirichlet.clear();
   expect_refused(grid.mesh, Reason::mesh_invalid, "nothing holds the subdomain \"membrane\"");
+  expect_refused(grid.mesh, Reason::mesh_invalid,
+                 "the whole boundary of the membrane is Neumann's");
+  GridMesh cut(6, 2, {"left", "right"}, [](int i, int) { return i / 3; });
+  cut.mesh.dirichlet.clear();
+  expect_refused(cut.add({{3, 0}, {3, 2}}, {g, c}).mesh, Reason::numerical,
+                 "the whole boundary of the membrane is Neumann's");
 }
 
 TEST(Cut, FloatingSubdomainsInAChainAreHeldByTheLastOne) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ddm/forward_solve.hpp"
+#include "ddm/substitution.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,6 @@
 #include <random>
 #include <string>
 #include <vector>
-
-#include "ddm/backward_solve.hpp"
 
 namespace anticrack::ddm {
 namespace {
@@ -72,7 +70,7 @@ class RandomFactor {
   std::vector<double> _values;
 };
 
-MatrixXd solve(ForwardKernel kernel, const Supernodes& factor, const MatrixXd& f, int width) {
+MatrixXd solve(SubstitutionKernel kernel, const Supernodes& factor, const MatrixXd& f, int width) {
   const auto rows = f.rows();
   const std::unique_ptr<double, Free> y(static_cast<double*>(std::aligned_alloc(
       64, sizeof(double) * static_cast<std::size_t>(rows * std::max(width, 8)))));
@@ -111,7 +109,7 @@ MatrixXd expected_backward(const MatrixXd& l, int columns, MatrixXd y) {
 
 struct Substitution {
   const char* name;
-  ForwardKernel (*kernel)(Instructions);
+  SubstitutionKernel (*kernel)(Instructions);
   MatrixXd (*expected)(const MatrixXd& l, int columns, MatrixXd y);
 };
 
@@ -121,18 +119,19 @@ void PrintTo(const Substitution& substitution, std::ostream* out) {
 
 class Substitutions : public ::testing::TestWithParam<Substitution> {
  protected:
-  static std::vector<ForwardKernel> kernels() {
-    std::vector<ForwardKernel> result;
+  static std::vector<SubstitutionKernel> kernels() {
+    std::vector<SubstitutionKernel> result;
     for (const auto instructions :
          {Instructions::baseline, Instructions::avx2, Instructions::avx512}) {
-      if (const ForwardKernel kernel = GetParam().kernel(instructions)) result.push_back(kernel);
+      if (const SubstitutionKernel kernel = GetParam().kernel(instructions))
+        result.push_back(kernel);
     }
     return result;
   }
 };
 
 TEST_P(Substitutions, StopAtTheLastColumnWithEveryKernel) {
-  for (const ForwardKernel kernel : kernels()) {
+  for (const SubstitutionKernel kernel : kernels()) {
     for (const int widest : {1, 3, 40}) {
       const int size = 150;
       const RandomFactor factor(size, widest, 7);
@@ -154,7 +153,7 @@ TEST_P(Substitutions, GiveAColumnTheSameBitsInAnyCompany) {
   const RandomFactor factor(300, 30, 3);
   const Supernodes l = factor.first_columns(251);
   const MatrixXd f = MatrixXd::Random(300, 32);
-  for (const ForwardKernel kernel : kernels()) {
+  for (const SubstitutionKernel kernel : kernels()) {
     for (const int width : {8, 16, 24, 32}) {
       const MatrixXd together = solve(kernel, l, f.leftCols(width), width);
       for (int j = 0; j < width; ++j) {

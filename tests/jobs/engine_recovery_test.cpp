@@ -104,16 +104,19 @@ TEST(EngineRecovery, KnowsEndedJobsByTheirEndAlone) {
   EXPECT_EQ(test.engine.list({"", 10, "alice"}).size(), 1U);
 }
 
+/// Submits a job and stops while it runs.
+void submit_and_stop(Backend& backend, const std::string& mesh, std::string& id) {
+  JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
+  id = engine.submit({endless_job(mesh), "", ""}).id;
+  ASSERT_TRUE(eventually([&] { return engine.metrics().iterations > 0; }));
+  engine.stop(0ms);
+}
+
 TEST(EngineRecovery, FailsTheJobOfAMeshThatIsGone) {
   Backend backend;
   const std::string mesh = ready_mesh(backend);
   std::string id;
-  {
-    JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
-    id = engine.submit({endless_job(mesh), "", ""}).id;
-    ASSERT_TRUE(eventually([&] { return engine.metrics().iterations > 0; }));
-    engine.stop(0ms);
-  }
+  ASSERT_NO_FATAL_FAILURE(submit_and_stop(backend, mesh, id));
   backend.catalogue.erase(mesh);
   JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
   const JobRecord record = ended(engine, id);
@@ -157,11 +160,7 @@ TEST(EngineRecovery, WritesNoJobBeforeItStarts) {
   Backend backend;
   const std::string mesh = ready_mesh(backend);
   std::string id;
-  {
-    JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
-    id = engine.submit({endless_job(mesh), "", ""}).id;
-    ASSERT_TRUE(eventually([&] { return engine.metrics().iterations > 0; }));
-  }
+  ASSERT_NO_FATAL_FAILURE(submit_and_stop(backend, mesh, id));
   anticrack::testing::FailingStore store(*backend.store);
   store.put_fails = true;
   JobEngine engine(unlimited(one_thread()), store, backend.catalogue);

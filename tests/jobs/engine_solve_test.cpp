@@ -184,7 +184,7 @@ std::string upload_array(store::Store& store, const std::vector<double>& values)
       .write(reinterpret_cast<const char*>(values.data()),
              static_cast<std::streamsize>(values.size() * sizeof(double)));
   const std::string sha256 = store::Sha256().add(std::as_bytes(std::span(values))).finish();
-  store.keep_upload(part, sha256, "");
+  store.keep_uploads({{part, sha256}}, "");
   return sha256;
 }
 
@@ -306,7 +306,7 @@ TEST(EngineSubmit, LooksForTheArrays) {
   EXPECT_TRUE(throws([&] { test.submit(spec); }, Reason::not_found, "load_cases[1].force.array"));
   const std::string part = test.backend.store->new_upload_path(100);
   std::ofstream(part) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
-  test.backend.store->keep_upload(part, std::string(64, 'b'), "");
+  test.backend.store->keep_uploads({{part, std::string(64, 'b')}}, "");
   EXPECT_TRUE(
       throws([&] { test.submit(spec); }, Reason::invalid_argument, "load_cases[1].force.array"));
   EXPECT_TRUE(test.list().empty());

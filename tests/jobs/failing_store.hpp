@@ -77,9 +77,8 @@ class FailingStore final : public store::Store {
     return _real.upload_path(sha256, owner);
   }
   std::string new_upload_path(std::uint64_t bytes) override { return _real.new_upload_path(bytes); }
-  void keep_upload(const std::string& path, const std::string& sha256,
-                   const std::string& owner) override {
-    _real.keep_upload(path, sha256, owner);
+  void keep_uploads(const std::vector<store::Upload>& uploads, const std::string& owner) override {
+    _real.keep_uploads(uploads, owner);
   }
   std::size_t expire_uploads(store::Clock::time_point before) override {
     return _real.expire_uploads(before);

@@ -28,7 +28,7 @@ class Arrays : public ::testing::Test {
         .write(reinterpret_cast<const char*>(values.data()),
                static_cast<std::streamsize>(count * sizeof(double)));
     const std::string hash = store::sha256_of(part);
-    store->keep_upload(part, hash, owner);
+    store->keep_uploads({{part, hash}}, owner);
     return hash;
   }
   static fem::Load of(const std::string& hash) {

@@ -21,9 +21,9 @@ const Fault faults[] = {
     {"TwoVertices", [](Geometry& g) { g.boundary.resize(2); }, "boundary", {"2 vertices"}},
     {"NoVertices", [](Geometry& g) { g.boundary.clear(); }, "boundary", {"0 vertices"}},
     {"TooManyVertices",
-     [](Geometry& g) { g.boundary.resize(10'001); },
+     [](Geometry& g) { g.boundary.resize(20'001); },
      "boundary",
-     {"10001 vertices", "10000"},
+     {"20001 vertices", "20000"},
      Reason::limit_exceeded},
     {"BoundaryNan",
      [](Geometry& g) { g.boundary[3][1] = nan_value; },
@@ -90,9 +90,9 @@ const Fault faults[] = {
      "interfaces[0].polyline",
      {"1 vertices"}},
     {"InterfaceTooLong",
-     [](Geometry& g) { g.interfaces[0].points.resize(10'001); },
+     [](Geometry& g) { g.interfaces[0].points.resize(20'001); },
      "interfaces",
-     {"10001"},
+     {"20001"},
      Reason::limit_exceeded},
     {"InterfaceInfinite",
      [](Geometry& g) { g.interfaces[0].points[1][0] = infinite; },
@@ -180,10 +180,10 @@ const Fault faults[] = {
      {"(-0.5, 0.25)", "0.25 off the interface"}},
     {"InclusionJustOff",
      [](Geometry& g) {
-       g.inclusions[0].part.to = {0.5, 1e-8};
+       g.inclusions[0].part.to = {0.5, 1e-5};
      },
      "inclusions[0].part.to",
-     {"1e-08 off the interface"}},
+     {"1e-05 off the interface", "nearest is (0.5, 0)"}},
     {"InclusionBeyond",
      [](Geometry& g) {
        g.inclusions[0].part.to = {1.5, 0};

@@ -229,13 +229,6 @@ const Fault line_faults[] = {
      [](Geometry& g) { g.cracks = {crack("c", 0.75, 1)}; },
      "cracks[0].part.to",
      {"touches the boundary", "Neumann"}},
-    {"InclusionAtTheNeumannBoundary",
-     [](Geometry& g) {
-       g.neumann = {{{1, 0}, {1, 0}}};
-       g.inclusions[0].part.to = {1, 0};
-     },
-     "inclusions[0].part.to",
-     {"touches the boundary"}},
     {"RingAllCracked",
      [](Geometry& g) {
        add(g, "b", {{0, 0.25}, {0.5, 0.25}, {0, 0.5}}, true);

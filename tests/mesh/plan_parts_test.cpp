@@ -3,6 +3,8 @@
 // What a plan says of the parts of a membrane: align lines, regions, the boundary under traction.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "mesh/plans.hpp"
 #include "support/errors.hpp"
 
@@ -84,6 +86,65 @@ TEST(PlanParts, ACrackMayLeaveThroughTheNeumannBoundary) {
     geometry.neumann = {part};
     EXPECT_TRUE(testing::throws([&] { plan_of(geometry); }, errors::Reason::geometry_invalid,
                                 "cracks[0].part.to"));
+  }
+}
+
+TEST(PlanParts, AnInclusionMayLeaveThroughTheNeumannBoundary) {
+  Geometry geometry = square();
+  geometry.interfaces = {polyline("a", {{-1, 0}, {1, 0}})};
+  geometry.inclusions = {{"bar", {{0, 0}, {1, 0}}, {{{0, 0}, {0.5, 0}}}}};
+  geometry.neumann = {{{1, -1}, {1, 1}}};
+  expect_consistent(plan_of(geometry), 4);
+  geometry.neumann = {{{1, -1}, {1, 0}}};
+  EXPECT_TRUE(testing::throws([&] { plan_of(geometry); }, errors::Reason::geometry_invalid,
+                              "inclusions[0].part.to"));
+}
+
+/// Coordinates with six decimals on an oblique line: moved onto it, and told.
+TEST(PlanParts, EndsALittleOffTheirLineAreMovedOntoIt) {
+  Geometry geometry = square();
+  geometry.interfaces = {polyline("a", {{-1, -0.1}, {1, 0.2}}),
+                         polyline("b", {{0.333333, 0.1}, {0.333333, 0.9999995}})};
+  geometry.inclusions = {
+      {"bar", {{-0.7, -0.055}, {-0.333333, 0}}, {{{-0.7, -0.055}, {-0.5, -0.025}}}}};
+  geometry.cracks = {{"c", {{0.123456, 0.068518}, {0.2, 0.08}}}};
+  geometry.neumann = {{{1.0000005, -1}, {1, 0}}};
+  const Plan plan = plan_of(geometry);
+  expect_consistent(plan, 4);
+  ASSERT_EQ(plan.warnings.size(), 5U);
+  EXPECT_EQ(plan.warnings[0].find("interfaces[1].polyline, its first point (0.333333, 0.1) lies "),
+            0U)
+      << plan.warnings[0];
+  for (std::size_t i = 1; i < 5; ++i) {
+    const char* const fields[] = {"", "interfaces[1]", "inclusions[0].part.to",
+                                  "cracks[0].part.from", "neumann[0].from"};
+    EXPECT_EQ(plan.warnings[i].find(fields[i]), 0U) << plan.warnings[i];
+  }
+  EXPECT_TRUE(plan_of(square()).warnings.empty());
+
+  geometry.cracks[0].part.from[1] = 0.069;  // three decimals: too far, but the cure is told
+  const auto error = testing::error_of([&] { plan_of(geometry); });
+  ASSERT_TRUE(error);
+  EXPECT_NE(std::string(error->what()).find("nearest is (0.12352"), std::string::npos)
+      << error->what();
+}
+
+TEST(PlanParts, AnInterfaceMayHaveTwentyThousandPoints) {
+  constexpr int count = 19'900;
+  std::vector<mesh::Point> points;
+  for (int i = 0; i <= count; ++i) {
+    const double x = -1 + 2.0 * i / count;
+    points.push_back({x, 0.1 * std::sin(3 * x)});
+  }
+  for (const bool upright : {false, true}) {
+    Geometry geometry = square();
+    geometry.interfaces = {polyline("a", points)};
+    if (upright) {
+      for (mesh::Point& p : geometry.interfaces[0].points) std::swap(p[0], p[1]);
+    }
+    const Plan plan = plan_of(geometry);
+    EXPECT_GE(plan.curves.size(), std::size_t{count});
+    EXPECT_EQ(plan.faces.size(), 2U);
   }
 }
 

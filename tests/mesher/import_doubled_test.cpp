@@ -255,10 +255,11 @@ MshSample hanging(bool ends_doubled) {
 }
 
 TEST(ImportDoubled, HangingNodesAreRefused) {
-  EXPECT_THAT(refusal(hanging(false)),
-              AllOf(HasSubstr("the edge from node 1 (0, 0) to node 3 (2, 0) lies on the edge from node "
-                              "1 (0, 0) to node 2 (1, 0)"),
-                    HasSubstr("hanging node"), HasSubstr("Transfinite Curve")));
+  EXPECT_THAT(
+      refusal(hanging(false)),
+      AllOf(HasSubstr("the edge from node 1 (0, 0) to node 3 (2, 0) lies on the edge from node "
+                      "1 (0, 0) to node 2 (1, 0)"),
+            HasSubstr("hanging node"), HasSubstr("Transfinite Curve")));
   EXPECT_THAT(
       refusal(hanging(true)),
       AllOf(HasSubstr("from node 6 (0, 0) to node 7 (2, 0) lies on the edge from node 1 (0, 0)"),

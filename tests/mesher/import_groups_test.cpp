@@ -168,8 +168,9 @@ TEST(ImportGroups, AMapThatDoesNotFitIsRefused) {
   EXPECT_THAT(fault(options, "options.surface_groups[3]"),
               HasSubstr("the file has no surface group 3; its surface groups are 1, 2"));
   options.surface_groups = {{1, "a b"}};
-  EXPECT_THAT(fault(options, "options.surface_groups[1]"),
-              HasSubstr("surface group 1 is given the name \"a b\"; a subdomain's name is a letter"));
+  EXPECT_THAT(
+      fault(options, "options.surface_groups[1]"),
+      HasSubstr("surface group 1 is given the name \"a b\"; a subdomain's name is a letter"));
   MshSample bare = square_sample();
   bare.lines.clear();
   bare.names.clear();

@@ -68,7 +68,7 @@ TEST_F(UploadReceiverTest, KeepsWhatWasSent) {
   receiver.accept(header_of(content));
   receiver.accept(chunk_of(content.substr(0, 20)));
   receiver.accept(chunk_of(content.substr(20)));
-  const std::string sha256 = receiver.complete();
+  const std::string sha256 = receiver.complete().front();
   EXPECT_EQ(sha256, store::Sha256().add(content).finish());
   const auto path = _store->upload_path(sha256, "ada");
   ASSERT_TRUE(path);
@@ -136,7 +136,7 @@ TEST_F(UploadReceiverTest, KeepsArrays) {
   receiver.accept(array_header_of(content));
   receiver.accept(chunk_of(content.substr(0, 5)));
   receiver.accept(chunk_of(content.substr(5)));
-  EXPECT_TRUE(_store->upload_path(receiver.complete(), "ada"));
+  EXPECT_TRUE(_store->upload_path(receiver.complete().front(), "ada"));
 }
 
 TEST_F(UploadReceiverTest, TakesNothingElseForAnArray) {
@@ -160,6 +160,56 @@ TEST_F(UploadReceiverTest, RefusesLargeChunks) {
   header.mutable_header()->set_size(5'000'000);
   receiver.accept(header);
   EXPECT_THROW(receiver.accept(chunk_of(std::string((1u << 20) + 1, 'x'))), Error);
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(UploadReceiverTest, KeepsFilesOfOneStreamInTheirOrder) {
+  UploadReceiver receiver(*_store, "ada", 10'000);
+  const std::vector<std::string> contents = {std::string(8, '1'), small_msh(), std::string(16, '2'),
+                                             std::string(8, '1')};
+  std::vector<std::string> expected;
+  for (const std::string& content : contents) {
+    receiver.accept(content == small_msh() ? header_of(content) : array_header_of(content));
+    receiver.accept(chunk_of(content));
+    expected.push_back(store::Sha256().add(content).finish());
+  }
+  EXPECT_EQ(receiver.complete(), expected);
+  for (const std::string& sha256 : expected) EXPECT_TRUE(_store->upload_path(sha256, "ada"));
+  EXPECT_EQ(files(), 3u) << "equal files are one";
+}
+
+TEST_F(UploadReceiverTest, NamesTheFileAtFaultAndKeepsNone) {
+  const std::string good(8, '1');
+  const std::string infinite("\0\0\0\0\0\0\xf0\x7f", 8);
+  using Requests = std::vector<v1::UploadMeshRequest>;
+  const Requests head = {array_header_of(good), chunk_of(good), array_header_of(good),
+                         chunk_of(good)};
+  for (const Requests& tail : {Requests{array_header_of(infinite), chunk_of(infinite)},
+                               Requests{array_header_of(good), chunk_of(infinite)},
+                               Requests{array_header_of(good), chunk_of("1")},
+                               Requests{array_header_of(good), chunk_of("1"), header_of(good)},
+                               Requests{array_header_of("123")}}) {
+    try {
+      UploadReceiver receiver(*_store, "ada", 10'000);
+      for (const auto& request : head) receiver.accept(request);
+      for (const auto& request : tail) receiver.accept(request);
+      receiver.complete();
+      ADD_FAILURE() << "accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.metadata().at("file"), "2") << error.what();
+    }
+    EXPECT_EQ(files(), 0u);
+  }
+}
+
+TEST_F(UploadReceiverTest, BoundsTheFilesOfAStream) {
+  const std::string content(8, '1');
+  UploadReceiver receiver(*_store, "ada", 10'000);
+  for (std::size_t i = 0; i < UploadReceiver::max_files; ++i) {
+    receiver.accept(array_header_of(content));
+    receiver.accept(chunk_of(content));
+  }
+  EXPECT_THROW(receiver.accept(array_header_of(content)), Error);
   EXPECT_EQ(files(), 0u);
 }
 

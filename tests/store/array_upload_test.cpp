@@ -41,19 +41,36 @@ TEST_F(ArrayUpload, IsReadAsItWasWritten) {
   }
   const std::string path = file(values);
   EXPECT_EQ(array_length(path), values.size());
-  EXPECT_NO_THROW(require_array(path));
   EXPECT_EQ(read_array(path), values);
+}
+
+/// What ArrayCheck says of values that come in pieces of so many bytes.
+void check(const std::vector<double>& values, std::size_t piece) {
+  ArrayCheck array;
+  for (auto bytes = std::as_bytes(std::span(values)); !bytes.empty();) {
+    const auto head = bytes.first(std::min(piece, bytes.size()));
+    array.add(head);
+    bytes = bytes.subspan(head.size());
+  }
 }
 
 TEST_F(ArrayUpload, NamesTheValueThatIsNotFinite) {
   std::vector<double> values(20'000, 1.0);
   values[12'345] = std::nan("");
   const std::string path = file(values);
-  for (const bool reading : {false, true}) {
-    const auto error = error_of([&] { reading ? (void)read_array(path) : require_array(path); });
+  for (const std::size_t piece : {0, 1, 13, 4096, 32768, 100'000, 1'000'000}) {
+    const auto error =
+        error_of([&] { piece == 0 ? (void)read_array(path) : check(values, piece); });
     ASSERT_TRUE(error);
     EXPECT_EQ(error->reason(), Reason::invalid_argument);
     EXPECT_NE(std::string(error->what()).find("value 12345"), std::string::npos) << error->what();
+  }
+}
+
+TEST_F(ArrayUpload, IsCheckedWhileItArrivesInPiecesOfAnySize) {
+  const std::vector<double> values(5'000, -0.5);
+  for (const std::size_t piece : {1, 3, 8, 32767, 32768, 40'000}) {
+    EXPECT_NO_THROW(check(values, piece)) << piece;
   }
 }
 

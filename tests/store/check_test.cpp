@@ -73,7 +73,7 @@ class StoreCheck : public StoreTest {
   void expect_repaired(const std::string& flaw, std::size_t files_aside) {
     SCOPED_TRACE(flaw);
     const auto before = contents();
-    const CheckedStore found = check(folder.path());
+    const CheckedStore found = store::check(folder.path());
     EXPECT_THAT(found.flaws, Contains(HasSubstr(flaw)));
     EXPECT_EQ(contents(), before);
     aside = repair(folder.path(), found);
@@ -82,7 +82,7 @@ class StoreCheck : public StoreTest {
       count += entry.is_regular_file() && is_sha256(entry.path().filename().string()) ? 1U : 0U;
     }
     EXPECT_EQ(count, files_aside);
-    EXPECT_THAT(check(folder.path()).flaws, IsEmpty());
+    EXPECT_THAT(store::check(folder.path()).flaws, IsEmpty());
     store = open({folder.path(), 0});
   }
 
@@ -93,10 +93,10 @@ class StoreCheck : public StoreTest {
 TEST_F(StoreCheck, FindsNothingInASoundStore) {
   for (const Operation& operation : operations()) {
     operation(*store);
-    EXPECT_THAT(check(folder.path()).flaws, IsEmpty());
+    EXPECT_THAT(store::check(folder.path()).flaws, IsEmpty());
   }
   store.reset();
-  const CheckedStore found = check(folder.path());
+  const CheckedStore found = store::check(folder.path());
   EXPECT_GT(found.records, 3U);
   EXPECT_GT(found.files, 0U);
 }
@@ -104,7 +104,7 @@ TEST_F(StoreCheck, FindsNothingInASoundStore) {
 TEST_F(StoreCheck, FindsNothingInAnEmptyFolder) {
   store.reset();
   const anticrack::testing::TemporaryFolder empty;
-  EXPECT_THAT(check(empty.path()).flaws, IsEmpty());
+  EXPECT_THAT(store::check(empty.path()).flaws, IsEmpty());
 }
 
 TEST_F(StoreCheck, TakesADamagedRecordOutWithItsFile) {
@@ -201,7 +201,7 @@ TEST_F(StoreCheck, RefusesToRepairADatabaseDamagedBeyondItsRecords) {
     flip(database(), page * 4096, 600);
   }
   const auto before = contents();
-  const CheckedStore found = check(folder.path());
+  const CheckedStore found = store::check(folder.path());
   EXPECT_FALSE(found.flaws.empty());
   const auto error = error_of([&] { repair(folder.path(), found); });
   ASSERT_TRUE(error);
@@ -212,9 +212,9 @@ TEST_F(StoreCheck, RefusesToRepairADatabaseDamagedBeyondItsRecords) {
 TEST_F(StoreCheck, IsOfItsVersionOnly) {
   fill();
   Connection(database()).execute("PRAGMA user_version = 2");
-  EXPECT_THAT(error_of([&] { check(folder.path()); }).value().what(), HasSubstr("older"));
+  EXPECT_THAT(error_of([&] { store::check(folder.path()); }).value().what(), HasSubstr("older"));
   Connection(database()).execute("PRAGMA user_version = 99");
-  EXPECT_THAT(error_of([&] { check(folder.path()); }).value().what(), HasSubstr("newer"));
+  EXPECT_THAT(error_of([&] { store::check(folder.path()); }).value().what(), HasSubstr("newer"));
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ inline void upload(Store& store, const std::string& text, const std::string& own
   file << text;
   if (!file.flush()) throw disk_error("write " + part, errno);
   file.close();
-  store.keep_upload(part, Sha256().add(text).finish(), owner);
+  store.keep_uploads({{part, Sha256().add(text).finish()}}, owner);
 }
 
 inline std::vector<Operation> operations() {

@@ -39,7 +39,7 @@ class StoreTest : public ::testing::Test {
     const std::string part = store->new_upload_path(text.size());
     std::ofstream(part, std::ios::binary) << text;
     const std::string sha256 = Sha256().add(text).finish();
-    store->keep_upload(part, sha256, owner);
+    store->keep_uploads({{part, sha256}}, owner);
     return sha256;
   }
   std::size_t files(const std::string& name) const {

@@ -45,12 +45,22 @@ TEST_F(StoredUploads, NeverLeaveTheirFolder) {
   std::ofstream(folder / "secret") << "x";
   EXPECT_FALSE(store->upload_path("../secret", ""));
   const std::string part = store->new_upload_path(1);
-  EXPECT_TRUE(throws([&] { store->keep_upload(part, "../stolen", ""); }, Reason::invalid_argument));
+  EXPECT_TRUE(throws(
+      [&] {
+        store->keep_uploads({{part, "../stolen"}}, "");
+      },
+      Reason::invalid_argument));
   const std::string hash(64, 'a');
-  EXPECT_TRUE(throws([&] { store->keep_upload((folder / "secret").string(), hash, ""); },
-                     Reason::internal));
-  EXPECT_TRUE(
-      throws([&] { store->keep_upload(part + "/../../../secret", hash, ""); }, Reason::internal));
+  EXPECT_TRUE(throws(
+      [&] {
+        store->keep_uploads({{(folder / "secret").string(), hash}}, "");
+      },
+      Reason::internal));
+  EXPECT_TRUE(throws(
+      [&] {
+        store->keep_uploads({{part + "/../../../secret", hash}}, "");
+      },
+      Reason::internal));
   EXPECT_FALSE(std::filesystem::exists(folder / "stolen"));
   EXPECT_TRUE(std::filesystem::exists(folder / "secret"));
 }
@@ -58,7 +68,11 @@ TEST_F(StoredUploads, NeverLeaveTheirFolder) {
 TEST_F(StoredUploads, SayWhenTheirPartIsGone) {
   const std::string part = store->new_upload_path(1);
   std::filesystem::remove(part);
-  EXPECT_TRUE(throws([&] { store->keep_upload(part, std::string(64, 'a'), ""); }, Reason::storage));
+  EXPECT_TRUE(throws(
+      [&] {
+        store->keep_uploads({{part, std::string(64, 'a')}}, "");
+      },
+      Reason::storage));
   EXPECT_FALSE(store->upload_path(std::string(64, 'a'), ""));
 }
 

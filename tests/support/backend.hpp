@@ -93,7 +93,7 @@ class Backend {
     const std::string part = store->new_upload_path(content.size());
     std::ofstream(part, std::ios::binary) << content;
     store::UploadRef result{store::Sha256().add(content).finish(), {}};
-    store->keep_upload(part, result.sha256, owner);
+    store->keep_uploads({{part, result.sha256}}, owner);
     return result;
   }
 

@@ -128,7 +128,7 @@ CASES = [
      "-1); only its two ends may lie on the boundary"),
     ([("from = [-0.5, 0]", "from = [-0.5, 0.1]")], 2,
      "wrong.toml:9: geometry.inclusion.0.from: inclusions[0].part.from (-0.5, 0.1) lies 0.1 off the "
-     "interface; it must lie on it, to 2.8284271247461906e-09"),
+     "interface; it must lie on it, to 2.8284271247461903e-06; nearest is (-0.5, 0)"),
     ([("to = [0.5, 0]", "to = [-0.5, 0]")], 2,
      "wrong.toml:9: geometry.inclusion.0.from: inclusions[0].part has no length: it runs from (-0.5, "
      "0) to (-0.5, 0)"),
@@ -148,8 +148,9 @@ CASES = [
      "wrong.toml:6: geometry.neumann: 'left' is not possible; write [[from, to], ...], parts of the "
      'boundary walked counterclockwise, or "all"'),
     ([("[1, 0]]\n", '[1, 0]]\nneumann = "all"\n')], 1,
-     'jobs/ID failed: mesh: meshes/ID: nothing but contact holds the subdomain "omega1" around (-1, '
-     "0), so it could move as a whole: glue a part of its interface or hold its boundary"),
+     'jobs/ID failed: mesh: meshes/ID: nothing holds the subdomain "omega1" around (-1, 0): the whole '
+     "boundary of the membrane is Neumann's, so it could move as a whole; make a part of the boundary "
+     "Dirichlet's"),
     ([("interface = [[-1, 0], [1, 0]]\n", ""),
       *more('[[geometry.interface]]\narc = [[-1, 0], [1, 0]]')], 2,
      "wrong.toml:13: geometry.interface.0.arc: [ [ -1, 0 ], [ 1, 0 ] ] is not an arc; write [from, "

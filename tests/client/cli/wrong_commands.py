@@ -137,7 +137,7 @@ COMMANDS = [
     ("plot truncated.h5 -o figures", 2,
      "truncated.h5: is truncated or damaged; copy it again from where it was made, or run again"),
     ("export no-fields.h5 -o paraview", 2,
-     'no-fields.h5: load "opening": the result has no fields, u is known along the interfaces only; run the case '
+     'no-fields.h5: load "opening": the result has no fields: u is known only along the interfaces; run the case '
      "again with [output] fields = true, or with --set output.fields=true"),
     # Sweeps.
     ("sweep two.toml --coefficients no.csv", 2,

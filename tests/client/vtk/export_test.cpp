@@ -77,7 +77,7 @@ TEST(Export, keeps_both_faces_of_a_slit) {
       static_cast<std::int32_t>(field.nodes.size()) - 1;
   const UnstructuredGrid grid = membrane(result, result.loads[0]);
   EXPECT_EQ(grid.xy.size(), 2 * 91u);
-  EXPECT_EQ(grid.points.reals[0].values.back(), 7);
+  EXPECT_EQ(std::get<std::vector<double>>(grid.points[0].values).back(), 7);
   EXPECT_EQ(std::count(grid.corners.begin(), grid.corners.end(), 90), 1);
 }
 
@@ -108,7 +108,7 @@ TEST(Export, of_several_interfaces_joins_none) {
   EXPECT_EQ(grid.corners.size(), 32u);
   EXPECT_EQ(grid.corners[15], 8);
   EXPECT_EQ(grid.corners[16], 9);
-  EXPECT_EQ(grid.cells.integers[0].values.back(), 1);
+  EXPECT_EQ(std::get<std::vector<std::int32_t>>(grid.cells[0].values).back(), 1);
 }
 
 TEST(Export, says_how_to_get_fields) {

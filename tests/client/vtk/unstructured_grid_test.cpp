@@ -19,8 +19,8 @@ UnstructuredGrid two_triangles() {
   UnstructuredGrid grid;
   grid.xy = {0, 0, 1, 0, 1, 1, 0, 1.5};
   grid.corners = {0, 1, 2, 0, 2, 3};
-  grid.points = {{{"u", {0.5, -1, 2, 1e-300}}}, {{"node", {7, 8, 9, 10}}}};
-  grid.cells = {{{"tension", {1, 2}}}, {{"subdomain", {0, 1}}}};
+  grid.points = {{"u", Reals{0.5, -1, 2, 1e-300}}, {"node", Integers{7, 8, 9, 10}}};
+  grid.cells = {{"tension", Reals{1, 2}}, {"subdomain", Integers{0, 1}}};
   return grid;
 }
 
@@ -54,7 +54,7 @@ TEST(Vtu, of_lines_and_of_nothing) {
 
 TEST(Vtu, refuses_data_of_another_length) {
   UnstructuredGrid grid = two_triangles();
-  grid.points.reals[0].values.pop_back();
+  std::get<Reals>(grid.points[0].values).pop_back();
   EXPECT_THROW(to_vtu(grid), std::invalid_argument);
   grid = two_triangles();
   grid.corners.pop_back();

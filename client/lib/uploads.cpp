@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <fstream>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "client/channel.hpp"
+#include "client/meshes.hpp"
+#include "store/digest.hpp"
+
+namespace anticrack::client {
+namespace {
+
+constexpr std::size_t chunk_bytes = 1u << 20;
+constexpr std::size_t files_a_stream = 500;  // the server takes 1000
+
+/// The next chunk of a file, empty at its end.
+using NextChunk = std::function<std::string()>;
+struct Outgoing {
+  v1::UploadMeshRequest::Header header;
+  NextChunk next;
+};
+/// The next file, none at the end.
+using NextFile = std::function<std::optional<Outgoing>()>;
+/// Begins again with the first file, for every try to send.
+using Begin = std::function<NextFile()>;
+
+/// The chunks of a file on the disk.
+class FileChunks {
+ public:
+  explicit FileChunks(std::filesystem::path path)
+      : _path(std::move(path)), _file(_path, std::ios::binary) {
+    if (std::filesystem::is_directory(_path) || !_file) {
+      throw std::runtime_error("cannot read " + _path.string() + ": it is not a readable file");
+    }
+  }
+
+  std::string next() {
+    std::string chunk(chunk_bytes, '\0');
+    _file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+    if (_file.bad()) {
+      throw std::runtime_error("cannot read " + _path.string() + ": the disk reports an error");
+    }
+    chunk.resize(static_cast<std::size_t>(_file.gcount()));
+    return chunk;
+  }
+
+ private:
+  std::filesystem::path _path;
+  std::ifstream _file;
+};
+
+v1::UploadMeshRequest::Header header_of_msh(const std::filesystem::path& path) {
+  store::Sha256 sha256;
+  std::uint64_t size = 0;
+  FileChunks file(path);
+  for (std::string chunk = file.next(); !chunk.empty(); chunk = file.next()) {
+    sha256.add(chunk);
+    size += chunk.size();
+  }
+  v1::UploadMeshRequest::Header header;
+  header.set_size(size);
+  header.set_sha256(sha256.finish());
+  header.set_content(v1::UploadMeshRequest::CONTENT_MSH);
+  return header;
+}
+
+Outgoing array_file(const std::shared_ptr<const std::vector<double>>& owner,
+                    std::span<const double> values) {
+  static_assert(std::endian::native == std::endian::little, "arrays are sent little-endian");
+  Outgoing file;
+  file.header.set_size(values.size_bytes());
+  file.header.set_sha256(store::Sha256().add(std::as_bytes(values)).finish());
+  file.header.set_content(v1::UploadMeshRequest::CONTENT_ARRAY);
+  const std::string_view bytes(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+  file.next = [owner, rest = bytes]() mutable {
+    std::string chunk(rest.substr(0, chunk_bytes));
+    rest.remove_prefix(chunk.size());
+    return chunk;
+  };
+  return file;
+}
+
+/// Reads and hashes the next array while the one before is sent.
+class ArrayFiles {
+ public:
+  ArrayFiles(std::size_t first, std::size_t end, const ReadArray& read)
+      : _next(first), _end(end), _read(read) {
+    read_next();
+  }
+
+  std::optional<Outgoing> next() {
+    if (!_pending.valid()) return std::nullopt;
+    Outgoing file = _pending.get();
+    read_next();
+    return file;
+  }
+
+ private:
+  void read_next() {
+    if (_next == _end) return;
+    _pending = std::async(std::launch::async, [this, index = _next++] {
+      const auto values = std::make_shared<const std::vector<double>>(_read(index));
+      return array_file(values, *values);
+    });
+  }
+
+  std::size_t _next;
+  const std::size_t _end;
+  const ReadArray& _read;
+  std::future<Outgoing> _pending;
+};
+
+// The server may refuse before everything is sent; its status then says why.
+grpc::Status send_once(Connection::State& state, const Begin& begin,
+                       v1::UploadMeshResponse& response, const std::stop_token& stop) {
+  grpc::ClientContext context;
+  authorise(state, context);
+  const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
+  const auto writer = state.bulk_meshes->UploadMesh(&context, &response);
+  try {
+    v1::UploadMeshRequest request;
+    bool writing = true;
+    const NextFile next_file = begin();
+    while (writing) {
+      std::optional<Outgoing> file = next_file();
+      if (!file) break;
+      *request.mutable_header() = std::move(file->header);
+      writing = writer->Write(request);
+      for (std::string chunk = file->next(); writing && !chunk.empty(); chunk = file->next()) {
+        request.set_chunk(std::move(chunk));
+        writing = writer->Write(request);
+      }
+    }
+  } catch (...) {  // of a file that cannot be read
+    context.TryCancel();
+    writer->Finish();
+    throw;
+  }
+  writer->WritesDone();
+  return writer->Finish();
+}
+
+v1::UploadMeshResponse send(Connection& connection, const Begin& begin,
+                            const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  Retries retries(state, *state.bulk);
+  while (true) {
+    v1::UploadMeshResponse response;
+    const grpc::Status status = send_once(state, begin, response, stop);
+    if (status.ok()) {
+      retries.succeeded();
+      return response;
+    }
+    retries.wait(error_of(state, status), stop);
+  }
+}
+
+/// A stream of one file.
+Begin once(std::function<Outgoing()> file) {
+  return [file = std::move(file)] {
+    return [file, sent = false]() mutable -> std::optional<Outgoing> {
+      if (std::exchange(sent, true)) return std::nullopt;
+      return file();
+    };
+  };
+}
+
+}  // namespace
+
+std::string upload_mesh(Connection& connection, const std::filesystem::path& path,
+                        const std::stop_token& stop) {
+  const auto header = header_of_msh(path);
+  const Begin begin = once([&] {
+    const auto file = std::make_shared<FileChunks>(path);
+    return Outgoing{header, [file] { return file->next(); }};
+  });
+  return send(connection, begin, stop).upload();
+}
+
+std::string upload_array(Connection& connection, std::span<const double> values,
+                         const std::stop_token& stop) {
+  return send(connection, once([&] { return array_file(nullptr, values); }), stop).upload();
+}
+
+std::vector<std::string> upload_arrays(Connection& connection, std::size_t count,
+                                       const ReadArray& read, const std::stop_token& stop) {
+  std::vector<std::string> names;
+  for (std::size_t first = 0; first < count; first += files_a_stream) {
+    const std::size_t end = std::min(count, first + files_a_stream);
+    const Begin begin = [&] {
+      const auto files = std::make_shared<ArrayFiles>(first, end, read);
+      return [files] { return files->next(); };
+    };
+    try {
+      const v1::UploadMeshResponse response = send(connection, begin, stop);
+      if (static_cast<std::size_t>(response.uploads_size()) != end - first) {
+        throw Error(Code::unimplemented, "the server takes one array at a time: update it");
+      }
+      names.insert(names.end(), response.uploads().begin(), response.uploads().end());
+    } catch (const Error& error) {
+      Details details = error.details();
+      if (const auto file = details.metadata.find("file"); file != details.metadata.end()) {
+        const std::string& text = file->second;
+        std::size_t index = 0;
+        std::from_chars(text.data(), text.data() + text.size(), index);
+        file->second = std::to_string(first + std::min(index, end - first - 1));
+      }
+      throw Error(error.code(), error.what(), std::move(details));
+    }
+  }
+  return names;
+}
+
+}  // namespace anticrack::client

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/geometry_snap.hpp"
+
+#include <limits>
+#include <optional>
+
+#include "mesh/geometry_primitives.hpp"
+
+namespace anticrack::mesh {
+namespace {
+
+constexpr double relative_reach = 1e-6;
+constexpr std::size_t most_warnings = 100;
+
+class Snap {
+ public:
+  Snap(const Network& network, std::vector<std::string>& warnings)
+      : _network(network), _reach(snap_distance(network)), _warnings(warnings) {}
+
+  /// Onto a line of which `holds` is true, unless one passes the point already.
+  template <class Holds>
+  void move(Point& p, const std::string& field, const Holds& holds) {
+    double least = std::numeric_limits<double>::infinity();
+    Point to{};
+    for (std::size_t l = 0; l < _network.lines.size(); ++l) {
+      const Line& line = _network.lines[l].line;
+      if (!holds(l)) continue;
+      const std::optional<double> t = line.locate(p, _reach);
+      if (!t) continue;
+      if (line.locate(p, _network.tolerance)) return;
+      if (const double off = distance(p, line.at(*t)); off < least) {
+        least = off;
+        to = line.at(*t);
+      }
+    }
+    if (least > _reach) return;
+    if (_moved < most_warnings) {
+      _warnings.push_back(field + " " + show(p) + " lies " + show(least) + " off its line; " +
+                          show(to) + " is taken");
+    }
+    ++_moved;
+    p = to;
+  }
+
+  void move_part(Part& part, const std::string& field) {
+    const auto interface = [&](std::size_t l) { return _network.lines[l].role == Role::interface; };
+    move(part.from, field + ".from", interface);
+    move(part.to, field + ".to", interface);
+  }
+
+  bool finish() {
+    if (_moved > most_warnings) {
+      _warnings.push_back("and " + std::to_string(_moved - most_warnings) + " more such points");
+    }
+    return _moved > 0;
+  }
+
+ private:
+  const Network& _network;
+  const double _reach;
+  std::vector<std::string>& _warnings;
+  std::size_t _moved = 0;
+};
+
+}  // namespace
+
+double snap_distance(const Network& network) noexcept {
+  return network.tolerance * (relative_reach / relative_tolerance);
+}
+
+bool snap_ends(const Network& network, Geometry& geometry, std::vector<std::string>& warnings) {
+  Snap snap(network, warnings);
+  for (std::size_t i = 0; i < geometry.interfaces.size(); ++i) {
+    InterfaceSpec& spec = geometry.interfaces[i];
+    if (spec.closed) continue;
+    const auto other = [&](std::size_t l) {
+      return l != i + 1 && network.lines[l].role != Role::align;
+    };
+    const std::string field = network.lines[i + 1].field;
+    snap.move(spec.points.front(), field + ", its first point", other);
+    snap.move(spec.points.back(), field + ", its last point", other);
+  }
+  for (std::size_t i = 0; i < geometry.inclusions.size(); ++i) {
+    InclusionSpec& inclusion = geometry.inclusions[i];
+    const std::string field = indexed("inclusions", i);
+    snap.move_part(inclusion.part, field + ".part");
+    for (std::size_t k = 0; k < inclusion.delaminated.size() && k < max_vertices; ++k) {
+      snap.move_part(inclusion.delaminated[k], indexed(field + ".delaminated_parts", k));
+    }
+  }
+  for (std::size_t i = 0; i < geometry.cracks.size(); ++i) {
+    snap.move_part(geometry.cracks[i].part, indexed("cracks", i) + ".part");
+  }
+  const auto boundary = [](std::size_t l) { return l == 0; };
+  for (std::size_t i = 0; i < geometry.neumann.size(); ++i) {
+    snap.move(geometry.neumann[i].from, indexed("neumann", i) + ".from", boundary);
+    snap.move(geometry.neumann[i].to, indexed("neumann", i) + ".to", boundary);
+  }
+  return snap.finish();
+}
+
+}  // namespace anticrack::mesh
