@@ -15,17 +15,15 @@ namespace {
 void read_mesh(const Section& root, Case& result) {
   const auto geometry = root.section("geometry", geometry_keys);
   const auto mesh = root.section("mesh", mesh_keys);
-  if (mesh) {
+  if (mesh)
     *result.mesh.mutable_options() = read_mesh_options(*mesh, result.spots);
-  } else {
+  else
     result.mesh.mutable_options()->set_preset(v1::MESH_PRESET_GRADED);
-  }
   if (const auto file = mesh ? mesh->text("file") : std::nullopt) {
     if (geometry) throw Error(geometry->spot(), "there is a mesh.file too; remove one of the two");
     result.mesh_file = result.path.parent_path() / *file;
-    for (const char* field : {"upload", "header", "chunk"}) {
+    for (const char* field : {"upload", "header", "chunk"})
       result.spots[field] = mesh->spot_of("file");
-    }
     return;
   }
   root.need("geometry", "write [geometry] with boundary and interface, or mesh.file = \"x.msh\"");
@@ -47,9 +45,8 @@ std::string reason(int error) {
 }
 
 toml::table parse(const std::string& text, const std::string& name) {
-  if (text.find('\0') != std::string::npos) {
+  if (text.find('\0') != std::string::npos)
     throw Error({"", name, 0}, "this is not text; name a case, a TOML file");
-  }
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
@@ -117,34 +114,30 @@ Case mesh_file_case(const std::filesystem::path& file, const std::string& title,
   toml::table table;
   for (const std::string& assignment : overrides) apply_override(table, assignment);
   const Section given(table, "", {"mesh"});
-  if (const auto mesh = given.section("mesh", mesh_keys); mesh && mesh->find("file")) {
+  if (const auto mesh = given.section("mesh", mesh_keys); mesh && mesh->find("file"))
     throw Error(mesh->spot_of("file"), "the file is given as an argument; remove one of the two");
-  }
   apply_override(table, "mesh.file=.");  // allows the keys of files; the path is set below
   *result.mesh.mutable_options() =
       read_mesh_options(*Section(table, "", {"mesh"}).section("mesh", mesh_keys), result.spots);
   result.mesh.set_title(title);
   result.mesh_file = file;
-  for (const char* field : {"upload", "header", "chunk"}) {
+  for (const char* field : {"upload", "header", "chunk"})
     result.spots[field] = {"", file.string(), 0};
-  }
   return result;
 }
 
 Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                Loads loads) {
   constexpr const char* cure = "; name a case, a TOML file";
-  if (std::filesystem::is_directory(path)) {
+  if (std::filesystem::is_directory(path))
     throw Error({"", path.string(), 0}, std::string("is a folder") + cure);
-  }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (!(text << file.rdbuf())) {
     // Inserting an empty file fails too; parse_case says what it lacks.
-    if (!std::filesystem::is_regular_file(path) || !file) {
+    if (!std::filesystem::is_regular_file(path) || !file)
       throw Error({"", path.string(), 0}, "cannot be read" + reason(errno) + cure);
-    }
   }
   return parse_case(text.str(), path, overrides, loads);
 }

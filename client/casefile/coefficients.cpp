@@ -40,9 +40,8 @@ std::optional<double> number(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument) {
+  if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument)
     return std::nullopt;
-  }
   if (error == std::errc::result_out_of_range) {
     // Too small counts as zero; a negative exponent tells it from too large.
     const bool small = text.find("e-") != text.npos || text.find("E-") != text.npos;
@@ -80,17 +79,15 @@ class Reader {
   void line(std::string_view text, unsigned number) {
     _line = number;
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (number == 1 && text.substr(0, byte_order_mark.size()) == byte_order_mark) {
+    if (number == 1 && text.substr(0, byte_order_mark.size()) == byte_order_mark)
       text.remove_prefix(byte_order_mark.size());
-    }
     const std::size_t begin = text.find_first_not_of(" \t\r");
     if (begin == std::string_view::npos || text[begin] == '#') return;
     split_fields(text, _fields);
-    if (!std::exchange(_begun, true) && is_header()) {
+    if (!std::exchange(_begun, true) && is_header())
       take_header();
-    } else {
+    else
       take_row();
-    }
   }
 
   std::vector<double> finish() {
@@ -154,9 +151,8 @@ class Reader {
     for (std::size_t i = 0; i < _fields.size(); ++i) {
       const std::optional<double> value = number(_fields[i]);
       if (!value) fail(i, shown_field(_fields[i]) + " is not a number; write one as 1.5 or -2e-3");
-      if (!std::isfinite(*value)) {
+      if (!std::isfinite(*value))
         fail(i, shown_field(_fields[i]) + " is not finite; write a finite number");
-      }
       _values[row + _columns[i]] = *value;
     }
   }
@@ -177,9 +173,8 @@ std::vector<double> parse_coefficients(std::istream& text, const std::string& so
   Reader reader(source, loads);
   std::string line;
   for (unsigned number = 1; std::getline(text, line); ++number) reader.line(line, number);
-  if (text.bad()) {
+  if (text.bad())
     throw Error({"", source, 0}, "cannot be read to its end; the disk reports an error");
-  }
   return reader.finish();
 }
 

@@ -40,9 +40,8 @@ std::string shape_of(const Section& section) {
     }
     shape = key;
   }
-  if (shape.empty()) {
+  if (shape.empty())
     throw Error(section.spot(), std::string("an interface without a shape; write ") + shapes);
-  }
   return shape;
 }
 

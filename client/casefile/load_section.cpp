@@ -39,9 +39,8 @@ std::optional<ForceFile> read_force(const Section& section, const std::filesyste
     force.set_expression(*expression);
   } else if (table) {
     auto& values = *force.mutable_per_region()->mutable_values();
-    for (const auto& [region, value] : section.numbers("f", "write one number for each region")) {
+    for (const auto& [region, value] : section.numbers("f", "write one number for each region"))
       values[region] = value;
-    }
   } else {
     force.set_constant(number_of(node, section.path_of("f"), force_cure));
   }

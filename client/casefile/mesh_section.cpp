@@ -11,9 +11,8 @@ constexpr const char* group_cure =
     "\"crack\" or surface.1 = \"top\"";
 
 void refuse_keys(const Section& section, const std::vector<const char*>& keys, const char* why) {
-  for (const char* key : keys) {
+  for (const char* key : keys)
     if (section.find(key)) throw Error(section.spot_of(key), why);
-  }
 }
 
 v1::MeshPreset read_preset(const Section& section) {
@@ -72,13 +71,11 @@ void read_groups(const Section& section, const char* key, const std::string& fie
     std::int32_t tag = 0;
     const char* end = tag_text.data() + tag_text.size();
     const auto [stopped, error] = std::from_chars(tag_text.data(), end, tag);
-    if (error != std::errc() || stopped != end || tag < 1) {
+    if (error != std::errc() || stopped != end || tag < 1)
       throw Error(spot, "'" + tag_text + "' is not a tag; " + group_cure);
-    }
     const auto meaning = entry.template value_exact<std::string>();
-    if (!meaning || meaning->empty()) {
+    if (!meaning || meaning->empty())
       throw Error(spot, shown(entry) + " is not a meaning of a group; " + group_cure);
-    }
     groups[tag] = *meaning;
     set_entry(spots, field, tag_text, spot);
   }

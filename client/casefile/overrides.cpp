@@ -15,22 +15,19 @@ namespace {
 
 std::vector<std::string> split_path(const std::string& path) {
   std::vector<std::string> parts{""};
-  for (const char c : path) {
-    if (c == '.') {
+  for (const char c : path)
+    if (c == '.')
       parts.emplace_back();
-    } else {
+    else
       parts.back() += c;
-    }
-  }
   return parts;
 }
 
 /// Throws for bytes that TOML does not allow: the case is kept as text and must parse again.
 void require_text(const std::string& assignment) {
   std::string harmless = assignment;
-  for (char& c : harmless) {
+  for (char& c : harmless)
     if (std::string_view("\n\r\t\"\\").find(c) != std::string_view::npos) c = ' ';
-  }
   try {
     static_cast<void>(toml::parse("text = \"" + harmless + "\""));
   } catch (const toml::parse_error&) {
@@ -98,9 +95,8 @@ class Walk {
     const std::vector<std::string> names = names_in(array);
     const auto found = std::find(names.begin(), names.end(), part);
     if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-    if (!index && !names.empty()) {
+    if (!index && !names.empty())
       fail("none of them is called " + part + "; " + suggestion(part, names));
-    }
     fail("there is no entry " + part + "; write an index from 0 to " +
          std::to_string(array.size()) + (names.empty() ? "" : ", or a name"));
   }
@@ -110,11 +106,10 @@ class Walk {
     if (toml::table* table = place.as_table()) {
       if (!table->contains(part)) {
         // Index 0 starts a list; any other number is a name, such as the tag of a group.
-        if (index_of(_parts[_depth + 1]) == std::size_t{0}) {
+        if (index_of(_parts[_depth + 1]) == std::size_t{0})
           table->insert(part, toml::array());
-        } else {
+        else
           table->insert(part, toml::table());
-        }
       }
       return *table->get(part);
     }
@@ -137,12 +132,11 @@ class Walk {
         return;
       }
       const std::size_t index = index_in(*array);
-      if (index == array->size()) {
+      if (index == array->size())
         array->push_back(std::forward<decltype(node)>(node));
-      } else {
+      else
         array->replace(array->cbegin() + static_cast<std::ptrdiff_t>(index),
                        std::forward<decltype(node)>(node));
-      }
     });
   }
 
@@ -157,13 +151,11 @@ void apply_override(toml::table& root, const std::string& assignment) {
   require_text(assignment);
   const std::string source = "--set " + assignment;
   const std::size_t equals = assignment.find('=');
-  if (equals == std::string::npos || equals == 0) {
+  if (equals == std::string::npos || equals == 0)
     throw Error({"", source, 0}, "no assignment; write --set key=value");
-  }
   std::vector<std::string> parts = split_path(assignment.substr(0, equals));
-  if (std::any_of(parts.begin(), parts.end(), [](const std::string& p) { return p.empty(); })) {
+  if (std::any_of(parts.begin(), parts.end(), [](const std::string& p) { return p.empty(); }))
     throw Error({"", source, 0}, "a part of the key is empty; write for example solver.theta=2");
-  }
   toml::table parsed = parse_value(assignment.substr(equals + 1), source);
   Walk(source, std::move(parts)).assign(root, std::move(*parsed.get("value")));
 }

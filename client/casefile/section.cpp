@@ -45,9 +45,7 @@ const toml::node& first_written(const toml::node& node) {
 Spot spot_of(const toml::node& node, std::string key) {
   const toml::source_region& region = first_written(node).source();
   Spot spot{std::move(key), region.path ? *region.path : std::string(), region.begin.line};
-  if (spot.source.rfind("--set", 0) == 0) {
-    spot.line = 0;  // an override has one line only
-  }
+  if (spot.source.rfind("--set", 0) == 0) spot.line = 0;  // an override has one line only
   return spot;
 }
 
@@ -69,17 +67,15 @@ std::string shown(const toml::node& node) {
 
 double number_of(const toml::node& node, const std::string& key, std::string_view cure) {
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
-  if (!value || !std::isfinite(*value)) {
+  if (!value || !std::isfinite(*value))
     throw Error(spot_of(node, key), shown(node) + " is not a finite number; " + std::string(cure));
-  }
   return *value;
 }
 
 Point point_of(const toml::node& node, const std::string& key) {
   const toml::array* pair = node.as_array();
-  if (!pair || pair->size() != 2) {
+  if (!pair || pair->size() != 2)
     throw Error(spot_of(node, key), shown(node) + " is not a point; write [x, y]");
-  }
   return {number_of(*pair->get(0), key, "write [x, y]"),
           number_of(*pair->get(1), key, "write [x, y]")};
 }
@@ -92,9 +88,8 @@ std::vector<Point> points_of(const toml::node& node, const std::string& key) {
   }
   std::vector<Point> points;
   points.reserve(list->size());
-  for (std::size_t i = 0; i < list->size(); ++i) {
+  for (std::size_t i = 0; i < list->size(); ++i)
     points.push_back(point_of(*list->get(i), entry_key(key, i)));
-  }
   return points;
 }
 
@@ -194,9 +189,8 @@ std::optional<Section> Section::section(std::string_view key,
   const toml::node* node = find(key);
   if (!node) return std::nullopt;
   const toml::table* table = node->as_table();
-  if (!table) {
+  if (!table)
     throw Error(spot_of(key), shown(*node) + " is not a table; write [" + path_of(key) + "]");
-  }
   return Section(*table, path_of(key), std::move(known));
 }
 
@@ -213,9 +207,8 @@ std::vector<Section> Section::sections(std::string_view key,
     const std::string path = entry_key(path_of(key), i);
     const toml::node& entry = *list->get(i);
     const toml::table* table = entry.as_table();
-    if (!table) {
+    if (!table)
       throw Error(casefile::spot_of(entry, path), shown(entry) + " is not a table" + cure);
-    }
     sections.emplace_back(*table, path, known);
   }
   return sections;

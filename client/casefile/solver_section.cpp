@@ -42,9 +42,8 @@ void read_uzawa(const Section& section, v1::Uzawa& uzawa, Spots& spots) {
   if (const auto epsilon = section.number("epsilon")) uzawa.set_epsilon(*epsilon);
   if (const auto p = section.number("p")) uzawa.set_p(*p);
   if (const auto limit = section.count("max_iterations")) uzawa.set_max_iterations(*limit);
-  if (const auto mass = section.choice("mass", {"lumped", "consistent"})) {
+  if (const auto mass = section.choice("mass", {"lumped", "consistent"}))
     uzawa.set_mass(*mass == 0 ? v1::MASS_LUMPED : v1::MASS_CONSISTENT);
-  }
   if (const auto tolerance = section.number("kkt_tolerance")) uzawa.set_kkt_tolerance(*tolerance);
   note(section, "solver.uzawa", spots);
   spots["solver.uzawa"] = section.spot_of("method");
@@ -69,11 +68,10 @@ v1::Solver read_solver(const Section& root, Spots& spots) {
     return solver;
   }
   note(*section, "solver", spots);
-  if (section->choice("method", {"active-set", "uzawa"}).value_or(0) == 0) {
+  if (section->choice("method", {"active-set", "uzawa"}).value_or(0) == 0)
     read_active_set(*section, *solver.mutable_active_set(), spots);
-  } else {
+  else
     read_uzawa(*section, *solver.mutable_uzawa(), spots);
-  }
   return solver;
 }
 

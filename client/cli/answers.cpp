@@ -22,11 +22,9 @@ bool has_answer(const results::Load& load) {
 std::vector<std::string> inclusions_of(const std::vector<results::Load>& loads) {
   std::vector<std::string> names;
   for (const results::Load& load : loads) {
-    for (const results::Inclusion& inclusion : load.inclusions) {
-      if (std::find(names.begin(), names.end(), inclusion.name) == names.end()) {
+    for (const results::Inclusion& inclusion : load.inclusions)
+      if (std::find(names.begin(), names.end(), inclusion.name) == names.end())
         names.push_back(inclusion.name);
-      }
-    }
   }
   return names;
 }
@@ -46,9 +44,8 @@ std::vector<std::string> row_of(const results::Load& load,
   std::vector<std::string> row{
       sanitise(load.name), std::string(word(load.status)), std::to_string(load.iterations),
       when_answered(by_uzawa ? load.criterion : load.kkt_relative.largest(), 2, true)};
-  for (const std::string& name : inclusions) {
+  for (const std::string& name : inclusions)
     row.push_back(answered ? displacement_of(load, name) : "-");
-  }
   row.push_back(when_answered(load.energy));
   row.push_back(when_answered(load.contact_length));
   if (by_uzawa) {
@@ -63,9 +60,8 @@ std::vector<std::string> row_of(const results::Load& load,
 std::vector<std::string> remarks_on(const results::Load& load) {
   std::vector<std::string> remarks;
   remarks.reserve(2 + load.warnings.size());
-  if (const std::string& cause = load.error.empty() ? load.reason : load.error; !cause.empty()) {
+  if (const std::string& cause = load.error.empty() ? load.reason : load.error; !cause.empty())
     remarks.push_back(cause);
-  }
   if (load.weakly_active > 0) {
     remarks.push_back(std::to_string(load.weakly_active) +
                       (load.weakly_active == 1 ? " node just touches" : " nodes just touch") +
@@ -83,9 +79,8 @@ std::string answers_table(const std::vector<results::Load>& loads) {
     return std::isfinite(load.theta);
   });
   std::vector<std::string> head{"load", "status", "iterations", by_uzawa ? "criterion" : "KKT"};
-  for (const std::string& name : inclusions) {
+  for (const std::string& name : inclusions)
     head.push_back(inclusions.size() == 1 ? "A" : "A " + sanitise(name));
-  }
   head.insert(head.end(), {"energy", "contact length"});
   if (by_uzawa) head.insert(head.end(), {"theta", "theta*"});
   head.emplace_back("wall time");
@@ -96,9 +91,8 @@ std::string answers_table(const std::vector<results::Load>& loads) {
   std::string remarks;
   for (const results::Load& load : loads) {
     rows.push_back(row_of(load, inclusions, by_uzawa));
-    for (const std::string& remark : remarks_on(load)) {
+    for (const std::string& remark : remarks_on(load))
       remarks += sanitise(load.name) + ": " + sanitise(remark) + "\n";
-    }
   }
   return table(rows, {1}) + remarks;
 }
@@ -160,9 +154,8 @@ int exit_code_of(const results::Result& result) {
   };
   using results::Status;
   if (some(Status::failed, Status::cancelled, Status::pending, Status::running,
-           Status::unspecified)) {
+           Status::unspecified))
     return exit_job_failed;
-  }
   return some(Status::not_converged) ? exit_not_converged : exit_ok;
 }
 

@@ -46,9 +46,8 @@ std::string case_line(const JobProgress& job, const CaseProgress& progress, cons
                      "  " + pad_right(word(progress.status), layout.status_width);
   if (progress.iteration > 0 && layout.detail != Detail::status) {
     line += "  " + numbers(progress, job.active_set, layout);
-    if (layout.bar) {
+    if (layout.bar)
       line += bar(bar_fraction(progress.criterion, job.target), width - columns_of(line));
-    }
   }
   line.erase(line.find_last_not_of(' ') + 1);
   return fit(line, width);
@@ -58,9 +57,8 @@ std::size_t widest_line(const JobProgress& job, const std::vector<std::size_t>& 
                         const Layout& layout) {
   constexpr std::size_t uncut = 1000;  // wider than any terminal
   std::size_t widest = 0;
-  for (const std::size_t i : shown) {
+  for (const std::size_t i : shown)
     widest = std::max(widest, columns_of(case_line(job, job.cases[i], layout, uncut)));
-  }
   return widest;
 }
 
@@ -170,9 +168,8 @@ std::vector<std::string> case_lines(const JobProgress& progress, std::size_t wid
   const Layout layout = layout_of(progress, shown, width);
   std::vector<std::string> lines;
   lines.reserve(shown.size() + 1);
-  for (const std::size_t i : shown) {
+  for (const std::size_t i : shown)
     lines.push_back(case_line(progress, progress.cases[i], layout, width));
-  }
   if (!all) lines.push_back(fit(others(progress, shown), width));
   return lines;
 }

@@ -62,9 +62,7 @@ int run_command_line(int argc, char** argv) {
     const std::string problem = usage_text(app, error, words);
     return guarded(globals, [&problem]() -> int { throw UsageError(problem); });
   }
-  if (globals.local) {
-    globals.connection = {};  // what the environment names is not meant
-  }
+  if (globals.local) globals.connection = {};  // what the environment names is not meant
   return guarded(globals, chosen);
 }
 

@@ -33,13 +33,9 @@ struct FileOptions {
 // The result with the loads that were asked for, in their order.
 results::Result read_result(const FileOptions& options) {
   results::Result result = results::read(options.file);
-  if (options.loads.empty()) {
-    return result;
-  }
+  if (options.loads.empty()) return result;
   std::vector<std::string> names;
-  for (const results::Load& load : result.loads) {
-    names.push_back(load.name);
-  }
+  for (const results::Load& load : result.loads) names.push_back(load.name);
   std::vector<results::Load> chosen;
   for (const std::string& name : options.loads) {
     const auto found = std::find(names.begin(), names.end(), name);
@@ -71,9 +67,7 @@ int show_file(const FileOptions& options, const Globals& globals) {
     return exit_ok;
   }
   std::string head;
-  if (!result.title.empty()) {
-    head += sanitise(result.title) + "\n";
-  }
+  if (!result.title.empty()) head += sanitise(result.title) + "\n";
   head += std::to_string(result.mesh.triangle_count()) + " triangles, " +
           std::to_string(result.mesh.node_count()) + " nodes (" + sanitise(result.mesh_name) +
           "), solved by " + sanitise(result.job_name) + "\n\n";
@@ -87,22 +81,14 @@ int tell_made(const std::vector<std::filesystem::path>& files,
   if (globals.json) {
     JsonWriter json;
     json.begin_object().begin_array("files");
-    for (const auto& file : files) {
-      json.element(file.string());
-    }
+    for (const auto& file : files) json.element(file.string());
     json.end_array().begin_array("notes");
-    for (const std::string& note : notes) {
-      json.element(note);
-    }
+    for (const std::string& note : notes) json.element(note);
     print_document(json.end_array().end_object().text());
     return exit_ok;
   }
-  for (const auto& file : files) {
-    say(globals, file.string());
-  }
-  for (const std::string& note : notes) {
-    say(globals, note);
-  }
+  for (const auto& file : files) say(globals, file.string());
+  for (const std::string& note : notes) say(globals, note);
   return exit_ok;
 }
 

@@ -40,12 +40,9 @@ class View {
   View(Session& session, const v1::Job& job, std::uint64_t rows)
       : _session(session), _begin(steady_seconds() - age_of(job)) {
     _progress.job = sanitise(job.name());
-    if (rows > 0) {
-      _progress.sweep.emplace().total = rows;
-    }
-    if (shows_frames(session.globals())) {
+    if (rows > 0) _progress.sweep.emplace().total = rows;
+    if (shows_frames(session.globals()))
       _frames = std::make_unique<Frames>(session, [this](Size size) { return frame_now(size); });
-    }
     session.tell([this](const std::string& message) {
       change([&](JobProgress& progress) { progress.notice = sanitise(message); });
     });
@@ -62,9 +59,7 @@ class View {
       _frames->refresh();
       return;
     }
-    for (const std::string& line : _log.lines(_progress)) {
-      say(_session.globals(), line);
-    }
+    for (const std::string& line : _log.lines(_progress)) say(_session.globals(), line);
   }
 
   void prompt(const std::string& text) {
@@ -74,9 +69,7 @@ class View {
  private:
   std::vector<std::string> frame_now(Size size) {
     const std::lock_guard lock(_mutex);
-    if (!client::ended(_progress.state)) {
-      _progress.elapsed = steady_seconds() - _begin;
-    }
+    if (!client::ended(_progress.state)) _progress.elapsed = steady_seconds() - _begin;
     return frame(_progress, size.width, size.height - 1);
   }
 
@@ -112,23 +105,18 @@ class Interrupts {
   bool asked_to_cancel() {
     _thread.request_stop();
     _thread.join();
-    if (_failure) {
-      std::rethrow_exception(_failure);
-    }
+    if (_failure) std::rethrow_exception(_failure);
     return _cancelling;
   }
 
  private:
   void heed(Session& session, const std::string& job, View& view, const std::stop_token& over) {
     Signals& signals = session.signals();
-    if (!signals.wait_for_first(over)) {
-      return;
-    }
+    if (!signals.wait_for_first(over)) return;
     if (!session.globals().local) {
       constexpr std::chrono::seconds time_to_cancel{2};
-      if (signals.interactive()) {
+      if (signals.interactive())
         view.prompt("Detaching; press Ctrl-C again now to cancel the job instead");
-      }
       if (!signals.second_within(time_to_cancel, over)) {
         _detached.request_stop();
         return;

@@ -137,9 +137,8 @@ int fetch_result(const JobOptions& options, const Globals& globals) {
   results::check_writable(output);
   Session session(globals);
   const v1::Job job = get_job(session, name);
-  if (job.state() == v1::Job::STATE_EXPIRED) {
+  if (job.state() == v1::Job::STATE_EXPIRED)
     throw client::Error(client::Code::failed_precondition, expired_text(job));
-  }
   const results::Result result = fetch(session, job, session.stop());
   results::write(output, result);
   print_document(globals.json ? answers_json(result, output)

@@ -21,9 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string counted_cases(const v1::Job& job, std::uint64_t rows) {
-  if (job.has_sweep()) {
-    return "a sweep of " + std::to_string(rows) + (rows == 1 ? " row" : " rows");
-  }
+  if (job.has_sweep()) return "a sweep of " + std::to_string(rows) + (rows == 1 ? " row" : " rows");
   return std::to_string(job.load_cases_size()) +
          (job.load_cases_size() == 1 ? " load case" : " load cases");
 }
@@ -42,26 +40,18 @@ std::vector<std::string> causes(const casefile::Case& the_case, const v1::Job& j
   const auto text_of = [&the_case](const v1::Status& error) {
     return std::string(in_terms_of(the_case, client::decode_error(error)).what());
   };
-  if (job.state() == v1::Job::STATE_CANCELLED) {
-    return {job.name() + " was cancelled"};
-  }
-  if (job.state() == v1::Job::STATE_EXPIRED) {
-    return {expired_text(job)};
-  }
+  if (job.state() == v1::Job::STATE_CANCELLED) return {job.name() + " was cancelled"};
+  if (job.state() == v1::Job::STATE_EXPIRED) return {expired_text(job)};
   std::vector<std::string> lines;
-  if (job.has_error()) {
-    lines.push_back(job.name() + " failed: " + text_of(job.error()));
-  }
+  if (job.has_error()) lines.push_back(job.name() + " failed: " + text_of(job.error()));
   for (const v1::LoadCaseAnswer& answer : job.answers()) {
     const std::string& cause = answer.error().message();
     const bool told = job.error().message().find(cause) != std::string::npos;
-    if (answer.has_error() && !told) {
+    if (answer.has_error() && !told)
       lines.push_back(answer.name() + " failed: " + text_of(answer.error()));
-    }
   }
-  if (lines.empty()) {
+  if (lines.empty())
     lines.push_back(job.name() + " ended without results: " + std::string(word(job.state())));
-  }
   return lines;
 }
 
@@ -70,9 +60,7 @@ void tell_warnings(Session& session, const v1::Job& job, const std::stop_token& 
                    const Ahead* ahead) {
   const v1::Mesh mesh =
       ahead != nullptr ? ahead->mesh : client::get_mesh(session.connection(), job.mesh(), stop);
-  for (const std::string& warning : mesh.warnings()) {
-    say(session.globals(), "mesh: " + warning);
-  }
+  for (const std::string& warning : mesh.warnings()) say(session.globals(), "mesh: " + warning);
 }
 
 // For who has no results yet though the server has them.
@@ -89,9 +77,7 @@ auto or_later(const Session& session, const v1::Job& job, const Action& action) 
   try {
     return action();
   } catch (const client::Interrupted&) {
-    if (job.result_bytes() > 0) {
-      tell_fetch(session, job.name());
-    }
+    if (job.result_bytes() > 0) tell_fetch(session, job.name());
     throw;
   }
 }
@@ -118,9 +104,7 @@ Followed submit_and_follow(Session& session, const casefile::Case& the_case, con
       followed.ahead = ahead;
       return followed;
     } catch (const client::Error& error) {
-      if (error.code() != client::Code::not_found || attempt == tries) {
-        throw;
-      }
+      if (error.code() != client::Code::not_found || attempt == tries) throw;
       say(session.globals(), "The server has lost the job; submitting it again");
     }
   }
@@ -129,9 +113,7 @@ Followed submit_and_follow(Session& session, const casefile::Case& the_case, con
 int exit_code_of(const Globals& globals, const Followed& followed) {
   switch (followed.how) {
     case Followed::How::detached:
-      if (globals.json) {
-        print_document(to_json(followed.job));
-      }
+      if (globals.json) print_document(to_json(followed.job));
       return exit_interrupted;
     case Followed::How::cancelled:
       return exit_interrupted;
@@ -151,12 +133,9 @@ std::optional<results::Result> results_of(Session& session, const casefile::Case
   Ahead* const ahead = followed.ahead.get().get();
   or_later(session, job, [&] { tell_warnings(session, job, stop, ahead); });
   if (job.result_bytes() == 0 || job.state() == v1::Job::STATE_EXPIRED) {
-    for (const std::string& line : causes(the_case, job)) {
+    for (const std::string& line : causes(the_case, job))
       std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
-    }
-    if (session.globals().json) {
-      print_document(to_json(job));
-    }
+    if (session.globals().json) print_document(to_json(job));
     return std::nullopt;
   }
   results::Result result = or_later(session, job, [&] { return fetch(session, job, stop, ahead); });
@@ -178,11 +157,10 @@ void save(const fs::path& file, const results::Result& result, const Session& se
 }
 
 void print_answers(const Globals& globals, const results::Result& result, const fs::path& file) {
-  if (globals.json) {
+  if (globals.json)
     print_document(answers_json(result, file));
-  } else {
+  else
     print_document("\n" + answers_table(result) + "\n" + sanitise(summary(result, file)));
-  }
 }
 
 }  // namespace anticrack::cli

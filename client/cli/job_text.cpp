@@ -21,14 +21,12 @@ std::string circumstances(const v1::Job& job) {
   constexpr std::array<std::string_view, 4> priorities{"normal", "interactive", "normal", "bulk"};
   std::string text = "priority " + std::string(word_of(priorities, job.priority()));
   if (!job.owner().empty()) text += ", of " + sanitise(job.owner());
-  if (job.attempt() > 1) {
+  if (job.attempt() > 1)
     text += ", attempt " + std::to_string(job.attempt()) + ": the server stopped while it ran";
-  }
   const auto add_limit = [&text](const char* name, const google::protobuf::Duration& time) {
-    if (TimeUtil::DurationToMilliseconds(time) > 0) {
+    if (TimeUtil::DurationToMilliseconds(time) > 0)
       text += std::string(", ") + name + " at most " +
               number(static_cast<double>(TimeUtil::DurationToMilliseconds(time)) / 1000) + " s";
-    }
   };
   add_limit("waits", job.queue_timeout());
   add_limit("runs", job.run_timeout());
@@ -45,9 +43,8 @@ std::string sweep_answer(const v1::Job& job) {
     text += "at most " + std::to_string(answer.most_steps()) + " steps, KKT residuals at most " +
             number(answer.worst_kkt(), 2) + "\n";
   }
-  for (const std::string& warning : answer.warnings()) {
+  for (const std::string& warning : answer.warnings())
     text += "warning: " + sanitise(warning) + "\n";
-  }
   return text;
 }
 

@@ -30,12 +30,10 @@ std::string pace_of(const SweepProgress& sweep) {
                                        : std::to_string(std::llround(sweep.rate()))) +
             " rows/s";
   }
-  if (std::isfinite(sweep.seconds_left()) && sweep.done() < sweep.total) {
+  if (std::isfinite(sweep.seconds_left()) && sweep.done() < sweep.total)
     text += "  " + time_text(sweep.seconds_left()) + " left";
-  }
-  if (sweep.not_converged() > 0) {
+  if (sweep.not_converged() > 0)
     text += "  " + std::to_string(sweep.not_converged()) + " not converged";
-  }
   if (sweep.failed() > 0) text += "  " + std::to_string(sweep.failed()) + " failed";
   return text;
 }
@@ -72,9 +70,8 @@ std::string head_of(const JobProgress& progress, std::size_t width) {
     done = ended_cases + " of " + count + " load cases ended";
     short_done = ended_cases + "/" + count + " ended";
   }
-  for (const std::string& text : {name + state + done, state + done}) {
+  for (const std::string& text : {name + state + done, state + done})
     if (columns_of(text) <= width) return text;
-  }
   return fit(state + short_done, width);
 }
 
@@ -102,9 +99,8 @@ std::vector<std::string> frame(const JobProgress& progress, std::size_t width, s
   // The last column stays empty: writing it may wrap the line.
   const std::size_t room = std::max<std::size_t>(width, 2) - 1;
   std::vector<std::string> lines{head_of(progress, room)};
-  for (const std::string& message : {progress.notice, progress.prompt}) {
+  for (const std::string& message : {progress.notice, progress.prompt})
     if (!message.empty() && lines.size() < height) lines.push_back(fit("  " + message, room));
-  }
   if (progress.sweep) {
     lines.push_back(sweep_line(*progress.sweep, room));
     return lines;

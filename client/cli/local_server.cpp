@@ -65,15 +65,13 @@ fs::path make_folder() {
 fs::path find_server(const fs::path& executable, const std::string& search_path) {
   std::vector<fs::path> folders{executable.parent_path()};
   std::istringstream path(search_path);
-  for (std::string folder; std::getline(path, folder, ':');) {
+  for (std::string folder; std::getline(path, folder, ':');)
     folders.emplace_back(folder.empty() ? "." : folder);
-  }
   for (const fs::path& folder : folders) {
     fs::path candidate = folder / "anticrackd";
     std::error_code error;
-    if (fs::is_regular_file(candidate, error) && access(candidate.c_str(), X_OK) == 0) {
+    if (fs::is_regular_file(candidate, error) && access(candidate.c_str(), X_OK) == 0)
       return candidate;
-    }
   }
   return {};
 }
@@ -111,9 +109,8 @@ void LocalServer::start(const fs::path& program) {
                                              "--data-dir",    data.c_str(), "--log-level",
                                              "warn",          nullptr};
   std::array<int, 2> pipe_ends{};
-  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
+  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
     throw LocalServerError(std::string("cannot make a pipe: ") + std::strerror(errno));
-  }
   _output = pipe_ends[0];
   const int log = open((_folder / "log").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
   const pid_t parent = getpid();
@@ -122,9 +119,8 @@ void LocalServer::start(const fs::path& program) {
   const int cause = errno;
   close(pipe_ends[1]);
   if (log >= 0) close(log);
-  if (_process < 0) {
+  if (_process < 0)
     throw LocalServerError("cannot start " + program.string() + ": " + std::strerror(cause));
-  }
 }
 
 void LocalServer::wait_until_ready(const std::stop_token& stop) {

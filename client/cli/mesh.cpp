@@ -78,9 +78,8 @@ std::optional<casefile::Case> case_of(const MeshOptions& options) {
   const std::string extension = std::filesystem::path(options.name).extension();
   if (extension == ".msh") return casefile::mesh_file_case(options.name, "", options.overrides);
   if (extension == ".toml") return casefile::read_case(options.name, options.overrides);
-  if (!options.overrides.empty()) {
+  if (!options.overrides.empty())
     throw UsageError("--set does not apply to a mesh on the server; name a case");
-  }
   return std::nullopt;
 }
 

@@ -40,9 +40,8 @@ std::string sizes(const v1::Mesh& mesh) {
                      std::to_string(mesh.node_count()) + " nodes, meshed in " +
                      seconds(mesh.mesh_seconds()) + " s; smallest angle " +
                      number(mesh.minimum_angle(), 3) + " degrees";
-  if (mesh.bisection_bound() > 0) {
+  if (mesh.bisection_bound() > 0)
     text += " (no grading can go below " + number(mesh.bisection_bound(), 3) + ")";
-  }
   text += "\n";
   if (mesh.operator_bytes() > 0) {
     text += "factors of " + bytes(mesh.operator_bytes()) + " made in " +
@@ -87,9 +86,8 @@ std::string tips(const v1::Mesh& mesh) {
 }
 
 std::string boundary(const v1::Mesh& mesh) {
-  if (mesh.dirichlet_length() + mesh.neumann_length() <= 0) {
+  if (mesh.dirichlet_length() + mesh.neumann_length() <= 0)
     return "";  // of a server that does not say
-  }
   return "\nboundary: u given on a length of " + number(mesh.dirichlet_length()) +
          ", traction on " + number(mesh.neumann_length()) + "\n";
 }

@@ -26,9 +26,8 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
       break;
     case v1::WatchJobResponse::kPhase:
       enter(event.phase().state(), event.phase().detail());
-      if (sweep && state == v1::Job::STATE_RUNNING) {
+      if (sweep && state == v1::Job::STATE_RUNNING)
         sweep->apply(v1::SweepRows(), seconds);  // no rows yet: the rate is measured from here
-      }
       break;
     case v1::WatchJobResponse::kHeartbeat:
       enter(event.heartbeat().state(), event.heartbeat().detail());
@@ -42,11 +41,9 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
     case v1::WatchJobResponse::EVENT_NOT_SET:
       break;  // only ended load cases, or an event of a later version
   }
-  for (const v1::LoadCaseEnded& load_case : event.load_cases_ended()) {
-    if (load_case.load_case() >= 0) {
+  for (const v1::LoadCaseEnded& load_case : event.load_cases_ended())
+    if (load_case.load_case() >= 0)
       apply(static_cast<std::size_t>(load_case.load_case()), load_case.answer());
-    }
-  }
 }
 
 void JobProgress::enter(v1::Job::State next, const std::string& what) {
@@ -77,12 +74,10 @@ void JobProgress::apply(const v1::Job& job_now) {
     return;
   }
   cases.resize(static_cast<std::size_t>(job_now.load_cases_size()));
-  for (std::size_t i = 0; i < cases.size(); ++i) {
+  for (std::size_t i = 0; i < cases.size(); ++i)
     cases[i].name = sanitise(job_now.load_cases(static_cast<int>(i)).name());
-  }
-  for (int i = 0; i < job_now.answers_size(); ++i) {
+  for (int i = 0; i < job_now.answers_size(); ++i)
     apply(static_cast<std::size_t>(i), job_now.answers(i));
-  }
 }
 
 void JobProgress::apply(const v1::Samples& samples) {

@@ -91,9 +91,8 @@ int guarded(const Globals& globals, const std::function<int()>& command) {
   } catch (...) {
     const Complaint complaint = current_complaint();
     std::istringstream lines(complaint.message);
-    for (std::string line; std::getline(lines, line);) {
+    for (std::string line; std::getline(lines, line);)
       std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
-    }
     if (globals.json) print_document(document_of(complaint));
     return complaint.exit_code;
   }

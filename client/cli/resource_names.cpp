@@ -55,9 +55,8 @@ std::string full_name(Collection collection, const std::string& given) {
   const CollectionWords words = words_of(collection);
   const CollectionWords other =
       words_of(collection == Collection::meshes ? Collection::jobs : Collection::meshes);
-  if (given.starts_with(other.prefix)) {
+  if (given.starts_with(other.prefix))
     throw UsageError(given + " is a " + other.one + "; name a " + words.one + words.see);
-  }
   const bool whole = given.starts_with(words.prefix);
   if (!is_id(whole ? given.substr(words.prefix.size()) : given)) {
     throw UsageError("\"" + given + "\" is not a name of a " + words.one + "; write " +

@@ -36,13 +36,11 @@ class Selection {
     }
     std::ranges::sort(ranges, {}, &Range::first);
     std::vector<Range> merged;
-    for (const Range& range : ranges) {
-      if (!merged.empty() && range.first <= merged.back().last) {
+    for (const Range& range : ranges)
+      if (!merged.empty() && range.first <= merged.back().last)
         merged.back().last = std::max(merged.back().last, range.last);
-      } else {
+      else
         merged.push_back(range);
-      }
-    }
     return merged;
   }
 
@@ -54,9 +52,8 @@ class Selection {
       fail("\"" + std::string(item) +
            "\" is not a row; write all, none, or rows, for example 0,10,20-30");
     }
-    if (error == std::errc::result_out_of_range || row >= _rows) {
+    if (error == std::errc::result_out_of_range || row >= _rows)
       fail("there is no row " + std::string(part) + "; rows are 0 to " + std::to_string(_rows - 1));
-    }
     return row;
   }
 
@@ -87,16 +84,13 @@ std::vector<std::uint32_t> select_rows(const std::string& text, std::uint64_t ro
     selection.fail("these are " + std::to_string(count) + " rows, the server keeps the traces of " +
                    std::to_string(most) + " at most; name fewer");
   }
-  if (!ranges.empty() && ranges.back().last > std::numeric_limits<std::uint32_t>::max()) {
+  if (!ranges.empty() && ranges.back().last > std::numeric_limits<std::uint32_t>::max())
     selection.fail("row " + std::to_string(ranges.back().last) + " is too large to be named");
-  }
   std::vector<std::uint32_t> selected;
   selected.reserve(static_cast<std::size_t>(count));
-  for (const Range& range : ranges) {
-    for (std::uint64_t row = range.first; row <= range.last; ++row) {
+  for (const Range& range : ranges)
+    for (std::uint64_t row = range.first; row <= range.last; ++row)
       selected.push_back(static_cast<std::uint32_t>(row));
-    }
-  }
   return selected;
 }
 

@@ -24,23 +24,16 @@ struct RunOptions {
 int run(const RunOptions& options, const Globals& globals) {
   const auto begin = std::chrono::steady_clock::now();
   casefile::Case the_case = casefile::read_case(options.case_file, options.overrides);
-  if (the_case.job.priority() == v1::Job::PRIORITY_UNSPECIFIED) {
+  if (the_case.job.priority() == v1::Job::PRIORITY_UNSPECIFIED)
     the_case.job.set_priority(v1::Job::PRIORITY_INTERACTIVE);  // somebody waits for it
-  }
   const std::filesystem::path output = result_file(options.case_file, options.output);
   Session session(globals);
-  if (!the_case.job.title().empty()) {
-    say(globals, the_case.job.title());
-  }
+  if (!the_case.job.title().empty()) say(globals, the_case.job.title());
   const Followed followed = submit_and_follow(session, the_case);
   const int job_code = exit_code_of(globals, followed);
-  if (followed.how == Followed::How::detached) {
-    return job_code;
-  }
+  if (followed.how == Followed::How::detached) return job_code;
   const auto result = results_of(session, the_case, followed, begin);
-  if (!result) {
-    return job_code;
-  }
+  if (!result) return job_code;
   save(output, *result, session, followed);
   print_answers(globals, *result, output);
   return job_code != exit_ok ? job_code : exit_code_of(*result);

@@ -27,18 +27,16 @@ std::vector<std::string> feature_lines(const v1::ServerInfo& info) {
   }
   std::vector<std::string> lines;
   lines.reserve(groups.size());
-  for (const auto& [name, features] : groups) {
+  for (const auto& [name, features] : groups)
     lines.push_back(name.empty() ? features : sanitise(name) + ": " + features);
-  }
   return lines;
 }
 
 std::string seconds(const google::protobuf::Duration& time) {
   constexpr std::int64_t hour = 3600;
   constexpr std::int64_t day = 24 * hour;
-  if (time.seconds() >= 2 * day && time.seconds() % day == 0) {
+  if (time.seconds() >= 2 * day && time.seconds() % day == 0)
     return std::to_string(time.seconds() / day) + " days";
-  }
   return time.seconds() >= hour && time.seconds() % hour == 0
              ? std::to_string(time.seconds() / hour) + " h"
              : std::to_string(time.seconds()) + " s";
@@ -51,9 +49,8 @@ std::string info_text(const v1::ServerInfo& info, const std::string& address) {
       {"address", sanitise(address)},
       {"version", sanitise(info.version()) + " (" + sanitise(info.build()) + ")"},
       {"started", clock_text(info.start_time().seconds())}};
-  for (const std::string& line : feature_lines(info)) {
+  for (const std::string& line : feature_lines(info))
     rows.push_back({rows.size() == 3 ? "features" : "", line});
-  }
   const std::vector<std::vector<std::string>> counters{
       {"solver threads", std::to_string(info.threads())},
       {"jobs", std::to_string(metrics.jobs_queued()) + " queued, " +

@@ -32,9 +32,8 @@ bool is_port(std::string_view text) {
 
 void check_server_address(const std::string& address) {
   if (has_scheme(address)) return;
-  if (address.find('/') != std::string::npos) {
+  if (address.find('/') != std::string::npos)
     refuse(address, "no address of a server; write HOST:PORT, or unix:PATH for a socket");
-  }
   const std::size_t colon = address.rfind(':');
   const std::string host = address.substr(0, colon);
   const bool bare = host.find(':') != std::string::npos && host.back() != ']';  // IPv6
@@ -43,12 +42,10 @@ void check_server_address(const std::string& address) {
                         (bare && address.back() != ']' ? "[" + address + "]" : address) + ":7433");
   }
   const std::string port = address.substr(colon + 1);
-  if (host.empty()) {
+  if (host.empty())
     refuse(address, "no host is named; write HOST:PORT, for example localhost" + address);
-  }
-  if (!is_port(port)) {
+  if (!is_port(port))
     refuse(address, "\"" + port + "\" is not a port; write a number from 1 to 65535");
-  }
 }
 
 }  // namespace anticrack::cli

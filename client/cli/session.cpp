@@ -31,11 +31,10 @@ void print_document(std::string_view text) {
 }
 
 void tell_deleted(const Globals& globals, const std::string& name) {
-  if (globals.json) {
+  if (globals.json)
     print_document(JsonWriter().begin_object().value("deleted", name).end_object().text());
-  } else {
+  else
     say(globals, name + ": deleted");
-  }
 }
 
 Session::Session(const Globals& globals) : _globals(globals) {

@@ -22,9 +22,8 @@ sigset_t listened_set() {
   sigset_t set;
   sigemptyset(&set);
   sigaddset(&set, end_of_listening);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGTSTP, SIGCONT, SIGWINCH}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGTSTP, SIGCONT, SIGWINCH})
     if (!is_ignored(number)) sigaddset(&set, number);
-  }
   return set;
 }
 

@@ -23,11 +23,8 @@ void upload_forces(Session& session, const casefile::Case& the_case, v1::Job& jo
   // One upload for every content: loads often share a file.
   std::map<std::pair<std::filesystem::path, std::string>, std::size_t> indices;
   std::vector<const casefile::ForceFile*> files;
-  for (const casefile::ForceFile& file : the_case.force_files) {
-    if (indices.try_emplace({file.path, file.dataset}, files.size()).second) {
-      files.push_back(&file);
-    }
-  }
+  for (const casefile::ForceFile& file : the_case.force_files)
+    if (indices.try_emplace({file.path, file.dataset}, files.size()).second) files.push_back(&file);
   const auto spot_of = [&](std::size_t index) {
     return the_case.locate("load_cases[" + std::to_string(files[index]->load_case) + "].force")
         .value();
@@ -108,10 +105,9 @@ v1::Mesh create_mesh(Session& session, const casefile::Case& the_case) {
   }
   return translated(the_case, [&] {
     v1::CreateMeshRequest request = the_case.mesh;
-    if (the_case.mesh_file) {
+    if (the_case.mesh_file)
       request.set_upload(
           client::upload_mesh(session.connection(), *the_case.mesh_file, session.stop()));
-    }
     return client::create_mesh(session.connection(), request, session.stop());
   });
 }
@@ -120,9 +116,7 @@ v1::Job submit(Session& session, const casefile::Case& the_case, const std::stri
                const Prepare& prepare) {
   v1::Job job = the_case.job;
   upload_forces(session, the_case, job);  // first: a file that cannot be read starts nothing
-  if (prepare) {
-    translated(the_case, [&] { prepare(job); });
-  }
+  if (prepare) translated(the_case, [&] { prepare(job); });
   const v1::Mesh mesh = create_mesh(session, the_case);
   return translated(the_case, [&] {
     job.set_mesh(mesh.name());

@@ -50,9 +50,8 @@ casefile::Case read_case(const SweepOptions& options, const Globals& globals) {
 void check_mesh(Session& session, const casefile::Case& the_case, const SweepInput& input) {
   if (!input.nodal) return;
   const v1::Mesh mesh = follow_mesh(session, create_mesh(session, the_case).name());
-  if (mesh.state() != v1::Mesh::STATE_FAILED) {  // else the job gives the reason
+  if (mesh.state() != v1::Mesh::STATE_FAILED)  // else the job gives the reason
     check_nodes(input, mesh.node_count());
-  }
 }
 
 void add_matrix(Session& session, const SweepInput& input, v1::Job& job) {

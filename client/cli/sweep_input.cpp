@@ -62,9 +62,8 @@ std::vector<std::size_t> loads_of_columns(const std::vector<std::string>& names,
       fail(source, "its attribute loads: " + name + " is not a load of the case; " +
                        casefile::suggestion(name, loads));
     }
-    if (std::find(columns.begin(), columns.end(), load) != columns.end()) {
+    if (std::find(columns.begin(), columns.end(), load) != columns.end())
       fail(source, "its attribute loads: " + name + " is there twice; name each load once");
-    }
     columns.push_back(load);
   }
   return columns;
@@ -75,9 +74,8 @@ void sort_columns(const std::vector<std::size_t>& loads_of, SweepInput& input) {
   std::vector<double> sorted(input.columns);
   for (auto row = input.values.begin(); row != input.values.end();
        row += static_cast<std::ptrdiff_t>(input.columns)) {
-    for (std::size_t j = 0; j < input.columns; ++j) {
+    for (std::size_t j = 0; j < input.columns; ++j)
       sorted[loads_of[j]] = row[static_cast<std::ptrdiff_t>(j)];
-    }
     std::copy(sorted.begin(), sorted.end(), row);
   }
 }
@@ -123,9 +121,8 @@ void check_solver(const casefile::Case& the_case) {
 
 void check_limits(const SweepInput& input, const v1::ServerLimits& limits) {
   const std::string& source = input.source;
-  if (limits.sweep_rows() == 0) {
+  if (limits.sweep_rows() == 0)
     fail(source, "the server knows no sweeps; update it, or name a newer one with --server");
-  }
   if (input.rows > limits.sweep_rows()) {
     fail(source, "it has " + std::to_string(input.rows) + " rows, the server takes " +
                      std::to_string(limits.sweep_rows()) +
@@ -151,11 +148,10 @@ SweepInput read_sweep_input(const SweepFiles& files, const casefile::Case& the_c
   input.nodal = !files.nodal.empty();
   input.source = input.nodal ? files.nodal : files.coefficients;
   input.traces = files.traces;
-  if (input.nodal) {
+  if (input.nodal)
     read_nodal(files, input);
-  } else {
+  else
     read_combinations(files, the_case, input);
-  }
   return input;
 }
 

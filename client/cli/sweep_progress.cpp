@@ -32,18 +32,16 @@ std::vector<RowSet::Interval> RowSet::add(std::uint64_t begin, std::uint64_t end
 }
 
 double SweepProgress::rate() const noexcept {
-  if (_samples.empty() || !(_now > _samples.front().seconds)) {
+  if (_samples.empty() || !(_now > _samples.front().seconds))
     return std::numeric_limits<double>::quiet_NaN();
-  }
   return static_cast<double>(_counts.done - _samples.front().done) /
          (_now - _samples.front().seconds);
 }
 
 double SweepProgress::seconds_left() const noexcept {
   const double rows_a_second = rate();
-  if (total < _counts.done || total == 0 || !(rows_a_second > 0)) {
+  if (total < _counts.done || total == 0 || !(rows_a_second > 0))
     return std::numeric_limits<double>::quiet_NaN();
-  }
   return static_cast<double>(total - _counts.done) / rows_a_second;
 }
 
@@ -66,9 +64,7 @@ void SweepProgress::raise(const Counts& counts) {
 void SweepProgress::apply(const v1::SweepRows& rows, double seconds) {
   const auto count_of_rows = static_cast<std::uint64_t>(rows.status_size());
   const std::uint64_t limit = total > 0 ? total : std::numeric_limits<std::uint64_t>::max();
-  if (rows.first_row() >= limit) {
-    return;
-  }
+  if (rows.first_row() >= limit) return;
   if (_samples.empty()) _samples.push_back({seconds, _counts.done});
   const std::uint64_t end = rows.first_row() + std::min(count_of_rows, limit - rows.first_row());
   for (const RowSet::Interval& interval : _rows.add(rows.first_row(), end)) count(rows, interval);

@@ -48,9 +48,8 @@ void append(std::string& text, double value) {
 std::string csv_head(const results::Sweep& sweep, std::size_t loads) {
   std::string head = "row";
   for (std::size_t i = 0; i < loads; ++i) head += "," + sweep.loads[i];
-  for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
+  for (std::size_t i = 0; i < sweep.inclusions.size(); ++i)
     head += "," + name_of_displacement(sweep, i);
-  }
   return head + ",energy,contact_length,steps,status\n";
 }
 
@@ -68,9 +67,8 @@ std::string sweep_table(const results::Sweep& sweep) {
     const auto add = [&rows](const std::string& name, const SweepSummary::Range& range) {
       rows.push_back({sanitise(name), number(range.low), number(range.high)});
     };
-    for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
+    for (std::size_t i = 0; i < sweep.inclusions.size(); ++i)
       add(name_of_displacement(sweep, i), counts.displacement[i]);
-    }
     add("contact length", counts.contact_length);
     add("energy", counts.energy);
     text += table(rows);

@@ -51,9 +51,8 @@ bool takes_frames(std::FILE* stream) {
 
 Size size_of(std::FILE* terminal) {
   winsize size{};
-  if (ioctl(fileno(terminal), TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) {
+  if (ioctl(fileno(terminal), TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0)
     return {};
-  }
   return {size.ws_col, size.ws_row};
 }
 
@@ -144,9 +143,8 @@ void Painter::write(const std::string& text) {
 void Painter::hide_keys() {
   termios modes{};
   if (in_background(_terminal) || tcgetattr(fileno(_terminal), &modes) != 0 ||
-      (modes.c_lflag & ECHO) == 0) {
+      (modes.c_lflag & ECHO) == 0)
     return;
-  }
   _before = modes;
   modes.c_lflag &= ~static_cast<tcflag_t>(ECHO | ECHONL);
   tcsetattr(fileno(_terminal), TCSANOW, &modes);

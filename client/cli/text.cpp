@@ -125,9 +125,8 @@ std::string time_text(double seconds) {
   constexpr std::int64_t minute = 60;
   constexpr std::int64_t hour = 60 * minute;
   if (whole < minute) return std::to_string(whole) + " s";
-  if (whole < hour) {
+  if (whole < hour)
     return std::to_string(whole / minute) + " min " + std::to_string(whole % minute) + " s";
-  }
   return std::to_string(whole / hour) + " h " + std::to_string(whole % hour / minute) + " min";
 }
 
@@ -135,9 +134,7 @@ std::string clock_text(std::int64_t seconds) {
   const auto time = static_cast<std::time_t>(seconds);
   std::tm local{};
   std::array<char, 64> buffer{};
-  if (localtime_r(&time, &local) == nullptr) {
-    return "-";  // no year that fits
-  }
+  if (localtime_r(&time, &local) == nullptr) return "-";  // no year that fits
   return {buffer.data(), std::strftime(buffer.data(), buffer.size(), "%Y-%m-%d %H:%M:%S", &local)};
 }
 
@@ -146,9 +143,8 @@ std::string table(const std::vector<std::vector<std::string>>& rows,
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()), 0);
-    for (std::size_t j = 0; j < row.size(); ++j) {
+    for (std::size_t j = 0; j < row.size(); ++j)
       widths[j] = std::max(widths[j], columns_of(row[j]));
-    }
   }
   std::string text;
   for (const auto& row : rows) {

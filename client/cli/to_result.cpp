@@ -46,11 +46,10 @@ void set_solver(const v1::Solver& solver, results::Load& load) {
   load.method = "uzawa";
   load.mass = uzawa.mass() == v1::MASS_CONSISTENT ? "consistent" : "lumped";
   load.p = uzawa.has_p() ? uzawa.p() : 1e5;
-  if (uzawa.has_kkt_tolerance()) {
+  if (uzawa.has_kkt_tolerance())
     load.kkt_tolerance = uzawa.kkt_tolerance();
-  } else {
+  else
     load.epsilon = uzawa.has_epsilon() ? uzawa.epsilon() : 1e-12;
-  }
 }
 
 /// Copies the fields of the answer that the file has under the same name.
@@ -85,9 +84,8 @@ results::Load to_load(const v1::LoadCase& load_case, const v1::LoadCaseAnswer& a
   set_solver(solver, load);
   load.iterations = answer.iterations();
   load.solve_seconds = seconds_of(answer.solve_time());
-  if (load.status != results::Status::converged && load.status != results::Status::not_converged) {
+  if (load.status != results::Status::converged && load.status != results::Status::not_converged)
     return load;
-  }
   copy_scalars(answer, load);
   load.theta = positive_or_unknown(load.theta);
   load.theta_star = positive_or_unknown(load.theta_star);
@@ -117,10 +115,8 @@ void add_contact(const v1::LoadCaseAnswer& answer,
 std::vector<results::ArrayView> views_of(const client::Block& block) {
   std::vector<results::ArrayView> views;
   for (const v1::ArrayLayout& array : block.layout.arrays()) {
-    if (array.type() < v1::ArrayLayout::TYPE_FLOAT64 ||
-        array.type() > v1::ArrayLayout::TYPE_UINT8) {
+    if (array.type() < v1::ArrayLayout::TYPE_FLOAT64 || array.type() > v1::ArrayLayout::TYPE_UINT8)
       continue;  // of a later version
-    }
     views.push_back(results::view(array.name(), static_cast<results::ValueType>(array.type()),
                                   {array.shape().begin(), array.shape().end()}, array.offset(),
                                   std::span(block.bytes)));
@@ -168,13 +164,11 @@ results::MeshPlan to_mesh_plan(const v1::Mesh& mesh, const client::Block& block)
   plan.title = mesh.title().empty() ? mesh.name() : mesh.title();
   add_names(mesh, plan.mesh);
   plan.interfaces.reserve(static_cast<std::size_t>(mesh.interfaces_size()));
-  for (const v1::InterfaceInfo& interface : mesh.interfaces()) {
+  for (const v1::InterfaceInfo& interface : mesh.interfaces())
     plan.interfaces.emplace_back().name = interface.name();
-  }
   plan.tips.reserve(static_cast<std::size_t>(mesh.tips_size()));
-  for (const v1::TipInfo& tip : mesh.tips()) {
+  for (const v1::TipInfo& tip : mesh.tips())
     plan.tips.push_back({tip.at().x(), tip.at().y(), tip.smallest_edge()});
-  }
   return results::assemble_mesh(std::move(plan), views_of(block));
 }
 
@@ -201,9 +195,8 @@ results::Result to_result(const Fetched& fetched) {
     result.loads = to_loads(fetched.job);
     for (std::size_t i = 0; i < result.loads.size(); ++i) {
       result.timings.solve_seconds += result.loads[i].solve_seconds;
-      if (static_cast<int>(i) < fetched.job.answers_size()) {
+      if (static_cast<int>(i) < fetched.job.answers_size())
         add_contact(fetched.job.answers(static_cast<int>(i)), interfaces, result.loads[i]);
-      }
     }
   }
   return results::assemble(std::move(result), views_of(fetched.mesh_block),

@@ -15,11 +15,9 @@ using Words = std::vector<std::string>;
 
 Words commands_of(CLI::App& app) {
   Words names;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    if (!command->get_name().empty()) {  // else it is a group of options
+  for (const CLI::App* command : app.get_subcommands({}))
+    if (!command->get_name().empty())  // else it is a group of options
       names.push_back(command->get_name());
-    }
-  }
   return names;
 }
 
@@ -31,16 +29,14 @@ std::string path_of(const CLI::App& app) {
 
 // An option of a command or of one above it, whose options it takes too; null for none.
 const CLI::Option* option_of(const CLI::App* app, const std::string& name) {
-  for (; app != nullptr; app = app->get_parent()) {
+  for (; app != nullptr; app = app->get_parent())
     if (const CLI::Option* option = app->get_option_no_throw(name)) return option;
-  }
   return nullptr;
 }
 
 void add_options_of(const CLI::App& app, Words& names) {
-  for (const CLI::Option* option : app.get_options()) {
+  for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
   const auto is_group = [](const CLI::App* below) { return below->get_name().empty(); };
   for (const CLI::App* group : app.get_subcommands(is_group)) add_options_of(*group, names);
 }
@@ -72,9 +68,8 @@ std::string takers_below(const CLI::App& app, const std::string& name, const std
 }
 
 std::string unknown_option(const CLI::App& app, const std::string& name) {
-  if (const std::string takers = takers_below(app, name, ""); !takers.empty()) {
+  if (const std::string takers = takers_below(app, name, ""); !takers.empty())
     return name + " is an option of " + takers + "; write it behind the command";
-  }
   const auto meant = casefile::nearest(name, options_of(&app));
   return "unknown option " + name + " of " + path_of(app) +
          (meant ? "; did you mean " + *meant + "?" : see(app));
@@ -91,9 +86,8 @@ class Walk {
       const std::string& word = _words[_next];
       if (word == "--") return "";
       const bool option = word.size() > 1 && word.front() == '-';
-      if (std::string found = option ? of_option(word) : of_word(word); !found.empty()) {
+      if (std::string found = option ? of_option(word) : of_word(word); !found.empty())
         return found;
-      }
     }
     return "";
   }
@@ -120,20 +114,17 @@ class Walk {
                  ? "unexpected argument " + word + " of " + path_of(*_level) + see(*_level)
                  : "";
     }
-    if (std::find(commands.begin(), commands.end(), word) == commands.end()) {
+    if (std::find(commands.begin(), commands.end(), word) == commands.end())
       return "unknown command " + word + "; " + cure(word, commands);
-    }
     _level = _level->get_subcommand(word);
     return "";
   }
 
   // What a person types who forgets the command.
   std::string cure(const std::string& word, const Words& commands) const {
-    for (const auto& [end, command] : {std::pair{".toml", "run"}, std::pair{".h5", "show"}}) {
-      if (word.ends_with(end) && _level->get_parent() == nullptr) {
+    for (const auto& [end, command] : {std::pair{".toml", "run"}, std::pair{".h5", "show"}})
+      if (word.ends_with(end) && _level->get_parent() == nullptr)
         return std::string("did you mean anticrack ") + command + " " + word + "?";
-      }
-    }
     return casefile::suggestion(word, commands);
   }
 
@@ -165,9 +156,8 @@ std::string of_error(const CLI::ParseError& error) {
   const std::size_t list = text.find('[');
   if (text.starts_with("Exactly 1 ") && list != std::string::npos) {
     std::string names;
-    for (const char c : text.substr(list + 1, text.find(']') - list - 1)) {
+    for (const char c : text.substr(list + 1, text.find(']') - list - 1))
       names += c == ',' ? std::string(", ") : std::string(1, c);
-    }
     return "give exactly one of " + names;
   }
   return text;

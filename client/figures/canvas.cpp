@@ -47,9 +47,8 @@ std::string driver(const Output& output, const Canvas& size) {
 }
 
 std::string terminal(const Output& output, const Canvas& size) {
-  if (!is_bare_name(output.file)) {
+  if (!is_bare_name(output.file))
     throw std::invalid_argument("\"" + output.file + "\" is not a bare file name");
-  }
   return "set terminal " + driver(output, size) + " font 'DejaVu Sans,8'\nset output '" +
          output.file + "'\n";
 }
@@ -59,11 +58,10 @@ std::vector<std::string> title_lines(const Title& title, std::size_t most) {
   if (title.second.empty()) return lines;
   const std::string joined =
       lines.empty() ? std::string() : lines.back() + " \xE2\x80\x94 " + title.second;
-  if (lines.empty() || length(joined) > most) {
+  if (lines.empty() || length(joined) > most)
     lines.push_back(title.second);
-  } else {
+  else
     lines.back() = joined;
-  }
   return lines;
 }
 

@@ -23,9 +23,8 @@ const std::string blue_solid = "linecolor " + blue + " dashtype solid";
 /// Algorithm 2 has its criterion; the active set has none, it is done when the conditions hold.
 std::vector<Series> series_of(const Load& load) {
   const results::History& history = load.history;
-  if (load.method != "active-set") {
+  if (load.method != "active-set")
     return {{&history.criterion, "relative change of u, squared", blue_solid}};
-  }
   return {
       {&history.kkt.gap, "gap", blue_solid},
       {&history.kkt.sign, "sign", "linecolor " + vermillion + " dashtype (8,4)"},
@@ -51,9 +50,8 @@ double foot(const Load& load) {
 }
 
 bool has_zero(const Load& load) {
-  for (const Series& series : series_of(load)) {
+  for (const Series& series : series_of(load))
     if (std::count(series.values->begin(), series.values->end(), 0.0) > 0) return true;
-  }
   return false;
 }
 

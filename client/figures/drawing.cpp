@@ -55,9 +55,8 @@ class Partials {
     static std::atomic<unsigned> counter{0};
     const std::string stem = ".anticrack-" + std::to_string(getpid()) + "-" +
                              std::to_string(counter.fetch_add(1)) + ".partial";
-    for (const Format format : options.formats) {
+    for (const Format format : options.formats)
       outputs.push_back({format, stem + kind_of(format).extension, options.dpi, options.titles});
-    }
   }
   Partials(const Partials&) = delete;
   Partials& operator=(const Partials&) = delete;

@@ -26,17 +26,15 @@ std::string traces_suffix(std::size_t interface) {
 
 void draw_traces(const Result& result, const Load& load, const std::string& stem,
                  Drawing& drawing) {
-  for (std::size_t i = 0; i < load.traces.size(); ++i) {
+  for (std::size_t i = 0; i < load.traces.size(); ++i)
     drawing.draw(stem + traces_suffix(i), traces_picture(result, load, i));
-  }
 }
 
 /// A sweep may have kept thousands of rows.
 void draw_kept_rows(const Result& result, Drawing& drawing) {
   constexpr std::size_t most = 12;
-  for (std::size_t i = 0; i < std::min(most, result.loads.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(most, result.loads.size()); ++i)
     draw_traces(result, result.loads[i], result.loads[i].name, drawing);
-  }
   if (result.loads.size() > most) {
     drawing.drawn.notes.push_back("traces drawn of the first " + std::to_string(most) + " of " +
                                   std::to_string(result.loads.size()) + " rows");
@@ -63,9 +61,7 @@ void draw_load(const Result& result, const Load& load, const std::string& stem, 
     drawing.draw(stem + "-membrane", membrane_picture(result, load, membrane));
   }
   draw_traces(result, load, stem, drawing);
-  if (has_convergence(load)) {
-    drawing.draw(stem + "-convergence", convergence_picture(result, load));
-  }
+  if (has_convergence(load)) drawing.draw(stem + "-convergence", convergence_picture(result, load));
 }
 
 void note_single_steps(const Result& result, Drawing& drawing) {
@@ -95,9 +91,8 @@ Drawn draw(const Result& result, const fs::path& folder, const Options& options)
     draw_kept_rows(result, drawing);
     return std::move(drawing.drawn);
   }
-  for (std::size_t i = 0; i < result.loads.size(); ++i) {
+  for (std::size_t i = 0; i < result.loads.size(); ++i)
     draw_load(result, result.loads[i], stems[i], drawing);
-  }
   note_single_steps(result, drawing);
   return std::move(drawing.drawn);
 }

@@ -112,9 +112,8 @@ class Child {
 /// The environment with a locale in which numbers have a point and text is UTF-8.
 std::vector<char*> environment(std::string& locale) {
   std::vector<char*> variables{locale.data()};
-  for (char** each = environ; *each != nullptr; ++each) {
+  for (char** each = environ; *each != nullptr; ++each)
     if (!std::string_view(*each).starts_with("LC_ALL=")) variables.push_back(*each);
-  }
   variables.push_back(nullptr);
   return variables;
 }
@@ -148,9 +147,8 @@ pid_t spawn(const std::filesystem::path& folder, int in, int err) {
                                  environment(locale).data());
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-  if (error == ENOENT && std::filesystem::is_directory(folder)) {
+  if (error == ENOENT && std::filesystem::is_directory(folder))
     throw Error("gnuplot is not installed; install the package gnuplot-nox and try again");
-  }
   if (error != 0) fail("cannot be started", error);
   return pid;
 }

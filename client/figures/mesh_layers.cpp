@@ -72,9 +72,8 @@ void add_triangles(const Mesh& mesh, const Window& window, MeshLayers& to) {
 void add_boundary(const Mesh& mesh, MeshLayers& to) {
   std::vector<Edge> prescribed;
   prescribed.reserve(mesh.boundary.size() / 2);
-  for (std::size_t b = 0; b + 1 < mesh.boundary.size(); b += 2) {
+  for (std::size_t b = 0; b + 1 < mesh.boundary.size(); b += 2)
     prescribed.push_back(std::minmax<std::int32_t>({mesh.boundary[b], mesh.boundary[b + 1]}));
-  }
   std::sort(prescribed.begin(), prescribed.end());
   for (const Edge& edge : outer_edges(mesh)) {
     const bool given = std::binary_search(prescribed.begin(), prescribed.end(), edge);
@@ -162,14 +161,11 @@ std::vector<T> thinned(const std::vector<T>& all, std::size_t count) {
 void add_subdomain_names(const Mesh& mesh, const Window& window, MeshLayers& to) {
   std::vector<Spot> lines;
   for (const auto* stretches : {&to.dirichlet, &to.neumann, &to.interfaces[1], &to.interfaces[2],
-                                &to.interfaces[3], &to.interfaces[4]}) {
-    for (const Stretch& stretch : *stretches) {
+                                &to.interfaces[3], &to.interfaces[4]})
+    for (const Stretch& stretch : *stretches)
       lines.insert(lines.end(), stretch.begin(), stretch.end());
-    }
-  }
-  for (const auto* pointers : {&to.plus_sides, &to.inclusions}) {
+  for (const auto* pointers : {&to.plus_sides, &to.inclusions})
     for (const Pointer& pointer : *pointers) lines.push_back(pointer.to);
-  }
   lines = thinned(lines, 1000);
   const double margin_x = 0.12 * window.width();
   const double margin_y = 0.08 * window.height();
@@ -198,9 +194,8 @@ void add_subdomain_names(const Mesh& mesh, const Window& window, MeshLayers& to)
 Window whole(const Mesh& mesh) {
   std::vector<Spot> spots;
   spots.reserve(mesh.node_count());
-  for (std::size_t i = 0; i < mesh.node_count(); ++i) {
+  for (std::size_t i = 0; i < mesh.node_count(); ++i)
     spots.push_back({mesh.xy[2 * i], mesh.xy[2 * i + 1]});
-  }
   Window box = spots.empty() ? Window{0, 1, 0, 1} : box_of(spots);
   const double margin = 0.03 * std::max(box.width(), box.height());
   return {box.x_min - margin, box.x_max + margin, box.y_min - margin, box.y_max + margin};
@@ -212,9 +207,8 @@ bool finest_tip(const MeshPlan& plan, Window& window, results::Tip& tip) {
     return a.smallest_edge < b.smallest_edge;
   });
   double area = 0;
-  for (std::size_t t = 0; t < plan.mesh.triangle_count(); ++t) {
+  for (std::size_t t = 0; t < plan.mesh.triangle_count(); ++t)
     area += triangle_area(triangle_of(plan.mesh, t));
-  }
   const double typical = std::sqrt(2 * area / static_cast<double>(plan.mesh.triangle_count()));
   if (tip.smallest_edge > typical / 4) return false;
   const Window all = whole(plan.mesh);
@@ -232,9 +226,8 @@ MeshLayers layers(const MeshPlan& plan, const Window& window) {
     add_stretches(plan, line, smallest, result);
     add_pointers(plan, line, window, result);
   }
-  for (const results::Tip& tip : plan.tips) {
+  for (const results::Tip& tip : plan.tips)
     if (inside({tip.x, tip.y}, window)) result.tips.push_back(tip);
-  }
   add_subdomain_names(plan.mesh, window, result);
   return result;
 }

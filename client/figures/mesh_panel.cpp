@@ -58,9 +58,8 @@ std::string lines_of(const std::vector<Stretch>& stretches) {
 
 std::string triangles_of(const std::vector<std::array<Spot, 3>>& triangles) {
   std::string text;
-  for (const auto& triangle : triangles) {
+  for (const auto& triangle : triangles)
     text += at(triangle[0]) + at(triangle[1]) + at(triangle[2]) + at(triangle[0]) + "\n";
-  }
   return text;
 }
 
@@ -118,12 +117,10 @@ std::string labels(const MeshLayers& layers) {
             " head filled size screen 0.008,22 linewidth 1.2 linecolor rgb '#000000' front\n";
     text += label(side.name + " +", side.to, beyond(side), "#000000");
   }
-  for (const Pointer& inclusion : layers.inclusions) {
+  for (const Pointer& inclusion : layers.inclusions)
     text += label(inclusion.name, inclusion.to, beyond(inclusion), "#000000");
-  }
-  for (const auto& [spot, name] : layers.subdomain_names) {
+  for (const auto& [spot, name] : layers.subdomain_names)
     text += label(name, spot, "center", "#555555");
-  }
   return text;
 }
 
@@ -131,12 +128,10 @@ std::string labels(const MeshLayers& layers) {
 
 std::string mesh_data(const MeshLayers& layers, const std::string& tag) {
   std::string text;
-  for (std::size_t d = 0; d < layers.triangles.size(); ++d) {
+  for (std::size_t d = 0; d < layers.triangles.size(); ++d)
     text += mesh_block("subdomain" + std::to_string(d) + tag, triangles_of(layers.triangles[d]));
-  }
-  for (const auto& [style, stretches] : line_layers(layers)) {
+  for (const auto& [style, stretches] : line_layers(layers))
     text += mesh_block(style.name + tag, lines_of(*stretches));
-  }
   std::string points;
   for (const results::Tip& tip : layers.tips) points += at({tip.x, tip.y});
   return text + mesh_block(tips.name + tag, points);
@@ -178,14 +173,11 @@ std::string mesh_legend(const MeshLayers& layers, int rows, const Place& place) 
   text += "set xrange [0:1]\nset yrange [0:1]\n" + figures::margins(place, 0, 1, 0, 1);
   text += legend(rows, place);
   std::string keys = "plot NaN notitle";
-  for (const auto& [style, stretches] : line_layers(layers)) {
-    if (!stretches->empty()) {
+  for (const auto& [style, stretches] : line_layers(layers))
+    if (!stretches->empty())
       keys += std::string(", keyentry with ") + style.drawn + " title '" + style.legend + "'";
-    }
-  }
-  if (!layers.tips.empty()) {
+  if (!layers.tips.empty())
     keys += std::string(", keyentry with ") + tips.drawn + " title '" + tips.legend + "'";
-  }
   return text + keys + "\n";
 }
 

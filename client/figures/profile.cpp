@@ -18,11 +18,10 @@ std::vector<std::pair<std::size_t, std::size_t>> runs(
   std::vector<std::pair<std::size_t, std::size_t>> found;
   for (std::size_t i = 0; i < count; ++i) {
     if (key(i) < 0) continue;
-    if (i > 0 && key(i - 1) == key(i)) {
+    if (i > 0 && key(i - 1) == key(i))
       found.back().second = i;
-    } else {
+    else
       found.emplace_back(i, i);
-    }
   }
   return found;
 }
@@ -62,9 +61,8 @@ Profile profile(const results::Result& result, std::size_t index, const results:
   const auto edges_of = [&](Kind kind) {
     std::vector<Band> bands;
     for (const auto& [first, last] :
-         runs(edges, [&](std::size_t e) { return interface.edges.kind[e] == kind ? 0 : -1; })) {
+         runs(edges, [&](std::size_t e) { return interface.edges.kind[e] == kind ? 0 : -1; }))
       bands.push_back(band(at[first], at[last + 1]));
-    }
     return bands;
   };
   const std::vector<std::int32_t>& inclusion = interface.edges.inclusion;

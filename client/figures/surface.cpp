@@ -34,9 +34,8 @@ Cut cut_open(const Load& load) {
     cut.u.insert(cut.u.end(), field.u.begin(), field.u.end());
     for (std::size_t t = 0; t + 2 < field.triangles.size(); t += 3) {
       Corners corners{};
-      for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t c = 0; c < 3; ++c)
         corners[c] = first + static_cast<std::size_t>(field.triangles[t + c]);
-      }
       cut.triangles.push_back(corners);
     }
   }
@@ -61,9 +60,8 @@ std::vector<int> classes(const Mesh& mesh, const Cut& cut) {
   const std::vector<bool> outer = outer_nodes(mesh);
   std::vector<int> of;
   of.reserve(cut.node.size());
-  for (const std::size_t node : cut.node) {
+  for (const std::size_t node : cut.node)
     of.push_back((outer[node] ? 1 : 0) + (faces[node] > 1 ? 2 : 0));
-  }
   return of;
 }
 
@@ -104,9 +102,8 @@ std::vector<std::size_t> merged(const Mesh& mesh, const Cut& cut, const std::vec
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t a = corners[c];
       const std::size_t b = corners[(c + 1) % 3];
-      if (of[a] == of[b] && cell_of(a, 0) == cell_of(b, 0) && cell_of(a, 1) == cell_of(b, 1)) {
+      if (of[a] == of[b] && cell_of(a, 0) == cell_of(b, 0) && cell_of(a, 1) == cell_of(b, 1))
         merger.merge(a, b);
-      }
     }
   }
   std::vector<std::size_t> into(cut.node.size());

@@ -30,11 +30,10 @@ std::string without_empty_groups(std::string_view svg) {
     const std::string_view line =
         svg.substr(0, svg.find('\n') == std::string_view::npos ? svg.size() : svg.find('\n') + 1);
     svg.remove_prefix(line.size());
-    if (trimmed(line) == "</g>" && !kept.empty() && only_opens_a_group(kept.back())) {
+    if (trimmed(line) == "</g>" && !kept.empty() && only_opens_a_group(kept.back()))
       kept.pop_back();
-    } else {
+    else
       kept.push_back(line);
-    }
   }
   std::string text;
   for (const std::string_view line : kept) text += line;

@@ -55,9 +55,8 @@ Title sweep_title(const Result& result) {
 std::string counted_rows(const Sweep& sweep) {
   const results::SweepSummary counts = summary(sweep);
   std::string text = std::to_string(sweep.rows()) + (sweep.rows() == 1 ? " row" : " rows");
-  if (counts.converged < sweep.rows()) {
+  if (counts.converged < sweep.rows())
     text += ", " + std::to_string(sweep.rows() - counts.converged) + " without an answer left out";
-  }
   return text;
 }
 
@@ -87,9 +86,8 @@ double step_of(const SweepAxis& axis) {
   const double round = label_step(extent(axis), most);
   if (axis.parameter == SweepAxis::Parameter::row) return std::max(1.0, round);
   if (axis.parameter == SweepAxis::Parameter::angle) {
-    for (const double step : {5.0, 15.0, 30.0, 45.0, 90.0}) {
+    for (const double step : {5.0, 15.0, 30.0, 45.0, 90.0})
       if (extent(axis).size() <= most * step && extent(axis).size() > step) return step;
-    }
   }
   return round;
 }
@@ -194,9 +192,8 @@ Picture contact_picture(const Result& result, const SweepAxis& axis, const Conta
     const auto above = top.find(box.high);
     const double high = above == top.end() ? box.high : above->second;
     for (const double value :
-         {(left + right) / 2, (box.low + high) / 2, left, right, box.low, high}) {
+         {(left + right) / 2, (box.low + high) / 2, left, right, box.low, high})
       data += number(value) + " ";
-    }
     data += number(box.closed) + "\n";
   }
   data += "EOD\n";

@@ -27,9 +27,8 @@ std::vector<std::size_t> varying_columns(const Sweep& sweep) {
   const std::size_t columns = sweep.loads.size();
   for (std::size_t j = 0; j < columns; ++j) {
     bool varies = false;
-    for (std::size_t row = 1; row < sweep.rows() && !varies; ++row) {
+    for (std::size_t row = 1; row < sweep.rows() && !varies; ++row)
       varies = sweep.coefficients[row * columns + j] != sweep.coefficients[j];
-    }
     if (varies) found.push_back(j);
   }
   return found;
@@ -111,11 +110,10 @@ void add_boxes(const std::vector<Cell>& cells, const std::vector<double>& parts,
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const bool goes_on =
         i > 0 && cells[i].node == cells[i - 1].node + 1 && parts[i] == parts[i - 1];
-    if (goes_on) {
+    if (goes_on)
       boxes.back().end = cells[i].end;
-    } else {
+    else
       boxes.push_back({cells[i].begin, cells[i].end, low, high, parts[i]});
-    }
   }
 }
 
@@ -132,9 +130,8 @@ SweepAxis sweep_axis(const Sweep& sweep) {
   if (varying.size() == 1) {
     axis.label = "coefficient of " + name(0, 20) + " [-]";
     axis.parameter = Parameter::coefficient;
-    for (std::size_t row = 0; row < sweep.rows(); ++row) {
+    for (std::size_t row = 0; row < sweep.rows(); ++row)
       axis.position[row] = sweep.coefficients[row * sweep.loads.size() + varying[0]];
-    }
   } else if (varying.size() == 2) {
     std::vector<double> degrees = angles(sweep, varying[0], varying[1]);
     if (!degrees.empty()) {

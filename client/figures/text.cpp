@@ -27,9 +27,8 @@ std::string superscript(int exponent) {
       "\xE2\x81\xB0", "\xC2\xB9",     "\xC2\xB2",     "\xC2\xB3",     "\xE2\x81\xB4",
       "\xE2\x81\xB5", "\xE2\x81\xB6", "\xE2\x81\xB7", "\xE2\x81\xB8", "\xE2\x81\xB9"};
   std::string text;
-  for (const char c : std::to_string(exponent)) {
+  for (const char c : std::to_string(exponent))
     text += c == '-' ? "\xE2\x81\xBB" : digits[static_cast<std::size_t>(c - '0')];
-  }
   return text;
 }
 

@@ -71,9 +71,8 @@ std::string traces_heading(const Profile& profile, const Load& load) {
 /// range of that: it shows zero as zero.
 Range heights(const results::Trace& trace, const Load& load) {
   Range range{0, 0};
-  for (const auto* values : {&trace.u_minus, &trace.u_plus, &trace.jump}) {
+  for (const auto* values : {&trace.u_minus, &trace.u_plus, &trace.jump})
     for (const double value : *values) range.include(value);
-  }
   const double typical = std::isfinite(load.energy) ? std::sqrt(std::abs(load.energy)) : 0;
   if (range.size() < 1e-9 * typical) {
     const double power = std::pow(10.0, std::floor(std::log10(typical)));

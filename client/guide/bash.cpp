@@ -39,11 +39,9 @@ std::string bash_script(const Command& program) {
       << "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
       << "    case \"$path:${COMP_WORDS[i]}\" in\n";
   std::vector<std::string> known, valued;
-  for (const Command* command : commands) {
-    for (const Command& below : command->commands) {
+  for (const Command* command : commands)
+    for (const Command& below : command->commands)
       known.push_back(shell_word(command->path + ":" + below.name));
-    }
-  }
   for (const std::string& option : with_value(program)) valued.push_back("*:" + option);
   out << "      " << joined(valued, " | ") << ") ((++i)) ;;\n"
       << "      " << joined(known, " | ") << ") path=\"${path:+$path }${COMP_WORDS[i]}\" ;;\n"
@@ -54,9 +52,8 @@ std::string bash_script(const Command& program) {
     for (const Option& option : options_of(*command, program)) {
       if (option.value.kind == Value::Kind::none) continue;
       std::vector<std::string> patterns;
-      for (const std::string& of_option : option.names) {
+      for (const std::string& of_option : option.names)
         patterns.push_back(shell_word(command->path + ":" + of_option));
-      }
       add_case(out, joined(patterns, " | "), bash_value(option.value) + "; return");
     }
   }
@@ -64,9 +61,8 @@ std::string bash_script(const Command& program) {
       << "  case \"$path:$current\" in\n";
   for (const Command* command : commands) {
     std::string words;
-    for (const Option& option : options_of(*command, program)) {
+    for (const Option& option : options_of(*command, program))
       for (const std::string& of_option : option.names) words += of_option + " ";
-    }
     add_case(out, shell_word(command->path + ":") + "-*",
              "COMPREPLY=($(compgen -W " + shell_word(words) + " -- \"$current\"))");
   }

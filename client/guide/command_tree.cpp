@@ -12,9 +12,8 @@ namespace {
 Value value_of(const CLI::Option& option) {
   if (option.get_items_expected_max() == 0) return {};
   const std::string type = option.get_type_name();
-  if (type.rfind("FILE", 0) == 0) {  // also FILE.csv
+  if (type.rfind("FILE", 0) == 0)  // also FILE.csv
     return {Value::Kind::file, {}};
-  }
   if (type == "DIR") return {Value::Kind::folder, {}};
   if (type.size() > 2 && type.front() == '{' && type.back() == '}') {
     Value value{Value::Kind::word, {}};
@@ -39,9 +38,8 @@ void add_options(const CLI::App& app, Command& command) {
     for (const std::string& name : option->get_lnames()) result.names.push_back("--" + name);
     const bool known = std::any_of(command.options.begin(), command.options.end(),
                                    [&](const Option& o) { return o.names == result.names; });
-    if (!known) {  // --help is in each group of options again
+    if (!known)  // --help is in each group of options again
       command.options.push_back(std::move(result));
-    }
   }
 }
 

@@ -21,11 +21,9 @@ std::string joined(const std::vector<std::string>& words, const std::string& sep
 std::vector<std::string> with_value(const Command& program) {
   std::vector<std::string> result;
   for (const Command* command : with_all_below(program)) {
-    for (const Option& option : command->options) {
-      if (option.value.kind != Value::Kind::none) {
+    for (const Option& option : command->options)
+      if (option.value.kind != Value::Kind::none)
         result.insert(result.end(), option.names.begin(), option.names.end());
-      }
-    }
   }
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
@@ -41,9 +39,8 @@ std::vector<Option> options_of(const Command& command, const Command& program) {
   if (&command != &program) {
     for (const Option& option : program.options) {
       const auto same = [&](const Option& other) { return other.names == option.names; };
-      if (std::none_of(result.begin(), result.end(), same)) {  // --help is each one's own
+      if (std::none_of(result.begin(), result.end(), same))  // --help is each one's own
         result.push_back(option);
-      }
     }
   }
   return result;

@@ -47,9 +47,8 @@ std::string fish_script(const Command& program) {
       << "      continue\n"
       << "    end\n"
       << "    switch \"$found:$word\"\n";
-  for (const std::string& option : with_value(program)) {
+  for (const std::string& option : with_value(program))
     out << "      case '*:" << option << "'\n        set is_value 1\n";
-  }
   for (const Command* command : commands) {
     for (const Command& below : command->commands) {
       out << "      case " << shell_word(command->path + ":" + below.name) << "\n        set found "

@@ -37,10 +37,9 @@ class PageWriter {
          << plain(page_of(command)) << " \\- " << plain(command.description) << '\n';
     synopsis();
     listed("COMMANDS", [this] {
-      for (const Command& below : _command.commands) {
+      for (const Command& below : _command.commands)
         item("\\fB" + plain(below.name) + "\\fR",
              below.description + ": see " + page_of(below) + "(" + std::to_string(_section) + ")");
-      }
     });
     listed("ARGUMENTS", [this] {
       for (const Option& argument : _command.positionals) {
@@ -70,9 +69,8 @@ class PageWriter {
     _out << ".SH SYNOPSIS\n.B " << plain(_program.name);
     if (!_command.path.empty()) _out << ' ' << plain(_command.path);
     _out << "\n[\\fIOPTIONS\\fR]";
-    for (const Option& argument : _command.positionals) {
+    for (const Option& argument : _command.positionals)
       _out << " \\fI" << plain(argument.names.front()) << "\\fR";
-    }
     if (!_command.commands.empty()) _out << " \\fICOMMAND\\fR";
     _out << '\n';
   }
@@ -92,9 +90,8 @@ class PageWriter {
 
   void add(const Option& option) {
     std::string head;
-    for (const std::string& name : option.names) {
+    for (const std::string& name : option.names)
       head += (head.empty() ? "" : ", ") + ("\\fB" + plain(name) + "\\fR");
-    }
     item(option.type.empty() ? head : head + " \\fI" + plain(option.type) + "\\fR",
          option.description);
   }
@@ -136,9 +133,8 @@ class PageWriter {
 std::vector<Page> manual(const CLI::App& app, int section, const std::string& version) {
   const Command program = command_tree(app);
   std::vector<Page> pages;
-  for (const Command* command : with_all_below(program)) {
+  for (const Command* command : with_all_below(program))
     pages.push_back(PageWriter(program, *command, section, version).page());
-  }
   return pages;
 }
 

@@ -44,9 +44,8 @@ std::string zsh_script(const Command& program) {
       << "  local -a commands options\n"
       << "  for ((i = 2; i < CURRENT; ++i)); do\n"
       << "    case \"$path_:$words[i]\" in\n";
-  for (const std::string& option : with_value(program)) {
+  for (const std::string& option : with_value(program))
     out << "      *:" << option << ") ((++i)) ;;\n";
-  }
   for (const Command* command : commands) {
     for (const Command& below : command->commands) {
       out << "      " << shell_word(command->path + ":" + below.name)
@@ -70,20 +69,17 @@ std::string zsh_script(const Command& program) {
   for (const Command* command : commands) {
     out << "    " << shell_word(command->path) << ")\n"
         << "      options=(\n";
-    for (const Option& option : options_of(*command, program)) {
-      for (const std::string& of_option : option.names) {
+    for (const Option& option : options_of(*command, program))
+      for (const std::string& of_option : option.names)
         out << "        " << described(of_option, option.description) << '\n';
-      }
-    }
     out << "      )\n";
     if (command->commands.empty()) {
       out << "      [[ $PREFIX == -* ]] || { " << zsh_value(first_positional(*command))
           << "; return }\n";
     } else {
       out << "      commands=(\n";
-      for (const Command& below : command->commands) {
+      for (const Command& below : command->commands)
         out << "        " << described(below.name, below.description) << '\n';
-      }
       out << "      )\n";
     }
     out << "      ;;\n";

@@ -32,20 +32,16 @@ void BlockReceiver::accept(const v1::BlockLayout& layout) {
 }
 
 void BlockReceiver::accept(const v1::BlockChunk& chunk) {
-  if (!_started) {
-    damaged("a chunk before the layout");
-  }
+  if (!_started) damaged("a chunk before the layout");
   if (chunk.offset() != offset()) {
     damaged("a chunk at " + std::to_string(chunk.offset()) + " where " + std::to_string(offset()) +
             " was due");
   }
-  if (chunk.data().size() > _block.layout.size() - offset()) {
+  if (chunk.data().size() > _block.layout.size() - offset())
     damaged("more than the announced " + std::to_string(_block.layout.size()) + " bytes");
-  }
   const std::span<const std::byte> data = std::as_bytes(std::span(chunk.data()));
-  if (store::crc32c(data) != chunk.crc32c()) {
+  if (store::crc32c(data) != chunk.crc32c())
     damaged("the checksum of the chunk at " + std::to_string(chunk.offset()) + " is wrong");
-  }
   _block.bytes.insert(_block.bytes.end(), data.begin(), data.end());
 }
 
@@ -55,9 +51,8 @@ Block BlockReceiver::finish() {
             std::to_string(_block.layout.size()) + " bytes");
   }
   const std::string sha256 = store::Sha256().add(_block.bytes).finish();
-  if (sha256 != _block.layout.sha256()) {
+  if (sha256 != _block.layout.sha256())
     damaged("its sha256 is " + sha256 + " and not " + _block.layout.sha256());
-  }
   _started = false;
   return std::exchange(_block, {});
 }

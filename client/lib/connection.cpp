@@ -17,9 +17,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 std::shared_ptr<grpc::ChannelCredentials> credentials_of(const Credentials& credentials) {
-  if (!credentials.tls) {
-    return grpc::InsecureChannelCredentials();
-  }
+  if (!credentials.tls) return grpc::InsecureChannelCredentials();
   return grpc::SslCredentials({credentials.roots, credentials.key, credentials.certificate});
 }
 
@@ -47,9 +45,7 @@ void wait_for_connection(grpc::Channel& channel, milliseconds time, const std::s
   const auto end = std::chrono::system_clock::now() + time;
   while (!stop.stop_requested()) {
     const auto next = std::min(end, std::chrono::system_clock::now() + slice);
-    if (channel.WaitForConnected(next) || next == end) {
-      return;
-    }
+    if (channel.WaitForConnected(next) || next == end) return;
   }
   throw Interrupted();
 }
@@ -78,9 +74,8 @@ const std::string& Connection::address() const noexcept {
 void authorise(const Connection::State& state, grpc::ClientContext& context) {
   // Not as call credentials: gRPC sends those over TLS only, and a trial on the own machine, or a
   // unix socket, needs none.
-  if (!state.options.credentials.token.empty()) {
+  if (!state.options.credentials.token.empty())
     context.AddMetadata("authorization", "Bearer " + state.options.credentials.token);
-  }
 }
 
 Error error_of(const Connection::State& state, const grpc::Status& status) {
@@ -108,9 +103,7 @@ Retries::Retries(Connection::State& state, grpc::Channel& channel)
     : _state(state), _channel(channel), _backoff(state.options.retry) {}
 
 void Retries::wait(const Error& error, const std::stop_token& stop) {
-  if (stop.stop_requested()) {
-    throw Interrupted();
-  }
+  if (stop.stop_requested()) throw Interrupted();
   const auto now = steady_clock::now();
   if (!_failing_since) {
     _failing_since = now;
@@ -126,14 +119,12 @@ void Retries::wait(const Error& error, const std::stop_token& stop) {
     // gRPC's own attempts getting in each other's way.
     throw lost && is_lost_connection(*_first_error) ? *_first_error : error;
   }
-  if (_state.options.notice) {
+  if (_state.options.notice)
     _state.options.notice(retry_text(error, _state.options.address, patience));
-  }
-  if (lost && _channel.GetState(false) != GRPC_CHANNEL_READY) {
+  if (lost && _channel.GetState(false) != GRPC_CHANNEL_READY)
     wait_for_connection(_channel, *delay, stop);
-  } else {
+  else
     sleep(*delay, stop);  // a proxy keeps its connection to us and loses the server's
-  }
 }
 
 void Retries::succeeded() {
@@ -147,9 +138,7 @@ void sleep(milliseconds time, const std::stop_token& stop) {
   std::condition_variable_any woken;
   std::unique_lock lock(mutex);
   woken.wait_for(lock, stop, time, [] { return false; });
-  if (stop.stop_requested()) {
-    throw Interrupted();
-  }
+  if (stop.stop_requested()) throw Interrupted();
 }
 
 }  // namespace anticrack::client

@@ -32,9 +32,8 @@ std::string content_of(const std::filesystem::path& path, const std::string& opt
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   std::ifstream file(path, std::ios::binary);
   // A pipe has no size and is read all the same: `--token-file <(command)`.
-  if (std::filesystem::is_directory(path) || !file || (!error && size > largest_pem)) {
+  if (std::filesystem::is_directory(path) || !file || (!error && size > largest_pem))
     refuse(option + ": " + path.string() + " is not a readable file of at most 4 MiB");
-  }
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -72,9 +71,7 @@ void read_pair(const CredentialFiles& files, Credentials& result) {
   result.certificate = read_certificates(files.certificate, "--cert");
   result.key = content_of(files.key, "--key");
   const Key key = private_key(result.key);
-  if (!key) {
-    refuse("--key: " + files.key.string() + " holds no private key without a pass phrase");
-  }
+  if (!key) refuse("--key: " + files.key.string() + " holds no private key without a pass phrase");
   if (X509_check_private_key(first_certificate(result.certificate).get(), key.get()) != 1) {
     refuse("--key: " + files.key.string() + " is not the key of the certificate in " +
            files.certificate.string());
@@ -86,9 +83,7 @@ std::string read_token(const CredentialFiles& files) {
       files.token.empty() ? "ANTICRACK_TOKEN" : "--token-file: " + files.token.string();
   std::string token =
       files.token.empty() ? files.token_text : content_of(files.token, "--token-file");
-  while (!token.empty() && (token.back() == '\n' || token.back() == '\r')) {
-    token.pop_back();
-  }
+  while (!token.empty() && (token.back() == '\n' || token.back() == '\r')) token.pop_back();
   // What may stand in a header; anything else would be refused far from here.
   const bool printable =
       std::all_of(token.begin(), token.end(), [](char c) { return c > ' ' && c < '\x7f'; });
@@ -102,20 +97,15 @@ std::string read_token(const CredentialFiles& files) {
 }  // namespace
 
 bool is_loopback(std::string_view address) {
-  for (const std::string_view scheme : {"unix:", "unix-abstract:"}) {
-    if (address.starts_with(scheme)) {
-      return true;
-    }
-  }
+  for (const std::string_view scheme : {"unix:", "unix-abstract:"})
+    if (address.starts_with(scheme)) return true;
   for (const std::string_view scheme : {"dns:///", "dns:", "ipv4:", "ipv6:"}) {
     if (address.starts_with(scheme)) {
       address.remove_prefix(scheme.size());
       break;
     }
   }
-  if (address == "::1" || address == "[::1]" || address.starts_with("[::1]:")) {
-    return true;
-  }
+  if (address == "::1" || address == "[::1]" || address.starts_with("[::1]:")) return true;
   const std::string_view host = address.substr(0, address.find(':'));
   // "127.evil.example" is a name somebody owns, hence digits and dots only.
   const bool digits = host.find_first_not_of("0123456789.") == std::string_view::npos;
@@ -126,12 +116,8 @@ Credentials read_credentials(const CredentialFiles& files, std::string_view addr
   Credentials result;
   result.files = files;
   result.files.token_text.clear();
-  if (!files.ca.empty()) {
-    result.roots = read_certificates(files.ca, "--ca");
-  }
-  if (!files.certificate.empty() || !files.key.empty()) {
-    read_pair(files, result);
-  }
+  if (!files.ca.empty()) result.roots = read_certificates(files.ca, "--ca");
+  if (!files.certificate.empty() || !files.key.empty()) read_pair(files, result);
   result.tls = files.tls || !result.roots.empty() || !result.certificate.empty();
   if (!files.token.empty() || !files.token_text.empty()) {
     result.token = read_token(files);

@@ -40,16 +40,13 @@ Details decode_details(const v1::Status& status) {
       }
     } else if (is(detail, "google.rpc.BadRequest")) {
       v1::BadRequest request;
-      if (request.ParseFromString(detail.value())) {
-        for (const auto& violation : request.field_violations()) {
+      if (request.ParseFromString(detail.value()))
+        for (const auto& violation : request.field_violations())
           details.fields.push_back({violation.field(), violation.description()});
-        }
-      }
     } else if (is(detail, "google.rpc.RetryInfo")) {
       v1::RetryInfo retry;
-      if (retry.ParseFromString(detail.value())) {
+      if (retry.ParseFromString(detail.value()))
         details.retry_delay = to_milliseconds(retry.retry_delay());
-      }
     }
   }
   return details;
@@ -99,9 +96,8 @@ std::string_view name(Code code) noexcept {
 
 Error decode_error(int code, const std::string& message, std::string_view details_bin) {
   v1::Status status;
-  if (!status.ParseFromArray(details_bin.data(), static_cast<int>(details_bin.size()))) {
+  if (!status.ParseFromArray(details_bin.data(), static_cast<int>(details_bin.size())))
     status.Clear();
-  }
   return Error(to_code(code), message, decode_details(status));
 }
 

@@ -55,9 +55,7 @@ std::string unreachable_text(const std::string& address, const Credentials& cred
       "cannot reach the server at " + address + " (" + std::string(cause_of(story)) + "); ";
   if (credentials.tls) {
     const std::string cure = tls_cure(address, credentials, story);
-    if (!cure.empty()) {
-      return head + cure;
-    }
+    if (!cure.empty()) return head + cure;
   }
   // A server with TLS hangs up on one that speaks none.
   const bool hung_up = has(story, "ocket closed") || has(story, "onnection reset") ||

@@ -67,13 +67,9 @@ v1::Mesh wait_for_mesh(Connection& connection, const std::string& name,
   std::optional<v1::Mesh::State> last;
   while (true) {
     v1::Mesh mesh = get_mesh(connection, name, stop);
-    if (seen && last != mesh.state()) {
-      seen(mesh);
-    }
+    if (seen && last != mesh.state()) seen(mesh);
     last = mesh.state();
-    if (settled(mesh.state())) {
-      return mesh;
-    }
+    if (settled(mesh.state())) return mesh;
     sleep(delay, stop);
     delay = std::min(2 * delay, longest_poll);
   }

@@ -48,18 +48,12 @@ Block read_block(Connection::State& state, Stub& stub,
     } catch (const Error&) {
       context.TryCancel();
       reader->Finish();
-      if (++damaged == tries_of_damaged_data) {
-        throw;
-      }
+      if (++damaged == tries_of_damaged_data) throw;
       continue;
     }
     const grpc::Status status = reader->Finish();
-    if (receiver.complete()) {
-      return receiver.finish();
-    }
-    if (stop.stop_requested()) {
-      throw Interrupted();
-    }
+    if (receiver.complete()) return receiver.finish();
+    if (stop.stop_requested()) throw Interrupted();
     retries.wait(status.ok() ? Error(Code::unavailable, "the server closed the stream early")
                              : error_of(state, status),
                  stop);

@@ -31,24 +31,18 @@ Backoff::Backoff(RetryPolicy policy, std::uint32_t seed)
 std::optional<std::chrono::milliseconds> Backoff::next(const Error& error,
                                                        std::chrono::milliseconds failing,
                                                        std::chrono::milliseconds patience) {
-  if (!may_retry(error)) {
-    return std::nullopt;
-  }
+  if (!may_retry(error)) return std::nullopt;
   std::uniform_int_distribution<std::int64_t> upper_half(_delay.count() / 2, _delay.count());
   const auto delay =
       std::max(std::chrono::milliseconds(upper_half(_random)), error.details().retry_delay);
   _delay = std::min(2 * _delay, _policy.longest);
-  if (failing + delay > patience) {
-    return std::nullopt;
-  }
+  if (failing + delay > patience) return std::nullopt;
   return delay;
 }
 
 std::string retry_text(const Error& error, const std::string& address,
                        std::chrono::milliseconds patience) {
-  if (!is_lost_connection(error)) {
-    return std::string(error.what()) + "; trying again";
-  }
+  if (!is_lost_connection(error)) return std::string(error.what()) + "; trying again";
   constexpr std::int64_t minute = 60'000;
   const std::int64_t time = patience.count();
   const std::string limit = time >= minute && time % minute == 0

@@ -37,17 +37,15 @@ class FileChunks {
  public:
   explicit FileChunks(std::filesystem::path path)
       : _path(std::move(path)), _file(_path, std::ios::binary) {
-    if (std::filesystem::is_directory(_path) || !_file) {
+    if (std::filesystem::is_directory(_path) || !_file)
       throw std::runtime_error("cannot read " + _path.string() + ": it is not a readable file");
-    }
   }
 
   std::string next() {
     std::string chunk(chunk_bytes, '\0');
     _file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
-    if (_file.bad()) {
+    if (_file.bad())
       throw std::runtime_error("cannot read " + _path.string() + ": the disk reports an error");
-    }
     chunk.resize(static_cast<std::size_t>(_file.gcount()));
     return chunk;
   }
@@ -201,9 +199,8 @@ std::vector<std::string> upload_arrays(Connection& connection, std::size_t count
     };
     try {
       const v1::UploadMeshResponse response = send(connection, begin, stop);
-      if (static_cast<std::size_t>(response.uploads_size()) != end - first) {
+      if (static_cast<std::size_t>(response.uploads_size()) != end - first)
         throw Error(Code::unimplemented, "the server takes one array at a time: update it");
-      }
       names.insert(names.end(), response.uploads().begin(), response.uploads().end());
     } catch (const Error& error) {
       Details details = error.details();

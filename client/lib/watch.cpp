@@ -14,14 +14,10 @@ struct Position {
 
   /// Whether this message is news. A snapshot or a heartbeat has no number of its own.
   bool take(const v1::WatchJobResponse& message) {
-    if (message.has_ended()) {
-      last = message.ended();
-    }
+    if (message.has_ended()) last = message.ended();
     const bool numbered = !message.has_snapshot() && !message.has_heartbeat();
     const bool news = !numbered || message.sequence() > after;
-    if (numbered && news) {
-      after = message.sequence();
-    }
+    if (numbered && news) after = message.sequence();
     return news;
   }
 };
@@ -45,17 +41,11 @@ v1::Job watch_job(Connection& connection, const std::string& name, std::uint64_t
     v1::WatchJobResponse message;
     while (reader->Read(&message)) {
       retries.succeeded();
-      if (position.take(message)) {
-        event(message);
-      }
+      if (position.take(message)) event(message);
     }
     const grpc::Status status = reader->Finish();
-    if (position.last) {
-      return *std::move(position.last);
-    }
-    if (stop.stop_requested()) {
-      throw Interrupted();
-    }
+    if (position.last) return *std::move(position.last);
+    if (stop.stop_requested()) throw Interrupted();
     if (status.error_code() == grpc::StatusCode::OUT_OF_RANGE && position.after != 0) {
       if (state.options.notice) {
         state.options.notice("the events after number " + std::to_string(position.after) +

@@ -18,9 +18,8 @@ std::string missing_text(const Handle& group, const std::string& name) {
   constexpr std::size_t most = 10;
   const std::vector<std::string> names = hdf5::names_in(group);
   std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
     list += (i == 0 ? "" : ", ") + names[i];
-  }
   return "\"" + name + "\" is missing" +
          (names.empty() ? " and nothing else is there" : ", there is " + list) +
          (names.size() > most ? ", ..." : "");
@@ -33,9 +32,8 @@ hdf5::Dataset open_below(const Handle& group, const std::string& path, std::uint
   if (slash == 0) return open_below(group, path.substr(1), budget, columns);
   const std::string name = path.substr(0, slash);
   if (!hdf5::has(group, name)) throw hdf5::Fault(missing_text(group, name));
-  if (slash == std::string::npos) {
+  if (slash == std::string::npos)
     return hdf5::open_array(group, name, ValueType::float64, budget, columns);
-  }
   return open_below(hdf5::open_group(group, name), path.substr(slash + 1), budget, columns);
 }
 
@@ -45,18 +43,16 @@ Matrix read(const std::filesystem::path& file, const std::string& path, std::siz
   const std::string cure = std::string("name a ") + (is_matrix ? "two" : "one") +
                            "-dimensional dataset of float64 in an HDF5 file";
   const hdf5::Quiet quiet;
-  if (path.empty() || path.back() == '/') {
+  if (path.empty() || path.back() == '/')
     throw Error(file.string(), "\"" + path + "\" names no dataset", cure);
-  }
   Matrix matrix;
   try {
     const Handle root = hdf5::open_root(file, cure);
     const hdf5::Dataset dataset = open_below(root, path, hdf5::memory_budget(file), columns);
     matrix = {std::vector<double>(dataset.count()), dataset.rows, dataset.columns, {}};
     hdf5::read_values(dataset, matrix.values.data());
-    if (is_matrix && hdf5::has_attribute(dataset.id, "loads")) {
+    if (is_matrix && hdf5::has_attribute(dataset.id, "loads"))
       hdf5::get(dataset.id, "loads", matrix.loads, dataset.columns);
-    }
   } catch (const hdf5::Fault& fault) {
     throw Error(file.string(), fault.what(), cure);
   }

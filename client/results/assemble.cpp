@@ -12,9 +12,8 @@ namespace {
 /// Traces along interfaces 0, 1, ... below `at`, which ends with a slash.
 std::vector<Trace> traces_of(const Block& block, const std::string& at, std::size_t interfaces) {
   std::vector<Trace> traces;
-  for (std::size_t i = 0; i < interfaces; ++i) {
+  for (std::size_t i = 0; i < interfaces; ++i)
     get_arrays(block, at + std::to_string(i) + "/", traces.emplace_back(), arrays::trace<Trace>);
-  }
   return traces;
 }
 
@@ -24,12 +23,10 @@ void add_load(const Block& block, std::size_t index, std::size_t interfaces, con
   load.traces.clear();
   load.fields.clear();
   load.history = {};
-  if (const std::string at = arrays::load_traces(index); solved || block.has_below(at)) {
+  if (const std::string at = arrays::load_traces(index); solved || block.has_below(at))
     load.traces = traces_of(block, at, interfaces);
-  }
-  if (const std::string at = arrays::load_history(index); solved || block.has_below(at)) {
+  if (const std::string at = arrays::load_history(index); solved || block.has_below(at))
     get_arrays(block, at, load.history, arrays::history<History>);
-  }
   if (!block.has_below(arrays::load_fields(index))) return;
   for (std::size_t i = 0; i < mesh.subdomains.size(); ++i) {
     Field& field = load.fields.emplace_back();
@@ -43,11 +40,10 @@ void add_contact_intervals(const Interface& interface, std::size_t index, const 
                            std::vector<ContactInterval>& intervals) {
   for (std::size_t i = 0; i < interface.node_count() && i < trace.contact.size(); ++i) {
     if (trace.contact[i] == 0) continue;
-    if (i > 0 && trace.contact[i - 1] != 0) {
+    if (i > 0 && trace.contact[i - 1] != 0)
       intervals.back().end = interface.s[i];
-    } else {
+    else
       intervals.push_back({index, interface.s[i], interface.s[i]});
-    }
   }
 }
 
@@ -65,9 +61,8 @@ Load load_of(const Sweep& sweep, std::size_t row, std::vector<Trace> traces,
     load.inclusions.push_back(
         {sweep.inclusions[i], sweep.displacement[row * inclusions + i], unknown, unknown});
   }
-  for (std::size_t i = 0; i < traces.size(); ++i) {
+  for (std::size_t i = 0; i < traces.size(); ++i)
     add_contact_intervals(interfaces[i], i, traces[i], load.contact_intervals);
-  }
   load.traces = std::move(traces);
   return load;
 }
@@ -109,9 +104,8 @@ Result assemble(Result answers, std::span<const ArrayView> mesh_block,
     answers.interfaces[i].edges = edges_of(mesh, answers.interfaces[i].name);
   }
   if (answers.sweep) add_sweep(result, answers);
-  for (std::size_t i = 0; i < answers.loads.size() && !answers.sweep; ++i) {
+  for (std::size_t i = 0; i < answers.loads.size() && !answers.sweep; ++i)
     add_load(result, i, answers.interfaces.size(), answers.mesh, answers.loads[i]);
-  }
   result.require(first_fault(answers));
   return answers;
 }

@@ -14,9 +14,8 @@ constexpr const char* compare_versions =
 
 std::string text_of(const std::vector<std::uint64_t>& shape) {
   std::string text = "(";
-  for (std::size_t i = 0; i < shape.size(); ++i) {
+  for (std::size_t i = 0; i < shape.size(); ++i)
     text += (i == 0 ? "" : ",") + std::to_string(shape[i]);
-  }
   return text + ")";
 }
 

@@ -32,9 +32,8 @@ class Block {
   /// `subject` begins the messages. Throws Error for a name that occurs twice. The arrays must
   /// outlive the block.
   Block(std::string subject, std::span<const ArrayView> arrays) : _subject(std::move(subject)) {
-    for (const ArrayView& array : arrays) {
+    for (const ArrayView& array : arrays)
       if (!_arrays.emplace(array.name, &array).second) fail("array " + array.name + " twice");
-    }
   }
 
   /// Any array below a folder, e.g. "loads/0/traces/".
@@ -79,9 +78,8 @@ class Block {
     const auto found = _arrays.find(name);
     if (found == _arrays.end()) fail("array " + name + " is missing");
     constexpr ValueType wanted = value_type<T>;
-    if (found->second->type != wanted) {
+    if (found->second->type != wanted)
       fail("array " + name + " is " + name_of(found->second->type) + ", not " + name_of(wanted));
-    }
     return *found->second;
   }
 

@@ -69,14 +69,12 @@ std::vector<std::byte> file_image(const std::function<void(const Handle& root)>&
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "HDF5 does not start");
     H5FD_file_image_callbacks_t callbacks = memory.callbacks();
     if (H5Pset_fapl_core(access.get(), increment, false) < 0 ||
-        H5Pset_file_image_callbacks(access.get(), &callbacks) < 0) {
+        H5Pset_file_image_callbacks(access.get(), &callbacks) < 0)
       throw Fault("HDF5 has no core driver");
-    }
     // Formats since 1.10 have checksums on all metadata; damaged files of older ones can make the
     // library read outside its buffers.
-    if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110) < 0) {
+    if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110) < 0)
       throw Fault("HDF5 is older than 1.10");
-    }
     const Handle creation = without_times(H5P_FILE_CREATE);
     Handle file(H5Fcreate("result", H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose,
                 "HDF5 cannot create a file in memory");

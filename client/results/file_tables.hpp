@@ -30,9 +30,8 @@ inline void get(const Handle& object, const std::string& attribute, Status& stat
 template <class Row, class Record>
 std::size_t columns_of(const Row& row, const Record& record) {
   if constexpr (requires { record.extent(row.shape); }) {
-    if (arrays::columns_of(row.shape) == arrays::named) {
+    if (arrays::columns_of(row.shape) == arrays::named)
       return record.extent(row.shape.substr(row.shape.find(',') + 1));
-    }
   }
   return arrays::columns_of(row.shape);
 }
@@ -96,9 +95,8 @@ void put_list(const Handle& group, const std::vector<Record>& records, const Tab
         using Value = Stored<arrays::MemberOf<const Record, decltype(row.member)>>;
         std::vector<Value> column;
         column.reserve(records.size());
-        for (const Record& record : records) {
+        for (const Record& record : records)
           column.push_back(static_cast<Value>(std::invoke(row.member, record)));
-        }
         put_row(group, row, column, 0);
       },
       table);
@@ -116,9 +114,8 @@ std::vector<Record> get_list(const Handle& group, std::uint64_t budget, const ch
         get_array(group, std::string(row.name), budget, 0, column);
         if (first) records.resize(column.size());
         first = false;
-        if (column.size() != records.size()) {
+        if (column.size() != records.size())
           throw Fault(std::string(what) + " has datasets of different lengths");
-        }
         for (std::size_t i = 0; i < records.size(); ++i) {
           // A negative index becomes a huge one, which first_fault refuses.
           std::invoke(row.member, records[i]) = static_cast<Value>(column[i]);

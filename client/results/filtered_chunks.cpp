@@ -13,9 +13,8 @@ namespace {
 std::vector<std::byte> shuffled(std::span<const std::byte> values, std::size_t value_bytes,
                                 std::size_t count) {
   std::vector<std::byte> planes(count * value_bytes);  // zeros beyond the values
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  for (std::size_t i = 0; i < values.size(); ++i)
     planes[i % value_bytes * count + i / value_bytes] = values[i];
-  }
   return planes;
 }
 
@@ -55,9 +54,8 @@ std::vector<std::byte> deflated(std::span<const std::byte> bytes) {
   uLongf size = smaller.size();
   if (::compress2(reinterpret_cast<Bytef*>(smaller.data()), &size,
                   reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(),
-                  deflate_level) != Z_OK) {
+                  deflate_level) != Z_OK)
     return {};
-  }
   smaller.resize(size);
   return smaller;
 }
@@ -81,9 +79,8 @@ FilteredChunks filtered_chunks(std::span<const std::byte> values, std::size_t va
     std::vector<std::byte> chunk = deflated(shuffled(head, value_bytes, entries));
     if (chunk.empty()) return {};
     const std::uint32_t sum = fletcher32(chunk);
-    for (unsigned shift = 0; shift < 32; shift += 8) {
+    for (unsigned shift = 0; shift < 32; shift += 8)
       chunk.push_back(static_cast<std::byte>(sum >> shift));
-    }
     chunks.push_back(std::move(chunk));
     values = values.subspan(head.size());
   }

@@ -9,9 +9,8 @@ namespace {
 
 void require_hard_link(const Handle& group, const std::string& name) {
   H5L_info_t info;
-  if (H5Lget_info(group.get(), name.c_str(), &info, H5P_DEFAULT) < 0) {
+  if (H5Lget_info(group.get(), name.c_str(), &info, H5P_DEFAULT) < 0)
     throw Fault("\"" + name + "\" is missing");
-  }
   if (info.type != H5L_TYPE_HARD) throw Fault("\"" + name + "\" is a link, not data");
 }
 
@@ -68,9 +67,8 @@ void read_attribute(const Attribute& attribute, const std::string& name, ValueTy
                     void* values) {
   read_entries(type, attribute.type, static_cast<std::size_t>(attribute.count), values,
                [&](hid_t memory, void* to) {
-                 if (H5Aread(attribute.id.get(), memory, to) < 0) {
+                 if (H5Aread(attribute.id.get(), memory, to) < 0)
                    throw Fault("attribute " + name + " is damaged");
-                 }
                });
 }
 
@@ -81,9 +79,8 @@ Handle open_root(const std::filesystem::path& path, const std::string& cure) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) throw Error(path.string(), "no such file", cure);
-  if (status.type() != fs::file_type::regular) {
+  if (status.type() != fs::file_type::regular)
     throw Error(path.string(), error ? error.message() : "is not a regular file", cure);
-  }
   const htri_t is_hdf5 = H5Fis_hdf5(path.c_str());
   if (is_hdf5 < 0) throw Error(path.string(), "cannot be opened", "check its permissions");
   if (is_hdf5 == 0) throw Error(path.string(), "is not an HDF5 file", cure);
@@ -124,17 +121,15 @@ std::vector<std::string> names_in(const Handle& group) {
       return -1;  // no exception may cross the C library
     }
   };
-  if (H5Literate(group.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names) < 0) {
+  if (H5Literate(group.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names) < 0)
     throw Fault("a group cannot be listed");
-  }
   return names;
 }
 
 void get_attribute(const Handle& object, const std::string& name, ValueType type, void* value) {
   const Attribute attribute = open_attribute(object, name);
-  if (attribute.count != 1 || !is(attribute.type, type)) {
+  if (attribute.count != 1 || !is(attribute.type, type))
     throw Fault("attribute " + name + " is not one " + name_of(type));
-  }
   read_attribute(attribute, name, type, value);
 }
 
@@ -142,9 +137,8 @@ void get(const Handle& object, const std::string& attribute, std::vector<std::st
          std::uint64_t most) {
   const Attribute found = open_attribute(object, attribute);
   if (!is(found.type, ValueType::text) || found.count < 0 ||
-      static_cast<std::uint64_t>(found.count) > most) {
+      static_cast<std::uint64_t>(found.count) > most)
     throw Fault("attribute " + attribute + " is not a list of texts");
-  }
   texts.resize(static_cast<std::size_t>(found.count));
   read_attribute(found, attribute, ValueType::text, texts.data());
 }
@@ -159,9 +153,8 @@ Dataset open_array(const Handle& group, const std::string& name, ValueType wante
 
   const Handle properties(H5Dget_create_plist(id.get()), H5Pclose, what + " is damaged");
   if (H5Pget_external_count(properties.get()) != 0 ||
-      H5Pget_layout(properties.get()) == H5D_VIRTUAL) {
+      H5Pget_layout(properties.get()) == H5D_VIRTUAL)
     throw Fault(what + " lies in another file");
-  }
 
   const Handle space(H5Dget_space(id.get()), H5Sclose, what + " is damaged");
   const int rank = columns == 0 ? 1 : 2;
@@ -189,9 +182,7 @@ void read_values(const Dataset& dataset, void* values) {
   const std::string what = "dataset " + dataset.name + " is damaged";
   const Handle type(H5Dget_type(dataset.id.get()), H5Tclose, what);
   read_entries(dataset.type, type, dataset.count(), values, [&](hid_t memory, void* to) {
-    if (H5Dread(dataset.id.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, to) < 0) {
-      throw Fault(what);
-    }
+    if (H5Dread(dataset.id.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, to) < 0) throw Fault(what);
   });
 }
 

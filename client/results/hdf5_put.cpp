@@ -40,9 +40,8 @@ struct Values {
         break;
       case ValueType::text:
         in_file = in_memory = text.get();
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = 0; i < count; ++i)
           pointers.push_back(static_cast<const std::string*>(values)[i].c_str());
-        }
         data = pointers.data();
         break;
     }

@@ -9,11 +9,9 @@ namespace anticrack::results {
 namespace {
 
 std::string fault_of(const std::string& at, const InterfaceLine& line, const Mesh& mesh) {
-  for (const std::int32_t node : line.nodes) {
-    if (node < 0 || static_cast<std::size_t>(node) >= mesh.node_count()) {
+  for (const std::int32_t node : line.nodes)
+    if (node < 0 || static_cast<std::size_t>(node) >= mesh.node_count())
       return at + " has the node " + std::to_string(node) + " outside the mesh";
-    }
-  }
   return first_edge_fault(at, line.edges, line.nodes.size(), mesh);
 }
 
@@ -21,9 +19,8 @@ std::string fault_of(const std::string& at, const InterfaceLine& line, const Mes
 
 std::string first_fault(const MeshPlan& plan) {
   std::string fault = first_mesh_fault(plan.mesh);
-  for (std::size_t i = 0; i < plan.interfaces.size() && fault.empty(); ++i) {
+  for (std::size_t i = 0; i < plan.interfaces.size() && fault.empty(); ++i)
     fault = fault_of("interfaces[" + std::to_string(i) + "]", plan.interfaces[i], plan.mesh);
-  }
   for (const Tip& tip : plan.tips) {
     const bool finite =
         std::isfinite(tip.x) && std::isfinite(tip.y) && std::isfinite(tip.smallest_edge);

@@ -69,9 +69,8 @@ std::vector<Load> get_loads(const Handle& root, std::uint64_t budget) {
     std::int32_t number = 0;
     hdf5::get(group, "index", number);
     const auto index = static_cast<std::size_t>(number);
-    if (index >= loads.size() || filled[index]) {
+    if (index >= loads.size() || filled[index])
       throw hdf5::Fault("load \"" + name + "\" has the index of another or none");
-    }
     filled[index] = true;
     loads[index] = get_load(group, name, budget);
   }
@@ -103,9 +102,8 @@ Result get_result(const Handle& root, std::uint64_t budget) {
 /// Throws Error unless the root says `format`.
 void check_format(const fs::path& path, const Handle& root) {
   const char* cure = "name a file that `anticrack run -o` wrote";
-  if (!hdf5::has_attribute(root, "format")) {
+  if (!hdf5::has_attribute(root, "format"))
     throw Error(path.string(), "is HDF5, but no result of anticrack", cure);
-  }
   std::string found;
   hdf5::get(root, "format", found);
   if (found == format) return;

@@ -22,9 +22,8 @@ namespace fs = std::filesystem;
 [[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
   const char* cure = "choose another path with -o";
   if (error == ENOSPC || error == EDQUOT) cure = "free space there, or choose another path with -o";
-  if (error == EACCES || error == EPERM || error == EROFS) {
+  if (error == EACCES || error == EPERM || error == EROFS)
     cure = "make the folder writable, or choose another path with -o";
-  }
   if (error == ENOENT) cure = "create the folder first, or choose another path with -o";
   throw Error(path.string(), what + ": " + std::generic_category().message(error), cure);
 }
@@ -86,14 +85,12 @@ class TemporaryFile {
 
 void check_writable(const fs::path& path) {
   struct stat status {};
-  if (path.filename().empty() || path.filename() == "." || path.filename() == "..") {
+  if (path.filename().empty() || path.filename() == "." || path.filename() == "..")
     throw Error(path.string(), "is a folder", "name a file with -o");
-  }
   if (stat(path.c_str(), &status) == 0) {
     if (S_ISDIR(status.st_mode)) throw Error(path.string(), "is a folder", "name a file with -o");
-    if (!S_ISREG(status.st_mode)) {
+    if (!S_ISREG(status.st_mode))
       throw Error(path.string(), "is not a regular file", "choose another path with -o");
-    }
     if (access(path.c_str(), W_OK) != 0) fail(path, "may not be replaced", errno);
   } else if (errno != ENOENT) {
     fail(path, "cannot be written", errno);

@@ -51,18 +51,15 @@ class Faults {
   }
 
   void finite(const std::string& what, const std::vector<double>& values) {
-    for (std::size_t i = 0; i < values.size() && _first.empty(); ++i) {
+    for (std::size_t i = 0; i < values.size() && _first.empty(); ++i)
       if (!std::isfinite(values[i])) _first = what + "[" + std::to_string(i) + "] is not finite";
-    }
   }
 
   template <typename T>
   void increasing(const std::string& what, const std::vector<T>& values) {
-    for (std::size_t i = 1; i < values.size() && _first.empty(); ++i) {
-      if (!(values[i - 1] < values[i])) {
+    for (std::size_t i = 1; i < values.size() && _first.empty(); ++i)
+      if (!(values[i - 1] < values[i]))
         _first = what + " does not increase at entry " + std::to_string(i);
-      }
-    }
   }
 
  private:
@@ -156,21 +153,17 @@ void check_load(const std::string& at, const Load& load, const Result& result, F
   faults.require(is_load_name(load.name),
                  at + ".name is not of the form [A-Za-z0-9][A-Za-z0-9_. -]{0,63}");
   faults.require(!name(load.status).empty(), at + ".status is unknown");
-  if (!load.traces.empty()) {
+  if (!load.traces.empty())
     faults.length(at + ".traces", load.traces.size(), result.interfaces.size(), "interfaces");
-  }
-  for (std::size_t i = 0; i < load.traces.size() && !faults.any(); ++i) {
+  for (std::size_t i = 0; i < load.traces.size() && !faults.any(); ++i)
     check_trace(item(at + ".traces", i), load.traces[i], result.interfaces[i].node_count(), faults);
-  }
   check_history(at + ".history", load.history, faults);
-  if (!load.fields.empty()) {
+  if (!load.fields.empty())
     faults.length(at + ".fields", load.fields.size(), result.mesh.subdomains.size(), "subdomains");
-  }
   if (!load.fields.empty() && !faults.any()) {
     const std::vector<std::size_t> counts = triangles_by_subdomain(result.mesh);
-    for (std::size_t i = 0; i < load.fields.size() && !faults.any(); ++i) {
+    for (std::size_t i = 0; i < load.fields.size() && !faults.any(); ++i)
       check_field(item(at + ".fields", i), load.fields[i], result.mesh, counts[i], faults);
-    }
   }
   for (std::size_t i = 0; i < load.contact_intervals.size() && !faults.any(); ++i) {
     const ContactInterval& interval = load.contact_intervals[i];
@@ -206,9 +199,8 @@ bool is_load_name(std::string_view name) noexcept {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
   };
   if (name.empty() || name.size() > 64 || !alphanumeric(name.front())) return false;
-  for (const char c : name) {
+  for (const char c : name)
     if (!alphanumeric(c) && c != '_' && c != '.' && c != ' ' && c != '-') return false;
-  }
   return true;
 }
 
@@ -228,9 +220,8 @@ std::string first_edge_fault(const std::string& at, const Edges& edges, std::siz
 std::string first_fault(const Result& result) {
   Faults faults;
   check_mesh(result.mesh, faults);
-  for (std::size_t i = 0; i < result.interfaces.size() && !faults.any(); ++i) {
+  for (std::size_t i = 0; i < result.interfaces.size() && !faults.any(); ++i)
     check_interface(item("interfaces", i), result.interfaces[i], result.mesh, faults);
-  }
   std::set<std::string_view> names;
   for (std::size_t i = 0; i < result.loads.size() && !faults.any(); ++i) {
     const Load& load = result.loads[i];

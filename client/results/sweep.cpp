@@ -53,14 +53,11 @@ std::string range_fault(const Sweep& sweep, const std::vector<std::size_t>& inte
              std::to_string(static_cast<std::int32_t>(sweep.status[i])) + ", no status";
     }
   }
-  for (std::size_t i = 0; i < sweep.contacts(); ++i) {
-    if (!is_node(sweep.contact_nodes[2 * i], sweep.contact_nodes[2 * i + 1], interface_nodes)) {
+  for (std::size_t i = 0; i < sweep.contacts(); ++i)
+    if (!is_node(sweep.contact_nodes[2 * i], sweep.contact_nodes[2 * i + 1], interface_nodes))
       return entry("contact_nodes", i) + " is not a node of an interface";
-    }
-  }
-  if (std::ranges::any_of(sweep.contact, [](std::uint8_t value) { return value > 1; })) {
+  if (std::ranges::any_of(sweep.contact, [](std::uint8_t value) { return value > 1; }))
     return "sweep.contact has a value other than 0 and 1";
-  }
   for (std::size_t i = 0; i < sweep.kept.size(); ++i) {
     const std::int32_t row = sweep.kept[i];
     if (row < 0 || static_cast<std::size_t>(row) >= sweep.rows() ||
@@ -96,9 +93,8 @@ SweepSummary summary(const Sweep& sweep) {
     result.worst_kkt = std::fmax(result.worst_kkt, sweep.kkt[row]);
     widen(result.energy, sweep.energy[row]);
     widen(result.contact_length, sweep.contact_length[row]);
-    for (std::size_t i = 0; i < inclusions; ++i) {
+    for (std::size_t i = 0; i < inclusions; ++i)
       widen(result.displacement[i], sweep.displacement[row * inclusions + i]);
-    }
   }
   result.other = sweep.rows() - result.converged - result.not_converged - result.failed;
   return result;

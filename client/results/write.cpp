@@ -36,9 +36,8 @@ void put_load(const Handle& parent, std::size_t index, const Load& load, const M
   put_list(create_group(group, "contact_intervals"), load.contact_intervals,
            tables::contact_intervals);
   const Handle traces = create_group(group, "traces");
-  for (std::size_t i = 0; i < load.traces.size(); ++i) {
+  for (std::size_t i = 0; i < load.traces.size(); ++i)
     put_arrays(create_group(traces, std::to_string(i)), load.traces[i], arrays::trace<Trace>);
-  }
   put_arrays(create_group(group, "history"), load.history, arrays::history<History>);
   if (load.fields.empty()) return;
   const Handle fields = create_group(group, "fields");
@@ -81,13 +80,11 @@ void put_all(const Handle& root, const Result& result, const CompressedMesh& com
   put_values(root, result.timings, tables::timings);
   put_mesh(root, result.mesh, compressed);
   const Handle interfaces = create_group(root, "interfaces");
-  for (std::size_t i = 0; i < result.interfaces.size(); ++i) {
+  for (std::size_t i = 0; i < result.interfaces.size(); ++i)
     put_interface(interfaces, i, result.interfaces[i]);
-  }
   const Handle loads = create_group(root, "loads");
-  for (std::size_t i = 0; i < result.loads.size(); ++i) {
+  for (std::size_t i = 0; i < result.loads.size(); ++i)
     put_load(loads, i, result.loads[i], result.mesh);
-  }
   if (result.sweep) put_sweep(root, *result.sweep);
 }
 

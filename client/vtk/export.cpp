@@ -110,9 +110,8 @@ Exported export_result(const Result& result, const std::string& source, const fs
 
   Exported exported;
   std::vector<std::size_t> answered;
-  for (std::size_t i = 0; i < result.loads.size(); ++i) {
+  for (std::size_t i = 0; i < result.loads.size(); ++i)
     if (exportable(result, source, result.loads[i], exported)) answered.push_back(i);
-  }
   if (answered.empty()) {
     throw results::Error(
         source, "no load has an answer to export",

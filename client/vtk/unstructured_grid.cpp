@@ -65,9 +65,8 @@ std::string elements(const std::vector<Data>& arrays, std::size_t count, Appende
 std::string points_of(const UnstructuredGrid& grid, Appended& appended) {
   std::vector<double> xyz;
   xyz.reserve(grid.xy.size() / 2 * 3);
-  for (std::size_t i = 0; i + 1 < grid.xy.size(); i += 2) {
+  for (std::size_t i = 0; i + 1 < grid.xy.size(); i += 2)
     xyz.insert(xyz.end(), {grid.xy[i], grid.xy[i + 1], 0.0});
-  }
   return appended.element<double>("Points", "Float64", xyz, 3);
 }
 
@@ -99,11 +98,10 @@ std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);
-    if (c == '&' || c == '<' || c == '"' || code < 0x20) {
+    if (c == '&' || c == '<' || c == '"' || code < 0x20)
       out += "&#" + std::to_string(code < 0x20 ? int{' '} : int{code}) + ";";
-    } else {
+    else
       out += c;
-    }
   }
   return out;
 }

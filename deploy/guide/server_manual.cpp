@@ -13,9 +13,8 @@ int main() {
   CLI::App parser;
   app::CommandLine unused;
   app::describe(parser, unused, ANTICRACK_VERSION);
-  for (const guide::Page& page : guide::manual(parser, 8, "anticrack " ANTICRACK_VERSION)) {
+  for (const guide::Page& page : guide::manual(parser, 8, "anticrack " ANTICRACK_VERSION))
     std::cout << page.text;
-  }
   std::cout << ".SH SEE ALSO\n.BR anticrackd.toml (5),\n.BR anticrack (1)\n" << std::flush;
   return std::cout ? 0 : 1;
 }

@@ -74,9 +74,8 @@ std::optional<std::chrono::year_month_day> to_day(std::string_view text) {
   unsigned day = 0;
   if (text.size() != 10 || text[4] != '-' || text[7] != '-' ||
       !read_digits(text.substr(0, 4), year) || !read_digits(text.substr(5, 2), month) ||
-      !read_digits(text.substr(8), day)) {
+      !read_digits(text.substr(8), day))
     return std::nullopt;
-  }
   const std::chrono::year_month_day date{std::chrono::year(static_cast<int>(year)),
                                          std::chrono::month(month), std::chrono::day(day)};
   if (!date.ok()) return std::nullopt;
@@ -150,9 +149,8 @@ std::optional<Identity> TokenTable::find(std::string_view token,
   digest.add(std::as_bytes(std::span(token)));
   const std::optional<Hash> hash = to_hash(digest.finish());
   const Entry* found = nullptr;
-  for (const Entry& entry : _entries) {  // all of them, so that the time reveals nothing
+  for (const Entry& entry : _entries)  // all of them, so that the time reveals nothing
     if (CRYPTO_memcmp(entry.hash.data(), hash->data(), hash->size()) == 0) found = &entry;
-  }
   if (found == nullptr) return std::nullopt;
   if (found->last_day && now >= std::chrono::sys_days(*found->last_day) + std::chrono::days(1)) {
     throw errors::Error(errors::Reason::unauthenticated,

@@ -30,19 +30,16 @@ void pack(const Detail& detail, v1::Status& status) {
 template <class Detail>
 Detail unpacked(const v1::Status& status) {
   Detail detail;
-  for (const google::protobuf::Any& any : status.details()) {
-    if (any.type_url() == type_url<Detail>() && !detail.ParseFromString(any.value())) {
+  for (const google::protobuf::Any& any : status.details())
+    if (any.type_url() == type_url<Detail>() && !detail.ParseFromString(any.value()))
       throw Error(Reason::invalid_argument, "a detail cannot be parsed").at("details");
-    }
-  }
   return detail;
 }
 
 /// By name: the numbers of the enum change when a reason is added.
 Reason reason_of(const std::string& name) {
-  for (int i = 0; i <= static_cast<int>(Reason::internal); ++i) {
+  for (int i = 0; i <= static_cast<int>(Reason::internal); ++i)
     if (errors::name(static_cast<Reason>(i)) == name) return static_cast<Reason>(i);
-  }
   return Reason::internal;
 }
 
@@ -89,9 +86,8 @@ Error Translation<Error>::read(const v1::Status& from) {
   const auto info = unpacked<v1::ErrorInfo>(from);
   Error error(reason_of(info.reason()), from.message());
   const auto bad = unpacked<v1::BadRequest>(from);
-  for (const auto& violation : bad.field_violations()) {
+  for (const auto& violation : bad.field_violations())
     error.at(violation.field());  // its description is the message
-  }
   for (const auto& [key, value] : info.metadata()) error.with(key, value);
   const auto delay =
       read_one<std::chrono::nanoseconds>(unpacked<v1::RetryInfo>(from), "retry_delay");

@@ -89,11 +89,10 @@ fem::PointForce Translation<fem::PointForce>::read(const v1::PointForce& from) {
 
 void Translation<contact::UzawaOptions>::write(const contact::UzawaOptions& value, v1::Uzawa& to) {
   write_fields(value, to, {"theta"});
-  if (value.theta) {
+  if (value.theta)
     to.set_theta(*value.theta);
-  } else {
+  else
     to.set_theta_auto(true);
-  }
 }
 
 contact::UzawaOptions Translation<contact::UzawaOptions>::read(const v1::Uzawa& from) {
@@ -125,11 +124,10 @@ contact::ActiveSetOptions Translation<contact::ActiveSetOptions>::read(const v1:
 
 void Translation<contact::SolverOptions>::write(const contact::SolverOptions& value,
                                                 v1::Solver& to) {
-  if (const auto* uzawa = std::get_if<contact::UzawaOptions>(&value)) {
+  if (const auto* uzawa = std::get_if<contact::UzawaOptions>(&value))
     write_field(*uzawa, to, "uzawa");
-  } else {
+  else
     write_field(std::get<contact::ActiveSetOptions>(value), to, "active_set");
-  }
 }
 
 contact::SolverOptions Translation<contact::SolverOptions>::read(const v1::Solver& from) {
@@ -205,9 +203,8 @@ void Translation<store::JobRecord>::write(const store::JobRecord& value, v1::Job
   write_field(value.started, to, "start_time");
   write_field(value.ended, to, "end_time");
   write_field(value.cases, to, "answers");
-  for (std::size_t i = 0; i < std::min(value.cases.size(), value.spec.loads.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(value.cases.size(), value.spec.loads.size()); ++i)
     to.mutable_answers(static_cast<int>(i))->set_name(value.spec.loads[i].name);
-  }
   if (value.spec.sweep) {
     write_field(value.sweep, to, "sweep_answer");
     to.mutable_sweep_answer()->set_rows(value.spec.sweep->rows);
@@ -217,9 +214,8 @@ void Translation<store::JobRecord>::write(const store::JobRecord& value, v1::Job
   for (int i = 0; i < to.timeline_size(); ++i) {
     v1::Job::Step& step = *to.mutable_timeline(i);
     if (i > 0 && step.state() == v1::Job::STATE_QUEUED &&
-        to.timeline(i - 1).state() != v1::Job::STATE_QUEUED) {
+        to.timeline(i - 1).state() != v1::Job::STATE_QUEUED)
       attempt = std::min(attempt + 1, value.attempt);
-    }
     step.set_attempt(attempt);
   }
 }

@@ -29,9 +29,8 @@ void require_loads(const v1::Job& job) {
                   "point forces");
     require_count(load.inclusion_forces().size(), fem::max_named_forces,
                   field + ".inclusion_forces", "forces on inclusions");
-    if (load.force().has_array()) {
+    if (load.force().has_array())
       upload_sha256(load.force().array().upload(), field + ".force.array.upload");
-    }
   }
 }
 
@@ -112,9 +111,8 @@ void require_sweep(const v1::Sweep& sweep, const JobLimits& limits) {
 /// Limits the default number of iterations to what the server allows.
 void bound_iterations(const v1::Solver& asked, int limit, contact::SolverOptions& options) {
   if (auto* uzawa = std::get_if<contact::UzawaOptions>(&options)) {
-    if (asked.uzawa().max_iterations() == 0) {
+    if (asked.uzawa().max_iterations() == 0)
       uzawa->max_iterations = std::min(uzawa->max_iterations, limit);
-    }
   } else if (asked.active_set().max_steps() == 0) {
     int& steps = std::get<contact::ActiveSetOptions>(options).max_steps;
     steps = std::min(steps, limit);
@@ -150,9 +148,8 @@ store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
     throw error.below("job");
   }
   bound_iterations(job.solver(), limits.iterations, spec.solver);
-  if (packed_bytes(job) > 0) {
+  if (packed_bytes(job) > 0)
     spec.sweep->upload = store::Sha256().add(matrix_of(job.sweep()).matrix->packed()).finish();
-  }
   return spec;
 }
 

@@ -59,9 +59,8 @@ void Translation<mesh::InterfaceSpec>::write(const mesh::InterfaceSpec& value,
       break;
   }
   int i = 0;
-  for (const char* point : {"from", "through", "to"}) {
+  for (const char* point : {"from", "through", "to"})
     write_field(value.points.at(static_cast<std::size_t>(i++)), *to.mutable_arc(), point);
-  }
 }
 
 mesh::InterfaceSpec Translation<mesh::InterfaceSpec>::read(const v1::InterfaceCurve& from) {
@@ -144,9 +143,8 @@ mesh::MeshOptions Translation<mesh::MeshOptions>::read(const v1::MeshOptions& fr
   mesh::MeshOptions value;
   read_fields(from, value, {"preset"});
   const int preset = get_number(from, field_of(from, "preset"), -1);
-  for (std::size_t i = 0; i < presets.size(); ++i) {
+  for (std::size_t i = 0; i < presets.size(); ++i)
     if (presets[i] == preset) value.preset = static_cast<mesh::Preset>(i);
-  }
   if (value.grading == 0) value.grading = mesh::MeshOptions().grading;
   return value;
 }

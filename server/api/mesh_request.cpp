@@ -16,9 +16,8 @@ using errors::Reason;
 
 std::size_t part_count(const v1::Geometry& geometry) {
   auto count = static_cast<std::size_t>(geometry.inclusions_size() + geometry.cracks_size());
-  for (const v1::Inclusion& inclusion : geometry.inclusions()) {
+  for (const v1::Inclusion& inclusion : geometry.inclusions())
     count += inclusion.delaminated_parts().parts().size();
-  }
   return count;
 }
 
@@ -47,9 +46,8 @@ void require_counts(const v1::Geometry& geometry) {
 void require_counts(const v1::MeshOptions& options) {
   require_count(options.align().size(), max_interfaces, "options.align", "lines");
   std::size_t vertices = 0;
-  for (const v1::Polyline& line : options.align()) {
+  for (const v1::Polyline& line : options.align())
     vertices += static_cast<std::size_t>(line.points_size());
-  }
   require_count(vertices, max_vertices, "options.align", "vertices");
   require_count(options.curve_groups().size(), max_regions, "options.curve_groups", "groups");
   require_count(options.surface_groups().size(), max_regions, "options.surface_groups", "groups");

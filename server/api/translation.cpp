@@ -25,9 +25,8 @@ std::string choices(const google::protobuf::EnumDescriptor& type) {
   std::string text;
   for (int i = 1; i < type.value_count(); ++i) {
     text += i == 1 ? "" : i + 1 == type.value_count() ? " or " : ", ";
-    for (const char c : type.value(i)->name().substr(prefix)) {
+    for (const char c : type.value(i)->name().substr(prefix))
       text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
     text += fmt::format(" ({})", type.value(i)->number());
   }
   return text;
@@ -41,9 +40,8 @@ Error untranslated(std::string_view field) {
 
 const FieldDescriptor& field_of(const Message& message, std::string_view name) {
   const FieldDescriptor* field = message.GetDescriptor()->FindFieldByName(std::string(name));
-  if (field == nullptr) {
+  if (field == nullptr)
     throw Error(Reason::internal, message.GetTypeName() + " has no field " + std::string(name));
-  }
   return *field;
 }
 
@@ -93,9 +91,8 @@ bool has(const Message& from, const FieldDescriptor& field) {
 
 std::string serialized(const Message& message) {
   std::string bytes;
-  if (message.ByteSizeLong() > std::size_t{std::numeric_limits<int>::max()}) {
+  if (message.ByteSizeLong() > std::size_t{std::numeric_limits<int>::max()})
     throw std::length_error("a record is larger than 2 GB");
-  }
   google::protobuf::io::StringOutputStream stream(&bytes);
   google::protobuf::io::CodedOutputStream out(&stream);
   out.SetSerializationDeterministic(true);

@@ -161,9 +161,8 @@ void read_field(const Message& from, const FieldDescriptor& field, T& value) {
   } else if constexpr (fields::is_a<T, std::vector>) {
     const int count = size_of(from, field);
     value.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count; ++i)
       value.push_back(read_one<typename T::value_type>(from, field, i));
-    }
   } else if constexpr (fields::is_a<T, std::map>) {
     for (int i = 0, count = size_of(from, field); i < count; ++i) {
       const Message& entry = message_in(from, field, i);
@@ -189,11 +188,10 @@ template <fields::Listed T>
 void write_fields(const T& value, Message& to, Except except) {
   fields::for_each(value, [&]<class Value>(const fields::Field<Value>& each) {
     if (std::find(except.begin(), except.end(), each.name) != except.end()) return;
-    if constexpr (Translated<std::remove_const_t<Value>>) {
+    if constexpr (Translated<std::remove_const_t<Value>>)
       write_field(each.value, to, field_of(to, each.name));
-    } else {
+    else
       throw untranslated(each.name);
-    }
   });
 }
 
@@ -201,11 +199,10 @@ template <fields::Listed T>
 void read_fields(const Message& from, T& value, Except except) {
   fields::for_each(value, [&]<class Value>(const fields::Field<Value>& each) {
     if (std::find(except.begin(), except.end(), each.name) != except.end()) return;
-    if constexpr (Translated<Value>) {
+    if constexpr (Translated<Value>)
       read_field(from, field_of(from, each.name), each.value);
-    } else {
+    else
       throw untranslated(each.name);
-    }
   });
 }
 

@@ -21,9 +21,8 @@ void require_writable(const std::string& data) {
   fs::path path = fs::absolute(data).lexically_normal();
   while (path.has_relative_path() && !fs::exists(path, code)) path = path.parent_path();
   const std::string where = "data-dir: " + data + ": ";
-  if (!fs::is_directory(path, code)) {
+  if (!fs::is_directory(path, code))
     throw ConfigError(where + path.string() + " is not a folder; choose another with --data-dir");
-  }
   if (::access(path.c_str(), W_OK | X_OK) != 0) {
     throw ConfigError(where + path.string() +
                       " cannot be written: " + std::generic_category().message(errno) +

@@ -49,9 +49,8 @@ void check_together(const Config& config) {
         "tls-certificate and tls-key belong together: give both (deploy/make-certificates makes "
         "test certificates) or neither");
   }
-  if (!config.tls_client_roots.empty() && !has_tls(config)) {
+  if (!config.tls_client_roots.empty() && !has_tls(config))
     throw ConfigError("tls-client-roots needs TLS: give tls-certificate and tls-key as well");
-  }
   if (!config.admins.empty() && config.tls_client_roots.empty()) {
     throw ConfigError(
         "admins names client certificates, but clients need none: give tls-client-roots, or make "
@@ -92,12 +91,10 @@ std::string to_toml(const Config& config) {
 }
 
 std::string default_data_dir() {
-  if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state == '/') {
+  if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state == '/')
     return std::string(state) + "/anticrack";
-  }
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/') {
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/')
     return std::string(home) + "/.local/state/anticrack";
-  }
   throw ConfigError("neither XDG_STATE_HOME nor HOME is set: choose a folder with --data-dir DIR");
 }
 

@@ -49,9 +49,8 @@ std::vector<Setting> parse_config(const std::string& text, const std::string& pa
 std::vector<Setting> read_config_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) {
+  if (!file || !(text << file.rdbuf()))
     throw ConfigError(path + ": cannot be read: " + std::generic_category().message(errno));
-  }
   return parse_config(text.str(), path);
 }
 

@@ -22,9 +22,8 @@ namespace {
 void make_private(const std::filesystem::path& path) {
   if (path.empty() || std::filesystem::is_directory(path)) return;
   make_private(path.parent_path());
-  if (::mkdir(path.c_str(), 0700) != 0 && errno != EEXIST) {
+  if (::mkdir(path.c_str(), 0700) != 0 && errno != EEXIST)
     refuse(path, std::generic_category().message(errno));
-  }
 }
 
 int open_lock(const std::string& path) {

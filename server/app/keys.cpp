@@ -27,19 +27,18 @@ using Store = store::StoreOptions;
 /// The options of this type in a configuration.
 template <class Part>
 auto& part(auto& config) {
-  if constexpr (std::is_same_v<Part, Jobs>) {
+  if constexpr (std::is_same_v<Part, Jobs>)
     return config.jobs;
-  } else if constexpr (std::is_same_v<Part, Limits>) {
+  else if constexpr (std::is_same_v<Part, Limits>)
     return config.limits;
-  } else if constexpr (std::is_same_v<Part, Meshes>) {
+  else if constexpr (std::is_same_v<Part, Meshes>)
     return config.meshes;
-  } else if constexpr (std::is_same_v<Part, Helper>) {
+  else if constexpr (std::is_same_v<Part, Helper>)
     return config.meshes.helper;
-  } else if constexpr (std::is_same_v<Part, Store>) {
+  else if constexpr (std::is_same_v<Part, Store>)
     return config.store;
-  } else {
+  else
     return config;
-  }
 }
 
 /// A key for a member of the configuration: `read` makes the value from text and checks it, `show`
@@ -81,9 +80,8 @@ template <class Part>
 Key address(const char* name, const char* help, bool may_be_socket, std::string Part::*field) {
   const auto read = [may_be_socket](const std::string& value) {
     if (!may_be_socket && value.empty()) return value;
-    if (!parse_listen_address(value).socket_path.empty() && !may_be_socket) {
+    if (!parse_listen_address(value).socket_path.empty() && !may_be_socket)
       throw std::invalid_argument("\"" + value + "\" is not HOST:PORT");
-    }
     return value;
   };
   return key(name, KeyType::text, "ADDRESS", help, field, read, same);

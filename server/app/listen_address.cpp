@@ -46,16 +46,14 @@ bool in_use(const std::string& path) {
 ListenAddress parse_listen_address(const std::string& text) {
   if (text.starts_with("unix:")) return parse_socket(text);
   const std::size_t colon = text.rfind(':');
-  if (colon == std::string::npos || colon == 0) {
+  if (colon == std::string::npos || colon == 0)
     throw std::invalid_argument("\"" + text + "\" is neither HOST:PORT nor unix:PATH");
-  }
   std::string host = text.substr(0, colon);
   const bool bracketed = host.starts_with('[') && host.ends_with(']');
   if (bracketed) host = host.substr(1, host.size() - 2);
   if (host.empty() || host.find_first_of("[]/ ") != std::string::npos ||
-      (!bracketed && host.find(':') != std::string::npos)) {
+      (!bracketed && host.find(':') != std::string::npos))
     throw std::invalid_argument("\"" + text + "\" is neither HOST:PORT, [IPV6]:PORT nor unix:PATH");
-  }
   const auto port = static_cast<int>(to_integer(text.substr(colon + 1), 0, 65'535));
   return {text, {}, host, port};
 }
@@ -82,9 +80,8 @@ void clear_stale_socket(const ListenAddress& address) {
   const std::string& path = address.socket_path;
   struct stat found {};
   if (::lstat(path.c_str(), &found) != 0) return;
-  if (!S_ISSOCK(found.st_mode)) {
+  if (!S_ISSOCK(found.st_mode))
     throw ConfigError("listen: " + path + " exists and is not a socket; choose another path");
-  }
   if (in_use(path)) {
     throw ConfigError("listen: another server answers on " + path +
                       "; stop it or choose another path");

@@ -39,16 +39,13 @@ std::string read_guarded_file(const std::string& key, const std::string& path,
   const store::Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat found {};
   std::string content;
-  if (!file || ::fstat(file.get(), &found) != 0 || !read_all(file.get(), content)) {
+  if (!file || ::fstat(file.get(), &found) != 0 || !read_all(file.get(), content))
     throw ConfigError(where + " cannot be read: " + std::generic_category().message(errno));
-  }
   const mode_t forbidden = others_may == OthersMay::read ? S_IWOTH : (S_IROTH | S_IWOTH);
-  if ((found.st_mode & forbidden) != 0) {
+  if ((found.st_mode & forbidden) != 0)
     throw ConfigError(where + " is accessible to every user of this machine; run chmod o-rw on it");
-  }
-  if (content.size() > max_bytes) {
+  if (content.size() > max_bytes)
     throw ConfigError(where + " is larger than 1 MiB, too large for such a file");
-  }
   return content;
 }
 

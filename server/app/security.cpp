@@ -79,10 +79,9 @@ std::vector<std::string> problems_of_security(const Config& config) {
   const std::string key = content("tls-key", config.tls_key, OthersMay::nothing);
   if (!certificate.empty() && !key.empty()) {
     attempt([&] {
-      if (check_certificate(certificate, key) < 0) {
+      if (check_certificate(certificate, key) < 0)
         throw ConfigError("tls-certificate: " + config.tls_certificate +
                           " has expired; renew it: no client would accept it");
-      }
       return std::string();
     });
   }

@@ -124,9 +124,8 @@ void Service::reload() noexcept {
   try {
     const LoadedSecurity access = load_security(_parts->given);
     _parts->server->replace(access.security);
-    for (const std::string& warning : access.warnings) {
+    for (const std::string& warning : access.warnings)
       log::warn("security", {{"warning", warning}});
-    }
     log::info("read again", {{"files", "certificates, key and tokens, where the server has any"}});
   } catch (const std::exception& error) {
     log::error("not read again",

@@ -65,9 +65,8 @@ Signals::~Signals() {
 
 int Signals::wait() const {
   unsigned char number = 0;
-  while (::read(_reader, &number, 1) != 1) {
+  while (::read(_reader, &number, 1) != 1)
     if (errno != EINTR) fail("cannot read signals");
-  }
   return number;
 }
 

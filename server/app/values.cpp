@@ -40,9 +40,8 @@ std::optional<double> measure(std::string_view text, std::span<const Unit> units
   if (problem != std::errc() || !std::isfinite(number) || std::signbit(number)) return std::nullopt;
   std::string_view name = text.substr(static_cast<std::size_t>(stop - text.data()));
   while (name.starts_with(' ')) name.remove_prefix(1);
-  for (const Unit& unit : units) {
+  for (const Unit& unit : units)
     if (name == unit.name) return number * static_cast<double>(unit.size);
-  }
   return std::nullopt;
 }
 
@@ -65,9 +64,8 @@ std::uint64_t to_bytes(const std::string& text, std::uint64_t least) {
 std::string from_bytes(std::uint64_t bytes) {
   for (std::size_t i = byte_units.size(); i-- > 5;) {
     const auto size = static_cast<std::uint64_t>(byte_units[i].size);
-    if (bytes != 0 && bytes % size == 0) {
+    if (bytes != 0 && bytes % size == 0)
       return fmt::format("{}{}B", bytes / size, byte_units[i].name);
-    }
   }
   return std::to_string(bytes);
 }
@@ -100,11 +98,9 @@ std::string from_time(std::chrono::milliseconds time) {
   const auto whole = time.count() / 1000;
   const auto rest = time.count() % 1000;
   if (rest != 0) return fmt::format("{}.{:03}", whole, rest);
-  for (const Unit& unit : time_units) {
-    if (unit.size > 1 && whole != 0 && whole % unit.size == 0) {
+  for (const Unit& unit : time_units)
+    if (unit.size > 1 && whole != 0 && whole % unit.size == 0)
       return fmt::format("{}{}", whole / unit.size, unit.name);
-    }
-  }
   return std::to_string(whole);
 }
 

@@ -14,9 +14,7 @@ double dirichlet_value(const ddm::Decomposition& decomposition,
     const ddm::Subdomain& subdomain = decomposition.subdomains[s];
     const auto begin = subdomain.node.begin() + static_cast<std::ptrdiff_t>(subdomain.free());
     const auto found = std::find(begin, subdomain.node.end(), node);
-    if (found != subdomain.node.end()) {
-      return loads[s].dirichlet[found - begin];
-    }
+    if (found != subdomain.node.end()) return loads[s].dirichlet[found - begin];
   }
   return 0;
 }
@@ -51,14 +49,11 @@ void append_intervals(const std::string& interface, const std::vector<double>& a
                       const std::vector<std::int32_t>& contact,
                       std::vector<ContactInterval>& intervals) {
   for (std::size_t i = 0; i < contact.size(); ++i) {
-    if (contact[i] == 0) {
-      continue;
-    }
-    if (i > 0 && contact[i - 1] != 0) {
+    if (contact[i] == 0) continue;
+    if (i > 0 && contact[i - 1] != 0)
       intervals.back().end = arc_length[i];
-    } else {
+    else
       intervals.push_back({interface, arc_length[i], arc_length[i]});
-    }
   }
 }
 
@@ -76,9 +71,8 @@ void fill_inclusions(const TraceProblem& problem, const mesh::Mesh& mesh,
     const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
     for (std::size_t i = 0; i < unknown.size(); ++i) {
       const std::size_t j = at(problem.forest().root(unknown[i]));  // A_j come first
-      if (j < answer.inclusions.size()) {
+      if (j < answer.inclusions.size())
         answer.inclusions[j].resultant += state.flux[s][static_cast<Eigen::Index>(i)];
-      }
     }
   }
   for (std::size_t i = 0; i < decomposition.pairs.size(); ++i) {
@@ -86,9 +80,8 @@ void fill_inclusions(const TraceProblem& problem, const mesh::Mesh& mesh,
     const auto k = static_cast<Eigen::Index>(i);
     if (state.contact[i] != 0) {
       answer.contact_length += problem.lumped_mass()[k];
-      if (pair.inclusion >= 0) {
+      if (pair.inclusion >= 0)
         answer.inclusions[at(pair.inclusion)].contact_length += problem.lumped_mass()[k];
-      }
     }
   }
 }
@@ -117,9 +110,8 @@ void describe(const TraceProblem& problem, const mesh::Mesh& mesh, const CaseLoa
     append_intervals(mesh.interfaces[c].name, mesh::arc_length(mesh, mesh.interfaces[c]),
                      answer.traces.back().contact, answer.contact_intervals);
   }
-  for (const Eigen::VectorXd& trace : state.trace) {
+  for (const Eigen::VectorXd& trace : state.trace)
     answer.side_traces.emplace_back(trace.begin(), trace.end());
-  }
 }
 
 void recover_fields(const TraceProblem& problem, std::span<const SolvedCase> cases) {

@@ -18,9 +18,7 @@ int stride(const Matrix& matrix) {
 
 void solve(const Ref<const MatrixXd>& factor, CBLAS_TRANSPOSE transposed, Ref<MatrixXd> b) {
   const int rows = static_cast<int>(b.rows()), columns = static_cast<int>(b.cols());
-  if (rows == 0 || columns == 0) {
-    return;
-  }
+  if (rows == 0 || columns == 0) return;
   if (columns == 1) {
     cblas_dtrsv(CblasColMajor, CblasLower, transposed, CblasNonUnit, rows, factor.data(),
                 stride(factor), b.data(), 1);
@@ -34,27 +32,23 @@ void solve(const Ref<const MatrixXd>& factor, CBLAS_TRANSPOSE transposed, Ref<Ma
 
 void multiply(const Ref<const MatrixXd>& a, const Ref<const Eigen::VectorXd>& x,
               Ref<Eigen::VectorXd> y) {
-  if (a.size() > 0) {
+  if (a.size() > 0)
     y.noalias() = a * x;
-  } else {
+  else
     y.setZero();
-  }
 }
 
 void multiply_transposed(const Ref<const MatrixXd>& a, const Ref<const Eigen::VectorXd>& x,
                          Ref<Eigen::VectorXd> y) {
-  if (a.size() > 0) {
+  if (a.size() > 0)
     y.noalias() = a.transpose() * x;
-  } else {
+  else
     y.setZero();
-  }
 }
 
 bool cholesky(Ref<MatrixXd> matrix) {
   const int size = static_cast<int>(matrix.rows()), leading = stride(matrix);
-  if (size == 0) {
-    return true;
-  }
+  if (size == 0) return true;
   int info = 0;
   dpotrf_("L", &size, matrix.data(), &leading, &info);
   return info == 0;

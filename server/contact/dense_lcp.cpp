@@ -67,24 +67,18 @@ class Run {
   void set_multipliers() {
     multiply(_matrix, d, lambda);
     lambda -= _r;
-    for (Index i = 0; i < lambda.size(); ++i) {
-      lambda[i] = closed[at(i)] == 0 ? 0 : lambda[i];
-    }
+    for (Index i = 0; i < lambda.size(); ++i) lambda[i] = closed[at(i)] == 0 ? 0 : lambda[i];
   }
 
   /// Counts and reports a step; false ends the run.
   bool report() {
     ++steps;
-    if (!_on_step(*this)) {
-      status = LcpStatus::stopped;
-    }
+    if (!_on_step(*this)) status = LcpStatus::stopped;
     return !status;
   }
 
   bool may_go_on() {
-    if (!status && steps >= _options.max_steps) {
-      status = LcpStatus::step_limit;
-    }
+    if (!status && steps >= _options.max_steps) status = LcpStatus::step_limit;
     return !status;
   }
 
@@ -92,26 +86,18 @@ class Run {
   bool primal_dual() {
     std::set<std::vector<char>> met;
     while (met.insert(closed).second) {
-      if (!factor().regular()) {
-        return false;
-      }
+      if (!factor().regular()) return false;
       d = factor().solve(_r);
       set_multipliers();
       std::vector<char> next = closed;
-      for (Index i = 0; i < d.size(); ++i) {
-        if (closed[at(i)] == 0 && d[i] < -rounding) {
+      for (Index i = 0; i < d.size(); ++i)
+        if (closed[at(i)] == 0 && d[i] < -rounding)
           next[at(i)] = 1;
-        } else if (closed[at(i)] != 0 && lambda[i] < -rounding) {
+        else if (closed[at(i)] != 0 && lambda[i] < -rounding)
           next[at(i)] = 0;
-        }
-      }
       const bool settled = next == closed;
-      if (!report() || settled) {
-        return settled;
-      }
-      if (!may_go_on()) {
-        return false;
-      }
+      if (!report() || settled) return settled;
+      if (!may_go_on()) return false;
       closed = std::move(next);
     }
     return false;
@@ -125,16 +111,12 @@ class Run {
     for (;;) {
       const VectorXd target = factor().solve(_r);
       double way = 1;
-      for (Index i = 0; i < d.size(); ++i) {
-        if (closed[at(i)] == 0 && target[i] <= 0) {
+      for (Index i = 0; i < d.size(); ++i)
+        if (closed[at(i)] == 0 && target[i] <= 0)
           way = std::min(way, d[i] <= 0 ? 0 : d[i] / (d[i] - target[i]));
-        }
-      }
       bool complete = true;
       for (Index i = 0; i < d.size(); ++i) {
-        if (closed[at(i)] != 0) {
-          continue;
-        }
+        if (closed[at(i)] != 0) continue;
         const bool blocks = target[i] <= 0 && (d[i] <= 0 || d[i] / (d[i] - target[i]) <= way);
         d[i] = blocks ? 0 : d[i] + way * (target[i] - d[i]);
         closed[at(i)] = blocks ? 1 : 0;
@@ -149,40 +131,27 @@ class Run {
 
   void monotone() {
     d.setZero();
-    if (!factor().regular()) {
-      std::fill(closed.begin(), closed.end(), char{1});
-    }
+    if (!factor().regular()) std::fill(closed.begin(), closed.end(), char{1});
     settle();
     for (;;) {
       set_multipliers();
-      if (!report()) {
-        return;
-      }
+      if (!report()) return;
       Index first;
-      if (lambda.size() == 0 || lambda.minCoeff(&first) >= -rounding) {
-        return;
-      }
-      if (!may_go_on()) {
-        return;
-      }
+      if (lambda.size() == 0 || lambda.minCoeff(&first) >= -rounding) return;
+      if (!may_go_on()) return;
       const std::vector<char> closed_before = closed;
       const VectorXd d_before = d;
       const double before = energy();
-      for (Index i = 0; i < d.size(); ++i) {
+      for (Index i = 0; i < d.size(); ++i)
         closed[at(i)] = lambda[i] < -rounding ? 0 : closed[at(i)];
-      }
       if (factor().regular()) {
         settle();
-        if (energy() < before) {
-          continue;
-        }
+        if (energy() < before) continue;
       }
       closed = closed_before;
       d = d_before;
       open_one(first);
-      if (status) {
-        return;
-      }
+      if (status) return;
       if (!(energy() < before)) {
         closed = closed_before;
         d = d_before;
@@ -245,11 +214,8 @@ class Run {
 
 DenseLcp::DenseLcp(MatrixXd matrix)
     : _scale(matrix.diagonal().cwiseSqrt().cwiseInverse()), _matrix(std::move(matrix)) {
-  for (Index j = 0; j < _matrix.cols(); ++j) {
-    for (Index i = 0; i < _matrix.rows(); ++i) {
-      _matrix(i, j) *= _scale[i] * _scale[j];
-    }
-  }
+  for (Index j = 0; j < _matrix.cols(); ++j)
+    for (Index i = 0; i < _matrix.rows(); ++i) _matrix(i, j) *= _scale[i] * _scale[j];
 }
 
 LcpAnswer DenseLcp::solve(const VectorXd& r, const VectorXd& magnitude, const LcpOptions& options,
@@ -276,9 +242,7 @@ LcpAnswer DenseLcp::solve(const VectorXd& r, const VectorXd& magnitude, const Lc
     answer.weakly_active += run.d[i] <= weak && run.lambda[i] <= weak ? 1 : 0;
     answer.pressed.push_back(run.lambda[i] > weak ? 1 : 0);
   }
-  if (answer.status == LcpStatus::solved) {
-    answer.factor = run.take_factor();
-  }
+  if (answer.status == LcpStatus::solved) answer.factor = run.take_factor();
   answer.closed = std::move(run.closed);
   return answer;
 }

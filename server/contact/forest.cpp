@@ -18,9 +18,7 @@ Forest::Forest(const ddm::Skeleton& skeleton)
     contacts_of[at(skeleton.contacts[c].minus)].push_back(c);
   }
   for (std::size_t root = 0; root < skeleton.unknowns; ++root) {
-    if (_root[root] >= 0) {
-      continue;
-    }
+    if (_root[root] >= 0) continue;
     _root[root] = static_cast<std::int32_t>(root);
     _roots.push_back(static_cast<Eigen::Index>(root));
     std::vector<std::size_t> reached = {root};
@@ -28,9 +26,7 @@ Forest::Forest(const ddm::Skeleton& skeleton)
       const std::size_t above = reached.back();
       reached.pop_back();
       for (const std::size_t c : contacts_of[above]) {
-        if (_hung[c] >= 0) {
-          continue;
-        }
+        if (_hung[c] >= 0) continue;
         const auto plus = at(skeleton.contacts[c].plus), minus = at(skeleton.contacts[c].minus);
         const std::size_t below = plus == above ? minus : plus;
         if (_root[below] >= 0) {
@@ -50,19 +46,15 @@ Forest::Forest(const ddm::Skeleton& skeleton)
 
 Eigen::VectorXd Forest::expand(const Eigen::VectorXd& q, const Eigen::VectorXd& d) const {
   Eigen::VectorXd w(unknowns());
-  for (Eigen::Index k = 0; k < free_count(); ++k) {
-    w[_roots[at(k)]] = q[k];
-  }
-  for (const Hanging& hanging : _downwards) {
+  for (Eigen::Index k = 0; k < free_count(); ++k) w[_roots[at(k)]] = q[k];
+  for (const Hanging& hanging : _downwards)
     w[hanging.unknown] = w[hanging.above] - _sign[hanging.contact] * d[hanging.contact];
-  }
   return w;
 }
 
 void Forest::accumulate(Eigen::Ref<Eigen::MatrixXd> y) const {
-  for (auto hanging = _downwards.rbegin(); hanging != _downwards.rend(); ++hanging) {
+  for (auto hanging = _downwards.rbegin(); hanging != _downwards.rend(); ++hanging)
     y.row(hanging->above) += y.row(hanging->unknown);
-  }
 }
 
 }  // namespace anticrack::contact

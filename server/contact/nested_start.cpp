@@ -29,9 +29,7 @@ Prolongation coarsen(Index contacts, Chains& chains) {
     for (std::size_t i = 1; i < chain.size(); i += 2) {
       entries.emplace_back(chain[i], count, 1.0);
       entries.emplace_back(chain[i - 1], count, 0.5);
-      if (i + 1 < chain.size()) {
-        entries.emplace_back(chain[i + 1], count, 0.5);
-      }
+      if (i + 1 < chain.size()) entries.emplace_back(chain[i + 1], count, 0.5);
       kept.push_back(count++);
     }
     chain = std::move(kept);
@@ -47,9 +45,7 @@ NestedStart::NestedStart(const MatrixXd& matrix, Chains chains) {
   MatrixXd coarse;
   for (const MatrixXd* fine = &matrix; fine->rows() > fewest_contacts;) {
     const Prolongation prolongation = coarsen(fine->rows(), chains);
-    if (prolongation.cols() == 0) {
-      return;
-    }
+    if (prolongation.cols() == 0) return;
     const MatrixXd half = *fine * prolongation;
     coarse = prolongation.transpose() * half;
     fine = &coarse;
@@ -72,23 +68,18 @@ std::vector<char> NestedStart::closed(const VectorXd& r, const VectorXd& magnitu
     options.max_steps = most_steps;
     const LcpAnswer answer = level.lcp.solve(loads[k].first, loads[k].second, options, start,
                                              [](const LcpStep&) { return true; });
-    if (answer.status != LcpStatus::solved) {
-      return {};
-    }
+    if (answer.status != LcpStatus::solved) return {};
     const VectorXd jump = level.prolongation * answer.d;
     start.resize(at(jump.size()));
-    for (Index i = 0; i < jump.size(); ++i) {
-      start[at(i)] = jump[i] > 0 ? 0 : 1;
-    }
+    for (Index i = 0; i < jump.size(); ++i) start[at(i)] = jump[i] > 0 ? 0 : 1;
   }
   return start;
 }
 
 std::size_t NestedStart::bytes() const noexcept {
   std::size_t bytes = 0;
-  for (const Level& level : _levels) {
+  for (const Level& level : _levels)
     bytes += level.lcp.bytes() + at(level.prolongation.nonZeros()) * (sizeof(double) + sizeof(int));
-  }
   return bytes;
 }
 

@@ -18,27 +18,18 @@ void OpenFactor::reserve(Index contacts) {
 }
 
 bool OpenFactor::factorise(const MatrixXd& matrix, const std::vector<char>& closed) {
-  if (_closed == closed) {
-    return _regular;
-  }
+  if (_closed == closed) return _regular;
   _closed = closed;
   _nodes.clear();
-  for (std::size_t i = 0; i < closed.size(); ++i) {
-    if (closed[i] == 0) {
-      _nodes.push_back(static_cast<Index>(i));
-    }
-  }
+  for (std::size_t i = 0; i < closed.size(); ++i)
+    if (closed[i] == 0) _nodes.push_back(static_cast<Index>(i));
   const auto n = static_cast<Index>(_nodes.size());
-  if (_values.size() < n * n) {
-    _values.resize(n * n);
-  }
+  if (_values.size() < n * n) _values.resize(n * n);
   Eigen::Map<MatrixXd> factor(_values.data(), n, n);
   for (Index j = 0; j < n; ++j) {  // the upper triangle is never read
     const double* from = matrix.col(_nodes[at(j)]).data();
     double* to = factor.col(j).data();
-    for (Index i = j; i < n; ++i) {
-      to[i] = from[_nodes[at(i)]];
-    }
+    for (Index i = j; i < n; ++i) to[i] = from[_nodes[at(i)]];
   }
   _regular = cholesky(factor) &&
              (n == 0 || regular_pivot(factor.diagonal().array().square().minCoeff(), n));
@@ -53,9 +44,7 @@ VectorXd OpenFactor::solve(const VectorXd& b) const {
 
 void OpenFactor::solve(const VectorXd& b, VectorXd& x) const {
   const auto n = static_cast<Index>(_nodes.size());
-  for (Index i = 0; i < n; ++i) {
-    x[i] = b[_nodes[at(i)]];
-  }
+  for (Index i = 0; i < n; ++i) x[i] = b[_nodes[at(i)]];
   const Eigen::Map<const MatrixXd> factor(_values.data(), n, n);
   solve_lower(factor, x.head(n));
   solve_lower_transposed(factor, x.head(n));

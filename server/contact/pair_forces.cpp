@@ -35,22 +35,17 @@ PairForces::PairForces(const ddm::Decomposition& decomposition, const VectorXd& 
   for (std::size_t i = 0; i < decomposition.pairs.size(); ++i) {
     const ddm::NodePair& pair = decomposition.pairs[i];
     at_node[pair.node].push_back(static_cast<std::int32_t>(i));
-    if (pair.contact >= 0) {
-      _contact_mass[pair.contact] += _mass[static_cast<Index>(i)];
-    }
+    if (pair.contact >= 0) _contact_mass[pair.contact] += _mass[static_cast<Index>(i)];
   }
   for (const auto& [node, pairs] : at_node) {
     for (const std::int32_t i : pairs) {
       if (_decomposition.pairs[at(i)].contact < 0 && !tied(_decomposition, i)) {
-        if (std::vector<std::int32_t> path = path_of(pairs, i); !path.empty()) {
+        if (std::vector<std::int32_t> path = path_of(pairs, i); !path.empty())
           _implied.push_back({i, std::move(path)});
-        }
       }
     }
     Knot knot = knot_of(pairs);
-    if (!knot.pairs.empty() && !knot.sides.empty()) {
-      _knots.push_back(std::move(knot));
-    }
+    if (!knot.pairs.empty() && !knot.sides.empty()) _knots.push_back(std::move(knot));
   }
 }
 
@@ -66,14 +61,10 @@ std::vector<std::int32_t> PairForces::path_of(const std::vector<std::int32_t>& p
   std::vector<std::vector<std::int32_t>> ways{{}};
   std::vector<std::int32_t> reached{unknown(of.plus, of.plus_trace)};
   for (std::size_t k = 0; k < reached.size(); ++k) {
-    if (reached[k] == end) {
-      return ways[k];
-    }
+    if (reached[k] == end) return ways[k];
     for (const std::int32_t i : pairs_of_node) {
       const std::int32_t contact = _decomposition.pairs[at(i)].contact;
-      if (contact < 0 || _decomposition.skeleton.contacts[at(contact)].plus != reached[k]) {
-        continue;
-      }
+      if (contact < 0 || _decomposition.skeleton.contacts[at(contact)].plus != reached[k]) continue;
       const std::int32_t below = _decomposition.skeleton.contacts[at(contact)].minus;
       if (std::find(reached.begin(), reached.end(), below) == reached.end()) {
         reached.push_back(below);
@@ -102,15 +93,11 @@ VectorXd PairForces::share(const VectorXd& lambda, VectorXd& mu) const {
         most = std::min(most, whole);
       }
       const double taken = std::clamp(wanted / weight, 0.0, std::max(most, 0.0));
-      for (const std::int32_t c : one.path) {
-        left[c] += before - taken;
-      }
+      for (const std::int32_t c : one.path) left[c] += before - taken;
       mu[one.pair] = taken / mass;
       changed = changed || taken != before;
     }
-    if (!changed) {
-      break;
-    }
+    if (!changed) break;
   }
   return left;
 }
@@ -123,15 +110,11 @@ PairForces::Knot PairForces::knot_of(const std::vector<std::int32_t>& pairs_of_n
                       std::pair{Side{pair.plus, pair.plus_trace}, 1.0}};
   };
   for (const std::int32_t i : pairs_of_node) {
-    if (!tied(_decomposition, i)) {
-      continue;
-    }
+    if (!tied(_decomposition, i)) continue;
     knot.pairs.push_back(i);
-    for (const auto& [side, sign] : ends(i)) {
-      if (_decomposition.subdomains[at(side.subdomain)].rigid[at(side.trace)] < 0) {
+    for (const auto& [side, sign] : ends(i))
+      if (_decomposition.subdomains[at(side.subdomain)].rigid[at(side.trace)] < 0)
         knot.sides.push_back(side);
-      }
-    }
   }
   std::sort(knot.sides.begin(), knot.sides.end());
   knot.sides.erase(std::unique(knot.sides.begin(), knot.sides.end()), knot.sides.end());
@@ -146,11 +129,8 @@ PairForces::Knot PairForces::knot_of(const std::vector<std::int32_t>& pairs_of_n
   VectorXd root(b_root.cols());
   for (Index p = 0; p < b_root.cols(); ++p) {
     root[p] = std::sqrt(_mass[knot.pairs[at(p)]]);
-    for (const auto& [side, sign] : ends(knot.pairs[at(p)])) {
-      if (const Index k = number(side); k >= 0) {
-        b_root(k, p) += sign * root[p];
-      }
-    }
+    for (const auto& [side, sign] : ends(knot.pairs[at(p)]))
+      if (const Index k = number(side); k >= 0) b_root(k, p) += sign * root[p];
   }
   if (b_root.size() > 0) {
     knot.multipliers =
@@ -158,11 +138,8 @@ PairForces::Knot PairForces::knot_of(const std::vector<std::int32_t>& pairs_of_n
   }
   for (const std::int32_t i : pairs_of_node) {
     if (!tied(_decomposition, i)) {
-      for (const auto& [side, sign] : ends(i)) {
-        if (const Index k = number(side); k >= 0) {
-          knot.contacts.push_back({k, i, sign});
-        }
-      }
+      for (const auto& [side, sign] : ends(i))
+        if (const Index k = number(side); k >= 0) knot.contacts.push_back({k, i, sign});
     }
   }
   return knot;
@@ -171,14 +148,10 @@ PairForces::Knot PairForces::knot_of(const std::vector<std::int32_t>& pairs_of_n
 void PairForces::complete_contact(const VectorXd& lambda, std::vector<char>& pressed) const {
   constexpr double least_pressure = 1e-12;
   double largest = 0;
-  for (Index c = 0; c < lambda.size(); ++c) {
+  for (Index c = 0; c < lambda.size(); ++c)
     largest = pressed[at(c)] != 0 ? std::max(largest, lambda[c] / _contact_mass[c]) : largest;
-  }
-  for (Index c = 0; c < lambda.size() && largest > 0; ++c) {
-    if (lambda[c] / _contact_mass[c] > least_pressure * largest) {
-      pressed[at(c)] = 1;
-    }
-  }
+  for (Index c = 0; c < lambda.size() && largest > 0; ++c)
+    if (lambda[c] / _contact_mass[c] > least_pressure * largest) pressed[at(c)] = 1;
 }
 
 VectorXd PairForces::multipliers(const std::vector<VectorXd>& fluxes,
@@ -187,9 +160,7 @@ VectorXd PairForces::multipliers(const std::vector<VectorXd>& fluxes,
   const VectorXd shared = share(lambda, mu);
   for (Index i = 0; i < mu.size(); ++i) {
     const std::int32_t contact = _decomposition.pairs[at(i)].contact;
-    if (contact >= 0) {
-      mu[i] = shared[contact] / _contact_mass[contact];
-    }
+    if (contact >= 0) mu[i] = shared[contact] / _contact_mass[contact];
   }
   for (const Knot& knot : _knots) {
     VectorXd force(knot.multipliers.cols());
@@ -197,13 +168,10 @@ VectorXd PairForces::multipliers(const std::vector<VectorXd>& fluxes,
       const Side& side = knot.sides[at(k)];
       force[k] = fluxes[at(side.subdomain)][side.trace];
     }
-    for (const Touch& contact : knot.contacts) {
+    for (const Touch& contact : knot.contacts)
       force[contact.side] -= contact.sign * _mass[contact.pair] * mu[contact.pair];
-    }
     const VectorXd found = knot.multipliers * force;
-    for (Index p = 0; p < found.size(); ++p) {
-      mu[knot.pairs[at(p)]] = found[p];
-    }
+    for (Index p = 0; p < found.size(); ++p) mu[knot.pairs[at(p)]] = found[p];
   }
   return mu;
 }

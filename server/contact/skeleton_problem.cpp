@@ -24,11 +24,8 @@ MatrixXd join(const ddm::Decomposition& decomposition,
   for (std::size_t s = 0; s < operators.size(); ++s) {
     const MatrixXd& schur = operators[s].factor().schur();
     const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
-    for (Index j = 0; j < schur.cols(); ++j) {
-      for (Index i = 0; i < schur.rows(); ++i) {
-        k(unknown[at(i)], unknown[at(j)]) += schur(i, j);
-      }
-    }
+    for (Index j = 0; j < schur.cols(); ++j)
+      for (Index i = 0; i < schur.rows(); ++i) k(unknown[at(i)], unknown[at(j)]) += schur(i, j);
   }
   return k;
 }
@@ -136,9 +133,8 @@ SkeletonProblem::Reduced SkeletonProblem::reduce_refined(const VectorXd& h) cons
 
 VectorXd SkeletonProblem::apply(const VectorXd& w) const {
   std::vector<VectorXd> forces = scatter(w);
-  for (std::size_t s = 0; s < forces.size(); ++s) {
+  for (std::size_t s = 0; s < forces.size(); ++s)
     forces[s] = _traces.operators()[s].factor().apply_schur(forces[s]);
-  }
   return gather(forces);
 }
 
@@ -176,9 +172,7 @@ VectorXd SkeletonProblem::gather(const std::vector<VectorXd>& on_traces) const {
   VectorXd sum = VectorXd::Zero(forest().unknowns());
   for (std::size_t s = 0; s < on_traces.size(); ++s) {
     const std::vector<std::int32_t>& unknown = _traces.decomposition().subdomains[s].unknown;
-    for (Index i = 0; i < on_traces[s].size(); ++i) {
-      sum[unknown[at(i)]] += on_traces[s][i];
-    }
+    for (Index i = 0; i < on_traces[s].size(); ++i) sum[unknown[at(i)]] += on_traces[s][i];
   }
   return sum;
 }
@@ -188,9 +182,7 @@ std::vector<VectorXd> SkeletonProblem::scatter(const VectorXd& w) const {
   traces.reserve(_traces.decomposition().subdomains.size());
   for (const ddm::Subdomain& subdomain : _traces.decomposition().subdomains) {
     VectorXd trace(static_cast<Index>(subdomain.trace));
-    for (Index i = 0; i < trace.size(); ++i) {
-      trace[i] = w[subdomain.unknown[at(i)]];
-    }
+    for (Index i = 0; i < trace.size(); ++i) trace[i] = w[subdomain.unknown[at(i)]];
     traces.push_back(std::move(trace));
   }
   return traces;

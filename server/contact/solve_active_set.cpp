@@ -22,9 +22,7 @@ class Case {
     _state.displacement = VectorXd::Zero(static_cast<Index>(inclusions));
     std::vector<VectorXd> g;
     g.reserve(_loads.size());
-    for (const ddm::CondensedLoad& load : _loads) {
-      g.push_back(load.g);
-    }
+    for (const ddm::CondensedLoad& load : _loads) g.push_back(load.g);
     _reduced = problem.reduce(problem.gather(g));
   }
 
@@ -42,16 +40,14 @@ class Case {
   /// One step of iterative refinement, and multipliers from the forces themselves.
   void refine(const LcpAnswer& solution) {
     VectorXd d = solution.d;
-    if (d != _d) {  // after the last sample, nodes open by rounding were closed
+    if (d != _d)  // after the last sample, nodes open by rounding were closed
       move_to(_problem.unknowns(_reduced, d));
-    }
     _problem.refine(-_problem.gather(_state.flux), solution.factor, _reduced, d);
     d = d.cwiseMax(0.0);
     move_to(_problem.unknowns(_reduced, d));
     VectorXd lambda = _problem.multipliers(-_problem.gather(_state.flux));
-    for (Index c = 0; c < lambda.size(); ++c) {
+    for (Index c = 0; c < lambda.size(); ++c)
       lambda[c] = solution.closed[at(c)] != 0 ? std::max(lambda[c], 0.0) : 0;
-    }
     fill(d, lambda);
     settle_contact(solution.pressed, lambda);
   }
@@ -73,14 +69,10 @@ class Case {
     double worst = 0;
     for (std::size_t s = 0; s < _loads.size(); ++s) {
       const VectorXd& t = _state.trace[s];
-      if (t.size() == 0) {
-        continue;
-      }
+      if (t.size() == 0) continue;
       const VectorXd force = _state.flux[s] + _loads[s].g;
       const double size = std::max(t.lpNorm<Eigen::Infinity>(), force.lpNorm<Eigen::Infinity>());
-      if (size == 0) {
-        continue;
-      }
+      if (size == 0) continue;
       const VectorXd scaled = t / size;
       const double change =
           ((t - previous_trace[s]) / size).dot((_state.flux[s] - previous_flux[s]) / size);
@@ -96,14 +88,10 @@ class Case {
   void settle_contact(std::vector<char> pressed, const VectorXd& lambda) {
     _traces.pair_forces().complete_contact(lambda, pressed);
     const std::vector<ddm::NodePair>& pairs = _traces.decomposition().pairs;
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      if (pairs[i].contact >= 0) {
-        _state.contact[i] = pressed[at(pairs[i].contact)];
-      }
-    }
-    for (const PairForces::Implied& implied : _traces.pair_forces().implied()) {
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (pairs[i].contact >= 0) _state.contact[i] = pressed[at(pairs[i].contact)];
+    for (const PairForces::Implied& implied : _traces.pair_forces().implied())
       _state.contact[at(implied.pair)] = pressed_through(implied.path, pressed) ? 1 : 0;
-    }
   }
 
   void fill(const VectorXd& d, const VectorXd& lambda) {
@@ -118,15 +106,12 @@ class Case {
                                          : _state.trace[at(pair.plus)][pair.plus_trace] -
                                                _state.trace[at(pair.minus)][pair.minus_trace];
     }
-    for (const PairForces::Implied& implied : _traces.pair_forces().implied()) {
-      if (_state.mu[implied.pair] > 0) {  // closed as its contacts are, which the traces round
+    for (const PairForces::Implied& implied : _traces.pair_forces().implied())
+      if (_state.mu[implied.pair] > 0)  // closed as its contacts are, which the traces round
         _state.jump[implied.pair] = 0;
-      }
-    }
     _state.contact.assign(pairs.size(), 0);
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (std::size_t i = 0; i < pairs.size(); ++i)
       _state.contact[i] = pairs[i].unilateral() && _state.mu[static_cast<Index>(i)] > 0 ? 1 : 0;
-    }
     _sample.energy = energy(_loads, _state);
     _sample.contact_count = contact_count(_traces.decomposition(), _state.mu);
     _sample.kkt = contact_residuals(_traces.decomposition(), _state.mu, _state.jump);
@@ -151,9 +136,7 @@ std::string limit_reason(const ActiveSetOptions& options) {
 
 std::string overflow(std::span<const ddm::CondensedLoad> loads) {
   double force = 0;
-  for (const ddm::CondensedLoad& load : loads) {
-    force = std::max(force, largest(load.g));
-  }
+  for (const ddm::CondensedLoad& load : loads) force = std::max(force, largest(load.g));
   std::ostringstream text;
   text << "the energy overflows: the largest force on a node of the interfaces is " << force
        << "; scale the load down";
@@ -208,9 +191,8 @@ Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
   answer.weakly_active = solution.weakly_active;
   answer.closed = solution.closed;
   describe(problem.traces(), mesh, loads, load_case.state(), load_case.sample(), answer);
-  if (!std::isfinite(answer.energy) && answer.status != Status::cancelled) {
+  if (!std::isfinite(answer.energy) && answer.status != Status::cancelled)
     throw errors::Error(errors::Reason::numerical, overflow(loads.subdomains));
-  }
   if (answer.status == Status::converged && !within(answer.kkt_relative, solution_residual)) {
     answer.status = Status::not_converged;
     answer.reason = inaccurate_reason(answer.kkt_relative);

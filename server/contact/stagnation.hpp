@@ -22,9 +22,7 @@ class StagnationMonitor {
     ++_count;
     _turns += turned ? 1 : 0;
     _smallest = std::min(_smallest, criterion);
-    if (_count < window) {
-      return false;
-    }
+    if (_count < window) return false;
     const bool stagnant =
         _smallest > rounding && _smallest >= progress * _previous_smallest && 2 * _turns > window;
     _count = _turns = 0;

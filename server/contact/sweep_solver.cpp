@@ -25,17 +25,13 @@ SweepGeometry::SweepGeometry(const SkeletonProblem& problem, std::size_t inclusi
       length(VectorXd::Zero(problem.lcp().size())) {
   const TraceProblem& traces = problem.traces();
   const ddm::Decomposition& decomposition = traces.decomposition();
-  for (Index j = 0; j < displacement.rows(); ++j) {
+  for (Index j = 0; j < displacement.rows(); ++j)
     displacement.row(j) = problem.response(static_cast<std::int32_t>(j)).transpose();
-  }
-  for (std::size_t i = 0; i < decomposition.pairs.size(); ++i) {
-    if (const std::int32_t c = decomposition.pairs[i].contact; c >= 0) {
+  for (std::size_t i = 0; i < decomposition.pairs.size(); ++i)
+    if (const std::int32_t c = decomposition.pairs[i].contact; c >= 0)
       length[c] += traces.lumped_mass()[static_cast<Index>(i)];
-    }
-  }
-  for (const PairForces::Implied& pair : traces.pair_forces().implied()) {
+  for (const PairForces::Implied& pair : traces.pair_forces().implied())
     implied.push_back({pair.path, traces.lumped_mass()[pair.pair]});
-  }
   for (std::size_t c = 0; c < decomposition.interface_sides.size(); ++c) {
     const std::vector<ddm::SidePair>& sides = decomposition.interface_sides[c];
     for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -66,9 +62,7 @@ SweepLoads reduce(const SkeletonProblem& problem, std::size_t inclusions,
   MatrixXd h(problem.traces().forest().unknowns(), m), w(h.rows(), m);
   for (Index j = 0; j < m; ++j) {
     std::vector<VectorXd> g;
-    for (const ddm::CondensedLoad& load : loads[at(j)].subdomains) {
-      g.push_back(load.g);
-    }
+    for (const ddm::CondensedLoad& load : loads[at(j)].subdomains) g.push_back(load.g);
     h.col(j) = problem.gather(g);
     const SkeletonProblem::Reduced reduced = problem.reduce_refined(h.col(j));
     w.col(j) = problem.unknowns(reduced, no_jump);
@@ -132,23 +126,19 @@ bool SweepSolver::write(std::size_t row, SweepColumns& rows) {
     energy -= _r[i] * d[i] / 2;
     length += _pressed[at(i)] != 0 ? _geometry.length[i] : 0;
   }
-  for (const SweepGeometry::Implied& implied : _geometry.implied) {
+  for (const SweepGeometry::Implied& implied : _geometry.implied)
     length += pressed_through(implied.path, _pressed) ? implied.length : 0;
-  }
   multiply(_geometry.displacement, d, _of_jumps);
   _displacement += _of_jumps;
-  if (!std::isfinite(energy) || !_displacement.allFinite() || !lambda.allFinite()) {
-    return false;
-  }
+  if (!std::isfinite(energy) || !_displacement.allFinite() || !lambda.allFinite()) return false;
   rows.energy[row] = energy;
   rows.contact_length[row] = length;
   rows.kkt[row] = _lcp.residual();
   double* displacement = rows.displacement.data() + row * rows.inclusions;
   std::copy(_displacement.begin(), _displacement.end(), displacement);
   std::uint8_t* contact = rows.contact.data() + row * rows.contacts;
-  for (std::size_t i = 0; i < rows.contacts; ++i) {
+  for (std::size_t i = 0; i < rows.contacts; ++i)
     contact[i] = static_cast<std::uint8_t>(_pressed[at(_geometry.contact[i])]);
-  }
   return true;
 }
 

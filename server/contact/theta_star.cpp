@@ -29,9 +29,8 @@ class Product {
   void perform_op(const double* x_in, double* y_out) const {
     const Eigen::VectorXd force = _root * Eigen::Map<const Eigen::VectorXd>(x_in, rows());
     std::vector<Eigen::VectorXd> traces;
-    for (std::size_t s = 0; s < _operators.size(); ++s) {
+    for (std::size_t s = 0; s < _operators.size(); ++s)
       traces.push_back(answer(static_cast<std::int32_t>(s), force));
-    }
     Eigen::VectorXd jump(rows());
     for (Eigen::Index i = 0; i < rows(); ++i) {
       const ddm::NodePair& pair = _decomposition.pairs[at(i)];
@@ -46,12 +45,8 @@ class Product {
     Eigen::VectorXd load = Eigen::VectorXd::Zero(flexibility.trace_size());
     for (Eigen::Index i = 0; i < rows(); ++i) {
       const ddm::NodePair& pair = _decomposition.pairs[at(i)];
-      if (pair.plus == subdomain) {
-        load[pair.plus_trace] += force[i];
-      }
-      if (pair.minus == subdomain) {
-        load[pair.minus_trace] -= force[i];
-      }
+      if (pair.plus == subdomain) load[pair.plus_trace] += force[i];
+      if (pair.minus == subdomain) load[pair.minus_trace] -= force[i];
     }
     Eigen::VectorXd reduced(flexibility.skeleton_size()), skeleton(flexibility.skeleton_size());
     Eigen::VectorXd trace(flexibility.trace_size());
@@ -79,9 +74,7 @@ double largest_eigenvalue_dense(const Product& product) {
 
 double largest_eigenvalue(Product product) {
   constexpr Eigen::Index dense_limit = 64;
-  if (product.rows() <= dense_limit) {
-    return largest_eigenvalue_dense(product);
-  }
+  if (product.rows() <= dense_limit) return largest_eigenvalue_dense(product);
   constexpr Eigen::Index basis = 24, restarts = 1000;
   constexpr double tolerance = 1e-12;
   Spectra::SymEigsSolver<Product> solver(product, 1, basis);
@@ -101,9 +94,7 @@ double largest_eigenvalue(Product product) {
 double theta_star(const ddm::Decomposition& decomposition,
                   const std::vector<ddm::SubdomainOperator>& operators,
                   const Eigen::SparseMatrix<double>& mass_root) {
-  if (mass_root.rows() == 0) {
-    return std::numeric_limits<double>::infinity();
-  }
+  if (mass_root.rows() == 0) return std::numeric_limits<double>::infinity();
   return 2 / largest_eigenvalue(Product(decomposition, operators, mass_root));
 }
 

@@ -11,18 +11,15 @@ namespace {
 
 /// R with M = R R'; F M and R'F R have the same eigenvalues.
 Eigen::SparseMatrix<double> root(const Eigen::SparseMatrix<double>& mass) {
-  if (mass.rows() == 0) {
-    return {};
-  }
+  if (mass.rows() == 0) return {};
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>>
       cholesky(mass);
   return cholesky.matrixL();
 }
 
 Eigen::SparseMatrix<double> root(const Eigen::VectorXd& mass) {
-  if (mass.size() == 0) {
+  if (mass.size() == 0)
     return {};  // Eigen 3.4 writes through a null pointer for a diagonal of size 0
-  }
   return Eigen::SparseMatrix<double>(mass.cwiseSqrt().asDiagonal());
 }
 
@@ -39,9 +36,7 @@ TraceProblem::TraceProblem(const ddm::Decomposition& decomposition,
       _uzawa(uzawa) {}
 
 double TraceProblem::theta_star(Mass mass) const {
-  if (!_uzawa) {
-    return 0;
-  }
+  if (!_uzawa) return 0;
   return lazy_theta_star(mass).get([this, mass] {
     return contact::theta_star(_decomposition, _operators,
                                mass == Mass::lumped ? root(_lumped) : root(_consistent));
@@ -54,11 +49,10 @@ bool TraceProblem::knows_theta_star(Mass mass) const noexcept {
 
 void TraceProblem::apply_mass(Mass mass, const Eigen::Ref<const Eigen::MatrixXd>& mu,
                               Eigen::Ref<Eigen::MatrixXd> force) const {
-  if (mass == Mass::lumped) {
+  if (mass == Mass::lumped)
     force.noalias() = _lumped.asDiagonal() * mu;
-  } else {
+  else
     force.noalias() = _consistent * mu;
-  }
 }
 
 }  // namespace anticrack::contact

@@ -20,9 +20,8 @@ std::vector<VectorXd> fluxes(const std::vector<ddm::SubdomainOperator>& operator
                              const std::vector<VectorXd>& traces) {
   std::vector<VectorXd> result;
   result.reserve(operators.size());
-  for (std::size_t s = 0; s < operators.size(); ++s) {
+  for (std::size_t s = 0; s < operators.size(); ++s)
     result.emplace_back(operators[s].factor().apply_schur(traces[s]) - loads[s].g);
-  }
   return result;
 }
 
@@ -67,13 +66,11 @@ double largest_unbalanced(const ddm::Decomposition& decomposition, std::span<con
   on_inclusion.setZero();
   for (std::size_t s = 0; s < forces.size(); ++s) {
     const std::vector<std::int32_t>& rigid = decomposition.subdomains[s].rigid;
-    for (Index k = 0; k < forces[s].size(); ++k) {
-      if (rigid[at(k)] < 0) {
+    for (Index k = 0; k < forces[s].size(); ++k)
+      if (rigid[at(k)] < 0)
         worst = std::max(worst, std::abs(forces[s][k]));
-      } else {
+      else
         on_inclusion[rigid[at(k)]] += forces[s][k];
-      }
-    }
   }
   return std::max(worst, largest(on_inclusion));
 }
@@ -109,9 +106,8 @@ bool within(const KktResiduals& relative, double bound) {
 
 int contact_count(const ddm::Decomposition& decomposition, const ConstVectorRef& mu) {
   int count = 0;
-  for (Index i = 0; i < mu.size(); ++i) {
+  for (Index i = 0; i < mu.size(); ++i)
     count += decomposition.pairs[at(i)].unilateral() && mu[i] > 0 ? 1 : 0;
-  }
   return count;
 }
 

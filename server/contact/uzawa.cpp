@@ -52,22 +52,17 @@ Uzawa::Uzawa(const TraceProblem& problem, Mass mass, int capacity)
 
 void Uzawa::start(int column, std::span<const ddm::CondensedLoad> loads, double theta, double p) {
   _columns[index(column)] = {loads, theta, p, {}};
-  for (MatrixXd* values : {&_mu, &_jump, &_pair_force, &_change, &_trace, &_force}) {
+  for (MatrixXd* values : {&_mu, &_jump, &_pair_force, &_change, &_trace, &_force})
     values->col(column).setZero();
-  }
-  for (std::size_t s = 0; s < _sides.size(); ++s) {
+  for (std::size_t s = 0; s < _sides.size(); ++s)
     _g.col(column).segment(_sides[s].first, _sides[s].size) = loads[s].g;
-  }
 }
 
 void Uzawa::exchange(int a, int b) {
-  if (a == b) {
-    return;
-  }
+  if (a == b) return;
   std::swap(_columns[index(a)], _columns[index(b)]);
-  for (MatrixXd* values : {&_mu, &_jump, &_pair_force, &_change, &_g, &_trace, &_force}) {
+  for (MatrixXd* values : {&_mu, &_jump, &_pair_force, &_change, &_g, &_trace, &_force})
     values->col(a).swap(values->col(b));
-  }
 }
 
 void Uzawa::step(int columns) {
@@ -187,22 +182,18 @@ int Uzawa::held_at_bound(int column) const {
 TraceState Uzawa::state(int column) const {
   const std::span<const ddm::CondensedLoad> loads = _columns[index(column)].loads;
   TraceState state;
-  for (std::size_t s = 0; s < _sides.size(); ++s) {
-    state.trace.emplace_back(trace(column, s));
-  }
+  for (std::size_t s = 0; s < _sides.size(); ++s) state.trace.emplace_back(trace(column, s));
   state.flux = fluxes(_problem.operators(), loads, state.trace);
   state.displacement.resize(static_cast<Index>(_inclusion_row.size()));
-  for (std::size_t j = 0; j < _inclusion_row.size(); ++j) {
+  for (std::size_t j = 0; j < _inclusion_row.size(); ++j)
     state.displacement[static_cast<Index>(j)] = displacement(column, j);
-  }
   state.mu = _mu.col(column);
   state.force = _pair_force.col(column);
   state.jump = _jump.col(column);
   // A step of mu is theta times a jump: less comes from the rounding of traces that just touch.
   const double weak = weak_pressure * _problem.theta_star(_mass) * largest(_trace.col(column));
-  for (std::size_t i = 0; i < _pairs.size(); ++i) {
+  for (std::size_t i = 0; i < _pairs.size(); ++i)
     state.contact.push_back(_pairs[i].unilateral && _mu(static_cast<Index>(i), column) > weak);
-  }
   return state;
 }
 

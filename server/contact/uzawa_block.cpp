@@ -60,20 +60,17 @@ std::string overflow_reason(const Answer& answer) {
 std::string limit_reason(const Answer& answer, const UzawaOptions& options, int held_at_bound) {
   std::ostringstream text;
   text << "after " << options.max_iterations << " iterations ";
-  if (options.kkt_tolerance) {
+  if (options.kkt_tolerance)
     text << residuals_of(answer) << ", not all below kkt_tolerance = " << *options.kkt_tolerance;
-  } else {
+  else
     text << "the criterion is " << answer.criterion << ", not below epsilon = " << options.epsilon;
-  }
   text << " (theta = " << answer.theta << ", theta* = " << answer.theta_star << "); ";
   if (held_at_bound > 0) {
     text << bound_of(options, held_at_bound) << ": raise p" << or_exact;
     return text.str();
   }
   text << "raise max_iterations or " << (options.kkt_tolerance ? "kkt_tolerance" : "epsilon");
-  if (far_from_theta_star(answer)) {
-    text << ", or set theta to auto";
-  }
+  if (far_from_theta_star(answer)) text << ", or set theta to auto";
   return text.str();
 }
 
@@ -87,9 +84,7 @@ std::string unsolved_reason(const Answer& answer, const UzawaOptions& options, i
   text << "criterion " << answer.criterion << " below epsilon = " << options.epsilon << ", but "
        << residuals_of(answer) << ", not all below " << solution_residual
        << " (theta = " << answer.theta << ", theta* = " << answer.theta_star << "); ";
-  if (far_from_theta_star(answer)) {
-    text << "set theta to auto, ";
-  }
+  if (far_from_theta_star(answer)) text << "set theta to auto, ";
   text << "set kkt_tolerance to stop by the residuals" << or_exact;
   return text.str();
 }
@@ -103,9 +98,7 @@ UzawaBlock::UzawaBlock(const TraceProblem& problem, const mesh::Mesh& mesh, Mass
       _theta_star(problem.theta_star(mass)),
       _uzawa(problem, mass, capacity),
       _cases(at(capacity)) {
-  for (int c = 0; c < capacity; ++c) {
-    column(c).place = c;
-  }
+  for (int c = 0; c < capacity; ++c) column(c).place = c;
 }
 
 int UzawaBlock::add(const CaseLoads& loads, const UzawaOptions& options, bool fields,
@@ -162,28 +155,21 @@ void UzawaBlock::observe(int c) {
   sample.kkt.equilibrium = equilibrium;
 
   seen.end = judge(c);
-  if (seen.end != End::running || iterate.number == 1 || iterate.number % equilibrium_period == 0) {
+  if (seen.end != End::running || iterate.number == 1 || iterate.number % equilibrium_period == 0)
     sample.kkt.equilibrium = _uzawa.equilibrium(c);
-  }
-  if (!seen.observer->on_iteration(sample)) {
-    seen.end = End::cancelled;
-  }
+  if (!seen.observer->on_iteration(sample)) seen.end = End::cancelled;
 }
 
 UzawaBlock::End UzawaBlock::judge(int c) {
   Case& seen = column(c);
   const Iterate& iterate = _uzawa.iterate(c);
-  if (!std::isfinite(iterate.criterion) || !std::isfinite(iterate.energy)) {
-    return End::overflow;
-  }
+  if (!std::isfinite(iterate.criterion) || !std::isfinite(iterate.energy)) return End::overflow;
   const std::optional<double> wanted = seen.options.kkt_tolerance;
   if (wanted ? within_tolerance(c, _uzawa.scales(c), *wanted)
-             : iterate.criterion < seen.options.epsilon) {
+             : iterate.criterion < seen.options.epsilon)
     return (wanted || solved(c)) && _uzawa.held_at_bound(c) == 0 ? End::converged : End::unsolved;
-  }
-  if (seen.theta > _theta_star && seen.monitor.add(iterate.criterion, iterate.turned)) {
+  if (seen.theta > _theta_star && seen.monitor.add(iterate.criterion, iterate.turned))
     return End::oscillation;
-  }
   return iterate.number >= seen.options.max_iterations ? End::limit : End::running;
 }
 
@@ -191,9 +177,8 @@ UzawaBlock::End UzawaBlock::judge(int c) {
 bool UzawaBlock::within_tolerance(int c, const Scales& scales, double tolerance) {
   KktResiduals& absolute = column(c).sample.kkt;
   if (absolute.gap > tolerance * scales.trace || absolute.sign > tolerance * scales.mu ||
-      absolute.complementarity > tolerance * scales.mu * scales.trace) {
+      absolute.complementarity > tolerance * scales.mu * scales.trace)
     return false;
-  }
   absolute.equilibrium = _uzawa.equilibrium(c);
   return within(
       relative_residuals(_problem.decomposition(), _uzawa.mu(c), _uzawa.jump(c), scales, absolute),
@@ -211,15 +196,11 @@ bool UzawaBlock::solved(int c) {
 std::vector<UzawaBlock::Ended> UzawaBlock::take_ended() {
   std::vector<Ended> ended;
   ended.reserve(at(_ended));
-  for (int c = _running; c < _running + _ended; ++c) {
-    ended.push_back({column(c).place, answer(c)});
-  }
+  for (int c = _running; c < _running + _ended; ++c) ended.push_back({column(c).place, answer(c)});
   std::vector<SolvedCase> wanted;
   for (int c = 0; c < _ended; ++c) {
     const Case& one = column(_running + c);
-    if (one.fields) {
-      wanted.push_back({one.loads.subdomains, ended[at(c)].answer});
-    }
+    if (one.fields) wanted.push_back({one.loads.subdomains, ended[at(c)].answer});
   }
   recover_fields(_problem, wanted);
   _ended = 0;
@@ -266,9 +247,7 @@ Answer solve_uzawa(const TraceProblem& problem, const mesh::Mesh& mesh, const Ca
                    const UzawaOptions& options, bool fields, Observer& observer) {
   UzawaBlock block(problem, mesh, options.mass, 1);
   block.add(loads, options, fields, observer);
-  while (block.columns() > 0) {
-    block.step();
-  }
+  while (block.columns() > 0) block.step();
   return std::move(block.take_ended().front().answer);
 }
 

@@ -31,9 +31,7 @@ WarmLcp::WarmLcp(const DenseLcp& lcp, int max_steps, std::span<const char> start
   _pressed.resize(_closed.size(), 0);
   _met.reserve(_closed.size());
   _open.reserve(lcp.size());
-  for (VectorXd* vector : {&_r, &_d, &_force, &_jump, &_pressure}) {
-    vector->setZero(lcp.size());
-  }
+  for (VectorXd* vector : {&_r, &_d, &_force, &_jump, &_pressure}) vector->setZero(lcp.size());
 }
 
 LcpStatus WarmLcp::solve(const VectorXd& r, const VectorXd& magnitude) {
@@ -43,18 +41,14 @@ LcpStatus WarmLcp::solve(const VectorXd& r, const VectorXd& magnitude) {
   _r = _lcp.scale().cwiseProduct(r) / unit;
   _steps = 0;
   const LcpStatus status = find_set(r, magnitude);
-  if (status == LcpStatus::solved) {
-    finish(r, unit);
-  }
+  if (status == LcpStatus::solved) finish(r, unit);
   return status;
 }
 
 LcpStatus WarmLcp::find_set(const VectorXd& r, const VectorXd& magnitude) {
   _met.clear();
   for (;;) {
-    if (!factorise()) {
-      return start_over(r, magnitude);
-    }
+    if (!factorise()) return start_over(r, magnitude);
     solve_open();
     ++_steps;
     const Index changed = step();
@@ -63,20 +57,13 @@ LcpStatus WarmLcp::find_set(const VectorXd& r, const VectorXd& magnitude) {
       return LcpStatus::solved;
     }
     if (_steps == 1 && changed > far_off && _nested != nullptr) {
-      if (std::vector<char> closed = _nested->closed(r, magnitude); !closed.empty()) {
+      if (std::vector<char> closed = _nested->closed(r, magnitude); !closed.empty())
         _closed = std::move(closed);
-      }
     }
-    if (_steps >= _max_steps) {
-      return LcpStatus::step_limit;
-    }
+    if (_steps >= _max_steps) return LcpStatus::step_limit;
     // Brent's cycle detection: compare with the set of the last step whose number is a power of 2.
-    if (_closed == _met) {
-      return start_over(r, magnitude);
-    }
-    if (std::has_single_bit(static_cast<unsigned>(_steps))) {
-      _met = _closed;
-    }
+    if (_closed == _met) return start_over(r, magnitude);
+    if (std::has_single_bit(static_cast<unsigned>(_steps))) _met = _closed;
   }
 }
 

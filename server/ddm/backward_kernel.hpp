@@ -50,9 +50,8 @@ inline void add_products(const double* l, int height, int own, const int* rows, 
   Rows values{};
   const auto add = [&](int i) {
 #pragma GCC unroll 8
-    for (int k = 0; k < columns; ++k) {
+    for (int k = 0; k < columns; ++k)
       sums[k] += *reinterpret_cast<const UnalignedRows*>(column[k] + i) * values;
-    }
   };
   const auto gather = [&](int i) {
     for (int r = 0; r < rows_at_once; ++r) values[r] = y[rows[i + r]];
@@ -75,9 +74,8 @@ inline void add_products(const double* l, int height, int own, const int* rows, 
     values = lane >= static_cast<long>(i - last) ? values : Rows{};
     add(last);
   } else {
-    for (; i < height; ++i) {
+    for (; i < height; ++i)
       for (int k = 0; k < columns; ++k) sum[k] = multiply_add(column[k][i], y[rows[i]], sum[k]);
-    }
   }
   for (int k = 0; k < columns; ++k) sum[k] += total(sums[k]);
 }
@@ -95,9 +93,7 @@ inline void solve_backward(const double* l, int height, int own, const int* rows
     const double* column = panel + static_cast<long>(k) * height + begin;
     value[k] = x[begin + k] - value[k];
 #pragma GCC unroll 8
-    for (int i = columns - 1; i > k; --i) {
-      value[k] = multiply_add(-column[i], value[i], value[k]);
-    }
+    for (int i = columns - 1; i > k; --i) value[k] = multiply_add(-column[i], value[i], value[k]);
     value[k] *= 1 / column[k];  // the quotient needs no x and is ready before
     x[begin + k] = value[k];
   }
@@ -126,13 +122,11 @@ inline void add_products_of_block(const double* column, int height, int own, con
   if (i < height && height >= rows_at_once) {
     const int last = height - rows_at_once;
 #pragma GCC unroll 8
-    for (int r = 0; r < rows_at_once; ++r) {
+    for (int r = 0; r < rows_at_once; ++r)
       if (last + r >= i) add(last, r, of_y(last + r));
-    }
   } else {
-    for (; i < height; ++i) {
+    for (; i < height; ++i)
       for (int g = 0; g < groups; ++g) sum[g] += column[i] * of_y(i)[g];
-    }
   }
   for (int g = 0; g < groups; ++g) {
     sum[g] += ((sums[0][g] + sums[4][g]) + (sums[2][g] + sums[6][g])) +
@@ -198,9 +192,8 @@ void solve_block_backward(const Supernodes& factor, Lanes* y) {
             const double inverse = 1 / column[k];
             for (int g = 0; g < groups; ++g) {
               Lanes value = x[static_cast<long>(k) * groups + g] - sum[g];
-              for (int i = begin + count - 1; i > k; --i) {
+              for (int i = begin + count - 1; i > k; --i)
                 value -= column[i] * x[static_cast<long>(i) * groups + g];
-              }
               x[static_cast<long>(k) * groups + g] = value * inverse;
             }
           }

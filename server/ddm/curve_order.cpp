@@ -45,18 +45,14 @@ void sort_by_digit(const std::vector<Keyed>& from, unsigned shift, std::vector<K
   constexpr std::size_t digits = std::size_t{1} << digit_bits;
   std::array<std::size_t, digits> end{};
   const auto digit = [shift](const Keyed& k) { return (k.key >> shift) & (digits - 1); };
-  for (const Keyed& k : from) {
-    ++end[digit(k)];
-  }
+  for (const Keyed& k : from) ++end[digit(k)];
   std::size_t begin = 0;
   for (std::size_t& e : end) {
     const std::size_t count = e;
     e = begin;
     begin += count;
   }
-  for (const Keyed& k : from) {
-    to[end[digit(k)]++] = k;
-  }
+  for (const Keyed& k : from) to[end[digit(k)]++] = k;
 }
 
 }  // namespace
@@ -77,9 +73,7 @@ void sort_along_curve(std::vector<std::int32_t>& nodes, std::span<const double> 
     sort_by_digit(keyed, shift, sorted);
     keyed.swap(sorted);
   }
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    nodes[i] = keyed[i].node;
-  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = keyed[i].node;
 }
 
 }  // namespace anticrack::ddm

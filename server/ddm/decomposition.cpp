@@ -50,9 +50,8 @@ class Numbering {
         _side_trace(sides.sides.size()),
         _local(mesh.node_count(), -1),
         _subdomains(mesh.subdomains.size()) {
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
       _subdomains[at(mesh.subdomain[t])].triangle.push_back(static_cast<std::int32_t>(t));
-    }
     std::vector<std::vector<std::int32_t>> traces(_subdomains.size());
     for (std::size_t i = 0; i < sides.sides.size(); ++i) {
       std::vector<std::int32_t>& trace = traces[at(sides.sides[i].subdomain)];
@@ -100,9 +99,7 @@ class Numbering {
     subdomain.trace = trace.size();
     subdomain.dirichlet = dirichlet.size();
     subdomain.node.reserve(subdomain.interior + trace.size() + dirichlet.size());
-    for (const std::int32_t side : trace) {
-      subdomain.node.push_back(_sides.sides[at(side)].node);
-    }
+    for (const std::int32_t side : trace) subdomain.node.push_back(_sides.sides[at(side)].node);
     subdomain.node.insert(subdomain.node.end(), dirichlet.begin(), dirichlet.end());
     number_triangles(subdomain);
   }
@@ -125,9 +122,8 @@ class Numbering {
       }
     }
     sort_by_first_node(subdomain);
-    for (const std::int32_t node : subdomain.node) {
+    for (const std::int32_t node : subdomain.node)
       _local[at(node)] = -1;  // a Dirichlet node may be in the next subdomain as well
-    }
   }
 
   const mesh::Mesh& _mesh;
@@ -154,11 +150,10 @@ std::vector<NodePair> place_pairs(const Sides& sides, const Ties& ties,
                   couple.contact};
     const std::int32_t above = ties.unknown[at(couple.plus)];
     const bool rigid = above < inclusions;
-    if (above == ties.unknown[at(couple.minus)]) {
+    if (above == ties.unknown[at(couple.minus)])
       pair.kind = rigid ? Kind::inclusion : Kind::glue;
-    } else {
+    else
       pair.kind = rigid ? Kind::delaminated : Kind::crack;
-    }
     pair.inclusion = rigid ? above : -1;
     pairs.push_back(pair);
   }
@@ -182,19 +177,16 @@ SidePair side_pair(const Decomposition& decomposition, const Sides& sides, const
                    const std::vector<std::int32_t>& side_trace, std::size_t edge, std::size_t end) {
   SidePair result;
   const std::int32_t minus = sides.edges[edge].minus[end], plus = sides.edges[edge].plus[end];
-  if (plus < 0) {
-    return result;
-  }
+  if (plus < 0) return result;
   result.pair = ties.of_end[edge][end];
   result.minus = sides.sides[at(minus)].subdomain;
   result.minus_trace = side_trace[at(minus)];
   result.plus = sides.sides[at(plus)].subdomain;
   result.plus_trace = side_trace[at(plus)];
-  if (result.pair >= 0) {
+  if (result.pair >= 0)
     result.kind = decomposition.pairs[at(result.pair)].kind;
-  } else {
+  else
     result.kind = ties.rigid[at(plus)] >= 0 ? Kind::inclusion : Kind::glue;
-  }
   return result;
 }
 
@@ -206,9 +198,8 @@ std::vector<std::vector<SidePair>> place_sides(const mesh::Mesh& mesh,
   for (std::size_t e = 0; e < sides.edges.size(); ++e) {
     std::vector<SidePair>& of_node = result[at(sides.edges[e].interface)];
     of_node.push_back(side_pair(decomposition, sides, ties, side_trace, e, 0));
-    if (e + 1 == sides.edges.size() || sides.edges[e + 1].interface != sides.edges[e].interface) {
+    if (e + 1 == sides.edges.size() || sides.edges[e + 1].interface != sides.edges[e].interface)
       of_node.push_back(side_pair(decomposition, sides, ties, side_trace, e, 1));
-    }
   }
   return result;
 }

@@ -19,12 +19,8 @@ struct Rows {
 Rows rows_below(const Sparse& matrix, std::int32_t interior, std::int32_t j) {
   const std::int32_t *row = matrix.innerIndexPtr(), *column = matrix.outerIndexPtr();
   std::int32_t begin = column[j], end = column[j + 1];
-  while (begin < end && row[begin] <= j) {
-    ++begin;
-  }
-  while (begin < end && row[end - 1] >= interior) {
-    --end;
-  }
+  while (begin < end && row[begin] <= j) ++begin;
+  while (begin < end && row[end - 1] >= interior) --end;
   return {begin, end};
 }
 
@@ -35,9 +31,7 @@ Graph graph_of(const Sparse& matrix, std::int32_t interior) {
   for (std::int32_t j = 0; j < interior; ++j) {
     const Rows rows = rows_below(matrix, interior, j);
     graph.begin[at(j)] += rows.end - rows.begin;
-    for (std::int32_t i = rows.begin; i < rows.end; ++i) {
-      ++graph.begin[at(row[i])];
-    }
+    for (std::int32_t i = rows.begin; i < rows.end; ++i) ++graph.begin[at(row[i])];
   }
   std::int32_t end = 0;
   for (std::int32_t& begin : graph.begin) {

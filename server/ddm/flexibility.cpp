@@ -17,9 +17,7 @@ namespace {
 void multiply(const Eigen::MatrixXd& a, const Eigen::Ref<const Eigen::MatrixXd>& x,
               Eigen::Ref<Eigen::MatrixXd> y) {
   const int size = static_cast<int>(a.rows()), columns = static_cast<int>(x.cols());
-  if (size == 0 || columns == 0) {
-    return;
-  }
+  if (size == 0 || columns == 0) return;
   if (columns == 1) {
     cblas_dsymv(CblasColMajor, CblasLower, size, 1, a.data(), size, x.data(), 1, 0, y.data(), 1);
     return;
@@ -38,29 +36,21 @@ Flexibility::Flexibility(const Eigen::MatrixXd& schur, std::span<const std::int3
   std::int32_t inclusions = 0;
   for (std::size_t i = 0; i < rigid.size(); ++i) {
     inclusions = std::max(inclusions, rigid[i] + 1);
-    if (rigid[i] < 0) {
-      _column[i] = size++;
-    }
+    if (rigid[i] < 0) _column[i] = size++;
   }
   std::vector<Eigen::Index> inclusion_column(at(inclusions), -1);
   for (std::size_t i = 0; i < rigid.size(); ++i) {
     if (rigid[i] >= 0) {
       Eigen::Index& column = inclusion_column[at(rigid[i])];
-      if (column < 0) {
-        column = size++;
-      }
+      if (column < 0) column = size++;
       _column[i] = column;
     }
   }
-  if (size == 0) {
-    return;
-  }
+  if (size == 0) return;
   Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(size, size);
-  for (Eigen::Index j = 0; j < schur.cols(); ++j) {
-    for (Eigen::Index i = 0; i < schur.rows(); ++i) {
+  for (Eigen::Index j = 0; j < schur.cols(); ++j)
+    for (Eigen::Index i = 0; i < schur.rows(); ++i)
       reduced(_column[at(i)], _column[at(j)]) += schur(i, j);
-    }
-  }
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(reduced);
   if (cholesky.info() != Eigen::Success) {
     throw errors::Error(errors::Reason::numerical,
@@ -83,17 +73,13 @@ void Flexibility::apply(const Eigen::Ref<const Eigen::MatrixXd>& rhs,
   for (Eigen::Index j = 0; j < rhs.cols(); ++j) {
     const auto given = rhs.col(j);
     auto sums = reduced.col(j);
-    for (Eigen::Index i = 0; i < given.size(); ++i) {
-      sums[_column[at(i)]] += given[i];
-    }
+    for (Eigen::Index i = 0; i < given.size(); ++i) sums[_column[at(i)]] += given[i];
   }
   multiply(_inverse, reduced, skeleton);
   for (Eigen::Index j = 0; j < trace.cols(); ++j) {
     const auto values = skeleton.col(j);
     auto wanted = trace.col(j);
-    for (Eigen::Index i = 0; i < wanted.size(); ++i) {
-      wanted[i] = values[_column[at(i)]];
-    }
+    for (Eigen::Index i = 0; i < wanted.size(); ++i) wanted[i] = values[_column[at(i)]];
   }
 }
 

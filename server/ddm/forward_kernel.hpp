@@ -83,19 +83,16 @@ template <int groups, int count, class Row>
 inline void update(const double* l, int height, int begin, int end, const Lanes* x, int i, Lanes* y,
                    Row row) {
   Lanes sum[count][groups];
-  for (int r = 0; r < count; ++r) {
+  for (int r = 0; r < count; ++r)
     for (int g = 0; g < groups; ++g) sum[r][g] = y[static_cast<long>(row(i + r)) * groups + g];
-  }
   for (int k = begin; k < end; ++k) {
     const double* column = l + static_cast<long>(k) * height + i;
-    for (int r = 0; r < count; ++r) {
+    for (int r = 0; r < count; ++r)
       for (int g = 0; g < groups; ++g)
         sum[r][g] -= column[r] * x[static_cast<long>(k) * groups + g];
-    }
   }
-  for (int r = 0; r < count; ++r) {
+  for (int r = 0; r < count; ++r)
     for (int g = 0; g < groups; ++g) y[static_cast<long>(row(i + r)) * groups + g] = sum[r][g];
-  }
 }
 
 template <int groups, class Row>
@@ -103,9 +100,7 @@ inline void update_rows(const double* l, int height, int begin, int end, const L
                         int to, Lanes* y, Row row) {
   constexpr int count = ANTICRACK_ROWS / groups > 0 ? ANTICRACK_ROWS / groups : 1;
   int i = from;
-  for (; i + count <= to; i += count) {
-    update<groups, count>(l, height, begin, end, x, i, y, row);
-  }
+  for (; i + count <= to; i += count) update<groups, count>(l, height, begin, end, x, i, y, row);
   for (; i < to; ++i) update<groups, 1>(l, height, begin, end, x, i, y, row);
 }
 

@@ -14,9 +14,7 @@ class Lazy {
   /// If compute() throws, the next call tries again.
   template <class Compute>
   const Value& get(const Compute& compute) const {
-    if (const Value* value = known()) {
-      return *value;
-    }
+    if (const Value* value = known()) return *value;
     const std::lock_guard lock(_mutex);
     if (!_value) {
       _value.emplace(compute());

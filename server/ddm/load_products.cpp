@@ -15,9 +15,7 @@ using Eigen::VectorXd;
 template <VectorXd CondensedLoad::*part>
 Index most_rows(std::span<const CondensedLoad* const> loads) {
   Index rows = 0;
-  for (const CondensedLoad* load : loads) {
-    rows = std::max(rows, (load->*part).size());
-  }
+  for (const CondensedLoad* load : loads) rows = std::max(rows, (load->*part).size());
   return rows;
 }
 
@@ -27,9 +25,7 @@ MatrixXd block(std::span<const CondensedLoad* const> loads, Index first, Index c
   MatrixXd result = MatrixXd::Zero(count, static_cast<Index>(loads.size()));
   for (Index j = 0; j < result.cols(); ++j) {
     const VectorXd& column = loads[at(j)]->*part;
-    if (column.size() > 0) {
-      result.col(j) = column.segment(first, count);
-    }
+    if (column.size() > 0) result.col(j) = column.segment(first, count);
   }
   return result;
 }

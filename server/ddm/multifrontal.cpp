@@ -53,11 +53,10 @@ SparseColumns permuted(const Sparse& stiffness, std::span<const int> place, int 
   columns.begin.assign(at(interior) + 1, 0);
   schur.setZero(n - interior, n - interior);
   for_each_entry(stiffness, place, [&](int row, int column, double value) {
-    if (column < interior) {
+    if (column < interior)
       ++columns.begin[at(column)];
-    } else {
+    else
       schur(row - interior, column - interior) += value;
-    }
   });
   int end = 0;
   for (int& begin : columns.begin) {
@@ -181,11 +180,10 @@ class Elimination {
       return [&, front = new_front()](std::size_t t) mutable {
         for (const int s : subtrees.nodes[t]) {
           if (!definite) return;
-          if (!eliminate(s, front)) {
+          if (!eliminate(s, front))
             definite = false;
-          } else if (subtrees.root[at(s)] != s && _update[at(s)].size > 0) {
+          else if (subtrees.root[at(s)] != s && _update[at(s)].size > 0)
             pass_on(s);
-          }
         }
       };
     });
@@ -203,9 +201,8 @@ class Elimination {
     for (int i = 0; i < front.height; ++i) front.place[at(front.rows[i])] = i;
     for (int j = 0; j < columns; ++j) {
       double* column = panel + std::ptrdiff_t{j} * front.height;
-      for (int e = _columns.begin[at(first + j)]; e < _columns.begin[at(first + j) + 1]; ++e) {
+      for (int e = _columns.begin[at(first + j)]; e < _columns.begin[at(first + j) + 1]; ++e)
         column[front.place[at(_columns.row[at(e)])]] += _columns.value[at(e)];
-      }
     }
     // Columns of the children that are eliminated here; the others are added to the update.
     for (int c = _child[at(s)]; c >= 0; c = _update[at(c)].next) {
@@ -266,15 +263,13 @@ bool eliminate_front(int columns, int height, double* panel, double* update, boo
   const int rest = height - columns;
   // A call of BLAS costs as much as thousands of operations.
   constexpr double few = 40'000;
-  if (static_cast<double>(columns) * height * height < few) {
+  if (static_cast<double>(columns) * height * height < few)
     return eliminate_small_front(columns, height, panel, update, add);
-  }
   int info = 0;
   dpotrf_("L", &columns, panel, &height, &info);
   if (info != 0) return false;
-  for (int k = 0; k < columns; ++k) {  // OpenBLAS does not stop at NaN
+  for (int k = 0; k < columns; ++k)  // OpenBLAS does not stop at NaN
     if (!(panel[std::ptrdiff_t{k} * (height + 1)] > 0)) return false;
-  }
   if (rest == 0) return true;
   double* below = panel + columns;
   cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, columns, 1,

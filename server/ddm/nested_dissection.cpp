@@ -119,9 +119,7 @@ class Dissection {
     }
     std::vector<std::int32_t> result;
     result.reserve(_nodes.size());
-    for (const Node& node : _nodes) {
-      result.push_back(node.vertex);
-    }
+    for (const Node& node : _nodes) result.push_back(node.vertex);
     return result;
   }
 
@@ -134,9 +132,8 @@ class Dissection {
   double median(const Set& set, const Cut& cut) {
     const std::size_t count = std::min<std::size_t>(set.size(), 127);
     _sample.clear();
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i)
       _sample.push_back(cut.distance(_nodes[set.first + i * set.size() / count]));
-    }
     const auto middle = _sample.begin() + static_cast<std::ptrdiff_t>(count / 2);
     std::nth_element(_sample.begin(), middle, _sample.end());
     return *middle;
@@ -183,9 +180,7 @@ class Dissection {
       const double distance = cut.distance(node);
       _part[at(node.vertex)] = distance < 0 ? first : second;
       in_first += distance < 0 ? 1 : 0;
-      if (std::abs(distance) <= cut.reach(node)) {
-        _near.push_back(node.vertex);
-      }
+      if (std::abs(distance) <= cut.reach(node)) _near.push_back(node.vertex);
     }
     find_band(first, second, {in_first, static_cast<std::ptrdiff_t>(set.size()) - in_first});
   }
@@ -208,9 +203,7 @@ class Dissection {
         }
       }
     }
-    if (_taken.empty()) {
-      return;
-    }
+    if (_taken.empty()) return;
     const std::size_t size = at(sizes[0] + sizes[1]);
     const std::size_t at_cut = _taken.size();
     const std::array<std::ptrdiff_t, 2> in_cut = in_band;
@@ -220,9 +213,7 @@ class Dissection {
       const std::array<bool, 2> full = {4 * in_band[0] >= sizes[0], 4 * in_band[1] >= sizes[1]};
       for (; done < end; ++done) {
         const std::int32_t v = _taken[done], mine = _part[at(v)];
-        if (full[mine == first ? 0 : 1]) {
-          continue;
-        }
+        if (full[mine == first ? 0 : 1]) continue;
         for (std::int32_t e = _graph.begin[at(v)]; e < _graph.begin[at(v) + 1]; ++e) {
           const std::int32_t u = _graph.neighbour[at(e)];
           if (_part[at(u)] == mine && _local[at(u)] < 0) {
@@ -234,9 +225,7 @@ class Dissection {
     }
     const bool whole_side = in_band[0] == sizes[0] || in_band[1] == sizes[1];
     if (whole_side) {  // nothing is left to be parted: choose among the ends of the edges cut
-      for (; _taken.size() > at_cut; _taken.pop_back()) {
-        _local[at(_taken.back())] = -1;
-      }
+      for (; _taken.size() > at_cut; _taken.pop_back()) _local[at(_taken.back())] = -1;
       in_band = in_cut;
     }
     connect_band(first, whole_side);
@@ -259,11 +248,10 @@ class Dissection {
       char outer = all_meet ? 1 : 0;
       for (std::int32_t e = _graph.begin[v]; e < _graph.begin[v + 1]; ++e) {
         const std::size_t u = at(_graph.neighbour[at(e)]);
-        if (_local[u] >= 0) {
+        if (_local[u] >= 0)
           _band.neighbour.push_back(_local[u]);
-        } else if (_part[u] == _part[v]) {
+        else if (_part[u] == _part[v])
           outer = 1;
-        }
       }
       _band.begin.push_back(static_cast<std::int32_t>(_band.neighbour.size()));
       (_part[v] == first ? _band.meets_first : _band.meets_second)[i] = outer;
@@ -303,9 +291,8 @@ class Dissection {
   void order_leaf(const Set& set) {
     SmallGraph small;
     small.size = set.size();
-    for (std::size_t i = 0; i < small.size; ++i) {
+    for (std::size_t i = 0; i < small.size; ++i)
       _local[at(_nodes[set.first + i].vertex)] = static_cast<std::int32_t>(i);
-    }
     _taken.clear();  // the nodes around, as many as there is room for
     constexpr auto most = static_cast<std::int32_t>(SmallGraph::most);
     constexpr std::uint64_t one = 1;
@@ -319,11 +306,10 @@ class Dissection {
           local = most + static_cast<std::int32_t>(_taken.size());
           _taken.push_back(u);
         }
-        if (local >= most) {
+        if (local >= most)
           small.around[i] |= one << (local - most);
-        } else if (local >= 0) {
+        else if (local >= 0)
           small.inside[i] |= one << local;
-        }
       }
     }
     std::array<std::int32_t, SmallGraph::most> order{};
@@ -331,13 +317,9 @@ class Dissection {
       _moved[i] = _nodes[set.first + i];
       _local[at(_moved[i].vertex)] = -1;
     }
-    for (const std::int32_t u : _taken) {
-      _local[at(u)] = -1;
-    }
+    for (const std::int32_t u : _taken) _local[at(u)] = -1;
     minimum_degree(small, order);
-    for (std::size_t i = 0; i < small.size; ++i) {
-      _nodes[set.first + i] = _moved[at(order[i])];
-    }
+    for (std::size_t i = 0; i < small.size; ++i) _nodes[set.first + i] = _moved[at(order[i])];
   }
 
   const Graph& _graph;

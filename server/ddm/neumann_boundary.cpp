@@ -25,12 +25,8 @@ EdgeKey edge_of(const mesh::Mesh& mesh, std::size_t corner) {
 /// Each as 3t + k when it runs from corner k to corner k+1 of triangle t.
 std::vector<std::int32_t> free_corners(const mesh::Mesh& mesh) {
   std::vector<std::size_t> end(mesh.node_count() + 1, 0);  // of each node's uses
-  for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
-    ++end[at(edge_of(mesh, c).first) + 1];
-  }
-  for (std::size_t n = 1; n < end.size(); ++n) {
-    end[n] += end[n - 1];
-  }
+  for (std::size_t c = 0; c < mesh.triangles.size(); ++c) ++end[at(edge_of(mesh, c).first) + 1];
+  for (std::size_t n = 1; n < end.size(); ++n) end[n] += end[n - 1];
   std::vector<Use> uses(mesh.triangles.size());
   for (std::size_t c = mesh.triangles.size(); c-- > 0;) {
     const auto [low, high] = edge_of(mesh, c);
@@ -39,9 +35,7 @@ std::vector<std::int32_t> free_corners(const mesh::Mesh& mesh) {
   // end[n + 1] is now where node n begins.
   std::vector<EdgeKey> held;
   held.reserve(mesh.dirichlet.size());
-  for (const auto& edge : mesh.dirichlet) {
-    held.push_back(std::minmax(edge[0], edge[1]));
-  }
+  for (const auto& edge : mesh.dirichlet) held.push_back(std::minmax(edge[0], edge[1]));
   std::sort(held.begin(), held.end());
   std::vector<std::int32_t> result;
   for (std::size_t n = 0; n < mesh.node_count(); ++n) {
@@ -53,9 +47,8 @@ std::vector<std::int32_t> free_corners(const mesh::Mesh& mesh) {
       const auto next =
           std::find_if(use, last, [use](const Use& other) { return other.high != use->high; });
       const EdgeKey key{static_cast<std::int32_t>(n), use->high};
-      if (next - use == 1 && !std::binary_search(held.begin(), held.end(), key)) {
+      if (next - use == 1 && !std::binary_search(held.begin(), held.end(), key))
         result.push_back(use->corner);
-      }
       use = next;
     }
   }
@@ -65,11 +58,9 @@ std::vector<std::int32_t> free_corners(const mesh::Mesh& mesh) {
 /// Of each triangle of the mesh in its subdomain.
 std::vector<std::size_t> places(const Decomposition& decomposition, std::size_t triangles) {
   std::vector<std::size_t> result(triangles);
-  for (const Subdomain& subdomain : decomposition.subdomains) {
-    for (std::size_t k = 0; k < subdomain.triangle.size(); ++k) {
+  for (const Subdomain& subdomain : decomposition.subdomains)
+    for (std::size_t k = 0; k < subdomain.triangle.size(); ++k)
       result[at(subdomain.triangle[k])] = k;
-    }
-  }
   return result;
 }
 
@@ -92,11 +83,9 @@ const NeumannBoundary::Edges& NeumannBoundary::of(std::size_t subdomain) const {
 
 std::size_t NeumannBoundary::bytes() const noexcept {
   std::size_t bytes = 0;
-  if (const std::vector<Edges>* edges = _edges.known()) {
-    for (const Edges& on_subdomain : *edges) {
+  if (const std::vector<Edges>* edges = _edges.known())
+    for (const Edges& on_subdomain : *edges)
       bytes += on_subdomain.capacity() * sizeof(on_subdomain[0]);
-    }
-  }
   return bytes;
 }
 

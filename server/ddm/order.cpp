@@ -17,16 +17,12 @@ bool leads(const std::vector<Above>& conditions, std::int32_t upper, std::int32_
   while (!open.empty()) {
     const std::int32_t here = open.back();
     open.pop_back();
-    if (here == lower) {
-      return true;
-    }
+    if (here == lower) return true;
     const auto first = std::lower_bound(conditions.begin(), conditions.end(), here,
                                         [](const Above& a, std::int32_t u) { return a.upper < u; });
-    for (auto it = first; it != conditions.end() && it->upper == here; ++it) {
-      if ((without == nullptr || *it != *without) && seen.insert(it->lower).second) {
+    for (auto it = first; it != conditions.end() && it->upper == here; ++it)
+      if ((without == nullptr || *it != *without) && seen.insert(it->lower).second)
         open.push_back(it->lower);
-      }
-    }
   }
   return false;
 }

@@ -18,17 +18,13 @@ using EdgeKey = std::pair<std::int32_t, std::int32_t>;
 
 std::vector<char> dirichlet_nodes(const mesh::Mesh& mesh) {
   std::vector<char> on_dirichlet(mesh.node_count(), 0);
-  for (const auto& edge : mesh.dirichlet) {
-    on_dirichlet[at(edge[0])] = on_dirichlet[at(edge[1])] = 1;
-  }
+  for (const auto& edge : mesh.dirichlet) on_dirichlet[at(edge[0])] = on_dirichlet[at(edge[1])] = 1;
   return on_dirichlet;
 }
 
 std::vector<CutEdge> list_edges(const mesh::Mesh& mesh) {
   std::size_t count = 0;
-  for (const mesh::Interface& interface : mesh.interfaces) {
-    count += interface.kind.size();
-  }
+  for (const mesh::Interface& interface : mesh.interfaces) count += interface.kind.size();
   std::vector<CutEdge> edges;
   edges.reserve(count);
   for (std::size_t i = 0; i < mesh.interfaces.size(); ++i) {
@@ -59,11 +55,9 @@ class Neighbourhood {
   /// Corner of the fan on the left of a -> b at each of the two ends; the places are local to the
   /// neighbourhood. -1 where the edge has no triangle there.
   std::array<std::int32_t, 2> left(std::int32_t a, std::int32_t b) {
-    for (const mesh::EdgeUse& use : _table.find(a, b)) {
-      if (use.from == a) {
+    for (const mesh::EdgeUse& use : _table.find(a, b))
+      if (use.from == a)
         return {_fans.find(corner(use.triangle, a)), _fans.find(corner(use.triangle, b))};
-      }
-    }
     return {-1, -1};
   }
   const std::vector<std::int32_t>& triangles() const { return _triangles; }
@@ -78,15 +72,13 @@ class Neighbourhood {
   static std::vector<std::int32_t> touching(const mesh::Mesh& mesh,
                                             const std::vector<CutEdge>& edges) {
     std::vector<char> on_interface(mesh.node_count(), 0);
-    for (const CutEdge& edge : edges) {
+    for (const CutEdge& edge : edges)
       on_interface[at(edge.node[0])] = on_interface[at(edge.node[1])] = 1;
-    }
     std::vector<std::int32_t> triangles;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
       const std::int32_t* node = &mesh.triangles[3 * t];
-      if (on_interface[at(node[0])] + on_interface[at(node[1])] + on_interface[at(node[2])] > 0) {
+      if (on_interface[at(node[0])] + on_interface[at(node[1])] + on_interface[at(node[2])] > 0)
         triangles.push_back(static_cast<std::int32_t>(t));
-      }
     }
     return triangles;
   }
@@ -111,18 +103,13 @@ class Neighbourhood {
   void join_fans(const std::vector<CutEdge>& edges) {
     std::vector<EdgeKey> cuts;
     cuts.reserve(edges.size());
-    for (const CutEdge& edge : edges) {
-      cuts.push_back(std::minmax(edge.node[0], edge.node[1]));
-    }
+    for (const CutEdge& edge : edges) cuts.push_back(std::minmax(edge.node[0], edge.node[1]));
     std::sort(cuts.begin(), cuts.end());
     _table.each([&](std::span<const mesh::EdgeUse> uses) {
       const EdgeKey key{uses[0].low(), uses[0].high()};
-      if (uses.size() < 2 || std::binary_search(cuts.begin(), cuts.end(), key)) {
-        return;
-      }
-      for (const std::int32_t node : {key.first, key.second}) {
+      if (uses.size() < 2 || std::binary_search(cuts.begin(), cuts.end(), key)) return;
+      for (const std::int32_t node : {key.first, key.second})
         _fans.unite(corner(uses[0].triangle, node), corner(uses[1].triangle, node));
-      }
     });
   }
 
@@ -136,9 +123,8 @@ void require_two_faces(const mesh::Mesh& mesh, const CutEdge& edge, Neighbourhoo
   const std::int32_t plus = around.left(edge.node[0], edge.node[1])[0];
   const std::int32_t minus = around.left(edge.node[1], edge.node[0])[0];
   const bool two = plus >= 0 && minus >= 0;
-  if (two && (edge.kind != mesh::Kind::glue || around.subdomain(plus) != around.subdomain(minus))) {
+  if (two && (edge.kind != mesh::Kind::glue || around.subdomain(plus) != around.subdomain(minus)))
     return;
-  }
   throw errors::Error(
       errors::Reason::mesh_invalid,
       "the interface edge from " + place(mesh, edge.node[0]) + " to " + place(mesh, edge.node[1]) +
@@ -164,9 +150,7 @@ Sides find_sides(const mesh::Mesh& mesh) {
 
   std::vector<std::int32_t> number(3 * around.triangles().size(), -1);
   const auto side = [&](std::int32_t fan, std::int32_t node) {
-    if (result.on_dirichlet[at(node)] != 0) {
-      return -1;
-    }
+    if (result.on_dirichlet[at(node)] != 0) return -1;
     if (number[at(fan)] < 0) {
       number[at(fan)] = static_cast<std::int32_t>(result.sides.size());
       result.sides.push_back({node, around.subdomain(fan)});
@@ -187,9 +171,8 @@ Sides find_sides(const mesh::Mesh& mesh) {
   // Where the membrane pinches, a fan may touch the node without one of the interface's edges.
   for (std::size_t i = 0; i < number.size(); ++i) {
     const std::size_t corner = 3 * at(around.triangles()[i / 3]) + i % 3;
-    if (const std::int32_t node = mesh.triangles[corner]; on_interface[at(node)] != 0) {
+    if (const std::int32_t node = mesh.triangles[corner]; on_interface[at(node)] != 0)
       result.corner[corner] = side(around.fan(i), node);
-    }
   }
   return result;
 }

@@ -48,11 +48,8 @@ cholmod_sparse view(const Sparse& matrix) {
 
 bool keeps_trace_last(const cholmod_factor& factor, Eigen::Index interior) {
   const int* permutation = static_cast<const int*>(factor.Perm);
-  for (auto i = at(interior); i < factor.n; ++i) {
-    if (permutation[i] != static_cast<int>(i)) {
-      return false;
-    }
-  }
+  for (auto i = at(interior); i < factor.n; ++i)
+    if (permutation[i] != static_cast<int>(i)) return false;
   return true;
 }
 
@@ -76,9 +73,8 @@ FactorPtr analyse(const Sparse& lower, std::vector<int>& permutation, Eigen::Ind
                           "the analysis of a subdomain moved its interface nodes");
     }
   }
-  if (factor->is_super == 0) {
+  if (factor->is_super == 0)
     throw errors::Error(errors::Reason::internal, "CHOLMOD found no supernodes");
-  }
   return factor;
 }
 
@@ -95,9 +91,7 @@ Supernodes pattern(const cholmod_factor& factor, Eigen::Index interior) {
 /// Values of the supernodes that have columns of the interior.
 std::size_t value_count(const Supernodes& l) {
   int end = 0;
-  while (end < l.count && l.super[end] < l.columns) {
-    ++end;
-  }
+  while (end < l.count && l.super[end] < l.columns) ++end;
   return at(l.value_begin[end]);
 }
 
@@ -106,9 +100,8 @@ std::size_t value_count(const Supernodes& l) {
 template <class Take>
 void for_tiles(int rows, int columns, const Take& take) {
   constexpr int tile = 256;
-  for (int begin = 0; begin < rows; begin += tile) {
+  for (int begin = 0; begin < rows; begin += tile)
     for (int j = 0; j < columns; ++j) take(begin, std::min(begin + tile, rows), j);
-  }
 }
 
 /// Solves columns in blocks of up to columns_at_once(rows): `solve(width, block)` works on a
@@ -147,9 +140,8 @@ Eigen::Index columns_at_once(Eigen::Index rows) noexcept {
 SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior,
                                  std::span<const std::int32_t> order, int threads)
     : _interior(interior) {
-  if (stiffness.rows() == 0) {
+  if (stiffness.rows() == 0)
     return;  // u is prescribed in every node; CHOLMOD refuses empty matrices
-  }
   std::vector<int> permutation(at(stiffness.rows()));
   std::iota(std::copy(order.begin(), order.end(), permutation.begin()), permutation.end(),
             static_cast<int>(interior));
@@ -158,9 +150,7 @@ SubdomainFactor::SubdomainFactor(const Sparse& stiffness, Eigen::Index interior,
   factor->l = pattern(*factor->analysis, interior);
   const int* unknown = static_cast<const int*>(factor->analysis->Perm);
   factor->place.resize(factor->analysis->n);
-  for (int k = 0; k < static_cast<int>(stiffness.rows()); ++k) {
-    factor->place[at(unknown[k])] = k;
-  }
+  for (int k = 0; k < static_cast<int>(stiffness.rows()); ++k) factor->place[at(unknown[k])] = k;
   factor->values = make_values(value_count(factor->l));
   factor->l.values = factor->values.get();
   if (!eliminate_interior(factor->l, factor->place, stiffness, factor->values.get(), _schur,
@@ -191,9 +181,7 @@ void SubdomainFactor::forward(const Eigen::Ref<const Eigen::MatrixXd>& f,
     column.z_interior.resize(_interior);
     column.g.resize(trace());
   }
-  if (!_factor || f.cols() == 0) {
-    return;
-  }
+  if (!_factor || f.cols() == 0) return;
   const int* place = _factor->place.data();
   const auto interior = static_cast<int>(_interior);
   in_blocks(
@@ -212,9 +200,7 @@ void SubdomainFactor::forward(const Eigen::Ref<const Eigen::MatrixXd>& f,
 }
 
 void SubdomainFactor::recover(std::span<Backward> columns) const {
-  if (!_factor || columns.empty()) {
-    return;
-  }
+  if (!_factor || columns.empty()) return;
   const int* place = _factor->place.data();
   const auto interior = static_cast<int>(_interior);
   in_blocks(
@@ -248,9 +234,7 @@ void SubdomainFactor::apply_schur(const Eigen::Ref<const Eigen::VectorXd>& trace
 }
 
 std::size_t SubdomainFactor::bytes() const noexcept {
-  if (!_factor) {
-    return 0;
-  }
+  if (!_factor) return 0;
   const cholmod_factor& analysis = *_factor->analysis;
   const std::size_t integers = analysis.ssize + 3 * (analysis.nsuper + 1) + 3 * analysis.n;
   return sizeof(double) * (value_count(_factor->l) + at(_schur.size())) + sizeof(int) * integers +

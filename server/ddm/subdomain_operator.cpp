@@ -47,9 +47,8 @@ std::vector<CondensedLoad> SubdomainOperator::condense(
   const Eigen::Index free = _free_dirichlet.rows(), columns = loads.cols();
   Eigen::Index solves = columns;
   std::vector<Eigen::Index> boundary(at(columns), -1);  // the column of g_D alone
-  for (Eigen::Index j = 0; j < columns; ++j) {
+  for (Eigen::Index j = 0; j < columns; ++j)
     boundary[at(j)] = dirichlet.col(j).isZero(0.0) ? -1 : solves++;
-  }
   const auto solved = [&] {
     if (solves == columns) return _factor.forward(loads.topRows(free));
     Eigen::MatrixXd right_hand_sides(free, solves);

@@ -46,11 +46,10 @@ PartNodes nodes_of_parts(const Subdomain& subdomain, mesh::UnionFind& parts) {
                    std::vector<std::int32_t>(subdomain.node.size(), -1)};
   for (std::size_t i = subdomain.interior; i < subdomain.node.size(); ++i) {
     const std::size_t part = at(parts.find(static_cast<std::int32_t>(i)));
-    if (i >= subdomain.free()) {
+    if (i >= subdomain.free())
       result.dirichlet[part] = 1;
-    } else if (result.trace[part] < 0) {
+    else if (result.trace[part] < 0)
       result.trace[part] = static_cast<std::int32_t>(i - subdomain.interior);
-    }
   }
   return result;
 }
@@ -78,9 +77,8 @@ void find_floating_parts(Decomposition& decomposition) {
     const PartNodes nodes = nodes_of_parts(subdomain, parts);
     for (std::size_t i = 0; i < subdomain.node.size(); ++i) {
       if (parts.find(static_cast<std::int32_t>(i)) != static_cast<std::int32_t>(i) ||
-          nodes.dirichlet[i] != 0) {
+          nodes.dirichlet[i] != 0)
         continue;
-      }
       if (nodes.trace[i] < 0) {
         throw errors::Error(errors::Reason::mesh_invalid,
                             "nothing holds " + around(subdomain, i) +

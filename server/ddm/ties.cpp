@@ -33,9 +33,7 @@ void refuse_shared_inclusion_nodes(const mesh::Mesh& mesh, const Sides& sides) {
   std::vector<std::int32_t> owner(mesh.node_count(), -1);
   std::vector<char> found(mesh.inclusions.size(), 0);
   for (const CutEdge& edge : sides.edges) {
-    if (edge.inclusion < 0) {
-      continue;
-    }
+    if (edge.inclusion < 0) continue;
     found[at(edge.inclusion)] = 1;
     for (const std::int32_t node : edge.node) {
       std::int32_t& other = owner[at(node)];
@@ -64,11 +62,8 @@ class Classes {
       : _inclusions(static_cast<std::int32_t>(mesh.inclusions.size())),
         _sets(mesh.inclusions.size() + sides.sides.size()) {
     for (const CutEdge& edge : sides.edges) {
-      for (std::size_t end = 0; end < 2; ++end) {
-        if (edge.plus[end] >= 0) {
-          tie(edge, end);
-        }
-      }
+      for (std::size_t end = 0; end < 2; ++end)
+        if (edge.plus[end] >= 0) tie(edge, end);
     }
   }
 
@@ -79,14 +74,10 @@ class Classes {
   std::vector<std::int32_t> number(std::size_t sides, std::size_t& unknowns) {
     std::vector<std::int32_t> of_class(at(_inclusions) + sides, -1), result(sides);
     std::int32_t count = 0;
-    for (; count < _inclusions; ++count) {
-      of_class[at(count)] = count;
-    }
+    for (; count < _inclusions; ++count) of_class[at(count)] = count;
     for (std::size_t i = 0; i < sides; ++i) {
       std::int32_t& unknown = of_class[at(of(static_cast<std::int32_t>(i)))];
-      if (unknown < 0) {
-        unknown = count++;
-      }
+      if (unknown < 0) unknown = count++;
       result[i] = unknown;
     }
     unknowns = at(count);
@@ -96,15 +87,9 @@ class Classes {
  private:
   void tie(const CutEdge& edge, std::size_t end) {
     const std::int32_t minus = _inclusions + edge.minus[end], plus = _inclusions + edge.plus[end];
-    if (edge.kind == Kind::glue) {
-      _sets.unite(minus, plus);
-    }
-    if (edge.kind == Kind::inclusion) {
-      _sets.unite(minus, edge.inclusion);
-    }
-    if (edge.inclusion >= 0) {
-      _sets.unite(plus, edge.inclusion);
-    }
+    if (edge.kind == Kind::glue) _sets.unite(minus, plus);
+    if (edge.kind == Kind::inclusion) _sets.unite(minus, edge.inclusion);
+    if (edge.inclusion >= 0) _sets.unite(plus, edge.inclusion);
   }
 
   std::int32_t _inclusions;
@@ -120,11 +105,9 @@ std::vector<OpenEnd> open_ends(const Sides& sides) {
   std::vector<OpenEnd> ends;
   ends.reserve(2 * sides.edges.size());
   for (const CutEdge& edge : sides.edges) {
-    if (edge.kind == Kind::crack || edge.kind == Kind::delaminated) {
-      for (std::size_t end = 0; end < 2; ++end) {
+    if (edge.kind == Kind::crack || edge.kind == Kind::delaminated)
+      for (std::size_t end = 0; end < 2; ++end)
         ends.push_back({edge.node[end], edge.minus[end], edge.plus[end]});
-      }
-    }
   }
   std::stable_sort(ends.begin(), ends.end(),
                    [](const OpenEnd& a, const OpenEnd& b) { return a.node < b.node; });
@@ -143,21 +126,15 @@ std::vector<NodeContacts> contacts_by_node(const Sides& sides, Classes& classes)
   std::vector<NodeContacts> result;
   for (std::size_t begin = 0, end = 0; begin < ends.size(); begin = end) {
     std::vector<Above> above;
-    for (; end < ends.size() && ends[end].node == ends[begin].node; ++end) {
+    for (; end < ends.size() && ends[end].node == ends[begin].node; ++end)
       above.push_back({classes.of(ends[end].plus), classes.of(ends[end].minus)});
-    }
-    for (const Above& equal : on_cycles(above)) {
-      classes.unite(equal.upper, equal.lower);
-    }
+    for (const Above& equal : on_cycles(above)) classes.unite(equal.upper, equal.lower);
     above.clear();
     above.reserve(end - begin);
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t i = begin; i < end; ++i)
       above.push_back({classes.of(ends[i].plus), classes.of(ends[i].minus)});
-    }
     above = without_implied(std::move(above));
-    if (!above.empty()) {
-      result.push_back({ends[begin].node, std::move(above)});
-    }
+    if (!above.empty()) result.push_back({ends[begin].node, std::move(above)});
   }
   return result;
 }
@@ -180,9 +157,7 @@ void number_contacts(const mesh::Mesh& mesh, const std::vector<NodeContacts>& no
   }
   for (Couple& couple : ties.couples) {
     const auto found = number.find({classes.of(couple.plus), classes.of(couple.minus)});
-    if (found == number.end()) {
-      continue;
-    }
+    if (found == number.end()) continue;
     if (found->second < 0) {
       found->second = static_cast<std::int32_t>(ties.skeleton.contacts.size());
       ties.skeleton.contacts.push_back(
@@ -198,14 +173,11 @@ void list_couples(const Sides& sides, Ties& ties) {
   for (std::size_t e = 0; e < sides.edges.size(); ++e) {
     const CutEdge& edge = sides.edges[e];
     for (std::size_t end = 0; end < 2; ++end) {
-      if (edge.minus[end] == edge.plus[end]) {  // a Dirichlet node, or the tip of a slit
+      if (edge.minus[end] == edge.plus[end])  // a Dirichlet node, or the tip of a slit
         continue;
-      }
       const auto [entry, is_new] = number.try_emplace(
           {edge.minus[end], edge.plus[end]}, static_cast<std::int32_t>(ties.couples.size()));
-      if (is_new) {
-        ties.couples.push_back({edge.minus[end], edge.plus[end], -1});
-      }
+      if (is_new) ties.couples.push_back({edge.minus[end], edge.plus[end], -1});
       ties.of_end[e][end] = entry->second;
     }
   }
@@ -220,11 +192,8 @@ Ties tie(const mesh::Mesh& mesh, const Sides& sides) {
   list_couples(sides, ties);
   ties.rigid.assign(sides.sides.size(), -1);
   for (const CutEdge& edge : sides.edges) {
-    for (const std::int32_t plus : edge.plus) {
-      if (plus >= 0 && edge.inclusion >= 0) {
-        ties.rigid[at(plus)] = edge.inclusion;
-      }
-    }
+    for (const std::int32_t plus : edge.plus)
+      if (plus >= 0 && edge.inclusion >= 0) ties.rigid[at(plus)] = edge.inclusion;
   }
   Classes classes(mesh, sides);
   const std::vector<NodeContacts> contacts = contacts_by_node(sides, classes);

@@ -14,9 +14,7 @@ std::string uzawa_obstacle(const Decomposition& decomposition, const mesh::Mesh&
              cure;
     }
     for (const std::int32_t inclusion : subdomain.rigid) {
-      if (inclusion < 0) {
-        continue;
-      }
+      if (inclusion < 0) continue;
       const auto j = at(inclusion);
       if (owner[j] != nullptr && owner[j] != &subdomain) {
         return "the plus side of the inclusion \"" + mesh.inclusions[j] +

@@ -32,17 +32,12 @@ template <class Reach>
 void VertexSeparator::each_before(const Band& band, std::int32_t state, const Reach& reach) const {
   const std::int32_t v = vertex_of(state), next = _next[at(v)];
   if (is_left(state)) {
-    if (next != a_side) {
-      reach(entered(next == none ? v : next));
-    }
+    if (next != a_side) reach(entered(next == none ? v : next));
     return;
   }
-  if (next != none) {
-    reach(left(v));
-  }
-  for (std::int32_t e = band.begin[at(v)]; e < band.begin[at(v) + 1]; ++e) {
+  if (next != none) reach(left(v));
+  for (std::int32_t e = band.begin[at(v)]; e < band.begin[at(v) + 1]; ++e)
     reach(left(band.neighbour[at(e)]));
-  }
 }
 
 /// And with those that it leads to.
@@ -50,19 +45,15 @@ template <class Reach>
 void VertexSeparator::each_after(const Band& band, std::int32_t state, const Reach& reach) const {
   const std::int32_t v = vertex_of(state), next = _next[at(v)];
   if (!is_left(state)) {
-    if (next == none) {
+    if (next == none)
       reach(left(v));
-    } else if (_previous[at(v)] != a_side) {
+    else if (_previous[at(v)] != a_side)
       reach(left(_previous[at(v)]));
-    }
     return;
   }
-  if (next != none) {
-    reach(entered(v));
-  }
-  for (std::int32_t e = band.begin[at(v)]; e < band.begin[at(v) + 1]; ++e) {
+  if (next != none) reach(entered(v));
+  for (std::int32_t e = band.begin[at(v)]; e < band.begin[at(v) + 1]; ++e)
     reach(entered(band.neighbour[at(e)]));
-  }
 }
 
 /// Breadth-first distances to the second side, up to the first side. Returns the length of the
@@ -80,9 +71,7 @@ std::int32_t VertexSeparator::find_levels(const Band& band) {
   std::int32_t last = -1;
   for (std::size_t i = 0; i < _open.size(); ++i) {
     const std::int32_t state = _open[i], level = _level[at(state)];
-    if (last >= 0 && level >= last) {
-      break;
-    }
+    if (last >= 0 && level >= last) break;
     if (!is_left(state) && band.meets_first[at(vertex_of(state))] != 0) {
       last = level;
       continue;
@@ -106,14 +95,10 @@ std::int32_t VertexSeparator::step(const Band& band, std::int32_t state) {
         _next[at(v)] == none ? left(v) : (previous >= 0 ? left(previous) : -1);
     return only >= 0 && _level[at(only)] == level ? only : -1;
   }
-  if (_next[at(v)] != none && _level[at(entered(v))] == level) {
-    return entered(v);
-  }
+  if (_next[at(v)] != none && _level[at(entered(v))] == level) return entered(v);
   for (std::int32_t& e = _cursor[at(v)]; e < band.begin[at(v) + 1]; ++e) {
     const std::int32_t u = band.neighbour[at(e)];
-    if (_level[at(entered(u))] == level) {
-      return entered(u);
-    }
+    if (_level[at(entered(u))] == level) return entered(u);
   }
   return -1;
 }
@@ -123,9 +108,7 @@ bool VertexSeparator::find_way(const Band& band, std::int32_t from) {
   _way.assign(1, from);
   while (!_way.empty()) {
     const std::int32_t state = _way.back();
-    if (_level[at(state)] == 0) {
-      return true;
-    }
+    if (_level[at(state)] == 0) return true;
     if (const std::int32_t next = step(band, state); next >= 0) {
       _way.push_back(next);
     } else {
@@ -141,13 +124,12 @@ void VertexSeparator::push() {
   for (std::size_t i = 0; i < _way.size(); ++i) {
     const std::int32_t state = _way[i], v = vertex_of(state);
     _level[at(state)] = -1;
-    if (is_left(state)) {
+    if (is_left(state))
       _next[at(v)] = i + 1 < _way.size() ? vertex_of(_way[i + 1]) : a_side;
-    } else if (i > 0 && _way[i - 1] == left(v)) {
+    else if (i > 0 && _way[i - 1] == left(v))
       _previous[at(v)] = _next[at(v)] = none;  // the ways go past it now
-    } else {
+    else
       _previous[at(v)] = i > 0 ? vertex_of(_way[i - 1]) : a_side;
-    }
   }
 }
 
@@ -175,14 +157,9 @@ void VertexSeparator::search_from_first(const Band& band) {
       _open.push_back(state);
     }
   };
-  for (std::size_t v = 0; v < band.size(); ++v) {
-    if (band.meets_first[v] != 0) {
-      reach(entered(static_cast<std::int32_t>(v)));
-    }
-  }
-  for (std::size_t i = 0; i < _open.size(); ++i) {
-    each_after(band, _open[i], reach);
-  }
+  for (std::size_t v = 0; v < band.size(); ++v)
+    if (band.meets_first[v] != 0) reach(entered(static_cast<std::int32_t>(v)));
+  for (std::size_t i = 0; i < _open.size(); ++i) each_after(band, _open[i], reach);
 }
 
 const std::vector<Part>& VertexSeparator::find(const Band& band, std::ptrdiff_t first,
@@ -192,12 +169,10 @@ const std::vector<Part>& VertexSeparator::find(const Band& band, std::ptrdiff_t 
   _next.assign(band.size(), none);
   for (std::int32_t steps = find_levels(band); steps >= 0; steps = find_levels(band)) {
     _cursor.assign(band.begin.begin(), band.begin.end() - 1);
-    for (std::int32_t v = 0; v < n; ++v) {
+    for (std::int32_t v = 0; v < n; ++v)
       if (band.meets_first[at(v)] != 0 && _level[at(entered(v))] == steps &&
-          find_way(band, entered(v))) {
+          find_way(band, entered(v)))
         push();
-      }
-    }
   }
   // The last search reached all states that lead to the second side.
   _part.resize(band.size());
@@ -205,9 +180,8 @@ const std::vector<Part>& VertexSeparator::find(const Band& band, std::ptrdiff_t 
   if (8 * std::abs(excess) > first + second + n) {  // the other separator may be more balanced
     search_from_first(band);
     _other.resize(band.size());
-    if (std::abs(first - second + assign(Part::first, _other)) < std::abs(excess)) {
+    if (std::abs(first - second + assign(Part::first, _other)) < std::abs(excess))
       _part.swap(_other);
-    }
   }
   return _part;
 }

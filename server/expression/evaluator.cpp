@@ -21,9 +21,8 @@ Evaluator::Evaluator(const Tape& tape, std::span<const Ref> roots) {
   std::vector<std::size_t> last_use(operations.size(), 0);
   const std::vector<bool> needed = tape.needed(roots);
   for (std::size_t i = 0; i < operations.size(); ++i) {
-    for (const Ref of : operations[i].of) {
+    for (const Ref of : operations[i].of)
       if (needed[i] && of >= 0) last_use[static_cast<std::size_t>(of)] = i;
-    }
   }
   for (const Ref root : roots) last_use[static_cast<std::size_t>(root)] = never;
   std::vector<std::size_t> slot(operations.size(), 0), unused;
@@ -70,20 +69,15 @@ Evaluator::Evaluator(const Tape& tape, std::span<const Ref> roots) {
     _writable[s] = &_storage[(s - 2) * block];
     _pointers[s] = _writable[s];
   }
-  for (const auto& [place, value] : constants) {
-    std::fill_n(_writable[place], block, value);
-  }
-  for (const Ref root : roots) {
-    _roots.push_back(slot[static_cast<std::size_t>(root)]);
-  }
+  for (const auto& [place, value] : constants) std::fill_n(_writable[place], block, value);
+  for (const Ref root : roots) _roots.push_back(slot[static_cast<std::size_t>(root)]);
 }
 
 void Evaluator::operator()(const double* x, const double* y, std::size_t n) {
   _pointers[0] = x;
   _pointers[1] = y;
-  for (const Step& step : _steps) {
+  for (const Step& step : _steps)
     step.kernel(_pointers[step.a], _pointers[step.b], _pointers[step.c], _writable[step.out], n);
-  }
 }
 
 }  // namespace anticrack::expression

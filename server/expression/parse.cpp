@@ -24,22 +24,17 @@ errors::Error invalid(const std::string& field, const std::string& message) {
 
 /// muParser would take x = 1 for an assignment to the coordinate and "..." for a string.
 void require_plain(const std::string& text, const std::string& field) {
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw invalid(field, "the expression is empty; write a number or a function of x and y");
-  }
   if (std::any_of(text.begin(), text.end(), [](unsigned char c) {
         return (c < 0x20 && c != '\t' && c != '\r' && c != '\n') || c >= 0x7f;
-      })) {
+      }))
     throw invalid(field, "the expression holds a character that is not printable ASCII; remove it");
-  }
-  if (text.find('"') != std::string::npos) {
+  if (text.find('"') != std::string::npos)
     throw invalid(field, "the expression \"" + text + "\" holds a string; only numbers, x and y");
-  }
   constexpr std::string_view comparison = "=!<>";
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '=') {
-      continue;
-    }
+    if (text[i] != '=') continue;
     if (i + 1 < text.size() && text[i + 1] == '=') {
       ++i;
     } else if (i == 0 || comparison.find(text[i - 1]) == std::string_view::npos) {
@@ -129,9 +124,8 @@ class Reader {
 
   Tape read() {
     bool operand_next = true;
-    for (skip_blanks(); _at < _text.size(); skip_blanks()) {
+    for (skip_blanks(); _at < _text.size(); skip_blanks())
       operand_next = operand_next ? read_operand() : read_operator();
-    }
     reduce_all();
     _tape.finish(pop());
     return std::move(_tape);
@@ -190,24 +184,22 @@ class Reader {
   bool read_name() {
     std::size_t end = _at;
     while (end < _text.size() &&
-           (_text[end] == '_' || std::isalnum(static_cast<unsigned char>(_text[end])) != 0)) {
+           (_text[end] == '_' || std::isalnum(static_cast<unsigned char>(_text[end])) != 0))
       ++end;
-    }
     const std::string_view name = _text.substr(_at, end - _at);
     _at = end;
     if (take("(")) {
       _pending.push_back({Role::open, 0, Code::count, false, name});
       return true;
     }
-    if (name == "x") {
+    if (name == "x")
       _values.push_back(_tape.x());
-    } else if (name == "y") {
+    else if (name == "y")
       _values.push_back(_tape.y());
-    } else if (name == "_pi" || name == "_e") {
+    else if (name == "_pi" || name == "_e")
       _values.push_back(_tape.constant(name == "_pi" ? std::numbers::pi : std::numbers::e));
-    } else {
+    else
       fail();
-    }
     return false;
   }
 
@@ -249,9 +241,8 @@ class Reader {
   void reduce(int precedence) {
     while (!_pending.empty() &&
            (_pending.back().role == Role::unary || _pending.back().role == Role::binary) &&
-           _pending.back().precedence >= precedence) {
+           _pending.back().precedence >= precedence)
       reduce_one();
-    }
   }
 
   void reduce_all() {
@@ -292,12 +283,10 @@ class Reader {
                       found->second == Code::add;
     Ref value = *first;
     if (list) {
-      for (auto next = first + 1; next != _values.end(); ++next) {
+      for (auto next = first + 1; next != _values.end(); ++next)
         value = _tape.apply(found->second, value, *next);
-      }
-      if (open.function == "avg") {
+      if (open.function == "avg")
         value = _tape.apply(Code::divide, value, _tape.constant(static_cast<double>(count)));
-      }
     } else {
       value = _tape.apply(found->second, value, count > 1 ? first[1] : -1);
     }

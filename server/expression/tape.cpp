@@ -115,9 +115,7 @@ void Tape::note(const Switch& one) {
 }
 
 Ref Tape::push(Code code, Ref a, Ref b, Ref c, double value) {
-  if ((code == Code::add || code == Code::multiply) && b < a) {
-    std::swap(a, b);
-  }
+  if ((code == Code::add || code == Code::multiply) && b < a) std::swap(a, b);
   const auto [known, added] = _known.try_emplace(
       {code, a, b, c, std::bit_cast<std::uint64_t>(value)}, static_cast<Ref>(_operations.size()));
   if (added) {
@@ -186,9 +184,8 @@ std::vector<bool> Tape::needed(std::span<const Ref> roots) const {
   std::vector<bool> result(_operations.size(), false);
   for (const Ref root : roots) result[static_cast<std::size_t>(root)] = true;
   for (std::size_t i = result.size(); i-- > 0;) {
-    for (const Ref of : _operations[i].of) {
+    for (const Ref of : _operations[i].of)
       if (result[i] && of >= 0) result[static_cast<std::size_t>(of)] = true;
-    }
   }
   return result;
 }
@@ -196,9 +193,8 @@ std::vector<bool> Tape::needed(std::span<const Ref> roots) const {
 void Tape::finish(Ref result) {
   _result = result;
   const std::vector<bool> used = needed({&result, 1});
-  for (std::size_t i = 0; i < used.size(); ++i) {
+  for (std::size_t i = 0; i < used.size(); ++i)
     if (used[i]) note_switches(Operation(_operations[i]));
-  }
 }
 
 }  // namespace anticrack::expression

@@ -92,9 +92,8 @@ class LoadIntegrator {
       return;
     }
     if (!_exact) sample_nodes();
-    for (std::size_t first = 0; first < _count; first += width) {
+    for (std::size_t first = 0; first < _count; first += width)
       sample(first, std::min(width, _count - first));
-    }
     std::vector<Cell> cells;
     if (!_cut.empty()) {
       _integration.absolute += _absolute_of_cut;
@@ -104,11 +103,10 @@ class LoadIntegrator {
     for (const Coarse& one : _rest) {
       const double area = _integration.frame(one.triangle).area;
       if (one.error <= _integration.allowed(area, 1, one.found.absolute) &&
-          one.trust == Trust::sound) {
+          one.trust == Trust::sound)
         _integration.add(one.triangle, one.found, one.error);
-      } else {
+      else
         _rest[kept++] = one;
-      }
     }
     _rest.resize(kept);
     refine_cells(_integration, std::move(_rest), std::move(cells));

@@ -262,21 +262,19 @@ class Cutter::Work {
     std::array<int, 3> side{};
     for (std::size_t k = 0; k < 3; ++k) side[k] = seen.side(k, *level);
     const bool opposite = side[0] * side[1] < 0 || side[1] * side[2] < 0 || side[2] * side[0] < 0;
-    if (_integration.work <= 0) {
+    if (_integration.work <= 0)
       finish_uncut(cell);
-    } else if (seen.straight() && opposite) {
+    else if (seen.straight() && opposite)
       cut_straight(cell, seen, *level, side);
-    } else if (simple(seen, *level, side, _switches[s].steps) && !others(i, s)) {
+    else if (simple(seen, *level, side, _switches[s].steps) && !others(i, s))
       turn(cell, seen, *level, side, _curved[s].emplace_back());
-    } else {
+    else
       quarter(cell);
-    }
   }
 
   bool others(std::size_t i, std::size_t s) const {
-    while (++s < _switches.size()) {
+    while (++s < _switches.size())
       if (view(i, s).level(_switches[s].steps)) return true;
-    }
     return false;
   }
 
@@ -301,9 +299,8 @@ class Cutter::Work {
       const int p = side[(k + 1) % 3], q = side[(k + 2) % 3];
       // No change along an edge whose ends are on the same side.
       if (p == q && p != 0 && (seen.bernstein[3 + k] - level) * p < 0) return false;
-      if (zeros == 1 && (p == 0 || q == 0) && (seen.bernstein[3 + k] - level) * (p + q) < 0) {
+      if (zeros == 1 && (p == 0 || q == 0) && (seen.bernstein[3 + k] - level) * (p + q) < 0)
         return false;
-      }
     }
     if (zeros == 2) {  // a lens at the edge between the zeros, or nothing
       const std::size_t corner = odd_corner(side);
@@ -324,22 +321,19 @@ class Cutter::Work {
 
   void quarter(const Cell& cell) {
     const double size = _integration.frame(cell.triangle).area * std::abs(cell.part());
-    if (size <= _negligible || cell.depth >= deepest || _integration.work <= 0) {
+    if (size <= _negligible || cell.depth >= deepest || _integration.work <= 0)
       finish_uncut(cell);
-    } else {
+    else
       for (const Cell& part : cell.quarters()) push(part);
-    }
   }
 
   /// The corner on the line, if it passes between the two others; else the one on a side of its
   /// own.
   static std::size_t odd_corner(const std::array<int, 3>& side) {
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k)
       if (side[k] == 0 && side[(k + 1) % 3] * side[(k + 2) % 3] < 0) return k;
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k)
       if (side[k] != 0 && side[(k + 1) % 3] != side[k] && side[(k + 2) % 3] != side[k]) return k;
-    }
     return 0;
   }
 
@@ -406,9 +400,8 @@ class Cutter::Work {
     follow(s, curved, rays, 10);
     for (std::size_t i = 0; i < curved.size(); ++i) {
       const std::span<const Ray, 10> own(&rays[10 * i], 10);
-      if (ends[2 * i].t < 0 || ends[2 * i + 1].t < 0 || !add_sectors(curved[i], sectors[i], own)) {
+      if (ends[2 * i].t < 0 || ends[2 * i + 1].t < 0 || !add_sectors(curved[i], sectors[i], own))
         quarter(curved[i].cell);
-      }
     }
   }
 
@@ -431,9 +424,7 @@ class Cutter::Work {
       const Place a = between(q, r, t);
       return {{{q, p, a, false}, {r, p, a, false}}};
     }
-    if (side[1] == 0 && side[2] == 0) {
-      return {{{p, q, r, true}, {p, q, q, false}}};
-    }
+    if (side[1] == 0 && side[2] == 0) return {{{p, q, r, true}, {p, q, q, false}}};
     const Place a = between(p, q, t), b = between(p, r, other_t);
     return {{{p, a, b, false}, {r, a, b, false}}};
   }
@@ -459,9 +450,8 @@ class Cutter::Work {
         }
         argument(_x.data(), _y.data(), n);
         _integration.spend(n, argument.cost());
-        for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t i = 0; i < n; ++i)
           off[i] = argument.values(0)[i] - curved[(first + i) / each].level;
-        }
       };
       measure([&](std::size_t i) { return drawn_in * some[i].far; });
       at_low = off;
@@ -491,9 +481,8 @@ class Cutter::Work {
 
   bool add_sectors(const Curved& one, const std::array<Sector, 2>& sectors,
                    std::span<const Ray, 10> rays) {
-    if (std::any_of(rays.begin(), rays.end(), [](const Ray& ray) { return ray.t < 0; })) {
+    if (std::any_of(rays.begin(), rays.end(), [](const Ray& ray) { return ray.t < 0; }))
       return false;
-    }
     const Frame frame = _integration.frame(one.cell.triangle);
     constexpr std::size_t points = line_4.size;
     std::array<Place, 60> at{};
@@ -514,9 +503,8 @@ class Cutter::Work {
       const double scale = 2 * frame.area * std::abs(cross(sector.apex, sector.u, sector.v));
       if (scale == 0) continue;
       for (std::size_t i = 0; i < 5; ++i) place(rays[5 * k + i], scale, 0, rays[5 * k + i].t);
-      for (std::size_t i = 0; i < 5 && sector.beyond; ++i) {
+      for (std::size_t i = 0; i < 5 && sector.beyond; ++i)
         place(rays[5 * k + i], scale, rays[5 * k + i].t, 1);
-      }
     }
     const double* f = _integration.f(_x.data(), _y.data(), n);
     _integration.spend(n, _integration.f.cost());
@@ -540,13 +528,11 @@ class Cutter::Work {
       error += line_error(line_5, along);
     }
     if (error > _integration.allowed(frame.area, one.cell.share, found.absolute) &&
-        std::abs(one.cell.part()) * frame.area > _negligible && _integration.work > 0) {
+        std::abs(one.cell.part()) * frame.area > _negligible && _integration.work > 0)
       return false;
-    }
     _integration.add(one.cell.triangle, found, error);
-    if (one.side[0] != 0 && !sectors[0].beyond) {  // the rest of the cell
+    if (one.side[0] != 0 && !sectors[0].beyond)  // the rest of the cell
       push(one.cell, sectors[0].u, one.cell.corners[1], one.cell.corners[2]);
-    }
     return true;
   }
 

@@ -6,11 +6,8 @@ namespace anticrack::fem {
 Eigen::VectorXd lumped_mass(std::span<const MassEdge> edges, std::size_t n) {
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
   for (const MassEdge& edge : edges) {
-    for (const std::int32_t node : edge.node) {
-      if (node >= 0) {
-        mass[node] += edge.length / 2;
-      }
-    }
+    for (const std::int32_t node : edge.node)
+      if (node >= 0) mass[node] += edge.length / 2;
   }
   return mass;
 }
@@ -20,11 +17,9 @@ Eigen::SparseMatrix<double> consistent_mass(std::span<const MassEdge> edges, std
   entries.reserve(4 * edges.size());
   for (const MassEdge& edge : edges) {
     for (const std::int32_t i : edge.node) {
-      for (const std::int32_t j : edge.node) {
-        if (i >= 0 && j >= 0) {
+      for (const std::int32_t j : edge.node)
+        if (i >= 0 && j >= 0)
           entries.emplace_back(i, j, i == j ? edge.length / 3 : edge.length / 6);
-        }
-      }
     }
   }
   const auto size = static_cast<Eigen::Index>(n);

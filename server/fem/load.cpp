@@ -46,9 +46,8 @@ struct CheckForce {
   }
   void operator()(const PerRegion& regions) const {
     require_count(regions.values.size(), max_named_forces, "regions", "force.per_region");
-    for (const auto& [name, value] : regions.values) {
+    for (const auto& [name, value] : regions.values)
       require_finite(value, "force.per_region[" + name + "]");
-    }
   }
   void operator()(const Array& array) const {
     if (array.upload.empty()) {
@@ -73,18 +72,14 @@ void check_point_forces(const std::vector<PointForce>& forces) {
 
 void check(const Load& load, std::size_t max_expression_bytes) {
   std::visit(CheckForce{max_expression_bytes}, load.force);
-  if (!load.boundary_value.empty()) {
+  if (!load.boundary_value.empty())
     require_expression(load.boundary_value, "boundary_value", max_expression_bytes);
-  }
-  if (!load.traction.empty()) {
-    require_expression(load.traction, "traction", max_expression_bytes);
-  }
+  if (!load.traction.empty()) require_expression(load.traction, "traction", max_expression_bytes);
   check_point_forces(load.point_forces);
   require_count(load.inclusion_forces.size(), max_named_forces, "forces on inclusions",
                 "inclusion_forces");
-  for (const auto& [name, value] : load.inclusion_forces) {
+  for (const auto& [name, value] : load.inclusion_forces)
     require_finite(value, "inclusion_forces[" + name + "]");
-  }
 }
 
 }  // namespace anticrack::fem

@@ -53,11 +53,9 @@ void integrate_arrays(const Triangulation& part, std::span<const std::int32_t> n
   Rows<width> of_node = Rows<width>::Zero(width, loads.rows()), load(width, loads.rows());
   for (; !arrays.empty(); arrays = arrays.subspan(std::min<std::size_t>(width, arrays.size()))) {
     const auto count = std::min<Eigen::Index>(width, static_cast<Eigen::Index>(arrays.size()));
-    for (Eigen::Index i = 0; i < loads.rows(); ++i) {
-      for (Eigen::Index j = 0; j < count; ++j) {
+    for (Eigen::Index i = 0; i < loads.rows(); ++i)
+      for (Eigen::Index j = 0; j < count; ++j)
         of_node(j, i) = arrays[static_cast<std::size_t>(j)][node[static_cast<std::size_t>(i)]];
-      }
-    }
     linear_on_triangles<width>(part, of_node, load);
     constexpr Eigen::Index tile = 64;  // of the rows that stay in the first-level cache
     for (Eigen::Index begin = 0; begin < loads.rows(); begin += tile) {
@@ -116,9 +114,7 @@ struct AssembleForce {
     for (std::size_t t = 0; t < part.triangle_count(); ++t) {
       const CornerNodes nodes = corners(part, t);
       const double third = value(t) * area(part, t) / 3;
-      for (const Eigen::Index node : nodes) {
-        load[node] += third;
-      }
+      for (const Eigen::Index node : nodes) load[node] += third;
     }
     return load;
   }
@@ -146,9 +142,8 @@ struct AssembleForce {
     const expression::Function force(expression.text, "force.expression");
     const expression::Tape& tape = force.tape();
     const int degree = tape.degree(tape.result());
-    if (degree == 0) {
+    if (degree == 0)
       return (*this)(tape.operations()[static_cast<std::size_t>(tape.result())].value);
-    }
     if (degree == 1) {
       const std::vector<double> values = at_nodes(part, force, 0, part.node_count(), context.stop);
       const double* const one[] = {values.data()};
@@ -160,9 +155,7 @@ struct AssembleForce {
     const IntegrationReport report =
         integrate_load(part.xy, part.triangles, force, {load.data(), part.node_count()},
                        limits(part.triangle_count()), context.stop);
-    if (context.relative_error != nullptr) {
-      *context.relative_error = report.relative_error_estimate;
-    }
+    if (context.relative_error != nullptr) *context.relative_error = report.relative_error_estimate;
     return load;
   }
 };
@@ -190,9 +183,7 @@ Eigen::MatrixXd load_vectors(const Triangulation& part, std::span<const std::int
 Eigen::VectorXd boundary_values(const Triangulation& part, const std::string& text,
                                 std::size_t first, std::size_t count) {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
-  if (text.empty()) {
-    return values;
-  }
+  if (text.empty()) return values;
   const expression::Function function(text, "boundary_value");
   const std::vector<double> found = at_nodes(part, function, first, count);
   std::copy(found.begin(), found.end(), values.begin());

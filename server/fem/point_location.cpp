@@ -23,9 +23,7 @@ Location locate_in(const std::array<PlanePoint, 3>& corners, const PlanePoint& p
     found.weight[i] = std::max(doubled, 0.0);
     sum += found.weight[i];
   }
-  for (double& weight : found.weight) {
-    weight /= sum;
-  }
+  for (double& weight : found.weight) weight /= sum;
   return found;
 }
 
@@ -54,9 +52,8 @@ std::vector<Location> locate(const Triangulation& part, const PointSet& points, 
       const auto node = static_cast<std::size_t>(part.triangles[3 * t + i]);
       corners[i] = {part.xy[2 * node], part.xy[2 * node + 1]};
     }
-    if (!(cross(corners[0], corners[1], corners[2]) > 0)) {  // as small as coordinates resolve
+    if (!(cross(corners[0], corners[1], corners[2]) > 0))  // as small as coordinates resolve
       continue;
-    }
     points.visit_near(corners, tolerance, [&](std::size_t i) {
       Location here = locate_in(corners, points[i]);
       if (here.depth >= -tolerance && here.depth > found[i].depth) {

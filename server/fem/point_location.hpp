@@ -41,9 +41,7 @@ class PointSet {
     for (std::size_t k = first_from(low[0] - margin);
          k < _order.size() && _points[_order[k]][0] <= high[0] + margin; ++k) {
       const double y = _points[_order[k]][1];
-      if (low[1] - margin <= y && y <= high[1] + margin) {
-        visit(_order[k]);
-      }
+      if (low[1] - margin <= y && y <= high[1] + margin) visit(_order[k]);
     }
   }
 

@@ -67,9 +67,8 @@ class Batch {
 
   /// Throws if a value among n, from `first` on, is not finite.
   void require_finite(const double* values, std::size_t first, std::size_t n) const {
-    for (std::size_t i = first; i < first + n; ++i) {
+    for (std::size_t i = first; i < first + n; ++i)
       _integration.f.function().require_finite(_x[i], _y[i], values[i]);
-    }
   }
 
  private:
@@ -171,9 +170,8 @@ class Refinement {
     std::stable_sort(all.begin(), all.end(), [](const Part& a, const Part& b) {
       return a.trust != b.trust ? a.trust > b.trust : a.error > b.error;
     });
-    for (std::size_t i = affordable; i < all.size(); ++i) {
+    for (std::size_t i = affordable; i < all.size(); ++i)
       settle(triangle_of(all[i]), all[i].found, all[i].error, all[i].trust);
-    }
     all.resize(affordable);
   }
 
@@ -207,9 +205,8 @@ class Refinement {
   std::vector<Measured> divide(const std::vector<Measured>& parents) {
     std::vector<Measured> children;
     children.reserve(4 * parents.size());
-    for (const Measured& parent : parents) {
+    for (const Measured& parent : parents)
       for (const Cell& cell : parent.cell.quarters()) children.push_back({cell, {}});
-    }
     measure(children, Known::nothing);
     note_size(children);
     std::vector<Measured> rest;
@@ -237,9 +234,8 @@ class Refinement {
       // What goes on shares the change by its errors: along a line twice as many go on each time.
       double going_on = 0;
       for (std::size_t k = known; k < rest.size(); ++k) going_on += rest[k].before;
-      for (std::size_t k = known; k < rest.size(); ++k) {
+      for (std::size_t k = known; k < rest.size(); ++k)
         rest[k].before = going_on > 0 ? change * rest[k].before / going_on : 0;
-      }
     }
     return rest;
   }
@@ -311,9 +307,8 @@ class Refinement {
         const double* own = values + i * points;
         if (first_of_8 > 0) replace(one, means(rule_5, own));
         const Means by_8 = means(rule_8, own + first_of_8);
-        if (!std::isfinite(by_8.absolute + one.found.absolute)) {
+        if (!std::isfinite(by_8.absolute + one.found.absolute))
           _batch.require_finite(values, i * points, points);
-        }
         const double bend = area(one) * by_8.bend / 3, change = replace(one, by_8);
         // The change is the error of rule_5; that of rule_8 is as much less as convergence
         // promises.

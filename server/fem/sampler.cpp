@@ -33,9 +33,8 @@ std::vector<Branch> branches(const expression::Tape& tape) {
     if (!found[i]) continue;
     for (std::size_t k = 0; k < operations[i].of.size() && operations[i].of[k] >= 0; ++k) {
       Branch branch = *found[i];
-      if (branch.condition < 0 && operations[i].code == Code::select && k > 0) {
+      if (branch.condition < 0 && operations[i].code == Code::select && k > 0)
         branch = {operations[i].of[0], k == 1};
-      }
       std::optional<Branch>& operand = found[static_cast<std::size_t>(operations[i].of[k])];
       operand = !operand || *operand == branch ? branch : Branch{};
     }
@@ -48,9 +47,8 @@ std::vector<Branch> branches(const expression::Tape& tape) {
 }  // namespace
 
 void look_at(const std::stop_token& stop) {
-  if (stop.stop_requested()) {
+  if (stop.stop_requested())
     throw errors::Error(errors::Reason::cancelled, "stopped while integrating a load");
-  }
 }
 
 Sampler::Sampler(const expression::Function& function, std::stop_token stop, Jumps jumps)
@@ -77,11 +75,9 @@ std::vector<expression::Ref> Sampler::roots(const expression::Tape& tape,
 
 std::vector<Sampler::Watch> Sampler::watches(const expression::Tape& tape, Jumps jumps) {
   std::vector<Watch> result;
-  if (jumps == Jumps::watched) {
-    for (const expression::Switch& one : tape.switches()) {
+  if (jumps == Jumps::watched)
+    for (const expression::Switch& one : tape.switches())
       result.push_back({one.of, one.steps ? Kind::stepping : Kind::switching, 0});
-    }
-  }
   const auto& operations = tape.operations();
   const expression::Ref last = tape.result();
   const std::vector<bool> needed = tape.needed({&last, 1});
@@ -91,9 +87,8 @@ std::vector<Sampler::Watch> Sampler::watches(const expression::Tape& tape, Jumps
     const expression::Operation& operation = operations[i];
     const auto watch = [&](std::size_t operand, Kind kind, double range) {
       const expression::Ref of = operation.of[operand];
-      if (tape.degree(of) > 0) {
+      if (tape.degree(of) > 0)
         result.push_back({of, kind, range, branch[i].condition, branch[i].taken});
-      }
     };
     switch (operation.code) {
       case Code::exponential:
@@ -115,9 +110,8 @@ std::vector<Sampler::Watch> Sampler::watches(const expression::Tape& tape, Jumps
       case Code::power: {
         const expression::Operation& exponent = tape[operation.of[1]];
         const bool known = exponent.code == Code::constant;
-        if (!known || exponent.value < 0) {  // others have no poles
+        if (!known || exponent.value < 0)  // others have no poles
           watch(0, Kind::ratio, known ? -2 / exponent.value : 2);
-        }
         break;
       }
       case Code::hyperbolic_tangent:
@@ -141,9 +135,8 @@ void Sampler::note_peaks(std::size_t n) {
   for (std::size_t w = 0; w < _watches.size(); ++w) {
     if (_watches[w].kind != Kind::exponential) continue;
     const double* u = _evaluator.values(w + 1);
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n; ++i)
       if (u[i] > _watches[w].peak && applies(_watches[w], i)) _watches[w].peak = u[i];
-    }
   }
 }
 

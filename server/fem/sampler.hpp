@@ -62,9 +62,8 @@ class Sampler {
     for (std::size_t w = 0; w < _watches.size(); ++w) {
       std::array<double, lanes> low, high;
       extremes(_evaluator.values(w + 1), count, low, high);
-      for (std::size_t t = 0; t < lanes; ++t) {
+      for (std::size_t t = 0; t < lanes; ++t)
         raise(result[t], _watches[w], judge(_watches[w], low[t], high[t], room), t, count, lanes);
-      }
     }
   }
   bool watches() const noexcept { return !_watches.empty(); }
@@ -98,9 +97,8 @@ class Sampler {
   /// Raises `result` to `found` if the watch applies at one of `count` points, `step` apart.
   void raise(Trust& result, const Watch& watch, Trust found, std::size_t first, std::size_t count,
              std::size_t step) const {
-    for (std::size_t i = 0; i < count && result < found; ++i) {
+    for (std::size_t i = 0; i < count && result < found; ++i)
       if (applies(watch, first + i * step)) result = found;
-    }
   }
   /// Of samples whose argument lies between two values.
   static Trust judge(const Watch& watch, double low, double high, double room);

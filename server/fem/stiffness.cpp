@@ -39,23 +39,15 @@ class Columns {
   Columns(const Triangulation& part, double tension, std::int32_t free)
       : _end(part.node_count() + 1, 0), _diagonal(part.node_count(), 0.0) {
     const std::vector<std::int32_t>& node = part.triangles;
-    for (std::size_t t = 0; t < node.size(); t += 3) {
-      for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t t = 0; t < node.size(); t += 3)
+      for (std::size_t a = 0; a < 3; ++a)
         ++_end[at(place_in(node[t + a], node[t + (a + 1) % 3], free).column) + 1];
-      }
-    }
-    for (std::size_t j = 1; j < _end.size(); ++j) {
-      _end[j] += _end[j - 1];
-    }
+    for (std::size_t j = 1; j < _end.size(); ++j) _end[j] += _end[j - 1];
     _entries.resize(node.size());
-    for (std::size_t t = 0; t < node.size(); t += 3) {
-      add(part, &node[t], tension, free);
-    }
+    for (std::size_t t = 0; t < node.size(); t += 3) add(part, &node[t], tension, free);
     // _end[j] has moved from where column j begins to where it ends.
     std::int32_t begin = 0;
-    for (std::size_t j = 0; j < _diagonal.size(); ++j) {
-      begin = merge(j, begin);
-    }
+    for (std::size_t j = 0; j < _diagonal.size(); ++j) begin = merge(j, begin);
   }
 
   /// Columns first..last-1 with their rows from..to-1; `diagonals` as the first of each.
@@ -115,9 +107,7 @@ class Columns {
     for (Entry* next = first; next != _entries.data() + end; ++next) {
       const Entry entry = *next;
       Entry* hole = last;
-      while (hole != first && (hole - 1)->row > entry.row) {
-        --hole;
-      }
+      while (hole != first && (hole - 1)->row > entry.row) --hole;
       if (hole != first && (hole - 1)->row == entry.row) {
         (hole - 1)->value += entry.value;
         continue;
@@ -133,12 +123,8 @@ class Columns {
 
   std::array<const Entry*, 2> rows(std::int32_t j, std::int32_t from, std::int32_t to) const {
     const Entry *low = _entries.data() + _begin[at(j)], *high = _entries.data() + _end[at(j)];
-    while (low != high && low->row < from) {
-      ++low;
-    }
-    while (low != high && (high - 1)->row >= to) {
-      --high;
-    }
+    while (low != high && low->row < from) ++low;
+    while (low != high && (high - 1)->row >= to) --high;
     return {low, high};
   }
 

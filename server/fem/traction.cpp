@@ -126,9 +126,8 @@ class EdgeIntegrator {
       // come closer and farther by chance, like all so far.
       const double before = segments[i].before, first = segments[i].first;
       double decay = before > 0 ? change / before : 0.5;
-      if (trust >= Trust::singular && first > 0) {
+      if (trust >= Trust::singular && first > 0)
         decay = std::pow(change / first, 1.0 / (low.depth - 1));
-      }
       const bool exact = change <= 4 * rounding * absolute, converges = exact || decay <= 0.97;
       double left = exact ? change : converges ? change * decay / (1 - decay) : 32 * change;
       if (!converges && low.depth > 6 && trust >= Trust::singular) left = infinite;

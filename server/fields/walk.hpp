@@ -78,14 +78,11 @@ std::size_t owned_bytes(const T& value) {
     bytes = std::visit([](const auto& held) { return owned_bytes(held); }, value);
   } else if constexpr (is_a<T, std::vector>) {
     bytes = value.size() * sizeof(typename T::value_type);
-    if constexpr (!Whole<typename T::value_type> &&
-                  !std::is_same_v<typename T::value_type, double>) {
+    if constexpr (!Whole<typename T::value_type> && !std::is_same_v<typename T::value_type, double>)
       for (const auto& item : value) bytes += owned_bytes(item);
-    }
   } else if constexpr (is_a<T, std::map>) {
-    for (const auto& [key, item] : value) {
+    for (const auto& [key, item] : value)
       bytes += node + sizeof(key) + sizeof(item) + owned_bytes(key) + owned_bytes(item);
-    }
   } else if constexpr (Listed<const T>) {
     for_each(value, [&bytes](const auto& field) { bytes += owned_bytes(field.value); });
   }

@@ -64,9 +64,7 @@ void Admission::add(const std::string& mesh, std::uint64_t cases, std::uint64_t 
 
 void Admission::cases_ended(const std::string& mesh, std::uint64_t count) {
   const auto found = _cases.find(mesh);
-  if (found != _cases.end() && (found->second -= count) == 0) {
-    _cases.erase(found);
-  }
+  if (found != _cases.end() && (found->second -= count) == 0) _cases.erase(found);
 }
 
 }  // namespace anticrack::jobs

@@ -32,14 +32,11 @@ std::vector<EndedCase> BlockRun::step() {
       const std::unique_ptr<Column> column =
           std::move(_places[static_cast<std::size_t>(result.place)]);
       --_columns;
-      if (!column->abandoned) {
+      if (!column->abandoned)
         ended.push_back({column->task, outcome_of(*column, std::move(result.answer))});
-      }
     }
   } catch (...) {
-    for (EndedCase& other : end_all(std::current_exception())) {
-      ended.push_back(std::move(other));
-    }
+    for (EndedCase& other : end_all(std::current_exception())) ended.push_back(std::move(other));
   }
   return ended;
 }
@@ -47,15 +44,11 @@ std::vector<EndedCase> BlockRun::step() {
 void BlockRun::tell() {
   EventLog* log = nullptr;
   const auto flush = [&] {
-    if (log != nullptr) {
-      log->append(_untold);
-    }
+    if (log != nullptr) log->append(_untold);
     _untold.clear();
   };
   for (const std::unique_ptr<Column>& column : _places) {
-    if (!column) {
-      continue;
-    }
+    if (!column) continue;
     if (log != &column->history.log()) {
       flush();
       log = &column->history.log();
@@ -76,9 +69,8 @@ CaseOutcome BlockRun::outcome_of(Column& column, contact::Answer answer) {
 std::vector<EndedCase> BlockRun::end_all(const std::exception_ptr& failure) {
   std::vector<EndedCase> ended;
   for (std::unique_ptr<Column>& column : _places) {
-    if (column && !column->abandoned) {
+    if (column && !column->abandoned)
       ended.push_back({column->task, failed_case(column->task, failure)});
-    }
     column.reset();
   }
   _columns = 0;
@@ -88,9 +80,8 @@ std::vector<EndedCase> BlockRun::end_all(const std::exception_ptr& failure) {
 
 store::Priority BlockRun::priority() const noexcept {
   store::Priority best = store::Priority::bulk;
-  for (const std::unique_ptr<Column>& column : _places) {
+  for (const std::unique_ptr<Column>& column : _places)
     best = column ? std::min(best, column->task.job->spec->priority) : best;
-  }
   return best;
 }
 

@@ -18,13 +18,12 @@ using errors::Reason;
 
 Error placed(Error error, std::size_t index) {
   const std::string path = "load_cases[" + std::to_string(index) + "]";
-  if (error.fields().empty()) {
+  if (error.fields().empty())
     error.at(path);
-  } else if (error.fields().front().field == "uzawa") {
+  else if (error.fields().front().field == "uzawa")
     error.below("solver");
-  } else {
+  else
     error.below(path);
-  }
   return error;
 }
 
@@ -44,18 +43,14 @@ History::History(const Task& task, std::atomic<std::uint64_t>& iterations)
       _iterations(iterations) {}
 
 bool History::on_iteration(const contact::Sample& sample) {
-  if (_given_up) {
-    return false;
-  }
+  if (_given_up) return false;
   _samples.push_back(sample);
   _iterations.fetch_add(1, std::memory_order_relaxed);
   return !_stop.stop_requested();
 }
 
 void History::append_new(std::vector<SampleEvent>& to) {
-  for (; _appended < _samples.size(); ++_appended) {
-    to.push_back({_load_case, _samples[_appended]});
-  }
+  for (; _appended < _samples.size(); ++_appended) to.push_back({_load_case, _samples[_appended]});
 }
 
 bool Recorder::on_iteration(const contact::Sample& sample) {
@@ -77,12 +72,10 @@ Error error_of(const std::exception_ptr& failure) {
 
 std::uint64_t bytes_of(const SolvedCase& solved) {
   std::uint64_t bytes = solved.history.size() * sizeof(contact::Sample);
-  for (const contact::Trace& trace : solved.answer.traces) {
+  for (const contact::Trace& trace : solved.answer.traces)
     bytes += trace.jump.size() * (4 * sizeof(double) + sizeof(std::int32_t));
-  }
-  for (const contact::Field& field : solved.answer.fields) {
+  for (const contact::Field& field : solved.answer.fields)
     bytes += field.u.size() * (sizeof(double) + sizeof(std::int32_t));
-  }
   return bytes;
 }
 
@@ -100,9 +93,7 @@ CaseOutcome solved_case(const Task& task, contact::Answer answer,
 
 CaseOutcome failed_case(const Task& task, const std::exception_ptr& failure) {
   const Error error = error_of(failure);
-  if (error.reason() == Reason::cancelled) {
-    return cancelled_case(task);
-  }
+  if (error.reason() == Reason::cancelled) return cancelled_case(task);
   auto record = new_record(task, Status::failed);
   record->error = placed(error, task.index);
   return {std::move(record), nullptr};

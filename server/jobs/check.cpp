@@ -93,11 +93,10 @@ void check(const store::JobSpec& spec, const EngineOptions& options) {
                                               std::to_string(max_title_bytes))
         .at("title");
   }
-  if (spec.sweep) {
+  if (spec.sweep)
     check_sweep(spec, options);
-  } else {
+  else
     check_count(spec.loads.size(), options);
-  }
   check_names(spec.loads);
   for (std::size_t i = 0; i < spec.loads.size(); ++i) {
     try {
@@ -122,9 +121,7 @@ std::string fingerprint(const store::JobSpec& spec) {
   fields::for_each(spec, [&hash]<class T>(const fields::Field<T>& field) {
     if constexpr (std::is_same_v<T, const std::optional<store::SweepSpec>>) {
       std::optional<store::SweepSpec> sweep = field.value;
-      if (sweep) {
-        sweep->rows = 0;  // they follow from the upload and the mesh
-      }
+      if (sweep) sweep->rows = 0;  // they follow from the upload and the mesh
       hash.add_all(sweep);
     } else {
       hash.add_all(field.value);

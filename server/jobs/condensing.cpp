@@ -21,11 +21,9 @@ class AnyStop {
  public:
   explicit AnyStop(const std::vector<Loaded>& cases) {
     std::set<const LiveJob*> jobs;
-    for (const auto& [task, load] : cases) {
-      if (jobs.insert(task.job.get()).second) {
+    for (const auto& [task, load] : cases)
+      if (jobs.insert(task.job.get()).second)
         _callbacks.emplace_back(task.job->stop.get_token(), [this] { _stop.request_stop(); });
-      }
-    }
   }
   std::stop_token token() const { return _stop.get_token(); }
 
@@ -39,9 +37,7 @@ std::vector<Loaded> pass(const operators::MeshOperator& mesh_operator, std::vect
                          Condensed& result) {
   std::vector<const fem::Load*> loads;
   loads.reserve(cases.size());
-  for (const auto& [task, load] : cases) {
-    loads.push_back(&load);
-  }
+  for (const auto& [task, load] : cases) loads.push_back(&load);
   std::vector<Loaded> again;
   again.reserve(cases.size());
   result.prepared.reserve(result.prepared.size() + cases.size());
@@ -56,21 +52,16 @@ std::vector<Loaded> pass(const operators::MeshOperator& mesh_operator, std::vect
   const AnyStop stop(cases);
   try {
     auto entries = mesh_operator.prepare(loads, stop.token());
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      if (auto* load = std::get_if<operators::PreparedLoad>(&entries[i])) {
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      if (auto* load = std::get_if<operators::PreparedLoad>(&entries[i]))
         result.prepared.push_back({cases[i].first, std::move(*load)});
-      } else {
+      else
         failed(cases[i], std::get<Error>(entries[i]));
-      }
-    }
   } catch (const Error& error) {
-    for (Loaded& loaded : cases) {
-      failed(loaded, error);
-    }
+    for (Loaded& loaded : cases) failed(loaded, error);
   } catch (...) {
-    for (const Loaded& loaded : cases) {
+    for (const Loaded& loaded : cases)
       result.ended.push_back({loaded.first, failed_case(loaded.first, std::current_exception())});
-    }
   }
   return again;
 }
@@ -89,9 +80,7 @@ Condensed condense(const operators::MeshOperator& mesh_operator, const std::vect
       result.ended.push_back({task, failed_case(task, std::current_exception())});
     }
   }
-  while (!cases.empty()) {
-    cases = pass(mesh_operator, std::move(cases), result);
-  }
+  while (!cases.empty()) cases = pass(mesh_operator, std::move(cases), result);
   return result;
 }
 

@@ -41,9 +41,7 @@ class Deadlines {
   }
   /// All of a job.
   void clear(std::uint64_t job) {
-    for (const Due due : {Due::queue_time, Due::run_time, Due::start}) {
-      clear(job, due);
-    }
+    for (const Due due : {Due::queue_time, Due::run_time, Due::start}) clear(job, due);
   }
 
   /// The earliest of all; none when nothing is due ever.

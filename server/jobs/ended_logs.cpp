@@ -18,9 +18,7 @@ void EndedLogs::add(const std::string& job, std::shared_ptr<EventLog> log) {
   _logs[job] = {std::move(log), bytes};
   _order.push_back(job);
   _bytes += bytes;
-  while (_bytes > _max_bytes && _order.size() > 1) {
-    remove(std::string(_order.front()));
-  }
+  while (_bytes > _max_bytes && _order.size() > 1) remove(std::string(_order.front()));
 }
 
 void EndedLogs::remove(const std::string& job) {

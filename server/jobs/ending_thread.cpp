@@ -56,9 +56,7 @@ void EndingThread::work() {
       sweep(lock);
     } else {
       Clock::time_point next = _next_sweep;
-      for (const End& end : _waiting) {
-        next = std::min(next, end.next_try);
-      }
+      for (const End& end : _waiting) next = std::min(next, end.next_try);
       _core.ending.wait_until(lock, next);
     }
   }
@@ -66,9 +64,7 @@ void EndingThread::work() {
 
 EndingThread::End EndingThread::conclude_job(Lock& lock, const JobPtr& job) {
   const Outcome outcome = conclude(*job);
-  if (job->state == JobState::running) {
-    add_step(job->timeline, JobState::running, writing);
-  }
+  if (job->state == JobState::running) add_step(job->timeline, JobState::running, writing);
   End end{job, {}, nullptr};
   const JobSnapshot snapshot(*job);
   lock.unlock();
@@ -123,22 +119,19 @@ void EndingThread::write(Lock& lock, End end) {
     written = false;  // no memory: as good as no disk
   }
   lock.lock();
-  if (written) {
+  if (written)
     announce(lock, end);
-  } else if (_core.interrupting) {
+  else if (_core.interrupting)
     leave_to_next_start(lock, end);
-  } else {
+  else
     keep(lock, std::move(end));
-  }
 }
 
 void EndingThread::announce(Lock& lock, const End& end) {
   const JobPtr& job = end.job;
   lock.unlock();
   const auto record = std::make_shared<const store::JobRecord>(end.record);
-  if (_core.options.ended) {
-    _core.options.ended(*record);
-  }
+  if (_core.options.ended) _core.options.ended(*record);
   job->mesh_use.reset();
   lock.lock();
   _core.running -= job->state == JobState::running ? 1 : 0;
@@ -183,16 +176,13 @@ bool EndingThread::next_waiting(Lock& lock) {
         end.job->why == Stop::cancelled && end.record.state != JobState::cancelled;
     return _core.interrupting || cancelled || end.next_try <= now;
   });
-  if (due == _waiting.end()) {
-    return false;
-  }
+  if (due == _waiting.end()) return false;
   End end = std::move(*due);
   _waiting.erase(due);
-  if (_core.interrupting) {
+  if (_core.interrupting)
     leave_to_next_start(lock, end);
-  } else {
+  else
     write(lock, std::move(end));
-  }
   return true;
 }
 
@@ -200,9 +190,7 @@ void EndingThread::sweep(Lock& lock) {
   _swept = true;
   const Expiry expiry = _core.retention.due(store::Clock::now());
   const bool uploads = Clock::now() >= _next_sweep;
-  if (uploads) {
-    _next_sweep = Clock::now() + sweep_every;
-  }
+  if (uploads) _next_sweep = Clock::now() + sweep_every;
   lock.unlock();
   std::vector<std::string> expired, erased;
   const auto gone = [](const auto& remove) {
@@ -213,23 +201,14 @@ void EndingThread::sweep(Lock& lock) {
       return error.reason() == Reason::not_found;  // erased by a client in this moment
     }
   };
-  for (const std::string& id : expiry.expire) {
-    if (gone([&] { _core.store.expire(id); })) {
-      expired.push_back(id);
-    }
-  }
-  for (const std::string& id : expiry.erase) {
-    if (gone([&] { _core.store.erase_job(id); })) {
-      erased.push_back(id);
-    }
-  }
-  if (uploads && _core.options.upload_ttl.count() > 0) {
+  for (const std::string& id : expiry.expire)
+    if (gone([&] { _core.store.expire(id); })) expired.push_back(id);
+  for (const std::string& id : expiry.erase)
+    if (gone([&] { _core.store.erase_job(id); })) erased.push_back(id);
+  if (uploads && _core.options.upload_ttl.count() > 0)
     gone([&] { _core.store.expire_uploads(store::Clock::now() - _core.options.upload_ttl); });
-  }
   lock.lock();
-  for (const std::string& id : expired) {
-    _core.retention.expired(id);
-  }
+  for (const std::string& id : expired) _core.retention.expired(id);
   _core.results_expired += expired.size();
   for (const std::string& id : erased) {
     _core.retention.remove(id);

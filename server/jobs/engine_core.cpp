@@ -31,9 +31,7 @@ EngineCore::EngineCore(EngineOptions engine_options, store::Store& records,
 
 void EngineCore::add(const JobPtr& job) {
   std::shared_ptr<MeshWork>& mesh = meshes[job->spec->mesh];
-  if (!mesh) {
-    mesh = std::make_shared<MeshWork>(job->spec->mesh);
-  }
+  if (!mesh) mesh = std::make_shared<MeshWork>(job->spec->mesh);
   jobs.emplace(job->id(), job);
   numbers.emplace(job->number, job);
   ++live;
@@ -63,9 +61,7 @@ void EngineCore::begin_sweep(const JobPtr& job, SweepPlan plan) {
 }
 
 void EngineCore::settle(const JobPtr& job) {
-  if (job->ending || job->active > 0 || job->next_unit < job->units) {
-    return;
-  }
+  if (job->ending || job->active > 0 || job->next_unit < job->units) return;
   job->ending = true;
   leave(job);
   --live;
@@ -86,9 +82,7 @@ void EngineCore::settle(const JobPtr& job) {
 
 void EngineCore::leave(const JobPtr& job) {
   admission.cases_ended(job->spec->mesh, std::exchange(job->queued_cases, 0));
-  if (job->state != JobState::running) {
-    admission.started();
-  }
+  if (job->state != JobState::running) admission.started();
   deadlines.clear(job->number);
   numbers.erase(job->number);
   const std::shared_ptr<MeshWork> mesh = meshes.at(job->spec->mesh);
@@ -98,22 +92,18 @@ void EngineCore::leave(const JobPtr& job) {
 
 void EngineCore::release(const std::shared_ptr<MeshWork>& mesh) {
   if (!mesh->jobs.empty() || mesh->threads > 0 || !mesh->blocks.empty() || mesh->preparing ||
-      mesh->looking || !meshes.contains(mesh->id) || meshes.at(mesh->id) != mesh) {
+      mesh->looking || !meshes.contains(mesh->id) || meshes.at(mesh->id) != mesh)
     return;
-  }
   schedule.let_go(mesh->id);
   meshes.erase(mesh->id);
 }
 
 void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
-  if (cases.empty()) {
-    return;
-  }
+  if (cases.empty()) return;
   for (EndedCase& ended_case : cases) {
     LiveJob& job = *ended_case.task.job;
-    if (ended_case.outcome.solved && job.result_bytes > options.max_result_bytes) {
+    if (ended_case.outcome.solved && job.result_bytes > options.max_result_bytes)
       ended_case.outcome = refused_case(ended_case.task, options.max_result_bytes);
-    }
     job.result_bytes += ended_case.outcome.solved ? bytes_of(*ended_case.outcome.solved) : 0;
   }
   lock.unlock();
@@ -140,11 +130,10 @@ void EngineCore::deliver(Lock& lock, EndedChunk chunk) {
   const JobPtr job = chunk.task.job;
   const std::size_t place = chunk.task.index;
   lock.unlock();
-  if (chunk.failure) {
+  if (chunk.failure)
     stop(job, Stop::failed, chunk.failure);
-  } else if (chunk.solved.columns) {
+  else if (chunk.solved.columns)
     job->log->append(RowsEvent{job->sweep->plan.first_row(place), chunk.solved.columns});
-  }
   lock.lock();
   cases_ended += chunk.record.converged + chunk.record.not_converged;
   jobs::add(job->sweep_record, chunk.record);
@@ -156,17 +145,13 @@ void EngineCore::deliver(Lock& lock, EndedChunk chunk) {
 std::vector<EndedCase> EngineCore::take_stopped(MeshWork& mesh) {
   std::vector<EndedCase> stopped;
   for (const std::shared_ptr<BlockRun>& block : mesh.blocks) {
-    if (!block->iterating) {
-      for (const Task& task : block->abandon_stopped()) {
+    if (!block->iterating)
+      for (const Task& task : block->abandon_stopped())
         stopped.push_back({task, cancelled_case(task)});
-      }
-    }
   }
   std::erase_if(mesh.prepared, [&](const PreparedCase& prepared) {
     const LiveJob& job = *prepared.task.job;
-    if (job.why == Stop::none) {
-      return false;
-    }
+    if (job.why == Stop::none) return false;
     schedule.unpark(mesh.id, Lane::active_set, job.spec->priority);
     stopped.push_back({prepared.task, cancelled_case(prepared.task)});
     return true;
@@ -185,9 +170,7 @@ void EngineCore::stop(const JobPtr& job, Stop why, const std::optional<Error>& f
     }
     return;
   }
-  if (job->why != Stop::none) {
-    return;
-  }
+  if (job->why != Stop::none) return;
   job->why = why;
   job->failure = failure;
   schedule.remove(job->number);
@@ -196,14 +179,10 @@ void EngineCore::stop(const JobPtr& job, Stop why, const std::optional<Error>& f
   job->next_unit = job->units;
   stopped = take_stopped(*mesh);
   settle(job);
-  if (mesh->preparing && mesh->jobs.empty()) {
-    preparation = mesh->preparing;
-  }
+  if (mesh->preparing && mesh->jobs.empty()) preparation = mesh->preparing;
   lock.unlock();
   job->stop.request_stop();
-  if (preparation) {
-    preparation->request_stop();
-  }
+  if (preparation) preparation->request_stop();
   lock.lock();
   deliver(lock, std::move(stopped));
 }

@@ -123,11 +123,8 @@ class EngineCore {
   template <class Wanted>
   std::vector<JobPtr> select(const Wanted& wanted) const {
     std::vector<JobPtr> selected;
-    for (const auto& [id, job] : jobs) {
-      if (wanted(*job)) {
-        selected.push_back(job);
-      }
-    }
+    for (const auto& [id, job] : jobs)
+      if (wanted(*job)) selected.push_back(job);
     return selected;
   }
 

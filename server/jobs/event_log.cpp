@@ -25,9 +25,7 @@ struct Wake {
 
   void operator()() {
     const std::lock_guard lock(mutex);
-    if (call && active) {
-      call();
-    }
+    if (call && active) call();
   }
 
   void close() {
@@ -50,24 +48,22 @@ struct Kept {
 
 std::size_t kept_bytes(const Event& event) {
   std::size_t bytes = sizeof(Kept);
-  if (const auto* phase = std::get_if<PhaseEvent>(&event)) {
+  if (const auto* phase = std::get_if<PhaseEvent>(&event))
     bytes += phase->detail.size();
-  } else if (const auto* ended = std::get_if<CaseEvent>(&event)) {
+  else if (const auto* ended = std::get_if<CaseEvent>(&event))
     bytes += fields::bytes_of(*ended->record);
-  } else if (const auto* rows = std::get_if<RowsEvent>(&event)) {
+  else if (const auto* rows = std::get_if<RowsEvent>(&event))
     bytes += fields::bytes_of(*rows->rows);
-  }
   return bytes;
 }
 
 Batch as_batch(const Event& event) {
   return std::visit(
       []<class Kind>(const Kind& kind) -> Batch {
-        if constexpr (std::is_same_v<Kind, SampleEvent> || std::is_same_v<Kind, CaseEvent>) {
+        if constexpr (std::is_same_v<Kind, SampleEvent> || std::is_same_v<Kind, CaseEvent>)
           return {};  // progress goes together
-        } else {
+        else
           return kind;
-        }
       },
       event);
 }
@@ -110,16 +106,12 @@ struct EventLog::State {
     std::shared_ptr<const Wakes> to_wake;
     {
       const std::lock_guard lock(mutex);
-      if (ended) {
-        return;
-      }
+      if (ended) return;
       add(*this);
       trim();
       to_wake = wakes;
     }
-    for (const std::shared_ptr<Wake>& wake : *to_wake) {
-      (*wake)();
-    }
+    for (const std::shared_ptr<Wake>& wake : *to_wake) (*wake)();
   }
 
   /// The newest event stays whatever its size: the end event is always the newest.
@@ -141,9 +133,7 @@ struct EventLog::State {
   }
 
   void require_kept(std::uint64_t after) const {
-    if (after + 1 < earliest || after > latest) {
-      throw trimmed(after, earliest, latest);
-    }
+    if (after + 1 < earliest || after > latest) throw trimmed(after, earliest, latest);
   }
 
   /// What comes after event `after`: the first event that is not a sample, and the first sample.
@@ -162,9 +152,8 @@ struct EventLog::State {
     std::size_t bytes = 0;
     for (; other != others.end() && other->numbered.sequence <= end; ++other) {
       const auto* ended_case = std::get_if<CaseEvent>(&other->numbered.event);
-      if (ended_case == nullptr && other->numbered.sequence == after + 1) {
+      if (ended_case == nullptr && other->numbered.sequence == after + 1)
         return {after + 1, as_batch(other->numbered.event)};
-      }
       if (ended_case == nullptr || bytes >= batch_bytes) {
         end = other->numbered.sequence - 1;
         break;
@@ -219,9 +208,7 @@ void EventLog::append(Event event) {
 }
 
 void EventLog::append(std::span<const SampleEvent> samples) {
-  if (samples.empty()) {
-    return;
-  }
+  if (samples.empty()) return;
   _state->append([&](State& log) {
     log.samples.push_back(samples);
     log.latest += samples.size();
@@ -262,11 +249,10 @@ std::vector<NumberedEvent> EventLog::read(std::uint64_t after, std::size_t count
   events.reserve(size);
   auto [other, sample] = _state->next(after);
   while (events.size() < size) {
-    if (other != _state->others.end() && other->numbered.sequence == after + 1) {
+    if (other != _state->others.end() && other->numbered.sequence == after + 1)
       events.push_back((other++)->numbered);
-    } else {
+    else
       events.push_back({after + 1, _state->samples.runs(sample++, 1).front()[0]});
-    }
     ++after;
   }
   return events;

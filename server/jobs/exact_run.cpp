@@ -45,15 +45,11 @@ void recover_fields(const std::vector<PreparedCase>& cases, std::vector<Solved>&
       failures.push_back(&solved[i].failure);
     }
   }
-  if (loads.empty()) {
-    return;
-  }
+  if (loads.empty()) return;
   try {
     cases.front().task.job->mesh_operator->recover_fields(loads, answers);
   } catch (...) {  // out of memory fails every load case of the block
-    for (std::exception_ptr* failure : failures) {
-      *failure = std::current_exception();
-    }
+    for (std::exception_ptr* failure : failures) *failure = std::current_exception();
   }
 }
 
@@ -74,9 +70,7 @@ std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases,
                                      std::atomic<std::uint64_t>& iterations) {
   std::vector<Solved> solved;
   solved.reserve(cases.size());
-  for (const PreparedCase& prepared : cases) {
-    solved.push_back(solve(prepared, iterations));
-  }
+  for (const PreparedCase& prepared : cases) solved.push_back(solve(prepared, iterations));
   recover_fields(cases, solved);
   std::vector<EndedCase> ended;
   ended.reserve(cases.size());

@@ -51,18 +51,15 @@ void require_arrays(const std::vector<fem::Load>& loads, const store::Store& sto
 
 ForceArrays::ForceArrays(const std::vector<fem::Load>& loads, std::string owner)
     : _owner(std::move(owner)) {
-  for (const fem::Load& load : loads) {
-    if (const auto* array = std::get_if<fem::Array>(&load.force)) {
+  for (const fem::Load& load : loads)
+    if (const auto* array = std::get_if<fem::Array>(&load.force))
       ++_entries[array->upload].cases_left;
-    }
-  }
 }
 
 fem::Load ForceArrays::resolve(const fem::Load& load, const store::Store& store) {
   fem::Load resolved = load;
-  if (auto* array = std::get_if<fem::Array>(&resolved.force)) {
+  if (auto* array = std::get_if<fem::Array>(&resolved.force))
     array->values = at_field("force.array", [&] { return take(array->upload, store); });
-  }
   return resolved;
 }
 

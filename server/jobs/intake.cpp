@@ -62,9 +62,8 @@ class Place {
   Place(EngineCore& core, const store::JobSpec& spec, std::uint64_t cases)
       : _core(core), _mesh(spec.mesh), _cases(cases), _bytes(fields::bytes_of(spec)) {
     const std::lock_guard lock(core.mutex);
-    if (core.draining) {
+    if (core.draining)
       throw Error(Reason::draining, "the server is stopping: submit to another one");
-    }
     core.admission.check(_mesh, _cases, _bytes);
     core.admission.add(_mesh, _cases, _bytes);
   }
@@ -130,20 +129,15 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   JobRecord record = new_record(submission);
   const std::string print = fingerprint(record.spec);
   // First: the same request again is answered however full the queue, and though its mesh is gone.
-  if (auto made = core.store.created_before(record, print)) {
-    return {std::move(*made), false};
-  }
+  if (auto made = core.store.created_before(record, print)) return {std::move(*made), false};
   std::shared_ptr<void> mesh_use = use(core, record.spec.mesh);
   require_arrays(record.spec.loads, core.store, record.owner);
-  if (record.spec.sweep) {
-    measure(*record.spec.sweep, record, core);
-  }
+  if (record.spec.sweep) measure(*record.spec.sweep, record, core);
   const std::uint64_t cases = queued_cases(record.spec, core.store, record.owner);
   Place place(core, record.spec, cases);
   JobRecord stored = core.store.create(record, print);
-  if (stored.id != record.id) {
+  if (stored.id != record.id)
     return {std::move(stored), false};  // made by the same request in this moment
-  }
   const EngineCore::Lock lock(core.mutex);
   ++core.created;
   if (!core.draining) {  // else it is kept for the next start
@@ -157,9 +151,7 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
 
 void recover(EngineCore& core) {
   const bool after_crash = crashed(core);
-  for (store::EndedJob& job : core.store.ended()) {
-    core.retention.add(std::move(job));
-  }
+  for (store::EndedJob& job : core.store.ended()) core.retention.add(std::move(job));
   for (JobRecord& record : core.store.unfinished()) {
     if (record.state == JobState::running) {
       ++record.attempt;
@@ -190,9 +182,7 @@ void recover(EngineCore& core) {
             job->since + queue_limit(*job, core.options) -
                 std::chrono::duration_cast<EngineCore::Clock::duration>(waited));
     }
-    if (gone) {
-      core.stop(job, Stop::failed, gone);
-    }
+    if (gone) core.stop(job, Stop::failed, gone);
   }
 }
 

@@ -67,9 +67,8 @@ JobEngine::~JobEngine() {
     const std::lock_guard lock(core.mutex);
     core.quitting = true;
   }
-  for (auto* changed : {&core.solvers, &core.preparers, &core.ending, &core.limits}) {
+  for (auto* changed : {&core.solvers, &core.preparers, &core.ending, &core.limits})
     changed->notify_all();
-  }
   _state->pools.reset();
 }
 
@@ -82,17 +81,12 @@ JobRecord JobEngine::get(const std::string& id) const {
   std::optional<JobSnapshot> snapshot;
   {
     const std::lock_guard lock(_state->core.mutex);
-    if (const auto found = _state->core.jobs.find(id); found != _state->core.jobs.end()) {
+    if (const auto found = _state->core.jobs.find(id); found != _state->core.jobs.end())
       snapshot.emplace(*found->second);
-    }
   }
-  if (snapshot) {
-    return snapshot->record();
-  }
+  if (snapshot) return snapshot->record();
   std::optional<JobRecord> record = _state->core.store.job(id);
-  if (!record) {
-    throw unknown(id);
-  }
+  if (!record) throw unknown(id);
   return std::move(*record);
 }
 
@@ -103,28 +97,21 @@ std::vector<JobRecord> JobEngine::list(const store::Page& page) const {
     if (!store::ended(record.state)) {
       const std::lock_guard lock(_state->core.mutex);
       const auto found = _state->core.jobs.find(record.id);
-      if (found != _state->core.jobs.end()) {
-        snapshot.emplace(*found->second);
-      }
+      if (found != _state->core.jobs.end()) snapshot.emplace(*found->second);
     }
-    if (snapshot) {
-      record = snapshot->record();
-    }
+    if (snapshot) record = snapshot->record();
   }
   return records;
 }
 
 JobRecord JobEngine::cancel(const std::string& id) {
-  if (const JobPtr job = _state->live(id)) {
-    _state->core.stop(job, Stop::cancelled);
-  }
+  if (const JobPtr job = _state->live(id)) _state->core.stop(job, Stop::cancelled);
   return get(id);
 }
 
 void JobEngine::erase(const std::string& id) {
-  if (_state->live(id)) {
+  if (_state->live(id))
     throw Error(Reason::in_use, "jobs/" + id + " has not ended: cancel it first");
-  }
   EngineCore& core = _state->core;
   core.store.erase_job(id);
   const std::lock_guard lock(core.mutex);
@@ -136,46 +123,34 @@ std::shared_ptr<EventLog> JobEngine::events(const std::string& id) const {
   const EngineCore& core = _state->core;
   {
     const std::lock_guard lock(core.mutex);
-    if (const auto found = core.jobs.find(id); found != core.jobs.end()) {
-      return found->second->log;
-    }
-    if (std::shared_ptr<EventLog> log = core.logs.find(id)) {
-      return log;
-    }
+    if (const auto found = core.jobs.find(id); found != core.jobs.end()) return found->second->log;
+    if (std::shared_ptr<EventLog> log = core.logs.find(id)) return log;
   }
   const std::optional<JobRecord> record = core.store.job(id);
-  if (!record) {
-    throw unknown(id);
-  }
+  if (!record) throw unknown(id);
   return end_alone(*record);
 }
 
 std::shared_ptr<const store::BlockSource> JobEngine::result(const std::string& id) const {
   const std::optional<JobRecord> record = _state->core.store.job(id);
-  if (!record) {
-    throw unknown(id);
-  }
-  if (_state->live(id) || !store::ended(record->state)) {
+  if (!record) throw unknown(id);
+  if (_state->live(id) || !store::ended(record->state))
     throw Error(Reason::not_ready, "jobs/" + id + " has not ended: wait for it");
-  }
   if (record->state == JobState::expired) {
     throw Error(Reason::result_expired,
                 "the result of jobs/" + id +
                     " was removed, by its age or to make room for others: submit the job again");
   }
   std::shared_ptr<const store::BlockSource> block = _state->core.store.result(id);
-  if (!block) {
+  if (!block)
     throw Error(Reason::not_ready, "jobs/" + id + " ended and no load case has an answer");
-  }
   return block;
 }
 
 void JobEngine::stop(std::chrono::milliseconds grace) {
   EngineCore& core = _state->core;
   const auto interrupt = [&](const std::vector<JobPtr>& jobs) {
-    for (const JobPtr& job : jobs) {
-      core.stop(job, Stop::interrupted);
-    }
+    for (const JobPtr& job : jobs) core.stop(job, Stop::interrupted);
   };
   EngineCore::Lock lock(core.mutex);
   core.draining = true;

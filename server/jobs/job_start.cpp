@@ -29,9 +29,7 @@ std::chrono::milliseconds limit(std::chrono::milliseconds own, std::chrono::mill
 std::optional<SweepPlan> plan_of(const EngineCore& core, const LiveJob& job,
                                  const operators::MeshOperator& mesh_operator) {
   const std::optional<store::SweepSpec>& sweep = job.spec->sweep;
-  if (!sweep) {
-    return std::nullopt;
-  }
+  if (!sweep) return std::nullopt;
   MatrixFile matrix = find_matrix(*sweep, core.store, job.created.owner);
   try {
     store::require_intact_upload(matrix.path, sweep->upload);
@@ -49,9 +47,7 @@ bool store_start(EngineCore& core, const JobSnapshot& snapshot,
     store::JobRecord record = snapshot.record();
     record.state = JobState::running;
     record.started = store::Clock::now();
-    if (plan) {
-      record.spec.sweep->rows = plan->rows;
-    }
+    if (plan) record.spec.sweep->rows = plan->rows;
     add_step(record.timeline, JobState::running, {});
     core.store.put(record);
     return true;
@@ -75,9 +71,7 @@ void condense(EngineCore& core, const JobPtr& job) {
     job->sweep->basis = condense_basis(*job, *job->mesh_operator, core.store);
   } catch (...) {
     const Error error = error_of(std::current_exception());
-    if (error.reason() != errors::Reason::cancelled) {
-      core.stop(job, Stop::failed, error);
-    }
+    if (error.reason() != errors::Reason::cancelled) core.stop(job, Stop::failed, error);
   }
 }
 
@@ -120,9 +114,7 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
   job->state = JobState::running;
   job->started = store::Clock::now();
   job->mesh_operator = std::move(mesh_operator);
-  if (plan && job->why == Stop::none) {
-    core.begin_sweep(job, std::move(*plan));
-  }
+  if (plan && job->why == Stop::none) core.begin_sweep(job, std::move(*plan));
   core.deadlines.clear(job->number, Due::queue_time);
   core.deadlines.set(job->number, Due::run_time,
                      EngineCore::Clock::now() + run_limit(*job, core.options));
@@ -132,15 +124,11 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
     lock.unlock();
     condense(core, job);
     lock.lock();
-    if (job->sweep->basis) {
-      job->sweep_record.warnings = job->sweep->basis->warnings();
-    }
+    if (job->sweep->basis) job->sweep_record.warnings = job->sweep->basis->warnings();
   }
   tell(lock, *job, "");
   --job->active;
-  if (job->why == Stop::none) {
-    core.offer(job);
-  }
+  if (job->why == Stop::none) core.offer(job);
   core.settle(job);
 }
 

@@ -23,31 +23,21 @@ constexpr std::size_t max_steps = 48;
 Error retold(const Error& error, const std::string& message,
              const std::vector<std::string>& fields) {
   Error result(error.reason(), message);
-  for (const std::string& field : fields) {
-    result.at(field);
-  }
-  for (const auto& [key, value] : error.metadata()) {
-    result.with(key, value);
-  }
+  for (const std::string& field : fields) result.at(field);
+  for (const auto& [key, value] : error.metadata()) result.with(key, value);
   return result;
 }
 
 Error case_failed(const store::JobSpec& spec, std::size_t index, const Error& error) {
   std::vector<std::string> fields;
-  for (const errors::FieldViolation& violation : error.fields()) {
-    fields.push_back(violation.field);
-  }
+  for (const errors::FieldViolation& violation : error.fields()) fields.push_back(violation.field);
   return retold(error, "load case \"" + spec.loads[index].name + "\": " + error.what(), fields);
 }
 
 Lane lane_of(const store::JobSpec& spec) {
-  if (spec.sweep) {
-    return Lane::sweep;
-  }
+  if (spec.sweep) return Lane::sweep;
   const auto* uzawa = std::get_if<contact::UzawaOptions>(&spec.solver);
-  if (uzawa == nullptr) {
-    return Lane::active_set;
-  }
+  if (uzawa == nullptr) return Lane::active_set;
   return uzawa->mass == contact::Mass::lumped ? Lane::lumped : Lane::consistent;
 }
 
@@ -61,9 +51,7 @@ Outcome conclude_sweep(LiveJob& job) {
   store::SweepRecord& record = job.sweep_record;
   const std::uint64_t rows = job.sweep ? job.sweep->plan.rows : job.spec->sweep->rows;
   const std::uint64_t solved = record.converged + record.not_converged;
-  if (job.why == Stop::none || (job.sweep && solved == rows)) {
-    return {};
-  }
+  if (job.why == Stop::none || (job.sweep && solved == rows)) return {};
   if (job.why == Stop::failed) {
     record.failed = rows - solved;
     return {JobState::failed, job.failure};
@@ -92,9 +80,7 @@ LiveJob::LiveJob(std::uint64_t submission, JobRecord record, std::uint64_t cases
 Task take_unit(const JobPtr& job) {
   Task task{job, job->next_unit++, std::chrono::steady_clock::now()};
   ++job->active;
-  if (task.index < job->cases.size()) {
-    job->cases[task.index].running = true;
-  }
+  if (task.index < job->cases.size()) job->cases[task.index].running = true;
   return task;
 }
 
@@ -103,9 +89,8 @@ std::size_t case_count(const store::JobSpec& spec) {
 }
 
 void add_step(std::vector<store::Step>& timeline, JobState state, std::string detail) {
-  if (timeline.size() >= max_steps) {
+  if (timeline.size() >= max_steps)
     timeline.erase(timeline.begin() + 1);  // the first says when it was queued
-  }
   timeline.push_back({store::Clock::now(), state, std::move(detail)});
 }
 
@@ -124,24 +109,18 @@ JobSnapshot::JobSnapshot(const LiveJob& job) : _head(job.created), _spec(job.spe
 JobRecord JobSnapshot::record() const {
   JobRecord result = _head;
   result.spec = *_spec;
-  if (_rows > 0) {
-    result.spec.sweep->rows = _rows;
-  }
+  if (_rows > 0) result.spec.sweep->rows = _rows;
   result.cases.resize(_cases.size());
-  for (std::size_t i = 0; i < _cases.size(); ++i) {
-    if (_cases[i]) {
+  for (std::size_t i = 0; i < _cases.size(); ++i)
+    if (_cases[i])
       result.cases[i] = *_cases[i];
-    } else if (_running[i]) {
+    else if (_running[i])
       result.cases[i].status = Status::running;
-    }
-  }
   return result;
 }
 
 Outcome conclude(LiveJob& job) {
-  if (job.spec->sweep) {
-    return conclude_sweep(job);
-  }
+  if (job.spec->sweep) return conclude_sweep(job);
   const bool failed = job.why == Stop::failed;
   const auto unsolved = std::make_shared<CaseRecord>();
   unsolved->status = failed ? Status::failed : Status::cancelled;
@@ -153,18 +132,13 @@ Outcome conclude(LiveJob& job) {
       complete = false;
     }
   }
-  if (failed && !complete) {
-    return {JobState::failed, job.failure};
-  }
+  if (failed && !complete) return {JobState::failed, job.failure};
   Outcome result;
   for (std::size_t i = 0; i < job.cases.size(); ++i) {
     const CaseRecord& record = *job.cases[i].record;
-    if (record.status == Status::cancelled) {
-      return {JobState::cancelled, std::nullopt};
-    }
-    if (record.status == Status::failed && !result.error) {
+    if (record.status == Status::cancelled) return {JobState::cancelled, std::nullopt};
+    if (record.status == Status::failed && !result.error)
       result = {JobState::failed, case_failed(*job.spec, i, *record.error)};
-    }
   }
   return result;
 }

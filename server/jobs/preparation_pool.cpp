@@ -40,9 +40,7 @@ PreparationPool::PreparationPool(EngineCore& core) : _core(core) {
 }
 
 PreparationPool::~PreparationPool() {
-  for (std::thread& thread : _threads) {
-    thread.join();
-  }
+  for (std::thread& thread : _threads) thread.join();
 }
 
 void PreparationPool::work() {
@@ -55,11 +53,10 @@ void PreparationPool::work() {
       continue;
     }
     ++_idle;
-    if (const auto retry = _core.schedule.next_retry(now)) {
+    if (const auto retry = _core.schedule.next_retry(now))
       _core.preparers.wait_until(lock, *retry);
-    } else {
+    else
       _core.preparers.wait(lock);
-    }
     --_idle;
   }
 }
@@ -80,9 +77,7 @@ void PreparationPool::tell(MeshWork& mesh, const std::string& phase) {
   std::vector<std::shared_ptr<EventLog>> logs;
   {
     const std::lock_guard lock(_core.mutex);
-    if (mesh.phase == phase) {
-      return;
-    }
+    if (mesh.phase == phase) return;
     mesh.phase = phase;
     for (const auto& [number, job] : mesh.jobs) {
       job->state = JobState::waiting_for_mesh;
@@ -90,9 +85,8 @@ void PreparationPool::tell(MeshWork& mesh, const std::string& phase) {
       logs.push_back(job->log);
     }
   }
-  for (const std::shared_ptr<EventLog>& log : logs) {
+  for (const std::shared_ptr<EventLog>& log : logs)
     log->append(PhaseEvent{JobState::waiting_for_mesh, phase});
-  }
 }
 
 void PreparationPool::prepare(Lock& lock, const Mesh& mesh) {
@@ -107,9 +101,7 @@ void PreparationPool::prepare(Lock& lock, const Mesh& mesh) {
     mesh_operator = _core.catalogue.prepare(
         mesh->id,
         [&](MeshState state) {
-          if (!retry) {
-            tell(*mesh, phase_of(state));
-          }
+          if (!retry) tell(*mesh, phase_of(state));
         },
         stop);
   } catch (const Error& error) {
@@ -119,9 +111,7 @@ void PreparationPool::prepare(Lock& lock, const Mesh& mesh) {
   }
   const bool busy = failure && failure->reason() == Reason::busy;
   const bool stopped = failure && failure->reason() == Reason::cancelled;
-  if (busy) {
-    tell(*mesh, waiting_for_memory);
-  }
+  if (busy) tell(*mesh, waiting_for_memory);
 
   lock.lock();
   mesh->preparing.reset();
@@ -140,18 +130,14 @@ void PreparationPool::prepare(Lock& lock, const Mesh& mesh) {
     } else {
       // Not at once, for jobs that come while the others are being failed.
       _core.schedule.again(mesh->id, EngineCore::Clock::now() + shortest_retry);
-      for (const auto& [number, job] : mesh->jobs) {
-        failed.push_back(job);
-      }
+      for (const auto& [number, job] : mesh->jobs) failed.push_back(job);
     }
   }
   _core.release(mesh);
   _core.preparers.notify_all();
   if (!failed.empty()) {
     lock.unlock();
-    for (const JobPtr& job : failed) {
-      _core.stop(job, Stop::failed, mesh_failed(mesh->id, *failure));
-    }
+    for (const JobPtr& job : failed) _core.stop(job, Stop::failed, mesh_failed(mesh->id, *failure));
     lock.lock();
   }
 }

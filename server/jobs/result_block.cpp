@@ -20,9 +20,8 @@ void add_history(BlockBuilder& builder, const std::string& folder,
       [&](const auto& row) {
         std::vector<arrays::MemberOf<const contact::Sample, decltype(row.member)>> column;
         column.reserve(history.size());
-        for (const contact::Sample& sample : history) {
+        for (const contact::Sample& sample : history)
           column.push_back(std::invoke(row.member, sample));
-        }
         builder.add(folder + std::string(row.name), column);
       },
       arrays::history<contact::Sample>);
@@ -41,9 +40,7 @@ std::shared_ptr<const store::Block> result_block(const operators::MeshOperator& 
   bool any = false;
   bool nodes_added = false;
   for (std::size_t l = 0; l < cases.size(); ++l) {
-    if (!cases[l].solved) {
-      continue;
-    }
+    if (!cases[l].solved) continue;
     if (!any) {
       add_geometry(builder, mesh_operator.trace_geometry());
       any = true;

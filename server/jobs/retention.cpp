@@ -32,9 +32,7 @@ void Retention::remove(const std::string& id) {
 
 void Retention::expired(const std::string& id) {
   const auto found = find(_jobs, id);
-  if (found != _jobs.end()) {
-    _bytes -= std::exchange(found->result_bytes, 0);
-  }
+  if (found != _jobs.end()) _bytes -= std::exchange(found->result_bytes, 0);
 }
 
 Expiry Retention::due(store::Clock::time_point now) const {
@@ -50,9 +48,7 @@ Expiry Retention::due(store::Clock::time_point now) const {
       bytes -= job.result_bytes;
       continue;
     }
-    if (job.result_bytes == 0) {
-      continue;
-    }
+    if (job.result_bytes == 0) continue;
     const bool old = _limits.ttl.count() > 0 && now - job.ended >= _limits.ttl;
     if (old || (bytes > _limits.bytes && &job != &*newest)) {
       expiry.expire.push_back(job.id);

@@ -24,9 +24,8 @@ class SampleQueue {
 
   /// All of them, or none where there is no memory (std::bad_alloc).
   void push_back(std::span<const SampleEvent> events) {
-    while (_begin + _size + events.size() > _pages.size() * SamplePage::capacity) {
+    while (_begin + _size + events.size() > _pages.size() * SamplePage::capacity)
       _pages.push_back(std::make_shared_for_overwrite<SamplePage>());
-    }
     while (!events.empty()) {
       const std::size_t position = _begin + _size;
       const std::size_t place = position % SamplePage::capacity;
@@ -41,9 +40,7 @@ class SampleQueue {
   void pop_front(std::size_t count) noexcept {
     _size -= count;
     _begin += count;
-    for (; _begin >= SamplePage::capacity; _begin -= SamplePage::capacity) {
-      _pages.pop_front();
-    }
+    for (; _begin >= SamplePage::capacity; _begin -= SamplePage::capacity) _pages.pop_front();
   }
 
   /// `count` samples from number `index` on; there must be as many. O(count / page).

@@ -39,12 +39,9 @@ int Schedule::urgency(const Mesh& mesh, const Work& work, Time now) const {
   int best = nothing;
   for (std::size_t priority = 0; priority < work.jobs.size(); ++priority) {
     const auto& jobs = work.jobs[priority];
-    if (work.parked[priority] > 0) {
-      best = std::min(best, urgency(priority, mesh.served, now));
-    }
-    if (!jobs.empty()) {
+    if (work.parked[priority] > 0) best = std::min(best, urgency(priority, mesh.served, now));
+    if (!jobs.empty())
       best = std::min(best, urgency(priority, std::max(jobs.begin()->second, mesh.served), now));
-    }
   }
   return best;
 }
@@ -55,16 +52,12 @@ void Schedule::add(const Waiting& job) {
   mesh.size_class = job.size_class;
   mesh.lanes[static_cast<std::size_t>(job.lane)].jobs[class_of(job.priority)].emplace(job.number,
                                                                                       job.since);
-  if (mesh.stage == Stage::absent) {
-    mesh.stage = Stage::unknown;  // it may have come meanwhile
-  }
+  if (mesh.stage == Stage::absent) mesh.stage = Stage::unknown;  // it may have come meanwhile
 }
 
 void Schedule::remove(std::uint64_t number) {
   const auto found = _jobs.find(number);
-  if (found == _jobs.end()) {
-    return;
-  }
+  if (found == _jobs.end()) return;
   const Waiting job = found->second;
   _jobs.erase(found);
   _meshes.at(job.mesh).lanes[static_cast<std::size_t>(job.lane)].jobs[class_of(job.priority)].erase(
@@ -75,15 +68,11 @@ void Schedule::remove(std::uint64_t number) {
 std::optional<std::uint64_t> Schedule::next_job(const std::string& mesh, Lane lane,
                                                 Time now) const {
   const auto found = _meshes.find(mesh);
-  if (found == _meshes.end()) {
-    return std::nullopt;
-  }
+  if (found == _meshes.end()) return std::nullopt;
   const Jobs& jobs = found->second.lanes[index(lane)].jobs;
   std::optional<std::pair<int, std::uint64_t>> best;
   for (std::size_t priority = 0; priority < jobs.size(); ++priority) {
-    if (jobs[priority].empty()) {
-      continue;
-    }
+    if (jobs[priority].empty()) continue;
     const auto& [number, since] = *jobs[priority].begin();
     const std::pair<int, std::uint64_t> key{urgency(priority, since, now), number};
     best = best ? std::min(*best, key) : key;
@@ -95,11 +84,9 @@ std::optional<store::Priority> Schedule::most_urgent(const std::string& mesh, La
   const auto found = _meshes.find(mesh);
   if (found != _meshes.end()) {
     const Jobs& jobs = found->second.lanes[index(lane)].jobs;
-    for (std::size_t priority = 0; priority < jobs.size(); ++priority) {
-      if (!jobs[priority].empty()) {
+    for (std::size_t priority = 0; priority < jobs.size(); ++priority)
+      if (!jobs[priority].empty())
         return static_cast<store::Priority>(most_urgent_class + priority);
-      }
-    }
   }
   return std::nullopt;
 }
@@ -114,11 +101,9 @@ void Schedule::unpark(const std::string& mesh, Lane lane, store::Priority priori
 
 std::map<int, std::size_t> Schedule::prepared_ahead() const {
   std::map<int, std::size_t> count;
-  for (const auto& [id, mesh] : _meshes) {
-    if (mesh.stage == Stage::preparing || (mesh.stage == Stage::ready && mesh.unused)) {
+  for (const auto& [id, mesh] : _meshes)
+    if (mesh.stage == Stage::preparing || (mesh.stage == Stage::ready && mesh.unused))
       ++count[mesh.size_class];
-    }
-  }
   return count;
 }
 
@@ -129,14 +114,10 @@ std::optional<std::string> Schedule::next_to_prepare(Time now) {
   std::pair<int, std::uint64_t> best_key;
   for (auto& [id, mesh] : _meshes) {
     const bool waits = mesh.stage == Stage::unknown || mesh.stage == Stage::absent;
-    if (!waits || mesh.not_before > now || ahead[mesh.size_class] >= _prepared_limit) {
-      continue;
-    }
+    if (!waits || mesh.not_before > now || ahead[mesh.size_class] >= _prepared_limit) continue;
     for (const Work& work : mesh.lanes) {
       for (std::size_t priority = 0; priority < work.jobs.size(); ++priority) {
-        if (work.jobs[priority].empty()) {
-          continue;
-        }
+        if (work.jobs[priority].empty()) continue;
         const auto& [number, since] = *work.jobs[priority].begin();
         const std::pair<int, std::uint64_t> key{urgency(priority, since, now), number};
         if (best == nullptr || key < best_key) {
@@ -147,9 +128,7 @@ std::optional<std::string> Schedule::next_to_prepare(Time now) {
       }
     }
   }
-  if (best == nullptr) {
-    return std::nullopt;
-  }
+  if (best == nullptr) return std::nullopt;
   best->stage = Stage::preparing;
   return *name;
 }
@@ -179,22 +158,16 @@ void Schedule::let_go(const std::string& mesh) {
 
 void Schedule::forget_if_empty(const std::string& mesh) {
   const auto found = _meshes.find(mesh);
-  if (found == _meshes.end() || !found->second.empty()) {
-    return;
-  }
+  if (found == _meshes.end() || !found->second.empty()) return;
   const Stage stage = found->second.stage;
-  if (stage == Stage::unknown || stage == Stage::absent) {
-    _meshes.erase(found);
-  }
+  if (stage == Stage::unknown || stage == Stage::absent) _meshes.erase(found);
 }
 
 std::optional<Schedule::Time> Schedule::next_retry(Time now) const {
   std::optional<Time> earliest;
-  for (const auto& [id, mesh] : _meshes) {
-    if (mesh.not_before > now && (!earliest || mesh.not_before < *earliest)) {
+  for (const auto& [id, mesh] : _meshes)
+    if (mesh.not_before > now && (!earliest || mesh.not_before < *earliest))
       earliest = mesh.not_before;
-    }
-  }
   return earliest;
 }
 
@@ -202,9 +175,7 @@ std::optional<Turn> Schedule::next_turn(Time now) {
   std::tuple<int, std::uint64_t, std::uint64_t> best_key;
   std::optional<Turn> best;
   for (const auto& [id, mesh] : _meshes) {
-    if (!mesh.has_turns()) {
-      continue;
-    }
+    if (!mesh.has_turns()) continue;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const Work& work = mesh.lanes[lane];
       const int urgent = urgency(mesh, work, now);
@@ -230,25 +201,19 @@ std::optional<Turn> Schedule::next_turn(Time now) {
 
 void Schedule::served(const std::string& mesh, Time now) {
   const auto found = _meshes.find(mesh);
-  if (found != _meshes.end()) {
-    found->second.served = now;
-  }
+  if (found != _meshes.end()) found->second.served = now;
 }
 
 bool Schedule::others(const std::string& mesh, Lane lane) const {
   for (const auto& [id, entry] : _meshes) {
-    if (!entry.has_turns()) {
-      continue;
-    }
+    if (!entry.has_turns()) continue;
     for (std::size_t i = 0; i < lane_count; ++i) {
       const Work& work = entry.lanes[i];
       const bool own = id == mesh && static_cast<Lane>(i) == lane;
       const bool there =
           own ? std::any_of(work.parked.begin(), work.parked.end(), [](int n) { return n > 0; })
               : !work.empty();
-      if (there) {
-        return true;
-      }
+      if (there) return true;
     }
   }
   return false;

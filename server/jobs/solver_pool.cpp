@@ -23,15 +23,12 @@ contact::Mass mass_of(Lane lane) {
 }  // namespace
 
 SolverPool::SolverPool(EngineCore& core) : _core(core) {
-  for (int i = 0; i < std::max(1, core.options.threads); ++i) {
+  for (int i = 0; i < std::max(1, core.options.threads); ++i)
     _threads.emplace_back([this] { work(); });
-  }
 }
 
 SolverPool::~SolverPool() {
-  for (std::thread& thread : _threads) {
-    thread.join();
-  }
+  for (std::thread& thread : _threads) thread.join();
 }
 
 void SolverPool::work() {
@@ -51,13 +48,12 @@ void SolverPool::work() {
     }
     _core.preparers.notify_one();  // one mesh fewer is prepared ahead
     ++mesh->threads;
-    if (turn->lane == Lane::active_set) {
+    if (turn->lane == Lane::active_set)
       solve_exactly(lock, mesh);
-    } else if (turn->lane == Lane::sweep) {
+    else if (turn->lane == Lane::sweep)
       sweep(lock, mesh);
-    } else {
+    else
       iterate(lock, mesh, turn->lane);
-    }
     --mesh->threads;
     _core.schedule.served(mesh->id, Clock::now());
     _core.release(mesh);
@@ -109,9 +105,7 @@ void SolverPool::iterate(Lock& lock, const Mesh& mesh, Lane lane) {
   }
   for (;;) {
     admit(lock, mesh, lane, block);
-    if (!block || block->columns() == 0) {
-      break;
-    }
+    if (!block || block->columns() == 0) break;
     _core.deliver(lock, step(lock, *block));
     const bool leave =
         turn_is_over(*mesh, lane, begin) ||
@@ -130,18 +124,15 @@ void SolverPool::iterate(Lock& lock, const Mesh& mesh, Lane lane) {
 void SolverPool::admit(Lock& lock, const Mesh& mesh, Lane lane, std::shared_ptr<BlockRun>& block) {
   const bool under_way = block && block->columns() > 0;
   if (under_way && _core.idle_solvers > 0) {
-    if (mesh->waiting[index(lane)] > 0) {
+    if (mesh->waiting[index(lane)] > 0)
       _core.solvers.notify_one();  // for another thread, which has nothing else to do
-    }
     return;
   }
   const int room = block ? block->free() : std::max(1, _core.options.columns);
   // A start waits for the disk: where columns wait meanwhile, one start at a time.
   const int max_starts = under_way ? 1 : std::numeric_limits<int>::max();
   const std::vector<Task> tasks = take(lock, mesh, lane, room, max_starts);
-  if (tasks.empty()) {
-    return;
-  }
+  if (tasks.empty()) return;
   _core.columns += static_cast<int>(tasks.size());
   lock.unlock();
   Condensed condensed;
@@ -152,16 +143,14 @@ void SolverPool::admit(Lock& lock, const Mesh& mesh, Lane lane, std::shared_ptr<
     }
     condensed = condense(*mesh->mesh_operator, tasks, _core.store);
   } catch (...) {  // the mesh has no block: none of its cases can be solved like this
-    for (const Task& task : tasks) {
+    for (const Task& task : tasks)
       condensed.ended.push_back({task, failed_case(task, std::current_exception())});
-    }
   }
   lock.lock();
   _core.columns -= static_cast<int>(tasks.size());
   if (!condensed.prepared.empty()) {
-    if (std::find(mesh->blocks.begin(), mesh->blocks.end(), block) == mesh->blocks.end()) {
+    if (std::find(mesh->blocks.begin(), mesh->blocks.end(), block) == mesh->blocks.end())
       mesh->blocks.push_back(block);
-    }
     block->iterating = true;
     lock.unlock();
     for (PreparedCase& prepared : condensed.prepared) {
@@ -180,16 +169,12 @@ void SolverPool::admit(Lock& lock, const Mesh& mesh, Lane lane, std::shared_ptr<
 
 std::vector<EndedCase> SolverPool::step(Lock& lock, BlockRun& block) {
   std::vector<EndedCase> ended;
-  for (const Task& task : block.abandon_stopped()) {
-    ended.push_back({task, cancelled_case(task)});
-  }
+  for (const Task& task : block.abandon_stopped()) ended.push_back({task, cancelled_case(task)});
   const int columns = block.columns();
   block.iterating = true;
   _core.columns += columns;
   lock.unlock();
-  for (EndedCase& ended_case : block.step()) {
-    ended.push_back(std::move(ended_case));
-  }
+  for (EndedCase& ended_case : block.step()) ended.push_back(std::move(ended_case));
   lock.lock();
   _core.columns -= columns;
   block.iterating = false;
@@ -203,9 +188,7 @@ void SolverPool::solve_exactly(Lock& lock, const Mesh& mesh) {
       const std::vector<Task> tasks =
           take(lock, mesh, Lane::active_set, std::max(1, _core.options.columns),
                std::numeric_limits<int>::max());
-      if (tasks.empty()) {
-        return;
-      }
+      if (tasks.empty()) return;
       _core.columns += static_cast<int>(tasks.size());
       lock.unlock();
       Condensed condensed = condense(*mesh->mesh_operator, tasks, _core.store);
@@ -224,9 +207,8 @@ void SolverPool::solve_exactly(Lock& lock, const Mesh& mesh) {
       continue;
     }
     const std::vector<PreparedCase> cases = take_together(mesh->prepared, _core.idle_solvers + 1);
-    for (const PreparedCase& prepared : cases) {
+    for (const PreparedCase& prepared : cases)
       _core.schedule.unpark(mesh->id, Lane::active_set, prepared.task.job->spec->priority);
-    }
     _core.columns += static_cast<int>(cases.size());
     lock.unlock();
     std::vector<EndedCase> ended = jobs::solve_exactly(cases, _core.iterations);
@@ -241,9 +223,7 @@ void SolverPool::sweep(Lock& lock, const Mesh& mesh) {
   do {
     const std::vector<Task> tasks =
         take(lock, mesh, Lane::sweep, 1, std::numeric_limits<int>::max());
-    if (tasks.empty()) {
-      return;
-    }
+    if (tasks.empty()) return;
     ++_core.columns;
     lock.unlock();
     EndedChunk chunk = solve_chunk(tasks.front(), _core.iterations);
@@ -263,27 +243,20 @@ std::vector<Task> SolverPool::take(Lock& lock, const Mesh& mesh, Lane lane, int 
       std::min(static_cast<std::uint64_t>(std::max(0, room)), (waiting + shares - 1) / shares);
   while (tasks.size() < wanted) {
     const auto next = _core.schedule.next_job(mesh->id, lane, Clock::now());
-    if (!next) {
-      break;
-    }
+    if (!next) break;
     const JobPtr job = _core.numbers.at(*next);
     if (job->state != store::JobState::running) {
-      if (max_starts-- == 0) {
-        break;
-      }
+      if (max_starts-- == 0) break;
       start_job(_core, lock, mesh->mesh_operator, job);
       continue;
     }
     Task task = take_unit(job);
     --mesh->waiting[index(lane)];
-    if (job->next_unit == job->units) {
-      _core.schedule.remove(job->number);
-    }
-    if (job->result_bytes > _core.options.max_result_bytes) {
+    if (job->next_unit == job->units) _core.schedule.remove(job->number);
+    if (job->result_bytes > _core.options.max_result_bytes)
       refused.push_back({task, refused_case(task, _core.options.max_result_bytes)});
-    } else {
+    else
       tasks.push_back(std::move(task));
-    }
   }
   _core.deliver(lock, std::move(refused));
   return tasks;

@@ -145,9 +145,7 @@ std::uint64_t rows_of(const SweepSpec& sweep, std::uint64_t values, std::uint64_
 
 std::uint64_t queued_cases(const store::JobSpec& spec, const store::Store& store,
                            const std::string& owner) {
-  if (!spec.sweep) {
-    return spec.loads.size();
-  }
+  if (!spec.sweep) return spec.loads.size();
   try {
     const std::uint64_t values = find_matrix(*spec.sweep, store, owner).values;
     return combines(*spec.sweep) ? parts(values, combinations_a_case * spec.loads.size())

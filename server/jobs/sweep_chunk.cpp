@@ -71,9 +71,7 @@ class ChunkRows {
   }
 
   static void require_complete(bool complete) {
-    if (!complete) {
-      throw stopped();
-    }
+    if (!complete) throw stopped();
   }
 
   Error in_row(std::uint64_t row, const std::string& what, Reason reason) const {
@@ -157,9 +155,7 @@ store::SweepRecord record_of(const SweepColumns& columns) {
 
 std::uint64_t steps_of(const SweepColumns& columns) {
   std::uint64_t steps = 0;
-  for (const std::int32_t count : columns.steps) {
-    steps += static_cast<std::uint64_t>(count);
-  }
+  for (const std::int32_t count : columns.steps) steps += static_cast<std::uint64_t>(count);
   return steps;
 }
 
@@ -194,9 +190,7 @@ EndedChunk solve_chunk(const Task& task, std::atomic<std::uint64_t>& iterations)
     iterations.fetch_add(steps_of(columns), std::memory_order_relaxed);
   } catch (...) {
     const Error error = error_of(std::current_exception());
-    if (error.reason() != Reason::cancelled) {
-      ended.failure = error;
-    }
+    if (error.reason() != Reason::cancelled) ended.failure = error;
   }
   return ended;
 }

@@ -33,9 +33,8 @@ std::uint64_t result_bytes(const operators::MeshOperator& mesh_operator, std::ui
   const std::uint64_t contacts = mesh_operator.contact_nodes().size();
   const std::uint64_t interfaces = mesh_operator.trace_geometry().size();
   std::uint64_t nodes = 0;
-  for (const contact::TraceGeometry& interface : mesh_operator.trace_geometry()) {
+  for (const contact::TraceGeometry& interface : mesh_operator.trace_geometry())
     nodes += interface.s.size();
-  }
   return rows * (a_row + sizeof(double) * mesh_operator.mesh().inclusions.size() + contacts) +
          contacts * 2 * sizeof(std::int32_t) + nodes * (a_node + traces * a_trace_node) +
          alignment * (8 + interfaces * (4 + 5 * traces));

@@ -73,9 +73,8 @@ struct Contacts {
 Contacts contacts_of(const std::vector<std::array<std::int32_t, 2>>& nodes) {
   Contacts contacts;
   contacts.contact_nodes.reserve(2 * nodes.size());
-  for (const auto& node : nodes) {
+  for (const auto& node : nodes)
     contacts.contact_nodes.insert(contacts.contact_nodes.end(), node.begin(), node.end());
-  }
   return contacts;
 }
 
@@ -84,9 +83,8 @@ Contacts contacts_of(const std::vector<std::array<std::int32_t, 2>>& nodes) {
 std::shared_ptr<const store::Block> sweep_result(const operators::MeshOperator& mesh_operator,
                                                  LiveSweep& sweep, Status unsolved) {
   if (std::none_of(sweep.chunks.begin(), sweep.chunks.end(),
-                   [](const SweepChunk& chunk) { return chunk.columns != nullptr; })) {
+                   [](const SweepChunk& chunk) { return chunk.columns != nullptr; }))
     return nullptr;
-  }
   BlockBuilder builder;
   builder.reserve(sweep.plan.result_bytes);
   add_geometry(builder, mesh_operator.trace_geometry());
@@ -96,9 +94,8 @@ std::shared_ptr<const store::Block> sweep_result(const operators::MeshOperator& 
   add_arrays(builder, arrays::sweep_folder(), arrays::sweep_contacts<Contacts>,
              contacts_of(contact_nodes));
   for (SweepChunk& chunk : sweep.chunks) {
-    for (const RowTraces& traces : chunk.traces) {
+    for (const RowTraces& traces : chunk.traces)
       add_traces(builder, arrays::row_traces(traces.row), traces.traces);
-    }
     chunk = {};
   }
   return std::make_shared<const store::Block>(builder.finish());

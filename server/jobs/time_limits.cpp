@@ -45,30 +45,21 @@ void TimeLimits::work() {
   EngineCore::Lock lock(_core.mutex);
   while (!_core.quitting) {
     const auto due = _core.deadlines.take(EngineCore::Clock::now());
-    for (const Deadlines::Entry& entry : due) {
-      act(lock, entry);
-    }
-    if (!due.empty()) {
-      continue;
-    }
-    if (const auto next = _core.deadlines.next()) {
+    for (const Deadlines::Entry& entry : due) act(lock, entry);
+    if (!due.empty()) continue;
+    if (const auto next = _core.deadlines.next())
       _core.limits.wait_until(lock, *next);
-    } else {
+    else
       _core.limits.wait(lock);
-    }
   }
 }
 
 void TimeLimits::act(EngineCore::Lock& lock, const Deadlines::Entry& entry) {
   const auto found = _core.numbers.find(entry.first);
-  if (found == _core.numbers.end()) {
-    return;  // it ended while another was dealt with
-  }
+  if (found == _core.numbers.end()) return;  // it ended while another was dealt with
   const JobPtr job = found->second;
   if (entry.second == Due::start) {
-    if (job->why == Stop::none) {
-      _core.offer(job);
-    }
+    if (job->why == Stop::none) _core.offer(job);
     return;
   }
   const Error error = entry.second == Due::queue_time

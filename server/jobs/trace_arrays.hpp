@@ -21,9 +21,8 @@ void add_arrays(store::BlockBuilder& builder, const std::string& folder, const T
       [&](const auto& row) {
         const auto& values = std::invoke(row.member, record);
         std::vector<std::uint64_t> shape{values.size()};
-        if (const std::size_t columns = arrays::columns_of(row.shape); columns != 0) {
+        if (const std::size_t columns = arrays::columns_of(row.shape); columns != 0)
           shape = {values.size() / columns, columns};
-        }
         builder.add(folder + std::string(row.name), values, std::move(shape));
       },
       table);
@@ -41,9 +40,8 @@ inline void add_geometry(store::BlockBuilder& builder,
 /// The traces along all interfaces; `folder` ends with a slash.
 inline void add_traces(store::BlockBuilder& builder, const std::string& folder,
                        const std::vector<contact::Trace>& traces) {
-  for (std::size_t i = 0; i < traces.size(); ++i) {
+  for (std::size_t i = 0; i < traces.size(); ++i)
     add_arrays(builder, folder + std::to_string(i) + "/", arrays::trace<contact::Trace>, traces[i]);
-  }
 }
 
 }  // namespace anticrack::jobs

@@ -65,9 +65,8 @@ std::string escape(std::string_view value) {
 
 std::string quote_if_needed(std::string_view value) {
   if (!value.empty() && value.size() <= longest_value &&
-      std::all_of(value.begin(), value.end(), is_plain)) {
+      std::all_of(value.begin(), value.end(), is_plain))
     return std::string(value);
-  }
   return std::string("\"") + escape(value) + "\"";
 }
 

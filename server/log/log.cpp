@@ -27,18 +27,16 @@ Logger& current() {
 
 std::string text_line(std::string_view event, const Fields& fields) {
   std::string line = escape(event);
-  for (const auto& [key, value] : fields) {
+  for (const auto& [key, value] : fields)
     line += fmt::format(" {}={}", escape(key), quote_if_needed(value));
-  }
   return line;
 }
 
 /// The pattern adds time, level and braces.
 std::string json_members(std::string_view event, const Fields& fields) {
   std::string line = fmt::format(R"("event":"{}")", escape(event));
-  for (const auto& [key, value] : fields) {
+  for (const auto& [key, value] : fields)
     line += fmt::format(R"(,"{}":"{}")", escape(key), escape(value));
-  }
   return line;
 }
 

@@ -58,11 +58,9 @@ Bisection::Bisection(const Mesh& base, std::size_t max_triangles)
   const EdgeTable edges(base.triangles);
   const std::vector<std::uint8_t> reference = reference_sides(base, edges);
   _corners.resize(base.triangle_count());
-  for (std::size_t t = 0; t < _corners.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t t = 0; t < _corners.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i)
       _corners[t][i] = base.triangles[3 * t + (reference[t] + i) % 3];
-    }
-  }
   _across.assign(base.triangle_count(), {-1, -1, -1});
   edges.each([&](std::span<const EdgeUse> uses) {
     check_plane(uses);
@@ -155,9 +153,8 @@ Mesh Bisection::finish() && {
   Mesh mesh;
   mesh.xy = std::move(_xy);
   mesh.triangles.reserve(3 * _corners.size());
-  for (const auto& nodes : _corners) {
+  for (const auto& nodes : _corners)
     mesh.triangles.insert(mesh.triangles.end(), nodes.begin(), nodes.end());
-  }
   mesh.subdomain = std::move(_subdomain);
   mesh.subdomains = _base.subdomains;
   mesh.tension = _base.tension;
@@ -179,9 +176,8 @@ double bisection_bound(const Mesh& base) {
     const Point m{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
     // The triangle and its children suffice: two grandchildren are similar to it; the other two are
     // congruent, have children similar to the first ones, and none of the smallest angles.
-    for (const auto& similar : {angles(a, b, c), angles(c, a, m), angles(b, c, m)}) {
+    for (const auto& similar : {angles(a, b, c), angles(c, a, m), angles(b, c, m)})
       smallest = std::min(smallest, *std::ranges::min_element(similar));
-    }
   }
   return smallest;
 }

@@ -26,11 +26,10 @@ bool is_beside(std::string_view field) {
 
 void put(Writer& out, const Mesh& mesh) {
   fields::for_each(mesh, [&](const auto& field) {
-    if (field.name == "tension" && mesh.tension.empty()) {
+    if (field.name == "tension" && mesh.tension.empty())
       out.value(std::vector<double>(mesh.subdomains.size(), 1.0));
-    } else if (!is_beside(field.name)) {
+    else if (!is_beside(field.name))
       out.value(field.value);
-    }
   });
 }
 
@@ -54,9 +53,8 @@ void check_indices(const Plan& plan) {
   for (const PlannedCurve& curve : plan.curves) {
     check_index(curve.a, plan.points.size(), "a point");
     check_index(curve.b, plan.points.size(), "a point");
-    for (const int face : {curve.left, curve.right}) {
+    for (const int face : {curve.left, curve.right})
       if (face != -1) check_index(face, plan.faces.size(), "a face");
-    }
     if (curve.inclusion != -1) check_index(curve.inclusion, plan.inclusions.size(), "an inclusion");
   }
   const auto check_curves = [&](const std::vector<int>& curves) {

@@ -106,9 +106,8 @@ class Reader {
  public:
   /// All calls throw errors::Error (mesh_invalid) for bytes that do not fit.
   Reader(std::span<const std::byte> bytes, std::string_view tag) : _bytes(bytes) {
-    if (left() < tag.size() || std::memcmp(_bytes.data(), tag.data(), tag.size()) != 0) {
+    if (left() < tag.size() || std::memcmp(_bytes.data(), tag.data(), tag.size()) != 0)
       fail("they do not begin with the tag " + std::string(tag.substr(0, tag.size() - 1)));
-    }
     _at = tag.size();
   }
 

@@ -99,9 +99,8 @@ void add_curves(const Layout& layout, const Network& network, Plan& plan) {
     curve.a = chord.a;
     curve.b = chord.b;
     curve.role = network.lines[at(chord.line)].role;
-    if (curve.role == Role::dirichlet && stretch_of(layout.neumann, network, chord) != nullptr) {
+    if (curve.role == Role::dirichlet && stretch_of(layout.neumann, network, chord) != nullptr)
       curve.role = Role::neumann;
-    }
     if (curve.role == Role::interface) {
       const Stretch* stretch = stretch_of(layout.stretches, network, chord);
       if (stretch != nullptr) {
@@ -171,9 +170,8 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   cut(network, size, curve_limit);
 
   plan.triangles = triangles;
-  for (const InclusionSpec& inclusion : geometry.inclusions) {
+  for (const InclusionSpec& inclusion : geometry.inclusions)
     plan.inclusions.push_back(inclusion.name);
-  }
   add_curves(layout, network, plan);
   check_inclusions_apart(plan);
   lay_subdomains(geometry, network, names, plan);
@@ -184,9 +182,7 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   }
   cut_near(plan, size, plan.growth, curve_limit);
   set_intervals(plan, size);
-  if (options.preset == Preset::graded) {
-    plan.grading = {size, options.grading, options.tip_size};
-  }
+  if (options.preset == Preset::graded) plan.grading = {size, options.grading, options.tip_size};
   return plan;
 }
 

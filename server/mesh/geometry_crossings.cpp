@@ -19,13 +19,12 @@ class Meetings {
   explicit Meetings(const Network& network) : _network(network), _tolerance(network.tolerance) {}
 
   void meet(const Chord& s, const Chord& t) {
-    if (s.line == t.line) {
+    if (s.line == t.line)
       same_line(s, t);
-    } else if (s.line > t.line) {
+    else if (s.line > t.line)
       two_lines(t, s);
-    } else {
+    else
       two_lines(s, t);
-    }
   }
 
   Segment segment(const Chord& chord) const {

@@ -69,9 +69,8 @@ class Walker {
   /// For each vertex the number of its connected part.
   std::vector<int> parts() const {
     UnionFind sets(_points.size());
-    for (std::size_t e = 0; e < _edges.size(); ++e) {
+    for (std::size_t e = 0; e < _edges.size(); ++e)
       if (_used[e]) sets.unite(_edges[e][0], _edges[e][1]);
-    }
     std::vector<int> part(_points.size());
     for (std::size_t v = 0; v < part.size(); ++v) part[v] = sets.find(static_cast<int>(v));
     return part;
@@ -149,13 +148,11 @@ void add_loop(const Walker& walker, const std::vector<int>& halves, bool is_oute
     const auto less = [&](const auto& a, const auto& b) { return walker.area(a) < walker.area(b); };
     outer = at(std::max_element(simple.begin(), simple.end(), less) - simple.begin());
   }
-  for (std::size_t i = 0; i < simple.size(); ++i) {
-    if (i == outer) {
+  for (std::size_t i = 0; i < simple.size(); ++i)
+    if (i == outer)
       face.outer = signed_edges(simple[i]);
-    } else {
+    else
       face.holes.push_back(signed_edges(simple[i]));
-    }
-  }
 }
 
 }  // namespace
@@ -199,17 +196,13 @@ Arrangement arrange(std::span<const Point> points, EdgeSpan edges, const std::ve
       least = area[j];
     }
     face_of[i] = home;
-    if (home != Arrangement::outside) {
-      add_loop(walker, loops[i], false, result.faces[at(home)]);
-    }
+    if (home != Arrangement::outside) add_loop(walker, loops[i], false, result.faces[at(home)]);
   }
   result.left.assign(edges.size(), Arrangement::outside);
   result.right.assign(edges.size(), Arrangement::outside);
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    for (const int half : loops[i]) {
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    for (const int half : loops[i])
       (half % 2 == 0 ? result.left : result.right)[at(half / 2)] = face_of[i];
-    }
-  }
   return result;
 }
 

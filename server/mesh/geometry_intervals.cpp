@@ -33,13 +33,11 @@ void set_paper_intervals(Plan& plan) {
   std::vector<PlannedCurve*> glue;
   std::vector<PlannedCurve*> rest;
   std::array<std::vector<PlannedCurve*>, 2> outer;
-  for (PlannedCurve& curve : plan.curves) {
-    if (curve.role == Role::interface) {
+  for (PlannedCurve& curve : plan.curves)
+    if (curve.role == Role::interface)
       (curve.kind == Kind::glue ? glue : rest).push_back(&curve);
-    } else {
+    else
       outer[at(curve.left)].push_back(&curve);
-    }
-  }
   share(plan, glue);
   share(plan, rest);
   for (const auto& curves : outer) share(plan, curves);

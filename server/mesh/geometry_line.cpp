@@ -248,9 +248,8 @@ std::optional<double> Line::locate(const Point& p, double tolerance) const {
 
 double Line::distance_to(const Point& p) const noexcept {
   double off = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < _samples.size(); ++i) {
+  for (std::size_t i = 1; i < _samples.size(); ++i)
     off = std::min(off, distance(p, Segment{_samples[i - 1].p, _samples[i].p}));
-  }
   return off;
 }
 

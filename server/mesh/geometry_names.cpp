@@ -53,24 +53,20 @@ std::vector<std::string> check_names(const Geometry& geometry) {
     interfaces.push_back(std::move(name));
   }
   Names parts;
-  for (std::size_t i = 0; i < geometry.inclusions.size(); ++i) {
+  for (std::size_t i = 0; i < geometry.inclusions.size(); ++i)
     parts.add(geometry.inclusions[i].name, indexed("inclusions", i), "inclusion and crack");
-  }
-  for (std::size_t i = 0; i < geometry.cracks.size(); ++i) {
+  for (std::size_t i = 0; i < geometry.cracks.size(); ++i)
     parts.add(geometry.cracks[i].name, indexed("cracks", i), "inclusion and crack");
-  }
   Names regions;
-  for (std::size_t i = 0; i < geometry.regions.size(); ++i) {
+  for (std::size_t i = 0; i < geometry.regions.size(); ++i)
     regions.add(geometry.regions[i].name, indexed("regions", i), "region");
-  }
   return interfaces;
 }
 
 std::string unused_name(const std::string& name, std::vector<std::string>& used) {
   std::string candidate = name;
-  for (int k = 2; std::find(used.begin(), used.end(), candidate) != used.end(); ++k) {
+  for (int k = 2; std::find(used.begin(), used.end(), candidate) != used.end(); ++k)
     candidate = name + "-" + std::to_string(k);
-  }
   used.push_back(candidate);
   return candidate;
 }

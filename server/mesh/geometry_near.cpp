@@ -39,9 +39,8 @@ std::vector<Fine> fine_points(const Plan& plan, double size) {
     }
   }
   std::vector<Fine> fine;
-  for (std::size_t i = 0; i < least.size(); ++i) {
+  for (std::size_t i = 0; i < least.size(); ++i)
     if (least[i] < size) fine.push_back({plan.points[i], least[i]});
-  }
   std::sort(fine.begin(), fine.end(), [](const Fine& a, const Fine& b) { return a.at < b.at; });
   return fine;
 }
@@ -106,9 +105,8 @@ class Cutter {
     const double length = distance(piece.a, piece.b);
     const double wanted = std::min(length, _size);
     std::vector<Fine> still_fine;
-    for (const Fine& f : fine) {
+    for (const Fine& f : fine)
       if (allowed(f, piece) < wanted) still_fine.push_back(f);
-    }
     std::vector<int> still_near;
     for (const int t : near) {
       const Segment other = segment_of(_plan, _plan.curves[at(t)]);
@@ -172,9 +170,8 @@ void replace_curves(Plan& plan, std::vector<PlannedCurve> curves,
                     const std::vector<std::vector<int>>& pieces) {
   const auto replace = [&](std::vector<int>& list) {
     std::vector<int> now;
-    for (const int curve : list) {
+    for (const int curve : list)
       now.insert(now.end(), pieces[at(curve)].begin(), pieces[at(curve)].end());
-    }
     list = std::move(now);
   };
   const auto replace_loop = [&](std::vector<int>& loop) {

@@ -15,18 +15,15 @@ namespace {
 
 /// Refuses points far outside the membrane first: products of such coordinates would overflow.
 void check_near(const Point& p, const std::string& field, const Outline& outline) {
-  if (distance(p, outline.boundary.front()) > 10 * outline.tolerance / relative_tolerance) {
+  if (distance(p, outline.boundary.front()) > 10 * outline.tolerance / relative_tolerance)
     refuse(field, field, " ", show(p), " lies outside the polygon; it must lie in the membrane");
-  }
 }
 
 /// Of a polyline or spline.
 void check_vertices(const std::vector<Point>& points, const std::string& owner,
                     const std::string& field, const Outline& outline) {
   check_points(points, field);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    check_near(points[i], indexed(field, i), outline);
-  }
+  for (std::size_t i = 0; i < points.size(); ++i) check_near(points[i], indexed(field, i), outline);
   check_distinct(points, field, outline.tolerance);
   if (distance(points.front(), points.back()) <= outline.tolerance) {
     refuse(owner, owner, " starts and ends at the same point ", show(points.front()),
@@ -47,9 +44,8 @@ Line polyline_of(const std::vector<Point>& points, bool closed, const std::strin
 }
 
 Line spline_of(const InterfaceSpec& spec, const std::string& owner, const Outline& outline) {
-  if (spec.points.size() < 3) {
+  if (spec.points.size() < 3)
     refuse(owner, owner, " has ", spec.points.size(), " points; a spline takes at least 3");
-  }
   check_vertices(spec.points, owner, owner + ".points", outline);
   return Line::spline(spec.points, spec.closed);
 }
@@ -60,9 +56,8 @@ Line arc_of(const InterfaceSpec& spec, const std::string& owner, const Outline& 
     refuse(owner, owner, " has ", spec.points.size(),
            " points; an arc is given by three: from, through, to");
   }
-  if (spec.closed) {
+  if (spec.closed)
     refuse(owner, owner, " is closed, which an arc cannot be; make the circle a closed spline");
-  }
   const std::array<const char*, 3> names{".from", ".through", ".to"};
   for (std::size_t i = 0; i < 3; ++i) {
     check_point(spec.points[i], owner + names[i]);
@@ -71,9 +66,8 @@ Line arc_of(const InterfaceSpec& spec, const std::string& owner, const Outline& 
   const Point& a = spec.points[0];
   const Point& b = spec.points[1];
   const Point& c = spec.points[2];
-  if (distance(a, c) <= tolerance) {
+  if (distance(a, c) <= tolerance)
     refuse(owner + ".to", owner, " starts and ends at the same point ", show(a));
-  }
   const double ab = distance(a, b), bc = distance(b, c), ac = distance(a, c);
   const double twice_area = std::abs(signed_area(std::array{a, b, c})) * 2;
   // A flatter arc's centre is lost to rounding: its radius ab bc ac / (2 twice_area) exceeds the
@@ -117,9 +111,8 @@ void check_counts(const Geometry& geometry, const MeshOptions& options) {
 }
 
 void add_station(NetworkLine& line, double t, int point) {
-  for (const Station& station : line.stations) {
+  for (const Station& station : line.stations)
     if (station.point == point) return;
-  }
   const auto after =
       std::upper_bound(line.stations.begin(), line.stations.end(), t,
                        [](double value, const Station& station) { return value < station.t; });
@@ -185,9 +178,8 @@ void cut_stretch(Network& network, std::size_t l, const Station& from, const Sta
 void cut_line(Network& network, std::size_t l, double size, std::size_t max_chords) {
   const std::vector<Station> stations = network.lines[l].stations;
   const Line& line = network.lines[l].line;
-  for (std::size_t i = 1; i < stations.size(); ++i) {
+  for (std::size_t i = 1; i < stations.size(); ++i)
     cut_stretch(network, l, stations[i - 1], stations[i], size, max_chords);
-  }
   if (line.closed()) {
     Station again = stations.front();
     again.t += line.spans();
@@ -270,9 +262,8 @@ int mark(Network& network, const Point& p) {
 }
 
 double station_of(const NetworkLine& line, int point) noexcept {
-  for (const Station& station : line.stations) {
+  for (const Station& station : line.stations)
     if (station.point == point) return station.t;
-  }
   return -1;
 }
 
@@ -282,9 +273,7 @@ void cut(Network& network, double size, std::size_t max_chords) {
   for (int round = 0; round < rounds; ++round) {
     network.chords.clear();
     network.points.resize(known);
-    for (std::size_t l = 0; l < network.lines.size(); ++l) {
-      cut_line(network, l, size, max_chords);
-    }
+    for (std::size_t l = 0; l < network.lines.size(); ++l) cut_line(network, l, size, max_chords);
     const std::vector<Crossing> found = find_crossings(network);
     if (found.empty()) {
       check_inside(network, network.lines.front().line.vertices());

@@ -44,12 +44,10 @@ std::string quoted(const std::string& text) {
 }
 
 void check_curve_group(const std::string& name, const std::string& field) {
-  for (const char* whole : {"dirichlet", "neumann", "crack", "glue"}) {
+  for (const char* whole : {"dirichlet", "neumann", "crack", "glue"})
     if (name == whole) return;
-  }
-  for (const std::string prefix : {"crack:", "inclusion:", "delaminated:"}) {
+  for (const std::string prefix : {"crack:", "inclusion:", "delaminated:"})
     if (name.starts_with(prefix) && valid_name(name.substr(prefix.size()))) return;
-  }
   refuse_option(field, field + " is " + quoted(name) +
                            "; a curve is dirichlet, neumann, glue, crack, crack:NAME, "
                            "inclusion:NAME or delaminated:NAME, NAME being " +
@@ -93,12 +91,10 @@ void check_for_upload(const MeshOptions& options) {
     refuse_option("options.align",
                   "options.align is for a geometry; an upload has its edges already");
   }
-  for (const auto& [tag, name] : options.curve_groups) {
+  for (const auto& [tag, name] : options.curve_groups)
     check_curve_group(name, "options.curve_groups[" + std::to_string(tag) + "]");
-  }
-  for (const auto& [tag, name] : options.surface_groups) {
+  for (const auto& [tag, name] : options.surface_groups)
     check_subdomain(name, "options.surface_groups[" + std::to_string(tag) + "]");
-  }
   for (const auto& [name, tension] : options.tension) {
     // Whether such a subdomain exists is checked by the import, which numbers unnamed ones.
     if (std::isfinite(tension) && tension > 0) continue;

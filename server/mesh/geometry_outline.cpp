@@ -75,9 +75,8 @@ std::pair<std::size_t, std::size_t> first_meeting(std::span<const Point> points,
   std::pair<std::size_t, std::size_t> first{edges, edges};
   each_near_pair(segments, tolerance, [&](std::size_t s, std::size_t t) {
     const std::pair<std::size_t, std::size_t> pair = std::minmax(s, t);
-    if (pair < first && meet(points, closed, edges, pair.first, pair.second, tolerance)) {
+    if (pair < first && meet(points, closed, edges, pair.first, pair.second, tolerance))
       first = pair;
-    }
   });
   return first;
 }
@@ -115,16 +114,13 @@ bool collinear(std::span<const Point> points, double tolerance) {
 }
 
 double check_polygon(const std::vector<Point>& boundary) {
-  if (boundary.size() < 3) {
+  if (boundary.size() < 3)
     refuse("boundary", "boundary has ", boundary.size(), " vertices; a polygon takes at least 3");
-  }
   check_points(boundary, "boundary");
   const double extent = diagonal(boundary);
   const double tolerance = relative_tolerance * extent;
   double largest = 0;
-  for (const Point& p : boundary) {
-    largest = std::max({largest, std::abs(p[0]), std::abs(p[1])});
-  }
+  for (const Point& p : boundary) largest = std::max({largest, std::abs(p[0]), std::abs(p[1])});
   if (extent > 0 && extent < 1e-6 * largest) {
     refuse("boundary", "boundary is ", show(extent), " across, but lies ", show(largest),
            " from the origin: too far for double precision; move it to the origin");
@@ -162,9 +158,8 @@ Outline check_outline(const std::vector<Point>& boundary) {
   Outline outline;
   outline.tolerance = check_polygon(boundary);
   outline.boundary = boundary;
-  if (signed_area(outline.boundary) < 0) {
+  if (signed_area(outline.boundary) < 0)
     std::reverse(outline.boundary.begin(), outline.boundary.end());
-  }
   return outline;
 }
 

@@ -38,9 +38,8 @@ void refuse_off(const Network& network, const Point& p, const std::string& field
     if (d < off) nearest = &line.line;
     off = std::min(off, d);
   }
-  if (nearest == nullptr) {
+  if (nearest == nullptr)
     refuse(field, field, " ", show(p), " lies on no interface: there is none");
-  }
   const std::optional<double> t = nearest->locate(p, 1.01 * off);
   refuse(field, field, " ", show(p), " lies ", show(off),
          " off the interface; it must lie on it, to ", show(snap_distance(network)),
@@ -59,9 +58,8 @@ int line_of(const Network& network, const Part& part, const Ends& ends, const st
   const std::vector<int> to = lines_at(network, Role::interface, ends.to);
   if (from.empty()) refuse_off(network, part.from, field + ".from");
   if (to.empty()) refuse_off(network, part.to, field + ".to");
-  if (ends.from == ends.to) {
+  if (ends.from == ends.to)
     refuse(field, field, " has no length: it runs from ", show(part.from), " to ", show(part.to));
-  }
   std::vector<int> both;
   std::set_intersection(from.begin(), from.end(), to.begin(), to.end(), std::back_inserter(both));
   const auto name = [&](int line) { return network.lines[at(line)].field; };
@@ -112,18 +110,16 @@ std::vector<PlacedPart> place_delaminated(Network& network, const InclusionSpec&
       double t = station_of(line, point);
       if (t < 0) refuse_off(network, p, field + which);
       if (t < whole.begin.t) t += line.line.closed() ? line.line.spans() : 0;
-      if (t < whole.begin.t || t > whole.end.t) {
+      if (t < whole.begin.t || t > whole.end.t)
         refuse(field + which, field, which, " ", show(p),
                " lies outside its inclusion, which runs from ", show(begin), " to ", show(end));
-      }
       return Station{t, point};
     };
     PlacedPart placed;
     placed.begin = within(ends.from, part.from, ".from");
     placed.end = within(ends.to, part.to, ".to");
-    if (ends.from == ends.to) {
+    if (ends.from == ends.to)
       refuse(field, field, " has no length: it runs from ", show(part.from), " to ", show(part.to));
-    }
     if (placed.begin.t > placed.end.t) std::swap(placed.begin, placed.end);
     placed.line = whole.line;
     placed.field = field;
@@ -221,9 +217,8 @@ std::vector<Stretch> lay_neumann(const Geometry& geometry, Network& network) {
     if (placed.size() == 1) break;
     const Placed& next = placed[(i + 1) % placed.size()];
     const double shift = i + 1 == placed.size() ? spans : 0;
-    if (next.stretch.begin + shift < placed[i].stretch.end) {
+    if (next.stretch.begin + shift < placed[i].stretch.end)
       refuse(next.field, next.field, " and ", placed[i].field, " overlap; make them one part");
-    }
   }
   return stretches;
 }

@@ -85,17 +85,15 @@ void each_near_pair(std::span<const Segment> segments, double reach,
   std::ranges::stable_sort(order, {}, low);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const double end = high(order[i]) + reach;
-    for (std::size_t j = i + 1; j < order.size() && low(order[j]) <= end; ++j) {
+    for (std::size_t j = i + 1; j < order.size() && low(order[j]) <= end; ++j)
       if (boxes_meet(segments[order[i]], segments[order[j]], reach)) visit(order[i], order[j]);
-    }
   }
 }
 
 double signed_area(std::span<const Point> polygon) noexcept {
   double twice = 0;
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
     twice += cross(polygon[0], polygon[i], polygon[i + 1]);
-  }
   return twice / 2;
 }
 

@@ -49,9 +49,8 @@ class Snap {
   }
 
   bool finish() {
-    if (_moved > most_warnings) {
+    if (_moved > most_warnings)
       _warnings.push_back("and " + std::to_string(_moved - most_warnings) + " more such points");
-    }
     return _moved > 0;
   }
 
@@ -84,13 +83,11 @@ bool snap_ends(const Network& network, Geometry& geometry, std::vector<std::stri
     InclusionSpec& inclusion = geometry.inclusions[i];
     const std::string field = indexed("inclusions", i);
     snap.move_part(inclusion.part, field + ".part");
-    for (std::size_t k = 0; k < inclusion.delaminated.size() && k < max_vertices; ++k) {
+    for (std::size_t k = 0; k < inclusion.delaminated.size() && k < max_vertices; ++k)
       snap.move_part(inclusion.delaminated[k], indexed(field + ".delaminated_parts", k));
-    }
   }
-  for (std::size_t i = 0; i < geometry.cracks.size(); ++i) {
+  for (std::size_t i = 0; i < geometry.cracks.size(); ++i)
     snap.move_part(geometry.cracks[i].part, indexed("cracks", i) + ".part");
-  }
   const auto boundary = [](std::size_t l) { return l == 0; };
   for (std::size_t i = 0; i < geometry.neumann.size(); ++i) {
     snap.move(geometry.neumann[i].from, indexed("neumann", i) + ".from", boundary);

@@ -58,9 +58,8 @@ struct Faces {
 Faces find_faces(const Plan& plan, const Edges& edges, const std::vector<bool>& kept) {
   const Arrangement first = arrange(plan.points, edges, kept);
   std::vector<bool> bounding = kept;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
+  for (std::size_t e = 0; e < edges.size(); ++e)
     if (first.left[e] == first.right[e]) bounding[e] = false;
-  }
   Faces faces{arrange(plan.points, edges, bounding), {}};
   Arrangement& loops = faces.loops;
   faces.embedded.resize(loops.faces.size());
@@ -202,9 +201,8 @@ void add_chains(const Network& network, const std::vector<std::string>& names,
   for (std::size_t i = 1; i < plan.interfaces.size(); ++i) {
     if (plan.interfaces[i].name != plan.interfaces[i - 1].name) continue;
     const std::string name = plan.interfaces[i].name;
-    for (; i < plan.interfaces.size() && plan.interfaces[i].name == name; ++i) {
+    for (; i < plan.interfaces.size() && plan.interfaces[i].name == name; ++i)
       plan.interfaces[i].name = unused_name(name, used);
-    }
   }
 }
 

@@ -43,9 +43,8 @@ std::string where_edge(const Mesh& mesh, std::int32_t a, std::int32_t b) {
 void check_shapes(const Mesh& mesh) {
   constexpr auto limit = at(std::numeric_limits<std::int32_t>::max());
   if (mesh.xy.size() % 2 != 0) fail("xy has ", mesh.xy.size(), " numbers; it takes two a node");
-  if (mesh.triangles.size() % 3 != 0) {
+  if (mesh.triangles.size() % 3 != 0)
     fail("triangles has ", mesh.triangles.size(), " indices; it takes three a triangle");
-  }
   if (mesh.triangles.empty()) fail("the mesh has no triangle");
   if (mesh.node_count() > limit || mesh.triangle_count() > limit) {
     fail("the mesh has ", mesh.node_count(), " nodes and ", mesh.triangle_count(),
@@ -58,11 +57,9 @@ void check_shapes(const Mesh& mesh) {
 }
 
 void check_nodes(const Mesh& mesh) {
-  for (std::size_t i = 0; i < mesh.xy.size(); ++i) {
-    if (!std::isfinite(mesh.xy[i])) {
+  for (std::size_t i = 0; i < mesh.xy.size(); ++i)
+    if (!std::isfinite(mesh.xy[i]))
       fail(i % 2 == 0 ? "x" : "y", " of node ", i / 2, " is ", mesh.xy[i], ", not a finite number");
-    }
-  }
 }
 
 void check_triangles(const Mesh& mesh) {
@@ -73,15 +70,13 @@ void check_triangles(const Mesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::int32_t node = mesh.triangles[3 * t + corner];
-      if (node < 0 || node >= nodes) {
+      if (node < 0 || node >= nodes)
         fail("triangle ", t, " has node ", node, "; the nodes are 0 to ", nodes - 1);
-      }
       node_used[at(node)] = true;
     }
     const std::int32_t s = mesh.subdomain[t];
-    if (s < 0 || s >= subdomains) {
+    if (s < 0 || s >= subdomains)
       fail("triangle ", t, " is in subdomain ", s, "; there are ", subdomains);
-    }
     subdomain_used[at(s)] = true;
     const double size = area(mesh, t);
     // written so that an area that is not a number fails as well
@@ -90,14 +85,11 @@ void check_triangles(const Mesh& mesh) {
            "; its nodes must run counterclockwise around a positive area");
     }
   }
-  for (std::size_t s = 0; s < subdomain_used.size(); ++s) {
-    if (!subdomain_used[s]) {
+  for (std::size_t s = 0; s < subdomain_used.size(); ++s)
+    if (!subdomain_used[s])
       fail("subdomain ", s, " (\"", mesh.subdomains[s], "\") has no triangle");
-    }
-  }
-  for (std::size_t n = 0; n < node_used.size(); ++n) {
+  for (std::size_t n = 0; n < node_used.size(); ++n)
     if (!node_used[n]) fail(where(mesh, static_cast<std::int32_t>(n)), " belongs to no triangle");
-  }
 }
 
 void check_tension(const Mesh& mesh) {
@@ -126,9 +118,8 @@ bool needs_inclusion(Kind kind) noexcept {
 
 void check_interface_shape(const Mesh& mesh, const Interface& interface) {
   const std::string& name = interface.name;
-  if (interface.nodes.size() < 2) {
+  if (interface.nodes.size() < 2)
     fail("interface \"", name, "\" has ", interface.nodes.size(), " nodes; it takes two at least");
-  }
   const std::size_t edges = interface.nodes.size() - 1;
   if (interface.kind.size() != edges || interface.inclusion.size() != edges) {
     fail("interface \"", name, "\" has ", edges, " edges, but ", interface.kind.size(),
@@ -144,9 +135,8 @@ void check_interface_shape(const Mesh& mesh, const Interface& interface) {
   for (std::size_t i = 0; i < edges; ++i) {
     const auto number = static_cast<std::int32_t>(interface.kind[i]);
     if (number < static_cast<std::int32_t>(Kind::glue) ||
-        number > static_cast<std::int32_t>(Kind::delaminated)) {
+        number > static_cast<std::int32_t>(Kind::delaminated))
       fail("edge ", i, " of interface \"", name, "\" has kind ", number, "; the kinds are 1 to 4");
-    }
     const std::int32_t j = interface.inclusion[i];
     if (j < -1 || j >= static_cast<std::int32_t>(mesh.inclusions.size())) {
       fail("edge ", i, " of interface \"", name, "\" has inclusion ", j, "; there are ",
@@ -189,22 +179,19 @@ std::vector<EdgeKey> check_interfaces(const Mesh& mesh, const EdgeTable& edges) 
 void check_edges(const Mesh& mesh, const EdgeTable& edges, const std::vector<EdgeKey>& interfaces) {
   edges.each([&](std::span<const EdgeUse> uses) {
     const EdgeUse& first = uses[0];
-    if (uses.size() > 2) {
+    if (uses.size() > 2)
       fail(where_edge(mesh, first.low(), first.high()), " belongs to ", uses.size(),
            " triangles; a plane mesh has two at most");
-    }
     if (uses.size() < 2) return;
-    if (first.from == uses[1].from) {
+    if (first.from == uses[1].from)
       fail("triangles ", first.triangle, " and ", uses[1].triangle, " lie on the same side of ",
            where_edge(mesh, first.low(), first.high()), ": they overlap");
-    }
     const auto s = mesh.subdomain[at(first.triangle)];
     const auto other = mesh.subdomain[at(uses[1].triangle)];
     if (s != other &&
-        !std::binary_search(interfaces.begin(), interfaces.end(), key(first.from, first.to))) {
+        !std::binary_search(interfaces.begin(), interfaces.end(), key(first.from, first.to)))
       fail(where_edge(mesh, first.low(), first.high()), " between subdomains ", s, " and ", other,
            " lies on no interface");
-    }
   });
 }
 

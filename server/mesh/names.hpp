@@ -9,9 +9,8 @@ namespace anticrack::mesh {
 constexpr bool valid_name(std::string_view name) noexcept {
   const auto letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
   if (name.empty() || name.size() > 64 || !letter(name.front())) return false;
-  for (const char c : name) {
+  for (const char c : name)
     if (!letter(c) && !(c >= '0' && c <= '9') && c != '_' && c != '.' && c != '-') return false;
-  }
   return true;
 }
 

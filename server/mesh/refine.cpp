@@ -37,9 +37,8 @@ Mesh grade(const Mesh& base, std::span<const std::int32_t> centres, const Gradin
   Bisection mesh(base, std::min(max_triangles, index_limit));
   // One pass suffices: children of a small enough triangle are small enough, new ones come last.
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    while (rule.too_large(mesh.corners(t))) {
+    while (rule.too_large(mesh.corners(t)))
       if (!mesh.bisect(t)) refuse_count(base, grading, max_triangles);
-    }
   }
   return std::move(mesh).finish();
 }

@@ -46,12 +46,10 @@ double squared_distance(const std::array<Point, 3>& triangle, const Point& from)
 }
 
 void check(const Grading& grading) {
-  if (!(std::isfinite(grading.h0) && grading.h0 > 0)) {
+  if (!(std::isfinite(grading.h0) && grading.h0 > 0))
     refuse_value("h0", "h0 = ", grading.h0, "; it is an edge length and must be positive");
-  }
-  if (!(grading.m > 0 && grading.m <= 1)) {
+  if (!(grading.m > 0 && grading.m <= 1))
     refuse_value("m", "m = ", grading.m, "; it must be positive and at most 1, say 0.2");
-  }
   if (!(std::isfinite(grading.tip_size) && grading.tip_size >= 0)) {
     refuse_value("tip_size", "tip_size = ", grading.tip_size,
                  "; it must be an edge length, or 0 for the smallest sound one");
@@ -116,9 +114,8 @@ bool SizeRule::too_large(const std::array<Point, 3>& triangle) const noexcept {
   const auto [low, high] = std::minmax({a[_axis], b[_axis], c[_axis]});
   const auto by_axis = [this](const Point& p) { return p[_axis]; };
   for (auto centre = std::ranges::lower_bound(_centres, low - reach, {}, by_axis);
-       centre != _centres.end() && (*centre)[_axis] <= high + reach; ++centre) {
+       centre != _centres.end() && (*centre)[_axis] <= high + reach; ++centre)
     if (squared_distance(triangle, *centre) < reach * reach) return true;
-  }
   return false;
 }
 

@@ -31,9 +31,8 @@ constexpr Keyword keywords[] = {{"dirichlet", CurveRole::dirichlet, true, false}
 /// In lower case, in any locale.
 std::string lower(std::string_view text) {
   std::string result(text);
-  for (char& c : result) {
+  for (char& c : result)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
   return result;
 }
 
@@ -122,9 +121,8 @@ CurveGroups read_curve_groups(const MshFile& file,
   result.physical =
       file.lines.empty() || std::any_of(file.lines.begin(), file.lines.end(),
                                         [](const auto& line) { return line.group != 0; });
-  for (const auto& [tag, name] : file.curve_names) {
+  for (const auto& [tag, name] : file.curve_names)
     if (result.physical) result.groups.emplace(tag, named_by_file(tag, true, name));
-  }
   for (const auto& line : file.lines) {
     const std::int32_t tag = result.physical ? line.group : line.entity;
     // physical tag 0 stands for none

@@ -159,9 +159,8 @@ class Reading {
   }
 
   Assumed assume(Side side, const DoubledEdge* doubled, bool bare) const {
-    if (side == Side::boundary) {
+    if (side == Side::boundary)
       return bare && _any_dirichlet ? Assumed::neumann : Assumed::dirichlet;
-    }
     if (doubled != nullptr && !doubled->apart) return Assumed::crack;
     if (side == Side::inside) return doubled != nullptr ? Assumed::joined : Assumed::nothing;
     return doubled != nullptr ? Assumed::welded : Assumed::glue;

@@ -175,9 +175,8 @@ std::vector<std::int32_t> curve_nodes(const Plan& plan, std::size_t index, Nodes
   std::vector<double> xyz;
   std::vector<double> parameters;
   gmsh::model::mesh::getNodes(tags, xyz, parameters, 1, tag_of(index));
-  if (tags.size() + 1 != at(curve.intervals) || parameters.size() != tags.size()) {
+  if (tags.size() + 1 != at(curve.intervals) || parameters.size() != tags.size())
     fail("gmsh cut a curve of {} intervals at {} places", curve.intervals, tags.size());
-  }
   std::vector<std::size_t> order(tags.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
@@ -236,9 +235,8 @@ void read_triangles(mesh::Mesh& mesh, int face_tag, std::int32_t subdomain, Node
 
 /// Makes all triangles counterclockwise: gmsh chooses the orientation of a plane surface.
 void orient(mesh::Mesh& mesh) {
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     if (mesh::area(mesh, t) < 0) std::swap(mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]);
-  }
 }
 
 /// gmsh may drop an embedded curve that it cannot recover, and only logs it.
@@ -269,17 +267,14 @@ mesh::Mesh read_mesh(const Plan& plan, const Frame& frame) {
   for (std::size_t i = 0; i < plan.curves.size(); ++i) {
     chains.push_back(curve_nodes(plan, i, nodes));
     if (plan.curves[i].role != mesh::Role::dirichlet) continue;
-    for (std::size_t k = 0; k + 1 < chains[i].size(); ++k) {
+    for (std::size_t k = 0; k + 1 < chains[i].size(); ++k)
       mesh.dirichlet.push_back({chains[i][k], chains[i][k + 1]});
-    }
   }
-  for (const mesh::PlannedInterface& planned : plan.interfaces) {
+  for (const mesh::PlannedInterface& planned : plan.interfaces)
     mesh.interfaces.push_back(read_interface(plan, planned, chains));
-  }
   const std::vector<std::int32_t> subdomain_of = name_subdomains(plan, mesh);
-  for (std::size_t i = 0; i < plan.faces.size(); ++i) {
+  for (std::size_t i = 0; i < plan.faces.size(); ++i)
     read_triangles(mesh, tag_of(i), subdomain_of[i], nodes);
-  }
   orient(mesh);
   require_curves(mesh, plan, chains);
   return mesh;

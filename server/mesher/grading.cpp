@@ -59,9 +59,8 @@ mesh::Mesh bisected(const mesh::Mesh& base, const std::vector<std::int32_t>& tip
   try {
     return mesh::grade(base, tips, grading, max_triangles);
   } catch (errors::Error& error) {
-    if (error.reason() == errors::Reason::limit_exceeded) {
+    if (error.reason() == errors::Reason::limit_exceeded)
       refuse_count(base.triangle_count(), spec, tips.size(), max_triangles);
-    }
     error.rename(option_of);
     throw;
   }

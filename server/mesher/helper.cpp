@@ -127,9 +127,8 @@ class Conversation {
     }
     // It closes its output just before it ends.
     while (!_child.ended()) wait(0, std::chrono::milliseconds(2));
-    if (!WIFEXITED(_child.status()) || WEXITSTATUS(_child.status()) != 0 || reply.empty()) {
+    if (!WIFEXITED(_child.status()) || WEXITSTATUS(_child.status()) != 0 || reply.empty())
       throw failed(ending(_child.status(), _options));
-    }
     return reply;
   }
 
@@ -150,9 +149,8 @@ class Conversation {
     pollfd polled[2] = {{events == 0 ? -1 : _child.socket(), events, 0},
                         {_wake.descriptor(), POLLIN, 0}};
     const auto timeout = std::min(left + std::chrono::milliseconds(1), longest);
-    if (poll(polled, 2, static_cast<int>(timeout.count())) < 0 && errno != EINTR) {
+    if (poll(polled, 2, static_cast<int>(timeout.count())) < 0 && errno != EINTR)
       throw std::system_error(errno, std::system_category(), "poll");
-    }
     return polled[0].revents;
   }
 
@@ -207,9 +205,8 @@ Descriptor open_msh(const std::string& path) {
     throw Error(Reason::mesh_invalid,
                 "the mesh file cannot be read: " + std::generic_category().message(errno));
   }
-  if (n == 0) {
+  if (n == 0)
     throw Error(Reason::mesh_invalid, "the mesh file is empty; save the mesh as MSH 4.1 or 2.2");
-  }
   const std::string_view first(start, static_cast<std::size_t>(n));
   const bool ends = first.size() > msh_token.size() &&
                     (first.back() == '\n' || first.back() == '\r' || first.back() == ' ');
@@ -235,9 +232,8 @@ mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
                std::stop_token stop) {
   if (stop.stop_requested()) throw Error(Reason::cancelled, "meshing was cancelled");
   Descriptor file;
-  if (const auto* import = std::get_if<mesh::ImportRequest>(&request)) {
+  if (const auto* import = std::get_if<mesh::ImportRequest>(&request))
     file = open_msh(import->path);
-  }
   mesh::MesherReply reply =
       understand(converse(options, request, std::move(file), std::move(stop)));
   if (auto* error = std::get_if<Error>(&reply)) throw std::move(*error);

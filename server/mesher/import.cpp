@@ -34,9 +34,7 @@ Mesh welded_mesh(const PlaneMesh& plane, const Welding& welding) {
     mesh.xy.push_back(plane.xy[2 * i + 1]);
   }
   mesh.triangles.reserve(plane.triangles.size());
-  for (const std::int32_t node : plane.triangles) {
-    mesh.triangles.push_back(welding.node[at(node)]);
-  }
+  for (const std::int32_t node : plane.triangles) mesh.triangles.push_back(welding.node[at(node)]);
   const std::size_t doubles = welding.node.size() - welding.node_count;
   if (doubles > 0) {
     mesh.warnings.push_back(
@@ -80,9 +78,8 @@ std::array<std::int32_t, 3> sorted_nodes(const PlaneMesh& plane, std::int32_t tr
 void check_sides(const MshFile& file, const PlaneMesh& plane) {
   mesh::EdgeTable(plane.triangles).each([&](std::span<const mesh::EdgeUse> uses) {
     for (std::size_t i = 1; i < uses.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
+      for (std::size_t j = 0; j < i; ++j)
         if (uses[i].from == uses[j].from) refuse_overlap(file, plane, uses[j], uses[i]);
-      }
     }
   });
 }

@@ -24,13 +24,11 @@ class Walker {
     std::vector<Chain> found;
     for (const auto& [node, incident] : _at) {
       if (!ends_at(node)) continue;
-      for (const std::size_t first : incident) {
+      for (const std::size_t first : incident)
         if (!_taken[first]) found.push_back(walk(node, first));
-      }
     }
-    for (std::size_t i = 0; i < _edges.size(); ++i) {
+    for (std::size_t i = 0; i < _edges.size(); ++i)
       if (!_taken[i]) found.push_back(walk(std::min(_edges[i].from, _edges[i].to), i));
-    }
     return found;
   }
 

@@ -39,9 +39,8 @@ std::string refused_element(int type) {
        {Known{3, "4-node quadrangles", triangles}, Known{4, "tetrahedra", volumes},
         Known{5, "hexahedra", volumes}, Known{6, "prisms", volumes}, Known{7, "pyramids", volumes},
         Known{8, "3-node lines", first_order}, Known{9, "6-node triangles", first_order},
-        Known{10, "9-node quadrangles", triangles}, Known{16, "8-node quadrangles", triangles}}) {
+        Known{10, "9-node quadrangles", triangles}, Known{16, "8-node quadrangles", triangles}})
     if (type == known.type) return std::string(known.name) + known.cure;
-  }
   return fmt::format(
       "elements of type {}; only 3-node triangles (type 2) and 2-node lines (type 1) are "
       "read, so save first order and two dimensions",
@@ -57,11 +56,9 @@ class Reader {
     read_format();
     while (!_in.at_end()) read_section();
     _in.enter("");
-    for (const char* wanted : {"$Nodes", "$Elements"}) {
-      if (!_seen.contains(wanted)) {
+    for (const char* wanted : {"$Nodes", "$Elements"})
+      if (!_seen.contains(wanted))
         _in.fail("there is no {} section; the file is truncated, save it again", wanted);
-      }
-    }
     return std::move(_file);
   }
 
@@ -81,9 +78,8 @@ class Reader {
     if (size != 8) _in.fail("numbers of {} bytes; only 8 are read", size);
     if (type == 1) {
       _in.rest_of_line();
-      if (_in.raw<std::int32_t>() != 1) {
+      if (_in.raw<std::int32_t>() != 1)
         _in.fail("the binary numbers are not little-endian; save the mesh as ascii");
-      }
     }
     _in.expect("$EndMeshFormat");
     _in.set_binary(type == 1);
@@ -92,16 +88,14 @@ class Reader {
   void read_section() {
     const std::string name(_in.word());
     _in.enter(printable(name));
-    if (name.size() < 2 || name.front() != '$') {
+    if (name.size() < 2 || name.front() != '$')
       _in.fail("expected a section, found \"{}\"", printable(name));
-    }
     const std::string end = "$End" + name.substr(1);
     const bool known =
         name == "$PhysicalNames" || name == "$Entities" || name == "$Nodes" || name == "$Elements";
     if (!known) {
-      if (!_in.skip_past(end)) {
+      if (!_in.skip_past(end))
         _in.fail("there is no {}; the file is truncated, save it again", printable(end));
-      }
       return;
     }
     if (!_seen.insert(name).second) _in.fail("the section occurs twice");
@@ -123,9 +117,8 @@ class Reader {
       const std::string_view line = _in.rest_of_line();
       const std::size_t open = line.find('"');
       const std::size_t close = line.rfind('"');
-      if (open == std::string_view::npos || open == close) {
+      if (open == std::string_view::npos || open == close)
         _in.fail("expected a name in quotation marks, found \"{}\"", printable(line));
-      }
       if (dimension != 1 && dimension != 2) continue;
       add_name(dimension, tag, std::string(line.substr(open + 1, close - open - 1)));
     }
@@ -159,9 +152,8 @@ class Reader {
     const int tag = _in.number<int>();
     for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) _in.number<double>();
     const auto groups = _in.number<std::size_t>();
-    if (groups > max_groups) {
+    if (groups > max_groups)
       _in.fail("an entity in {} physical groups; at most {} are read", groups, max_groups);
-    }
     std::vector<int> physical;
     for (std::size_t i = 0; i < groups; ++i) physical.push_back(read_group());
     if (dimension > 0) {
@@ -203,9 +195,8 @@ class Reader {
       const bool parametric = _in.number<int>() != 0;
       const auto nodes = _in.number<std::size_t>();
       _in.require_room(nodes, _in.binary() ? 32 : text_bytes(4));
-      for (std::size_t i = 0; i < nodes; ++i) {
+      for (std::size_t i = 0; i < nodes; ++i)
         _file.node_tags.push_back(_in.number<std::uint64_t>());
-      }
       for (std::size_t i = 0; i < nodes; ++i) {
         read_coordinates();
         for (int k = 0; parametric && k < dimension; ++k) _in.number<double>();
@@ -246,12 +237,10 @@ class Reader {
     const int type = _in.number<std::int32_t>();
     const int follow = _in.number<std::int32_t>();
     const int tags = _in.number<std::int32_t>();
-    if (follow < 1 || static_cast<std::size_t>(follow) > left) {
+    if (follow < 1 || static_cast<std::size_t>(follow) > left)
       _in.fail("a block of {} elements where {} are left; the file is damaged", follow, left);
-    }
-    for (int i = 0; i < follow; ++i) {
+    for (int i = 0; i < follow; ++i)
       read_element_22(static_cast<std::uint64_t>(_in.number<std::int32_t>()), type, tags);
-    }
     return static_cast<std::size_t>(follow);
   }
 

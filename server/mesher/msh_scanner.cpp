@@ -47,9 +47,7 @@ std::string_view MshScanner::rest_of_line() {
 
 void MshScanner::expect(std::string_view wanted) {
   const std::string_view found = word();
-  if (found != wanted) {
-    fail("expected {}, found \"{}\"", wanted, printable(found));
-  }
+  if (found != wanted) fail("expected {}, found \"{}\"", wanted, printable(found));
 }
 
 bool MshScanner::skip_past(std::string_view wanted) {

@@ -25,11 +25,9 @@ double area(const std::vector<double>& xy, const std::array<std::int32_t, 3>& no
 /// Sets mesh.of to 0 for nodes of triangles, to -1 for others.
 void find_used(const MshFile& file, PlaneMesh& mesh) {
   mesh.of.reserve(file.node_tags.size());
-  for (const std::uint64_t tag : file.node_tags) {
-    if (!mesh.of.emplace(tag, -1).second) {
+  for (const std::uint64_t tag : file.node_tags)
+    if (!mesh.of.emplace(tag, -1).second)
       refuse("node {} is defined twice; save the mesh again", tag);
-    }
-  }
   for (const auto& t : file.triangles) {
     for (const std::uint64_t tag : t.nodes) {
       const auto found = mesh.of.find(tag);
@@ -119,9 +117,8 @@ PlaneMesh read_plane(const MshFile& file) {
         "the mesh has no triangle; mesh in two dimensions (gmsh -2) and put the surfaces in "
         "physical groups before saving");
   }
-  if (file.node_tags.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+  if (file.node_tags.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     refuse("the mesh has {} nodes, too many to number", file.node_tags.size());
-  }
   PlaneMesh mesh;
   find_used(file, mesh);
   const double z = plane_of(file, mesh);

@@ -64,9 +64,8 @@ void load_filter() {
   check(seccomp_attr_set(filter.get(), SCMP_FLTATR_CTL_TSYNC, 1), "seccomp");
   for (const int call : allowed) allow(filter.get(), call);
   // memory, never code
-  for (const int call : {SCMP_SYS(mmap), SCMP_SYS(mprotect)}) {
+  for (const int call : {SCMP_SYS(mmap), SCMP_SYS(mprotect)})
     allow(filter.get(), call, {{2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0}});
-  }
   // abort() signals its own thread; the server then names SIGABRT
   allow(filter.get(), SCMP_SYS(tgkill), {{0, SCMP_CMP_EQ, static_cast<scmp_datum_t>(getpid()), 0}});
   check(seccomp_load(filter.get()), "seccomp_load");

@@ -137,9 +137,8 @@ void find_coincident(const Places& places, const std::vector<RimEdge>& rim,
     // half of the neighbours; the other half find this cell
     const auto [i, j] = entry.cell;
     for (const auto& cell : {std::array{i, j}, std::array{i, j + 1}, std::array{i + 1, j - 1},
-                             std::array{i + 1, j}, std::array{i + 1, j + 1}}) {
+                             std::array{i + 1, j}, std::array{i + 1, j + 1}})
       compare(entry, cell);
-    }
   }
 }
 
@@ -205,9 +204,8 @@ void refuse_hanging(const Places& places, mesh::UnionFind& same, const std::vect
       check(rays[last], rays[last + 1], rays[last + 1].angle - rays[last].angle);
       ++last;
     }
-    if (last > first) {
+    if (last > first)
       check(rays[last], rays[first], rays[first].angle + 2 * std::numbers::pi - rays[last].angle);
-    }
     first = last + 1;
   }
 }

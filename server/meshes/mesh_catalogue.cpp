@@ -168,11 +168,9 @@ MeshRecord MeshCatalogue::get(const std::string& id) const {
 std::vector<MeshRecord> MeshCatalogue::list(const store::Page& page) const {
   std::vector<MeshRecord> records = _state->store.meshes(page);
   const auto lock = _state->preparation.lock();
-  for (MeshRecord& record : records) {
-    if (const LiveMesh* mesh = _state->index().find(record.id)) {
+  for (MeshRecord& record : records)
+    if (const LiveMesh* mesh = _state->index().find(record.id))
       record = seen(*mesh, std::move(record), _state->cache.contains(mesh->sha256));
-    }
-  }
   return records;
 }
 
@@ -222,9 +220,8 @@ MeshRecord MeshCatalogue::evict(const std::string& id) {
   }
   using Eviction = operators::OperatorCache::Eviction;
   held = held || (!sha256.empty() && _state->cache.evict(sha256) == Eviction::in_use);
-  if (held) {
+  if (held)
     throw in_use(id, "a job or a factorisation holds its operators; wait for it or cancel it");
-  }
   return get(id);
 }
 
@@ -235,9 +232,8 @@ void MeshCatalogue::erase(const std::string& id) {
   preparation.settled(lock, id);
   LiveMesh& mesh = index.known(id);
   if (mesh.run) throw in_use(id, "it is being prepared; wait until it is READY");
-  if (!mesh.users.expired()) {
+  if (!mesh.users.expired())
     throw in_use(id, "a job that has not ended needs it; wait for it or cancel it");
-  }
   const Stage stage = std::exchange(mesh.stage, Stage::absent);
   mesh.claimed = true;
   lock.unlock();

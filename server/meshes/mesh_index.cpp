@@ -16,9 +16,8 @@ using store::MeshState;
 
 MeshState state_of(const LiveMesh& mesh, const MeshRecord& record, bool in_memory) {
   if (record.state == MeshState::failed) return MeshState::failed;
-  if (record.sha256.empty()) {
+  if (record.sha256.empty())
     return mesh.run ? std::min(mesh.run->phase, MeshState::meshing) : MeshState::pending;
-  }
   if (mesh.run && !mesh.run->told) return MeshState::factorizing;
   return in_memory && mesh.operators.bytes > 0 ? MeshState::ready : MeshState::evicted;
 }

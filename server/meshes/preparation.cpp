@@ -87,9 +87,8 @@ MeshRecord Preparation::record(const std::string& id) {
     MeshRecord record = stored(id);
     held.lock();
     // Otherwise the record may be older than the index.
-    if (const LiveMesh& mesh = _index.known(id); mesh.version == version) {
+    if (const LiveMesh& mesh = _index.known(id); mesh.version == version)
       return seen(mesh, std::move(record), _cache.contains(mesh.sha256));
-    }
   }
 }
 
@@ -127,9 +126,8 @@ void Preparation::await(Lock& lock, Run& run, bool joins, const PhaseListener& l
   while (told != run.phase || !ended()) {
     const MeshState phase = run.phase;
     if (told == phase) {
-      if (!_changed.wait(lock, stop, [&] { return run.phase != phase || ended(); })) {
+      if (!_changed.wait(lock, stop, [&] { return run.phase != phase || ended(); }))
         throw Error(Reason::cancelled, "stopped while waiting for meshes/" + run.id);
-      }
       continue;
     }
     told = phase;
@@ -293,9 +291,8 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
   held.lock();
   mesh = mesh_of(run);
   if (mesh == nullptr) return;
-  if (std::exchange(mesh->pin, false)) {
+  if (std::exchange(mesh->pin, false))
     _cache.pin(sha256);  // `result` keeps it from being evicted first
-  }
   mesh->operators.seconds = std::chrono::duration<double>(Steady::now() - start).count();
   const auto measure = [&](double theta) {
     mesh->operators.bytes = result->bytes();

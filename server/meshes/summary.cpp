@@ -64,9 +64,8 @@ void measure_triangles(const mesh::Mesh& mesh, std::vector<store::SubdomainSumma
 
 void count_nodes(const mesh::Mesh& mesh, std::vector<store::SubdomainSummary>& result) {
   std::vector<std::vector<std::size_t>> triangles(result.size());
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     triangles[at(mesh.subdomain[t])].push_back(t);
-  }
   constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> last_seen_in(mesh.node_count(), nowhere);
   for (std::size_t i = 0; i < result.size(); ++i) {
@@ -85,11 +84,9 @@ void count_nodes(const mesh::Mesh& mesh, std::vector<store::SubdomainSummary>& r
 void find_floating(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
                    std::vector<store::SubdomainSummary>& result) {
   std::vector<EdgeKey> cuts;
-  for (const mesh::Interface& interface : mesh.interfaces) {
-    for (std::size_t i = 0; i + 1 < interface.nodes.size(); ++i) {
+  for (const mesh::Interface& interface : mesh.interfaces)
+    for (std::size_t i = 0; i + 1 < interface.nodes.size(); ++i)
       cuts.push_back(key(interface.nodes[i], interface.nodes[i + 1]));
-    }
-  }
   std::sort(cuts.begin(), cuts.end());
   mesh::UnionFind parts(mesh.triangle_count());
   edges.each([&](std::span<const mesh::EdgeUse> uses) {
@@ -106,12 +103,10 @@ void find_floating(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
   const auto part_of = [&](std::size_t triangle) {
     return at(parts.find(static_cast<std::int32_t>(triangle)));
   };
-  for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
+  for (std::size_t corner = 0; corner < mesh.triangles.size(); ++corner)
     if (fixed[at(mesh.triangles[corner])]) held[part_of(corner / 3)] = true;
-  }
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     if (!held[part_of(t)]) result[at(mesh.subdomain[t])].floating = true;
-  }
 }
 
 std::vector<store::SubdomainSummary> subdomains(const mesh::Mesh& mesh,
@@ -176,9 +171,8 @@ store::InterfaceSummary summary(const mesh::Mesh& mesh, const mesh::Interface& i
   store::InterfaceSummary result{interface.name, s.back(), s.size(), {}};
   for (std::size_t e = 0; e < interface.kind.size(); ++e) {
     if (e == 0 || interface.kind[e] != interface.kind[e - 1] ||
-        interface.inclusion[e] != interface.inclusion[e - 1]) {
+        interface.inclusion[e] != interface.inclusion[e - 1])
       result.segments.push_back({interface.kind[e], interface.inclusion[e], s[e], s[e], 0});
-    }
     store::SegmentSummary& segment = result.segments.back();
     segment.end = s[e + 1];
     ++segment.edge_count;
@@ -194,9 +188,8 @@ void summarize(const mesh::Mesh& mesh, store::MeshRecord& record) {
   const mesh::EdgeTable edges(mesh.triangles);
   record.subdomains = subdomains(mesh, edges);
   record.interfaces.clear();
-  for (const mesh::Interface& interface : mesh.interfaces) {
+  for (const mesh::Interface& interface : mesh.interfaces)
     record.interfaces.push_back(summary(mesh, interface));
-  }
   record.inclusions = mesh.inclusions;
   record.warnings = mesh.warnings;
   record.minimum_angle = mesh::minimum_angle(mesh);

@@ -45,9 +45,8 @@ std::string require_upload(const store::Store& store, const store::UploadRef& up
 
 std::size_t check_definition(const store::MeshDefinition& definition, const std::string& owner,
                              const CatalogueOptions& options, const store::Store& store) {
-  if (const auto* source = std::get_if<store::GeometrySource>(&definition)) {
+  if (const auto* source = std::get_if<store::GeometrySource>(&definition))
     return mesh::plan(source->geometry, source->options, options.max_triangles).triangles;
-  }
   constexpr std::size_t bytes_a_triangle = 60;  // of a .msh file, nodes included
   const auto& upload = std::get<store::UploadRef>(definition);
   mesh::check_for_upload(upload.options);

@@ -30,9 +30,8 @@ Addresses resolve(std::string host, const std::string& port) {
   hints.ai_socktype = SOCK_STREAM;
   hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
   addrinfo* list = nullptr;
-  if (const int problem = ::getaddrinfo(host.c_str(), port.c_str(), &hints, &list); problem != 0) {
+  if (const int problem = ::getaddrinfo(host.c_str(), port.c_str(), &hints, &list); problem != 0)
     throw std::runtime_error(::gai_strerror(problem));
-  }
   return Addresses(list);
 }
 
@@ -70,9 +69,8 @@ struct HttpPage::State {
     }
     const State& page = *static_cast<const State*>(self);
     const std::string_view verb = method;
-    if (verb != MHD_HTTP_METHOD_GET && verb != MHD_HTTP_METHOD_HEAD) {
+    if (verb != MHD_HTTP_METHOD_GET && verb != MHD_HTTP_METHOD_HEAD)
       return respond(connection, MHD_HTTP_METHOD_NOT_ALLOWED, "GET only\n", "text/plain");
-    }
     if (page.path != url) {
       return respond(connection, MHD_HTTP_NOT_FOUND, "there is only " + page.path + "\n",
                      "text/plain");

@@ -97,9 +97,8 @@ struct Metrics::State {
         .Set(1);
     // From zero: a rate over a counter that appears with its first event misses that event.
     for (const auto state :
-         {store::JobState::succeeded, store::JobState::failed, store::JobState::cancelled}) {
+         {store::JobState::succeeded, store::JobState::failed, store::JobState::cancelled})
       jobs_ended.Add({{"state", std::string(name(state))}});
-    }
   }
 
   std::string known_method(const std::string& method) {

@@ -31,9 +31,8 @@ Phase phase_of(const store::Step& step) noexcept {
     if (step.detail.starts_with("factor")) return Phase::factorizing;
     return Phase::waiting;
   }
-  if (step.state == JobState::running) {
+  if (step.state == JobState::running)
     return step.detail.starts_with("writ") ? Phase::writing : Phase::solving;
-  }
   return Phase::queued;
 }
 

@@ -34,9 +34,8 @@ std::size_t CondensedBasis::bytes() const noexcept {
                bytes_of(part.on_dirichlet) + bytes_of(part.z_interior) + bytes_of(part.z_boundary);
     }
   }
-  for (const ddm::LoadProducts& product : products) {
+  for (const ddm::LoadProducts& product : products)
     bytes += sizeof(double) * static_cast<std::size_t>(product.energy.size() + product.norm.size());
-  }
   return bytes;
 }
 
@@ -51,19 +50,13 @@ BasisCache::Basis BasisCache::get(const std::string& key, const std::stop_token&
       return found->basis;
     }
     const auto under_way = _flights.find(key);
-    if (under_way == _flights.end()) {
-      break;
-    }
+    if (under_way == _flights.end()) break;
     const std::shared_ptr<Flight> flight = under_way->second;
-    if (!_landed.wait(lock, stop, [&flight] { return flight->landed; })) {
+    if (!_landed.wait(lock, stop, [&flight] { return flight->landed; }))
       throw errors::Error(errors::Reason::cancelled, "stopped while loads were condensed");
-    }
-    if (flight->basis) {
-      return flight->basis;
-    }
-    if (flight->error && flight->error->reason() != errors::Reason::cancelled) {
+    if (flight->basis) return flight->basis;
+    if (flight->error && flight->error->reason() != errors::Reason::cancelled)
       throw errors::Error(*flight->error);
-    }
   }
   const auto flight = std::make_shared<Flight>();
   _flights.emplace(key, flight);
@@ -81,22 +74,16 @@ BasisCache::Basis BasisCache::get(const std::string& key, const std::stop_token&
   lock.lock();
   flight->landed = true;
   _flights.erase(key);
-  if (flight->basis) {
-    keep(key, flight->basis, evicted);
-  }
+  if (flight->basis) keep(key, flight->basis, evicted);
   _landed.notify_all();
   lock.unlock();
-  if (failure) {
-    std::rethrow_exception(failure);
-  }
+  if (failure) std::rethrow_exception(failure);
   return flight->basis;
 }
 
 void BasisCache::keep(const std::string& key, const Basis& basis, Entries& evicted) {
   const std::size_t bytes = basis->bytes() + key.size();
-  if (bytes > most_bytes) {
-    return;
-  }
+  if (bytes > most_bytes) return;
   _entries.push_front({key, basis, bytes});
   _bytes += bytes;
   while (_entries.size() > most_bases || _bytes > most_bytes) {

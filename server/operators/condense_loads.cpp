@@ -17,18 +17,14 @@ namespace anticrack::operators {
 namespace {
 
 void require_known_regions(const fem::Load& load, const mesh::Mesh& mesh) {
-  if (const auto* regions = std::get_if<fem::PerRegion>(&load.force)) {
-    for (const auto& [name, value] : regions->values) {
+  if (const auto* regions = std::get_if<fem::PerRegion>(&load.force))
+    for (const auto& [name, value] : regions->values)
       index_of(mesh.subdomains, name, "subdomain", "force.per_region[" + name + "]");
-    }
-  }
 }
 
 void require_array_fits(const fem::Load& load, const mesh::Mesh& mesh) {
   const auto* array = std::get_if<fem::Array>(&load.force);
-  if (array == nullptr) {
-    return;
-  }
+  if (array == nullptr) return;
   const std::size_t wanted = array->per_triangle ? mesh.triangle_count() : mesh.node_count();
   const char* what = array->per_triangle ? " triangles" : " nodes";
   const std::size_t given = array->values ? array->values->size() : 0;
@@ -97,9 +93,8 @@ class Block {
       attempt(i, [&](LoadOnTraces& result) {
         const auto column = static_cast<Eigen::Index>(sound.size());
         if (nodal_values(i) != nullptr) {
-          if (&of_arrays != &of_nodes || arrays != column) {
+          if (&of_arrays != &of_nodes || arrays != column)
             of_nodes.col(column) = of_arrays.col(arrays);
-          }
           ++arrays;
         } else {
           of_nodes.col(column) = integrate(i, s, result);
@@ -114,13 +109,10 @@ class Block {
     try {
       std::vector<ddm::CondensedLoad> condensed =
           subdomain_operator.condense(of_nodes.leftCols(width), dirichlet.leftCols(width));
-      for (std::size_t k = 0; k < sound.size(); ++k) {
+      for (std::size_t k = 0; k < sound.size(); ++k)
         std::get<LoadOnTraces>(_outcomes[sound[k]]).subdomains.push_back(std::move(condensed[k]));
-      }
     } catch (const errors::Error& error) {  // out of memory fails every load of the block
-      for (const std::size_t i : sound) {
-        _outcomes[i] = error;
-      }
+      for (const std::size_t i : sound) _outcomes[i] = error;
     }
   }
 
@@ -132,9 +124,8 @@ class Block {
   void attempt(std::size_t i, const Work& work) {
     if (auto* result = std::get_if<LoadOnTraces>(&_outcomes[i])) {
       try {
-        if (_stop.stop_requested()) {
+        if (_stop.stop_requested())
           throw errors::Error(errors::Reason::cancelled, "stopped while loads were integrated");
-        }
         work(*result);
       } catch (const errors::Error& error) {
         _outcomes[i] = error;
@@ -153,11 +144,8 @@ class Block {
   /// Of all loads with nodal values together, which is faster than one by one.
   Eigen::MatrixXd integrate_arrays(const ddm::Subdomain& subdomain) const {
     std::vector<const double*> arrays;
-    for (std::size_t i = 0; i < _loads.size(); ++i) {
-      if (const double* values = nodal_values(i)) {
-        arrays.push_back(values);
-      }
-    }
+    for (std::size_t i = 0; i < _loads.size(); ++i)
+      if (const double* values = nodal_values(i)) arrays.push_back(values);
     return fem::load_vectors(subdomain.part, subdomain.node, arrays);
   }
 
@@ -168,9 +156,8 @@ class Block {
         fem::load_vector(subdomain.part, _loads[i]->force, subdomain.name,
                          {subdomain.node, subdomain.triangle, _stop, &error});
     const double wanted = fem::force_tolerance(subdomain.part.triangle_count());
-    if (error > wanted) {
+    if (error > wanted)
       result.warnings.push_back(inexact("the force", subdomain.name, error, wanted));
-    }
     return of_nodes;
   }
 
@@ -187,9 +174,7 @@ class Block {
             inexact("the traction", subdomain.name, error, fem::traction_tolerance));
       }
     }
-    for (const NodalForce& force : _placed[i].subdomains[s]) {
-      of_nodes[force.node] += force.value;
-    }
+    for (const NodalForce& force : _placed[i].subdomains[s]) of_nodes[force.node] += force.value;
     if (!of_nodes.allFinite()) {
       throw errors::Error(
           errors::Reason::invalid_argument,
@@ -208,9 +193,8 @@ class Block {
 /// Nodes of the largest subdomain: the rows of what is solved at once.
 Eigen::Index most_nodes(const ddm::Decomposition& decomposition) {
   std::size_t most = 0;
-  for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
+  for (const ddm::Subdomain& subdomain : decomposition.subdomains)
     most = std::max(most, subdomain.node.size());
-  }
   return static_cast<Eigen::Index>(most);
 }
 
@@ -228,12 +212,8 @@ std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> l
   for (std::size_t first = 0; first < loads.size(); first += at_once) {
     Block block(loads.subspan(first, std::min(at_once, loads.size() - first)), mesh, decomposition,
                 neumann, stop);
-    for (std::size_t s = 0; s < operators.size(); ++s) {
-      block.condense_on(s, operators[s]);
-    }
-    for (CondensedOutcome& outcome : block.take()) {
-      result.push_back(std::move(outcome));
-    }
+    for (std::size_t s = 0; s < operators.size(); ++s) block.condense_on(s, operators[s]);
+    for (CondensedOutcome& outcome : block.take()) result.push_back(std::move(outcome));
   }
   return result;
 }

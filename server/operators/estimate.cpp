@@ -43,11 +43,8 @@ struct SkeletonSize {
 SkeletonSize skeleton_size(const mesh::Mesh& mesh, const ddm::Sides& sides) {
   std::vector<char> open(mesh.node_count(), 0), seen(mesh.node_count(), 0);
   for (const ddm::CutEdge& edge : sides.edges) {
-    if (edge.kind == mesh::Kind::crack || edge.kind == mesh::Kind::delaminated) {
-      for (const std::int32_t node : edge.node) {
-        open[at(node)] = 1;
-      }
-    }
+    if (edge.kind == mesh::Kind::crack || edge.kind == mesh::Kind::delaminated)
+      for (const std::int32_t node : edge.node) open[at(node)] = 1;
   }
   SkeletonSize size{static_cast<double>(mesh.inclusions.size()), 0};
   for (const ddm::Side& side : sides.sides) {

@@ -11,9 +11,8 @@ namespace anticrack::operators {
 namespace {
 
 void append(std::string& key, std::uint64_t value) {
-  for (int shift = 0; shift < 64; shift += 8) {
+  for (int shift = 0; shift < 64; shift += 8)
     key.push_back(static_cast<char>(value >> shift & 0xff));
-  }
 }
 
 void append(std::string& key, double value) {
@@ -32,13 +31,10 @@ std::optional<std::string> key_of(std::span<const fem::Load* const> loads) {
   std::string key;
   for (const fem::Load* load : loads) {
     const auto* array = std::get_if<fem::Array>(&load->force);
-    if (array != nullptr && array->upload.empty()) {
-      return std::nullopt;
-    }
+    if (array != nullptr && array->upload.empty()) return std::nullopt;
     fields::for_each(*load, [&key](const auto& field) {
-      if (field.name != "name") {
+      if (field.name != "name")
         fields::walk(field.value, [&key](const auto& leaf) { append(key, leaf); });
-      }
     });
   }
   return key;

@@ -15,9 +15,8 @@ namespace anticrack::operators {
 namespace {
 
 void require_running(const std::stop_token& stop) {
-  if (stop.stop_requested()) {
+  if (stop.stop_requested())
     throw errors::Error(errors::Reason::cancelled, "stopped while factorising a mesh");
-  }
 }
 
 std::vector<ddm::SubdomainOperator> factorise_subdomains(
@@ -33,9 +32,8 @@ std::vector<ddm::SubdomainOperator> factorise_subdomains(
   });
   std::vector<ddm::SubdomainOperator> operators;
   operators.reserve(done.size());
-  for (std::optional<ddm::SubdomainOperator>& subdomain : done) {
+  for (std::optional<ddm::SubdomainOperator>& subdomain : done)
     operators.push_back(std::move(*subdomain));
-  }
   return operators;
 }
 
@@ -47,9 +45,8 @@ std::size_t bytes_of(const std::vector<Value>& values) {
 std::size_t bytes_of(const mesh::Mesh& mesh) {
   std::size_t bytes = bytes_of(mesh.xy) + bytes_of(mesh.triangles) + bytes_of(mesh.subdomain) +
                       bytes_of(mesh.dirichlet);
-  for (const mesh::Interface& interface : mesh.interfaces) {
+  for (const mesh::Interface& interface : mesh.interfaces)
     bytes += bytes_of(interface.nodes) + bytes_of(interface.kind) + bytes_of(interface.inclusion);
-  }
   return bytes;
 }
 
@@ -60,9 +57,8 @@ std::size_t bytes_of(const ddm::Decomposition& decomposition) {
              bytes_of(subdomain.node) + bytes_of(subdomain.triangle) + bytes_of(subdomain.rigid) +
              bytes_of(subdomain.unknown);
   }
-  for (const std::vector<ddm::SidePair>& sides : decomposition.interface_sides) {
+  for (const std::vector<ddm::SidePair>& sides : decomposition.interface_sides)
     bytes += bytes_of(sides);
-  }
   return bytes;
 }
 
@@ -81,9 +77,8 @@ MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threa
       geometry(contact::trace_geometry(decomposition, *mesh)) {}
 
 void MeshOperator::Parts::require_uzawa() const {
-  if (!uzawa_obstacle.empty()) {
+  if (!uzawa_obstacle.empty())
     throw errors::Error(errors::Reason::not_implemented, uzawa_obstacle).at("uzawa");
-  }
 }
 
 MeshOperator::MeshOperator(std::unique_ptr<const Parts> parts) : _parts(std::move(parts)) {}
@@ -125,9 +120,7 @@ double MeshOperator::known_theta_star() const noexcept {
 std::size_t MeshOperator::bytes() const noexcept {
   std::size_t bytes = sizeof(Parts) + bytes_of(*_parts->mesh) + bytes_of(_parts->decomposition) +
                       _parts->neumann.bytes();
-  for (const ddm::SubdomainOperator& subdomain : _parts->operators) {
-    bytes += subdomain.bytes();
-  }
+  for (const ddm::SubdomainOperator& subdomain : _parts->operators) bytes += subdomain.bytes();
   return bytes + _parts->skeleton.bytes() + _parts->sweep_geometry.bytes() + _parts->bases.bytes();
 }
 

@@ -105,9 +105,7 @@ struct OperatorCache::State {
 
   Operator hit(const std::string& key) {
     Entry* entry = find(key);
-    if (entry == nullptr || !entry->ready) {
-      return nullptr;
-    }
+    if (entry == nullptr || !entry->ready) return nullptr;
     entry->last_use = ++clock;
     ++counters.hits;
     return entry->ready;
@@ -115,18 +113,14 @@ struct OperatorCache::State {
 
   std::uint64_t pinned_bytes() const {
     std::uint64_t bytes = 0;
-    for (const auto& [key, entry] : entries) {
-      bytes += entry.pinned() ? entry.bytes() : 0;
-    }
+    for (const auto& [key, entry] : entries) bytes += entry.pinned() ? entry.bytes() : 0;
     return bytes;
   }
 
   /// Takes out an operator that nobody holds; null otherwise.
   Operator take(const std::string& key) {
     Entry* entry = find(key);
-    if (entry == nullptr || entry->in_use()) {
-      return nullptr;
-    }
+    if (entry == nullptr || entry->in_use()) return nullptr;
     Operator taken = std::move(entry->ready);
     entries.erase(key);
     ++counters.evictions;
@@ -143,13 +137,9 @@ struct OperatorCache::State {
       keys.push_back(key);
     }
     const auto chosen = evictions(candidates, wanted, limit);
-    if (!chosen) {
-      return std::nullopt;
-    }
+    if (!chosen) return std::nullopt;
     Operators evicted;
-    for (const std::size_t index : *chosen) {
-      evicted.push_back(take(keys[index]));
-    }
+    for (const std::size_t index : *chosen) evicted.push_back(take(keys[index]));
     return evicted;
   }
 
@@ -169,14 +159,10 @@ struct OperatorCache::State {
     landed.wait(lock, stop, [&] { return flight->done; });
     const bool done = flight->done;
     leave(lock, *flight);
-    if (!done) {
-      throw stopped();
-    }
+    if (!done) throw stopped();
     // A copy in the flight would pin the operator.
     Operator result = flight->waiters == 0 ? std::move(flight->result) : flight->result;
-    if (!result) {
-      throw Error(*flight->error);
-    }
+    if (!result) throw Error(*flight->error);
     return result;
   }
 
@@ -184,9 +170,7 @@ struct OperatorCache::State {
     try {
       const auto start = std::chrono::steady_clock::now();
       Operator result = factorise(std::move(mesh), flight.stop.get_token());
-      if (factorised) {
-        factorised(std::chrono::steady_clock::now() - start);
-      }
+      if (factorised) factorised(std::chrono::steady_clock::now() - start);
       return result;
     } catch (const Error& thrown) {
       flight.error = thrown;
@@ -229,9 +213,7 @@ struct OperatorCache::State {
     if (result) {
       flight->result = flight->waiters > 0 ? result : nullptr;
       entries[key] = {result, nullptr, 0, ++clock};
-      if (left) {
-        result.reset();
-      }
+      if (left) result.reset();
       // As near to the budget as those in use allow.
       evicted = evict(0, std::max(budget, pinned_bytes()));
     } else {
@@ -241,12 +223,8 @@ struct OperatorCache::State {
     landed.notify_all();
     lock.unlock();
     release(evicted ? std::move(*evicted) : Operators());
-    if (left) {
-      throw stopped();
-    }
-    if (!result) {
-      throw Error(*flight->error);
-    }
+    if (left) throw stopped();
+    if (!result) throw Error(*flight->error);
     return result;
   }
 };
@@ -264,17 +242,11 @@ std::shared_ptr<const MeshOperator> OperatorCache::acquire(const std::string& ke
   std::optional<std::uint64_t> estimate;
   State::Lock lock(_state->mutex);
   for (;;) {
-    if (Operator ready = _state->hit(key)) {
-      return ready;
-    }
-    if (stop.stop_requested()) {
-      throw stopped();
-    }
+    if (Operator ready = _state->hit(key)) return ready;
+    if (stop.stop_requested()) throw stopped();
     if (const Entry* found = _state->find(key)) {
       const std::shared_ptr<Flight> flight = found->flight;
-      if (!flight->abandoned) {
-        return _state->join(lock, flight, stop);
-      }
+      if (!flight->abandoned) return _state->join(lock, flight, stop);
       _state->landed.wait(lock, stop, [&] { return flight->done; });
     } else if (estimate) {
       return _state->fly(lock, key, std::move(mesh), *estimate, stop);
@@ -300,9 +272,7 @@ bool OperatorCache::contains(const std::string& key) const {
 bool OperatorCache::pin(const std::string& key) {
   const std::lock_guard lock(_state->mutex);
   Entry* entry = _state->find(key);
-  if (entry == nullptr || !entry->ready) {
-    return false;
-  }
+  if (entry == nullptr || !entry->ready) return false;
   entry->kept = true;
   return true;
 }
@@ -317,14 +287,10 @@ OperatorCache::Eviction OperatorCache::evict(const std::string& key) {
   Operators evicted;
   {
     const std::lock_guard lock(_state->mutex);
-    if (_state->find(key) == nullptr) {
-      return Eviction::not_there;
-    }
+    if (_state->find(key) == nullptr) return Eviction::not_there;
     evicted.push_back(_state->take(key));
   }
-  if (!evicted.front()) {
-    return Eviction::in_use;
-  }
+  if (!evicted.front()) return Eviction::in_use;
   release(std::move(evicted));
   return Eviction::done;
 }
@@ -337,9 +303,7 @@ void OperatorCache::count_join() {
 CacheMetrics OperatorCache::metrics() const {
   const std::lock_guard lock(_state->mutex);
   CacheMetrics metrics = _state->counters;
-  for (const auto& [key, entry] : _state->entries) {
-    metrics.bytes += entry.bytes();
-  }
+  for (const auto& [key, entry] : _state->entries) metrics.bytes += entry.bytes();
   metrics.budget = _state->budget;
   metrics.pinned = _state->pinned_bytes();
   metrics.entries = static_cast<int>(_state->entries.size());

@@ -45,9 +45,7 @@ std::vector<OnInterface> find_on_interfaces(const mesh::Mesh& mesh, const fem::P
   std::vector<OnInterface> found(points.size());
   for (const mesh::Interface& interface : mesh.interfaces) {
     for (std::size_t e = 0; e < interface.kind.size(); ++e) {
-      if (interface.kind[e] == mesh::Kind::glue) {
-        continue;
-      }
+      if (interface.kind[e] == mesh::Kind::glue) continue;
       const std::array<fem::PlanePoint, 2> ends{mesh::position(mesh, interface.nodes[e]),
                                                 mesh::position(mesh, interface.nodes[e + 1])};
       points.visit_near(ends, tolerance, [&](std::size_t i) {
@@ -77,25 +75,18 @@ std::vector<Placed> find_in_subdomains(const ddm::Decomposition& decomposition,
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const std::vector<fem::Location> here =
         fem::locate(decomposition.subdomains[s].part, points, tolerance);
-    for (std::size_t i = 0; i < here.size(); ++i) {
-      if (here[i].depth > found[i].location.depth) {
-        found[i] = {s, here[i]};
-      }
-    }
+    for (std::size_t i = 0; i < here.size(); ++i)
+      if (here[i].depth > found[i].location.depth) found[i] = {s, here[i]};
   }
   return found;
 }
 
 void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& mesh,
                   const ddm::Decomposition& decomposition, PlacedForces& placed) {
-  if (forces.empty()) {
-    return;
-  }
+  if (forces.empty()) return;
   std::vector<fem::PlanePoint> positions;
   positions.reserve(forces.size());
-  for (const fem::PointForce& force : forces) {
-    positions.push_back({force.x, force.y});
-  }
+  for (const fem::PointForce& force : forces) positions.push_back({force.x, force.y});
   const fem::PointSet points(positions);
   const double tolerance = point_tolerance * diagonal(mesh);
   const std::vector<OnInterface> on = find_on_interfaces(mesh, points, tolerance);
@@ -111,9 +102,7 @@ void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& 
                         "\", whose sides move apart: move it to the side that is meant");
     }
     const fem::Location& location = in[i].location;
-    if (location.triangle < 0) {
-      throw refused(i, forces[i], "outside the membrane: move it inside");
-    }
+    if (location.triangle < 0) throw refused(i, forces[i], "outside the membrane: move it inside");
     const ddm::Subdomain& subdomain = decomposition.subdomains[in[i].subdomain];
     for (std::size_t a = 0; a < 3; ++a) {
       placed.subdomains[in[i].subdomain].push_back(
@@ -152,11 +141,9 @@ PlacedForces place_forces(const fem::Load& load, const mesh::Mesh& mesh,
                                "inclusion_forces[" + name + "]")] += value;
   }
   place_points(load.point_forces, mesh, decomposition, placed);
-  for (std::size_t j = 0; j < placed.inclusions.size(); ++j) {
-    if (placed.inclusions[j] != 0) {
+  for (std::size_t j = 0; j < placed.inclusions.size(); ++j)
+    if (placed.inclusions[j] != 0)
       place_on_inclusion(j, placed.inclusions[j], decomposition, placed);
-    }
-  }
   return placed;
 }
 

@@ -18,9 +18,8 @@ void PreparedLoad::Data::add_warnings(contact::Answer& answer) const {
 }
 
 void MeshOperator::require_prepared(const PreparedLoad& load, bool fields) const {
-  if (!load._data || load._data->mesh_operator.get() != this) {
+  if (!load._data || load._data->mesh_operator.get() != this)
     throw errors::Error(errors::Reason::internal, "a load that was prepared on another mesh");
-  }
   if (fields && !load._data->has_interior) {
     throw errors::Error(errors::Reason::internal,
                         "a combination of loads has no fields; prepare it as a load of its own");
@@ -35,9 +34,8 @@ std::vector<std::variant<PreparedLoad, errors::Error>> MeshOperator::prepare(
   prepared.reserve(condensed.size());
   for (auto& one : condensed) {
     if (auto* load = std::get_if<LoadOnTraces>(&one)) {
-      for (ddm::CondensedLoad& on_subdomain : load->subdomains) {
+      for (ddm::CondensedLoad& on_subdomain : load->subdomains)
         on_subdomain.z_boundary.resize(0);  // as long as the interior, and for a basis alone
-      }
       prepared.emplace_back(PreparedLoad(std::make_unique<PreparedLoad::Data>(
           PreparedLoad::Data{shared_from_this(), std::move(*load)})));
     } else {
@@ -50,23 +48,18 @@ std::vector<std::variant<PreparedLoad, errors::Error>> MeshOperator::prepare(
 contact::Answer MeshOperator::solve(const fem::Load& load, const contact::SolverOptions& options,
                                     bool fields, contact::Observer& observer,
                                     const std::stop_token& stop) const {
-  if (std::holds_alternative<contact::UzawaOptions>(options)) {
+  if (std::holds_alternative<contact::UzawaOptions>(options))
     _parts->require_uzawa();  // before the work on the load
-  }
   const fem::Load* const one[] = {&load};
   const std::variant<PreparedLoad, errors::Error> prepared = std::move(prepare(one, stop).front());
-  if (const auto* error = std::get_if<errors::Error>(&prepared)) {
-    throw errors::Error(*error);
-  }
+  if (const auto* error = std::get_if<errors::Error>(&prepared)) throw errors::Error(*error);
   return solve(std::get<PreparedLoad>(prepared), options, fields, observer);
 }
 
 contact::Answer MeshOperator::solve(const PreparedLoad& load, const contact::SolverOptions& options,
                                     bool fields, contact::Observer& observer) const {
   const auto* uzawa = std::get_if<contact::UzawaOptions>(&options);
-  if (uzawa != nullptr) {
-    _parts->require_uzawa();
-  }
+  if (uzawa != nullptr) _parts->require_uzawa();
   require_prepared(load, fields);
   const contact::CaseLoads loads = load._data->loads();
   contact::Answer answer =

@@ -19,9 +19,7 @@ using Eigen::MatrixXd;
 
 void require_memory(std::size_t loads, const ddm::Decomposition& decomposition) {
   std::size_t nodes = 0;
-  for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
-    nodes += subdomain.node.size();
-  }
+  for (const ddm::Subdomain& subdomain : decomposition.subdomains) nodes += subdomain.node.size();
   if (nodes > 0 && loads > max_basis_bytes / sizeof(double) / nodes) {
     throw errors::Error(errors::Reason::limit_exceeded,
                         std::to_string(loads) + " loads on " + std::to_string(nodes) +
@@ -35,9 +33,8 @@ std::vector<LoadOnTraces> sound(std::vector<CondensedOutcome> outcomes) {
   std::vector<LoadOnTraces> loads;
   loads.reserve(outcomes.size());
   for (std::size_t j = 0; j < outcomes.size(); ++j) {
-    if (auto* error = std::get_if<errors::Error>(&outcomes[j])) {
+    if (auto* error = std::get_if<errors::Error>(&outcomes[j]))
       throw errors::Error(error->below("load_cases[" + std::to_string(j) + "]"));
-    }
     loads.push_back(std::get<LoadOnTraces>(std::move(outcomes[j])));
   }
   return loads;
@@ -48,9 +45,7 @@ std::vector<const ddm::CondensedLoad*> on_subdomain(const std::vector<LoadOnTrac
                                                     std::size_t subdomain) {
   std::vector<const ddm::CondensedLoad*> result;
   result.reserve(loads.size());
-  for (const LoadOnTraces& load : loads) {
-    result.push_back(&load.subdomains[subdomain]);
-  }
+  for (const LoadOnTraces& load : loads) result.push_back(&load.subdomains[subdomain]);
   return result;
 }
 
@@ -71,12 +66,10 @@ CondensedBasis basis_of(std::vector<LoadOnTraces> loads, const contact::Skeleton
       part.z_boundary.resize(0);
     }
     cases.push_back({load.subdomains, load.inclusion_forces});
-    for (const std::string& warning : load.warnings) {
+    for (const std::string& warning : load.warnings)
       if (std::find(result.warnings.begin(), result.warnings.end(), warning) ==
-          result.warnings.end()) {
+          result.warnings.end())
         result.warnings.push_back(warning);
-      }
-    }
   }
   result.reduced = contact::reduce(skeleton, inclusions, cases, constants);
   result.loads = std::move(loads);
@@ -124,14 +117,11 @@ bool MeshOperator::sweep_rows(const contact::ActiveSetOptions& options, contact:
                               const SolveRow& solve_row) const {
   const auto contacts = static_cast<std::size_t>(_parts->skeleton.lcp().size());
   if (rows.inclusions != _parts->mesh->inclusions.size() ||
-      rows.contacts != contact_nodes().size() || (!start.empty() && start.size() != contacts)) {
+      rows.contacts != contact_nodes().size() || (!start.empty() && start.size() != contacts))
     throw errors::Error(errors::Reason::internal, "rows of a sweep on another mesh");
-  }
   contact::SweepSolver solver(_parts->skeleton, _parts->sweep_geometry, options, start);
   std::size_t row = 0;
-  for (; row < rows.rows() && !stop.stop_requested(); ++row) {
-    solve_row(solver, row);
-  }
+  for (; row < rows.rows() && !stop.stop_requested(); ++row) solve_row(solver, row);
   start = solver.closed();
   return row == rows.rows();
 }
@@ -140,9 +130,8 @@ bool MeshOperator::sweep(const LoadBasis& basis, std::span<const double> coeffic
                          const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
                          std::vector<char>& start, const std::stop_token& stop) const {
   const std::size_t m = basis.size();
-  if (basis._data->mesh_operator.get() != this || coefficients.size() != rows.rows() * m) {
+  if (basis._data->mesh_operator.get() != this || coefficients.size() != rows.rows() * m)
     throw errors::Error(errors::Reason::internal, "coefficients of another basis");
-  }
   return sweep_rows(options, rows, start, stop, [&](contact::SweepSolver& solver, std::size_t row) {
     solver.solve(basis._data->basis->reduced, coefficients.subspan(row * m, m), row, rows);
   });
@@ -151,17 +140,15 @@ bool MeshOperator::sweep(const LoadBasis& basis, std::span<const double> coeffic
 bool MeshOperator::sweep(std::span<const PreparedLoad> loads,
                          const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
                          std::vector<char>& start, const std::stop_token& stop) const {
-  if (loads.size() != rows.rows()) {
+  if (loads.size() != rows.rows())
     throw errors::Error(errors::Reason::internal, "as many rows as loads");
-  }
   constexpr double once[] = {1.0};
   return sweep_rows(options, rows, start, stop, [&](contact::SweepSolver& solver, std::size_t row) {
     require_prepared(loads[row], false);
     const contact::CaseLoads parts[] = {loads[row]._data->loads()};
     MatrixXd constant = MatrixXd::Zero(1, 1);
-    for (const ddm::CondensedLoad& part : parts[0].subdomains) {
+    for (const ddm::CondensedLoad& part : parts[0].subdomains)
       constant(0, 0) += part.energy_constant;
-    }
     solver.solve(
         contact::reduce(_parts->skeleton, _parts->mesh->inclusions.size(), parts, constant), once,
         row, rows);
@@ -170,9 +157,8 @@ bool MeshOperator::sweep(std::span<const PreparedLoad> loads,
 
 PreparedLoad MeshOperator::combine(const LoadBasis& basis,
                                    std::span<const double> coefficients) const {
-  if (basis._data->mesh_operator.get() != this || coefficients.size() != basis.size()) {
+  if (basis._data->mesh_operator.get() != this || coefficients.size() != basis.size())
     throw errors::Error(errors::Reason::internal, "coefficients of another basis");
-  }
   const CondensedBasis& condensed = *basis._data->basis;
   const Eigen::Map<const Eigen::VectorXd> c(coefficients.data(),
                                             static_cast<Index>(coefficients.size()));
@@ -187,9 +173,8 @@ PreparedLoad MeshOperator::combine(const LoadBasis& basis,
   data->condensed.inclusion_forces.resize(_parts->mesh->inclusions.size(), 0);
   for (std::size_t j = 0; j < coefficients.size(); ++j) {
     const std::vector<double>& forces = condensed.loads[j].inclusion_forces;
-    for (std::size_t i = 0; i < forces.size(); ++i) {
+    for (std::size_t i = 0; i < forces.size(); ++i)
       data->condensed.inclusion_forces[i] += coefficients[j] * forces[i];
-    }
   }
   return PreparedLoad(std::move(data));
 }

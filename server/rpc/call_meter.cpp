@@ -15,10 +15,8 @@ class Meter final : public interceptors::Interceptor {
   Meter(const CallListener& listener, const char* method) : _listener(listener), _method(method) {}
 
   void Intercept(interceptors::InterceptorBatchMethods* methods) override {
-    if (methods->QueryInterceptionHookPoint(
-            interceptors::InterceptionHookPoints::PRE_SEND_STATUS)) {
+    if (methods->QueryInterceptionHookPoint(interceptors::InterceptionHookPoints::PRE_SEND_STATUS))
       _listener(_method, methods->GetSendStatus().error_code(), Clock::now() - _begin);
-    }
     methods->Proceed();
   }
 

@@ -31,9 +31,8 @@ void present(const store::CaseRecord& record, v1::LoadCaseAnswer& answer) {
     answer = std::move(bare);
   }
   if (record.error) *answer.mutable_error() = to_message(*record.error);
-  for (std::string& warning : *answer.mutable_warnings()) {
+  for (std::string& warning : *answer.mutable_warnings())
     warning = api::printable(warning, max_warning_bytes);
-  }
 }
 
 template <class To, class From>
@@ -54,15 +53,12 @@ v1::LoadCaseAnswer from_domain(const store::CaseRecord& record, const std::strin
 v1::Job from_domain(const store::JobRecord& record) {
   v1::Job job = api::message(record);
   if (record.error) *job.mutable_error() = to_message(*record.error);
-  for (int i = 0; i < job.answers_size(); ++i) {
+  for (int i = 0; i < job.answers_size(); ++i)
     present(record.cases[static_cast<std::size_t>(i)], *job.mutable_answers(i));
-  }
-  for (v1::Job::Step& step : *job.mutable_timeline()) {
+  for (v1::Job::Step& step : *job.mutable_timeline())
     step.set_detail(api::printable(step.detail(), max_detail_text));
-  }
-  if (job.ByteSizeLong() > max_job_message_bytes) {
+  if (job.ByteSizeLong() > max_job_message_bytes)
     for (v1::LoadCaseAnswer& answer : *job.mutable_answers()) answer.clear_contact_intervals();
-  }
   return job;
 }
 
@@ -103,9 +99,8 @@ void append(v1::SweepRows& rows, const jobs::RowsEvent& event, std::size_t first
   count = std::min(count, from.rows() - first);
   if (rows.status().empty()) rows.set_first_row(event.first_row + first);
   rows.mutable_status()->Reserve(rows.status_size() + static_cast<int>(count));
-  for (std::size_t row = first; row < first + count; ++row) {
+  for (std::size_t row = first; row < first + count; ++row)
     rows.add_status(static_cast<std::int32_t>(from.status[row]));
-  }
   append_rows(*rows.mutable_steps(), from.steps, first, count);
   append_rows(*rows.mutable_energy(), from.energy, first, count);
   append_rows(*rows.mutable_contact_length(), from.contact_length, first, count);

@@ -119,9 +119,8 @@ std::vector<std::shared_ptr<Stream>> StreamHub::streams() const {
   std::vector<std::shared_ptr<Stream>> result;
   const std::lock_guard lock(_mutex);
   result.reserve(_entries.size());
-  for (const auto& [key, entry] : _entries) {
+  for (const auto& [key, entry] : _entries)
     if (auto stream = entry.stream.lock()) result.push_back(std::move(stream));
-  }
   return result;
 }
 

@@ -47,9 +47,8 @@ int no_passphrase(char* /*buffer*/, int /*size*/, int /*writing*/, void* /*data*
 std::vector<Certificate> certificates_of(const std::string& pem, const char* field) {
   const Bio bio = reader_of(pem);
   std::vector<Certificate> certificates;
-  while (Certificate next{PEM_read_bio_X509(bio.get(), nullptr, no_passphrase, nullptr)}) {
+  while (Certificate next{PEM_read_bio_X509(bio.get(), nullptr, no_passphrase, nullptr)})
     certificates.push_back(std::move(next));
-  }
   // The end of the text is an error too; any other means a damaged certificate.
   const bool at_end = ERR_GET_REASON(ERR_peek_last_error()) == PEM_R_NO_START_LINE;
   ERR_clear_error();

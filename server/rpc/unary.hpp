@@ -44,11 +44,10 @@ grpc::ServerUnaryReactor* answer_on(const Edge& edge, WorkPool& pool, std::size_
   const grpc::Status posted = status_of(method, [&] {
     // Here and not on the pool: a stranger takes no place in its queue.
     const access::Identity who = edge.authentication.identify(*context);
-    if (pool.waiting() >= limit) {
+    if (pool.waiting() >= limit)
       throw errors::Error(errors::Reason::busy,
                           "too many calls wait to be taken up; try again later")
           .retry_after(std::chrono::seconds(1));
-    }
     pool.post(
         [reactor, method, work, who] { reactor->Finish(status_of(method, [&] { work(who); })); });
   });

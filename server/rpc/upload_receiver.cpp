@@ -166,9 +166,8 @@ void UploadReceiver::begin(const v1::UploadMeshRequest::Header& header) {
 }
 
 void UploadReceiver::append(const std::string& chunk) {
-  if (!_file) {
+  if (!_file)
     throw Error(Reason::invalid_argument, "the first message must be the header").at("header");
-  }
   if (chunk.size() > max_chunk_bytes) {
     throw Error(Reason::limit_exceeded, "a chunk of " + std::to_string(chunk.size()) +
                                             " bytes: at most " + std::to_string(max_chunk_bytes) +
@@ -218,9 +217,7 @@ std::vector<std::string> UploadReceiver::complete() {
   }
   const std::vector<std::unique_ptr<File>> files = std::move(_complete);
   std::vector<store::Upload> uploads;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    uploads.push_back({files[i]->path(), _sha256s[i]});
-  }
+  for (std::size_t i = 0; i < files.size(); ++i) uploads.push_back({files[i]->path(), _sha256s[i]});
   _store.keep_uploads(uploads, _owner);
   for (const auto& file : files) file->release();
   return std::move(_sha256s);

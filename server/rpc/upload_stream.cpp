@@ -81,9 +81,8 @@ void UploadStream::take(bool ok) noexcept {
       _receiver.accept(_request);
       read_next();
     } else {
-      for (const std::string& sha256 : _receiver.complete()) {
+      for (const std::string& sha256 : _receiver.complete())
         _response->add_uploads(api::upload_name(sha256));
-      }
       _response->set_upload(_response->uploads(0));
       finish(grpc::Status::OK);
     }

@@ -11,11 +11,10 @@ WatchGroup::WatchGroup(StreamHub& hub, std::shared_ptr<jobs::EventLog> log)
 void WatchGroup::start(const std::shared_ptr<WatchGroup>& group) {
   const std::weak_ptr<Wakeable> weak = group;
   group->_listener = group->_log->listen([&hub = group->_hub, weak, &log = *group->_log] {
-    if (log.complete()) {
+    if (log.complete())
       hub.hurry(weak);
-    } else {
+    else
       hub.wake(weak);
-    }
   });
   group->_hub.wake(weak);  // for what came before the listener
 }

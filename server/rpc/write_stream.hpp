@@ -139,11 +139,10 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
   void schedule() noexcept {
     try {
       const auto self = this->shared_from_this();
-      if (_kind == StreamKind::watch) {
+      if (_kind == StreamKind::watch)
         _edge.hub.wake(self);
-      } else {
+      else
         _edge.lookups.post([self] { self->drive(); });
-      }
     } catch (...) {  // no memory for a queue's entry
       drive();
     }

@@ -37,9 +37,8 @@ Error is_msh() {
 bool all_finite(std::span<const double> values) {
   constexpr std::uint64_t exponent = 0x7ff0'0000'0000'0000;
   bool finite = true;
-  for (const double value : values) {
+  for (const double value : values)
     finite &= (std::bit_cast<std::uint64_t>(value) & exponent) != exponent;
-  }
   return finite;
 }
 

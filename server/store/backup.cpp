@@ -29,21 +29,13 @@ constexpr int most_attempts = 10;
 
 /// False where there is no such file. Nothing to do where there is a link or a copy already.
 bool link_or_copy(const std::string& from, const std::string& to) {
-  if (::link(from.c_str(), to.c_str()) == 0 || errno == EEXIST) {
-    return true;
-  }
-  if (errno == ENOENT) {
-    return false;
-  }
+  if (::link(from.c_str(), to.c_str()) == 0 || errno == EEXIST) return true;
+  if (errno == ENOENT) return false;
   // Another file system, or one without links, or links of other users' files are forbidden.
   std::error_code code;
   fs::copy_file(from, to, code);
-  if (code == std::errc::no_such_file_or_directory) {
-    return false;
-  }
-  if (code) {
-    throw disk_error("copy " + from, code.value());
-  }
+  if (code == std::errc::no_such_file_or_directory) return false;
+  if (code) throw disk_error("copy " + from, code.value());
   flush(to);
   return true;
 }
@@ -70,9 +62,7 @@ class Backup {
   Backup& operator=(const Backup&) = delete;
 
   BackedUp make() {
-    for (const FileKind kind : file_kinds) {
-      make_folder(folder_of(_to, kind));
-    }
+    for (const FileKind kind : file_kinds) make_folder(folder_of(_to, kind));
     std::string missing;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
       // The server may remove a file after the snapshot that refers to it. All files there are now
@@ -80,9 +70,7 @@ class Backup {
       link_all_files();
       copy_records();
       missing = link_named_files();
-      if (missing.empty()) {
-        return finished();
-      }
+      if (missing.empty()) return finished();
     }
     throw Error(Reason::storage,
                 missing +
@@ -92,11 +80,8 @@ class Backup {
 
  private:
   void link_all_files() const {
-    for (const FileKind kind : file_kinds) {
-      for (const std::string& name : file_names(folder_of(_data, kind))) {
-        link(kind, name);
-      }
-    }
+    for (const FileKind kind : file_kinds)
+      for (const std::string& name : file_names(folder_of(_data, kind))) link(kind, name);
   }
 
   bool link(FileKind kind, const std::string& name) const {
@@ -119,21 +104,15 @@ class Backup {
       const Table& table = table_of(kind);
       Statement select = copy.prepare("SELECT " + table.file + " FROM " + table.name + " WHERE " +
                                       table.file + " <> ''");
-      while (select.step()) {
-        _named.emplace(kind, select.text(0));
-      }
+      while (select.step()) _named.emplace(kind, select.text(0));
     }
   }
 
   /// The path of one that is missing; empty: none is.
   std::string link_named_files() const {
     for (const auto& [kind, name] : _named) {
-      if (!is_sha256(name)) {
-        continue;  // a damaged row, for --check-store
-      }
-      if (!link(kind, name)) {
-        return folder_of(_data, kind) + "/" + name;
-      }
+      if (!is_sha256(name)) continue;  // a damaged row, for --check-store
+      if (!link(kind, name)) return folder_of(_data, kind) + "/" + name;
     }
     return {};
   }
@@ -145,9 +124,7 @@ class Backup {
       for (const std::string& name : file_names(folder)) {
         const std::string path = folder + "/" + name;
         if (!_named.contains({kind, name})) {
-          if (::unlink(path.c_str()) != 0) {
-            throw disk_error("remove " + path, errno);
-          }
+          if (::unlink(path.c_str()) != 0) throw disk_error("remove " + path, errno);
           continue;
         }
         ++made.files;
@@ -172,9 +149,7 @@ class Backup {
 
 BackedUp back_up(const std::string& data, const std::string& to) {
   fs::path path = fs::absolute(to).lexically_normal();
-  if (!path.has_filename()) {
-    path = path.parent_path();
-  }
+  if (!path.has_filename()) path = path.parent_path();
   const std::string whole = path.string();
   std::error_code code;
   if (fs::exists(fs::symlink_status(path, code))) {
@@ -187,9 +162,7 @@ BackedUp back_up(const std::string& data, const std::string& to) {
   }
   const std::string partial = whole + ".partial";
   BackedUp made = Backup(data, partial).make();
-  if (::rename(partial.c_str(), whole.c_str()) != 0) {
-    throw disk_error("rename " + partial, errno);
-  }
+  if (::rename(partial.c_str(), whole.c_str()) != 0) throw disk_error("rename " + partial, errno);
   flush(path.parent_path().string());
   made.folder = whole;
   return made;

@@ -20,9 +20,7 @@ constexpr std::size_t alignment = 8;
 bool fits(const std::vector<std::uint64_t>& shape, std::uint64_t count) {
   std::uint64_t product = 1;
   for (const std::uint64_t extent : shape) {
-    if (extent != 0 && product > count / extent) {
-      return false;
-    }
+    if (extent != 0 && product > count / extent) return false;
     product *= extent;
   }
   return product == count;
@@ -43,11 +41,9 @@ std::size_t bytes_of(ArrayType type) {
 /// Throws std::length_error where it does not fit into a std::size_t.
 std::size_t bytes_of(ArrayType type, const std::vector<std::uint64_t>& shape) {
   std::size_t bytes = bytes_of(type);
-  for (const std::uint64_t extent : shape) {
-    if (__builtin_mul_overflow(bytes, extent, &bytes)) {
+  for (const std::uint64_t extent : shape)
+    if (__builtin_mul_overflow(bytes, extent, &bytes))
       throw std::length_error("an array of a block is larger than any memory");
-    }
-  }
   return bytes;
 }
 
@@ -83,9 +79,7 @@ std::shared_ptr<const BlockSource> in_memory(std::shared_ptr<const Block> block)
 
 void BlockBuilder::append(std::string name, ArrayType type, std::span<const std::byte> values,
                           std::uint64_t count, std::vector<std::uint64_t> shape) {
-  if (shape.empty()) {
-    shape = {count};
-  }
+  if (shape.empty()) shape = {count};
   if (!fits(shape, count)) {
     throw std::invalid_argument("array " + name + ": its shape does not hold " +
                                 std::to_string(count) + " values");

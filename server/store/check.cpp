@@ -28,15 +28,11 @@ class Check {
     }
     if (found.has_database) {
       require_version(*_database);
-      for (const FileKind kind : file_kinds) {
-        if (!attempt([&] { look_at_rows(kind); })) {
+      for (const FileKind kind : file_kinds)
+        if (!attempt([&] { look_at_rows(kind); }))
           return;  // without the rows, files cannot be told apart
-        }
-      }
     }
-    for (const FileKind kind : file_kinds) {
-      look_at_files(kind);
-    }
+    for (const FileKind kind : file_kinds) look_at_files(kind);
     for (const auto& [file, owner] : _named) {
       flaw(path_of(file) + " of " + owner + " is missing");
       found.lost.insert(file);
@@ -68,11 +64,8 @@ class Check {
     found.has_database = _database->integer("PRAGMA user_version") > 0;
     attempt([&] { require_own(*_database, _folder); });
     Statement lines = _database->prepare("PRAGMA integrity_check(20)");
-    while (lines.step()) {
-      if (lines.text(0) != "ok") {
-        flaw("the database " + _database->path() + ": " + lines.text(0));
-      }
-    }
+    while (lines.step())
+      if (lines.text(0) != "ok") flaw("the database " + _database->path() + ": " + lines.text(0));
   }
 
   void look_at_rows(FileKind kind) {
@@ -80,11 +73,10 @@ class Check {
     while (select.step()) {
       ++found.records;
       const Row row = row_at(select);
-      if (!attempt([&] { look_at(row, kind); })) {
+      if (!attempt([&] { look_at(row, kind); }))
         found.damaged.emplace(kind, row.id);
-      } else if (!row.file.empty()) {
+      else if (!row.file.empty())
         _named.emplace(Name{kind, row.file}, table_of(kind).name + "/" + row.id);
-      }
     }
   }
 
@@ -96,9 +88,8 @@ class Check {
       read_job(row);
       Statement select = _database->prepare(
           "SELECT small_result FROM jobs WHERE id = ? AND result = '' AND result_bytes > 0");
-      if (select.bind(std::string_view(row.id)).step()) {
+      if (select.bind(std::string_view(row.id)).step())
         open_result(select.text(0), "the row of jobs/" + row.id);
-      }
     }
   }
 
@@ -118,11 +109,10 @@ class Check {
 
   void require_whole_file(const Name& file) const {
     const std::string path = path_of(file);
-    if (file.first == FileKind::result) {
+    if (file.first == FileKind::result)
       require_whole(*open_result(open_to_read(path), path, file.second), path);
-    } else if (sha256_of(path) != file.second) {
+    else if (sha256_of(path) != file.second)
       throw Error(Reason::storage, path + " is damaged: its content has another hash");
-    }
   }
 
   const std::string& _folder;

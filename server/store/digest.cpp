@@ -23,9 +23,7 @@ struct Sha256::Context {
 namespace {
 
 void require(bool ok) {
-  if (!ok) {
-    throw std::runtime_error("OpenSSL refused to compute a SHA-256");
-  }
+  if (!ok) throw std::runtime_error("OpenSSL refused to compute a SHA-256");
 }
 
 }  // namespace

@@ -30,9 +30,7 @@ bool no_space(int code) noexcept {
 Error disk_error(const std::string& action, int code) {
   const std::string what =
       std::string("cannot ") + action + ": " + std::generic_category().message(code);
-  if (no_space(code)) {
-    return disk_full(what);
-  }
+  if (no_space(code)) return disk_full(what);
   return {Reason::storage, what + "; check that the data folder is there, writable and sound"};
 }
 

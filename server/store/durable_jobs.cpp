@@ -21,23 +21,17 @@ constexpr std::size_t most_small_result = std::size_t{32} << 10U;
 
 std::set<std::string> uploads_of(const JobSpec& spec) {
   std::set<std::string> uploads;
-  for (const fem::Load& load : spec.loads) {
-    if (const auto* array = std::get_if<fem::Array>(&load.force)) {
-      uploads.insert(array->upload);
-    }
-  }
-  if (spec.sweep) {
-    uploads.insert(spec.sweep->upload);
-  }
+  for (const fem::Load& load : spec.loads)
+    if (const auto* array = std::get_if<fem::Array>(&load.force)) uploads.insert(array->upload);
+  if (spec.sweep) uploads.insert(spec.sweep->upload);
   return uploads;
 }
 
 void bind_end(Statement& statement, const JobRecord& record) {
-  if (ended(record.state)) {
+  if (ended(record.state))
     statement.bind(to_disk(record.ended.value_or(record.created)));
-  } else {
+  else
     statement.bind_null();
-  }
 }
 
 void insert(Connection& connection, const JobRecord& record, const std::string& fingerprint,
@@ -65,16 +59,11 @@ void insert(Connection& connection, const JobRecord& record, const std::string& 
 /// The job the owner made with this request id before.
 std::optional<Row> find_request(Connection& connection, const JobRecord& record,
                                 const std::string& fingerprint) {
-  if (record.request_id.empty()) {
-    return std::nullopt;
-  }
+  if (record.request_id.empty()) return std::nullopt;
   Statement select = connection.prepare(
       "SELECT id, fingerprint FROM jobs WHERE owner = ? AND request = ? AND request <> ''");
-  if (!select.bind(std::string_view(record.owner))
-           .bind(std::string_view(record.request_id))
-           .step()) {
+  if (!select.bind(std::string_view(record.owner)).bind(std::string_view(record.request_id)).step())
     return std::nullopt;
-  }
   std::optional<Row> row = find_row(connection, FileKind::result, select.text(0));
   if (row && row->intact && select.text(1) != fingerprint) {
     throw Error(Reason::request_id_reused,
@@ -88,9 +77,7 @@ std::optional<Row> find_request(Connection& connection, const JobRecord& record,
 /// Name of the result's file; empty: none.
 std::string result_name(Connection& connection, const std::string& job) {
   Statement select = connection.prepare("SELECT result FROM jobs WHERE id = ?");
-  if (!select.bind(std::string_view(job)).step()) {
-    throw unknown("jobs", job);
-  }
+  if (!select.bind(std::string_view(job)).step()) throw unknown("jobs", job);
   return select.text(0);
 }
 
@@ -108,11 +95,10 @@ void end(Connection& connection, const JobRecord& record, const ResultColumns& r
       "checksum = crc32c(?6, ?7, ?8, fingerprint, ?1, ?2, ?4, ?5) WHERE id = ?6");
   bind_end(update, record);
   update.bind(std::string_view(result.name));
-  if (result.small.empty()) {
+  if (result.small.empty())
     update.bind_null();
-  } else {
+  else
     update.bind_blob(result.small);
-  }
   update.bind(static_cast<std::int64_t>(result.bytes))
       .bind_blob(bytes)
       .bind(std::string_view(record.id))
@@ -124,9 +110,7 @@ void end(Connection& connection, const JobRecord& record, const ResultColumns& r
 std::vector<JobRecord> jobs_of(const std::vector<Row>& rows) {
   std::vector<JobRecord> records;
   records.reserve(rows.size());
-  for (const Row& row : rows) {
-    records.push_back(job_of(row));
-  }
+  for (const Row& row : rows) records.push_back(job_of(row));
   return records;
 }
 
@@ -137,9 +121,7 @@ JobRecord DurableStore::create(const JobRecord& record, const std::string& finge
   std::optional<Row> existing;
   _writer.run([&](Connection& connection) {
     existing = find_request(connection, record, fingerprint);
-    if (!existing) {
-      insert(connection, record, fingerprint, bytes);
-    }
+    if (!existing) insert(connection, record, fingerprint, bytes);
   });
   return existing ? job_of(*existing) : record;
 }
@@ -164,9 +146,7 @@ void DurableStore::put(const JobRecord& record) {
             .bind(std::string_view(record.owner))
             .bind(std::string_view(record.request_id))
             .run();
-        if (connection.changes() == 0) {
-          throw unknown("jobs", record.id);
-        }
+        if (connection.changes() == 0) throw unknown("jobs", record.id);
       },
       GroupCommit::Flush::no);
 }
@@ -190,9 +170,8 @@ void DurableStore::finish(const JobRecord& record, std::shared_ptr<const Block> 
     }
   }
   _writer.run([&](Connection& connection) {
-    if (const std::string before = result_name(connection, record.id); !before.empty()) {
+    if (const std::string before = result_name(connection, record.id); !before.empty())
       _unreferenced.push_back({FileKind::result, before});
-    }
     if (file) {
       _unreferenced.push_back({FileKind::result, columns.name});
       _results.rename(file->path(), columns.name);
@@ -217,9 +196,7 @@ std::vector<JobRecord> DurableStore::unfinished() const {
     std::vector<Row> rows;
     Statement select =
         connection.prepare(select_rows(FileKind::result) + " WHERE ended IS NULL ORDER BY number");
-    while (select.step()) {
-      rows.push_back(row_at(select));
-    }
+    while (select.step()) rows.push_back(row_at(select));
     return rows;
   }));
   std::erase_if(records, [](const JobRecord& record) { return store::ended(record.state); });
@@ -240,10 +217,9 @@ std::vector<EndedJob> DurableStore::ended() const {
     Statement select = connection.prepare(
         "SELECT id, ended, result_bytes FROM jobs WHERE ended IS NOT NULL ORDER BY ended, number");
     std::vector<EndedJob> jobs;
-    while (select.step()) {
+    while (select.step())
       jobs.push_back({select.text(0), time_of(select.integer(1)),
                       static_cast<std::uint64_t>(select.integer(2))});
-    }
     return jobs;
   });
 }
@@ -251,9 +227,8 @@ std::vector<EndedJob> DurableStore::ended() const {
 std::shared_ptr<const BlockSource> DurableStore::result(const std::string& job) const {
   const auto look = [&]() -> ResultColumns {
     return reading([&](Connection& connection) {
-      if (const std::optional<Row> row = find_row(connection, FileKind::result, job)) {
+      if (const std::optional<Row> row = find_row(connection, FileKind::result, job))
         read_job(*row);  // throws where it is damaged, and so what it says of its result
-      }
       Statement select =
           connection.prepare("SELECT result, small_result, result_bytes FROM jobs WHERE id = ?");
       return select.bind(std::string_view(job)).step()
@@ -265,9 +240,7 @@ std::shared_ptr<const BlockSource> DurableStore::result(const std::string& job) 
   ResultColumns found = look();
   while (!found.name.empty()) {
     const std::string path = _results.path(found.name);
-    if (Descriptor file = open_to_read(path)) {
-      return open_result(std::move(file), path, found.name);
-    }
+    if (Descriptor file = open_to_read(path)) return open_result(std::move(file), path, found.name);
     ResultColumns now = look();  // it may have expired just now
     if (now.name == found.name) {
       throw Error(Reason::storage, "the result of jobs/" + job + " is not in " + path +
@@ -284,23 +257,19 @@ void DurableStore::expire(const std::string& job) {
   _writer.run([&](Connection& connection) {
     const std::string result = result_name(connection, job);
     JobRecord record = read_job(*find_row(connection, FileKind::result, job));
-    if (!store::ended(record.state)) {
+    if (!store::ended(record.state))
       throw Error(Reason::in_use, "jobs/" + job + " has not ended: cancel it first");
-    }
     record.state = JobState::expired;
     record.result_bytes = 0;
     end(connection, record, {}, encode(record));
-    if (!result.empty()) {
-      _unreferenced.push_back({FileKind::result, result});
-    }
+    if (!result.empty()) _unreferenced.push_back({FileKind::result, result});
   });
 }
 
 void DurableStore::erase_job(const std::string& id) {
   _writer.run([&](Connection& connection) {
-    if (const std::string result = result_name(connection, id); !result.empty()) {
+    if (const std::string result = result_name(connection, id); !result.empty())
       _unreferenced.push_back({FileKind::result, result});
-    }
     connection.prepare("DELETE FROM job_uploads WHERE job = (SELECT number FROM jobs WHERE id = ?)")
         .bind(std::string_view(id))
         .run();

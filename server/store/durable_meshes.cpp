@@ -26,9 +26,8 @@ void DurableStore::save(Connection& connection, const MeshRecord& record,
   {
     Statement select =
         connection.prepare("SELECT sha256 FROM meshes WHERE id = ? AND sha256 <> ''");
-    if (select.bind(std::string_view(record.id)).step() && select.text(0) != record.sha256) {
+    if (select.bind(std::string_view(record.id)).step() && select.text(0) != record.sha256)
       _unreferenced.push_back({FileKind::mesh, select.text(0)});
-    }
   }
   const std::string upload = upload_of(record);
   Statement upsert = connection.prepare(
@@ -51,9 +50,8 @@ void DurableStore::put(const MeshRecord& record) {
 
 void DurableStore::put(const MeshRecord& record, const mesh::Mesh& triangulation) {
   const mesh::Bytes encoded = mesh::encode(triangulation);
-  if (Sha256().add(encoded).finish() != record.sha256) {
+  if (Sha256().add(encoded).finish() != record.sha256)
     throw Error(Reason::internal, "meshes/" + record.id + " comes with another triangulation");
-  }
   const std::string bytes = encode(record);
   const DiskUsage::Reservation reservation = reserve(encoded.size());
   Part part = _meshes.write({encoded});
@@ -73,9 +71,7 @@ std::optional<MeshRecord> DurableStore::mesh(const std::string& id) const {
 
 std::vector<MeshRecord> DurableStore::meshes(const Page& asked) const {
   std::vector<MeshRecord> found;
-  for (const Row& row : page(FileKind::mesh, asked)) {
-    found.push_back(mesh_of(row));
-  }
+  for (const Row& row : page(FileKind::mesh, asked)) found.push_back(mesh_of(row));
   return found;
 }
 
@@ -89,29 +85,19 @@ void DurableStore::erase_mesh(const std::string& id) {
   _writer.run([&](Connection& connection) {
     {
       Statement select = connection.prepare("SELECT sha256 FROM meshes WHERE id = ?");
-      if (!select.bind(std::string_view(id)).step()) {
-        throw unknown("meshes", id);
-      }
-      if (!select.text(0).empty()) {
-        _unreferenced.push_back({FileKind::mesh, select.text(0)});
-      }
+      if (!select.bind(std::string_view(id)).step()) throw unknown("meshes", id);
+      if (!select.text(0).empty()) _unreferenced.push_back({FileKind::mesh, select.text(0)});
     }
     connection.prepare("DELETE FROM meshes WHERE id = ?").bind(std::string_view(id)).run();
   });
 }
 
 std::shared_ptr<const mesh::Mesh> DurableStore::triangulation(const std::string& sha256) const {
-  if (!is_sha256(sha256)) {
-    return nullptr;
-  }
-  if (auto held = _triangulations.find(sha256)) {
-    return held;
-  }
+  if (!is_sha256(sha256)) return nullptr;
+  if (auto held = _triangulations.find(sha256)) return held;
   const std::string path = _meshes.path(sha256);
   const auto bytes = read_file(path);
-  if (!bytes) {
-    return nullptr;
-  }
+  if (!bytes) return nullptr;
   if (Sha256().add(*bytes).finish() != sha256) {
     throw Error(Reason::storage,
                 "the triangulation in " + path + " is damaged: delete its mesh and make it again");

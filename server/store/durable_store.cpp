@@ -69,19 +69,14 @@ DurableStore::DurableStore(const StoreOptions& options)
               [this](Connection& connection) { remove_unreferenced(connection); }),
       _reader(open_reader(_folder)) {
   std::vector<FileName> spare;
-  for (const FileKind kind : file_kinds) {
+  for (const FileKind kind : file_kinds)
     for (std::string& name : files(kind).sweep(
-             [&](const std::string& sha256) { return is_referenced(_reader, kind, sha256); })) {
+             [&](const std::string& sha256) { return is_referenced(_reader, kind, sha256); }))
       spare.push_back({kind, std::move(name)});
-    }
-  }
   // A damaged index does not name what its rows do, and a damaged row may have named anything.
   if (!spare.empty() && all_intact(_reader)) {
-    for (const auto& [kind, sha256] : spare) {
-      if (!is_referenced(_reader, kind, sha256, true)) {
-        files(kind).remove(sha256);
-      }
-    }
+    for (const auto& [kind, sha256] : spare)
+      if (!is_referenced(_reader, kind, sha256, true)) files(kind).remove(sha256);
   }
 }
 
@@ -99,9 +94,8 @@ Files& DurableStore::files(FileKind kind) {
 
 std::uint64_t DurableStore::database_bytes() const {
   std::uint64_t bytes = 0;
-  for (const char* suffix : {"", "-wal", "-shm"}) {
+  for (const char* suffix : {"", "-wal", "-shm"})
     bytes += file_size(database_path(_folder) + suffix).value_or(0);
-  }
   return bytes;
 }
 
@@ -113,9 +107,7 @@ void DurableStore::remove_unreferenced(Connection& connection) {
   while (!_unreferenced.empty()) {
     const auto& [kind, sha256] = _unreferenced.back();
     if (!is_referenced(connection, kind, sha256)) {
-      if (kind == FileKind::mesh) {
-        _triangulations.forget(sha256);
-      }
+      if (kind == FileKind::mesh) _triangulations.forget(sha256);
       files(kind).remove(sha256);
     }
     _unreferenced.pop_back();
@@ -135,26 +127,18 @@ std::vector<Row> DurableStore::page(FileKind kind, const Page& page) const {
       Statement select =
           connection.prepare("SELECT number FROM " + table + " WHERE id = ?" + of_owner);
       select.bind(std::string_view(page.after));
-      if (page.owner) {
-        select.bind(std::string_view(*page.owner));
-      }
-      if (!select.step()) {
-        throw unknown(table, page.after);
-      }
+      if (page.owner) select.bind(std::string_view(*page.owner));
+      if (!select.step()) throw unknown(table, page.after);
       before = select.integer(0);
     }
     Statement select = connection.prepare(select_rows(kind) + " WHERE number < ?" + of_owner +
                                           " ORDER BY number DESC LIMIT ?");
     select.bind(before);
-    if (page.owner) {
-      select.bind(std::string_view(*page.owner));
-    }
+    if (page.owner) select.bind(std::string_view(*page.owner));
     constexpr std::size_t most = std::numeric_limits<std::int64_t>::max();
     select.bind(static_cast<std::int64_t>(std::min(page.count, most)));
     std::vector<Row> rows;
-    while (select.step()) {
-      rows.push_back(row_at(select));
-    }
+    while (select.step()) rows.push_back(row_at(select));
     return rows;
   });
 }
@@ -169,11 +153,10 @@ std::vector<OwnerUsage> DurableStore::owners() const {
     Statement select = connection.prepare(
         "SELECT owner, count(*), sum(ended IS NULL), sum(result_bytes) FROM jobs GROUP BY owner");
     std::vector<OwnerUsage> owners;
-    while (select.step()) {
+    while (select.step())
       owners.push_back({select.text(0), static_cast<std::uint64_t>(select.integer(1)),
                         static_cast<std::uint64_t>(select.integer(2)),
                         static_cast<std::uint64_t>(select.integer(3))});
-    }
     return owners;
   });
 }

@@ -14,9 +14,8 @@ std::optional<std::string> DurableStore::upload_path(const std::string& sha256,
   return reading([&](Connection& connection) -> std::optional<std::string> {
     Statement select =
         connection.prepare(select_rows(FileKind::upload) + " WHERE sha256 = ? AND owner = ?");
-    if (!select.bind(std::string_view(sha256)).bind(std::string_view(owner)).step()) {
+    if (!select.bind(std::string_view(sha256)).bind(std::string_view(owner)).step())
       return std::nullopt;
-    }
     require_intact(row_at(select), FileKind::upload);
     return _uploads.path(sha256);
   });
@@ -41,9 +40,8 @@ void DurableStore::keep_uploads(const std::vector<Upload>& uploads, const std::s
           Reason::invalid_argument,
           "\"" + upload.sha256 + "\" is not a sha256: give its 64 lower-case hexadecimal digits");
     }
-    if (!_uploads.is_part(upload.path)) {
+    if (!_uploads.is_part(upload.path))
       throw Error(Reason::internal, upload.path + " is not an upload on its way");
-    }
     const std::string there = sha256_of(_uploads.path(upload.sha256));
     damaged.push_back(!there.empty() && there != upload.sha256);
     if (damaged.back() || _parts.unflushed(upload.path)) {
@@ -56,22 +54,19 @@ void DurableStore::keep_uploads(const std::vector<Upload>& uploads, const std::s
     }
   }
   flush_all(to_flush);
-  for (const std::string& path : to_flush) {
-    _parts.mark_flushed(path);
-  }
+  for (const std::string& path : to_flush) _parts.mark_flushed(path);
   const std::int64_t now = to_disk(Clock::now());
   // Links, so that the uploads are still there when this fails and is tried again.
   _writer.run([&](Connection& connection) {
     for (std::size_t i = 0; i < uploads.size(); ++i) {
       _unreferenced.push_back({FileKind::upload, uploads[i].sha256});
-      if (damaged[i]) {
+      if (damaged[i])
         _uploads.rename(flushed[i], uploads[i].sha256);
-      } else {
+      else
         _uploads.link(flushed[i], uploads[i].sha256);
-      }
     }
     _uploads.flush_names();
-    for (const Upload& upload : uploads) {
+    for (const Upload& upload : uploads)
       connection
           .prepare(
               "INSERT OR REPLACE INTO uploads (sha256, owner, created, checksum) "
@@ -80,7 +75,6 @@ void DurableStore::keep_uploads(const std::vector<Upload>& uploads, const std::s
           .bind(std::string_view(owner))
           .bind(now)
           .run();
-    }
   });
   for (const Upload& upload : uploads) {
     _parts.forget(upload.path);

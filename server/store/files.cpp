@@ -32,25 +32,19 @@ constexpr std::size_t copy_bytes = std::size_t{1} << 20U;
 void write_all(const Descriptor& file, const std::string& path, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t count = ::write(file.get(), bytes.data(), bytes.size());
-    if (count < 0 && errno != EINTR) {
-      throw disk_error("write " + path, errno);
-    }
+    if (count < 0 && errno != EINTR) throw disk_error("write " + path, errno);
     bytes = bytes.subspan(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
   }
 }
 
 Descriptor open_to_write(const std::string& path) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-  if (!file) {
-    throw disk_error("open " + path, errno);
-  }
+  if (!file) throw disk_error("open " + path, errno);
   return file;
 }
 
 void flush_file(const Descriptor& file, const std::string& path) {
-  if (::fsync(file.get()) != 0) {
-    throw disk_error("flush " + path, errno);
-  }
+  if (::fsync(file.get()) != 0) throw disk_error("flush " + path, errno);
 }
 
 }  // namespace
@@ -74,35 +68,27 @@ std::vector<std::string> file_names(const std::string& folder) {
   std::error_code code;
   std::vector<std::string> names;
   for (fs::directory_iterator entry(folder, code), end; !code && entry != end;
-       entry.increment(code)) {
-    if (std::string name = entry->path().filename().string(); is_sha256(name)) {
+       entry.increment(code))
+    if (std::string name = entry->path().filename().string(); is_sha256(name))
       names.push_back(std::move(name));
-    }
-  }
-  if (code && code != std::errc::no_such_file_or_directory) {
+  if (code && code != std::errc::no_such_file_or_directory)
     throw disk_error("list " + folder, code.value());
-  }
   return names;
 }
 
 void make_folder(const std::string& path) {
   std::error_code code;
-  if (fs::is_directory(path, code)) {
-    return;
-  }
+  if (fs::is_directory(path, code)) return;
   const fs::path parent = fs::absolute(path).parent_path();
   fs::create_directories(parent, code);
-  if (code || (::mkdir(path.c_str(), S_IRWXU) != 0 && errno != EEXIST)) {
+  if (code || (::mkdir(path.c_str(), S_IRWXU) != 0 && errno != EEXIST))
     throw disk_error("make the folder " + path, code ? code.value() : errno);
-  }
   flush(parent.string());
 }
 
 void flush(const std::string& path) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file) {
-    throw disk_error("flush " + path, errno);
-  }
+  if (!file) throw disk_error("flush " + path, errno);
   flush_file(file, path);
 }
 
@@ -124,24 +110,19 @@ void flush_all(const std::vector<std::string>& paths) {
   {
     std::vector<std::jthread> others;
     try {
-      for (std::size_t i = 1; i < std::min(paths.size(), most_at_once); ++i) {
+      for (std::size_t i = 1; i < std::min(paths.size(), most_at_once); ++i)
         others.emplace_back(work);
-      }
     } catch (const std::system_error&) {
       // No more threads: those there are do the rest.
     }
     work();
   }
-  if (failure) {
-    throw errors::Error(*failure);
-  }
+  if (failure) throw errors::Error(*failure);
 }
 
 std::optional<std::uint64_t> file_size(const std::string& path) noexcept {
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) {
-    return std::nullopt;
-  }
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
   return static_cast<std::uint64_t>(status.st_size);
 }
 
@@ -155,17 +136,13 @@ Descriptor::~Descriptor() {
 
 Descriptor open_to_read(const std::string& path) {
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file && errno != ENOENT) {
-    throw disk_error("open " + path, errno);
-  }
+  if (!file && errno != ENOENT) throw disk_error("open " + path, errno);
   return file;
 }
 
 std::uint64_t file_size(const Descriptor& file, const std::string& path) {
   struct stat status {};
-  if (::fstat(file.get(), &status) != 0) {
-    throw disk_error("read " + path, errno);
-  }
+  if (::fstat(file.get(), &status) != 0) throw disk_error("read " + path, errno);
   return static_cast<std::uint64_t>(status.st_size);
 }
 
@@ -178,9 +155,7 @@ void read_at(const Descriptor& file, const std::string& path, std::uint64_t offs
       throw errors::Error(errors::Reason::storage,
                           path + " is cut off: restore the data folder from a backup");
     }
-    if (count < 0 && errno != EINTR) {
-      throw disk_error("read " + path, errno);
-    }
+    if (count < 0 && errno != EINTR) throw disk_error("read " + path, errno);
     const auto done = static_cast<std::size_t>(std::max<ssize_t>(count, 0));
     offset += done;
     bytes = bytes.subspan(done);
@@ -189,9 +164,7 @@ void read_at(const Descriptor& file, const std::string& path, std::uint64_t offs
 
 std::optional<std::vector<std::byte>> read_file(const std::string& path) {
   const Descriptor file = open_to_read(path);
-  if (!file) {
-    return std::nullopt;
-  }
+  if (!file) return std::nullopt;
   std::vector<std::byte> bytes(static_cast<std::size_t>(file_size(file, path)));
   read_at(file, path, 0, bytes);
   return bytes;
@@ -218,22 +191,16 @@ void replace_file(const std::string& path, std::span<const std::byte> bytes) {
   {
     const Descriptor file(
         ::open(made.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, S_IRUSR | S_IWUSR));
-    if (!file) {
-      throw disk_error("make " + made, errno);
-    }
+    if (!file) throw disk_error("make " + made, errno);
     write_all(file, made, bytes);
     flush_file(file, made);
   }
-  if (::rename(made.c_str(), path.c_str()) != 0) {
-    throw disk_error("rename " + made, errno);
-  }
+  if (::rename(made.c_str(), path.c_str()) != 0) throw disk_error("rename " + made, errno);
   flush(fs::path(path).parent_path().string());
 }
 
 Part::~Part() {
-  if (!_path.empty()) {
-    ::unlink(_path.c_str());  // else the next start does it
-  }
+  if (!_path.empty()) ::unlink(_path.c_str());  // else the next start does it
 }
 
 Files::Files(const std::string& data, FileKind kind, DiskUsage& usage)
@@ -248,27 +215,22 @@ bool Files::is_part(const std::string& path) const {
 
 std::string Files::new_part() const {
   std::string path = _folder + "/" + std::string(part_prefix) + "XXXXXX";
-  if (!Descriptor(::mkostemp(path.data(), O_CLOEXEC))) {
+  if (!Descriptor(::mkostemp(path.data(), O_CLOEXEC)))
     throw disk_error("make a file in " + _folder, errno);
-  }
   return path;
 }
 
 Part Files::write(const Pieces& pieces) const {
   Part part(new_part());
   const Descriptor file = open_to_write(part.path());
-  for (const std::span<const std::byte> piece : pieces) {
-    write_all(file, part.path(), piece);
-  }
+  for (const std::span<const std::byte> piece : pieces) write_all(file, part.path(), piece);
   flush_file(file, part.path());
   return part;
 }
 
 Part Files::copy(const std::string& original) const {
   const Descriptor from = open_to_read(original);
-  if (!from) {
-    throw disk_error("read " + original, ENOENT);
-  }
+  if (!from) throw disk_error("read " + original, ENOENT);
   Part part(new_part());
   const Descriptor to = open_to_write(part.path());
   std::vector<std::byte> buffer(copy_bytes);
@@ -286,29 +248,22 @@ void Files::rename(const std::string& part, const std::string& sha256) {
   const std::string final_path = path(sha256);
   const std::uint64_t replaced = file_size(final_path).value_or(0);
   const std::uint64_t bytes = file_size(part).value_or(0);
-  if (::rename(part.c_str(), final_path.c_str()) != 0) {
-    throw disk_error("rename " + part, errno);
-  }
+  if (::rename(part.c_str(), final_path.c_str()) != 0) throw disk_error("rename " + part, errno);
   _usage.add(_kind, bytes);
   _usage.remove(_kind, replaced);
 }
 
 void Files::link(const std::string& part, const std::string& sha256) {
-  if (::link(part.c_str(), path(sha256).c_str()) == 0) {
+  if (::link(part.c_str(), path(sha256).c_str()) == 0)
     _usage.add(_kind, file_size(part).value_or(0));
-  } else if (errno != EEXIST) {
+  else if (errno != EEXIST)
     throw disk_error("link " + part, errno);
-  }
 }
 
 void Files::remove(const std::string& sha256) {
   const std::optional<std::uint64_t> bytes = file_size(path(sha256));
-  if (!bytes) {
-    return;
-  }
-  if (::unlink(path(sha256).c_str()) != 0) {
-    throw disk_error("remove " + path(sha256), errno);
-  }
+  if (!bytes) return;
+  if (::unlink(path(sha256).c_str()) != 0) throw disk_error("remove " + path(sha256), errno);
   _usage.remove(_kind, *bytes);
 }
 
@@ -325,18 +280,12 @@ std::vector<std::string> Files::sweep(
       continue;
     }
     _usage.add(_kind, file_size(entry->path().string()).value_or(0));
-    if (is_sha256(name) && !wanted(name)) {
-      unwanted.push_back(name);
-    }
+    if (is_sha256(name) && !wanted(name)) unwanted.push_back(name);
   }
-  if (code) {
-    throw disk_error("list " + _folder, code.value());
-  }
-  for (const std::string& name : parts) {
-    if (::unlink(path(name).c_str()) != 0 && errno != ENOENT) {
+  if (code) throw disk_error("list " + _folder, code.value());
+  for (const std::string& name : parts)
+    if (::unlink(path(name).c_str()) != 0 && errno != ENOENT)
       throw disk_error("remove " + path(name), errno);
-    }
-  }
   return unwanted;
 }
 

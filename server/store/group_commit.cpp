@@ -41,16 +41,12 @@ void GroupCommit::run(const Change& change, Flush flush) {
       lock.unlock();
       commit(entries);
       lock.lock();
-      for (Entry* each : entries) {
-        each->done = true;
-      }
+      for (Entry* each : entries) each->done = true;
       _at_work = !entry.done;
       _changed.notify_all();
     }
   }
-  if (entry.error) {
-    throw Error(*entry.error);
-  }
+  if (entry.error) throw Error(*entry.error);
 }
 
 GroupCommit::Entries GroupCommit::take() {
@@ -71,11 +67,8 @@ void GroupCommit::commit(const Entries& entries) {
     transaction.commit();
     _in_doubt = _in_doubt && !changed;
   });
-  for (Entry* entry : entries) {
-    if (failure && !entry->error) {
-      entry->error = failure;
-    }
-  }
+  for (Entry* entry : entries)
+    if (failure && !entry->error) entry->error = failure;
   _in_doubt = _in_doubt || (failure && committing);
   if (!_in_doubt) {
     // What was asked for is done or refused already; cleaning up is tried again after the next.

@@ -36,11 +36,9 @@ std::string identity_in(Connection& connection) {
 /// What a store has left in a folder.
 struct Left {
   explicit Left(const std::string& in) : folder(in), identity(identity_in(in)) {
-    for (const FileKind kind : file_kinds) {
-      for (std::string& name : file_names(folder_of(in, kind))) {
+    for (const FileKind kind : file_kinds)
+      for (std::string& name : file_names(folder_of(in, kind)))
         files.emplace_back(kind, std::move(name));
-      }
-    }
   }
 
   bool anything() const { return !identity.empty() || !files.empty(); }
@@ -71,25 +69,21 @@ struct Left {
 
 void require_database(const std::string& folder) {
   const std::optional<std::uint64_t> bytes = file_size(database_path(folder));
-  if (const Left left(folder); bytes.value_or(0) == 0 && left.anything()) {
+  if (const Left left(folder); bytes.value_or(0) == 0 && left.anything())
     throw left.refused(bytes ? "is empty" : "is missing");
-  }
 }
 
 void require_own(Connection& connection, const std::string& folder) {
   const Left left(folder);
   if (connection.integer("PRAGMA user_version") == 0) {
-    if (left.anything()) {
-      throw left.refused("is empty");
-    }
+    if (left.anything()) throw left.refused("is empty");
     return;
   }
   require_version(connection);
   const std::string identity = identity_in(connection);
   if (!left.identity.empty()) {
-    if (identity != left.identity) {
+    if (identity != left.identity)
       throw left.refused("is another store's (" + identity + ", not " + left.identity + ")");
-    }
   } else if (!left.files.empty() && std::ranges::none_of(left.files, [&](const auto& file) {
                return is_referenced(connection, file.first, file.second);
              })) {
@@ -99,9 +93,8 @@ void require_own(Connection& connection, const std::string& folder) {
 
 void keep_identity(Connection& connection, const std::string& folder) {
   const std::string identity = identity_in(connection);
-  if (identity != identity_in(folder)) {
+  if (identity != identity_in(folder))
     replace_file(identity_path(folder), std::as_bytes(std::span(identity)));
-  }
 }
 
 }  // namespace anticrack::store

@@ -24,9 +24,8 @@ template <class Record, class Read>
 auto decoded(std::string_view bytes, const Read& read) {
   Record record;
   if (bytes.size() > std::size_t{std::numeric_limits<int>::max()} ||
-      !record.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
+      !record.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
     throw damaged_record("it cannot be parsed");
-  }
   try {
     return read(record);
   } catch (const Error& error) {

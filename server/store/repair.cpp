@@ -17,21 +17,16 @@ namespace {
 std::string make_new_folder(const std::string& folder) {
   for (int number = 1;; ++number) {
     std::string path = folder + "/set-aside-" + std::to_string(number);
-    if (::mkdir(path.c_str(), S_IRWXU) == 0) {
-      return path;
-    }
-    if (errno != EEXIST) {
-      throw disk_error("make the folder " + path, errno);
-    }
+    if (::mkdir(path.c_str(), S_IRWXU) == 0) return path;
+    if (errno != EEXIST) throw disk_error("make the folder " + path, errno);
   }
 }
 
 /// Nothing to do where there is no such file.
 void move(const std::string& name, const std::string& from, const std::string& to) {
   make_folder(to);
-  if (std::rename((from + "/" + name).c_str(), (to + "/" + name).c_str()) != 0 && errno != ENOENT) {
+  if (std::rename((from + "/" + name).c_str(), (to + "/" + name).c_str()) != 0 && errno != ENOENT)
     throw disk_error("rename " + from + "/" + name, errno);
-  }
   flush(to);
   flush(from);
 }
@@ -44,12 +39,9 @@ void remove_records(Connection& connection, const CheckedStore& checked) {
         .bind(std::string_view(name.second))
         .run();
   };
-  for (const CheckedStore::Name& record : checked.damaged) {
+  for (const CheckedStore::Name& record : checked.damaged)
     remove(record, table_of(record.first).id);
-  }
-  for (const CheckedStore::Name& file : checked.lost) {
-    remove(file, table_of(file.first).file);
-  }
+  for (const CheckedStore::Name& file : checked.lost) remove(file, table_of(file.first).file);
   connection.execute("DELETE FROM job_uploads WHERE job NOT IN (SELECT number FROM jobs)");
   transaction.commit();
 }
@@ -58,13 +50,10 @@ void remove_records(Connection& connection, const CheckedStore& checked) {
 
 std::string repair(const std::string& folder, const CheckedStore& checked) {
   std::optional<Connection> database;
-  if (checked.has_database) {
-    require_sound(database.emplace(database_path(folder)));
-  }
+  if (checked.has_database) require_sound(database.emplace(database_path(folder)));
   const std::string aside = make_new_folder(folder);
-  for (const auto& [kind, name] : checked.spare) {
+  for (const auto& [kind, name] : checked.spare)
     move(name, folder_of(folder, kind), folder_of(aside, kind));
-  }
   move("identity", folder, aside);  // the next start takes the database's, or makes another
   if (database) {
     const std::string copy = database_path(aside);
@@ -72,9 +61,8 @@ std::string repair(const std::string& folder, const CheckedStore& checked) {
     flush(copy);
     remove_records(*database, checked);
   } else {
-    for (const char* name : {"anticrack.db", "anticrack.db-wal", "anticrack.db-shm"}) {
+    for (const char* name : {"anticrack.db", "anticrack.db-wal", "anticrack.db-shm"})
       move(name, folder, aside);
-    }
   }
   return aside;
 }

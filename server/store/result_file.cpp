@@ -73,23 +73,17 @@ std::shared_ptr<const BlockSource> open_at(Read read, std::uint64_t size, const 
   std::array<std::byte, magic.size() + lengths> start{};
   read(0, start);
   const std::uint32_t length = number_at(start.data() + magic.size());
-  if (std::memcmp(start.data(), magic.data(), magic.size()) != 0 || length > max_header) {
+  if (std::memcmp(start.data(), magic.data(), magic.size()) != 0 || length > max_header)
     throw damaged(place);
-  }
   std::string bytes(length, '\0');
   read(start.size(), std::as_writable_bytes(std::span(bytes)));
   if (crc32c(std::as_bytes(std::span(bytes))) !=
-      number_at(start.data() + magic.size() + sizeof length)) {
+      number_at(start.data() + magic.size() + sizeof length))
     throw damaged(place);
-  }
-  if (!name.empty() && Sha256().add(start).add(bytes).finish() != name) {
-    throw damaged(place);
-  }
+  if (!name.empty() && Sha256().add(start).add(bytes).finish() != name) throw damaged(place);
   v1::BlockLayout layout;
   const std::uint64_t begin = start.size() + length;
-  if (!layout.ParseFromString(bytes) || size != begin + layout.size()) {
-    throw damaged(place);
-  }
+  if (!layout.ParseFromString(bytes) || size != begin + layout.size()) throw damaged(place);
   try {
     return std::make_shared<StoredBlock>(std::move(read), begin, layout);
   } catch (const Error&) {
@@ -102,9 +96,8 @@ std::shared_ptr<const BlockSource> open_at(Read read, std::uint64_t size, const 
 std::string result_header(const Block& block) {
   const std::string bytes =
       api::serialized(api::layout_of(block.arrays, block.bytes.size(), block.sha256));
-  if (bytes.size() > max_header) {
+  if (bytes.size() > max_header)
     throw std::length_error("the layout of a result takes more than 16 MB");
-  }
   return std::string(magic) + number_bytes(static_cast<std::uint32_t>(bytes.size())) +
          number_bytes(crc32c(std::as_bytes(std::span(bytes)))) + bytes;
 }
@@ -124,9 +117,7 @@ std::shared_ptr<const BlockSource> open_result(std::string stored, const std::st
   const std::uint64_t size = stored.size();
   auto block = open_at(
       [stored = std::move(stored), place](std::uint64_t offset, std::span<std::byte> bytes) {
-        if (offset > stored.size() || bytes.size() > stored.size() - offset) {
-          throw damaged(place);
-        }
+        if (offset > stored.size() || bytes.size() > stored.size() - offset) throw damaged(place);
         std::memcpy(bytes.data(), stored.data() + offset, bytes.size());
       },
       size, place, {});
@@ -138,9 +129,7 @@ void require_whole(const BlockSource& block, const std::string& place) {
   const auto read = [&](std::uint64_t offset, std::span<std::byte> bytes) {
     block.read(offset, bytes);
   };
-  if (sha256_of(block.size(), read) != block.sha256()) {
-    throw damaged(place);
-  }
+  if (sha256_of(block.size(), read) != block.sha256()) throw damaged(place);
 }
 
 }  // namespace anticrack::store

@@ -20,9 +20,7 @@ auto read(const Row& row, FileKind kind, const Decode& decode) {
   require_intact(row, kind);
   try {
     auto record = decode(row.record);
-    if (record.id != row.id) {
-      throw damaged_record("it belongs to " + record.id);
-    }
+    if (record.id != row.id) throw damaged_record("it belongs to " + record.id);
     return record;
   } catch (const Error& error) {
     throw damaged(row, kind, error);
@@ -67,18 +65,14 @@ Row row_at(Statement& select) {
 
 std::optional<Row> find_row(Connection& connection, FileKind kind, const std::string& id) {
   Statement select = connection.prepare(select_rows(kind) + " WHERE id = ?");
-  if (!select.bind(std::string_view(id)).step()) {
-    return std::nullopt;
-  }
+  if (!select.bind(std::string_view(id)).step()) return std::nullopt;
   Row row = row_at(select);
   row.id = id;  // a damaged index leads to another's row
   return row;
 }
 
 void require_intact(const Row& row, FileKind kind) {
-  if (!row.intact) {
-    throw damaged(row, kind, damaged_record("its checksum is wrong"));
-  }
+  if (!row.intact) throw damaged(row, kind, damaged_record("its checksum is wrong"));
 }
 
 MeshRecord read_mesh(const Row& row) {

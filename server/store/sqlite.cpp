@@ -43,9 +43,7 @@ Statement::~Statement() {
 }
 
 Statement& Statement::checked(int code) {
-  if (code != SQLITE_OK) {
-    throw _connection.error(code);
-  }
+  if (code != SQLITE_OK) throw _connection.error(code);
   return *this;
 }
 
@@ -68,9 +66,7 @@ Statement& Statement::bind_null() {
 
 bool Statement::step() {
   const int code = sqlite3_step(_statement);
-  if (code != SQLITE_ROW && code != SQLITE_DONE) {
-    throw _connection.error(code);
-  }
+  if (code != SQLITE_ROW && code != SQLITE_DONE) throw _connection.error(code);
   return code == SQLITE_ROW;
 }
 
@@ -96,13 +92,9 @@ Connection::Connection(std::string path) : _path(std::move(path)) {
       sqlite3_open_v2(_path.c_str(), &database,
                       SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, nullptr);
   _database.reset(database);
-  if (database == nullptr) {
-    throw std::bad_alloc();
-  }
+  if (database == nullptr) throw std::bad_alloc();
   sqlite3_extended_result_codes(database, 1);
-  if (code != SQLITE_OK) {
-    throw error(code);
-  }
+  if (code != SQLITE_OK) throw error(code);
   if (sqlite3_db_readonly(database, "main") != 0) {
     // SQLite's way out when it may not, or just now cannot, open the file for writing.
     throw error(SQLITE_READONLY);
@@ -120,18 +112,14 @@ Statement Connection::prepare(const std::string& sql) {
         sqlite3_prepare_v3(_database.get(), sql.c_str(), static_cast<int>(sql.size()) + 1,
                            SQLITE_PREPARE_PERSISTENT, &compiled, nullptr);
     statement.reset(compiled);
-    if (code != SQLITE_OK) {
-      throw error(code);
-    }
+    if (code != SQLITE_OK) throw error(code);
   }
   return {*this, statement.get()};
 }
 
 void Connection::execute(const std::string& sql) {
   const int code = sqlite3_exec(_database.get(), sql.c_str(), nullptr, nullptr, nullptr);
-  if (code != SQLITE_OK) {
-    throw error(code);
-  }
+  if (code != SQLITE_OK) throw error(code);
 }
 
 std::int64_t Connection::integer(const std::string& sql) {
@@ -164,9 +152,8 @@ Error Connection::error(int code) const {
       return disk_full(what);
     case SQLITE_IOERR:
     case SQLITE_CANTOPEN:
-      if (no_space(of_system) || no_space(sqlite3_system_errno(_database.get()))) {
+      if (no_space(of_system) || no_space(sqlite3_system_errno(_database.get())))
         return disk_full(what);
-      }
       return {Reason::storage, what + "; check that the data folder is there, writable and sound"};
     case SQLITE_BUSY:
     case SQLITE_LOCKED:

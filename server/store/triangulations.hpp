@@ -27,9 +27,7 @@ class Triangulations {
     const std::lock_guard lock(_mutex);
     std::erase_if(_held, [](const auto& item) { return item.second.expired(); });
     auto& held = _held[sha256];
-    if (Pointer first = held.lock()) {
-      return first;
-    }
+    if (Pointer first = held.lock()) return first;
     held = mesh;
     return mesh;
   }

@@ -34,11 +34,9 @@ int main(int argc, char** argv) try {
     const std::string& phase = event.phase().detail();
     if (!phase.empty()) std::cout << phase << std::endl;
   });
-  for (const v1::LoadCaseAnswer& answer : job.answers()) {
-    for (const v1::InclusionAnswer& inclusion : answer.inclusions()) {
+  for (const v1::LoadCaseAnswer& answer : job.answers())
+    for (const v1::InclusionAnswer& inclusion : answer.inclusions())
       std::cout << answer.name() << ": A = " << inclusion.displacement() << '\n';
-    }
-  }
   if (job.state() != v1::Job::STATE_SUCCEEDED) throw std::runtime_error(job.error().message());
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';
