@@ -42,8 +42,9 @@ TEST(Tokens, AreNotTheirHashesNorParts) {
   const TokenTable table = TokenTable::parse(line("ada", "user", "secret"), "tokens.txt");
   for (const std::string& wrong :
        {std::string(), std::string("secre"), std::string("secret "), std::string("SECRET"),
-        hash_of("secret"), std::string("secret\0", 7)})
+        hash_of("secret"), std::string("secret\0", 7)}) {
     EXPECT_FALSE(table.find(wrong)) << wrong;
+  }
 }
 
 TEST(Tokens, NobodyHasAnyInAnEmptyTable) {

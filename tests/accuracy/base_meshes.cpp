@@ -16,7 +16,9 @@ mesh::Mesh diagonals(mesh::Kind condition) {
   options.columns = 8;
   options.rows = 4;
   options.kind = [condition](double x) { return std::abs(x) < 0.5 ? condition : mesh::Kind::glue; };
-  if (condition == mesh::Kind::crack) options.inclusions.clear();
+  if (condition == mesh::Kind::crack) {
+    options.inclusions.clear();
+  }
   return testing::structured_mesh(options);
 }
 
@@ -31,7 +33,9 @@ mesh::Mesh shaken(unsigned seed) {
   std::uniform_int_distribution<int> step(-56, 56);
   for (std::size_t i = 0; i < mesh.node_count(); ++i) {
     double &x = mesh.xy[2 * i], &y = mesh.xy[2 * i + 1];
-    if (std::abs(x) == 1 || std::abs(y) == 1) continue;
+    if (std::abs(x) == 1 || std::abs(y) == 1) {
+      continue;
+    }
     const double dx = std::ldexp(step(random), -10), dy = std::ldexp(step(random), -10);
     if (y != 0) {
       x += dx;
@@ -64,10 +68,12 @@ mesh::Mesh turned(mesh::Mesh mesh) {
 }
 
 mesh::Mesh mirrored(mesh::Mesh mesh, Mirror mirror) {
-  for (std::size_t i = mirror == Mirror::x ? 0 : 1; i < mesh.xy.size(); i += 2)
+  for (std::size_t i = mirror == Mirror::x ? 0 : 1; i < mesh.xy.size(); i += 2) {
     mesh.xy[i] = -mesh.xy[i];
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+  }
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     std::swap(mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]);
+  }
   return turned(std::move(mesh));
 }
 

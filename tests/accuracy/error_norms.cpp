@@ -76,7 +76,9 @@ double energy_error(const mesh::Mesh& mesh, const contact::Answer& answer,
                                      std::vector<double>(mesh.node_count()));
   for (std::size_t s = 0; s < u.size(); ++s) {
     const contact::Field& field = answer.fields.at(s);
-    for (std::size_t i = 0; i < field.nodes.size(); ++i) u[s][at(field.nodes[i])] = field.u[i];
+    for (std::size_t i = 0; i < field.nodes.size(); ++i) {
+      u[s][at(field.nodes[i])] = field.u[i];
+    }
   }
   return energy_distance(mesh, exact, [&](std::size_t t, const std::array<Complex, 3>& corner) {
     const std::vector<double>& values = u[at(mesh.subdomain[t])];
@@ -102,7 +104,9 @@ JumpError jump_error(const mesh::Mesh& mesh, const contact::Answer& answer,
   double sum = 0;
   for (std::size_t e = 0; e < line.kind.size(); ++e) {
     const double begin = mesh.xy[2 * at(line.nodes[e])], end = mesh.xy[2 * at(line.nodes[e + 1])];
-    if (std::abs(0.5 * (begin + end)) > crack_end) continue;
+    if (std::abs(0.5 * (begin + end)) > crack_end) {
+      continue;
+    }
     error.largest = std::max(error.largest, std::abs(jump[e + 1] - exact.jump(end)));
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double s = points[i];

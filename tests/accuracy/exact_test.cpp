@@ -33,8 +33,9 @@ Errors measure(mesh::Mesh mesh, double h, const testing::ExactSolution& exact) {
   Errors errors;
   errors.h = h;
   errors.triangles = op->mesh().triangle_count();
-  if (!answer.inclusions.empty())
+  if (!answer.inclusions.empty()) {
     errors.a = std::abs(answer.inclusions[0].displacement - exact.displacement);
+  }
   errors.energy = energy_error(op->mesh(), answer, exact);
   errors.jump = jump_error(op->mesh(), answer, exact);
   errors.contact_length = answer.contact_length;
@@ -60,8 +61,9 @@ void print(const char* title, const std::vector<Errors>& sequence) {
 /// Five meshes, h0 = 0.8 to 0.05: four refinements.
 std::vector<Errors> graded(const mesh::Mesh& base, double m, const testing::ExactSolution& exact) {
   std::vector<Errors> sequence;
-  for (double h0 = 0.8; h0 > 0.04; h0 /= 2)
+  for (double h0 = 0.8; h0 > 0.04; h0 /= 2) {
     sequence.push_back(measure(mesh::grade(base, {h0, m, 0}, limit), h0, exact));
+  }
   return sequence;
 }
 
@@ -135,8 +137,9 @@ TEST(OpenCrack, GradedHasTheRatesOfSmoothSolutions) {
 TEST(OpenCrack, UniformShowsTheExponentOfTheTip) {
   const auto sequence = uniform(diagonals(mesh::Kind::crack), testing::open_crack(0.8));
   print("open crack, uniform", sequence);
-  for (std::size_t i = 2; i < sequence.size(); ++i)
+  for (std::size_t i = 2; i < sequence.size(); ++i) {
     EXPECT_NEAR(rate(sequence[i - 1].energy, sequence[i].energy), 0.5, 0.05);
+  }
 }
 
 class ClosedCrack : public ::testing::TestWithParam<mesh::Kind> {};
@@ -164,7 +167,9 @@ TEST_P(ClosedCrack, IsExactOnEveryMesh) {
     for (std::size_t i = 1; i + 1 < at.x.size(); ++i) {
       const double share = 0.5 * (at.s[i + 1] - at.s[i - 1]);
       force = std::max(force, share * std::abs(trace.pressure[i] - c));
-      if (share > 1e-3) pressure = std::max(pressure, std::abs(trace.pressure[i] - c));
+      if (share > 1e-3) {
+        pressure = std::max(pressure, std::abs(trace.pressure[i] - c));
+      }
       const bool inside = std::abs(at.x[i]) < testing::crack_end;
       nodes += inside ? 1 : 0;
       closed += inside && trace.contact[i] != 0 ? 1 : 0;
@@ -180,7 +185,9 @@ TEST_P(ClosedCrack, IsExactOnEveryMesh) {
     EXPECT_LT(pressure, 1e-9);
     EXPECT_LT(energy, 1e-12);
     EXPECT_EQ(closed, nodes);
-    if (rigid) EXPECT_NEAR(answer.inclusions.at(0).displacement, shift, 1e-12);
+    if (rigid) {
+      EXPECT_NEAR(answer.inclusions.at(0).displacement, shift, 1e-12);
+    }
   }
 }
 

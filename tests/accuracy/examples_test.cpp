@@ -48,8 +48,9 @@ double extrapolated(const std::vector<Row>& rows, double coarse, double fine) {
 const std::vector<Row>& rows() {
   static const auto made = [] {
     std::vector<Row> sequence;
-    for (double h0 = 0.2; h0 > 0.02; h0 /= 2)
+    for (double h0 = 0.2; h0 > 0.02; h0 /= 2) {
       sequence.push_back(solve_examples(mesh::grade(diagonals(), {h0, m, 0}, 2'000'000), h0));
+    }
     return sequence;
   }();
   return made;
@@ -151,8 +152,9 @@ TEST(PaperExamples, ThirdIsAsGoodOnTheMeshesOfTheService) {
        {Aim{chosen, 12'000, 5e-3}, Aim{0.105, 20'000, 4e-3}, Aim{0.05, 80'000, 1e-3}}) {
     const Row row = solve_examples(generated(aim.h0), aim.h0);
     std::printf("[ figures  ] generated, h0 = %.3f, %zu triangles:", row.h0, row.triangles);
-    for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t i = 0; i < 4; ++i) {
       std::printf(" A%zu %.8f (%.1e)", i + 1, row.a[i], off(row.a[i], a_limits[i]));
+    }
     std::printf("; energy of 3 %.8f\n", row.energy[2]);
     EXPECT_LE(row.triangles, aim.triangles);
     EXPECT_LT(off(row.a[2], 0.10383), aim.tolerance);

@@ -28,24 +28,37 @@ mesh::Mesh half_plane() {
   mesh.subdomains = {"box", "upper"};
   mesh.inclusions = {"stiffener"};
   const auto node = [](int i, int j) { return j < 0 ? 45 + i - 2 : 9 * j + i; };
-  for (int j = 0; j <= 4; ++j)
-    for (int i = 0; i <= 8; ++i) mesh.xy.insert(mesh.xy.end(), {-1 + 0.25 * i, 0.25 * j});
-  for (int i = 2; i <= 6; ++i) mesh.xy.insert(mesh.xy.end(), {-1 + 0.25 * i, -0.25});
+  for (int j = 0; j <= 4; ++j) {
+    for (int i = 0; i <= 8; ++i) {
+      mesh.xy.insert(mesh.xy.end(), {-1 + 0.25 * i, 0.25 * j});
+    }
+  }
+  for (int i = 2; i <= 6; ++i) {
+    mesh.xy.insert(mesh.xy.end(), {-1 + 0.25 * i, -0.25});
+  }
   const auto square = [&](int i, int j) {
     const int a = node(i, j), b = node(i + 1, j), c = node(i + 1, j + 1), d = node(i, j + 1);
     mesh.triangles.insert(mesh.triangles.end(), {a, b, c, a, c, d});
     mesh.subdomain.insert(mesh.subdomain.end(), 2, j < 0 ? 0 : 1);
   };
-  for (int i = 2; i < 6; ++i) square(i, -1);
+  for (int i = 2; i < 6; ++i) {
+    square(i, -1);
+  }
   for (int j = 0; j < 4; ++j) {
-    for (int i = 0; i < 8; ++i) square(i, j);
+    for (int i = 0; i < 8; ++i) {
+      square(i, j);
+    }
     mesh.dirichlet.push_back({node(0, j + 1), node(0, j)});
     mesh.dirichlet.push_back({node(8, j), node(8, j + 1)});
   }
-  for (int i = 0; i < 8; ++i) mesh.dirichlet.push_back({node(i + 1, 4), node(i, 4)});
+  for (int i = 0; i < 8; ++i) {
+    mesh.dirichlet.push_back({node(i + 1, 4), node(i, 4)});
+  }
   mesh::Interface interface;
   interface.name = "sigma";
-  for (int i = 2; i <= 6; ++i) interface.nodes.push_back(node(i, 0));
+  for (int i = 2; i <= 6; ++i) {
+    interface.nodes.push_back(node(i, 0));
+  }
   interface.kind.assign(4, mesh::Kind::inclusion);
   interface.inclusion.assign(4, 0);
   mesh.interfaces.push_back(interface);

@@ -26,14 +26,18 @@ mesh::Mesh graded_like_default(const mesh::Mesh& base) {
 /// f(-x, y) or f(x, -y).
 std::string reflected(std::string text, Mirror mirror) {
   const char variable = mirror == Mirror::x ? 'x' : 'y';
-  for (std::size_t i = text.find(variable); i != std::string::npos; i = text.find(variable, i + 4))
+  for (std::size_t i = text.find(variable); i != std::string::npos;
+       i = text.find(variable, i + 4)) {
     text.replace(i, 1, std::string("(-") + variable + ")");
+  }
   return text;
 }
 
 double largest(const std::vector<double>& values) {
   double result = 0;
-  for (const double value : values) result = std::max(result, std::abs(value));
+  for (const double value : values) {
+    result = std::max(result, std::abs(value));
+  }
   return result;
 }
 
@@ -122,13 +126,15 @@ INSTANTIATE_TEST_SUITE_P(Paper, Example, ::testing::Range<std::size_t>(0, 4),
 fem::Force middles(const mesh::Mesh& mesh, std::size_t example) {
   const auto at = [&](std::size_t t, std::size_t axis) {
     double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k) {
       sum += mesh.xy[2 * static_cast<std::size_t>(mesh.triangles[3 * t + k]) + axis];
+    }
     return sum / 3;
   };
   auto values = std::make_shared<std::vector<double>>(mesh.triangle_count());
-  for (std::size_t t = 0; t < values->size(); ++t)
+  for (std::size_t t = 0; t < values->size(); ++t) {
     (*values)[t] = at(t, 0) * (example == 1 ? at(t, 1) : -1) < 0 ? -1 : 1;
+  }
   fem::Array array;
   array.per_triangle = true;
   array.values = values;

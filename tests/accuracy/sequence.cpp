@@ -14,8 +14,9 @@ using anticrack::testing::Silent;
 contact::Answer solve(const operators::MeshOperator& op, const fem::Load& load, bool fields) {
   Silent silent;
   contact::Answer answer = op.solve(load, contact::ActiveSetOptions{}, fields, silent);
-  if (answer.status != contact::Status::converged)
+  if (answer.status != contact::Status::converged) {
     throw std::runtime_error("not converged: " + answer.reason);
+  }
   return answer;
 }
 

@@ -165,7 +165,9 @@ TEST(Config, IsWrittenSoThatItIsReadBack) {
   const Config again = make_config(parse_config(text, "c.toml"), {});
   EXPECT_EQ(again.store.folder, config.store.folder);
   EXPECT_EQ(to_toml(again), text);
-  for (const Key& key : keys()) EXPECT_THAT(text, HasSubstr(key.name + " = "));
+  for (const Key& key : keys()) {
+    EXPECT_THAT(text, HasSubstr(key.name + " = "));
+  }
 }
 
 }  // namespace

@@ -63,7 +63,9 @@ TEST_F(DaemonsEnd, IsLoggedAsJson) {
   EXPECT_THAT(log, HasSubstr(R"("event":"metrics","url":"http://127.0.0.1:)"));
   EXPECT_THAT(log, HasSubstr(R"("event":"stopped"})"));
   std::istringstream lines(log);
-  for (std::string line; std::getline(lines, line);) EXPECT_THAT(line, StartsWith("{\"time\":\""));
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_THAT(line, StartsWith("{\"time\":\""));
+  }
 }
 
 TEST_F(DaemonsEnd, SaysInTheLogWhyItDidNotStart) {

@@ -108,8 +108,9 @@ TEST_F(Daemon, ChecksTheFilesOfItsConfigurationAndNamesEachBadOne) {
         "tls-key: " + path("none.key") + " cannot be read",
         std::string("tls-client-roots: holds no certificate"),
         "tokens: " + path("tokens") + ", line 1",
-        "data-dir: " + path("file") + "/data: ", std::string("--mesher PATH")})
+        "data-dir: " + path("file") + "/data: ", std::string("--mesher PATH")}) {
     EXPECT_THAT(check.error(), HasSubstr(flaw));
+  }
 }
 
 TEST_F(Daemon, RefusesABadConfigurationInOneLine) {

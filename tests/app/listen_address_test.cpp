@@ -37,14 +37,16 @@ TEST(ListenAddress, IsTakenApart) {
 
 TEST(ListenAddress, OfOtherFormsIsRefused) {
   for (const std::string text : {"", "7433", ":7433", "localhost", "localhost:", "localhost:x",
-                                 "localhost:65536", "::1:7433", "a b:1", "unix:", "dns:///a:1"})
+                                 "localhost:65536", "::1:7433", "a b:1", "unix:", "dns:///a:1"}) {
     EXPECT_THROW(parse_listen_address(text), std::invalid_argument) << text;
+  }
   EXPECT_THROW(parse_listen_address("unix:/" + std::string(200, 'a')), std::invalid_argument);
 }
 
 TEST(ListenAddress, IsLocalOnLoopbackOnly) {
-  for (const char* text : {"localhost:1", "127.0.0.1:1", "127.9.8.7:1", "[::1]:1", "unix:/a"})
+  for (const char* text : {"localhost:1", "127.0.0.1:1", "127.9.8.7:1", "[::1]:1", "unix:/a"}) {
     EXPECT_TRUE(is_local(parse_listen_address(text))) << text;
+  }
   for (const char* text : {"0.0.0.0:1", "[::]:1", "192.168.0.1:1", "example.org:1", "*:1",
                            "127.0.0.1.example.org:1"}) {
     const ListenAddress address = parse_listen_address(text);

@@ -34,18 +34,22 @@ struct LabelledEdge {
 /// Edges of the mesh that both end in the subdomain: 1 on the outer boundary, 2 on the inclusion.
 std::vector<LabelledEdge> labelled_edges(const PlainMesh& mesh, const ddm::Subdomain& part) {
   std::vector<std::int32_t> local(mesh.node_count(), -1);
-  for (std::size_t i = 0; i < part.node.size(); ++i)
+  for (std::size_t i = 0; i < part.node.size(); ++i) {
     local[at(part.node[i])] = static_cast<std::int32_t>(i);
+  }
   std::vector<LabelledEdge> edges;
   const auto add = [&](std::int32_t a, std::int32_t b, int label) {
-    if (local[at(a)] >= 0 && local[at(b)] >= 0)
+    if (local[at(a)] >= 0 && local[at(b)] >= 0) {
       edges.push_back({local[at(a)], local[at(b)], label});
+    }
   };
-  for (std::size_t e = 0; e < mesh.dirichlet.size(); e += 2)
+  for (std::size_t e = 0; e < mesh.dirichlet.size(); e += 2) {
     add(mesh.dirichlet[e], mesh.dirichlet[e + 1], 1);
+  }
   for (const PlainMesh::Chain& chain : mesh.chains) {
-    for (std::size_t e = 0; e < chain.kind.size(); ++e)
+    for (std::size_t e = 0; e < chain.kind.size(); ++e) {
       if (chain.kind[e] != kind_glue) add(chain.nodes[e], chain.nodes[e + 1], 2);
+    }
   }
   return edges;
 }
@@ -57,8 +61,9 @@ void write_mesh(const std::filesystem::path& path, const PlainMesh& mesh,
   const std::vector<std::int32_t>& triangles = part.part.triangles;
   std::ofstream file = create(path);
   file << part.node.size() << ' ' << triangles.size() / 3 << ' ' << edges.size() << '\n';
-  for (std::size_t i = 0; i < part.node.size(); ++i)
+  for (std::size_t i = 0; i < part.node.size(); ++i) {
     file << xy[2 * i] << ' ' << xy[2 * i + 1] << " 0\n";
+  }
   for (std::size_t t = 0; t < triangles.size(); t += 3) {
     file << triangles[t] + 1 << ' ' << triangles[t + 1] + 1 << ' ' << triangles[t + 2] + 1
          << " 0\n";
@@ -93,8 +98,9 @@ void run(const Options& options) {
   const auto rigid = [](const ddm::Subdomain& part) {
     return std::any_of(part.rigid.begin(), part.rigid.end(), [](std::int32_t j) { return j >= 0; });
   };
-  if (parts.subdomains.size() != 2 || mesh->inclusions.size() != 1)
+  if (parts.subdomains.size() != 2 || mesh->inclusions.size() != 1) {
     throw std::runtime_error("Algorithm 2 is for two subdomains and one inclusion");
+  }
   // Omega_1 of the paper is the minus side.
   const std::size_t first = at(parts.pairs.at(0).minus), second = 1 - first;
   const ddm::Subdomain& omega1 = parts.subdomains[first];

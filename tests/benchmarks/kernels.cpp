@@ -47,8 +47,9 @@ class Bench {
     std::vector<const fem::Load*> pointers;
     for (const fem::Load& load : all) pointers.push_back(&load);
     std::vector<operators::PreparedLoad> result;
-    for (auto& load : whole->prepare(pointers))
+    for (auto& load : whole->prepare(pointers)) {
       result.push_back(std::get<operators::PreparedLoad>(std::move(load)));
+    }
     return result;
   }
 
@@ -93,9 +94,11 @@ void forward_solve(benchmark::State& state, const Bench& bench) {
     loads.push_back(
         Eigen::MatrixXd::Random(static_cast<Eigen::Index>(part.free()), columns_of(state)));
   }
-  for (auto _ : state)
-    for (std::size_t s = 0; s < loads.size(); ++s)
+  for (auto _ : state) {
+    for (std::size_t s = 0; s < loads.size(); ++s) {
       benchmark::DoNotOptimize(bench.operators[s].factor().forward(loads[s]).data());
+    }
+  }
   state.SetItemsProcessed(state.iterations() * columns_of(state));
 }
 
@@ -120,9 +123,11 @@ void sweep_rows(benchmark::State& state, const Bench& bench) {
   for (const fem::Load& load : loads) pointers.push_back(&load);
   const auto basis = bench.whole->basis(pointers);
   std::vector<double> coefficients;
-  for (std::size_t k = 0; k < rows; ++k)
-    for (int j = 0; j < columns_of(state); ++j)
+  for (std::size_t k = 0; k < rows; ++k) {
+    for (int j = 0; j < columns_of(state); ++j) {
       coefficients.push_back(combination(static_cast<int>(k), j));
+    }
+  }
   contact::SweepColumns columns(rows, bench.mesh->inclusions.size(),
                                 bench.whole->contact_nodes().size());
   for (auto _ : state) {
@@ -164,13 +169,16 @@ void enrol(const Bench& bench) {
   const auto with = [&bench](void (*kernel)(benchmark::State&, const Bench&)) {
     return [kernel, &bench](benchmark::State& state) { kernel(state, bench); };
   };
-  for (const int columns : {1, 8, 32})
+  for (const int columns : {1, 8, 32}) {
     benchmark::RegisterBenchmark("uzawa_iteration", with(uzawa_iteration))->Arg(columns);
-  for (const int columns : {1, 8, 32})
+  }
+  for (const int columns : {1, 8, 32}) {
     benchmark::RegisterBenchmark("forward_solve", with(forward_solve))->Arg(columns);
+  }
   benchmark::RegisterBenchmark("active_set", with(active_set));
-  for (const int loads : {1, 8, 32})
+  for (const int loads : {1, 8, 32}) {
     benchmark::RegisterBenchmark("sweep_256_rows", with(sweep_rows))->Arg(loads);
+  }
   benchmark::RegisterBenchmark("event_log_append", event_log_append);
   benchmark::RegisterBenchmark("event_log_read", event_log_read)->Arg(1024);
 }

@@ -33,8 +33,9 @@ struct Options {
 double sum_of(const double* a, std::size_t n) {
   constexpr std::size_t lanes = 8;  // enough sums at once to wait for memory only
   double sums[lanes] = {};
-  for (std::size_t i = 0; i + lanes <= n; i += lanes)
+  for (std::size_t i = 0; i + lanes <= n; i += lanes) {
     for (std::size_t k = 0; k < lanes; ++k) sums[k] += a[i + k];
+  }
   double sum = 0;
   for (const double s : sums) sum += s;
   return sum;
@@ -49,8 +50,9 @@ void in_parallel(int threads, std::size_t n,
                  const std::function<void(std::size_t, std::size_t)>& part) {
   const std::size_t share = n / static_cast<std::size_t>(threads);
   std::vector<std::thread> others;
-  for (int t = 1; t < threads; ++t)
+  for (int t = 1; t < threads; ++t) {
     others.emplace_back(part, static_cast<std::size_t>(t) * share, share);
+  }
   part(0, share);
   for (std::thread& thread : others) thread.join();
 }

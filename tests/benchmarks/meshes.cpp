@@ -93,9 +93,10 @@ void run(const Options& options) {
   if (options.paper) keep("paper", make(options.helper, testing::paper_options()));
   const auto keep_all = [&](const std::string& stem, mesh::Preset preset,
                             const std::vector<double>& counts) {
-    for (const double triangles : counts)
+    for (const double triangles : counts) {
       keep(stem + std::to_string(static_cast<long long>(triangles)),
            of_triangles(options.helper, preset, triangles));
+    }
   };
   keep_all("graded-", mesh::Preset::graded, options.graded);
   keep_all("uniform-", mesh::Preset::uniform, options.uniform);

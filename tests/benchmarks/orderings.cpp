@@ -116,8 +116,9 @@ Figures measure(const std::vector<Part>& parts, int repetitions, Cholmod& cholmo
     for (std::size_t s = 0; s < parts.size(); ++s) orders[s] = order(parts[s]);
     watch.stop(sums.ordering);
   }
-  for (std::size_t s = 0; s < parts.size(); ++s)
+  for (std::size_t s = 0; s < parts.size(); ++s) {
     cholmod.count(parts[s].whole, std::move(orders[s]), sums);
+  }
   return sums.figures();
 }
 

@@ -8,14 +8,18 @@
 namespace anticrack::benchmarks {
 
 PlainMesh to_plain(const mesh::Mesh& mesh) {
-  if (std::any_of(mesh.tension.begin(), mesh.tension.end(), [](double t) { return t != 1; }))
+  if (std::any_of(mesh.tension.begin(), mesh.tension.end(), [](double t) { return t != 1; })) {
     throw std::runtime_error("a mesh of the benchmarks has tension 1");
+  }
   PlainMesh plain{mesh.xy, mesh.triangles, mesh.subdomain, {}, {}};
-  for (const auto& [a, b] : mesh.dirichlet) plain.dirichlet.insert(plain.dirichlet.end(), {a, b});
+  for (const auto& [a, b] : mesh.dirichlet) {
+    plain.dirichlet.insert(plain.dirichlet.end(), {a, b});
+  }
   for (const mesh::Interface& interface : mesh.interfaces) {
     PlainMesh::Chain chain{interface.nodes, {}, interface.inclusion};
-    for (const mesh::Kind kind : interface.kind)
+    for (const mesh::Kind kind : interface.kind) {
       chain.kind.push_back(static_cast<std::int32_t>(kind));
+    }
     plain.chains.push_back(std::move(chain));
   }
   return plain;
@@ -31,16 +35,18 @@ std::shared_ptr<const mesh::Mesh> to_mesh(const PlainMesh& plain) {
   mesh->xy = plain.xy;
   mesh->triangles = plain.triangles;
   mesh->subdomain = plain.subdomain;
-  for (std::size_t e = 0; e + 1 < plain.dirichlet.size(); e += 2)
+  for (std::size_t e = 0; e + 1 < plain.dirichlet.size(); e += 2) {
     mesh->dirichlet.push_back({plain.dirichlet[e], plain.dirichlet[e + 1]});
+  }
   std::int32_t last_inclusion = -1;
   for (const PlainMesh::Chain& chain : plain.chains) {
     mesh::Interface interface;
     interface.name = std::string("interface") + std::to_string(mesh->interfaces.size() + 1);
     interface.nodes = chain.nodes;
     interface.inclusion = chain.inclusion;
-    for (const std::int32_t kind : chain.kind)
+    for (const std::int32_t kind : chain.kind) {
       interface.kind.push_back(static_cast<mesh::Kind>(kind));
+    }
     for (const std::int32_t j : chain.inclusion) last_inclusion = std::max(last_inclusion, j);
     mesh->interfaces.push_back(std::move(interface));
   }

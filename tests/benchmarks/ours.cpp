@@ -42,8 +42,9 @@ struct Answers {
   std::vector<double> displacement, energy, iterations;
 
   void add(const contact::Answer& answer) {
-    if (answer.status != contact::Status::converged)
+    if (answer.status != contact::Status::converged) {
       throw std::runtime_error(std::string("a load case did not converge: ") + answer.reason);
+    }
     keep(answer);
   }
   void keep(const contact::Answer& answer) {
@@ -108,9 +109,11 @@ contact::SweepColumns columns(const MeshOperator& op, std::size_t rows) {
 }
 
 void require_converged(const contact::SweepColumns& rows) {
-  for (const contact::Status status : rows.status)
-    if (status != contact::Status::converged)
+  for (const contact::Status status : rows.status) {
+    if (status != contact::Status::converged) {
       throw std::runtime_error("a row of a sweep did not converge");
+    }
+  }
 }
 
 /// The same in blocks: condensed together, then rows of a sweep.
@@ -123,8 +126,9 @@ void blocks(const Options& options, const MeshOperator& op, const std::vector<fe
   for (int i = 0; i < options.repetitions; ++i) {
     const Stopwatch watch;
     std::vector<operators::PreparedLoad> prepared;
-    for (auto& load : op.prepare(block))
+    for (auto& load : op.prepare(block)) {
       prepared.push_back(std::get<operators::PreparedLoad>(std::move(load)));
+    }
     watch.stop(condensing, static_cast<double>(block.size()));
     std::vector<char> start;
     op.sweep(prepared, contact::ActiveSetOptions{}, rows, start);
@@ -149,9 +153,11 @@ void sweep(const Options& options, const MeshOperator& op, const std::vector<fem
   const auto basis = op.basis(pointers);
   const auto count = static_cast<std::size_t>(options.rows);
   std::vector<double> coefficients(count * basis_size);
-  for (std::size_t k = 0; k < count; ++k)
-    for (std::size_t j = 0; j < basis_size; ++j)
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t j = 0; j < basis_size; ++j) {
       coefficients[k * basis_size + j] = combination(static_cast<int>(k), static_cast<int>(j));
+    }
+  }
   Times per_row;
   contact::SweepColumns rows = columns(op, count);
   for (int i = 0; i < options.repetitions; ++i) {

@@ -29,8 +29,9 @@ class Reader {
     std::array<char, 8> first{};
     std::error_code none;
     _left = std::filesystem::file_size(path, none);
-    if (!_file.read(first.data(), first.size()) || first != magic)
+    if (!_file.read(first.data(), first.size()) || first != magic) {
       throw std::runtime_error(path + " is not a mesh of the benchmarks");
+    }
   }
 
   std::size_t length() {
@@ -49,8 +50,9 @@ class Reader {
 
  private:
   void take(char* to, std::size_t bytes) {
-    if (!_file.read(to, static_cast<std::streamsize>(bytes)))
+    if (!_file.read(to, static_cast<std::streamsize>(bytes))) {
       throw std::runtime_error(_path + " is cut short");
+    }
   }
 
   std::string _path;
@@ -64,8 +66,9 @@ void write(const PlainMesh& mesh, const std::string& path) {
   std::ofstream file(path, std::ios::binary);
   file.write(magic.data(), magic.size());
   for (const std::size_t length : {mesh.xy.size(), mesh.triangles.size(), mesh.subdomain.size(),
-                                   mesh.dirichlet.size(), mesh.chains.size()})
+                                   mesh.dirichlet.size(), mesh.chains.size()}) {
     put_length(file, length);
+  }
   put(file, mesh.xy);
   put(file, mesh.triangles);
   put(file, mesh.subdomain);
@@ -111,8 +114,9 @@ double combination(int row, int j) {
 
 std::vector<double> nodal_force(const PlainMesh& mesh, int number) {
   std::vector<double> values(mesh.node_count());
-  for (std::size_t i = 0; i < values.size(); ++i)
+  for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = force(number, mesh.xy[2 * i], mesh.xy[2 * i + 1]);
+  }
   return values;
 }
 

@@ -104,8 +104,9 @@ class Bench {
   }
   std::vector<double> nodal(int number) const {
     std::vector<double> values(nodes.size() / 2);
-    for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t i = 0; i < values.size(); ++i) {
       values[i] = force(number, nodes[2 * i], nodes[2 * i + 1]);
+    }
     return values;
   }
 
@@ -113,8 +114,9 @@ class Bench {
   v1::Job run(const v1::Job& wanted) {
     const v1::Job created = client::create_job(connection, wanted, client::make_uuid());
     const v1::Job ended = service_test::wait_for_end(connection, created.name());
-    if (ended.state() != v1::Job::STATE_SUCCEEDED)
+    if (ended.state() != v1::Job::STATE_SUCCEEDED) {
       throw std::runtime_error("a job ended in another state: " + ended.ShortDebugString());
+    }
     return ended;
   }
 
@@ -226,8 +228,9 @@ Times round_trips(Bench& bench) {
 
 void require_rows(const v1::Job& ended, int rows) {
   const v1::SweepAnswer& answer = ended.sweep_answer();
-  if (answer.converged() != static_cast<std::uint64_t>(rows))
+  if (answer.converged() != static_cast<std::uint64_t>(rows)) {
     throw std::runtime_error("not every row of a sweep converged: " + answer.ShortDebugString());
+  }
 }
 
 /// Rows of a sweep, the upload of their matrix included.
@@ -239,8 +242,9 @@ Times combinations(Bench& bench) {
   Times times;
   for (int i = 0; i < bench.options.repetitions; ++i) {
     std::vector<double> matrix;
-    for (int k = 0; k < rows; ++k)
+    for (int k = 0; k < rows; ++k) {
       for (int j = 0; j < basis; ++j) matrix.push_back(combination(k + i * rows, j));
+    }
     const Stopwatch watch(bench.server());
     job.mutable_sweep()->mutable_coefficients()->set_upload(
         client::upload_array(bench.connection, matrix));
@@ -275,7 +279,9 @@ Times nodal_loads(Bench& bench) {
 /// event kept, so that it is the watch that is timed and not Algorithm 2.
 Times samples(Bench& bench) {
   v1::Job job = bench.job();
-  for (int k = 0; k < bench.options.sampled_cases; ++k) *job.add_load_cases() = Bench::constant(k);
+  for (int k = 0; k < bench.options.sampled_cases; ++k) {
+    *job.add_load_cases() = Bench::constant(k);
+  }
   v1::Uzawa& uzawa = *job.mutable_solver()->mutable_uzawa();
   uzawa.set_theta(1e-4);  // still on its way after so many iterations
   uzawa.set_epsilon(1e-300);
@@ -313,8 +319,9 @@ void run(const Options& options) {
     load_cases(
         bench, "load_case", [&](int number) { return bench.array(number); }, figures);
   }
-  if (wanted(options, "load_case_by_expression"))
+  if (wanted(options, "load_case_by_expression")) {
     load_cases(bench, "load_case_by_expression", Bench::expression, figures);
+  }
   if (wanted(options, "single_case")) single_case(bench, figures);
   measure("flush_of_the_disk", [&] { return flushes(bench); });
   measure("round_trip", [&] { return round_trips(bench); });

@@ -21,9 +21,11 @@ inline results::Result sample_sweep(std::size_t rows = 21, int n = 10) {
   sweep.inclusions = {"fibre"};
   sweep.source = "ratio.csv";
   sweep.solve_seconds = 0.25;
-  for (std::size_t i = 0; i < line.node_count(); ++i)
-    if (line.kind[i] == results::Kind::delaminated)
+  for (std::size_t i = 0; i < line.node_count(); ++i) {
+    if (line.kind[i] == results::Kind::delaminated) {
       sweep.contact_nodes.insert(sweep.contact_nodes.end(), {0, static_cast<std::int32_t>(i)});
+    }
+  }
   for (std::size_t row = 0; row < rows; ++row) {
     const double c = -1 + 2 * static_cast<double>(row) / static_cast<double>(rows - 1);
     sweep.coefficients.insert(sweep.coefficients.end(), {1, c});

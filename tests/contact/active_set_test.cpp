@@ -44,7 +44,9 @@ bool same_answer(const Answer& a, const Answer& b) {
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, std::abs(a[i] - b[i]));
+  }
   return largest;
 }
 
@@ -74,8 +76,9 @@ void expect_as_uzawa(const Membrane& membrane, const char* force, double toleran
 
 TEST(ActiveSet, AgreesWithUzawaOnThePapersExamples) {
   const Membrane membrane(testing::structured_mesh({32, 8, {}, {}, {"bar"}}));
-  for (const char* force : {"1", "x*y < 0 ? -1 : 1", "y > 0 ? 1 : -1", "x < 0 ? 1 : -1"})
+  for (const char* force : {"1", "x*y < 0 ? -1 : 1", "y > 0 ? 1 : -1", "x < 0 ? 1 : -1"}) {
     expect_as_uzawa(membrane, force);
+  }
 }
 
 TEST(ActiveSet, AgreesWithUzawaOnSeveralInclusionsAndCracks) {
@@ -97,8 +100,9 @@ testing::GridMesh slits() {
 
 TEST(ActiveSet, AgreesWithUzawaOnSlitsWithBothSidesInOneSubdomain) {
   const Membrane membrane(slits().mesh);
-  for (const char* force : {"1", "y > 2.6 ? 1 : -1", "y > 2.6 ? -1 : 1", "sin(3*x)*cos(2*y)"})
+  for (const char* force : {"1", "y > 2.6 ? 1 : -1", "y > 2.6 ? -1 : 1", "sin(3*x)*cos(2*y)"}) {
     expect_as_uzawa(membrane, force, 1e-8);
+  }
 }
 
 /// A crack through the point where four glued quarters meet: the two of the upper half hold
@@ -113,8 +117,9 @@ TEST(ActiveSet, AgreesWithUzawaOnACrossPointThatSharesOneContact) {
   grid.add({{3, 3}, {3, 6}}, std::vector<Kind>(3, Kind::glue));
   const Membrane membrane(grid.mesh);
   ASSERT_EQ(membrane.space.decomposition.skeleton.contacts.size(), 3U);
-  for (const char* force : {"y > 3 ? 1 : -1", "y > 3 ? -1 : 1", "(x - 3.2)*(y > 3 ? 1 : -1)"})
+  for (const char* force : {"y > 3 ? 1 : -1", "y > 3 ? -1 : 1", "(x - 3.2)*(y > 3 ? 1 : -1)"}) {
     expect_as_uzawa(membrane, force, 1e-8);
+  }
 }
 
 TEST(ActiveSet, SamplesEveryStepWithTheFieldsOfUzawa) {
@@ -159,7 +164,9 @@ TEST(ActiveSet, WarmStartGivesTheSameBitsInFewerSteps) {
   EXPECT_LT(warm.iterations, cold.iterations);
   EXPECT_TRUE(same_answer(cold, warm));
   std::vector<char> start(cold.closed.size());
-  for (std::size_t i = 0; i < start.size(); ++i) start[i] = i % 3 == 0 ? 1 : 0;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    start[i] = i % 3 == 0 ? 1 : 0;
+  }
   EXPECT_TRUE(same_answer(cold, membrane.exact(force, "", start)));
   EXPECT_TRUE(same_answer(cold, membrane.exact(force, "", std::vector<char>(start.size(), 0))));
 }
@@ -233,8 +240,9 @@ testing::GridMesh crack_across_an_inclusion() {
 TEST(ActiveSet, PressureOfAnInclusionGoesOnWhereACrackCrossesIt) {
   for (const bool turned : {false, true}) {
     testing::GridMesh grid = crack_across_an_inclusion();
-    if (turned)  // the pair that follows from the others is the other one
+    if (turned) {  // the pair that follows from the others is the other one
       std::reverse(grid.mesh.interfaces[1].nodes.begin(), grid.mesh.interfaces[1].nodes.end());
+    }
     const Membrane membrane(grid.mesh);
     const Answer pressed = membrane.exact(0.0, "-0.7*(y - 3)");
     expect_exact(pressed);
@@ -244,8 +252,9 @@ TEST(ActiveSet, PressureOfAnInclusionGoesOnWhereACrackCrossesIt) {
       EXPECT_EQ(bar.contact[i], 1) << i;
     }
     EXPECT_NEAR(pressed.inclusions[0].contact_length, 3, rounding);
-    for (const double pressure : pressed.traces.at(1).pressure)
+    for (const double pressure : pressed.traces.at(1).pressure) {
       EXPECT_NEAR(pressure, 0, 100 * rounding) << "the crack carries nothing";
+    }
     for (const char* force : {"y > 3 ? -1 : 1", "(y > 3 ? -1 : 1) + (x > 4 ? 1 : -1)",
                               "(y > 3 ? -1 : 1) + (x > 4 ? -1 : 1)"}) {
       SCOPED_TRACE(force);
@@ -260,8 +269,9 @@ TEST(ActiveSet, PressureOfAnInclusionGoesOnWhereACrackCrossesIt) {
       for (std::size_t c = 0; c < 2; ++c) {  // multipliers are unique but at the cross point
         for (std::size_t i = 0; i < 5; ++i) {
           EXPECT_NEAR(exact.traces[c].jump[i], uzawa.traces[c].jump[i], 1e-8) << c << i;
-          if (i != 2)
+          if (i != 2) {
             EXPECT_NEAR(exact.traces[c].pressure[i], uzawa.traces[c].pressure[i], 1e-6) << c << i;
+          }
         }
       }
     }
@@ -276,8 +286,11 @@ TEST(ActiveSet, WithoutLoadEverythingIsZeroAndWeaklyActive) {
   EXPECT_EQ(answer.energy, 0);
   EXPECT_EQ(answer.weakly_active, 7);
   EXPECT_EQ(answer.contact_length, 0);
-  for (const Field& field : answer.fields)
-    for (const double u : field.u) EXPECT_EQ(u, 0);
+  for (const Field& field : answer.fields) {
+    for (const double u : field.u) {
+      EXPECT_EQ(u, 0);
+    }
+  }
 }
 
 /// u = x neither opens nor presses: rounding alone must not decide.
@@ -310,8 +323,9 @@ TEST(ActiveSet, ContactOverTheWholeCrackIsThePatchTest) {
   EXPECT_NEAR(answer.energy, 2 * 0.49, rounding);
   EXPECT_EQ(answer.iterations, 1);
   EXPECT_NEAR(answer.contact_length, 1 - 1.0 / 16, rounding);
-  for (std::size_t i = 1; i < 32; ++i)  // glue carries the same flux as contact
+  for (std::size_t i = 1; i < 32; ++i) {  // glue carries the same flux as contact
     EXPECT_NEAR(answer.traces[0].pressure[i], 0.7, 100 * rounding) << i;
+  }
 }
 
 TEST(ActiveSet, EveryNodeMayBeOpen) {
@@ -378,7 +392,9 @@ TEST(ActiveSet, FloatingSubdomainHangsOnOneGluedEdge) {
   expect_exact(pressed);
   double force = 0;
   const Trace& trace = pressed.traces.at(0);
-  for (std::size_t i = 0; i + 1 < trace.pressure.size(); ++i) force += trace.pressure[i];
+  for (std::size_t i = 0; i + 1 < trace.pressure.size(); ++i) {
+    force += trace.pressure[i];
+  }
   EXPECT_NEAR(force, 4, 1e-10) << "the weight of the island";
   const Answer pulled = membrane.exact(fem::PerRegion{{{"island", 1.0}}});
   expect_exact(pulled);

@@ -61,7 +61,9 @@ TEST(DenseLcp, SolvesRandomProblemsBothWaysFromAnyStartToTheSameBits) {
     fell_back += answer.fell_back ? 1 : 0;
     expect_solution(s, r, solve(s, r, true));
     std::vector<char> start(static_cast<std::size_t>(n));
-    for (char& closed : start) closed = static_cast<char>(random() % 2);
+    for (char& closed : start) {
+      closed = static_cast<char>(random() % 2);
+    }
     for (const bool monotone : {false, true}) {
       const LcpAnswer other = solve(s, r, monotone, start);
       EXPECT_EQ(answer.closed, other.closed);
@@ -140,8 +142,9 @@ TEST(DenseLcp, WeaklyActiveNodesAreCountedAndClosed) {
   const Index n = 9;
   const MatrixXd s = random_spd(random, n, 1);
   VectorXd d = VectorXd::Zero(n), lambda = VectorXd::Zero(n);
-  for (Index i = 0; i < n; ++i)
+  for (Index i = 0; i < n; ++i) {
     (i % 3 == 0 ? d : lambda)[i] = i % 3 == 2 ? 0 : 1;  // every third has neither
+  }
   const VectorXd r = s * d - lambda;
   const LcpAnswer answer = solve(s, r);
   expect_solution(s, r, answer);
@@ -201,8 +204,9 @@ TEST(DenseLcp, TakesAHandfulOfStepsForACrack) {
       return i == j ? std::acos(-1.0) * std::acos(-1.0) / 3 : -1 / (distance * distance);
     });
     VectorXd r(n);
-    for (Index i = 0; i < n; ++i)
+    for (Index i = 0; i < n; ++i) {
       r[i] = std::sin(9.0 * static_cast<double>(i) / static_cast<double>(n)) - 0.2;
+    }
     const LcpAnswer answer = solve(s, r);
     std::printf("[ figures  ] %d nodes: %d steps\n", static_cast<int>(n), answer.steps);
     ASSERT_EQ(answer.status, LcpStatus::solved);

@@ -33,7 +33,9 @@ VectorXd wave(Index n, double waves, double bias) {
 /// Two cracks, one with an odd number of contacts.
 std::vector<std::vector<Index>> two_chains(Index n) {
   std::vector<std::vector<Index>> chains(2);
-  for (Index i = 0; i < n; ++i) chains[i < n / 2 ? 0 : 1].push_back(i);
+  for (Index i = 0; i < n; ++i) {
+    chains[i < n / 2 ? 0 : 1].push_back(i);
+  }
   return chains;
 }
 
@@ -79,7 +81,9 @@ TEST(NestedStart, HasNothingToSayOfFewContactsOrOfOnesWithoutNeighbours) {
   std::iota(all.begin(), all.end(), Index{0});
   EXPECT_TRUE(NestedStart(crack(20), {all}).closed(few, few.cwiseAbs()).empty());
   std::vector<std::vector<Index>> alone;
-  for (Index i = 0; i < contacts; ++i) alone.push_back({i});
+  for (Index i = 0; i < contacts; ++i) {
+    alone.push_back({i});
+  }
   EXPECT_TRUE(NestedStart(crack(contacts), alone).closed(many, many.cwiseAbs()).empty());
 }
 

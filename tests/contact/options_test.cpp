@@ -63,10 +63,12 @@ TEST(UzawaOptions, ToleranceOfTheResidualsIsPositive) {
 
 TEST(ActiveSetOptions, RefusedFieldsAreNamed) {
   EXPECT_NO_THROW(check(ActiveSetOptions{}, 1000));
-  for (const double bad : {-1e-12, 0.1, std::numeric_limits<double>::infinity(), std::nan("")})
+  for (const double bad : {-1e-12, 0.1, std::numeric_limits<double>::infinity(), std::nan("")}) {
     expect_refused(ActiveSetOptions{bad, 10}, "active_set.tolerance");
-  for (const int bad : {0, -1, 1001})
+  }
+  for (const int bad : {0, -1, 1001}) {
     expect_refused(ActiveSetOptions{0, bad}, "active_set.max_steps");
+  }
 }
 
 TEST(SolverOptions, DefaultToTheActiveSet) {

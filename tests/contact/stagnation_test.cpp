@@ -12,8 +12,11 @@ namespace {
 template <class Criterion, class Turned>
 int recognised(Criterion criterion, Turned turned, int limit = 100000) {
   StagnationMonitor monitor;
-  for (int k = 1; k <= limit; ++k)
-    if (monitor.add(criterion(k), turned(k))) return k;
+  for (int k = 1; k <= limit; ++k) {
+    if (monitor.add(criterion(k), turned(k))) {
+      return k;
+    }
+  }
   return 0;
 }
 

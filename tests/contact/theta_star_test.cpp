@@ -17,8 +17,9 @@ Eigen::MatrixXd flexibility(const testing::TraceSpace& space) {
   const Eigen::MatrixXd s2 = space.operators[1].factor().schur();
   const auto& rigid = space.decomposition.subdomains[1].rigid;
   Eigen::MatrixXd t = Eigen::MatrixXd::Zero(s2.rows(), s2.rows() + 1);
-  for (Eigen::Index i = 0; i < s2.rows(); ++i)
+  for (Eigen::Index i = 0; i < s2.rows(); ++i) {
     t(i, rigid[static_cast<std::size_t>(i)] < 0 ? i : s2.rows()) = 1;
+  }
   Eigen::MatrixXd used(t.rows(), 0);
   for (Eigen::Index j = 0; j < t.cols(); ++j) {
     if (t.col(j).sum() > 0) {

@@ -114,8 +114,9 @@ TEST(Uzawa, SolvesSeveralInclusionsAndCracksTogether) {
     if (geometry.kind[i] == Kind::inclusion || geometry.kind[i] == Kind::delaminated) {
       const InclusionAnswer& held = answer.inclusions[x < 0 ? 0 : 1];
       EXPECT_EQ(trace.u_plus[i], held.displacement) << x;
-      if (geometry.kind[i] == Kind::inclusion)
+      if (geometry.kind[i] == Kind::inclusion) {
         EXPECT_NEAR(trace.u_minus[i], held.displacement, 1e-11) << x;
+      }
     }
     crack_open |= geometry.kind[i] == Kind::crack && trace.jump[i] > 1e-3;
   }
@@ -145,8 +146,9 @@ TEST(Uzawa, ObserverSeesEveryIterationAndCanStop) {
   EXPECT_EQ(answer.status, Status::cancelled);
   EXPECT_EQ(answer.iterations, 7);
   ASSERT_EQ(recorder.samples.size(), 7U);
-  for (std::size_t k = 0; k < 7; ++k)
+  for (std::size_t k = 0; k < 7; ++k) {
     EXPECT_EQ(recorder.samples[k].iteration, static_cast<int>(k) + 1);
+  }
   EXPECT_TRUE(answer.reason.empty());
 }
 
@@ -269,15 +271,17 @@ TEST(Answer, ListsContactIntervalsAndTracesAlongTheInterface) {
   for (std::size_t i = 0; i < 33; ++i) {
     EXPECT_EQ(trace.jump[i], trace.u_plus[i] - trace.u_minus[i]);
     bool inside = false;
-    for (const ContactInterval& interval : answer.contact_intervals)
+    for (const ContactInterval& interval : answer.contact_intervals) {
       inside |= geometry.s[i] >= interval.begin && geometry.s[i] <= interval.end;
+    }
     EXPECT_EQ(inside, trace.contact[i] == 1) << geometry.x[i];
     EXPECT_EQ(trace.contact[i] == 1,
               trace.pressure[i] > 0 && geometry.kind[i] == Kind::delaminated);
     nodes += trace.contact[i] == 1 ? 1 : 0;
   }
-  for (const ContactInterval& interval : answer.contact_intervals)
+  for (const ContactInterval& interval : answer.contact_intervals) {
     length += interval.end - interval.begin + 1.0 / 16;
+  }
   EXPECT_GT(nodes, 0U);
   EXPECT_NEAR(answer.contact_length, length, 1e-14);
   EXPECT_EQ(answer.contact_length, answer.inclusions[0].contact_length);

@@ -67,7 +67,9 @@ TEST(WarmLcp, IsThePlainAnswerWhateverCameBefore) {
       expect_same(warm, wanted);
       steps += warm.steps();
       cold += wanted.steps;
-      if (row % 5 == 1) EXPECT_EQ(warm.steps(), 1);
+      if (row % 5 == 1) {
+        EXPECT_EQ(warm.steps(), 1);
+      }
     }
   }
   std::printf("[ figures  ] %ld steps, from all closed %ld\n", steps, cold);
@@ -86,7 +88,9 @@ TEST(WarmLcp, StartsChangeNoBit) {
     ASSERT_EQ(closed.solve(r, r.cwiseAbs()), LcpStatus::solved);
     for (int other = 0; other < 4; ++other) {
       std::vector<char> start(static_cast<std::size_t>(n));
-      for (char& node : start) node = static_cast<char>(random() % 2);
+      for (char& node : start) {
+        node = static_cast<char>(random() % 2);
+      }
       WarmLcp warm(lcp, many, start);
       if (other == 3) {
         const VectorXd before = random_vector(random, n);

@@ -30,7 +30,9 @@ class Doubling {
         _on_interface.insert({interface.nodes[e], interface.nodes[e + 1]});
       }
     }
-    for (const auto& edge : mesh.dirichlet) _fixed_nodes.insert({edge[0], edge[1]});
+    for (const auto& edge : mesh.dirichlet) {
+      _fixed_nodes.insert({edge[0], edge[1]});
+    }
   }
 
   DoubledMesh run() {
@@ -39,17 +41,22 @@ class Doubling {
     std::set<std::pair<int, int>> above = closure();
     for (bool changed = true; changed; above = closure()) {
       changed = false;
-      for (const auto& [upper, lower] : above)
-        if (above.count({lower, upper}) > 0) changed |= merge(upper, lower);
+      for (const auto& [upper, lower] : above) {
+        if (above.count({lower, upper}) > 0) {
+          changed |= merge(upper, lower);
+        }
+      }
     }
     return number(above);
   }
 
  private:
   int corner(std::size_t triangle, int node) const {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (_mesh.triangles[3 * triangle + k] == node)
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (_mesh.triangles[3 * triangle + k] == node) {
         return _inclusions + static_cast<int>(3 * triangle + k);
+      }
+    }
     return -1;
   }
   int label(int member) const { return _label[static_cast<std::size_t>(member)]; }
@@ -63,26 +70,34 @@ class Doubling {
   template <class Visit>
   void each_edge(Visit&& visit) const {
     std::map<std::pair<int, int>, std::size_t> left;
-    for (std::size_t t = 0; t < _mesh.triangle_count(); ++t)
-      for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t t = 0; t < _mesh.triangle_count(); ++t) {
+      for (std::size_t k = 0; k < 3; ++k) {
         left[{_mesh.triangles[3 * t + k], _mesh.triangles[3 * t + (k + 1) % 3]}] = t;
+      }
+    }
     for (const auto& [edge, t] : left) {
       const auto right = left.find({edge.second, edge.first});
-      if (right != left.end()) visit(edge.first, edge.second, t, right->second);
+      if (right != left.end()) {
+        visit(edge.first, edge.second, t, right->second);
+      }
     }
   }
 
   void merge_neighbours() {
     each_edge([this](int a, int b, std::size_t left, std::size_t right) {
       const auto cut = _edges.find({a, b});
-      if (cut == _edges.end() && _edges.count({b, a}) > 0) return;  // comes up the other way round
+      if (cut == _edges.end() && _edges.count({b, a}) > 0) {
+        return;  // comes up the other way round
+      }
       for (const int node : {a, b}) {
         const int plus = corner(left, node), minus = corner(right, node);
         if (cut == _edges.end() || cut->second.kind == Kind::glue) {
           merge(plus, minus);
         } else if (cut->second.kind != Kind::crack) {
           merge(plus, cut->second.inclusion);
-          if (cut->second.kind == Kind::inclusion) merge(minus, cut->second.inclusion);
+          if (cut->second.kind == Kind::inclusion) {
+            merge(minus, cut->second.inclusion);
+          }
         }
       }
     });
@@ -92,8 +107,9 @@ class Doubling {
     std::map<int, int> first;
     for (std::size_t c = 0; c < _mesh.triangles.size(); ++c) {
       const int node = _mesh.triangles[c], member = _inclusions + static_cast<int>(c);
-      if (_fixed_nodes.count(node) > 0 || _on_interface.count(node) == 0)
+      if (_fixed_nodes.count(node) > 0 || _on_interface.count(node) == 0) {
         merge(first.try_emplace(node, member).first->second, member);
+      }
     }
   }
 
@@ -101,19 +117,25 @@ class Doubling {
     std::set<std::pair<int, int>> above;
     each_edge([&](int a, int b, std::size_t left, std::size_t right) {
       const auto cut = _edges.find({a, b});
-      if (cut == _edges.end()) return;
+      if (cut == _edges.end()) {
+        return;
+      }
       for (const int node : {a, b}) {
         const int plus = label(corner(left, node)), minus = label(corner(right, node));
-        if (plus != minus) above.insert({plus, minus});
+        if (plus != minus) {
+          above.insert({plus, minus});
+        }
       }
     });
     for (bool changed = true; changed;) {
       changed = false;
       const auto known = above;
-      for (const auto& [a, b] : known)
+      for (const auto& [a, b] : known) {
         for (auto next = known.lower_bound({b, -1}); next != known.end() && next->first == b;
-             ++next)
+             ++next) {
           changed |= a != next->second && above.insert({a, next->second}).second;
+        }
+      }
     }
     return above;
   }
@@ -121,10 +143,16 @@ class Doubling {
   DoubledMesh number(const std::set<std::pair<int, int>>& above) const {
     DoubledMesh result;
     std::map<int, int> of_label;
-    for (const int member : _label) of_label.try_emplace(member, static_cast<int>(of_label.size()));
-    for (const int member : _label) result.value.push_back(of_label[member]);
+    for (const int member : _label) {
+      of_label.try_emplace(member, static_cast<int>(of_label.size()));
+    }
+    for (const int member : _label) {
+      result.value.push_back(of_label[member]);
+    }
     result.values = of_label.size();
-    for (const auto& [a, b] : above) result.above.insert({of_label[a], of_label[b]});
+    for (const auto& [a, b] : above) {
+      result.above.insert({of_label[a], of_label[b]});
+    }
     result.fixed.assign(result.values, 0);
     result.skeleton.assign(result.values, 0);
     std::fill_n(result.skeleton.begin(), _inclusions, 1);
@@ -134,8 +162,9 @@ class Doubling {
       result.fixed[value] |= static_cast<char>(_fixed_nodes.count(_mesh.triangles[c]));
       result.skeleton[value] |= static_cast<char>(_on_interface.count(_mesh.triangles[c]));
     }
-    for (std::size_t v = 0; v < result.values; ++v)
+    for (std::size_t v = 0; v < result.values; ++v) {
       result.skeleton[v] = static_cast<char>(result.skeleton[v] != 0 && result.fixed[v] == 0);
+    }
     assemble(result);
     look_for_crossings(result);
     look_for_support(result);
@@ -174,9 +203,12 @@ class Doubling {
     std::iota(tree.begin(), tree.end(), 0);
     for (const auto& [a, b] : result.above) {
       bool implied = false;
-      for (const auto& [from, between] : result.above)
+      for (const auto& [from, between] : result.above) {
         implied |= from == a && result.above.count({between, b}) > 0;
-      if (implied) continue;
+      }
+      if (implied) {
+        continue;
+      }
       const int one = tree[static_cast<std::size_t>(a)], other = tree[static_cast<std::size_t>(b)];
       result.crossing |= one == other;
       std::replace(tree.begin(), tree.end(), one, other);
@@ -196,7 +228,9 @@ class Doubling {
         }
         if (any && !all) {
           changed = true;
-          for (int k = 0; k < 3; ++k) held[static_cast<std::size_t>(value[k])] = 1;
+          for (int k = 0; k < 3; ++k) {
+            held[static_cast<std::size_t>(value[k])] = 1;
+          }
         }
       }
     }
@@ -215,18 +249,23 @@ class Doubling {
 std::vector<int> DoubledMesh::position() const {
   std::vector<int> result(values, -1);
   int count = 0;
-  for (std::size_t v = 0; v < values; ++v)
-    if (skeleton[v] != 0) result[v] = count++;
+  for (std::size_t v = 0; v < values; ++v) {
+    if (skeleton[v] != 0) {
+      result[v] = count++;
+    }
+  }
   return result;
 }
 
 Eigen::MatrixXd DoubledMesh::schur() const {
   std::vector<int> inner, outer;
-  for (std::size_t v = 0; v < values; ++v)
-    if (skeleton[v] != 0)
+  for (std::size_t v = 0; v < values; ++v) {
+    if (skeleton[v] != 0) {
       outer.push_back(static_cast<int>(v));
-    else if (fixed[v] == 0)
+    } else if (fixed[v] == 0) {
       inner.push_back(static_cast<int>(v));
+    }
+  }
   const Eigen::MatrixXd coupling = stiffness(inner, outer);
   return stiffness(outer, outer) -
          coupling.transpose() * stiffness(inner, inner).llt().solve(coupling);

@@ -60,8 +60,9 @@ struct Square {
 
 Sparse matrix_of(std::size_t n, const Edges& edges) {
   std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < n; ++i) {
     entries.emplace_back(static_cast<int>(i), static_cast<int>(i), static_cast<double>(n));
+  }
   for (const auto& [a, b] : edges) {
     entries.emplace_back(a, b, -1);
     entries.emplace_back(b, a, -1);
@@ -74,7 +75,9 @@ Sparse matrix_of(std::size_t n, const Edges& edges) {
 /// Entries of the Cholesky factor.
 Eigen::Index fill(const Sparse& matrix, const std::vector<std::int32_t>& order) {
   Eigen::PermutationMatrix<Eigen::Dynamic> place(matrix.rows());
-  for (std::size_t i = 0; i < order.size(); ++i) place.indices()[order[i]] = static_cast<int>(i);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    place.indices()[order[i]] = static_cast<int>(i);
+  }
   const Sparse ordered = place * matrix * place.transpose();
   return Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>>(ordered)
       .matrixL()
@@ -105,8 +108,9 @@ TEST(NestedDissection, OfASquareFillsNoMoreThanMinimumDegree) {
 
 TEST(NestedDissection, OfAMeshGradedToAPointFillsNoMoreThanMinimumDegree) {
   Square square(70);
-  for (double& x : square.xy)
+  for (double& x : square.xy) {
     x = std::pow(1.5, x);  // finer by the factor 1e12 at one corner than at the other
+  }
   const Sparse matrix = matrix_of(square.size(), square.edges);
   const auto order = nested_dissection(graph_of(square.size(), square.edges), square.xy);
   EXPECT_LT(fill(matrix, order), fill(matrix, minimum_degree(matrix)));
@@ -206,14 +210,16 @@ bool parts(const Band& band, const std::vector<char>& without) {
       open.push_back(static_cast<std::int32_t>(v));
     }
   };
-  for (std::size_t v = 0; v < band.size(); ++v)
+  for (std::size_t v = 0; v < band.size(); ++v) {
     if (band.meets_first[v] != 0) reach(v);
+  }
   while (!open.empty()) {
     const std::size_t v = at(open.back());
     open.pop_back();
     if (band.meets_second[v] != 0) return false;
-    for (std::int32_t e = band.begin[v]; e < band.begin[v + 1]; ++e)
+    for (std::int32_t e = band.begin[v]; e < band.begin[v + 1]; ++e) {
       reach(at(band.neighbour[at(e)]));
+    }
   }
   return true;
 }
@@ -222,9 +228,12 @@ std::size_t smallest(const Band& band) {
   std::size_t least = band.size();
   for (std::uint32_t set = 0; set < (1U << band.size()); ++set) {
     std::vector<char> without(band.size());
-    for (std::size_t v = 0; v < band.size(); ++v) without[v] = static_cast<char>((set >> v) & 1U);
-    if (static_cast<std::size_t>(std::popcount(set)) < least && parts(band, without))
+    for (std::size_t v = 0; v < band.size(); ++v) {
+      without[v] = static_cast<char>((set >> v) & 1U);
+    }
+    if (static_cast<std::size_t>(std::popcount(set)) < least && parts(band, without)) {
       least = static_cast<std::size_t>(std::popcount(set));
+    }
   }
   return least;
 }
@@ -238,8 +247,9 @@ TEST(VertexSeparator, IsTheSmallestOfRandomGraphs) {
     const std::size_t n = 2 + random() % 9;
     Edges edges;
     for (std::int32_t b = 0; at(b) < n; ++b) {
-      for (std::int32_t a = 0; a < b; ++a)
+      for (std::int32_t a = 0; a < b; ++a) {
         if (random() % 3 == 0) edges.emplace_back(a, b);
+      }
     }
     const Graph graph = graph_of(n, edges);
     Band band{graph.begin, graph.neighbour, std::vector<char>(n), std::vector<char>(n)};
@@ -294,7 +304,9 @@ TEST(CurveOrder, PutsNearNodesNextToEachOther) {
   }
   sort_along_curve(nodes, xy);
   int jumps = 0;
-  for (std::size_t i = 1; i < nodes.size(); ++i) jumps += nodes[i] % 4 != nodes[i - 1] % 4 ? 1 : 0;
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    jumps += nodes[i] % 4 != nodes[i - 1] % 4 ? 1 : 0;
+  }
   EXPECT_EQ(jumps, 3);
   expect_permutation(nodes, 400);
 }

@@ -60,12 +60,15 @@ TEST(Front, IsEliminatedByEachKernelAndByBlas) {
   require_threadsafe_blas();  // one thread, as wherever fronts are eliminated
   std::srand(5);
   std::vector<Front> kernels = {eliminate_front};
-  for (const auto instructions : {Instructions::baseline, Instructions::avx2, Instructions::avx512})
+  for (const auto instructions :
+       {Instructions::baseline, Instructions::avx2, Instructions::avx512}) {
     if (const FrontKernel kernel = front_kernel(instructions)) kernels.push_back(kernel);
+  }
   constexpr std::array<std::array<int, 2>, 9> sizes = {
       {{1, 0}, {1, 1}, {3, 7}, {4, 8}, {5, 0}, {13, 29}, {32, 40}, {60, 0}, {70, 133}}};
-  for (const Front kernel : kernels)
+  for (const Front kernel : kernels) {
     for (const auto& [columns, rest] : sizes) expect_eliminates(kernel, columns, rest);
+  }
 }
 
 TEST(Front, ThatIsNotPositiveDefiniteIsRefused) {

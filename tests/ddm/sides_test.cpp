@@ -53,7 +53,9 @@ bool touches_from(const Subdomain& subdomain, std::int32_t trace, double y, bool
       has |= corner == local;
       centroid += subdomain.part.xy[2 * static_cast<std::size_t>(corner) + 1] / 3;
     }
-    if (has && (centroid > y) != above) return false;
+    if (has && (centroid > y) != above) {
+      return false;
+    }
   }
   return true;
 }
@@ -135,7 +137,9 @@ TEST(Slit, WithAnInclusionHoldsItsPlusSideAndTips) {
   EXPECT_EQ(result.skeleton.unknowns, 1U + 2);
   std::vector<Kind> kinds;
   kinds.reserve(result.interface_sides[0].size());
-  for (const SidePair& sides : result.interface_sides[0]) kinds.push_back(sides.kind);
+  for (const SidePair& sides : result.interface_sides[0]) {
+    kinds.push_back(sides.kind);
+  }
   EXPECT_THAT(kinds, ElementsAre(b, d, b, b, d, b));
   EXPECT_THAT(values(result, 0, 0), ElementsAre(0, 0));
   EXPECT_THAT(values(result, 0, 1), ElementsAre(::testing::Gt(0), 0));
@@ -147,7 +151,9 @@ TEST(Slit, ThatContinuesAnInclusionIsTiedWhereItBegins) {
   const Decomposition result = cut_valid(grid.add({{2, 3}, {7, 3}}, {b, b, d, c, c}, 0));
   std::vector<Kind> kinds;
   kinds.reserve(result.interface_sides[0].size());
-  for (const SidePair& sides : result.interface_sides[0]) kinds.push_back(sides.kind);
+  for (const SidePair& sides : result.interface_sides[0]) {
+    kinds.push_back(sides.kind);
+  }
   EXPECT_THAT(kinds, ElementsAre(b, b, b, d, c, g));
   EXPECT_THAT(values(result, 0, 3), ElementsAre(::testing::Gt(0), 0));
   EXPECT_THAT(values(result, 0, 5)[0], values(result, 0, 5)[1]);
@@ -213,7 +219,9 @@ TEST(CrossPoint, OfGlueHasOneValue) {
   const Decomposition result = cut_valid(grid.add(west_east, glue).add(south_north, glue));
   EXPECT_EQ(result.skeleton.unknowns, 13U);
   EXPECT_EQ(result.pairs.size(), 12U + 4);
-  for (const Subdomain& subdomain : result.subdomains) EXPECT_EQ(subdomain.trace, 7U);
+  for (const Subdomain& subdomain : result.subdomains) {
+    EXPECT_EQ(subdomain.trace, 7U);
+  }
   EXPECT_EQ(values(result, 0, 4), values(result, 1, 4));
   // Read towards the successor: the eastern edge has SE below and NE above.
   EXPECT_EQ(result.interface_sides[0][4].minus, 1);

@@ -41,14 +41,23 @@ class RandomMembrane {
     for (int i = 0; i < columns; ++i) {
       for (int j = 0; j < rows; ++j) {
         const int x = block * i, y = block * j;
-        if (i + 1 < columns) add_wall({x + block, y}, {x + block, y + block}, same_direction);
-        if (j + 1 < rows) add_wall({x, y + block}, {x + block, y + block}, same_direction);
-        if (chance() < 0.5) add_slit({x, y});
+        if (i + 1 < columns) {
+          add_wall({x + block, y}, {x + block, y + block}, same_direction);
+        }
+        if (j + 1 < rows) {
+          add_wall({x, y + block}, {x + block, y + block}, same_direction);
+        }
+        if (chance() < 0.5) {
+          add_slit({x, y});
+        }
       }
     }
-    for (double& x : _grid.mesh.xy) x += 0.2 * (chance() - 0.5);
-    for (std::size_t s = 0; s < _grid.mesh.subdomains.size(); ++s)
+    for (double& x : _grid.mesh.xy) {
+      x += 0.2 * (chance() - 0.5);
+    }
+    for (std::size_t s = 0; s < _grid.mesh.subdomains.size(); ++s) {
       _grid.mesh.tension.push_back(0.5 + chance());
+    }
   }
 
   const mesh::Mesh& mesh() const { return _grid.mesh; }
@@ -57,7 +66,9 @@ class RandomMembrane {
   static std::vector<std::string> names() {
     std::vector<std::string> result;
     result.reserve(columns * rows);
-    for (int s = 0; s < columns * rows; ++s) result.push_back("block " + std::to_string(s));
+    for (int s = 0; s < columns * rows; ++s) {
+      result.push_back("block " + std::to_string(s));
+    }
     return result;
   }
   double chance() { return std::uniform_real_distribution<double>(0, 1)(_random); }
@@ -93,10 +104,14 @@ class RandomMembrane {
     // Mostly without inclusions at the ends, where others may begin, and held at the boundary.
     if (chance() < 0.95) {
       const double glue = chance();
-      for (const auto& [edge, node] : {std::pair{&of_edges.front(), from}, {&of_edges.back(), to}})
+      for (const auto& [edge, node] :
+           {std::pair{&of_edges.front(), from}, {&of_edges.back(), to}}) {
         *edge = chance() < glue || on_boundary(node) ? Kind::glue : Kind::crack;
+      }
     }
-    if (!as_given && chance() < 0.5) std::swap(from, to);
+    if (!as_given && chance() < 0.5) {
+      std::swap(from, to);
+    }
     add({from, to}, of_edges);
   }
 
@@ -129,9 +144,14 @@ bool refused_for_its_nodes(const mesh::Mesh& mesh) {
     for (std::size_t e = 0; e < interface.kind.size(); ++e) {
       for (const std::int32_t node : {interface.nodes[e], interface.nodes[e + 1]}) {
         const std::int32_t j = interface.inclusion[e];
-        if (j >= 0 && inclusion_at.try_emplace(node, j).first->second != j) return true;
-        for (const auto& edge : mesh.dirichlet)
-          if (interface.kind[e] != Kind::glue && (edge[0] == node || edge[1] == node)) return true;
+        if (j >= 0 && inclusion_at.try_emplace(node, j).first->second != j) {
+          return true;
+        }
+        for (const auto& edge : mesh.dirichlet) {
+          if (interface.kind[e] != Kind::glue && (edge[0] == node || edge[1] == node)) {
+            return true;
+          }
+        }
       }
     }
   }
@@ -146,7 +166,9 @@ std::vector<int> match(const Decomposition& decomposition, const DoubledMesh& do
     EXPECT_TRUE(value.at(unknown) < 0 || value.at(unknown) == v);
     value.at(unknown) = v;
   };
-  for (std::size_t j = 0; j < inclusions; ++j) set(j, doubled.value[j]);
+  for (std::size_t j = 0; j < inclusions; ++j) {
+    set(j, doubled.value[j]);
+  }
   for (const Subdomain& subdomain : decomposition.subdomains) {
     for (std::size_t i = 0; i < subdomain.part.triangles.size(); ++i) {
       const auto node = static_cast<std::size_t>(subdomain.part.triangles[i]);
@@ -155,7 +177,9 @@ std::vector<int> match(const Decomposition& decomposition, const DoubledMesh& do
       const bool trace = node >= subdomain.interior && node < subdomain.free();
       EXPECT_EQ(trace, doubled.skeleton[static_cast<std::size_t>(v)] != 0);
       EXPECT_EQ(node >= subdomain.free(), doubled.fixed[static_cast<std::size_t>(v)] != 0);
-      if (trace) set(static_cast<std::size_t>(subdomain.unknown[node - subdomain.interior]), v);
+      if (trace) {
+        set(static_cast<std::size_t>(subdomain.unknown[node - subdomain.interior]), v);
+      }
     }
   }
   EXPECT_THAT(value, ::testing::Each(::testing::Ge(0)));
@@ -179,7 +203,9 @@ void expect_same_schur(const Decomposition& decomposition, const DoubledMesh& do
   const std::vector<int> position = doubled.position();
   std::vector<int> order;
   order.reserve(value.size());
-  for (const int v : value) order.push_back(position[static_cast<std::size_t>(v)]);
+  for (const int v : value) {
+    order.push_back(position[static_cast<std::size_t>(v)]);
+  }
   const Eigen::MatrixXd all = doubled.schur();
   ASSERT_EQ(all.rows(), n);
   const Eigen::MatrixXd expected = all(order, order);
@@ -198,8 +224,11 @@ void expect_same_contacts(const Decomposition& decomposition, const DoubledMesh&
   for (bool changed = true; changed;) {
     changed = false;
     const auto known = above;
-    for (const auto& [a, b] : known)
-      for (const auto& [c, d] : known) changed |= b == c && above.insert({a, d}).second;
+    for (const auto& [a, b] : known) {
+      for (const auto& [c, d] : known) {
+        changed |= b == c && above.insert({a, d}).second;
+      }
+    }
   }
   EXPECT_EQ(above, doubled.above);
 }
@@ -269,7 +298,9 @@ TEST(Skeleton, IsThatOfTheDoubledMesh) {
     expect_same_schur(decomposition, doubled, value);
     expect_same_contacts(decomposition, doubled, value);
     expect_consistent_pairs(decomposition, doubled, value, mesh.inclusions.size());
-    if (HasFailure()) return;
+    if (HasFailure()) {
+      return;
+    }
   }
   std::printf(
       "[ figures  ] %d accepted with %d contacts and %d implied; refused: %d for what meets "

@@ -19,8 +19,9 @@ using Sparse = Eigen::SparseMatrix<double>;
 /// Shifted Laplacian of a graph: symmetric positive definite.
 Sparse laplacian(Eigen::Index n, const std::vector<std::pair<int, int>>& edges) {
   std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index i = 0; i < n; ++i)
+  for (Eigen::Index i = 0; i < n; ++i) {
     entries.emplace_back(i, i, 0.01 * static_cast<double>(i + 1));
+  }
   double weight = 1;
   for (const auto& [a, b] : edges) {
     weight = weight < 3 ? weight + 0.37 : weight - 2.1;
@@ -168,7 +169,9 @@ TEST(SubdomainFactor, OfPartsThatFloatIsExact) {
   const std::vector<std::pair<int, int>> edges = {{0, 1}, {1, 2}, {2, 5}, {5, 6},
                                                   {3, 4}, {4, 7}, {7, 8}, {8, 3}};
   Sparse matrix = laplacian(9, edges);
-  for (int i = 0; i < 9; ++i) matrix.coeffRef(i, i) -= 0.01 * (i + 1);
+  for (int i = 0; i < 9; ++i) {
+    matrix.coeffRef(i, i) -= 0.01 * (i + 1);
+  }
   const Eigen::MatrixXd schur = dense_schur(matrix, 5);
   const SubdomainFactor factor = factorised(matrix, 5);
   EXPECT_LT((factor.schur() - schur).norm(), 1e-14 * schur.norm());

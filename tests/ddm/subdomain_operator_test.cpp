@@ -195,20 +195,25 @@ TEST(RigidInclusion, ProjectionEqualsTheConstrainedSolve) {
 
   const CondensedLoad load = upper.condense(slanted, zero);
   Eigen::VectorXd traction(trace);  // int g v ds with a traction g on gamma_N, gamma included
-  for (Eigen::Index i = 0; i < trace; ++i)
+  for (Eigen::Index i = 0; i < trace; ++i) {
     traction[i] = 0.05 * std::sin(0.4 * static_cast<double>(i)) + 0.01;
+  }
   const Eigen::VectorXd t = upper.project(load.g + traction);
   const Eigen::VectorXd u = anticrack::testing::recovered(upper.factorised, load, t);
 
   // Directly: one unknown A for all nodes of the inclusion.
   std::vector<Eigen::Triplet<double>> ones;
   Eigen::Index columns = 0;
-  for (Eigen::Index i = 0; i < interior + trace; ++i)
-    if (i < interior || subdomain.rigid[static_cast<std::size_t>(i - interior)] < 0)
+  for (Eigen::Index i = 0; i < interior + trace; ++i) {
+    if (i < interior || subdomain.rigid[static_cast<std::size_t>(i - interior)] < 0) {
       ones.emplace_back(i, columns++, 1.0);
-  for (Eigen::Index i = 0; i < trace; ++i)
-    if (subdomain.rigid[static_cast<std::size_t>(i)] == 0)
+    }
+  }
+  for (Eigen::Index i = 0; i < trace; ++i) {
+    if (subdomain.rigid[static_cast<std::size_t>(i)] == 0) {
       ones.emplace_back(interior + i, columns, 1.0);
+    }
+  }
   Eigen::SparseMatrix<double> constraint(interior + trace, columns + 1);
   constraint.setFromTriplets(ones.begin(), ones.end());
   const Eigen::SparseMatrix<double> free =
@@ -224,8 +229,9 @@ TEST(RigidInclusion, ProjectionEqualsTheConstrainedSolve) {
   // (27): int_gamma du/dn ds = int_gamma g ds
   double resultant = 0;
   const Eigen::VectorXd flux = upper.factorised.factor().apply_schur(t) - load.g - traction;
-  for (Eigen::Index i = 0; i < trace; ++i)
+  for (Eigen::Index i = 0; i < trace; ++i) {
     resultant += subdomain.rigid[static_cast<std::size_t>(i)] == 0 ? flux[i] : 0.0;
+  }
   RecordProperty("difference", std::to_string(difference));
   std::printf("[ figures  ] projection against constrained solve: %.2e; resultant: %.2e\n",
               difference, resultant);
@@ -246,8 +252,9 @@ TEST(RigidInclusion, FlexibilityOfASlitIsTheConstrainedInverse) {
   ASSERT_EQ(n, 2 + 2 * 3);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n, 4);
   Eigen::Index next = 1;
-  for (Eigen::Index i = 0; i < n; ++i)
+  for (Eigen::Index i = 0; i < n; ++i) {
     columns(i, subdomain.rigid[static_cast<std::size_t>(i)] == 0 ? 0 : next++) = 1;
+  }
   ASSERT_EQ(next, 4);
   const Eigen::MatrixXd expected =
       columns * (columns.transpose() * factorised.factor().schur() * columns).inverse() *
@@ -266,12 +273,16 @@ TEST(RigidInclusion, FlexibilityIsSymmetricAndHoldsTheInclusionConstant) {
   const Upper upper;
   const Eigen::Index n = index(upper.subdomain.trace);
   Eigen::MatrixXd f(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) f.col(i) = upper.project(Eigen::VectorXd::Unit(n, i));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    f.col(i) = upper.project(Eigen::VectorXd::Unit(n, i));
+  }
   EXPECT_LT((f - f.transpose()).norm(), 1e-13 * f.norm());
-  for (Eigen::Index i = 1; i < n; ++i)
+  for (Eigen::Index i = 1; i < n; ++i) {
     if (upper.subdomain.rigid[static_cast<std::size_t>(i)] == 0 &&
-        upper.subdomain.rigid[static_cast<std::size_t>(i - 1)] == 0)
+        upper.subdomain.rigid[static_cast<std::size_t>(i - 1)] == 0) {
       EXPECT_EQ(f.row(i), f.row(i - 1));
+    }
+  }
 }
 
 }  // namespace

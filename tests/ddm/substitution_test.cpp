@@ -35,8 +35,9 @@ class RandomFactor {
       const int end =
           std::min(size, first + 1 + static_cast<int>(random() % static_cast<unsigned>(widest)));
       std::vector<int> rows;
-      for (int i = first; i < size; ++i)
+      for (int i = first; i < size; ++i) {
         if (i < end || random() % 4 == 0) rows.push_back(i);
+      }
       for (int j = first; j < end; ++j) {
         for (const int i : rows) {
           // What lies above the diagonal must not be read as part of L.
@@ -121,9 +122,10 @@ class Substitutions : public ::testing::TestWithParam<Substitution> {
   static std::vector<SubstitutionKernel> kernels() {
     std::vector<SubstitutionKernel> result;
     for (const auto instructions :
-         {Instructions::baseline, Instructions::avx2, Instructions::avx512})
+         {Instructions::baseline, Instructions::avx2, Instructions::avx512}) {
       if (const SubstitutionKernel kernel = GetParam().kernel(instructions))
         result.push_back(kernel);
+    }
     return result;
   }
 };
@@ -154,8 +156,9 @@ TEST_P(Substitutions, GiveAColumnTheSameBitsInAnyCompany) {
   for (const SubstitutionKernel kernel : kernels()) {
     for (const int width : {8, 16, 24, 32}) {
       const MatrixXd together = solve(kernel, l, f.leftCols(width), width);
-      for (int j = 0; j < width; ++j)
+      for (int j = 0; j < width; ++j) {
         EXPECT_EQ(together.col(j), solve(kernel, l, f.col(j), 1).col(0)) << width << ' ' << j;
+      }
     }
   }
 }

@@ -48,8 +48,12 @@ TEST(Subtrees, AreWholeAndDisjointAndHaveNoRootOfTheTree) {
       for (int s = 0; s < 2000; ++s) {
         const int parent = tree.parent[at(s)], root = subtrees.root[at(s)];
         marked += root >= 0 ? 1 : 0;
-        if (root >= 0 && root != s) EXPECT_EQ(subtrees.root[at(parent)], root);
-        if (root < 0 && parent >= 0) EXPECT_LT(subtrees.root[at(parent)], 0);
+        if (root >= 0 && root != s) {
+          EXPECT_EQ(subtrees.root[at(parent)], root);
+        }
+        if (root < 0 && parent >= 0) {
+          EXPECT_LT(subtrees.root[at(parent)], 0);
+        }
       }
       EXPECT_EQ(marked, inside);
     }

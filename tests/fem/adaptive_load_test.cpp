@@ -34,7 +34,9 @@ TEST(SmoothLoad, PolynomialsOfDegreeFourAreExact) {
       std::vector<double> load;
       const auto report = integrate(mesh, f, load);
       const std::vector<double> exact = loads_cut_by_lines(mesh, {}, field(f));
-      for (std::size_t i = 0; i < load.size(); ++i) EXPECT_NEAR(load[i], exact[i], 3e-14) << f;
+      for (std::size_t i = 0; i < load.size(); ++i) {
+        EXPECT_NEAR(load[i], exact[i], 3e-14) << f;
+      }
       EXPECT_EQ(report.evaluations, 7 * 32U);  // samples go in blocks of 32 triangles
     }
   }
@@ -81,7 +83,9 @@ TEST(SmoothLoad, ZeroIsZero) {
   for (const char* zero : {"0", "x - x", "sin(0*x)"}) {
     std::vector<double> load;
     const auto report = integrate(mesh, zero, load);
-    for (const double part : load) EXPECT_EQ(part, 0.0);
+    for (const double part : load) {
+      EXPECT_EQ(part, 0.0);
+    }
     EXPECT_EQ(report.relative_error_estimate, 0);
   }
 }
@@ -134,8 +138,9 @@ TEST(Singularity, AtANodeIsToldAsItIs) {
     }
     return 8 * 0.25 * std::numbers::pi / n * whole;
   };
-  for (const double a : {0.25, 0.6, 0.75, 0.9})
+  for (const double a : {0.25, 0.6, 0.75, 0.9}) {
     expect_honest(mesh, "(x^2 + y^2)^(-" + text(a) + ")", exact(a));
+  }
   for (const double a : {0.25, 0.6}) {
     std::vector<double> load;
     integrate(mesh, "(x^2 + y^2)^(-" + text(a) + ")", load, {.relative_tolerance = 1e-6});
@@ -248,7 +253,9 @@ TEST(FlatTriangle, HasNoLoadAndDisturbsNoOther) {
   std::vector<double> load;
   const auto report = integrate(mesh, f, load);
   EXPECT_LT(report.relative_error_estimate, 1e-10);
-  for (std::size_t i = 0; i < load.size(); ++i) EXPECT_NEAR(load[i], exact[i], 1e-11) << i;
+  for (std::size_t i = 0; i < load.size(); ++i) {
+    EXPECT_NEAR(load[i], exact[i], 1e-11) << i;
+  }
 }
 
 }  // namespace

@@ -36,8 +36,9 @@ Triangulation crooked_square(int n) {
 
 Eigen::VectorXd nodal(const Triangulation& part, double (*f)(double, double)) {
   Eigen::VectorXd values(static_cast<Eigen::Index>(part.node_count()));
-  for (std::size_t i = 0; i < part.node_count(); ++i)
+  for (std::size_t i = 0; i < part.node_count(); ++i) {
     values[static_cast<Eigen::Index>(i)] = f(part.xy[2 * i], part.xy[2 * i + 1]);
+  }
   return values;
 }
 
@@ -75,14 +76,17 @@ Triangulation shuffled(const Triangulation& part) {
     result.xy[2 * (19 * i % n)] = part.xy[2 * i];
     result.xy[2 * (19 * i % n) + 1] = part.xy[2 * i + 1];
   }
-  for (std::int32_t& node : result.triangles)
+  for (std::int32_t& node : result.triangles) {
     node = static_cast<std::int32_t>(19 * static_cast<std::size_t>(node) % n);
+  }
   return result;
 }
 
 /// Towards the corner at the origin, down to elements of 1e-13.
 Triangulation graded(Triangulation part) {
-  for (double& x : part.xy) x = std::pow(x, 16);
+  for (double& x : part.xy) {
+    x = std::pow(x, 16);
+  }
   return part;
 }
 
@@ -165,13 +169,15 @@ TEST(LoadVector, OfAnArrayOnNodesIsThatOfItsInterpolant) {
 TEST(LoadVector, OfArraysTogetherHasTheBitsThatEachHasAlone) {
   const Triangulation part = crooked_square(7);
   std::vector<std::int32_t> node(part.node_count());
-  for (std::size_t i = 0; i < node.size(); ++i)
+  for (std::size_t i = 0; i < node.size(); ++i) {
     node[i] = static_cast<std::int32_t>(node.size() - i);
+  }
   std::vector<std::vector<double>> values(13);  // a full block, a part of one
   std::vector<const double*> arrays;
   for (std::size_t j = 0; j < values.size(); ++j) {
-    for (std::size_t i = 0; i <= node.size(); ++i)
+    for (std::size_t i = 0; i <= node.size(); ++i) {
       values[j].push_back(std::sin(static_cast<double>(3 * i + 7 * j)));
+    }
     arrays.push_back(values[j].data());
   }
   for (const std::size_t count : {0U, 1U, 2U, 3U, 8U, 10U, 13U}) {

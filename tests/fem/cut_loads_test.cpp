@@ -116,8 +116,9 @@ TEST(JumpOnEdges, ArcBehindItsChord) {
     }
     for (std::int32_t i = 0; i < count; ++i) {
       const std::int32_t a = 1 + i, b = 1 + (i + 1) % count;
-      for (const std::int32_t node : {0, a, b, a, a + count, b, b, a + count, b + count})
+      for (const std::int32_t node : {0, a, b, a, a + count, b, b, a + count, b + count}) {
         mesh.triangles.push_back(node);
+      }
     }
     const std::string f = "x^2 + y^2 < 0.36";
     expect_right(compare("arc", mesh, f, loads_of_disc(mesh, {0, 0}, 0.6)));
@@ -130,7 +131,9 @@ TEST(Circle, AreaAndNodalLoads) {
     const std::string f = "x^2 + y^2 < 0.3 ? 1 : 0";
     const std::vector<double> exact = loads_of_disc(mesh, {0, 0}, std::sqrt(0.3));
     double area = 0;
-    for (const double part : exact) area += part;
+    for (const double part : exact) {
+      area += part;
+    }
     ASSERT_NEAR(area, 0.3 * pi, 1e-13);
     expect_right(compare("circle", mesh, f, exact));
   }
@@ -198,7 +201,9 @@ TEST(Crossing, ThreeRandomLines) {
       lines.push_back({std::cos(angle), std::sin(angle), uniform(-0.4, 0.4)});
     }
     std::string f = "1";
-    for (const Line& line : lines) f += "*(" + beyond(line) + " ? 1 : -0.5)";
+    for (const Line& line : lines) {
+      f += "*(" + beyond(line) + " ? 1 : -0.5)";
+    }
     SCOPED_TRACE("case " + std::to_string(i));
     expect_right(compare("three lines", mesh, f, loads_cut_by_lines(mesh, lines, field(f))));
   }
@@ -251,7 +256,9 @@ TEST(SmallTriangles, RoundingDoesNotRunAway) {
       mesh.xy.push_back(x0 + size * corner[0]);
       mesh.xy.push_back(y0 + size * corner[1]);
     }
-    for (std::int32_t i = 0; i < 3; ++i) mesh.triangles.push_back(first + i);
+    for (std::int32_t i = 0; i < 3; ++i) {
+      mesh.triangles.push_back(first + i);
+    }
   }
   const Line line{0.6, -1, 0.6 * x0 - y0};
   const std::string f = beyond(line) + " ? 1 : -1";
@@ -261,8 +268,9 @@ TEST(SmallTriangles, RoundingDoesNotRunAway) {
   EXPECT_LT(report.evaluations, 6000 * mesh.triangle_count());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const double area = polygon_area(corners(mesh, t));
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_NEAR(load[3 * t + i], exact[3 * t + i], 1e-10 * area + 1e-14 * std::sqrt(area)) << t;
+    }
   }
 }
 

@@ -118,8 +118,9 @@ TEST(ExpressionReference, SmoothTextsAreRightToRounding) {
     Reference reference(text);
     const std::vector<double> x{-0.83, -0.21, 0.13, 0.57}, y{0.91, 0.37, -0.29, -0.63};
     const std::vector<double> found = values(function.tape(), x, y);
-    for (std::size_t k = 0; k < x.size(); ++k)
+    for (std::size_t k = 0; k < x.size(); ++k) {
       EXPECT_NEAR(found[k], reference(x[k], y[k]), 1e-14) << text;
+    }
   }
 }
 

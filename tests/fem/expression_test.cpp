@@ -70,8 +70,9 @@ INSTANTIATE_TEST_SUITE_P(Expressions, Refused,
                                            "x\x01", "\xd1\x84", "1 ? 2", "x; y"));
 
 TEST(Expression, ComparisonsAreNoAssignments) {
-  for (const char* text : {"x == 1", "x<=1", "x >= 1", "x != 1", "(x==y)*(y==x)"})
+  for (const char* text : {"x == 1", "x<=1", "x >= 1", "x != 1", "(x==y)*(y==x)"}) {
     EXPECT_NO_THROW(check(load_of(Expression{text}), length_limit)) << text;
+  }
 }
 
 TEST(Expression, LongerThanTheLimitIsRefused) {

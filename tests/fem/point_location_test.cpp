@@ -37,7 +37,9 @@ TEST(Locate, FindsEveryPointInItsTriangle) {
   std::uniform_real_distribution<double> anywhere(-1, 1);
   const Triangulation part = crooked_triangles();
   std::vector<PlanePoint> points;
-  for (int i = 0; i < 500; ++i) points.push_back({anywhere(random), anywhere(random)});
+  for (int i = 0; i < 500; ++i) {
+    points.push_back({anywhere(random), anywhere(random)});
+  }
   const std::vector<Location> found = locate(part, PointSet(points), tolerance);
   ASSERT_EQ(found.size(), points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -57,7 +59,9 @@ TEST(Locate, TakesNodesAndWhatIsOutsideByATrifle) {
     ASSERT_GE(found[i].triangle, 0) << i;
     const PlanePoint at = place(part, found[i]);
     EXPECT_NEAR(std::hypot(at[0] - points[i][0], at[1] - points[i][1]), 0, 2e-10) << i;
-    for (const double weight : found[i].weight) EXPECT_GE(weight, 0);
+    for (const double weight : found[i].weight) {
+      EXPECT_GE(weight, 0);
+    }
   }
   EXPECT_EQ(found[3].triangle, -1);
   EXPECT_EQ(found[4].triangle, -1);

@@ -35,8 +35,9 @@ std::vector<double> reference(const PlaneMesh& mesh, const std::string& text, st
       for (std::size_t i = 0; i < count; ++i) {
         const double value = part * evaluator.values(0)[i];
         const std::array<double, 3> phi{1 - b[i] - c[i], b[i], c[i]};
-        for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t k = 0; k < 3; ++k) {
           load[static_cast<std::size_t>(mesh.triangles[3 * t + k])] += value * phi[k];
+        }
       }
       count = 0;
     };
@@ -84,8 +85,9 @@ class RandomLoads : public ::testing::Test {
 };
 
 TEST_F(RandomLoads, Smooth) {
-  for (int i = 0; i < 40; ++i)
+  for (int i = 0; i < 40; ++i) {
     expect_right(mesh, "(" + random.smooth(10) + ")*(2 + " + random.smooth(3) + ")", 64, 1e-6);
+  }
 }
 
 TEST_F(RandomLoads, Kinked) {

@@ -23,7 +23,9 @@ struct Segment {
       const double part = static_cast<double>(i) / n;
       part_of_plane.xy.push_back(3 * part * part);
       part_of_plane.xy.push_back(2);
-      if (i > 0) edges.push_back({i - 1, i});
+      if (i > 0) {
+        edges.push_back({i - 1, i});
+      }
     }
   }
   Eigen::VectorXd load(const std::string& traction) const {
@@ -34,8 +36,9 @@ struct Segment {
   }
   double moment(const Eigen::VectorXd& load) const {
     double sum = 0;
-    for (Eigen::Index i = 0; i < load.size(); ++i)
+    for (Eigen::Index i = 0; i < load.size(); ++i) {
       sum += load[i] * part_of_plane.xy[2 * static_cast<std::size_t>(i)];
+    }
     return sum;
   }
 

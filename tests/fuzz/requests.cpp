@@ -46,10 +46,11 @@ void take(const v1::CreateMeshRequest& request) {
   record.definition = api::to_definition(request);
   check_record(record, store::decode_mesh_record);
   try {
-    if (const auto* source = std::get_if<store::GeometrySource>(&record.definition))
+    if (const auto* source = std::get_if<store::GeometrySource>(&record.definition)) {
       plan(*source);
-    else
+    } else {
       mesh::check_for_upload(std::get<store::UploadRef>(record.definition).options);
+    }
   } catch (const errors::Error& error) {
     throw api::below_mesh_request(error);
   }

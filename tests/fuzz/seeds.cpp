@@ -255,8 +255,9 @@ void add_load(Block& block, const std::string& at, const results::Load& load) {
   block.add(at + "history/kkt_gap", history.kkt.gap);
   block.add(at + "history/kkt_sign", history.kkt.sign);
   block.add(at + "history/kkt_complementarity", history.kkt.complementarity);
-  for (std::size_t i = 0; i < load.fields.size(); ++i)
+  for (std::size_t i = 0; i < load.fields.size(); ++i) {
     block.add(at + "fields/" + std::to_string(i), load.fields[i].u);
+  }
 }
 
 void save_result() {
@@ -279,8 +280,9 @@ void save_result() {
     mesh.add(line + "kind", std::vector<std::int32_t>(interface.edges.kind.size(), 3));
     mesh.add(line + "inclusion", std::vector<std::int32_t>(interface.edges.kind.size(), 0));
   }
-  for (std::size_t i = 0; i < result.loads.size(); ++i)
+  for (std::size_t i = 0; i < result.loads.size(); ++i) {
     add_load(answer, "loads/" + std::to_string(i) + "/", result.loads[i]);
+  }
   for (std::size_t i = 0; i < result.loads[0].fields.size(); ++i) {
     const std::string at = "fields/" + std::to_string(i);
     answer.add(at + "/nodes", result.loads[0].fields[i].nodes);

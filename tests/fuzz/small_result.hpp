@@ -13,8 +13,9 @@ inline results::Result small_result() {
     auto& history = load.history;
     history.iteration.resize(2);
     for (auto* values : {&history.criterion, &history.energy, &history.kkt.equilibrium,
-                         &history.kkt.gap, &history.kkt.sign, &history.kkt.complementarity})
+                         &history.kkt.gap, &history.kkt.sign, &history.kkt.complementarity}) {
       values->resize(2);
+    }
     history.contact_count.resize(2);
     load.iterations = 2;
   }

@@ -35,8 +35,9 @@ store::Store& the_store() {
 
 std::vector<v1::UploadMeshRequest> messages(fuzz::Pieces& pieces) {
   std::vector<v1::UploadMeshRequest> list;
-  while (!pieces.empty())
+  while (!pieces.empty()) {
     if (!list.emplace_back().ParseFromString(pieces.piece())) list.pop_back();
+  }
   return list;
 }
 

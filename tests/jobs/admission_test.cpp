@@ -58,9 +58,13 @@ TEST(Admission, DelaysLongerTheLongerTheQueue) {
   ASSERT_TRUE(error);
   const auto one = error->retry_delay();
   EXPECT_GT(one.count(), 0);
-  for (int i = 0; i < 100; ++i) admission.add("a", 1, 1);
+  for (int i = 0; i < 100; ++i) {
+    admission.add("a", 1, 1);
+  }
   EXPECT_GT(admission.retry_delay(), one);
-  for (int i = 0; i < 100'000; ++i) admission.add("a", 1, 1);
+  for (int i = 0; i < 100'000; ++i) {
+    admission.add("a", 1, 1);
+  }
   EXPECT_LE(admission.retry_delay(), std::chrono::minutes(1));
 }
 

@@ -32,8 +32,9 @@ JobSpec good() {
 
 /// Its options, Algorithm 2's defaults if it had another method.
 contact::UzawaOptions& uzawa(JobSpec& spec) {
-  if (!std::holds_alternative<contact::UzawaOptions>(spec.solver))
+  if (!std::holds_alternative<contact::UzawaOptions>(spec.solver)) {
     spec.solver = contact::UzawaOptions();
+  }
   return std::get<contact::UzawaOptions>(spec.solver);
 }
 

@@ -46,10 +46,12 @@ using NamedArrays = std::map<std::string, std::vector<double>>;
 
 NamedArrays arrays_of(const store::BlockSource& block) {
   NamedArrays arrays;
-  for (const store::ArrayLayout& layout : block.arrays())
+  for (const store::ArrayLayout& layout : block.arrays()) {
     if (layout.type == store::ArrayType::float64 &&
-        layout.name.find("history") == std::string::npos)
+        layout.name.find("history") == std::string::npos) {
       arrays[layout.name] = *array<double>(block, layout.name);
+    }
+  }
   return arrays;
 }
 
@@ -57,9 +59,12 @@ double largest_difference(const NamedArrays& a, const NamedArrays& b) {
   double difference = a.size() == b.size() ? 0 : HUGE_VAL;
   for (const auto& [name, values] : a) {
     const auto found = b.find(name);
-    if (found == b.end() || found->second.size() != values.size()) return HUGE_VAL;
-    for (std::size_t i = 0; i < values.size(); ++i)
+    if (found == b.end() || found->second.size() != values.size()) {
+      return HUGE_VAL;
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
       difference = std::max(difference, std::abs(values[i] - found->second[i]));
+    }
   }
   return difference;
 }
@@ -80,7 +85,9 @@ TEST(EngineBatch, EqualsEachAlone) {
   options.turn = 1ms;
   Engine test(options);
   std::vector<std::string> ids;
-  for (const store::JobSpec& spec : mix(test.ready_mesh())) ids.push_back(test.submit(spec));
+  for (const store::JobSpec& spec : mix(test.ready_mesh())) {
+    ids.push_back(test.submit(spec));
+  }
   for (std::size_t j = 0; j < ids.size(); ++j) {
     const JobRecord record = test.ended(ids[j]);
     ASSERT_EQ(record.state, JobState::succeeded);
@@ -118,8 +125,9 @@ TEST(EngineBatch, TheCasesOfOneJobAreSharedByIdleThreads) {
   const std::string mesh = test.ready_mesh();
   store::JobSpec spec = endless_job(mesh);
   spec.loads.clear();
-  for (int i = 0; i < 8; ++i)
+  for (int i = 0; i < 8; ++i) {
     spec.loads.push_back({std::to_string(i), fem::Expression{"y > 0 ? 1 : -1"}, ""});
+  }
   // One thread would iterate eight columns or none; two have four each, not always in step. A
   // thread that was not yet idle when the job came has no share: the next job finds it idle.
   const auto shared = [&] {
@@ -189,7 +197,9 @@ TEST(EngineBatch, TheMoreUrgentJobStartsFirst) {
   }
   test.engine.cancel(blocker);
   std::vector<store::Clock::time_point> starts;
-  for (const std::string& id : ids) starts.push_back(test.ended(id).started.value());
+  for (const std::string& id : ids) {
+    starts.push_back(test.ended(id).started.value());
+  }
   EXPECT_LT(starts[2], starts[1]);
   EXPECT_LT(starts[1], starts[0]);
 }

@@ -27,7 +27,9 @@ void expect_cancelled(const JobRecord& record) {
   EXPECT_EQ(record.state, JobState::cancelled);
   EXPECT_TRUE(record.ended);
   EXPECT_FALSE(record.error);
-  for (const store::CaseRecord& ended : record.cases) EXPECT_EQ(ended.status, Status::cancelled);
+  for (const store::CaseRecord& ended : record.cases) {
+    EXPECT_EQ(ended.status, Status::cancelled);
+  }
 }
 
 TEST(EngineCancel, OfAQueuedJobNeedsNoSolverThread) {
@@ -73,7 +75,9 @@ TEST(EngineCancel, AsTheJobStarts) {
   ASSERT_TRUE(test.iterating(blocker));
   const std::string id = test.submit(short_job(mesh));
   const auto listener = test.engine.events(id)->listen([&] {
-    if (!store::ended(test.state(id))) test.engine.cancel(id);  // its first event: that it runs
+    if (!store::ended(test.state(id))) {
+      test.engine.cancel(id);  // its first event: that it runs
+    }
   });
   test.engine.cancel(blocker);
   expect_cancelled(test.ended(id));
@@ -114,7 +118,9 @@ TEST(EngineCancel, KeepsTheLoadCasesThatWereFinished) {
   const auto log = test.engine.events(id);
   const auto listener = log->listen([&] {
     const auto last = log->read(log->latest() - 1, 1);
-    if (std::holds_alternative<CaseEvent>(last.at(0).event)) test.engine.cancel(id);
+    if (std::holds_alternative<CaseEvent>(last.at(0).event)) {
+      test.engine.cancel(id);
+    }
   });
   test.engine.cancel(blocker);
   const JobRecord record = test.ended(id);
@@ -132,8 +138,12 @@ TEST(EngineCancel, MayComeFromManyAtOnce) {
   const std::string id = test.submit(endless_job(test.ready_mesh()));
   ASSERT_TRUE(test.iterating(id));
   std::vector<std::thread> threads;
-  for (int t = 0; t < 4; ++t) threads.emplace_back([&] { test.engine.cancel(id); });
-  for (std::thread& thread : threads) thread.join();
+  for (int t = 0; t < 4; ++t) {
+    threads.emplace_back([&] { test.engine.cancel(id); });
+  }
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
   expect_cancelled(test.ended(id));
   EXPECT_EQ(test.engine.metrics().jobs_ended, 1U);
 }

@@ -122,7 +122,9 @@ TEST(EngineLimits, CasesAndBytesOfTheQueueAreBounded) {
   EXPECT_TRUE(throws([&] { test.submit(large); }, Reason::busy));
   store::JobSpec possible_never = short_job(other);
   possible_never.loads.resize(4, possible_never.loads[0]);
-  for (std::size_t i = 0; i < 4; ++i) possible_never.loads[i].name = std::to_string(i);
+  for (std::size_t i = 0; i < 4; ++i) {
+    possible_never.loads[i].name = std::to_string(i);
+  }
   EXPECT_TRUE(throws([&] { test.submit(possible_never); }, Reason::limit_exceeded, "load_cases"));
   EXPECT_GT(test.engine.metrics().queued_bytes, 0U);
   test.engine.cancel(first);
@@ -192,13 +194,18 @@ TEST(EngineSchedule, AJobOnAReadyMeshPassesThoseThatWait) {
   test.backend.door.shut();
   // Two of a size are prepared at a time, and the third waits behind them.
   std::vector<std::string> waiting;
-  for (const double size : {0.2, 0.3, 0.4})
+  for (const double size : {0.2, 0.3, 0.4}) {
     waiting.push_back(test.submit(short_job(test.backend.create(size))));
+  }
   ASSERT_TRUE(eventually([&] { return test.backend.door.waiting() == 2; }));
   EXPECT_EQ(test.ended(test.submit(short_job(ready))).state, JobState::succeeded);
-  for (const std::string& id : waiting) EXPECT_FALSE(store::ended(test.state(id)));
+  for (const std::string& id : waiting) {
+    EXPECT_FALSE(store::ended(test.state(id)));
+  }
   test.backend.door.open();
-  for (const std::string& id : waiting) EXPECT_EQ(test.ended(id).state, JobState::succeeded);
+  for (const std::string& id : waiting) {
+    EXPECT_EQ(test.ended(id).state, JobState::succeeded);
+  }
 }
 
 TEST(EngineSchedule, AJobOnASmallMeshEndsWhileLargeMeshesAreFactorised) {
@@ -206,8 +213,9 @@ TEST(EngineSchedule, AJobOnASmallMeshEndsWhileLargeMeshesAreFactorised) {
   test.backend.kept_out = 5000;
   test.backend.door.shut();
   std::vector<std::string> waiting;  // more than are prepared ahead
-  for (const double size : {0.032, 0.0325, 0.033, 0.0335, 0.034})
+  for (const double size : {0.032, 0.0325, 0.033, 0.0335, 0.034}) {
     waiting.push_back(test.submit(short_job(test.backend.create(size))));
+  }
   ASSERT_TRUE(eventually([&] { return test.backend.door.waiting() == 2; }));
   EXPECT_EQ(test.ended(test.submit(short_job(test.backend.create(0.2)))).state,
             JobState::succeeded);
@@ -224,10 +232,14 @@ TEST(EngineSchedule, JobsOnOneMeshShareOneFactorisation) {
   test.backend.door.shut();
   const std::string mesh = test.backend.create();
   std::vector<std::string> ids;
-  for (int i = 0; i < 6; ++i) ids.push_back(test.submit(short_job(mesh)));
+  for (int i = 0; i < 6; ++i) {
+    ids.push_back(test.submit(short_job(mesh)));
+  }
   ASSERT_TRUE(eventually([&] { return test.told(ids[0], "factorising"); }));
   test.backend.door.open();
-  for (const std::string& id : ids) EXPECT_EQ(test.ended(id).state, JobState::succeeded);
+  for (const std::string& id : ids) {
+    EXPECT_EQ(test.ended(id).state, JobState::succeeded);
+  }
   EXPECT_EQ(test.backend.cache.metrics().factorizations, 1U);
   EXPECT_EQ(test.backend.catalogue.meshings(), 1U);
 }
@@ -238,10 +250,14 @@ TEST(EngineSchedule, StartsJobsInTheOrderTheyCame) {
   const std::string blocker = test.submit(endless_job(mesh));
   ASSERT_TRUE(test.iterating(blocker));
   std::vector<std::string> ids;
-  for (int i = 0; i < 5; ++i) ids.push_back(test.submit(short_job(mesh)));
+  for (int i = 0; i < 5; ++i) {
+    ids.push_back(test.submit(short_job(mesh)));
+  }
   test.engine.cancel(blocker);
   std::vector<store::Clock::time_point> starts;
-  for (const std::string& id : ids) starts.push_back(test.ended(id).started.value());
+  for (const std::string& id : ids) {
+    starts.push_back(test.ended(id).started.value());
+  }
   EXPECT_TRUE(std::is_sorted(starts.begin(), starts.end()));
 }
 

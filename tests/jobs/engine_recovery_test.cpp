@@ -77,8 +77,9 @@ TEST(EngineRecovery, RunsWhatRanAgainWithTheSameNumbers) {
 
   const std::string alone = engine.submit({long_job(mesh), "", ""}).id;
   const JobRecord reference = ended(engine, alone);
-  for (const char* name : {"loads/0/traces/0/jump", "loads/1/traces/0/pressure"})
+  for (const char* name : {"loads/0/traces/0/jump", "loads/1/traces/0/pressure"}) {
     EXPECT_EQ(array<double>(*engine.result(id), name), array<double>(*engine.result(alone), name));
+  }
   EXPECT_EQ(record.cases[0].answer.iterations, reference.cases[0].answer.iterations);
 }
 
@@ -144,7 +145,9 @@ TEST(EngineRecovery, EndsAJobThatTheServerDoesNotSurvive) {
   created.cases.resize(1);
   created.created = store::Clock::now();
   backend.store->create(created, "print");
-  for (const bool crash : {true, false, true, false, true}) run_and_leave(backend, "job", crash);
+  for (const bool crash : {true, false, true, false, true}) {
+    run_and_leave(backend, "job", crash);
+  }
   JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
   const JobRecord record = ended(engine, "job");
   EXPECT_EQ(record.state, JobState::failed);

@@ -110,8 +110,9 @@ TEST(EngineSolve, GivesTheArraysOfTheResult) {
     const auto jump = array<double>(*block, path + "traces/0/jump");
     ASSERT_TRUE(u_minus && u_plus && jump && array<double>(*block, path + "traces/0/pressure"));
     ASSERT_EQ(jump->size(), s->size());
-    for (std::size_t i = 0; i < jump->size(); ++i)
+    for (std::size_t i = 0; i < jump->size(); ++i) {
       EXPECT_NEAR((*jump)[i], (*u_plus)[i] - (*u_minus)[i], 1e-14);
+    }
     EXPECT_EQ(array<std::int32_t>(*block, path + "traces/0/contact")->size(), s->size());
 
     const store::CaseRecord& solved = record.cases[load];
@@ -123,8 +124,9 @@ TEST(EngineSolve, GivesTheArraysOfTheResult) {
     EXPECT_EQ(array<std::int32_t>(*block, path + "history/contact_count")->size(),
               iteration->size());
     for (const char* column :
-         {"energy", "kkt_equilibrium", "kkt_gap", "kkt_sign", "kkt_complementarity"})
+         {"energy", "kkt_equilibrium", "kkt_gap", "kkt_sign", "kkt_complementarity"}) {
       EXPECT_EQ(array<double>(*block, path + "history/" + column)->size(), iteration->size());
+    }
     for (const char* subdomain : {"0", "1"}) {
       EXPECT_EQ(array<double>(*block, path + "fields/" + subdomain)->size(),
                 array<std::int32_t>(*block, std::string("fields/") + subdomain + "/nodes")->size());

@@ -39,8 +39,9 @@ int watch(EventLog& log) {
     }
     for (const NumberedEvent& event : events) {
       wrong += event.sequence == ++after ? 0 : 1;
-      if (std::holds_alternative<EndEvent>(event.event))
+      if (std::holds_alternative<EndEvent>(event.event)) {
         return wrong + (after == log.latest() ? 0 : 1);
+      }
     }
     if (events.empty()) {
       std::unique_lock lock(mutex);
@@ -77,7 +78,7 @@ TEST(EngineStress, SurvivesManyClients) {
           const auto log = test.engine.events(id);
           std::thread watcher([&] { wrong += watch(*log); });
           std::thread canceller;
-          if (endless || random() % 4 == 0)
+          if (endless || random() % 4 == 0) {
             canceller = std::thread([&] {
               try {
                 test.engine.cancel(id);
@@ -85,13 +86,20 @@ TEST(EngineStress, SurvivesManyClients) {
                 wrong += error.reason() == Reason::not_found ? 0 : 1;
               }
             });
+          }
           test.list(5);
           test.engine.metrics();
-          if (canceller.joinable()) canceller.join();
+          if (canceller.joinable()) {
+            canceller.join();
+          }
           watcher.join();
           ++finished;
-          if (random() % 2 == 0) test.engine.erase(id);
-          if (random() % 4 == 0) test.backend.cache.evict(test.backend.catalogue.get(mesh).sha256);
+          if (random() % 2 == 0) {
+            test.engine.erase(id);
+          }
+          if (random() % 4 == 0) {
+            test.backend.cache.evict(test.backend.catalogue.get(mesh).sha256);
+          }
         } catch (const Error& error) {
           const bool expected =
               error.reason() == Reason::busy || error.reason() == Reason::not_found;
@@ -100,7 +108,9 @@ TEST(EngineStress, SurvivesManyClients) {
       }
     });
   }
-  for (std::thread& thread : threads) thread.join();
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(finished, 0);
   test.engine.stop(std::chrono::milliseconds(0));

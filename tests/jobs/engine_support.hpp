@@ -48,7 +48,9 @@ inline store::JobRecord ended(const JobEngine& engine, const std::string& id) {
   const std::shared_ptr<EventLog> log = engine.events(id);
   std::shared_ptr<const store::JobRecord> record;
   EXPECT_TRUE(anticrack::testing::eventually([&] {
-    if (log->latest() < log->earliest()) return false;
+    if (log->latest() < log->earliest()) {
+      return false;
+    }
     const auto last = log->read(log->latest() - 1, 1);
     const auto* end = std::get_if<EndEvent>(&last.at(0).event);
     record = end == nullptr ? nullptr : end->job;
@@ -107,7 +109,9 @@ class Engine {
   bool told(const std::string& id, const std::string& detail) const {
     for (const NumberedEvent& event : events(id)) {
       const auto* phase = std::get_if<PhaseEvent>(&event.event);
-      if (phase != nullptr && phase->detail == detail) return true;
+      if (phase != nullptr && phase->detail == detail) {
+        return true;
+      }
     }
     return false;
   }
@@ -126,7 +130,9 @@ std::optional<std::vector<T>> array(const store::BlockSource& block, const std::
   for (const store::ArrayLayout& layout : block.arrays()) {
     if (layout.name == name) {
       std::uint64_t count = 1;
-      for (const std::uint64_t extent : layout.shape) count *= extent;
+      for (const std::uint64_t extent : layout.shape) {
+        count *= extent;
+      }
       std::vector<T> values(count);
       block.read(layout.offset, std::as_writable_bytes(std::span(values)));
       return values;

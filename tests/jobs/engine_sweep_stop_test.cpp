@@ -52,8 +52,9 @@ class EngineSweepStop : public ::testing::Test {
     const std::shared_ptr<EventLog> log = test.engine.events(id);
     _listener = log->listen([this, log, id, action] {
       const auto last = log->read(log->latest() - 1, 1);
-      if (std::holds_alternative<RowsEvent>(last.at(0).event) && !std::exchange(_told, true))
+      if (std::holds_alternative<RowsEvent>(last.at(0).event) && !std::exchange(_told, true)) {
         action(id);
+      }
     });
     test.backend.door.open();
     return id;
@@ -115,8 +116,9 @@ TEST_F(EngineSweepStop, FailsWhenItsTimeIsOver) {
   EXPECT_EQ(record.error->fields().at(0).field, "run_timeout");
   EXPECT_EQ(record.sweep.converged + record.sweep.failed, rows);
   EXPECT_LE(record.sweep.converged, 256U);
-  if (record.sweep.converged > 0)
+  if (record.sweep.converged > 0) {
     EXPECT_EQ(count(id, failed), static_cast<std::ptrdiff_t>(rows) - 256);
+  }
 }
 
 TEST_F(EngineSweepStop, AnUrgentLoadCaseWaitsForOneChunkAtMost) {
@@ -130,7 +132,9 @@ TEST_F(EngineSweepStop, AnUrgentLoadCaseWaitsForOneChunkAtMost) {
     const auto log = test.engine.events(urgent);
     listener = log->listen([&, log, bulk] {
       const auto last = log->read(log->latest() - 1, 1);
-      if (std::holds_alternative<CaseEvent>(last.at(0).event)) chunks_before = chunks_told(bulk);
+      if (std::holds_alternative<CaseEvent>(last.at(0).event)) {
+        chunks_before = chunks_told(bulk);
+      }
     });
   });
   EXPECT_EQ(test.ended(id).state, JobState::succeeded);
@@ -148,7 +152,9 @@ TEST_F(EngineSweepStop, AnUrgentSweepPassesABulkOne) {
     urgent = test.submit(sweep(store::Priority::interactive));
     const auto log = test.engine.events(urgent);
     listener = log->listen([&, log, bulk] {
-      if (rows_told(*log).size() == 4 && chunks_before == 0) chunks_before = chunks_told(bulk);
+      if (rows_told(*log).size() == 4 && chunks_before == 0) {
+        chunks_before = chunks_told(bulk);
+      }
     });
   });
   EXPECT_EQ(test.ended(id).state, JobState::succeeded);
@@ -169,7 +175,9 @@ TEST(EngineSweepAgain, ManyRunAtOnceAndSomeAreCancelled) {
     ids.push_back(many.submit(combinations(shared, upload(many.backend, eighths(3 * rows, i)))));
     ids.push_back(many.submit(one_by_one(shared, eighths(12, i))));
   }
-  for (std::size_t i = 0; i < ids.size(); i += 4) many.engine.cancel(ids[i]);
+  for (std::size_t i = 0; i < ids.size(); i += 4) {
+    many.engine.cancel(ids[i]);
+  }
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const JobRecord record = many.ended(ids[i]);
     EXPECT_TRUE(record.state == JobState::succeeded ||

@@ -20,15 +20,18 @@ using ::testing::ElementsAre;
 
 double largest(const std::vector<double>& values) {
   double result = 0;
-  for (const double value : values) result = std::max(result, std::abs(value));
+  for (const double value : values) {
+    result = std::max(result, std::abs(value));
+  }
   return result;
 }
 
 void expect_near(const std::vector<double>& values, const std::vector<double>& expected) {
   ASSERT_EQ(values.size(), expected.size());
   const double tolerance = 1e-9 * largest(expected);
-  for (std::size_t i = 0; i < values.size(); ++i)
+  for (std::size_t i = 0; i < values.size(); ++i) {
     ASSERT_NEAR(values[i], expected[i], tolerance) << i;
+  }
 }
 
 /// What the two have in common, row by row.
@@ -38,8 +41,9 @@ void expect_same_answers(const store::BlockSource& sweep, const JobRecord& plain
     ASSERT_EQ(record.status, contact::Status::converged);
     energy.push_back(record.answer.energy);
     length.push_back(record.answer.contact_length);
-    for (const contact::InclusionAnswer& inclusion : record.answer.inclusions)
+    for (const contact::InclusionAnswer& inclusion : record.answer.inclusions) {
       displacement.push_back(inclusion.displacement);
+    }
   }
   expect_near(*array<double>(sweep, "sweep/energy"), energy);
   expect_near(*array<double>(sweep, "sweep/contact_length"), length);
@@ -249,8 +253,9 @@ TEST(EngineSweep, ReadsTheArraysOfItsBasis) {
   spec.loads[0].force = fem::Array{
       upload(test.backend, std::vector<double>(node_count(test.backend, mesh), 1.0)), false};
   const std::string array_of_ones = test.submit(spec);
-  for (const std::string& id : {constant, array_of_ones})
+  for (const std::string& id : {constant, array_of_ones}) {
     ASSERT_EQ(test.ended(id).state, JobState::succeeded);
+  }
   expect_near(*array<double>(*test.engine.result(array_of_ones), "sweep/energy"),
               *array<double>(*test.engine.result(constant), "sweep/energy"));
 }

@@ -89,7 +89,9 @@ TEST(EventLogRuns, LeavesARunWhatItIsWhileTheLogMovesOn) {
   EventLog log(4096);
   log.append(samples(1, 10));
   const NumberedBatch before = log.batch(0, 10);
-  for (int i = 0; i < 50; ++i) log.append(samples(11 + 20 * i, 20));
+  for (int i = 0; i < 50; ++i) {
+    log.append(samples(11 + 20 * i, 20));
+  }
   EXPECT_GT(log.earliest(), 11U);
   EXPECT_THAT(numbers_of(before.events), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10));
 }
@@ -128,8 +130,9 @@ CaseEvent case_ended(int load_case, int steps, std::size_t bytes = 0) {
 
 std::vector<int> ended_in(const Batch& batch) {
   std::vector<int> load_cases;
-  for (const CaseEvent& ended : std::get<ProgressEvents>(batch).ended)
+  for (const CaseEvent& ended : std::get<ProgressEvents>(batch).ended) {
     load_cases.push_back(ended.load_case);
+  }
   return load_cases;
 }
 
@@ -168,7 +171,9 @@ TEST(EventLogRuns, GivesEndsOfLoadCasesWithTheSamplesAroundThem) {
 
 TEST(EventLogRuns, GivesFewLargeEndsOfLoadCasesAtOnce) {
   EventLog log(roomy);
-  for (int i = 0; i < 10; ++i) log.append(case_ended(i, 0, EventLog::batch_bytes / 3));
+  for (int i = 0; i < 10; ++i) {
+    log.append(case_ended(i, 0, EventLog::batch_bytes / 3));
+  }
   const NumberedBatch first = log.batch(0, 100);
   EXPECT_THAT(ended_in(first.events), ElementsAre(0, 1, 2));
   EXPECT_THAT(ended_in(log.batch(first.last, 100).events), ElementsAre(3, 4, 5));
@@ -195,7 +200,9 @@ TEST(EventLogRuns, GivesTheRowsOfASweepOneEventAtATimeAndCountsThem) {
   EXPECT_EQ(std::get<RowsEvent>(second.events).first_row, 256U);
 
   EventLog small(3 * one);
-  for (std::uint64_t i = 0; i < 10; ++i) small.append(rows_event(256 * i, 256));
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    small.append(rows_event(256 * i, 256));
+  }
   EXPECT_EQ(small.earliest(), 8U);
   EXPECT_EQ(std::get<RowsEvent>(small.batch(7, 10).events).first_row, 256U * 7);
 }
@@ -219,10 +226,14 @@ TEST(EventLogRuns, IsReadInRunsWhileItIsWrittenAndTrimmed) {
           after = log.earliest() - 1;
           continue;
         }
-        if (batch.last == after) std::this_thread::yield();
+        if (batch.last == after) {
+          std::this_thread::yield();
+        }
         after = batch.last;
         const auto* progress = std::get_if<ProgressEvents>(&batch.events);
-        if (progress == nullptr) continue;
+        if (progress == nullptr) {
+          continue;
+        }
         for (const SampleRun& run : progress->samples) {
           for (std::size_t i = 0; i < run.count; ++i) {
             const SampleEvent read = run[i];
@@ -247,13 +258,19 @@ TEST(EventLogRuns, IsReadInRunsWhileItIsWrittenAndTrimmed) {
           log.append(lot);
           lot.clear();
         }
-        if (i % 1000 == 0) log.append(PhaseEvent{store::JobState::running, "phase"});
+        if (i % 1000 == 0) {
+          log.append(PhaseEvent{store::JobState::running, "phase"});
+        }
       }
     });
   }
-  for (std::thread& thread : writing) thread.join();
+  for (std::thread& thread : writing) {
+    thread.join();
+  }
   log.append(end_event());
-  for (std::thread& thread : threads) thread.join();
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
   EXPECT_EQ(wrong, 0);
   EXPECT_EQ(log.latest(), std::uint64_t{writers} * (each + each / 1000) + 1);
 }

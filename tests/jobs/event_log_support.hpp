@@ -28,7 +28,9 @@ inline SampleEvent sample(std::int32_t load_case, int iteration) {
 
 inline std::vector<SampleEvent> samples(int first, int count) {
   std::vector<SampleEvent> result;
-  for (int i = first; i < first + count; ++i) result.push_back(sample(0, i));
+  for (int i = first; i < first + count; ++i) {
+    result.push_back(sample(0, i));
+  }
   return result;
 }
 

@@ -49,7 +49,9 @@ TEST(EventLog, GivesBackEveryValueOfASample) {
 
 TEST(EventLog, ReadsMixedEventsInOrderFromAnywhere) {
   EventLog log(roomy);
-  for (int i = 1; i <= 1000; ++i) log.append(mixed(i));
+  for (int i = 1; i <= 1000; ++i) {
+    log.append(mixed(i));
+  }
   for (const std::uint64_t after : {0, 1, 4, 5, 6, 255, 256, 257, 998, 999, 1000}) {
     const auto events = log.read(after, 300);
     ASSERT_EQ(events.size(), std::min<std::size_t>(300, 1000 - after)) << after;
@@ -74,8 +76,9 @@ TEST(EventLog, DropsTheOldestAndSaysSo) {
 
   const auto events = log.read(earliest - 1, 1000);
   ASSERT_EQ(events.size(), 1001 - earliest);
-  for (std::size_t i = 0; i < events.size(); ++i)
+  for (std::size_t i = 0; i < events.size(); ++i) {
     EXPECT_EQ(number_of(events[i].event), static_cast<int>(earliest + i));
+  }
   const auto error = error_of([&] { log.read(earliest - 2, 10); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->reason(), Reason::sequence_trimmed);
@@ -88,7 +91,9 @@ TEST(EventLog, DropsTheOldestAndSaysSo) {
 
 TEST(EventLog, NeverDropsTheEnd) {
   EventLog log(1);
-  for (int i = 1; i <= 10; ++i) log.append(mixed(i));
+  for (int i = 1; i <= 10; ++i) {
+    log.append(mixed(i));
+  }
   log.append(end_event());
   EXPECT_EQ(log.earliest(), 11U);
   EXPECT_EQ(log.latest(), 11U);
@@ -114,7 +119,9 @@ TEST(EventLog, NumbersItsEventsAboveItsBase) {
   EXPECT_EQ(log.latest(), base);
   EXPECT_THAT(log.read(base, 10), IsEmpty());
   EXPECT_TRUE(throws([&] { log.read(5, 10); }, Reason::sequence_trimmed));
-  for (int i = 1; i <= 9; ++i) log.append(mixed(i));
+  for (int i = 1; i <= 9; ++i) {
+    log.append(mixed(i));
+  }
   const auto events = log.read(base + 3, 10);
   ASSERT_EQ(events.size(), 6U);
   EXPECT_EQ(events[0].sequence, base + 4);
@@ -141,9 +148,13 @@ TEST(EventLog, MayBeReadAndLeftByItsListener) {
   std::uint64_t seen = 0;
   listener = log.listen([&] {
     seen = log.read(seen, 10).back().sequence;
-    if (seen == 2) listener.reset();
+    if (seen == 2) {
+      listener.reset();
+    }
   });
-  for (int i = 1; i <= 4; ++i) log.append(sample(0, i));
+  for (int i = 1; i <= 4; ++i) {
+    log.append(sample(0, i));
+  }
   EXPECT_EQ(seen, 2U);
 }
 
@@ -215,10 +226,14 @@ TEST(EventLog, LosesNothingBetweenManyWritersAndReaders) {
   }
   for (int w = 0; w < writers; ++w) {
     threads.emplace_back([&, w] {
-      for (int i = 1; i <= each; ++i) log.append(sample(w, i));
+      for (int i = 1; i <= each; ++i) {
+        log.append(sample(w, i));
+      }
     });
   }
-  for (std::thread& thread : threads) thread.join();
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
   EXPECT_EQ(wrong, 0);
 }
 
@@ -245,9 +260,13 @@ TEST(EventLog, LetsListenersComeAndGoWhileItIsWritten) {
       }
     });
   }
-  for (int i = 1; i <= 2000 || woken == 0; ++i) log.append(mixed(i));
+  for (int i = 1; i <= 2000 || woken == 0; ++i) {
+    log.append(mixed(i));
+  }
   done = true;
-  for (std::thread& thread : threads) thread.join();
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
 }
 
 }  // namespace

@@ -48,7 +48,9 @@ TEST_F(ScheduleTest, HasNoTurnWithoutWork) {
 }
 
 TEST_F(ScheduleTest, TheMoreUrgentClassGoesFirst) {
-  for (const char* mesh : {"a", "b", "c"}) ready(mesh);
+  for (const char* mesh : {"a", "b", "c"}) {
+    ready(mesh);
+  }
   add("a", Priority::bulk);
   add("b", Priority::normal);
   const auto urgent = add("c", Priority::interactive);
@@ -87,7 +89,9 @@ TEST_F(ScheduleTest, NothingIsMoreUrgentThanTheFirstClass) {
 TEST_F(ScheduleTest, AThousandJobsOnOneMeshDoNotStarveOneOnAnother) {
   ready("many");
   ready("one");
-  for (int i = 0; i < 1000; ++i) add("many");
+  for (int i = 0; i < 1000; ++i) {
+    add("many");
+  }
   now += 10min;
   EXPECT_EQ(turn(), "many");
   schedule.served("many", now);
@@ -178,7 +182,9 @@ TEST_F(ScheduleTest, MeshesOfOneSizeHoldUpNoneOfAnother) {
   const auto add_sized = [&](const std::string& mesh, int size_class) {
     schedule.add({100, mesh, Lane::lumped, Priority::normal, now, size_class});
   };
-  for (const char* large : {"a", "b", "c"}) add_sized(large, 9);
+  for (const char* large : {"a", "b", "c"}) {
+    add_sized(large, 9);
+  }
   EXPECT_EQ(schedule.next_to_prepare(now), "a");
   EXPECT_EQ(schedule.next_to_prepare(now), "b");
   EXPECT_FALSE(schedule.next_to_prepare(now));

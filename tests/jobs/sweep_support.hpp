@@ -28,7 +28,9 @@ inline std::string upload(anticrack::testing::Backend& backend, const std::vecto
 inline std::vector<double> eighths(std::size_t count, unsigned seed = 1) {
   std::mt19937 random(seed);
   std::vector<double> values(count);
-  for (double& value : values) value = (static_cast<double>(random() % 33) - 16) / 8;
+  for (double& value : values) {
+    value = (static_cast<double>(random() % 33) - 16) / 8;
+  }
   return values;
 }
 
@@ -67,16 +69,22 @@ inline store::JobSpec one_by_one(const std::string& mesh, const std::vector<doub
 }
 
 inline const store::ArrayLayout* layout(const store::BlockSource& block, const std::string& name) {
-  for (const store::ArrayLayout& array : block.arrays())
-    if (array.name == name) return &array;
+  for (const store::ArrayLayout& array : block.arrays()) {
+    if (array.name == name) {
+      return &array;
+    }
+  }
   return nullptr;
 }
 
 /// Of the events a log has: those that tell of rows.
 inline std::vector<RowsEvent> rows_told(const EventLog& log) {
   std::vector<RowsEvent> rows;
-  for (const NumberedEvent& event : log.read(log.earliest() - 1, SIZE_MAX))
-    if (const auto* told = std::get_if<RowsEvent>(&event.event)) rows.push_back(*told);
+  for (const NumberedEvent& event : log.read(log.earliest() - 1, SIZE_MAX)) {
+    if (const auto* told = std::get_if<RowsEvent>(&event.event)) {
+      rows.push_back(*told);
+    }
+  }
   return rows;
 }
 

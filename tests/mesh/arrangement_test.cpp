@@ -49,8 +49,9 @@ TEST(Arrangement, CrossingInterfacesMakeFourSubdomains) {
   // y = (x + 1)/16 and x = (1 - y)/8 meet in one point of the plan
   const double y = (9.0 / 8) / 16 / (1 + 1.0 / 128);
   int there = 0;
-  for (const Point& p : plan.points)
+  for (const Point& p : plan.points) {
     there += std::hypot(p[0] - (1 - y) / 8, p[1] - y) < 1e-12 ? 1 : 0;
+  }
   EXPECT_EQ(there, 1);
 }
 
@@ -145,8 +146,11 @@ TEST(Arrangement, ACrackOnAClosedFreeStandingLineOfItsOwnIsASlit) {
   std::multiset<std::size_t> holes;
   for (const auto& face : plan.faces) holes.insert(face.holes.size());
   EXPECT_EQ(holes, (std::multiset<std::size_t>{0, 1, 1}));
-  for (const auto& face : plan.faces)
-    if (face.holes.empty()) EXPECT_EQ(face.embedded.size(), 1U);
+  for (const auto& face : plan.faces) {
+    if (face.holes.empty()) {
+      EXPECT_EQ(face.embedded.size(), 1U);
+    }
+  }
 }
 
 TEST(Arrangement, LinesThatHangTogetherAtOnePointBoundSimpleLoops) {
@@ -184,7 +188,9 @@ TEST(Arrangement, ArcsAreCutIntoChordsWithEndsOnTheCircle) {
       EXPECT_EQ(c.intervals, 1);
       EXPECT_LE(length(plan, c), size * (1 + 1e-9));
       const double heading = std::atan2(b[1] - a[1], b[0] - a[0]);
-      if (!first) EXPECT_LE(std::abs(heading - before), 10.5 * std::numbers::pi / 180);
+      if (!first) {
+        EXPECT_LE(std::abs(heading - before), 10.5 * std::numbers::pi / 180);
+      }
       before = heading;
       first = false;
       tip = tip || a == from;
@@ -205,7 +211,9 @@ TEST(Arrangement, SplinesPassTheirPointsAndMayBeClosed) {
   const Plan plan = plan_of(geometry, 0.05);
   expect_consistent(plan, 4);
   ASSERT_EQ(plan.faces.size(), 2U);
-  for (const Point& p : points) EXPECT_EQ(std::count(plan.points.begin(), plan.points.end(), p), 1);
+  for (const Point& p : points) {
+    EXPECT_EQ(std::count(plan.points.begin(), plan.points.end(), p), 1);
+  }
   // between the square and the circle
   EXPECT_GT(areas(plan).at("omega2"), 0.5);
   EXPECT_LT(areas(plan).at("omega2"), 0.25 * std::numbers::pi);
@@ -251,8 +259,9 @@ TEST(Arrangement, AMirroredGeometryGivesTheMirroredPlan) {
   Geometry other = varied();
   const auto flip = [](Point& p) { p[0] = -p[0]; };
   for (Point& p : other.boundary) flip(p);
-  for (auto& line : other.interfaces)
+  for (auto& line : other.interfaces) {
     for (Point& p : line.points) flip(p);
+  }
   for (auto& c : other.cracks) {
     flip(c.part.from);
     flip(c.part.to);
@@ -272,8 +281,9 @@ TEST(Arrangement, AMirroredGeometryGivesTheMirroredPlan) {
       return std::hypot(p[0] + q[0], p[1] - q[1]) < 1e-12;
     }));
   }
-  for (const Role role : {Role::interface, Role::neumann, Role::dirichlet})
+  for (const Role role : {Role::interface, Role::neumann, Role::dirichlet}) {
     EXPECT_NEAR(length_of(mirrored, role), length_of(plan, role), 1e-12);
+  }
 }
 
 TEST(Arrangement, SameInputSamePlan) {
@@ -294,8 +304,11 @@ void expect_gradual(const Plan& plan) {
       most = std::max(most, edge);
     }
   }
-  for (const auto& [least, most] : edges)
-    if (most > 0) EXPECT_LE(most, 2.5 * least);
+  for (const auto& [least, most] : edges) {
+    if (most > 0) {
+      EXPECT_LE(most, 2.5 * least);
+    }
+  }
 }
 
 TEST(Arrangement, InclusionsAHairApartHaveShortEdgesBetween) {
@@ -326,8 +339,11 @@ TEST(Arrangement, LinesAHairApartHaveShortEdges) {
   geometry.interfaces = {polyline("a", {{-1, 0}, {1, 0}}), polyline("b", {{-1, 0.01}, {1, 0.02}})};
   const Plan plan = mesh::plan(geometry, {}, enough);
   expect_consistent(plan, 4);
-  for (const auto& c : plan.curves)
-    if (c.role == Role::interface) EXPECT_LE(length(plan, c) / c.intervals, 0.041);
+  for (const auto& c : plan.curves) {
+    if (c.role == Role::interface) {
+      EXPECT_LE(length(plan, c) / c.intervals, 0.041);
+    }
+  }
   geometry.interfaces[1].points = {{-1, 1e-7}, {1, 2e-7}};
   EXPECT_TRUE(testing::throws([&] { mesh::plan(geometry, {}, enough); },
                               errors::Reason::limit_exceeded, "interfaces"));

@@ -229,8 +229,9 @@ TEST(Codec, DamagedBytesThrowOrDecodeButDoNothingElse) {
   std::size_t refused = 0;
   for (int round = 0; round < 20'000; ++round) {
     Bytes bytes = sound;
-    for (int hits = 0; hits < 3; ++hits)
+    for (int hits = 0; hits < 3; ++hits) {
       bytes[random() % bytes.size()] = static_cast<std::byte>(random() % 256);
+    }
     if (testing::error_of([&] { mesh::decode_reply(bytes); })) ++refused;
   }
   EXPECT_GT(refused, 1000U);

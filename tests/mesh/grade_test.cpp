@@ -279,8 +279,9 @@ TEST(Grade, ConformsWhereInterfacesCross) {
   }
   base.interfaces.push_back(upright);
   base.subdomains = {"sw", "nw", "se", "ne"};
-  for (std::size_t t = 0; t < base.triangle_count(); ++t)
+  for (std::size_t t = 0; t < base.triangle_count(); ++t) {
     if (t / 2 % 16 >= 6) base.subdomain[t] += 2;
+  }
   const std::int32_t crossing = 17 * 8 + 6;
   const std::vector<std::int32_t> found = tips(base);
   ASSERT_EQ(found.size(), 4U);

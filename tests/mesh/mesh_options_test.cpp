@@ -35,10 +35,12 @@ void expect_refused(const mesh::MeshOptions& options, const std::string& field,
 }
 
 TEST(MeshOptions, AreThoseOfAGeometry) {
-  for (const double size : {-1.0, nan_value, infinite})
+  for (const double size : {-1.0, nan_value, infinite}) {
     expect_refused({.tip_size = size}, "options.tip_size");
-  for (const double grading : {0.0, -0.1, 1.1, nan_value})
+  }
+  for (const double grading : {0.0, -0.1, 1.1, nan_value}) {
     expect_refused({.grading = grading}, "options.grading");
+  }
   expect_refused({.size = 0.1, .tip_size = 0.2}, "options.tip_size");
   expect_refused({.preset = mesh::Preset::uniform, .tip_size = 0.01}, "options.tip_size");
   expect_refused({.curve_groups = {{1, "crack"}}}, "options.curve_groups");
@@ -88,8 +90,9 @@ TEST(MeshOptions, OfAnUploadAreChecked) {
   refused({.preset = mesh::Preset::paper}, "options.preset");
   refused({.size = nan_value}, "options.size");
   refused({.align = {{{0, 0}, {1, 0}}}}, "options.align");
-  for (const char* name : {"", "fibre", "inclusion", "inclusion:", "crack:1", "delaminated:a b"})
+  for (const char* name : {"", "fibre", "inclusion", "inclusion:", "crack:1", "delaminated:a b"}) {
     refused({.curve_groups = {{3, name}}}, "options.curve_groups[3]");
+  }
   refused({.surface_groups = {{-7, "a/b"}}}, "options.surface_groups[-7]");
   refused({.tension = {{"a", 0}}}, "options.tension[a]");
   refused({.tension = {{"a", infinite}}}, "options.tension[a]");

@@ -172,8 +172,9 @@ TEST(Mesh, ClosedChainsAreAccepted) {
   EXPECT_NO_THROW(mesh::validate(mesh));
   // an island is glued all around
   mesh.subdomains = {"outside", "inside"};
-  for (const std::size_t square : {9U, 10U})
+  for (const std::size_t square : {9U, 10U}) {
     mesh.subdomain[2 * square] = mesh.subdomain[2 * square + 1] = 1;
+  }
   mesh.interfaces[0].kind.assign(6, Kind::glue);
   EXPECT_NO_THROW(mesh::validate(mesh));
 }
@@ -198,7 +199,9 @@ TEST(Mesh, ArcLengthRunsAlongTheInterface) {
   const Mesh mesh = sound();
   const std::vector<double> s = mesh::arc_length(mesh, mesh.interfaces[0]);
   ASSERT_EQ(s.size(), 9U);
-  for (std::size_t i = 0; i < s.size(); ++i) EXPECT_DOUBLE_EQ(s[i], 0.25 * static_cast<double>(i));
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    EXPECT_DOUBLE_EQ(s[i], 0.25 * static_cast<double>(i));
+  }
 }
 
 }  // namespace

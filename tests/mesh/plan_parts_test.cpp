@@ -139,8 +139,9 @@ TEST(PlanParts, AnInterfaceMayHaveTwentyThousandPoints) {
   for (const bool upright : {false, true}) {
     Geometry geometry = square();
     geometry.interfaces = {polyline("a", points)};
-    if (upright)
+    if (upright) {
       for (mesh::Point& p : geometry.interfaces[0].points) std::swap(p[0], p[1]);
+    }
     const Plan plan = plan_of(geometry);
     EXPECT_GE(plan.curves.size(), std::size_t{count});
     EXPECT_EQ(plan.faces.size(), 2U);
@@ -157,8 +158,9 @@ TEST(PlanParts, RegionsNameWhatHoldsThem) {
   EXPECT_DOUBLE_EQ(sums.at("right"), 1);
   EXPECT_DOUBLE_EQ(sums.at("omega1"), 1);
   EXPECT_EQ(sums.size(), 3U);
-  for (const auto& face : plan.faces)
+  for (const auto& face : plan.faces) {
     EXPECT_EQ(face.tension, face.name == "right" ? 3 : face.name == "omega1" ? 2 : 1);
+  }
 }
 
 }  // namespace

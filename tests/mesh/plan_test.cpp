@@ -34,8 +34,9 @@ using testing::uniform;
 /// Intervals of the curves of a role, on the boundary of a face where one is named.
 int intervals(const Plan& plan, Role role, int face = -1) {
   int sum = 0;
-  for (const auto& c : plan.curves)
+  for (const auto& c : plan.curves) {
     if (c.role == role && (face < 0 || c.left == face)) sum += c.intervals;
+  }
   return sum;
 }
 

@@ -30,8 +30,9 @@ inline double distance(const mesh::Point& p, const mesh::Point& q) {
 /// Of each subdomain.
 inline std::vector<double> areas(const mesh::Mesh& m) {
   std::vector<double> sums(m.subdomains.size(), 0.0);
-  for (std::size_t t = 0; t < m.triangle_count(); ++t)
+  for (std::size_t t = 0; t < m.triangle_count(); ++t) {
     sums[static_cast<std::size_t>(m.subdomain[t])] += mesh::area(m, t);
+  }
   return sums;
 }
 
@@ -117,8 +118,9 @@ inline void expect_refines(const mesh::Mesh& base, const mesh::Mesh& fine) {
   EXPECT_EQ(fine.warnings, base.warnings);
   const std::vector<double> before = areas(base);
   const std::vector<double> after = areas(fine);
-  for (std::size_t s = 0; s < before.size(); ++s)
+  for (std::size_t s = 0; s < before.size(); ++s) {
     EXPECT_NEAR(after[s], before[s], 1e-12 * before[s]);
+  }
   EXPECT_NEAR(boundary_length(fine), boundary_length(base), 1e-12 * boundary_length(base));
   ASSERT_EQ(fine.interfaces.size(), base.interfaces.size());
   for (std::size_t i = 0; i < base.interfaces.size(); ++i) expect_same_line(base, fine, i);

@@ -70,8 +70,9 @@ inline mesh::Mesh structured_mesh(int nx, int ny, std::span<const OnInterface> p
     line.inclusion.push_back(inclusion);
     inclusions = inclusion >= inclusions ? inclusion + 1 : inclusions;
   }
-  for (std::int32_t k = 0; k < inclusions; ++k)
+  for (std::int32_t k = 0; k < inclusions; ++k) {
     made.inclusions.push_back("inclusion" + std::to_string(k));
+  }
   made.interfaces.push_back(line);
   for (int i = 0; i < nx; ++i) {
     made.dirichlet.push_back({node(i, 0), node(i + 1, 0)});

@@ -42,8 +42,9 @@ inline void expect_refused(const Fault& fault) {
   EXPECT_EQ(error->reason(), fault.reason) << error->what();
   ASSERT_EQ(error->fields().size(), 1U);
   EXPECT_EQ(error->fields()[0].field, fault.field) << error->what();
-  for (const std::string& part : fault.message)
+  for (const std::string& part : fault.message) {
     EXPECT_THAT(error->what(), ::testing::HasSubstr(part));
+  }
 }
 
 inline mesh::CrackSpec crack(const char* name, double from, double to) {

@@ -37,8 +37,9 @@ Point point(const Mesh& mesh, std::int32_t node) {
 
 double area(const Mesh& mesh, std::int32_t subdomain) {
   double sum = 0;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.subdomain[t] == subdomain) sum += mesh::area(mesh, t);
+  }
   return sum;
 }
 
@@ -142,8 +143,9 @@ TEST(Generate, EightAtOnceGiveTheSameMesh) {
   std::vector<mesh::Bytes> made(8);
   {
     std::vector<std::jthread> threads;
-    for (auto& bytes : made)
+    for (auto& bytes : made) {
       threads.emplace_back([&bytes] { bytes = mesh::encode(make(paper_geometry())); });
+    }
   }
   for (const auto& bytes : made) EXPECT_EQ(bytes, expected);
 }

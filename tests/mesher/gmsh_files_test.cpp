@@ -127,8 +127,9 @@ TEST_F(GmshFiles, AllElementsSavedWithParametersAreRead) {
   gmsh::option::setNumber("Mesh.SaveAll", 1);
   gmsh::option::setNumber("Mesh.SaveParametric", 1);
   gmsh::model::mesh::generate(2);
-  for (const bool binary : {false, true})
+  for (const bool binary : {false, true}) {
     EXPECT_EQ(through(4.1, binary).interfaces[0].name, "interface");
+  }
 }
 
 TEST_F(GmshFiles, QuadranglesAreRefused) {

@@ -246,8 +246,9 @@ TEST(RequireMsh, TakesOnlyTheToken) {
   EXPECT_THAT(refusal(""), HasSubstr("is empty"));
   for (const char* content :
        {"$MeshFormat", "$MeshForma", "$MeshFormatX\n", "$meshformat\n", " $MeshFormat\n",
-        "\n$MeshFormat\n", "Point(1) = {0, 0, 0};\n", "\xef\xbb\xbf$MeshFormat\n"})
+        "\n$MeshFormat\n", "Point(1) = {0, 0, 0};\n", "\xef\xbb\xbf$MeshFormat\n"}) {
     EXPECT_THAT(refusal(content), HasSubstr("does not begin with $MeshFormat")) << content;
+  }
   EXPECT_TRUE(
       testing::throws([&] { mesher::require_msh(folder / "missing"); }, Reason::mesh_invalid));
   EXPECT_TRUE(testing::throws([&] { mesher::require_msh(folder.path()); }, Reason::mesh_invalid));

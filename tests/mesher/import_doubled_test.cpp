@@ -60,8 +60,9 @@ TEST(ImportDoubled, OneLipOrBothMayCarryTheGroup) {
       if ((lips & 2) != 0) {
         sample.node(0, 0) = 7;
         testing::add_lines(sample, {{-0.5, 0}, {0, 0}, {0.5, 0}}, 9, lips == 2 ? name : "");
-        for (std::size_t i = sample.lines.size() - 2; i < sample.lines.size(); ++i)
+        for (std::size_t i = sample.lines.size() - 2; i < sample.lines.size(); ++i) {
           for (int& node : sample.lines[i].nodes) node = node == 7 ? 1000 : node;
+        }
         sample.tags[12] = below;
       }
       const Mesh mesh = import_sample(sample);
@@ -156,8 +157,9 @@ TEST(ImportDoubled, FourSquaresMeshedSeparatelyMeetInACrossPoint) {
                         [](double x, double y) { return x > 0 && y < 0; });
   // the upper copies of the middle are no longer found by their place
   sample.node(0, 0) = 1;
-  for (auto& t : sample.triangles)
+  for (auto& t : sample.triangles) {
     for (int& node : t.nodes) node = node == 130 ? 1 : node;
+  }
   const int above = 1002;
   testing::double_nodes(sample, {{0, 0.5}, {0, 1}},
                         [](double x, double y) { return x > 0 && y > 0; });
@@ -198,9 +200,11 @@ TEST(ImportDoubled, AnIslandMeshedSeparatelyIsARing) {
                          {-0.5, 0}},
                         inside);
   for (auto& t : sample.triangles) t.group = 1, t.entity = 21;
-  for (const std::size_t square : {5U, 6U, 9U, 10U})
-    for (const std::size_t i : {2 * square, 2 * square + 1})
+  for (const std::size_t square : {5U, 6U, 9U, 10U}) {
+    for (const std::size_t i : {2 * square, 2 * square + 1}) {
       sample.triangles[i].group = 2, sample.triangles[i].entity = 22;
+    }
+  }
   const Mesh mesh = import_sample(sample);
   EXPECT_EQ(mesh.node_count(), 25U);
   ASSERT_EQ(mesh.interfaces.size(), 1U);
@@ -324,8 +328,9 @@ TEST(ImportDoubled, NumbersAndOrderDoNotMatter) {
     // entities stay together
     std::shuffle(sample.triangles.begin(), sample.triangles.begin() + 16, random);
     std::shuffle(sample.triangles.begin() + 16, sample.triangles.end(), random);
-    for (auto& line : sample.lines)
+    for (auto& line : sample.lines) {
       for (int& node : line.nodes) node = renamed.at(node);
+    }
     std::size_t turned = 0;
     for (auto& t : sample.triangles) {
       for (int& node : t.nodes) node = renamed.at(node);

@@ -347,9 +347,11 @@ TEST(ImportGroups, ARingKeepsTheDirectionOfItsLines) {
 TEST(ImportGroups, AnIslandIsARing) {
   MshSample sample = square_sample("");
   for (auto& t : sample.triangles) t.group = 1, t.entity = 21;
-  for (const std::size_t square : {5U, 6U, 9U, 10U})
-    for (const std::size_t i : {2 * square, 2 * square + 1})
+  for (const std::size_t square : {5U, 6U, 9U, 10U}) {
+    for (const std::size_t i : {2 * square, 2 * square + 1}) {
       sample.triangles[i].group = 2, sample.triangles[i].entity = 22;
+    }
+  }
   const Mesh mesh = import_sample(sample);
   ASSERT_EQ(mesh.interfaces.size(), 1U);
   // surface 2 is plus and inside, so on the left counterclockwise

@@ -21,8 +21,9 @@ inline mesh::Mesh import_sample(const MshSample& sample, const mesh::MeshOptions
 }
 
 inline void rename(MshSample& sample, int dimension, int tag, const std::string& name) {
-  for (auto& n : sample.names)
+  for (auto& n : sample.names) {
     if (n.dimension == dimension && n.tag == tag) n.name = name;
+  }
 }
 
 inline std::array<double, 2> point_of(const mesh::Mesh& mesh, std::int32_t node) {
@@ -34,8 +35,9 @@ inline std::array<double, 2> point_of(const mesh::Mesh& mesh, std::int32_t node)
 inline std::vector<std::array<double, 2>> points_of(const mesh::Mesh& mesh, std::size_t interface) {
   std::vector<std::array<double, 2>> points;
   points.reserve(mesh.interfaces[interface].nodes.size());
-  for (const std::int32_t node : mesh.interfaces[interface].nodes)
+  for (const std::int32_t node : mesh.interfaces[interface].nodes) {
     points.push_back(point_of(mesh, node));
+  }
   return points;
 }
 
@@ -51,8 +53,9 @@ inline std::map<mesh::Kind, double> lengths(const mesh::Mesh& mesh) {
 
 inline double area_of(const mesh::Mesh& mesh, std::size_t subdomain) {
   double sum = 0;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.subdomain[t] == static_cast<std::int32_t>(subdomain)) sum += mesh::area(mesh, t);
+  }
   return sum;
 }
 

@@ -26,8 +26,9 @@ Mesh import(const MshSample& sample, MshFormat format = MshFormat::ascii41) {
 
 std::vector<double> x_along(const Mesh& mesh, std::size_t interface = 0) {
   std::vector<double> x;
-  for (const auto node : mesh.interfaces[interface].nodes)
+  for (const auto node : mesh.interfaces[interface].nodes) {
     x.push_back(mesh.xy[2 * static_cast<std::size_t>(node)]);
+  }
   return x;
 }
 
@@ -94,8 +95,9 @@ TEST(Import, WithoutThatNameTheCurvesDirectionDecides) {
   Mesh mesh = import(sample);
   EXPECT_THAT(x_along(mesh), ElementsAre(-1, -0.5, 0, 0.5, 1));
   EXPECT_THAT(mesh.warnings, IsEmpty());
-  for (std::size_t i = sample.lines.size() - 2; i < sample.lines.size(); ++i)
+  for (std::size_t i = sample.lines.size() - 2; i < sample.lines.size(); ++i) {
     std::swap(sample.lines[i].nodes[0], sample.lines[i].nodes[1]);
+  }
   mesh = import(sample);
   EXPECT_THAT(x_along(mesh), ElementsAre(1, 0.5, 0, -0.5, -1));
   EXPECT_THAT(mesh.warnings, IsEmpty());

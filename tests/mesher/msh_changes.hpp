@@ -21,8 +21,9 @@ template <class Inside>
 void double_nodes(MshSample& sample, const std::vector<std::array<double, 2>>& at,
                   const Inside& inside) {
   std::map<int, std::array<double, 2>> place;
-  for (std::size_t i = 0; i < sample.tags.size(); ++i)
+  for (std::size_t i = 0; i < sample.tags.size(); ++i) {
     place[sample.tags[i]] = {sample.points[i][0], sample.points[i][1]};
+  }
   std::map<int, int> copies;
   for (const auto& [x, y] : at) {
     const int tag = sample.node(x, y);
@@ -39,8 +40,9 @@ void double_nodes(MshSample& sample, const std::vector<std::array<double, 2>>& a
       y += place[node][1] / 3;
     }
     if (!inside(x, y)) continue;
-    for (int& node : t.nodes)
+    for (int& node : t.nodes) {
       if (copies.contains(node)) node = copies[node];
+    }
   }
 }
 

@@ -82,8 +82,9 @@ TEST_P(EachFormat, DamagedBytesThrowOrReadButDoNothingElse) {
   std::size_t refused = 0;
   for (int round = 0; round < 3000; ++round) {
     std::string file = sound;
-    for (int hits = 0; hits < 3; ++hits)
+    for (int hits = 0; hits < 3; ++hits) {
       file[random() % file.size()] = static_cast<char>(random() % 256);
+    }
     if (testing::error_of([&] { mesher::read_msh(file, enough); })) ++refused;
   }
   EXPECT_GT(refused, 300U);
@@ -187,8 +188,9 @@ TEST(MshFile, NegativeGroupTakesTheCurveBackwards) {
 
 TEST(MshFile, WindowsLineEndsAreRead) {
   std::string file = write_msh(square_sample(), MshFormat::ascii41);
-  for (std::size_t at = 0; (at = file.find('\n', at)) != std::string::npos; at += 2)
+  for (std::size_t at = 0; (at = file.find('\n', at)) != std::string::npos; at += 2) {
     file.insert(at, "\r");
+  }
   EXPECT_EQ(mesher::read_msh(file, enough).triangles.size(), 32U);
 }
 

@@ -16,10 +16,11 @@ class Out {
   explicit Out(bool binary) : _binary(binary) { _text.precision(17); }
   template <class T>
   Out& number(T value) {
-    if (_binary)
+    if (_binary) {
       _text.write(reinterpret_cast<const char*>(&value), sizeof value);
-    else
+    } else {
       _text << value << ' ';
+    }
     return *this;
   }
   Out& text(const std::string& value) {
@@ -43,8 +44,9 @@ void write_head(Out& out, const MshSample& sample, const char* version, bool bin
   out.text("$EndMeshFormat\n");
   if (sample.names.empty()) return;
   out.text("$PhysicalNames\n" + std::to_string(sample.names.size()) + "\n");
-  for (const MshName& n : sample.names)
+  for (const MshName& n : sample.names) {
     out.text(std::to_string(n.dimension) + " " + std::to_string(n.tag) + " \"" + n.name + "\"\n");
+  }
   out.text("$EndPhysicalNames\n");
 }
 
@@ -169,8 +171,9 @@ std::string write_41(const MshSample& sample, bool binary) {
 }  // namespace
 
 int& MshSample::node(double x, double y) {
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i][0] == x && points[i][1] == y) return tags[i];
+  }
   throw std::out_of_range("no node there");
 }
 

@@ -43,8 +43,9 @@ Plan square_plan() {
 
 double total_area(const Mesh& mesh, std::int32_t subdomain) {
   double sum = 0;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.subdomain[t] == subdomain) sum += mesh::area(mesh, t);
+  }
   return sum;
 }
 

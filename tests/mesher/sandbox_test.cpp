@@ -44,8 +44,9 @@ fs::path helper_process() {
     const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
     if (error != std::errc{} || *end != '\0') continue;
     // the name is cut at 15 letters; before the exec it is this program's
-    if (status(entry.path(), "PPid") == own && status(entry.path(), "Name") == "anticrack-meshe")
+    if (status(entry.path(), "PPid") == own && status(entry.path(), "Name") == "anticrack-meshe") {
       return entry.path();
+    }
   }
   return {};
 }
@@ -86,8 +87,9 @@ TEST(Sandbox, IsInForceWhileTheHelperWorks) {
   EXPECT_EQ(status(process, "NoNewPrivs"), "1");
   EXPECT_EQ(status(process, "Threads"), "1");
   std::set<std::string> descriptors;
-  for (const auto& entry : fs::directory_iterator(process / "fd"))
+  for (const auto& entry : fs::directory_iterator(process / "fd")) {
     descriptors.insert(entry.path().filename());
+  }
   EXPECT_THAT(descriptors, ElementsAre("0", "1", "2"));
   const auto error = working.stop();
   ASSERT_TRUE(error);

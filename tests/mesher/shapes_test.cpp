@@ -55,9 +55,11 @@ double distance(const Mesh& mesh, std::int32_t a, std::int32_t b) {
 
 std::map<Kind, double> lengths(const Mesh& mesh) {
   std::map<Kind, double> sums;
-  for (const mesh::Interface& interface : mesh.interfaces)
-    for (std::size_t i = 0; i < interface.kind.size(); ++i)
+  for (const mesh::Interface& interface : mesh.interfaces) {
+    for (std::size_t i = 0; i < interface.kind.size(); ++i) {
       sums[interface.kind[i]] += distance(mesh, interface.nodes[i], interface.nodes[i + 1]);
+    }
+  }
   return sums;
 }
 
@@ -67,8 +69,9 @@ double length(const Mesh& mesh, Kind kind) {
 
 std::map<std::string, double> areas(const Mesh& mesh) {
   std::map<std::string, double> sums;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     sums[mesh.subdomains[static_cast<std::size_t>(mesh.subdomain[t])]] += mesh::area(mesh, t);
+  }
   return sums;
 }
 

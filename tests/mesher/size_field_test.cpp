@@ -39,8 +39,9 @@ TEST(SizeField, TreeGivesTheMinimumOverAllCurves) {
     for (int k = 0; k < 500; ++k) {
       const mesh::Point p{2 * coordinate(random), 2 * coordinate(random)};
       double expected = longest;
-      for (const SizedCurve& c : curves)
+      for (const SizedCurve& c : curves) {
         expected = std::min(expected, c.size + 0.2 * mesh::distance(p, mesh::Segment{c.a, c.b}));
+      }
       ASSERT_DOUBLE_EQ(field(p), expected);
     }
   }

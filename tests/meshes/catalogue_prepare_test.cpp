@@ -39,10 +39,13 @@ class Prepare : public ::testing::Test {
 TEST_F(Prepare, SharesTheWorkWithTheBackgroundAndOthers) {
   const std::string id = backend.create();
   std::vector<std::future<Operator>> callers;
-  for (int i = 0; i < 6; ++i)
+  for (int i = 0; i < 6; ++i) {
     callers.push_back(std::async(std::launch::async, [&] { return prepare(id); }));
+  }
   const Operator first = callers[0].get();
-  for (std::size_t i = 1; i < callers.size(); ++i) EXPECT_EQ(callers[i].get(), first);
+  for (std::size_t i = 1; i < callers.size(); ++i) {
+    EXPECT_EQ(callers[i].get(), first);
+  }
   EXPECT_EQ(prepare(id), first);
   EXPECT_EQ(backend.catalogue.find(id), first);
   EXPECT_EQ(backend.catalogue.meshings(), 1U);
@@ -178,7 +181,9 @@ TEST(PrepareMeshing, ObeysAStopAndTheMesherIsKilledAtTheEnd) {
     return backend.catalogue.prepare(
         id,
         [&](MeshState phase) {
-          if (phase == MeshState::meshing) meshing.set_value();
+          if (phase == MeshState::meshing) {
+            meshing.set_value();
+          }
         },
         stop.get_token());
   });

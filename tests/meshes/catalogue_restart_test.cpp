@@ -181,11 +181,14 @@ TEST_F(Restart, TriesAgainForWhoAsksForTheOperators) {
 }
 
 TEST(Lasting, IsNoErrorOfTheMoment) {
-  for (const Reason passing : {Reason::busy, Reason::cancelled, Reason::disk_full, Reason::storage})
+  for (const Reason passing :
+       {Reason::busy, Reason::cancelled, Reason::disk_full, Reason::storage}) {
     EXPECT_FALSE(lasting({passing, ""}));
+  }
   for (const Reason certain : {Reason::mesh_invalid, Reason::mesher_failed, Reason::numerical,
-                               Reason::limit_exceeded, Reason::internal})
+                               Reason::limit_exceeded, Reason::internal}) {
     EXPECT_TRUE(lasting({certain, ""}));
+  }
 }
 
 }  // namespace

@@ -48,11 +48,14 @@ TEST_F(Sizes, ASmallMeshIsReadyWhileLargeOnesAreFactorised) {
   ASSERT_TRUE(eventually([&] { return backend.door.waiting() == 2; }));
   const std::string small = backend.create(0.2);
   EXPECT_TRUE(eventually([&] { return state(small) == MeshState::ready; }));
-  for (const std::string& id : large) EXPECT_NE(state(id), MeshState::ready);
+  for (const std::string& id : large) {
+    EXPECT_NE(state(id), MeshState::ready);
+  }
   EXPECT_EQ(backend.door.waiting(), 2);  // no more of a size at a time
   backend.door.open();
-  for (const std::string& id : large)
+  for (const std::string& id : large) {
     EXPECT_TRUE(eventually([&] { return state(id) == MeshState::ready; }));
+  }
 }
 
 TEST_F(Sizes, ACallerGetsASmallMeshThatWasEvictedWhileLargeOnesAreFactorised) {
@@ -90,7 +93,9 @@ TEST(SizesMeshing, ASmallMeshIsMeshedFirstThoughLargeOnesWaitedWhenTheServerStar
   std::string small;
   {
     Backend backend(options);
-    for (const double size : {0.01, 0.0105, 0.011}) backend.create(size);
+    for (const double size : {0.01, 0.0105, 0.011}) {
+      backend.create(size);
+    }
     small = backend.create(0.2);
   }
   Backend backend(options);

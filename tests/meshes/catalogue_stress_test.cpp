@@ -51,7 +51,9 @@ void prepare(Backend& backend, const std::string& id, std::mt19937& random,
   const std::shared_ptr<void> user = backend.catalogue.use(id);
   std::stop_source stop;
   std::jthread stopper;
-  if (random() % 3 == 0) stopper = std::jthread([&stop] { stop.request_stop(); });
+  if (random() % 3 == 0) {
+    stopper = std::jthread([&stop] { stop.request_stop(); });
+  }
   const auto held = backend.catalogue.prepare(
       id, [](MeshState) {}, stop.get_token());
   // It is held and used here, so it neither goes nor changes.
@@ -122,11 +124,14 @@ TEST(CatalogueStress, HoldsItsContractUnderManyThreads) {
   // Nothing has got stuck: each mesh can be brought back once the others (some of them pinned, some
   // still being made) have gone.
   std::vector<std::string> ids;
-  for (const double size : sizes)
+  for (const double size : sizes) {
     ids.push_back(backend.catalogue.create(Backend::definition(size), "", "ann").id);
+  }
   for (const std::string& id : ids) {
     EXPECT_TRUE(eventually([&] {
-      for (const std::string& other : ids) evict(backend, other);
+      for (const std::string& other : ids) {
+        evict(backend, other);
+      }
       try {
         return backend.catalogue.prepare(id, [](MeshState) {}, {}) != nullptr;
       } catch (const errors::Error& error) {

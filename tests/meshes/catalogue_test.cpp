@@ -81,9 +81,12 @@ TEST_F(Catalogue, GivesTheSameMeshForTheSameDefinition) {
 TEST_F(Catalogue, MakesOneMeshOfADefinitionThatManyThreadsSend) {
   std::vector<std::thread> threads;
   std::vector<std::string> ids(4);
-  for (std::size_t t = 0; t < ids.size(); ++t)
+  for (std::size_t t = 0; t < ids.size(); ++t) {
     threads.emplace_back([&, t] { ids[t] = backend.create(); });
-  for (std::thread& thread : threads) thread.join();
+  }
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
   ASSERT_TRUE(reaches(ids[0], MeshState::ready));
   EXPECT_THAT(ids, ::testing::Each(ids[0]));
   EXPECT_EQ(backend.catalogue.meshings(), 1U);

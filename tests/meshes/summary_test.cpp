@@ -147,7 +147,9 @@ TEST(MeshBlock, HoldsTheArraysOfTheMesh) {
   const mesh::Mesh mesh = example();
   const store::Block block = mesh_block(mesh);
   std::vector<std::string> names;
-  for (const store::ArrayLayout& array : block.arrays) names.push_back(array.name);
+  for (const store::ArrayLayout& array : block.arrays) {
+    names.push_back(array.name);
+  }
   EXPECT_THAT(names,
               ElementsAre("nodes", "triangles", "subdomain", "boundary", "interfaces/sigma/nodes",
                           "interfaces/sigma/kind", "interfaces/sigma/inclusion"));

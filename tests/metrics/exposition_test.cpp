@@ -51,8 +51,9 @@ store::JobRecord ended_job(store::JobState state) {
   job.spec.priority = store::Priority::bulk;
   job.timeline = {{begin, store::JobState::queued, ""},
                   {*job.started, store::JobState::running, ""}};
-  if (state == store::JobState::failed)
+  if (state == store::JobState::failed) {
     job.error.emplace(errors::Reason::numerical, "secret-message");
+  }
   return job;
 }
 
@@ -107,8 +108,9 @@ TEST_F(Exposition, TellsWhatHappened) {
            "anticrack_cache_hits_total 7",
            "anticrack_disk_bytes{kind=\"results\"} 4096",
            "anticrack_ready 1",
-       })
+       }) {
     EXPECT_THAT(text, HasSubstr(line + std::string("\n")));
+  }
   EXPECT_THAT(text, ::testing::ContainsRegex("process_resident_memory_bytes [1-9]"));
   EXPECT_THAT(text, Not(HasSubstr("secret"))) << "no label names a job, an owner or a message";
 }
@@ -136,8 +138,9 @@ TEST(Owners, HaveFewLabelsAndNothingIsLeftOut) {
   Metrics metrics("1.2.3", "GNU 12");
   const std::string address = metrics.listen("127.0.0.1:0", [] {
     Snapshot now;
-    for (std::uint64_t i = 0; i < 1000; ++i)
+    for (std::uint64_t i = 0; i < 1000; ++i) {
       now.owners.push_back({"user-" + std::to_string(i), 2, 1, i});
+    }
     return now;
   });
   const std::string text = get("http://" + address + "/metrics");

@@ -25,7 +25,9 @@ struct Gap {
       difference = std::numeric_limits<double>::infinity();
       return;
     }
-    for (std::size_t i = 0; i < a.size(); ++i) add(a[i], b[i]);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      add(a[i], b[i]);
+    }
   }
   double relative() const { return difference == 0 ? 0 : difference / scale; }
 };
@@ -35,17 +37,21 @@ struct Gap {
 inline double difference(const contact::Answer& a, const contact::Answer& b) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   if (a.traces.size() != b.traces.size() || a.fields.size() != b.fields.size() ||
-      a.inclusions.size() != b.inclusions.size())
+      a.inclusions.size() != b.inclusions.size()) {
     return infinite;
+  }
   Gap u, pressure, energy;
   for (std::size_t c = 0; c < a.traces.size(); ++c) {
     u.add(a.traces[c].u_minus, b.traces[c].u_minus);
     u.add(a.traces[c].u_plus, b.traces[c].u_plus);
     pressure.add(a.traces[c].pressure, b.traces[c].pressure);
   }
-  for (std::size_t s = 0; s < a.fields.size(); ++s) u.add(a.fields[s].u, b.fields[s].u);
-  for (std::size_t j = 0; j < a.inclusions.size(); ++j)
+  for (std::size_t s = 0; s < a.fields.size(); ++s) {
+    u.add(a.fields[s].u, b.fields[s].u);
+  }
+  for (std::size_t j = 0; j < a.inclusions.size(); ++j) {
     u.add(a.inclusions[j].displacement, b.inclusions[j].displacement);
+  }
   energy.add(a.energy, b.energy);
   return std::max({u.relative(), pressure.relative(), energy.relative()});
 }

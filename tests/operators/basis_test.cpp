@@ -80,7 +80,9 @@ TEST(LoadKey, TellsLoadsApartByAllButTheirNames) {
     fem::Load renamed = loads[i];
     renamed.name = "name";
     EXPECT_EQ(key(renamed), key(loads[i]));
-    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(key(loads[i]), key(loads[j])) << i << " " << j;
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_NE(key(loads[i]), key(loads[j])) << i << " " << j;
+    }
   }
   const fem::Load* const pair[] = {&loads[0], &loads[1]};
   const fem::Load* const swapped[] = {&loads[1], &loads[0]};
@@ -105,7 +107,9 @@ TEST(BasisCache, KeepsTheEightUsedLast) {
       return basis_of_size(10);
     });
   };
-  for (int i = 0; i < 8; ++i) ask(i);
+  for (int i = 0; i < 8; ++i) {
+    ask(i);
+  }
   ask(0);
   EXPECT_EQ(made, 8);
   ask(8);  // in the place of 1
@@ -150,14 +154,18 @@ TEST(BasisCache, OfManyAtOnceOneMakes) {
         ++asking;
         mine = cache.get("key", {}, [&] {
           ++made;
-          while (asking < static_cast<int>(found.size())) std::this_thread::yield();
+          while (asking < static_cast<int>(found.size())) {
+            std::this_thread::yield();
+          }
           return basis_of_size(4);
         });
       });
     }
   }
   EXPECT_EQ(made, 1);
-  for (const BasisCache::Basis& mine : found) EXPECT_EQ(mine, found[0]);
+  for (const BasisCache::Basis& mine : found) {
+    EXPECT_EQ(mine, found[0]);
+  }
 }
 
 TEST(BasisCache, AStoppedMakerIsFollowedByTheNext) {
@@ -174,13 +182,17 @@ TEST(BasisCache, AStoppedMakerIsFollowedByTheNext) {
         [&] {
           cache.get("key", {}, [&]() -> BasisCache::Basis {
             inside = true;
-            while (!leave) std::this_thread::yield();
+            while (!leave) {
+              std::this_thread::yield();
+            }
             throw errors::Error(Reason::cancelled, "stopped");
           });
         },
         Reason::cancelled));
   });
-  while (!inside) std::this_thread::yield();
+  while (!inside) {
+    std::this_thread::yield();
+  }
   // One who waits can be stopped.
   std::stop_source stop;
   stop.request_stop();

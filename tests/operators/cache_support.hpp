@@ -32,10 +32,11 @@ class GatedFactorise {
     }
     {
       std::unique_lock lock(_mutex);
-      if (obeys_stop)
+      if (obeys_stop) {
         _changed.wait(lock, stop, [&] { return _open; });
-      else
+      } else {
         _changed.wait(lock, [&] { return _open; });
+      }
     }
     stops_seen += stop.stop_requested() ? 1 : 0;
     --_running;

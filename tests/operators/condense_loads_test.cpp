@@ -31,7 +31,9 @@ mesh::Mesh membrane() {
   StructuredOptions options;
   options.columns = 16;
   options.kind = [](double x) {
-    if (std::abs(x) < 0.5) return x < 0 ? mesh::Kind::delaminated : mesh::Kind::inclusion;
+    if (std::abs(x) < 0.5) {
+      return x < 0 ? mesh::Kind::delaminated : mesh::Kind::inclusion;
+    }
     return x > 0.5 && x < 0.75 ? mesh::Kind::crack : mesh::Kind::glue;
   };
   mesh::Mesh mesh = structured_mesh(options);
@@ -46,20 +48,26 @@ class CondenseLoad : public ::testing::Test {
  protected:
   CondenseLoad() {
     operators.reserve(decomposition.subdomains.size());
-    for (const ddm::Subdomain& subdomain : decomposition.subdomains)
+    for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
       operators.emplace_back(subdomain);
+    }
   }
   LoadOnTraces condense(const fem::Load& load, const std::stop_token& stop = {}) const {
     const fem::Load* const one[] = {&load};
     CondensedOutcome outcome =
         std::move(condense_loads(one, mesh, decomposition, operators, neumann, stop).front());
-    if (const auto* error = std::get_if<errors::Error>(&outcome)) throw errors::Error(*error);
+    if (const auto* error = std::get_if<errors::Error>(&outcome)) {
+      throw errors::Error(*error);
+    }
     return std::get<LoadOnTraces>(std::move(outcome));
   }
   double placed_sum(const PlacedForces& placed) const {
     double sum = 0;
-    for (const std::vector<NodalForce>& of_subdomain : placed.subdomains)
-      for (const NodalForce& force : of_subdomain) sum += force.value;
+    for (const std::vector<NodalForce>& of_subdomain : placed.subdomains) {
+      for (const NodalForce& force : of_subdomain) {
+        sum += force.value;
+      }
+    }
     return sum;
   }
   PlacedForces place(double x, double y) const {
@@ -97,7 +105,9 @@ TEST_F(CondenseLoad, TakesTheSameForceInEveryForm) {
                 expected, condense(of_force(fem::PerRegion{{{"lower", -1.0}, {"upper", 2.0}}}))),
             1e-14);
   std::vector<double> values(mesh.triangle_count());
-  for (std::size_t t = 0; t < values.size(); ++t) values[t] = mesh.subdomain[t] == 0 ? -1 : 2;
+  for (std::size_t t = 0; t < values.size(); ++t) {
+    values[t] = mesh.subdomain[t] == 0 ? -1 : 2;
+  }
   EXPECT_LT(relative_difference(
                 expected, condense(of_force(fem::Array{
                               "sha", true, std::make_shared<const std::vector<double>>(values)}))),
@@ -108,8 +118,9 @@ TEST_F(CondenseLoad, TakesTheSameForceInEveryForm) {
 
 TEST_F(CondenseLoad, TakesNodalValuesInTheOrderOfTheMesh) {
   std::vector<double> values(mesh.node_count());
-  for (std::size_t i = 0; i < values.size(); ++i)
+  for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = 3 * mesh.xy[2 * i] + mesh.xy[2 * i + 1];
+  }
   EXPECT_LT(
       relative_difference(condense(of_force(fem::Expression{"3*x + y"})),
                           condense(of_force(fem::Array{

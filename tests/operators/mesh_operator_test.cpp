@@ -52,8 +52,9 @@ bool same_bits(const contact::Answer& a, const contact::Answer& b) {
            same_bits(a.traces[i].u_plus, b.traces[i].u_plus) &&
            same_bits(a.traces[i].pressure, b.traces[i].pressure);
   }
-  for (std::size_t i = 0; i < a.fields.size(); ++i)
+  for (std::size_t i = 0; i < a.fields.size(); ++i) {
     same = same && same_bits(a.fields[i].u, b.fields[i].u);
+  }
   return same;
 }
 
@@ -94,8 +95,9 @@ TEST(MeshOperator, FactorisesOnAnyNumberOfThreadsToTheSameBits) {
   std::vector<std::shared_ptr<const MeshOperator>> others(4);
   {
     std::vector<std::jthread> threads;
-    for (auto& other : others)
+    for (auto& other : others) {
       threads.emplace_back([&] { other = MeshOperator::factorise(mesh, 2, {}); });
+    }
   }
   for (const auto& other : others) {
     EXPECT_EQ(other->theta_star(), one->theta_star());
@@ -117,7 +119,9 @@ TEST(MeshOperator, FieldsAreOnTheNodesOfEachSubdomain) {
       const auto node = static_cast<std::size_t>(field.nodes[i]);
       const double x = op->mesh().xy[2 * node], y = op->mesh().xy[2 * node + 1];
       EXPECT_TRUE(s == 0 ? y <= 0 : y >= 0);
-      if (std::abs(x) == 1 || std::abs(y) == 1) EXPECT_EQ(field.u[i], x + 2 * y);
+      if (std::abs(x) == 1 || std::abs(y) == 1) {
+        EXPECT_EQ(field.u[i], x + 2 * y);
+      }
     }
   }
   EXPECT_TRUE(solve(*op, {"load", 1.0, ""}).fields.empty());

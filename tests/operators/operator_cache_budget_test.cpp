@@ -86,8 +86,9 @@ TEST_F(OperatorCacheBudget, ReservesTheEstimateWhileFactorising) {
   EXPECT_EQ(cache.metrics().pinned, estimate);
   EXPECT_EQ(cache.evict("a"), Eviction::in_use);
   EXPECT_FALSE(cache.pin("a"));
-  if (2 * estimate > measured + estimate)
+  if (2 * estimate > measured + estimate) {
     EXPECT_TRUE(throws([&] { acquire(cache, "b"); }, Reason::busy));
+  }
   factorise.open();
   first.get();
   EXPECT_EQ(cache.metrics().bytes, measured);
@@ -153,7 +154,9 @@ TEST_F(OperatorCacheBudget, TellsOfEachFactorisation) {
   OperatorCache listened(
       std::uint64_t{1} << 30,
       [&](auto cut, std::stop_token stop) {
-        if (fail) throw errors::Error(Reason::numerical, "floats");
+        if (fail) {
+          throw errors::Error(Reason::numerical, "floats");
+        }
         return MeshOperator::factorise(std::move(cut), 1, stop);
       },
       [&](std::chrono::duration<double> seconds) { told += seconds.count() > 0 ? 1 : 100; });

@@ -55,13 +55,17 @@ TEST_F(OperatorCacheFlight, FactorisesOnceAndThenHits) {
 TEST_F(OperatorCacheFlight, GivesAllWhoComeMeanwhileTheSameOperator) {
   factorise.open(false);
   std::vector<std::future<Operator>> callers;
-  for (int i = 0; i < 8; ++i) callers.push_back(acquire());
+  for (int i = 0; i < 8; ++i) {
+    callers.push_back(acquire());
+  }
   ASSERT_TRUE(joined(7));
   EXPECT_FALSE(cache.contains("mesh"));
   EXPECT_EQ(cache.find("mesh"), nullptr);
   factorise.open();
   const Operator first = callers.front().get();
-  for (std::size_t i = 1; i < callers.size(); ++i) EXPECT_EQ(callers[i].get(), first);
+  for (std::size_t i = 1; i < callers.size(); ++i) {
+    EXPECT_EQ(callers[i].get(), first);
+  }
   EXPECT_EQ(cache.metrics().factorizations, 1U);
 }
 
@@ -154,8 +158,9 @@ TEST(OperatorCacheError, ReachesAllWhoWaitAndIsNotKept) {
   const std::shared_future<void> go = all_wait.get_future().share();
   OperatorCache cache(std::uint64_t{1} << 30, [&](auto mesh, std::stop_token stop) {
     go.wait();
-    if (fail)
+    if (fail) {
       throw Error(Reason::numerical, "subdomain \"upper\" floats").with("subdomain", "upper");
+    }
     return MeshOperator::factorise(mesh, 1, stop);
   });
   const auto mesh = small_mesh();

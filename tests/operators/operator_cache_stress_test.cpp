@@ -75,7 +75,9 @@ void acquire_some(OperatorCache& cache, Crowd& crowd, std::mt19937& random) {
   const std::string key = std::to_string(which);
   std::stop_source stop;
   std::jthread stopper;
-  if (random() % 3 == 0) stopper = std::jthread([&stop] { stop.request_stop(); });
+  if (random() % 3 == 0) {
+    stopper = std::jthread([&stop] { stop.request_stop(); });
+  }
   try {
     const auto result = cache.acquire(key, crowd.meshes[which], stop.get_token());
     crowd.wrong += &result->mesh() == crowd.meshes[which].get() ? 0 : 1;
@@ -101,7 +103,9 @@ void work(OperatorCache& cache, Crowd& crowd, unsigned seed) {
         cache.evict(key);
         break;
       case 3:
-        if (const auto found = cache.find(key)) crowd.wrong += cache.contains(key) ? 0 : 1;
+        if (const auto found = cache.find(key)) {
+          crowd.wrong += cache.contains(key) ? 0 : 1;
+        }
         break;
       default:
         acquire_some(cache, crowd, random);
@@ -124,7 +128,9 @@ TEST(OperatorCacheStress, HoldsItsContractUnderManyThreads) {
       }
     });
     std::vector<std::jthread> threads;
-    for (unsigned t = 0; t < callers; ++t) threads.emplace_back([&, t] { work(cache, crowd, t); });
+    for (unsigned t = 0; t < callers; ++t) {
+      threads.emplace_back([&, t] { work(cache, crowd, t); });
+    }
     threads.clear();
     over = true;
   }
@@ -134,7 +140,9 @@ TEST(OperatorCacheStress, HoldsItsContractUnderManyThreads) {
 
   // Abandoned factorisations may still be on their way out. Then all goes, also what is pinned.
   ASSERT_TRUE(anticrack::testing::eventually([&] {
-    for (std::size_t i = 0; i < crowd.meshes.size(); ++i) cache.evict(std::to_string(i));
+    for (std::size_t i = 0; i < crowd.meshes.size(); ++i) {
+      cache.evict(std::to_string(i));
+    }
     return cache.metrics().entries == 0;
   }));
   EXPECT_EQ(cache.metrics().bytes, 0U);

@@ -37,7 +37,9 @@ Operator factorised() {
 std::vector<Outcome> prepare(const MeshOperator& op, const std::vector<fem::Load>& loads,
                              const std::stop_token& stop = {}) {
   std::vector<const fem::Load*> pointers;
-  for (const fem::Load& load : loads) pointers.push_back(&load);
+  for (const fem::Load& load : loads) {
+    pointers.push_back(&load);
+  }
   return op.prepare(pointers, stop);
 }
 
@@ -68,7 +70,9 @@ fem::Load load_number(int i) {
 TEST(PreparedLoad, FortyAtOnceAreWhatEachIsAlone) {
   const Operator op = factorised();
   std::vector<fem::Load> loads;
-  for (int i = 0; i < 40; ++i) loads.push_back(load_number(i));
+  for (int i = 0; i < 40; ++i) {
+    loads.push_back(load_number(i));
+  }
   const std::vector<Outcome> prepared = prepare(*op, loads);
   ASSERT_EQ(prepared.size(), loads.size());
   contact::UzawaOptions uzawa;
@@ -93,7 +97,9 @@ TEST(PreparedLoad, FortyAtOnceAreWhatEachIsAlone) {
 TEST(PreparedLoad, FieldsOfFortyAtOnceAreThoseOfEachAlone) {
   const Operator op = factorised();
   std::vector<fem::Load> loads;
-  for (int i = 0; i < 40; ++i) loads.push_back(load_number(i));
+  for (int i = 0; i < 40; ++i) {
+    loads.push_back(load_number(i));
+  }
   const std::vector<Outcome> prepared = prepare(*op, loads);
   Silent observer;
   std::vector<contact::Answer> answers;

@@ -34,7 +34,9 @@ std::uint64_t resident_bytes() {
 }
 
 TEST(ResidentMemory, IsWithinFivePercentAfterFiftyLoadsAndEvictions) {
-  if (sanitized) GTEST_SKIP() << "a sanitizer's allocator keeps what is freed";
+  if (sanitized) {
+    GTEST_SKIP() << "a sanitizer's allocator keeps what is freed";
+  }
   constexpr int warm_up = 5;
   constexpr int cycles = 50;
   const auto mesh = small_mesh(330);  // 108,900 triangles
@@ -48,9 +50,13 @@ TEST(ResidentMemory, IsWithinFivePercentAfterFiftyLoadsAndEvictions) {
     loaded = resident_bytes();
     ASSERT_EQ(cache.evict("mesh"), OperatorCache::Eviction::done);
   };
-  for (int i = 0; i < warm_up; ++i) cycle();
+  for (int i = 0; i < warm_up; ++i) {
+    cycle();
+  }
   const std::uint64_t start = resident_bytes();
-  for (int i = 0; i < cycles; ++i) cycle();
+  for (int i = 0; i < cycles; ++i) {
+    cycle();
+  }
   const std::uint64_t end = resident_bytes();
   // What was loaded was seen to come, so its going would be seen to fail.
   EXPECT_GT(operators, start / 5);

@@ -36,7 +36,9 @@ inline std::shared_ptr<const LoadBasis> basis_of(const MeshOperator& op,
                                                  const std::vector<fem::Load>& loads,
                                                  const std::stop_token& stop = {}) {
   std::vector<const fem::Load*> pointers;
-  for (const fem::Load& load : loads) pointers.push_back(&load);
+  for (const fem::Load& load : loads) {
+    pointers.push_back(&load);
+  }
   return op.basis(pointers, stop);
 }
 

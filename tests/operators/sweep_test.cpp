@@ -192,7 +192,9 @@ TEST(Sweep, StopsBetweenTwoRows) {
         begun = true;
       } while (op->sweep(*basis, c, {}, rows, start, stop.get_token()));
     });
-    while (!begun) std::this_thread::yield();
+    while (!begun) {
+      std::this_thread::yield();
+    }
     stop.request_stop();
   }
   // Rows up to the stop are whole, the others untouched.

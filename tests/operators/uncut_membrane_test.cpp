@@ -28,13 +28,17 @@ void cut_half(mesh::Mesh& mesh, int half, int columns, int rows) {
   mesh.subdomains.push_back(half == 0 ? "lower right" : "upper right");
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     double x = 0;
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k) {
       x += mesh.xy[2 * static_cast<std::size_t>(mesh.triangles[3 * t + k])];
-    if (mesh.subdomain[t] == half && x > 0) mesh.subdomain[t] = name;
+    }
+    if (mesh.subdomain[t] == half && x > 0) {
+      mesh.subdomain[t] = name;
+    }
   }
   mesh::Interface wall{half == 0 ? "lower wall" : "upper wall", {}, {}, {}};
-  for (int j = half * rows; j <= (half + 1) * rows; ++j)
+  for (int j = half * rows; j <= (half + 1) * rows; ++j) {
     wall.nodes.push_back(j * (columns + 1) + columns / 2);
+  }
   wall.kind.assign(wall.nodes.size() - 1, mesh::Kind::glue);
   wall.inclusion.assign(wall.nodes.size() - 1, -1);
   mesh.interfaces.push_back(wall);
@@ -62,18 +66,20 @@ void expect_uncut(const mesh::Mesh& mesh) {
   Eigen::VectorXd prescribed =
       fem::boundary_values(whole, load.boundary_value, 0, whole.node_count());
   std::vector<char> fixed(whole.node_count(), 0);
-  for (const auto& edge : mesh.dirichlet)
+  for (const auto& edge : mesh.dirichlet) {
     fixed[static_cast<std::size_t>(edge[0])] = fixed[static_cast<std::size_t>(edge[1])] = 1;
+  }
   Eigen::SparseMatrix<double> constrained = stiffness;
   constrained.prune([&fixed](Eigen::Index i, Eigen::Index j, double) {
     return fixed[static_cast<std::size_t>(i)] == 0 && fixed[static_cast<std::size_t>(j)] == 0;
   });
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    if (fixed[i] != 0)
+    if (fixed[i] != 0) {
       constrained.coeffRef(k, k) = 1;
-    else
+    } else {
       prescribed[k] = 0;
+    }
   }
   Eigen::VectorXd right = force - stiffness * prescribed;
   for (std::size_t i = 0; i < fixed.size(); ++i) {
@@ -85,9 +91,11 @@ void expect_uncut(const mesh::Mesh& mesh) {
 
   const auto difference_of = [&u](const contact::Answer& of) {
     double difference = 0;
-    for (const contact::Field& field : of.fields)
-      for (std::size_t i = 0; i < field.nodes.size(); ++i)
+    for (const contact::Field& field : of.fields) {
+      for (std::size_t i = 0; i < field.nodes.size(); ++i) {
         difference = std::max(difference, std::abs(field.u[i] - u[field.nodes[i]]));
+      }
+    }
     return difference;
   };
   const double difference = difference_of(answer);

@@ -79,7 +79,9 @@ void expect_same(const Solved& batched, const Solved& expected, const Case& of) 
   EXPECT_EQ(a.fields.empty(), !of.fields);
   EXPECT_EQ(a.warnings, b.warnings);
   EXPECT_EQ(static_cast<int>(batched.samples.size()), a.iterations);
-  if (of.options.epsilon <= epsilon_at_rounding && !of.options.kkt_tolerance) return;
+  if (of.options.epsilon <= epsilon_at_rounding && !of.options.kkt_tolerance) {
+    return;
+  }
   ASSERT_EQ(a.iterations, b.iterations);
   Gap energy;
   for (std::size_t k = 0; k < batched.samples.size(); ++k) {
@@ -102,11 +104,16 @@ class Draw {
   fem::Load load() {
     fem::Load load;
     std::vector<double> force(_op.mesh().triangle_count());
-    for (double& value : force) value = uniform(-1, 1);
+    for (double& value : force) {
+      value = uniform(-1, 1);
+    }
     load.force = fem::Array{"", true, std::make_shared<const std::vector<double>>(force)};
     load.boundary_value = chance(0.5) ? std::to_string(uniform(-1, 1)) + "*x - 0.1*y" : "";
-    for (const std::string& inclusion : _op.mesh().inclusions)
-      if (chance(0.3)) load.inclusion_forces[inclusion] = uniform(-1, 1);
+    for (const std::string& inclusion : _op.mesh().inclusions) {
+      if (chance(0.3)) {
+        load.inclusion_forces[inclusion] = uniform(-1, 1);
+      }
+    }
     return load;
   }
 
@@ -116,7 +123,9 @@ class Draw {
     drawn.load = load();
     drawn.options.mass = mass;
     drawn.options.theta.reset();
-    if (chance(0.5)) drawn.options.theta = uniform(0.3, 0.97) * limit(mass);
+    if (chance(0.5)) {
+      drawn.options.theta = uniform(0.3, 0.97) * limit(mass);
+    }
     drawn.options.p = chance(0.8) ? 1e5 : uniform(0, 0.2);
     constexpr double epsilons[] = {1e-4, 1e-8, 1e-12, 1e-16, epsilon_at_rounding};
     drawn.options.epsilon = epsilons[pick(0, 4)];
@@ -149,7 +158,9 @@ std::vector<Solved> in_block(const Operator& op, const std::vector<Case>& cases,
   EXPECT_EQ(block.capacity(), capacity);
   std::vector<Recorder> recorders;
   recorders.reserve(cases.size());
-  for (const Case& one : cases) recorders.emplace_back(one.stop_after);
+  for (const Case& one : cases) {
+    recorders.emplace_back(one.stop_after);
+  }
   std::vector<Solved> solved(cases.size());
   std::vector<int> at(static_cast<std::size_t>(capacity), -1);  // case in each place
   std::size_t next = 0, done = 0;
@@ -169,7 +180,9 @@ std::vector<Solved> in_block(const Operator& op, const std::vector<Case>& cases,
     const int under_way = block.columns();
     block.step();
     EXPECT_LE(block.columns(), under_way);
-    if (block.columns() > 0 && held < capacity && draw.chance(0.5)) continue;
+    if (block.columns() > 0 && held < capacity && draw.chance(0.5)) {
+      continue;
+    }
     int last = -1;
     for (UzawaBlock::Ended& ended : block.take_ended()) {
       EXPECT_GT(ended.place, last);
@@ -194,7 +207,9 @@ void expect_batched_equals_alone(const Operator& op, unsigned seed) {
   Draw draw(*op, seed);
   const contact::Mass mass = draw.chance(0.7) ? contact::Mass::lumped : contact::Mass::consistent;
   std::vector<Case> cases;
-  for (int i = 0; i < 14; ++i) cases.push_back(draw.load_case(mass));
+  for (int i = 0; i < 14; ++i) {
+    cases.push_back(draw.load_case(mass));
+  }
   const std::vector<Solved> solved = in_block(op, cases, draw.pick(1, 9), draw);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
@@ -268,7 +283,9 @@ TEST(UzawaBlock, AColumnDoesNotRememberWhoWasInItsPlace) {
   const auto run = [&](UzawaBlock& block, const Case& solved) {
     Recorder recorder;
     EXPECT_EQ(block.add(prepared(*op, solved.load), solved.options, true, recorder), 0);
-    while (block.columns() > 0) block.step();
+    while (block.columns() > 0) {
+      block.step();
+    }
     return std::move(block.take_ended().at(0).answer);
   };
   EXPECT_EQ(run(used, of("1e300")).status, Status::not_converged);  // leaves no finite number

@@ -31,13 +31,19 @@ fem::Triangulation part(const mesh::Mesh& mesh, std::int32_t subdomain) {
 /// Nodes where u_i is 0: the outer boundary, and all that do not belong to the subdomain.
 Mask clamped(const mesh::Mesh& mesh, std::int32_t subdomain) {
   Mask mask(mesh.node_count(), 1);
-  for (const std::int32_t node : part(mesh, subdomain).triangles) mask[at(node)] = 0;
-  for (const auto& edge : mesh.dirichlet) mask[at(edge[0])] = mask[at(edge[1])] = 1;
+  for (const std::int32_t node : part(mesh, subdomain).triangles) {
+    mask[at(node)] = 0;
+  }
+  for (const auto& edge : mesh.dirichlet) {
+    mask[at(edge[0])] = mask[at(edge[1])] = 1;
+  }
   return mask;
 }
 
 Mask united(Mask a, const Mask& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] = a[i] != 0 || b[i] != 0 ? 1 : 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    a[i] = a[i] != 0 || b[i] != 0 ? 1 : 0;
+  }
   return a;
 }
 
@@ -48,10 +54,11 @@ Mask nodes_of_kind(const mesh::Mesh& mesh, mesh::Kind kind, bool only_inside) {
       for (const std::int32_t node :
            {mesh.interfaces[0].nodes[e], mesh.interfaces[0].nodes[e + 1]}) {
         const bool same = mesh.interfaces[0].kind[e] == kind;
-        if (of_kind && same)
+        if (of_kind && same) {
           touched[at(node)] = 1;
-        else if (!of_kind && only_inside && !same)
+        } else if (!of_kind && only_inside && !same) {
           touched[at(node)] = 0;
+        }
       }
     }
   }
@@ -66,22 +73,30 @@ FullFieldUzawa::DirichletProblem::DirichletProblem(const Sparse& matrix, const M
   constrained.prune([this](Eigen::Index i, Eigen::Index j, double) {
     return fixed[static_cast<std::size_t>(i)] == 0 && fixed[static_cast<std::size_t>(j)] == 0;
   });
-  for (std::size_t i = 0; i < fixed.size(); ++i)
-    if (fixed[i] != 0)
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    if (fixed[i] != 0) {
       constrained.coeffRef(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) = 1;
+    }
+  }
   factor.compute(constrained);
-  if (factor.info() != Eigen::Success)
+  if (factor.info() != Eigen::Success) {
     throw std::runtime_error("the reference could not factorise a subdomain");
+  }
 }
 
 Vector FullFieldUzawa::DirichletProblem::solve(const Vector& rhs, const Vector& prescribed) const {
   Vector lift = Vector::Zero(rhs.size());
-  for (std::size_t i = 0; i < fixed.size(); ++i)
-    if (fixed[i] != 0)
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    if (fixed[i] != 0) {
       lift[static_cast<Eigen::Index>(i)] = prescribed[static_cast<Eigen::Index>(i)];
+    }
+  }
   Vector right = rhs - stiffness * lift;
-  for (std::size_t i = 0; i < fixed.size(); ++i)
-    if (fixed[i] != 0) right[static_cast<Eigen::Index>(i)] = lift[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    if (fixed[i] != 0) {
+      right[static_cast<Eigen::Index>(i)] = lift[static_cast<Eigen::Index>(i)];
+    }
+  }
   return factor.solve(right);
 }
 
@@ -99,8 +114,9 @@ FullFieldUzawa::FullFieldUzawa(const mesh::Mesh& mesh, const fem::Force& force,
       _problem2(_k2, clamped(mesh, 1)),
       _problem2_gamma(_k2, united(clamped(mesh, 1), _gamma)) {
   const Mask outer = clamped(mesh, 1);
-  for (const std::int32_t node : mesh.interfaces[0].nodes)
+  for (const std::int32_t node : mesh.interfaces[0].nodes) {
     _interface[at(node)] = outer[at(node)] == 0 ? 1 : 0;
+  }
   std::vector<Eigen::Triplet<Real>> entries;
   const auto& nodes = mesh.interfaces[0].nodes;
   for (std::size_t e = 0; e + 1 < nodes.size(); ++e) {
@@ -140,8 +156,11 @@ std::pair<Vector, Real> FullFieldUzawa::solve_second(const Vector& load) const {
 }
 
 Vector FullFieldUzawa::on_gamma(Vector values) const {
-  for (std::size_t i = 0; i < _gamma.size(); ++i)
-    if (_gamma[i] == 0) values[static_cast<Eigen::Index>(i)] = 0;
+  for (std::size_t i = 0; i < _gamma.size(); ++i) {
+    if (_gamma[i] == 0) {
+      values[static_cast<Eigen::Index>(i)] = 0;
+    }
+  }
   return values;
 }
 

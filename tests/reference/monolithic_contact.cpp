@@ -22,7 +22,9 @@ using mesh::Kind;
 struct Sets {
   explicit Sets(std::size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
   std::int32_t find(std::int32_t i) {
-    while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
+    while (parent[at(i)] != i) {
+      i = parent[at(i)] = parent[at(parent[at(i)])];
+    }
     return i;
   }
   void unite(std::int32_t a, std::int32_t b) { parent[at(find(a))] = find(b); }
@@ -35,7 +37,9 @@ using NodePairKey = std::pair<std::int32_t, std::int32_t>;
 
 MonolithicContact::MonolithicContact(const mesh::Mesh& mesh, const MonolithicLoad& load)
     : _mesh(mesh), _dirichlet(mesh.node_count(), 0) {
-  for (const auto& edge : mesh.dirichlet) _dirichlet[at(edge[0])] = _dirichlet[at(edge[1])] = 1;
+  for (const auto& edge : mesh.dirichlet) {
+    _dirichlet[at(edge[0])] = _dirichlet[at(edge[1])] = 1;
+  }
   find_edges();
   double_nodes();
   tie();
@@ -72,17 +76,24 @@ void MonolithicContact::find_edges() {
 /// Corners are one dof where triangles meet along an edge that is on no interface.
 void MonolithicContact::double_nodes() {
   std::map<NodePairKey, char> cut;
-  for (const auto& edges : _edges)
-    for (const Edge& edge : edges) cut[std::minmax(edge.a, edge.b)] = 1;
+  for (const auto& edges : _edges) {
+    for (const Edge& edge : edges) {
+      cut[std::minmax(edge.a, edge.b)] = 1;
+    }
+  }
   Sets corners(_mesh.triangles.size());
   std::map<NodePairKey, std::array<std::int32_t, 2>> first;  // of an edge, by its smaller node
   for (std::size_t t = 0; t < _mesh.triangle_count(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       auto here = static_cast<std::int32_t>(3 * t + k);
       auto there = static_cast<std::int32_t>(3 * t + (k + 1) % 3);
-      if (_mesh.triangles[at(here)] > _mesh.triangles[at(there)]) std::swap(here, there);
+      if (_mesh.triangles[at(here)] > _mesh.triangles[at(there)]) {
+        std::swap(here, there);
+      }
       const NodePairKey key{_mesh.triangles[at(here)], _mesh.triangles[at(there)]};
-      if (cut.count(key) != 0) continue;
+      if (cut.count(key) != 0) {
+        continue;
+      }
       if (const auto found = first.find(key); found != first.end()) {
         corners.unite(here, found->second[0]);
         corners.unite(there, found->second[1]);
@@ -107,10 +118,14 @@ void MonolithicContact::tie() {
   for (const auto& edges : _edges) {
     for (const Edge& edge : edges) {
       for (std::size_t end = 0; end < 2; ++end) {
-        if (_dirichlet[at(end == 0 ? edge.a : edge.b)] != 0) continue;
+        if (_dirichlet[at(end == 0 ? edge.a : edge.b)] != 0) {
+          continue;
+        }
         const std::int32_t plus = _dof[at(edge.end[end].plus)];
         const std::int32_t minus = _dof[at(edge.end[end].minus)];
-        if (edge.kind == Kind::glue || edge.kind == Kind::inclusion) equal.unite(plus, minus);
+        if (edge.kind == Kind::glue || edge.kind == Kind::inclusion) {
+          equal.unite(plus, minus);
+        }
         if (edge.inclusion >= 0) {
           equal.unite(plus, _dofs + edge.inclusion);
           _rigid[at(plus)] = 1;
@@ -119,8 +134,9 @@ void MonolithicContact::tie() {
     }
   }
   std::vector<char> prescribed(at(_dofs + inclusions), 0);
-  for (std::size_t i = 0; i < _dof.size(); ++i)
+  for (std::size_t i = 0; i < _dof.size(); ++i) {
     prescribed[at(_dof[i])] |= _dirichlet[at(_mesh.triangles[i])];
+  }
   std::map<std::int32_t, std::int32_t> number;
   for (std::int32_t i = 0; i < _dofs + inclusions; ++i) {
     if (prescribed[at(i)] != 0) {
@@ -136,8 +152,9 @@ void MonolithicContact::tie() {
       for (const Ends& end : edge.end) {
         const std::int32_t upper = _unknown[at(_dof[at(end.plus)])];
         const std::int32_t lower = _unknown[at(_dof[at(end.minus)])];
-        if ((edge.kind == Kind::crack || edge.kind == Kind::delaminated) && upper != lower)
+        if ((edge.kind == Kind::crack || edge.kind == Kind::delaminated) && upper != lower) {
           _inequalities.push_back({upper, lower});
+        }
       }
     }
   }
@@ -149,7 +166,9 @@ VectorXd MonolithicContact::project(const Eigen::MatrixXd& matrix, const VectorX
   VectorXd slack = gap;
   constexpr int limit = 400'000;
   for (int sweep = 0; sweep < limit && !_converged; ++sweep) {
-    if (sweep % 64 == 0) slack = gap + matrix * lambda;  // forget the rounding of the updates
+    if (sweep % 64 == 0) {
+      slack = gap + matrix * lambda;  // forget the rounding of the updates
+    }
     double change = 0;
     for (Index i = 0; i < gap.size(); ++i) {
       const double next = std::max(0.0, lambda[i] - slack[i] / matrix(i, i));
@@ -175,7 +194,9 @@ void MonolithicContact::solve(const MonolithicLoad& load) {
       const std::size_t node = at(_mesh.triangles[3 * t + k]);
       x[k] = _mesh.xy[2 * node];
       y[k] = _mesh.xy[2 * node + 1];
-      if (_dirichlet[node] != 0) _u[_dof[3 * t + k]] = load.boundary(x[k], y[k]);
+      if (_dirichlet[node] != 0) {
+        _u[_dof[3 * t + k]] = load.boundary(x[k], y[k]);
+      }
     }
     const double area = ((x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])) / 2;
     const double tension = _mesh.tension.empty() ? 1 : _mesh.tension[at(_mesh.subdomain[t])];
@@ -195,17 +216,23 @@ void MonolithicContact::solve(const MonolithicLoad& load) {
   k.setFromTriplets(entries.begin(), entries.end());
 
   std::vector<Eigen::Triplet<double>> expansion;
-  for (std::int32_t i = 0; i < _dofs; ++i)
-    if (_unknown[at(i)] >= 0) expansion.emplace_back(i, _unknown[at(i)], 1.0);
+  for (std::int32_t i = 0; i < _dofs; ++i) {
+    if (_unknown[at(i)] >= 0) {
+      expansion.emplace_back(i, _unknown[at(i)], 1.0);
+    }
+  }
   Eigen::SparseMatrix<double> t(_dofs, _unknowns);
   t.setFromTriplets(expansion.begin(), expansion.end());
   VectorXd right = t.transpose() * (f - k * _u);
-  for (std::size_t j = 0; j < load.inclusion_forces.size(); ++j)
+  for (std::size_t j = 0; j < load.inclusion_forces.size(); ++j) {
     right[_unknown[at(_dofs) + j]] += load.inclusion_forces[j];
+  }
   const Eigen::SparseMatrix<double> reduced = t.transpose() * k * t;
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(reduced);
   _held = factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 1e-10;
-  if (!_held) return;
+  if (!_held) {
+    return;
+  }
   _x = factor.solve(right);
   const auto count = static_cast<Index>(_inequalities.size());
   if (count > 0) {
@@ -217,15 +244,18 @@ void MonolithicContact::solve(const MonolithicLoad& load) {
     const Eigen::MatrixXd answers = factor.solve(b);
     const VectorXd lambda = project(b.transpose() * answers, b.transpose() * _x);
     _x = factor.solve(VectorXd(right + b * lambda));
-    for (Index i = 0; i < count; ++i) ++(lambda[i] > 0 ? _closed : _open);
+    for (Index i = 0; i < count; ++i) {
+      ++(lambda[i] > 0 ? _closed : _open);
+    }
   } else {
     _converged = true;
   }
   _u += t * _x;
   _residual = k * _u - f;
   _energy = _u.dot(k * _u) / 2 - f.dot(_u);
-  for (std::size_t j = 0; j < load.inclusion_forces.size(); ++j)
+  for (std::size_t j = 0; j < load.inclusion_forces.size(); ++j) {
     _energy -= load.inclusion_forces[j] * displacement(j);
+  }
 }
 
 double MonolithicContact::u(std::size_t triangle, std::size_t corner) const {
@@ -243,14 +273,19 @@ std::optional<double> MonolithicContact::multiplier(std::size_t c, std::size_t e
   const std::int32_t node = end == 0 ? edge.a : edge.b;
   const std::int32_t plus = _dof[at(edge.end[end].plus)];
   const std::int32_t minus = _dof[at(edge.end[end].minus)];
-  if (_dirichlet[at(node)] != 0 || plus == minus || _rigid[at(minus)] != 0) return std::nullopt;
+  if (_dirichlet[at(node)] != 0 || plus == minus || _rigid[at(minus)] != 0) {
+    return std::nullopt;
+  }
   double mass = 0;
   for (const auto& edges : _edges) {
     for (const Edge& other : edges) {
       for (std::size_t k = 0; k < 2; ++k) {
-        if ((k == 0 ? other.a : other.b) != node) continue;
-        if (_dof[at(other.end[k].plus)] != plus || _dof[at(other.end[k].minus)] != minus)
+        if ((k == 0 ? other.a : other.b) != node) {
+          continue;
+        }
+        if (_dof[at(other.end[k].plus)] != plus || _dof[at(other.end[k].minus)] != minus) {
           return std::nullopt;
+        }
         mass += other.length / 2;
       }
     }

@@ -31,8 +31,9 @@ struct Tally {
 
 double nearest(double value, const std::vector<double>& candidates) {
   double distance = std::numeric_limits<double>::infinity();
-  for (const double candidate : candidates)
+  for (const double candidate : candidates) {
     distance = std::min(distance, std::abs(value - candidate));
+  }
   return distance;
 }
 
@@ -46,7 +47,9 @@ void compare_trace(const MonolithicContact& reference, std::size_t c, const cont
       if (e < nodes - 1) {  // not so before the first
         minus.push_back(reference.u_side(c, e, end, false));
         plus.push_back(reference.u_side(c, e, end, true));
-        if (const auto value = reference.multiplier(c, e, end)) mu.push_back(*value);
+        if (const auto value = reference.multiplier(c, e, end)) {
+          mu.push_back(*value);
+        }
       }
     }
     tally.u = std::max({tally.u, nearest(trace.u_minus[i], minus) / u_scale,
@@ -63,9 +66,11 @@ void compare_fields(const mesh::Mesh& mesh, const MonolithicContact& reference,
                     const std::vector<contact::Field>& fields, double scale, Tally& tally) {
   for (std::size_t s = 0; s < fields.size(); ++s) {
     std::map<std::int32_t, std::vector<double>> here;
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-      for (std::size_t k = 0; k < 3 && mesh.subdomain[t] == static_cast<std::int32_t>(s); ++k)
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      for (std::size_t k = 0; k < 3 && mesh.subdomain[t] == static_cast<std::int32_t>(s); ++k) {
         here[mesh.triangles[3 * t + k]].push_back(reference.u(t, k));
+      }
+    }
     for (std::size_t i = 0; i < fields[s].nodes.size(); ++i) {
       const auto& candidates = here.at(fields[s].nodes[i]);
       tally.u = std::max(tally.u, nearest(fields[s].u[i], candidates) / scale);
@@ -91,8 +96,9 @@ void compare(unsigned seed, Tally& tally) {
   MonolithicLoad load;
   load.force.reserve(mesh.triangle_count());
   load.inclusion_forces.reserve(mesh.inclusions.size());
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     load.force.push_back(membrane.uniform(-1, 1));
+  }
   const double slope = membrane.uniform(-1, 1);
   char expression[64];
   std::snprintf(expression, sizeof expression, "%.17g*x - 0.4*y", slope);
@@ -122,13 +128,20 @@ void compare(unsigned seed, Tally& tally) {
   tally.floating += op->theta_star() == 0 ? 1 : 0;
   tally.equilibrium = std::max(tally.equilibrium, answer.kkt_relative.equilibrium);
   double u_scale = 0, mu_scale = 1e-3;  // mu is 0 where all cracks are open
-  for (const contact::Field& field : answer.fields)
-    for (const double u : field.u) u_scale = std::max(u_scale, std::abs(u));
-  for (const contact::Trace& trace : answer.traces)
-    for (const double mu : trace.pressure) mu_scale = std::max(mu_scale, std::abs(mu));
+  for (const contact::Field& field : answer.fields) {
+    for (const double u : field.u) {
+      u_scale = std::max(u_scale, std::abs(u));
+    }
+  }
+  for (const contact::Trace& trace : answer.traces) {
+    for (const double mu : trace.pressure) {
+      mu_scale = std::max(mu_scale, std::abs(mu));
+    }
+  }
   compare_fields(mesh, reference, answer.fields, u_scale, tally);
-  for (std::size_t c = 0; c < answer.traces.size(); ++c)
+  for (std::size_t c = 0; c < answer.traces.size(); ++c) {
     compare_trace(reference, c, answer.traces[c], u_scale, mu_scale, tally);
+  }
   for (std::size_t j = 0; j < mesh.inclusions.size(); ++j) {
     tally.displacement =
         std::max(tally.displacement,
@@ -170,7 +183,9 @@ TEST(MonolithicContact, AgreesWithUzawaOnRandomMembranes) {
     } catch (const errors::Error&) {
       continue;
     }
-    if (op->theta_star() == 0) continue;
+    if (op->theta_star() == 0) {
+      continue;
+    }
     const fem::Load load{"random", fem::Expression{"sin(x + 2*y)"}, "", "", {}, {}};
     contact::UzawaOptions uzawa;
     uzawa.theta.reset();
@@ -203,7 +218,9 @@ TEST(MonolithicContact, AgreesWithTheActiveSetOnRandomMembranes) {
   constexpr unsigned tries = 300;
   std::printf("[ seed     ] %u to %u\n", seed, seed + tries - 1);
   Tally tally;
-  for (unsigned k = 0; k < tries && !HasFailure(); ++k) compare(seed + k, tally);
+  for (unsigned k = 0; k < tries && !HasFailure(); ++k) {
+    compare(seed + k, tally);
+  }
   std::printf(
       "[ figures  ] %d compared (%d without Algorithm 2), %d refused, %d held by contact only, %d "
       "without a reference; %d nodes open, %d closed, %d multipliers; at most %d steps; worst "

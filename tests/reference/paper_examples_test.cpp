@@ -146,10 +146,11 @@ TEST(PaperExamples, ThirdOpensTheWholeCrack) {
   const auto& geometry = paper_operator().trace_geometry().at(0);
   for (std::size_t i = 0; i < geometry.x.size(); ++i) {
     const double jump = answer.traces.at(0).jump[i];
-    if (std::abs(geometry.x[i]) < 0.5 - spacing / 2)
+    if (std::abs(geometry.x[i]) < 0.5 - spacing / 2) {
       EXPECT_GT(jump, 1e-3) << geometry.x[i];
-    else
+    } else {
       EXPECT_NEAR(jump, 0, 1e-4) << geometry.x[i];
+    }
   }
 }
 
@@ -207,8 +208,9 @@ TEST(PatchTest, ClosedCrackIsReproducedToRounding) {
       }
     }
     const contact::Trace& trace = answer.traces.at(0);
-    for (std::size_t i = 1; i + 1 < trace.pressure.size(); ++i)
+    for (std::size_t i = 1; i + 1 < trace.pressure.size(); ++i) {
       pressure = std::max(pressure, std::abs(trace.pressure[i] - c));
+    }
     std::printf(
         "[ figures  ] patch, epsilon %.0e: %d iterations, error of u %.1e, of the pressure %.1e, "
         "of A %.1e, of the energy %.1e\n",
@@ -238,7 +240,9 @@ TEST(PenaltyBound, IsActiveWhenSmallAndForgottenWhenLarge) {
   for (const double p : {0.05, 0.2, 0.4, 1.0, 2.0}) {
     const Answer answer = with_bound(p);
     double largest = 0;
-    for (const double mu : answer.traces.at(0).pressure) largest = std::max(largest, std::abs(mu));
+    for (const double mu : answer.traces.at(0).pressure) {
+      largest = std::max(largest, std::abs(mu));
+    }
     EXPECT_LE(largest, p);
     EXPECT_EQ(answer.status, largest < p ? Status::converged : Status::not_converged);
     const double distance = answer.energy - unbounded.energy;
@@ -296,8 +300,9 @@ TEST(ActiveSet, ReproducesTheClosedCrackToRounding) {
   EXPECT_NEAR(answer.inclusions[0].displacement, 0, 1e-13);
   EXPECT_NEAR(answer.energy, 0.98, 1e-12);
   const contact::Trace& trace = answer.traces.at(0);
-  for (std::size_t i = 1; i + 1 < trace.pressure.size(); ++i)
+  for (std::size_t i = 1; i + 1 < trace.pressure.size(); ++i) {
     EXPECT_NEAR(trace.pressure[i], 0.7, 1e-11) << i;
+  }
 }
 
 }  // namespace

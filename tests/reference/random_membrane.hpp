@@ -28,8 +28,9 @@ class RandomMembrane {
     free_boundary();
     move_nodes();
     _grid.mesh.tension.reserve(_grid.mesh.subdomains.size());
-    for (std::size_t s = 0; s < _grid.mesh.subdomains.size(); ++s)
+    for (std::size_t s = 0; s < _grid.mesh.subdomains.size(); ++s) {
       _grid.mesh.tension.push_back(uniform(0.3, 3));
+    }
   }
 
   const mesh::Mesh& mesh() const { return _grid.mesh; }
@@ -47,18 +48,24 @@ class RandomMembrane {
   std::vector<std::string> names() const {
     std::vector<std::string> result;
     result.reserve(static_cast<std::size_t>(_columns) * static_cast<std::size_t>(_rows));
-    for (int s = 0; s < _columns * _rows; ++s) result.push_back("part " + std::to_string(s));
+    for (int s = 0; s < _columns * _rows; ++s) {
+      result.push_back("part " + std::to_string(s));
+    }
     return result;
   }
 
   /// One interface a side of a rectangle, either way round.
   void draw_lines() {
-    for (int c = 1; c < _columns; ++c)
-      for (int r = 0; r < _rows; ++r)
+    for (int c = 1; c < _columns; ++c) {
+      for (int r = 0; r < _rows; ++r) {
         draw({c * _cells, r * _cells}, {c * _cells, (r + 1) * _cells}, true);
-    for (int r = 1; r < _rows; ++r)
-      for (int c = 0; c < _columns; ++c)
+      }
+    }
+    for (int r = 1; r < _rows; ++r) {
+      for (int c = 0; c < _columns; ++c) {
         draw({c * _cells, r * _cells}, {(c + 1) * _cells, r * _cells}, true);
+      }
+    }
   }
 
   void draw_slits() {
@@ -66,7 +73,9 @@ class RandomMembrane {
       for (int r = 0; r < _rows; ++r) {
         const int x = c * _cells, y = r * _cells + pick(1, _cells - 1);
         const int begin = pick(1, _cells - 2), end = pick(begin + 1, _cells - 1);
-        if (chance(0.5)) draw({x + begin, y}, {x + end, y}, false);
+        if (chance(0.5)) {
+          draw({x + begin, y}, {x + end, y}, false);
+        }
       }
     }
   }
@@ -77,11 +86,15 @@ class RandomMembrane {
 
   /// Stretches of random kinds; glue at the boundary, and nowhere in a slit.
   void draw(Point from, Point to, bool glue) {
-    if (chance(0.5)) std::swap(from, to);
+    if (chance(0.5)) {
+      std::swap(from, to);
+    }
     std::vector<Point> points = {from};
     while (points.back() != to) {
       Point next = points.back();
-      for (std::size_t k = 0; k < 2; ++k) next[k] += to[k] > next[k] ? 1 : to[k] < next[k] ? -1 : 0;
+      for (std::size_t k = 0; k < 2; ++k) {
+        next[k] += to[k] > next[k] ? 1 : to[k] < next[k] ? -1 : 0;
+      }
       points.push_back(next);
     }
     const auto inclusion = static_cast<std::int32_t>(_grid.mesh.inclusions.size());
@@ -105,7 +118,9 @@ class RandomMembrane {
       }
       kinds.push_back(here);
     }
-    if (held) _grid.mesh.inclusions.push_back("inclusion " + std::to_string(inclusion));
+    if (held) {
+      _grid.mesh.inclusions.push_back("inclusion " + std::to_string(inclusion));
+    }
     _grid.add({from, to}, kinds, inclusion);
   }
 
@@ -126,7 +141,9 @@ class RandomMembrane {
 
   void move_nodes() {
     std::vector<double>& xy = _grid.mesh.xy;
-    for (std::size_t i = 0; i < xy.size(); ++i) xy[i] += uniform(-0.15, 0.15);
+    for (std::size_t i = 0; i < xy.size(); ++i) {
+      xy[i] += uniform(-0.15, 0.15);
+    }
   }
 
   std::mt19937 _random;

@@ -46,7 +46,9 @@ class Loads {
   static constexpr std::size_t count = 4;
 
   explicit Loads(RandomMembrane& membrane) {
-    for (double& value : _numbers) value = membrane.uniform(-2, 2);
+    for (double& value : _numbers) {
+      value = membrane.uniform(-2, 2);
+    }
     const mesh::Mesh& mesh = membrane.mesh();
     _inclusion = mesh.inclusions.empty() ? "" : mesh.inclusions[0];
     for (std::size_t j = 0; j < count; ++j) {
@@ -64,7 +66,9 @@ class Loads {
         text(c[0]) + "*(0.3*x - 0.1*y + 2) + " + text(c[2] * _numbers[2]) + "*y*y";
     load.traction = text(c[1]) + "*(x - y) + " + text(c[2]);
     load.point_forces = {{1.3, 1.2, c[2] * _numbers[3]}, {0.4, 2.1, c[3] * _numbers[4]}};
-    if (!_inclusion.empty()) load.inclusion_forces[_inclusion] = c[3] * _numbers[5] + c[1];
+    if (!_inclusion.empty()) {
+      load.inclusion_forces[_inclusion] = c[3] * _numbers[5] + c[1];
+    }
     return load;
   }
 
@@ -109,8 +113,11 @@ void compare_row(const MeshOperator& op, const SweepColumns& rows, std::size_t r
   }
   EXPECT_GE(rows.steps[row], 1);
   double largest = 0;
-  for (const contact::Trace& trace : wanted.traces)
-    for (const double pressure : trace.pressure) largest = std::max(largest, std::abs(pressure));
+  for (const contact::Trace& trace : wanted.traces) {
+    for (const double pressure : trace.pressure) {
+      largest = std::max(largest, std::abs(pressure));
+    }
+  }
   bool all_decided = true;
   for (std::size_t n = 0; n < rows.contacts; ++n) {
     const auto c = static_cast<std::size_t>(op.contact_nodes()[n][0]);
@@ -154,7 +161,9 @@ TEST(Sweep, RowsAreThePlainAnswersOfTheirLoads) {
     }
     const Loads loads(membrane);
     std::vector<const fem::Load*> pointers;
-    for (const fem::Load& load : loads.loads) pointers.push_back(&load);
+    for (const fem::Load& load : loads.loads) {
+      pointers.push_back(&load);
+    }
     std::shared_ptr<const LoadBasis> basis;
     try {
       basis = op->basis(pointers);
@@ -164,18 +173,23 @@ TEST(Sweep, RowsAreThePlainAnswersOfTheirLoads) {
     }
     constexpr std::size_t count = 12, m = Loads::count;
     std::vector<double> coefficients;
-    for (std::size_t k = 0; k < count * m; ++k)
+    for (std::size_t k = 0; k < count * m; ++k) {
       coefficients.push_back(k < m || k % 7 == 0 ? 0 : membrane.uniform(-2, 2));
+    }
     SweepColumns rows(count, membrane.mesh().inclusions.size(), op->contact_nodes().size());
     std::vector<char> start;
     ASSERT_TRUE(op->sweep(*basis, coefficients, {}, rows, start));
     std::vector<Answer> alone;
-    for (const fem::Load& load : loads.loads) alone.push_back(plain(*op, load));
+    for (const fem::Load& load : loads.loads) {
+      alone.push_back(plain(*op, load));
+    }
     for (std::size_t k = 0; k < count; ++k) {
       SCOPED_TRACE("row " + std::to_string(k));
       const std::span<const double> row(coefficients.data() + k * m, m);
       Scale scale;
-      for (std::size_t j = 0; j < m; ++j) scale.add(row[j], alone[j]);
+      for (std::size_t j = 0; j < m; ++j) {
+        scale.add(row[j], alone[j]);
+      }
       compare_row(*op, rows, k, plain(*op, loads.combined(row)), scale, tally);
     }
   }

@@ -84,7 +84,9 @@ TEST_P(Iterates, AgreeWithTheFullFieldAndStopAtTheSameIteration) {
     ASSERT_EQ(iterate.number, k);
     stop = stop == 0 && iterate.criterion < epsilon ? k : stop;
     twin_stop = twin_stop == 0 && twin.criterion() < epsilon ? k : twin_stop;
-    if (k > compared) continue;
+    if (k > compared) {
+      continue;
+    }
     const auto recovered = [&](std::size_t s) {
       return anticrack::testing::recovered(space.operators[s], loads[s], uzawa.trace(0, s));
     };

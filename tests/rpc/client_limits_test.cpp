@@ -65,18 +65,21 @@ TEST(ClientLimits, HalfOpenStreamsOfOneHoldNobodyElseOff) {
     settings.server.limits.streams_a_client = cap;
   });
   std::vector<std::unique_ptr<Upload>> held;
-  for (int i = 0; i < cap; ++i)
+  for (int i = 0; i < cap; ++i) {
     held.push_back(std::make_unique<Upload>(server, owner_token, small_msh()));
+  }
   ASSERT_TRUE(eventually([&] { return server.server().metrics().transfers == cap; }));
   std::vector<std::unique_ptr<Upload>> refused;  // all of them open at once, for their client
-  for (int i = 0; i < 10'000; ++i)
+  for (int i = 0; i < 10'000; ++i) {
     refused.push_back(std::make_unique<Upload>(server, owner_token, small_msh()));
+  }
   Upload other(server, other_token, small_msh());
   other.send(small_msh());
   EXPECT_TRUE(other.finish().ok());
   EXPECT_TRUE(eventually([&] { return server.server().metrics().transfers == cap; }));
-  for (const auto& upload : refused)
+  for (const auto& upload : refused) {
     expect_error(upload->finish(), grpc::StatusCode::RESOURCE_EXHAUSTED, "BUSY", "");
+  }
   for (const auto& upload : held) upload->drop();
   EXPECT_TRUE(eventually([&] { return server.server().metrics().transfers == 0; }));
   EXPECT_TRUE(eventually([&] { return server.upload_files() == 1; }));

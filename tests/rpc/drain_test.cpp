@@ -44,7 +44,9 @@ TEST(Drain, EndsWatchesAndUploadsWithADelay) {
   ASSERT_TRUE(eventually([&] { return server.upload_files() == 1; }));
 
   std::thread drain([&] { server.server().drain(0ms); });
-  while (watch->Read(&event)) EXPECT_FALSE(event.has_ended());  // nobody cancelled the job
+  while (watch->Read(&event)) {
+    EXPECT_FALSE(event.has_ended());  // nobody cancelled the job
+  }
   const grpc::Status watched = watch->Finish();
   expect_error(watched, grpc::StatusCode::UNAVAILABLE, "DRAINING", "");
   EXPECT_GT(details_of(watched).retry_seconds, 0);
@@ -90,7 +92,9 @@ TEST(Drain, PutsWhatDoesNotEndBackForTheNextStart) {
   while (watch->Read(&event) && !event.has_samples()) {
   }
   server.restart();
-  while (watch->Read(&event)) EXPECT_FALSE(event.has_ended());
+  while (watch->Read(&event)) {
+    EXPECT_FALSE(event.has_ended());
+  }
   EXPECT_FALSE(watch->Finish().ok());
   EXPECT_LT(server.job(running).state(), v1::Job::STATE_SUCCEEDED);
   EXPECT_TRUE(server.cancel(running).ok());

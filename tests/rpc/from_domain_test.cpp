@@ -74,8 +74,9 @@ TEST(FromDomain, PutsRunsOfSamplesBehindEachOther) {
   for (const int size :
        {samples.load_case_size(), samples.iteration_size(), samples.contact_count_size(),
         samples.criterion_size(), samples.energy_size(), samples.kkt_equilibrium_size(),
-        samples.kkt_gap_size(), samples.kkt_sign_size(), samples.kkt_complementarity_size()})
+        samples.kkt_gap_size(), samples.kkt_sign_size(), samples.kkt_complementarity_size()}) {
     ASSERT_EQ(size, count);
+  }
   for (int k = 0; k < count; ++k) {
     const int i = expected[static_cast<std::size_t>(k)];
     EXPECT_EQ(samples.load_case(k), i);

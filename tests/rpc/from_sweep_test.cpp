@@ -22,8 +22,9 @@ jobs::RowsEvent event_of(std::uint64_t first_row, std::size_t rows, std::size_t 
     columns->energy[k] = 100 + number;
     columns->contact_length[k] = 200 + number;
     columns->kkt[k] = 300 + number;
-    for (std::size_t i = 0; i < inclusions; ++i)
+    for (std::size_t i = 0; i < inclusions; ++i) {
       columns->displacement[k * inclusions + i] = 1000 * static_cast<double>(i + 1) + number;
+    }
   }
   return {first_row, columns};
 }

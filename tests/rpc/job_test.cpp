@@ -65,11 +65,13 @@ TEST(Job, OpensTheCrackOfExampleThree) {
   const auto x = doubles(block, "interfaces/0/x");
   const auto jump = doubles(block, "loads/0/traces/0/jump");
   ASSERT_EQ(x.size(), jump.size());
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if (std::abs(x[i]) < 0.49)
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (std::abs(x[i]) < 0.49) {
       EXPECT_GT(jump[i], 0) << "at " << x[i];
-    else
+    } else {
       EXPECT_NEAR(jump[i], 0, 1e-4) << "at " << x[i];
+    }
+  }
   EXPECT_EQ(doubles(block, "loads/0/history/criterion").size(),
             static_cast<std::size_t>(answer.iterations()));
 }

@@ -179,8 +179,9 @@ TEST_F(Ownership, ATokenIsSentOnceAsABearer) {
                                              {"Bearer"},
                                              {"Bearer "},
                                              {"Bearer " + owner_token + "x"},
-                                             {"Bearer " + owner_token, "Bearer " + other_token}})
+                                             {"Bearer " + owner_token, "Bearer " + other_token}}) {
     EXPECT_EQ(info(wrong), grpc::StatusCode::UNAUTHENTICATED) << wrong.front();
+  }
 }
 
 TEST(OwnershipWithoutTokens, NobodyIsAskedAndEverybodyMay) {

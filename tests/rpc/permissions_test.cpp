@@ -262,8 +262,9 @@ TEST(Permissions, HaveARowForEveryMethodThereIs) {
                            v1::ServerInfo::descriptor()->file()}) {
     for (int i = 0; i < file->service_count(); ++i) {
       const google::protobuf::ServiceDescriptor& service = *file->service(i);
-      for (int k = 0; k < service.method_count(); ++k)
+      for (int k = 0; k < service.method_count(); ++k) {
         methods.insert(service.method(k)->full_name());
+      }
     }
   }
   EXPECT_EQ(known, methods);

@@ -50,8 +50,9 @@ grpc::Status read_mesh(RunningServer& server, const std::string& mesh, std::uint
 }
 
 const v1::ArrayLayout* find_array(const Received& block, const std::string& name) {
-  for (const v1::ArrayLayout& array : block.layout.arrays())
+  for (const v1::ArrayLayout& array : block.layout.arrays()) {
     if (array.name() == name) return &array;
+  }
   return nullptr;
 }
 

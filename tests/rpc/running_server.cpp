@@ -63,8 +63,9 @@ void RunningServer::stop() {
 
 std::size_t RunningServer::upload_files() const {
   std::size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(_folder / "uploads"))
+  for (const auto& entry : std::filesystem::directory_iterator(_folder / "uploads")) {
     if (entry.is_regular_file()) ++count;
+  }
   return count;
 }
 
@@ -188,8 +189,9 @@ v1::Mesh RunningServer::settle(const std::string& name) {
   for (;;) {
     const v1::Mesh current = mesh(name);
     if (current.state() == v1::Mesh::STATE_READY || current.state() == v1::Mesh::STATE_FAILED ||
-        current.name().empty())
+        current.name().empty()) {
       return current;
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }

@@ -36,8 +36,9 @@ grpc::Status call(RunningServer& server, const std::string& method, const std::s
   const grpc::Status status = done.get_future().get();
   grpc::Slice flat;
   response.clear();
-  if (status.ok() && in.DumpToSingleSlice(&flat).ok())
+  if (status.ok() && in.DumpToSingleSlice(&flat).ok()) {
     response.assign(reinterpret_cast<const char*>(flat.begin()), flat.size());
+  }
   return status;
 }
 

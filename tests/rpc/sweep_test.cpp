@@ -189,8 +189,9 @@ TEST(Sweep, OverNodalForcesIsTheSweepOverTheFunctionsTheyAreOf) {
   v1::CreateJobRequest alone = opening_job(mesh.name());
   alone.mutable_job()->clear_load_cases();
   for (const auto& c : cases) {
-    for (std::size_t node = 0; node < nodes.size() / 2; ++node)
+    for (std::size_t node = 0; node < nodes.size() / 2; ++node) {
       forces.push_back(c[0] + c[1] * nodes[2 * node] + c[2] * nodes[2 * node + 1]);
+    }
     v1::LoadCase& load = *alone.mutable_job()->add_load_cases();
     load.set_name("case " + std::to_string(alone.job().load_cases_size()));
     load.mutable_force()->set_expression(std::to_string(c[0]) + " + x * (" + std::to_string(c[1]) +

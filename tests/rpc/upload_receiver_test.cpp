@@ -36,8 +36,9 @@ class UploadReceiverTest : public ::testing::Test {
  protected:
   std::size_t files() const {
     std::size_t count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(_folder / "uploads"))
+    for (const auto& entry : std::filesystem::directory_iterator(_folder / "uploads")) {
       if (entry.is_regular_file()) ++count;
+    }
     return count;
   }
 
@@ -114,8 +115,9 @@ TEST_F(UploadReceiverTest, ComparesWithTheHeader) {
 TEST_F(UploadReceiverTest, LetsNothingPassThatGmshWouldRun) {
   for (const std::string content : {"SystemCall \"touch /nowhere\";\n", "// $MeshFormat\n",
                                     "\x7f"
-                                    "ELF"})
+                                    "ELF"}) {
     expect_refused({header_of(content), chunk_of(content)}, Reason::mesh_invalid, "chunk");
+  }
 }
 
 v1::UploadMeshRequest array_header_of(const std::string& content) {

@@ -54,10 +54,11 @@ TEST(WatchScale, IdleWatchersHoldNobodyUp) {
     while (watcher->reader->Read(&event)) {
     }
     const grpc::Status status = watcher->reader->Finish();
-    if (status.ok())
+    if (status.ok()) {
       EXPECT_TRUE(event.has_ended());
-    else  // fell behind the log's end while it did not read
+    } else {  // fell behind the log's end while it did not read
       EXPECT_EQ(status.error_code(), grpc::StatusCode::OUT_OF_RANGE) << status.error_message();
+    }
   }
   EXPECT_TRUE(eventually([&] { return server.server().metrics().watchers == 0; }));
   EXPECT_EQ(server.server().metrics().largest_lag, 0u);
@@ -103,8 +104,9 @@ TEST(WatchScale, GoesOnOverARestartWithLargerNumbers) {
   ASSERT_GE(events.size(), 2u);
   EXPECT_EQ(events.front().snapshot().job().attempt(), 2);
   EXPECT_TRUE(events.back().has_ended());
-  for (std::size_t i = 1; i < events.size(); ++i)
+  for (std::size_t i = 1; i < events.size(); ++i) {
     EXPECT_GT(events[i].sequence(), events[i - 1].sequence());
+  }
 
   server.restart();  // of the ended job nothing is left but its end
   std::vector<v1::WatchJobResponse> rest;

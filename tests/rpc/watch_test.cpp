@@ -93,8 +93,9 @@ std::vector<std::uint64_t> row_numbers(const Events& events) {
     const v1::SweepRows& some = event.sweep_rows();
     EXPECT_EQ(some.energy_size(), some.status_size());
     EXPECT_EQ(some.displacement_size(), some.status_size());
-    for (int i = 0; i < some.status_size(); ++i)
+    for (int i = 0; i < some.status_size(); ++i) {
       result.push_back(some.first_row() + static_cast<std::uint64_t>(i));
+    }
   }
   return result;
 }
@@ -102,8 +103,9 @@ std::vector<std::uint64_t> row_numbers(const Events& events) {
 TEST(Watch, ResumesBetweenTheRowsOfASweep) {
   constexpr std::size_t count = 600;
   std::vector<double> coefficients;
-  for (std::size_t row = 0; row < count; ++row)
+  for (std::size_t row = 0; row < count; ++row) {
     coefficients.insert(coefficients.end(), {1.0, 0.01 * static_cast<double>(row), 0.5});
+  }
   RunningServer server;
   const std::string job =
       server.create(sweep_job(server.create(paper_mesh()).name(), coefficients)).name();

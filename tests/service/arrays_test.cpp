@@ -89,8 +89,9 @@ std::size_t nodes_of(Daemon& daemon, const std::string& case_file) {
 std::vector<double> energies(const std::string& json) {
   std::vector<double> values;
   const google::protobuf::Struct document = parse_json(json);
-  for (const auto& answer : document.fields().at("answers").list_value().values())
+  for (const auto& answer : document.fields().at("answers").list_value().values()) {
     values.push_back(answer.struct_value().fields().at("energy").number_value());
+  }
   return values;
 }
 

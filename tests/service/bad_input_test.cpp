@@ -38,13 +38,15 @@ TEST_P(BadInput, IsRefusedWithTheFieldNamed) {
   const Server server;
   const anticrack::testing::TemporaryFolder folder;
   std::vector<std::string> arguments = {"run", example("paper-3.toml"), "-o", folder / "out.h5"};
-  for (const std::string& entry : GetParam().overrides)
+  for (const std::string& entry : GetParam().overrides) {
     arguments.insert(arguments.end(), {"--set", entry});
+  }
   const Ended run = server.client(arguments);
-  if (GetParam().code == any_error)
+  if (GetParam().code == any_error) {
     EXPECT_TRUE(run.code == 1 || run.code == 2) << run.code << run.output << run.error;
-  else
+  } else {
     EXPECT_EQ(run.code, GetParam().code) << run.output << run.error;
+  }
   for (const std::string& text : GetParam().says) EXPECT_THAT(run.error, HasSubstr(text));
   EXPECT_FALSE(std::filesystem::exists(folder / "out.h5"));
   expect_still_serving(server);
@@ -154,8 +156,9 @@ TEST_P(BadMsh, IsRefused) {
   const anticrack::testing::TemporaryFolder folder;
   std::string content = GetParam().second;
   const std::string here = "@FOLDER@";
-  if (const auto at = content.find(here); at != std::string::npos)
+  if (const auto at = content.find(here); at != std::string::npos) {
     content.replace(at, here.size(), folder.path());
+  }
   const std::string path = write_file(folder, "plate.msh", content);
   const Ended upload = server.client({"mesh", "upload", path});
   EXPECT_NE(upload.code, 0) << upload.output;

@@ -99,8 +99,9 @@ void be_a_client(Run& run, client::ConnectionOptions options, unsigned seed) {
 /// comes after it too. The last ones are left to be meshed under the kills.
 void make_most_meshes(const Run& run, const Daemon& daemon) {
   client::Connection connection(daemon.connection());
-  for (std::size_t i = 0; i + 2 < run.works.size(); ++i)
+  for (std::size_t i = 0; i + 2 < run.works.size(); ++i) {
     client::wait_for_mesh(connection, client::create_mesh(connection, run.works[i].mesh).name());
+  }
 }
 
 void kill_again_and_again(Daemon& daemon, Run& run, const Options& options,
@@ -149,27 +150,31 @@ void check_jobs(Run& run, client::Connection& connection) {
   const std::vector<client::Block> expected = references(run.works);
   std::multiset<std::string> acknowledged;
   for (const Acknowledged& job : run.jobs) acknowledged.insert(job.name);
-  if (names_of_all_jobs(connection) != acknowledged)
+  if (names_of_all_jobs(connection) != acknowledged) {
     run.complain("the jobs on the server are not those it acknowledged, each once");
+  }
   for (const Acknowledged& each : run.jobs) {
     const v1::Job job = wait_for_end(connection, each.name);
     if (job.state() != v1::Job::STATE_SUCCEEDED) {
       run.complain(each.name + " ended in another state: " + job.ShortDebugString());
       continue;
     }
-    if (submit(connection, run.works[each.work], each.request_id).name() != each.name)
+    if (submit(connection, run.works[each.work], each.request_id).name() != each.name) {
       run.complain(each.name + " is not found under its request id");
+    }
     const std::string problem =
         difference(client::read_result(connection, each.name), expected[each.work]);
-    if (!problem.empty())
+    if (!problem.empty()) {
       run.complain(each.name + " (" + run.works[each.work].name + "): " + problem);
+    }
   }
 }
 
 int most_attempts(const Run& run, client::Connection& connection) {
   int most = 0;
-  for (const Acknowledged& each : run.jobs)
+  for (const Acknowledged& each : run.jobs) {
     most = std::max(most, client::get_job(connection, each.name).attempt());
+  }
   return most;
 }
 
@@ -181,8 +186,9 @@ int drive(const Options& options) {
   Daemon daemon(server_options);
   make_most_meshes(run, daemon);
   std::vector<std::thread> clients;
-  for (int i = 0; i < options.clients; ++i)
+  for (int i = 0; i < options.clients; ++i) {
     clients.emplace_back(be_a_client, std::ref(run), daemon.connection(), random());
+  }
   std::exception_ptr failure;
   try {
     kill_again_and_again(daemon, run, options, random);
@@ -207,11 +213,13 @@ int drive(const Options& options) {
   std::printf("%zu jobs, %d retries, up to %d attempts of one job\n", run.jobs.size(),
               run.retries.load(), most_attempts(run, connection));
   if (run.jobs.size() < run.works.size()) run.complain("hardly a job got through");
-  if (const int code = daemon.stop(); code != 0)
+  if (const int code = daemon.stop(); code != 0) {
     run.complain("anticrackd stopped with exit code " + std::to_string(code));
+  }
   for (const std::string& flaw : flaws_of(daemon.data())) run.complain(flaw);
-  for (const std::string& complaint : run.complaints)
+  for (const std::string& complaint : run.complaints) {
     std::fprintf(stderr, "anticrack-crash: %s\n", complaint.c_str());
+  }
   return run.complaints.empty() ? 0 : 1;
 }
 

@@ -27,8 +27,9 @@ void Daemon::launch() {
 }
 
 void Daemon::wait_until_ready() {
-  if (!_process->wait_for_output("listening on"))
+  if (!_process->wait_for_output("listening on")) {
     throw std::runtime_error("anticrackd did not start: " + _process->error());
+  }
 }
 
 void Daemon::start() {

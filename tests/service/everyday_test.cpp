@@ -48,8 +48,9 @@ TEST(Everyday, RunSolvesThePapersExamplesAndSavesThem) {
 TEST(Everyday, SecondJobOnAMeshFactorisesNothing) {
   const Server server;
   const anticrack::testing::TemporaryFolder folder;
-  for (const char* name : {"paper-1.toml", "paper-3.toml"})
+  for (const char* name : {"paper-1.toml", "paper-3.toml"}) {
     ASSERT_EQ(server.client({"run", example(name), "-o", folder / name}).code, 0);
+  }
   const v1::ServerInfo info = server.info();
   EXPECT_EQ(info.metrics().factorizations(), 1U);
   EXPECT_EQ(info.metrics().meshings(), 1U);

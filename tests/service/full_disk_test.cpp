@@ -28,8 +28,9 @@ class SmallDisk {
  public:
   explicit SmallDisk(std::string path) : _path(std::move(path)) {
     std::filesystem::create_directory(_path);
-    if (mount("tmpfs", _path.c_str(), "tmpfs", 0, "size=24m,mode=0700") != 0)
+    if (mount("tmpfs", _path.c_str(), "tmpfs", 0, "size=24m,mode=0700") != 0) {
       _problem = std::strerror(errno);
+    }
   }
   ~SmallDisk() {
     if (_problem.empty()) umount2(_path.c_str(), MNT_DETACH);
@@ -68,8 +69,9 @@ client::Code refusal(const Daemon& daemon, const Work& work) {
 TEST(FullDisk, RefusesCleanlyAndLosesNothing) {
   const anticrack::testing::TemporaryFolder folder;
   const SmallDisk disk((folder / "disk").string());
-  if (!disk.problem().empty())
+  if (!disk.problem().empty()) {
     GTEST_SKIP() << "a file system cannot be mounted here: " << disk.problem();
+  }
   Daemon daemon(folder / "disk" / "data", {});
   client::Connection connection(daemon.connection());
   const Work work_of_this = work("paper-3.toml", iterations(20'000));

@@ -65,8 +65,9 @@ void be_a_client(Run& run, client::Connection& connection, unsigned seed) {
       const Work& work = run.works[random() % run.works.size()];
       const v1::Job job =
           wait_for_end(connection, submit(connection, work, client::make_uuid()).name());
-      if (job.state() != v1::Job::STATE_SUCCEEDED)
+      if (job.state() != v1::Job::STATE_SUCCEEDED) {
         run.complain("a job ended in another state: " + job.ShortDebugString());
+      }
       run.ended(job.name());
     }
   } catch (const std::exception& error) {
@@ -148,8 +149,9 @@ int drive(const Options& options) {
   client::ConnectionOptions chosen = daemon.connection();
   chosen.notice = [&run](const std::string&) { ++run.waits; };
   std::vector<std::unique_ptr<client::Connection>> connections;
-  for (int i = 0; i < options.channels; ++i)
+  for (int i = 0; i < options.channels; ++i) {
     connections.push_back(std::make_unique<client::Connection>(chosen));
+  }
   for (const Work& work : run.works) {  // the meshes are made before the clock starts
     run.latest = submit(*connections.front(), work, client::make_uuid()).name();
     wait_for_end(*connections.front(), run.latest);
@@ -178,10 +180,13 @@ int drive(const Options& options) {
   if (run.jobs == 0) run.complain("no job ended");
   if (peak > options.memory) run.complain("the server came to hold too much memory");
   const v1::ServerMetrics metrics = client::server_info(*connections.front()).metrics();
-  if (metrics.jobs_queued() + metrics.jobs_running() != 0) run.complain("some job has not ended");
+  if (metrics.jobs_queued() + metrics.jobs_running() != 0) {
+    run.complain("some job has not ended");
+  }
   if (daemon.stop() != 0) run.complain("anticrackd did not stop well");
-  for (const std::string& complaint : run.complaints)
+  for (const std::string& complaint : run.complaints) {
     std::fprintf(stderr, "anticrack-load: %s\n", complaint.c_str());
+  }
   return run.complaints.empty() ? 0 : 1;
 }
 

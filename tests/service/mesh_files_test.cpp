@@ -38,8 +38,9 @@ std::vector<std::string> warnings_of(const std::string& output) {
   const std::string start = "mesh: ";
   std::vector<std::string> found;
   std::istringstream stream(output);
-  for (std::string line; std::getline(stream, line);)
+  for (std::string line; std::getline(stream, line);) {
     if (line.starts_with(start)) found.push_back(line.substr(start.size()));
+  }
   return found;
 }
 
@@ -103,8 +104,9 @@ INSTANTIATE_TEST_SUITE_P(
         Sample{"Clockwise",
                MshFormat::ascii22,
                [](MshSample& sample) {
-                 for (const std::size_t i : {3U, 20U})
+                 for (const std::size_t i : {3U, 20U}) {
                    std::swap(sample.triangles[i].nodes[0], sample.triangles[i].nodes[1]);
+                 }
                },
                {"2 triangles were clockwise"}},
         Sample{"DoubledNodes",
@@ -147,8 +149,9 @@ std::vector<fs::path> fixtures() {
   for (const char* folder : {"tests", "client/examples"}) {
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(SOURCES) / folder)) {
       const fs::path& path = entry.path();
-      if (path.extension() == ".msh" || path.parent_path().filename() == "msh_file")
+      if (path.extension() == ".msh" || path.parent_path().filename() == "msh_file") {
         found.push_back(path);
+      }
     }
   }
   return found;

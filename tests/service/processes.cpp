@@ -47,8 +47,9 @@ Server::Server(const std::vector<std::string>& options) {
                                    _folder / "data"};
   argv.insert(argv.end(), options.begin(), options.end());
   _process = std::make_unique<anticrack::testing::Process>(argv);
-  if (!_process->wait_for_output("\n"))
+  if (!_process->wait_for_output("\n")) {
     throw std::runtime_error("anticrackd did not start: " + _process->error());
+  }
   const std::string line = _process->output();
   const std::string before = "listening on ";
   _address = line.substr(line.find(before) + before.size());
@@ -90,8 +91,9 @@ v1::Job Server::ended_job(const std::string& name) const {
 
 std::string Server::running_job() const {
   for (int attempt = 0; attempt < 600; ++attempt) {
-    for (const std::string& name : jobs())
+    for (const std::string& name : jobs()) {
       if (job(name).state() == v1::Job::STATE_RUNNING) return name;
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   throw std::runtime_error("no job was running within a minute");

@@ -63,8 +63,9 @@ class ProxyTest : public ::testing::TestWithParam<Proxy> {};
 
 TEST_P(ProxyTest, AKilledServerBehindItIsRetriedAndTheWatchResumed) {
   constexpr int long_run = 100'000;
-  if (!std::filesystem::exists(GetParam().program))
+  if (!std::filesystem::exists(GetParam().program)) {
     GTEST_SKIP() << GetParam().program << " is not installed";
+  }
   Daemon daemon;
   const std::string front = (daemon.folder() / "front").string();
   const std::string back = daemon.address().substr(std::string("unix:").size());
@@ -77,8 +78,9 @@ TEST_P(ProxyTest, AKilledServerBehindItIsRetriedAndTheWatchResumed) {
 
   std::vector<std::string> arguments = {"run", example("paper-3.toml"), "-o",
                                         daemon.folder() / "out.h5"};
-  for (const std::string& override_text : iterations(long_run))
+  for (const std::string& override_text : iterations(long_run)) {
     arguments.insert(arguments.end(), {"--set", override_text});
+  }
   const auto run = start_client("unix:" + front, arguments);
   // Its first iterations have come through the proxy; most are still to come.
   ASSERT_TRUE(run->wait_for_output("example-3: iteration")) << run->output() << run->error();

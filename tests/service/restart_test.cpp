@@ -25,8 +25,9 @@ constexpr int long_run = 100'000;
 
 std::vector<std::string> run_long(const std::string& output) {
   std::vector<std::string> arguments = {"run", example("paper-3.toml"), "-o", output};
-  for (const std::string& override_text : iterations(long_run))
+  for (const std::string& override_text : iterations(long_run)) {
     arguments.insert(arguments.end(), {"--set", override_text});
+  }
   return arguments;
 }
 
@@ -35,8 +36,9 @@ std::string iterating_job(client::Connection& connection) {
   std::string name;
   EXPECT_TRUE(anticrack::testing::eventually([&] {
     const v1::ListJobsResponse response = client::list_jobs(connection, {});
-    if (response.jobs_size() != 1 || response.jobs(0).state() != v1::Job::STATE_RUNNING)
+    if (response.jobs_size() != 1 || response.jobs(0).state() != v1::Job::STATE_RUNNING) {
       return false;
+    }
     name = response.jobs(0).name();
     return true;
   }));

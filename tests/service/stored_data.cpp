@@ -40,12 +40,15 @@ Names column(sqlite3* database, const std::string& sql) {
 
 void compare(const std::string& folder, const Names& wanted, std::vector<std::string>& flaws) {
   Names there;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     there.insert(entry.path().filename());
-  for (const std::string& name : there)
+  }
+  for (const std::string& name : there) {
     if (!wanted.contains(name)) flaws.push_back(folder + "/" + name + " belongs to nothing");
-  for (const std::string& name : wanted)
+  }
+  for (const std::string& name : wanted) {
     if (!there.contains(name)) flaws.push_back(folder + "/" + name + " is missing");
+  }
 }
 
 }  // namespace
@@ -53,8 +56,9 @@ void compare(const std::string& folder, const Names& wanted, std::vector<std::st
 std::vector<std::string> flaws_of(const std::string& data) {
   std::vector<std::string> flaws;
   const Database database = open(data + "/anticrack.db");
-  for (const std::string& line : column(database.get(), "PRAGMA integrity_check"))
+  for (const std::string& line : column(database.get(), "PRAGMA integrity_check")) {
     if (line != "ok") flaws.push_back("database: " + line);
+  }
   compare(data + "/meshes", column(database.get(), "SELECT sha256 FROM meshes WHERE sha256 <> ''"),
           flaws);
   compare(data + "/results", column(database.get(), "SELECT result FROM jobs WHERE result <> ''"),

@@ -29,7 +29,9 @@ using Row = std::map<std::string, std::string>;
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> fields;
   std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+  for (std::string field; std::getline(stream, field, ',');) {
+    fields.push_back(field);
+  }
   return fields;
 }
 
@@ -42,7 +44,9 @@ std::vector<Row> rows_of(const std::string& csv) {
   while (std::getline(stream, line)) {
     const std::vector<std::string> fields = fields_of(line);
     Row& row = rows.emplace_back();
-    for (std::size_t i = 0; i < names.size() && i < fields.size(); ++i) row[names[i]] = fields[i];
+    for (std::size_t i = 0; i < names.size() && i < fields.size(); ++i) {
+      row[names[i]] = fields[i];
+    }
   }
   return rows;
 }
@@ -118,8 +122,9 @@ TEST(Sweep, IsShownAndDrawnFromItsFile) {
 
   const Ended plot = server.client({"plot", folder / "r.h5", "-o", folder / "figures"});
   ASSERT_EQ(plot.code, 0) << plot.error;
-  for (const char* name : {"sweep.png", "sweep-contact.png", "row-0-traces.png"})
+  for (const char* name : {"sweep.png", "sweep-contact.png", "row-0-traces.png"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / (std::string("figures/") + name))) << name;
+  }
   const Ended exported = server.client({"export", folder / "r.h5", "-o", folder / "paraview"});
   ASSERT_EQ(exported.code, 0) << exported.error;
   EXPECT_TRUE(std::filesystem::exists(folder / "paraview/row-40-interfaces.vtu"));
@@ -155,8 +160,9 @@ TEST(Sweep, TakesAMatrixThatIsTooLargeForARequest) {
   }
   std::string matrix;
   for (int row = 0; row < rows; ++row) {
-    for (int i = 0; i < loads; ++i)
+    for (int i = 0; i < loads; ++i) {
       matrix += (i == 0 ? "" : ",") + std::to_string((row * 7 + i * 13) % 11 - 5);
+    }
     matrix += '\n';
   }
   const Ended sweep = server.client({"sweep", write_file(folder, "many.toml", cases),
@@ -177,7 +183,9 @@ TEST(Sweep, TakesAMatrixThatIsTooLargeForARequest) {
 std::string write_matrix(const std::string& file, const std::vector<double>& values,
                          std::size_t columns) {
   std::vector<double> matrix;
-  for (const double value : values) matrix.insert(matrix.end(), columns, value);
+  for (const double value : values) {
+    matrix.insert(matrix.end(), columns, value);
+  }
   const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   const std::vector<hsize_t> shape{values.size(), columns};
   const hid_t space = H5Screate_simple(2, shape.data(), nullptr);

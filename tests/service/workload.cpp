@@ -81,8 +81,9 @@ std::string difference(const client::Block& result, const client::Block& referen
     const bool same_shape = std::equal(array.shape().begin(), array.shape().end(),
                                        other.shape().begin(), other.shape().end());
     if (array.name() != other.name() || !same_shape) return array.name() + " has another shape";
-    if (compared(array.name()) && !close(values(result, array), values(reference, other)))
+    if (compared(array.name()) && !close(values(result, array), values(reference, other))) {
       return array.name() + " has other values";
+    }
   }
   return "";
 }

@@ -36,7 +36,9 @@ class ArrayUpload : public ::testing::Test {
 
 TEST_F(ArrayUpload, IsReadAsItWasWritten) {
   std::vector<double> values(20'000);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::sin(static_cast<double>(i));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = std::sin(static_cast<double>(i));
+  }
   const std::string path = file(values);
   EXPECT_EQ(array_length(path), values.size());
   EXPECT_EQ(read_array(path), values);
@@ -67,8 +69,9 @@ TEST_F(ArrayUpload, NamesTheValueThatIsNotFinite) {
 
 TEST_F(ArrayUpload, IsCheckedWhileItArrivesInPiecesOfAnySize) {
   const std::vector<double> values(5'000, -0.5);
-  for (const std::size_t piece : {1, 3, 8, 32767, 32768, 40'000})
+  for (const std::size_t piece : {1, 3, 8, 32767, 32768, 40'000}) {
     EXPECT_NO_THROW(check(values, piece)) << piece;
+  }
 }
 
 TEST_F(ArrayUpload, IsReadInPartWhateverItHolds) {

@@ -17,7 +17,9 @@ using ::testing::ElementsAre;
 template <class T>
 std::vector<T> values(const Block& block, std::size_t index) {
   std::uint64_t count = 1;
-  for (const std::uint64_t extent : block.arrays[index].shape) count *= extent;
+  for (const std::uint64_t extent : block.arrays[index].shape) {
+    count *= extent;
+  }
   std::vector<T> result(count);
   std::memcpy(result.data(), block.bytes.data() + block.arrays[index].offset, count * sizeof(T));
   return result;
@@ -41,7 +43,9 @@ TEST(Block, HoldsItsArraysAtAlignedOffsets) {
   EXPECT_EQ(block.arrays[1].offset, 16U);  // 12 bytes of int32, then padding
   EXPECT_THAT(block.arrays[1].shape, ElementsAre(2, 2));
   EXPECT_THAT(block.arrays[2].shape, ElementsAre(0));
-  for (const ArrayLayout& array : block.arrays) EXPECT_EQ(array.offset % 8, 0U) << array.name;
+  for (const ArrayLayout& array : block.arrays) {
+    EXPECT_EQ(array.offset % 8, 0U) << array.name;
+  }
   EXPECT_EQ(values<std::int32_t>(block, 0), kinds);
   EXPECT_EQ(values<double>(block, 1), xy);
   EXPECT_EQ(values<std::int32_t>(block, 3), kinds);

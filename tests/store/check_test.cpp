@@ -61,8 +61,9 @@ class StoreCheck : public StoreTest {
     std::map<std::string, std::string> found;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
       const std::string path = entry.path().string();
-      if (entry.is_regular_file() && path.find(".db-") == std::string::npos)
+      if (entry.is_regular_file() && path.find(".db-") == std::string::npos) {
         found[path] = content_of(path);
+      }
     }
     return found;
   }
@@ -77,8 +78,9 @@ class StoreCheck : public StoreTest {
     EXPECT_EQ(contents(), before);
     aside = repair(folder.path(), found);
     std::size_t count = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(aside))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(aside)) {
       count += entry.is_regular_file() && is_sha256(entry.path().filename().string()) ? 1U : 0U;
+    }
     EXPECT_EQ(count, files_aside);
     EXPECT_THAT(store::check(folder.path()).flaws, IsEmpty());
     store = open({folder.path(), 0});
@@ -195,8 +197,9 @@ TEST_F(StoreCheck, TakesTheDatabaseOfAnotherFolder) {
 TEST_F(StoreCheck, RefusesToRepairADatabaseDamagedBeyondItsRecords) {
   for (int i = 0; i < 200; ++i) create("job " + std::to_string(i));
   fill();
-  for (std::size_t page = 1; page < std::filesystem::file_size(database()) / 4096; ++page)
+  for (std::size_t page = 1; page < std::filesystem::file_size(database()) / 4096; ++page) {
     flip(database(), page * 4096, 600);
+  }
   const auto before = contents();
   const CheckedStore found = store::check(folder.path());
   EXPECT_FALSE(found.flaws.empty());

@@ -37,8 +37,9 @@ class Damage : public StoreTest {
                 AllOf(HasSubstr(name), HasSubstr("damaged"), HasSubstr("backup")));
   }
   std::string only_file(const std::string& kind) const {
-    for (const auto& entry : std::filesystem::directory_iterator(folder / kind))
+    for (const auto& entry : std::filesystem::directory_iterator(folder / kind)) {
       return entry.path().string();
+    }
     return {};
   }
 };

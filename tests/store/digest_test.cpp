@@ -20,7 +20,9 @@ std::uint32_t slow_crc32c(std::span<const std::byte> bytes) {
   std::uint32_t crc = 0xFFFFFFFFU;
   for (const std::byte byte : bytes) {
     crc ^= static_cast<std::uint32_t>(byte);
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? (crc >> 1U) ^ 0x82F63B78U : crc >> 1U;
+    for (int bit = 0; bit < 8; ++bit) {
+      crc = (crc & 1U) != 0 ? (crc >> 1U) ^ 0x82F63B78U : crc >> 1U;
+    }
   }
   return ~crc;
 }
@@ -51,7 +53,9 @@ TEST(Crc32c, AgreesWithItsDefinitionAtEveryLength) {
 TEST(CanonicalHash, TellsValuesApartThatShareBytes) {
   const auto hash = [](const std::vector<std::string>& texts) {
     CanonicalHash result;
-    for (const std::string& text : texts) result.add(text);
+    for (const std::string& text : texts) {
+      result.add(text);
+    }
     return result.finish();
   };
   EXPECT_NE(hash({"ab", "c"}), hash({"a", "bc"}));

@@ -49,8 +49,9 @@ Outcome drive(const std::string& folder, std::vector<std::string> environment) {
 
 std::set<std::string> listed(const std::string& folder) {
   std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     names.insert(entry.path().filename().string());
+  }
   return names;
 }
 
@@ -80,10 +81,11 @@ class StoreFaults : public ::testing::Test {
   }
 
   void TearDown() override {
-    if (_temporary)
+    if (_temporary) {
       ::setenv("TMPDIR", _temporary->c_str(), 1);
-    else
+    } else {
       ::unsetenv("TMPDIR");
+    }
   }
 
   /// Calls that write, of a driver nobody disturbs.
@@ -117,8 +119,9 @@ class StoreFaults : public ::testing::Test {
         {"meshes", "SELECT sha256 FROM meshes WHERE sha256 <> ''"},
         {"results", "SELECT result FROM jobs WHERE result <> ''"},
         {"uploads", "SELECT sha256 FROM uploads"}};
-    for (const auto& [name, sql] : names)
+    for (const auto& [name, sql] : names) {
       EXPECT_EQ(listed(folder + "/" + name), rows(database, sql)) << name;
+    }
   }
 
   /// The driver with one fault at every call (every `step`th), one run for each. Returns how often
@@ -132,7 +135,9 @@ class StoreFaults : public ::testing::Test {
       const Outcome run =
           drive(folder.path(), {"FAULTS_AT=" + std::to_string(n), "FAULTS_ERROR=" + error});
       EXPECT_EQ(run.exit, exit) << run.output;
-      if (exit == 0) EXPECT_EQ(run.acknowledged, operations().size()) << run.output;
+      if (exit == 0) {
+        EXPECT_EQ(run.acknowledged, operations().size()) << run.output;
+      }
       for (const std::string& reason : run.refusals) ++refusals[reason];
       expect_whole(folder.path(), run);
     }

@@ -24,8 +24,9 @@ class Identity : public StoreTest {
 
   void remove_database() {
     store.reset();
-    for (const char* name : {"anticrack.db", "anticrack.db-wal", "anticrack.db-shm"})
+    for (const char* name : {"anticrack.db", "anticrack.db-wal", "anticrack.db-shm"}) {
       std::filesystem::remove(folder / name);
+    }
   }
 
   /// Opening says that the database `is` so, and the cure; all files are there still.

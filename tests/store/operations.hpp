@@ -117,8 +117,9 @@ inline std::string content(const Store& store) {
     }
   }
   for (const JobRecord& job : store.unfinished()) text += "unfinished " + job.id + '\n';
-  for (const EndedJob& job : store.ended())
+  for (const EndedJob& job : store.ended()) {
     text += "ended " + job.id + ' ' + std::to_string(job.result_bytes) + '\n';
+  }
   for (const std::string upload : {"$MeshFormat", "array"}) {
     const std::string sha256 = Sha256().add(upload).finish();
     for (const char* owner : {"ann", "bob"}) {

@@ -50,16 +50,18 @@ TEST(RecordCodec, SaysSomethingInEveryFieldOfTheMessages) {
   std::set<std::string> all;
   const auto note = [&](const auto& self, const google::protobuf::Message& message) -> void {
     const google::protobuf::Reflection& access = *message.GetReflection();
-    for (int i = 0; i < message.GetDescriptor()->field_count(); ++i)
+    for (int i = 0; i < message.GetDescriptor()->field_count(); ++i) {
       all.insert(message.GetDescriptor()->field(i)->full_name());
+    }
     std::vector<const google::protobuf::FieldDescriptor*> set;
     access.ListFields(message, &set);
     for (const auto* field : set) {
       said.insert(field->full_name());
       if (field->cpp_type() != google::protobuf::FieldDescriptor::CPPTYPE_MESSAGE) continue;
       if (!field->is_repeated()) self(self, access.GetMessage(message, field));
-      for (int i = 0; field->is_repeated() && i < access.FieldSize(message, field); ++i)
+      for (int i = 0; field->is_repeated() && i < access.FieldSize(message, field); ++i) {
         self(self, access.GetRepeatedMessage(message, field, i));
+      }
     }
   };
   for (unsigned seed = 0; seed < rounds; ++seed) {

@@ -49,8 +49,9 @@ class AnyValue {
   void fill(std::string& value) {
     const std::array pieces{"a", "Z", " ", "/", "\"", "\n", "\x01", "\xc3\xa9", "\xf0\x9f\x99\x82"};
     value.clear();
-    for (std::uint64_t i = below(12); i > 0; --i)
+    for (std::uint64_t i = below(12); i > 0; --i) {
       value += below(10) == 0 ? std::string(1, '\0') : pieces[below(pieces.size())];
+    }
   }
   void fill(store::Clock::time_point& value) {
     value = store::Clock::time_point(std::chrono::nanoseconds(_random() >> 1U));
@@ -191,10 +192,11 @@ class Listing {
   }
   template <class T>
   void add(const std::optional<T>& value) {
-    if (value)
+    if (value) {
       add(*value);
-    else
+    } else {
       _text << "none ";
+    }
   }
   template <class... Types>
   void add(const std::variant<Types...>& value) {

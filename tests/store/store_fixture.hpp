@@ -44,8 +44,9 @@ class StoreTest : public ::testing::Test {
   }
   std::size_t files(const std::string& name) const {
     std::size_t count = 0;
-    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder / name))
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder / name)) {
       ++count;
+    }
     return count;
   }
   std::vector<std::string> jobs(const Page& page) const {

@@ -75,7 +75,9 @@ class Backend {
              options.disk_budget})),
         cache(options.memory_budget,
               [this](std::shared_ptr<const mesh::Mesh> mesh, std::stop_token stop) {
-                if (mesh->triangle_count() >= kept_out) door.pass(deaf ? std::stop_token() : stop);
+                if (mesh->triangle_count() >= kept_out) {
+                  door.pass(deaf ? std::stop_token() : stop);
+                }
                 return operators::MeshOperator::factorise(std::move(mesh), 2, stop);
               }),
         catalogue(catalogue_options(options), *store, cache) {}

@@ -26,14 +26,17 @@ template <class Call>
 ::testing::AssertionResult throws(const Call& call, errors::Reason reason,
                                   const std::string& field = {}) {
   const std::optional<errors::Error> error = error_of(call);
-  if (!error) return ::testing::AssertionFailure() << "nothing was thrown";
+  if (!error) {
+    return ::testing::AssertionFailure() << "nothing was thrown";
+  }
   if (error->reason() != reason) {
     return ::testing::AssertionFailure()
            << errors::name(error->reason()) << " was thrown: " << error->what();
   }
   const std::string first = error->fields().empty() ? "" : error->fields().front().field;
-  if (!field.empty() && first != field)
+  if (!field.empty() && first != field) {
     return ::testing::AssertionFailure() << "the field at fault is \"" << first << "\"";
+  }
   return ::testing::AssertionSuccess();
 }
 

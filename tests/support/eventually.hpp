@@ -12,7 +12,9 @@ template <class Condition>
 bool eventually(const Condition& condition) {
   const auto limit = std::chrono::steady_clock::now() + std::chrono::minutes(2);
   while (!condition()) {
-    if (std::chrono::steady_clock::now() > limit) return false;
+    if (std::chrono::steady_clock::now() > limit) {
+      return false;
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   return true;

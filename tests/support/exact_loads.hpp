@@ -65,7 +65,9 @@ inline PlaneMesh square_mesh(std::size_t n, double shake, unsigned seed) {
     for (std::size_t i = 0; i < n; ++i) {
       const auto a = static_cast<std::int32_t>(j * (n + 1) + i), b = a + 1;
       const auto c = a + static_cast<std::int32_t>(n + 1), d = c + 1;
-      for (const std::int32_t node : {a, b, d, a, d, c}) mesh.triangles.push_back(node);
+      for (const std::int32_t node : {a, b, d, a, d, c}) {
+        mesh.triangles.push_back(node);
+      }
     }
   }
   return mesh;
@@ -85,7 +87,9 @@ inline Polygon clip(const Polygon& p, const Line& line, double side) {
     const PlanePoint &u = p[i], &v = p[(i + 1) % p.size()];
     const double at_u = side * (line.a * u[0] + line.b * u[1] - line.c);
     const double at_v = side * (line.a * v[0] + line.b * v[1] - line.c);
-    if (at_u >= 0) result.push_back(u);
+    if (at_u >= 0) {
+      result.push_back(u);
+    }
     if ((at_u > 0 && at_v < 0) || (at_u < 0 && at_v > 0)) {
       const double part = at_u / (at_u - at_v);
       result.push_back({u[0] + part * (v[0] - u[0]), u[1] + part * (v[1] - u[1])});
@@ -138,7 +142,9 @@ inline std::vector<double> loads_cut_by_lines(const PlaneMesh& mesh, const std::
       for (const Polygon& piece : pieces) {
         for (const double side : {1.0, -1.0}) {
           Polygon part = clip(piece, line, side);
-          if (part.size() >= 3) finer.push_back(std::move(part));
+          if (part.size() >= 3) {
+            finer.push_back(std::move(part));
+          }
         }
       }
       pieces = std::move(finer);
@@ -147,8 +153,9 @@ inline std::vector<double> loads_cut_by_lines(const PlaneMesh& mesh, const std::
       visit_polygon(piece, [&](double x, double y, double weight) {
         const double value = weight * f(x, y);
         const std::array<double, 3> phi = barycentric(triangle, x, y);
-        for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t i = 0; i < 3; ++i) {
           load[static_cast<std::size_t>(mesh.triangles[3 * t + i])] += value * phi[i];
+        }
       });
     }
   }
@@ -185,17 +192,20 @@ inline Moments disc_wedge(PlanePoint a, PlanePoint b, double r) {
   if (root > 0) {
     for (const double sign : {-1.0, 1.0}) {
       const double part = (-ab + sign * std::sqrt(root)) / aa;
-      if (part > ends.back() && part < 1) ends.push_back(part);
+      if (part > ends.back() && part < 1) {
+        ends.push_back(part);
+      }
     }
   }
   ends.push_back(1.0);
   for (std::size_t i = 1; i < ends.size(); ++i) {
     const auto at = [&](double part) { return PlanePoint{a[0] + part * d[0], a[1] + part * d[1]}; };
     const PlanePoint middle = at(0.5 * (ends[i - 1] + ends[i]));
-    if (std::hypot(middle[0], middle[1]) < r)
+    if (std::hypot(middle[0], middle[1]) < r) {
       straight(at(ends[i - 1]), at(ends[i]));
-    else
+    } else {
       round(at(ends[i - 1]), at(ends[i]));
+    }
   }
   return sum;
 }
@@ -207,9 +217,14 @@ inline std::vector<double> loads_of_disc(const PlaneMesh& mesh, PlanePoint centr
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     Polygon triangle = corners(mesh, t);
     Polygon piece = triangle;
-    for (const Line& line : lines) piece = clip(piece, line, 1);
-    for (Polygon* polygon : {&triangle, &piece})
-      for (PlanePoint& corner : *polygon) corner = {corner[0] - centre[0], corner[1] - centre[1]};
+    for (const Line& line : lines) {
+      piece = clip(piece, line, 1);
+    }
+    for (Polygon* polygon : {&triangle, &piece}) {
+      for (PlanePoint& corner : *polygon) {
+        corner = {corner[0] - centre[0], corner[1] - centre[1]};
+      }
+    }
     Moments sum;
     for (std::size_t i = 0; i < piece.size(); ++i) {
       const Moments part = disc_wedge(piece[i], piece[(i + 1) % piece.size()], radius);
@@ -233,8 +248,9 @@ inline std::vector<double> node_areas(const PlaneMesh& mesh) {
   std::vector<double> areas(mesh.node_count());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const double third = polygon_area(corners(mesh, t)) / 3;
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i) {
       areas[static_cast<std::size_t>(mesh.triangles[3 * t + i])] += third;
+    }
   }
   return areas;
 }

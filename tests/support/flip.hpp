@@ -19,8 +19,9 @@ inline std::vector<std::size_t> places_of(const std::string& text, const std::st
   const std::string content = content_of(path);
   std::vector<std::size_t> places;
   for (std::size_t at = content.find(text); at != std::string::npos;
-       at = content.find(text, at + 1))
+       at = content.find(text, at + 1)) {
     places.push_back(at);
+  }
   return places;
 }
 

@@ -25,9 +25,11 @@ class GridMesh {
            const std::function<int(int, int)>& subdomain)
       : _nx(nx) {
     mesh.subdomains = std::move(subdomains);
-    for (int j = 0; j <= ny; ++j)
-      for (int i = 0; i <= nx; ++i)
+    for (int j = 0; j <= ny; ++j) {
+      for (int i = 0; i <= nx; ++i) {
         mesh.xy.insert(mesh.xy.end(), {static_cast<double>(i), static_cast<double>(j)});
+      }
+    }
     for (int j = 0; j < ny; ++j) {
       for (int i = 0; i < nx; ++i) {
         const int a = node({i, j}), b = node({i + 1, j});
@@ -58,8 +60,9 @@ class GridMesh {
     interface.nodes.push_back(node(here));
     for (const Point& corner : corners) {
       while (here != corner) {
-        for (std::size_t k = 0; k < 2; ++k)
+        for (std::size_t k = 0; k < 2; ++k) {
           here[k] += corner[k] > here[k] ? 1 : corner[k] < here[k] ? -1 : 0;
+        }
         interface.nodes.push_back(node(here));
       }
     }

@@ -86,10 +86,11 @@ void Process::drain(Stream& stream) {
     const ssize_t count = read(stream.descriptor, buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
     const std::scoped_lock lock(_mutex);
-    if (count > 0)
+    if (count > 0) {
       stream.text.append(buffer.data(), static_cast<std::size_t>(count));
-    else
+    } else {
       stream.closed = true;
+    }
     _changed.notify_all();
     if (count <= 0) return;
   }

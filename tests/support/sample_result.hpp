@@ -44,16 +44,18 @@ inline results::Mesh sample_mesh(int n) {
   for (int j = 0; j + 1 < side; ++j) {
     for (int i = 0; i + 1 < side; ++i) {
       const int a = j * side + i;
-      for (const int node : {a, a + 1, a + side + 1, a, a + side + 1, a + side})
+      for (const int node : {a, a + 1, a + side + 1, a, a + side + 1, a + side}) {
         mesh.triangles.push_back(node);
+      }
       mesh.subdomain.insert(mesh.subdomain.end(), 2, j < n ? 0 : 1);
     }
   }
   for (int i = 0; i + 1 < side; ++i) {
     const int top = side * (side - 1);
     for (const int node : {i, i + 1, top + i, top + i + 1, i * side, (i + 1) * side,
-                           i * side + side - 1, (i + 1) * side + side - 1})
+                           i * side + side - 1, (i + 1) * side + side - 1}) {
       mesh.boundary.push_back(node);
+    }
   }
   return mesh;
 }
@@ -184,8 +186,9 @@ inline results::Result sample_pair(int n = 20) {
   const auto middle = static_cast<std::size_t>(n);
   set_edges(result.interfaces[0], first, middle, results::Kind::delaminated, 1);
   set_edges(result.interfaces[0], middle, middle + first, results::Kind::delaminated, 0);
-  for (results::Load& load : result.loads)
+  for (results::Load& load : result.loads) {
     load.inclusions = {{"right", 0.0863, 0, 0}, {"left", 0.0863, 0, 0}};
+  }
   return result;
 }
 

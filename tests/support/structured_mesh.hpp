@@ -54,11 +54,15 @@ inline mesh::Mesh structured_mesh(const StructuredOptions& options = {}) {
   }
   mesh::Interface interface;
   interface.name = "sigma";
-  for (int i = 0; i <= nx; ++i) interface.nodes.push_back(node(i, options.rows));
+  for (int i = 0; i <= nx; ++i) {
+    interface.nodes.push_back(node(i, options.rows));
+  }
   for (int i = 0; i < nx; ++i) {
     const double x = -1.0 + (2.0 * i + 1.0) / nx;
     mesh::Kind kind = std::abs(x) < 0.5 ? mesh::Kind::delaminated : mesh::Kind::glue;
-    if (options.kind) kind = options.kind(x);
+    if (options.kind) {
+      kind = options.kind(x);
+    }
     const bool rigid = kind == mesh::Kind::inclusion || kind == mesh::Kind::delaminated;
     interface.kind.push_back(kind);
     interface.inclusion.push_back(!rigid ? -1 : options.inclusion ? options.inclusion(x) : 0);

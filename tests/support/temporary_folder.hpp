@@ -14,7 +14,9 @@ class TemporaryFolder {
  public:
   TemporaryFolder()
       : _path((std::filesystem::temp_directory_path() / "anticrack-test-XXXXXX").string()) {
-    if (mkdtemp(_path.data()) == nullptr) throw std::runtime_error("cannot make " + _path);
+    if (mkdtemp(_path.data()) == nullptr) {
+      throw std::runtime_error("cannot make " + _path);
+    }
   }
   ~TemporaryFolder() {
     std::error_code ignored;

@@ -16,8 +16,9 @@ namespace anticrack::testing {
 
 struct TraceSpace {
   explicit TraceSpace(const mesh::Mesh& mesh) : decomposition(ddm::cut(mesh)) {
-    for (const ddm::Subdomain& subdomain : decomposition.subdomains)
+    for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
       operators.emplace_back(subdomain);
+    }
   }
 
   std::vector<ddm::CondensedLoad> condense(const fem::Force& force,

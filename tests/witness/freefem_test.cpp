@@ -80,7 +80,9 @@ Answer witness(const std::string& program, const mesh::Mesh& mesh, int iteration
 
 TEST_P(FreeFem, AgreesInBothFieldsAndTheInclusion) {
   const auto program = freefem();
-  if (!program) GTEST_SKIP() << "FreeFEM++ is not installed (Debian package freefem++)";
+  if (!program) {
+    GTEST_SKIP() << "FreeFEM++ is not installed (Debian package freefem++)";
+  }
   const auto op = operators::MeshOperator::factorise(membrane(), 2, {});
   contact::UzawaOptions options;
   options.theta = theta;
@@ -104,7 +106,9 @@ TEST_P(FreeFem, AgreesInBothFieldsAndTheInclusion) {
 /// The paper's stop is 1e-4 away from where the iteration leads; the active set is there.
 TEST_P(FreeFem, ConvergesToTheAnswerOfTheActiveSet) {
   const auto program = freefem();
-  if (!program) GTEST_SKIP() << "FreeFEM++ is not installed (Debian package freefem++)";
+  if (!program) {
+    GTEST_SKIP() << "FreeFEM++ is not installed (Debian package freefem++)";
+  }
   const auto mesh =
       std::make_shared<const mesh::Mesh>(testing::structured_mesh({16, 8, {}, {}, {"stiffener"}}));
   History history;

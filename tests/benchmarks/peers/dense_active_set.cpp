@@ -38,13 +38,15 @@ DenseActiveSet::Solution DenseActiveSet::solve(const std::vector<double>& r) con
   std::vector<int> open;
   while (++solution.steps <= 100) {
     open.clear();
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < n; ++i) {
       if (!closed[i]) open.push_back(static_cast<int>(i));
+    }
     std::fill(solution.d.begin(), solution.d.end(), 0.0);
     if (!open.empty()) {
       const std::vector<double> d = open_solution(open, r);
-      for (std::size_t k = 0; k < open.size(); ++k)
+      for (std::size_t k = 0; k < open.size(); ++k) {
         solution.d[static_cast<std::size_t>(open[k])] = d[k];
+      }
     }
     for (std::size_t i = 0; i < n; ++i) pressure[i] = -r[i];
     if (!open.empty()) {

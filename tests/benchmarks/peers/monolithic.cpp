@@ -16,8 +16,9 @@ std::vector<Role> roles(const PlainMesh& mesh) {
   const PlainMesh::Chain& chain = mesh.chains.front();
   for (std::size_t e = 0; e < chain.kind.size(); ++e) {
     if (chain.kind[e] == kind_glue) continue;
-    if (chain.kind[e] != kind_delaminated || chain.inclusion[e] != 0)
+    if (chain.kind[e] != kind_delaminated || chain.inclusion[e] != 0) {
       throw std::runtime_error("the peers take glue and one delaminated inclusion");
+    }
     for (const std::size_t end : {e, e + 1}) role[at(chain.nodes[end])] = Role::contact;
   }
   // A tip has glue on its other side and is tied.
@@ -36,9 +37,11 @@ std::vector<Role> roles(const PlainMesh& mesh) {
 std::int32_t plus_side(const PlainMesh& mesh) {
   const std::int32_t a = mesh.chains.front().nodes[0], b = mesh.chains.front().nodes[1];
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (mesh.triangles[3 * t + k] == a && mesh.triangles[3 * t + (k + 1) % 3] == b)
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (mesh.triangles[3 * t + k] == a && mesh.triangles[3 * t + (k + 1) % 3] == b) {
         return mesh.subdomain[t];
+      }
+    }
   }
   throw std::runtime_error("nothing is on the plus side of the interface");
 }
@@ -96,8 +99,9 @@ Matrix3 stiffness(const PlainMesh& mesh, std::size_t t) {
   }
   const double scale = 0.5 / (by[2] * bx[1] - bx[2] * by[1]);
   Matrix3 k{};
-  for (std::size_t i = 0; i < 3; ++i)
+  for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) k[i][j] = scale * (bx[i] * bx[j] + by[i] * by[j]);
+  }
   return k;
 }
 

@@ -18,12 +18,14 @@ class BoundedProblem {
     MatDestroy(&half);
     require(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE), "MatSetOption");
     require(MatSetOption(matrix, MAT_SPD, PETSC_TRUE), "MatSetOption");
-    for (Vec* vector : {&x, &load, &lower, &upper, &work})
+    for (Vec* vector : {&x, &load, &lower, &upper, &work}) {
       require(MatCreateVecs(matrix, vector, nullptr), "MatCreateVecs");
+    }
     require(VecSet(upper, PETSC_INFINITY), "VecSet");
     require(VecSet(lower, PETSC_NINFINITY), "VecSet");
-    for (PetscInt i = _system.interior(); i < _system.unknowns - 1; ++i)
+    for (PetscInt i = _system.interior(); i < _system.unknowns - 1; ++i) {
       require(VecSetValue(lower, i, 0, INSERT_VALUES), "VecSetValue");
+    }
     require(VecAssemblyBegin(lower), "VecAssembly");
     require(VecAssemblyEnd(lower), "VecAssembly");
   }

@@ -43,8 +43,9 @@ class SchurPeer : public Peer {
     PeerAnswer answer;
     answer.steps = contact.steps;
     answer.displacement = total / _sigma;
-    for (std::size_t i = 0; i < r.size(); ++i)
+    for (std::size_t i = 0; i < r.size(); ++i) {
       answer.displacement += _row[i] * contact.d[i] / _sigma;
+    }
     std::vector<double> t(at(_size), answer.displacement);
     for (std::size_t i = 0; i < r.size(); ++i) t[i] -= contact.d[i];
     for (std::size_t j = 0; j < t.size(); ++j) {
@@ -100,13 +101,16 @@ class SchurPeer : public Peer {
   void condense_displacement() {
     const std::size_t n = at(_size), c = n - 1;
     std::vector<double> row(n, 0.0);  // S times the vector of ones
-    for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t j = 0; j < n; ++j) {
       for (std::size_t i = 0; i < n; ++i) row[i] += _schur[j * n + i];
+    }
     _sigma = std::accumulate(row.begin(), row.end(), 0.0);
     std::vector<double> matrix(c * c);
-    for (std::size_t j = 0; j < c; ++j)
-      for (std::size_t i = 0; i < c; ++i)
+    for (std::size_t j = 0; j < c; ++j) {
+      for (std::size_t i = 0; i < c; ++i) {
         matrix[j * c + i] = _schur[j * n + i] - row[i] * row[j] / _sigma;
+      }
+    }
     row.pop_back();
     _row = std::move(row);
     _active_set.emplace(_system.contacts, std::move(matrix));

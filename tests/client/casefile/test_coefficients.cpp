@@ -83,8 +83,9 @@ TEST(Coefficients, RefuseWhatIsNoMatrixWithLineColumnValueAndCure) {
       parse_rows(bad.text);
       ADD_FAILURE() << "accepted " << bad.text;
     } catch (const Error& error) {
-      for (const std::string& part : bad.complaint)
+      for (const std::string& part : bad.complaint) {
         EXPECT_THAT(error.what(), HasSubstr(part)) << bad.text;
+      }
     }
   }
 }

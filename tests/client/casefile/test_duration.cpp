@@ -19,8 +19,9 @@ TEST(Duration, IsSecondsOrHasAUnit) {
 
 TEST(Duration, IsAboveZeroAndBounded) {
   for (const char* bad :
-       {"", "s", "0", "-1", "nan", "inf", "1e300", "400d", "5 minutes", "1h30", "0.0001", " 1"})
+       {"", "s", "0", "-1", "nan", "inf", "1e300", "400d", "5 minutes", "1h30", "0.0001", " 1"}) {
     EXPECT_FALSE(parse_duration(bad).has_value()) << bad;
+  }
 }
 
 }  // namespace

@@ -31,7 +31,9 @@ Ran run(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "anticrack");
   std::vector<char*> argv;
   argv.reserve(arguments.size());
-  for (std::string& argument : arguments) argv.push_back(argument.data());
+  for (std::string& argument : arguments) {
+    argv.push_back(argument.data());
+  }
   CaptureStdout();
   CaptureStderr();
   const int code = run_command_line(static_cast<int>(argv.size()), argv.data());
@@ -111,7 +113,9 @@ TEST(CommandLine, NamesACaseThatCannotBeRead) {
 TEST(CommandLine, NamesAResultThatCannotBeRead) {
   for (const char* command : {"show", "plot", "export"}) {
     std::vector<std::string> arguments{command, "no-such-file.h5"};
-    if (std::string(command) != "show") arguments.insert(arguments.end(), {"-o", "figures"});
+    if (std::string(command) != "show") {
+      arguments.insert(arguments.end(), {"-o", "figures"});
+    }
     const Ran missing = run(arguments);
     EXPECT_EQ(missing.code, exit_usage);
     EXPECT_THAT(missing.error, HasSubstr("no-such-file.h5"));
@@ -168,11 +172,13 @@ TEST(CommandLine, AnUnreachableServerIsItsOwnExitCode) {
 TEST(ExitCodes, SeparateBadInputFromABadServer) {
   using client::Code;
   for (const Code code : {Code::invalid_argument, Code::not_found, Code::unimplemented,
-                          Code::failed_precondition, Code::out_of_range})
+                          Code::failed_precondition, Code::out_of_range}) {
     EXPECT_EQ(exit_code_of(code), exit_usage) << name(code);
+  }
   for (const Code code : {Code::unavailable, Code::resource_exhausted, Code::deadline_exceeded,
-                          Code::permission_denied, Code::internal, Code::unknown})
+                          Code::permission_denied, Code::internal, Code::unknown}) {
     EXPECT_EQ(exit_code_of(code), exit_server) << name(code);
+  }
 }
 
 }  // namespace

@@ -47,23 +47,28 @@ TEST(Frame, FitsEveryWidth) {
   JobProgress progress = three_cases();
   progress.cases[1].name = std::string(64, 'x');
   progress.notice = "no connection to localhost:7433, trying again";
-  for (const std::size_t width : {0, 1, 2, 10, 40, 60, 79, 80, 120, 400})
-    for (const std::string& line : frame(progress, width, 24))
+  for (const std::size_t width : {0, 1, 2, 10, 40, 60, 79, 80, 120, 400}) {
+    for (const std::string& line : frame(progress, width, 24)) {
       EXPECT_LT(columns_of(line), std::max<std::size_t>(width, 2)) << width << ": " << line;
+    }
+  }
 }
 
 TEST(Frame, FitsEveryHeight) {
   JobProgress progress;
   progress.apply(snapshot(100));
-  for (const std::size_t height : {3, 5, 24, 100, 101})
+  for (const std::size_t height : {3, 5, 24, 100, 101}) {
     EXPECT_LE(frame(progress, 80, height).size(), height);
+  }
   EXPECT_EQ(frame(progress, 80, 200).size(), 101U);
 }
 
 TEST(Frame, OfManyLoadCasesShowsThoseRunningAndTheLastThatEnded) {
   JobProgress progress;
   progress.apply(snapshot(100));
-  for (int i = 0; i < 50; ++i) progress.apply(load_ended(i, 300, 1e-13));
+  for (int i = 0; i < 50; ++i) {
+    progress.apply(load_ended(i, 300, 1e-13));
+  }
   progress.apply(sample(60, 10, 0.1, 3));
   progress.apply(sample(61, 10, 0.1, 3));
   const std::vector<std::string> lines = frame(progress, 80, 8);

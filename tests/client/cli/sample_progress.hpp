@@ -13,7 +13,9 @@ inline v1::WatchJobResponse snapshot(int load_cases) {
   job.set_name("jobs/1");
   job.set_state(v1::Job::STATE_RUNNING);
   job.mutable_solver()->mutable_uzawa()->set_epsilon(1e-12);
-  for (int i = 0; i < load_cases; ++i) job.add_load_cases()->set_name("load-" + std::to_string(i));
+  for (int i = 0; i < load_cases; ++i) {
+    job.add_load_cases()->set_name("load-" + std::to_string(i));
+  }
   return event;
 }
 

@@ -189,7 +189,9 @@ TEST(SweepCommand, ChecksItsInputBeforeItLooksForAServer) {
     arguments.insert(arguments.begin(), {"anticrack", "--server", "unix:/no/such/socket", "sweep",
                                          std::string(EXAMPLES) + "/load-ratio.toml"});
     std::vector<char*> argv;
-    for (std::string& argument : arguments) argv.push_back(argument.data());
+    for (std::string& argument : arguments) {
+      argv.push_back(argument.data());
+    }
     CaptureStderr();
     const int code = run_command_line(static_cast<int>(argv.size()), argv.data());
     return std::pair(code, GetCapturedStderr());

@@ -22,7 +22,9 @@ v1::SweepRows rows(std::uint64_t first, int count,
                    v1::LoadCaseAnswer::Status status = v1::LoadCaseAnswer::STATUS_CONVERGED) {
   v1::SweepRows message;
   message.set_first_row(first);
-  for (int i = 0; i < count; ++i) message.add_status(status);
+  for (int i = 0; i < count; ++i) {
+    message.add_status(status);
+  }
   return message;
 }
 
@@ -90,12 +92,14 @@ TEST(SweepProgress, MeasuresTheRateOfTheLastSeconds) {
   progress.apply(rows(1, 199), 102);
   EXPECT_DOUBLE_EQ(progress.rate(), 100);
   EXPECT_DOUBLE_EQ(progress.seconds_left(), 98);
-  for (int second = 3; second <= 60; ++second)
+  for (int second = 3; second <= 60; ++second) {
     progress.apply(rows(static_cast<std::uint64_t>(100 * second - 100), 100), 100 + second);
+  }
   EXPECT_NEAR(progress.rate(), 100, 20);
   // Ten times as fast from now on; the slow start is forgotten.
-  for (int second = 1; second <= 4; ++second)
+  for (int second = 1; second <= 4; ++second) {
     progress.apply(rows(5000 + 1000 * static_cast<std::uint64_t>(second), 1000), 160 + second);
+  }
   EXPECT_GT(progress.rate(), 300);
 }
 
@@ -171,9 +175,11 @@ TEST(SweepFrame, IsABarWithRateTimeLeftAndWhatDidNotConverge) {
 
 TEST(SweepFrame, FitsEveryWidth) {
   const JobProgress progress = on_its_way();
-  for (const std::size_t width : {0, 1, 2, 10, 40, 60, 80, 400})
-    for (const std::string& line : frame(progress, width, 24))
+  for (const std::size_t width : {0, 1, 2, 10, 40, 60, 80, 400}) {
+    for (const std::string& line : frame(progress, width, 24)) {
       EXPECT_LT(columns_of(line), std::max<std::size_t>(width, 2)) << width << ": " << line;
+    }
+  }
 }
 
 TEST(SweepFrame, HasNoBarWhereTheNumberOfRowsIsNotKnown) {
@@ -208,7 +214,9 @@ TEST(SweepLog, TellsEachTenthOfTheRowsAndTheEnd) {
   std::vector<std::string> lines = log.lines(progress);
   for (int i = 0; i < 21; ++i) {
     progress.apply(event_of(rows(5 * static_cast<std::uint64_t>(i), 5)), 0);
-    for (const std::string& line : log.lines(progress)) lines.push_back(line);
+    for (const std::string& line : log.lines(progress)) {
+      lines.push_back(line);
+    }
   }
   EXPECT_THAT(
       lines, ElementsAre("jobs/1: running", "10 of 105 rows", "20 of 105 rows", "30 of 105 rows",

@@ -52,7 +52,9 @@ TEST(SweepTable, NamesSeveralInclusionsAndWhatWentWrong) {
 
 TEST(SweepTable, HasNoNumbersWhereNothingConverged) {
   results::Result result = sample_sweep(3);
-  for (std::size_t row = 0; row < 3; ++row) set_status(result, row, Status::cancelled);
+  for (std::size_t row = 0; row < 3; ++row) {
+    set_status(result, row, Status::cancelled);
+  }
   EXPECT_EQ(answers_table(result),
             "3 rows of ratio.csv: 0 converged, 3 were not solved\ntraces of 2 rows\n");
 }
@@ -76,7 +78,9 @@ TEST(SweepJson, IsADocumentWithTheSameNumbers) {
 
 TEST(SweepJson, HasNullWhereNothingConverged) {
   results::Result result = sample_sweep(3);
-  for (std::size_t row = 0; row < 3; ++row) set_status(result, row, Status::failed);
+  for (std::size_t row = 0; row < 3; ++row) {
+    set_status(result, row, Status::failed);
+  }
   EXPECT_THAT(answers_json(result, "a.h5"), HasSubstr("\"min\": null"));
 }
 
@@ -88,7 +92,9 @@ TEST(SweepCsv, HasALinePerRow) {
   std::getline(lines, line);
   EXPECT_THAT(line, ::testing::StartsWith("0,1,-1,-0.1,-2,"));
   EXPECT_THAT(line, ::testing::EndsWith(",2,converged"));
-  for (int row = 1; row <= 3; ++row) std::getline(lines, line);
+  for (int row = 1; row <= 3; ++row) {
+    std::getline(lines, line);
+  }
   EXPECT_EQ(line, "3,1,0.5,,,,5,not_converged") << "numbers that are not right are left out";
   std::getline(lines, line);
   EXPECT_FALSE(line.empty());

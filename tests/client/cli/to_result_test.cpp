@@ -25,7 +25,9 @@ class BlockMaker {
                    : sizeof(T) == 4 ? v1::ArrayLayout::TYPE_INT32
                                     : v1::ArrayLayout::TYPE_UINT8);
     array.add_shape(columns == 0 ? values.size() : values.size() / columns);
-    if (columns != 0) array.add_shape(columns);
+    if (columns != 0) {
+      array.add_shape(columns);
+    }
     array.set_offset(_block.bytes.size());
     const auto bytes = std::as_bytes(std::span(values));
     _block.bytes.insert(_block.bytes.end(), bytes.begin(), bytes.end());
@@ -95,13 +97,15 @@ Fetched fetched() {
   BlockMaker maker;
   maker.add("interfaces/0/s", Reals{0, 1}).add("interfaces/0/x", Reals{0, 1});
   maker.add("interfaces/0/y", Reals{0, 0}).add("interfaces/0/kind", Integers{3, 3});
-  for (const char* name : {"u_minus", "u_plus", "jump", "pressure"})
+  for (const char* name : {"u_minus", "u_plus", "jump", "pressure"}) {
     maker.add(traces + name, Reals{0.5, 0.5});
+  }
   maker.add(traces + "contact", Integers{0, 0});
   maker.add(history + "iteration", Integers{1}).add(history + "contact_count", Integers{0});
   for (const char* name :
-       {"criterion", "energy", "kkt_equilibrium", "kkt_gap", "kkt_sign", "kkt_complementarity"})
+       {"criterion", "energy", "kkt_equilibrium", "kkt_gap", "kkt_sign", "kkt_complementarity"}) {
     maker.add(history + name, Reals{0.5});
+  }
   result.result_block = maker.block();
   return result;
 }
@@ -243,8 +247,9 @@ Fetched fetched_sweep() {
   maker.add("sweep/displacement", Reals{0.5, 0, 0.25}, 1);
   maker.add("sweep/contact", std::vector<std::uint8_t>{0, 0, 0, 1, 1, 1}, 2);
   maker.add("sweep/contact_nodes", Integers{0, 0, 0, 1}, 2);
-  for (const char* name : {"u_minus", "u_plus", "jump", "pressure"})
+  for (const char* name : {"u_minus", "u_plus", "jump", "pressure"}) {
     maker.add(std::string("traces/2/0/") + name, Reals{0.5, 0.75});
+  }
   maker.add("traces/2/0/contact", Integers{1, 1});
   result.result_block = maker.block();
   return result;
@@ -292,9 +297,12 @@ TEST(ToResult, TakesASweepWithoutInclusionsAndCracks) {
   plain.mesh.clear_inclusions();
   plain.mesh_block = mesh_block(1, -1);
   for (v1::ArrayLayout& array : *plain.result_block.layout.mutable_arrays()) {
-    if (array.name() == "sweep/displacement" || array.name() == "sweep/contact")
+    if (array.name() == "sweep/displacement" || array.name() == "sweep/contact") {
       array.set_shape(1, 0);
-    if (array.name() == "sweep/contact_nodes") array.set_shape(0, 0);
+    }
+    if (array.name() == "sweep/contact_nodes") {
+      array.set_shape(0, 0);
+    }
   }
   const results::Result result = to_result(plain);
   EXPECT_TRUE(result.sweep->displacement.empty());
@@ -304,14 +312,18 @@ TEST(ToResult, TakesASweepWithoutInclusionsAndCracks) {
 TEST(ToResult, RefusesASweepThatDoesNotFitTogether) {
   const auto refused = [](const auto& spoil) {
     Fetched odd = fetched_sweep();
-    for (v1::ArrayLayout& array : *odd.result_block.layout.mutable_arrays()) spoil(array);
+    for (v1::ArrayLayout& array : *odd.result_block.layout.mutable_arrays()) {
+      spoil(array);
+    }
     EXPECT_THROW(to_result(odd), results::Error);
   };
   for (const char* name : {"status", "steps", "energy", "contact_length", "kkt", "displacement",
                            "contact", "contact_nodes"}) {
     const std::string full = std::string("sweep/") + name;
     refused([&](v1::ArrayLayout& array) {
-      if (array.name() == full) array.set_name("other");
+      if (array.name() == full) {
+        array.set_name("other");
+      }
     });
     refused([&](v1::ArrayLayout& array) {
       if (array.name() == full) {

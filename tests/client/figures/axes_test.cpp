@@ -15,9 +15,11 @@ TEST(Axes, have_round_labels_not_too_many) {
   EXPECT_DOUBLE_EQ(label_step({0, 1}, 5), 0.2);
   EXPECT_DOUBLE_EQ(label_step({-1, 1}, 4), 0.5);
   EXPECT_DOUBLE_EQ(label_step({0, 100000}, 6), 20000);
-  for (const double size : {1.0, 1.7, 2.3, 4.9, 5.1, 9.99})
-    for (const int most : {4, 6, 9})
+  for (const double size : {1.0, 1.7, 2.3, 4.9, 5.1, 9.99}) {
+    for (const int most : {4, 6, 9}) {
       EXPECT_LE(size / label_step({0, size}, most), 1.05 * most) << size;
+    }
+  }
 }
 
 TEST(Axes, of_a_range_without_extent_reach_around_it) {

@@ -68,8 +68,9 @@ std::pair<unsigned, unsigned> size_of(const fs::path& png) {
   const std::string bytes = bytes_of(png);
   const auto number = [&](std::size_t at) {
     unsigned value = 0;
-    for (std::size_t i = at; i < at + 4; ++i)
+    for (std::size_t i = at; i < at + 4; ++i) {
       value = value << 8 | static_cast<unsigned char>(bytes.at(i));
+    }
     return value;
   };
   return {number(16), number(20)};
@@ -105,8 +106,9 @@ TEST(Draw, says_what_it_left_out) {
   for (auto* values :
        {&result.loads[2].history.criterion, &result.loads[2].history.energy,
         &result.loads[2].history.kkt.equilibrium, &result.loads[2].history.kkt.gap,
-        &result.loads[2].history.kkt.sign, &result.loads[2].history.kkt.complementarity})
+        &result.loads[2].history.kkt.sign, &result.loads[2].history.kkt.complementarity}) {
     values->resize(1);
+  }
   result.loads[2].history.iteration.resize(1);
   result.loads[2].history.contact_count.resize(1);
   const Drawn drawn = draw(result, folder.path(), {.formats = {Format::png}});
@@ -145,19 +147,22 @@ TEST(Draw, survives_degenerate_answers) {
   auto result = sample_result(4);
   auto& still = result.loads[0];
   for (auto& field : still.fields) std::fill(field.u.begin(), field.u.end(), 0.0);
-  for (auto* values : {&still.traces[0].u_minus, &still.traces[0].u_plus, &still.traces[0].jump})
+  for (auto* values : {&still.traces[0].u_minus, &still.traces[0].u_plus, &still.traces[0].jump}) {
     std::fill(values->begin(), values->end(), 0.0);
+  }
   still.history.iteration = {1};
   for (auto* values :
        {&still.history.criterion, &still.history.energy, &still.history.kkt.equilibrium,
-        &still.history.kkt.gap, &still.history.kkt.sign, &still.history.kkt.complementarity})
+        &still.history.kkt.gap, &still.history.kkt.sign, &still.history.kkt.complementarity}) {
     *values = {0.0};
+  }
   still.history.contact_count = {0};
 
   auto& wild = result.loads[1];
   for (auto& field : wild.fields) std::fill(field.u.begin(), field.u.end(), results::unknown);
-  for (auto* values : {&wild.traces[0].u_minus, &wild.traces[0].u_plus, &wild.traces[0].jump})
+  for (auto* values : {&wild.traces[0].u_minus, &wild.traces[0].u_plus, &wild.traces[0].jump}) {
     std::fill(values->begin(), values->end(), results::unknown);
+  }
   for (double& criterion : wild.history.criterion) criterion = results::unknown;
   EXPECT_NO_THROW(draw(result, folder.path(), {.formats = {Format::png}}));
 }

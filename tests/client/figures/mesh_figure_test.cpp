@@ -29,9 +29,11 @@ std::string file_bytes(const std::filesystem::path& path) {
 
 double length_of(const std::vector<Stretch>& stretches) {
   double sum = 0;
-  for (const Stretch& stretch : stretches)
-    for (std::size_t i = 1; i < stretch.size(); ++i)
+  for (const Stretch& stretch : stretches) {
+    for (std::size_t i = 1; i < stretch.size(); ++i) {
       sum += std::hypot(stretch[i].x - stretch[i - 1].x, stretch[i].y - stretch[i - 1].y);
+    }
+  }
   return sum;
 }
 
@@ -89,8 +91,9 @@ TEST(MeshLayers, leave_out_what_cannot_be_seen) {
   EXPECT_LT(near.width(), 0.06 * everything.width());
   const MeshLayers detail = layers(plan, near);
   EXPECT_FALSE(detail.tips.empty());
-  for (const auto& triangle : detail.triangles[1])
+  for (const auto& triangle : detail.triangles[1]) {
     EXPECT_GT(triangle[0].y + triangle[1].y + triangle[2].y, 0);
+  }
 }
 
 TEST(MeshLayers, of_a_uniform_mesh_have_no_finest_tip) {
@@ -110,8 +113,9 @@ TEST(MeshFigure, is_drawn_with_its_legend_and_the_finest_tip) {
   const std::string svg = file_bytes(drawn.files[1]);
   for (const char* text :
        {"A made-up mesh", "1681 nodes", "around the tip (0.5, 0)", "sigma +", "slit +", "upper",
-        "glue", "traction given", "bonded inclusion", ">fibre<", "x [-]", "y [-]"})
+        "glue", "traction given", "bonded inclusion", ">fibre<", "x [-]", "y [-]"}) {
     EXPECT_THAT(svg, HasSubstr(text));
+  }
 }
 
 TEST(MeshFigure, of_a_uniform_mesh_is_one_panel) {

@@ -34,13 +34,15 @@ std::string scripts(const results::Result& result, const results::Load& load) {
 std::string commands(const std::string& script) {
   std::string outside;
   bool inside = false;
-  for (const char c : script)
-    if (c == '\'')
+  for (const char c : script) {
+    if (c == '\'') {
       inside = !inside;  // a doubled quote closes and opens again
-    else if (inside && c == '\n')
+    } else if (inside && c == '\n') {
       throw std::runtime_error("a string runs over the end of its line");
-    else if (!inside)
+    } else if (!inside) {
       outside += c;
+    }
+  }
   return outside;
 }
 
@@ -97,8 +99,9 @@ TEST(Script, says_in_every_panel_that_a_load_did_not_converge) {
 TEST(Script, shows_rounding_as_zero) {
   auto result = sample_result(4);
   auto& trace = result.loads[0].traces[0];
-  for (auto* values : {&trace.u_minus, &trace.u_plus, &trace.jump})
+  for (auto* values : {&trace.u_minus, &trace.u_plus, &trace.jump}) {
     for (double& value : *values) value *= 1e-14;
+  }
   result.loads[0].energy = -6;  // u is about 1
   EXPECT_THAT(script(traces_picture(result, result.loads[0], 0), both),
               HasSubstr("'displacement [-]'"));
@@ -172,8 +175,9 @@ TEST(Script, lets_nothing_hostile_through) {
   for (const std::string text : hostile) {
     // As long, with its blanks, so that it is broken and placed alike.
     std::string harmless = text;
-    for (char& c : harmless)
+    for (char& c : harmless) {
       if (c != ' ' && static_cast<unsigned char>(c) < 0x80) c = 'x';
+    }
     const std::string drawn = scripts_saying(text);
     EXPECT_THAT(drawn, HasSubstr("graph 0.075"));  // the name of an inclusion
     EXPECT_EQ(commands(drawn), commands(scripts_saying(harmless))) << text;

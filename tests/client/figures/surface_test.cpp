@@ -80,8 +80,9 @@ results::Result slit_result(int n) {
       whole.nodes.push_back(upper.nodes[i]);
       whole.u.push_back(upper.u[i]);
     }
-    for (const std::int32_t corner : upper.triangles)
+    for (const std::int32_t corner : upper.triangles) {
       whole.triangles.push_back(place[static_cast<std::size_t>(corner)]);
+    }
     load.fields = {whole};
   }
   return result;
@@ -118,8 +119,9 @@ TEST(Surface, of_a_slit_is_open) {
 
 TEST(Surface, leaves_out_what_is_not_finite) {
   auto result = sample_result(4);
-  for (auto& field : result.loads[0].fields)
+  for (auto& field : result.loads[0].fields) {
     for (double& u : field.u) u = std::numeric_limits<double>::infinity();
+  }
   EXPECT_TRUE(surface(result, result.loads[0], 1000).triangles.empty());
   EXPECT_TRUE(surface({}, {}, 1000).triangles.empty());
 }

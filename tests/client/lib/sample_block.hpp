@@ -16,7 +16,9 @@ namespace anticrack::client {
 /// `size` bytes that differ from place to place.
 inline std::string sample_bytes(std::size_t size) {
   std::string bytes(size, '\0');
-  for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<char>(i * 31 + i / 251);
+  for (std::size_t i = 0; i < size; ++i) {
+    bytes[i] = static_cast<char>(i * 31 + i / 251);
+  }
   return bytes;
 }
 

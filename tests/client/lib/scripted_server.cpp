@@ -16,9 +16,13 @@ namespace anticrack::client {
 namespace {
 
 grpc::Status status_of(const Ending& ending) {
-  if (ending.code == Code::ok) return grpc::Status::OK;
+  if (ending.code == Code::ok) {
+    return grpc::Status::OK;
+  }
   const auto code = static_cast<grpc::StatusCode>(ending.code);
-  if (ending.retry_delay.count() == 0) return {code, ending.message};
+  if (ending.retry_delay.count() == 0) {
+    return {code, ending.message};
+  }
   v1::RetryInfo retry;
   const auto milliseconds = static_cast<std::int64_t>(ending.retry_delay.count());
   retry.mutable_retry_delay()->set_seconds(milliseconds / 1000);
@@ -72,9 +76,12 @@ class Jobs : public v1::SolveService::Service {
                         grpc::ServerWriter<v1::WatchJobResponse>* writer) override {
     note(*context);
     const WatchScript& script = script_of_call(_script.watches, watched.add(*request));
-    for (const v1::WatchJobResponse& message : script.messages) writer->Write(message);
-    while (script.hang && !context->IsCancelled())
+    for (const v1::WatchJobResponse& message : script.messages) {
+      writer->Write(message);
+    }
+    while (script.hang && !context->IsCancelled()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     return status_of(script.ending);
   }
 
@@ -88,7 +95,9 @@ class Jobs : public v1::SolveService::Service {
                           grpc::ServerWriter<v1::ReadResultResponse>* writer) override {
     note(*context);
     const ReadScript& script = script_of_call(_script.reads, read.add(*request));
-    for (const v1::ReadResultResponse& message : script.messages) writer->Write(message);
+    for (const v1::ReadResultResponse& message : script.messages) {
+      writer->Write(message);
+    }
     return status_of(script.ending);
   }
 
@@ -110,7 +119,9 @@ class Jobs : public v1::SolveService::Service {
 };
 
 std::shared_ptr<grpc::ServerCredentials> credentials_of(const ServerTls& tls) {
-  if (tls.certificate.empty()) return grpc::InsecureServerCredentials();
+  if (tls.certificate.empty()) {
+    return grpc::InsecureServerCredentials();
+  }
   grpc::SslServerCredentialsOptions options(
       tls.client_roots.empty() ? GRPC_SSL_DONT_REQUEST_CLIENT_CERTIFICATE
                                : GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY);
@@ -126,7 +137,9 @@ class Meshes : public v1::MeshService::Service {
     v1::UploadMeshRequest request;
     while (reader->Read(&request)) {
       requests.add(request);
-      if (request.has_header()) response->set_upload("uploads/" + request.header().sha256());
+      if (request.has_header()) {
+        response->set_upload("uploads/" + request.header().sha256());
+      }
     }
     return grpc::Status::OK;
   }
@@ -152,8 +165,9 @@ ScriptedServer::ScriptedServer(const ServerTls& tls)
   builder.RegisterService(&_services->jobs);
   builder.RegisterService(&_services->meshes);
   _services->server = builder.BuildAndStart();
-  if (!_services->server || _services->port == 0)
+  if (!_services->server || _services->port == 0) {
     throw std::runtime_error("the scripted server does not start");
+  }
 }
 
 ScriptedServer::~ScriptedServer() {
@@ -178,8 +192,9 @@ std::vector<std::string> ScriptedServer::authorizations() const {
 
 std::string ScriptedServer::uploaded() const {
   std::string bytes;
-  for (const v1::UploadMeshRequest& request : _services->meshes.requests.all())
+  for (const v1::UploadMeshRequest& request : _services->meshes.requests.all()) {
     bytes += request.chunk();
+  }
   return bytes;
 }
 
@@ -189,8 +204,9 @@ v1::UploadMeshRequest::Header ScriptedServer::upload_header() const {
 
 std::size_t ScriptedServer::largest_upload_chunk() const {
   std::size_t largest = 0;
-  for (const v1::UploadMeshRequest& request : _services->meshes.requests.all())
+  for (const v1::UploadMeshRequest& request : _services->meshes.requests.all()) {
     largest = std::max(largest, request.chunk().size());
+  }
   return largest;
 }
 

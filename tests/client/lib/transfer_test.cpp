@@ -36,7 +36,9 @@ v1::ReadResultResponse damaged_message(std::size_t offset, std::size_t size) {
 
 std::vector<std::uint64_t> offsets(const ScriptedServer& server) {
   std::vector<std::uint64_t> result;
-  for (const v1::ReadResultRequest& request : server.read()) result.push_back(request.offset());
+  for (const v1::ReadResultRequest& request : server.read()) {
+    result.push_back(request.offset());
+  }
   return result;
 }
 
@@ -108,7 +110,9 @@ TEST(Upload, SendsTheWholeFileInChunksUnderItsHash) {
 TEST(Upload, SendsValuesAsTheyAre) {
   ScriptedServer server;
   std::vector<double> values(200'000);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = 0.5 * static_cast<double>(i) - 7;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = 0.5 * static_cast<double>(i) - 7;
+  }
   Connection connection(server.options());
   const std::string upload = upload_array(connection, values);
   const std::string sent = server.uploaded();

@@ -16,7 +16,9 @@ TEST(Uuid, IsVersionFour) {
 
 TEST(Uuid, IsNewEveryTime) {
   std::set<std::string> seen;
-  for (int i = 0; i < 1000; ++i) seen.insert(make_uuid());
+  for (int i = 0; i < 1000; ++i) {
+    seen.insert(make_uuid());
+  }
   EXPECT_EQ(seen.size(), 1000U);
 }
 

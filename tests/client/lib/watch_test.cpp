@@ -18,17 +18,19 @@ struct Seen {
   int snapshots = 0;
 
   void operator()(const v1::WatchJobResponse& event) {
-    if (event.has_snapshot())
+    if (event.has_snapshot()) {
       ++snapshots;
-    else
+    } else {
       numbers.push_back(event.sequence());
+    }
   }
 };
 
 std::vector<std::uint64_t> asked_after(const ScriptedServer& server) {
   std::vector<std::uint64_t> numbers;
-  for (const v1::WatchJobRequest& request : server.watched())
+  for (const v1::WatchJobRequest& request : server.watched()) {
     numbers.push_back(request.after_sequence());
+  }
   return numbers;
 }
 

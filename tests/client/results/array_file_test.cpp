@@ -21,8 +21,9 @@ void put(hid_t parent, const char* name, hid_t type, const std::vector<hsize_t>&
          const std::vector<double>& values) {
   const hid_t space = H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
   const hid_t set = H5Dcreate2(parent, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  if (!values.empty())
+  if (!values.empty()) {
     H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  }
   H5Dclose(set);
   H5Sclose(space);
 }

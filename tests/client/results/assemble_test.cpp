@@ -36,8 +36,9 @@ class Blocks {
       add(answer, at + "y", interface.y);
       add(answer, at + "kind", numbers_of(interface.kind));
     }
-    for (std::size_t i = 0; i < result.loads.size(); ++i)
+    for (std::size_t i = 0; i < result.loads.size(); ++i) {
       add_load("loads/" + std::to_string(i) + "/", result.loads[i]);
+    }
     for (std::size_t i = 0; i < result.loads[0].fields.size(); ++i) {
       const std::string at = "fields/" + std::to_string(i);
       add(answer, at + "/nodes", result.loads[0].fields[i].nodes);
@@ -47,23 +48,27 @@ class Blocks {
 
   ArrayView& array(const std::string& name) {
     for (auto* block : {&mesh, &answer}) {
-      for (ArrayView& each : *block)
+      for (ArrayView& each : *block) {
         if (each.name == name) return each;
+      }
     }
     throw std::out_of_range(name);
   }
 
   void drop(const std::string& prefix) {
-    for (auto* block : {&mesh, &answer})
+    for (auto* block : {&mesh, &answer}) {
       std::erase_if(*block, [&](const ArrayView& each) { return each.name.starts_with(prefix); });
+    }
   }
 
   template <typename T>
   void overwrite(const std::string& name, std::size_t index, T value) {
     const auto bytes = array(name).bytes;
-    for (auto& stored : _storage)
-      if (stored->data() == bytes.data())
+    for (auto& stored : _storage) {
+      if (stored->data() == bytes.data()) {
         std::memcpy(stored->data() + index * sizeof(T), &value, sizeof(T));
+      }
+    }
   }
 
   std::vector<ArrayView> mesh, answer;
@@ -105,8 +110,9 @@ class Blocks {
     add(answer, at + "history/kkt_gap", history.kkt.gap);
     add(answer, at + "history/kkt_sign", history.kkt.sign);
     add(answer, at + "history/kkt_complementarity", history.kkt.complementarity);
-    for (std::size_t i = 0; i < load.fields.size(); ++i)
+    for (std::size_t i = 0; i < load.fields.size(); ++i) {
       add(answer, at + "fields/" + std::to_string(i), load.fields[i].u);
+    }
   }
 
   std::vector<std::unique_ptr<std::vector<std::byte>>> _storage;

@@ -43,8 +43,9 @@ std::size_t files_in(const std::string& folder) {
 Result comparable(Result result) {
   for (Load& load : result.loads) {
     for (double* value : {&load.epsilon, &load.p, &load.kkt_tolerance, &load.tolerance,
-                          &load.criterion, &load.theta, &load.theta_star, &load.energy})
+                          &load.criterion, &load.theta, &load.theta_star, &load.energy}) {
       if (std::isnan(*value)) *value = -1e300;
+    }
   }
   return result;
 }
@@ -86,8 +87,9 @@ TEST(File, is_the_same_with_a_mesh_that_was_compressed_before) {
     const std::int32_t subdomain = mesh.subdomain.front();
     mesh.subdomain.resize(triangles, subdomain);
     mesh.triangles.resize(3 * triangles);
-    for (std::size_t i = sample.size(); i < mesh.triangles.size(); ++i)
+    for (std::size_t i = sample.size(); i < mesh.triangles.size(); ++i) {
       mesh.triangles[i] = sample[i % 3];
+    }
     for (std::size_t i = mesh.node_count(); i < triangles / 2; ++i) {
       mesh.xy.insert(mesh.xy.end(),
                      {std::sin(static_cast<double>(i)), 1. / static_cast<double>(i)});
@@ -249,14 +251,17 @@ TEST(File, an_interrupted_write_keeps_the_old_file_and_leaves_nothing_else) {
 void expect_unwritable(const std::string& path, const std::string& cause) {
   for (const bool only_check : {true, false}) {
     try {
-      if (only_check)
+      if (only_check) {
         check_writable(path);
-      else
+      } else {
         write(path, sample_result(2));
+      }
       FAIL() << "accepted " << path;
     } catch (const Error& error) {
       EXPECT_THAT(error.what(), HasSubstr(path));
-      if (only_check) EXPECT_THAT(error.cause(), HasSubstr(cause));
+      if (only_check) {
+        EXPECT_THAT(error.cause(), HasSubstr(cause));
+      }
       EXPECT_THAT(error.cure(), HasSubstr("-o"));
     }
   }

@@ -41,9 +41,10 @@ std::string entries(const Tables&... tables) {
         text += (joined ? ", `" : text.empty() ? "`" : "; `") + std::string(row.name) + "`";
         joined = row.what.empty();
         if (joined) return;
-        if (!row.shape.empty())
+        if (!row.shape.empty()) {
           text += " (" + std::string(row.shape) + ")" +
                   type_text(arrays::MemberOf<Record, decltype(row.member)>());
+        }
         text += ": " + std::string(row.what);
         if (!row.unit.empty()) text += " [" + std::string(row.unit) + "]";
       },
@@ -148,8 +149,9 @@ TEST(Readme, lists_what_a_file_holds_and_nothing_else) {
       const std::size_t close = text.find('`', i + 1);
       const std::string before = text.substr(0, i);
       if (before.ends_with("; ") || before.ends_with("`, ") || before.ends_with("| ") ||
-          before.ends_with("attributes ") || before.ends_with("attribute "))
+          before.ends_with("attributes ") || before.ends_with("attribute ")) {
         listed.emplace(at, text.substr(i + 1, close - i - 1));
+      }
       i = text.find('`', close + 1);
     }
   }

@@ -65,11 +65,13 @@ TEST(SweepFile, SaysWhatItsColumnsAre) {
   for (const char* name : {"status", "steps", "energy", "contact_length", "kkt", "kept",
                            "contact_nodes", "displacement", "contact", "coefficients"}) {
     const std::string path = std::string("/sweep/") + name;
-    for (const char* attribute : {"units", "meaning"})
+    for (const char* attribute : {"units", "meaning"}) {
       EXPECT_GT(H5Aexists_by_name(file, path.c_str(), attribute, H5P_DEFAULT), 0) << path;
+    }
   }
-  for (const char* attribute : {"description", "source", "loads", "inclusions", "converged"})
+  for (const char* attribute : {"description", "source", "loads", "inclusions", "converged"}) {
     EXPECT_GT(H5Aexists_by_name(file, "/sweep", attribute, H5P_DEFAULT), 0) << attribute;
+  }
   H5Fclose(file);
 }
 

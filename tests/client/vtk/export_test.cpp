@@ -35,8 +35,9 @@ TEST(Export, writes_two_files_a_load_and_their_collection) {
                           folder / "new/partly_closed-interfaces.vtu", folder / "new/result.pvd"));
   EXPECT_TRUE(exported.notes.empty());
   const std::string pvd = bytes_of(folder / "new/result.pvd");
-  for (const char* file : {"\"opening.vtu\"", "\"partly_closed-interfaces.vtu\""})
+  for (const char* file : {"\"opening.vtu\"", "\"partly_closed-interfaces.vtu\""}) {
     EXPECT_THAT(pvd, HasSubstr(file));
+  }
 }
 
 TEST(Export, keeps_both_faces_of_the_interface) {

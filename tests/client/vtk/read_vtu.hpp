@@ -37,8 +37,9 @@ inline std::string attribute_of(const std::string& element, const std::string& n
   const std::string before = " " + name + "=\"";
   const std::size_t begin = element.find(before);
   const std::size_t end = element.find('"', begin + before.size());
-  if (begin == std::string::npos || end == std::string::npos)
+  if (begin == std::string::npos || end == std::string::npos) {
     throw std::runtime_error("no attribute " + name + " in " + element);
+  }
   return element.substr(begin + before.size(), end - begin - before.size());
 }
 
@@ -74,8 +75,9 @@ inline ReadVtu read_vtu(const std::string& file) {
       continue;
     }
     if (name == "VTKFile" && (attribute_of(attributes, "byte_order") != "LittleEndian" ||
-                              attribute_of(attributes, "header_type") != "UInt64"))
+                              attribute_of(attributes, "header_type") != "UInt64")) {
       throw std::runtime_error("another byte order or width");
+    }
     if (name == "Piece") {
       result.points = std::stoul(attribute_of(attributes, "NumberOfPoints"));
       result.cells = std::stoul(attribute_of(attributes, "NumberOfCells"));
