@@ -22,12 +22,19 @@ constexpr std::uint64_t largest_reservation = 64u << 20;
 }  // namespace
 
 void BlockReceiver::accept(const v1::BlockLayout& layout) {
+  const auto known = static_cast<std::uint32_t>(_block.layout.arrays_size());
+  if (layout.first_array() > known) {
+    damaged("arrays from " + std::to_string(layout.first_array()) + " on where " +
+            std::to_string(known) + " was due");
+  }
   if (!_started) {
     _block.layout = layout;
     _block.bytes.reserve(std::min<std::uint64_t>(layout.size(), largest_reservation));
     _started = true;
   } else if (layout.size() != _block.layout.size() || layout.sha256() != _block.layout.sha256()) {
     damaged("the block changed while it was read; fetch it again");
+  } else if (layout.first_array() == known && known < _block.layout.array_count()) {
+    _block.layout.mutable_arrays()->MergeFrom(layout.arrays());
   }
 }
 

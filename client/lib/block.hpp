@@ -23,13 +23,16 @@ struct Block {
 /// bytes than announced, a layout other than the first one's, a wrong hash in the end.
 class BlockReceiver {
  public:
-  /// First message of every stream.
+  /// First messages of every stream.
   void accept(const v1::BlockLayout& layout);
   void accept(const v1::BlockChunk& chunk);
 
   /// Where the next stream has to begin.
   std::uint64_t offset() const noexcept { return _block.bytes.size(); }
-  bool complete() const noexcept { return _started && offset() == _block.layout.size(); }
+  bool complete() const noexcept {
+    return _started && offset() == _block.layout.size() &&
+           _block.layout.array_count() <= static_cast<std::uint32_t>(_block.layout.arrays_size());
+  }
   /// Checks the hash. The receiver is empty after.
   Block finish();
 

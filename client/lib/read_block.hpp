@@ -37,11 +37,12 @@ Block read_block(Connection::State& state, Stub& stub,
     try {
       Response response;
       while (reader->Read(&response)) {
-        retries.succeeded();
         if (response.has_layout()) {
           receiver.accept(response.layout());
         } else if (response.has_chunk()) {
           receiver.accept(response.chunk());
+          if (response.chunk().data().empty()) continue;  // no progress
+          retries.succeeded();
           damaged = 0;
         }
       }

@@ -121,6 +121,24 @@ void bound_iterations(const v1::Solver& asked, int limit, contact::SolverOptions
 
 }  // namespace
 
+std::string fingerprint(const v1::Job& job) {
+  v1::Job sent = job;
+  for (int number :
+       {v1::Job::kNameFieldNumber, v1::Job::kStateFieldNumber, v1::Job::kErrorFieldNumber,
+        v1::Job::kCreateTimeFieldNumber, v1::Job::kStartTimeFieldNumber,
+        v1::Job::kEndTimeFieldNumber, v1::Job::kAnswersFieldNumber,
+        v1::Job::kResultBytesFieldNumber, v1::Job::kAttemptFieldNumber, v1::Job::kOwnerFieldNumber,
+        v1::Job::kTimelineFieldNumber, v1::Job::kSweepAnswerFieldNumber})
+    sent.GetReflection()->ClearField(&sent, sent.GetDescriptor()->FindFieldByNumber(number));
+  if (packed_bytes(job) > 0) {  // the same matrix by its name
+    auto& sweep = *sent.mutable_sweep();
+    auto& matrix =
+        sweep.has_coefficients() ? *sweep.mutable_coefficients() : *sweep.mutable_nodal_forces();
+    matrix.set_upload(upload_name(store::Sha256().add(matrix.packed()).finish()));
+  }
+  return store::Sha256().add(serialized(sent)).finish();
+}
+
 store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
   require_title(job.title(), "job.title");
   if (job.load_cases_size() > limits.load_cases) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -191,12 +193,22 @@ store::MeshRecord Translation<store::MeshRecord>::read(const v1::Mesh& from) {
   return value;
 }
 
-v1::BlockLayout layout_of(const std::vector<store::ArrayLayout>& arrays, std::uint64_t size,
+v1::BlockLayout layout_of(std::span<const store::ArrayLayout> arrays, std::uint64_t size,
                           const std::string& sha256) {
   v1::BlockLayout layout;
   layout.set_size(size);
   layout.set_sha256(sha256);
-  write_field(arrays, layout, "arrays");
+  for (const store::ArrayLayout& array : arrays)
+    Translation<store::ArrayLayout>::write(array, *layout.add_arrays());
+  return layout;
+}
+
+v1::BlockLayout layout_of(const store::BlockSource& block, std::size_t first, std::size_t count) {
+  const std::span<const store::ArrayLayout> all(block.arrays());
+  v1::BlockLayout layout = layout_of(all.subspan(first, std::min(count, all.size() - first)),
+                                     block.size(), block.sha256());
+  layout.set_first_array(static_cast<std::uint32_t>(first));
+  layout.set_array_count(static_cast<std::uint32_t>(all.size()));
   return layout;
 }
 

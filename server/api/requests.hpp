@@ -33,6 +33,10 @@ constexpr std::size_t max_packed_bytes = 1u << 20;
 /// The definition of a mesh, options filled in.
 store::MeshDefinition to_definition(const v1::CreateMeshRequest& request);
 
+/// SHA-256 of what the client sets in a job, as it was sent: neither defaults nor limits of the
+/// server change it. A packed matrix and its upload have the same. 64 hexadecimal digits.
+std::string fingerprint(const v1::Job& job);
+
 /// The limits of a job.
 struct JobLimits {
   int load_cases = 0;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <chrono>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -70,12 +71,13 @@ ANTICRACK_TRANSLATION(store::JobSpec, v1::Job);
 ANTICRACK_TRANSLATION(store::JobRecord, v1::Job);
 #undef ANTICRACK_TRANSLATION
 
-/// The layout of the arrays in a block of `size` bytes.
-v1::BlockLayout layout_of(const std::vector<store::ArrayLayout>& arrays, std::uint64_t size,
+/// Arrays in one message of a layout; some 100 bytes each.
+constexpr std::size_t max_layout_arrays = 4096;
+/// The layout of a block: at most `count` of its arrays, from `first` on.
+v1::BlockLayout layout_of(const store::BlockSource& block, std::size_t first = 0,
+                          std::size_t count = max_layout_arrays);
+/// The layout of all arrays in a block of `size` bytes.
+v1::BlockLayout layout_of(std::span<const store::ArrayLayout> arrays, std::uint64_t size,
                           const std::string& sha256);
-/// The layout of a block.
-inline v1::BlockLayout layout_of(const store::BlockSource& block) {
-  return layout_of(block.arrays(), block.size(), block.sha256());
-}
 
 }  // namespace anticrack::api

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #define ELEMENTARY(f, ...) std::f(__VA_ARGS__)
+#define PERIODIC(f, a) std::f(a)
 #define EXACT(f, a) std::f(a)
 using Numbers = double;
 #include "expression/kernel_table.hpp"
@@ -15,8 +16,10 @@ const Kernels& plain_kernels() {
 }
 
 const Kernels& fastest_kernels() {
-#ifdef ANTICRACK_AVX2
-  static const bool wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#ifdef ANTICRACK_X86_64
+  static const bool wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"),
+                    widest = __builtin_cpu_supports("avx512f");
+  if (widest) return avx512_kernels();
   if (wide) return avx2_kernels();
 #endif
   return kernels;

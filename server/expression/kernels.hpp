@@ -12,7 +12,7 @@ namespace anticrack::expression {
 /// `kernel_width` numbers, and reads b and c even where the operation has fewer operands.
 using Kernel = void (*)(const double* a, const double* b, const double* c, double* out,
                         std::size_t n);
-constexpr std::size_t kernel_width = 4;
+constexpr std::size_t kernel_width = 8;
 
 /// By Code.
 using Kernels = std::array<Kernel, static_cast<std::size_t>(Code::count)>;
@@ -20,11 +20,12 @@ using Kernels = std::array<Kernel, static_cast<std::size_t>(Code::count)>;
 /// One number at a time, by the C library. Reads and writes exactly n numbers.
 const Kernels& plain_kernels();
 
-/// Four numbers at a time, by SLEEF. Only in programs for x86-64.
+/// Four and eight numbers at a time, by SLEEF. Only in programs for x86-64.
 const Kernels& avx2_kernels();
+const Kernels& avx512_kernels();
 
 /// The fastest that this processor can run. Elementary functions are accurate to 1 unit in the last
-/// place; the same processor always gives the same bits.
+/// place, sine and cosine to 3.5; the same processor always gives the same bits.
 const Kernels& fastest_kernels();
 
 }  // namespace anticrack::expression

@@ -5,6 +5,7 @@
 #include <sleef.h>
 
 #define ELEMENTARY(f, ...) Sleef_##f##d4_u10avx2(__VA_ARGS__)
+#define PERIODIC(f, a) Sleef_##f##d4_u35avx2(a)
 #define EXACT(f, a) Sleef_##f##d4_avx2(a)
 using Numbers = __m256d;
 #include "expression/kernel_table.hpp"

@@ -3,8 +3,9 @@
 
 /// All operations: X(code, name as a function of expressions, time of a point in ns, value).
 /// The value is a formula of the operands a, b, c, which is compiled for one number at a time and
-/// for four (kernel_table.hpp). ELEMENTARY: a function of the C library, or the same of SLEEF.
-/// EXACT: the same, for functions that the processor rounds correctly.
+/// for four or eight (kernel_table.hpp). ELEMENTARY: a function of the C library, or the same of
+/// SLEEF. PERIODIC: the same to 3.5 units in the last place, in three quarters of the time. EXACT:
+/// the same, for functions that the processor rounds correctly.
 #define ANTICRACK_OPERATIONS(X)                                           \
   X(add, "sum", 0.3, a + b)                                               \
   X(subtract, "", 0.3, a - b)                                             \
@@ -17,8 +18,8 @@
   X(logarithm, "log", 4, ELEMENTARY(log, a))                              \
   X(logarithm2, "log2", 4, ELEMENTARY(log2, a))                           \
   X(logarithm10, "log10", 4, ELEMENTARY(log10, a))                        \
-  X(sine, "sin", 4, ELEMENTARY(sin, a))                                   \
-  X(cosine, "cos", 4, ELEMENTARY(cos, a))                                 \
+  X(sine, "sin", 4, PERIODIC(sin, a))                                     \
+  X(cosine, "cos", 4, PERIODIC(cos, a))                                   \
   X(tangent, "tan", 8, ELEMENTARY(tan, a))                                \
   X(arc_sine, "asin", 8, ELEMENTARY(asin, a))                             \
   X(arc_cosine, "acos", 8, ELEMENTARY(acos, a))                           \

@@ -24,9 +24,9 @@ struct LoadContext {
 };
 
 /// Tolerance of the load of an expression, relative to int |f| of the subdomain. The relative error
-/// of linear elements is about 1 / triangles at best; this is a hundredth of it, at most 1e-6.
+/// of linear elements is about 1 / triangles at best; this is a tenth of it, at most 1e-5.
 constexpr double force_tolerance(std::size_t triangles) {
-  return triangles > 10'000 ? 0.01 / static_cast<double>(triangles) : 1e-6;
+  return triangles > 10'000 ? 0.1 / static_cast<double>(triangles) : 1e-5;
 }
 /// Tolerance of a traction relative to int |g_N|.
 constexpr double traction_tolerance = 1e-10;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -80,26 +81,32 @@ class Batch {
 struct Means {
   std::array<double, 3> nodal;  ///< of f phi_i, for the cell's own phi_i
   double absolute;              ///< of |f|
-  double bend;                  ///< of |f - its linear part|
 };
 
-template <class Rule>
-Means means(const Rule& rule, const double* values) {
-  double whole = 0, b = 0, c = 0;
-  for (std::size_t i = 0; i < rule.size; ++i) {
-    const double part = rule.weight[i] * values[i];
-    whole += part;
-    b += part * rule.b[i];
-    c += part * rule.c[i];
-  }
-  Means result{{whole - b - c, b, c}, 0, 0};
-  const double p = 12 * result.nodal[0] - 3 * whole, q = 12 * b - 3 * whole - p,
-               r = 12 * c - 3 * whole - p;
-  for (std::size_t i = 0; i < rule.size; ++i) {
-    result.absolute += rule.weight[i] * std::abs(values[i]);
-    result.bend += rule.weight[i] * std::abs(values[i] - p - q * rule.b[i] - r * rule.c[i]);
-  }
-  return result;
+template <std::size_t N>
+using PerPoint = Eigen::Array<double, N, 1>;
+template <std::size_t N>
+Eigen::Map<const PerPoint<N>> per_point(const double* values) {
+  return Eigen::Map<const PerPoint<N>>(values);
+}
+
+template <std::size_t N>
+Means means(const TriangleRule<N>& rule, const double* values) {
+  const PerPoint<N> part = per_point<N>(rule.weight.data()) * per_point<N>(values);
+  const double whole = part.sum(), b = (part * per_point<N>(rule.b.data())).sum(),
+               c = (part * per_point<N>(rule.c.data())).sum();
+  return {{whole - b - c, b, c}, part.abs().sum()};
+}
+
+/// Mean of |f - its linear part|.
+template <std::size_t N>
+double mean_bend(const TriangleRule<N>& rule, const double* values, const Means& means) {
+  const auto [a, b, c] = means.nodal;
+  const double whole = 3 * (a + b + c), p = 12 * a - whole, q = 12 * b - whole - p,
+               r = 12 * c - whole - p;
+  const PerPoint<N> rest =
+      per_point<N>(values) - p - q * per_point<N>(rule.b.data()) - r * per_point<N>(rule.c.data());
+  return (per_point<N>(rule.weight.data()) * rest.abs()).sum();
 }
 
 Moments to_triangle(const Cell& cell, double area, const Means& means) {
@@ -257,7 +264,7 @@ class Refinement {
     return fem::difference(std::exchange(one.found, found), found);
   }
 
-  /// By one rule: judge(cell, means, its number).
+  /// By one rule: judge(cell, means, its number, its values).
   template <class Rule, class Judge>
   void measure_by(const Rule& rule, std::span<Measured* const> cells, const Judge& judge) {
     constexpr std::size_t at_once = Sampler::block / Rule::size;
@@ -267,7 +274,7 @@ class Refinement {
       for (std::size_t i = 0; i < some.size(); ++i) {
         const Means found = means(rule, values + i * rule.size);
         if (!std::isfinite(found.absolute)) _batch.require_finite(values, i * rule.size, rule.size);
-        judge(*some[i], found, first + i);
+        judge(*some[i], found, first + i, values + i * rule.size);
       }
     }
   }
@@ -277,16 +284,18 @@ class Refinement {
     all.reserve(cells.size());
     for (Measured& one : cells) all.push_back(&one);
     if (_integration.exact) {
-      measure_by(rule_5, all, [&](Measured& one, const Means& by_5, std::size_t) {
-        replace(one, by_5);
-        one.error = one.cell.divisible ? 0 : area(one) * by_5.bend;  // a jump is in it
-      });
+      measure_by(rule_5, all,
+                 [&](Measured& one, const Means& by_5, std::size_t, const double* values) {
+                   replace(one, by_5);
+                   // A jump is in it.
+                   one.error = one.cell.divisible ? 0 : area(one) * mean_bend(rule_5, values, by_5);
+                 });
       return;
     }
     std::vector<Measured*> finer;
     std::vector<double> bends;
     measure_by_8(all, known, finer, bends);
-    measure_by(rule_12, finer, [&](Measured& one, const Means& by_12, std::size_t number) {
+    measure_by(rule_12, finer, [&](Measured& one, const Means& by_12, std::size_t number, auto) {
       const double change = replace(one, by_12), part = std::cbrt(change / bends[number]);
       one.error = change * std::min(1.0, 10 * part * part);
     });
@@ -309,7 +318,8 @@ class Refinement {
         const Means by_8 = means(rule_8, own + first_of_8);
         if (!std::isfinite(by_8.absolute + one.found.absolute))
           _batch.require_finite(values, i * points, points);
-        const double bend = area(one) * by_8.bend / 3, change = replace(one, by_8);
+        const double bend = area(one) * mean_bend(rule_8, own + first_of_8, by_8) / 3,
+                     change = replace(one, by_8);
         // The change is the error of rule_5; that of rule_8 is as much less as convergence
         // promises.
         one.error = bend > 0 ? change * std::min(1.0, 10 * change / bend) : 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -107,16 +108,18 @@ void EndingThread::write(Lock& lock, End end) {
   try {
     _core.store.finish(end.record, end.result);
     written = true;
-  } catch (const Error& error) {
-    if (!is_of_the_disk(error) && end.result) {
+  } catch (const std::bad_alloc&) {
+    written = false;  // like a disk that refuses
+  } catch (const std::exception& exception) {
+    const auto* error = dynamic_cast<const Error*>(&exception);
+    if (end.result && !(error && is_of_the_disk(*error))) {
       // No later try would do better.
       set_state(end.record, JobState::failed,
-                Error(error.reason(), std::string("the result was lost: ") + error.what()));
+                Error(error ? error->reason() : Reason::internal,
+                      std::string("the result was lost: ") + exception.what()));
       end.record.result_bytes = 0;
       end.result.reset();
     }
-  } catch (const std::exception&) {
-    written = false;  // no memory: as good as no disk
   }
   lock.lock();
   if (written)

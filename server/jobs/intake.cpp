@@ -127,7 +127,8 @@ std::optional<Error> too_many_crashes(const JobRecord& record, const EngineOptio
 TakenIn take_in(EngineCore& core, const Submission& submission) {
   check(submission.spec, core.options);
   JobRecord record = new_record(submission);
-  const std::string print = fingerprint(record.spec);
+  const std::string print =
+      submission.fingerprint.empty() ? fingerprint(record.spec) : submission.fingerprint;
   // First: the same request again is answered however full the queue, and though its mesh is gone.
   if (auto made = core.store.created_before(record, print)) return {std::move(*made), false};
   std::shared_ptr<void> mesh_use = use(core, record.spec.mesh);

@@ -77,6 +77,16 @@ JobRecord JobEngine::submit(const Submission& submission) {
   return taken.is_new ? std::move(taken.record) : get(taken.record.id);
 }
 
+std::optional<JobRecord> JobEngine::submitted(const std::string& owner,
+                                              const std::string& request_id,
+                                              const std::string& fingerprint) const {
+  JobRecord asked;
+  asked.owner = owner;
+  asked.request_id = request_id;
+  const std::optional<JobRecord> made = _state->core.store.created_before(asked, fingerprint);
+  return made ? std::optional(get(made->id)) : std::nullopt;
+}
+
 JobRecord JobEngine::get(const std::string& id) const {
   std::optional<JobSnapshot> snapshot;
   {

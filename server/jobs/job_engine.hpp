@@ -69,6 +69,8 @@ struct Submission {
   store::JobSpec spec;
   std::string owner;
   std::string request_id;  ///< empty: not idempotent
+  /// Same for a retry, of at most 64 bytes; empty: made from the spec.
+  std::string fingerprint = {};
 };
 
 /// Owns the worker threads. A job waits for its mesh on a thread of the (small) preparation pool,
@@ -99,6 +101,11 @@ class JobEngine {
   /// mesh. When it returns the job is on the disk. Same owner and non-empty request id: the same
   /// job.
   store::JobRecord submit(const Submission& submission);
+
+  /// The job that the owner made by this request before, as it is now; empty where there is none.
+  /// Throws request_id_reused. Needs no other condition of submit(): limits may have changed since.
+  std::optional<store::JobRecord> submitted(const std::string& owner, const std::string& request_id,
+                                            const std::string& fingerprint) const;
 
   store::JobRecord get(const std::string& id) const;  ///< live state; throws not_found
   std::vector<store::JobRecord> list(const store::Page& page) const;  ///< live states, newest first

@@ -40,8 +40,9 @@ class BlockFeed final : public Feed<Response> {
 
   Next next(Response& response) override {
     if (!_layout_sent) {
-      *response.mutable_layout() = api::layout_of(*_block);
-      _layout_sent = true;
+      *response.mutable_layout() = api::layout_of(*_block, _arrays_sent);
+      _arrays_sent += api::max_layout_arrays;
+      _layout_sent = _arrays_sent >= _block->arrays().size();
       return Next::message;
     }
     if (_offset >= _block->size()) return Next::end;
@@ -53,6 +54,7 @@ class BlockFeed final : public Feed<Response> {
  private:
   const std::shared_ptr<const store::BlockSource> _block;
   std::uint64_t _offset;
+  std::size_t _arrays_sent = 0;
   bool _layout_sent = false;
 };
 

@@ -107,9 +107,9 @@ ServerService::ServerService(const Edge& edge, const Security& security)
 }
 
 grpc::ServerUnaryReactor* ServerService::GetServerInfo(grpc::CallbackServerContext* context,
-                                                       const v1::GetServerInfoRequest* /*request*/,
+                                                       const v1::GetServerInfoRequest* request,
                                                        v1::ServerInfo* response) {
-  return answer(_edge, context, "GetServerInfo", [&](const access::Identity&) {
+  return answer(_edge, context, "GetServerInfo", *request, [&](const access::Identity&) {
     response->set_version(version());
     response->set_build(build());
     *response->mutable_start_time() = api::message(_start);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Unary methods: find out who calls, run something that may throw errors::Error, answer with its
-// status. `work` is given the caller: void(const access::Identity&).
+// Unary methods: find out who calls, refuse a request with unknown fields, run something that may
+// throw errors::Error, answer with its status. `work` is given the caller:
+// void(const access::Identity&).
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -9,6 +10,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "api/unknown_fields.hpp"
 #include "rpc/edge.hpp"
 #include "rpc/error_table.hpp"
 
@@ -29,9 +31,14 @@ grpc::Status status_of(const char* method, Work&& work) noexcept {
 /// On gRPC's thread: for what is in memory.
 template <class Work>
 grpc::ServerUnaryReactor* answer(const Edge& edge, grpc::CallbackServerContext* context,
-                                 const char* method, Work&& work) noexcept {
+                                 const char* method, const google::protobuf::Message& request,
+                                 Work&& work) noexcept {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  reactor->Finish(status_of(method, [&] { work(edge.authentication.identify(*context)); }));
+  reactor->Finish(status_of(method, [&] {
+    const access::Identity who = edge.authentication.identify(*context);
+    api::require_known(request);
+    work(who);
+  }));
   return reactor;
 }
 
@@ -39,7 +46,7 @@ grpc::ServerUnaryReactor* answer(const Edge& edge, grpc::CallbackServerContext* 
 template <class Work>
 grpc::ServerUnaryReactor* answer_on(const Edge& edge, WorkPool& pool, std::size_t limit,
                                     grpc::CallbackServerContext* context, const char* method,
-                                    Work work) noexcept {
+                                    const google::protobuf::Message& request, Work work) noexcept {
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   const grpc::Status posted = status_of(method, [&] {
     // Here and not on the pool: a stranger takes no place in its queue.
@@ -48,8 +55,12 @@ grpc::ServerUnaryReactor* answer_on(const Edge& edge, WorkPool& pool, std::size_
       throw errors::Error(errors::Reason::busy,
                           "too many calls wait to be taken up; try again later")
           .retry_after(std::chrono::seconds(1));
-    pool.post(
-        [reactor, method, work, who] { reactor->Finish(status_of(method, [&] { work(who); })); });
+    pool.post([reactor, method, &request, work, who] {
+      reactor->Finish(status_of(method, [&] {
+        api::require_known(request);
+        work(who);
+      }));
+    });
   });
   if (!posted.ok()) reactor->Finish(posted);
   return reactor;
@@ -58,23 +69,28 @@ grpc::ServerUnaryReactor* answer_on(const Edge& edge, WorkPool& pool, std::size_
 /// For what reads the store.
 template <class Work>
 grpc::ServerUnaryReactor* look_up(Edge& edge, grpc::CallbackServerContext* context,
-                                  const char* method, Work work) noexcept {
-  return answer_on(edge, edge.lookups, edge.limits.waiting_calls, context, method, std::move(work));
+                                  const char* method, const google::protobuf::Message& request,
+                                  Work work) noexcept {
+  return answer_on(edge, edge.lookups, edge.limits.waiting_calls, context, method, request,
+                   std::move(work));
 }
 
 /// For what writes to the store.
 template <class Work>
 grpc::ServerUnaryReactor* change(Edge& edge, grpc::CallbackServerContext* context,
-                                 const char* method, Work work) noexcept {
-  return answer_on(edge, edge.changes, edge.limits.waiting_calls, context, method, std::move(work));
+                                 const char* method, const google::protobuf::Message& request,
+                                 Work work) noexcept {
+  return answer_on(edge, edge.changes, edge.limits.waiting_calls, context, method, request,
+                   std::move(work));
 }
 
 /// As change(), with a bound of their own, because their requests are large: a cancel still gets
 /// through when these are refused.
 template <class Work>
 grpc::ServerUnaryReactor* create(Edge& edge, grpc::CallbackServerContext* context,
-                                 const char* method, Work work) noexcept {
-  return answer_on(edge, edge.changes, edge.limits.waiting_creations, context, method,
+                                 const char* method, const google::protobuf::Message& request,
+                                 Work work) noexcept {
+  return answer_on(edge, edge.changes, edge.limits.waiting_creations, context, method, request,
                    std::move(work));
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "api/names.hpp"
+#include "api/unknown_fields.hpp"
 #include "rpc/error_table.hpp"
 
 namespace anticrack::rpc {
@@ -78,6 +79,7 @@ void UploadStream::take(bool ok) noexcept {
   }
   try {
     if (ok) {
+      api::require_known(_request);
       _receiver.accept(_request);
       read_next();
     } else {

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "api/unknown_fields.hpp"
 #include "rpc/edge.hpp"
 #include "rpc/error_table.hpp"
 #include "rpc/feed.hpp"
@@ -247,14 +248,17 @@ class RefusedStream final : public grpc::ServerWriteReactor<Response> {
   void OnDone() noexcept override { delete this; }
 };
 
-/// The reactor of a streaming method: finds out who calls, then sends what `make_feed` returns
+/// The reactor of a streaming method: finds out who calls, refuses a request with unknown fields,
+/// then sends what `make_feed` returns
 /// (unique_ptr<Feed<Response>>(const access::Identity&), called on the pool), or its error.
 template <class Response, class MakeFeed>
 grpc::ServerWriteReactor<Response>* stream(Edge& edge, grpc::CallbackServerContext* context,
                                            StreamKind kind, const char* method,
+                                           const google::protobuf::Message& request,
                                            MakeFeed make_feed) noexcept {
   try {
     const access::Identity who = edge.authentication.identify(*context);
+    api::require_known(request);
     auto call = std::make_shared<WriteStream<Response>>(
         context, edge, kind, [make_feed, who] { return make_feed(who); });
     call->start(client_of(who, *context));

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cstring>
 #include <functional>
-#include <stdexcept>
 #include <utility>
 
 #include "api/translations.hpp"
@@ -22,7 +21,7 @@ static_assert(std::endian::native == std::endian::little, "lengths are little-en
 
 constexpr std::string_view magic("ACRES\0\0\2", 8);  // the last: the version
 constexpr std::size_t lengths = 2 * sizeof(std::uint32_t);
-constexpr std::size_t max_header = std::size_t{16} << 20U;
+constexpr std::size_t max_header = std::size_t{64} << 20U;
 
 /// Reads what is at an offset; throws where there is less.
 using Read = std::function<void(std::uint64_t offset, std::span<std::byte> bytes)>;
@@ -96,8 +95,11 @@ std::shared_ptr<const BlockSource> open_at(Read read, std::uint64_t size, const 
 std::string result_header(const Block& block) {
   const std::string bytes =
       api::serialized(api::layout_of(block.arrays, block.bytes.size(), block.sha256));
-  if (bytes.size() > max_header)
-    throw std::length_error("the layout of a result takes more than 16 MB");
+  if (bytes.size() > max_header) {
+    throw Error(Reason::limit_exceeded, std::to_string(block.arrays.size()) +
+                                            " arrays are too many for one result: split "
+                                            "the job");
+  }
   return std::string(magic) + number_bytes(static_cast<std::uint32_t>(bytes.size())) +
          number_bytes(crc32c(std::as_bytes(std::span(bytes)))) + bytes;
 }

@@ -103,6 +103,55 @@ TEST(Job, IsSolvedExactlyUnlessAskedOtherwise) {
             job.answers(1).inclusions(0).displacement());
 }
 
+/// Ninety slits in a plate.
+v1::CreateMeshRequest mesh_of_slits() {
+  v1::CreateMeshRequest request;
+  v1::Geometry& geometry = *request.mutable_geometry();
+  const auto point = [](v1::Point& to, double x, double y) {
+    to.set_x(x);
+    to.set_y(y);
+  };
+  for (const auto& [x, y] :
+       {std::pair(0, 0), std::pair(10, 0), std::pair(10, 9), std::pair(0, 9)}) {
+    point(*geometry.add_boundary(), x, y);
+  }
+  for (int i = 0; i < 90; ++i) {
+    const double x = i % 10 + 0.3, y = i / 10 + 0.5;
+    v1::InterfaceCurve& slit = *geometry.add_interfaces();
+    slit.set_name("slit-" + std::to_string(i));
+    point(*slit.mutable_polyline()->add_points(), x, y);
+    point(*slit.mutable_polyline()->add_points(), x + 0.4, y);
+    v1::Crack& crack = *geometry.add_cracks();
+    crack.set_name("crack-" + std::to_string(i));
+    point(*crack.mutable_part()->mutable_from(), x, y);
+    point(*crack.mutable_part()->mutable_to(), x + 0.4, y);
+  }
+  request.mutable_options()->set_preset(v1::MESH_PRESET_UNIFORM);
+  request.mutable_options()->set_size(0.3);
+  return request;
+}
+
+/// The layout alone has some 20 MB.
+TEST(Job, OfManyLoadsAndInterfacesIsReadWhole) {
+  RunningServer server;
+  const std::string mesh = server.create(mesh_of_slits()).name();
+  v1::CreateJobRequest request;
+  request.mutable_job()->set_mesh(mesh);
+  for (int i = 0; i < 1000; ++i) {
+    v1::LoadCase& load = *request.mutable_job()->add_load_cases();
+    load.set_name("load-" + std::to_string(i));
+    load.mutable_force()->set_constant(i);
+  }
+  const v1::Job job = server.finish(server.create(request).name());
+  ASSERT_EQ(job.state(), v1::Job::STATE_SUCCEEDED) << job.error().message();
+  Received block;
+  ASSERT_TRUE(read_result(server, job.name(), 0, block).ok());
+  EXPECT_GT(block.layout.arrays_size(), 450'000);
+  EXPECT_EQ(static_cast<std::uint32_t>(block.layout.arrays_size()), block.layout.array_count());
+  EXPECT_EQ(block.layout.sha256(), store::Sha256().add(block.bytes).finish());
+  EXPECT_FALSE(doubles(block, "loads/999/traces/89/jump").empty());
+}
+
 TEST(Job, ReadsItsMeshInChunksFromAnyOffset) {
   RunningServer server;
   const v1::Mesh mesh = server.settle(server.create(paper_mesh(0.01)).name());

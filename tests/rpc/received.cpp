@@ -2,6 +2,7 @@
 #include "rpc/received.hpp"
 
 #include <span>
+#include <utility>
 
 #include "store/digest.hpp"
 
@@ -13,7 +14,13 @@ grpc::Status receive(Reader& reader, std::uint64_t offset, Received& to) {
   Response response;
   while (reader.Read(&response)) {
     if (response.has_layout()) {
+      EXPECT_EQ(static_cast<int>(response.layout().first_array()), to.layout.arrays_size());
+      EXPECT_LE(response.ByteSizeLong(), 1u << 20);
+      google::protobuf::RepeatedPtrField<v1::ArrayLayout> arrays =
+          std::move(*to.layout.mutable_arrays());
       to.layout = response.layout();
+      to.layout.mutable_arrays()->Swap(&arrays);
+      to.layout.mutable_arrays()->MergeFrom(arrays);
       EXPECT_EQ(to.chunks, 0);
       continue;
     }

@@ -70,6 +70,25 @@ TEST(Restart, AClientsRunOutlivesAStopAndAKill) {
   EXPECT_THAT(flaws_of(daemon.data()), IsEmpty());
 }
 
+TEST(Restart, ARetryGivesTheSameJobThoughLimitsHaveChanged) {
+  Daemon first;
+  std::vector<std::pair<Work, std::string>> asked;  // by default as many iterations, and explicitly
+  for (const std::vector<std::string>& changes :
+       {std::vector<std::string>{}, std::vector<std::string>{"solver.max_iterations=2000"}}) {
+    asked.emplace_back(work("paper-3.toml", changes), client::make_uuid());
+  }
+  std::vector<std::string> names;
+  client::Connection connection(first.connection());
+  for (const auto& [job, id] : asked) names.push_back(submit(connection, job, id).name());
+  EXPECT_EQ(first.stop(), 0);
+  Daemon limited(first.data(), {"--iterations", "500"});
+  client::Connection again(limited.connection());
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    EXPECT_EQ(submit(again, asked[i].first, asked[i].second).name(), names[i]);
+  }
+  EXPECT_THROW(submit(again, asked[1].first, client::make_uuid()), client::Error);
+}
+
 TEST(Restart, ASecondSigtermDoesNotWaitForJobs) {
   Daemon daemon({"--drain-time", "3600"});
   client::Connection connection(daemon.connection());

@@ -309,5 +309,25 @@ TEST(CaseErrors, FileThatIsNotThere) {
   EXPECT_THROW(read_case(std::filesystem::temp_directory_path()), Error);
 }
 
+TEST(Complaint, OfAKeyOfManyParts) {
+  std::string plain = "a", quoted = "a";
+  for (int i = 0; i < 200'000; ++i) plain += ".a";
+  for (int i = 0; i < 400; ++i) {
+    quoted += ".\"=,[]#\"";
+    for (int k = 0; k < 500; ++k) quoted += ".a";
+  }
+  for (const std::string& key : {plain, quoted}) {
+    for (const std::string& text :
+         {key + " = 1\n", "[" + key + "]\n", "x = { " + key + " = 1 }\n"}) {
+      EXPECT_EQ(
+          complaint("title = \"long\"\n" + text),
+          "plate.toml:2: a key of more than 1000 parts; shorten it: known keys have at most 3");
+    }
+  }
+  const std::string dots(1500, '.');
+  EXPECT_EQ(complaint("# " + dots + "\ntitle = \"" + dots + "\"\n").find("parts"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace anticrack::casefile

@@ -40,6 +40,24 @@ TEST(BlockReceiver, PutsChunksOfSeveralStreamsTogether) {
   EXPECT_EQ(block.layout.arrays(0).name(), "nodes");
 }
 
+TEST(BlockReceiver, TakesALayoutInParts) {
+  v1::BlockLayout first = sample_layout(bytes);
+  first.set_array_count(3);
+  v1::BlockLayout second = first;
+  second.set_first_array(1);
+  *second.add_arrays() = second.arrays(0);
+  BlockReceiver receiver;
+  EXPECT_THAT(damage([&] { receiver.accept(second); }), ::testing::HasSubstr("where 0 was due"));
+  receiver.accept(first);
+  receiver.accept(sample_chunk(bytes, 0, 80));
+  EXPECT_FALSE(receiver.complete());
+  receiver.accept(first);  // of another stream
+  receiver.accept(second);
+  EXPECT_TRUE(receiver.complete());
+  receiver.accept(second);
+  EXPECT_EQ(receiver.finish().layout.arrays_size(), 3);
+}
+
 TEST(BlockReceiver, TakesAnEmptyBlock) {
   BlockReceiver receiver;
   EXPECT_FALSE(receiver.complete());

@@ -79,6 +79,22 @@ TEST(ReadResult, GivesUpOnAChunkThatIsDamagedEveryTime) {
   EXPECT_EQ(server.read().size(), 3U);
 }
 
+TEST(ReadResult, GivesUpOnABlockWhoseBytesNeverCome) {
+  ScriptedServer server;
+  v1::ReadResultResponse huge = layout_message();
+  huge.mutable_layout()->set_size(std::uint64_t{1} << 63U);
+  server.reads = {{{huge}, {}}};
+  ConnectionOptions options = server.options();
+  options.retry.patience = std::chrono::milliseconds(100);
+  Connection connection(options);
+  try {
+    read_result(connection, "jobs/1");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), Code::unavailable);
+  }
+}
+
 TEST(ReadResult, ReportsARefusal) {
   ScriptedServer server;
   server.reads = {{{}, {Code::failed_precondition, "not ended"}}};

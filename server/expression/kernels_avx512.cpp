@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Compiled for AVX-512F: only called on processors that have them.
+#include <immintrin.h>
+#include <sleef.h>
+
+#define ELEMENTARY(f, ...) Sleef_##f##d8_u10avx512f(__VA_ARGS__)
+#define PERIODIC(f, a) Sleef_##f##d8_u35avx512f(a)
+#define EXACT(f, a) Sleef_##f##d8_avx512f(a)
+using Numbers = __m512d;
+#include "expression/kernel_table.hpp"
+
+namespace anticrack::expression {
+
+const Kernels& avx512_kernels() {
+  return kernels;
+}
+
+}  // namespace anticrack::expression
