@@ -34,15 +34,8 @@ void require_writable(const std::string& data) {
 
 std::vector<std::string> problems_of_files(const Config& config) {
   std::vector<std::string> problems = problems_of_security(config);
-  const auto attempt = [&problems](const auto& check) {
-    try {
-      check();
-    } catch (const ConfigError& error) {
-      problems.emplace_back(error.what());
-    }
-  };
-  attempt([&] { require_writable(config.data_dir); });
-  attempt([&] { catalogue_options(config); });
+  note_problem(problems, [&] { require_writable(config.data_dir); });
+  note_problem(problems, [&] { catalogue_options(config); });
   return problems;
 }
 

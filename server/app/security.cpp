@@ -61,43 +61,33 @@ std::vector<std::string> split_names(const std::string& names) {
   return result;
 }
 
+void note_problem(std::vector<std::string>& problems, const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const ConfigError& error) {
+    problems.emplace_back(error.what());
+  }
+}
+
 std::vector<std::string> problems_of_security(const Config& config) {
   std::vector<std::string> problems;
-  const auto attempt = [&problems](const auto& read) -> std::string {
-    try {
-      return read();
-    } catch (const ConfigError& error) {
-      problems.emplace_back(error.what());
-      return {};
-    }
+  const auto attempt = [&](const std::string& path, const std::function<void()>& check) {
+    if (!path.empty()) note_problem(problems, check);
   };
-  const auto content = [&](const char* key, const std::string& path, OthersMay others_may) {
-    return path.empty() ? path : attempt([&] { return read_guarded_file(key, path, others_may); });
-  };
-  const std::string certificate =
-      content("tls-certificate", config.tls_certificate, OthersMay::read);
-  const std::string key = content("tls-key", config.tls_key, OthersMay::nothing);
-  if (!certificate.empty() && !key.empty()) {
-    attempt([&] {
-      if (check_certificate(certificate, key) < 0)
-        throw ConfigError("tls-certificate: " + config.tls_certificate +
-                          " has expired; renew it: no client would accept it");
-      return std::string();
-    });
-  }
-  const std::string roots = content("tls-client-roots", config.tls_client_roots, OthersMay::read);
-  if (!roots.empty()) {
-    attempt([&] {
-      check_roots(roots);
-      return std::string();
-    });
-  }
-  if (!config.tokens.empty()) {
-    attempt([&] {
-      load_tokens(config.tokens);
-      return std::string();
-    });
-  }
+  const std::string& path = config.tls_certificate;
+  std::string certificate, key;
+  attempt(path, [&] { certificate = read_guarded_file("tls-certificate", path, OthersMay::read); });
+  attempt(config.tls_key,
+          [&] { key = read_guarded_file("tls-key", config.tls_key, OthersMay::nothing); });
+  attempt(certificate.empty() ? certificate : key, [&] {
+    if (check_certificate(certificate, key) < 0)
+      throw ConfigError("tls-certificate: " + path +
+                        " has expired; renew it: no client would accept it");
+  });
+  attempt(config.tls_client_roots, [&] {
+    check_roots(read_guarded_file("tls-client-roots", config.tls_client_roots, OthersMay::read));
+  });
+  attempt(config.tokens, [&] { load_tokens(config.tokens); });
   return problems;
 }
 
