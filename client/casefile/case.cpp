@@ -4,11 +4,11 @@
 #include <cerrno>
 #include <fstream>
 #include <sstream>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "casefile/sections.hpp"
+#include "toml/long_key.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -45,45 +45,14 @@ std::string reason(int error) {
   return error == 0 ? std::string() : ": " + std::generic_category().message(error);
 }
 
-/// toml++ recurses for every part of a dotted key. A run of parts ends at what no key can hold, and
-/// with the line; dots in strings and comments do not count.
-void require_shallow(std::string_view text, const std::string& name) {
-  constexpr int most_parts = 1'000;
-  int parts = 0;
-  unsigned line = 1;
-  char quote = 0;
-  bool comment = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '\n') {
-      ++line;
-      parts = 0;
-      quote = 0;
-      comment = false;
-    } else if (comment) {
-      continue;
-    } else if (quote != 0) {
-      if (c == '\\' && quote == '"')
-        ++i;
-      else if (c == quote)
-        quote = 0;
-    } else if (c == '"' || c == '\'') {
-      quote = c;
-    } else if (c == '#') {
-      comment = true;
-    } else if (std::string_view("=,[]{}").find(c) != std::string_view::npos) {
-      parts = 0;
-    } else if (c == '.' && ++parts > most_parts) {
-      throw Error({"", name, line}, "a key of more than " + std::to_string(most_parts) +
-                                        " parts; shorten it: known keys have at most 3");
-    }
-  }
-}
-
 toml::table parse(const std::string& text, const std::string& name) {
   if (text.find('\0') != std::string::npos)
     throw Error({"", name, 0}, "this is not text; name a case, a TOML file");
-  require_shallow(text, name);
+  if (const auto line = toml_text::line_of_long_key(text)) {
+    throw Error({"", name, *line}, "a key of more than " +
+                                       std::to_string(toml_text::most_key_parts) +
+                                       " parts; shorten it: known keys have at most 5");
+  }
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {

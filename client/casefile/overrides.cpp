@@ -9,6 +9,7 @@
 
 #include "casefile/error.hpp"
 #include "casefile/nearest.hpp"
+#include "toml/long_key.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -40,7 +41,8 @@ void require_text(const std::string& assignment) {
 toml::table parse_value(const std::string& text, const std::string& source) {
   try {
     const bool one_line = text.find_first_of("\r\n") == std::string::npos;
-    if (one_line) return toml::parse("value = " + text, source);
+    if (one_line && !toml_text::line_of_long_key(text))
+      return toml::parse("value = " + text, source);
   } catch (const toml::parse_error&) {
     // A bare word: text.
   }
@@ -156,6 +158,11 @@ void apply_override(toml::table& root, const std::string& assignment) {
   std::vector<std::string> parts = split_path(assignment.substr(0, equals));
   if (std::any_of(parts.begin(), parts.end(), [](const std::string& p) { return p.empty(); }))
     throw Error({"", source, 0}, "a part of the key is empty; write for example solver.theta=2");
+  if (parts.size() > toml_text::most_key_parts) {
+    throw Error({"", "--set", 0}, "a key of more than " +
+                                      std::to_string(toml_text::most_key_parts) +
+                                      " parts; shorten it: known keys have at most 5");
+  }
   toml::table parsed = parse_value(assignment.substr(equals + 1), source);
   Walk(source, std::move(parts)).assign(root, std::move(*parsed.get("value")));
 }

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <system_error>
 
+#include "toml/long_key.hpp"
+
 namespace anticrack::app {
 namespace {
 
@@ -30,6 +32,10 @@ std::string value_text(const Key& key, const toml::node& node, const std::string
 }  // namespace
 
 std::vector<Setting> parse_config(const std::string& text, const std::string& path) {
+  if (const auto line = toml_text::line_of_long_key(text)) {
+    throw ConfigError(fmt::format("{}:{}: a key of more than {} parts; keys have one", path, *line,
+                                  toml_text::most_key_parts));
+  }
   toml::table table;
   try {
     table = toml::parse(text, path);

@@ -11,6 +11,7 @@
 #include "fields/walk.hpp"
 #include "jobs/check.hpp"
 #include "jobs/job_start.hpp"
+#include "jobs/result_block.hpp"
 #include "jobs/sweep_check.hpp"
 
 namespace anticrack::jobs {
@@ -132,6 +133,9 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   // First: the same request again is answered however full the queue, and though its mesh is gone.
   if (auto made = core.store.created_before(record, print)) return {std::move(*made), false};
   std::shared_ptr<void> mesh_use = use(core, record.spec.mesh);
+  const store::MeshRecord mesh = core.catalogue.get(record.spec.mesh);
+  require_result_arrays(record.spec, mesh.interfaces.size(), mesh.subdomains.size(),
+                        core.options.max_result_arrays);
   require_arrays(record.spec.loads, core.store, record.owner);
   if (record.spec.sweep) measure(*record.spec.sweep, record, core);
   const std::uint64_t cases = queued_cases(record.spec, core.store, record.owner);

@@ -42,6 +42,9 @@ struct EngineOptions {
   /// Traces, fields and history of one job; load cases that would come after it is reached fail. A
   /// sweep whose answers would be larger fails at its start.
   std::uint64_t max_result_bytes = std::uint64_t{2} << 30;
+  /// Of one job, so that the layout of its result fits into a file's header. A job that would have
+  /// more is refused when it is created, or fails at its start if its mesh was not meshed before.
+  std::uint64_t max_result_arrays = 1'000'000;
   // Retention of ended jobs:
   int max_kept_jobs = 10'000;                               ///< records; the oldest are erased
   std::chrono::milliseconds result_ttl{7 * 24 * 3600'000};  ///< then the result expires; 0: never

@@ -7,6 +7,7 @@
 
 #include "errors/errors.hpp"
 #include "jobs/case_outcome.hpp"
+#include "jobs/result_block.hpp"
 #include "jobs/sweep_check.hpp"
 #include "jobs/sweep_chunk.hpp"
 #include "jobs/sweep_plan.hpp"
@@ -94,6 +95,8 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
   std::optional<SweepPlan> plan;
   bool stored = false;
   try {
+    require_result_arrays(*job->spec, mesh_operator->mesh().interfaces.size(),
+                          mesh_operator->mesh().subdomains.size(), core.options.max_result_arrays);
     plan = plan_of(core, *job, *mesh_operator);
     stored = store_start(core, snapshot, plan);
   } catch (...) {

@@ -5,7 +5,9 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <tuple>
 
+#include "errors/errors.hpp"
 #include "jobs/trace_arrays.hpp"
 
 namespace anticrack::jobs {
@@ -31,6 +33,11 @@ void add_history(BlockBuilder& builder, const std::string& folder,
 struct Subdomain {
   std::span<const std::int32_t> nodes, triangles;
 };
+
+template <class... Rows>
+constexpr std::uint64_t rows_of(const std::tuple<Rows...>&) {
+  return sizeof...(Rows);
+}
 
 }  // namespace
 
@@ -59,6 +66,26 @@ std::shared_ptr<const store::Block> result_block(const operators::MeshOperator& 
     cases[l].solved.reset();
   }
   return any ? std::make_shared<const store::Block>(builder.finish()) : nullptr;
+}
+
+void require_result_arrays(const store::JobSpec& spec, std::uint64_t interfaces,
+                           std::uint64_t subdomains, std::uint64_t max_arrays) {
+  const std::uint64_t traces = rows_of(arrays::trace<contact::Trace>) * interfaces;
+  std::uint64_t count = rows_of(arrays::interface_nodes<contact::TraceGeometry>) * interfaces;
+  if (spec.sweep) {
+    count += spec.sweep->traces.size() * traces;
+  } else {
+    const std::uint64_t fields = spec.fields ? subdomains : 0;
+    count += rows_of(arrays::subdomain<Subdomain>) * fields +
+             spec.loads.size() * (traces + rows_of(arrays::history<contact::Sample>) + fields);
+  }
+  if (count > max_arrays) {
+    throw errors::Error(errors::Reason::limit_exceeded,
+                        "the result would have " + std::to_string(count) +
+                            " arrays on this mesh and may have " + std::to_string(max_arrays) +
+                            (spec.sweep ? ": keep fewer traces" : ": split the job"))
+        .at(spec.sweep ? "sweep.traces" : "load_cases");
+  }
 }
 
 }  // namespace anticrack::jobs

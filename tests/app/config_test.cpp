@@ -23,6 +23,15 @@ std::string problem_with(const std::string& toml) {
   }
 }
 
+TEST(Config, RefusesAKeyOfManyParts) {
+  std::string key = "listen";
+  for (int i = 0; i < 200'000; ++i) {
+    key += ".a";
+  }
+  EXPECT_EQ(problem_with("threads = 2\n" + key + " = 1\n"),
+            "c.toml:2: a key of more than 32 parts; keys have one");
+}
+
 TEST(Config, TakesEveryKeyOfAFile) {
   const Config config = make_config(parse_config(R"(
 listen = "127.0.0.1:0"

@@ -38,6 +38,39 @@ TEST(EngineLimits, TheQueueIsBoundedButKnowsItsRequests) {
   EXPECT_EQ(test.ended(test.submit(short_job(mesh), "other request")).state, JobState::succeeded);
 }
 
+TEST(EngineLimits, TheArraysOfAResultAreBoundedWhenAJobIsCreated) {
+  EngineOptions options;
+  Engine counted;
+  const store::JobSpec one = short_job(counted.ready_mesh());
+  const std::string id = counted.submit(one);
+  counted.ended(id);
+  options.max_result_arrays = counted.engine.result(id)->arrays().size();
+  Engine test(options);
+  store::JobSpec spec = one;
+  spec.mesh = test.ready_mesh();
+  EXPECT_EQ(test.ended(test.submit(spec)).state, JobState::succeeded);
+  spec.fields = true;
+  EXPECT_TRUE(throws([&] { test.submit(spec); }, Reason::limit_exceeded));
+  spec.fields = false;
+  spec.loads.push_back({"second", 1.0, ""});
+  const auto error = error_of([&] { test.submit(spec); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->reason(), Reason::limit_exceeded);
+  ASSERT_EQ(error->fields().size(), 1U);
+  EXPECT_EQ(error->fields()[0].field, "load_cases");
+  EXPECT_THAT(error->what(), ::testing::HasSubstr("split the job"));
+  // Before its mesh is meshed nobody knows.
+  spec.mesh = test.backend.create(0.07);
+  try {
+    const store::JobRecord failed = test.ended(test.submit(spec));
+    EXPECT_EQ(failed.state, JobState::failed);
+    ASSERT_TRUE(failed.error);
+    EXPECT_EQ(failed.error->reason(), Reason::limit_exceeded);
+  } catch (const errors::Error& early) {
+    EXPECT_EQ(early.reason(), Reason::limit_exceeded);
+  }
+}
+
 TEST(EngineLimits, TheOldestEndedJobsGo) {
   EngineOptions options;
   options.max_kept_jobs = 2;

@@ -312,21 +312,34 @@ TEST(CaseErrors, FileThatIsNotThere) {
 TEST(Complaint, OfAKeyOfManyParts) {
   std::string plain = "a", quoted = "a";
   for (int i = 0; i < 200'000; ++i) plain += ".a";
-  for (int i = 0; i < 400; ++i) {
-    quoted += ".\"=,[]#\"";
-    for (int k = 0; k < 500; ++k) quoted += ".a";
-  }
+  for (int i = 0; i < 40; ++i) quoted += ".\"=,[]#\\\"\"";
+  const std::string problem =
+      ": a key of more than 32 parts; shorten it: known keys have at most 5";
   for (const std::string& key : {plain, quoted}) {
     for (const std::string& text :
          {key + " = 1\n", "[" + key + "]\n", "x = { " + key + " = 1 }\n"}) {
-      EXPECT_EQ(
-          complaint("title = \"long\"\n" + text),
-          "plate.toml:2: a key of more than 1000 parts; shorten it: known keys have at most 3");
+      EXPECT_EQ(complaint("title = \"long\"\n" + text), "plate.toml:2" + problem);
     }
+    EXPECT_EQ(complaint("x = { a = \"\"\"\nit's \\\n\"\"\"\"\", " + key + " = 1 }\n"),
+              "plate.toml:3" + problem);
+    EXPECT_EQ(complaint("title = \"open \\\n" + key + " = 1\n"), "plate.toml:2" + problem);
+    EXPECT_EQ(complaint("", {key + "=1"}), "--set" + problem);
+    EXPECT_NE(complaint("", {"load={ " + key + " = 1 }"}), "");
   }
   const std::string dots(1500, '.');
   EXPECT_EQ(complaint("# " + dots + "\ntitle = \"" + dots + "\"\n").find("parts"),
             std::string::npos);
+  EXPECT_EQ(complaint("", {"title=" + dots}).find("parts"), std::string::npos);
+}
+
+TEST(Complaint, OfTheDeepestNestingThatIsParsed) {
+  std::string key = "a";
+  for (int i = 1; i < 32; ++i) key += ".a";
+  std::string text = key + " = ";
+  for (int i = 0; i < 250; ++i) text += "{ " + key + " = ";
+  text += "1";
+  for (int i = 0; i < 250; ++i) text += " }";
+  EXPECT_NE(complaint(text + "\n"), "");
 }
 
 }  // namespace
