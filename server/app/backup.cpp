@@ -11,7 +11,7 @@ namespace anticrack::app {
 
 int back_up(const Config& config, const std::string& to, std::ostream& out) {
   ::umask(0077);
-  const store::BackedUp made = store::back_up(config.data_dir, to);
+  const store::BackedUp made = store::back_up(config.store.folder, to);
   out << made.folder << ": " << made.files << " files, " << made.bytes
       << " bytes, and the database; it is a data folder itself\n";
   return 0;
