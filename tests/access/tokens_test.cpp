@@ -81,7 +81,7 @@ TEST(Tokens, ExpireAtTheEndOfTheirLastDay) {
     EXPECT_EQ(error.reason(), errors::Reason::unauthenticated);
     EXPECT_THAT(error.what(), ::testing::HasSubstr("expired at the end of 2027-02-28"));
   }
-  for (const std::string& day : {"2027-02-29", "2027-2-28", "28-02-2027", "2027-02-28Z", "never"}) {
+  for (const char* day : {"2027-02-29", "2027-2-28", "28-02-2027", "2027-02-28Z", "never"}) {
     EXPECT_THAT(refusal("ada user " + hash_of("x") + " " + day), ::testing::HasSubstr("YYYY-MM-DD"))
         << day;
   }
