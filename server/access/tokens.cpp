@@ -152,7 +152,8 @@ std::optional<Identity> TokenTable::find(std::string_view token,
   for (const Entry& entry : _entries)  // all of them, so that the time reveals nothing
     if (CRYPTO_memcmp(entry.hash.data(), hash->data(), hash->size()) == 0) found = &entry;
   if (found == nullptr) return std::nullopt;
-  if (found->last_day && now >= std::chrono::sys_days(*found->last_day) + std::chrono::days(1)) {
+  if (found->last_day &&
+      std::chrono::floor<std::chrono::days>(now) > std::chrono::sys_days(*found->last_day)) {
     throw errors::Error(errors::Reason::unauthenticated,
                         "the token expired at the end of " + text_of(*found->last_day) +
                             " (UTC); ask the server's administrator for a new one");

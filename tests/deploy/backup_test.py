@@ -47,7 +47,7 @@ class Backup(BackupTest):
                 while not stop.is_set():
                     turn += 1
                     try:
-                        self.solve(daemon, self.folder / f"load-{number}.h5", "--set", f"load.f={number}+{turn}/100")
+                        self.solve(daemon, self.folder / f"load-{number}.h5", "--set", f"load.half.f={number}+{turn}/100")
                     except AssertionError as error:
                         failures.append(error)
                         return
