@@ -27,6 +27,7 @@ struct JobOptions {
   std::string name;
   std::string output;
   int limit = 50;
+  std::string owner;
 
   std::string full() const { return full_name(Collection::jobs, name); }
 };
@@ -61,19 +62,20 @@ int list_jobs(const JobOptions& options, const Globals& globals) {
   Session session(globals);
   v1::ListJobsRequest request;
   request.set_page_size(options.limit);
+  request.set_owner(options.owner);
   const auto response = client::list_jobs(session.connection(), request, session.stop());
   if (globals.json) {
     print_document(to_json(response));
     return exit_ok;
   }
   std::vector<std::vector<std::string>> rows{
-      {"job", "created", "state", "cases ended", "mesh", "title"}};
+      {"job", "created", "state", "cases ended", "mesh", "owner", "title"}};
   for (const v1::Job& job : response.jobs()) {
     rows.push_back({sanitise(job.name()), clock_text(job.create_time().seconds()),
                     std::string(word(job.state())), ended_text(job), sanitise(job.mesh()),
-                    sanitise(job.title())});
+                    sanitise(job.owner()), sanitise(job.title())});
   }
-  print_document(table(rows, {1, 2, 4, 5}));
+  print_document(table(rows, {1, 2, 4, 5, 6}));
   if (!response.next_page_token().empty()) say(globals, "There are more; see --limit");
   return exit_ok;
 }
@@ -169,7 +171,12 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
       add("submit", "Submit a case and return at once", "paper.toml", submit_case);
   add_case(*submit_command, options->case_file);
   add_case_flags(*submit_command, options->overrides);
-  add_limit(*add("list", "List the newest jobs", "--limit 10", list_jobs), options->limit);
+  CLI::App* list_command = add("list", "List the newest jobs", "--limit 10", list_jobs);
+  add_limit(*list_command, options->limit);
+  list_command
+      ->add_option("--owner", options->owner,
+                   "Only the jobs of this user; others' are for administrators")
+      ->type_name("NAME");
   add_named("show", "Show a job", "", show);
   add_named("watch", "Watch a job until it ends", "", watch_job)
       ->footer(

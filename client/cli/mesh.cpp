@@ -32,6 +32,7 @@ struct MeshOptions {
   bool no_wait = false;
   bool pin = false;
   int limit = 50;
+  std::string owner;
   figures::Options figures;
 };
 
@@ -105,19 +106,21 @@ int list_meshes(const MeshOptions& options, const Globals& globals) {
   Session session(globals);
   v1::ListMeshesRequest request;
   request.set_page_size(options.limit);
+  request.set_owner(options.owner);
   const auto response = client::list_meshes(session.connection(), request, session.stop());
   if (globals.json) {
     print_document(to_json(response));
     return exit_ok;
   }
   std::vector<std::vector<std::string>> rows{
-      {"mesh", "created", "state", "triangles", "nodes", "title"}};
+      {"mesh", "created", "state", "triangles", "nodes", "owner", "title"}};
   for (const v1::Mesh& mesh : response.meshes()) {
     rows.push_back({sanitise(mesh.name()), clock_text(mesh.create_time().seconds()),
                     std::string(word(mesh.state())), std::to_string(mesh.triangle_count()),
-                    std::to_string(mesh.node_count()), sanitise(mesh.title())});
+                    std::to_string(mesh.node_count()), sanitise(mesh.owner()),
+                    sanitise(mesh.title())});
   }
-  print_document(table(rows, {1, 2, 5}));
+  print_document(table(rows, {1, 2, 5, 6}));
   if (!response.next_page_token().empty()) say(globals, "There are more; see --limit");
   return exit_ok;
 }
@@ -192,7 +195,12 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
   add_no_wait(upload_command);
   add_overrides(upload_command);
 
-  add_limit(*add("list", "List the newest meshes", "--limit 10", list_meshes), options->limit);
+  CLI::App* list_command = add("list", "List the newest meshes", "--limit 10", list_meshes);
+  add_limit(*list_command, options->limit);
+  list_command
+      ->add_option("--owner", options->owner,
+                   "Only the meshes of this user; others' are for administrators")
+      ->type_name("NAME");
 
   CLI::App* show_command =
       add("show", "Show a mesh as the server understood it, and draw it",

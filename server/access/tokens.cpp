@@ -4,6 +4,8 @@
 #include <openssl/crypto.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdio>
 #include <iterator>
 #include <map>
 #include <span>
@@ -59,6 +61,34 @@ std::optional<Hash> to_hash(std::string_view text) {
   return hash;
 }
 
+template <class Part>
+bool read_digits(std::string_view text, Part& part) {
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), part);
+  return code == std::errc() && end == text.data() + text.size();
+}
+
+/// YYYY-MM-DD.
+std::optional<std::chrono::year_month_day> to_day(std::string_view text) {
+  unsigned year = 0;
+  unsigned month = 0;
+  unsigned day = 0;
+  if (text.size() != 10 || text[4] != '-' || text[7] != '-' ||
+      !read_digits(text.substr(0, 4), year) || !read_digits(text.substr(5, 2), month) ||
+      !read_digits(text.substr(8), day))
+    return std::nullopt;
+  const std::chrono::year_month_day date{std::chrono::year(static_cast<int>(year)),
+                                         std::chrono::month(month), std::chrono::day(day)};
+  if (!date.ok()) return std::nullopt;
+  return date;
+}
+
+std::string text_of(const std::chrono::year_month_day& date) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%04d-%02u-%02u", static_cast<int>(date.year()),
+                static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
+  return text.data();
+}
+
 }  // namespace
 
 TokenTable TokenTable::parse(std::string_view text, const std::string& origin) {
@@ -70,9 +100,10 @@ TokenTable TokenTable::parse(std::string_view text, const std::string& origin) {
     const std::vector<std::string> words = words_of(line.substr(0, line.find('#')));
     if (words.empty()) continue;
     // The line may contain a token by mistake: errors never repeat it.
-    if (words.size() != 3) {
+    if (words.size() != 3 && words.size() != 4) {
       throw bad_line(origin, number,
-                     std::to_string(words.size()) + " words; write NAME ROLE SHA256");
+                     std::to_string(words.size()) +
+                         " words; write NAME ROLE SHA256 or NAME ROLE SHA256 YYYY-MM-DD");
     }
     if (!is_name(words[0])) {
       throw bad_line(origin, number,
@@ -87,6 +118,15 @@ TokenTable TokenTable::parse(std::string_view text, const std::string& origin) {
                      "the third word must be the token's SHA-256 in 64 lower-case hexadecimal "
                      "digits: printf %s TOKEN | sha256sum");
     }
+    std::optional<std::chrono::year_month_day> last_day;
+    if (words.size() == 4) {
+      last_day = to_day(words[3]);
+      if (!last_day) {
+        throw bad_line(
+            origin, number,
+            "the fourth word must be the token's last day, YYYY-MM-DD (UTC), or missing");
+      }
+    }
     const auto [known, fresh] = roles.emplace(words[0], *role);
     if (!fresh && known->second != *role) {
       throw bad_line(origin, number,
@@ -98,12 +138,13 @@ TokenTable TokenTable::parse(std::string_view text, const std::string& origin) {
                        "the same token is on an earlier line, for \"" + entry.identity.name + "\"");
       }
     }
-    table._entries.push_back({*hash, {known->first, *role}});
+    table._entries.push_back({*hash, {known->first, *role}, last_day});
   }
   return table;
 }
 
-std::optional<Identity> TokenTable::find(std::string_view token) const {
+std::optional<Identity> TokenTable::find(std::string_view token,
+                                         std::chrono::system_clock::time_point now) const {
   store::Sha256 digest;
   digest.add(std::as_bytes(std::span(token)));
   const std::optional<Hash> hash = to_hash(digest.finish());
@@ -111,6 +152,12 @@ std::optional<Identity> TokenTable::find(std::string_view token) const {
   for (const Entry& entry : _entries)  // all of them, so that the time reveals nothing
     if (CRYPTO_memcmp(entry.hash.data(), hash->data(), hash->size()) == 0) found = &entry;
   if (found == nullptr) return std::nullopt;
+  if (found->last_day &&
+      std::chrono::floor<std::chrono::days>(now) > std::chrono::sys_days(*found->last_day)) {
+    throw errors::Error(errors::Reason::unauthenticated,
+                        "the token expired at the end of " + text_of(*found->last_day) +
+                            " (UTC); ask the server's administrator for a new one");
+  }
   return found->identity;
 }
 

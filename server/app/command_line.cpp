@@ -17,7 +17,8 @@ void describe(CLI::App& parser, CommandLine& result, const std::string& version)
   parser.add_option("--config", result.config_file, "TOML file with any of the keys below")
       ->type_name("FILE");
   parser.add_flag("--check-config", result.check_config,
-                  "Print the configuration in effect and stop");
+                  "Print the configuration in effect, check the files it names and stop; "
+                  "exit code 2 if something is wrong");
   CLI::Option* check = parser.add_flag("--check-store", result.check_store,
                                        "Check every record and file of the data folder and stop; "
                                        "the server must not be running; exit code 3 "
@@ -26,6 +27,12 @@ void describe(CLI::App& parser, CommandLine& result, const std::string& version)
       .add_flag("--repair", result.repair,
                 "Move what --check-store finds wrong to a folder set-aside-N in the data folder")
       ->needs(check);
+  parser
+      .add_option("--backup", result.backup,
+                  "Copy the data folder, of which a server may be running, to this new folder and "
+                  "stop; files are hard links where the file system allows it")
+      ->type_name("DIR")
+      ->excludes(check);
   for (const Key& key : keys()) {
     const std::string flag = "--" + key.name;
     const auto set = [&result, name = key.name, flag](const std::string& value) {

@@ -19,6 +19,7 @@ struct CommandLine {
   bool check_config = false;
   bool check_store = false;
   bool repair = false;  ///< what check_store finds
+  std::string backup;   ///< the folder to make; empty: no backup
   /// The output of --help or --version, if one of them was given.
   std::optional<std::string> text;
 };

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // anticrackd: reads the configuration and runs the service until a signal.
+#include <signal.h>
 #include <sys/stat.h>
 
 #include <iostream>
 #include <memory>
 #include <optional>
 
+#include "app/backup.hpp"
+#include "app/check_files.hpp"
 #include "app/command_line.hpp"
 #include "app/config_file.hpp"
 #include "app/notify.hpp"
@@ -23,12 +26,17 @@ using namespace anticrack;
 
 constexpr int usage_error = 2;
 
-/// Waits for the first signal and meanwhile keeps systemd's watchdog informed, if there is one.
-int wait_for_signal(const app::Signals& signals, const app::Service& service) {
+/// Waits for the first signal to stop. Meanwhile SIGHUP reads certificates and tokens again, and
+/// systemd's watchdog, if there is one, is kept informed.
+int wait_for_end(const app::Signals& signals, app::Service& service) {
   const std::optional<std::chrono::milliseconds> interval = app::watchdog_interval();
-  if (!interval) return signals.wait();
   for (;;) {
-    if (const std::optional<int> number = signals.wait_for(*interval)) return *number;
+    const std::optional<int> number = interval ? signals.wait_for(*interval) : signals.wait();
+    if (number && *number != SIGHUP) return *number;
+    if (number) {
+      service.reload();
+      continue;
+    }
     service.check_alive();
     app::notify_alive();
   }
@@ -43,7 +51,7 @@ int serve(const app::Config& config) {
                         {"address", service->address()},
                         {"data", config.store.folder}});
   app::notify_ready("listening on " + service->address());
-  const int number = wait_for_signal(signals, *service);
+  const int number = wait_for_end(signals, *service);
   log::info("stopping", {{"signal", std::to_string(number)}, {"again", "stops at once"}});
   app::notify_stopping("draining; jobs that do not end are queued again at the next start");
   signals.run_unless_interrupted([&] {
@@ -77,9 +85,12 @@ int run(int argc, char** argv) {
                                              : app::read_config_file(line.config_file);
   const app::Config config = app::make_config(file, line.settings);
   if (line.check_config) {
-    std::cout << app::to_toml(config);
-    return 0;
+    std::cout << app::to_toml(config) << std::flush;
+    const std::vector<std::string> problems = app::problems_of_files(config);
+    for (const std::string& problem : problems) std::cerr << "anticrackd: " << problem << "\n";
+    return problems.empty() ? 0 : usage_error;
   }
+  if (!line.backup.empty()) return app::back_up(config, line.backup, std::cout);
   if (line.check_store) return app::check_store(config, line.repair, std::cout);
   return start(config);
 }

@@ -61,6 +61,36 @@ std::vector<std::string> split_names(const std::string& names) {
   return result;
 }
 
+void note_problem(std::vector<std::string>& problems, const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const ConfigError& error) {
+    problems.emplace_back(error.what());
+  }
+}
+
+std::vector<std::string> problems_of_security(const Config& config) {
+  std::vector<std::string> problems;
+  const auto attempt = [&](const std::string& path, const std::function<void()>& check) {
+    if (!path.empty()) note_problem(problems, check);
+  };
+  const std::string& path = config.tls_certificate;
+  std::string certificate, key;
+  attempt(path, [&] { certificate = read_guarded_file("tls-certificate", path, OthersMay::read); });
+  attempt(config.tls_key,
+          [&] { key = read_guarded_file("tls-key", config.tls_key, OthersMay::nothing); });
+  attempt(certificate.empty() ? certificate : key, [&] {
+    if (check_certificate(certificate, key) < 0)
+      throw ConfigError("tls-certificate: " + path +
+                        " has expired; renew it: no client would accept it");
+  });
+  attempt(config.tls_client_roots, [&] {
+    check_roots(read_guarded_file("tls-client-roots", config.tls_client_roots, OthersMay::read));
+  });
+  attempt(config.tokens, [&] { load_tokens(config.tokens); });
+  return problems;
+}
+
 LoadedSecurity load_security(const Config& config) {
   LoadedSecurity loaded;
   if (has_tls(config)) loaded.security.tls = load_tls(config, loaded.warnings);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,14 @@ struct LoadedSecurity {
   std::vector<std::string> warnings;
 };
 
-/// Reads certificates, key and tokens. Changes of the files take effect at the next start. Throws
-/// ConfigError.
+/// Reads certificates, key and tokens. Throws ConfigError.
 LoadedSecurity load_security(const Config& config);
+
+/// Adds the message of the ConfigError that `check` throws, if it does.
+void note_problem(std::vector<std::string>& problems, const std::function<void()>& check);
+
+/// What load_security() would refuse, each file by itself: a sentence each.
+std::vector<std::string> problems_of_security(const Config& config);
 
 /// "ann, bob" -> {"ann", "bob"}; empty names are left out.
 std::vector<std::string> split_names(const std::string& names);

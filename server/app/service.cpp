@@ -22,7 +22,8 @@ namespace anticrack::app {
 
 struct Service::Parts {
   explicit Parts(const Config& config)
-      : address(parse_listen_address(config.listen)),
+      : given(config),
+        address(parse_listen_address(config.listen)),
         drain_delay(config.drain_delay),
         drain_time(config.drain_time),
         metrics(rpc::version(), rpc::build()),
@@ -44,8 +45,14 @@ struct Service::Parts {
     server = std::make_unique<rpc::Server>(options, rpc::Backend{engine, catalogue, cache, *store});
     ready = true;
     if (config.metrics_listen.empty()) return;
-    const std::string where = metrics.listen(config.metrics_listen, [this] { return snapshot(); });
+    const std::string where = metrics.listen(config.metrics_listen, [this] { return page(); });
     log::info("metrics", {{"url", "http://" + where + "/metrics"}});
+  }
+
+  metrics::Snapshot page() const {
+    metrics::Snapshot now = snapshot();
+    now.owners = store->owners();
+    return now;
   }
 
   metrics::Snapshot snapshot() const {
@@ -73,6 +80,7 @@ struct Service::Parts {
     return options;
   }
 
+  const Config given;
   ListenAddress address;
   std::chrono::milliseconds drain_delay;
   std::chrono::milliseconds drain_time;
@@ -109,6 +117,19 @@ void Service::check_alive() const noexcept {
     _parts->snapshot();
   } catch (const std::exception&) {
     // An error shows that nothing is stuck: a bad disk must not get the process killed.
+  }
+}
+
+void Service::reload() noexcept {
+  try {
+    const LoadedSecurity access = load_security(_parts->given);
+    _parts->server->replace(access.security);
+    for (const std::string& warning : access.warnings)
+      log::warn("security", {{"warning", warning}});
+    log::info("read again", {{"files", "certificates, key and tokens, where the server has any"}});
+  } catch (const std::exception& error) {
+    log::error("not read again",
+               {{"message", error.what()}, {"kept", "the certificates, key and tokens in use"}});
   }
 }
 

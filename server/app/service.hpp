@@ -23,6 +23,9 @@ class Service {
   /// Takes the lock of every part. It does not return if one of them is stuck, so that systemd's
   /// watchdog ends the process.
   void check_alive() const noexcept;
+  /// Reads certificates, key and tokens again; new connections and calls use them. If one of them
+  /// is bad, all old ones stay. The log says what happened and why.
+  void reload() noexcept;
   /// Serves as not ready for drain-delay, then stops gently in about drain-time.
   void drain();
 

@@ -50,12 +50,13 @@ Signals::Signals() {
   _reader = ends[0];
   signal_writer = ends[1];
   set_action(SIGPIPE, SIG_IGN);
-  set_action(SIGHUP, SIG_IGN);
+  set_action(SIGHUP, anticrack_note_signal);
   set_action(SIGTERM, anticrack_note_signal);
   set_action(SIGINT, anticrack_note_signal);
 }
 
 Signals::~Signals() {
+  set_action(SIGHUP, SIG_DFL);
   set_action(SIGTERM, SIG_DFL);
   set_action(SIGINT, SIG_DFL);
   ::close(signal_writer.exchange(-1));
@@ -87,7 +88,8 @@ void Signals::run_unless_interrupted(const std::function<void()>& work) const {
   std::array<pollfd, 2> descriptors{pollfd{done, POLLIN, 0}, pollfd{_reader, POLLIN, 0}};
   while ((descriptors[0].revents & POLLIN) == 0) {
     ::poll(descriptors.data(), descriptors.size(), -1);
-    if ((descriptors[1].revents & POLLIN) != 0) std::_Exit(128 + wait());
+    if ((descriptors[1].revents & POLLIN) == 0) continue;
+    if (const int number = wait(); number != SIGHUP) std::_Exit(128 + number);
   }
   thread.join();
   ::close(done);

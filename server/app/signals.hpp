@@ -7,7 +7,7 @@
 
 namespace anticrack::app {
 
-/// Waits for SIGTERM and SIGINT and ignores SIGPIPE and SIGHUP. Uses handlers that write to a pipe:
+/// Waits for SIGTERM, SIGINT and SIGHUP and ignores SIGPIPE. Uses handlers that write to a pipe:
 /// the signals cannot be blocked, as OpenBLAS starts threads before main. One object at a time.
 class Signals {
  public:
@@ -21,7 +21,8 @@ class Signals {
   int wait() const;
   /// The same for at most `time`; none: there was no signal.
   std::optional<int> wait_for(std::chrono::milliseconds time) const;
-  /// Runs `work` on another thread. A signal ends the process at once with status 128 + number.
+  /// Runs `work` on another thread. A signal other than SIGHUP ends the process at once with status
+  /// 128 + number.
   void run_unless_interrupted(const std::function<void()>& work) const;
 
  private:

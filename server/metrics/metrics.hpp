@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Metrics for Prometheus: text over HTTP on a separate port. Names begin with "anticrack_" (except
-// the standard process_*), units are base units, counters end in "_total". No label names a job, a
-// mesh or a user.
+// the standard process_*), units are base units, counters end in "_total". No label names a job or
+// a mesh; a bounded number of owners are labels of the anticrack_owner_* families.
 #pragma once
 
 #include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "jobs/job_engine.hpp"
 #include "operators/operator_cache.hpp"
@@ -22,6 +23,7 @@ struct Snapshot {
   jobs::EngineMetrics engine;
   operators::CacheMetrics cache;
   store::Usage disk;
+  std::vector<store::OwnerUsage> owners;
   std::uint64_t meshings = 0;
   int pending_meshes = 0;
   int watchers = 0;

@@ -4,9 +4,11 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace anticrack::metrics {
@@ -45,6 +47,36 @@ MetricFamily disk_family(const store::Usage& disk) {
   return family;
 }
 
+/// Those with the most bytes and jobs, and the sum of the rest.
+std::vector<store::OwnerUsage> bounded(std::vector<store::OwnerUsage> owners) {
+  if (owners.size() <= most_owners) return owners;
+  std::ranges::sort(owners, [](const store::OwnerUsage& a, const store::OwnerUsage& b) {
+    return std::tie(a.result_bytes, a.jobs, a.owner) > std::tie(b.result_bytes, b.jobs, b.owner);
+  });
+  store::OwnerUsage others{.owner = "(others)"};
+  for (std::size_t i = most_owners; i < owners.size(); ++i) {
+    others.jobs += owners[i].jobs;
+    others.unfinished += owners[i].unfinished;
+    others.result_bytes += owners[i].result_bytes;
+  }
+  owners.resize(most_owners);
+  owners.push_back(std::move(others));
+  return owners;
+}
+
+MetricFamily owner_family(std::string name, std::string help,
+                          const std::vector<store::OwnerUsage>& owners,
+                          std::uint64_t store::OwnerUsage::*amount) {
+  MetricFamily family{std::move(name), std::move(help), MetricType::Gauge, {}};
+  for (const store::OwnerUsage& usage : owners) {
+    ClientMetric metric;
+    metric.label = {{"owner", usage.owner}};
+    metric.gauge.value = static_cast<double>(usage.*amount);
+    family.metric.push_back(std::move(metric));
+  }
+  return family;
+}
+
 double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
 }
@@ -66,6 +98,7 @@ std::ptrdiff_t open_descriptors() {
 std::vector<MetricFamily> server_families(const Snapshot& now) {
   const jobs::EngineMetrics& engine = now.engine;
   const operators::CacheMetrics& cache = now.cache;
+  const std::vector<store::OwnerUsage> owners = bounded(now.owners);
   return {
       counter("anticrack_jobs_created_total", "Jobs acknowledged.", engine.jobs_created),
       counter("anticrack_load_cases_ended_total", "Load cases ended, however.",
@@ -94,6 +127,12 @@ std::vector<MetricFamily> server_families(const Snapshot& now) {
       gauge("anticrack_meshes_pending", "Meshes that wait for the mesher or are in it.",
             now.pending_meshes),
       disk_family(now.disk),
+      owner_family("anticrack_owner_jobs", "Jobs kept, ended ones too, by owner.", owners,
+                   &store::OwnerUsage::jobs),
+      owner_family("anticrack_owner_unfinished_jobs", "Jobs that have not ended, by owner.", owners,
+                   &store::OwnerUsage::unfinished),
+      owner_family("anticrack_owner_result_bytes", "Bytes of results kept, by owner.", owners,
+                   &store::OwnerUsage::result_bytes),
       gauge("anticrack_watchers", "Watches that are open.", now.watchers),
       gauge("anticrack_watch_lag_events", "Events the slowest watcher is behind.", now.largest_lag),
       gauge("anticrack_transfers", "Uploads and downloads under way.", now.transfers),

@@ -9,6 +9,9 @@
 
 namespace anticrack::metrics {
 
+/// Owners with labels of their own; the others together are "(others)".
+constexpr std::size_t most_owners = 50;
+
 /// The families that are read at a scrape. Pure.
 std::vector<prometheus::MetricFamily> server_families(const Snapshot& snapshot);
 

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "api/text.hpp"
 #include "errors/errors.hpp"
@@ -43,18 +44,30 @@ std::string certificate_name(const grpc::CallbackServerContext& call) {
 }  // namespace
 
 Authentication::Authentication(const Security& security)
-    : _tokens(security.tokens),
+    : _tokens(std::make_shared<const access::TokenTable>(security.tokens)),
       _admins(security.admins),
       _certificates(security.tls && !security.tls->client_roots.empty()) {}
 
+void Authentication::replace(access::TokenTable table) {
+  auto made = std::make_shared<const access::TokenTable>(std::move(table));
+  const std::lock_guard lock(_mutex);
+  _tokens.swap(made);
+}
+
+std::shared_ptr<const access::TokenTable> Authentication::tokens() const {
+  const std::lock_guard lock(_mutex);
+  return _tokens;
+}
+
 access::Identity Authentication::identify(const grpc::CallbackServerContext& call) const {
-  if (_tokens.empty() && !_certificates) return {"", access::Role::admin};
-  if (!_tokens.empty()) {
+  const std::shared_ptr<const access::TokenTable> known = tokens();
+  if (known->empty() && !_certificates) return {"", access::Role::admin};
+  if (!known->empty()) {
     const auto [begin, end] = call.client_metadata().equal_range("authorization");
     if (begin != end) {
       const std::optional<std::string_view> token =
           std::next(begin) == end ? bearer_token(view(begin->second)) : std::nullopt;
-      const std::optional<access::Identity> who = token ? _tokens.find(*token) : std::nullopt;
+      const std::optional<access::Identity> who = token ? known->find(*token) : std::nullopt;
       if (who) return *who;
       throw Error(Reason::unauthenticated,
                   token ? "this server does not know the token; ask its administrator for one"
@@ -68,7 +81,7 @@ access::Identity Authentication::identify(const grpc::CallbackServerContext& cal
       const bool admin = std::find(_admins.begin(), _admins.end(), name) != _admins.end();
       return {std::move(name), admin ? access::Role::admin : access::Role::user};
     }
-    if (_tokens.empty()) {
+    if (known->empty()) {
       throw Error(Reason::unauthenticated,
                   "the client certificate has no usable common name (CN); ask for another one");
     }

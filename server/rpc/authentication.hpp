@@ -10,6 +10,8 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -19,7 +21,7 @@
 
 namespace anticrack::rpc {
 
-/// Immutable; thread-safe.
+/// Thread-safe.
 class Authentication {
  public:
   /// Copies what it needs.
@@ -30,8 +32,15 @@ class Authentication {
   /// (unauthenticated); never repeats what was sent.
   access::Identity identify(const grpc::CallbackServerContext& call) const;
 
+  /// Calls that begin from now on need one of these tokens. Neither table, the old or the new, is
+  /// empty where the other is not.
+  void replace(access::TokenTable table);
+
  private:
-  const access::TokenTable _tokens;
+  std::shared_ptr<const access::TokenTable> tokens() const;
+
+  mutable std::mutex _mutex;                          ///< of `_tokens`
+  std::shared_ptr<const access::TokenTable> _tokens;  ///< never null
   const std::vector<std::string> _admins;
   const bool _certificates;
 };

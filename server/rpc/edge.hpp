@@ -45,7 +45,7 @@ struct Edge {
 
   const Backend backend;
   const Limits limits;
-  const Authentication authentication;
+  Authentication authentication;
   Admission admission;
   StreamHub hub;
   WatchGroups watch_groups;

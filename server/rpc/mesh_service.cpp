@@ -64,7 +64,8 @@ grpc::ServerUnaryReactor* MeshService::ListMeshes(grpc::CallbackServerContext* c
                    response->set_next_page_token(fill_page(
                        to_page(request->page_size(), request->page_token()),
                        [&](const std::string& after, std::size_t count) {
-                         return _edge.backend.catalogue.list({after, count, owner_filter(who)});
+                         return _edge.backend.catalogue.list(
+                             {after, count, owner_filter(who, request->owner())});
                        },
                        [&](const store::MeshRecord& record) {
                          return (*response->add_meshes() = to_answer(record)).ByteSizeLong();

@@ -71,7 +71,13 @@ void Admission::require_open() const {
 
 struct Server::State {
   State(const ServerOptions& options, const Backend& backend)
-      : edge(options, backend), meshes(edge), solves(edge), info(edge, options.security) {}
+      : edge(options, backend), meshes(edge), solves(edge), info(edge, options.security) {
+    if (options.security.tls) certificates.emplace(*options.security.tls);
+  }
+
+  std::shared_ptr<grpc::ServerCredentials> credentials() {
+    return certificates ? certificates->credentials() : grpc::InsecureServerCredentials();
+  }
 
   void set_serving(bool serving) {
     grpc::HealthCheckServiceInterface* health = server->GetHealthCheckService();
@@ -83,6 +89,7 @@ struct Server::State {
   MeshService meshes;
   SolveService solves;
   ServerService info;
+  std::optional<Certificates> certificates;
   std::unique_ptr<grpc::Server> server;
   std::string address;
   std::once_flag drained;
@@ -96,7 +103,7 @@ Server::Server(const ServerOptions& options, const Backend& backend)
   grpc::ServerBuilder builder;
   set_arguments(builder);
   int port = 0;
-  builder.AddListeningPort(options.listen, server_credentials(options.security.tls), &port);
+  builder.AddListeningPort(options.listen, _state->credentials(), &port);
   builder.RegisterService(&_state->meshes);
   builder.RegisterService(&_state->solves);
   builder.RegisterService(&_state->info);
@@ -119,6 +126,11 @@ Server::~Server() {
 
 const std::string& Server::address() const noexcept {
   return _state->address;
+}
+
+void Server::replace(const Security& security) {
+  if (_state->certificates && security.tls) _state->certificates->replace(*security.tls);
+  _state->edge.authentication.replace(security.tokens);
 }
 
 void Server::announce_stop() {

@@ -52,13 +52,17 @@ struct ServerOptions {
 class Server {
  public:
   /// Listens and serves when it returns. Throws errors::Error (invalid_argument, field "listen")
-  /// when it cannot, and as server_credentials() does (rpc/tls.hpp).
+  /// when it cannot, and as require_usable() does (rpc/tls.hpp).
   Server(const ServerOptions& options, const Backend& backend);
   /// drain(0s).
   ~Server();
 
   /// HOST:PORT with the real port, or unix:PATH.
   const std::string& address() const noexcept;
+
+  /// Takes other certificates and tokens, of the same kinds as before: new handshakes and new calls
+  /// use them. Throws as require_usable() does (rpc/tls.hpp), and then nothing has changed.
+  void replace(const Security& security);
 
   /// Health says NOT_SERVING from now on; all else goes on. For balancers, which take a moment to
   /// send no more.

@@ -65,17 +65,17 @@ grpc::ServerUnaryReactor* SolveService::GetJob(grpc::CallbackServerContext* cont
 grpc::ServerUnaryReactor* SolveService::ListJobs(grpc::CallbackServerContext* context,
                                                  const v1::ListJobsRequest* request,
                                                  v1::ListJobsResponse* response) {
-  return look_up(_edge, context, "ListJobs", *request,
-                 [this, request, response](const Identity& who) {
-                   response->set_next_page_token(fill_page(
-                       to_page(request->page_size(), request->page_token()),
-                       [&](const std::string& after, std::size_t count) {
-                         return _edge.backend.engine.list({after, count, owner_filter(who)});
-                       },
-                       [&](const store::JobRecord& record) {
-                         return (*response->add_jobs() = from_domain(record)).ByteSizeLong();
-                       }));
-                 });
+  return look_up(
+      _edge, context, "ListJobs", *request, [this, request, response](const Identity& who) {
+        response->set_next_page_token(fill_page(
+            to_page(request->page_size(), request->page_token()),
+            [&](const std::string& after, std::size_t count) {
+              return _edge.backend.engine.list({after, count, owner_filter(who, request->owner())});
+            },
+            [&](const store::JobRecord& record) {
+              return (*response->add_jobs() = from_domain(record)).ByteSizeLong();
+            }));
+      });
 }
 
 grpc::ServerUnaryReactor* SolveService::CancelJob(grpc::CallbackServerContext* context,

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/tls.hpp"
 
+#include <grpc/grpc.h>
 #include <openssl/err.h>
 #include <openssl/pem.h>
 #include <openssl/x509.h>
 
 #include <array>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "errors/errors.hpp"
@@ -94,12 +97,33 @@ void require_valid_today(const X509* certificate) {
   }
 }
 
+/// gRPC's C library takes certificates from a function at each handshake; its C++ classes offer
+/// only certificates that stay, or files that it watches and does not check.
+class FetchedCredentials final : public grpc::ServerCredentials {
+ public:
+  explicit FetchedCredentials(grpc_server_credentials* credentials) : _credentials(credentials) {}
+  ~FetchedCredentials() override { grpc_server_credentials_release(_credentials); }
+  FetchedCredentials(const FetchedCredentials&) = delete;
+  FetchedCredentials& operator=(const FetchedCredentials&) = delete;
+
+  void SetAuthMetadataProcessor(
+      const std::shared_ptr<grpc::AuthMetadataProcessor>& /*processor*/) override {
+    throw std::logic_error("callers are identified by rpc/authentication");
+  }
+
+ private:
+  int AddPortToServer(const std::string& address, grpc_server* server) override {
+    return grpc_server_add_http2_port(server, address.c_str(), _credentials);
+  }
+
+  grpc_server_credentials* _credentials;
+};
+
 }  // namespace
 
-std::shared_ptr<grpc::ServerCredentials> server_credentials(const std::optional<Tls>& tls) {
-  if (!tls) return grpc::InsecureServerCredentials();
-  const std::vector<Certificate> chain = certificates_of(tls->certificate, "tls-certificate");
-  const Key key = key_of(tls->key);
+void require_usable(const Tls& tls) {
+  const std::vector<Certificate> chain = certificates_of(tls.certificate, "tls-certificate");
+  const Key key = key_of(tls.key);
   if (X509_check_private_key(chain.front().get(), key.get()) != 1) {
     ERR_clear_error();
     throw refused("tls-key",
@@ -107,14 +131,40 @@ std::shared_ptr<grpc::ServerCredentials> server_credentials(const std::optional<
                   "tls-certificate");
   }
   require_valid_today(chain.front().get());
-  const bool mutual = !tls->client_roots.empty();
-  if (mutual) certificates_of(tls->client_roots, "tls-client-roots");
-  grpc::SslServerCredentialsOptions options(
-      mutual ? GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY
-             : GRPC_SSL_DONT_REQUEST_CLIENT_CERTIFICATE);
-  options.pem_root_certs = tls->client_roots;
-  options.pem_key_cert_pairs.push_back({tls->key, tls->certificate});
-  return grpc::SslServerCredentials(options);
+  if (!tls.client_roots.empty()) certificates_of(tls.client_roots, "tls-client-roots");
+}
+
+Certificates::Certificates(Tls tls) : _tls(std::move(tls)) {
+  require_usable(_tls);
+}
+
+void Certificates::replace(Tls tls) {
+  require_usable(tls);
+  const std::lock_guard lock(_mutex);
+  _tls = std::move(tls);
+  _fetched = false;
+}
+
+grpc_ssl_certificate_config_reload_status Certificates::fetch(
+    void* self, grpc_ssl_server_certificate_config** config) {
+  auto& source = *static_cast<Certificates*>(self);
+  const std::lock_guard lock(source._mutex);
+  if (source._fetched) return GRPC_SSL_CERTIFICATE_CONFIG_RELOAD_UNCHANGED;
+  const Tls& tls = source._tls;
+  const grpc_ssl_pem_key_cert_pair pair{tls.key.c_str(), tls.certificate.c_str()};
+  *config = grpc_ssl_server_certificate_config_create(
+      tls.client_roots.empty() ? nullptr : tls.client_roots.c_str(), &pair, 1);
+  source._fetched = true;
+  return GRPC_SSL_CERTIFICATE_CONFIG_RELOAD_NEW;
+}
+
+std::shared_ptr<grpc::ServerCredentials> Certificates::credentials() {
+  const bool mutual = !_tls.client_roots.empty();
+  return std::make_shared<FetchedCredentials>(grpc_ssl_server_credentials_create_with_options(
+      grpc_ssl_server_credentials_create_options_using_config_fetcher(
+          mutual ? GRPC_SSL_REQUEST_AND_REQUIRE_CLIENT_CERTIFICATE_AND_VERIFY
+                 : GRPC_SSL_DONT_REQUEST_CLIENT_CERTIFICATE,
+          &Certificates::fetch, this)));
 }
 
 }  // namespace anticrack::rpc

@@ -35,9 +35,11 @@ store::JobRecord visible_job(const Backend& backend, const access::Identity& who
   return visible(who, api::job_name(id), [&] { return backend.engine.get(id); });
 }
 
-std::optional<std::string> owner_filter(const access::Identity& who) {
-  if (who.role == access::Role::admin) return std::nullopt;
-  return who.name;
+std::optional<std::string> owner_filter(const access::Identity& who, const std::string& owner) {
+  if (owner.empty() && who.role == access::Role::admin) return std::nullopt;
+  if (owner.empty() || owner == who.name) return who.name;
+  access::require_admin(who, "list what belongs to others");
+  return owner;
 }
 
 }  // namespace anticrack::rpc

@@ -19,7 +19,8 @@ store::MeshRecord visible_mesh(const Backend& backend, const access::Identity& w
 store::JobRecord visible_job(const Backend& backend, const access::Identity& who,
                              const std::string& id);
 
-/// What Page::owner is to be: an administrator sees all.
-std::optional<std::string> owner_filter(const access::Identity& who);
+/// What Page::owner is to be: an administrator sees all, or what is of `owner` (empty: no filter).
+/// Throws errors::Error (permission_denied) where a user asks for what is another's.
+std::optional<std::string> owner_filter(const access::Identity& who, const std::string& owner);
 
 }  // namespace anticrack::rpc

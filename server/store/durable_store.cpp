@@ -148,6 +148,19 @@ Usage DurableStore::usage() const {
           _usage.bytes(FileKind::upload), database_bytes()};
 }
 
+std::vector<OwnerUsage> DurableStore::owners() const {
+  return reading([](Connection& connection) {
+    Statement select = connection.prepare(
+        "SELECT owner, count(*), sum(ended IS NULL), sum(result_bytes) FROM jobs GROUP BY owner");
+    std::vector<OwnerUsage> owners;
+    while (select.step())
+      owners.push_back({select.text(0), static_cast<std::uint64_t>(select.integer(1)),
+                        static_cast<std::uint64_t>(select.integer(2)),
+                        static_cast<std::uint64_t>(select.integer(3))});
+    return owners;
+  });
+}
+
 std::unique_ptr<Store> open(const StoreOptions& options) {
   return std::make_unique<DurableStore>(options);
 }

@@ -59,6 +59,7 @@ class DurableStore final : public Store {
   std::size_t expire_uploads(Clock::time_point before) override;
 
   Usage usage() const override;
+  std::vector<OwnerUsage> owners() const override;
 
  private:
   struct FileName {

@@ -48,6 +48,14 @@ struct Usage {
   std::uint64_t total() const { return meshes + results + uploads + database; }
 };
 
+/// What one owner has in the store.
+struct OwnerUsage {
+  std::string owner;
+  std::uint64_t jobs = 0;          ///< records, ended ones too
+  std::uint64_t unfinished = 0;    ///< of these, jobs that have not ended
+  std::uint64_t result_bytes = 0;  ///< results that have not expired
+};
+
 /// What retention (jobs/retention.hpp) decides on.
 struct EndedJob {
   std::string id;
@@ -137,6 +145,8 @@ class Store {
 
   /// As counted, without a look at the disk but for the database.
   virtual Usage usage() const = 0;
+  /// Of every owner of a job. O(jobs).
+  virtual std::vector<OwnerUsage> owners() const = 0;
 };
 
 /// Opens or makes the folder. Throws errors::Error (storage): the folder cannot be written, the

@@ -66,6 +66,27 @@ TEST(Tokens, LinesMayEndAsOnWindowsAndTheLastWithoutAnEnd) {
   EXPECT_TRUE(table.find("b"));
 }
 
+TEST(Tokens, ExpireAtTheEndOfTheirLastDay) {
+  std::string text = line("ada", "user", "secret");
+  text.replace(text.size() - 1, 1, " 2027-02-28 # on loan\n");
+  const TokenTable table = TokenTable::parse(text, "tokens.txt");
+  using namespace std::chrono;
+  const sys_days next = year(2027) / March / 1;
+  EXPECT_EQ(table.find("secret", next - seconds(1)), (Identity{"ada", Role::user}));
+  EXPECT_FALSE(table.find("other", next)) << "unknown, not expired";
+  try {
+    table.find("secret", next);
+    FAIL() << "let in";
+  } catch (const errors::Error& error) {
+    EXPECT_EQ(error.reason(), errors::Reason::unauthenticated);
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("expired at the end of 2027-02-28"));
+  }
+  for (const char* day : {"2027-02-29", "2027-2-28", "28-02-2027", "2027-02-28Z", "never"}) {
+    EXPECT_THAT(refusal("ada user " + hash_of("x") + " " + day), ::testing::HasSubstr("YYYY-MM-DD"))
+        << day;
+  }
+}
+
 TEST(Tokens, WhatCannotBeReadIsRefusedWithItsLine) {
   using ::testing::HasSubstr;
   const std::string good = line("ada", "user", "secret");

@@ -95,6 +95,24 @@ TEST_F(Daemon, ChecksItsConfiguration) {
   EXPECT_FALSE(std::filesystem::exists(_folder / "data"));
 }
 
+TEST_F(Daemon, ChecksTheFilesOfItsConfigurationAndNamesEachBadOne) {
+  std::ofstream(_folder / "tokens") << "ann king 00\n";
+  std::ofstream(_folder / "file") << "x";
+  const auto path = [this](const char* name) { return std::string(_folder / name); };
+  Process check({ANTICRACKD, "--check-config", "--tls-certificate", path("none.crt"), "--tls-key",
+                 path("none.key"), "--tls-client-roots", path("file"), "--tokens", path("tokens"),
+                 "--data-dir", path("file") + "/data", "--mesher", path("none")});
+  EXPECT_EQ(check.wait(), 2);
+  for (const std::string& flaw :
+       {"tls-certificate: " + path("none.crt") + " cannot be read",
+        "tls-key: " + path("none.key") + " cannot be read",
+        std::string("tls-client-roots: holds no certificate"),
+        "tokens: " + path("tokens") + ", line 1",
+        "data-dir: " + path("file") + "/data: ", std::string("--mesher PATH")}) {
+    EXPECT_THAT(check.error(), HasSubstr(flaw));
+  }
+}
+
 TEST_F(Daemon, RefusesABadConfigurationInOneLine) {
   std::ofstream(_folder / "c.toml") << "\nthread = 3\n";
   const auto daemon = start({"--config", _folder / "c.toml"});

@@ -5,3 +5,4 @@ import pathlib
 
 DEPLOY = pathlib.Path(os.environ["DEPLOY"])
 SERVER = pathlib.Path(os.environ["SERVER"])
+EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])

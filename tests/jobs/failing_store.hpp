@@ -84,6 +84,7 @@ class FailingStore final : public store::Store {
     return _real.expire_uploads(before);
   }
   store::Usage usage() const override { return _real.usage(); }
+  std::vector<store::OwnerUsage> owners() const override { return _real.owners(); }
 
  private:
   void fail(const std::atomic<bool>& fails) {

@@ -134,6 +134,24 @@ TEST_F(Exposition, HoldsNoMoreMethodsThanThereAre) {
   EXPECT_THAT(text, Not(HasSubstr("/made/up999")));
 }
 
+TEST(Owners, HaveFewLabelsAndNothingIsLeftOut) {
+  Metrics metrics("1.2.3", "GNU 12");
+  const std::string address = metrics.listen("127.0.0.1:0", [] {
+    Snapshot now;
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      now.owners.push_back({"user-" + std::to_string(i), 2, 1, i});
+    }
+    return now;
+  });
+  const std::string text = get("http://" + address + "/metrics");
+  EXPECT_THAT(text, HasSubstr("anticrack_owner_result_bytes{owner=\"user-999\"} 999\n"));
+  EXPECT_THAT(text, HasSubstr("anticrack_owner_jobs{owner=\"user-950\"} 2\n"));
+  EXPECT_THAT(text, Not(HasSubstr("user-949"))) << "fifty of them";
+  EXPECT_THAT(text, HasSubstr("anticrack_owner_jobs{owner=\"(others)\"} 1900\n"));
+  EXPECT_THAT(text, HasSubstr("anticrack_owner_unfinished_jobs{owner=\"(others)\"} 950\n"));
+  EXPECT_THAT(text, HasSubstr("anticrack_owner_result_bytes{owner=\"(others)\"} 450775\n"));
+}
+
 TEST_F(Exposition, CountsFromManyThreads) {
   std::vector<std::thread> threads;
   for (int i = 0; i < 4; ++i) {

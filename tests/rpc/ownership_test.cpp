@@ -83,6 +83,39 @@ TEST_F(Ownership, ListsShowOnesOwn) {
   EXPECT_EQ(list_jobs(admin_token), (std::vector<std::string>{theirs.name(), ours.name()}));
 }
 
+TEST_F(Ownership, AdministratorsListWhatIsOfOneOwner) {
+  v1::Job ours, theirs;
+  ASSERT_TRUE(create_job(owner_token, opening_job(create_mesh(owner_token).name()), ours).ok());
+  ASSERT_TRUE(create_job(other_token, opening_job(create_mesh(other_token).name()), theirs).ok());
+  const auto list = [&](const std::string& token, const std::string& owner, auto& response) {
+    Context context(token);
+    if constexpr (std::is_same_v<decltype(response), v1::ListJobsResponse&>) {
+      v1::ListJobsRequest request;
+      request.set_owner(owner);
+      return server.jobs->ListJobs(&context, request, &response).error_code();
+    } else {
+      v1::ListMeshesRequest request;
+      request.set_owner(owner);
+      return server.meshes->ListMeshes(&context, request, &response).error_code();
+    }
+  };
+  for (const std::string& token : {admin_token, other_token}) {
+    v1::ListJobsResponse jobs;
+    EXPECT_EQ(list(token, "bob", jobs), grpc::StatusCode::OK);
+    ASSERT_EQ(jobs.jobs_size(), 1);
+    EXPECT_EQ(jobs.jobs(0).name(), theirs.name());
+    v1::ListMeshesResponse meshes;
+    EXPECT_EQ(list(token, "bob", meshes), grpc::StatusCode::OK);
+    ASSERT_EQ(meshes.meshes_size(), 1);
+    EXPECT_EQ(meshes.meshes(0).owner(), "bob");
+  }
+  v1::ListJobsResponse jobs;
+  EXPECT_EQ(list(admin_token, "nobody", jobs), grpc::StatusCode::OK);
+  EXPECT_EQ(jobs.jobs_size(), 0);
+  EXPECT_EQ(list(owner_token, "bob", jobs), grpc::StatusCode::PERMISSION_DENIED);
+  EXPECT_EQ(list(owner_token, "nobody", jobs), grpc::StatusCode::PERMISSION_DENIED);
+}
+
 TEST_F(Ownership, AnothersJobIsAsIfItDidNotExist) {
   v1::Job job;
   ASSERT_TRUE(create_job(owner_token, opening_job(create_mesh(owner_token).name()), job).ok());

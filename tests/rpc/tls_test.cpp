@@ -99,7 +99,7 @@ TEST(Tls, ATokenDecidesBeforeTheCertificate) {
 /// The field at fault; the message must contain `what`.
 std::string field_at_fault(const Tls& tls, const std::string& what) {
   try {
-    server_credentials(tls);
+    require_usable(tls);
   } catch (const errors::Error& error) {
     EXPECT_EQ(error.reason(), errors::Reason::invalid_argument);
     EXPECT_THAT(error.what(), ::testing::HasSubstr(what));

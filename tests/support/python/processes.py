@@ -3,6 +3,7 @@
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import tempfile
 import time
@@ -52,6 +53,17 @@ class Daemon:
                 raise RuntimeError("no metrics: " + self.log())
             time.sleep(0.01)
         return found.group(1)
+
+    def hang_up(self):
+        """SIGHUP; returns what the log says of it."""
+        said = len(self.log())
+        self._process.send_signal(signal.SIGHUP)
+        limit = time.monotonic() + 120
+        while "read again" not in (more := self.log()[said:]) or not more.endswith("\n"):
+            if time.monotonic() > limit or self._process.poll() is not None:
+                raise RuntimeError("nothing was read again: " + self.log())
+            time.sleep(0.01)
+        return more
 
     def terminate(self):
         self._process.terminate()
