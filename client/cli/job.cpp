@@ -75,6 +75,7 @@ int list_jobs(const JobOptions& options, const Globals& globals) {
                     std::string(word(job.state())), ended_text(job), sanitise(job.mesh()),
                     sanitise(job.owner()), sanitise(job.title())});
   }
+  drop_if_empty(rows, 5);  // no users: no owners
   print_document(table(rows, {1, 2, 4, 5, 6}));
   if (!response.next_page_token().empty()) say(globals, "There are more; see --limit");
   return exit_ok;

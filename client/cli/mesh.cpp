@@ -120,6 +120,7 @@ int list_meshes(const MeshOptions& options, const Globals& globals) {
                     std::to_string(mesh.node_count()), sanitise(mesh.owner()),
                     sanitise(mesh.title())});
   }
+  drop_if_empty(rows, 5);  // no users: no owners
   print_document(table(rows, {1, 2, 5, 6}));
   if (!response.next_page_token().empty()) say(globals, "There are more; see --limit");
   return exit_ok;

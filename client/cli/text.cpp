@@ -160,4 +160,10 @@ std::string table(const std::vector<std::vector<std::string>>& rows,
   return text;
 }
 
+void drop_if_empty(std::vector<std::vector<std::string>>& rows, std::size_t column) {
+  const auto empty = [&](const auto& row) { return row.at(column).empty(); };
+  if (!std::all_of(rows.begin() + 1, rows.end(), empty)) return;
+  for (auto& row : rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(column));
+}
+
 }  // namespace anticrack::cli

@@ -45,6 +45,9 @@ std::string clock_text(std::int64_t seconds);
 std::string table(const std::vector<std::vector<std::string>>& rows,
                   const std::vector<std::size_t>& left = {});
 
+/// Removes a column of a table that has a title, in the first row, and nothing else.
+void drop_if_empty(std::vector<std::vector<std::string>>& rows, std::size_t column);
+
 /// The word of an enum's number; the first word for an unknown number.
 template <std::size_t count>
 std::string_view word_of(const std::array<std::string_view, count>& words, int number) noexcept {

@@ -152,8 +152,9 @@ grpc_ssl_certificate_config_reload_status Certificates::fetch(
   if (source._fetched) return GRPC_SSL_CERTIFICATE_CONFIG_RELOAD_UNCHANGED;
   const Tls& tls = source._tls;
   const grpc_ssl_pem_key_cert_pair pair{tls.key.c_str(), tls.certificate.c_str()};
-  *config = grpc_ssl_server_certificate_config_create(
-      tls.client_roots.empty() ? nullptr : tls.client_roots.c_str(), &pair, 1);
+  // gRPC insists on roots, though it uses none if clients are not asked for certificates.
+  const std::string& roots = tls.client_roots.empty() ? tls.certificate : tls.client_roots;
+  *config = grpc_ssl_server_certificate_config_create(roots.c_str(), &pair, 1);
   source._fetched = true;
   return GRPC_SSL_CERTIFICATE_CONFIG_RELOAD_NEW;
 }
