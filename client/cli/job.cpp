@@ -172,12 +172,8 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
       add("submit", "Submit a case and return at once", "paper.toml", submit_case);
   add_case(*submit_command, options->case_file);
   add_case_flags(*submit_command, options->overrides);
-  CLI::App* list_command = add("list", "List the newest jobs", "--limit 10", list_jobs);
-  add_limit(*list_command, options->limit);
-  list_command
-      ->add_option("--owner", options->owner,
-                   "Only the jobs of this user; others' are for administrators")
-      ->type_name("NAME");
+  add_list_flags(*add("list", "List the newest jobs", "--limit 10", list_jobs), "jobs",
+                 options->limit, options->owner);
   add_named("show", "Show a job", "", show);
   add_named("watch", "Watch a job until it ends", "", watch_job)
       ->footer(

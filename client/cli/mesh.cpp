@@ -196,12 +196,8 @@ void add_mesh(CLI::App& app, const Globals& globals, Command& chosen) {
   add_no_wait(upload_command);
   add_overrides(upload_command);
 
-  CLI::App* list_command = add("list", "List the newest meshes", "--limit 10", list_meshes);
-  add_limit(*list_command, options->limit);
-  list_command
-      ->add_option("--owner", options->owner,
-                   "Only the meshes of this user; others' are for administrators")
-      ->type_name("NAME");
+  add_list_flags(*add("list", "List the newest meshes", "--limit 10", list_meshes), "meshes",
+                 options->limit, options->owner);
 
   CLI::App* show_command =
       add("show", "Show a mesh as the server understood it, and draw it",

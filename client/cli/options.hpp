@@ -27,12 +27,17 @@ inline void add_case(CLI::App& command, std::string& file) {
   command.add_option("CASE", file, "The case, a TOML file")->required()->type_name("FILE");
 }
 
-/// --limit
-inline void add_limit(CLI::App& command, int& limit) {
+/// --limit and --owner of a command that lists `what`.
+inline void add_list_flags(CLI::App& command, const std::string& what, int& limit,
+                           std::string& owner) {
   command.add_option("--limit", limit, "Show at most this many, from 1 to 1000")
       ->check(CLI::Range(1, 1000).description(""))
       ->type_name("COUNT")
       ->capture_default_str();
+  command
+      .add_option("--owner", owner,
+                  "Only the " + what + " of this user; others' are for administrators")
+      ->type_name("NAME");
 }
 
 /// The options of commands that draw. `options`, which must outlive the app, has their defaults.
