@@ -39,10 +39,13 @@ std::vector<bool> EdgeTable::boundary_nodes(std::size_t node_count) const {
 }
 
 std::span<const EdgeUse> EdgeTable::find(std::int32_t a, std::int32_t b) const noexcept {
-  const auto found =
-      std::ranges::equal_range(_uses, std::pair(std::min(a, b), std::max(a, b)), {},
-                               [](const EdgeUse& use) { return std::pair(use.low(), use.high()); });
-  return {found.begin(), found.end()};
+  const auto [low, high] = std::minmax(a, b);
+  const EdgeUse edge{low, high, 0};
+  const auto [begin, end] = std::equal_range(
+      _uses.begin(), _uses.end(), edge, [](const EdgeUse& one, const EdgeUse& other) {
+        return std::pair(one.low(), one.high()) < std::pair(other.low(), other.high());
+      });
+  return {begin, end};
 }
 
 }  // namespace anticrack::mesh
