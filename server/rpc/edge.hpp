@@ -19,7 +19,7 @@ namespace anticrack::rpc {
 using Context = grpc::CallbackServerContext;
 using Unary = grpc::ServerUnaryReactor;
 template <class Response>
-using Stream = grpc::ServerWriteReactor<Response>;
+using Answers = grpc::ServerWriteReactor<Response>;
 
 /// Of one request: gRPC's own default; what is larger travels in chunks.
 constexpr int max_message_bytes = 4 << 20;

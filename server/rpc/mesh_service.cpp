@@ -64,8 +64,8 @@ Unary* MeshService::ListMeshes(Context* context, const v1::ListMeshesRequest* re
   });
 }
 
-Stream<v1::ReadMeshResponse>* MeshService::ReadMesh(Context* context,
-                                                    const v1::ReadMeshRequest* request) {
+Answers<v1::ReadMeshResponse>* MeshService::ReadMesh(Context* context,
+                                                     const v1::ReadMeshRequest* request) {
   return stream<v1::ReadMeshResponse>(
       _edge, context, StreamKind::transfer, *request, [this, request](const Identity& who) {
         const std::string id = api::mesh_id(request->name(), "name");

@@ -21,8 +21,8 @@ class MeshService final : public v1::MeshService::CallbackService {
   Unary* GetMesh(Context* context, const v1::GetMeshRequest* request, v1::Mesh* response) override;
   Unary* ListMeshes(Context* context, const v1::ListMeshesRequest* request,
                     v1::ListMeshesResponse* response) override;
-  Stream<v1::ReadMeshResponse>* ReadMesh(Context* context,
-                                         const v1::ReadMeshRequest* request) override;
+  Answers<v1::ReadMeshResponse>* ReadMesh(Context* context,
+                                          const v1::ReadMeshRequest* request) override;
   Unary* DeleteMesh(Context* context, const v1::DeleteMeshRequest* request,
                     google::protobuf::Empty* response) override;
   Unary* WarmMesh(Context* context, const v1::WarmMeshRequest* request,

@@ -87,8 +87,8 @@ Unary* SolveService::DeleteJob(Context* context, const v1::DeleteJobRequest* req
   });
 }
 
-Stream<v1::WatchJobResponse>* SolveService::WatchJob(Context* context,
-                                                     const v1::WatchJobRequest* request) {
+Answers<v1::WatchJobResponse>* SolveService::WatchJob(Context* context,
+                                                      const v1::WatchJobRequest* request) {
   return stream<v1::WatchJobResponse>(
       _edge, context, StreamKind::watch, *request, [this, request](const Identity& who) {
         std::string id = api::job_id(request->name(), "name");
@@ -98,8 +98,8 @@ Stream<v1::WatchJobResponse>* SolveService::WatchJob(Context* context,
       });
 }
 
-Stream<v1::ReadResultResponse>* SolveService::ReadResult(Context* context,
-                                                         const v1::ReadResultRequest* request) {
+Answers<v1::ReadResultResponse>* SolveService::ReadResult(Context* context,
+                                                          const v1::ReadResultRequest* request) {
   return stream<v1::ReadResultResponse>(
       _edge, context, StreamKind::transfer, *request, [this, request](const Identity& who) {
         const std::string id = api::job_id(request->name(), "name");

@@ -23,10 +23,10 @@ class SolveService final : public v1::SolveService::CallbackService {
                    v1::Job* response) override;
   Unary* DeleteJob(Context* context, const v1::DeleteJobRequest* request,
                    google::protobuf::Empty* response) override;
-  Stream<v1::WatchJobResponse>* WatchJob(Context* context,
-                                         const v1::WatchJobRequest* request) override;
-  Stream<v1::ReadResultResponse>* ReadResult(Context* context,
-                                             const v1::ReadResultRequest* request) override;
+  Answers<v1::WatchJobResponse>* WatchJob(Context* context,
+                                          const v1::WatchJobRequest* request) override;
+  Answers<v1::ReadResultResponse>* ReadResult(Context* context,
+                                              const v1::ReadResultRequest* request) override;
 
  private:
   Edge& _edge;

@@ -252,8 +252,8 @@ class RefusedStream final : public grpc::ServerWriteReactor<Response> {
 /// then sends what `make_feed` returns
 /// (unique_ptr<Feed<Response>>(const access::Identity&), called on the pool), or its error.
 template <class Response, class MakeFeed>
-Stream<Response>* stream(Edge& edge, Context* context, StreamKind kind,
-                         const google::protobuf::Message& request, MakeFeed make_feed) noexcept {
+Answers<Response>* stream(Edge& edge, Context* context, StreamKind kind,
+                          const google::protobuf::Message& request, MakeFeed make_feed) noexcept {
   try {
     const access::Identity who = edge.authentication.identify(*context);
     api::require_known(request);
