@@ -3,6 +3,8 @@
 // What every method stands on.
 #pragma once
 
+#include <grpcpp/grpcpp.h>
+
 #include <atomic>
 
 #include "rpc/authentication.hpp"
@@ -13,6 +15,11 @@
 #include "rpc/work_pool.hpp"
 
 namespace anticrack::rpc {
+
+using Context = grpc::CallbackServerContext;
+using Unary = grpc::ServerUnaryReactor;
+template <class Response>
+using Answers = grpc::ServerWriteReactor<Response>;
 
 /// Of one request: gRPC's own default; what is larger travels in chunks.
 constexpr int max_message_bytes = 4 << 20;

@@ -15,26 +15,20 @@ class MeshService final : public v1::MeshService::CallbackService {
   explicit MeshService(Edge& edge) : _edge(edge) {}
 
   grpc::ServerReadReactor<v1::UploadMeshRequest>* UploadMesh(
-      grpc::CallbackServerContext* context, v1::UploadMeshResponse* response) override;
-  grpc::ServerUnaryReactor* CreateMesh(grpc::CallbackServerContext* context,
-                                       const v1::CreateMeshRequest* request,
-                                       v1::Mesh* response) override;
-  grpc::ServerUnaryReactor* GetMesh(grpc::CallbackServerContext* context,
-                                    const v1::GetMeshRequest* request, v1::Mesh* response) override;
-  grpc::ServerUnaryReactor* ListMeshes(grpc::CallbackServerContext* context,
-                                       const v1::ListMeshesRequest* request,
-                                       v1::ListMeshesResponse* response) override;
-  grpc::ServerWriteReactor<v1::ReadMeshResponse>* ReadMesh(
-      grpc::CallbackServerContext* context, const v1::ReadMeshRequest* request) override;
-  grpc::ServerUnaryReactor* DeleteMesh(grpc::CallbackServerContext* context,
-                                       const v1::DeleteMeshRequest* request,
-                                       google::protobuf::Empty* response) override;
-  grpc::ServerUnaryReactor* WarmMesh(grpc::CallbackServerContext* context,
-                                     const v1::WarmMeshRequest* request,
-                                     v1::Mesh* response) override;
-  grpc::ServerUnaryReactor* EvictMesh(grpc::CallbackServerContext* context,
-                                      const v1::EvictMeshRequest* request,
-                                      v1::Mesh* response) override;
+      Context* context, v1::UploadMeshResponse* response) override;
+  Unary* CreateMesh(Context* context, const v1::CreateMeshRequest* request,
+                    v1::Mesh* response) override;
+  Unary* GetMesh(Context* context, const v1::GetMeshRequest* request, v1::Mesh* response) override;
+  Unary* ListMeshes(Context* context, const v1::ListMeshesRequest* request,
+                    v1::ListMeshesResponse* response) override;
+  Answers<v1::ReadMeshResponse>* ReadMesh(Context* context,
+                                          const v1::ReadMeshRequest* request) override;
+  Unary* DeleteMesh(Context* context, const v1::DeleteMeshRequest* request,
+                    google::protobuf::Empty* response) override;
+  Unary* WarmMesh(Context* context, const v1::WarmMeshRequest* request,
+                  v1::Mesh* response) override;
+  Unary* EvictMesh(Context* context, const v1::EvictMeshRequest* request,
+                   v1::Mesh* response) override;
 
  private:
   v1::Mesh to_answer(const store::MeshRecord& record) const;

@@ -106,10 +106,9 @@ ServerService::ServerService(const Edge& edge, const Security& security)
   if (!security.tokens.empty()) _features.emplace_back("tokens");
 }
 
-grpc::ServerUnaryReactor* ServerService::GetServerInfo(grpc::CallbackServerContext* context,
-                                                       const v1::GetServerInfoRequest* request,
-                                                       v1::ServerInfo* response) {
-  return answer(_edge, context, "GetServerInfo", *request, [&](const access::Identity&) {
+Unary* ServerService::GetServerInfo(Context* context, const v1::GetServerInfoRequest* request,
+                                    v1::ServerInfo* response) {
+  return answer(_edge, context, *request, [&](const access::Identity&) {
     response->set_version(version());
     response->set_build(build());
     *response->mutable_start_time() = api::message(_start);

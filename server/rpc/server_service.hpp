@@ -17,9 +17,8 @@ class ServerService final : public v1::ServerService::CallbackService {
   /// `security` decides what the features say of it.
   ServerService(const Edge& edge, const Security& security);
 
-  grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,
-                                          const v1::GetServerInfoRequest* request,
-                                          v1::ServerInfo* response) override;
+  Unary* GetServerInfo(Context* context, const v1::GetServerInfoRequest* request,
+                       v1::ServerInfo* response) override;
 
  private:
   const Edge& _edge;

@@ -20,102 +20,88 @@ namespace anticrack::rpc {
 
 using access::Identity;
 
-grpc::ServerUnaryReactor* SolveService::CreateJob(grpc::CallbackServerContext* context,
-                                                  const v1::CreateJobRequest* request,
-                                                  v1::Job* response) {
-  return create(
-      _edge, context, "CreateJob", *request, [this, request, response](const Identity& who) {
-        _edge.admission.require_open();
-        const jobs::EngineOptions& options = _edge.backend.engine.options();
-        const std::string& id = request->request_id();
-        api::require_request_id(id);
-        const std::string print = id.empty() ? "" : api::fingerprint(request->job());
-        // First: a retry is answered whatever the limits are now.
-        if (const auto made = _edge.backend.engine.submitted(who.name, id, print)) {
-          *response = from_domain(*made);
-          return;
-        }
-        store::JobSpec spec = api::to_spec(
-            request->job(),
-            {options.max_load_cases, options.max_iterations, options.queue_time, options.run_time});
-        try {
-          visible_mesh(_edge.backend, who, spec.mesh);
-          if (has_packed_matrix(request->job())) {
-            jobs::check(spec, options);  // what is refused leaves nothing on the disk
-            keep_packed_matrix(request->job(), _edge.backend.store, who.name);
-          }
-          *response =
-              from_domain(_edge.backend.engine.submit({std::move(spec), who.name, id, print}));
-        } catch (const errors::Error& error) {
-          throw api::below_job_request(error);
-        }
-      });
+Unary* SolveService::CreateJob(Context* context, const v1::CreateJobRequest* request,
+                               v1::Job* response) {
+  return create(_edge, context, *request, [this, request, response](const Identity& who) {
+    _edge.admission.require_open();
+    const jobs::EngineOptions& options = _edge.backend.engine.options();
+    const std::string& id = request->request_id();
+    api::require_request_id(id);
+    const std::string print = id.empty() ? "" : api::fingerprint(request->job());
+    // First: a retry is answered whatever the limits are now.
+    if (const auto made = _edge.backend.engine.submitted(who.name, id, print)) {
+      *response = from_domain(*made);
+      return;
+    }
+    store::JobSpec spec = api::to_spec(
+        request->job(),
+        {options.max_load_cases, options.max_iterations, options.queue_time, options.run_time});
+    try {
+      visible_mesh(_edge.backend, who, spec.mesh);
+      if (has_packed_matrix(request->job())) {
+        jobs::check(spec, options);  // what is refused leaves nothing on the disk
+        keep_packed_matrix(request->job(), _edge.backend.store, who.name);
+      }
+      *response = from_domain(_edge.backend.engine.submit({std::move(spec), who.name, id, print}));
+    } catch (const errors::Error& error) {
+      throw api::below_job_request(error);
+    }
+  });
 }
 
-grpc::ServerUnaryReactor* SolveService::GetJob(grpc::CallbackServerContext* context,
-                                               const v1::GetJobRequest* request,
-                                               v1::Job* response) {
-  return look_up(
-      _edge, context, "GetJob", *request, [this, request, response](const Identity& who) {
-        *response =
-            from_domain(visible_job(_edge.backend, who, api::job_id(request->name(), "name")));
-      });
+Unary* SolveService::GetJob(Context* context, const v1::GetJobRequest* request, v1::Job* response) {
+  return look_up(_edge, context, *request, [this, request, response](const Identity& who) {
+    *response = from_domain(visible_job(_edge.backend, who, api::job_id(request->name(), "name")));
+  });
 }
 
-grpc::ServerUnaryReactor* SolveService::ListJobs(grpc::CallbackServerContext* context,
-                                                 const v1::ListJobsRequest* request,
-                                                 v1::ListJobsResponse* response) {
-  return look_up(
-      _edge, context, "ListJobs", *request, [this, request, response](const Identity& who) {
-        response->set_next_page_token(fill_page(
-            to_page(request->page_size(), request->page_token()),
-            [&](const std::string& after, std::size_t count) {
-              return _edge.backend.engine.list({after, count, owner_filter(who, request->owner())});
-            },
-            [&](const store::JobRecord& record) {
-              return (*response->add_jobs() = from_domain(record)).ByteSizeLong();
-            }));
-      });
+Unary* SolveService::ListJobs(Context* context, const v1::ListJobsRequest* request,
+                              v1::ListJobsResponse* response) {
+  return look_up(_edge, context, *request, [this, request, response](const Identity& who) {
+    response->set_next_page_token(fill_page(
+        to_page(request->page_size(), request->page_token()),
+        [&](const std::string& after, std::size_t count) {
+          return _edge.backend.engine.list({after, count, owner_filter(who, request->owner())});
+        },
+        [&](const store::JobRecord& record) {
+          return (*response->add_jobs() = from_domain(record)).ByteSizeLong();
+        }));
+  });
 }
 
-grpc::ServerUnaryReactor* SolveService::CancelJob(grpc::CallbackServerContext* context,
-                                                  const v1::CancelJobRequest* request,
-                                                  v1::Job* response) {
-  return change(_edge, context, "CancelJob", *request,
-                [this, request, response](const Identity& who) {
-                  const std::string id = api::job_id(request->name(), "name");
-                  visible_job(_edge.backend, who, id);
-                  *response = from_domain(_edge.backend.engine.cancel(id));
-                });
+Unary* SolveService::CancelJob(Context* context, const v1::CancelJobRequest* request,
+                               v1::Job* response) {
+  return change(_edge, context, *request, [this, request, response](const Identity& who) {
+    const std::string id = api::job_id(request->name(), "name");
+    visible_job(_edge.backend, who, id);
+    *response = from_domain(_edge.backend.engine.cancel(id));
+  });
 }
 
-grpc::ServerUnaryReactor* SolveService::DeleteJob(grpc::CallbackServerContext* context,
-                                                  const v1::DeleteJobRequest* request,
-                                                  google::protobuf::Empty* /*response*/) {
-  return change(_edge, context, "DeleteJob", *request, [this, request](const Identity& who) {
+Unary* SolveService::DeleteJob(Context* context, const v1::DeleteJobRequest* request,
+                               google::protobuf::Empty* /*response*/) {
+  return change(_edge, context, *request, [this, request](const Identity& who) {
     const std::string id = api::job_id(request->name(), "name");
     visible_job(_edge.backend, who, id);
     _edge.backend.engine.erase(id);
   });
 }
 
-grpc::ServerWriteReactor<v1::WatchJobResponse>* SolveService::WatchJob(
-    grpc::CallbackServerContext* context, const v1::WatchJobRequest* request) {
-  return stream<v1::WatchJobResponse>(_edge, context, StreamKind::watch, "WatchJob", *request,
-                                      [this, request](const Identity& who) {
-                                        std::string id = api::job_id(request->name(), "name");
-                                        visible_job(_edge.backend, who, id);
-                                        return std::make_unique<WatchFeed>(
-                                            _edge.backend, _edge.watch_groups, std::move(id),
-                                            request->after_sequence());
-                                      });
+Answers<v1::WatchJobResponse>* SolveService::WatchJob(Context* context,
+                                                      const v1::WatchJobRequest* request) {
+  return stream<v1::WatchJobResponse>(
+      _edge, context, StreamKind::watch, *request, [this, request](const Identity& who) {
+        std::string id = api::job_id(request->name(), "name");
+        visible_job(_edge.backend, who, id);
+        return std::make_unique<WatchFeed>(_edge.backend, _edge.watch_groups, std::move(id),
+                                           request->after_sequence());
+      });
 }
 
-grpc::ServerWriteReactor<v1::ReadResultResponse>* SolveService::ReadResult(
-    grpc::CallbackServerContext* context, const v1::ReadResultRequest* request) {
+Answers<v1::ReadResultResponse>* SolveService::ReadResult(Context* context,
+                                                          const v1::ReadResultRequest* request) {
   return stream<v1::ReadResultResponse>(
-      _edge, context, StreamKind::transfer, "ReadResult", *request,
-      [this, request](const Identity& who) {
+      _edge, context, StreamKind::transfer, *request, [this, request](const Identity& who) {
         const std::string id = api::job_id(request->name(), "name");
         visible_job(_edge.backend, who, id);
         return std::make_unique<BlockFeed<v1::ReadResultResponse>>(_edge.backend.engine.result(id),

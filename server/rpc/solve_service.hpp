@@ -14,24 +14,19 @@ class SolveService final : public v1::SolveService::CallbackService {
  public:
   explicit SolveService(Edge& edge) : _edge(edge) {}
 
-  grpc::ServerUnaryReactor* CreateJob(grpc::CallbackServerContext* context,
-                                      const v1::CreateJobRequest* request,
-                                      v1::Job* response) override;
-  grpc::ServerUnaryReactor* GetJob(grpc::CallbackServerContext* context,
-                                   const v1::GetJobRequest* request, v1::Job* response) override;
-  grpc::ServerUnaryReactor* ListJobs(grpc::CallbackServerContext* context,
-                                     const v1::ListJobsRequest* request,
-                                     v1::ListJobsResponse* response) override;
-  grpc::ServerUnaryReactor* CancelJob(grpc::CallbackServerContext* context,
-                                      const v1::CancelJobRequest* request,
-                                      v1::Job* response) override;
-  grpc::ServerUnaryReactor* DeleteJob(grpc::CallbackServerContext* context,
-                                      const v1::DeleteJobRequest* request,
-                                      google::protobuf::Empty* response) override;
-  grpc::ServerWriteReactor<v1::WatchJobResponse>* WatchJob(
-      grpc::CallbackServerContext* context, const v1::WatchJobRequest* request) override;
-  grpc::ServerWriteReactor<v1::ReadResultResponse>* ReadResult(
-      grpc::CallbackServerContext* context, const v1::ReadResultRequest* request) override;
+  Unary* CreateJob(Context* context, const v1::CreateJobRequest* request,
+                   v1::Job* response) override;
+  Unary* GetJob(Context* context, const v1::GetJobRequest* request, v1::Job* response) override;
+  Unary* ListJobs(Context* context, const v1::ListJobsRequest* request,
+                  v1::ListJobsResponse* response) override;
+  Unary* CancelJob(Context* context, const v1::CancelJobRequest* request,
+                   v1::Job* response) override;
+  Unary* DeleteJob(Context* context, const v1::DeleteJobRequest* request,
+                   google::protobuf::Empty* response) override;
+  Answers<v1::WatchJobResponse>* WatchJob(Context* context,
+                                          const v1::WatchJobRequest* request) override;
+  Answers<v1::ReadResultResponse>* ReadResult(Context* context,
+                                              const v1::ReadResultRequest* request) override;
 
  private:
   Edge& _edge;

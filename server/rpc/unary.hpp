@@ -16,25 +16,24 @@
 
 namespace anticrack::rpc {
 
-/// Of what `work` throws; OK where it returns. `method` goes to the log with an unexpected
-/// exception.
+/// Of what `work` throws; OK where it returns. The request's type goes to the log with an
+/// unexpected exception.
 template <class Work>
-grpc::Status status_of(const char* method, Work&& work) noexcept {
+grpc::Status status_of(const google::protobuf::Message& request, Work&& work) noexcept {
   try {
     std::forward<Work>(work)();
     return grpc::Status::OK;
   } catch (...) {
-    return to_status(current_error(method));
+    return to_status(current_error(request.GetDescriptor()->name()));
   }
 }
 
 /// On gRPC's thread: for what is in memory.
 template <class Work>
-grpc::ServerUnaryReactor* answer(const Edge& edge, grpc::CallbackServerContext* context,
-                                 const char* method, const google::protobuf::Message& request,
-                                 Work&& work) noexcept {
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  reactor->Finish(status_of(method, [&] {
+Unary* answer(const Edge& edge, Context* context, const google::protobuf::Message& request,
+              Work&& work) noexcept {
+  Unary* reactor = context->DefaultReactor();
+  reactor->Finish(status_of(request, [&] {
     const access::Identity who = edge.authentication.identify(*context);
     api::require_known(request);
     work(who);
@@ -44,19 +43,18 @@ grpc::ServerUnaryReactor* answer(const Edge& edge, grpc::CallbackServerContext* 
 
 /// On one of the edge's pools. Refuses when `limit` calls wait there.
 template <class Work>
-grpc::ServerUnaryReactor* answer_on(const Edge& edge, WorkPool& pool, std::size_t limit,
-                                    grpc::CallbackServerContext* context, const char* method,
-                                    const google::protobuf::Message& request, Work work) noexcept {
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  const grpc::Status posted = status_of(method, [&] {
+Unary* answer_on(const Edge& edge, WorkPool& pool, std::size_t limit, Context* context,
+                 const google::protobuf::Message& request, Work work) noexcept {
+  Unary* reactor = context->DefaultReactor();
+  const grpc::Status posted = status_of(request, [&] {
     // Here and not on the pool: a stranger takes no place in its queue.
     const access::Identity who = edge.authentication.identify(*context);
     if (pool.waiting() >= limit)
       throw errors::Error(errors::Reason::busy,
                           "too many calls wait to be taken up; try again later")
           .retry_after(std::chrono::seconds(1));
-    pool.post([reactor, method, &request, work, who] {
-      reactor->Finish(status_of(method, [&] {
+    pool.post([reactor, &request, work, who] {
+      reactor->Finish(status_of(request, [&] {
         api::require_known(request);
         work(who);
       }));
@@ -68,29 +66,26 @@ grpc::ServerUnaryReactor* answer_on(const Edge& edge, WorkPool& pool, std::size_
 
 /// For what reads the store.
 template <class Work>
-grpc::ServerUnaryReactor* look_up(Edge& edge, grpc::CallbackServerContext* context,
-                                  const char* method, const google::protobuf::Message& request,
-                                  Work work) noexcept {
-  return answer_on(edge, edge.lookups, edge.limits.waiting_calls, context, method, request,
+Unary* look_up(Edge& edge, Context* context, const google::protobuf::Message& request,
+               Work work) noexcept {
+  return answer_on(edge, edge.lookups, edge.limits.waiting_calls, context, request,
                    std::move(work));
 }
 
 /// For what writes to the store.
 template <class Work>
-grpc::ServerUnaryReactor* change(Edge& edge, grpc::CallbackServerContext* context,
-                                 const char* method, const google::protobuf::Message& request,
-                                 Work work) noexcept {
-  return answer_on(edge, edge.changes, edge.limits.waiting_calls, context, method, request,
+Unary* change(Edge& edge, Context* context, const google::protobuf::Message& request,
+              Work work) noexcept {
+  return answer_on(edge, edge.changes, edge.limits.waiting_calls, context, request,
                    std::move(work));
 }
 
 /// As change(), with a bound of their own, because their requests are large: a cancel still gets
 /// through when these are refused.
 template <class Work>
-grpc::ServerUnaryReactor* create(Edge& edge, grpc::CallbackServerContext* context,
-                                 const char* method, const google::protobuf::Message& request,
-                                 Work work) noexcept {
-  return answer_on(edge, edge.changes, edge.limits.waiting_creations, context, method, request,
+Unary* create(Edge& edge, Context* context, const google::protobuf::Message& request,
+              Work work) noexcept {
+  return answer_on(edge, edge.changes, edge.limits.waiting_creations, context, request,
                    std::move(work));
 }
 

@@ -252,10 +252,8 @@ class RefusedStream final : public grpc::ServerWriteReactor<Response> {
 /// then sends what `make_feed` returns
 /// (unique_ptr<Feed<Response>>(const access::Identity&), called on the pool), or its error.
 template <class Response, class MakeFeed>
-grpc::ServerWriteReactor<Response>* stream(Edge& edge, grpc::CallbackServerContext* context,
-                                           StreamKind kind, const char* method,
-                                           const google::protobuf::Message& request,
-                                           MakeFeed make_feed) noexcept {
+Answers<Response>* stream(Edge& edge, Context* context, StreamKind kind,
+                          const google::protobuf::Message& request, MakeFeed make_feed) noexcept {
   try {
     const access::Identity who = edge.authentication.identify(*context);
     api::require_known(request);
@@ -264,7 +262,7 @@ grpc::ServerWriteReactor<Response>* stream(Edge& edge, grpc::CallbackServerConte
     call->start(client_of(who, *context));
     return call.get();
   } catch (...) {
-    return new RefusedStream<Response>(to_status(current_error(method)));
+    return new RefusedStream<Response>(to_status(current_error(request.GetDescriptor()->name())));
   }
 }
 
