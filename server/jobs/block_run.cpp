@@ -32,8 +32,7 @@ std::vector<EndedCase> BlockRun::step() {
       const std::unique_ptr<Column> column =
           std::move(_places[static_cast<std::size_t>(result.place)]);
       --_columns;
-      if (!column->abandoned)
-        ended.push_back({column->task, outcome_of(*column, std::move(result.answer))});
+      if (!column->abandoned) ended.push_back({column->task, outcome_of(*column, result.answer)});
     }
   } catch (...) {
     for (EndedCase& other : end_all(std::current_exception())) ended.push_back(std::move(other));
@@ -58,9 +57,9 @@ void BlockRun::tell() {
   flush();
 }
 
-CaseOutcome BlockRun::outcome_of(Column& column, contact::Answer answer) {
+CaseOutcome BlockRun::outcome_of(const Column& column, const contact::Answer& answer) {
   try {
-    return solved_case(column.task, std::move(answer), column.history.take_history());
+    return solved_case(column.task, answer, column.history.history());
   } catch (...) {
     return failed_case(column.task, std::current_exception());
   }

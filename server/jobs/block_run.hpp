@@ -59,7 +59,7 @@ class BlockRun {
 
   /// Tells the jobs' logs of the iteration, at once for columns of one job that lie together.
   void tell();
-  static CaseOutcome outcome_of(Column& column, contact::Answer answer);
+  static CaseOutcome outcome_of(const Column& column, const contact::Answer& answer);
   std::vector<EndedCase> end_all(const std::exception_ptr& failure);
 
   const int _capacity;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "errors/errors.hpp"
+#include "jobs/result_block.hpp"
 
 namespace anticrack::jobs {
 
@@ -70,25 +71,14 @@ Error error_of(const std::exception_ptr& failure) {
   }
 }
 
-std::uint64_t bytes_of(const SolvedCase& solved) {
-  std::uint64_t bytes = solved.history.size() * sizeof(contact::Sample);
-  for (const contact::Trace& trace : solved.answer.traces)
-    bytes += trace.jump.size() * (4 * sizeof(double) + sizeof(std::int32_t));
-  for (const contact::Field& field : solved.answer.fields)
-    bytes += field.u.size() * (sizeof(double) + sizeof(std::int32_t));
-  return bytes;
-}
-
-CaseOutcome solved_case(const Task& task, contact::Answer answer,
-                        std::vector<contact::Sample> history) {
+CaseOutcome solved_case(const Task& task, const contact::Answer& answer,
+                        const std::vector<contact::Sample>& history) {
   auto record = new_record(task, answer.status);
   record->answer = answer;  // without its arrays
-  std::unique_ptr<SolvedCase> solved;
-  if (record->status != Status::cancelled) {
-    answer.side_traces = {};
-    solved = std::make_unique<SolvedCase>(SolvedCase{std::move(answer), std::move(history)});
-  }
-  return {std::move(record), std::move(solved)};
+  CaseOutcome outcome{std::move(record)};
+  if (answer.status != Status::cancelled)
+    outcome.result = spooled(*task.job->spool, case_arrays(task.index, answer, history));
+  return outcome;
 }
 
 CaseOutcome failed_case(const Task& task, const std::exception_ptr& failure) {
@@ -96,7 +86,7 @@ CaseOutcome failed_case(const Task& task, const std::exception_ptr& failure) {
   if (error.reason() == Reason::cancelled) return cancelled_case(task);
   auto record = new_record(task, Status::failed);
   record->error = placed(error, task.index);
-  return {std::move(record), nullptr};
+  return {std::move(record)};
 }
 
 CaseOutcome refused_case(const Task& task, std::uint64_t max_result_bytes) {
@@ -107,11 +97,11 @@ CaseOutcome refused_case(const Task& task, std::uint64_t max_result_bytes) {
                                         " bytes, the limit of a job: split the job, or leave its "
                                         "fields out"),
       task.index);
-  return {std::move(record), nullptr};
+  return {std::move(record)};
 }
 
 CaseOutcome cancelled_case(const Task& task) {
-  return {new_record(task, Status::cancelled), nullptr};
+  return {new_record(task, Status::cancelled)};
 }
 
 }  // namespace anticrack::jobs

@@ -17,7 +17,7 @@ namespace anticrack::jobs {
 
 struct CaseOutcome {
   std::shared_ptr<const store::CaseRecord> record;
-  std::unique_ptr<SolvedCase> solved;  ///< converged and not_converged only
+  std::optional<ResultPart> result{};  ///< converged and not_converged only
 };
 
 /// Keeps a load case's history, and stops it when its job is to stop. One object belongs to the
@@ -29,7 +29,7 @@ class History : public contact::Observer {
   bool on_iteration(const contact::Sample& sample) override;
   /// The load case has ended for its job: nothing more is kept of it.
   void give_up() noexcept { _given_up = true; }
-  std::vector<contact::Sample> take_history() { return std::move(_samples); }
+  const std::vector<contact::Sample>& history() const noexcept { return _samples; }
 
   EventLog& log() const noexcept { return *_log; }
   std::int32_t load_case() const noexcept { return _load_case; }
@@ -53,12 +53,10 @@ class Recorder final : public History {
   bool on_iteration(const contact::Sample& sample) override;
 };
 
-/// Memory of an answer's arrays.
-std::uint64_t bytes_of(const SolvedCase& solved);
-
-/// The end of a load case that was solved or stopped; `history`: its iterations.
-CaseOutcome solved_case(const Task& task, contact::Answer answer,
-                        std::vector<contact::Sample> history);
+/// The end of a load case that was solved or stopped; `history`: its iterations. Its arrays go into
+/// the job's spool.
+CaseOutcome solved_case(const Task& task, const contact::Answer& answer,
+                        const std::vector<contact::Sample>& history);
 /// What was thrown, whatever it is.
 errors::Error error_of(const std::exception_ptr& failure);
 

@@ -29,6 +29,16 @@ bool is_of_the_disk(const Error& error) {
   return error.reason() == Reason::disk_full || error.reason() == Reason::storage;
 }
 
+Error lost(const std::exception& exception) {
+  if (dynamic_cast<const std::bad_alloc*>(&exception) != nullptr) {
+    return {Reason::limit_exceeded,
+            "not enough memory for the result: split the job, or leave its fields out"};
+  }
+  const auto* error = dynamic_cast<const Error*>(&exception);
+  return {error ? error->reason() : Reason::internal,
+          std::string("the result was lost: ") + exception.what()};
+}
+
 void set_state(store::JobRecord& record, JobState state, const std::optional<Error>& error) {
   record.state = state;
   record.error = error;
@@ -77,18 +87,16 @@ EndingThread::End EndingThread::conclude_job(Lock& lock, const JobPtr& job) {
     if (job->sweep) {
       const auto unsolved =
           outcome.state == JobState::failed ? contact::Status::failed : contact::Status::cancelled;
-      end.result = sweep_result(*job->mesh_operator, *job->sweep, unsolved);
+      end.result = sweep_result(*job, unsolved);
     } else if (job->mesh_operator) {
-      end.result = result_block(*job->mesh_operator, job->cases);
+      end.result = result_block(*job);
     }
-    end.record.result_bytes = end.result ? end.result->bytes.size() : 0;
-  } catch (const std::exception&) {
-    set_state(end.record, JobState::failed,
-              Error(Reason::limit_exceeded,
-                    "not enough memory for the result: split the job, or "
-                    "leave its fields out"));
+    end.record.result_bytes = end.result ? end.result->size() : 0;
+  } catch (const std::exception& exception) {
+    set_state(end.record, JobState::failed, lost(exception));
   }
   job->mesh_operator.reset();  // however long the disk takes
+  job->spool.reset();
   if (job->sweep) {
     job->sweep->basis.reset();
     job->sweep->chunks.clear();
@@ -114,9 +122,7 @@ void EndingThread::write(Lock& lock, End end) {
     const auto* error = dynamic_cast<const Error*>(&exception);
     if (end.result && !(error && is_of_the_disk(*error))) {
       // No later try would do better.
-      set_state(end.record, JobState::failed,
-                Error(error ? error->reason() : Reason::internal,
-                      std::string("the result was lost: ") + exception.what()));
+      set_state(end.record, JobState::failed, lost(exception));
       end.record.result_bytes = 0;
       end.result.reset();
     }

@@ -34,7 +34,7 @@ class EndingThread {
   struct End {
     JobPtr job;
     store::JobRecord record;
-    std::shared_ptr<const store::Block> result;
+    std::shared_ptr<const store::BlockSource> result;
     Clock::time_point next_try{};
   };
 

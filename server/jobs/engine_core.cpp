@@ -70,6 +70,7 @@ void EngineCore::settle(const JobPtr& job) {
     running -= job->state == JobState::running ? 1 : 0;
     job->state = JobState::queued;
     job->mesh_operator.reset();
+    job->spool.reset();
     job->sweep.reset();
     job->sweep_record = {};
   } else {
@@ -102,9 +103,9 @@ void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
   if (cases.empty()) return;
   for (EndedCase& ended_case : cases) {
     LiveJob& job = *ended_case.task.job;
-    if (ended_case.outcome.solved && job.result_bytes > options.max_result_bytes)
+    if (ended_case.outcome.result && job.result_bytes > options.max_result_bytes)
       ended_case.outcome = refused_case(ended_case.task, options.max_result_bytes);
-    job.result_bytes += ended_case.outcome.solved ? bytes_of(*ended_case.outcome.solved) : 0;
+    job.result_bytes += ended_case.outcome.result ? ended_case.outcome.result->run.bytes : 0;
   }
   lock.unlock();
   for (const EndedCase& ended_case : cases) {
@@ -117,7 +118,7 @@ void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
     LiveCase& live_case = job->cases[ended_case.task.index];
     live_case.running = false;
     live_case.record = std::move(ended_case.outcome.record);
-    live_case.solved = std::move(ended_case.outcome.solved);
+    live_case.result = std::move(ended_case.outcome.result);
     --job->active;
     ++cases_ended;
     --job->queued_cases;
@@ -132,8 +133,8 @@ void EngineCore::deliver(Lock& lock, EndedChunk chunk) {
   lock.unlock();
   if (chunk.failure)
     stop(job, Stop::failed, chunk.failure);
-  else if (chunk.solved.columns)
-    job->log->append(RowsEvent{job->sweep->plan.first_row(place), chunk.solved.columns});
+  else if (chunk.columns)
+    job->log->append(RowsEvent{job->sweep->plan.first_row(place), chunk.columns});
   lock.lock();
   cases_ended += chunk.record.converged + chunk.record.not_converged;
   jobs::add(job->sweep_record, chunk.record);

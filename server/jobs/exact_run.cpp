@@ -26,7 +26,7 @@ Solved solve(const PreparedCase& prepared, std::atomic<std::uint64_t>& iteration
     Recorder recorder(prepared.task, iterations);
     solved.answer = prepared.task.job->mesh_operator->solve(prepared.load, spec_of(prepared).solver,
                                                             false, recorder);
-    solved.history = recorder.take_history();
+    solved.history = recorder.history();
   } catch (...) {
     solved.failure = std::current_exception();
   }
@@ -77,9 +77,10 @@ std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases,
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Task& task = cases[i].task;
     try {
-      ended.push_back({task, solved[i].failure ? failed_case(task, solved[i].failure)
-                                               : solved_case(task, std::move(solved[i].answer),
-                                                             std::move(solved[i].history))});
+      ended.push_back({task, solved[i].failure
+                                 ? failed_case(task, solved[i].failure)
+                                 : solved_case(task, solved[i].answer, solved[i].history)});
+      solved[i] = {};  // its arrays are in the spool
     } catch (...) {
       ended.push_back({task, failed_case(task, std::current_exception())});
     }

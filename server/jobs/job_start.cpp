@@ -117,6 +117,7 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
   job->state = JobState::running;
   job->started = store::Clock::now();
   job->mesh_operator = std::move(mesh_operator);
+  job->spool = core.store.new_spool();
   if (plan && job->why == Stop::none) core.begin_sweep(job, std::move(*plan));
   core.deadlines.clear(job->number, Due::queue_time);
   core.deadlines.set(job->number, Due::run_time,

@@ -16,24 +16,17 @@
 #include "jobs/event_log.hpp"
 #include "jobs/force_arrays.hpp"
 #include "jobs/live_sweep.hpp"
+#include "jobs/result_part.hpp"
 #include "jobs/schedule.hpp"
 #include "operators/mesh_operator.hpp"
 #include "store/records.hpp"
 
 namespace anticrack::jobs {
 
-/// What the result block is made of, for one load case.
-struct SolvedCase {
-  contact::Answer answer;
-  std::vector<contact::Sample> history;
-};
-
 struct LiveCase {
   bool running = false;
   std::shared_ptr<const store::CaseRecord> record;  ///< once it has ended
-  /// When it has an answer. Belongs to the thread that solves the case, then to the one that ends
-  /// the job.
-  std::unique_ptr<SolvedCase> solved;
+  std::optional<ResultPart> result;                 ///< where it has an answer
 };
 
 /// Why a job is not to go on.
@@ -71,9 +64,10 @@ struct LiveJob {
   std::shared_ptr<void> mesh_use;  ///< let go when the job has ended
   /// Set when the job starts, reset by the thread that ends it.
   std::shared_ptr<const operators::MeshOperator> mesh_operator;
-  std::vector<LiveCase> cases;       ///< none of a sweep
-  std::unique_ptr<LiveSweep> sweep;  ///< once it has started
-  store::SweepRecord sweep_record;   ///< of the rows that ended so far
+  std::shared_ptr<store::Spool> spool;  ///< of the result; set when the job starts
+  std::vector<LiveCase> cases;          ///< none of a sweep
+  std::unique_ptr<LiveSweep> sweep;     ///< once it has started
+  store::SweepRecord sweep_record;      ///< of the rows that ended so far
   std::size_t units = 0;
   std::size_t next_unit = 0;       ///< first one that no thread has taken
   int active = 0;                  ///< units taken and not ended, and one for a start under way

@@ -5,24 +5,19 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
-#include "contact/answer.hpp"
+#include "jobs/result_part.hpp"
 #include "jobs/sweep_plan.hpp"
 #include "operators/mesh_operator.hpp"
-#include "store/records.hpp"
 
 namespace anticrack::jobs {
 
-struct RowTraces {
-  std::uint64_t row = 0;
-  std::vector<contact::Trace> traces;
-};
-
-/// The answers of a chunk.
+/// Where in the job's spool the answers of a chunk are.
 struct SweepChunk {
-  std::shared_ptr<const contact::SweepColumns> columns;  ///< null: not solved
-  std::vector<RowTraces> traces;                         ///< of the rows that keep them
+  std::optional<store::Spool::Run> columns;  ///< of chunk_arrays(); empty: not solved
+  std::optional<ResultPart> traces;          ///< of the rows that keep them
 };
 
 /// Made when the job starts. Plan and basis do not change once its chunks are taken; the chunks are

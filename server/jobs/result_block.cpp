@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/result_block.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "errors/errors.hpp"
 #include "jobs/trace_arrays.hpp"
@@ -41,31 +43,32 @@ constexpr std::uint64_t rows_of(const std::tuple<Rows...>&) {
 
 }  // namespace
 
-std::shared_ptr<const store::Block> result_block(const operators::MeshOperator& mesh_operator,
-                                                 std::vector<LiveCase>& cases) {
+store::Block case_arrays(std::size_t index, const contact::Answer& answer,
+                         const std::vector<contact::Sample>& history) {
   BlockBuilder builder;
-  bool any = false;
-  bool nodes_added = false;
-  for (std::size_t l = 0; l < cases.size(); ++l) {
-    if (!cases[l].solved) continue;
-    if (!any) {
-      add_geometry(builder, mesh_operator.trace_geometry());
-      any = true;
-    }
-    const contact::Answer& answer = cases[l].solved->answer;
-    add_traces(builder, arrays::load_traces(l), answer.traces);
-    add_history(builder, arrays::load_history(l), cases[l].solved->history);
-    for (std::size_t i = 0; i < answer.fields.size(); ++i) {
-      if (!nodes_added) {
-        add_arrays(builder, arrays::field_folder(i), arrays::subdomain<Subdomain>,
-                   Subdomain{answer.fields[i].nodes, mesh_operator.field_triangles(i)});
-      }
-      builder.add(arrays::load_fields(l) + std::to_string(i), answer.fields[i].u);
-    }
-    nodes_added = nodes_added || !answer.fields.empty();
-    cases[l].solved.reset();
+  add_traces(builder, arrays::load_traces(index), answer.traces);
+  add_history(builder, arrays::load_history(index), history);
+  for (std::size_t i = 0; i < answer.fields.size(); ++i)
+    builder.add(arrays::load_fields(index) + std::to_string(i), answer.fields[i].u);
+  return builder.take();
+}
+
+std::shared_ptr<const store::BlockSource> result_block(const LiveJob& job) {
+  if (std::ranges::none_of(job.cases, [](const LiveCase& one) { return one.result.has_value(); }))
+    return nullptr;
+  BlockBuilder builder;
+  add_geometry(builder, job.mesh_operator->trace_geometry());
+  const std::size_t subdomains = job.spec->fields ? job.mesh_operator->mesh().subdomains.size() : 0;
+  for (std::size_t i = 0; i < subdomains; ++i) {
+    add_arrays(builder, arrays::field_folder(i), arrays::subdomain<Subdomain>,
+               Subdomain{job.mesh_operator->field_nodes(i), job.mesh_operator->field_triangles(i)});
   }
-  return any ? std::make_shared<const store::Block>(builder.finish()) : nullptr;
+  store::SpooledBlock result(job.spool);
+  const auto add = [&](const ResultPart& part) { result.add(part.arrays, part.run); };
+  add(spooled(*job.spool, builder.take()));
+  for (const LiveCase& one : job.cases)
+    if (one.result) add(*one.result);
+  return result.finish();
 }
 
 void require_result_arrays(const store::JobSpec& spec, std::uint64_t interfaces,

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The result of a job of load cases. Each case's arrays go into the job's spool when it ends, so
+// that no more answers are in memory than cases are solved at once.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +14,13 @@
 
 namespace anticrack::jobs {
 
-/// The arrays of ReadResult for the cases that have an answer; null when none has. The answers are
-/// freed on the way, so that they and the block are not all in memory at once.
-std::shared_ptr<const store::Block> result_block(const operators::MeshOperator& mesh_operator,
-                                                 std::vector<LiveCase>& cases);
+/// Traces, history and fields of a load case, with the index of the case in the arrays' names.
+store::Block case_arrays(std::size_t index, const contact::Answer& answer,
+                         const std::vector<contact::Sample>& history);
+
+/// The arrays of ReadResult for the cases that have an answer, in their order; null when none has.
+/// Throws errors::Error (storage).
+std::shared_ptr<const store::BlockSource> result_block(const LiveJob& job);
 
 /// Throws errors::Error (limit_exceeded, at load_cases or sweep.traces) where the result of the job
 /// would have more than `max_arrays` arrays on a mesh of that many interfaces and subdomains.

@@ -10,6 +10,8 @@
 #include <variant>
 
 #include "jobs/case_outcome.hpp"
+#include "jobs/sweep_result.hpp"
+#include "jobs/trace_arrays.hpp"
 #include "store/array_upload.hpp"
 
 namespace anticrack::jobs {
@@ -48,20 +50,22 @@ class ChunkRows {
                                                 _job.mesh_operator->mesh().inclusions.size(),
                                                 _job.mesh_operator->contact_nodes().size())) {}
 
+  const std::shared_ptr<SweepColumns>& columns() const noexcept { return _columns; }
+
   SweepChunk combinations() {
     const std::vector<double> values = read(_first, _count);
     const operators::LoadBasis& basis = *_job.sweep->basis;
     require_complete(mesh_operator().sweep(basis, values, options(), *_columns, _start, _stop));
-    return {_columns, traces([&](std::size_t row) {
-              const auto coefficients = std::span(values).subspan(row * _plan.columns);
-              return mesh_operator().combine(basis, coefficients.first(_plan.columns));
-            })};
+    return spool([&](std::size_t row) {
+      const auto coefficients = std::span(values).subspan(row * _plan.columns);
+      return mesh_operator().combine(basis, coefficients.first(_plan.columns));
+    });
   }
 
   SweepChunk nodal_forces() {
     std::vector<operators::PreparedLoad> loads = prepare();
     require_complete(mesh_operator().sweep(loads, options(), *_columns, _start, _stop));
-    return {_columns, traces([&](std::size_t row) { return std::move(loads[row]); })};
+    return spool([&](std::size_t row) { return std::move(loads[row]); });
   }
 
  private:
@@ -114,20 +118,21 @@ class ChunkRows {
     return prepared;
   }
 
-  /// `load(i)`: the load of row _first + i.
+  /// The columns, and the traces of the rows that keep them; `load(i)`: the load of row _first + i.
   template <class Load>
-  std::vector<RowTraces> traces(const Load& load) const {
+  SweepChunk spool(const Load& load) const {
     const std::vector<std::uint32_t>& rows = _job.spec->sweep->traces;
-    std::vector<RowTraces> result;
+    store::BlockBuilder traces;
     StopOnly observer(_stop);
     auto row = std::lower_bound(rows.begin(), rows.end(), _first);
     for (; row != rows.end() && *row < _first + _count; ++row) {
       const operators::PreparedLoad prepared = load(static_cast<std::size_t>(*row - _first));
-      contact::Answer answer = mesh_operator().solve(prepared, _job.spec->solver, false, observer);
+      const contact::Answer answer =
+          mesh_operator().solve(prepared, _job.spec->solver, false, observer);
       require_complete(answer.status != contact::Status::cancelled);
-      result.push_back({*row, std::move(answer.traces)});
+      add_traces(traces, arrays::row_traces(*row), answer.traces);
     }
-    return result;
+    return {_job.spool->append(chunk_arrays(*_columns).bytes), spooled(*_job.spool, traces.take())};
   }
 
   const LiveJob& _job;
@@ -179,11 +184,12 @@ std::shared_ptr<const operators::LoadBasis> condense_basis(
 }
 
 EndedChunk solve_chunk(const Task& task, std::atomic<std::uint64_t>& iterations) {
-  EndedChunk ended{task, {}, {}, {}};
+  EndedChunk ended{task, {}, {}, {}, {}};
   try {
     ChunkRows rows(task);
     ended.solved = task.job->sweep->basis ? rows.combinations() : rows.nodal_forces();
-    const SweepColumns& columns = *ended.solved.columns;
+    ended.columns = rows.columns();
+    const SweepColumns& columns = *ended.columns;
     ended.record = record_of(columns);
     const auto elapsed = std::chrono::steady_clock::now() - task.taken;
     ended.record.solve_time = elapsed;

@@ -17,8 +17,9 @@ namespace anticrack::jobs {
 /// What a thread hands in after work without the lock.
 struct EndedChunk {
   Task task;
-  SweepChunk solved;                     ///< empty where the job was stopped, or it failed
-  store::SweepRecord record;             ///< of these rows
+  SweepChunk solved;  ///< empty where the job was stopped, or it failed
+  std::shared_ptr<const contact::SweepColumns> columns;  ///< what was spooled, for the watchers
+  store::SweepRecord record;                             ///< of these rows
   std::optional<errors::Error> failure;  ///< of the whole job, e.g. a bad value in the matrix
 };
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,54 +15,41 @@ namespace anticrack::jobs {
 
 namespace {
 
-using contact::Status;
 using contact::SweepColumns;
-using store::ArrayType;
+using store::ArrayLayout;
 using store::BlockBuilder;
+using store::Spool;
 
-/// Puts the chunks' columns of a row of the table one after the other.
-template <class Row>
-void add_column(BlockBuilder& builder, const Row& row, std::vector<std::uint64_t> shape,
-                const LiveSweep& sweep) {
-  using Column = arrays::MemberOf<const SweepColumns, decltype(row.member)>;
-  constexpr ArrayType type = store::array_type<typename Column::value_type>;
-  const std::span<std::byte> bytes =
-      builder.add_zeros(arrays::sweep_folder() + std::string(row.name), type, std::move(shape));
-  const std::size_t a_row = bytes.size() / sweep.plan.rows;
-  for (std::size_t i = 0; i < sweep.chunks.size(); ++i) {
-    if (const SweepColumns* columns = sweep.chunks[i].columns.get()) {
-      const auto place = bytes.subspan(sweep.plan.first_row(i) * a_row);
-      std::ranges::copy(std::as_bytes(std::span(std::invoke(row.member, *columns))), place.begin());
-    }
-  }
+/// A chunk of that many rows without an answer.
+store::Block no_answers(const LiveJob& job, std::size_t rows, contact::Status status) {
+  SweepColumns columns(rows, job.mesh_operator->mesh().inclusions.size(),
+                       job.mesh_operator->contact_nodes().size());
+  std::ranges::fill(columns.status, status);
+  return chunk_arrays(columns);
 }
 
-void add_status(BlockBuilder& builder, const LiveSweep& sweep, Status unsolved) {
-  std::vector<Status> all(sweep.plan.rows, unsolved);
-  for (std::size_t i = 0; i < sweep.chunks.size(); ++i) {
-    if (const SweepColumns* columns = sweep.chunks[i].columns.get()) {
-      std::ranges::copy(columns->status,
-                        all.begin() + static_cast<std::ptrdiff_t>(sweep.plan.first_row(i)));
+/// Puts the chunks' columns of each array one after the other.
+void add_columns(store::SpooledBlock& result, const LiveJob& job, contact::Status unsolved) {
+  const LiveSweep& sweep = *job.sweep;
+  const store::Block whole = no_answers(job, sweep.plan.rows_in(0), unsolved);
+  const store::Block last = no_answers(job, sweep.plan.rows_in(sweep.chunks.size() - 1), unsolved);
+  const Spool::Run empty = job.spool->append(whole.bytes);
+  std::vector<Spool::Run> runs(sweep.chunks.size());
+  for (std::size_t a = 0; a < whole.arrays.size(); ++a) {
+    const ArrayLayout& array = whole.arrays[a];
+    const std::uint64_t a_row = bytes_of(array) / sweep.plan.rows_in(0);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const std::optional<Spool::Run>& columns = sweep.chunks[i].columns;
+      const bool is_last = i + 1 == runs.size();
+      const std::uint64_t place = columns
+                                      ? columns->place + (is_last ? last : whole).arrays[a].offset
+                                      : empty.place + array.offset;
+      runs[i] = {place, sweep.plan.rows_in(i) * a_row};
     }
+    std::vector<std::uint64_t> shape = array.shape;
+    shape.front() = sweep.plan.rows;
+    result.add(array.name, array.type, std::move(shape), runs);
   }
-  builder.add(arrays::sweep_folder() + "status", all);
-}
-
-void add_columns(BlockBuilder& builder, const LiveSweep& sweep, std::uint64_t inclusions,
-                 std::uint64_t contacts) {
-  const std::uint64_t rows = sweep.plan.rows;
-  arrays::for_each(
-      [&](const auto& row) {
-        if (row.name == "status") return;  // also of rows that no chunk has
-        add_column(builder, row, {rows}, sweep);
-      },
-      arrays::sweep_rows<SweepColumns>);
-  arrays::for_each(
-      [&](const auto& row) {
-        const std::uint64_t columns = row.shape.ends_with(",inclusions") ? inclusions : contacts;
-        add_column(builder, row, {rows, columns}, sweep);
-      },
-      arrays::sweep_matrices<SweepColumns>);
 }
 
 struct Contacts {
@@ -80,25 +66,42 @@ Contacts contacts_of(const std::vector<std::array<std::int32_t, 2>>& nodes) {
 
 }  // namespace
 
-std::shared_ptr<const store::Block> sweep_result(const operators::MeshOperator& mesh_operator,
-                                                 LiveSweep& sweep, Status unsolved) {
-  if (std::none_of(sweep.chunks.begin(), sweep.chunks.end(),
-                   [](const SweepChunk& chunk) { return chunk.columns != nullptr; }))
-    return nullptr;
+store::Block chunk_arrays(const SweepColumns& columns) {
   BlockBuilder builder;
-  builder.reserve(sweep.plan.result_bytes);
-  add_geometry(builder, mesh_operator.trace_geometry());
-  add_status(builder, sweep, unsolved);
-  const auto& contact_nodes = mesh_operator.contact_nodes();
-  add_columns(builder, sweep, mesh_operator.mesh().inclusions.size(), contact_nodes.size());
-  add_arrays(builder, arrays::sweep_folder(), arrays::sweep_contacts<Contacts>,
-             contacts_of(contact_nodes));
-  for (SweepChunk& chunk : sweep.chunks) {
-    for (const RowTraces& traces : chunk.traces)
-      add_traces(builder, arrays::row_traces(traces.row), traces.traces);
-    chunk = {};
-  }
-  return std::make_shared<const store::Block>(builder.finish());
+  arrays::for_each(
+      [&](const auto& row) {
+        builder.add(arrays::sweep_folder() + std::string(row.name),
+                    std::invoke(row.member, columns));
+      },
+      arrays::sweep_rows<SweepColumns>);
+  arrays::for_each(
+      [&](const auto& row) {
+        const std::size_t width =
+            row.shape.ends_with(",inclusions") ? columns.inclusions : columns.contacts;
+        builder.add(arrays::sweep_folder() + std::string(row.name),
+                    std::invoke(row.member, columns), {columns.rows(), width});
+      },
+      arrays::sweep_matrices<SweepColumns>);
+  return builder.take();
+}
+
+std::shared_ptr<const store::BlockSource> sweep_result(const LiveJob& job,
+                                                       contact::Status unsolved) {
+  const auto solved = [](const SweepChunk& chunk) { return chunk.columns.has_value(); };
+  if (std::ranges::none_of(job.sweep->chunks, solved)) return nullptr;
+  store::SpooledBlock result(job.spool);
+  const auto add = [&](const ResultPart& part) { result.add(part.arrays, part.run); };
+  BlockBuilder geometry;
+  add_geometry(geometry, job.mesh_operator->trace_geometry());
+  add(spooled(*job.spool, geometry.take()));
+  add_columns(result, job, unsolved);
+  BlockBuilder contacts;
+  add_arrays(contacts, arrays::sweep_folder(), arrays::sweep_contacts<Contacts>,
+             contacts_of(job.mesh_operator->contact_nodes()));
+  add(spooled(*job.spool, contacts.take()));
+  for (const SweepChunk& chunk : job.sweep->chunks)
+    if (chunk.traces) add(*chunk.traces);
+  return result.finish();
 }
 
 }  // namespace anticrack::jobs

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The result of a sweep. Each chunk's columns go into the job's spool when it ends.
 #pragma once
 
 #include <memory>
 
-#include "jobs/live_sweep.hpp"
-#include "operators/mesh_operator.hpp"
+#include "jobs/live_job.hpp"
 #include "store/block.hpp"
 
 namespace anticrack::jobs {
 
+/// The rows of a chunk: the arrays of arrays::sweep_rows and sweep_matrices.
+store::Block chunk_arrays(const contact::SweepColumns& columns);
+
 /// The arrays of ReadResult for a sweep; null when no row has an answer. Rows that have none have
-/// the status `unsolved` and zeros. The chunks are empty after.
-std::shared_ptr<const store::Block> sweep_result(const operators::MeshOperator& mesh_operator,
-                                                 LiveSweep& sweep, contact::Status unsolved);
+/// the status `unsolved` and zeros. Throws errors::Error (storage).
+std::shared_ptr<const store::BlockSource> sweep_result(const LiveJob& job,
+                                                       contact::Status unsolved);
 
 }  // namespace anticrack::jobs

@@ -98,6 +98,10 @@ const std::vector<contact::TraceGeometry>& MeshOperator::trace_geometry() const 
   return _parts->geometry;
 }
 
+const std::vector<std::int32_t>& MeshOperator::field_nodes(std::size_t subdomain) const {
+  return _parts->decomposition.subdomains.at(subdomain).node;
+}
+
 const std::vector<std::int32_t>& MeshOperator::field_triangles(std::size_t subdomain) const {
   return _parts->decomposition.subdomains.at(subdomain).part.triangles;
 }

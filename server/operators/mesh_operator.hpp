@@ -94,8 +94,10 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   const mesh::Mesh& mesh() const noexcept;
   /// Per interface of the mesh.
   const std::vector<contact::TraceGeometry>& trace_geometry() const noexcept;
-  /// Triangles of a subdomain, (m_i,3) row-major, as indices into Field::nodes of its answers,
-  /// where a node with two sides (slit) occurs twice.
+  /// Nodes of a subdomain, those of Field::nodes in every answer: a node with two sides (slit)
+  /// occurs twice.
+  const std::vector<std::int32_t>& field_nodes(std::size_t subdomain) const;
+  /// Triangles of a subdomain, (m_i,3) row-major, as indices into field_nodes.
   const std::vector<std::int32_t>& field_triangles(std::size_t subdomain) const;
   /// Memory held now, measured, bytes (the mesh included).
   std::size_t bytes() const noexcept;

@@ -14,8 +14,6 @@ static_assert(std::endian::native == std::endian::little, "arrays go into a bloc
 
 namespace {
 
-constexpr std::size_t alignment = 8;
-
 /// True when the shape holds exactly `count` values.
 bool fits(const std::vector<std::uint64_t>& shape, std::uint64_t count) {
   std::uint64_t product = 1;
@@ -38,24 +36,6 @@ std::size_t bytes_of(ArrayType type) {
   return sizeof(std::uint8_t);
 }
 
-/// Throws std::length_error where it does not fit into a std::size_t.
-std::size_t bytes_of(ArrayType type, const std::vector<std::uint64_t>& shape) {
-  std::size_t bytes = bytes_of(type);
-  for (const std::uint64_t extent : shape)
-    if (__builtin_mul_overflow(bytes, extent, &bytes))
-      throw std::length_error("an array of a block is larger than any memory");
-  return bytes;
-}
-
-/// Bytes for an array at the end of the block.
-std::span<std::byte> extend(Block& block, std::string name, ArrayType type,
-                            std::vector<std::uint64_t> shape, std::size_t bytes) {
-  const std::size_t offset = (block.bytes.size() + alignment - 1) / alignment * alignment;
-  block.bytes.resize(offset + bytes);
-  block.arrays.push_back({std::move(name), type, std::move(shape), offset});
-  return std::span(block.bytes).subspan(offset);
-}
-
 class MemoryBlock final : public BlockSource {
  public:
   explicit MemoryBlock(std::shared_ptr<const Block> block) : _block(std::move(block)) {}
@@ -73,6 +53,12 @@ class MemoryBlock final : public BlockSource {
 
 }  // namespace
 
+std::uint64_t bytes_of(const ArrayLayout& array) {
+  std::uint64_t bytes = bytes_of(array.type);
+  for (const std::uint64_t extent : array.shape) bytes *= extent;
+  return bytes;
+}
+
 std::shared_ptr<const BlockSource> in_memory(std::shared_ptr<const Block> block) {
   return std::make_shared<MemoryBlock>(std::move(block));
 }
@@ -84,20 +70,15 @@ void BlockBuilder::append(std::string name, ArrayType type, std::span<const std:
     throw std::invalid_argument("array " + name + ": its shape does not hold " +
                                 std::to_string(count) + " values");
   }
-  const std::span<std::byte> room =
-      extend(_block, std::move(name), type, std::move(shape), values.size());
-  std::ranges::copy(values, room.begin());
-}
-
-std::span<std::byte> BlockBuilder::add_zeros(std::string name, ArrayType type,
-                                             std::vector<std::uint64_t> shape) {
-  const std::size_t bytes = bytes_of(type, shape);
-  return extend(_block, std::move(name), type, std::move(shape), bytes);
+  const std::size_t offset = aligned(_block.bytes.size());
+  _block.bytes.resize(offset);
+  _block.bytes.insert(_block.bytes.end(), values.begin(), values.end());
+  _block.arrays.push_back({std::move(name), type, std::move(shape), offset});
 }
 
 Block BlockBuilder::finish() {
   _block.sha256 = Sha256().add(_block.bytes).finish();
-  return std::exchange(_block, {});
+  return take();
 }
 
 }  // namespace anticrack::store

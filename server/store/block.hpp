@@ -40,6 +40,15 @@ struct ArrayLayout {
 };
 ANTICRACK_FIELDS(ArrayLayout, name, type, shape, offset)
 
+/// Where an array that follows `size` bytes begins.
+constexpr std::uint64_t aligned(std::uint64_t size) {
+  constexpr std::uint64_t alignment = 8;
+  return (size + alignment - 1) / alignment * alignment;
+}
+
+/// Of the array's entries, without what aligns the next array.
+std::uint64_t bytes_of(const ArrayLayout& array);
+
 /// Immutable once built and shared.
 struct Block {
   std::vector<ArrayLayout> arrays;
@@ -73,14 +82,10 @@ class BlockBuilder {
     append(std::move(name), array_type<Value>, std::as_bytes(std::span(values)), values.size(),
            std::move(shape));
   }
-  /// An array of zeros, to be filled until anything else is called: what is put together from many
-  /// pieces need not be in memory twice. Throws std::length_error for a shape beyond all memory.
-  std::span<std::byte> add_zeros(std::string name, ArrayType type,
-                                 std::vector<std::uint64_t> shape);
-  /// Room for so many bytes, so that the arrays are not moved as the block grows.
-  void reserve(std::size_t bytes) { _block.bytes.reserve(bytes); }
   /// Computes the hash. The builder is empty after.
   Block finish();
+  /// The block without its hash: a part of another. The builder is empty after.
+  Block take() { return std::exchange(_block, {}); }
 
  private:
   void append(std::string name, ArrayType type, std::span<const std::byte> values,

@@ -151,22 +151,29 @@ void DurableStore::put(const JobRecord& record) {
       GroupCommit::Flush::no);
 }
 
-void DurableStore::finish(const JobRecord& record, std::shared_ptr<const Block> result) {
+std::shared_ptr<Spool> DurableStore::new_spool() {
+  return std::make_shared<Spool>([this] { return _results.nameless(); },
+                                 [this](std::uint64_t bytes) { return reserve(bytes); });
+}
+
+void DurableStore::finish(const JobRecord& record, std::shared_ptr<const BlockSource> result) {
   const std::string bytes = encode(record);
   std::optional<DiskUsage::Reservation> reservation;
   std::optional<Part> file;
   ResultColumns columns;
   if (result) {
     const std::string header = result_header(*result);
-    const std::span<const std::byte> values = result->bytes;
-    columns.bytes = values.size();
-    reservation.emplace(reserve(header.size() + values.size()));
-    if (header.size() + values.size() <= most_small_result) {
+    columns.bytes = result->size();
+    reservation.emplace(reserve(header.size() + columns.bytes));
+    if (header.size() + columns.bytes <= most_small_result) {
       columns.small = header;
-      columns.small.append(reinterpret_cast<const char*>(values.data()), values.size());
+      columns.small.resize(header.size() + columns.bytes);
+      result->read(0, std::as_writable_bytes(std::span(columns.small)).subspan(header.size()));
     } else {
       columns.name = Sha256().add(header).finish();
-      file.emplace(_results.write({std::as_bytes(std::span(header)), values}));
+      file.emplace(_results.write(
+          std::as_bytes(std::span(header)), columns.bytes,
+          [&](std::uint64_t offset, std::span<std::byte> to) { result->read(offset, to); }));
     }
   }
   _writer.run([&](Connection& connection) {

@@ -54,7 +54,7 @@ void DurableStore::put(const MeshRecord& record, const mesh::Mesh& triangulation
     throw Error(Reason::internal, "meshes/" + record.id + " comes with another triangulation");
   const std::string bytes = encode(record);
   const DiskUsage::Reservation reservation = reserve(encoded.size());
-  Part part = _meshes.write({encoded});
+  Part part = _meshes.write(encoded);
   _writer.run([&](Connection& connection) {
     _unreferenced.push_back({FileKind::mesh, record.sha256});
     _meshes.rename(part.path(), record.sha256);

@@ -42,7 +42,8 @@ class DurableStore final : public Store {
   std::optional<JobRecord> created_before(const JobRecord& record,
                                           const std::string& fingerprint) const override;
   void put(const JobRecord& record) override;
-  void finish(const JobRecord& record, std::shared_ptr<const Block> result) override;
+  std::shared_ptr<Spool> new_spool() override;
+  void finish(const JobRecord& record, std::shared_ptr<const BlockSource> result) override;
   std::optional<JobRecord> job(const std::string& id) const override;
   std::vector<JobRecord> jobs(const Page& page) const override;
   std::vector<JobRecord> unfinished() const override;

@@ -29,14 +29,6 @@ constexpr std::string_view part_prefix = "part-";
 
 constexpr std::size_t copy_bytes = std::size_t{1} << 20U;
 
-void write_all(const Descriptor& file, const std::string& path, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(file.get(), bytes.data(), bytes.size());
-    if (count < 0 && errno != EINTR) throw disk_error("write " + path, errno);
-    bytes = bytes.subspan(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-  }
-}
-
 Descriptor open_to_write(const std::string& path) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
   if (!file) throw disk_error("open " + path, errno);
@@ -162,6 +154,18 @@ void read_at(const Descriptor& file, const std::string& path, std::uint64_t offs
   }
 }
 
+void write_at(const Descriptor& file, const std::string& path, std::uint64_t offset,
+              std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count =
+        ::pwrite(file.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno != EINTR) throw disk_error("write " + path, errno);
+    const auto done = static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+    offset += done;
+    bytes = bytes.subspan(done);
+  }
+}
+
 std::optional<std::vector<std::byte>> read_file(const std::string& path) {
   const Descriptor file = open_to_read(path);
   if (!file) return std::nullopt;
@@ -192,7 +196,7 @@ void replace_file(const std::string& path, std::span<const std::byte> bytes) {
     const Descriptor file(
         ::open(made.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, S_IRUSR | S_IWUSR));
     if (!file) throw disk_error("make " + made, errno);
-    write_all(file, made, bytes);
+    write_at(file, made, 0, bytes);
     flush_file(file, made);
   }
   if (::rename(made.c_str(), path.c_str()) != 0) throw disk_error("rename " + made, errno);
@@ -220,10 +224,24 @@ std::string Files::new_part() const {
   return path;
 }
 
-Part Files::write(const Pieces& pieces) const {
+Descriptor Files::nameless() const {
+  const Part part(new_part());
+  Descriptor file(::open(part.path().c_str(), O_RDWR | O_CLOEXEC));
+  if (!file) throw disk_error("open " + part.path(), errno);
+  return file;
+}
+
+Part Files::write(std::span<const std::byte> start, std::uint64_t size, const Read& read) const {
   Part part(new_part());
   const Descriptor file = open_to_write(part.path());
-  for (const std::span<const std::byte> piece : pieces) write_all(file, part.path(), piece);
+  write_at(file, part.path(), 0, start);
+  std::vector<std::byte> buffer(
+      static_cast<std::size_t>(std::min<std::uint64_t>(copy_bytes, size)));
+  for (std::uint64_t offset = 0; offset < size; offset += buffer.size()) {
+    buffer.resize(static_cast<std::size_t>(std::min<std::uint64_t>(copy_bytes, size - offset)));
+    read(offset, buffer);
+    write_at(file, part.path(), start.size() + offset, buffer);
+  }
   flush_file(file, part.path());
   return part;
 }
@@ -231,17 +249,10 @@ Part Files::write(const Pieces& pieces) const {
 Part Files::copy(const std::string& original) const {
   const Descriptor from = open_to_read(original);
   if (!from) throw disk_error("read " + original, ENOENT);
-  Part part(new_part());
-  const Descriptor to = open_to_write(part.path());
-  std::vector<std::byte> buffer(copy_bytes);
-  const std::uint64_t bytes = file_size(from, original);
-  for (std::uint64_t offset = 0; offset < bytes; offset += buffer.size()) {
-    buffer.resize(static_cast<std::size_t>(std::min<std::uint64_t>(copy_bytes, bytes - offset)));
-    read_at(from, original, offset, buffer);
-    write_all(to, part.path(), buffer);
-  }
-  flush_file(to, part.path());
-  return part;
+  return write({}, file_size(from, original),
+               [&](std::uint64_t offset, std::span<std::byte> bytes) {
+                 read_at(from, original, offset, bytes);
+               });
 }
 
 void Files::rename(const std::string& part, const std::string& sha256) {

@@ -56,6 +56,9 @@ std::uint64_t file_size(const Descriptor& file, const std::string& path);
 /// Fills `bytes` from `offset` on. Throws errors::Error (storage), also where the file is shorter.
 void read_at(const Descriptor& file, const std::string& path, std::uint64_t offset,
              std::span<std::byte> bytes);
+/// Writes from `offset` on. Throws as disk_error does.
+void write_at(const Descriptor& file, const std::string& path, std::uint64_t offset,
+              std::span<const std::byte> bytes);
 /// The whole file; none where there is no such file.
 std::optional<std::vector<std::byte>> read_file(const std::string& path);
 /// The hash of a file's content; empty where there is no such file. Throws as read_at does.
@@ -83,7 +86,7 @@ class Part {
 /// Any thread may write parts; names are given and taken by one thread at a time.
 class Files {
  public:
-  using Pieces = std::vector<std::span<const std::byte>>;
+  using Read = std::function<void(std::uint64_t offset, std::span<std::byte> bytes)>;
 
   /// What is added and removed is counted in `usage`, as of `kind`.
   Files(const std::string& data, FileKind kind, DiskUsage& usage);
@@ -94,8 +97,12 @@ class Files {
   bool is_part(const std::string& path) const;
   /// A new empty file.
   std::string new_part() const;
+  /// An empty file without a name, to write and read; it is gone when it is closed.
+  Descriptor nameless() const;
   /// A new file with these bytes, on the disk. Throws as disk_error does.
-  Part write(const Pieces& pieces) const;
+  Part write(std::span<const std::byte> bytes) const { return write(bytes, 0, {}); }
+  /// The same, followed by the `size` bytes that read(offset, bytes) gives.
+  Part write(std::span<const std::byte> start, std::uint64_t size, const Read& read) const;
   /// A copy of a part, on the disk.
   Part copy(const std::string& part) const;
   /// Gives a part its name; what had the name before has the same content. Not yet on the disk.

@@ -92,11 +92,11 @@ std::shared_ptr<const BlockSource> open_at(Read read, std::uint64_t size, const 
 
 }  // namespace
 
-std::string result_header(const Block& block) {
+std::string result_header(const BlockSource& block) {
   const std::string bytes =
-      api::serialized(api::layout_of(block.arrays, block.bytes.size(), block.sha256));
+      api::serialized(api::layout_of(block.arrays(), block.size(), block.sha256()));
   if (bytes.size() > max_header) {
-    throw Error(Reason::limit_exceeded, std::to_string(block.arrays.size()) +
+    throw Error(Reason::limit_exceeded, std::to_string(block.arrays().size()) +
                                             " arrays are too many for one result: split "
                                             "the job");
   }

@@ -14,7 +14,7 @@
 namespace anticrack::store {
 
 /// All before the bytes of a block. Throws std::length_error for a layout beyond 16 MB.
-std::string result_header(const Block& block);
+std::string result_header(const BlockSource& block);
 
 /// The result in a file, which it keeps open. Throws errors::Error (storage) where it is none, or
 /// not the one of this name; the bytes are not read.

@@ -9,6 +9,7 @@
 //   DATA/results/SHA256                a result block, its layout in front
 //   DATA/uploads/SHA256                what a client uploaded
 //   DATA/*/part-XXXXXX                 being written; removed at the next start
+//   DATA/results, files without names  results of jobs that run (spool.hpp)
 //
 // A file is written under a temporary name, flushed, renamed, its folder flushed; only then a
 // record refers to it. A record is changed in a transaction (WAL, synchronous=FULL). So at any
@@ -27,6 +28,7 @@
 #include "mesh/mesh.hpp"
 #include "store/block.hpp"
 #include "store/records.hpp"
+#include "store/spool.hpp"
 
 namespace anticrack::store {
 
@@ -112,8 +114,11 @@ class Store {
   /// Replaces; throws not_found. Survives kill -9, and a power failure once anything was written
   /// after it: what a start and a recovery say is found out again.
   virtual void put(const JobRecord& record) = 0;
-  /// The end of a job: its last record and its result (null: none), both or neither.
-  virtual void finish(const JobRecord& record, std::shared_ptr<const Block> result) = 0;
+  /// For the result of a job that runs.
+  virtual std::shared_ptr<Spool> new_spool() = 0;
+  /// The end of a job: its last record and its result (null: none), both or neither. The result is
+  /// copied in pieces: until it returns, a spooled result takes its bytes twice.
+  virtual void finish(const JobRecord& record, std::shared_ptr<const BlockSource> result) = 0;
   /// Empty where there is none.
   virtual std::optional<JobRecord> job(const std::string& id) const = 0;
   virtual std::vector<JobRecord> jobs(const Page& page) const = 0;

@@ -50,7 +50,9 @@ class FailingStore final : public store::Store {
     fail(put_fails);
     _real.put(record);
   }
-  void finish(const store::JobRecord& record, std::shared_ptr<const store::Block> result) override {
+  std::shared_ptr<store::Spool> new_spool() override { return _real.new_spool(); }
+  void finish(const store::JobRecord& record,
+              std::shared_ptr<const store::BlockSource> result) override {
     fail(finish_fails);
     _real.finish(record, std::move(result));
   }

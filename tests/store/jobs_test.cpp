@@ -152,8 +152,8 @@ TEST_F(StoredJobs, GiveTheirResultPieceByPiece) {
   builder.add("contact", std::vector<std::int32_t>{7, 8});
   builder.add("flags", std::vector<std::uint8_t>{1, 0, 1});
   const auto written = std::make_shared<const Block>(builder.finish());
-  end("j", written);
   const auto memory = in_memory(written);
+  end("j", memory);
   const auto disk = store->result("j");
   for (const auto& source : {memory, disk}) {
     EXPECT_EQ(source->sha256(), written->sha256);

@@ -80,7 +80,7 @@ inline std::vector<Operation> operations() {
         store.put(record);
       },
       [=](Store& store) { store.finish(ended("j1"), block(1, 20'000)); },
-      [=](Store& store) { store.finish(ended("j2"), block(1, 20'000)); },
+      [=](Store& store) { store.finish(ended("j2"), spooled_block(store)); },
       [](Store& store) { store.expire_uploads(Clock::time_point::max()); },
       [=](Store& store) { store.finish(ended("j3"), block(3)); },
       [](Store& store) { store.expire("j1"); },

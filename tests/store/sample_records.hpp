@@ -47,11 +47,22 @@ inline MeshRecord meshed_record(const std::string& id, const mesh::Mesh& mesh) {
 /// Values of a result that has a file of its own.
 constexpr std::size_t many = 5'000;
 
-inline std::shared_ptr<const Block> block(double value, std::size_t count = 5,
-                                          const std::string& name = "u") {
+inline std::shared_ptr<const BlockSource> block(double value, std::size_t count = 5,
+                                                const std::string& name = "u") {
   BlockBuilder builder;
   builder.add(name, std::vector<double>(count, value));
-  return std::make_shared<const Block>(builder.finish());
+  return in_memory(std::make_shared<const Block>(builder.finish()));
+}
+
+/// A block that was too large for the memory of its spool.
+inline std::shared_ptr<const BlockSource> spooled_block(Store& store) {
+  const std::shared_ptr<Spool> spool = store.new_spool();
+  BlockBuilder builder;
+  builder.add("u", std::vector<double>(140'000, 2));
+  const Block part = builder.take();
+  SpooledBlock joined(spool);
+  joined.add(part.arrays, spool->append(part.bytes));
+  return joined.finish();
 }
 
 inline std::vector<double> values(const BlockSource& source) {

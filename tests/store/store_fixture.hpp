@@ -31,7 +31,7 @@ class StoreTest : public ::testing::Test {
     return store->create(record, fingerprint);
   }
   /// A job that has ended with a result.
-  void end(const std::string& id, std::shared_ptr<const Block> result, int second = 1) {
+  void end(const std::string& id, std::shared_ptr<const BlockSource> result, int second = 1) {
     create(id);
     store->finish(ended_record(id, second), std::move(result));
   }

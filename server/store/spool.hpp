@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The bytes of a result while its job runs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "store/block.hpp"
+#include "store/disk_usage.hpp"
+#include "store/files.hpp"
+
+namespace anticrack::store {
+
+/// Grows by pieces: the last megabyte in memory, the rest in a file without a name, which is gone
+/// with this object or with the process. What the disk refuses stays in memory until it takes it.
+/// Thread-safe.
+class Spool {
+ public:
+  /// Where a piece lies.
+  struct Run {
+    std::uint64_t place = 0;
+    std::uint64_t bytes = 0;
+  };
+
+  /// `open` makes the file, `reserve` counts its bytes; both may throw errors::Error.
+  Spool(std::function<Descriptor()> open,
+        std::function<DiskUsage::Reservation(std::uint64_t bytes)> reserve);
+
+  Run append(std::span<const std::byte> bytes);
+  /// Fills `bytes` from a place on. Throws errors::Error (storage).
+  void read(std::uint64_t place, std::span<std::byte> bytes) const;
+  /// Held in memory now.
+  std::size_t memory() const;
+
+ private:
+  void write_out();
+
+  const std::function<Descriptor()> _open;
+  const std::function<DiskUsage::Reservation(std::uint64_t)> _reserve;
+  mutable std::mutex _mutex;
+  std::optional<Descriptor> _file;
+  std::uint64_t _written = 0;      ///< in the file; what follows is in memory
+  std::vector<std::byte> _memory;  ///< from place _written on
+  std::vector<DiskUsage::Reservation> _reserved;
+};
+
+/// A block whose arrays lie in a spool.
+class SpooledBlock {
+ public:
+  explicit SpooledBlock(std::shared_ptr<const Spool> spool);
+
+  /// An array that consists of runs, one after the other.
+  void add(std::string name, ArrayType type, std::vector<std::uint64_t> shape,
+           std::span<const Spool::Run> runs);
+  /// The arrays of a block whose bytes are the run.
+  void add(std::span<const ArrayLayout> arrays, const Spool::Run& run);
+  /// Reads all bytes for the hash. Throws errors::Error (storage). The object is empty after.
+  std::shared_ptr<const BlockSource> finish();
+
+ private:
+  class Source;
+  std::shared_ptr<Source> _source;
+};
+
+}  // namespace anticrack::store
