@@ -74,7 +74,7 @@ std::string info_text(const v1::ServerInfo& info, const std::string& address) {
                std::to_string(limits.sweep_basis()) + " loads"},
       {"queue", std::to_string(limits.queued_jobs()) + " jobs, " +
                     std::to_string(limits.queued_cases()) + " load cases a mesh, " +
-                    bytes(limits.queued_bytes())},
+                    bytes(limits.queued_bytes()) + " of memory"},
       {"times", "a job waits at most " + seconds(limits.queue_time()) + " and runs at most " +
                     seconds(limits.run_time())},
       {"results", "kept " +

@@ -32,9 +32,10 @@ std::chrono::milliseconds Admission::retry_delay() const noexcept {
   return std::min(longest_delay, shortest_delay + delay_per_job * jobs);
 }
 
-void Admission::check(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes) const {
+void Admission::check(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes,
+                      std::uint64_t memory) const {
   require_possible(cases, _limits.cases, "load cases");
-  require_possible(bytes, _limits.bytes, "bytes of load cases");
+  require_possible(bytes, _limits.memory, "bytes of load cases");
   const auto full = [&](const std::string& what) {
     Error error(Reason::busy, "the queue is full (" + what + "): try again in a while");
     return error.retry_after(retry_delay());
@@ -49,9 +50,9 @@ void Admission::check(const std::string& mesh, std::uint64_t cases, std::uint64_
     throw full(std::to_string(waiting) + " load cases of meshes/" + mesh +
                " have not ended, at most " + std::to_string(_limits.cases));
   }
-  if (_bytes + bytes > _limits.bytes) {
-    throw full(std::to_string(_bytes) + " bytes of jobs that have not ended, at most " +
-               std::to_string(_limits.bytes));
+  if (memory + bytes > _limits.memory) {
+    throw full("jobs use " + std::to_string(memory) + " bytes of memory, at most " +
+               std::to_string(_limits.memory));
   }
 }
 

@@ -12,9 +12,9 @@
 namespace anticrack::jobs {
 
 struct AdmissionLimits {
-  std::size_t jobs = 1'000;            ///< that have not ended
-  std::uint64_t cases = 100'000;       ///< of one mesh, of jobs started or not, not ended
-  std::uint64_t bytes = 256ULL << 20;  ///< of the specs of jobs that have not ended
+  std::size_t jobs = 1'000;             ///< that have not ended
+  std::uint64_t cases = 100'000;        ///< of one mesh, of jobs started or not, not ended
+  std::uint64_t memory = 512ULL << 20;  ///< bytes of definitions, events and answers of all jobs
 };
 
 /// Counts what is admitted and not ended. Not thread-safe.
@@ -23,8 +23,10 @@ class Admission {
   explicit Admission(const AdmissionLimits& limits) : _limits(limits) {}
 
   /// Throws errors::Error: limit_exceeded where the job alone is over a bound, else busy with a
-  /// retry delay that grows with the queue. A job that passes is counted with `add`.
-  void check(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes) const;
+  /// retry delay that grows with the queue. A job that passes is counted with `add`. `bytes`: of
+  /// its definition; `memory`: what all jobs use.
+  void check(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes,
+             std::uint64_t memory) const;
   void add(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes);
 
   /// A job that was counted has started, or ends without a start.

@@ -13,12 +13,16 @@ std::shared_ptr<EventLog> end_alone(const store::JobRecord& record) {
   return log;
 }
 
-void EndedLogs::add(const std::string& job, std::shared_ptr<EventLog> log) {
-  const std::uint64_t bytes = log->bytes();
+void EndedLogs::add(const std::string& job, std::shared_ptr<EventLog> log, std::uint64_t bytes) {
   _logs[job] = {std::move(log), bytes};
   _order.push_back(job);
   _bytes += bytes;
-  while (_bytes > _max_bytes && _order.size() > 1) remove(std::string(_order.front()));
+  while (_bytes > _budget->limit() / 2) remove(std::string(_order.front()));
+  make_room(0);
+}
+
+void EndedLogs::make_room(std::uint64_t bytes) {
+  while (_budget->exceeded_by(bytes) && !_order.empty()) remove(std::string(_order.front()));
 }
 
 void EndedLogs::remove(const std::string& job) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "jobs/event_log.hpp"
 
@@ -21,14 +22,17 @@ constexpr std::uint64_t sequence_base(int attempt) {
 /// The log of a job that ended in the past: its end event alone, above all others it had.
 std::shared_ptr<EventLog> end_alone(const store::JobRecord& record);
 
-/// Keeps logs under a byte limit: the oldest go first, the newest never. Not thread-safe.
+/// Keeps logs within half of the budget, which they leave to new jobs where it is exceeded: the
+/// oldest go first. Not thread-safe.
 class EndedLogs {
  public:
-  explicit EndedLogs(std::uint64_t max_bytes) : _max_bytes(max_bytes) {}
+  explicit EndedLogs(std::shared_ptr<const MemoryBudget> budget) : _budget(std::move(budget)) {}
 
-  /// The log has its end event, or nothing but that to come.
-  void add(const std::string& job, std::shared_ptr<EventLog> log);
+  /// `bytes`: of the log with its end event, which may be still to come.
+  void add(const std::string& job, std::shared_ptr<EventLog> log, std::uint64_t bytes);
   void remove(const std::string& job);
+  /// Lets logs go until so many bytes more fit into the budget, or none is left.
+  void make_room(std::uint64_t bytes);
   std::shared_ptr<EventLog> find(const std::string& job) const;  ///< null: not kept
   std::uint64_t bytes() const noexcept { return _bytes; }
 
@@ -38,7 +42,7 @@ class EndedLogs {
     std::uint64_t bytes = 0;
   };
 
-  std::uint64_t _max_bytes;
+  std::shared_ptr<const MemoryBudget> _budget;
   std::uint64_t _bytes = 0;
   std::deque<std::string> _order;  ///< oldest first
   std::unordered_map<std::string, Kept> _logs;

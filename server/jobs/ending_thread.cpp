@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "errors/errors.hpp"
+#include "fields/walk.hpp"
 #include "jobs/result_block.hpp"
 #include "jobs/sweep_result.hpp"
 
@@ -140,13 +141,14 @@ void EndingThread::announce(Lock& lock, const End& end) {
   const JobPtr& job = end.job;
   lock.unlock();
   const auto record = std::make_shared<const store::JobRecord>(end.record);
+  const std::uint64_t log_bytes = job->log->bytes() + fields::bytes_of(*record);
   if (_core.options.ended) _core.options.ended(*record);
   job->mesh_use.reset();
   lock.lock();
   _core.running -= job->state == JobState::running ? 1 : 0;
   job->state = record->state;
   _core.retention.add({job->id(), *record->ended, record->result_bytes});
-  _core.logs.add(job->id(), job->log);
+  _core.logs.add(job->id(), job->log, log_bytes);
   _core.jobs.erase(job->id());
   _core.admission.ended(job->spec_bytes);
   ++_core.ended;  // before the end event: who sees that finds the job counted

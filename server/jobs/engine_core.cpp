@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "fields/walk.hpp"
+
 namespace anticrack::jobs {
 
 namespace {
@@ -24,10 +26,11 @@ EngineCore::EngineCore(EngineOptions engine_options, store::Store& records,
       schedule(options.ageing, prepared_limit),
       admission({static_cast<std::size_t>(std::max(0, options.max_queued_jobs)),
                  static_cast<std::uint64_t>(std::max(0, options.max_queued_cases)),
-                 options.max_queued_bytes}),
+                 options.max_job_memory}),
       retention({static_cast<std::size_t>(std::max(0, options.max_kept_jobs)), options.result_ttl,
                  options.result_budget}),
-      logs(options.max_log_bytes) {}
+      memory(std::make_shared<MemoryBudget>(options.max_job_memory)),
+      logs(memory) {}
 
 void EngineCore::add(const JobPtr& job) {
   std::shared_ptr<MeshWork>& mesh = meshes[job->spec->mesh];
@@ -119,6 +122,8 @@ void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
     live_case.running = false;
     live_case.record = std::move(ended_case.outcome.record);
     live_case.result = std::move(ended_case.outcome.result);
+    job->answer_bytes += fields::bytes_of(*live_case.record);
+    job->memory.set(job->spec_bytes + job->answer_bytes + (job->spool ? job->spool->memory() : 0));
     --job->active;
     ++cases_ended;
     --job->queued_cases;

@@ -30,6 +30,7 @@
 #include "jobs/ended_logs.hpp"
 #include "jobs/job_engine.hpp"
 #include "jobs/live_job.hpp"
+#include "jobs/memory_budget.hpp"
 #include "jobs/retention.hpp"
 #include "jobs/schedule.hpp"
 #include "jobs/sweep_chunk.hpp"
@@ -87,6 +88,7 @@ class EngineCore {
   Admission admission;
   Deadlines deadlines;
   Retention retention;
+  const std::shared_ptr<MemoryBudget> memory;
   EndedLogs logs;
   std::unordered_map<std::string, JobPtr> jobs;  ///< that have not ended, by id
   std::unordered_map<std::uint64_t, JobPtr> numbers;

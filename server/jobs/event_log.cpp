@@ -54,6 +54,8 @@ std::size_t kept_bytes(const Event& event) {
     bytes += fields::bytes_of(*ended->record);
   else if (const auto* rows = std::get_if<RowsEvent>(&event))
     bytes += fields::bytes_of(*rows->rows);
+  else if (const auto* end = std::get_if<EndEvent>(&event))
+    bytes += fields::bytes_of(*end->job);
   return bytes;
 }
 
@@ -82,10 +84,11 @@ Error trimmed(std::uint64_t after, std::uint64_t earliest, std::uint64_t latest)
 }  // namespace
 
 struct EventLog::State {
-  State(std::size_t limit, std::uint64_t base)
-      : byte_limit(limit), earliest(base + 1), latest(base) {}
+  State(std::size_t limit, std::uint64_t base, std::shared_ptr<MemoryBudget> budget)
+      : byte_limit(limit), share(std::move(budget)), earliest(base + 1), latest(base) {}
 
   const std::size_t byte_limit;
+  MemoryShare share;
 
   mutable std::mutex mutex;
   SampleQueue samples;
@@ -109,6 +112,7 @@ struct EventLog::State {
       if (ended) return;
       add(*this);
       trim();
+      share.set(bytes());
       to_wake = wakes;
     }
     for (const std::shared_ptr<Wake>& wake : *to_wake) (*wake)();
@@ -116,14 +120,15 @@ struct EventLog::State {
 
   /// The newest event stays whatever its size: the end event is always the newest.
   void trim() {
-    while (bytes() > byte_limit && earliest < latest) {
+    const std::size_t limit =
+        share.budget_exceeded() ? std::min(byte_limit, least_bytes) : byte_limit;
+    while (bytes() > limit && earliest < latest) {
       if (!others.empty() && others.front().numbered.sequence == earliest) {
         other_bytes -= others.front().bytes;
         others.pop_front();
         ++earliest;
       } else {
-        const std::uint64_t too_many =
-            (bytes() - byte_limit - 1) / SamplePage::bytes_per_sample + 1;
+        const std::uint64_t too_many = (bytes() - limit - 1) / SamplePage::bytes_per_sample + 1;
         const std::uint64_t next = others.empty() ? latest : others.front().numbered.sequence;
         const std::uint64_t count = std::min({too_many, next - earliest, latest - earliest});
         samples.pop_front(count);
@@ -188,8 +193,8 @@ class EventLog::Listener {
   std::shared_ptr<Wake> _wake;
 };
 
-EventLog::EventLog(std::size_t byte_limit, std::uint64_t base)
-    : _state(std::make_shared<State>(byte_limit, base)) {}
+EventLog::EventLog(std::size_t byte_limit, std::uint64_t base, std::shared_ptr<MemoryBudget> budget)
+    : _state(std::make_shared<State>(byte_limit, base, std::move(budget))) {}
 
 EventLog::~EventLog() = default;
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "contact/answer.hpp"
+#include "jobs/memory_budget.hpp"
 #include "jobs/sample_run.hpp"
 #include "store/records.hpp"
 
@@ -68,10 +69,13 @@ struct NumberedBatch {
 class EventLog {
  public:
   static constexpr std::size_t batch_bytes = std::size_t{64} << 10;
+  static constexpr std::size_t least_bytes = std::size_t{64} << 10;
 
-  /// `byte_limit`: the oldest events go when the log is larger (the end event never).
+  /// `byte_limit`: the oldest events go when the log is larger (the end event never). While
+  /// `budget`, which counts the log, is exceeded, the log keeps least_bytes.
   /// `base`: the first event has the number after it.
-  explicit EventLog(std::size_t byte_limit, std::uint64_t base = 0);
+  explicit EventLog(std::size_t byte_limit, std::uint64_t base = 0,
+                    std::shared_ptr<MemoryBudget> budget = {});
   ~EventLog();
 
   /// Nothing comes after the end event: what is appended then is dropped.

@@ -65,8 +65,10 @@ class Place {
     const std::lock_guard lock(core.mutex);
     if (core.draining)
       throw Error(Reason::draining, "the server is stopping: submit to another one");
-    core.admission.check(_mesh, _cases, _bytes);
+    core.logs.make_room(_bytes);
+    core.admission.check(_mesh, _cases, _bytes, core.memory->used());
     core.admission.add(_mesh, _cases, _bytes);
+    _memory.emplace(core.memory, _bytes);
   }
   ~Place() {
     if (!_taken) {
@@ -86,6 +88,7 @@ class Place {
   const std::string _mesh;
   const std::uint64_t _cases;
   const std::uint64_t _bytes;
+  std::optional<MemoryShare> _memory;
   bool _taken = false;
 };
 
@@ -146,8 +149,9 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   const EngineCore::Lock lock(core.mutex);
   ++core.created;
   if (!core.draining) {  // else it is kept for the next start
-    const auto job = std::make_shared<LiveJob>(++core.last_number, record, cases,
-                                               core.options.event_log_bytes, std::move(mesh_use));
+    const auto job =
+        std::make_shared<LiveJob>(++core.last_number, record, cases, core.options.event_log_bytes,
+                                  std::move(mesh_use), core.memory);
     queue(core, job, job->since + queue_limit(*job, core.options));
     place.take();
   }
@@ -178,8 +182,9 @@ void recover(EngineCore& core) {
     const auto waited = waits_since_it_was_made ? store::Clock::now() - record.created
                                                 : store::Clock::duration::zero();
     const std::uint64_t cases = queued_cases(record.spec, core.store, record.owner);
-    const auto job = std::make_shared<LiveJob>(++core.last_number, std::move(record), cases,
-                                               core.options.event_log_bytes, std::move(mesh_use));
+    const auto job =
+        std::make_shared<LiveJob>(++core.last_number, std::move(record), cases,
+                                  core.options.event_log_bytes, std::move(mesh_use), core.memory);
     {
       const std::lock_guard lock(core.mutex);
       core.admission.add(job->spec->mesh, cases, job->spec_bytes);

@@ -204,6 +204,7 @@ EngineMetrics JobEngine::metrics() const {
   metrics.jobs_running = core.running;
   metrics.columns = core.columns;
   metrics.queued_bytes = core.admission.bytes();
+  metrics.job_memory = core.memory->used();
   const auto now = EngineCore::Clock::now();
   for (const auto& [number, job] : core.numbers) {
     if (job->state != JobState::running) {

@@ -29,7 +29,10 @@ struct EngineOptions {
   /// Of one mesh, started or not, not ended. 256 rows of a sweep, or a megabyte of nodal forces,
   /// count as one, until the whole sweep has ended.
   int max_queued_cases = 100'000;
-  std::uint64_t max_queued_bytes = 256ULL << 20;  ///< of all specs of jobs that have not ended
+  /// Definitions, events and answers of all jobs in memory. Beyond it jobs are refused and, beside
+  /// one that runs, not started; logs of jobs that run keep EventLog::least_bytes, those of ended
+  /// jobs go.
+  std::uint64_t max_job_memory = std::uint64_t{512} << 20;
   std::chrono::milliseconds queue_time{24 * 3600'000};  ///< longest a job may wait; then it fails
   std::chrono::milliseconds run_time{24 * 3600'000};    ///< longest a job may run
   int max_crashes = 3;  ///< a job during whose runs the server crashed so often fails; 0: never
@@ -37,8 +40,6 @@ struct EngineOptions {
   /// What a solver thread gives one mesh before it looks at the others.
   std::chrono::milliseconds turn{50};
   std::size_t event_log_bytes = 16u << 20;  ///< a job
-  /// Event logs of ended jobs together; the oldest go first, the newest never.
-  std::uint64_t max_log_bytes = std::uint64_t{256} << 20;
   /// Traces, fields and history of one job; load cases that would come after it is reached fail. A
   /// sweep whose answers would be larger fails at its start.
   std::uint64_t max_result_bytes = std::uint64_t{2} << 30;
@@ -60,10 +61,11 @@ struct EngineMetrics {
   std::uint64_t load_cases_ended = 0;  ///< rows of sweeps included
   std::uint64_t iterations = 0;
   std::uint64_t results_expired = 0;
-  int jobs_queued = 0;   ///< now, those waiting for a mesh included
-  int jobs_running = 0;  ///< now
-  int columns = 0;       ///< load cases on solver threads now
-  std::uint64_t queued_bytes = 0;
+  int jobs_queued = 0;                           ///< now, those waiting for a mesh included
+  int jobs_running = 0;                          ///< now
+  int columns = 0;                               ///< load cases on solver threads now
+  std::uint64_t queued_bytes = 0;                ///< definitions of jobs that have not ended
+  std::uint64_t job_memory = 0;                  ///< of max_job_memory
   std::chrono::duration<double> oldest_wait{0};  ///< of the jobs that have not started
 };
 

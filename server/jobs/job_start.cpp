@@ -57,6 +57,11 @@ bool store_start(EngineCore& core, const JobSnapshot& snapshot,
   }
 }
 
+void try_again_later(EngineCore& core, const LiveJob& job) {
+  core.deadlines.set(job.number, Due::start, EngineCore::Clock::now() + retry_start);
+  core.limits.notify_one();
+}
+
 /// The job runs, in this phase.
 void tell(EngineCore::Lock& lock, LiveJob& job, const char* phase) {
   add_step(job.timeline, JobState::running, phase);
@@ -89,6 +94,10 @@ std::chrono::milliseconds run_limit(const LiveJob& job, const EngineOptions& opt
 void start_job(EngineCore& core, EngineCore::Lock& lock,
                std::shared_ptr<const operators::MeshOperator> mesh_operator, const JobPtr& job) {
   core.schedule.remove(job->number);
+  if (core.memory->exceeded() && core.running > 0) {
+    try_again_later(core, *job);
+    return;
+  }
   ++job->active;  // nobody ends it before its first event is out
   const JobSnapshot snapshot(*job);
   lock.unlock();
@@ -105,10 +114,7 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
   lock.lock();
   if (!stored) {
     --job->active;
-    if (job->why == Stop::none) {
-      core.deadlines.set(job->number, Due::start, EngineCore::Clock::now() + retry_start);
-      core.limits.notify_one();
-    }
+    if (job->why == Stop::none) try_again_later(core, *job);
     core.settle(job);
     return;
   }

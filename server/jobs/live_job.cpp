@@ -62,20 +62,22 @@ Outcome conclude_sweep(LiveJob& job) {
 }  // namespace
 
 LiveJob::LiveJob(std::uint64_t submission, JobRecord record, std::uint64_t cases_in_queue,
-                 std::size_t event_log_bytes, std::shared_ptr<void> mesh_in_use)
+                 std::size_t event_log_bytes, std::shared_ptr<void> mesh_in_use,
+                 const std::shared_ptr<MemoryBudget>& budget)
     : number(submission),
       created(without_lists(record)),
       spec(std::make_shared<const store::JobSpec>(std::move(record.spec))),
       spec_bytes(fields::bytes_of(*spec)),
       lane(lane_of(*spec)),
       since(std::chrono::steady_clock::now()),
-      log(std::make_shared<EventLog>(event_log_bytes, sequence_base(created.attempt))),
+      log(std::make_shared<EventLog>(event_log_bytes, sequence_base(created.attempt), budget)),
       arrays(spec->loads, created.owner),
       timeline(created.timeline),
       mesh_use(std::move(mesh_in_use)),
       cases(case_count(*spec)),
       units(spec->sweep ? 1 : cases.size()),
-      queued_cases(cases_in_queue) {}
+      queued_cases(cases_in_queue),
+      memory(budget, spec_bytes) {}
 
 Task take_unit(const JobPtr& job) {
   Task task{job, job->next_unit++, std::chrono::steady_clock::now()};

@@ -43,7 +43,8 @@ enum class Stop {
 struct LiveJob {
   /// `cases_in_queue`: what `admission` counted for it.
   LiveJob(std::uint64_t submission, store::JobRecord record, std::uint64_t cases_in_queue,
-          std::size_t event_log_bytes, std::shared_ptr<void> mesh_in_use);
+          std::size_t event_log_bytes, std::shared_ptr<void> mesh_in_use,
+          const std::shared_ptr<MemoryBudget>& budget = {});
 
   const std::uint64_t number;      ///< in the order of submission
   const store::JobRecord created;  ///< as it was submitted or recovered, without its lists
@@ -73,6 +74,8 @@ struct LiveJob {
   int active = 0;                  ///< units taken and not ended, and one for a start under way
   std::uint64_t queued_cases = 0;  ///< that admission counts still
   std::uint64_t result_bytes = 0;  ///< of the answers so far
+  std::uint64_t answer_bytes = 0;  ///< of the records of `cases`
+  MemoryShare memory;
   Stop why = Stop::none;
   std::optional<errors::Error> failure;
   bool ending = false;   ///< nothing of it is left to solve

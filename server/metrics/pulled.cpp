@@ -111,6 +111,8 @@ std::vector<MetricFamily> server_families(const Snapshot& now) {
       gauge("anticrack_batch_columns", "Load cases on solver threads now.", engine.columns),
       gauge("anticrack_queue_bytes", "Bytes of the definitions of jobs that have not ended.",
             engine.queued_bytes),
+      gauge("anticrack_job_memory_bytes", "Definitions, events and answers of jobs in memory.",
+            engine.job_memory),
       gauge("anticrack_queue_oldest_wait_seconds", "Longest wait of those that have not started.",
             engine.oldest_wait.count()),
       counter("anticrack_factorizations_total", "Factorisations begun.", cache.factorizations),

@@ -62,7 +62,7 @@ v1::ServerLimits to_message(const Limits& limits, const jobs::EngineOptions& eng
   to.set_transfers(limits.transfers);
   to.set_streams_a_client(limits.streams_a_client);
   to.set_queued_cases(engine.max_queued_cases);
-  to.set_queued_bytes(engine.max_queued_bytes);
+  to.set_queued_bytes(engine.max_job_memory);
   *to.mutable_queue_time() = api::message<std::chrono::nanoseconds>(engine.queue_time);
   *to.mutable_run_time() = api::message<std::chrono::nanoseconds>(engine.run_time);
   *to.mutable_result_ttl() = api::message<std::chrono::nanoseconds>(engine.result_ttl);

@@ -24,6 +24,7 @@ Spool::Run Spool::append(std::span<const std::byte> bytes) {
   const Run run{_written + _memory.size(), bytes.size()};
   _memory.insert(_memory.end(), bytes.begin(), bytes.end());
   if (_memory.size() > most_memory) write_out();
+  _held = _memory.size();
   return run;
 }
 
@@ -50,11 +51,6 @@ void Spool::read(std::uint64_t place, std::span<std::byte> bytes) const {
     std::ranges::copy(rest.subspan(place + in_file - _written, bytes.size() - in_file),
                       bytes.begin() + static_cast<std::ptrdiff_t>(in_file));
   }
-}
-
-std::size_t Spool::memory() const {
-  const std::lock_guard lock(_mutex);
-  return _memory.size();
 }
 
 class SpooledBlock::Source final : public BlockSource {

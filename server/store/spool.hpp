@@ -3,6 +3,7 @@
 // The bytes of a result while its job runs.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -37,7 +38,7 @@ class Spool {
   /// Fills `bytes` from a place on. Throws errors::Error (storage).
   void read(std::uint64_t place, std::span<std::byte> bytes) const;
   /// Held in memory now.
-  std::size_t memory() const;
+  std::size_t memory() const noexcept { return _held; }
 
  private:
   void write_out();
@@ -46,8 +47,9 @@ class Spool {
   const std::function<DiskUsage::Reservation(std::uint64_t)> _reserve;
   mutable std::mutex _mutex;
   std::optional<Descriptor> _file;
-  std::uint64_t _written = 0;      ///< in the file; what follows is in memory
-  std::vector<std::byte> _memory;  ///< from place _written on
+  std::uint64_t _written = 0;         ///< in the file; what follows is in memory
+  std::vector<std::byte> _memory;     ///< from place _written on
+  std::atomic<std::size_t> _held{0};  ///< bytes of _memory, to be known without waiting
   std::vector<DiskUsage::Reservation> _reserved;
 };
 

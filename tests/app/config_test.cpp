@@ -56,7 +56,7 @@ result-budget = "1GiB"
 disk-budget = "20G"
 result-limit = "64MiB"
 queued-cases = 11
-queued-bytes = "2MiB"
+job-memory = "20MiB"
 columns = 13
 kept-meshes = 14
 streams-a-client = 15
@@ -87,7 +87,7 @@ max-sweep-basis = 17
   EXPECT_EQ(config.store.disk_budget, 20'000'000'000u);
   EXPECT_EQ(config.jobs.max_result_bytes, 64ull << 20);
   EXPECT_EQ(config.jobs.max_queued_cases, 11);
-  EXPECT_EQ(config.jobs.max_queued_bytes, 2ull << 20);
+  EXPECT_EQ(config.jobs.max_job_memory, 20ull << 20);
   EXPECT_EQ(config.jobs.columns, 13);
   EXPECT_EQ(config.jobs.max_sweep_rows, 16u);
   EXPECT_EQ(config.jobs.max_sweep_basis, 17);

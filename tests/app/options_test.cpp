@@ -23,7 +23,7 @@ Config distinct() {
   config.jobs.event_log_bytes = 106;
   config.jobs.max_result_bytes = 107;
   config.jobs.result_budget = 108;
-  config.jobs.max_queued_bytes = 109;
+  config.jobs.max_job_memory = 109;
   config.meshes.max_pending = 201;
   config.meshes.max_meshes = 202;
   config.jobs.threads = 203;
@@ -53,7 +53,7 @@ TEST(Options, OfTheEngineAreTheConfigurations) {
   EXPECT_EQ(options.event_log_bytes, 106u);
   EXPECT_EQ(options.max_result_bytes, 107u);
   EXPECT_EQ(options.result_budget, 108u);
-  EXPECT_EQ(options.max_queued_bytes, 109u);
+  EXPECT_EQ(options.max_job_memory, 109u);
   EXPECT_EQ(options.threads, 203);
   EXPECT_EQ(options.columns, 204);
   EXPECT_EQ(options.max_load_cases, 205);

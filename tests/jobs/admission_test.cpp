@@ -16,45 +16,47 @@ TEST(Admission, BoundsTheJobsThatHaveNotEnded) {
   Admission admission({2, 100, 1000});
   admission.add("a", 1, 1);
   admission.add("b", 1, 1);
-  EXPECT_TRUE(throws([&] { admission.check("c", 1, 1); }, Reason::busy));
+  EXPECT_TRUE(throws([&] { admission.check("c", 1, 1, admission.bytes()); }, Reason::busy));
   admission.started();
   EXPECT_EQ(admission.waiting(), 1U);
-  EXPECT_TRUE(throws([&] { admission.check("c", 1, 1); }, Reason::busy));
+  EXPECT_TRUE(throws([&] { admission.check("c", 1, 1, admission.bytes()); }, Reason::busy));
   admission.ended(1);
-  EXPECT_NO_THROW(admission.check("c", 1, 1));
+  EXPECT_NO_THROW(admission.check("c", 1, 1, admission.bytes()));
 }
 
 TEST(Admission, BoundsTheCasesOfAMesh) {
   Admission admission({10, 100, 1000});
   admission.add("a", 60, 1);
   admission.started();
-  EXPECT_NO_THROW(admission.check("a", 40, 1));
-  EXPECT_NO_THROW(admission.check("b", 100, 1));
-  EXPECT_TRUE(throws([&] { admission.check("a", 41, 1); }, Reason::busy));
+  EXPECT_NO_THROW(admission.check("a", 40, 1, admission.bytes()));
+  EXPECT_NO_THROW(admission.check("b", 100, 1, admission.bytes()));
+  EXPECT_TRUE(throws([&] { admission.check("a", 41, 1, admission.bytes()); }, Reason::busy));
   admission.cases_ended("a", 1);
-  EXPECT_NO_THROW(admission.check("a", 41, 1));
+  EXPECT_NO_THROW(admission.check("a", 41, 1, admission.bytes()));
 }
 
-TEST(Admission, BoundsTheBytes) {
+TEST(Admission, BoundsTheMemory) {
   Admission admission({10, 100, 1000});
   admission.add("a", 1, 600);
-  EXPECT_NO_THROW(admission.check("b", 1, 400));
-  EXPECT_TRUE(throws([&] { admission.check("b", 1, 401); }, Reason::busy));
+  EXPECT_NO_THROW(admission.check("b", 1, 400, admission.bytes()));
+  EXPECT_TRUE(throws([&] { admission.check("b", 1, 401, admission.bytes()); }, Reason::busy));
   admission.ended(600);
-  EXPECT_NO_THROW(admission.check("b", 1, 401));
+  EXPECT_NO_THROW(admission.check("b", 1, 401, admission.bytes()));
   EXPECT_EQ(admission.bytes(), 0U);
 }
 
 TEST(Admission, SaysWhatCouldNeverPass) {
   const Admission admission({10, 100, 1000});
-  EXPECT_TRUE(throws([&] { admission.check("a", 101, 1); }, Reason::limit_exceeded, "load_cases"));
-  EXPECT_TRUE(throws([&] { admission.check("a", 1, 1001); }, Reason::limit_exceeded, "load_cases"));
+  EXPECT_TRUE(throws([&] { admission.check("a", 101, 1, admission.bytes()); },
+                     Reason::limit_exceeded, "load_cases"));
+  EXPECT_TRUE(throws([&] { admission.check("a", 1, 1001, admission.bytes()); },
+                     Reason::limit_exceeded, "load_cases"));
 }
 
 TEST(Admission, DelaysLongerTheLongerTheQueue) {
   Admission admission({1, 100'000, 1'000'000});
   admission.add("a", 1, 1);
-  const auto error = error_of([&] { admission.check("a", 1, 1); });
+  const auto error = error_of([&] { admission.check("a", 1, 1, admission.bytes()); });
   ASSERT_TRUE(error);
   const auto one = error->retry_delay();
   EXPECT_GT(one.count(), 0);
