@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "access/share.hpp"
 #include "errors/errors.hpp"
 
 namespace anticrack::jobs {
@@ -32,8 +33,8 @@ std::chrono::milliseconds Admission::retry_delay() const noexcept {
   return std::min(longest_delay, shortest_delay + delay_per_job * jobs);
 }
 
-void Admission::check(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes,
-                      std::uint64_t memory) const {
+void Admission::check(const std::string& owner, const std::string& mesh, std::uint64_t cases,
+                      std::uint64_t bytes, std::uint64_t memory) const {
   require_possible(cases, _limits.cases, "load cases");
   require_possible(bytes, _limits.memory, "bytes of load cases");
   const auto full = [&](const std::string& what) {
@@ -43,6 +44,14 @@ void Admission::check(const std::string& mesh, std::uint64_t cases, std::uint64_
   if (_jobs >= _limits.jobs) {
     throw full(std::to_string(_jobs) + " jobs have not ended, at most " +
                std::to_string(_limits.jobs));
+  }
+  if (const auto held = _owners.find(owner); held != _owners.end() && !owner.empty()) {
+    const auto& [own_jobs, own_bytes] = held->second;
+    if (!access::may_have(own_jobs, 1, _jobs, _limits.jobs) ||
+        !access::may_have(own_bytes, bytes, memory, _limits.memory)) {
+      throw full("you have " + std::to_string(own_jobs) + " jobs of " + std::to_string(own_bytes) +
+                 " bytes that have not ended, and what is free is kept for other users");
+    }
   }
   const auto found = _cases.find(mesh);
   const std::uint64_t waiting = found == _cases.end() ? 0 : found->second;
@@ -56,11 +65,23 @@ void Admission::check(const std::string& mesh, std::uint64_t cases, std::uint64_
   }
 }
 
-void Admission::add(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes) {
+void Admission::add(const std::string& owner, const std::string& mesh, std::uint64_t cases,
+                    std::uint64_t bytes) {
+  Held& held = _owners[owner];
+  ++held.jobs;
+  held.bytes += bytes;
   _cases[mesh] += cases;
   _bytes += bytes;
   ++_jobs;
   ++_waiting;
+}
+
+void Admission::ended(const std::string& owner, std::uint64_t bytes) {
+  const auto found = _owners.find(owner);
+  found->second.bytes -= bytes;
+  if (--found->second.jobs == 0) _owners.erase(found);
+  _bytes -= bytes;
+  --_jobs;
 }
 
 void Admission::cases_ended(const std::string& mesh, std::uint64_t count) {

@@ -17,7 +17,9 @@ struct AdmissionLimits {
   std::uint64_t memory = 512ULL << 20;  ///< bytes of definitions, events and answers of all jobs
 };
 
-/// Counts what is admitted and not ended. Not thread-safe.
+/// Counts what is admitted and not ended. Of jobs and of memory, for their definitions, an owner
+/// has a share (access/share.hpp); without a name, on a server without authentication, everything.
+/// Not thread-safe.
 class Admission {
  public:
   explicit Admission(const AdmissionLimits& limits) : _limits(limits) {}
@@ -25,18 +27,16 @@ class Admission {
   /// Throws errors::Error: limit_exceeded where the job alone is over a bound, else busy with a
   /// retry delay that grows with the queue. A job that passes is counted with `add`. `bytes`: of
   /// its definition; `memory`: what all jobs use.
-  void check(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes,
-             std::uint64_t memory) const;
-  void add(const std::string& mesh, std::uint64_t cases, std::uint64_t bytes);
+  void check(const std::string& owner, const std::string& mesh, std::uint64_t cases,
+             std::uint64_t bytes, std::uint64_t memory) const;
+  void add(const std::string& owner, const std::string& mesh, std::uint64_t cases,
+           std::uint64_t bytes);
 
   /// A job that was counted has started, or ends without a start.
   void started() noexcept { --_waiting; }
   void cases_ended(const std::string& mesh, std::uint64_t count);
   /// A job is known to the store as ended, or left to the next start.
-  void ended(std::uint64_t bytes) noexcept {
-    _bytes -= bytes;
-    --_jobs;
-  }
+  void ended(const std::string& owner, std::uint64_t bytes);
 
   std::size_t waiting() const noexcept { return _waiting; }  ///< jobs that have not started
   std::uint64_t bytes() const noexcept { return _bytes; }
@@ -49,6 +49,11 @@ class Admission {
   std::size_t _waiting = 0;
   std::uint64_t _bytes = 0;
   std::unordered_map<std::string, std::uint64_t> _cases;  ///< by mesh
+  struct Held {
+    std::uint64_t jobs = 0;
+    std::uint64_t bytes = 0;
+  };
+  std::unordered_map<std::string, Held> _owners;
 };
 
 }  // namespace anticrack::jobs

@@ -147,10 +147,10 @@ void EndingThread::announce(Lock& lock, const End& end) {
   lock.lock();
   _core.running -= job->state == JobState::running ? 1 : 0;
   job->state = record->state;
-  _core.retention.add({job->id(), *record->ended, record->result_bytes});
+  _core.retention.add({job->id(), *record->ended, record->result_bytes, record->owner});
   _core.logs.add(job->id(), job->log, log_bytes);
   _core.jobs.erase(job->id());
-  _core.admission.ended(job->spec_bytes);
+  _core.admission.ended(job->created.owner, job->spec_bytes);
   ++_core.ended;  // before the end event: who sees that finds the job counted
   lock.unlock();
   job->log->append(EndEvent{record});
@@ -175,7 +175,7 @@ void EndingThread::keep(Lock& lock, End end) {
 void EndingThread::leave_to_next_start(Lock& /*held*/, const End& end) {
   _core.running -= end.job->state == JobState::running ? 1 : 0;
   end.job->state = JobState::queued;
-  _core.admission.ended(end.job->spec_bytes);
+  _core.admission.ended(end.job->created.owner, end.job->spec_bytes);
   --_core.not_announced;
   _core.settled.notify_all();
 }

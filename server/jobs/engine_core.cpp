@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "fields/walk.hpp"
+#include "operators/freed_memory.hpp"
 
 namespace anticrack::jobs {
 
@@ -15,6 +16,10 @@ using store::JobState;
 
 /// Meshes of one class of sizes that are prepared ahead: each pins memory.
 constexpr std::size_t prepared_limit = 3;
+
+/// Bytes of results between two returns of freed memory to the system: the records that stay lie
+/// between the arrays that went, and would keep their pages.
+constexpr std::uint64_t trim_every = std::uint64_t{16} << 20U;
 
 }  // namespace
 
@@ -50,7 +55,7 @@ void EngineCore::add(const JobPtr& job) {
 
 void EngineCore::offer(const JobPtr& job) {
   schedule.add({job->number, job->spec->mesh, job->lane, job->spec->priority, job->since,
-                catalogue.size_class(job->spec->mesh)});
+                catalogue.size_class(job->spec->mesh), job->created.owner});
   preparers.notify_one();
   solvers.notify_all();
 }
@@ -69,7 +74,7 @@ void EngineCore::settle(const JobPtr& job) {
   leave(job);
   --live;
   if (job->why == Stop::interrupted) {
-    admission.ended(job->spec_bytes);
+    admission.ended(job->created.owner, job->spec_bytes);
     running -= job->state == JobState::running ? 1 : 0;
     job->state = JobState::queued;
     job->mesh_operator.reset();
@@ -104,13 +109,17 @@ void EngineCore::release(const std::shared_ptr<MeshWork>& mesh) {
 
 void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
   if (cases.empty()) return;
+  bool trim = false;
   for (EndedCase& ended_case : cases) {
     LiveJob& job = *ended_case.task.job;
     if (ended_case.outcome.result && job.result_bytes > options.max_result_bytes)
       ended_case.outcome = refused_case(ended_case.task, options.max_result_bytes);
+    const std::uint64_t before = job.result_bytes;
     job.result_bytes += ended_case.outcome.result ? ended_case.outcome.result->run.bytes : 0;
+    trim = trim || job.result_bytes / trim_every > before / trim_every;
   }
   lock.unlock();
+  if (trim) operators::return_freed_memory();
   for (const EndedCase& ended_case : cases) {
     ended_case.task.job->log->append(
         CaseEvent{static_cast<std::int32_t>(ended_case.task.index), ended_case.outcome.record});

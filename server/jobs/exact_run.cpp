@@ -80,7 +80,6 @@ std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases,
       ended.push_back({task, solved[i].failure
                                  ? failed_case(task, solved[i].failure)
                                  : solved_case(task, solved[i].answer, solved[i].history)});
-      solved[i] = {};  // its arrays are in the spool
     } catch (...) {
       ended.push_back({task, failed_case(task, std::current_exception())});
     }

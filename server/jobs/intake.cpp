@@ -60,14 +60,18 @@ std::shared_ptr<void> use(EngineCore& core, const std::string& mesh) {
 class Place {
  public:
   /// Throws errors::Error (draining, limit_exceeded, busy).
-  Place(EngineCore& core, const store::JobSpec& spec, std::uint64_t cases)
-      : _core(core), _mesh(spec.mesh), _cases(cases), _bytes(fields::bytes_of(spec)) {
+  Place(EngineCore& core, const JobRecord& record, std::uint64_t cases)
+      : _core(core),
+        _owner(record.owner),
+        _mesh(record.spec.mesh),
+        _cases(cases),
+        _bytes(fields::bytes_of(record.spec)) {
     const std::lock_guard lock(core.mutex);
     if (core.draining)
       throw Error(Reason::draining, "the server is stopping: submit to another one");
     core.logs.make_room(_bytes);
-    core.admission.check(_mesh, _cases, _bytes, core.memory->used());
-    core.admission.add(_mesh, _cases, _bytes);
+    core.admission.check(_owner, _mesh, _cases, _bytes, core.memory->used());
+    core.admission.add(_owner, _mesh, _cases, _bytes);
     _memory.emplace(core.memory, _bytes);
   }
   ~Place() {
@@ -75,7 +79,7 @@ class Place {
       const std::lock_guard lock(_core.mutex);
       _core.admission.started();
       _core.admission.cases_ended(_mesh, _cases);
-      _core.admission.ended(_bytes);
+      _core.admission.ended(_owner, _bytes);
     }
   }
   Place(const Place&) = delete;
@@ -85,6 +89,7 @@ class Place {
 
  private:
   EngineCore& _core;
+  const std::string _owner;
   const std::string _mesh;
   const std::uint64_t _cases;
   const std::uint64_t _bytes;
@@ -142,7 +147,7 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   require_arrays(record.spec.loads, core.store, record.owner);
   if (record.spec.sweep) measure(*record.spec.sweep, record, core);
   const std::uint64_t cases = queued_cases(record.spec, core.store, record.owner);
-  Place place(core, record.spec, cases);
+  Place place(core, record, cases);
   JobRecord stored = core.store.create(record, print);
   if (stored.id != record.id)
     return {std::move(stored), false};  // made by the same request in this moment
@@ -187,7 +192,7 @@ void recover(EngineCore& core) {
                                   core.options.event_log_bytes, std::move(mesh_use), core.memory);
     {
       const std::lock_guard lock(core.mutex);
-      core.admission.add(job->spec->mesh, cases, job->spec_bytes);
+      core.admission.add(job->created.owner, job->spec->mesh, cases, job->spec_bytes);
       queue(core, job,
             job->since + queue_limit(*job, core.options) -
                 std::chrono::duration_cast<EngineCore::Clock::duration>(waited));

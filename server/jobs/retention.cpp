@@ -2,6 +2,7 @@
 #include "jobs/retention.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace anticrack::jobs {
@@ -12,10 +13,22 @@ auto find(auto& jobs, const std::string& id) {
   return std::find_if(jobs.begin(), jobs.end(), [&](const auto& job) { return job.id == id; });
 }
 
+/// Of one owner, the oldest first.
+struct Holdings {
+  std::deque<const store::EndedJob*> jobs;
+  std::deque<const store::EndedJob*> results;
+  std::uint64_t bytes = 0;  ///< of the results
+};
+
+Holdings& most(std::map<std::string, Holdings>& owners, const auto& measure) {
+  return std::ranges::max_element(owners, {},
+                                  [&](const auto& entry) { return measure(entry.second); })
+      ->second;
+}
+
 }  // namespace
 
 void Retention::add(store::EndedJob job) {
-  _bytes += job.result_bytes;
   const auto place =
       std::upper_bound(_jobs.begin(), _jobs.end(), job,
                        [](const auto& a, const auto& b) { return a.ended < b.ended; });
@@ -24,36 +37,55 @@ void Retention::add(store::EndedJob job) {
 
 void Retention::remove(const std::string& id) {
   const auto found = find(_jobs, id);
-  if (found != _jobs.end()) {
-    _bytes -= found->result_bytes;
-    _jobs.erase(found);
-  }
+  if (found != _jobs.end()) _jobs.erase(found);
 }
 
 void Retention::expired(const std::string& id) {
   const auto found = find(_jobs, id);
-  if (found != _jobs.end()) _bytes -= std::exchange(found->result_bytes, 0);
+  if (found != _jobs.end()) found->result_bytes = 0;
 }
 
 Expiry Retention::due(store::Clock::time_point now) const {
   Expiry expiry;
-  std::uint64_t bytes = _bytes;
-  const std::size_t kept = std::max<std::size_t>(1, _limits.jobs);
+  std::map<std::string, Holdings> owners;
+  std::uint64_t bytes = 0;
   const auto newest = std::find_if(_jobs.rbegin(), _jobs.rend(),
                                    [](const auto& job) { return job.result_bytes > 0; });
-  for (std::size_t i = 0; i < _jobs.size(); ++i) {
-    const store::EndedJob& job = _jobs[i];
-    if (_jobs.size() - i > kept) {
-      expiry.erase.push_back(job.id);
-      bytes -= job.result_bytes;
-      continue;
-    }
+  for (const store::EndedJob& job : _jobs) {
+    Holdings& owner = owners[job.owner];
+    owner.jobs.push_back(&job);
     if (job.result_bytes == 0) continue;
-    const bool old = _limits.ttl.count() > 0 && now - job.ended >= _limits.ttl;
-    if (old || (bytes > _limits.bytes && &job != &*newest)) {
-      expiry.expire.push_back(job.id);
-      bytes -= job.result_bytes;
+    owner.results.push_back(&job);
+    owner.bytes += job.result_bytes;
+    bytes += job.result_bytes;
+  }
+  const auto give_up_oldest_result = [&](Holdings& owner) {
+    owner.bytes -= owner.results.front()->result_bytes;
+    bytes -= owner.results.front()->result_bytes;
+    owner.results.pop_front();
+  };
+  const std::size_t kept = std::max<std::size_t>(1, _limits.jobs);
+  for (std::size_t count = _jobs.size(); count > kept; --count) {
+    Holdings& owner = most(owners, [](const Holdings& of) { return of.jobs.size(); });
+    const store::EndedJob* job = owner.jobs.front();
+    owner.jobs.pop_front();
+    expiry.erase.push_back(job->id);
+    if (job->result_bytes > 0) give_up_oldest_result(owner);
+  }
+  const auto old = [&](const store::EndedJob& job) {
+    return _limits.ttl.count() > 0 && now - job.ended >= _limits.ttl;
+  };
+  for (auto& [name, owner] : owners) {
+    while (!owner.results.empty() && old(*owner.results.front())) {
+      expiry.expire.push_back(owner.results.front()->id);
+      give_up_oldest_result(owner);
     }
+  }
+  while (bytes > _limits.bytes) {
+    Holdings& owner = most(owners, [](const Holdings& of) { return of.bytes; });
+    if (owner.results.front() == &*newest) break;
+    expiry.expire.push_back(owner.results.front()->id);
+    give_up_oldest_result(owner);
   }
   return expiry;
 }

@@ -35,15 +35,15 @@ class Retention {
   void remove(const std::string& id);
   void expired(const std::string& id);  ///< has no result any more
 
-  /// What has to go at `now`: the oldest first, each in one of the two lists. The newest record
-  /// stays, and the newest result whatever its size unless it is too old, or nobody could read it.
-  /// O(n).
+  /// What has to go at `now`, each job in one of the two lists: what is too old; then, while there
+  /// is too much, the oldest of the owner who has most, so that nobody's jobs push out another's.
+  /// The newest record stays, and the newest result whatever its size unless it is too old, or
+  /// nobody could read it. O(n + k owners) for k jobs that go.
   Expiry due(store::Clock::time_point now) const;
 
  private:
   RetentionLimits _limits;
   std::deque<store::EndedJob> _jobs;
-  std::uint64_t _bytes = 0;
 };
 
 }  // namespace anticrack::jobs

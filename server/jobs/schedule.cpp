@@ -35,21 +35,27 @@ int Schedule::urgency(std::size_t priority, Time since, Time now) const {
   return static_cast<int>(std::max<std::int64_t>(0, static_cast<std::int64_t>(priority) - aged));
 }
 
-int Schedule::urgency(const Mesh& mesh, const Work& work, Time now) const {
+int Schedule::urgency(const Work& work, Time begin, Time now) const {
   int best = nothing;
   for (std::size_t priority = 0; priority < work.jobs.size(); ++priority) {
     const auto& jobs = work.jobs[priority];
-    if (work.parked[priority] > 0) best = std::min(best, urgency(priority, mesh.served, now));
+    if (work.parked[priority] > 0) best = std::min(best, urgency(priority, begin, now));
     if (!jobs.empty())
-      best = std::min(best, urgency(priority, std::max(jobs.begin()->second, mesh.served), now));
+      best = std::min(best, urgency(priority, std::max(jobs.begin()->second, begin), now));
   }
   return best;
+}
+
+Schedule::Last Schedule::last_of(const Lasts& lasts, const std::string& owner) {
+  const auto found = lasts.find(owner);
+  return found == lasts.end() ? Last{} : found->second;
 }
 
 void Schedule::add(const Waiting& job) {
   _jobs[job.number] = job;
   Mesh& mesh = _meshes[job.mesh];
   mesh.size_class = job.size_class;
+  mesh.owner = job.owner;
   mesh.lanes[static_cast<std::size_t>(job.lane)].jobs[class_of(job.priority)].emplace(job.number,
                                                                                       job.since);
   if (mesh.stage == Stage::absent) mesh.stage = Stage::unknown;  // it may have come meanwhile
@@ -111,15 +117,17 @@ std::optional<std::string> Schedule::next_to_prepare(Time now) {
   std::map<int, std::size_t> ahead = prepared_ahead();
   Mesh* best = nullptr;
   const std::string* name = nullptr;
-  std::pair<int, std::uint64_t> best_key;
+  std::tuple<int, std::uint64_t, int, std::uint64_t> best_key;
   for (auto& [id, mesh] : _meshes) {
     const bool waits = mesh.stage == Stage::unknown || mesh.stage == Stage::absent;
     if (!waits || mesh.not_before > now || ahead[mesh.size_class] >= _prepared_limit) continue;
+    const Last last = last_of(_prepared, mesh.owner);
     for (const Work& work : mesh.lanes) {
       for (std::size_t priority = 0; priority < work.jobs.size(); ++priority) {
         if (work.jobs[priority].empty()) continue;
         const auto& [number, since] = *work.jobs[priority].begin();
-        const std::pair<int, std::uint64_t> key{urgency(priority, since, now), number};
+        const std::tuple key{urgency(priority, std::max(since, last.time), now), last.number,
+                             urgency(priority, since, now), number};
         if (best == nullptr || key < best_key) {
           best = &mesh;
           name = &id;
@@ -130,6 +138,7 @@ std::optional<std::string> Schedule::next_to_prepare(Time now) {
   }
   if (best == nullptr) return std::nullopt;
   best->stage = Stage::preparing;
+  _prepared[best->owner] = {now, ++_preparations};
   return *name;
 }
 
@@ -171,14 +180,34 @@ std::optional<Schedule::Time> Schedule::next_retry(Time now) const {
   return earliest;
 }
 
+std::optional<std::string> Schedule::next_owner(Time now) const {
+  std::pair<int, std::uint64_t> best_key;
+  std::optional<std::string> best;
+  for (const auto& [id, mesh] : _meshes) {
+    if (!mesh.has_turns()) continue;
+    const Last last = last_of(_served, mesh.owner);
+    for (const Work& work : mesh.lanes) {
+      const int urgent = urgency(work, std::max(mesh.served, last.time), now);
+      const std::pair key{urgent, last.number};
+      if (urgent != nothing && (!best || key < best_key)) {
+        best = mesh.owner;
+        best_key = key;
+      }
+    }
+  }
+  return best;
+}
+
 std::optional<Turn> Schedule::next_turn(Time now) {
+  const std::optional<std::string> owner = next_owner(now);
+  if (!owner) return std::nullopt;
   std::tuple<int, std::uint64_t, std::uint64_t> best_key;
   std::optional<Turn> best;
   for (const auto& [id, mesh] : _meshes) {
-    if (!mesh.has_turns()) continue;
+    if (!mesh.has_turns() || mesh.owner != *owner) continue;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const Work& work = mesh.lanes[lane];
-      const int urgent = urgency(mesh, work, now);
+      const int urgent = urgency(work, mesh.served, now);
       const std::tuple key{urgent, mesh.last_turn, work.last_turn};
       if (urgent != nothing && (!best || key < best_key)) {
         best = Turn{id, static_cast<Lane>(lane), mesh.stage == Stage::unknown};
@@ -186,22 +215,23 @@ std::optional<Turn> Schedule::next_turn(Time now) {
       }
     }
   }
-  if (best) {
-    Mesh& mesh = _meshes.at(best->mesh);
-    if (best->probe) {
-      mesh.stage = Stage::looking;
-    } else {
-      mesh.unused = false;
-      mesh.served = now;
-      mesh.last_turn = mesh.lanes[static_cast<std::size_t>(best->lane)].last_turn = ++_turns;
-    }
+  Mesh& mesh = _meshes.at(best->mesh);
+  if (best->probe) {
+    mesh.stage = Stage::looking;
+  } else {
+    mesh.unused = false;
+    mesh.served = now;
+    mesh.last_turn = mesh.lanes[static_cast<std::size_t>(best->lane)].last_turn = ++_turns;
+    _served[*owner] = {now, _turns};
   }
   return best;
 }
 
 void Schedule::served(const std::string& mesh, Time now) {
   const auto found = _meshes.find(mesh);
-  if (found != _meshes.end()) found->second.served = now;
+  if (found == _meshes.end()) return;
+  found->second.served = now;
+  _served[found->second.owner].time = now;
 }
 
 bool Schedule::others(const std::string& mesh, Lane lane) const {

@@ -32,6 +32,7 @@ struct Waiting {
   store::Priority priority = store::Priority::normal;
   std::chrono::steady_clock::time_point since;
   int size_class = 0;  ///< of the mesh
+  std::string owner{};
 };
 
 /// What a solver thread does next.
@@ -47,13 +48,15 @@ struct Turn {
 /// 1. Urgency is the class of a job's priority, 0 the most urgent; waiting `ageing` long is worth
 ///    one class, up to class 0. What waits for a turn on a mesh has waited since the mesh's last
 ///    turn at most, so that many old jobs on one mesh are no more urgent than one on another.
-/// 2. Turns: the most urgent first; at equal urgency the mesh whose turn is longest ago, on it the
-///    lane whose turn is longest ago.
+/// 2. Turns: owners first, the one with the most urgent work, at equal urgency the one whose turn
+/// is
+///    longest ago; work of an owner has waited since that turn at most. Of the owner's meshes the
+///    most urgent; at equal urgency the mesh whose turn is longest ago, on it the lane whose turn
+///    is longest ago. A mesh belongs to the owner of the last job on it.
 /// 3. On a mesh and lane: the most urgent job, at equal urgency the oldest.
 /// 4. A job waits for its mesh without holding up another: only meshes that are ready, or that
 ///    nobody has looked for, have turns.
-/// 5. One preparation at a time per mesh, the mesh of the most urgent job first; of a class of
-/// sizes
+/// 5. One preparation at a time per mesh, owners and then their meshes as in 2; of a class of sizes
 ///    at most `prepared_limit` meshes are being prepared or are prepared and had no turn: each pins
 ///    memory, and large ones are to hold up no small one.
 /// Not thread-safe. Choosing is O(meshes), the rest O(log jobs).
@@ -111,13 +114,25 @@ class Schedule {
     Time served{};
     std::uint64_t last_turn = 0;
     int size_class = 0;
+    std::string owner;
     std::array<Work, lane_count> lanes;
     bool empty() const;
     bool has_turns() const { return stage == Stage::ready || stage == Stage::unknown; }
   };
 
+  /// When an owner had the last turn or preparation.
+  struct Last {
+    Time time{};
+    std::uint64_t number = 0;
+  };
+  using Lasts = std::unordered_map<std::string, Last>;
+
   int urgency(std::size_t priority, Time since, Time now) const;
-  int urgency(const Mesh& mesh, const Work& work, Time now) const;
+  /// As if nothing had waited since before `begin`.
+  int urgency(const Work& work, Time begin, Time now) const;
+  static Last last_of(const Lasts& lasts, const std::string& owner);
+  /// Who has the next turn.
+  std::optional<std::string> next_owner(Time now) const;
   void forget_if_empty(const std::string& mesh);
   /// Meshes that are prepared ahead, by the class of their size.
   std::map<int, std::size_t> prepared_ahead() const;
@@ -125,8 +140,10 @@ class Schedule {
   std::chrono::milliseconds _ageing;
   std::size_t _prepared_limit;
   std::uint64_t _turns = 0;
+  std::uint64_t _preparations = 0;
   std::map<std::string, Mesh> _meshes;
   std::unordered_map<std::uint64_t, Waiting> _jobs;
+  Lasts _served, _prepared;  ///< by owner
 };
 
 }  // namespace anticrack::jobs

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "access/share.hpp"
+
 namespace anticrack::rpc {
 namespace {
 
@@ -48,13 +50,21 @@ void StreamHub::add(StreamKind kind, const std::string& client,
     throw full(std::string(kind == StreamKind::watch ? "watches" : "transfers") +
                " open: " + std::to_string(count) + ", as many as this server allows");
   }
-  const auto held = _clients.find(client);
-  if (held != _clients.end() && held->second >= _limits.a_client) {
-    throw full("you have " + std::to_string(held->second) +
+  const auto found = _clients.find(client);
+  const Open held = found == _clients.end() ? Open{} : found->second;
+  if (held.streams >= _limits.a_client) {
+    throw full("you have " + std::to_string(held.streams) +
                " watches and transfers open, as many as this server allows a client");
   }
+  if (kind == StreamKind::transfer &&
+      !access::may_have(held.transfers, 1, count, _limits.transfers)) {
+    throw full("you have " + std::to_string(held.transfers) +
+               " transfers open, and what is free is kept for other clients");
+  }
   _entries.emplace(stream.get(), Entry{kind, client, stream});
-  ++_clients[client];
+  Open& open = _clients[client];
+  ++open.streams;
+  open.transfers += kind == StreamKind::transfer ? 1 : 0;
   ++count_of(kind);
 }
 
@@ -65,7 +75,8 @@ void StreamHub::remove(const Stream& stream) noexcept {
     if (entry == _entries.end()) return;
     --count_of(entry->second.kind);
     const auto client = _clients.find(entry->second.client);
-    if (--client->second == 0) _clients.erase(client);
+    client->second.transfers -= entry->second.kind == StreamKind::transfer ? 1 : 0;
+    if (--client->second.streams == 0) _clients.erase(client);
     _entries.erase(entry);
   }
   _changed.notify_all();

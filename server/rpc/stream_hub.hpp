@@ -79,7 +79,8 @@ class StreamHub {
   ~StreamHub();
 
   /// `client` as client_of() names it. Throws errors::Error: busy (too many of this kind, or of
-  /// this client), draining. gRPC's own limit on streams would make calls wait instead.
+  /// this client, whose transfers leave room for others': access/share.hpp), draining. gRPC's own
+  /// limit on streams would make calls wait instead.
   void add(StreamKind kind, const std::string& client, const std::shared_ptr<Stream>& stream);
   void remove(const Stream& stream) noexcept;
 
@@ -121,7 +122,11 @@ class StreamHub {
   std::unordered_map<const Stream*, Entry> _entries;
   std::vector<std::weak_ptr<Wakeable>> _woken;
   StreamCounts _counts;
-  std::unordered_map<std::string, int> _clients;  ///< streams each has open
+  struct Open {
+    int streams = 0;
+    int transfers = 0;  ///< of these
+  };
+  std::unordered_map<std::string, Open> _clients;
   bool _closed = false;
   bool _hurry = false;
   bool _stopping = false;

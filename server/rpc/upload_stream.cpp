@@ -10,6 +10,10 @@
 namespace anticrack::rpc {
 namespace {
 
+/// Bytes per second that an upload must reach on average, once it has kept the server waiting for
+/// StreamLimits::stall: slower ones would hold their places for hours.
+constexpr double least_rate = 4096;
+
 class RefusedUpload final : public grpc::ServerReadReactor<v1::UploadMeshRequest> {
  public:
   explicit RefusedUpload(grpc::Status status) { Finish(std::move(status)); }
@@ -39,6 +43,8 @@ void UploadStream::OnReadDone(bool ok) noexcept {
     const std::lock_guard lock(_mutex);
     if (_finished) return;
     ++_operations;
+    _waited += SteadyClock::now() - _last_read;
+    _bytes += ok ? _request.ByteSizeLong() : 0;
   }
   try {
     _edge.changes.post([self = shared_from_this(), ok] {
@@ -63,9 +69,17 @@ void UploadStream::OnDone() noexcept {
 void UploadStream::tick(SteadyClock::time_point now) noexcept {
   {
     const std::lock_guard lock(_mutex);
-    if (_operations > 0 || now - _last_read <= _edge.hub.limits().stall) return;
+    if (_operations > 0) return;
+    const auto stall = _edge.hub.limits().stall;
+    const auto waited = _waited + (now - _last_read);
+    const bool slow =
+        waited > stall &&
+        static_cast<double>(_bytes) < least_rate * std::chrono::duration<double>(waited).count();
+    if (now - _last_read <= stall && !slow) return;
   }
-  end(errors::Error(errors::Reason::cancelled, "no chunk came for too long; upload again"));
+  end(errors::Error(errors::Reason::cancelled,
+                    "the upload came at less than 4 KiB/s for too long, or not at all: "
+                    "upload again over a faster connection"));
 }
 
 void UploadStream::end(const errors::Error& error) noexcept {

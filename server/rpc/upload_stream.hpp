@@ -55,6 +55,8 @@ class UploadStream final : public grpc::ServerReadReactor<v1::UploadMeshRequest>
   int _operations = 0;  ///< messages being taken; `Finish` waits for them
   bool _finished = false;
   SteadyClock::time_point _last_read = SteadyClock::now();
+  SteadyClock::duration _waited{};  ///< for the client, in all reads that are done
+  std::size_t _bytes = 0;           ///< received
   std::optional<grpc::Status> _end;
 };
 

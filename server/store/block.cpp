@@ -16,9 +16,10 @@ namespace {
 
 /// True when the shape holds exactly `count` values.
 bool fits(const std::vector<std::uint64_t>& shape, std::uint64_t count) {
+  if (std::ranges::count(shape, 0U) > 0) return count == 0;
   std::uint64_t product = 1;
   for (const std::uint64_t extent : shape) {
-    if (extent != 0 && product > count / extent) return false;
+    if (product > count / extent) return false;
     product *= extent;
   }
   return product == count;

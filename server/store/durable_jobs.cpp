@@ -222,11 +222,12 @@ bool DurableStore::set_running(bool running) {
 std::vector<EndedJob> DurableStore::ended() const {
   return reading([](Connection& connection) {
     Statement select = connection.prepare(
-        "SELECT id, ended, result_bytes FROM jobs WHERE ended IS NOT NULL ORDER BY ended, number");
+        "SELECT id, ended, result_bytes, owner FROM jobs WHERE ended IS NOT NULL "
+        "ORDER BY ended, number");
     std::vector<EndedJob> jobs;
     while (select.step())
       jobs.push_back({select.text(0), time_of(select.integer(1)),
-                      static_cast<std::uint64_t>(select.integer(2))});
+                      static_cast<std::uint64_t>(select.integer(2)), select.text(3)});
     return jobs;
   });
 }

@@ -63,6 +63,7 @@ struct EndedJob {
   std::string id;
   Clock::time_point ended;
   std::uint64_t result_bytes = 0;  ///< 0: none, or expired
+  std::string owner{};
 };
 
 struct StoreOptions {

@@ -49,6 +49,22 @@ TEST(Retention, ExpiresByAge) {
   EXPECT_THAT(with({9, 2min, 100}, {1}).due(today + 2min).expire, ElementsAre("0"));
 }
 
+TEST(Retention, TakesFromWhoHasMost) {
+  Retention retention({4, 0ms, 100});
+  retention.add({"modest", today - 9h, 30, "modest"});
+  for (int i = 0; i < 5; ++i)
+    retention.add({std::to_string(i), today - 1h + i * 1min, 1, "tiny ones"});
+  Expiry expiry = retention.due(today);
+  EXPECT_THAT(expiry.erase, ElementsAre("0", "1"));
+  EXPECT_THAT(expiry.expire, IsEmpty());
+  for (const char* id : {"0", "1", "2"}) retention.remove(id);
+  retention.add({"large", today, 90, "large ones"});
+  EXPECT_THAT(retention.due(today).expire, IsEmpty());  // the newest, and nobody else has more
+  retention.add({"small", today, 1, "tiny ones"});
+  retention.remove("3");
+  EXPECT_THAT(retention.due(today).expire, ElementsAre("large"));
+}
+
 TEST(Retention, ForgetsWhatIsGone) {
   Retention retention = with({2, 0ms, 100}, {60, 60, 1});
   retention.remove("0");

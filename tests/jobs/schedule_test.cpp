@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
 #include <vector>
 
 namespace anticrack::jobs {
@@ -14,8 +16,8 @@ using namespace std::chrono_literals;
 class ScheduleTest : public ::testing::Test {
  protected:
   std::uint64_t add(const std::string& mesh, Priority priority = Priority::normal,
-                    Lane lane = Lane::lumped) {
-    schedule.add({++_number, mesh, lane, priority, now});
+                    Lane lane = Lane::lumped, const std::string& owner = {}) {
+    schedule.add({++_number, mesh, lane, priority, now, 0, owner});
     return _number;
   }
   /// A mesh whose operator is in memory.
@@ -45,6 +47,34 @@ TEST_F(ScheduleTest, HasNoTurnWithoutWork) {
   EXPECT_EQ(turn(), "a");
   schedule.remove(job);
   EXPECT_FALSE(schedule.next_turn(now));
+}
+
+TEST_F(ScheduleTest, OwnersTakeTurnsHoweverManyMeshesEachHas) {
+  for (int i = 0; i < 20; ++i) {
+    ready("greedy-" + std::to_string(i));
+    add("greedy-" + std::to_string(i), Priority::normal, Lane::lumped, "greedy");
+  }
+  EXPECT_TRUE(turn().starts_with("greedy"));
+  now += 10min;  // the greedy one's jobs have grown old
+  EXPECT_TRUE(turn().starts_with("greedy"));
+  ready("modest");
+  const auto job = add("modest", Priority::normal, Lane::lumped, "modest");
+  EXPECT_EQ(turn(), "modest");
+  EXPECT_TRUE(turn().starts_with("greedy"));
+  EXPECT_EQ(turn(), "modest");
+  schedule.remove(job);
+  std::set<std::string> served;
+  for (int i = 0; i < 20; ++i) served.insert(turn());
+  EXPECT_EQ(served.size(), 20U);  // the greedy one's own meshes take turns as ever
+}
+
+TEST_F(ScheduleTest, OwnersTakeTurnsInPreparation) {
+  for (int i = 0; i < 5; ++i)
+    add("greedy-" + std::to_string(i), Priority::normal, Lane::lumped, "greedy");
+  now += 10min;  // they have grown old
+  EXPECT_TRUE(schedule.next_to_prepare(now)->starts_with("greedy"));
+  add("modest", Priority::normal, Lane::lumped, "modest");
+  EXPECT_EQ(schedule.next_to_prepare(now), "modest");
 }
 
 TEST_F(ScheduleTest, TheMoreUrgentClassGoesFirst) {

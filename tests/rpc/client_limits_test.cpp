@@ -85,6 +85,37 @@ TEST(ClientLimits, HalfOpenStreamsOfOneHoldNobodyElseOff) {
   EXPECT_TRUE(eventually([&] { return server.upload_files() == 1; }));
 }
 
+TEST(ClientLimits, TransfersOfOneLeaveRoomForOthers) {
+  RunningServer server([](auto& settings) {
+    settings.server.security.tokens = anticrack::testing::people();
+    settings.server.limits.transfers = 8;
+  });
+  std::vector<std::unique_ptr<Upload>> held;
+  for (int i = 0; i < 4; ++i)
+    held.push_back(std::make_unique<Upload>(server, owner_token, small_msh()));
+  ASSERT_TRUE(eventually([&] { return server.server().metrics().transfers == 4; }));
+  Upload fifth(server, owner_token, small_msh());
+  expect_error(fifth.finish(), grpc::StatusCode::RESOURCE_EXHAUSTED, "BUSY", "");
+  Upload other(server, other_token, small_msh());
+  other.send(small_msh());
+  EXPECT_TRUE(other.finish().ok());
+  for (const auto& upload : held) upload->drop();
+}
+
+TEST(ClientLimits, SlowUploadsAreCutOff) {
+  RunningServer server(
+      [](auto& settings) { settings.server.stall = std::chrono::milliseconds(200); });
+  const std::string content = small_msh();
+  Upload slow(server, "", content);
+  // Never silent for as long as a stall, and far below the least rate: ends before its last byte.
+  std::size_t sent = 0;
+  for (; sent < content.size() && slow.send(std::string(1, content[sent])); ++sent)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_LT(sent, content.size());
+  expect_error(slow.finish(), grpc::StatusCode::CANCELLED, "CANCELLED", "");
+  EXPECT_TRUE(eventually([&] { return server.server().metrics().transfers == 0; }));
+}
+
 TEST(ClientLimits, TwoUploadsOfTheSameAtOnceAreOne) {
   RunningServer server;
   const std::string content = small_msh();

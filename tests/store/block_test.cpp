@@ -80,8 +80,9 @@ TEST(Block, HoldsBytesAndEmptyArrays) {
   builder.add("flags", flags, {2, 3});
   builder.add("halves", halves, {3, 1});
   builder.add("none", std::vector<std::uint8_t>(), {0, 7});
+  builder.add("no columns", std::vector<double>(), {2, 0});
   const Block block = builder.finish();
-  ASSERT_EQ(block.arrays.size(), 3U);
+  ASSERT_EQ(block.arrays.size(), 4U);
   EXPECT_EQ(block.arrays[0].type, ArrayType::uint8);
   EXPECT_EQ(values<std::uint8_t>(block, 0), flags);
   EXPECT_EQ(block.arrays[1].offset, 8U);
