@@ -58,8 +58,7 @@ void EndingThread::work() {
   Lock lock(_core.mutex);
   while (!_core.quitting) {
     if (!_core.to_end.empty()) {
-      const JobPtr job = std::move(_core.to_end.front());
-      _core.to_end.pop_front();
+      const JobPtr job = _core.to_end.pop();
       _swept = false;
       write(lock, conclude_job(lock, job));
     } else if (next_waiting(lock)) {

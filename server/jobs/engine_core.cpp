@@ -83,7 +83,7 @@ void EngineCore::settle(const JobPtr& job) {
     job->sweep_record = {};
   } else {
     ++not_announced;
-    to_end.push_back(job);
+    to_end.push(job->created.owner, job);
     ending.notify_one();
   }
   settled.notify_all();

@@ -23,6 +23,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "access/turn_queue.hpp"
 #include "errors/errors.hpp"
 #include "jobs/admission.hpp"
 #include "jobs/block_run.hpp"
@@ -93,7 +94,7 @@ class EngineCore {
   std::unordered_map<std::string, JobPtr> jobs;  ///< that have not ended, by id
   std::unordered_map<std::uint64_t, JobPtr> numbers;
   std::unordered_map<std::string, std::shared_ptr<MeshWork>> meshes;
-  std::deque<JobPtr> to_end;
+  access::TurnQueue<JobPtr> to_end;  ///< owners take turns
 
   std::uint64_t last_number = 0;
   std::uint64_t created = 0;

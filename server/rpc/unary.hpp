@@ -8,6 +8,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include <cstddef>
+#include <string>
 #include <utility>
 
 #include "api/unknown_fields.hpp"
@@ -49,11 +50,12 @@ Unary* answer_on(const Edge& edge, WorkPool& pool, std::size_t limit, Context* c
   const grpc::Status posted = status_of(request, [&] {
     // Here and not on the pool: a stranger takes no place in its queue.
     const access::Identity who = edge.authentication.identify(*context);
-    if (pool.waiting() >= limit)
+    const std::string client = client_of(who, *context);
+    if (!pool.has_room(client, limit))
       throw errors::Error(errors::Reason::busy,
                           "too many calls wait to be taken up; try again later")
           .retry_after(std::chrono::seconds(1));
-    pool.post([reactor, &request, work, who] {
+    pool.post(client, [reactor, &request, work, who] {
       reactor->Finish(status_of(request, [&] {
         api::require_known(request);
         work(who);

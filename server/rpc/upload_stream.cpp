@@ -28,6 +28,7 @@ UploadStream::UploadStream(Edge& edge, std::string owner, v1::UploadMeshResponse
       _response(response) {}
 
 void UploadStream::start(const std::string& client) {
+  _client = client;
   _edge.hub.add(StreamKind::transfer, client, shared_from_this());
   _self = shared_from_this();
   {
@@ -47,7 +48,7 @@ void UploadStream::OnReadDone(bool ok) noexcept {
     _bytes += ok ? _request.ByteSizeLong() : 0;
   }
   try {
-    _edge.changes.post([self = shared_from_this(), ok] {
+    _edge.changes.post(_client, [self = shared_from_this(), ok] {
       self->take(ok);
       self->leave();
     });

@@ -46,6 +46,7 @@ class UploadStream final : public grpc::ServerReadReactor<v1::UploadMeshRequest>
   void leave() noexcept;
 
   Edge& _edge;
+  std::string _client;
   UploadReceiver _receiver;
   v1::UploadMeshRequest _request;
   v1::UploadMeshResponse* const _response;

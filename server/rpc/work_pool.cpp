@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "access/share.hpp"
+
 namespace anticrack::rpc {
 
 WorkPool::WorkPool(int threads) {
@@ -18,12 +20,17 @@ WorkPool::~WorkPool() {
   for (std::thread& thread : _threads) thread.join();
 }
 
-void WorkPool::post(std::function<void()> task) {
+void WorkPool::post(const std::string& client, std::function<void()> task) {
   {
     const std::lock_guard lock(_mutex);
-    _tasks.push_back(std::move(task));
+    _tasks.push(client, std::move(task));
   }
   _changed.notify_one();
+}
+
+bool WorkPool::has_room(const std::string& client, std::size_t limit) const {
+  const std::lock_guard lock(_mutex);
+  return access::may_have(_tasks.size_of(client), 1, _tasks.size(), limit);
 }
 
 std::size_t WorkPool::waiting() const {
@@ -37,8 +44,7 @@ void WorkPool::run() {
     _changed.wait(lock, [this] { return _stopping || !_tasks.empty(); });
     if (_tasks.empty()) return;
     {
-      const std::function<void()> task = std::move(_tasks.front());
-      _tasks.pop_front();
+      const std::function<void()> task = _tasks.pop();
       lock.unlock();
       task();
     }

@@ -6,16 +6,19 @@
 
 #include <condition_variable>
 #include <cstddef>
-#include <deque>
 #include <functional>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <vector>
 
+#include "access/turn_queue.hpp"
+
 namespace anticrack::rpc {
 
-/// A few threads that take tasks in order: one that waits for the disk holds up no other, and the
-/// store writes what several wait for in one go. Thread-safe.
+/// A few threads that take clients' tasks in turns, those of one client in order: one that waits
+/// for the disk holds up no other, and the store writes what several wait for in one go.
+/// Thread-safe.
 class WorkPool {
  public:
   /// Starts them; `threads`: at least 1.
@@ -24,7 +27,9 @@ class WorkPool {
   ~WorkPool();
 
   /// `task` must not throw.
-  void post(std::function<void()> task);
+  void post(const std::string& client, std::function<void()> task);
+  /// Whether one more task of the client may wait where `limit` may in all (access/share.hpp).
+  bool has_room(const std::string& client, std::size_t limit) const;
   /// Tasks that have not begun.
   std::size_t waiting() const;
 
@@ -33,7 +38,7 @@ class WorkPool {
 
   mutable std::mutex _mutex;
   std::condition_variable _changed;
-  std::deque<std::function<void()>> _tasks;
+  access::TurnQueue<std::function<void()>> _tasks;
   bool _stopping = false;
   std::vector<std::thread> _threads;
 };

@@ -38,10 +38,11 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
 
   /// Gives the stream to the hub (which may refuse: errors::Error) and begins to send.
   void start(const std::string& client) {
+    _client = client;
     _edge.hub.add(_kind, client, this->shared_from_this());
     _self = this->shared_from_this();
     try {
-      _edge.lookups.post([self = _self] { self->open(); });
+      _edge.lookups.post(_client, [self = _self] { self->open(); });
     } catch (...) {
       fail(to_status(current_error("stream")));
       run();
@@ -143,7 +144,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
       if (_kind == StreamKind::watch)
         _edge.hub.wake(self);
       else
-        _edge.lookups.post([self] { self->drive(); });
+        _edge.lookups.post(_client, [self] { self->drive(); });
     } catch (...) {  // no memory for a queue's entry
       drive();
     }
@@ -221,6 +222,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
 
   grpc::CallbackServerContext* const _context;
   Edge& _edge;
+  std::string _client;
   const StreamKind _kind;
   const MakeFeed _make_feed;
   std::unique_ptr<Feed<Response>> _feed;  ///< set and reset under the lock

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Many clients that submit and watch for a while: no error but documented backpressure, every job
-// ends, the server's memory stays within bounds; latencies are told, not judged.
+// ends, the server's memory stays within bounds; latencies are told, not judged. With --greedy, two
+// owners with many clients each beside a modest one with one: its times alone and beside them.
 #include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/grpcpp.h>
 #include <CLI/CLI.hpp>
@@ -10,6 +11,7 @@
 #include <atomic>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <mutex>
 #include <random>
@@ -18,6 +20,7 @@
 #include "client/uuid.hpp"
 #include "service/daemon.hpp"
 #include "service/workload.hpp"
+#include "store/digest.hpp"
 
 namespace anticrack::service_test {
 namespace {
@@ -31,6 +34,7 @@ struct Options {
   int channels = 8;
   unsigned seed = 1;
   std::uint64_t memory = 2'048;  ///< MiB the server may come to hold
+  int greedy = 0;                ///< clients of each greedy owner; 0: no owners
 };
 
 struct Run {
@@ -55,6 +59,13 @@ struct Run {
   void complain(const std::string& text) {
     const std::lock_guard lock(mutex);
     complaints.push_back(text);
+  }
+  /// Stops the server and prints the complaints; the exit code.
+  int report(Daemon& daemon) {
+    if (daemon.stop() != 0) complain("anticrackd did not stop well");
+    for (const std::string& complaint : complaints)
+      std::fprintf(stderr, "anticrack-load: %s\n", complaint.c_str());
+    return complaints.empty() ? 0 : 1;
   }
 };
 
@@ -138,6 +149,63 @@ void probe(Run& run, const Daemon& daemon, int seconds) {
   tell("health check", checks);
 }
 
+/// Jobs of one client, one after the other, timed from the request to the end.
+void be_modest(Run& run, const client::ConnectionOptions& chosen, int seconds, const char* what) {
+  client::Connection connection(chosen);
+  std::vector<double> times;
+  const auto end = Clock::now() + std::chrono::seconds(seconds);
+  while (Clock::now() < end) {
+    const auto begin = Clock::now();
+    const v1::Job job =
+        wait_for_end(connection, submit(connection, run.works.front(), client::make_uuid()).name());
+    if (job.state() != v1::Job::STATE_SUCCEEDED) run.complain("a modest job did not succeed");
+    times.push_back(Milliseconds(Clock::now() - begin).count());
+  }
+  tell(what, times);
+}
+
+int drive_owners(const Options& options) {
+  Run run;
+  run.works = {work("paper-3.toml", {"mesh.preset=uniform", "mesh.size=0.1"})};
+  const anticrack::testing::TemporaryFolder folder;
+  const std::string file = folder / "tokens";
+  std::ofstream tokens(file);
+  const std::vector<std::string> names{"modest", "greedy", "another"};
+  for (const std::string& name : names)
+    tokens << name << " user " << store::Sha256().add("token of " + name).finish() << '\n';
+  tokens.close();
+  std::filesystem::permissions(file, std::filesystem::perms::owner_read);
+  Daemon daemon({"--log-level", "error", "--queued-jobs", std::to_string(options.greedy),
+                 "--kept-jobs", "200", "--tokens", file});
+  const auto as = [&](const std::string& name) {
+    client::ConnectionOptions chosen = daemon.connection();
+    chosen.credentials.token = "token of " + name;
+    chosen.notice = [&run](const std::string&) { ++run.waits; };
+    return chosen;
+  };
+  be_modest(run, as("modest"), options.seconds / 2, "modest, alone");
+  std::vector<std::unique_ptr<client::Connection>> connections;
+  std::vector<std::thread> clients;
+  for (int i = 0; i < 2 * options.greedy; ++i) {
+    connections.push_back(
+        std::make_unique<client::Connection>(as(names[1 + static_cast<std::size_t>(i % 2)])));
+    clients.emplace_back(be_a_client, std::ref(run), std::ref(*connections.back()),
+                         options.seed + static_cast<unsigned>(i));
+  }
+  try {
+    be_modest(run, as("modest"), options.seconds / 2, "modest, beside two greedy owners");
+  } catch (const std::exception& error) {
+    run.complain(std::string("the modest client failed: ") + error.what());
+  }
+  run.done = true;
+  for (std::thread& thread : clients) thread.join();
+  std::printf("%llu jobs of the greedy owners, %llu times turned away\n",
+              static_cast<unsigned long long>(run.jobs.load()),
+              static_cast<unsigned long long>(run.waits.load()));
+  if (run.jobs == 0) run.complain("no job of a greedy owner ended");
+  return run.report(daemon);
+}
+
 int drive(const Options& options) {
   Run run;
   const std::vector<std::string> coarse{"mesh.preset=uniform", "mesh.size=0.1"};
@@ -183,11 +251,7 @@ int drive(const Options& options) {
   if (metrics.jobs_queued() + metrics.jobs_running() != 0) {
     run.complain("some job has not ended");
   }
-  if (daemon.stop() != 0) run.complain("anticrackd did not stop well");
-  for (const std::string& complaint : run.complaints) {
-    std::fprintf(stderr, "anticrack-load: %s\n", complaint.c_str());
-  }
-  return run.complaints.empty() ? 0 : 1;
+  return run.report(daemon);
 }
 
 }  // namespace
@@ -204,9 +268,12 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.seed, "Of the jobs they choose")->capture_default_str();
   app.add_option("--memory", options.memory, "What the server may come to hold, MiB")
       ->capture_default_str();
+  app.add_option("--greedy", options.greedy, "Clients of each of two greedy owners; 0: no owners")
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
-    return anticrack::service_test::drive(options);
+    return options.greedy > 0 ? anticrack::service_test::drive_owners(options)
+                              : anticrack::service_test::drive(options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "anticrack-load: %s\n", error.what());
     return 1;
