@@ -48,11 +48,8 @@ std::string reason(int error) {
 toml::table parse(const std::string& text, const std::string& name) {
   if (text.find('\0') != std::string::npos)
     throw Error({"", name, 0}, "this is not text; name a case, a TOML file");
-  if (const auto line = toml_text::line_of_long_key(text)) {
-    throw Error({"", name, *line}, "a key of more than " +
-                                       std::to_string(toml_text::most_key_parts) +
-                                       " parts; shorten it: known keys have at most 5");
-  }
+  if (const auto line = toml_text::line_of_long_key(text))
+    throw Error({"", name, *line}, toml_text::long_key_message(5));
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {

@@ -158,11 +158,8 @@ void apply_override(toml::table& root, const std::string& assignment) {
   std::vector<std::string> parts = split_path(assignment.substr(0, equals));
   if (std::any_of(parts.begin(), parts.end(), [](const std::string& p) { return p.empty(); }))
     throw Error({"", source, 0}, "a part of the key is empty; write for example solver.theta=2");
-  if (parts.size() > toml_text::most_key_parts) {
-    throw Error({"", "--set", 0}, "a key of more than " +
-                                      std::to_string(toml_text::most_key_parts) +
-                                      " parts; shorten it: known keys have at most 5");
-  }
+  if (parts.size() > toml_text::most_key_parts)
+    throw Error({"", "--set", 0}, toml_text::long_key_message(5));
   toml::table parsed = parse_value(assignment.substr(equals + 1), source);
   Walk(source, std::move(parts)).assign(root, std::move(*parsed.get("value")));
 }

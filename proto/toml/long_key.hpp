@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace anticrack::toml_text {
@@ -11,6 +12,12 @@ namespace anticrack::toml_text {
 /// Keys of case files and configurations have at most 5 parts. Together with the 256 nested values
 /// that toml++ allows, this bounds the depth of its tables, which it frees recursively.
 constexpr std::size_t most_key_parts = 32;
+
+/// For a key of more parts, where known keys have at most `known`.
+inline std::string long_key_message(int known) {
+  return "a key of more than " + std::to_string(most_key_parts) +
+         " parts; shorten it: known keys have at most " + std::to_string(known);
+}
 
 namespace detail {
 

@@ -33,8 +33,7 @@ std::string value_text(const Key& key, const toml::node& node, const std::string
 
 std::vector<Setting> parse_config(const std::string& text, const std::string& path) {
   if (const auto line = toml_text::line_of_long_key(text)) {
-    throw ConfigError(fmt::format("{}:{}: a key of more than {} parts; keys have one", path, *line,
-                                  toml_text::most_key_parts));
+    throw ConfigError(fmt::format("{}:{}: {}", path, *line, toml_text::long_key_message(1)));
   }
   toml::table table;
   try {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/security.hpp"
 
+#include <optional>
 #include <sstream>
+#include <utility>
 
 #include "access/tokens.hpp"
 #include "app/certificates.hpp"
@@ -13,24 +15,6 @@ namespace anticrack::app {
 namespace {
 
 constexpr int warn_days = 14;
-
-rpc::Tls load_tls(const Config& config, std::vector<std::string>& warnings) {
-  rpc::Tls tls;
-  tls.certificate = read_guarded_file("tls-certificate", config.tls_certificate, OthersMay::read);
-  tls.key = read_guarded_file("tls-key", config.tls_key, OthersMay::nothing);
-  const int days = check_certificate(tls.certificate, tls.key);
-  if (days < warn_days) {
-    warnings.push_back(days < 0 ? std::string("the certificate has expired")
-                                : std::string("the certificate expires in ") +
-                                      std::to_string(days) + " days");
-  }
-  if (!config.tls_client_roots.empty()) {
-    tls.client_roots =
-        read_guarded_file("tls-client-roots", config.tls_client_roots, OthersMay::read);
-    check_roots(tls.client_roots);
-  }
-  return tls;
-}
 
 access::TokenTable load_tokens(const std::string& path) {
   const std::string text = read_guarded_file("tokens", path, OthersMay::read);
@@ -46,6 +30,32 @@ access::TokenTable load_tokens(const std::string& path) {
                       " holds no token; make one with deploy/make-certificates");
   }
   return tokens;
+}
+
+struct ReadFiles {
+  rpc::Tls tls;
+  std::optional<int> days_left;  ///< of the certificate
+  access::TokenTable tokens;
+};
+
+/// Reads and checks every file that the configuration names. `attempt` runs a check: a start lets
+/// the first bad one throw, --check-config goes on.
+ReadFiles read_files(const Config& config,
+                     const std::function<void(const std::function<void()>&)>& attempt) {
+  ReadFiles files;
+  auto& [certificate, key, roots] = files.tls;
+  const auto read = [&](const char* name, const std::string& path, OthersMay others,
+                        std::string& to) {
+    if (!path.empty()) attempt([&] { to = read_guarded_file(name, path, others); });
+  };
+  read("tls-certificate", config.tls_certificate, OthersMay::read, certificate);
+  read("tls-key", config.tls_key, OthersMay::nothing, key);
+  if (!certificate.empty() && !key.empty())
+    attempt([&] { files.days_left = check_certificate(certificate, key); });
+  read("tls-client-roots", config.tls_client_roots, OthersMay::read, roots);
+  if (!roots.empty()) attempt([&] { check_roots(roots); });
+  if (!config.tokens.empty()) attempt([&] { files.tokens = load_tokens(config.tokens); });
+  return files;
 }
 
 }  // namespace
@@ -71,31 +81,27 @@ void note_problem(std::vector<std::string>& problems, const std::function<void()
 
 std::vector<std::string> problems_of_security(const Config& config) {
   std::vector<std::string> problems;
-  const auto attempt = [&](const std::string& path, const std::function<void()>& check) {
-    if (!path.empty()) note_problem(problems, check);
-  };
-  const std::string& path = config.tls_certificate;
-  std::string certificate, key;
-  attempt(path, [&] { certificate = read_guarded_file("tls-certificate", path, OthersMay::read); });
-  attempt(config.tls_key,
-          [&] { key = read_guarded_file("tls-key", config.tls_key, OthersMay::nothing); });
-  attempt(certificate.empty() ? certificate : key, [&] {
-    if (check_certificate(certificate, key) < 0)
-      throw ConfigError("tls-certificate: " + path +
-                        " has expired; renew it: no client would accept it");
-  });
-  attempt(config.tls_client_roots, [&] {
-    check_roots(read_guarded_file("tls-client-roots", config.tls_client_roots, OthersMay::read));
-  });
-  attempt(config.tokens, [&] { load_tokens(config.tokens); });
+  const ReadFiles files = read_files(
+      config, [&](const std::function<void()>& check) { note_problem(problems, check); });
+  if (files.days_left && *files.days_left < 0) {
+    problems.push_back("tls-certificate: " + config.tls_certificate +
+                       " has expired; renew it: no client would accept it");
+  }
   return problems;
 }
 
 LoadedSecurity load_security(const Config& config) {
+  ReadFiles files = read_files(config, [](const std::function<void()>& check) { check(); });
   LoadedSecurity loaded;
-  if (has_tls(config)) loaded.security.tls = load_tls(config, loaded.warnings);
-  if (!config.tokens.empty()) loaded.security.tokens = load_tokens(config.tokens);
+  if (has_tls(config)) loaded.security.tls = std::move(files.tls);
+  loaded.security.tokens = std::move(files.tokens);
   loaded.security.admins = split_names(config.admins);
+  if (files.days_left && *files.days_left < warn_days) {
+    loaded.warnings.push_back(*files.days_left < 0
+                                  ? std::string("the certificate has expired")
+                                  : "the certificate expires in " +
+                                        std::to_string(*files.days_left) + " days");
+  }
 
   if (is_local(parse_listen_address(config.listen))) return loaded;
   if (config.tokens.empty() && config.tls_client_roots.empty()) {

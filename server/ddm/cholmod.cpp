@@ -80,8 +80,9 @@ FactorPtr analyse(cholmod_sparse& matrix, std::vector<int>& permutation, bool po
   context.postorder = postorder ? 1 : 0;
   FactorPtr factor(cholmod_analyze_p(&matrix, permutation.data(), nullptr, 0, &context));
   if (context.status == CHOLMOD_OUT_OF_MEMORY || context.status == CHOLMOD_TOO_LARGE) {
-    throw errors::Error(errors::Reason::limit_exceeded,
-                        "no memory for the analysis of a subdomain; take a coarser mesh");
+    throw errors::Error(
+        errors::Reason::limit_exceeded,
+        "no memory for the analysis of a subdomain; take a coarser mesh (larger size or tip_size)");
   }
   if (context.status != CHOLMOD_OK) {
     throw errors::Error(

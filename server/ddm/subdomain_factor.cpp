@@ -31,8 +31,9 @@ Values make_values(std::size_t count) {
   Values values(static_cast<double*>(
       std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment)));
   if (!values) {
-    throw errors::Error(errors::Reason::limit_exceeded,
-                        "no memory for the factor of a subdomain; take a coarser mesh");
+    throw errors::Error(
+        errors::Reason::limit_exceeded,
+        "no memory for the factor of a subdomain; take a coarser mesh (larger size or tip_size)");
   }
   if (alignment == huge_page) {
     // Advice: where it is not taken, small pages do as well.

@@ -35,7 +35,7 @@ std::size_t bounded(double expected, std::size_t max_triangles, const std::strin
   throw errors::Error(errors::Reason::limit_exceeded,
                       cause + " gives about " + show(std::round(expected)) +
                           " triangles; at most " + std::to_string(max_triangles) +
-                          " are allowed, so choose a coarser mesh")
+                          " are allowed, so choose a coarser mesh (larger size or tip_size)")
       .at(field);
 }
 

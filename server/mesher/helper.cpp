@@ -60,7 +60,7 @@ std::string ending(int status, const HelperOptions& options) {
     case SIGXCPU:
       return fmt::format(
           "the mesher was stopped by {}, its limit of processor time; choose a "
-          "coarser mesh or raise the time limit",
+          "coarser mesh (larger size or tip_size) or raise the time limit",
           name);
     case SIGSYS:
       return fmt::format("the mesher was stopped by {}: it tried a system call it may not use",
@@ -68,12 +68,12 @@ std::string ending(int status, const HelperOptions& options) {
     case SIGKILL:
       return fmt::format(
           "the mesher was killed ({}), perhaps because the machine ran out of memory; "
-          "choose a coarser mesh",
+          "choose a coarser mesh (larger size or tip_size)",
           name);
     default:
       return fmt::format(
           "the mesher crashed ({}), perhaps at its limit of {} MiB of memory; choose "
-          "a coarser mesh or change the geometry",
+          "a coarser mesh (larger size or tip_size) or change the geometry",
           name, options.memory_limit >> 20);
   }
 }

@@ -88,11 +88,11 @@ mesh::MesherReply answer(bool import, std::uint64_t memory) {
   } catch (const errors::Error& error) {
     return error;
   } catch (const std::bad_alloc&) {
-    return errors::Error(
-        errors::Reason::mesher_failed,
-        fmt::format("the mesher ran out of its {} MiB of memory; choose a coarser mesh "
-                    "or raise the limit",
-                    memory >> 20));
+    return errors::Error(errors::Reason::mesher_failed,
+                         fmt::format("the mesher ran out of its {} MiB of memory; choose a coarser "
+                                     "mesh (larger size or tip_size) "
+                                     "or raise the limit",
+                                     memory >> 20));
   } catch (const std::exception& error) {
     return errors::Error(errors::Reason::mesher_failed,
                          std::string("the mesher failed: ") + error.what());

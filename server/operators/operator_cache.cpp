@@ -56,9 +56,10 @@ std::string mebibytes(std::uint64_t bytes) {
 }
 
 Error too_large(std::uint64_t estimate, std::uint64_t budget) {
-  return {Reason::limit_exceeded, "the operators of this mesh need about " + mebibytes(estimate) +
-                                      ", more than the memory budget of " + mebibytes(budget) +
-                                      ": use a coarser mesh or a server with a larger budget"};
+  return {Reason::limit_exceeded,
+          "the operators of this mesh need about " + mebibytes(estimate) +
+              ", more than the memory budget of " + mebibytes(budget) +
+              ": use a coarser mesh (larger size or tip_size) or a server with a larger budget"};
 }
 
 Error full(std::uint64_t estimate, std::uint64_t held, std::uint64_t budget) {

@@ -20,10 +20,11 @@ void require_memory(std::size_t loads, const ddm::Decomposition& decomposition) 
   std::size_t nodes = 0;
   for (const ddm::Subdomain& subdomain : decomposition.subdomains) nodes += subdomain.node.size();
   if (nodes > 0 && loads > max_basis_bytes / sizeof(double) / nodes) {
-    throw errors::Error(errors::Reason::limit_exceeded,
-                        std::to_string(loads) + " loads on " + std::to_string(nodes) +
-                            " nodes are more than " + std::to_string(max_basis_bytes >> 20U) +
-                            " MiB: combine fewer loads, or take a coarser mesh");
+    throw errors::Error(
+        errors::Reason::limit_exceeded,
+        std::to_string(loads) + " loads on " + std::to_string(nodes) + " nodes are more than " +
+            std::to_string(max_basis_bytes >> 20U) +
+            " MiB: combine fewer loads, or take a coarser mesh (larger size or tip_size)");
   }
 }
 

@@ -86,7 +86,7 @@ CASES = [
      "its default"),
     ([("size = 0.5", "size = 1e-6")], 2,
      "wrong.toml:15: mesh.size: an edge length of 1e-06 gives about 9237604307034 triangles; at most "
-     "4000000 are allowed, so choose a coarser mesh"),
+     "4000000 are allowed, so choose a coarser mesh (larger size or tip_size)"),
     ([("1.5", "0")], 2,
      "wrong.toml:19: solver.theta: theta is 0; it must be a finite number above 0, or auto"),
     ([("1.5", "-2")], 2,
