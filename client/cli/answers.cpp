@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "cli/exit_codes.hpp"
 #include "cli/json.hpp"
 #include "cli/progress.hpp"
 #include "cli/sweep_text.hpp"
@@ -143,20 +142,6 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
   }
   json.end_array().end_object();
   return json.text();
-}
-
-int exit_code_of(const results::Result& result) {
-  if (result.sweep) return exit_code_of(*result.sweep);
-  const auto some = [&](auto... statuses) {
-    return std::any_of(result.loads.begin(), result.loads.end(), [&](const results::Load& load) {
-      return ((load.status == statuses) || ...);
-    });
-  };
-  using results::Status;
-  if (some(Status::failed, Status::cancelled, Status::pending, Status::running,
-           Status::unspecified))
-    return exit_job_failed;
-  return some(Status::not_converged) ? exit_not_converged : exit_ok;
 }
 
 }  // namespace anticrack::cli

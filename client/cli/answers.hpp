@@ -23,7 +23,4 @@ std::string answers_table(const results::Result& result);
 /// converged, ...}}, and the answers are those of the rows whose traces were kept.
 std::string answers_json(const results::Result& result, const std::filesystem::path& file);
 
-/// exit_ok, exit_job_failed (failed or cancelled load cases) or exit_not_converged.
-int exit_code_of(const results::Result& result);
-
 }  // namespace anticrack::cli

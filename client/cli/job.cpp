@@ -81,18 +81,6 @@ int list_jobs(const JobOptions& options, const Globals& globals) {
   return exit_ok;
 }
 
-// As exit_code_of(Result), from the answers of the job.
-int exit_code_of_answers(const v1::Job& job) {
-  const bool all_converged =
-      job.has_sweep()
-          ? job.sweep_answer().converged() == job.sweep_answer().rows()
-          : std::all_of(job.answers().begin(), job.answers().end(), [](const auto& answer) {
-              return status_of(answer) == results::Status::converged;
-            });
-  const int code = exit_code_of(job.state());
-  return code == exit_ok && !all_converged ? exit_not_converged : code;
-}
-
 v1::Job get_job(Session& session, const std::string& name) {
   return call_about(session, Collection::jobs, name, client::get_job);
 }
@@ -126,9 +114,9 @@ int watch_job(const JobOptions& options, const Globals& globals) {
     if (globals.json) print_document(to_json(followed.job));
     return exit_interrupted;
   }
-  return show_job(globals, followed.job,
-                  followed.how == Followed::How::cancelled ? exit_interrupted
-                                                           : exit_code_of_answers(followed.job));
+  return show_job(
+      globals, followed.job,
+      followed.how == Followed::How::cancelled ? exit_interrupted : exit_code_of(followed.job));
 }
 
 int fetch_result(const JobOptions& options, const Globals& globals) {
@@ -138,14 +126,13 @@ int fetch_result(const JobOptions& options, const Globals& globals) {
   results::check_writable(output);
   Session session(globals);
   const v1::Job job = get_job(session, name);
-  if (job.state() == v1::Job::STATE_EXPIRED)
+  if (job.result_state() == v1::Job::RESULT_STATE_EXPIRED)
     throw client::Error(client::Code::failed_precondition, expired_text(job));
   const results::Result result = fetch(session, job, session.stop());
   results::write(output, result);
   print_document(globals.json ? answers_json(result, output)
                               : answers_table(result) + "\nResults: " + sanitise(output));
-  const int code = exit_code_of(job.state());
-  return code != exit_ok ? code : exit_code_of(result);
+  return exit_code_of(job);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ std::vector<std::string> causes(const casefile::Case& the_case, const v1::Job& j
     return std::string(in_terms_of(the_case, client::decode_error(error)).what());
   };
   if (job.state() == v1::Job::STATE_CANCELLED) return {job.name() + " was cancelled"};
-  if (job.state() == v1::Job::STATE_EXPIRED) return {expired_text(job)};
+  if (job.result_state() == v1::Job::RESULT_STATE_EXPIRED) return {expired_text(job)};
   std::vector<std::string> lines;
   if (job.has_error()) lines.push_back(job.name() + " failed: " + text_of(job.error()));
   for (const v1::LoadCaseAnswer& answer : job.answers()) {
@@ -118,7 +118,7 @@ int exit_code_of(const Globals& globals, const Followed& followed) {
     case Followed::How::cancelled:
       return exit_interrupted;
     case Followed::How::ended:
-      return exit_code_of(followed.job.state());
+      return exit_code_of(followed.job);
   }
   return exit_job_failed;
 }
@@ -132,7 +132,7 @@ std::optional<results::Result> results_of(Session& session, const casefile::Case
       followed.how == Followed::How::cancelled ? std::stop_token() : session.stop();
   Ahead* const ahead = followed.ahead.get().get();
   or_later(session, job, [&] { tell_warnings(session, job, stop, ahead); });
-  if (job.result_bytes() == 0 || job.state() == v1::Job::STATE_EXPIRED) {
+  if (job.result_bytes() == 0) {
     for (const std::string& line : causes(the_case, job))
       std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
     if (session.globals().json) print_document(to_json(job));

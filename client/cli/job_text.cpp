@@ -77,7 +77,7 @@ std::string job_text(const v1::Job& job) {
                      std::string(word(job.state())) + "\n";
   if (!job.title().empty()) text += sanitise(job.title()) + "\n";
   if (job.has_error()) text += sanitise(job.error().message()) + "\n";
-  if (job.state() == v1::Job::STATE_EXPIRED) text += expired_text(job) + "\n";
+  if (job.result_state() == v1::Job::RESULT_STATE_EXPIRED) text += expired_text(job) + "\n";
   return text + circumstances(job) + "\n" +
          (job.has_sweep() ? sweep_answer(job) : answers_table(to_loads(job))) + timeline(job);
 }

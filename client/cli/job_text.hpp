@@ -12,7 +12,7 @@ namespace anticrack::cli {
 /// State, owner, attempt, the answers so far and what happened when.
 std::string job_text(const v1::Job& job);
 
-/// Of an expired job: that its results are gone, and what to do.
+/// That the results of a job were removed, and what to do.
 std::string expired_text(const v1::Job& job);
 
 }  // namespace anticrack::cli

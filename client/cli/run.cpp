@@ -9,7 +9,6 @@
 
 #include "cli/answers.hpp"
 #include "cli/commands.hpp"
-#include "cli/exit_codes.hpp"
 #include "cli/job_run.hpp"
 
 namespace anticrack::cli {
@@ -36,7 +35,7 @@ int run(const RunOptions& options, const Globals& globals) {
   if (!result) return job_code;
   save(output, *result, session, followed);
   print_answers(globals, *result, output);
-  return job_code != exit_ok ? job_code : exit_code_of(*result);
+  return job_code;
 }
 
 }  // namespace

@@ -165,8 +165,10 @@ results::Result fetch(Session& session, const v1::Job& job, const std::stop_toke
   return to_result(fetched);
 }
 
-int exit_code_of(v1::Job::State state) {
-  return state == v1::Job::STATE_SUCCEEDED ? exit_ok : exit_job_failed;
+int exit_code_of(const v1::Job& job) {
+  if (job.state() == v1::Job::STATE_SUCCEEDED) return exit_ok;
+  const bool none_failed = job.state() == v1::Job::STATE_NOT_CONVERGED && !job.has_error();
+  return none_failed ? exit_not_converged : exit_job_failed;
 }
 
 AheadFuture fetch_ahead(Session& session, const std::string& mesh) {

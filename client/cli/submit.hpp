@@ -77,7 +77,8 @@ AheadFuture fetch_ahead(Session& session, const std::string& mesh);
 results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop,
                       Ahead* ahead = nullptr);
 
-/// exit_ok or exit_job_failed, by the state of a job that has ended.
-int exit_code_of(v1::Job::State state);
+/// Of a job that has ended: exit_ok, exit_not_converged, or exit_job_failed if it or one of its
+/// load cases failed or was cancelled.
+int exit_code_of(const v1::Job& job);
 
 }  // namespace anticrack::cli

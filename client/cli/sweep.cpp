@@ -105,7 +105,7 @@ int follow_sweep(Session& session, const Targets& targets, const casefile::Case&
   save(targets.result, *result, session, followed);
   save_csv(targets.csv, *result->sweep, globals);
   print_answers(globals, *result, targets.result);
-  return job_code != exit_ok ? job_code : exit_code_of(*result);
+  return job_code;
 }
 
 int sweep(const SweepOptions& options, const Globals& globals) {

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <vector>
 
-#include "cli/exit_codes.hpp"
 #include "cli/text.hpp"
 #include "results/result.hpp"
 
@@ -127,12 +126,6 @@ std::string sweep_csv(const results::Sweep& sweep) {
     text += '\n';
   }
   return text;
-}
-
-int exit_code_of(const results::Sweep& sweep) {
-  const SweepSummary counts = summary(sweep);
-  if (counts.failed + counts.other > 0) return exit_job_failed;
-  return counts.not_converged > 0 ? exit_not_converged : exit_ok;
 }
 
 }  // namespace anticrack::cli

@@ -21,7 +21,4 @@ void add_sweep(const results::Sweep& sweep, JsonWriter& json);
 /// are left out. O(size of the sweep).
 std::string sweep_csv(const results::Sweep& sweep);
 
-/// exit_ok, exit_job_failed (failed, cancelled) or exit_not_converged.
-int exit_code_of(const results::Sweep& sweep);
-
 }  // namespace anticrack::cli

@@ -72,7 +72,13 @@ def main(address=os.environ.get("ANTICRACK_SERVER", "localhost:7433")):
         for answer in job.answers:
             moved = ", ".join(f"A of {inclusion.name} = {inclusion.displacement:.6g}" for inclusion in answer.inclusions)
             print(f"{answer.name}: {solve_pb2.LoadCaseAnswer.Status.Name(answer.status)}, energy {answer.energy:.6g}, {moved}")
-        return 0 if job.state == solve_pb2.Job.STATE_SUCCEEDED else 1
+            if answer.reason:
+                print(f"  {answer.reason}")
+        if job.HasField("error"):
+            print(f"{job.name}: {job.error.message}", file=sys.stderr)
+        # As anticrack: 3 if the answers are there and some did not converge.
+        exit_codes = {solve_pb2.Job.STATE_SUCCEEDED: 0, solve_pb2.Job.STATE_NOT_CONVERGED: 3}
+        return exit_codes.get(job.state, 1)
 
 
 if __name__ == "__main__":

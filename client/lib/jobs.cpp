@@ -41,7 +41,7 @@ void delete_job(Connection& connection, const std::string& name, const std::stop
 
 bool ended(v1::Job::State state) {
   return state == v1::Job::STATE_SUCCEEDED || state == v1::Job::STATE_FAILED ||
-         state == v1::Job::STATE_CANCELLED || state == v1::Job::STATE_EXPIRED;
+         state == v1::Job::STATE_CANCELLED || state == v1::Job::STATE_NOT_CONVERGED;
 }
 
 Block read_result(Connection& connection, const std::string& name, const std::stop_token& stop) {

@@ -49,7 +49,7 @@ v1::Job cancel_job(Connection& connection, const std::string& name,
 /// ended).
 void delete_job(Connection& connection, const std::string& name, const std::stop_token& stop = {});
 
-/// Whether a job will not change any more: SUCCEEDED, FAILED, CANCELLED or EXPIRED.
+/// Whether a job will not change any more: SUCCEEDED, NOT_CONVERGED, FAILED or CANCELLED.
 bool ended(v1::Job::State state);
 
 /// Passes on every event of a job after number `after_sequence` (0: from the earliest kept), in

@@ -18,7 +18,7 @@ using std::chrono::milliseconds;
 // Enums travel as their numbers.
 static_assert(int(contact::Status::cancelled) == v1::LoadCaseAnswer::STATUS_CANCELLED);
 static_assert(int(contact::Mass::consistent) == v1::MASS_CONSISTENT);
-static_assert(int(store::JobState::expired) == v1::Job::STATE_EXPIRED);
+static_assert(int(store::JobState::not_converged) == v1::Job::STATE_NOT_CONVERGED);
 static_assert(int(store::Priority::bulk) == v1::Job::PRIORITY_BULK);
 
 namespace {
@@ -34,6 +34,12 @@ void write_limit(milliseconds limit, v1::Job& to, const char* name) {
 /// Rounded up, so that a short limit does not become 0 (unset).
 milliseconds limit_of(const v1::Job& from, const char* name) {
   return std::chrono::ceil<milliseconds>(read_one<std::chrono::nanoseconds>(from, name));
+}
+
+v1::Job::ResultState result_state(const store::JobRecord& record) {
+  if (!store::ended(record.state)) return v1::Job::RESULT_STATE_PENDING;
+  if (record.expired) return v1::Job::RESULT_STATE_EXPIRED;
+  return record.result_bytes > 0 ? v1::Job::RESULT_STATE_AVAILABLE : v1::Job::RESULT_STATE_NONE;
 }
 
 }  // namespace
@@ -193,7 +199,7 @@ store::JobSpec Translation<store::JobSpec>::read(const v1::Job& from) {
 }
 
 const Except of_record{"id",    "request_id", "spec",  "created", "started",
-                       "ended", "cases",      "sweep", "crashes"};
+                       "ended", "expired",    "cases", "sweep",   "crashes"};
 
 void Translation<store::JobRecord>::write(const store::JobRecord& value, v1::Job& to) {
   Translation<store::JobSpec>::write(value.spec, to);
@@ -202,6 +208,8 @@ void Translation<store::JobRecord>::write(const store::JobRecord& value, v1::Job
   write_field(value.created, to, "create_time");
   write_field(value.started, to, "start_time");
   write_field(value.ended, to, "end_time");
+  write_field(value.expired, to, "expire_time");
+  to.set_result_state(result_state(value));
   write_field(value.cases, to, "answers");
   for (std::size_t i = 0; i < std::min(value.cases.size(), value.spec.loads.size()); ++i)
     to.mutable_answers(static_cast<int>(i))->set_name(value.spec.loads[i].name);
@@ -228,6 +236,7 @@ store::JobRecord Translation<store::JobRecord>::read(const v1::Job& from) {
   read_field(from, "create_time", value.created);
   read_field(from, "start_time", value.started);
   read_field(from, "end_time", value.ended);
+  read_field(from, "expire_time", value.expired);
   read_field(from, "answers", value.cases);
   if (value.spec.sweep) {
     read_field(from, "sweep_answer", value.sweep);

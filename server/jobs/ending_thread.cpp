@@ -198,7 +198,8 @@ bool EndingThread::next_waiting(Lock& lock) {
 
 void EndingThread::sweep(Lock& lock) {
   _swept = true;
-  const Expiry expiry = _core.retention.due(store::Clock::now());
+  const auto now = store::Clock::now();
+  const Expiry expiry = _core.retention.due(now);
   const bool uploads = Clock::now() >= _next_sweep;
   if (uploads) _next_sweep = Clock::now() + sweep_every;
   lock.unlock();
@@ -212,7 +213,7 @@ void EndingThread::sweep(Lock& lock) {
     }
   };
   for (const std::string& id : expiry.expire)
-    if (gone([&] { _core.store.expire(id); })) expired.push_back(id);
+    if (gone([&] { _core.store.expire(id, now); })) expired.push_back(id);
   for (const std::string& id : expiry.erase)
     if (gone([&] { _core.store.erase_job(id); })) erased.push_back(id);
   if (uploads && _core.options.upload_ttl.count() > 0)

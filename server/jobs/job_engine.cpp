@@ -146,7 +146,7 @@ std::shared_ptr<const store::BlockSource> JobEngine::result(const std::string& i
   if (!record) throw unknown(id);
   if (_state->live(id) || !store::ended(record->state))
     throw Error(Reason::not_ready, "jobs/" + id + " has not ended: wait for it");
-  if (record->state == JobState::expired) {
+  if (record->expired) {
     throw Error(Reason::result_expired,
                 "the result of jobs/" + id +
                     " was removed, by its age or to make room for others: submit the job again");

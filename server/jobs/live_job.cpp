@@ -51,7 +51,9 @@ Outcome conclude_sweep(LiveJob& job) {
   store::SweepRecord& record = job.sweep_record;
   const std::uint64_t rows = job.sweep ? job.sweep->plan.rows : job.spec->sweep->rows;
   const std::uint64_t solved = record.converged + record.not_converged;
-  if (job.why == Stop::none || (job.sweep && solved == rows)) return {};
+  if (job.why == Stop::none || (job.sweep && solved == rows)) {
+    return {record.converged == rows ? JobState::succeeded : JobState::not_converged, std::nullopt};
+  }
   if (job.why == Stop::failed) {
     record.failed = rows - solved;
     return {JobState::failed, job.failure};
@@ -136,12 +138,17 @@ Outcome conclude(LiveJob& job) {
   }
   if (failed && !complete) return {JobState::failed, job.failure};
   Outcome result;
+  std::size_t converged_cases = 0;
+  std::size_t failed_cases = 0;
   for (std::size_t i = 0; i < job.cases.size(); ++i) {
     const CaseRecord& record = *job.cases[i].record;
     if (record.status == Status::cancelled) return {JobState::cancelled, std::nullopt};
-    if (record.status == Status::failed && !result.error)
-      result = {JobState::failed, case_failed(*job.spec, i, *record.error)};
+    converged_cases += record.status == Status::converged ? 1 : 0;
+    if (record.status == Status::failed && ++failed_cases == 1)
+      result.error = case_failed(*job.spec, i, *record.error);
   }
+  if (converged_cases < job.cases.size())
+    result.state = failed_cases == job.cases.size() ? JobState::failed : JobState::not_converged;
   return result;
 }
 

@@ -122,9 +122,10 @@ struct Outcome {
 };
 
 /// How a job ends; gives the cases that have no answer the record that says why: they are cancelled
-/// or fail with the job. Cancelled where a case was cancelled, failed where one failed, with the
-/// error of the first (by index) and the path of its field, else succeeded. A sweep is cancelled or
-/// fails where rows of it were not solved. With the engine's mutex held.
+/// or fail with the job. Cancelled if a case was cancelled, failed if all failed, not converged if
+/// some failed or did not converge, else succeeded; the error is that of the first case that failed
+/// (by index), with the path of its field. A sweep is cancelled or fails if rows of it were not
+/// solved. With the engine's mutex held.
 Outcome conclude(LiveJob& job);
 
 /// A mesh's error as a job's, at field "mesh".

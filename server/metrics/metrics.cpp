@@ -96,8 +96,8 @@ struct Metrics::State {
         .Add({{"version", version}, {"build", build}})
         .Set(1);
     // From zero: a rate over a counter that appears with its first event misses that event.
-    for (const auto state :
-         {store::JobState::succeeded, store::JobState::failed, store::JobState::cancelled})
+    for (const auto state : {store::JobState::succeeded, store::JobState::not_converged,
+                             store::JobState::failed, store::JobState::cancelled})
       jobs_ended.Add({{"state", std::string(name(state))}});
   }
 

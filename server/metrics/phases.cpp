@@ -14,9 +14,9 @@ std::string_view name(Phase phase) noexcept {
 }
 
 std::string_view name(JobState state) noexcept {
-  constexpr std::array<std::string_view, 8> names{"UNKNOWN",   "QUEUED",    "WAITING_FOR_MESH",
+  constexpr std::array<std::string_view, 9> names{"UNKNOWN",   "QUEUED",    "WAITING_FOR_MESH",
                                                   "RUNNING",   "SUCCEEDED", "FAILED",
-                                                  "CANCELLED", "EXPIRED"};
+                                                  "CANCELLED", "UNKNOWN",   "NOT_CONVERGED"};
   return names[static_cast<std::size_t>(state)];
 }
 

@@ -261,13 +261,13 @@ std::shared_ptr<const BlockSource> DurableStore::result(const std::string& job) 
              : open_result(std::move(found.small), "the row of jobs/" + job);
 }
 
-void DurableStore::expire(const std::string& job) {
+void DurableStore::expire(const std::string& job, Clock::time_point now) {
   _writer.run([&](Connection& connection) {
     const std::string result = result_name(connection, job);
     JobRecord record = read_job(*find_row(connection, FileKind::result, job));
     if (!store::ended(record.state))
       throw Error(Reason::in_use, "jobs/" + job + " has not ended: cancel it first");
-    record.state = JobState::expired;
+    record.expired = now;
     record.result_bytes = 0;
     end(connection, record, {}, encode(record));
     if (!result.empty()) _unreferenced.push_back({FileKind::result, result});

@@ -50,7 +50,7 @@ class DurableStore final : public Store {
   bool set_running(bool running) override;
   std::vector<EndedJob> ended() const override;
   std::shared_ptr<const BlockSource> result(const std::string& job) const override;
-  void expire(const std::string& job) override;
+  void expire(const std::string& job, Clock::time_point now) override;
   void erase_job(const std::string& id) override;
 
   std::optional<std::string> upload_path(const std::string& sha256,

@@ -117,10 +117,10 @@ enum class JobState {
   succeeded,
   failed,
   cancelled,
-  expired
+  not_converged = 8,  ///< ran to its end, but some cases did not converge or failed
 };
 
-/// Whether the job will not change any more, but by expiring.
+/// Whether the job will not change any more, except that its result may be removed.
 constexpr bool ended(JobState state) noexcept {
   return state >= JobState::succeeded;
 }
@@ -196,14 +196,15 @@ struct JobRecord {
   Clock::time_point created;
   std::optional<Clock::time_point> started;
   std::optional<Clock::time_point> ended;
-  std::vector<CaseRecord> cases;  ///< one per load; none of a sweep
-  SweepRecord sweep;              ///< of a sweep
+  std::optional<Clock::time_point> expired;  ///< when the result was removed, by age or budget
+  std::vector<CaseRecord> cases;             ///< one per load; none of a sweep
+  SweepRecord sweep;                         ///< of a sweep
   std::uint64_t result_bytes = 0;
   int attempt = 1;             ///< counts restarts of the server while it ran
   int crashes = 0;             ///< attempts that ended with the server's process, without a stop
   std::vector<Step> timeline;  ///< of this attempt and those before, at most a few dozen
 };
 ANTICRACK_FIELDS(JobRecord, id, owner, request_id, spec, state, error, created, started, ended,
-                 cases, sweep, result_bytes, attempt, crashes, timeline)
+                 expired, cases, sweep, result_bytes, attempt, crashes, timeline)
 
 }  // namespace anticrack::store

@@ -132,8 +132,8 @@ class Store {
   /// Null where the job has none; throws storage where its record, a small result or the layout of
   /// a large one is damaged. The file is not read as a whole.
   virtual std::shared_ptr<const BlockSource> result(const std::string& job) const = 0;
-  /// Removes the result of an ended job and sets its state to `expired`; throws not_found.
-  virtual void expire(const std::string& job) = 0;
+  /// Removes the result of an ended job and notes when that was; throws not_found.
+  virtual void expire(const std::string& job, Clock::time_point now) = 0;
   virtual void erase_job(const std::string& id) = 0;  ///< and its result; throws not_found
 
   /// Where the upload with this hash lies that `owner` made; empty where there is none. Whether the

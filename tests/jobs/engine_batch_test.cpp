@@ -42,6 +42,12 @@ std::vector<store::JobSpec> mix(const std::string& mesh) {
   return specs;
 }
 
+/// The end of a job of mix(): Uzawa's iterations are too few there.
+JobState end_of(const JobRecord& record) {
+  const bool exact = std::holds_alternative<contact::ActiveSetOptions>(record.spec.solver);
+  return exact ? JobState::succeeded : JobState::not_converged;
+}
+
 using NamedArrays = std::map<std::string, std::vector<double>>;
 
 NamedArrays arrays_of(const store::BlockSource& block) {
@@ -75,7 +81,8 @@ TEST(EngineBatch, EqualsEachAlone) {
     Engine test(one_thread());
     for (const store::JobSpec& spec : mix(test.ready_mesh())) {
       const std::string id = test.submit(spec);
-      ASSERT_EQ(test.ended(id).state, JobState::succeeded);
+      const JobRecord record = test.ended(id);
+      ASSERT_EQ(record.state, end_of(record));
       alone.push_back(arrays_of(*test.engine.result(id)));
     }
   }
@@ -90,7 +97,7 @@ TEST(EngineBatch, EqualsEachAlone) {
   }
   for (std::size_t j = 0; j < ids.size(); ++j) {
     const JobRecord record = test.ended(ids[j]);
-    ASSERT_EQ(record.state, JobState::succeeded);
+    ASSERT_EQ(record.state, end_of(record));
     EXPECT_LT(largest_difference(arrays_of(*test.engine.result(ids[j])), alone[j]), 1e-12) << j;
   }
 }

@@ -67,7 +67,7 @@ TEST(EngineRecovery, RunsWhatRanAgainWithTheSameNumbers) {
   ASSERT_FALSE(store::ended(backend.store->job(id)->state));
   JobEngine engine(unlimited(one_thread()), *backend.store, backend.catalogue);
   const JobRecord record = ended(engine, id);
-  EXPECT_EQ(record.state, JobState::succeeded);
+  EXPECT_EQ(record.state, JobState::not_converged);  // its iterations are bounded
   EXPECT_EQ(record.attempt, 2);
   EXPECT_EQ(record.owner, "alice");
   EXPECT_GT(engine.events(id)->earliest(), latest);

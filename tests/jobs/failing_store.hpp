@@ -71,7 +71,9 @@ class FailingStore final : public store::Store {
   std::shared_ptr<const store::BlockSource> result(const std::string& id) const override {
     return _real.result(id);
   }
-  void expire(const std::string& id) override { _real.expire(id); }
+  void expire(const std::string& id, store::Clock::time_point now) override {
+    _real.expire(id, now);
+  }
   void erase_job(const std::string& id) override { _real.erase_job(id); }
 
   std::optional<std::string> upload_path(const std::string& sha256,

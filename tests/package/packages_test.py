@@ -19,6 +19,7 @@ FILES = {
         PLAIN: ["etc/anticrack/anticrackd.toml", "usr/lib/systemd/system/anticrackd.service",
                 f"{SHARE}/man/man5/anticrackd.toml.5.gz", f"{SHARE}/man/man8/anticrackd.8.gz",
                 f"{DOC}/anticrack-server/copyright", f"{DOC}/anticrack-server/PROMISES.md",
+                f"{DOC}/anticrack-server/COMPATIBILITY.md", f"{DOC}/anticrack-server/changelog.gz",
                 f"{DOC}/anticrack-server/examples/prometheus-alerts.yaml",
                 f"{DOC}/anticrack-server/examples/grafana-dashboard.json"],
     },
@@ -29,7 +30,8 @@ FILES = {
                 f"{SHARE}/zsh/vendor-completions/_anticrack", f"{SHARE}/fish/vendor_completions.d/anticrack.fish",
                 f"{SHARE}/anticrack/proto/anticrack/v1/*.proto", f"{SHARE}/anticrack/examples/paper.toml",
                 f"{SHARE}/anticrack/examples/*.toml", f"{SHARE}/anticrack/examples/load-ratio.csv",
-                f"{SHARE}/anticrack/examples/*", f"{DOC}/anticrack-client/copyright", f"{DOC}/anticrack-client/README.md"],
+                f"{SHARE}/anticrack/examples/*", f"{DOC}/anticrack-client/copyright", f"{DOC}/anticrack-client/README.md",
+                f"{DOC}/anticrack-client/changelog.gz"],
     },
     "libanticrack-dev": {
         EXECUTABLE: [],
@@ -41,7 +43,7 @@ FILES = {
                 *(f"usr/include/anticrack/v1/{part}.{kind}.h" for part in ("error", "mesh", "server", "solve")
                   for kind in ("pb", "grpc.pb")),
                 f"{SHARE}/anticrack/examples/library/CMakeLists.txt", f"{SHARE}/anticrack/examples/library/main.cpp",
-                f"{DOC}/libanticrack-dev/copyright"],
+                f"{DOC}/libanticrack-dev/copyright", f"{DOC}/libanticrack-dev/changelog.gz"],
     },
 }
 

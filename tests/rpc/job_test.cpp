@@ -222,7 +222,9 @@ TEST(Job, ThatDidNotConvergeSaysWhy) {
   v1::CreateJobRequest request = opening_job(server.create(paper_mesh()).name());
   request.mutable_job()->mutable_solver()->mutable_uzawa()->set_max_iterations(3);
   const v1::Job job = server.finish(server.create(request).name());
-  EXPECT_EQ(job.state(), v1::Job::STATE_SUCCEEDED);
+  EXPECT_EQ(job.state(), v1::Job::STATE_NOT_CONVERGED);
+  EXPECT_FALSE(job.has_error());
+  EXPECT_EQ(job.result_state(), v1::Job::RESULT_STATE_AVAILABLE);
   ASSERT_EQ(job.answers_size(), 1);
   EXPECT_EQ(job.answers(0).status(), v1::LoadCaseAnswer::STATUS_NOT_CONVERGED);
   EXPECT_EQ(job.answers(0).iterations(), 3);

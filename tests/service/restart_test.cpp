@@ -129,11 +129,14 @@ TEST(Restart, ExpiredResultsSaySoAndGiveTheCure) {
   const std::string name = submit(connection, quick, client::make_uuid()).name();
   wait_for_end(connection, name);
   ASSERT_TRUE(anticrack::testing::eventually(
-      [&] { return client::get_job(connection, name).state() == v1::Job::STATE_EXPIRED; }));
+      [&] { return client::get_job(connection, name).has_expire_time(); }));
+  const v1::Job job = client::get_job(connection, name);
+  EXPECT_EQ(job.state(), v1::Job::STATE_SUCCEEDED);
+  EXPECT_EQ(job.result_state(), v1::Job::RESULT_STATE_EXPIRED);
   const Ended fetch = daemon.client({"job", "fetch", name, "-o", daemon.folder() / "late.h5"});
   EXPECT_EQ(fetch.code, 2);
   EXPECT_THAT(fetch.error, HasSubstr("run the case again"));
-  EXPECT_THAT(daemon.client({"job", "show", name}).output, HasSubstr("expired"));
+  EXPECT_THAT(daemon.client({"job", "show", name}).output, HasSubstr("were removed"));
 }
 
 TEST(Restart, OneFolderHasOneServer) {

@@ -67,7 +67,8 @@ TEST_F(Damage, OfAJobRefusesThatJobAndNoOther) {
   ASSERT_EQ(unfinished.size(), 2U);
   EXPECT_EQ(unfinished[1].id, "c");
   EXPECT_TRUE(throws([&] { store->result("b"); }, Reason::storage));
-  EXPECT_TRUE(throws([&] { store->expire("b"); }, Reason::storage));
+  EXPECT_TRUE(throws([&] { store->expire("b", Clock::time_point(std::chrono::seconds(9))); },
+                     Reason::storage));
   store->erase_job("b");
   EXPECT_FALSE(store->job("b"));
 }

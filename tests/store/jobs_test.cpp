@@ -105,7 +105,8 @@ TEST_F(StoredJobs, DoNotComeBackWhenErased) {
   EXPECT_FALSE(store->job("a"));
   EXPECT_TRUE(throws([&] { store->put(job_record("a")); }, Reason::not_found));
   EXPECT_TRUE(throws([&] { store->finish(ended_record("a"), block(1)); }, Reason::not_found));
-  EXPECT_TRUE(throws([&] { store->expire("a"); }, Reason::not_found));
+  EXPECT_TRUE(throws([&] { store->expire("a", Clock::time_point(std::chrono::seconds(9))); },
+                     Reason::not_found));
   EXPECT_TRUE(throws([&] { store->erase_job("a"); }, Reason::not_found));
   EXPECT_FALSE(store->job("a"));
   EXPECT_EQ(store->result("a"), nullptr);
@@ -175,8 +176,9 @@ TEST_F(StoredJobs, GiveTheirResultPieceByPiece) {
 TEST_F(StoredJobs, LetAReaderFinishWhatExpires) {
   end("j", block(3, many));
   const auto held = store->result("j");
-  store->expire("j");
-  EXPECT_EQ(store->job("j")->state, JobState::expired);
+  store->expire("j", Clock::time_point(std::chrono::seconds(9)));
+  EXPECT_EQ(store->job("j")->state, JobState::succeeded);
+  EXPECT_EQ(store->job("j")->expired, Clock::time_point(std::chrono::seconds(9)));
   EXPECT_EQ(store->job("j")->result_bytes, 0U);
   EXPECT_EQ(store->result("j"), nullptr);
   EXPECT_EQ(store->ended()[0].result_bytes, 0U);
@@ -184,12 +186,14 @@ TEST_F(StoredJobs, LetAReaderFinishWhatExpires) {
   EXPECT_EQ(store->usage().results, 0U);
   EXPECT_EQ(values(*held), std::vector<double>(many, 3.0));
   reopen();
-  EXPECT_EQ(store->job("j")->state, JobState::expired);
+  EXPECT_EQ(store->job("j")->state, JobState::succeeded);
+  EXPECT_EQ(store->job("j")->expired, Clock::time_point(std::chrono::seconds(9)));
 }
 
 TEST_F(StoredJobs, DoNotExpireBeforeTheyEnd) {
   create("j");
-  EXPECT_TRUE(throws([&] { store->expire("j"); }, Reason::in_use));
+  EXPECT_TRUE(throws([&] { store->expire("j", Clock::time_point(std::chrono::seconds(9))); },
+                     Reason::in_use));
   EXPECT_EQ(store->job("j")->state, JobState::queued);
 }
 
@@ -199,7 +203,7 @@ TEST_F(StoredJobs, ShareEqualResultsUntilTheLastGoes) {
   end("c", block(1, many, "another name"));  // the same bytes, but not the same result
   EXPECT_EQ(files("results"), 2U);
   EXPECT_EQ(store->result("c")->arrays()[0].name, "another name");
-  store->expire("a");
+  store->expire("a", Clock::time_point(std::chrono::seconds(9)));
   EXPECT_EQ(files("results"), 2U);
   EXPECT_EQ(values(*store->result("b")), std::vector<double>(many, 1.0));
   store->erase_job("b");
@@ -231,7 +235,7 @@ TEST_F(StoredJobs, HaveASmallResultInTheDatabase) {
   store->put(ended_record("j"));  // the record alone
   reopen();
   EXPECT_EQ(values(*store->result("j")), std::vector<double>(5, 3.0));
-  store->expire("j");
+  store->expire("j", Clock::time_point(std::chrono::seconds(9)));
   EXPECT_EQ(store->result("j"), nullptr);
   EXPECT_EQ(values(*held), std::vector<double>(5, 1.0));
 }

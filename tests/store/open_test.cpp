@@ -114,7 +114,7 @@ TEST_F(StoreBudget, HasRoomAgainWhenResultsExpire) {
   create("b");
   EXPECT_TRUE(
       throws([&] { store->finish(ended_record("b"), block(2, 40'000)); }, Reason::disk_full));
-  store->expire("a");
+  store->expire("a", Clock::time_point(std::chrono::seconds(9)));
   store->finish(ended_record("b"), block(2, 40'000));
   EXPECT_EQ(values(*store->result("b")).size(), 40'000U);
 }

@@ -83,7 +83,7 @@ inline std::vector<Operation> operations() {
       [=](Store& store) { store.finish(ended("j2"), spooled_block(store)); },
       [](Store& store) { store.expire_uploads(Clock::time_point::max()); },
       [=](Store& store) { store.finish(ended("j3"), block(3)); },
-      [](Store& store) { store.expire("j1"); },
+      [](Store& store) { store.expire("j1", Clock::time_point(std::chrono::seconds(9))); },
       [](Store& store) { store.erase_job("j2"); },
       meshed("m3", 41),
       [](Store& store) { store.erase_mesh("m1"); },

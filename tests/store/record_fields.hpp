@@ -109,6 +109,8 @@ class AnyValue {
                             std::is_same_v<Enum, mesh::Shape> ||
                             std::is_same_v<Enum, store::SweepSpec::Cases>;
     value = static_cast<Enum>(below(count(value)) + (from_0 ? 0 : 1));
+    if constexpr (std::is_same_v<Enum, store::JobState>)
+      if (static_cast<int>(value) == 7) value = store::JobState::not_converged;  // there is no 7
   }
   template <class Struct>
   requires std::is_class_v<Struct>

@@ -30,7 +30,7 @@ TEST_F(Schema, IsMadeInAnEmptyDatabase) {
 TEST_F(Schema, OfAnotherVersionIsRefusedAndLeftAsItIs) {
   open({folder.path(), 0})->put(mesh_record("m"));
   const std::int64_t own = Connection(path).integer("PRAGMA user_version");
-  for (const auto& [version, word] : {std::pair{own + 1, "newer"}, {own - 1, "older"}}) {
+  for (const auto& [version, word] : {std::pair{own + 1, "newer"}, {own - 2, "older"}}) {
     Connection(path).execute("PRAGMA user_version = " + std::to_string(version));
     const auto error = error_of([&] { open({folder.path(), 0}); });
     ASSERT_TRUE(error);
@@ -40,6 +40,14 @@ TEST_F(Schema, OfAnotherVersionIsRefusedAndLeftAsItIs) {
     EXPECT_EQ(Connection(path).integer("SELECT count(*) FROM meshes"), 1);
     EXPECT_EQ(Connection(path).integer("PRAGMA user_version"), version);
   }
+}
+
+TEST_F(Schema, OfTheVersionBeforeBecomesOneOfThisVersion) {
+  open({folder.path(), 0})->put(mesh_record("m"));
+  const std::int64_t own = Connection(path).integer("PRAGMA user_version");
+  Connection(path).execute("PRAGMA user_version = " + std::to_string(own - 1));
+  EXPECT_TRUE(open({folder.path(), 0})->mesh("m"));
+  EXPECT_EQ(Connection(path).integer("PRAGMA user_version"), own);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST_F(StoreThreads, ShareAResultThatComesAndGoes) {
       ASSERT_NE(result, nullptr);
       EXPECT_EQ(values(*result), std::vector<double>(many, 1.0));
       store->result(std::to_string((t + 1) % workers));
-      store->expire(id);
+      store->expire(id, Clock::time_point(std::chrono::seconds(9)));
       EXPECT_EQ(store->result(id), nullptr);
       store->erase_job(id);
     }

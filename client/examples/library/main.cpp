@@ -34,10 +34,15 @@ int main(int argc, char** argv) try {
     const std::string& phase = event.phase().detail();
     if (!phase.empty()) std::cout << phase << std::endl;
   });
-  for (const v1::LoadCaseAnswer& answer : job.answers())
+  for (const v1::LoadCaseAnswer& answer : job.answers()) {
     for (const v1::InclusionAnswer& inclusion : answer.inclusions())
       std::cout << answer.name() << ": A = " << inclusion.displacement() << '\n';
-  if (job.state() != v1::Job::STATE_SUCCEEDED) throw std::runtime_error(job.error().message());
+    // Such an answer is the last iterate and not a solution; the reason names the cure.
+    if (answer.status() == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED)
+      std::cerr << answer.name() << " did not converge: " << answer.reason() << '\n';
+  }
+  if (job.has_error()) throw std::runtime_error(job.error().message());
+  return job.state() == v1::Job::STATE_SUCCEEDED ? 0 : 3;
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';
   return 1;

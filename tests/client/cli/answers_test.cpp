@@ -6,8 +6,6 @@
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
-#include "cli/exit_codes.hpp"
-
 namespace anticrack::cli {
 namespace {
 
@@ -93,17 +91,6 @@ TEST(AnswersJson, IsOneDocumentWithEveryLoad) {
   EXPECT_EQ(inclusion.at("A").number_value(), 0.086569);
   const auto& failed = answers.values(1).struct_value().fields();
   EXPECT_EQ(failed.at("energy").kind_case(), google::protobuf::Value::kNullValue);
-}
-
-TEST(ExitCode, IsThatOfTheWorstLoadCase) {
-  results::Result result = two_loads();
-  EXPECT_EQ(exit_code_of(result), exit_job_failed);
-  result.loads[1].status = Status::not_converged;
-  EXPECT_EQ(exit_code_of(result), exit_not_converged);
-  result.loads[1].status = Status::converged;
-  EXPECT_EQ(exit_code_of(result), exit_ok);
-  result.loads[0].status = Status::cancelled;
-  EXPECT_EQ(exit_code_of(result), exit_job_failed);
 }
 
 }  // namespace

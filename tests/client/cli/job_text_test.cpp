@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/exit_codes.hpp"
+#include "cli/submit.hpp"
 #include "cli/text.hpp"
 
 namespace anticrack::cli {
@@ -90,8 +92,32 @@ TEST(JobText, TellsWhatHappenedWhen) {
 
 TEST(JobText, OfExpiredResultsGivesTheCure) {
   v1::Job job = sample_job();
-  job.set_state(v1::Job::STATE_EXPIRED);
+  job.set_result_state(v1::Job::RESULT_STATE_EXPIRED);
+  EXPECT_THAT(job_text(job), HasSubstr(": done\n")) << "what happened is not forgotten";
   EXPECT_THAT(job_text(job), HasSubstr("run the case again"));
+}
+
+TEST(JobText, SaysThatNotEveryLoadCaseConverged) {
+  v1::Job job = sample_job();
+  job.set_state(v1::Job::STATE_NOT_CONVERGED);
+  EXPECT_THAT(job_text(job), HasSubstr(": not converged\n"));
+}
+
+TEST(ExitCode, IsThatOfTheEnd) {
+  v1::Job job;
+  job.set_state(v1::Job::STATE_SUCCEEDED);
+  EXPECT_EQ(exit_code_of(job), exit_ok);
+  job.set_result_state(v1::Job::RESULT_STATE_EXPIRED);
+  EXPECT_EQ(exit_code_of(job), exit_ok)
+      << "the answers are right whether or not the arrays are left";
+  job.set_state(v1::Job::STATE_NOT_CONVERGED);
+  EXPECT_EQ(exit_code_of(job), exit_not_converged);
+  job.mutable_error()->set_message("a load case failed");
+  EXPECT_EQ(exit_code_of(job), exit_job_failed);
+  for (const auto state : {v1::Job::STATE_FAILED, v1::Job::STATE_CANCELLED}) {
+    job.set_state(state);
+    EXPECT_EQ(exit_code_of(job), exit_job_failed);
+  }
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <sstream>
 
 #include "cli/answers.hpp"
-#include "cli/exit_codes.hpp"
 #include "client/sample_sweep.hpp"
 
 namespace anticrack::cli {
@@ -111,17 +110,6 @@ TEST(SweepCsv, LeavesCoefficientsOutThatAreNotKnown) {
   results::Result result = sample_sweep(3);
   result.sweep->coefficients.clear();
   EXPECT_THAT(sweep_csv(*result.sweep), ::testing::StartsWith("row,A,energy,"));
-}
-
-TEST(SweepExitCode, IsThatOfTheWorstRow) {
-  results::Result result = sample_sweep(5);
-  EXPECT_EQ(exit_code_of(result), exit_not_converged);
-  set_status(result, 3, Status::converged);
-  EXPECT_EQ(exit_code_of(result), exit_ok);
-  for (const Status bad : {Status::failed, Status::cancelled, Status::pending}) {
-    set_status(result, 0, bad);
-    EXPECT_EQ(exit_code_of(result), exit_job_failed);
-  }
 }
 
 }  // namespace
