@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "figures/panels.hpp"
+#include "figures/canvas.hpp"
 
 namespace anticrack::figures {
 

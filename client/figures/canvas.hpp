@@ -5,9 +5,10 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "figures/panels.hpp"
+#include "figures/figures.hpp"
 
 namespace anticrack::figures {
 
@@ -30,6 +31,20 @@ struct Canvas {
 inline constexpr Canvas narrow{85, 68};  ///< a column of a journal
 inline constexpr Canvas page{170, 68};   ///< two panels side by side, over both columns
 inline constexpr Canvas tall{85, 104};   ///< two panels, one above the other
+
+/// Part of the picture, fractions from its lower left corner.
+struct Place {
+  double x = 0;
+  double y = 0;
+  double width = 1;
+  double height = 1;
+};
+
+/// The left and the right half.
+inline std::pair<Place, Place> halves(const Place& place) {
+  const double half = place.width / 2;
+  return {{place.x, place.y, half, place.height}, {place.x + half, place.y, half, place.height}};
+}
 
 /// The commands that draw the panels into a part of the picture.
 using Plots = std::function<std::string(Format, const Place&)>;

@@ -60,8 +60,6 @@ std::string counted(const Load& load) {
   return std::to_string(load.iterations) + unit + (load.iterations == 1 ? "" : "s");
 }
 
-}  // namespace
-
 std::string convergence_data(const Load& load) {
   const double zero = foot(load);
   std::string text = "$history << EOD\n";
@@ -113,6 +111,15 @@ std::string convergence_panel(const Load& load, const Place& place) {
   }
   text += "\nunset label\n";
   return text;
+}
+
+}  // namespace
+
+Picture convergence_picture(const results::Result& result, const Load& load) {
+  return {convergence_data(load),
+          {result.title, load.name},
+          [&](Format, const Place& place) { return convergence_panel(load, place); },
+          narrow};
 }
 
 }  // namespace anticrack::figures

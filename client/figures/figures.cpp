@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "figures/drawing.hpp"
-#include "figures/script.hpp"
+#include "figures/panels.hpp"
 #include "figures/surface.hpp"
 #include "figures/sweep_figures.hpp"
 #include "figures/text.hpp"

@@ -60,20 +60,6 @@ std::string label_steps(const Surface& surface) {
          step(surface.y_min, surface.y_max) + " nomirror offset 0.3,-0.2\n";
 }
 
-}  // namespace
-
-double membrane_view(const results::Result& result) {
-  constexpr double oblique = 28;
-  double angle = 0;
-  if (!result.interfaces.empty() && result.interfaces[0].node_count() > 1) {
-    const results::Interface& interface = result.interfaces[0];
-    angle = std::atan2(interface.y.back() - interface.y.front(),
-                       interface.x.back() - interface.x.front()) *
-            180 / std::acos(-1.0);
-  }
-  return std::fmod(oblique + 360 - angle, 360);
-}
-
 std::string membrane_data(const Surface& surface) {
   const double factor = amplification(surface);
   std::string text = "$membrane << EOD\n";
@@ -134,6 +120,42 @@ std::string membrane_panel(const Surface& surface, const results::Load& load, do
   text += "splot $membrane using 1:2:3:" + scale.column(4) + " with pm3d notitle\n";
   text += "unset label\n";
   return text;
+}
+
+}  // namespace
+
+double membrane_view(const results::Result& result) {
+  constexpr double oblique = 28;
+  double angle = 0;
+  if (!result.interfaces.empty() && result.interfaces[0].node_count() > 1) {
+    const results::Interface& interface = result.interfaces[0];
+    angle = std::atan2(interface.y.back() - interface.y.front(),
+                       interface.x.back() - interface.x.front()) *
+            180 / std::acos(-1.0);
+  }
+  return std::fmod(oblique + 360 - angle, 360);
+}
+
+Picture membrane_picture(const results::Result& result, const results::Load& load,
+                         const Surface& surface) {
+  return {membrane_data(surface),
+          {result.title, load.name},
+          [&](Format format, const Place& place) {
+            return membrane_panel(surface, load, membrane_view(result), place, format);
+          },
+          narrow};
+}
+
+Picture combined_picture(const results::Result& result, const results::Load& load,
+                         const Surface& surface) {
+  const Picture left = membrane_picture(result, load, surface);
+  const Picture right = traces_picture(result, load, 0);
+  return {left.data + right.data, left.title,
+          [left = left.plots, right = right.plots](Format format, const Place& place) {
+            const auto [left_half, right_half] = halves(place);
+            return left(format, left_half) + right(format, right_half);
+          },
+          page};
 }
 
 }  // namespace anticrack::figures

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "figures/panels.hpp"
+#include "figures/canvas.hpp"
 #include "results/mesh_plan.hpp"
 
 namespace anticrack::figures {

@@ -4,6 +4,7 @@
 
 #include "figures/axes.hpp"
 #include "figures/panels.hpp"
+#include "figures/profile.hpp"
 #include "figures/text.hpp"
 
 namespace anticrack::figures {
@@ -81,8 +82,6 @@ Range heights(const results::Trace& trace, const Load& load) {
   return range;
 }
 
-}  // namespace
-
 std::string traces_data(const Profile& profile, const results::Trace& trace) {
   std::string text = "$traces << EOD\n";
   for (std::size_t i = 0; i < profile.position.size(); ++i) {
@@ -135,6 +134,18 @@ std::string traces_panel(const Profile& profile, const results::Trace& trace, co
           " dashtype (2,3) title '[u] = u\xE2\x81\xBA \xE2\x88\x92 u\xE2\x81\xBB'";
   text += keys + "\nunset object\nunset label\n";
   return text;
+}
+
+}  // namespace
+
+Picture traces_picture(const results::Result& result, const Load& load, std::size_t interface) {
+  const results::Trace& trace = load.traces.at(interface);
+  const Profile along = profile(result, interface, trace);
+  return {
+      traces_data(along, trace),
+      {result.title, load.name},
+      [&, along](Format, const Place& place) { return traces_panel(along, trace, load, place); },
+      narrow};
 }
 
 }  // namespace anticrack::figures

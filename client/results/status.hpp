@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -18,9 +20,20 @@ enum class Status : std::int32_t {
   cancelled = 6,
 };
 
-/// "converged", "not_converged", ...: the attribute `status` of the file. Empty if unknown.
-std::string_view name(Status status) noexcept;
+/// The attribute `status` of the file, by the number of the Status.
+inline constexpr std::array<std::string_view, 7> status_names{
+    "unspecified", "pending", "running", "converged", "not_converged", "failed", "cancelled"};
+
+/// "converged", "not_converged", ... Empty if unknown.
+constexpr std::string_view name(Status status) noexcept {
+  const auto index = static_cast<std::size_t>(status);
+  return index < status_names.size() ? status_names[index] : std::string_view();
+}
 /// Inverse of `name`; empty for an unknown name.
-std::optional<Status> status_from(std::string_view name) noexcept;
+constexpr std::optional<Status> status_from(std::string_view name) noexcept {
+  const auto* found = std::ranges::find(status_names, name);
+  if (found == status_names.end()) return std::nullopt;
+  return static_cast<Status>(found - status_names.begin());
+}
 
 }  // namespace anticrack::results

@@ -17,16 +17,6 @@ struct CaseLoads {
   std::span<const double> inclusion_forces = {};
 };
 
-/// Algorithm 2 from mu_0 = 0 until the criterion of step 3 is below epsilon (or, with
-/// kkt_tolerance, all relative residuals are below that), it is clear that it cannot converge,
-/// `max_iterations`, or the observer stops it. Converged only where the relative residuals are at
-/// most solution_residual and no multiplier is held at its bound p. Samples measure `equilibrium`,
-/// which costs as much as an iteration and is zero to rounding, in the first, every 64th and the
-/// last iteration (with kkt_tolerance also where the other residuals are small) and repeat it in
-/// between. Deterministic. `mesh`: the one that was cut; ddm::uzawa_obstacle must be empty.
-Answer solve_uzawa(const TraceProblem& problem, const mesh::Mesh& mesh, const CaseLoads& loads,
-                   const UzawaOptions& options, bool fields, Observer& observer);
-
 /// The exact contact problem, by DenseLcp and a step of iterative refinement; one sample a step,
 /// whose criterion is that of step 3 of Algorithm 2, 1 in the first. The bits depend on the final
 /// set only, not on `start`: closed contacts (Answer::closed of another load); empty: those of

@@ -228,12 +228,4 @@ Answer UzawaBlock::answer(int c) {
   return answer;
 }
 
-Answer solve_uzawa(const TraceProblem& problem, const mesh::Mesh& mesh, const CaseLoads& loads,
-                   const UzawaOptions& options, bool fields, Observer& observer) {
-  UzawaBlock block(problem, mesh, options.mass, 1);
-  block.add(loads, options, fields, observer);
-  while (block.columns() > 0) block.step();
-  return std::move(block.take_ended().front().answer);
-}
-
 }  // namespace anticrack::contact

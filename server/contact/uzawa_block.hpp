@@ -49,13 +49,20 @@ class StagnationMonitor {
 };
 
 /// Load cases that iterate Algorithm 2 together, a column of Uzawa each, with their own theta, p,
-/// stopping rule and observer; they join and leave between two iterations. solve_uzawa is a block
-/// of one. One object belongs to one thread. Deterministic: the same columns joined at the same
-/// iterations give the same bits.
+/// stopping rule and observer; they join and leave between two iterations. A column iterates from
+/// mu_0 = 0 until the criterion of step 3 is below epsilon (with kkt_tolerance: all relative
+/// residuals are below that), it is clear that it cannot converge, `max_iterations`, or the
+/// observer stops it. Converged only where the relative residuals are at most solution_residual and
+/// no multiplier is held at its bound p. Samples measure `equilibrium`, which costs as much as an
+/// iteration and is zero to rounding, in the first, every 64th and the last iteration (with
+/// kkt_tolerance also where the other residuals are small) and repeat it in between. One object
+/// belongs to one thread. Deterministic: the same columns joined at the same iterations give the
+/// same bits.
 class UzawaBlock {
  public:
-  /// Keeps references to problem and mesh. Allocates everything that step() needs, and has theta*
-  /// computed where it is not known yet: throws errors::Error as TraceProblem::theta_star does.
+  /// Keeps references to problem and the mesh that was cut; ddm::uzawa_obstacle must be empty.
+  /// Allocates everything that step() needs, and has theta* computed where it is not known yet:
+  /// throws errors::Error as TraceProblem::theta_star does.
   UzawaBlock(const TraceProblem& problem, const mesh::Mesh& mesh, Mass mass, int capacity);
 
   /// Load cases that iterate, and how many may at once.

@@ -18,11 +18,10 @@ constexpr std::size_t kernel_width = 8;
 using Kernels = std::array<Kernel, static_cast<std::size_t>(Code::count)>;
 
 /// One number at a time, by the C library. Reads and writes exactly n numbers.
-const Kernels& plain_kernels();
+extern const Kernels plain_kernels;
 
 /// Four and eight numbers at a time, by SLEEF. Only in programs for x86-64.
-const Kernels& avx2_kernels();
-const Kernels& avx512_kernels();
+extern const Kernels avx2_kernels, avx512_kernels;
 
 /// The fastest that this processor can run. Elementary functions are accurate to 1 unit in the last
 /// place, sine and cosine to 3.5; the same processor always gives the same bits.

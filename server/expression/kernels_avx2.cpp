@@ -8,12 +8,5 @@
 #define PERIODIC(f, a) Sleef_##f##d4_u35avx2(a)
 #define EXACT(f, a) Sleef_##f##d4_avx2(a)
 using Numbers = __m256d;
+#define ANTICRACK_KERNELS avx2_kernels
 #include "expression/kernel_table.hpp"
-
-namespace anticrack::expression {
-
-const Kernels& avx2_kernels() {
-  return kernels;
-}
-
-}  // namespace anticrack::expression

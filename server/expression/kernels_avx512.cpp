@@ -8,12 +8,5 @@
 #define PERIODIC(f, a) Sleef_##f##d8_u35avx512f(a)
 #define EXACT(f, a) Sleef_##f##d8_avx512f(a)
 using Numbers = __m512d;
+#define ANTICRACK_KERNELS avx512_kernels
 #include "expression/kernel_table.hpp"
-
-namespace anticrack::expression {
-
-const Kernels& avx512_kernels() {
-  return kernels;
-}
-
-}  // namespace anticrack::expression

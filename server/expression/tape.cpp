@@ -28,8 +28,8 @@ Ref Tape::apply(Code code, Ref a, Ref b, Ref c) {
   if (constant_operand(a) && constant_operand(b) && constant_operand(c)) {
     std::array<double, 3> operands{value(a), b < 0 ? 0 : value(b), c < 0 ? 0 : value(c)};
     double result = 0;
-    plain_kernels()[static_cast<std::size_t>(code)](&operands[0], &operands[1], &operands[2],
-                                                    &result, 1);
+    plain_kernels[static_cast<std::size_t>(code)](&operands[0], &operands[1], &operands[2], &result,
+                                                  1);
     return constant(result);
   }
   if (code == Code::select && constant_operand(a)) return value(a) != 0 ? b : c;

@@ -24,8 +24,9 @@ Solved solve(const PreparedCase& prepared, std::atomic<std::uint64_t>& iteration
   Solved solved;
   try {
     Recorder recorder(prepared.task, iterations);
-    solved.answer = prepared.task.job->mesh_operator->solve(prepared.load, spec_of(prepared).solver,
-                                                            false, recorder);
+    solved.answer = prepared.task.job->mesh_operator->solve(
+        prepared.load, std::get<contact::ActiveSetOptions>(spec_of(prepared).solver), false,
+        recorder);
     solved.history = recorder.history();
   } catch (...) {
     solved.failure = std::current_exception();

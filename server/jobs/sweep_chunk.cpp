@@ -127,8 +127,7 @@ class ChunkRows {
     auto row = std::lower_bound(rows.begin(), rows.end(), _first);
     for (; row != rows.end() && *row < _first + _count; ++row) {
       const operators::PreparedLoad prepared = load(static_cast<std::size_t>(*row - _first));
-      const contact::Answer answer =
-          mesh_operator().solve(prepared, _job.spec->solver, false, observer);
+      const contact::Answer answer = mesh_operator().solve(prepared, options(), false, observer);
       require_complete(answer.status != contact::Status::cancelled);
       add_traces(traces, arrays::row_traces(*row), answer.traces);
     }

@@ -73,11 +73,6 @@ MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threa
       sweep_geometry(skeleton, mesh->inclusions.size()),
       geometry(contact::trace_geometry(decomposition, *mesh)) {}
 
-void MeshOperator::Parts::require_uzawa() const {
-  if (!uzawa_obstacle.empty())
-    throw errors::Error(errors::Reason::not_implemented, uzawa_obstacle).at("uzawa");
-}
-
 std::shared_ptr<const MeshOperator> MeshOperator::factorise(std::shared_ptr<const mesh::Mesh> mesh,
                                                             int threads, std::stop_token stop) {
   require_threadsafe_blas();

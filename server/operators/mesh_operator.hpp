@@ -36,22 +36,16 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// Cholesky factorisation per subdomain plus O(n_G^3) for n_G interface nodes.
   static std::shared_ptr<const MeshOperator> factorise(std::shared_ptr<const mesh::Mesh> mesh,
                                                        int threads, std::stop_token stop);
-  /// One load case. O(n_G^2) an iteration of Algorithm 2, O(c^3) a step of the active set with c
-  /// crack nodes, O(N) before and (for fields) after. Same mesh, load and options: same bits.
-  /// Throws errors::Error: expression_invalid (a value that is not finite, with the place);
+  /// Condenses loads by forward solves in blocks of columns, O(N) each. Entry i belongs to loads[i]
+  /// and holds its error: expression_invalid (a value that is not finite, with the place),
   /// invalid_argument (an unknown subdomain or inclusion, an array of another length, a point
-  /// outside); not_implemented (Uzawa where uzawa_obstacle() has a reason); cancelled (`stop` while
-  /// the load was integrated).
-  contact::Answer solve(const fem::Load& load, const contact::SolverOptions& options, bool fields,
-                        contact::Observer& observer, const std::stop_token& stop = {}) const;
-
-  /// Condenses several loads by forward solves in blocks of columns. Entry i belongs to loads[i]
-  /// and holds its error, as `solve` throws it. The bits of a load do not depend on the others.
+  /// outside), cancelled (`stop`). The bits of a load do not depend on the others.
   std::vector<std::variant<PreparedLoad, errors::Error>> prepare(
       std::span<const fem::Load* const> loads, const std::stop_token& stop = {}) const;
 
-  /// `solve` from a prepared load.
-  contact::Answer solve(const PreparedLoad& load, const contact::SolverOptions& options,
+  /// The exact contact problem; UzawaBlock is for Algorithm 2. O(c^3) a step of the active set with
+  /// c crack nodes, and O(N) for fields. Same mesh, load and options: same bits.
+  contact::Answer solve(const PreparedLoad& load, const contact::ActiveSetOptions& options,
                         bool fields, contact::Observer& observer) const;
 
   /// Fills the fields of answers[i] to loads[i] by backward solves in blocks of columns, with the
@@ -62,8 +56,9 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
 
   /// Condenses loads to be combined: O(N) each and O(n_G^2 + N m) for the energy of pairs; N m
   /// numbers of memory meanwhile. Cached (BasisCache): loads that differ by name only, arrays
-  /// compared by the hash of their upload, are condensed once. Throws errors::Error as `solve`
-  /// does, with "load_cases[j]." before the field; limit_exceeded beyond max_basis_bytes.
+  /// compared by the hash of their upload, are condensed once. Errors of
+  /// loads as in prepare(), thrown with "load_cases[j]." before the field; limit_exceeded beyond
+  /// max_basis_bytes.
   std::shared_ptr<const LoadBasis> basis(std::span<const fem::Load* const> loads,
                                          const std::stop_token& stop = {}) const;
 

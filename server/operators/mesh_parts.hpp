@@ -24,9 +24,6 @@ namespace anticrack::operators {
 struct MeshOperator::Parts {
   Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads, const std::stop_token& stop);
 
-  /// Throws errors::Error (not_implemented) where Algorithm 2 does not apply.
-  void require_uzawa() const;
-
   std::shared_ptr<const mesh::Mesh> mesh;
   ddm::Decomposition decomposition;
   ddm::NeumannBoundary neumann;  // refers to the mesh and the decomposition

@@ -40,29 +40,12 @@ std::vector<std::variant<PreparedLoad, errors::Error>> MeshOperator::prepare(
   return prepared;
 }
 
-contact::Answer MeshOperator::solve(const fem::Load& load, const contact::SolverOptions& options,
-                                    bool fields, contact::Observer& observer,
-                                    const std::stop_token& stop) const {
-  if (std::holds_alternative<contact::UzawaOptions>(options))
-    _parts->require_uzawa();  // before the work on the load
-  const fem::Load* const one[] = {&load};
-  const std::variant<PreparedLoad, errors::Error> prepared = std::move(prepare(one, stop).front());
-  if (const auto* error = std::get_if<errors::Error>(&prepared)) throw errors::Error(*error);
-  return solve(std::get<PreparedLoad>(prepared), options, fields, observer);
-}
-
-contact::Answer MeshOperator::solve(const PreparedLoad& load, const contact::SolverOptions& options,
-                                    bool fields, contact::Observer& observer) const {
-  const auto* uzawa = std::get_if<contact::UzawaOptions>(&options);
-  if (uzawa != nullptr) _parts->require_uzawa();
+contact::Answer MeshOperator::solve(const PreparedLoad& load,
+                                    const contact::ActiveSetOptions& options, bool fields,
+                                    contact::Observer& observer) const {
   require_prepared(load, fields);
-  const contact::CaseLoads loads = load._data->loads();
-  contact::Answer answer =
-      uzawa != nullptr
-          ? contact::solve_uzawa(_parts->problem, *_parts->mesh, loads, *uzawa, fields, observer)
-          : contact::solve_active_set(_parts->skeleton, *_parts->mesh, loads,
-                                      std::get<contact::ActiveSetOptions>(options), fields,
-                                      observer);
+  contact::Answer answer = contact::solve_active_set(
+      _parts->skeleton, *_parts->mesh, load._data->loads(), options, fields, observer);
   load._data->add_warnings(answer);
   return answer;
 }

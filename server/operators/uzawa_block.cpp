@@ -25,7 +25,8 @@ struct UzawaBlock::State {
 UzawaBlock::UzawaBlock(std::shared_ptr<const MeshOperator> mesh_operator, contact::Mass mass,
                        int capacity) {
   const MeshOperator::Parts& parts = *mesh_operator->_parts;
-  parts.require_uzawa();
+  if (!parts.uzawa_obstacle.empty())
+    throw errors::Error(errors::Reason::not_implemented, parts.uzawa_obstacle).at("uzawa");
   _state = std::make_unique<State>(std::move(mesh_operator), parts.problem, mass, capacity);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "accuracy/sequence.hpp"
 #include "support/silent_observer.hpp"
+#include "support/solve.hpp"
 
 #include <stdexcept>
 
@@ -13,7 +14,7 @@ using anticrack::testing::Silent;
 
 contact::Answer solve(const operators::MeshOperator& op, const fem::Load& load, bool fields) {
   Silent silent;
-  contact::Answer answer = op.solve(load, contact::ActiveSetOptions{}, fields, silent);
+  contact::Answer answer = testing::solve(op, load, contact::ActiveSetOptions{}, fields, silent);
   if (answer.status != contact::Status::converged) {
     throw std::runtime_error("not converged: " + answer.reason);
   }

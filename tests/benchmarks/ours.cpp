@@ -17,6 +17,7 @@
 #include "operators/freed_memory.hpp"
 #include "operators/mesh_operator.hpp"
 #include "support/silent_observer.hpp"
+#include "support/solve.hpp"
 
 namespace anticrack::benchmarks {
 namespace {
@@ -77,7 +78,7 @@ Operator first_answers(const Options& options, const std::shared_ptr<const mesh:
     const Stopwatch watch;
     op = MeshOperator::factorise(mesh, options.threads, {});
     watch.stop(factorise);
-    op->solve(load, contact::ActiveSetOptions{}, false, nobody);
+    testing::solve(*op, load, contact::ActiveSetOptions{}, false, nobody);
     watch.stop(first);
   }
   figures.set("first", first);
@@ -96,7 +97,8 @@ void further_loads(const Options& options, const MeshOperator& op,
   Silent nobody;
   for (std::size_t k = 0; k < static_cast<std::size_t>(options.loads); ++k) {
     const Stopwatch watch;
-    const contact::Answer answer = op.solve(loads[k], contact::ActiveSetOptions{}, false, nobody);
+    const contact::Answer answer =
+        testing::solve(op, loads[k], contact::ActiveSetOptions{}, false, nobody);
     watch.stop(alone);
     answers.add(answer);
   }
@@ -189,10 +191,10 @@ void uzawa(const Options& options, const MeshOperator& op, const std::vector<fem
   Silent nobody;
   double theta = 0, converged = 0;
   // The first computes theta* and what each iteration multiplies by, once for all loads.
-  op.solve(loads[0], how, false, nobody);
+  testing::solve(op, loads[0], how, false, nobody);
   for (std::size_t k = 0; k < static_cast<std::size_t>(options.uzawa_loads); ++k) {
     const Stopwatch watch;
-    const contact::Answer answer = op.solve(loads[k], how, false, nobody);
+    const contact::Answer answer = testing::solve(op, loads[k], how, false, nobody);
     watch.stop(per_load);
     watch.stop(per_iteration, answer.iterations);
     theta = answer.theta;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/solve.hpp"
+#include "contact/uzawa_block.hpp"
 #include "support/structured_mesh.hpp"
 #include "support/trace_space.hpp"
 
@@ -22,6 +23,16 @@ class Recorder : public Observer {
  private:
   int _stop_after;
 };
+
+/// A block of one column.
+inline Answer solve_uzawa(const TraceProblem& problem, const mesh::Mesh& mesh,
+                          const CaseLoads& loads, const UzawaOptions& options, bool fields,
+                          Observer& observer) {
+  UzawaBlock block(problem, mesh, options.mass, 1);
+  block.add(loads, options, fields, observer);
+  while (block.columns() > 0) block.step();
+  return std::move(block.take_ended().front().answer);
+}
 
 /// A mesh with all that solving on it takes.
 struct Membrane {

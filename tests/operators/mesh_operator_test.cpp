@@ -12,6 +12,7 @@
 
 #include "errors/errors.hpp"
 #include "support/silent_observer.hpp"
+#include "support/solve.hpp"
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::operators {
@@ -34,7 +35,7 @@ contact::UzawaOptions uzawa() {
 contact::Answer solve(const MeshOperator& op, const fem::Load& load, bool fields = false,
                       const contact::SolverOptions& options = uzawa()) {
   Silent observer;
-  return op.solve(load, options, fields, observer);
+  return testing::solve(op, load, options, fields, observer);
 }
 
 template <class Values>

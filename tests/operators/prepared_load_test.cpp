@@ -12,6 +12,7 @@
 #include "operators/mesh_operator.hpp"
 #include "support/errors.hpp"
 #include "support/silent_observer.hpp"
+#include "support/solve.hpp"
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::operators {
@@ -85,10 +86,10 @@ TEST(PreparedLoad, FortyAtOnceAreWhatEachIsAlone) {
     const contact::ActiveSetOptions exact;
     // The same bits: results do not depend on what happened to wait beside a load.
     EXPECT_EQ(difference(op->solve(*load, exact, true, observer),
-                         op->solve(loads[i], exact, true, observer)),
+                         testing::solve(*op, loads[i], exact, true, observer)),
               0);
-    const contact::Answer batched = op->solve(*load, uzawa, true, observer);
-    const contact::Answer alone = op->solve(loads[i], uzawa, true, observer);
+    const contact::Answer batched = testing::solve(*op, *load, uzawa, true, observer);
+    const contact::Answer alone = testing::solve(*op, loads[i], uzawa, true, observer);
     EXPECT_EQ(batched.iterations, alone.iterations);
     EXPECT_EQ(difference(batched, alone), 0);
   }
@@ -116,7 +117,8 @@ TEST(PreparedLoad, FieldsOfFortyAtOnceAreThoseOfEachAlone) {
   }
   op->recover_fields(of, to);
   for (std::size_t i = 0; i < loads.size(); ++i) {
-    const contact::Answer alone = op->solve(loads[i], contact::ActiveSetOptions(), true, observer);
+    const contact::Answer alone =
+        testing::solve(*op, loads[i], contact::ActiveSetOptions(), true, observer);
     ASSERT_EQ(answers[i].fields.size(), 2U);
     EXPECT_EQ(difference(answers[i], alone), 0) << i;
   }
@@ -139,8 +141,8 @@ TEST(PreparedLoad, WhatIsWrongWithOneIsNobodyElses) {
     EXPECT_EQ(error->reason(), reason) << error->what();
     EXPECT_EQ(error->fields().at(0).field, field);
     Silent observer;
-    const auto alone =
-        error_of([&] { op->solve(loads[i], contact::ActiveSetOptions{}, false, observer); });
+    const auto alone = error_of(
+        [&] { testing::solve(*op, loads[i], contact::ActiveSetOptions{}, false, observer); });
     ASSERT_TRUE(alone);
     EXPECT_STREQ(error->what(), alone->what());
   };
@@ -151,9 +153,10 @@ TEST(PreparedLoad, WhatIsWrongWithOneIsNobodyElses) {
   for (const std::size_t good : {0U, 2U, 5U}) {
     const auto* load = std::get_if<PreparedLoad>(&prepared[good]);
     ASSERT_NE(load, nullptr) << good;
-    EXPECT_LT(difference(op->solve(*load, contact::ActiveSetOptions{}, true, observer),
-                         op->solve(loads[good], contact::ActiveSetOptions{}, true, observer)),
-              1e-13);
+    EXPECT_LT(
+        difference(op->solve(*load, contact::ActiveSetOptions{}, true, observer),
+                   testing::solve(*op, loads[good], contact::ActiveSetOptions{}, true, observer)),
+        1e-13);
   }
   EXPECT_TRUE(prepare(*op, {}).empty());
 }

@@ -9,6 +9,7 @@
 
 #include "operators/mesh_operator.hpp"
 #include "support/silent_observer.hpp"
+#include "support/solve.hpp"
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::operators {

@@ -99,7 +99,7 @@ TEST(Sweep, RowsOfPreparedLoadsAreTheirPlainAnswers) {
   ASSERT_TRUE(op->sweep(prepared, {}, rows, start));
   Silent silent;
   for (std::size_t k = 0; k < loads.size(); ++k) {
-    const contact::Answer answer = op->solve(loads[k], ActiveSetOptions{}, false, silent);
+    const contact::Answer answer = testing::solve(*op, loads[k], ActiveSetOptions{}, false, silent);
     EXPECT_EQ(rows.status[k], answer.status);
     EXPECT_NEAR(rows.energy[k], answer.energy, 1e-12 * std::abs(answer.energy));
     EXPECT_NEAR(rows.displacement[k], answer.inclusions[0].displacement, 1e-12);
@@ -135,8 +135,8 @@ TEST(Sweep, ACombinationIsALoadWithoutFields) {
           uzawa.theta.reset();
           return uzawa;
         }())}) {
-    const contact::Answer a = op->solve(row, options, false, silent);
-    const contact::Answer b = op->solve(same, options, false, silent);
+    const contact::Answer a = testing::solve(*op, row, options, false, silent);
+    const contact::Answer b = testing::solve(*op, same, options, false, silent);
     EXPECT_EQ(a.status, Status::converged);
     EXPECT_EQ(a.iterations, b.iterations);
     EXPECT_NEAR(a.criterion, b.criterion, 1e-6 * b.criterion + 1e-15);
@@ -236,7 +236,7 @@ TEST(Sweep, NeedsNeitherCrackNorInclusion) {
     Silent silent;
     ::testing::internal::CaptureStdout();
     EXPECT_TRUE(op->sweep(*basis_of(*op, loads), std::vector<double>{1, -1, 2}, {}, rows, start));
-    op->solve(loads[0], ActiveSetOptions{}, false, silent);
+    testing::solve(*op, loads[0], ActiveSetOptions{}, false, silent);
     EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
     EXPECT_EQ(rows.status[0], Status::converged);
   }

@@ -11,6 +11,7 @@
 #include "operators/mesh_operator.hpp"
 #include "support/plain_stiffness.hpp"
 #include "support/silent_observer.hpp"
+#include "support/solve.hpp"
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::operators {
@@ -54,8 +55,9 @@ void expect_uncut(const mesh::Mesh& mesh) {
   uzawa.epsilon = 1e-30;
   uzawa.max_iterations = 200000;
   Silent observer;
-  const contact::Answer exact = op->solve(load, contact::ActiveSetOptions{}, true, observer);
-  const contact::Answer answer = op->solve(load, uzawa, true, observer);
+  const contact::Answer exact =
+      testing::solve(*op, load, contact::ActiveSetOptions{}, true, observer);
+  const contact::Answer answer = testing::solve(*op, load, uzawa, true, observer);
   ASSERT_EQ(answer.status, contact::Status::converged) << answer.reason;
   ASSERT_EQ(exact.status, contact::Status::converged) << exact.reason;
   EXPECT_EQ(exact.iterations, 1);
@@ -147,7 +149,7 @@ TEST(UncutMembrane, MayHaveNoFreeNode) {
   for (const contact::SolverOptions& method : {contact::SolverOptions(contact::ActiveSetOptions{}),
                                                contact::SolverOptions(contact::UzawaOptions{})}) {
     const contact::Answer answer =
-        op->solve({"slope", fem::Force(0.0), "2*x"}, method, true, observer);
+        testing::solve(*op, {"slope", fem::Force(0.0), "2*x"}, method, true, observer);
     EXPECT_EQ(answer.status, contact::Status::converged);
     EXPECT_NEAR(answer.energy, 2, 1e-15);  // |grad u|^2 / 2
     ASSERT_EQ(answer.fields.size(), 1U);

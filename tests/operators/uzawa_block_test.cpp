@@ -15,6 +15,7 @@
 #include "operators/mesh_operator.hpp"
 #include "reference/random_membrane.hpp"
 #include "support/errors.hpp"
+#include "support/solve.hpp"
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::operators {
@@ -60,7 +61,7 @@ PreparedLoad prepared(const MeshOperator& op, const fem::Load& load) {
 
 Solved alone(const MeshOperator& op, const Case& one) {
   Recorder recorder(one.stop_after);
-  contact::Answer answer = op.solve(one.load, one.options, one.fields, recorder);
+  contact::Answer answer = testing::solve(op, one.load, one.options, one.fields, recorder);
   return {std::move(answer), std::move(recorder.samples)};
 }
 
@@ -144,7 +145,7 @@ class Draw {
     Recorder once(1);
     UzawaOptions options;
     options.mass = mass;
-    return _op.solve(fem::Load{}, options, false, once).theta_star;
+    return testing::solve(_op, fem::Load{}, options, false, once).theta_star;
   }
 
   const MeshOperator& _op;

@@ -17,6 +17,7 @@
 #include "operators/mesh_operator.hpp"
 #include "reference/random_membrane.hpp"
 #include "support/silent_observer.hpp"
+#include "support/solve.hpp"
 
 namespace anticrack::reference {
 namespace {
@@ -111,7 +112,8 @@ void compare(unsigned seed, Tally& tally) {
   }
   const MonolithicContact reference(mesh, load);
   Silent observer;
-  const contact::Answer answer = op->solve(given, contact::ActiveSetOptions{}, true, observer);
+  const contact::Answer answer =
+      testing::solve(*op, given, contact::ActiveSetOptions{}, true, observer);
   if (!reference.held()) {
     ++tally.not_held;
     return;
@@ -192,8 +194,9 @@ TEST(MonolithicContact, AgreesWithUzawaOnRandomMembranes) {
     uzawa.kkt_tolerance = 1e-10;
     uzawa.max_iterations = 400'000;
     Silent observer;
-    const contact::Answer iterated = op->solve(load, uzawa, true, observer);
-    const contact::Answer exact = op->solve(load, contact::ActiveSetOptions{}, true, observer);
+    const contact::Answer iterated = testing::solve(*op, load, uzawa, true, observer);
+    const contact::Answer exact =
+        testing::solve(*op, load, contact::ActiveSetOptions{}, true, observer);
     ASSERT_EQ(iterated.status, contact::Status::converged) << iterated.reason;
     ASSERT_EQ(exact.status, contact::Status::converged) << exact.reason;
     double difference = 0, scale = 0;

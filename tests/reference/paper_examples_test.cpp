@@ -9,6 +9,7 @@
 
 #include "operators/mesh_operator.hpp"
 #include "support/paper_mesh.hpp"
+#include "support/solve.hpp"
 
 namespace anticrack {
 namespace {
@@ -38,8 +39,9 @@ Answer solve(const std::string& force, const contact::SolverOptions& options = U
              const std::string& boundary = "") {
   Counter counter;
   const auto begin = std::chrono::steady_clock::now();
-  Answer answer = paper_operator().solve({"case", fem::Expression{force}, boundary, "", {}, {}},
-                                         options, false, counter);
+  Answer answer =
+      testing::solve(paper_operator(), {"case", fem::Expression{force}, boundary, "", {}, {}},
+                     options, false, counter);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
   EXPECT_EQ(counter.count, answer.iterations);
   EXPECT_EQ(counter.last.criterion, answer.criterion);
@@ -196,8 +198,8 @@ TEST(PatchTest, ClosedCrackIsReproducedToRounding) {
     options.epsilon = epsilon;
     options.max_iterations = 100000;
     Counter counter;
-    const Answer answer =
-        paper_operator().solve({"patch", 0.0, "-0.7*y", "", {}, {}}, options, true, counter);
+    const Answer answer = testing::solve(paper_operator(), {"patch", 0.0, "-0.7*y", "", {}, {}},
+                                         options, true, counter);
     EXPECT_EQ(answer.status, Status::converged) << answer.reason;
     double field = 0, pressure = 0;
     const mesh::Mesh& mesh = paper_operator().mesh();
@@ -293,8 +295,8 @@ TEST(ActiveSet, AgreesWithUzawaOnThePapersExamples) {
 TEST(ActiveSet, ReproducesTheClosedCrackToRounding) {
   const Answer answer = [] {
     Counter counter;
-    return paper_operator().solve({"patch", 0.0, "-0.7*y", "", {}, {}}, contact::ActiveSetOptions{},
-                                  false, counter);
+    return testing::solve(paper_operator(), {"patch", 0.0, "-0.7*y", "", {}, {}},
+                          contact::ActiveSetOptions{}, false, counter);
   }();
   ASSERT_EQ(answer.status, Status::converged);
   EXPECT_NEAR(answer.inclusions[0].displacement, 0, 1e-13);

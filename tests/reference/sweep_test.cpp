@@ -16,6 +16,7 @@
 #include "operators/mesh_operator.hpp"
 #include "reference/random_membrane.hpp"
 #include "support/silent_observer.hpp"
+#include "support/solve.hpp"
 
 namespace anticrack::reference {
 namespace {
@@ -30,7 +31,7 @@ using operators::MeshOperator;
 
 Answer plain(const MeshOperator& op, const fem::Load& load) {
   Silent silent;
-  return op.solve(load, ActiveSetOptions{}, false, silent);
+  return testing::solve(op, load, ActiveSetOptions{}, false, silent);
 }
 
 std::string text(double value) {

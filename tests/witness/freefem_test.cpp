@@ -10,6 +10,7 @@
 
 #include "mesh/refine.hpp"
 #include "operators/mesh_operator.hpp"
+#include "support/solve.hpp"
 #include "support/structured_mesh.hpp"
 #include "support/temporary_folder.hpp"
 #include "witness/freefem_case.hpp"
@@ -87,7 +88,8 @@ TEST_P(FreeFem, AgreesInBothFieldsAndTheInclusion) {
   contact::UzawaOptions options;
   options.theta = theta;
   History history;
-  const contact::Answer ours = op->solve(load(GetParam().expression), options, true, history);
+  const contact::Answer ours =
+      testing::solve(*op, load(GetParam().expression), options, true, history);
   ASSERT_EQ(ours.status, contact::Status::converged) << ours.reason;
 
   const Answer theirs = witness(*program, *membrane(), ours.iterations, GetParam().quadrants);
@@ -113,8 +115,8 @@ TEST_P(FreeFem, ConvergesToTheAnswerOfTheActiveSet) {
       std::make_shared<const mesh::Mesh>(testing::structured_mesh({16, 8, {}, {}, {"stiffener"}}));
   History history;
   const contact::Answer ours =
-      operators::MeshOperator::factorise(mesh, 2, {})
-          ->solve(load(GetParam().expression), contact::ActiveSetOptions{}, true, history);
+      testing::solve(*operators::MeshOperator::factorise(mesh, 2, {}), load(GetParam().expression),
+                     contact::ActiveSetOptions{}, true, history);
   ASSERT_EQ(ours.status, contact::Status::converged) << ours.reason;
   constexpr int enough = 300;
   const Answer theirs = witness(*program, *mesh, enough, GetParam().quadrants);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figures/script.hpp"
+#include "figures/panels.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
