@@ -20,7 +20,8 @@ using Kernels = std::array<Kernel, static_cast<std::size_t>(Code::count)>;
 /// One number at a time, by the C library. Reads and writes exactly n numbers.
 extern const Kernels plain_kernels;
 
-/// Four and eight numbers at a time, by SLEEF. Only in programs for x86-64.
+/// Four and eight numbers at a time, by SLEEF: asinh and acosh of numbers above 1e154 are infinite.
+/// Only in programs for x86-64.
 extern const Kernels avx2_kernels, avx512_kernels;
 
 /// The fastest that this processor can run. Elementary functions are accurate to 1 unit in the last

@@ -144,6 +144,7 @@ TakenIn take_in(EngineCore& core, const Submission& submission) {
   const store::MeshRecord mesh = core.catalogue.get(record.spec.mesh);
   require_result_arrays(record.spec, mesh.interfaces.size(), mesh.subdomains.size(),
                         core.options.max_result_arrays);
+  require_answers(record.spec, mesh.inclusions);
   require_arrays(record.spec.loads, core.store, record.owner);
   if (record.spec.sweep) measure(*record.spec.sweep, record, core);
   const std::uint64_t cases = queued_cases(record.spec, core.store, record.owner);

@@ -106,6 +106,7 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
   try {
     require_result_arrays(*job->spec, mesh_operator->mesh().interfaces.size(),
                           mesh_operator->mesh().subdomains.size(), core.options.max_result_arrays);
+    require_answers(*job->spec, mesh_operator->mesh().inclusions);
     plan = plan_of(core, *job, *mesh_operator);
     stored = store_start(core, snapshot, plan);
   } catch (...) {

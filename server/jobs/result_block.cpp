@@ -91,4 +91,20 @@ void require_result_arrays(const store::JobSpec& spec, std::uint64_t interfaces,
   }
 }
 
+void require_answers(const store::JobSpec& spec, const std::vector<std::string>& inclusions) {
+  constexpr std::uint64_t a_case = 500;       // numbers and texts
+  constexpr std::uint64_t an_inclusion = 40;  // three numbers and tags
+  std::uint64_t answer = a_case;
+  for (const std::string& name : inclusions) answer += an_inclusion + name.size();
+  const std::uint64_t bytes = spec.sweep ? 0 : spec.loads.size() * answer;
+  if (bytes > max_answer_bytes) {
+    throw errors::Error(errors::Reason::limit_exceeded,
+                        "the answers to " + std::to_string(spec.loads.size()) +
+                            " load cases with " + std::to_string(inclusions.size()) +
+                            " inclusions each do not fit in a message: make jobs of at most " +
+                            std::to_string(max_answer_bytes / answer) + " load cases")
+        .at("load_cases");
+  }
+}
+
 }  // namespace anticrack::jobs

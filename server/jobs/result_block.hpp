@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "jobs/live_job.hpp"
@@ -26,5 +27,12 @@ std::shared_ptr<const store::BlockSource> result_block(const LiveJob& job);
 /// would have more than `max_arrays` arrays on a mesh of that many interfaces and subdomains.
 void require_result_arrays(const store::JobSpec& spec, std::uint64_t interfaces,
                            std::uint64_t subdomains, std::uint64_t max_arrays);
+
+/// Of the answers of a job, which travel in one message with its definition.
+constexpr std::uint64_t max_answer_bytes = std::uint64_t{5} << 19U;
+
+/// Throws errors::Error (limit_exceeded, at load_cases) where the answers of the job on a mesh with
+/// these inclusions may take more than max_answer_bytes.
+void require_answers(const store::JobSpec& spec, const std::vector<std::string>& inclusions);
 
 }  // namespace anticrack::jobs

@@ -20,10 +20,17 @@ struct Holdings {
   std::uint64_t bytes = 0;  ///< of the results
 };
 
-Holdings& most(std::map<std::string, Holdings>& owners, const auto& measure) {
-  return std::ranges::max_element(owners, {},
-                                  [&](const auto& entry) { return measure(entry.second); })
-      ->second;
+using Jobs = std::deque<const store::EndedJob*>;
+
+/// Whose `jobs` come to most; of several the one whose oldest ended first.
+Holdings& most(std::map<std::string, Holdings>& owners, Jobs Holdings::*jobs, const auto& measure) {
+  const auto less = [&](const auto& a, const auto& b) {
+    const Jobs &mine = a.second.*jobs, &others = b.second.*jobs;
+    if (mine.empty() || others.empty()) return !others.empty();
+    const auto difference = measure(a.second) <=> measure(b.second);
+    return difference != 0 ? difference < 0 : mine.front()->ended > others.front()->ended;
+  };
+  return std::ranges::max_element(owners, less)->second;
 }
 
 }  // namespace
@@ -66,7 +73,8 @@ Expiry Retention::due(store::Clock::time_point now) const {
   };
   const std::size_t kept = std::max<std::size_t>(1, _limits.jobs);
   for (std::size_t count = _jobs.size(); count > kept; --count) {
-    Holdings& owner = most(owners, [](const Holdings& of) { return of.jobs.size(); });
+    Holdings& owner =
+        most(owners, &Holdings::jobs, [](const Holdings& of) { return of.jobs.size(); });
     const store::EndedJob* job = owner.jobs.front();
     owner.jobs.pop_front();
     expiry.erase.push_back(job->id);
@@ -81,9 +89,16 @@ Expiry Retention::due(store::Clock::time_point now) const {
       give_up_oldest_result(owner);
     }
   }
+  if (newest != _jobs.rend()) {  // it stays
+    Holdings& owner = owners[newest->owner];
+    if (!owner.results.empty() && owner.results.back() == &*newest) {
+      owner.results.pop_back();
+      owner.bytes -= newest->result_bytes;
+    }
+  }
   while (bytes > _limits.bytes) {
-    Holdings& owner = most(owners, [](const Holdings& of) { return of.bytes; });
-    if (owner.results.front() == &*newest) break;
+    Holdings& owner = most(owners, &Holdings::results, [](const Holdings& of) { return of.bytes; });
+    if (owner.results.empty()) break;
     expiry.expire.push_back(owner.results.front()->id);
     give_up_oldest_result(owner);
   }

@@ -59,6 +59,8 @@ v1::Job from_domain(const store::JobRecord& record) {
     step.set_detail(api::printable(step.detail(), max_detail_text));
   if (job.ByteSizeLong() > max_job_message_bytes)
     for (v1::LoadCaseAnswer& answer : *job.mutable_answers()) answer.clear_contact_intervals();
+  if (job.ByteSizeLong() > max_job_message_bytes)
+    for (v1::LoadCaseAnswer& answer : *job.mutable_answers()) answer.clear_warnings();
   return job;
 }
 

@@ -59,10 +59,19 @@ TEST(Retention, TakesFromWhoHasMost) {
   EXPECT_THAT(expiry.expire, IsEmpty());
   for (const char* id : {"0", "1", "2"}) retention.remove(id);
   retention.add({"large", today, 90, "large ones"});
-  EXPECT_THAT(retention.due(today).expire, IsEmpty());  // the newest, and nobody else has more
-  retention.add({"small", today, 1, "tiny ones"});
+  EXPECT_THAT(retention.due(today).expire, ElementsAre("modest"));  // the newest stays
+  retention.add({"small", today + 1s, 1, "tiny ones"});
   retention.remove("3");
   EXPECT_THAT(retention.due(today).expire, ElementsAre("large"));
+}
+
+TEST(Retention, TakesTheOldestOfThoseWhoHaveAsMuch) {
+  Retention retention({2, 0ms, 100});
+  retention.add({"b", today - 2h, 50, "bob"});
+  retention.add({"c", today - 1h, 50, "carol"});
+  retention.add({"a", today, 60, "ada"});
+  EXPECT_THAT(retention.due(today).erase, ElementsAre("b"));
+  EXPECT_THAT(retention.due(today).expire, ElementsAre("c"));
 }
 
 TEST(Retention, ForgetsWhatIsGone) {

@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "jobs/result_block.hpp"
 #include "jobs/sample_run.hpp"
+#include "support/errors.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -50,6 +52,44 @@ TEST(FromDomain, RepeatsWhatWasAskedFor) {
   EXPECT_FALSE(job.has_queue_timeout());
   EXPECT_EQ(job.run_timeout().seconds(), 2);
   EXPECT_EQ(job.run_timeout().nanos(), 500'000'000);
+}
+
+TEST(FromDomain, AJobThatIsTakenFitsInAMessage) {
+  const std::vector<std::string> inclusions(90, std::string(64, 'i'));
+  store::JobRecord record;
+  record.state = JobState::not_converged;
+  const auto taken = [&] {
+    try {
+      jobs::require_answers(record.spec, inclusions);
+      return true;
+    } catch (const errors::Error& error) {
+      EXPECT_EQ(error.reason(), errors::Reason::limit_exceeded);
+      return false;
+    }
+  };
+  store::CaseRecord answer;
+  answer.status = contact::Status::not_converged;
+  answer.answer.reason = std::string(200, 'r');
+  answer.answer.energy = answer.answer.criterion = answer.answer.contact_length = 0.1;
+  answer.answer.kkt = answer.answer.kkt_relative = {0.1, 0.2, 0.3, 0.4};
+  answer.answer.warnings.assign(4, std::string(400, 'w'));
+  for (const std::string& name : inclusions) {
+    answer.answer.inclusions.push_back({name, 0.1, 0.2, 0.3});
+    answer.answer.contact_intervals.push_back({name, 0.1, 0.2});
+  }
+  for (; taken(); record.cases.push_back(answer)) {
+    fem::Load load;
+    load.name = std::string(64, 'l');
+    load.force = fem::Expression{std::string(3'000, 'x')};
+    record.spec.loads.push_back(load);
+  }
+  record.spec.loads.pop_back();
+  record.cases.pop_back();
+  EXPECT_GT(record.spec.loads.size(), 200U);
+  const v1::Job job = from_domain(record);
+  EXPECT_LT(job.ByteSizeLong(), std::size_t{4} << 20U);
+  EXPECT_EQ(job.answers(0).inclusions_size(), 90);
+  EXPECT_EQ(job.answers(0).contact_intervals_size(), 0);
 }
 
 TEST(FromDomain, PutsRunsOfSamplesBehindEachOther) {
