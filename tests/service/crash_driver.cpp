@@ -155,7 +155,7 @@ void check_jobs(Run& run, client::Connection& connection) {
   }
   for (const Acknowledged& each : run.jobs) {
     const v1::Job job = wait_for_end(connection, each.name);
-    if (job.state() != v1::Job::STATE_SUCCEEDED) {
+    if (!ran_to_its_end(job)) {
       run.complain(each.name + " ended in another state: " + job.ShortDebugString());
       continue;
     }

@@ -76,7 +76,7 @@ TEST(FullDisk, RefusesCleanlyAndLosesNothing) {
   client::Connection connection(daemon.connection());
   const Work work_of_this = work("paper-3.toml", iterations(20'000));
   const std::string before = submit(connection, work_of_this, client::make_uuid()).name();
-  EXPECT_EQ(wait_for_end(connection, before).state(), v1::Job::STATE_SUCCEEDED);
+  EXPECT_TRUE(ran_to_its_end(wait_for_end(connection, before)));
 
   const std::string meanwhile = submit(connection, work_of_this, client::make_uuid()).name();
   ASSERT_TRUE(anticrack::testing::eventually(
@@ -86,11 +86,11 @@ TEST(FullDisk, RefusesCleanlyAndLosesNothing) {
     disk.fill();  // what the server gave back
     return refusal(daemon, work_of_this) == client::Code::resource_exhausted;
   }));
-  EXPECT_EQ(client::get_job(connection, before).state(), v1::Job::STATE_SUCCEEDED);
+  EXPECT_TRUE(ran_to_its_end(client::get_job(connection, before)));
   EXPECT_NO_THROW(client::read_result(connection, before)) << "reading needs no room";
 
   disk.make_room();
-  EXPECT_EQ(wait_for_end(connection, meanwhile).state(), v1::Job::STATE_SUCCEEDED);
+  EXPECT_TRUE(ran_to_its_end(wait_for_end(connection, meanwhile)));
   EXPECT_EQ(difference(client::read_result(connection, meanwhile),
                        client::read_result(connection, before)),
             "");

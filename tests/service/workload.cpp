@@ -73,6 +73,11 @@ v1::Job wait_for_end(client::Connection& connection, const std::string& name) {
   return client::watch_job(connection, name, 0, [](const v1::WatchJobResponse&) {});
 }
 
+bool ran_to_its_end(const v1::Job& job) {
+  return job.state() == v1::Job::STATE_SUCCEEDED ||
+         (job.state() == v1::Job::STATE_NOT_CONVERGED && !job.has_error());
+}
+
 std::string difference(const client::Block& result, const client::Block& reference) {
   if (result.layout.arrays_size() != reference.layout.arrays_size()) return "other arrays";
   for (int i = 0; i < result.layout.arrays_size(); ++i) {

@@ -37,6 +37,9 @@ v1::Job submit(client::Connection& connection, const Work& work, const std::stri
 /// Waits until a job has ended.
 v1::Job wait_for_end(client::Connection& connection, const std::string& name);
 
+/// Whether every load case was solved to its end, converged or (with `iterations`) not.
+bool ran_to_its_end(const v1::Job& job);
+
 /// What is in the way of taking `result` for `reference`; empty: nothing. Traces and fields of
 /// Algorithm 2 are equal to 1e-12 of their largest value, for the columns beside it change how it
 /// rounds; of the active set likewise.

@@ -164,7 +164,7 @@ class TerminalView(FolderTest):
             self.start_daemon(port=self.daemon.port)
             terminal.wait(lambda rows: any(", attempt 2" in row for row in rows))
             self.assertEqual(terminal.end(), 3, terminal.text())
-            self.assertRegex(terminal.text(), r"jobs/\w+: done, attempt 2, ")
+            self.assertRegex(terminal.text(), r"jobs/\w+: not converged, attempt 2, ")
             self.assertNotIn("gone", terminal.text())
             self.assertTrue((self.folder / "out.h5").is_file())
         self.assertEqual([job["attempt"] for job in self.jobs()], [2], "one job, run twice")
