@@ -40,7 +40,7 @@ class Admission {
 
   std::size_t waiting() const noexcept { return _waiting; }  ///< jobs that have not started
   std::uint64_t bytes() const noexcept { return _bytes; }
-  /// What a refused client is told to wait; grows with the jobs that have not ended.
+  /// The delay in a refusal; grows with the number of jobs that have not ended.
   std::chrono::milliseconds retry_delay() const noexcept;
 
  private:

@@ -24,7 +24,7 @@ struct EndedCase {
 
 /// A block of columns. While it is `iterating` it belongs to the thread that works on it; at other
 /// times (put down, or while its thread condenses loads for it) its columns can be abandoned by
-/// whoever holds the engine's mutex: their jobs need not wait for the next iteration.
+/// any thread that holds the engine's mutex: their jobs need not wait for the next iteration.
 class BlockRun {
  public:
   /// Throws errors::Error (not_implemented, at "uzawa") where Algorithm 2 does not apply.
@@ -46,7 +46,7 @@ class BlockRun {
   int columns() const noexcept { return _columns; }
   int free() const noexcept { return _broken ? 0 : _capacity - _columns; }
   store::Priority priority() const noexcept;  ///< of its most urgent column
-  /// Gives up the columns of jobs that are to stop, which run out in the next step; returns their
+  /// Gives up the columns of jobs that must stop, which end in the next step; returns their
   /// tasks. Only while it is not iterating.
   std::vector<Task> abandon_stopped();
 

@@ -20,8 +20,8 @@ struct CaseOutcome {
   std::optional<ResultPart> result{};  ///< converged and not_converged only
 };
 
-/// Keeps a load case's history, and stops it when its job is to stop. One object belongs to the
-/// thread that solves.
+/// Keeps a load case's history, and stops the case when its job must stop. One object belongs to
+/// the thread that solves.
 class History : public contact::Observer {
  public:
   /// Counts every iteration in `iterations`, which must outlive it.
@@ -46,7 +46,7 @@ class History : public contact::Observer {
   bool _given_up = false;
 };
 
-/// A history that tells its job's log of each sample as it comes.
+/// A history that also appends each sample to its job's log.
 class Recorder final : public History {
  public:
   using History::History;

@@ -16,7 +16,7 @@ namespace anticrack::jobs {
 enum class Due {
   queue_time,  ///< the job has waited as long as it may
   run_time,    ///< it has run as long as it may
-  start,       ///< its start failed and is to be tried again
+  start,       ///< its start failed and is tried again then
 };
 
 /// At most one time of each kind for each job, by its number. Not thread-safe.

@@ -52,10 +52,10 @@ struct MeshWork {
   std::map<std::uint64_t, JobPtr> jobs;  ///< that wait or run, by number
   std::shared_ptr<const operators::MeshOperator> mesh_operator;
   std::optional<std::stop_source> preparing;
-  bool looking = false;                             ///< a solver thread asks the catalogue for it
+  bool looking = false;                             ///< a solver thread looks in the catalogue
   std::string phase;                                ///< of its preparation, told to the jobs
   int threads = 0;                                  ///< that have a turn on it
-  std::array<std::uint64_t, lane_count> waiting{};  ///< units that nobody has taken
+  std::array<std::uint64_t, lane_count> waiting{};  ///< units that no thread has taken
   std::vector<std::shared_ptr<BlockRun>> blocks;    ///< all, those put down included
   std::array<std::deque<std::shared_ptr<BlockRun>>, lane_count> parked;  ///< put down
   std::deque<PreparedCase> prepared;
@@ -108,21 +108,22 @@ class EngineCore {
 
   // With the lock held:
 
-  /// Takes in a job that the store has, that nobody knows yet; counted by `admission` already.
+  /// Takes in a new job that is in the store and counted by `admission`.
   void add(const JobPtr& job);
   /// Puts a job's waiting units into the schedule.
   void offer(const JobPtr& job);
   /// The chunks of a sweep that starts are known: they are its units from now on.
   void begin_sweep(const JobPtr& job, SweepPlan plan);
-  /// To be called whenever a job has lost a case or is to stop: hands it on when nothing is left.
+  /// Call it when a case of the job ended or the job must stop: passes on a job that has nothing
+  /// left.
   void settle(const JobPtr& job);
-  /// Lets go of the mesh's operator where nothing needs it.
+  /// Releases the mesh's operator if nothing needs it.
   void release(const std::shared_ptr<MeshWork>& mesh);
-  /// Tells of the cases and counts them as ended. Lets go of the lock meanwhile.
+  /// Reports the cases and counts them as ended. Releases the lock meanwhile.
   void deliver(Lock& lock, std::vector<EndedCase> cases);
-  /// Tells of the rows of a chunk and counts it as ended. Lets go of the lock meanwhile.
+  /// Reports the rows of a chunk and counts it as ended. Releases the lock meanwhile.
   void deliver(Lock& lock, EndedChunk chunk);
-  /// The jobs that `wanted` says yes to.
+  /// The jobs for which `wanted` is true.
   template <class Wanted>
   std::vector<JobPtr> select(const Wanted& wanted) const {
     std::vector<JobPtr> selected;

@@ -56,7 +56,7 @@ struct ProgressEvents {
   std::vector<CaseEvent> ended;
 };
 
-/// What a watcher is told at once: the progress of load cases, or one other event.
+/// What goes to a watcher in one message: the progress of load cases, or one other event.
 using Batch = std::variant<ProgressEvents, PhaseEvent, RowsEvent, EndEvent>;
 
 struct NumberedBatch {

@@ -15,7 +15,7 @@ struct TakenIn {
 /// JobEngine::submit, without the lock.
 TakenIn take_in(EngineCore& core, const Submission& submission);
 
-/// Queues what the store has unfinished, and tells retention of what has ended. To be called once,
+/// Queues the store's unfinished jobs and gives retention its ended ones. Call it once,
 /// before there are threads.
 void recover(EngineCore& core);
 

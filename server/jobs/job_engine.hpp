@@ -51,7 +51,7 @@ struct EngineOptions {
   std::chrono::milliseconds result_ttl{7 * 24 * 3600'000};  ///< then the result expires; 0: never
   std::uint64_t result_budget = std::uint64_t{4} << 30;     ///< bytes; the oldest results expire
   std::chrono::milliseconds upload_ttl{7 * 24 * 3600'000};  ///< of uploads nothing refers to
-  /// Told of each job that ended, without a lock, before its watchers are.
+  /// Called for each job that ended, without a lock, before its watchers hear of it.
   std::function<void(const store::JobRecord&)> ended = {};
 };
 

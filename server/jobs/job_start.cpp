@@ -98,7 +98,7 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
     try_again_later(core, *job);
     return;
   }
-  ++job->active;  // nobody ends it before its first event is out
+  ++job->active;  // it cannot end before its first event is in the log
   const JobSnapshot snapshot(*job);
   lock.unlock();
   std::optional<SweepPlan> plan;

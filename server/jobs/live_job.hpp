@@ -62,11 +62,11 @@ struct LiveJob {
   store::JobState state = store::JobState::queued;
   std::optional<store::Clock::time_point> started;
   std::vector<store::Step> timeline;
-  std::shared_ptr<void> mesh_use;  ///< let go when the job has ended
+  std::shared_ptr<void> mesh_use;  ///< released when the job has ended
   /// Set when the job starts, reset by the thread that ends it.
   std::shared_ptr<const operators::MeshOperator> mesh_operator;
   std::shared_ptr<store::Spool> spool;  ///< of the result; set when the job starts
-  std::vector<LiveCase> cases;          ///< none of a sweep
+  std::vector<LiveCase> cases;          ///< empty for a sweep
   std::unique_ptr<LiveSweep> sweep;     ///< once it has started
   store::SweepRecord sweep_record;      ///< of the rows that ended so far
   std::size_t units = 0;
@@ -91,13 +91,13 @@ struct Task {
   std::chrono::steady_clock::time_point taken;
 };
 
-/// The next unit, which there must be. With the engine's mutex held.
+/// The next unit; one must be left. Call it with the engine's mutex held.
 Task take_unit(const JobPtr& job);
 
 /// The entries of JobRecord::cases.
 std::size_t case_count(const store::JobSpec& spec);
 
-/// Appends a step of now, and lets go of old ones where there are many.
+/// Appends a step with the current time, and drops old ones if there are many.
 void add_step(std::vector<store::Step>& timeline, store::JobState state, std::string detail);
 
 /// A job's record at one moment, cheap to take under a lock.

@@ -43,7 +43,7 @@ class SampleQueue {
     for (; _begin >= SamplePage::capacity; _begin -= SamplePage::capacity) _pages.pop_front();
   }
 
-  /// `count` samples from number `index` on; there must be as many. O(count / page).
+  /// `count` samples from number `index` on; all must exist. O(count / page).
   std::vector<SampleRun> runs(std::size_t index, std::size_t count) const {
     std::vector<SampleRun> result;
     result.reserve(count / SamplePage::capacity + 2);

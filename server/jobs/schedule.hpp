@@ -24,7 +24,7 @@ constexpr std::size_t index(Lane lane) noexcept {
   return static_cast<std::size_t>(lane);
 }
 
-/// A job with load cases that nobody has taken.
+/// A job with load cases that no thread has taken.
 struct Waiting {
   std::uint64_t number = 0;  ///< in the order of submission
   std::string mesh;
@@ -39,7 +39,7 @@ struct Waiting {
 struct Turn {
   std::string mesh;
   Lane lane = Lane::active_set;
-  /// The operator is not known here: it may be in memory, and nobody has looked. Answered by
+  /// Nobody has checked whether the operator is in memory. Answered by
   /// `prepared` or `absent`.
   bool probe = false;
 };
@@ -67,7 +67,7 @@ class Schedule {
   Schedule(std::chrono::milliseconds ageing, std::size_t prepared_limit)
       : _ageing(ageing), _prepared_limit(prepared_limit) {}
 
-  /// A job none of whose units is taken yet, or that is back in the queue.
+  /// A job whose units all wait, or that is back in the queue.
   void add(const Waiting& job);
   void remove(std::uint64_t number);  ///< does nothing if it is not there
   /// The job whose load case is taken next.
@@ -84,7 +84,7 @@ class Schedule {
   void prepared(const std::string& mesh);
   void again(const std::string& mesh, Time not_before);
   void absent(const std::string& mesh);
-  /// The operator is let go: the mesh is to be prepared again for the next job.
+  /// The operator was released: the next job needs the mesh prepared again.
   void let_go(const std::string& mesh);
   /// When the next mesh that was put back may be tried; empty when none is held back at `now`.
   std::optional<Time> next_retry(Time now) const;

@@ -22,12 +22,12 @@ using contact::SweepColumns;
 using errors::Error;
 using errors::Reason;
 
-/// Thrown where the job is to stop.
+/// Thrown when the job must stop.
 Error stopped() {
   return {Reason::cancelled, "the job was stopped"};
 }
 
-/// Stops a solve with its job; nobody is told of the steps of a row.
+/// Stops a solve with its job; the steps of a row are not reported.
 class StopOnly final : public contact::Observer {
  public:
   explicit StopOnly(std::stop_token stop) : _stop(std::move(stop)) {}

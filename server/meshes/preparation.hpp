@@ -72,7 +72,7 @@ class Preparation {
   /// Waits for the end of the run.
   void await(Lock& lock, Run& run, bool joins, const PhaseListener& listener,
              const std::stop_token& stop);
-  /// Removes a waiter. True if the run must be stopped because nobody needs it.
+  /// Removes a waiter. True if nobody else needs the run: stop it then.
   bool leave(Run& run);
 
   // On the thread of a run:

@@ -13,7 +13,7 @@ class Feed {
  public:
   enum class Next {
     message,  ///< `response` is filled
-    wait,     ///< nothing now; asks again after a wake
+    wait,     ///< nothing now; ask again after a wake
     end,      ///< all was sent
   };
 

@@ -22,7 +22,7 @@ bool has_answer(Status status) {
          status == Status::cancelled;
 }
 
-/// Cut to what a client is told.
+/// Removes what clients do not see.
 void present(const store::CaseRecord& record, v1::LoadCaseAnswer& answer) {
   if (!has_answer(record.status)) {
     v1::LoadCaseAnswer bare;

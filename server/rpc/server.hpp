@@ -35,7 +35,7 @@ struct Security {
   std::vector<std::string> admins;  ///< common names of client certificates with that role
 };
 
-/// What is told of every call that ended: "/anticrack.v1.SolveService/GetJob", its gRPC code.
+/// Reported for every call that ended: "/anticrack.v1.SolveService/GetJob", its gRPC code.
 using CallListener =
     std::function<void(const std::string& method, int code, std::chrono::duration<double>)>;
 

@@ -55,7 +55,7 @@ class WatchFeed final : public Feed<v1::WatchJobResponse> {
   const std::shared_ptr<WatchGroup> _group;
   std::optional<WatchGroup::Wakes::iterator> _member;
   std::vector<std::string> _load_names;
-  std::atomic<std::uint64_t> _cursor;  ///< written by whoever drives the feed
+  std::atomic<std::uint64_t> _cursor;  ///< written by the thread that drives the feed
   bool _from_earliest = false;         ///< nothing delivered yet, and no place asked for
   bool _snapshot_sent = false;
   bool _ended = false;

@@ -59,7 +59,7 @@ class WatchGroup final : public Wakeable {
 class WatchGroups {
  public:
   explicit WatchGroups(StreamHub& hub) : _hub(hub) {}
-  /// The group of a log, a new one where nobody watches yet.
+  /// The group of a log; a new one for the first watcher.
   std::shared_ptr<WatchGroup> of(const std::shared_ptr<jobs::EventLog>& log);
 
  private:

@@ -30,7 +30,7 @@ class WorkPool {
   void post(const std::string& client, std::function<void()> task);
   /// Whether one more task of the client may wait where `limit` may in all (access/share.hpp).
   bool has_room(const std::string& client, std::size_t limit) const;
-  /// Tasks that have not begun.
+  /// Number of tasks that have not begun.
   std::size_t waiting() const;
 
  private:

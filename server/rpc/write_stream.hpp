@@ -101,7 +101,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
     {
       const std::lock_guard lock(_mutex);
       if (_finished || _aborting) return;
-      _aborting = true;  // nobody finishes, so the context stays valid
+      _aborting = true;  // the call cannot finish now, so the context stays valid
     }
     _context->TryCancel();
     {
@@ -230,7 +230,7 @@ class WriteStream final : public grpc::ServerWriteReactor<Response>,
   std::shared_ptr<WriteStream> _self;
 
   mutable std::mutex _mutex;
-  bool _driving = true;  ///< until open() lets go
+  bool _driving = true;  ///< until open() has ended
   bool _again = false;
   bool _writing = false;
   bool _finished = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How many bytes the store's files take, and whether more may come.
+// How many bytes the store's files take, and whether more fit.
 #pragma once
 
 #include <array>

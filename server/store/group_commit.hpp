@@ -15,8 +15,8 @@
 
 namespace anticrack::store {
 
-/// The thread that finds nobody at work does its own change and all that came meanwhile; the others
-/// wait. The lock guards the queue alone; the connection belongs to the thread at work.
+/// A thread that finds no other at work makes its own change and all that came meanwhile; the
+/// others wait. The lock guards the queue alone; the connection belongs to the thread at work.
 class GroupCommit {
  public:
   using Change = std::function<void(Connection&)>;

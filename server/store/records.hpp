@@ -80,7 +80,7 @@ ANTICRACK_FIELDS(InterfaceSummary, name, length, node_count, segments)
 
 struct MeshRecord {
   std::string id;     ///< first 16 digits of the hash of definition and owner
-  std::string owner;  ///< identity that made it; empty on a server that asks for none
+  std::string owner;  ///< identity that created it; empty on a server without authentication
   std::string title;
   MeshDefinition definition;
   MeshState state = MeshState::pending;
@@ -197,7 +197,7 @@ struct JobRecord {
   std::optional<Clock::time_point> started;
   std::optional<Clock::time_point> ended;
   std::optional<Clock::time_point> expired;  ///< when the result was removed, by age or budget
-  std::vector<CaseRecord> cases;             ///< one per load; none of a sweep
+  std::vector<CaseRecord> cases;             ///< one per load; empty for a sweep
   SweepRecord sweep;                         ///< of a sweep
   std::uint64_t result_bytes = 0;
   int attempt = 1;             ///< counts restarts of the server while it ran

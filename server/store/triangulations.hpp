@@ -15,7 +15,7 @@ class Triangulations {
  public:
   using Pointer = std::shared_ptr<const mesh::Mesh>;
 
-  /// Null where nobody holds it.
+  /// Null if it is not in use.
   Pointer find(const std::string& sha256) const {
     const std::lock_guard lock(_mutex);
     const auto found = _held.find(sha256);
