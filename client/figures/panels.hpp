@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The figures of a load as pure functions of the result. Colours are safe for colour-blind readers
-// (Okabe & Ito; viridis). The gnuplot scripts hold numbers, fixed text and strings made by `quoted`;
-// the only file they name is that of `Output`. A Picture refers to the arguments it was made of.
+// (Okabe & Ito; viridis). The gnuplot scripts hold numbers, fixed text and strings made by
+// `quoted`; the only file they name is that of `Output`. A Picture refers to the arguments it was
+// made of.
 #pragma once
 
 #include "figures/canvas.hpp"

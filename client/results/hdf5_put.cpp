@@ -134,8 +134,8 @@ Handle without_times(hid_t property_class) {
 
 Handle create_group(const Handle& parent, const std::string& name) {
   static const hid_t creation = without_times(H5P_GROUP_CREATE).release();
-  return {H5Gcreate2(parent.get(), name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT),
-          H5Gclose, "cannot create group " + name};
+  return {H5Gcreate2(parent.get(), name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose,
+          "cannot create group " + name};
 }
 
 void put_attribute(const Handle& object, const std::string& name, ValueType type,
