@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <thread>
 
 namespace anticrack::benchmarks {
@@ -63,21 +62,6 @@ void Stopwatch::stop(Times& times, double parts) const {
 
 void let_blas_fall_asleep() {
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
-}
-
-std::uint64_t peak_memory() {
-  std::ifstream file("/proc/self/status");
-  for (std::string word; file >> word;) {
-    std::uint64_t kibibytes = 0;
-    if (word == "VmHWM:" && file >> kibibytes) return kibibytes * 1024;
-  }
-  return 0;
-}
-
-bool reset_peak_memory() {
-  std::ofstream file("/proc/self/clear_refs");
-  file << '5';
-  return static_cast<bool>(file.flush());
 }
 
 void Figures::set(const std::string& name, double value) {

@@ -33,13 +33,6 @@ class Stopwatch {
 /// uses, have fallen asleep: they spin for a tenth of a second on a core of their own.
 void let_blas_fall_asleep();
 
-/// Largest resident memory of this process so far (VmHWM), bytes.
-std::uint64_t peak_memory();
-
-/// Forgets that largest value: from now on it is what is resident. False where the system has none
-/// of it.
-bool reset_peak_memory();
-
 /// A JSON object in the order of the calls.
 class Figures {
  public:

@@ -16,6 +16,7 @@
 #include "ddm/decomposition.hpp"
 #include "operators/freed_memory.hpp"
 #include "operators/mesh_operator.hpp"
+#include "support/process_memory.hpp"
 #include "support/silent_observer.hpp"
 #include "support/solve.hpp"
 
@@ -66,8 +67,8 @@ Operator first_answers(const Options& options, const std::shared_ptr<const mesh:
   Times first, cut, factorise;
   Operator op;
   Silent nobody;
-  reset_peak_memory();
-  const std::uint64_t before = peak_memory();
+  testing::reset_peak_memory();
+  const std::uint64_t before = testing::memory_of("VmHWM");
   for (int i = 0; i < options.repetitions; ++i) {
     op.reset();
     {
@@ -85,7 +86,7 @@ Operator first_answers(const Options& options, const std::shared_ptr<const mesh:
   figures.set("cut", cut);  // is part of factorising, told apart
   figures.set("factorise", factorise);
   figures.set("memory_mesh", static_cast<double>(before));
-  figures.set("memory_peak", static_cast<double>(peak_memory()));
+  figures.set("memory_peak", static_cast<double>(testing::memory_of("VmHWM")));
   figures.set("operator_bytes", static_cast<double>(op->bytes()));
   return op;
 }
@@ -238,7 +239,7 @@ void run(const Options& options) {
   if (options.block > 0) blocks(options, *op, loads, figures);
   if (options.rows > 0) sweep(options, *op, loads, figures);
   if (options.uzawa_loads > 0) uzawa(options, *op, loads, figures);
-  figures.set("memory_end", static_cast<double>(peak_memory()));
+  figures.set("memory_end", static_cast<double>(testing::memory_of("VmHWM")));
   figures.print();
 }
 

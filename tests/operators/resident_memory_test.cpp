@@ -5,36 +5,23 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 
 #include "operators/cache_support.hpp"
+#include "support/process_memory.hpp"
 
 namespace anticrack::operators {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool sanitized = true;
-#else
-constexpr bool sanitized = false;
-#endif
-
 /// Bytes of this process that are in memory.
 std::uint64_t resident_bytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    if (word == "VmRSS:") {
-      std::uint64_t kibibytes = 0;
-      status >> kibibytes;
-      return kibibytes << 10U;
-    }
-  }
-  ADD_FAILURE() << "no VmRSS in /proc/self/status";
-  return 0;
+  const std::uint64_t bytes = anticrack::testing::memory_of("VmRSS");
+  EXPECT_GT(bytes, 0U) << "no VmRSS in /proc/self/status";
+  return bytes;
 }
 
 TEST(ResidentMemory, IsWithinFivePercentAfterFiftyLoadsAndEvictions) {
-  if (sanitized) {
+  if (anticrack::testing::sanitized) {
     GTEST_SKIP() << "a sanitizer's allocator keeps what is freed";
   }
   constexpr int warm_up = 5;

@@ -21,6 +21,7 @@
 #include "service/daemon.hpp"
 #include "service/workload.hpp"
 #include "store/digest.hpp"
+#include "support/process_memory.hpp"
 
 namespace anticrack::service_test {
 namespace {
@@ -118,14 +119,9 @@ void tell(const char* what, std::vector<double> times) {
               at(0.5), at(0.99), times.back());
 }
 
-/// "VmRSS" or "VmHWM" of a process, MiB.
-std::uint64_t memory_of(int process, const std::string& key) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/status");
-  for (std::string word; file >> word;) {
-    std::uint64_t kibibytes = 0;
-    if (word == key + ":" && file >> kibibytes) return kibibytes / 1024;
-  }
-  return 0;
+/// "VmRSS" or "VmHWM" of the server, MiB.
+std::uint64_t mebibytes_of(int process, const std::string& key) {
+  return anticrack::testing::memory_of(key, std::to_string(process)) >> 20U;
 }
 
 /// Asks for the latest job and for the server's health, over and over, until the time is up.
@@ -225,7 +221,7 @@ int drive(const Options& options) {
     wait_for_end(*connections.front(), run.latest);
   }
   const int server = daemon.process().id();
-  const std::uint64_t begin = memory_of(server, "VmRSS");
+  const std::uint64_t begin = mebibytes_of(server, "VmRSS");
   std::minstd_rand random(options.seed);
   std::vector<std::thread> clients;
   for (int i = 0; i < options.clients; ++i) {
@@ -240,7 +236,7 @@ int drive(const Options& options) {
   run.done = true;
   for (std::thread& thread : clients) thread.join();
 
-  const std::uint64_t peak = memory_of(server, "VmHWM");
+  const std::uint64_t peak = mebibytes_of(server, "VmHWM");
   std::printf("%llu jobs, %llu times turned away; the server held %llu MiB, at most %llu MiB\n",
               static_cast<unsigned long long>(run.jobs.load()),
               static_cast<unsigned long long>(run.waits.load()),
