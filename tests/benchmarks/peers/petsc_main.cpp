@@ -8,6 +8,7 @@
 
 #include "benchmarks/figures.hpp"
 #include "benchmarks/peers/petsc.hpp"
+#include "support/process_memory.hpp"
 
 namespace anticrack::benchmarks {
 namespace {
@@ -58,7 +59,7 @@ void run(const Options& options) {
   figures.set("displacement", displacement);
   figures.set("energy", energy);
   figures.set("iterations", steps);
-  figures.set("memory_peak", static_cast<double>(peak_memory()));
+  figures.set("memory_peak", static_cast<double>(testing::memory_of("VmHWM")));
   figures.print();
 }
 
