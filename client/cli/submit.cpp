@@ -30,9 +30,9 @@ void upload_forces(Session& session, const casefile::Case& the_case, v1::Job& jo
     return the_case.locate("load_cases[" + std::to_string(files[index]->load_case) + "].force")
         .value();
   };
-  const auto read = [&](std::size_t index) {
+  const auto read = [&, read_array = results::array_reader()](std::size_t index) {
     try {
-      return results::read_array(files[index]->path, files[index]->dataset);
+      return read_array(files[index]->path, files[index]->dataset);
     } catch (const results::Error& error) {
       throw casefile::Error(spot_of(index), error.what());
     }

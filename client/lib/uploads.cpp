@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <deque>
 #include <fstream>
 #include <functional>
 #include <future>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -86,7 +88,7 @@ Outgoing array_file(const std::shared_ptr<const std::vector<double>>& owner,
   return file;
 }
 
-/// Reads and hashes the next array while the one before is sent.
+/// Reads and hashes the next arrays while those before are sent: a megabyte of them at a time.
 class ArrayFiles {
  public:
   ArrayFiles(std::size_t first, std::size_t end, const ReadArray& read)
@@ -95,25 +97,35 @@ class ArrayFiles {
   }
 
   std::optional<Outgoing> next() {
-    if (!_pending.valid()) return std::nullopt;
-    Outgoing file = _pending.get();
-    read_next();
+    if (_ready.empty() && _pending.valid()) {
+      _ready = _pending.get();
+      read_next();
+    }
+    if (_ready.empty()) return std::nullopt;
+    Outgoing file = std::move(_ready.front());
+    _ready.pop_front();
     return file;
   }
 
  private:
   void read_next() {
     if (_next == _end) return;
-    _pending = std::async(std::launch::async, [this, index = _next++] {
-      const auto values = std::make_shared<const std::vector<double>>(_read(index));
-      return array_file(values, *values);
+    _pending = std::async(std::launch::async, [this] {
+      std::deque<Outgoing> files;
+      for (std::size_t bytes = 0; _next != _end && bytes < chunk_bytes; ++_next) {
+        const auto values = std::make_shared<const std::vector<double>>(_read(_next));
+        files.push_back(array_file(values, *values));
+        bytes += std::span(*values).size_bytes();
+      }
+      return files;
     });
   }
 
   std::size_t _next;
   const std::size_t _end;
   const ReadArray& _read;
-  std::future<Outgoing> _pending;
+  std::deque<Outgoing> _ready;
+  std::future<std::deque<Outgoing>> _pending;
 };
 
 // The server may refuse before everything is sent; the status then gives the reason.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "results/error.hpp"
@@ -37,8 +39,14 @@ hdf5::Dataset open_below(const Handle& group, const std::string& path, std::uint
   return open_below(hdf5::open_group(group, name), path.substr(slash + 1), budget, columns);
 }
 
-/// `columns` as open_array; a matrix may have the attribute `loads`.
-Matrix read(const std::filesystem::path& file, const std::string& path, std::size_t columns) {
+struct OpenFile {
+  std::filesystem::path path;
+  Handle root;
+};
+
+/// `columns` as open_array; a matrix may have the attribute `loads`. `open` is the last file read.
+Matrix read(std::optional<OpenFile>& open, const std::filesystem::path& file,
+            const std::string& path, std::size_t columns) {
   const bool is_matrix = columns != 0;
   const std::string cure = std::string("name a ") + (is_matrix ? "two" : "one") +
                            "-dimensional dataset of float64 in an HDF5 file";
@@ -47,8 +55,11 @@ Matrix read(const std::filesystem::path& file, const std::string& path, std::siz
     throw Error(file.string(), "\"" + path + "\" names no dataset", cure);
   Matrix matrix;
   try {
-    const Handle root = hdf5::open_root(file, cure);
-    const hdf5::Dataset dataset = open_below(root, path, hdf5::memory_budget(file), columns);
+    if (!open || open->path != file) {
+      open.reset();
+      open.emplace(OpenFile{file, hdf5::open_root(file, cure)});
+    }
+    const hdf5::Dataset dataset = open_below(open->root, path, hdf5::memory_budget(file), columns);
     matrix = {std::vector<double>(dataset.count()), dataset.rows, dataset.columns, {}};
     hdf5::read_values(dataset, matrix.values.data());
     if (is_matrix && hdf5::has_attribute(dataset.id, "loads"))
@@ -73,12 +84,16 @@ Matrix read(const std::filesystem::path& file, const std::string& path, std::siz
 
 }  // namespace
 
-std::vector<double> read_array(const std::filesystem::path& file, const std::string& dataset) {
-  return read(file, dataset, 0).values;
+ReadArray array_reader() {
+  return [open = std::make_shared<std::optional<OpenFile>>()](const std::filesystem::path& file,
+                                                              const std::string& dataset) {
+    return read(*open, file, dataset, 0).values;
+  };
 }
 
 Matrix read_matrix(const std::filesystem::path& file, const std::string& dataset) {
-  return read(file, dataset, hdf5::any_columns);
+  std::optional<OpenFile> none;
+  return read(none, file, dataset, hdf5::any_columns);
 }
 
 }  // namespace anticrack::results

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,11 @@ namespace anticrack::results {
 /// A one-dimensional float64 dataset of any HDF5 file; `dataset` is its path, as "/f" or
 /// "/loads/f". Throws Error for other files, types and shapes, for an empty dataset and for values
 /// that are not finite. Follows hard links only; allocates no more than the file can hold.
-std::vector<double> read_array(const std::filesystem::path& file, const std::string& dataset);
+using ReadArray = std::function<std::vector<double>(const std::filesystem::path& file,
+                                                    const std::string& dataset)>;
+/// One that keeps the last file open, since many arrays often lie in one. Not for several threads
+/// at once.
+ReadArray array_reader();
 
 struct Matrix {
   std::vector<double> values;  ///< row by row

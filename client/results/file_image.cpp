@@ -60,6 +60,21 @@ class Memory {
   std::size_t _size = 0;
 };
 
+/// HDF5 searches and sorts its cache of metadata, which here only doubles what is in memory: with
+/// 64 KiB in place of 2 MiB and more a file of 200 loads is written in three quarters of the time.
+void set_small_cache(const Handle& access) {
+  H5AC_cache_config_t cache;
+  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  const herr_t got = H5Pget_mdc_config(access.get(), &cache);
+  cache.set_initial_size = true;
+  cache.initial_size = cache.min_size = cache.max_size = 1 << 16;
+  cache.incr_mode = H5C_incr__off;
+  cache.flash_incr_mode = H5C_flash_incr__off;
+  cache.decr_mode = H5C_decr__off;
+  if (got < 0 || H5Pset_mdc_config(access.get(), &cache) < 0)
+    throw Fault("HDF5 has no settings for its cache");
+}
+
 }  // namespace
 
 std::vector<std::byte> file_image(const std::function<void(const Handle& root)>& fill) {
@@ -75,6 +90,7 @@ std::vector<std::byte> file_image(const std::function<void(const Handle& root)>&
     // library read outside its buffers.
     if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110) < 0)
       throw Fault("HDF5 is older than 1.10");
+    set_small_cache(access);
     const Handle creation = without_times(H5P_FILE_CREATE);
     Handle file(H5Fcreate("result", H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose,
                 "HDF5 cannot create a file in memory");

@@ -9,6 +9,9 @@
 namespace anticrack::results::hdf5 {
 namespace {
 
+/// Arrays up to this lie in their dataset's header, under its checksum: HDF5 writes them in half
+/// the time of a chunk.
+constexpr std::size_t compact_entries = 1024;
 constexpr std::size_t chunk_cache_bytes = std::size_t{1} << 20;  // HDF5's default
 
 void require(herr_t status, const std::string& what) {
@@ -62,6 +65,10 @@ Handle new_creation_properties(std::size_t rows, std::size_t columns) {
   Handle properties = without_times(H5P_DATASET_CREATE);
   if (rows == 0) return properties;
   const std::size_t width = std::max<std::size_t>(columns, 1);
+  if (rows * width <= compact_entries) {
+    require(H5Pset_layout(properties.get(), H5D_COMPACT), what);
+    return properties;
+  }
   const std::array<hsize_t, 2> chunk{chunk_rows(rows, columns), width};
   require(H5Pset_chunk(properties.get(), columns == 0 ? 1 : 2, chunk.data()), what);
   if (rows * width >= compressed_from) {
@@ -81,7 +88,7 @@ hid_t creation_properties(std::size_t rows, std::size_t columns) {
 }
 
 /// A dataset of one chunk needs no table of 521 to find it.
-hid_t access_properties() {
+hid_t one_chunk() {
   static const hid_t id = [] {
     const std::string what = "HDF5 has no access properties";
     Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose, what);
@@ -117,6 +124,9 @@ void write_chunks(const Handle& dataset, const FilteredChunks& chunks, std::size
 }  // namespace
 
 Quiet::Quiet() {
+  // Before anything else of HDF5: at the end of the program it would free thousands of pieces one
+  // by one, when no file is open.
+  [[maybe_unused]] static const herr_t no_cleanup = H5dont_atexit();
   H5Eget_auto2(H5E_DEFAULT, &_function, &_data);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
@@ -133,7 +143,14 @@ Handle without_times(hid_t property_class) {
 }
 
 Handle create_group(const Handle& parent, const std::string& name) {
-  static const hid_t creation = without_times(H5P_GROUP_CREATE).release();
+  static const hid_t creation = [] {
+    const std::string what = "HDF5 has no creation properties";
+    Handle properties = without_times(H5P_GROUP_CREATE);
+    // A load's attributes and members stay in its header: beyond 8 HDF5 makes a heap for them.
+    require(H5Pset_attr_phase_change(properties.get(), 64, 32), what);
+    require(H5Pset_link_phase_change(properties.get(), 32, 16), what);
+    return properties.release();
+  }();
   return {H5Gcreate2(parent.get(), name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose,
           "cannot create group " + name};
 }
@@ -161,10 +178,11 @@ Handle put_array(const Handle& group, const std::string& name, ValueType type, c
   const Values source(type, values, count);
   // HDF5 refuses a checksum over text, which would cover pointers into the heap.
   const bool is_text = type == ValueType::text;
-  Handle dataset(H5Dcreate2(group.get(), name.c_str(), source.in_file, space.get(), H5P_DEFAULT,
-                            creation_properties(is_text ? 0 : rows, columns),
-                            count <= chunk_entries ? access_properties() : H5P_DEFAULT),
-                 H5Dclose, what);
+  Handle dataset(
+      H5Dcreate2(group.get(), name.c_str(), source.in_file, space.get(), H5P_DEFAULT,
+                 creation_properties(is_text ? 0 : rows, columns),
+                 count > compact_entries && count <= chunk_entries ? one_chunk() : H5P_DEFAULT),
+      H5Dclose, what);
   // HDF5 writes a chunk when its cache of 1 MB is full, and those left when the dataset is closed,
   // behind its attributes: the same order gives the same file.
   const std::size_t chunk = chunk_rows(rows, columns);

@@ -55,7 +55,7 @@ class ArrayFile : public ::testing::Test {
 
   std::string complaint(const std::string& dataset) const {
     try {
-      read_array(path, dataset);
+      array_reader()(path, dataset);
     } catch (const Error& error) {
       return error.what();
     }
@@ -76,10 +76,21 @@ class ArrayFile : public ::testing::Test {
 };
 
 TEST_F(ArrayFile, gives_the_values) {
-  EXPECT_EQ(read_array(path, "/f"), (std::vector<double>{1, -2.5, 3}));
-  EXPECT_EQ(read_array(path, "f"), (std::vector<double>{1, -2.5, 3}));
-  EXPECT_EQ(read_array(path, "/a/f"), std::vector<double>{7});
-  EXPECT_EQ(read_array(path, "big"), (std::vector<double>{1.5, 2}));
+  const ReadArray read = array_reader();
+  EXPECT_EQ(read(path, "/f"), (std::vector<double>{1, -2.5, 3}));
+  EXPECT_EQ(read(path, "f"), (std::vector<double>{1, -2.5, 3}));
+  EXPECT_EQ(read(path, "/a/f"), std::vector<double>{7});
+  EXPECT_EQ(read(path, "big"), (std::vector<double>{1.5, 2}));
+}
+
+TEST_F(ArrayFile, goes_from_file_to_file) {
+  const std::string other = folder / "other.h5";
+  std::filesystem::copy_file(path, other);
+  const ReadArray read = array_reader();
+  EXPECT_EQ(read(path, "/a/f"), std::vector<double>{7});
+  EXPECT_THROW(read(folder / "missing.h5", "/a/f"), Error);
+  EXPECT_EQ(read(other, "/f"), (std::vector<double>{1, -2.5, 3}));
+  EXPECT_EQ(read(path, "/f"), (std::vector<double>{1, -2.5, 3}));
 }
 
 TEST_F(ArrayFile, refuses_what_is_no_list_of_finite_numbers) {
@@ -119,9 +130,9 @@ TEST_F(ArrayFile, refuses_what_is_no_matrix_of_finite_numbers) {
 
 TEST_F(ArrayFile, refuses_what_is_no_file) {
   std::ofstream(folder / "text.h5") << "not HDF5";
-  EXPECT_THROW(read_array(folder / "text.h5", "/f"), Error);
-  EXPECT_THROW(read_array(folder / "missing.h5", "/f"), Error);
-  EXPECT_THROW(read_array(folder.path(), "/f"), Error);
+  EXPECT_THROW(array_reader()(folder / "text.h5", "/f"), Error);
+  EXPECT_THROW(array_reader()(folder / "missing.h5", "/f"), Error);
+  EXPECT_THROW(array_reader()(folder.path(), "/f"), Error);
 }
 
 }  // namespace

@@ -69,33 +69,50 @@ TEST(MalformedFile, truncated_anywhere) {
   expect_refused(folder / "a.h5", "is truncated or damaged");
 }
 
-/// Where the first chunk of a dataset lies in the file.
-haddr_t chunk_address(const std::string& path, const char* dataset) {
+/// Where the values of a dataset lie in the file: in its first chunk, or in its own header.
+std::size_t data_address(const std::string& bytes, const std::string& path, const char* dataset) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   const hid_t id = H5Dopen2(file, dataset, H5P_DEFAULT);
-  const hid_t space = H5Dget_space(id);
-  std::array<hsize_t, 2> offset{};
-  unsigned mask = 0;
-  haddr_t address = HADDR_UNDEF;
-  hsize_t size = 0;
-  H5Dget_chunk_info(id, space, 0, offset.data(), &mask, &address, &size);
+  const hid_t space = H5Dget_space(id), type = H5Dget_type(id);
+  const hid_t creation = H5Dget_create_plist(id);
+  std::size_t at = std::string::npos;
+  if (H5Pget_layout(creation) == H5D_CHUNKED) {
+    std::array<hsize_t, 2> offset{};
+    unsigned mask = 0;
+    haddr_t address = HADDR_UNDEF;
+    hsize_t size = 0;
+    H5Dget_chunk_info(id, space, 0, offset.data(), &mask, &address, &size);
+    at = address;
+  } else {
+    std::string values(
+        H5Tget_size(type) * static_cast<hsize_t>(H5Sget_simple_extent_npoints(space)), '\0');
+    H5Dread(id, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    H5O_info_t header;
+    H5Oget_info2(id, &header, H5O_INFO_BASIC);
+    at = bytes.find(values, header.addr);
+  }
+  H5Pclose(creation);
+  H5Tclose(type);
   H5Sclose(space);
   H5Dclose(id);
   H5Fclose(file);
-  return address;
+  return at;
 }
 
 TEST(MalformedFile, a_flipped_bit_in_any_dataset_is_noticed) {
-  for (const char* dataset : {"/mesh/nodes", "/loads/opening/traces/0/jump",
-                              "/loads/opening/inclusions/A", "/loads/opening/history/iteration"}) {
-    const TemporaryFolder folder;
-    std::string bytes = good_bytes(40);
-    save(folder / "good.h5", bytes);
-    const haddr_t at = chunk_address(folder / "good.h5", dataset);
-    ASSERT_LT(at, bytes.size()) << dataset;
-    bytes[at + 3] = static_cast<char>(bytes[at + 3] ^ 0x10);
-    save(folder / "a.h5", bytes);
-    expect_refused(folder / "a.h5", "is damaged");
+  for (const int nodes : {40, 1500}) {
+    for (const char* dataset :
+         {"/mesh/nodes", "/loads/opening/traces/0/jump", "/loads/opening/inclusions/A",
+          "/loads/opening/history/iteration"}) {
+      const TemporaryFolder folder;
+      std::string bytes = good_bytes(nodes);
+      save(folder / "good.h5", bytes);
+      const std::size_t at = data_address(bytes, folder / "good.h5", dataset);
+      ASSERT_LT(at, bytes.size()) << dataset;
+      bytes[at + 3] = static_cast<char>(bytes[at + 3] ^ 0x10);
+      save(folder / "a.h5", bytes);
+      expect_refused(folder / "a.h5", "is damaged");
+    }
   }
 }
 
