@@ -3,7 +3,7 @@
 
 namespace anticrack::cli {
 
-// What the shell is told. Scripts depend on these numbers.
+// Exit codes of the commands. Scripts depend on these numbers.
 inline constexpr int exit_ok = 0;
 inline constexpr int exit_job_failed = 1;
 inline constexpr int exit_usage = 2;          ///< usage or case file wrong

@@ -47,7 +47,7 @@ class MeshView {
   }
 
  private:
-  // The end is told by who asked for the mesh.
+  // The caller reports the end.
   std::vector<std::string> frame_now(Size size) {
     const std::lock_guard lock(_mutex);
     if (_text.empty()) return {};

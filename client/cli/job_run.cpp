@@ -71,7 +71,7 @@ void tell_fetch(const Session& session, const std::string& job) {
   }
 }
 
-// Runs `action`; whose user interrupts it is told how to get the results later.
+// Runs `action`; if the user interrupts it, says how to get the results later.
 template <class Action>
 auto or_later(const Session& session, const v1::Job& job, const Action& action) {
   try {

@@ -48,7 +48,7 @@ std::string sweep_answer(const v1::Job& job) {
   return text;
 }
 
-// Seconds since it was created: what a person wants to know is what took how long.
+// Seconds since it was created, so that one sees how long each state took.
 std::string timeline(const v1::Job& job) {
   if (job.timeline().empty()) return "";
   const auto& begin = job.has_create_time() ? job.create_time() : job.timeline(0).time();

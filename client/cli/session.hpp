@@ -50,7 +50,7 @@ class Session {
   /// The flags that lead to this server, for the end of a command line; may be empty.
   std::string server_option() const;
 
-  /// Sets who is told of retries; empty: standard error, each message once.
+  /// Sets the receiver of messages about retries; empty: standard error, each message once.
   void tell(std::function<void(const std::string&)> listener) {
     const std::lock_guard lock(_mutex);
     _listener = std::move(listener);

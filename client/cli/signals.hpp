@@ -42,7 +42,8 @@ class Signals {
   /// Whether all that came was Ctrl-C.
   bool interactive();
 
-  /// Sets who is called, on the thread of the signals; replaces the one before. Empty: nobody.
+  /// Sets the function to call on the thread of the signals, in place of the last one; may be
+  /// empty.
   void tell_screen(std::function<void(Screen)> listener);
 
  private:

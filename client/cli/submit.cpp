@@ -19,7 +19,7 @@
 namespace anticrack::cli {
 namespace {
 
-// The refusal of an upload speaks of the upload; its user of the load it is for.
+// The server names the upload that it refuses; the user knows the load that it is for.
 void upload_forces(Session& session, const casefile::Case& the_case, v1::Job& job) {
   // One upload for every content: loads often share a file.
   std::map<std::pair<std::filesystem::path, std::string>, std::size_t> indices;

@@ -29,7 +29,7 @@ namespace anticrack::cli {
 /// submit a case.
 void add_case_flags(CLI::App& command, std::vector<std::string>& overrides);
 
-/// The server speaks of fields of a request, its user of lines of a file.
+/// The server names fields of a request; the user knows lines of a file.
 client::Error in_terms_of(const casefile::Case& the_case, const client::Error& error);
 
 /// Does what the server may refuse; its error is then in terms of the case.

@@ -115,8 +115,8 @@ std::string refused_text(Code code, const std::string& message, const Credential
   const std::string token = file.empty() ? "in ANTICRACK_TOKEN" : "in " + file;
   if (code == Code::permission_denied) {
     return message + (credentials.token.empty()
-                          ? "; to come as somebody else give another --cert, or --token-file FILE"
-                          : "; to come as somebody else replace the token " + token);
+                          ? "; to log in as another user give another --cert, or --token-file FILE"
+                          : "; to log in as another user replace the token " + token);
   }
   return message + (credentials.token.empty()
                         ? "; give a token with --token-file FILE or in ANTICRACK_TOKEN"

@@ -55,7 +55,7 @@ class Backoff {
   std::minstd_rand _random;
 };
 
-/// What people are told before a wait; the same words as long as the cause is the same.
+/// The message before a wait; the same text as long as the cause is the same.
 std::string retry_text(const Error& error, const std::string& address,
                        std::chrono::milliseconds patience);
 

@@ -123,7 +123,7 @@ struct Field {
   std::vector<double> u;
 };
 
-/// An answer without its status and arrays: what is told and kept of it.
+/// The numbers of an answer, without its status and arrays.
 struct AnswerSummary {
   std::string reason;  ///< for not_converged: what happened and what to change
   int iterations = 0;

@@ -74,7 +74,7 @@ class UzawaBlock {
   /// Throws errors::Error (internal) for another mass and without a free place.
   int add(const CaseLoads& loads, const UzawaOptions& options, bool fields, Observer& observer);
 
-  /// One iteration of every column; each observer hears of its own. Columns that end stay, without
+  /// One iteration of every column; each observer gets its own. Columns that end stay, without
   /// further iterations, until they are taken. O(n_G^2 columns), no allocation.
   void step();
 

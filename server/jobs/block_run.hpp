@@ -46,7 +46,7 @@ class BlockRun {
   int columns() const noexcept { return _columns; }
   int free() const noexcept { return _broken ? 0 : _capacity - _columns; }
   store::Priority priority() const noexcept;  ///< of its most urgent column
-  /// Gives up the columns of jobs that must stop, which end in the next step; returns their
+  /// Marks the columns of jobs that must stop, which end in the next step; returns their
   /// tasks. Only while it is not iterating.
   std::vector<Task> abandon_stopped();
 

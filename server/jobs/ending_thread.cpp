@@ -150,7 +150,7 @@ void EndingThread::announce(Lock& lock, const End& end) {
   _core.logs.add(job->id(), job->log, log_bytes);
   _core.jobs.erase(job->id());
   _core.admission.ended(job->created.owner, job->spec_bytes);
-  ++_core.ended;  // before the end event: who sees that finds the job counted
+  ++_core.ended;  // before the end event, so that its watchers find the job counted
   lock.unlock();
   job->log->append(EndEvent{record});
   lock.lock();

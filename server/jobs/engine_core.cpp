@@ -49,7 +49,7 @@ void EngineCore::add(const JobPtr& job) {
   if (!mesh->phase.empty()) {
     job->state = JobState::waiting_for_mesh;
     add_step(job->timeline, job->state, mesh->phase);
-    job->log->append(PhaseEvent{job->state, mesh->phase});  // nobody listens yet
+    job->log->append(PhaseEvent{job->state, mesh->phase});  // there are no watchers yet
   }
 }
 

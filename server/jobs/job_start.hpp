@@ -10,7 +10,7 @@ namespace anticrack::jobs {
 /// Starts a job that waits in the schedule: RUNNING on the disk first, so that after a crash it is
 /// the next attempt, then in its log. A start the store does not take is tried again in a while. A
 /// sweep is planned before, so that one which does not fit its mesh fails without having started,
-/// and the loads it combines are condensed after. Lets go of the lock meanwhile, and has the job
+/// and the loads it combines are condensed after. Releases the lock meanwhile, and has the job
 /// out of the schedule.
 void start_job(EngineCore& core, EngineCore::Lock& lock,
                std::shared_ptr<const operators::MeshOperator> mesh_operator, const JobPtr& job);

@@ -39,7 +39,7 @@ enum class Stop {
 
 /// A job is solved in units: its load cases, or the chunks of its sweep, of which there is one
 /// until the job starts and they are known. The first part does not change; the engine's mutex
-/// guards the second, but for what is said there.
+/// guards the second, with the exceptions named there.
 struct LiveJob {
   /// `cases_in_queue`: what `admission` counted for it.
   LiveJob(std::uint64_t submission, store::JobRecord record, std::uint64_t cases_in_queue,

@@ -92,7 +92,7 @@ void PreparationPool::tell(MeshWork& mesh, const std::string& phase) {
 void PreparationPool::prepare(Lock& lock, const Mesh& mesh) {
   mesh->preparing.emplace();
   const std::stop_token stop = mesh->preparing->get_token();
-  // A mesh that waits for memory is tried every second, perhaps for hours: that is told once.
+  // A mesh that waits for memory is tried every second, perhaps for hours: one event says so.
   const bool retry = mesh->phase == waiting_for_memory;
   lock.unlock();
   std::shared_ptr<const operators::MeshOperator> mesh_operator;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Runs the helper process anticrack-mesher, which alone links gmsh: gmsh has global state (two
-// threads in one process gave 21 bad meshes of 40), runs shell commands from any file it takes for
-// a script, and may crash. The helper has limits of memory, time and descriptors and
-// can open no files, start no programs and make no connections (restrict.hpp). The .msh to
-// import is opened here and handed over.
+// threads in one process gave 21 bad meshes of 40), runs shell commands from any file that looks
+// like a script, and may crash. The helper has limits of memory, time and descriptors and can open
+// no files, start no programs and make no connections (restrict.hpp). The .msh to import is opened
+// here and handed over.
 #pragma once
 
 #include <chrono>

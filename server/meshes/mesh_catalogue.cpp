@@ -80,7 +80,7 @@ struct MeshCatalogue::State {
     return true;
   }
 
-  /// Reserves a place in the index for a new mesh; nobody else can make it meanwhile.
+  /// Reserves a place in the index for a new mesh, so that no other call makes it meanwhile.
   LiveMesh& claim(const std::string& id) {
     require_room();
     if (index().find(id) == nullptr && index().size() >= options.max_meshes) {

@@ -47,7 +47,7 @@ class Preparation {
   MeshIndex& index() noexcept { return _index; }
   /// Wakes all waiters after a change of the index.
   void notify() { _changed.notify_all(); }
-  /// Waits until nobody writes the record of the mesh; null if there is no such mesh.
+  /// Waits until no thread writes the record of the mesh; null if there is no such mesh.
   LiveMesh* settled(Lock& lock, const std::string& id);
   /// Starts or joins a run. The mesh must be known and settled.
   std::shared_ptr<Run> begin(const std::string& id, bool background);
@@ -72,7 +72,7 @@ class Preparation {
   /// Waits for the end of the run.
   void await(Lock& lock, Run& run, bool joins, const PhaseListener& listener,
              const std::stop_token& stop);
-  /// Removes a waiter. True if nobody else needs the run: stop it then.
+  /// Removes a waiter. True if the run has no other: stop it then.
   bool leave(Run& run);
 
   // On the thread of a run:

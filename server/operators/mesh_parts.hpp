@@ -42,7 +42,7 @@ struct PreparedLoad::Data {
   bool has_interior = true;  ///< not so of a combination: no field can be recovered
 
   contact::CaseLoads loads() const { return {condensed.subdomains, condensed.inclusion_forces}; }
-  /// What every answer to the load is told.
+  /// Numbers of the load that every answer to it repeats.
   void add_warnings(contact::Answer& answer) const;
 };
 

@@ -118,7 +118,7 @@ struct OperatorCache::State {
     return bytes;
   }
 
-  /// Takes out an operator that nobody holds; null otherwise.
+  /// Takes out an operator that is not in use; null otherwise.
   Operator take(const std::string& key) {
     Entry* entry = find(key);
     if (entry == nullptr || entry->in_use()) return nullptr;

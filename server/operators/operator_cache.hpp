@@ -31,7 +31,7 @@ struct CacheMetrics {
 /// 1. One factorisation at a time per key, on the first caller's thread; callers that join get the
 /// same
 ///    operator or the same error.
-/// 2. An operator held by somebody (shared_ptr) is pinned: counted and not evicted.
+/// 2. An operator in use (shared_ptr) is pinned: counted and not evicted.
 /// 3. A factorisation first reserves its estimate, evicting unpinned entries, least recently used
 /// first.
 ///    If that is not enough: errors::Error busy, or limit_exceeded if the estimate exceeds the
@@ -42,8 +42,8 @@ struct CacheMetrics {
 /// 4. `pin` keeps an entry until `evict`.
 /// 5. Evicted memory returns to the system before the factorisation it made room for
 ///    (freed_memory.hpp).
-/// 6. A joiner's stop ends its wait. The factorisation stops when nobody waits for it any more; its
-/// own
+/// 6. A joiner's stop ends its wait. The factorisation stops when no caller waits for it any more;
+/// its own
 ///    caller returns when it has ended, `cancelled` if it was stopped.
 /// Thread-safe. No lock is held while factorising.
 class OperatorCache {
@@ -70,7 +70,7 @@ class OperatorCache {
   bool pin(const std::string& key);
   bool pinned(const std::string& key) const;  ///< by `pin`
   enum class Eviction { done, not_there, in_use };
-  /// Drops an entry, also one kept by `pin`, unless somebody holds it or it is being factorised.
+  /// Drops an entry, also one kept by `pin`, unless it is in use or being factorised.
   Eviction evict(const std::string& key);
   /// Counts a caller that waits for an acquire() of another one instead of its own.
   void count_join();

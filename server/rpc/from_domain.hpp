@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Records and events as a client is told of them: the messages records are kept as
+// Records and events as messages for clients: the messages that records are kept as
 // (api/translations.hpp), cut to what fits in an answer. Pure functions.
 #pragma once
 

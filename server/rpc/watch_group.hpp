@@ -55,7 +55,7 @@ class WatchGroup final : public Wakeable {
   std::shared_ptr<jobs::EventLog::Listener> _listener;
 };
 
-/// The groups there are, each as long as somebody watches. Thread-safe.
+/// The groups, each as long as it has a watcher. Thread-safe.
 class WatchGroups {
  public:
   explicit WatchGroups(StreamHub& hub) : _hub(hub) {}

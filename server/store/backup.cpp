@@ -97,7 +97,7 @@ class Backup {
       source.prepare("VACUUM INTO ?").bind(std::string_view(path)).run();
     }
     Connection copy(path);
-    copy.execute("UPDATE store SET stopped = 1");  // whoever restores it has not crashed
+    copy.execute("UPDATE store SET stopped = 1");  // a server that starts from it has not crashed
     keep_identity(copy, _to);
     _named.clear();
     for (const FileKind kind : file_kinds) {

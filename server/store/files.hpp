@@ -29,7 +29,7 @@ std::vector<std::string> file_names(const std::string& folder);
 void make_folder(const std::string& path);
 /// Flushes a file, or the names in a folder, to the disk. Throws as disk_error does.
 void flush(const std::string& path);
-/// Flushes files at once: disks write what is asked for together in little more time than one file.
+/// Flushes files at once: a disk flushes several files together in little more time than one.
 /// Throws as flush does, when all have been tried.
 void flush_all(const std::vector<std::string>& paths);
 std::optional<std::uint64_t> file_size(const std::string& path) noexcept;

@@ -10,7 +10,7 @@
 
 namespace anticrack::store {
 
-/// Meshes that somebody holds, by the hash of their encoding. Thread-safe; keeps none alive.
+/// Meshes in use, by the hash of their encoding. Thread-safe; keeps none alive.
 class Triangulations {
  public:
   using Pointer = std::shared_ptr<const mesh::Mesh>;
@@ -32,7 +32,7 @@ class Triangulations {
     return mesh;
   }
 
-  /// Nobody finds it any more; who holds it keeps it.
+  /// Removes it from the table; its users keep it.
   void forget(const std::string& sha256) {
     const std::lock_guard lock(_mutex);
     _held.erase(sha256);

@@ -21,7 +21,7 @@ class UploadParts {
     const std::lock_guard lock(_mutex);
     _reserved.emplace(path, std::move(reservation));
   }
-  /// Lets go of those whose files were removed.
+  /// Forgets those whose files were removed.
   void forget_lost() {
     const std::lock_guard lock(_mutex);
     std::erase_if(_reserved, [](const auto& item) { return !file_size(item.first); });
