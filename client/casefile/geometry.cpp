@@ -105,7 +105,7 @@ void read_regions(const Section& geometry_section, v1::Geometry& geometry, Spots
     v1::Region& region = *geometry.add_regions();
     region.set_name(section.need_text("name", "give the region a name"));
     set_point(section, "at", "write [x, y], a point inside the region", *region.mutable_at());
-    region.set_tension(section.positive("tension").value_or(0));
+    if (const auto tension = section.positive("tension")) region.set_tension(*tension);
   }
 }
 

@@ -87,9 +87,9 @@ v1::MeshOptions read_mesh_options(const Section& section, Spots& spots) {
   v1::MeshOptions options;
   options.set_preset(read_preset(section));
   refuse_what_means_nothing(section, options.preset());
-  options.set_size(section.positive("size").value_or(0));
-  options.set_tip_size(section.positive("tip_size").value_or(0));
-  options.set_grading(section.positive("grading").value_or(0));
+  if (const auto size = section.positive("size")) options.set_size(*size);
+  if (const auto tip_size = section.positive("tip_size")) options.set_tip_size(*tip_size);
+  if (const auto grading = section.positive("grading")) options.set_grading(*grading);
   note(section, "options", spots);
   read_align(section, options, spots);
   if (const auto groups = section.section("groups", {"curve", "surface"})) {

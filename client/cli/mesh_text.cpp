@@ -40,13 +40,13 @@ std::string sizes(const v1::Mesh& mesh) {
                      std::to_string(mesh.node_count()) + " nodes, meshed in " +
                      seconds(mesh.mesh_seconds()) + " s; smallest angle " +
                      number(mesh.minimum_angle(), 3) + " degrees";
-  if (mesh.bisection_bound() > 0)
+  if (mesh.has_bisection_bound())
     text += " (no grading can go below " + number(mesh.bisection_bound(), 3) + ")";
   text += "\n";
   if (mesh.operator_bytes() > 0) {
     text += "factors of " + bytes(mesh.operator_bytes()) + " made in " +
             seconds(mesh.factorize_seconds()) + " s";
-    text += mesh.theta_star() > 0 ? ", theta* " + number(mesh.theta_star()) + "\n" : "\n";
+    text += mesh.has_theta_star() ? ", theta* " + number(mesh.theta_star()) + "\n" : "\n";
   }
   return text;
 }

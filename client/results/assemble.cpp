@@ -101,7 +101,7 @@ Result assemble(Result answers, std::span<const ArrayView> mesh_block,
   for (std::size_t i = 0; i < answers.interfaces.size(); ++i) {
     get_arrays(result, arrays::interface_folder(i), answers.interfaces[i],
                arrays::interface_nodes<Interface>);
-    answers.interfaces[i].edges = edges_of(mesh, answers.interfaces[i].name);
+    answers.interfaces[i].edges = edges_of(mesh, i);
   }
   if (answers.sweep) add_sweep(result, answers);
   for (std::size_t i = 0; i < answers.loads.size() && !answers.sweep; ++i)

@@ -35,9 +35,10 @@ void Block::fail(const std::string& cause) const {
   throw Error(_subject, cause, compare_versions);
 }
 
-Edges edges_of(const Block& block, const std::string& interface) {
-  const std::string at = "interfaces/" + interface;
-  return {block.get<Kind>(at + "/kind"), block.get<std::int32_t>(at + "/inclusion")};
+Edges edges_of(const Block& block, std::size_t interface) {
+  Edges edges;
+  get_arrays(block, arrays::interface_folder(interface), edges, tables::edges);
+  return edges;
 }
 
 void add_mesh(const Block& block, Mesh& mesh) {

@@ -32,9 +32,10 @@ std::string first_fault(const MeshPlan& plan) {
 MeshPlan assemble_mesh(MeshPlan messages, std::span<const ArrayView> mesh_block) {
   const Block block("the mesh read from the server", mesh_block);
   add_mesh(block, messages.mesh);
-  for (InterfaceLine& line : messages.interfaces) {
-    line.nodes = block.get<std::int32_t>("interfaces/" + line.name + "/nodes");
-    line.edges = edges_of(block, line.name);
+  for (std::size_t i = 0; i < messages.interfaces.size(); ++i) {
+    InterfaceLine& line = messages.interfaces[i];
+    line.nodes = block.get<std::int32_t>(arrays::interface_folder(i) + "nodes");
+    line.edges = edges_of(block, i);
   }
   block.require(first_fault(messages));
   return messages;

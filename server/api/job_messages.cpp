@@ -142,21 +142,25 @@ contact::SolverOptions Translation<contact::SolverOptions>::read(const v1::Solve
 }
 
 void Translation<store::SweepSpec>::write(const store::SweepSpec& value, v1::Sweep& to) {
-  write_fields(value, to, {"cases", "upload", "rows"});
+  write_fields(value, to, {"cases", "upload", "rows", "packed"});
   v1::Sweep::Matrix& matrix = value.cases == store::SweepSpec::Cases::combinations
                                   ? *to.mutable_coefficients()
                                   : *to.mutable_nodal_forces();
-  write_field(upload_name(value.upload), matrix, "upload");
+  if (value.packed)
+    write_field(value.upload, matrix, "sha256");
+  else
+    write_field(upload_name(value.upload), matrix, "upload");
 }
 
 store::SweepSpec Translation<store::SweepSpec>::read(const v1::Sweep& from) {
   store::SweepSpec value;
-  read_fields(from, value, {"cases", "upload", "rows"});
+  read_fields(from, value, {"cases", "upload", "rows", "packed"});
   const bool nodal = from.has_nodal_forces();
   value.cases =
       nodal ? store::SweepSpec::Cases::nodal_forces : store::SweepSpec::Cases::combinations;
   const v1::Sweep::Matrix& matrix = nodal ? from.nodal_forces() : from.coefficients();
-  if (!matrix.has_packed()) value.upload = after_slash(matrix.upload(), "upload");
+  value.packed = !matrix.has_upload();
+  value.upload = value.packed ? matrix.sha256() : after_slash(matrix.upload(), "upload");
   return value;
 }
 

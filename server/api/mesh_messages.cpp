@@ -125,20 +125,12 @@ mesh::InclusionSpec Translation<mesh::InclusionSpec>::read(const v1::Inclusion& 
   return value;
 }
 
-void Translation<mesh::RegionSpec>::write(const mesh::RegionSpec& value, v1::Region& to) {
-  write_fields(value, to);
-}
-
-mesh::RegionSpec Translation<mesh::RegionSpec>::read(const v1::Region& from) {
-  mesh::RegionSpec value;
-  read_fields(from, value);
-  if (value.tension == 0) value.tension = 1;
-  return value;
-}
-
 void Translation<mesh::MeshOptions>::write(const mesh::MeshOptions& value, v1::MeshOptions& to) {
   write_fields(value, to, {"preset"});
   to.set_preset(presets.at(static_cast<std::size_t>(value.preset)));
+  if (value.size == 0) to.clear_size();
+  if (value.tip_size == 0) to.clear_tip_size();
+  if (value.grading == mesh::MeshOptions().grading) to.clear_grading();
 }
 
 mesh::MeshOptions Translation<mesh::MeshOptions>::read(const v1::MeshOptions& from) {
@@ -147,21 +139,25 @@ mesh::MeshOptions Translation<mesh::MeshOptions>::read(const v1::MeshOptions& fr
   const int preset = get_number(from, field_of(from, "preset"), -1);
   for (std::size_t i = 0; i < presets.size(); ++i)
     if (presets[i] == preset) value.preset = static_cast<mesh::Preset>(i);
-  if (value.grading == 0) value.grading = mesh::MeshOptions().grading;
+  for (const char* length : {"size", "tip_size"}) {
+    if (has(from, field_of(from, length)) && get<double>(from, field_of(from, length), -1) == 0) {
+      throw Error(Reason::invalid_argument, "0 is not above 0; leave it unset for the default")
+          .at(length);
+    }
+  }
   return value;
 }
 
-void Translation<store::MeshDefinition>::write(const store::MeshDefinition& value,
-                                               v1::CreateMeshRequest& to) {
+void write_definition(const store::MeshDefinition& value, Message& to) {
   if (const auto* upload = std::get_if<store::UploadRef>(&value)) {
     write_field(upload_name(upload->sha256), to, "upload");
-    Translation<mesh::MeshOptions>::write(upload->options, *to.mutable_options());
+    write_field(upload->options, to, "options");
   } else {
     write_fields(std::get<store::GeometrySource>(value), to);
   }
 }
 
-store::MeshDefinition Translation<store::MeshDefinition>::read(const v1::CreateMeshRequest& from) {
+store::MeshDefinition read_definition(const v1::CreateMeshRequest& from) {
   switch (from.source_case()) {
     case v1::CreateMeshRequest::kGeometry: {
       store::GeometrySource source;
@@ -181,6 +177,8 @@ store::MeshDefinition Translation<store::MeshDefinition>::read(const v1::CreateM
 
 void Translation<store::MeshRecord>::write(const store::MeshRecord& value, v1::Mesh& to) {
   write_fields(value, to, {"id", "definition", "created"});
+  if (value.theta_star == 0) to.clear_theta_star();
+  if (value.bisection_bound == 0) to.clear_bisection_bound();
   to.set_name(mesh_name(value.id));
   write_field(value.created, to, "create_time");
 }

@@ -60,7 +60,7 @@ store::MeshDefinition to_definition(const v1::CreateMeshRequest& request) {
   require_title(request.title(), "title");
   require_counts(request.geometry());
   require_counts(request.options());
-  auto definition = Translation<store::MeshDefinition>::read(request);
+  store::MeshDefinition definition = read_definition(request);
   if (const auto* upload = std::get_if<store::UploadRef>(&definition)) {
     mesh::check_for_upload(upload->options);
     upload_sha256(request.upload(), "upload");

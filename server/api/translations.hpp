@@ -46,7 +46,6 @@ struct Translation<mesh::Point> {
 ANTICRACK_TRANSLATION(std::vector<mesh::Point>, v1::Polyline);
 ANTICRACK_TRANSLATION(mesh::InterfaceSpec, v1::InterfaceCurve);
 ANTICRACK_TRANSLATION(mesh::InclusionSpec, v1::Inclusion);
-ANTICRACK_TRANSLATION(mesh::RegionSpec, v1::Region);
 ANTICRACK_TRANSLATION(mesh::MeshOptions, v1::MeshOptions);
 
 // fem/ and contact/
@@ -57,8 +56,6 @@ ANTICRACK_TRANSLATION(contact::ActiveSetOptions, v1::ActiveSet);
 ANTICRACK_TRANSLATION(contact::SolverOptions, v1::Solver);
 
 // store/
-/// Without the title, which is the mesh's.
-ANTICRACK_TRANSLATION(store::MeshDefinition, v1::CreateMeshRequest);
 /// Without its definition.
 ANTICRACK_TRANSLATION(store::MeshRecord, v1::Mesh);
 /// Its rows are in Job.sweep_answer.
@@ -70,6 +67,10 @@ ANTICRACK_TRANSLATION(store::JobSpec, v1::Job);
 /// Without its request id.
 ANTICRACK_TRANSLATION(store::JobRecord, v1::Job);
 #undef ANTICRACK_TRANSLATION
+
+/// What a mesh is made from: source and options of a v1::CreateMeshRequest or v1::Mesh.
+void write_definition(const store::MeshDefinition& value, Message& to);
+store::MeshDefinition read_definition(const v1::CreateMeshRequest& from);
 
 /// Arrays in one message of a layout; some 100 bytes each.
 constexpr std::size_t max_layout_arrays = 4096;

@@ -7,7 +7,7 @@
 namespace anticrack::errors {
 
 std::string_view name(Reason reason) noexcept {
-  constexpr std::array<std::string_view, 24> names{"INVALID_ARGUMENT",
+  constexpr std::array<std::string_view, 25> names{"INVALID_ARGUMENT",
                                                    "GEOMETRY_INVALID",
                                                    "MESH_INVALID",
                                                    "EXPRESSION_INVALID",
@@ -19,6 +19,7 @@ std::string_view name(Reason reason) noexcept {
                                                    "SEQUENCE_TRIMMED",
                                                    "OFFSET_OUT_OF_RANGE",
                                                    "BUSY",
+                                                   "QUOTA_EXCEEDED",
                                                    "DRAINING",
                                                    "DISK_FULL",
                                                    "RESULT_EXPIRED",

@@ -28,6 +28,7 @@ enum class Reason {
   sequence_trimmed,     ///< these events are no longer, or not yet, in the log
   offset_out_of_range,  ///< beyond the end of a block
   busy,                 ///< a queue or budget is full; retry after retry_delay
+  quota_exceeded,       ///< the server keeps no more of them; delete some
   draining,             ///< the server is stopping
   disk_full,            ///< no space, or the disk budget is used up; retry after retry_delay
   result_expired,       ///< the result was removed (age or disk budget)

@@ -121,7 +121,10 @@ std::string fingerprint(const store::JobSpec& spec) {
   fields::for_each(spec, [&hash]<class T>(const fields::Field<T>& field) {
     if constexpr (std::is_same_v<T, const std::optional<store::SweepSpec>>) {
       std::optional<store::SweepSpec> sweep = field.value;
-      if (sweep) sweep->rows = 0;  // they follow from the upload and the mesh
+      if (sweep) {
+        sweep->rows = 0;  // they follow from the upload and the mesh
+        sweep->packed = false;
+      }
       hash.add_all(sweep);
     } else {
       hash.add_all(field.value);

@@ -16,7 +16,7 @@ namespace {
 void check_length(double value, const std::string& field, const char* meaning) {
   if (std::isfinite(value) && value >= 0) return;
   refuse_option(field, field + " is " + show(value) + "; it is " + meaning +
-                           " above 0, or 0 for the default");
+                           " above 0; leave it unset for the default");
 }
 
 void check_sizes(const MeshOptions& options) {
@@ -28,7 +28,7 @@ void check_sizes(const MeshOptions& options) {
   }
   if (options.tip_size > 0 && options.preset != Preset::graded) {
     refuse_option("options.tip_size", "options.tip_size is " + show(options.tip_size) +
-                                          ", but only preset graded uses it; leave it 0");
+                                          ", but only preset graded uses it; leave it unset");
   }
   if (options.size > 0 && options.tip_size > options.size) {
     refuse_option("options.tip_size", "options.tip_size is " + show(options.tip_size) +
@@ -65,7 +65,7 @@ void check_for_geometry(const MeshOptions& options) {
   check_sizes(options);
   if (options.preset == Preset::paper && options.size > 0) {
     refuse_option("options.size", "options.size is " + show(options.size) +
-                                      ", but preset paper fixes the intervals; leave it 0, or "
+                                      ", but preset paper fixes the intervals; leave it unset, or "
                                       "choose preset uniform");
   }
   const auto for_uploads = [](bool empty, const char* field, const char* cure) {

@@ -84,9 +84,9 @@ struct MeshCatalogue::State {
   LiveMesh& claim(const std::string& id) {
     require_room();
     if (index().find(id) == nullptr && index().size() >= options.max_meshes) {
-      throw Error(
-          Reason::limit_exceeded,
-          fmt::format("the server keeps at most {} meshes: delete some", options.max_meshes));
+      throw Error(Reason::quota_exceeded,
+                  fmt::format("the server keeps {} meshes and may keep no more: delete some",
+                              options.max_meshes));
     }
     LiveMesh& mesh = index().add(id);
     mesh.claimed = true;

@@ -21,7 +21,7 @@ struct CatalogueOptions {
   mesher::HelperOptions helper;
   std::size_t max_triangles = 4'000'000;
   std::size_t max_pending = 64;     ///< meshes waiting for the mesher; then `busy`
-  std::size_t max_meshes = 10'000;  ///< records; then limit_exceeded
+  std::size_t max_meshes = 10'000;  ///< records; then quota_exceeded
   /// Called without a lock for each mesh that the helper made or failed to make. Must not throw.
   std::function<void(const store::MeshRecord&)> meshed = {};
 };
@@ -45,7 +45,7 @@ class MeshCatalogue {
   /// Returns the record of an equal definition, or writes and returns a new, pending one. A failed
   /// mesh is tried again. Does not wait for the mesher. Owners share triangulations and operators
   /// of equal meshes, but not records. Throws errors::Error: geometry_invalid, invalid_argument,
-  /// not_found (upload), busy, limit_exceeded, disk_full.
+  /// not_found (upload), busy, quota_exceeded, disk_full.
   store::MeshRecord create(const store::MeshDefinition& definition, const std::string& title,
                            const std::string& owner);
 

@@ -202,11 +202,12 @@ store::Block mesh_block(const mesh::Mesh& mesh) {
   boundary.reserve(2 * mesh.dirichlet.size());
   for (const auto& edge : mesh.dirichlet) boundary.insert(boundary.end(), edge.begin(), edge.end());
   builder.add("boundary", boundary, {mesh.dirichlet.size(), 2});
-  for (const mesh::Interface& interface : mesh.interfaces) {
-    const std::string path = "interfaces/" + interface.name + "/";
+  for (std::size_t i = 0; i < mesh.interfaces.size(); ++i) {
+    const mesh::Interface& interface = mesh.interfaces[i];
+    const std::string path = "interfaces/" + std::to_string(i) + "/";
     builder.add(path + "nodes", interface.nodes);
-    builder.add(path + "kind", interface.kind);
-    builder.add(path + "inclusion", interface.inclusion);
+    builder.add(path + "edge_kind", interface.kind);
+    builder.add(path + "edge_inclusion", interface.inclusion);
   }
   return builder.finish();
 }

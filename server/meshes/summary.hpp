@@ -15,7 +15,7 @@ namespace anticrack::meshes {
 void summarize(const mesh::Mesh& mesh, store::MeshRecord& record);
 
 /// The arrays of ReadMesh: nodes (n,2), triangles (m,3), subdomain (m), boundary (b,2),
-/// interfaces/NAME/nodes (k), interfaces/NAME/kind (k-1), interfaces/NAME/inclusion (k-1).
+/// interfaces/I/nodes (k), interfaces/I/edge_kind (k-1), interfaces/I/edge_inclusion (k-1).
 store::Block mesh_block(const mesh::Mesh& mesh);
 
 }  // namespace anticrack::meshes

@@ -48,6 +48,7 @@ grpc::StatusCode code(Reason reason) noexcept {
     case Reason::offset_out_of_range:
       return grpc::StatusCode::OUT_OF_RANGE;
     case Reason::busy:
+    case Reason::quota_exceeded:
     case Reason::storage:
     case Reason::disk_full:
       return grpc::StatusCode::RESOURCE_EXHAUSTED;

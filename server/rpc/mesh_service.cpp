@@ -5,6 +5,7 @@
 
 #include "api/names.hpp"
 #include "api/requests.hpp"
+#include "api/translations.hpp"
 #include "meshes/mesh_catalogue.hpp"
 #include "rpc/block_feed.hpp"
 #include "rpc/from_domain.hpp"
@@ -20,8 +21,14 @@ using access::Identity;
 using errors::Error;
 using errors::Reason;
 
-v1::Mesh MeshService::to_answer(const store::MeshRecord& record) const {
+v1::Mesh MeshService::summary(const store::MeshRecord& record) const {
   return from_domain(record, _edge.backend.catalogue.pinned(record.id));
+}
+
+v1::Mesh MeshService::to_answer(const store::MeshRecord& record) const {
+  v1::Mesh mesh = summary(record);
+  api::write_definition(record.definition, mesh);
+  return mesh;
 }
 
 grpc::ServerReadReactor<v1::UploadMeshRequest>* MeshService::UploadMesh(
@@ -59,7 +66,7 @@ Unary* MeshService::ListMeshes(Context* context, const v1::ListMeshesRequest* re
           return _edge.backend.catalogue.list({after, count, owner_filter(who, request->owner())});
         },
         [&](const store::MeshRecord& record) {
-          return (*response->add_meshes() = to_answer(record)).ByteSizeLong();
+          return (*response->add_meshes() = summary(record)).ByteSizeLong();
         }));
   });
 }

@@ -31,6 +31,8 @@ class MeshService final : public v1::MeshService::CallbackService {
                    v1::Mesh* response) override;
 
  private:
+  /// Without its definition.
+  v1::Mesh summary(const store::MeshRecord& record) const;
   v1::Mesh to_answer(const store::MeshRecord& record) const;
 
   Edge& _edge;

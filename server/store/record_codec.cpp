@@ -63,7 +63,7 @@ void update(v1::Job& job) {
 std::string encode(const MeshRecord& record) {
   disk::MeshRecord out;
   api::Translation<MeshRecord>::write(record, *out.mutable_mesh());
-  api::Translation<MeshDefinition>::write(record.definition, *out.mutable_definition());
+  api::write_definition(record.definition, *out.mutable_definition());
   return api::serialized(out);
 }
 
@@ -78,7 +78,7 @@ std::string encode(const JobRecord& record) {
 MeshRecord decode_mesh_record(std::string_view bytes) {
   return decoded<disk::MeshRecord>(bytes, [](const disk::MeshRecord& in) {
     MeshRecord record = api::Translation<MeshRecord>::read(in.mesh());
-    record.definition = api::Translation<MeshDefinition>::read(in.definition());
+    record.definition = api::read_definition(in.definition());
     return record;
   });
 }

@@ -147,8 +147,9 @@ struct SweepSpec {
   std::string upload;                   ///< sha256 of the matrix's bytes
   std::uint64_t rows = 0;               ///< of nodal forces: known when the job starts
   std::vector<std::uint32_t> traces{};  ///< rows whose traces are kept, ascending
+  bool packed = false;                  ///< the matrix came with the job
 };
-ANTICRACK_FIELDS(SweepSpec, cases, upload, rows, traces)
+ANTICRACK_FIELDS(SweepSpec, cases, upload, rows, traces, packed)
 
 /// Of a sweep that has ended; its columns are in the result block.
 struct SweepRecord {

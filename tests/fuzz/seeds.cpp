@@ -276,9 +276,8 @@ void save_result() {
     answer.add(at + "y", interface.y);
     answer.add(at + "kind",
                std::vector<std::int32_t>(interface.node_count(), 3));  // delaminated everywhere
-    const std::string line = "interfaces/" + interface.name + "/";
-    mesh.add(line + "kind", std::vector<std::int32_t>(interface.edges.kind.size(), 3));
-    mesh.add(line + "inclusion", std::vector<std::int32_t>(interface.edges.kind.size(), 0));
+    mesh.add(at + "edge_kind", std::vector<std::int32_t>(interface.edges.kind.size(), 3));
+    mesh.add(at + "edge_inclusion", std::vector<std::int32_t>(interface.edges.kind.size(), 0));
   }
   for (std::size_t i = 0; i < result.loads.size(); ++i) {
     add_load(answer, "loads/" + std::to_string(i) + "/", result.loads[i]);

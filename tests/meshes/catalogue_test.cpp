@@ -171,7 +171,7 @@ TEST(CatalogueQueue, KeepsNoMoreMeshesThanItMay) {
   Backend backend(options);
   const std::string first = backend.create(0.3);
   backend.create(0.35);
-  EXPECT_TRUE(throws([&] { backend.create(0.4); }, Reason::limit_exceeded));
+  EXPECT_TRUE(throws([&] { backend.create(0.4); }, Reason::quota_exceeded));
   EXPECT_EQ(backend.create(0.3), first);  // no new one
   ASSERT_TRUE(eventually([&] { return backend.catalogue.get(first).state == MeshState::ready; }));
   backend.catalogue.erase(first);

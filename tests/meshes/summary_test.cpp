@@ -151,8 +151,8 @@ TEST(MeshBlock, HoldsTheArraysOfTheMesh) {
     names.push_back(array.name);
   }
   EXPECT_THAT(names,
-              ElementsAre("nodes", "triangles", "subdomain", "boundary", "interfaces/sigma/nodes",
-                          "interfaces/sigma/kind", "interfaces/sigma/inclusion"));
+              ElementsAre("nodes", "triangles", "subdomain", "boundary", "interfaces/0/nodes",
+                          "interfaces/0/edge_kind", "interfaces/0/edge_inclusion"));
   EXPECT_THAT(block.arrays[0].shape, ElementsAre(81, 2));
   EXPECT_THAT(block.arrays[1].shape, ElementsAre(128, 3));
   EXPECT_THAT(block.arrays[2].shape, ElementsAre(128));

@@ -104,6 +104,16 @@ const std::vector<BadMesh>& bad_meshes() {
        "GEOMETRY_INVALID", "geometry.inclusions[0].name"},
       {"NegativeSize", [](auto& request) { request.mutable_options()->set_size(-1); },
        "INVALID_ARGUMENT", "options.size"},
+      {"SizeZero", [](auto& request) { request.mutable_options()->set_size(0); },
+       "INVALID_ARGUMENT", "options.size"},
+      {"TensionZero",
+       [](auto& request) {
+         v1::Region& region = *geometry(request).add_regions();
+         move(*region.mutable_at(), 0, 0.5);
+         region.set_name("upper");
+         region.set_tension(0);
+       },
+       "GEOMETRY_INVALID", "geometry.regions[0].tension"},
       {"MoreTrianglesThanAllowed", [](auto& request) { request.mutable_options()->set_size(1e-3); },
        "LIMIT_EXCEEDED", "options.size"},
       {"PaperPresetForTwoInterfaces",
@@ -112,7 +122,7 @@ const std::vector<BadMesh>& bad_meshes() {
          move(*line.add_points(), -1, 0.5);
          move(*line.add_points(), 1, 0.5);
          request.mutable_options()->set_preset(v1::MESH_PRESET_PAPER);
-         request.mutable_options()->set_size(0);
+         request.mutable_options()->clear_size();
        },
        "INVALID_ARGUMENT", "options.preset"},
       {"GroupsForAGeometry",

@@ -32,6 +32,7 @@ TEST(ErrorTable, MapsEveryReason) {
       {Reason::sequence_trimmed, grpc::StatusCode::OUT_OF_RANGE},
       {Reason::offset_out_of_range, grpc::StatusCode::OUT_OF_RANGE},
       {Reason::busy, grpc::StatusCode::RESOURCE_EXHAUSTED},
+      {Reason::quota_exceeded, grpc::StatusCode::RESOURCE_EXHAUSTED},
       {Reason::draining, grpc::StatusCode::UNAVAILABLE},
       {Reason::disk_full, grpc::StatusCode::RESOURCE_EXHAUSTED},
       {Reason::result_expired, grpc::StatusCode::FAILED_PRECONDITION},

@@ -96,6 +96,19 @@ TEST(List, ShowsMeshes) {
   ASSERT_EQ(response.meshes_size(), 2);
   EXPECT_EQ(response.meshes(0).name(), b);
   EXPECT_EQ(response.meshes(1).name(), a);
+  EXPECT_EQ(response.meshes(1).source_case(), v1::Mesh::SOURCE_NOT_SET);
+
+  Context get;
+  v1::GetMeshRequest request;
+  request.set_name(a);
+  v1::Mesh mesh;
+  ASSERT_TRUE(server.meshes->GetMesh(&get, request, &mesh).ok());
+  v1::CreateMeshRequest again;
+  *again.mutable_geometry() = mesh.geometry();
+  *again.mutable_options() = mesh.options();
+  EXPECT_EQ(again.options().size(), 0.2);
+  EXPECT_FALSE(again.options().has_grading());
+  EXPECT_EQ(server.create(again).name(), a);
 }
 
 }  // namespace

@@ -62,11 +62,11 @@ TEST(GeometryToDomain, TakesEveryShapeRegionAndBoundaryPart) {
   v1::BoundaryPart& neumann = *geometry.add_neumann();
   neumann.mutable_from()->set_x(-1);
   neumann.mutable_to()->set_y(1);
-  for (const double tension : {0.0, 2.5, -1.0}) {
+  for (const double tension : {1.0, 2.5, -1.0, 0.0}) {
     v1::Region& region = *geometry.add_regions();
     region.set_name("r");
     region.mutable_at()->set_x(0.25);
-    region.set_tension(tension);
+    if (tension != 1) region.set_tension(tension);
   }
   const mesh::Geometry result = geometry_of(request);
   ASSERT_EQ(result.interfaces.size(), 3u);
@@ -79,10 +79,11 @@ TEST(GeometryToDomain, TakesEveryShapeRegionAndBoundaryPart) {
   EXPECT_EQ(result.interfaces[2].points.size(), 4u);
   ASSERT_EQ(result.neumann.size(), 1u);
   EXPECT_EQ(result.neumann[0].to, (mesh::Point{0, 1}));
-  ASSERT_EQ(result.regions.size(), 3u);
+  ASSERT_EQ(result.regions.size(), 4u);
   EXPECT_EQ(result.regions[0].tension, 1);  // unset
   EXPECT_EQ(result.regions[1].tension, 2.5);
   EXPECT_EQ(result.regions[2].tension, -1);  // for the domain to refuse
+  EXPECT_EQ(result.regions[3].tension, 0);   // the same
   EXPECT_EQ(result.regions[1].at, (mesh::Point{0.25, 0}));
 }
 

@@ -131,8 +131,7 @@ TEST(Sweep, AnswersEveryRowAsAJobOfItsOwn) {
   request.mutable_job()->mutable_sweep()->add_traces(6);
   const v1::Job created = server.create(request);
   EXPECT_EQ(created.sweep_answer().rows(), row_count);
-  EXPECT_EQ(created.sweep().coefficients().upload(),
-            "uploads/" + store::Sha256().add(packed(matrix)).finish());
+  EXPECT_EQ(created.sweep().coefficients().sha256(), store::Sha256().add(packed(matrix)).finish());
   const Watched told = watch(server, created.name());
 
   ASSERT_EQ(told.ended.state(), v1::Job::STATE_SUCCEEDED) << told.ended.error().message();
@@ -168,7 +167,7 @@ TEST(Sweep, OfAnUploadIsTheSame) {
   v1::CreateJobRequest request = sweep_job(mesh, matrix);
   request.set_request_id("123e4567-e89b-12d3-a456-426614174000");
   const v1::Job first = server.create(request);
-  const std::string upload = first.sweep().coefficients().upload();
+  const std::string upload = "uploads/" + first.sweep().coefficients().sha256();
   request.mutable_job()->mutable_sweep()->mutable_coefficients()->set_upload(upload);
   EXPECT_EQ(server.create(request).name(), first.name());
   EXPECT_EQ(server.upload_files(), 1u);

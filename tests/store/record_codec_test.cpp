@@ -76,9 +76,11 @@ TEST(RecordCodec, SaysSomethingInEveryFieldOfTheMessages) {
   std::set_difference(all.begin(), all.end(), said.begin(), said.end(), std::back_inserter(silent));
   EXPECT_THAT(silent, ::testing::UnorderedElementsAre(
                           "anticrack.v1.CreateMeshRequest.title",  // Mesh has it
-                          "anticrack.v1.Mesh.pinned",              // not for longer than a process
-                          "anticrack.v1.Status.code",              // follows from the reason
-                          "anticrack.v1.Sweep.Matrix.packed"));    // an upload by then
+                          "anticrack.v1.Mesh.geometry",  // CreateMeshRequest has the definition
+                          "anticrack.v1.Mesh.upload", "anticrack.v1.Mesh.options",
+                          "anticrack.v1.Mesh.pinned",            // not for longer than a process
+                          "anticrack.v1.Status.code",            // follows from the reason
+                          "anticrack.v1.Sweep.Matrix.packed"));  // an upload by then
 }
 
 /// A job as version 5 of the database had it.

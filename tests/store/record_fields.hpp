@@ -118,15 +118,20 @@ class AnyValue {
     fields::for_each(value, [this](const auto& field) { fill(field.value); });
     if constexpr (std::is_same_v<Struct, mesh::InterfaceSpec>) {
       if (value.shape == mesh::Shape::arc) value.points.resize(3);
-    } else if constexpr (std::is_same_v<Struct, mesh::RegionSpec>) {
-      if (value.tension == 0) value.tension = 1;  // 0 is what no record has: the default
     } else if constexpr (std::is_same_v<Struct, mesh::MeshOptions>) {
-      if (value.grading == 0) value.grading = 1;
+      positive(value.size);
+      positive(value.tip_size);
+    } else if constexpr (std::is_same_v<Struct, store::MeshRecord>) {
+      positive(value.theta_star);
+      positive(value.bisection_bound);
     } else if constexpr (std::is_same_v<Struct, store::JobRecord>) {
       if (!value.spec.sweep) value.sweep = {};
     }
   }
   void fill(std::shared_ptr<const std::vector<double>>&) {}  // a record keeps no values of an array
+
+  /// Not -0: 0 is for a field that is unset.
+  static void positive(double& value) { value = value == 0 ? 0 : value; }
 
   static std::uint64_t count(mesh::Kind) { return 4; }
   static std::uint64_t count(mesh::Preset) { return 3; }

@@ -50,9 +50,9 @@ client::Block mesh_block(std::int32_t kind, std::int32_t inclusion) {
       .add("triangles", Integers{0, 1, 2, 0, 3, 1}, 3)
       .add("subdomain", Integers{1, 0})
       .add("boundary", Integers{2, 0}, 2)
-      .add("interfaces/sigma/nodes", Integers{0, 1})
-      .add("interfaces/sigma/kind", Integers{kind})
-      .add("interfaces/sigma/inclusion", Integers{inclusion})
+      .add("interfaces/0/nodes", Integers{0, 1})
+      .add("interfaces/0/edge_kind", Integers{kind})
+      .add("interfaces/0/edge_inclusion", Integers{inclusion})
       .block();
 }
 

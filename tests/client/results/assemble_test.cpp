@@ -28,9 +28,9 @@ class Blocks {
     add(mesh, "boundary", result.mesh.boundary, 2);
     for (std::size_t i = 0; i < result.interfaces.size(); ++i) {
       const Interface& interface = result.interfaces[i];
-      add(mesh, "interfaces/" + interface.name + "/kind", numbers_of(interface.edges.kind));
-      add(mesh, "interfaces/" + interface.name + "/inclusion", interface.edges.inclusion);
       const std::string at = "interfaces/" + std::to_string(i) + "/";
+      add(mesh, at + "edge_kind", numbers_of(interface.edges.kind));
+      add(mesh, at + "edge_inclusion", interface.edges.inclusion);
       add(answer, at + "s", interface.s);
       add(answer, at + "x", interface.x);
       add(answer, at + "y", interface.y);
@@ -242,30 +242,30 @@ INSTANTIATE_TEST_SUITE_P(
         Lie{"missing_triangles", [](Blocks& b) { b.drop("fields/0/triangles"); },
             "fields/0/triangles is missing"},
         Lie{"bonded_without_inclusion",
-            [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/sigma/inclusion", 3, -1); },
+            [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/0/edge_inclusion", 3, -1); },
             "interfaces[0].edge_inclusion[3] is -1, there are 1 inclusions"},
         Lie{"kind_unknown", [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/0/kind", 2, 7); },
             "interfaces[0].kind[2] is 7"},
-        Lie{"missing_inclusions_of_edges", [](Blocks& b) { b.drop("interfaces/sigma/inclusion"); },
-            "interfaces/sigma/inclusion is missing"},
+        Lie{"missing_inclusions_of_edges", [](Blocks& b) { b.drop("interfaces/0/edge_inclusion"); },
+            "interfaces/0/edge_inclusion is missing"},
         Lie{"edge_kind_unknown",
-            [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/sigma/kind", 3, 0); },
+            [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/0/edge_kind", 3, 0); },
             "interfaces[0].edge_kind[3] is 0"},
         Lie{"edges_of_another_number",
             [](Blocks& b) {
-              auto& kind = b.array("interfaces/sigma/kind");
+              auto& kind = b.array("interfaces/0/edge_kind");
               kind.shape = {7};
               kind.bytes = kind.bytes.first(28);
             },
             "interfaces[0].edge_kind has 7 entries for 8 edges"},
         Lie{"inclusion_out_of_range",
-            [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/sigma/inclusion", 3, 1); },
+            [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/0/edge_inclusion", 3, 1); },
             "interfaces[0].edge_inclusion[3] is 1, there are 1 inclusions"},
         Lie{"inclusion_negative",
-            [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/sigma/inclusion", 3, -2); },
+            [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/0/edge_inclusion", 3, -2); },
             "interfaces[0].edge_inclusion[3] is -2"},
         Lie{"inclusion_on_glue",
-            [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/sigma/inclusion", 0, 0); },
+            [](Blocks& b) { b.overwrite<std::int32_t>("interfaces/0/edge_inclusion", 0, 0); },
             "interfaces[0].edge_inclusion[0] is 0, but its edge_kind is that of no inclusion"},
         Lie{"contact_not_a_flag",
             [](Blocks& b) { b.overwrite<std::int32_t>("loads/1/traces/0/contact", 0, 2); },
