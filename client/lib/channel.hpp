@@ -15,6 +15,7 @@
 #include "anticrack/v1/mesh.grpc.pb.h"
 #include "anticrack/v1/server.grpc.pb.h"
 #include "anticrack/v1/solve.grpc.pb.h"
+#include "anticrack/v1/upload.grpc.pb.h"
 #include "client/connection.hpp"
 #include "client/error.hpp"
 
@@ -30,6 +31,7 @@ struct Connection::State {
   std::unique_ptr<v1::MeshService::Stub> meshes;
   std::unique_ptr<v1::SolveService::Stub> jobs;
   std::unique_ptr<v1::ServerService::Stub> server;
+  std::unique_ptr<v1::UploadService::Stub> bulk_uploads;
   std::unique_ptr<v1::MeshService::Stub> bulk_meshes;  ///< on the channel of bulk reads
   std::unique_ptr<v1::SolveService::Stub> bulk_jobs;
   std::atomic<bool> met = false;  ///< the server has answered once

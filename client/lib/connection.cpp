@@ -131,6 +131,7 @@ Connection::State::State(ConnectionOptions chosen) : options(std::move(chosen)) 
   jobs = v1::SolveService::NewStub(channel);
   server = v1::ServerService::NewStub(channel);
   bulk = make_channel(options, true);
+  bulk_uploads = v1::UploadService::NewStub(bulk);
   bulk_meshes = v1::MeshService::NewStub(bulk);
   bulk_jobs = v1::SolveService::NewStub(bulk);
 }

@@ -26,7 +26,7 @@ constexpr std::size_t files_a_stream = 500;  // the server takes 1000
 /// The next chunk of a file, empty at its end.
 using NextChunk = std::function<std::string()>;
 struct Outgoing {
-  v1::UploadMeshRequest::Header header;
+  v1::CreateUploadsRequest::Header header;
   NextChunk next;
 };
 /// The next file, none at the end.
@@ -57,7 +57,7 @@ class FileChunks {
   std::ifstream _file;
 };
 
-v1::UploadMeshRequest::Header header_of_msh(const std::filesystem::path& path) {
+v1::CreateUploadsRequest::Header header_of_msh(const std::filesystem::path& path) {
   store::Sha256 sha256;
   std::uint64_t size = 0;
   FileChunks file(path);
@@ -65,10 +65,10 @@ v1::UploadMeshRequest::Header header_of_msh(const std::filesystem::path& path) {
     sha256.add(chunk);
     size += chunk.size();
   }
-  v1::UploadMeshRequest::Header header;
+  v1::CreateUploadsRequest::Header header;
   header.set_size(size);
   header.set_sha256(sha256.finish());
-  header.set_content(v1::UploadMeshRequest::CONTENT_MSH);
+  header.set_kind(v1::Upload::KIND_MSH);
   return header;
 }
 
@@ -78,7 +78,7 @@ Outgoing array_file(const std::shared_ptr<const std::vector<double>>& owner,
   Outgoing file;
   file.header.set_size(values.size_bytes());
   file.header.set_sha256(store::Sha256().add(std::as_bytes(values)).finish());
-  file.header.set_content(v1::UploadMeshRequest::CONTENT_ARRAY);
+  file.header.set_kind(v1::Upload::KIND_ARRAY);
   const std::string_view bytes(reinterpret_cast<const char*>(values.data()), values.size_bytes());
   file.next = [owner, rest = bytes]() mutable {
     std::string chunk(rest.substr(0, chunk_bytes));
@@ -130,13 +130,13 @@ class ArrayFiles {
 
 // The server may refuse before everything is sent; the status then gives the reason.
 grpc::Status send_once(Connection::State& state, const Begin& begin,
-                       v1::UploadMeshResponse& response, const std::stop_token& stop) {
+                       v1::CreateUploadsResponse& response, const std::stop_token& stop) {
   grpc::ClientContext context;
   authorise(state, context);
   const std::stop_callback cancel(stop, [&context] { context.TryCancel(); });
-  const auto writer = state.bulk_meshes->UploadMesh(&context, &response);
+  const auto writer = state.bulk_uploads->CreateUploads(&context, &response);
   try {
-    v1::UploadMeshRequest request;
+    v1::CreateUploadsRequest request;
     bool writing = true;
     const NextFile next_file = begin();
     while (writing) {
@@ -158,16 +158,21 @@ grpc::Status send_once(Connection::State& state, const Begin& begin,
   return writer->Finish();
 }
 
-v1::UploadMeshResponse send(Connection& connection, const Begin& begin,
-                            const std::stop_token& stop) {
+/// The names of the `count` files that are sent.
+std::vector<std::string> send(Connection& connection, const Begin& begin, std::size_t count,
+                              const std::stop_token& stop) {
   Connection::State& state = connection.state();
   Retries retries(state, *state.bulk);
   while (true) {
-    v1::UploadMeshResponse response;
+    v1::CreateUploadsResponse response;
     const grpc::Status status = send_once(state, begin, response, stop);
     if (status.ok()) {
       retries.succeeded();
-      return response;
+      if (static_cast<std::size_t>(response.uploads_size()) != count)
+        throw Error(Code::internal, "the server answered for other files than those sent");
+      std::vector<std::string> names;
+      for (const v1::Upload& upload : response.uploads()) names.push_back(upload.name());
+      return names;
     }
     retries.wait(error_of(state, status), stop);
   }
@@ -192,12 +197,12 @@ std::string upload_mesh(Connection& connection, const std::filesystem::path& pat
     const auto file = std::make_shared<FileChunks>(path);
     return Outgoing{header, [file] { return file->next(); }};
   });
-  return send(connection, begin, stop).upload();
+  return send(connection, begin, 1, stop).front();
 }
 
 std::string upload_array(Connection& connection, std::span<const double> values,
                          const std::stop_token& stop) {
-  return send(connection, once([&] { return array_file(nullptr, values); }), stop).upload();
+  return send(connection, once([&] { return array_file(nullptr, values); }), 1, stop).front();
 }
 
 std::vector<std::string> upload_arrays(Connection& connection, std::size_t count,
@@ -210,10 +215,8 @@ std::vector<std::string> upload_arrays(Connection& connection, std::size_t count
       return [files] { return files->next(); };
     };
     try {
-      const v1::UploadMeshResponse response = send(connection, begin, stop);
-      if (static_cast<std::size_t>(response.uploads_size()) != end - first)
-        throw Error(Code::unimplemented, "the server takes one array at a time: update it");
-      names.insert(names.end(), response.uploads().begin(), response.uploads().end());
+      const auto sent = send(connection, begin, end - first, stop);
+      names.insert(names.end(), sent.begin(), sent.end());
     } catch (const Error& error) {
       Details details = error.details();
       if (const auto file = details.metadata.find("file"); file != details.metadata.end()) {

@@ -65,7 +65,7 @@ void require_packed(const std::string& packed, const std::string& field) {
   if (packed.size() > max_packed_bytes) {
     throw Error(Reason::limit_exceeded,
                 fmt::format("a matrix of {} bytes: a job may contain at most {}; upload it with "
-                            "UploadMesh as CONTENT_ARRAY and name it in `upload`",
+                            "CreateUploads as KIND_ARRAY and name it in `upload`",
                             packed.size(), max_packed_bytes))
         .at(field);
   }

@@ -39,7 +39,7 @@ class Metrics {
   Metrics(const std::string& version, const std::string& build);
   ~Metrics();
 
-  /// `method`: "/anticrack.v1.MeshService/UploadMesh"; `code`: gRPC's.
+  /// `method`: "/anticrack.v1.UploadService/CreateUploads"; `code`: gRPC's.
   void call_ended(const std::string& method, int code, std::chrono::duration<double> time) noexcept;
   /// Counts the job by state and reason, and its time in each phase.
   void job_ended(const store::JobRecord& job) noexcept;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "api/names.hpp"
 #include "api/text.hpp"
 #include "api/translations.hpp"
 #include "jobs/sample_run.hpp"
@@ -69,6 +70,18 @@ v1::Mesh from_domain(const store::MeshRecord& record, bool pinned) {
   if (record.error) *mesh.mutable_error() = to_message(*record.error);
   mesh.set_pinned(pinned);
   return mesh;
+}
+
+v1::Upload from_domain(const store::UploadRecord& record, std::chrono::milliseconds ttl) {
+  v1::Upload upload;
+  upload.set_name(api::upload_name(record.id));
+  if (record.bytes > 0)
+    upload.set_kind(record.array ? v1::Upload::KIND_ARRAY : v1::Upload::KIND_MSH);
+  upload.set_size(record.bytes);
+  upload.set_owner(record.owner);
+  api::write_field(record.created, upload, "create_time");
+  if (ttl.count() > 0) api::write_field(record.created + ttl, upload, "expire_time");
+  return upload;
 }
 
 void append(v1::Samples& samples, const std::vector<jobs::SampleRun>& runs) {

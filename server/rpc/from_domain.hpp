@@ -4,14 +4,16 @@
 // (api/translations.hpp), cut to what fits in an answer. Pure functions.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
+#include "anticrack/v1/upload.pb.h"
 #include "jobs/event_log.hpp"
-#include "store/records.hpp"
+#include "store/store.hpp"
 
 namespace anticrack::rpc {
 
@@ -20,6 +22,9 @@ constexpr std::size_t max_job_message_bytes = 3u << 20;
 
 /// `pinned`: its operators stay in memory.
 v1::Mesh from_domain(const store::MeshRecord& record, bool pinned);
+
+/// `ttl`: how long uploads are kept; 0: for ever.
+v1::Upload from_domain(const store::UploadRecord& record, std::chrono::milliseconds ttl);
 
 /// The whole job. Where it would be larger than max_job_message_bytes its contact intervals are
 /// left out: ReadResult has them as traces.

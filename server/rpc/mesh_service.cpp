@@ -11,7 +11,6 @@
 #include "rpc/from_domain.hpp"
 #include "rpc/pages.hpp"
 #include "rpc/unary.hpp"
-#include "rpc/upload_stream.hpp"
 #include "rpc/visible.hpp"
 #include "rpc/write_stream.hpp"
 
@@ -29,11 +28,6 @@ v1::Mesh MeshService::to_answer(const store::MeshRecord& record) const {
   v1::Mesh mesh = summary(record);
   api::write_definition(record.definition, mesh);
   return mesh;
-}
-
-grpc::ServerReadReactor<v1::UploadMeshRequest>* MeshService::UploadMesh(
-    Context* context, v1::UploadMeshResponse* response) {
-  return receive_upload(_edge, context, response);
 }
 
 Unary* MeshService::CreateMesh(Context* context, const v1::CreateMeshRequest* request,

@@ -14,8 +14,6 @@ class MeshService final : public v1::MeshService::CallbackService {
  public:
   explicit MeshService(Edge& edge) : _edge(edge) {}
 
-  grpc::ServerReadReactor<v1::UploadMeshRequest>* UploadMesh(
-      Context* context, v1::UploadMeshResponse* response) override;
   Unary* CreateMesh(Context* context, const v1::CreateMeshRequest* request,
                     v1::Mesh* response) override;
   Unary* GetMesh(Context* context, const v1::GetMeshRequest* request, v1::Mesh* response) override;

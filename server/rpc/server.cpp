@@ -17,14 +17,15 @@
 #include "rpc/server_service.hpp"
 #include "rpc/solve_service.hpp"
 #include "rpc/tls.hpp"
+#include "rpc/upload_service.hpp"
 
 namespace anticrack::rpc {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::array service_names{"anticrack.v1.MeshService", "anticrack.v1.SolveService",
-                                   "anticrack.v1.ServerService"};
+constexpr std::array service_names{"anticrack.v1.UploadService", "anticrack.v1.MeshService",
+                                   "anticrack.v1.SolveService", "anticrack.v1.ServerService"};
 
 /// What a client may have under way on one stream: a chunk. 20 MB/s at 50 ms.
 constexpr int receive_window_bytes = 1 << 20;
@@ -71,7 +72,11 @@ void Admission::require_open() const {
 
 struct Server::State {
   State(const ServerOptions& options, const Backend& backend)
-      : edge(options, backend), meshes(edge), solves(edge), info(edge, options.security) {
+      : edge(options, backend),
+        uploads(edge),
+        meshes(edge),
+        solves(edge),
+        info(edge, options.security) {
     if (options.security.tls) certificates.emplace(*options.security.tls);
   }
 
@@ -86,6 +91,7 @@ struct Server::State {
   }
 
   Edge edge;
+  UploadService uploads;
   MeshService meshes;
   SolveService solves;
   ServerService info;
@@ -104,6 +110,7 @@ Server::Server(const ServerOptions& options, const Backend& backend)
   set_arguments(builder);
   int port = 0;
   builder.AddListeningPort(options.listen, _state->credentials(), &port);
+  builder.RegisterService(&_state->uploads);
   builder.RegisterService(&_state->meshes);
   builder.RegisterService(&_state->solves);
   builder.RegisterService(&_state->info);

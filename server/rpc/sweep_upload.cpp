@@ -19,11 +19,11 @@ bool has_packed_matrix(const v1::Job& job) {
 void keep_packed_matrix(const v1::Job& job, store::Store& store, const std::string& owner) {
   const auto [matrix, field] = api::matrix_of(job.sweep());
   const std::string& packed = matrix->packed();
-  v1::UploadMeshRequest header;
+  v1::CreateUploadsRequest header;
   header.mutable_header()->set_size(packed.size());
   header.mutable_header()->set_sha256(store::Sha256().add(packed).finish());
-  header.mutable_header()->set_content(v1::UploadMeshRequest::CONTENT_ARRAY);
-  v1::UploadMeshRequest values;
+  header.mutable_header()->set_kind(v1::Upload::KIND_ARRAY);
+  v1::CreateUploadsRequest values;
   values.set_chunk(packed);
   UploadReceiver receiver(store, owner, api::max_packed_bytes);
   try {

@@ -27,17 +27,17 @@ Error storage_error(const std::string& what) {
       .retry_after(std::chrono::seconds(10));
 }
 
-bool is_array(v1::UploadMeshRequest::Content content) {
-  switch (content) {
-    case v1::UploadMeshRequest::CONTENT_UNSPECIFIED:
-    case v1::UploadMeshRequest::CONTENT_MSH:
+bool is_array(v1::Upload::Kind kind) {
+  switch (kind) {
+    case v1::Upload::KIND_UNSPECIFIED:
+    case v1::Upload::KIND_MSH:
       return false;
-    case v1::UploadMeshRequest::CONTENT_ARRAY:
+    case v1::Upload::KIND_ARRAY:
       return true;
     default:
       throw Error(Reason::invalid_argument,
-                  "content " + std::to_string(content) + " is unknown; use a .msh (1) or array (2)")
-          .at("header.content");
+                  "kind " + std::to_string(kind) + " is unknown; use a .msh (1) or array (2)")
+          .at("header.kind");
   }
 }
 
@@ -97,11 +97,11 @@ UploadReceiver::UploadReceiver(store::Store& store, std::string owner, std::uint
 
 UploadReceiver::~UploadReceiver() = default;
 
-void UploadReceiver::accept(const v1::UploadMeshRequest& request) {
+void UploadReceiver::accept(const v1::CreateUploadsRequest& request) {
   std::size_t index = _complete.size();
   try {
     switch (request.part_case()) {
-      case v1::UploadMeshRequest::kHeader:
+      case v1::CreateUploadsRequest::kHeader:
         if (_file && _received_bytes < _announced_bytes) {
           throw Error(Reason::invalid_argument, "a header before the end of the file before it")
               .at("header");
@@ -109,9 +109,9 @@ void UploadReceiver::accept(const v1::UploadMeshRequest& request) {
         if (_file) end_file();
         index = _complete.size();
         return begin(request.header());
-      case v1::UploadMeshRequest::kChunk:
+      case v1::CreateUploadsRequest::kChunk:
         return append(request.chunk());
-      case v1::UploadMeshRequest::PART_NOT_SET:
+      case v1::CreateUploadsRequest::PART_NOT_SET:
         break;
     }
     throw Error(Reason::invalid_argument, "a message with neither header nor chunk").at("chunk");
@@ -130,13 +130,13 @@ void UploadReceiver::drop() {
   _sha256s.clear();
 }
 
-void UploadReceiver::begin(const v1::UploadMeshRequest::Header& header) {
+void UploadReceiver::begin(const v1::CreateUploadsRequest::Header& header) {
   if (_complete.size() == max_files) {
     throw Error(Reason::limit_exceeded,
                 "more than " + std::to_string(max_files) + " files in one stream; use several")
         .at("header");
   }
-  const bool array = is_array(header.content());
+  const bool array = is_array(header.kind());
   if (header.size() == 0) {
     throw array ? Error(Reason::invalid_argument, "the array has no value").at("header.size")
                 : Error(Reason::mesh_invalid, "the file is empty; a .msh begins with $MeshFormat")

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "anticrack/v1/mesh.pb.h"
+#include "anticrack/v1/upload.pb.h"
 #include "store/array_upload.hpp"
 #include "store/digest.hpp"
 #include "store/store.hpp"
@@ -31,7 +31,7 @@ class UploadReceiver {
 
   /// Nothing is stored before a header within the limits, nor a byte more than it announced.
   /// Throws errors::Error: invalid_argument, limit_exceeded, disk_full, storage.
-  void accept(const v1::UploadMeshRequest& request);
+  void accept(const v1::CreateUploadsRequest& request);
 
   /// Keeps all files and returns their sha256s, in order, when each is all there and is what was
   /// announced: a .msh begins with $MeshFormat, an array is finite values of 8 bytes.
@@ -41,7 +41,7 @@ class UploadReceiver {
  private:
   class File;
 
-  void begin(const v1::UploadMeshRequest::Header& header);
+  void begin(const v1::CreateUploadsRequest::Header& header);
   void append(const std::string& chunk);
   void end_file();
   void drop();

@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "api/names.hpp"
 #include "api/unknown_fields.hpp"
 #include "rpc/error_table.hpp"
+#include "rpc/visible.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 /// StreamLimits::stall: slower ones would hold their places for hours.
 constexpr double least_rate = 4096;
 
-class RefusedUpload final : public grpc::ServerReadReactor<v1::UploadMeshRequest> {
+class RefusedUpload final : public grpc::ServerReadReactor<v1::CreateUploadsRequest> {
  public:
   explicit RefusedUpload(grpc::Status status) { Finish(std::move(status)); }
   void OnDone() noexcept override { delete this; }
@@ -22,9 +22,10 @@ class RefusedUpload final : public grpc::ServerReadReactor<v1::UploadMeshRequest
 
 }  // namespace
 
-UploadStream::UploadStream(Edge& edge, std::string owner, v1::UploadMeshResponse* response)
+UploadStream::UploadStream(Edge& edge, std::string owner, v1::CreateUploadsResponse* response)
     : _edge(edge),
-      _receiver(edge.backend.store, std::move(owner), edge.limits.upload_bytes),
+      _owner(std::move(owner)),
+      _receiver(edge.backend.store, _owner, edge.limits.upload_bytes),
       _response(response) {}
 
 void UploadStream::start(const std::string& client) {
@@ -53,7 +54,7 @@ void UploadStream::OnReadDone(bool ok) noexcept {
       self->leave();
     });
   } catch (...) {
-    finish(to_status(current_error("UploadMesh")));
+    finish(to_status(current_error("CreateUploads")));
     leave();
   }
 }
@@ -99,12 +100,11 @@ void UploadStream::take(bool ok) noexcept {
       read_next();
     } else {
       for (const std::string& sha256 : _receiver.complete())
-        _response->add_uploads(api::upload_name(sha256));
-      _response->set_upload(_response->uploads(0));
+        *_response->add_uploads() = told_upload(_edge.backend, sha256, _owner);
       finish(grpc::Status::OK);
     }
   } catch (...) {
-    finish(to_status(current_error("UploadMesh")));
+    finish(to_status(current_error("CreateUploads")));
   }
 }
 
@@ -137,15 +137,16 @@ void UploadStream::leave() noexcept {
   Finish(std::move(status));
 }
 
-grpc::ServerReadReactor<v1::UploadMeshRequest>* receive_upload(
-    Edge& edge, grpc::CallbackServerContext* context, v1::UploadMeshResponse* response) noexcept {
+grpc::ServerReadReactor<v1::CreateUploadsRequest>* receive_upload(
+    Edge& edge, grpc::CallbackServerContext* context,
+    v1::CreateUploadsResponse* response) noexcept {
   try {
     const access::Identity who = edge.authentication.identify(*context);
     auto upload = std::make_shared<UploadStream>(edge, who.name, response);
     upload->start(client_of(who, *context));
     return upload.get();
   } catch (...) {
-    return new RefusedUpload(to_status(current_error("UploadMesh")));
+    return new RefusedUpload(to_status(current_error("CreateUploads")));
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// UploadMesh: a client stream into an UploadReceiver.
+// CreateUploads: a client stream into an UploadReceiver.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "anticrack/v1/mesh.pb.h"
+#include "anticrack/v1/upload.pb.h"
 #include "rpc/edge.hpp"
 #include "rpc/upload_receiver.hpp"
 
@@ -20,12 +20,12 @@ namespace anticrack::rpc {
 /// not hold one of gRPC's two threads. The next one is read when that is done, so a fast client is
 /// held back by the transport. `Finish` exactly once, never while an operation is being started
 /// (`_operations`); a read that is pending then completes with ok = false.
-class UploadStream final : public grpc::ServerReadReactor<v1::UploadMeshRequest>,
+class UploadStream final : public grpc::ServerReadReactor<v1::CreateUploadsRequest>,
                            public Stream,
                            public std::enable_shared_from_this<UploadStream> {
  public:
   /// `response` is filled in before OK, and must live until OnDone.
-  UploadStream(Edge& edge, std::string owner, v1::UploadMeshResponse* response);
+  UploadStream(Edge& edge, std::string owner, v1::CreateUploadsResponse* response);
 
   /// Gives the stream to the hub (which may refuse: errors::Error) and begins to read.
   void start(const std::string& client);
@@ -47,9 +47,10 @@ class UploadStream final : public grpc::ServerReadReactor<v1::UploadMeshRequest>
 
   Edge& _edge;
   std::string _client;
+  const std::string _owner;
   UploadReceiver _receiver;
-  v1::UploadMeshRequest _request;
-  v1::UploadMeshResponse* const _response;
+  v1::CreateUploadsRequest _request;
+  v1::CreateUploadsResponse* const _response;
   std::shared_ptr<UploadStream> _self;
 
   std::mutex _mutex;
@@ -61,8 +62,8 @@ class UploadStream final : public grpc::ServerReadReactor<v1::UploadMeshRequest>
   std::optional<grpc::Status> _end;
 };
 
-/// The reactor of UploadMesh: finds out who calls, then receives.
-grpc::ServerReadReactor<v1::UploadMeshRequest>* receive_upload(
-    Edge& edge, grpc::CallbackServerContext* context, v1::UploadMeshResponse* response) noexcept;
+/// The reactor of CreateUploads: finds out who calls, then receives.
+grpc::ServerReadReactor<v1::CreateUploadsRequest>* receive_upload(
+    Edge& edge, grpc::CallbackServerContext* context, v1::CreateUploadsResponse* response) noexcept;
 
 }  // namespace anticrack::rpc

@@ -23,14 +23,9 @@ Error unreadable(const std::string& path) {
   return {Reason::storage, "cannot read " + path + "; upload it again"};
 }
 
-bool begins_like_msh(std::span<const std::byte> start) {
-  constexpr std::string_view magic = "$MeshFormat";
-  return start.size() >= magic.size() && std::memcmp(start.data(), magic.data(), magic.size()) == 0;
-}
-
 Error is_msh() {
   return {Reason::invalid_argument,
-          "the upload is a .msh, not an array of values; upload the values as CONTENT_ARRAY"};
+          "the upload is a .msh, not an array of values; upload the values as KIND_ARRAY"};
 }
 
 /// Without a branch for each value, so that the compiler does several at once.
@@ -52,6 +47,11 @@ void require_finite(std::span<const double> values, std::uint64_t first) {
 }
 
 }  // namespace
+
+bool begins_like_msh(std::span<const std::byte> start) {
+  constexpr std::string_view magic = "$MeshFormat";
+  return start.size() >= magic.size() && std::memcmp(start.data(), magic.data(), magic.size()) == 0;
+}
 
 std::size_t array_length(const std::string& path) {
   const Descriptor file = open_to_read(path);

@@ -11,6 +11,9 @@
 
 namespace anticrack::store {
 
+/// Whether these first bytes of a file are those of a .msh. No array begins so.
+bool begins_like_msh(std::span<const std::byte> start);
+
 /// Number of values in the file. Throws errors::Error: invalid_argument for a .msh (it begins with
 /// $MeshFormat) and for a size that is zero or no multiple of 8; storage. Reads a few bytes.
 std::size_t array_length(const std::string& path);

@@ -57,6 +57,11 @@ class DurableStore final : public Store {
                                          const std::string& owner) const override;
   std::string new_upload_path(std::uint64_t bytes) override;
   void keep_uploads(const std::vector<Upload>& uploads, const std::string& owner) override;
+  std::optional<UploadRecord> upload(const std::string& sha256,
+                                     const std::string& owner) const override;
+  std::vector<UploadRecord> uploads(const std::string& owner, const std::string& after,
+                                    std::size_t count) const override;
+  void erase_upload(const std::string& sha256, const std::string& owner) override;
   std::size_t expire_uploads(Clock::time_point before) override;
 
   Usage usage() const override;
@@ -81,6 +86,8 @@ class DurableStore final : public Store {
   }
   std::optional<Row> row(FileKind kind, const std::string& id) const;
   std::vector<Row> page(FileKind kind, const Page& page) const;
+  std::vector<UploadRecord> uploads_where(const std::string& condition, const std::string& owner,
+                                          const std::string& sha256, std::size_t count) const;
 
   const std::string _folder;
   DiskUsage _usage;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 
+#include "store/array_upload.hpp"
 #include "store/durable_store.hpp"
 #include "store/record_codec.hpp"
 
@@ -8,6 +12,22 @@ namespace anticrack::store {
 
 using errors::Error;
 using errors::Reason;
+
+namespace {
+
+/// Fills in what the file says.
+void look_at(const std::string& path, UploadRecord& upload) {
+  const Descriptor file = open_to_read(path);
+  if (!file) return;
+  upload.bytes = file_size(file, path);
+  std::array<std::byte, 16> buffer{};
+  const std::span start =
+      std::span(buffer).first(std::min<std::uint64_t>(buffer.size(), upload.bytes));
+  read_at(file, path, 0, start);
+  upload.array = !begins_like_msh(start);
+}
+
+}  // namespace
 
 std::optional<std::string> DurableStore::upload_path(const std::string& sha256,
                                                      const std::string& owner) const {
@@ -80,6 +100,59 @@ void DurableStore::keep_uploads(const std::vector<Upload>& uploads, const std::s
     _parts.forget(upload.path);
     const Part done(upload.path);
   }
+}
+
+std::vector<UploadRecord> DurableStore::uploads_where(const std::string& condition,
+                                                      const std::string& owner,
+                                                      const std::string& sha256,
+                                                      std::size_t count) const {
+  std::vector<UploadRecord> found;
+  reading([&](Connection& connection) {
+    Statement select =
+        connection.prepare("SELECT sha256, created FROM uploads WHERE " + condition +
+                           " AND owner = ? AND checksum IS " + table_of(FileKind::upload).checksum +
+                           " ORDER BY sha256 LIMIT ?");
+    select.bind(std::string_view(sha256))
+        .bind(std::string_view(owner))
+        .bind(static_cast<std::int64_t>(count));
+    while (select.step()) found.push_back({select.text(0), owner, time_of(select.integer(1))});
+  });
+  for (UploadRecord& upload : found) look_at(_uploads.path(upload.id), upload);
+  return found;
+}
+
+std::optional<UploadRecord> DurableStore::upload(const std::string& sha256,
+                                                 const std::string& owner) const {
+  const std::vector<UploadRecord> found = uploads_where("sha256 = ?", owner, sha256, 1);
+  return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
+std::vector<UploadRecord> DurableStore::uploads(const std::string& owner, const std::string& after,
+                                                std::size_t count) const {
+  return uploads_where("sha256 > ?", owner, after, count);
+}
+
+void DurableStore::erase_upload(const std::string& sha256, const std::string& owner) {
+  _writer.run([&](Connection& connection) {
+    const auto any = [&](const char* sql) {
+      return connection.prepare(sql)
+          .bind(std::string_view(sha256))
+          .bind(std::string_view(owner))
+          .step();
+    };
+    // Those of other owners have uploads of their own.
+    if (any("SELECT 1 FROM job_uploads r JOIN jobs j ON j.number = r.job "
+            "WHERE r.upload = ? AND j.owner = ? AND j.ended IS NULL") ||
+        any("SELECT 1 FROM meshes WHERE upload = ? AND owner = ? AND sha256 = ''")) {
+      throw Error(Reason::in_use, "uploads/" + sha256 +
+                                      " is needed by a job that has not ended or a mesh that is "
+                                      "not meshed: delete it later, or cancel the job or delete "
+                                      "the mesh first");
+    }
+    if (!any("DELETE FROM uploads WHERE sha256 = ? AND owner = ? RETURNING 1"))
+      throw unknown("uploads", sha256);
+    _unreferenced.push_back({FileKind::upload, sha256});
+  });
 }
 
 std::size_t DurableStore::expire_uploads(Clock::time_point before) {

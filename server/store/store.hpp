@@ -77,6 +77,15 @@ struct Upload {
   std::string sha256;
 };
 
+/// An upload that is kept.
+struct UploadRecord {
+  std::string id;  ///< sha256
+  std::string owner;
+  Clock::time_point created;  ///< when it was last sent
+  std::uint64_t bytes = 0;    ///< 0: the file is gone from the disk
+  bool array = false;         ///< else a .msh
+};
+
 /// Contract:
 /// 1. Every method may be called from any thread and is atomic. Writers may wait for the disk.
 /// 2. A method that writes returns when what it wrote is on the disk (but for put(JobRecord)); when
@@ -145,6 +154,15 @@ class Store {
   /// Keeps all of them, or none, each in place of the same file where that has changed on the disk.
   /// They share the waits for the disk.
   virtual void keep_uploads(const std::vector<Upload>& uploads, const std::string& owner) = 0;
+  /// An upload of `owner`; empty where there is none.
+  virtual std::optional<UploadRecord> upload(const std::string& sha256,
+                                             const std::string& owner) const = 0;
+  /// At most `count` uploads of `owner` by sha256, those after `after`; without damaged records.
+  virtual std::vector<UploadRecord> uploads(const std::string& owner, const std::string& after,
+                                            std::size_t count) const = 0;
+  /// Throws not_found; in_use where an unfinished job or a mesh without a triangulation of `owner`
+  /// refers to it.
+  virtual void erase_upload(const std::string& sha256, const std::string& owner) = 0;
   /// Removes uploads made before `before` that no unfinished job and no mesh without a
   /// triangulation refers to; returns how many.
   virtual std::size_t expire_uploads(Clock::time_point before) = 0;

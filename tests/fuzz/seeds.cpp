@@ -15,6 +15,7 @@
 
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
+#include "anticrack/v1/upload.pb.h"
 #include "api/requests.hpp"
 #include "casefile/case.hpp"
 #include "fuzz/input.hpp"
@@ -179,15 +180,15 @@ void save_meshes() {
                      errors::Error(errors::Reason::mesh_invalid, "wrong").at("upload"))))));
 }
 
-std::string upload(v1::UploadMeshRequest::Content content, const std::string& bytes) {
-  v1::UploadMeshRequest first;
+std::string upload(v1::Upload::Kind content, const std::string& bytes) {
+  v1::CreateUploadsRequest first;
   first.mutable_header()->set_size(bytes.size());
   first.mutable_header()->set_sha256(store::Sha256().add(bytes).finish());
-  first.mutable_header()->set_content(content);
+  first.mutable_header()->set_kind(content);
   std::string stream = as_piece(first.SerializeAsString());
   const std::size_t half = bytes.size() / 2;
   for (const std::string& part : {bytes.substr(0, half), bytes.substr(half)}) {
-    v1::UploadMeshRequest chunk;
+    v1::CreateUploadsRequest chunk;
     chunk.set_chunk(part);
     stream += as_piece(chunk.SerializeAsString());
   }
@@ -200,9 +201,8 @@ void save_uploads() {
   const std::string msh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
   for (const int selector : {0, 1}) {
     const std::string at = std::to_string(selector);
-    save("upload", "array-" + at,
-         chosen(selector, upload(v1::UploadMeshRequest::CONTENT_ARRAY, array)));
-    save("upload", "msh-" + at, chosen(selector, upload(v1::UploadMeshRequest::CONTENT_MSH, msh)));
+    save("upload", "array-" + at, chosen(selector, upload(v1::Upload::KIND_ARRAY, array)));
+    save("upload", "msh-" + at, chosen(selector, upload(v1::Upload::KIND_MSH, msh)));
   }
 }
 

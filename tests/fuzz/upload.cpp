@@ -33,15 +33,15 @@ store::Store& the_store() {
   return *store;
 }
 
-std::vector<v1::UploadMeshRequest> messages(fuzz::Pieces& pieces) {
-  std::vector<v1::UploadMeshRequest> list;
+std::vector<v1::CreateUploadsRequest> messages(fuzz::Pieces& pieces) {
+  std::vector<v1::CreateUploadsRequest> list;
   while (!pieces.empty()) {
     if (!list.emplace_back().ParseFromString(pieces.piece())) list.pop_back();
   }
   return list;
 }
 
-void correct(std::vector<v1::UploadMeshRequest>& list) {
+void correct(std::vector<v1::CreateUploadsRequest>& list) {
   std::uint64_t size = 0;
   store::Sha256 hash;
   for (const auto& message : list) {
@@ -69,7 +69,7 @@ void require_nothing_left() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Pieces pieces(fuzz::text_of(data, size));
   const bool corrected = pieces.selector() % 2 == 1;
-  std::vector<v1::UploadMeshRequest> list = messages(pieces);
+  std::vector<v1::CreateUploadsRequest> list = messages(pieces);
   if (corrected) correct(list);
   try {
     rpc::UploadReceiver receiver(the_store(), owner, max_bytes);

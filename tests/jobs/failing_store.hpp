@@ -84,6 +84,17 @@ class FailingStore final : public store::Store {
   void keep_uploads(const std::vector<store::Upload>& uploads, const std::string& owner) override {
     _real.keep_uploads(uploads, owner);
   }
+  std::optional<store::UploadRecord> upload(const std::string& sha256,
+                                            const std::string& owner) const override {
+    return _real.upload(sha256, owner);
+  }
+  std::vector<store::UploadRecord> uploads(const std::string& owner, const std::string& after,
+                                           std::size_t count) const override {
+    return _real.uploads(owner, after, count);
+  }
+  void erase_upload(const std::string& sha256, const std::string& owner) override {
+    _real.erase_upload(sha256, owner);
+  }
   std::size_t expire_uploads(store::Clock::time_point before) override {
     return _real.expire_uploads(before);
   }

@@ -70,11 +70,11 @@ TEST(CallMeter, IsToldOfEveryCallHoweverItEnds) {
   EXPECT_EQ(calls.count("SolveService/WatchJob", grpc::StatusCode::UNAUTHENTICATED), 1);
 
   Context context(owner_token);
-  v1::UploadMeshResponse response;
-  const auto writer = server.meshes->UploadMesh(&context, &response);
+  v1::CreateUploadsResponse response;
+  const auto writer = server.uploads->CreateUploads(&context, &response);
   writer->WritesDone();
   EXPECT_EQ(writer->Finish().error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  EXPECT_EQ(calls.count("MeshService/UploadMesh", grpc::StatusCode::INVALID_ARGUMENT), 1);
+  EXPECT_EQ(calls.count("UploadService/CreateUploads", grpc::StatusCode::INVALID_ARGUMENT), 1);
 
   Context unary(owner_token);
   v1::Job job;

@@ -31,14 +31,14 @@ TEST(ClientLimits, AMachineIsOneClientWhateverItsConnections) {
 class Upload {
  public:
   Upload(RunningServer& server, const std::string& token, const std::string& content)
-      : _context(token), _writer(server.meshes->UploadMesh(&_context, &_response)) {
-    v1::UploadMeshRequest part;
+      : _context(token), _writer(server.uploads->CreateUploads(&_context, &_response)) {
+    v1::CreateUploadsRequest part;
     part.mutable_header()->set_size(content.size());
     part.mutable_header()->set_sha256(store::Sha256().add(content).finish());
     _writer->Write(part);
   }
   bool send(const std::string& chunk) {
-    v1::UploadMeshRequest part;
+    v1::CreateUploadsRequest part;
     part.set_chunk(chunk);
     return _writer->Write(part);
   }
@@ -50,12 +50,12 @@ class Upload {
     _context.TryCancel();
     return _writer->Finish();
   }
-  const std::string& name() const { return _response.upload(); }
+  const std::string& name() const { return _response.uploads(0).name(); }
 
  private:
   Context _context;
-  v1::UploadMeshResponse _response;
-  std::unique_ptr<grpc::ClientWriter<v1::UploadMeshRequest>> _writer;
+  v1::CreateUploadsResponse _response;
+  std::unique_ptr<grpc::ClientWriter<v1::CreateUploadsRequest>> _writer;
 };
 
 TEST(ClientLimits, HalfOpenStreamsOfOneHoldNobodyElseOff) {

@@ -35,9 +35,9 @@ TEST(Drain, EndsWatchesAndUploadsWithADelay) {
   v1::WatchJobResponse event;
   ASSERT_TRUE(watch->Read(&event));
   Context upload_context;
-  v1::UploadMeshResponse response;
-  const auto upload = server.meshes->UploadMesh(&upload_context, &response);
-  v1::UploadMeshRequest header;
+  v1::CreateUploadsResponse response;
+  const auto upload = server.uploads->CreateUploads(&upload_context, &response);
+  v1::CreateUploadsRequest header;
   header.mutable_header()->set_size(10);
   header.mutable_header()->set_sha256(std::string(64, '0'));
   ASSERT_TRUE(upload->Write(header));

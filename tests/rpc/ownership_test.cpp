@@ -143,9 +143,9 @@ TEST_F(Ownership, RequestIdsAreOnesOwn) {
 
 TEST_F(Ownership, UploadsAreOnesOwn) {
   Context context(owner_token);
-  v1::UploadMeshResponse response;
-  const auto writer = server.meshes->UploadMesh(&context, &response);
-  v1::UploadMeshRequest part;
+  v1::CreateUploadsResponse response;
+  const auto writer = server.uploads->CreateUploads(&context, &response);
+  v1::CreateUploadsRequest part;
   part.mutable_header()->set_size(small_msh().size());
   part.mutable_header()->set_sha256(store::Sha256().add(small_msh()).finish());
   writer->Write(part);
@@ -154,7 +154,7 @@ TEST_F(Ownership, UploadsAreOnesOwn) {
   writer->WritesDone();
   ASSERT_TRUE(writer->Finish().ok());
   v1::CreateMeshRequest request;
-  request.set_upload(response.upload());
+  request.set_upload(response.uploads(0).name());
   const auto create = [&](const std::string& token) {
     Context call(token);
     v1::Mesh mesh;

@@ -70,6 +70,25 @@ class Things {
     return made.name();
   }
 
+  /// An array of its own for each call.
+  std::string fresh_upload() {
+    Context context(testing::owner_token);
+    v1::CreateUploadsResponse response;
+    const auto writer = server.uploads->CreateUploads(&context, &response);
+    _size += 0.01;
+    const std::string bytes(reinterpret_cast<const char*>(&_size), sizeof _size);
+    v1::CreateUploadsRequest part;
+    part.mutable_header()->set_size(bytes.size());
+    part.mutable_header()->set_sha256(store::Sha256().add(bytes).finish());
+    part.mutable_header()->set_kind(v1::Upload::KIND_ARRAY);
+    writer->Write(part);
+    part.set_chunk(bytes);
+    writer->Write(part);
+    writer->WritesDone();
+    EXPECT_TRUE(writer->Finish().ok());
+    return response.uploads(0).name();
+  }
+
   RunningServer server;
   const std::string mesh;
   const std::string job;
@@ -106,9 +125,9 @@ struct Row {
 };
 
 grpc::Status upload(Things& things, Context& context) {
-  v1::UploadMeshResponse response;
-  const auto writer = things.server.meshes->UploadMesh(&context, &response);
-  v1::UploadMeshRequest part;
+  v1::CreateUploadsResponse response;
+  const auto writer = things.server.uploads->CreateUploads(&context, &response);
+  v1::CreateUploadsRequest part;
   part.mutable_header()->set_size(small_msh().size());
   part.mutable_header()->set_sha256(store::Sha256().add(small_msh()).finish());
   if (writer->Write(part)) {
@@ -129,10 +148,31 @@ Call warm(bool pin) {
 }
 
 std::vector<Row> permission_rows() {
+  const std::string uploads = "anticrack.v1.UploadService.";
   const std::string meshes = "anticrack.v1.MeshService.";
   const std::string solves = "anticrack.v1.SolveService.";
   return {
-      {meshes + "UploadMesh", upload, {who, who, ok, ok, ok}},
+      {uploads + "CreateUploads", upload, {who, who, ok, ok, ok}},
+      {uploads + "GetUpload",
+       [](Things& things, Context& context) {
+         v1::Upload answer;
+         return things.server.uploads->GetUpload(
+             &context, named<v1::GetUploadRequest>(things.fresh_upload()), &answer);
+       },
+       {who, who, not_found, ok, not_found}},
+      {uploads + "ListUploads",
+       [](Things& things, Context& context) {
+         v1::ListUploadsResponse response;
+         return things.server.uploads->ListUploads(&context, {}, &response);
+       },
+       {who, who, ok, ok, ok}},
+      {uploads + "DeleteUpload",
+       [](Things& things, Context& context) {
+         google::protobuf::Empty nothing;
+         return things.server.uploads->DeleteUpload(
+             &context, named<v1::DeleteUploadRequest>(things.fresh_upload()), &nothing);
+       },
+       {who, who, not_found, ok, not_found}},
       {meshes + "CreateMesh",
        [](Things& things, Context& context) {
          v1::Mesh mesh;
@@ -258,8 +298,8 @@ TEST(Permissions, HaveARowForEveryMethodThereIs) {
   std::set<std::string> known;
   for (const Row& row : permission_rows()) known.insert(row.method);
   std::set<std::string> methods;
-  for (const auto* file : {v1::Mesh::descriptor()->file(), v1::Job::descriptor()->file(),
-                           v1::ServerInfo::descriptor()->file()}) {
+  for (const auto* file : {v1::Upload::descriptor()->file(), v1::Mesh::descriptor()->file(),
+                           v1::Job::descriptor()->file(), v1::ServerInfo::descriptor()->file()}) {
     for (int i = 0; i < file->service_count(); ++i) {
       const google::protobuf::ServiceDescriptor& service = *file->service(i);
       for (int k = 0; k < service.method_count(); ++k) {

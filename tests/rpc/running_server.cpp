@@ -48,6 +48,7 @@ void RunningServer::start() {
   _server = std::make_unique<rpc::Server>(_settings.server,
                                           rpc::Backend{*_engine, *_catalogue, *_cache, *_store});
   const auto shared = channel();
+  uploads = v1::UploadService::NewStub(shared);
   meshes = v1::MeshService::NewStub(shared);
   jobs = v1::SolveService::NewStub(shared);
   servers = v1::ServerService::NewStub(shared);
@@ -140,13 +141,13 @@ grpc::Status RunningServer::cancel(const std::string& job) {
   return jobs->CancelJob(&context, request, &answer);
 }
 
-grpc::Status RunningServer::upload(const v1::UploadMeshRequest::Header& header,
+grpc::Status RunningServer::upload(const v1::CreateUploadsRequest::Header& header,
                                    const std::string& content, std::string* name,
                                    std::size_t chunk) {
   Context context;
-  v1::UploadMeshResponse response;
-  const auto writer = meshes->UploadMesh(&context, &response);
-  v1::UploadMeshRequest request;
+  v1::CreateUploadsResponse response;
+  const auto writer = uploads->CreateUploads(&context, &response);
+  v1::CreateUploadsRequest request;
   *request.mutable_header() = header;
   bool open = writer->Write(request);
   for (std::size_t offset = 0; open && offset < content.size(); offset += chunk) {
@@ -155,12 +156,12 @@ grpc::Status RunningServer::upload(const v1::UploadMeshRequest::Header& header,
   }
   writer->WritesDone();
   const grpc::Status status = writer->Finish();
-  if (name != nullptr) *name = response.upload();
+  if (name != nullptr && status.ok()) *name = response.uploads(0).name();
   return status;
 }
 
 grpc::Status RunningServer::upload(const std::string& content, std::string* name) {
-  v1::UploadMeshRequest::Header header;
+  v1::CreateUploadsRequest::Header header;
   header.set_size(content.size());
   header.set_sha256(store::Sha256().add(content).finish());
   return upload(header, content, name);

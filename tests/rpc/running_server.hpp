@@ -13,6 +13,7 @@
 #include "anticrack/v1/mesh.grpc.pb.h"
 #include "anticrack/v1/server.grpc.pb.h"
 #include "anticrack/v1/solve.grpc.pb.h"
+#include "anticrack/v1/upload.grpc.pb.h"
 #include "jobs/job_engine.hpp"
 #include "meshes/mesh_catalogue.hpp"
 #include "operators/operator_cache.hpp"
@@ -62,7 +63,7 @@ class RunningServer {
   grpc::Status try_create(const v1::CreateJobRequest& request);
   grpc::Status cancel(const std::string& job);
   /// Uploads `content` in chunks of `chunk` bytes under the header given.
-  grpc::Status upload(const v1::UploadMeshRequest::Header& header, const std::string& content,
+  grpc::Status upload(const v1::CreateUploadsRequest::Header& header, const std::string& content,
                       std::string* name = nullptr, std::size_t chunk = 1000);
   /// With the right header.
   grpc::Status upload(const std::string& content, std::string* name = nullptr);
@@ -75,6 +76,7 @@ class RunningServer {
   /// Waits until the mesh is READY or FAILED.
   v1::Mesh settle(const std::string& mesh);
 
+  std::unique_ptr<v1::UploadService::Stub> uploads;
   std::unique_ptr<v1::MeshService::Stub> meshes;
   std::unique_ptr<v1::SolveService::Stub> jobs;
   std::unique_ptr<v1::ServerService::Stub> servers;

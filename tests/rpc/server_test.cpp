@@ -99,8 +99,8 @@ TEST(Server, AnswersHealthChecksByServiceName) {
     return call(server, "/grpc.health.v1.Health/Check", request, answer);
   };
   const std::string serving = "\x08\x01";
-  for (const char* service : {"", "anticrack.v1.MeshService", "anticrack.v1.SolveService",
-                              "anticrack.v1.ServerService"}) {
+  for (const char* service : {"", "anticrack.v1.UploadService", "anticrack.v1.MeshService",
+                              "anticrack.v1.SolveService", "anticrack.v1.ServerService"}) {
     std::string answer;
     EXPECT_TRUE(check(service, answer).ok()) << service;
     EXPECT_EQ(answer, serving) << service;

@@ -19,15 +19,15 @@ using anticrack::testing::small_msh;
 using errors::Error;
 using errors::Reason;
 
-v1::UploadMeshRequest header_of(const std::string& content) {
-  v1::UploadMeshRequest request;
+v1::CreateUploadsRequest header_of(const std::string& content) {
+  v1::CreateUploadsRequest request;
   request.mutable_header()->set_size(content.size());
   request.mutable_header()->set_sha256(store::Sha256().add(content).finish());
   return request;
 }
 
-v1::UploadMeshRequest chunk_of(const std::string& content) {
-  v1::UploadMeshRequest request;
+v1::CreateUploadsRequest chunk_of(const std::string& content) {
+  v1::CreateUploadsRequest request;
   request.set_chunk(content);
   return request;
 }
@@ -43,7 +43,7 @@ class UploadReceiverTest : public ::testing::Test {
   }
 
   /// The requests, then complete(); expects the error, and no file left.
-  void expect_refused(const std::vector<v1::UploadMeshRequest>& requests, Reason reason,
+  void expect_refused(const std::vector<v1::CreateUploadsRequest>& requests, Reason reason,
                       const std::string& field) {
     try {
       UploadReceiver receiver(*_store, "ada", 10'000);
@@ -92,10 +92,10 @@ TEST_F(UploadReceiverTest, LeavesNothingBehindWhenItIsDropped) {
 TEST_F(UploadReceiverTest, StoresNothingBeforeAHeaderWithinTheLimits) {
   expect_refused({chunk_of("$MeshFormat")}, Reason::invalid_argument, "header");
   expect_refused({}, Reason::invalid_argument, "header");
-  expect_refused({v1::UploadMeshRequest()}, Reason::invalid_argument, "chunk");
+  expect_refused({v1::CreateUploadsRequest()}, Reason::invalid_argument, "chunk");
   expect_refused({header_of(std::string(10'001, 'x'))}, Reason::limit_exceeded, "header.size");
   expect_refused({header_of("")}, Reason::mesh_invalid, "header.size");
-  v1::UploadMeshRequest upper = header_of(small_msh());
+  v1::CreateUploadsRequest upper = header_of(small_msh());
   upper.mutable_header()->set_sha256(std::string(64, 'A'));
   expect_refused({upper}, Reason::invalid_argument, "header.sha256");
   expect_refused({header_of("x"), header_of("x")}, Reason::invalid_argument, "header");
@@ -120,9 +120,9 @@ TEST_F(UploadReceiverTest, LetsNothingPassThatGmshWouldRun) {
   }
 }
 
-v1::UploadMeshRequest array_header_of(const std::string& content) {
-  v1::UploadMeshRequest request = header_of(content);
-  request.mutable_header()->set_content(v1::UploadMeshRequest::CONTENT_ARRAY);
+v1::CreateUploadsRequest array_header_of(const std::string& content) {
+  v1::CreateUploadsRequest request = header_of(content);
+  request.mutable_header()->set_kind(v1::Upload::KIND_ARRAY);
   return request;
 }
 
@@ -149,14 +149,14 @@ TEST_F(UploadReceiverTest, TakesNothingElseForAnArray) {
   expect_refused({array_header_of(msh), chunk_of(msh)}, Reason::invalid_argument, "chunk");
   const std::string array = bytes_of({1, 2});
   expect_refused({header_of(array), chunk_of(array)}, Reason::mesh_invalid, "chunk");
-  v1::UploadMeshRequest unknown = header_of(array);
-  unknown.mutable_header()->set_content(static_cast<v1::UploadMeshRequest::Content>(9));
-  expect_refused({unknown}, Reason::invalid_argument, "header.content");
+  v1::CreateUploadsRequest unknown = header_of(array);
+  unknown.mutable_header()->set_kind(static_cast<v1::Upload::Kind>(9));
+  expect_refused({unknown}, Reason::invalid_argument, "header.kind");
 }
 
 TEST_F(UploadReceiverTest, RefusesLargeChunks) {
   UploadReceiver receiver(*_store, "ada", 10'000'000);
-  v1::UploadMeshRequest header = header_of(small_msh());
+  v1::CreateUploadsRequest header = header_of(small_msh());
   header.mutable_header()->set_size(5'000'000);
   receiver.accept(header);
   EXPECT_THROW(receiver.accept(chunk_of(std::string((1u << 20) + 1, 'x'))), Error);
@@ -181,7 +181,7 @@ TEST_F(UploadReceiverTest, KeepsFilesOfOneStreamInTheirOrder) {
 TEST_F(UploadReceiverTest, NamesTheFileAtFaultAndKeepsNone) {
   const std::string good(8, '1');
   const std::string infinite("\0\0\0\0\0\0\xf0\x7f", 8);
-  using Requests = std::vector<v1::UploadMeshRequest>;
+  using Requests = std::vector<v1::CreateUploadsRequest>;
   const Requests head = {array_header_of(good), chunk_of(good), array_header_of(good),
                          chunk_of(good)};
   for (const Requests& tail : {Requests{array_header_of(infinite), chunk_of(infinite)},

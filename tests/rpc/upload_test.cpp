@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "rpc/details.hpp"
 #include "rpc/requests.hpp"
 #include "rpc/running_server.hpp"
@@ -16,8 +18,8 @@ using anticrack::testing::expect_error;
 using anticrack::testing::RunningServer;
 using anticrack::testing::small_msh;
 
-v1::UploadMeshRequest::Header upload_header(const std::string& content) {
-  v1::UploadMeshRequest::Header header;
+v1::CreateUploadsRequest::Header upload_header(const std::string& content) {
+  v1::CreateUploadsRequest::Header header;
   header.set_size(content.size());
   header.set_sha256(store::Sha256().add(content).finish());
   return header;
@@ -36,6 +38,73 @@ TEST(Upload, IsKeptUnderItsHash) {
   EXPECT_EQ(server.upload_files(), 1u);
 }
 
+std::string upload_array(RunningServer& server, const std::vector<double>& values) {
+  const std::string bytes = anticrack::testing::packed(values);
+  v1::CreateUploadsRequest::Header header = upload_header(bytes);
+  header.set_kind(v1::Upload::KIND_ARRAY);
+  std::string name;
+  EXPECT_TRUE(server.upload(header, bytes, &name).ok());
+  return name;
+}
+
+grpc::Status erase(RunningServer& server, const std::string& name) {
+  Context context;
+  v1::DeleteUploadRequest request;
+  request.set_name(name);
+  google::protobuf::Empty nothing;
+  return server.uploads->DeleteUpload(&context, request, &nothing);
+}
+
+TEST(Upload, SaysWhatItIs) {
+  RunningServer server([](auto& settings) { settings.engine.upload_ttl = std::chrono::hours(1); });
+  v1::GetUploadRequest request;
+  v1::Upload upload;
+  ASSERT_TRUE(server.upload(small_msh(), request.mutable_name()).ok());
+  Context first, second;
+  ASSERT_TRUE(server.uploads->GetUpload(&first, request, &upload).ok());
+  EXPECT_EQ(upload.name(), request.name());
+  EXPECT_EQ(upload.kind(), v1::Upload::KIND_MSH);
+  EXPECT_EQ(upload.size(), small_msh().size());
+  EXPECT_EQ(upload.expire_time().seconds() - upload.create_time().seconds(), 3600);
+  request.set_name(upload_array(server, {1.5}));
+  ASSERT_TRUE(server.uploads->GetUpload(&second, request, &upload).ok());
+  EXPECT_EQ(upload.kind(), v1::Upload::KIND_ARRAY);
+  EXPECT_EQ(upload.size(), sizeof(double));
+}
+
+TEST(Upload, IsListedByNameInPages) {
+  RunningServer server;
+  std::set<std::string> expected;
+  for (const double value : {1., 2., 3., 4., 5.}) expected.insert(upload_array(server, {value}));
+  std::vector<std::string> names;
+  v1::ListUploadsRequest request;
+  request.set_page_size(2);
+  do {
+    Context context;
+    v1::ListUploadsResponse response;
+    ASSERT_TRUE(server.uploads->ListUploads(&context, request, &response).ok());
+    EXPECT_LE(response.uploads_size(), 2);
+    for (const v1::Upload& upload : response.uploads()) names.push_back(upload.name());
+    request.set_page_token(response.next_page_token());
+  } while (!request.page_token().empty());
+  EXPECT_EQ(names, std::vector<std::string>(expected.begin(), expected.end()));
+}
+
+TEST(Upload, IsDeletedUnlessSomethingNeedsIt) {
+  RunningServer server;
+  const v1::Mesh mesh = server.settle(server.create(anticrack::testing::paper_mesh()).name());
+  const std::string name = upload_array(server, std::vector<double>(mesh.node_count(), 1.0));
+  v1::CreateJobRequest request = anticrack::testing::endless_job(mesh.name());
+  v1::Force& force = *request.mutable_job()->mutable_load_cases(0)->mutable_force();
+  force.mutable_array()->set_upload(name);
+  const std::string job = server.create(request).name();
+  expect_error(erase(server, name), grpc::StatusCode::FAILED_PRECONDITION, "IN_USE", "");
+  EXPECT_TRUE(server.cancel(job).ok());
+  EXPECT_TRUE(eventually([&] { return erase(server, name).ok(); }));
+  EXPECT_EQ(server.upload_files(), 0u);
+  expect_error(erase(server, name), grpc::StatusCode::NOT_FOUND, "NOT_FOUND", "");
+}
+
 TEST(Upload, OfSeveralMegabytesArrivesWhole) {
   RunningServer server;
   const std::string content = small_msh() + std::string(5'000'000, '\n');
@@ -48,7 +117,7 @@ TEST(Upload, OfSeveralMegabytesArrivesWhole) {
 TEST(Upload, LeavesNothingWhereItIsRefused) {
   RunningServer server([](auto& settings) { settings.server.limits.upload_bytes = 10'000; });
   const std::string content = small_msh();
-  v1::UploadMeshRequest::Header header = upload_header(content);
+  v1::CreateUploadsRequest::Header header = upload_header(content);
   header.set_size(10'001);
   expect_error(server.upload(header, content), grpc::StatusCode::INVALID_ARGUMENT, "LIMIT_EXCEEDED",
                "header.size");
@@ -68,9 +137,9 @@ TEST(Upload, LeavesNothingWhenItsClientGoes) {
   RunningServer server;
   {
     Context context;
-    v1::UploadMeshResponse response;
-    const auto writer = server.meshes->UploadMesh(&context, &response);
-    v1::UploadMeshRequest request;
+    v1::CreateUploadsResponse response;
+    const auto writer = server.uploads->CreateUploads(&context, &response);
+    v1::CreateUploadsRequest request;
     *request.mutable_header() = upload_header(small_msh());
     ASSERT_TRUE(writer->Write(request));
     request.set_chunk("$MeshFormat");
@@ -88,8 +157,8 @@ TEST(Upload, ThatStallsGivesItsPlaceUp) {
     settings.server.stall = std::chrono::milliseconds(50);
   });
   Context context;
-  v1::UploadMeshResponse response;
-  const auto writer = server.meshes->UploadMesh(&context, &response);
+  v1::CreateUploadsResponse response;
+  const auto writer = server.uploads->CreateUploads(&context, &response);
   EXPECT_EQ(writer->Finish().error_code(), grpc::StatusCode::CANCELLED);
   EXPECT_TRUE(eventually([&] { return server.upload(small_msh()).ok(); }));
 }
@@ -97,9 +166,9 @@ TEST(Upload, ThatStallsGivesItsPlaceUp) {
 TEST(Upload, IsRefusedBeyondTheLimitOfTransfers) {
   RunningServer server([](auto& settings) { settings.server.limits.transfers = 1; });
   Context context;
-  v1::UploadMeshResponse response;
-  const auto writer = server.meshes->UploadMesh(&context, &response);
-  v1::UploadMeshRequest request;
+  v1::CreateUploadsResponse response;
+  const auto writer = server.uploads->CreateUploads(&context, &response);
+  v1::CreateUploadsRequest request;
   *request.mutable_header() = upload_header(small_msh());
   ASSERT_TRUE(writer->Write(request));
   ASSERT_TRUE(eventually([&] { return server.upload_files() == 1; }));
@@ -113,8 +182,8 @@ TEST(Upload, IsUsedAsWhatItIs) {
   const std::vector<double> values(6, 1.0);
   const std::string bytes(reinterpret_cast<const char*>(values.data()),
                           values.size() * sizeof(double));
-  v1::UploadMeshRequest::Header header = upload_header(bytes);
-  header.set_content(v1::UploadMeshRequest::CONTENT_ARRAY);
+  v1::CreateUploadsRequest::Header header = upload_header(bytes);
+  header.set_kind(v1::Upload::KIND_ARRAY);
   std::string array;
   ASSERT_TRUE(server.upload(header, bytes, &array).ok());
   v1::CreateMeshRequest mesh;

@@ -116,6 +116,34 @@ TEST_F(StoredUploads, StayWhileASweepNeedsThem) {
   EXPECT_FALSE(store->upload_path(matrix, ""));
 }
 
+TEST_F(StoredUploads, AreErasedByWhoMadeThemUnlessNeeded) {
+  const std::string hash = upload("$MeshFormat", "ann");
+  upload("$MeshFormat", "bob");
+  EXPECT_TRUE(throws([&] { store->erase_upload(hash, "eve"); }, Reason::not_found));
+  JobRecord record = job_record("j");
+  record.owner = "ann";
+  record.spec.sweep.emplace().upload = hash;
+  store->create(record, "");
+  MeshRecord mesh = meshed_record("m", strip(2));
+  mesh.sha256.clear();
+  mesh.owner = "ann";
+  mesh.definition = UploadRef{hash, {}};
+  store->put(mesh);
+  EXPECT_TRUE(throws([&] { store->erase_upload(hash, "ann"); }, Reason::in_use));
+  store->erase_job("j");
+  EXPECT_TRUE(throws([&] { store->erase_upload(hash, "ann"); }, Reason::in_use));
+  store->erase_upload(hash, "bob");  // the file stays while another has it
+  EXPECT_EQ(files("uploads"), 1U);
+  ASSERT_EQ(store->uploads("ann", "", 10).size(), 1U);
+  EXPECT_EQ(store->uploads("ann", "", 10)[0].bytes, 11U);
+  EXPECT_FALSE(store->uploads("ann", "", 10)[0].array);
+  EXPECT_TRUE(store->uploads("ann", hash, 10).empty());
+  EXPECT_FALSE(store->upload(hash, "bob"));
+  store->erase_mesh("m");
+  store->erase_upload(hash, "ann");
+  EXPECT_EQ(files("uploads"), 0U);
+}
+
 TEST_F(StoredUploads, StayUntilTheirMeshIsMade) {
   const std::string hash = upload("msh");
   MeshRecord record = meshed_record("m", strip(2));

@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "anticrack/v1/error.pb.h"
-#include "anticrack/v1/mesh.grpc.pb.h"
 #include "anticrack/v1/solve.grpc.pb.h"
+#include "anticrack/v1/upload.grpc.pb.h"
 
 namespace anticrack::client {
 namespace {
@@ -130,21 +130,22 @@ std::shared_ptr<grpc::ServerCredentials> credentials_of(const ServerTls& tls) {
   return grpc::SslServerCredentials(options);
 }
 
-class Meshes : public v1::MeshService::Service {
+class Uploads : public v1::UploadService::Service {
  public:
-  grpc::Status UploadMesh(grpc::ServerContext*, grpc::ServerReader<v1::UploadMeshRequest>* reader,
-                          v1::UploadMeshResponse* response) override {
-    v1::UploadMeshRequest request;
+  grpc::Status CreateUploads(grpc::ServerContext*,
+                             grpc::ServerReader<v1::CreateUploadsRequest>* reader,
+                             v1::CreateUploadsResponse* response) override {
+    v1::CreateUploadsRequest request;
     while (reader->Read(&request)) {
       requests.add(request);
       if (request.has_header()) {
-        response->set_upload("uploads/" + request.header().sha256());
+        response->add_uploads()->set_name("uploads/" + request.header().sha256());
       }
     }
     return grpc::Status::OK;
   }
 
-  Record<v1::UploadMeshRequest> requests;
+  Record<v1::CreateUploadsRequest> requests;
 };
 
 }  // namespace
@@ -153,7 +154,7 @@ struct ScriptedServer::Services {
   explicit Services(ScriptedServer& script) : jobs(script) {}
 
   Jobs jobs;
-  Meshes meshes;
+  Uploads uploads;
   std::unique_ptr<grpc::Server> server;
   int port = 0;
 };
@@ -163,7 +164,7 @@ ScriptedServer::ScriptedServer(const ServerTls& tls)
   grpc::ServerBuilder builder;
   builder.AddListeningPort("127.0.0.1:0", credentials_of(tls), &_services->port);
   builder.RegisterService(&_services->jobs);
-  builder.RegisterService(&_services->meshes);
+  builder.RegisterService(&_services->uploads);
   _services->server = builder.BuildAndStart();
   if (!_services->server || _services->port == 0) {
     throw std::runtime_error("the scripted server does not start");
@@ -192,19 +193,19 @@ std::vector<std::string> ScriptedServer::authorizations() const {
 
 std::string ScriptedServer::uploaded() const {
   std::string bytes;
-  for (const v1::UploadMeshRequest& request : _services->meshes.requests.all()) {
+  for (const v1::CreateUploadsRequest& request : _services->uploads.requests.all()) {
     bytes += request.chunk();
   }
   return bytes;
 }
 
-v1::UploadMeshRequest::Header ScriptedServer::upload_header() const {
-  return _services->meshes.requests.all().at(0).header();
+v1::CreateUploadsRequest::Header ScriptedServer::upload_header() const {
+  return _services->uploads.requests.all().at(0).header();
 }
 
 std::size_t ScriptedServer::largest_upload_chunk() const {
   std::size_t largest = 0;
-  for (const v1::UploadMeshRequest& request : _services->meshes.requests.all()) {
+  for (const v1::CreateUploadsRequest& request : _services->uploads.requests.all()) {
     largest = std::max(largest, request.chunk().size());
   }
   return largest;

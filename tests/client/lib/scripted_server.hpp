@@ -13,6 +13,7 @@
 
 #include "anticrack/v1/mesh.pb.h"
 #include "anticrack/v1/solve.pb.h"
+#include "anticrack/v1/upload.pb.h"
 #include "client/connection.hpp"
 #include "client/error.hpp"
 
@@ -65,7 +66,7 @@ class ScriptedServer {
   std::vector<std::string> authorizations() const;
   /// Bytes of the last upload and its header.
   std::string uploaded() const;
-  v1::UploadMeshRequest::Header upload_header() const;
+  v1::CreateUploadsRequest::Header upload_header() const;
   std::size_t largest_upload_chunk() const;
 
   /// Options of a connection to it that retries quickly.

@@ -118,7 +118,7 @@ TEST(Upload, SendsTheWholeFileInChunksUnderItsHash) {
   EXPECT_EQ(upload_mesh(connection, path), "uploads/" + sha256);
   EXPECT_EQ(server.upload_header().sha256(), sha256);
   EXPECT_EQ(server.upload_header().size(), content.size());
-  EXPECT_EQ(server.upload_header().content(), v1::UploadMeshRequest::CONTENT_MSH);
+  EXPECT_EQ(server.upload_header().kind(), v1::Upload::KIND_MSH);
   EXPECT_TRUE(server.uploaded() == content);
   EXPECT_EQ(server.largest_upload_chunk(), 1u << 20);
 }
@@ -132,7 +132,7 @@ TEST(Upload, SendsValuesAsTheyAre) {
   Connection connection(server.options());
   const std::string upload = upload_array(connection, values);
   const std::string sent = server.uploaded();
-  EXPECT_EQ(server.upload_header().content(), v1::UploadMeshRequest::CONTENT_ARRAY);
+  EXPECT_EQ(server.upload_header().kind(), v1::Upload::KIND_ARRAY);
   EXPECT_EQ(server.upload_header().size(), 1'600'000U);
   ASSERT_EQ(sent.size(), 1'600'000U);
   EXPECT_EQ(std::memcmp(sent.data(), values.data(), sent.size()), 0);
