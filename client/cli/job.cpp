@@ -52,10 +52,7 @@ std::string ended_text(const v1::Job& job) {
     return std::to_string(sweep.converged() + sweep.not_converged() + sweep.failed()) + "/" +
            std::to_string(sweep.rows()) + " rows";
   }
-  const auto ended_cases =
-      std::count_if(job.answers().begin(), job.answers().end(),
-                    [](const v1::LoadCaseAnswer& answer) { return ended(status_of(answer)); });
-  return std::to_string(ended_cases) + "/" + std::to_string(job.load_cases_size());
+  return std::to_string(job.load_cases_ended()) + "/" + std::to_string(job.load_case_count());
 }
 
 int list_jobs(const JobOptions& options, const Globals& globals) {

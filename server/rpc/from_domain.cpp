@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "api/names.hpp"
 #include "api/text.hpp"
@@ -58,10 +59,24 @@ v1::Job from_domain(const store::JobRecord& record) {
     present(record.cases[static_cast<std::size_t>(i)], *job.mutable_answers(i));
   for (v1::Job::Step& step : *job.mutable_timeline())
     step.set_detail(api::printable(step.detail(), max_detail_text));
+  job.set_load_case_count(job.load_cases_size());
+  job.set_load_cases_ended(static_cast<std::int32_t>(
+      std::ranges::count_if(record.cases, [](const store::CaseRecord& each) {
+        return has_answer(each.status) || each.status == Status::failed;
+      })));
   if (job.ByteSizeLong() > max_job_message_bytes)
     for (v1::LoadCaseAnswer& answer : *job.mutable_answers()) answer.clear_contact_intervals();
   if (job.ByteSizeLong() > max_job_message_bytes)
     for (v1::LoadCaseAnswer& answer : *job.mutable_answers()) answer.clear_warnings();
+  return job;
+}
+
+v1::Job basic(v1::Job job) {
+  job.clear_load_cases();
+  job.clear_answers();
+  job.clear_timeline();
+  if (job.has_sweep()) job.mutable_sweep()->clear_traces();
+  if (job.has_sweep_answer()) job.mutable_sweep_answer()->clear_warnings();
   return job;
 }
 

@@ -52,6 +52,7 @@ Unary* SolveService::CreateJob(Context* context, const v1::CreateJobRequest* req
 Unary* SolveService::GetJob(Context* context, const v1::GetJobRequest* request, v1::Job* response) {
   return look_up(_edge, context, *request, [this, request, response](const Identity& who) {
     *response = from_domain(visible_job(_edge.backend, who, api::job_id(request->name(), "name")));
+    if (request->view() == v1::JOB_VIEW_BASIC) *response = basic(std::move(*response));
   });
 }
 
@@ -64,7 +65,9 @@ Unary* SolveService::ListJobs(Context* context, const v1::ListJobsRequest* reque
           return _edge.backend.engine.list({after, count, owner_filter(who, request->owner())});
         },
         [&](const store::JobRecord& record) {
-          return (*response->add_jobs() = from_domain(record)).ByteSizeLong();
+          v1::Job job = from_domain(record);
+          if (request->view() != v1::JOB_VIEW_FULL) job = basic(std::move(job));
+          return (*response->add_jobs() = std::move(job)).ByteSizeLong();
         }));
   });
 }

@@ -45,6 +45,8 @@ TEST(Job, OpensTheCrackOfExampleThree) {
   EXPECT_GE(job.end_time().seconds(), job.start_time().seconds());
   EXPECT_EQ(job.solver().uzawa().theta(), 2.0);
   EXPECT_EQ(job.load_cases(0).force().expression(), "y > 0 ? 1 : -1");
+  EXPECT_EQ(job.load_case_count(), 1);
+  EXPECT_EQ(job.load_cases_ended(), 1);
   ASSERT_EQ(job.answers_size(), 1);
   const v1::LoadCaseAnswer& answer = job.answers(0);
   EXPECT_EQ(answer.name(), "opening");

@@ -14,9 +14,11 @@ using anticrack::testing::opening_job;
 using anticrack::testing::paper_mesh;
 using anticrack::testing::RunningServer;
 
-v1::ListJobsResponse list(RunningServer& server, int size, const std::string& token) {
+v1::ListJobsResponse list(RunningServer& server, int size, const std::string& token,
+                          v1::JobView view = v1::JOB_VIEW_UNSPECIFIED) {
   Context context;
   v1::ListJobsRequest request;
+  request.set_view(view);
   request.set_page_size(size);
   request.set_page_token(token);
   v1::ListJobsResponse response;
@@ -59,10 +61,15 @@ TEST(List, ClosesAPageBeforeItGrowsTooLargeForAMessage) {
     names.push_back(server.create(request).name());
     server.cancel(names.back());
   }
-  const v1::ListJobsResponse first = list(server, 5, "");
+  const v1::ListJobsResponse basic = list(server, 5, "");
+  ASSERT_EQ(basic.jobs_size(), 5);
+  EXPECT_EQ(basic.jobs(0).load_case_count(), request.job().load_cases_size());
+  EXPECT_EQ(basic.jobs(0).load_cases_ended(), request.job().load_cases_size());
+  EXPECT_LT(basic.ByteSizeLong(), 5u << 10);
+  const v1::ListJobsResponse first = list(server, 5, "", v1::JOB_VIEW_FULL);
   EXPECT_LT(first.jobs_size(), 5);
   EXPECT_LT(first.ByteSizeLong(), 4u << 20);
-  const v1::ListJobsResponse second = list(server, 5, first.next_page_token());
+  const v1::ListJobsResponse second = list(server, 5, first.next_page_token(), v1::JOB_VIEW_FULL);
   EXPECT_EQ(first.jobs_size() + second.jobs_size(), 5);
 }
 
