@@ -2,15 +2,12 @@
 #include "figures/drawing.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <csignal>
 #include <string_view>
@@ -19,11 +16,10 @@
 #include <vector>
 
 #include "figures/figures.hpp"
+#include "figures/text.hpp"
 
 namespace anticrack::figures {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Bytes of standard error in messages: gnuplot repeats the failing line, which may be long.
 constexpr off_t kept_output = 4000;
@@ -70,55 +66,21 @@ std::string tail_of(const Descriptor& file, off_t most) {
   return text;
 }
 
-/// A child that does not outlive its owner.
-class Child {
- public:
-  // Not pidfd_open: glibc 2.36 declares it without C linkage.
-  explicit Child(pid_t pid)
-      : _pid(pid), _ended(static_cast<int>(syscall(SYS_pidfd_open, pid, 0))) {}
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-  ~Child() {
-    if (_pid < 0) return;
-    kill(_pid, SIGKILL);
-    wait();
-  }
-
-  bool ends_before(Clock::time_point deadline) const {
-    if (_ended.get() < 0) fail("cannot be watched", errno);
-    for (;;) {
-      const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
-      if (left.count() <= 0) return false;
-      pollfd waiting{_ended.get(), POLLIN, 0};
-      const int found = poll(&waiting, 1, static_cast<int>(std::min<long>(left.count(), 1000)));
-      if (found > 0) return true;
-      if (found < 0 && errno != EINTR) fail("poll", errno);
-    }
-  }
-
-  int wait() {
-    int status = 0;
-    while (waitpid(_pid, &status, 0) < 0 && errno == EINTR) {
-    }
-    _pid = -1;
-    return status;
-  }
-
- private:
-  pid_t _pid;
-  Descriptor _ended;
-};
-
-/// The environment with a locale in which numbers have a point and text is UTF-8.
-std::vector<char*> environment(std::string& locale) {
-  std::vector<char*> variables{locale.data()};
-  for (char** each = environ; *each != nullptr; ++each)
-    if (!std::string_view(*each).starts_with("LC_ALL=")) variables.push_back(*each);
-  variables.push_back(nullptr);
-  return variables;
+/// `env` sets a locale in which numbers have a point and text is UTF-8; `timeout` kills gnuplot at
+/// the limit. gnuplot reads a named file through a buffer, but standard input byte by byte, which
+/// takes three times as long as drawing.
+std::vector<std::string> command(std::chrono::milliseconds limit) {
+  const std::string seconds = number(std::chrono::duration<double>(limit).count());
+  return {"/usr/bin/env",  "LC_ALL=C.UTF-8", "/usr/bin/timeout", "--foreground",
+          "--signal=KILL", seconds,          "gnuplot",          "-d",
+          "/dev/stdin"};
 }
 
-pid_t spawn(const std::filesystem::path& folder, int in, int err) {
+// Exit codes of `timeout`: the program is not installed; killed at the limit.
+constexpr int not_found = 127, killed = 128 + SIGKILL;
+
+/// Starts the command in the folder with default signals.
+pid_t spawn(std::vector<std::string> words, const std::filesystem::path& folder, int in, int err) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
@@ -135,20 +97,14 @@ pid_t spawn(const std::filesystem::path& folder, int in, int err) {
   posix_spawnattr_setsigdefault(&attributes, &all);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
 
-  std::string program = "gnuplot";
-  std::string no_startup_files = "-d";
-  // Named, gnuplot reads it through a buffer; standard input it reads byte by byte, which takes
-  // three times as long as drawing.
-  std::string input = "/dev/stdin";
-  std::array<char*, 4> arguments{program.data(), no_startup_files.data(), input.data(), nullptr};
-  std::string locale = "LC_ALL=C.UTF-8";
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
   pid_t pid = -1;
-  const int error = posix_spawnp(&pid, program.c_str(), &actions, &attributes, arguments.data(),
-                                 environment(locale).data());
+  const int error =
+      posix_spawn(&pid, arguments[0], &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-  if (error == ENOENT && std::filesystem::is_directory(folder))
-    throw Error("gnuplot is not installed; install the package gnuplot-nox and try again");
   if (error != 0) fail("cannot be started", error);
   return pid;
 }
@@ -159,16 +115,21 @@ void run_gnuplot(const std::string& script, const std::filesystem::path& folder,
                  std::chrono::milliseconds limit) {
   const Descriptor in = memory_file(script);
   const Descriptor err = memory_file({});
-  Child child(spawn(folder, in.get(), err.get()));
-  if (!child.ends_before(Clock::now() + limit)) {
+  const pid_t pid = spawn(command(limit), folder, in.get(), err.get());
+  int status = 0;
+  while (waitpid(pid, &status, 0) < 0)
+    if (errno != EINTR) fail("cannot be waited for", errno);
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  if (code == not_found)
+    throw Error("gnuplot is not installed; install the package gnuplot-nox and try again");
+  if (code == killed) {
     throw Error("gnuplot took longer than " + std::to_string(limit.count()) +
                 " ms and was stopped; draw a coarser mesh or allow more time");
   }
-  const int status = child.wait();
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+  if (code != 0) {
     throw Error("gnuplot failed (" +
-                (WIFEXITED(status) ? "exit code " + std::to_string(WEXITSTATUS(status))
-                                   : "signal " + std::to_string(WTERMSIG(status))) +
+                (code > 0 ? "exit code " + std::to_string(code)
+                          : "signal " + std::to_string(WTERMSIG(status))) +
                 "): " + tail_of(err, kept_output));
   }
 }

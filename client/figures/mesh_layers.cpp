@@ -98,8 +98,8 @@ void add_stretches(const MeshPlan& plan, const InterfaceLine& line, double small
   }
 }
 
-/// An arrow into the plus side, `where` along those edges of the line that are meant and that the
-/// window shows.
+/// An arrow into the plus side, at the part `where` of the length of the edges for which `meant` is
+/// true and which the window shows.
 template <class Meant>
 std::optional<Pointer> pointer(const MeshPlan& plan, const InterfaceLine& line,
                                const Window& window, double where, const Meant& meant) {

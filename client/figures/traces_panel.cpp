@@ -68,8 +68,8 @@ std::string traces_heading(const Profile& profile, const Load& load) {
   return length(full) <= most ? full : where + answer;
 }
 
-/// u+, u-, [u] and zero. Where all of it is rounding beside u on the membrane, as Pi(u) tells, the
-/// range of that: it shows zero as zero.
+/// The range of u+, u-, [u] and zero. If these are rounding errors compared with u on the membrane,
+/// estimated from Pi(u), the range of u, so that zero looks like zero.
 Range heights(const results::Trace& trace, const Load& load) {
   Range range{0, 0};
   for (const auto* values : {&trace.u_minus, &trace.u_plus, &trace.jump})

@@ -28,6 +28,7 @@ struct Connection::State {
   ConnectionOptions options;
   std::shared_ptr<grpc::Channel> channel;
   std::shared_ptr<grpc::Channel> bulk;  ///< of bulk reads
+  std::unique_ptr<v1::UploadService::Stub> uploads;
   std::unique_ptr<v1::MeshService::Stub> meshes;
   std::unique_ptr<v1::SolveService::Stub> jobs;
   std::unique_ptr<v1::ServerService::Stub> server;

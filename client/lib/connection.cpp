@@ -127,6 +127,7 @@ std::string refused_text(Code code, const std::string& message, const Credential
 
 Connection::State::State(ConnectionOptions chosen) : options(std::move(chosen)) {
   channel = make_channel(options, false);
+  uploads = v1::UploadService::NewStub(channel);
   meshes = v1::MeshService::NewStub(channel);
   jobs = v1::SolveService::NewStub(channel);
   server = v1::ServerService::NewStub(channel);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Meshes on the server: make them, wait for them, read them (MeshService; requests and answers,
-// with units, are those of anticrack/v1/mesh.proto).
+// Meshes on the server: make them, wait for them, read them; and the files they and loads are made
+// from (MeshService, UploadService; requests and answers, with units, are those of
+// anticrack/v1/mesh.proto and upload.proto).
 //
 // Every function may be called from any thread. It returns when the server has answered, or throws:
 //   Error        the server refused; each call lists its codes. A lost connection is first retried
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "anticrack/v1/mesh.pb.h"
+#include "anticrack/v1/upload.pb.h"
 #include "block.hpp"
 #include "connection.hpp"
 #include "error.hpp"
@@ -48,6 +50,19 @@ using ReadArray = std::function<std::vector<double>(std::size_t index)>;
 /// throws.
 std::vector<std::string> upload_arrays(Connection& connection, std::size_t count,
                                        const ReadArray& read, const std::stop_token& stop = {});
+
+/// An upload of this client ("uploads/SHA256"). Error: not_found.
+v1::Upload get_upload(Connection& connection, const std::string& name,
+                      const std::stop_token& stop = {});
+
+/// One page of this client's uploads, by name. Error: invalid_argument (page token or size).
+v1::ListUploadsResponse list_uploads(Connection& connection, const v1::ListUploadsRequest& request,
+                                     const std::stop_token& stop = {});
+
+/// Deletes an upload of this client. Error: not_found, failed_precondition (a job that has not
+/// ended or a mesh that is not meshed needs it).
+void delete_upload(Connection& connection, const std::string& name,
+                   const std::stop_token& stop = {});
 
 /// Requests the mesh of a geometry or of an upload. Returns before it is made, most often PENDING:
 /// a job may name it at once, wait_for_mesh() waits. Equal requests give the same mesh.

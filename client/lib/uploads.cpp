@@ -231,4 +231,23 @@ std::vector<std::string> upload_arrays(Connection& connection, std::size_t count
   return names;
 }
 
+v1::Upload get_upload(Connection& connection, const std::string& name,
+                      const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  return call(state, *state.uploads, &v1::UploadService::Stub::GetUpload,
+              named<v1::GetUploadRequest>(name), stop);
+}
+
+v1::ListUploadsResponse list_uploads(Connection& connection, const v1::ListUploadsRequest& request,
+                                     const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  return call(state, *state.uploads, &v1::UploadService::Stub::ListUploads, request, stop);
+}
+
+void delete_upload(Connection& connection, const std::string& name, const std::stop_token& stop) {
+  Connection::State& state = connection.state();
+  call(state, *state.uploads, &v1::UploadService::Stub::DeleteUpload,
+       named<v1::DeleteUploadRequest>(name), stop, true);
+}
+
 }  // namespace anticrack::client

@@ -36,7 +36,7 @@ std::size_t columns_of(const Row& row, const Record& record) {
   return arrays::columns_of(row.shape);
 }
 
-/// A dataset, with its meaning where the table wants that in the file.
+/// A dataset, with its meaning if the table says that the file holds it.
 template <class Row, class T>
 void put_row(const Handle& group, const Row& row, const std::vector<T>& values,
              std::size_t columns) {

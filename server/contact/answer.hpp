@@ -74,7 +74,7 @@ struct Sample {
   KktResiduals kkt;
 };
 
-/// Told of every iteration, on the solving thread; must be quick and must not throw.
+/// Called at every iteration, on the solving thread; must be quick and must not throw.
 class Observer {
  public:
   virtual ~Observer() = default;

@@ -67,7 +67,7 @@ class PairForces {
   std::vector<Knot> _knots;
 };
 
-/// Whether all contacts of a path are closed under pressure, of which `pressed` tells.
+/// Whether all contacts of a path are closed under pressure, given by `pressed`.
 bool pressed_through(const std::vector<std::int32_t>& path, const std::vector<char>& pressed);
 
 }  // namespace anticrack::contact

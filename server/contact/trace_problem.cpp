@@ -14,7 +14,7 @@
 namespace anticrack::contact {
 namespace {
 
-/// x -> R' (sum_i B_i F_i B_i') R x, in the form Spectra asks for.
+/// x -> R' (sum_i B_i F_i B_i') R x, in the form Spectra requires.
 class Product {
  public:
   using Scalar = double;

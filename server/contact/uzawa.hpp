@@ -12,7 +12,7 @@
 
 namespace anticrack::contact {
 
-/// What one iteration of Algorithm 2 tells of a column.
+/// Result of one iteration of Algorithm 2 for a column.
 struct Iterate {
   int number = 0;        ///< 1 for the paper's k = 0
   double criterion = 1;  ///< step 3; 1 in the first iteration
@@ -31,7 +31,7 @@ struct Iterate {
 /// Norms and energies need no further product: t'S t = t'(g + B'M mu) as t = F(g + B'M mu), and the
 /// same holds for the change of t.
 /// F_i times all columns is one product of matrices, so the columns under way are the first ones;
-/// who they are is the caller's business (UzawaBlock). Nothing goes from one column to another.
+/// the caller assigns them to load cases (UzawaBlock). The columns are independent.
 /// All memory is allocated on construction: O(n_G capacity). One object belongs to one thread.
 class Uzawa {
  public:

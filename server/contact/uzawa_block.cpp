@@ -101,7 +101,7 @@ int UzawaBlock::add(const CaseLoads& loads, const UzawaOptions& options, bool fi
   exchange(c, _running + _ended);  // the first that has ended goes behind the last
   Case& joining = column(c);
   joining = {joining.place, loads, options, fields, &observer, 0, {}, {}, End::running};
-  // Without an interface there is nothing to relax: any theta will do.
+  // Without an interface there is nothing to relax, and any theta works.
   joining.theta = options.theta.value_or(std::isfinite(_theta_star) ? safety * _theta_star : 1.0);
   _uzawa.start(c, loads.subdomains, joining.theta, options.p);
   ++_running;

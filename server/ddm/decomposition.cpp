@@ -18,7 +18,7 @@ std::int32_t count_of(const std::vector<std::int32_t>& list) {
   return static_cast<std::int32_t>(list.size());
 }
 
-/// Triangles by the smallest of their nodes: who walks over them finds nodes in the cache. O(m).
+/// Triangles by their smallest node: a loop over them then finds the nodes in the cache. O(m).
 void sort_by_first_node(Subdomain& subdomain) {
   const std::size_t count = subdomain.triangle.size();
   const std::int32_t* corner = subdomain.part.triangles.data();

@@ -33,8 +33,9 @@ struct Kernels {
   ///
   /// `y`: a row of `width` doubles for each unknown; rows of a block are aligned to 64 bytes. A
   /// column's bits depend neither on the width nor on the other columns, since all its entries are
-  /// formed by the same operations in the same order; they may differ between processors, of which
-  /// the best kernel is used. O(nnz(L) width); one load costs about reading L once. No allocation.
+  /// formed by the same operations in the same order; they may differ between processors, as
+  /// each uses its best kernel. O(nnz(L) width); one load costs about reading L once. No
+  /// allocation.
   void (*forward)(const Supernodes& factor, int width, double* y);
   void (*backward)(const Supernodes& factor, int width, double* y);
   /// eliminate_front() (multifrontal.hpp) by plain loops, for fronts too small for BLAS. Bits may

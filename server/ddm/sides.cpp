@@ -41,7 +41,7 @@ std::vector<CutEdge> list_edges(const mesh::Mesh& mesh) {
   return edges;
 }
 
-/// The triangles that touch an interface, and how their corners hang together.
+/// The triangles that touch an interface, and how their corners are connected.
 class Neighbourhood {
  public:
   Neighbourhood(const mesh::Mesh& mesh, const std::vector<CutEdge>& edges)

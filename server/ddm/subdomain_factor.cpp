@@ -36,7 +36,7 @@ Values make_values(std::size_t count) {
         "no memory for the factor of a subdomain; take a coarser mesh (larger size or tip_size)");
   }
   if (alignment == huge_page) {
-    // Advice: where it is not taken, small pages do as well.
+    // Only a hint: small pages work as well.
     static_cast<void>(madvise(values.get(), bytes / huge_page * huge_page, MADV_HUGEPAGE));
   }
   return values;

@@ -205,10 +205,10 @@ void Bisection::bisect_along_reference(std::int32_t t) {
 // than their parent. An edge of a triangle of generation g has level g if it is the reference edge,
 // else g + 1. Within a base triangle both sides of an edge agree on its level; on an edge of the
 // base, and its pieces, they differ by at most one, the lower level being on the side where it was
-// the reference edge. So a step from T across its reference edge e to N, of which e is not the
-// reference edge, never raises the generation. It keeps the generation only if e is a piece of the
-// reference edge of T's base ancestor but not of N's; N's ancestor then has an edge that is larger
-// in the strict order than any of T's. So no triangle is met twice.
+// the reference edge. So a step from T across its reference edge e to N, whose reference
+// edge is another one, never raises the generation. It keeps the generation only if e is a piece of
+// the reference edge of T's base ancestor but not of N's; N's ancestor then has an edge that is
+// larger in the strict order than any of T's. So no triangle is met twice.
 bool Bisection::bisect(std::size_t triangle) {
   _waiting.assign(1, static_cast<std::int32_t>(triangle));
   while (!_waiting.empty()) {

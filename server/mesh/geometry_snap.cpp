@@ -17,7 +17,7 @@ class Snap {
   Snap(const Network& network, std::vector<std::string>& warnings)
       : _network(network), _reach(snap_distance(network)), _warnings(warnings) {}
 
-  /// Onto a line of which `holds` is true, unless one passes the point already.
+  /// Onto a line for which `holds` is true, unless one passes through the point already.
   template <class Holds>
   void move(Point& p, const std::string& field, const Holds& holds) {
     double least = std::numeric_limits<double>::infinity();

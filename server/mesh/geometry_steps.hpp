@@ -19,7 +19,7 @@ double snap_distance(const Network& network) noexcept;
 
 /// Moves points of `geometry` that are on no line of the network within its tolerance, but within
 /// snap_distance of one: ends of interfaces onto the boundary or another interface, ends of parts
-/// onto an interface, those of the Neumann boundary onto the boundary. Each is told in `warnings`,
+/// onto an interface, those of the Neumann boundary onto the boundary. `warnings` lists them,
 /// up to a hundred. `network`: of the same geometry. Returns whether a point was moved. O(points
 /// times lines).
 bool snap_ends(const Network& network, Geometry& geometry, std::vector<std::string>& warnings);

@@ -214,7 +214,7 @@ MeshRecord MeshCatalogue::evict(const std::string& id) {
     const auto lock = _state->preparation.lock();
     LiveMesh& mesh = _state->index().known(id);
     mesh.pin = false;
-    held = mesh.stage == Stage::meshed && mesh.run && !mesh.run->told;
+    held = mesh.stage == Stage::meshed && mesh.run && !mesh.run->visible;
     sha256 = mesh.sha256;
   }
   using Eviction = operators::OperatorCache::Eviction;

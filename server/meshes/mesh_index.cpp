@@ -17,7 +17,7 @@ MeshState state_of(const LiveMesh& mesh, const MeshRecord& record, bool in_memor
   if (record.state == MeshState::failed) return MeshState::failed;
   if (record.sha256.empty())
     return mesh.run ? std::min(mesh.run->phase, MeshState::meshing) : MeshState::pending;
-  if (mesh.run && !mesh.run->told) return MeshState::factorizing;
+  if (mesh.run && !mesh.run->visible) return MeshState::factorizing;
   return in_memory && mesh.operators.bytes > 0 ? MeshState::ready : MeshState::evicted;
 }
 

@@ -41,8 +41,8 @@ struct Run {
   store::MeshState phase = store::MeshState::pending;  ///< or meshing, factorizing
   bool background = false;                             ///< goes on without waiters
   int waiters = 0;
-  bool told = false;    ///< the operators are visible to everyone
-  bool ending = false;  ///< only its outcome has to be written
+  bool visible = false;  ///< the operators, to every caller
+  bool ending = false;   ///< only its outcome has to be written
   std::shared_ptr<const operators::MeshOperator> result =
       {};  ///< until the last waiter has taken it
   std::optional<errors::Error> error = {};

@@ -122,15 +122,15 @@ std::size_t Preparation::queued() const {
 void Preparation::await(Lock& lock, Run& run, bool joins, const PhaseListener& listener,
                         const std::stop_token& stop) {
   const auto ended = [&] { return run.result || run.error; };
-  std::optional<MeshState> told;
-  while (told != run.phase || !ended()) {
+  std::optional<MeshState> reported;
+  while (reported != run.phase || !ended()) {
     const MeshState phase = run.phase;
-    if (told == phase) {
+    if (reported == phase) {
       if (!_changed.wait(lock, stop, [&] { return run.phase != phase || ended(); }))
         throw Error(Reason::cancelled, "stopped while waiting for meshes/" + run.id);
       continue;
     }
-    told = phase;
+    reported = phase;
     if (joins && phase == MeshState::factorizing && !ended()) _cache.count_join();
     lock.unlock();
     listener(phase);
@@ -144,7 +144,7 @@ Preparation::Operator Preparation::prepare(const std::string& id, const PhaseLis
   settled(held, id);
   LiveMesh& mesh = _index.known(id);
   if (mesh.stage == Stage::failed) throw Error(*mesh.error);
-  if (mesh.stage == Stage::meshed && mesh.operators.bytes > 0 && (!mesh.run || mesh.run->told)) {
+  if (mesh.stage == Stage::meshed && mesh.operators.bytes > 0 && (!mesh.run || mesh.run->visible)) {
     if (Operator ready = _cache.find(mesh.sha256)) return ready;
   }
   const bool joins = mesh.run != nullptr;
@@ -160,7 +160,7 @@ Preparation::Operator Preparation::prepare(const std::string& id, const PhaseLis
     throw;
   }
   Operator result = run->result;
-  run->told = run->told || result;
+  run->visible = run->visible || result;
   leave(*run);
   if (!result) throw Error(*run->error);
   return result;
@@ -301,7 +301,7 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
   measure(result->known_theta_star());
   run.result = result;
   if (run.waiters > 0) {
-    run.told = true;
+    run.visible = true;
     run.ending = !run.background;
     _changed.notify_all();
     record_outcome(held, *mesh, run.id);
@@ -313,7 +313,7 @@ void Preparation::factorize(Run& run, std::shared_ptr<const mesh::Mesh> triangul
     measure(theta);
     result.reset();  // first, so that the operators can be evicted once they are announced
     if (run.waiters == 0) run.result.reset();
-    run.told = true;
+    run.visible = true;
     run.ending = true;
     record_outcome(held, *mesh, run.id);
   }

@@ -26,7 +26,7 @@ using Operators = std::vector<Operator>;
 struct Flight {
   std::stop_source stop;
   int waiters = 1;         ///< the caller whose thread factorises is one
-  bool abandoned = false;  ///< the last waiter left: it is being stopped, nobody may join
+  bool abandoned = false;  ///< the last waiter left: it is being stopped; joining is too late
   bool done = false;
   Operator result;
   std::optional<Error> error;

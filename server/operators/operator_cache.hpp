@@ -50,8 +50,8 @@ class OperatorCache {
  public:
   using Factorise = std::function<std::shared_ptr<const MeshOperator>(
       std::shared_ptr<const mesh::Mesh>, std::stop_token)>;
-  /// Called after each successful factorisation with its duration, without a lock, before anybody
-  /// gets the operator. Must not throw.
+  /// Called after each successful factorisation with its duration, without a lock, before any
+  /// caller gets the operator. Must not throw.
   using Listener = std::function<void(std::chrono::duration<double>)>;
 
   /// `factorise` may throw errors for acquire() and should obey its stop.

@@ -66,6 +66,14 @@ TEST(Gnuplot, that_takes_too_long_is_stopped) {
   EXPECT_THAT(failure("while (1) { a = 1 }\n", folder.path(), 300ms), HasSubstr("longer than"));
 }
 
+TEST(Gnuplot, that_is_killed_by_others_names_the_signal) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(failure("result = system('kill -SEGV $PPID')\n", folder.path()),
+              HasSubstr("signal 11"));
+  EXPECT_THAT(failure("result = system('kill -KILL $PPID')\n", folder.path()),
+              HasSubstr("signal 9"));
+}
+
 TEST(Gnuplot, in_a_missing_folder_is_an_error) {
   const TemporaryFolder folder;
   EXPECT_THAT(failure("print 1\n", folder / "missing"), HasSubstr("No such file or directory"));
