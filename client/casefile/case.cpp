@@ -104,7 +104,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
   if (loads == Loads::needed || root.find("load")) read_loads(root, result);
   read_job(root, result.job, result.spots);
   if (const auto output = root.section("output", {"fields"})) {
-    result.job.set_fields(output->boolean("fields").value_or(false));
+    if (output->boolean("fields").value_or(false)) result.job.add_outputs(v1::OUTPUT_FIELDS);
     note(*output, "", result.spots);
   }
   return result;

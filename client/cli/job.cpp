@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 //   anticrack job submit | list | show | watch | cancel | fetch | delete
-#include <algorithm>
+#include <map>
 #include <memory>
 
 #include "cli/answers.hpp"
@@ -28,6 +28,9 @@ struct JobOptions {
   std::string output;
   int limit = 50;
   std::string owner;
+  std::vector<std::string> states;
+  std::string mesh;
+  bool oldest_first = false;
 
   std::string full() const { return full_name(Collection::jobs, name); }
 };
@@ -45,6 +48,16 @@ int submit_case(const JobOptions& options, const Globals& globals) {
   return exit_ok;
 }
 
+const std::map<std::string, v1::Job::State> states{
+    {"queued", v1::Job::STATE_QUEUED},
+    {"waiting", v1::Job::STATE_WAITING_FOR_MESH},
+    {"running", v1::Job::STATE_RUNNING},
+    {"done", v1::Job::STATE_SUCCEEDED},
+    {"not-converged", v1::Job::STATE_NOT_CONVERGED},
+    {"failed", v1::Job::STATE_FAILED},
+    {"cancelled", v1::Job::STATE_CANCELLED},
+};
+
 // "3/4": load cases, or rows of a sweep, that have ended.
 std::string ended_text(const v1::Job& job) {
   if (job.has_sweep()) {
@@ -60,6 +73,9 @@ int list_jobs(const JobOptions& options, const Globals& globals) {
   v1::ListJobsRequest request;
   request.set_page_size(options.limit);
   request.set_owner(options.owner);
+  for (const std::string& state : options.states) request.add_states(states.at(state));
+  if (!options.mesh.empty()) request.set_mesh(full_name(Collection::meshes, options.mesh));
+  request.set_oldest_first(options.oldest_first);
   const auto response = client::list_jobs(session.connection(), request, session.stop());
   if (globals.json) {
     print_document(to_json(response));
@@ -156,8 +172,13 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
       add("submit", "Submit a case and return at once", "paper.toml", submit_case);
   add_case(*submit_command, options->case_file);
   add_case_flags(*submit_command, options->overrides);
-  add_list_flags(*add("list", "List the newest jobs", "--limit 10", list_jobs), "jobs",
-                 options->limit, options->owner);
+  CLI::App* list = add("list", "List jobs", "--state running", list_jobs);
+  add_list_flags(*list, "jobs", options->limit, options->owner);
+  list->add_option("--state", options->states, "Only jobs in this state; again for more")
+      ->check(CLI::IsMember(states))
+      ->allow_extra_args(false);
+  list->add_option("--mesh", options->mesh, "Only jobs on this mesh")->type_name("meshes/ID");
+  list->add_flag("--oldest-first", options->oldest_first, "The oldest job first, not the newest");
   add_named("show", "Show a job", "", show);
   add_named("watch", "Watch a job until it ends", "", watch_job)
       ->footer(

@@ -163,7 +163,7 @@ void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, casefil
   job.mutable_sweep()->mutable_traces()->Add(traces.begin(), traces.end());
   matrix_of(input, job);
   // Rows have no fields; a case for `run` often asks for them.
-  job.set_fields(false);
+  job.clear_outputs();
   if (input.nodal) {
     job.clear_load_cases();
     the_case.force_files.clear();

@@ -35,7 +35,8 @@ v1::Job create_job(Connection& connection, const v1::Job& job, const std::string
 /// The job of this name ("jobs/ID") as it is now. Error: not_found.
 v1::Job get_job(Connection& connection, const std::string& name, const std::stop_token& stop = {});
 
-/// One page of the jobs this client may see, the newest first. Error: invalid_argument (page token
+/// One page of the jobs this client may see, the newest first by default, without load cases and
+/// answers unless the request asks for the full view. Error: invalid_argument (page token
 /// or size).
 v1::ListJobsResponse list_jobs(Connection& connection, const v1::ListJobsRequest& request,
                                const std::stop_token& stop = {});

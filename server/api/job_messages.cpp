@@ -112,7 +112,6 @@ contact::UzawaOptions Translation<contact::UzawaOptions>::read(const v1::Uzawa& 
     }
     value.theta.reset();
   }
-  if (value.max_iterations == 0) value.max_iterations = contact::UzawaOptions().max_iterations;
   return value;
 }
 
@@ -124,7 +123,6 @@ void Translation<contact::ActiveSetOptions>::write(const contact::ActiveSetOptio
 contact::ActiveSetOptions Translation<contact::ActiveSetOptions>::read(const v1::ActiveSet& from) {
   contact::ActiveSetOptions value;
   read_fields(from, value);
-  if (value.max_steps == 0) value.max_steps = contact::ActiveSetOptions().max_steps;
   return value;
 }
 
@@ -167,6 +165,8 @@ store::SweepSpec Translation<store::SweepSpec>::read(const v1::Sweep& from) {
 void Translation<store::CaseRecord>::write(const store::CaseRecord& value, v1::LoadCaseAnswer& to) {
   write_fields(value, to, {"answer"});
   write_fields(value.answer, to, {"kkt_relative"});
+  if (value.answer.theta == 0) to.clear_theta();
+  if (value.answer.theta_star == 0) to.clear_theta_star();
   fields::for_each(value.answer.kkt_relative, [&](const fields::Field<const double>& residual) {
     write_field(residual.value, *to.mutable_kkt(), std::string(residual.name) + relative);
   });
@@ -182,12 +182,13 @@ store::CaseRecord Translation<store::CaseRecord>::read(const v1::LoadCaseAnswer&
   return value;
 }
 
-const Except of_spec{"mesh", "loads", "queue_time_limit", "run_time_limit"};
+const Except of_spec{"mesh", "loads", "fields", "queue_time_limit", "run_time_limit"};
 
 void Translation<store::JobSpec>::write(const store::JobSpec& value, v1::Job& to) {
   write_fields(value, to, of_spec);
   write_field(mesh_name(value.mesh), to, "mesh");
   write_field(value.loads, to, "load_cases");
+  if (value.fields) to.add_outputs(v1::OUTPUT_FIELDS);
   write_limit(value.queue_time_limit, to, "queue_timeout");
   write_limit(value.run_time_limit, to, "run_timeout");
 }
@@ -197,6 +198,7 @@ store::JobSpec Translation<store::JobSpec>::read(const v1::Job& from) {
   read_fields(from, value, of_spec);
   value.mesh = after_slash(from.mesh(), "mesh");
   read_field(from, "load_cases", value.loads);
+  value.fields = std::ranges::find(from.outputs(), v1::OUTPUT_FIELDS) != from.outputs().end();
   value.queue_time_limit = limit_of(from, "queue_timeout");
   value.run_time_limit = limit_of(from, "run_timeout");
   return value;

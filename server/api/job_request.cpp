@@ -111,9 +111,9 @@ void require_sweep(const v1::Sweep& sweep, const JobLimits& limits) {
 /// Limits the default number of iterations to what the server allows.
 void bound_iterations(const v1::Solver& asked, int limit, contact::SolverOptions& options) {
   if (auto* uzawa = std::get_if<contact::UzawaOptions>(&options)) {
-    if (asked.uzawa().max_iterations() == 0)
+    if (!asked.uzawa().has_max_iterations())
       uzawa->max_iterations = std::min(uzawa->max_iterations, limit);
-  } else if (asked.active_set().max_steps() == 0) {
+  } else if (!asked.active_set().has_max_steps()) {
     int& steps = std::get<contact::ActiveSetOptions>(options).max_steps;
     steps = std::min(steps, limit);
   }
@@ -128,7 +128,9 @@ std::string fingerprint(const v1::Job& job) {
         v1::Job::kCreateTimeFieldNumber, v1::Job::kStartTimeFieldNumber,
         v1::Job::kEndTimeFieldNumber, v1::Job::kAnswersFieldNumber,
         v1::Job::kResultBytesFieldNumber, v1::Job::kAttemptFieldNumber, v1::Job::kOwnerFieldNumber,
-        v1::Job::kTimelineFieldNumber, v1::Job::kSweepAnswerFieldNumber})
+        v1::Job::kTimelineFieldNumber, v1::Job::kSweepAnswerFieldNumber,
+        v1::Job::kResultStateFieldNumber, v1::Job::kExpireTimeFieldNumber,
+        v1::Job::kLoadCaseCountFieldNumber, v1::Job::kLoadCasesEndedFieldNumber})
     sent.GetReflection()->ClearField(&sent, sent.GetDescriptor()->FindFieldByNumber(number));
   if (packed_bytes(job) > 0) {  // the same matrix by its name
     auto& sweep = *sent.mutable_sweep();

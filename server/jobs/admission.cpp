@@ -47,10 +47,15 @@ void Admission::check(const std::string& owner, const std::string& mesh, std::ui
   }
   if (const auto held = _owners.find(owner); held != _owners.end() && !owner.empty()) {
     const auto& [own_jobs, own_bytes] = held->second;
-    if (!access::may_have(own_jobs, 1, _jobs, _limits.jobs) ||
-        !access::may_have(own_bytes, bytes, memory, _limits.memory)) {
-      throw full("you have " + std::to_string(own_jobs) + " jobs of " + std::to_string(own_bytes) +
-                 " bytes that have not ended, and what is free is kept for other users");
+    if (!access::may_have(own_jobs, 1, _jobs, _limits.jobs)) {
+      throw full("you have " + std::to_string(own_jobs) + " jobs that have not ended, one user " +
+                 "may have " + std::to_string(access::share(own_jobs, _jobs, _limits.jobs)) +
+                 " now");
+    }
+    if (!access::may_have(own_bytes, bytes, memory, _limits.memory)) {
+      throw full("your jobs that have not ended take " + std::to_string(own_bytes) +
+                 " bytes and this one " + std::to_string(bytes) + ", those of one user may take " +
+                 std::to_string(access::share(own_bytes, memory, _limits.memory)) + " now");
     }
   }
   const auto found = _cases.find(mesh);

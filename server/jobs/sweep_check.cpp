@@ -96,7 +96,7 @@ void check_sweep(const store::JobSpec& spec, const EngineOptions& options) {
     throw Error(Reason::invalid_argument,
                 "a sweep keeps no fields: leave them out, and solve the rows of interest as load "
                 "cases of a job")
-        .at("fields");
+        .at("outputs");
   }
   check_traces(sweep, static_cast<std::size_t>(options.max_load_cases));
 }

@@ -15,7 +15,7 @@ namespace anticrack::jobs {
 const char* matrix_field(const store::SweepSpec& sweep);
 
 /// The part of `check` that is about the sweep, which the job has: throws errors::Error
-/// (invalid_argument, limit_exceeded) at "load_cases", "solver.uzawa", "fields", "sweep.traces" or
+/// (invalid_argument, limit_exceeded) at "load_cases", "solver.uzawa", "outputs", "sweep.traces" or
 /// "sweep.traces[i]". Says nothing of the matrix.
 void check_sweep(const store::JobSpec& spec, const EngineOptions& options);
 

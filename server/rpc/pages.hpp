@@ -26,8 +26,8 @@ constexpr std::size_t max_page_bytes = 2u << 20;
 /// Of a request; size 0 is the default. Throws with "page_size" or "page_token" at fault.
 Page to_page(std::int32_t page_size, const std::string& page_token);
 
-/// Fills one page. `list(after, count)` gives records newest first, `add(record)` appends one to
-/// the answer and returns its bytes. Returns the token of the next page, empty after the last.
+/// Fills one page. `list(after, count)` gives records in their order, `add(record)` appends one to
+/// the answer and returns its bytes, or 0 where the list leaves it out. Returns the token of the next page, empty after the last.
 /// Records are fetched a few at a time: one may be large, and a page ends at max_page_bytes.
 template <class List, class Add>
 std::string fill_page(const Page& page, List list, Add add) {
@@ -48,8 +48,9 @@ std::string fill_page(const Page& page, List list, Add add) {
     }
     for (const auto& record : records) {
       if (count == page.size || bytes >= max_page_bytes) return after;
-      bytes += add(record);
-      ++count;
+      const std::size_t added = add(record);
+      bytes += added;
+      count += added > 0 ? 1 : 0;
       after = record.id;
     }
     if (records.size() < wanted) return {};

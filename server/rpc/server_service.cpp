@@ -65,11 +65,12 @@ v1::ServerLimits to_message(const Limits& limits, const jobs::EngineOptions& eng
   to.set_queued_bytes(engine.max_job_memory);
   *to.mutable_queue_time() = api::message<std::chrono::nanoseconds>(engine.queue_time);
   *to.mutable_run_time() = api::message<std::chrono::nanoseconds>(engine.run_time);
-  *to.mutable_result_ttl() = api::message<std::chrono::nanoseconds>(engine.result_ttl);
+  if (engine.result_ttl.count() > 0)
+    *to.mutable_result_ttl() = api::message<std::chrono::nanoseconds>(engine.result_ttl);
   to.set_result_bytes(engine.max_result_bytes);
   to.set_meshes(static_cast<std::int32_t>(limits.meshes));
   to.set_pending_meshes(static_cast<std::int32_t>(limits.pending_meshes));
-  to.set_disk_budget_bytes(limits.disk_budget_bytes);
+  if (limits.disk_budget_bytes > 0) to.set_disk_budget_bytes(limits.disk_budget_bytes);
   to.set_mesher_memory_bytes(limits.mesher_memory_bytes);
   to.set_message_bytes(max_message_bytes);
   to.set_event_log_bytes(engine.event_log_bytes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rpc/solve_service.hpp"
 
+#include <algorithm>
 #include <memory>
 
 #include "api/names.hpp"
@@ -59,12 +60,18 @@ Unary* SolveService::GetJob(Context* context, const v1::GetJobRequest* request, 
 Unary* SolveService::ListJobs(Context* context, const v1::ListJobsRequest* request,
                               v1::ListJobsResponse* response) {
   return look_up(_edge, context, *request, [this, request, response](const Identity& who) {
+    const std::string mesh = request->mesh().empty() ? "" : api::mesh_id(request->mesh(), "mesh");
     response->set_next_page_token(fill_page(
         to_page(request->page_size(), request->page_token()),
         [&](const std::string& after, std::size_t count) {
-          return _edge.backend.engine.list({after, count, owner_filter(who, request->owner())});
+          return _edge.backend.engine.list(
+              {after, count, owner_filter(who, request->owner()), request->oldest_first()});
         },
-        [&](const store::JobRecord& record) {
+        [&](const store::JobRecord& record) -> std::size_t {
+          if (!mesh.empty() && record.spec.mesh != mesh) return 0;
+          if (!request->states().empty() &&
+              !std::ranges::count(request->states(), static_cast<int>(record.state)))
+            return 0;
           v1::Job job = from_domain(record);
           if (request->view() != v1::JOB_VIEW_FULL) job = basic(std::move(job));
           return (*response->add_jobs() = std::move(job)).ByteSizeLong();

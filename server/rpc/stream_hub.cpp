@@ -58,8 +58,9 @@ void StreamHub::add(StreamKind kind, const std::string& client,
   }
   if (kind == StreamKind::transfer &&
       !access::may_have(held.transfers, 1, count, _limits.transfers)) {
-    throw full("you have " + std::to_string(held.transfers) +
-               " transfers open, and what is free is kept for other clients");
+    throw full("you have " + std::to_string(held.transfers) + " transfers open, one client may " +
+               "have " + std::to_string(access::share(held.transfers, count, _limits.transfers)) +
+               " now");
   }
   _entries.emplace(stream.get(), Entry{kind, client, stream});
   Open& open = _clients[client];

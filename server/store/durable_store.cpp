@@ -122,18 +122,19 @@ std::vector<Row> DurableStore::page(FileKind kind, const Page& page) const {
   const std::string& table = table_of(kind).name;
   const std::string of_owner = page.owner ? " AND owner = ?" : "";
   return reading([&](Connection& connection) {
-    std::int64_t before = std::numeric_limits<std::int64_t>::max();
+    std::int64_t last = page.oldest_first ? 0 : std::numeric_limits<std::int64_t>::max();
     if (!page.after.empty()) {
       Statement select =
           connection.prepare("SELECT number FROM " + table + " WHERE id = ?" + of_owner);
       select.bind(std::string_view(page.after));
       if (page.owner) select.bind(std::string_view(*page.owner));
       if (!select.step()) throw unknown(table, page.after);
-      before = select.integer(0);
+      last = select.integer(0);
     }
-    Statement select = connection.prepare(select_rows(kind) + " WHERE number < ?" + of_owner +
-                                          " ORDER BY number DESC LIMIT ?");
-    select.bind(before);
+    Statement select = connection.prepare(
+        select_rows(kind) + " WHERE number " + (page.oldest_first ? ">" : "<") + " ?" + of_owner +
+        " ORDER BY number " + (page.oldest_first ? "" : "DESC ") + "LIMIT ?");
+    select.bind(last);
     if (page.owner) select.bind(std::string_view(*page.owner));
     constexpr std::size_t most = std::numeric_limits<std::int64_t>::max();
     select.bind(static_cast<std::int64_t>(std::min(page.count, most)));

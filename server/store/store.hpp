@@ -38,6 +38,7 @@ struct Page {
   std::string after;
   std::size_t count = 0;
   std::optional<std::string> owner;
+  bool oldest_first = false;
 };
 
 /// Bytes on the disk.

@@ -23,6 +23,9 @@ TEST(Share, LeavesAsMuchFreeAsEachHas) {
   EXPECT_THAT(taken(3, 64), ElementsAre(32, 16, 8));
   EXPECT_THAT(taken(2, 1), ElementsAre(1, 0));
   EXPECT_THAT(taken(3, 2), ElementsAre(1, 1, 0));
+  EXPECT_EQ(share(6, 6, 12), 6U);
+  EXPECT_EQ(share(1, 9, 12), 2U);
+  EXPECT_EQ(share(0, 20, 12), 0U);
   EXPECT_FALSE(may_have(0, 3, 0, 2));
   EXPECT_FALSE(may_have(0, 1, 5, 2));  // more is used than there is
 }

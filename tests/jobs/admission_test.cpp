@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/admission.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "support/errors.hpp"
@@ -57,6 +58,7 @@ TEST(Admission, KeepsRoomForOtherOwners) {
     } catch (const errors::Error& error) {
       EXPECT_EQ(error.reason(), Reason::busy);
       EXPECT_GT(error.retry_delay().count(), 0);
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("one user may"));
     }
     return jobs;
   };

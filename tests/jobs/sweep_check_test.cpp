@@ -55,7 +55,7 @@ TEST_F(SweepCheck, BoundsTheBasis) {
 
 TEST_F(SweepCheck, IsForTheActiveSetWithoutFields) {
   EXPECT_TRUE(refuses([](JobSpec& bad) { bad.solver = contact::UzawaOptions(); }, "solver.uzawa"));
-  EXPECT_TRUE(refuses([](JobSpec& bad) { bad.fields = true; }, "fields"));
+  EXPECT_TRUE(refuses([](JobSpec& bad) { bad.fields = true; }, "outputs"));
 }
 
 TEST_F(SweepCheck, WantsTracesAscendingAndFew) {

@@ -34,7 +34,7 @@ TEST(Job, OpensTheCrackOfExampleThree) {
   EXPECT_EQ(created.title(), "section 8");
   v1::CreateJobRequest request = opening_job(created.name());
   request.mutable_job()->set_title("Example 3");
-  request.mutable_job()->set_fields(true);
+  request.mutable_job()->add_outputs(v1::OUTPUT_FIELDS);
   request.mutable_job()->mutable_solver()->mutable_uzawa();
   const v1::Job job = server.finish(server.create(request).name());
 

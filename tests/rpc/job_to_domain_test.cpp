@@ -111,7 +111,7 @@ TEST(JobToDomain, TakesTheDefaultsOfThePaper) {
 TEST(JobToDomain, TakesWhatIsSet) {
   v1::Job job = opening_job("meshes/a").job();
   job.set_title("t");
-  job.set_fields(true);
+  job.add_outputs(v1::OUTPUT_FIELDS);
   v1::Uzawa& uzawa = *job.mutable_solver()->mutable_uzawa();
   uzawa.set_theta_auto(true);
   uzawa.set_epsilon(0);

@@ -60,6 +60,7 @@ TEST(List, ClosesAPageBeforeItGrowsTooLargeForAMessage) {
   for (int i = 0; i < 5; ++i) {
     names.push_back(server.create(request).name());
     server.cancel(names.back());
+    server.finish(names.back());
   }
   const v1::ListJobsResponse basic = list(server, 5, "");
   ASSERT_EQ(basic.jobs_size(), 5);
@@ -71,6 +72,48 @@ TEST(List, ClosesAPageBeforeItGrowsTooLargeForAMessage) {
   EXPECT_LT(first.ByteSizeLong(), 4u << 20);
   const v1::ListJobsResponse second = list(server, 5, first.next_page_token(), v1::JOB_VIEW_FULL);
   EXPECT_EQ(first.jobs_size() + second.jobs_size(), 5);
+}
+
+TEST(List, IsFilteredByStateAndMeshInEitherOrder) {
+  RunningServer server;
+  const std::string mesh = server.create(paper_mesh()).name();
+  const std::string other = server.create(paper_mesh(0.3)).name();
+  std::vector<std::string> names;
+  for (const std::string& on : {mesh, other, mesh, mesh})
+    names.push_back(server.finish(server.create(opening_job(on)).name()).name());
+  const auto listed = [&](auto&& choose) {
+    v1::ListJobsRequest request;
+    choose(request);
+    request.set_page_size(2);
+    std::vector<std::string> found;
+    do {
+      Context context;
+      v1::ListJobsResponse page;
+      EXPECT_TRUE(server.jobs->ListJobs(&context, request, &page).ok());
+      EXPECT_LE(page.jobs_size(), 2);
+      for (const v1::Job& job : page.jobs()) found.push_back(job.name());
+      request.set_page_token(page.next_page_token());
+    } while (!request.page_token().empty());
+    return found;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(listed([&](auto& request) { request.set_mesh(mesh); }),
+            (Names{names[3], names[2], names[0]}));
+  EXPECT_EQ(listed([&](auto& request) { request.set_oldest_first(true); }), names);
+  EXPECT_EQ(listed([&](auto& request) {
+              request.set_mesh(other);
+              request.add_states(v1::Job::STATE_FAILED);
+              request.add_states(v1::Job::STATE_SUCCEEDED);
+            }),
+            Names{names[1]});
+  EXPECT_EQ(listed([&](auto& request) { request.add_states(v1::Job::STATE_RUNNING); }), Names{});
+
+  Context context;
+  v1::ListJobsRequest request;
+  request.set_mesh("jobs/0123456789abcdef");
+  v1::ListJobsResponse jobs;
+  expect_error(server.jobs->ListJobs(&context, request, &jobs), grpc::StatusCode::INVALID_ARGUMENT,
+               "INVALID_ARGUMENT", "mesh");
 }
 
 TEST(List, RefusesPagesThereAreNot) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Kills anticrackd at random moments while clients submit, watch and read; then every job it
-// acknowledged is there once, with the numbers of a server that was left alone.
+// Kills anticrackd at random moments while clients upload, submit, watch and read beside a backlog;
+// then every job it acknowledged is there once, with the numbers of a server that was left alone.
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -30,6 +30,7 @@ struct Options {
   unsigned seed = 1;
   int clients = 3;
   int pause = 120;  ///< mean time between start and kill, milliseconds
+  int backlog = 200;
 };
 
 /// A job the server has acknowledged.
@@ -67,8 +68,8 @@ struct Run {
   }
 };
 
-const std::vector<std::string> server_options{"--log-level", "error",     "--threads",
-                                              "2",           "--crashes", "0"};
+const std::vector<std::string> server_options{"--log-level", "error", "--threads",    "2",
+                                              "--crashes",   "0",     "--job-memory", "32MiB"};
 
 /// Submits one job after another while the server is killed; no more than a few at a time.
 void be_a_client(Run& run, client::ConnectionOptions options, unsigned seed) {
@@ -92,6 +93,43 @@ void be_a_client(Run& run, client::ConnectionOptions options, unsigned seed) {
     for (const std::string& name : open) run.watch(connection, name);
   } catch (const std::exception& error) {
     run.complain(std::string("a client failed: ") + error.what());
+  }
+}
+
+/// A result of 2 MB, of which a job holds one in memory.
+Work large_result() {
+  Work large = work("slit.toml");
+  large.job.add_outputs(v1::OUTPUT_FIELDS);
+  for (int i = 1; i < 40; ++i) {
+    v1::LoadCase& load = *large.job.add_load_cases();
+    load = large.job.load_cases(0);
+    load.set_name(load.name() + "-" + std::to_string(i));
+  }
+  return large;
+}
+
+/// Values on the nodes of a mesh, sent again for each job.
+Work uploaded_array(const Daemon& daemon) {
+  Work array = work("slit.toml");
+  array.name += " (array)";
+  client::Connection connection(daemon.connection());
+  const v1::Mesh mesh =
+      client::wait_for_mesh(connection, client::create_mesh(connection, array.mesh).name());
+  for (std::uint64_t i = 0; i < mesh.node_count(); ++i)
+    array.array.push_back(1 + static_cast<double>(i % 7));
+  return array;
+}
+
+/// Jobs that wait while all others overtake them.
+void queue_backlog(Run& run, const Daemon& daemon, int jobs) {
+  constexpr std::size_t small = 4;  // a coarse mesh, behind the two works above
+  Work work = run.works[small];
+  work.job.set_priority(v1::Job::PRIORITY_BULK);
+  run.works.insert(run.works.begin(), work);
+  client::Connection connection(daemon.connection());
+  for (int i = 0; i < jobs; ++i) {
+    const std::string id = client::make_uuid();
+    run.acknowledge({submit(connection, work, id).name(), id, 0});
   }
 }
 
@@ -185,6 +223,8 @@ int drive(const Options& options) {
   std::minstd_rand random(options.seed);
   Daemon daemon(server_options);
   make_most_meshes(run, daemon);
+  run.works.insert(run.works.begin(), {large_result(), uploaded_array(daemon)});
+  queue_backlog(run, daemon, options.backlog);
   std::vector<std::thread> clients;
   for (int i = 0; i < options.clients; ++i) {
     clients.emplace_back(be_a_client, std::ref(run), daemon.connection(), random());
@@ -233,6 +273,8 @@ int main(int argc, char** argv) {
   app.add_option("--kills", options.kills, "How often")->capture_default_str();
   app.add_option("--seed", options.seed, "Of the moments and of the jobs")->capture_default_str();
   app.add_option("--clients", options.clients, "That submit meanwhile")->capture_default_str();
+  app.add_option("--backlog", options.backlog, "Jobs that wait from the start")
+      ->capture_default_str();
   app.add_option("--pause", options.pause, "Mean time between start and kill, ms")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);

@@ -66,6 +66,10 @@ std::vector<Work> mixed_work() {
 v1::Job submit(client::Connection& connection, const Work& work, const std::string& request_id) {
   v1::Job job = work.job;
   job.set_mesh(client::create_mesh(connection, work.mesh).name());
+  if (!work.array.empty()) {
+    job.mutable_load_cases(0)->mutable_force()->mutable_array()->set_upload(
+        client::upload_array(connection, work.array));
+  }
   return client::create_job(connection, job, request_id);
 }
 

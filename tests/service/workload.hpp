@@ -18,7 +18,8 @@ namespace anticrack::service_test {
 struct Work {
   std::string name;
   v1::CreateMeshRequest mesh;
-  v1::Job job;  ///< all but the mesh
+  v1::Job job;                  ///< all but the mesh
+  std::vector<double> array{};  ///< f of the first load case on the nodes, if any
 };
 
 /// A shipped case, "paper-3.toml", with overrides.
@@ -31,7 +32,7 @@ std::vector<std::string> iterations(int count);
 /// Several meshes, both methods, short and long ones.
 std::vector<Work> mixed_work();
 
-/// Its mesh and its job, under a request id.
+/// Its mesh, its array and its job, under a request id.
 v1::Job submit(client::Connection& connection, const Work& work, const std::string& request_id);
 
 /// Waits until a job has ended.

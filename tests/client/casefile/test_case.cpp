@@ -30,7 +30,7 @@ TEST(Case, BecomesRequests) {
   EXPECT_EQ(the_case.job.title(), "A plate");
   EXPECT_EQ(the_case.job.solver().uzawa().theta(), 1.5);
   EXPECT_FALSE(the_case.job.solver().uzawa().has_epsilon());
-  EXPECT_FALSE(the_case.job.fields());
+  EXPECT_TRUE(the_case.job.outputs().empty());
   ASSERT_EQ(the_case.job.load_cases_size(), 2);
   EXPECT_EQ(the_case.job.load_cases(0).name(), "one");
   EXPECT_EQ(the_case.job.load_cases(0).force().constant(), 1);
@@ -67,7 +67,7 @@ kkt_tolerance = 1e-9)") + "boundary_value = \"-y\"\n");
   EXPECT_EQ(geometry.cracks(0).part().to().x(), 0.7);
   EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_UNIFORM);
   EXPECT_EQ(the_case.mesh.options().size(), 0.1);
-  EXPECT_TRUE(the_case.job.fields());
+  EXPECT_EQ(the_case.job.outputs(0), v1::OUTPUT_FIELDS);
   const v1::Uzawa& uzawa = the_case.job.solver().uzawa();
   EXPECT_TRUE(uzawa.theta_auto());
   EXPECT_EQ(uzawa.epsilon(), 1e-10);

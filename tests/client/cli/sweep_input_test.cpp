@@ -27,7 +27,7 @@ casefile::Case two_load_case() {
   casefile::Case the_case;
   the_case.job.add_load_cases()->set_name("skew");
   the_case.job.add_load_cases()->set_name("opening");
-  the_case.job.set_fields(true);
+  the_case.job.add_outputs(v1::OUTPUT_FIELDS);
   the_case.job.mutable_solver()->mutable_active_set();
   return the_case;
 }
@@ -126,7 +126,7 @@ TEST(MakeSweep, LeavesAJobWithoutFieldsAndWithTheRowsToKeep) {
   make_sweep(input, limits(), the_case);
   EXPECT_THAT(the_case.job.sweep().traces(), ElementsAre(1, 2, 7));
   EXPECT_TRUE(the_case.job.sweep().has_coefficients());
-  EXPECT_FALSE(the_case.job.fields());
+  EXPECT_TRUE(the_case.job.outputs().empty());
   EXPECT_EQ(the_case.job.load_cases_size(), 2);
   EXPECT_EQ(the_case.locate("job.sweep.coefficients.upload")->source, "c.csv");
   EXPECT_EQ(the_case.locate("job.sweep.traces[3]")->source, "--traces 7,1-2");
