@@ -124,6 +124,9 @@ class AnyValue {
     } else if constexpr (std::is_same_v<Struct, store::MeshRecord>) {
       positive(value.theta_star);
       positive(value.bisection_bound);
+    } else if constexpr (std::is_same_v<Struct, contact::AnswerSummary>) {
+      positive(value.theta);
+      positive(value.theta_star);
     } else if constexpr (std::is_same_v<Struct, store::JobRecord>) {
       if (!value.spec.sweep) value.sweep = {};
     }
