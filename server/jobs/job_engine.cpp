@@ -205,6 +205,9 @@ EngineMetrics JobEngine::metrics() const {
   metrics.columns = core.columns;
   metrics.queued_bytes = core.admission.bytes();
   metrics.job_memory = core.memory->used();
+  metrics.jobs_limit = static_cast<std::uint64_t>(core.options.max_queued_jobs);
+  metrics.kept_jobs_limit = static_cast<std::uint64_t>(core.options.max_kept_jobs);
+  metrics.job_memory_limit = core.options.max_job_memory;
   const auto now = EngineCore::Clock::now();
   for (const auto& [number, job] : core.numbers) {
     if (job->state != JobState::running) {

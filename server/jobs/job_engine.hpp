@@ -67,6 +67,9 @@ struct EngineMetrics {
   std::uint64_t queued_bytes = 0;                ///< definitions of jobs that have not ended
   std::uint64_t job_memory = 0;                  ///< of max_job_memory
   std::chrono::duration<double> oldest_wait{0};  ///< of the jobs that have not started
+  std::uint64_t jobs_limit = 0;                  ///< of jobs that have not ended
+  std::uint64_t kept_jobs_limit = 0;             ///< of ended jobs
+  std::uint64_t job_memory_limit = 0;            ///< bytes
 };
 
 /// What a client asks for.

@@ -139,4 +139,5 @@ class Administration(FolderTest):
         for name in ("ann", "bob"):
             self.assertIn(f'anticrack_owner_jobs{{owner="{name}"}} 1\n', page)
             self.assertIn(f'anticrack_owner_unfinished_jobs{{owner="{name}"}} 0\n', page)
+            self.assertRegex(page, r"\nanticrack_unfinished_jobs_limit [1-9]\d*\n")
             self.assertRegex(page, rf'anticrack_owner_result_bytes\{{owner="{name}"\}} [1-9]')
