@@ -43,9 +43,9 @@ class Installed(FolderTest):
         with Daemon(self.folder) as daemon:
             said = succeed(build / "solve", f"127.0.0.1:{daemon.port}")
             answer = float(re.search(r"^upward: A = (\S+)$", said, re.M).group(1))
-            listed = json.loads(succeed(self.prefix / "bin/anticrack", "--json", "--server", f"127.0.0.1:{daemon.port}",
-                                        "job", "list"))
-            stored = listed["jobs"][0]["answers"][0]
+            client = (self.prefix / "bin/anticrack", "--json", "--server", f"127.0.0.1:{daemon.port}", "job")
+            listed = json.loads(succeed(*client, "list"))
+            stored = json.loads(succeed(*client, "show", listed["jobs"][0]["name"]))["answers"][0]
         self.assertIn("meshing\n", said)
         self.assertAlmostEqual(answer, stored["inclusions"][0]["displacement"], places=5)
         ended = run(build / "solve", f"unix:{self.folder}/nobody", env=CLEAN)
