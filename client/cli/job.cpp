@@ -76,7 +76,14 @@ int list_jobs(const JobOptions& options, const Globals& globals) {
   for (const std::string& state : options.states) request.add_states(states.at(state));
   if (!options.mesh.empty()) request.set_mesh(full_name(Collection::meshes, options.mesh));
   request.set_oldest_first(options.oldest_first);
-  const auto response = client::list_jobs(session.connection(), request, session.stop());
+  v1::ListJobsResponse response = client::list_jobs(session.connection(), request, session.stop());
+  // A page of few jobs that fit may be short. MergeFrom keeps the token where the new one is empty.
+  while (response.jobs_size() < options.limit && !response.next_page_token().empty()) {
+    request.set_page_size(options.limit - response.jobs_size());
+    request.set_page_token(response.next_page_token());
+    response.MergeFrom(client::list_jobs(session.connection(), request, session.stop()));
+    if (response.next_page_token() == request.page_token()) response.clear_next_page_token();
+  }
   if (globals.json) {
     print_document(to_json(response));
     return exit_ok;

@@ -22,12 +22,15 @@ constexpr std::size_t default_page_size = 50;
 constexpr std::size_t max_page_size = 1000;
 /// A page is closed early when it grows past this: the client's limit is gRPC's 4 MiB.
 constexpr std::size_t max_page_bytes = 2u << 20;
+/// A page is closed early when so many records were read for it.
+constexpr std::size_t max_page_records = 1000;
 
 /// Of a request; size 0 is the default. Throws with "page_size" or "page_token" at fault.
 Page to_page(std::int32_t page_size, const std::string& page_token);
 
 /// Fills one page. `list(after, count)` gives records in their order, `add(record)` appends one to
-/// the answer and returns its bytes, or 0 where the list leaves it out. Returns the token of the next page, empty after the last.
+/// the answer and returns its bytes, or 0 where the list leaves it out; a page then ends after
+/// max_page_records, however few it has. Returns the token of the next page, empty after the last.
 /// Records are fetched a few at a time: one may be large, and a page ends at max_page_bytes.
 template <class List, class Add>
 std::string fill_page(const Page& page, List list, Add add) {
@@ -35,6 +38,7 @@ std::string fill_page(const Page& page, List list, Add add) {
   std::string after = page.after;
   std::size_t count = 0;
   std::size_t bytes = 0;
+  std::size_t read = 0;
   for (;;) {
     const std::size_t wanted = std::min(batch, page.size - count + 1);
     decltype(list(after, wanted)) records;
@@ -47,7 +51,8 @@ std::string fill_page(const Page& page, List list, Add add) {
           .at("page_token");
     }
     for (const auto& record : records) {
-      if (count == page.size || bytes >= max_page_bytes) return after;
+      if (count == page.size || bytes >= max_page_bytes || read == max_page_records) return after;
+      ++read;
       const std::size_t added = add(record);
       bytes += added;
       count += added > 0 ? 1 : 0;

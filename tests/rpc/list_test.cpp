@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "rpc/details.hpp"
+#include "rpc/pages.hpp"
 #include "rpc/requests.hpp"
 #include "rpc/running_server.hpp"
 
@@ -114,6 +115,30 @@ TEST(List, IsFilteredByStateAndMeshInEitherOrder) {
   v1::ListJobsResponse jobs;
   expect_error(server.jobs->ListJobs(&context, request, &jobs), grpc::StatusCode::INVALID_ARGUMENT,
                "INVALID_ARGUMENT", "mesh");
+}
+
+TEST(List, ClosesAPageOfFewThatFit) {
+  struct Record {
+    std::string id;
+  };
+  std::size_t read = 0;
+  const auto page = [&](const std::string& token) {
+    read = 0;
+    return fill_page(
+        to_page(50, token),
+        [&](const std::string& after, std::size_t count) {
+          const std::size_t first = after.empty() ? 0 : std::stoul(after) + 1;
+          std::vector<Record> records;
+          for (std::size_t i = first; i < std::min<std::size_t>(first + count, 1'500); ++i)
+            records.push_back({std::to_string(i)});
+          return records;
+        },
+        [&](const Record&) -> std::size_t { return ++read, 0; });
+  };
+  EXPECT_EQ(page(""), "999");
+  EXPECT_EQ(read, max_page_records);
+  EXPECT_EQ(page("999"), "");
+  EXPECT_EQ(read, 500U);
 }
 
 TEST(List, RefusesPagesThereAreNot) {
