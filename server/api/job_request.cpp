@@ -38,9 +38,11 @@ void require_loads(const v1::Job& job) {
 void require_time(const google::protobuf::Duration& duration, std::chrono::milliseconds longest,
                   const std::string& field) {
   constexpr std::int64_t second = 1'000'000'000;
-  if (duration.seconds() < 0 || duration.nanos() < 0 || duration.nanos() >= second) {
+  if (duration.seconds() < 0 || duration.nanos() < 0 || duration.nanos() >= second ||
+      duration.seconds() + duration.nanos() == 0) {
     throw Error(Reason::invalid_argument,
-                "the time is not a duration of at least 0 s with 0 to 999999999 ns")
+                "the time is not a duration of more than 0 s with 0 to 999999999 ns; leave it "
+                "out for the server's")
         .at(field);
   }
   const auto limit = std::chrono::floor<std::chrono::seconds>(longest).count();
@@ -157,8 +159,9 @@ store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
         .at("job");
   }
   mesh_id(job.mesh(), "job.mesh");
-  require_time(job.queue_timeout(), limits.queue_time, "job.queue_timeout");
-  require_time(job.run_timeout(), limits.run_time, "job.run_timeout");
+  if (job.has_queue_timeout())
+    require_time(job.queue_timeout(), limits.queue_time, "job.queue_timeout");
+  if (job.has_run_timeout()) require_time(job.run_timeout(), limits.run_time, "job.run_timeout");
   require_loads(job);
   if (job.has_sweep()) require_sweep(job.sweep(), limits);
   store::JobSpec spec;

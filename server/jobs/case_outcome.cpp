@@ -100,8 +100,6 @@ CaseOutcome refused_case(const Task& task, std::uint64_t max_result_bytes) {
   return {std::move(record)};
 }
 
-CaseOutcome cancelled_case(const Task& task) {
-  return {new_record(task, Status::cancelled)};
-}
+CaseOutcome cancelled_case(const Task& task) { return {new_record(task, Status::cancelled)}; }
 
 }  // namespace anticrack::jobs

@@ -32,9 +32,7 @@ bool is_name(const std::string& text) {
          });
 }
 
-std::string load_path(std::size_t load) {
-  return "load_cases[" + std::to_string(load) + "]";
-}
+std::string load_path(std::size_t load) { return "load_cases[" + std::to_string(load) + "]"; }
 
 void check_names(const std::vector<fem::Load>& loads) {
   std::unordered_set<std::string> names;

@@ -50,9 +50,7 @@ void set_state(store::JobRecord& record, JobState state, const std::optional<Err
 
 EndingThread::EndingThread(EngineCore& core) : _core(core), _thread([this] { work(); }) {}
 
-EndingThread::~EndingThread() {
-  _thread.join();
-}
+EndingThread::~EndingThread() { _thread.join(); }
 
 void EndingThread::work() {
   Lock lock(_core.mutex);

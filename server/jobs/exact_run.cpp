@@ -16,9 +16,7 @@ struct Solved {
   std::exception_ptr failure;
 };
 
-const store::JobSpec& spec_of(const PreparedCase& prepared) {
-  return *prepared.task.job->spec;
-}
+const store::JobSpec& spec_of(const PreparedCase& prepared) { return *prepared.task.job->spec; }
 
 Solved solve(const PreparedCase& prepared, std::atomic<std::uint64_t>& iterations) {
   Solved solved;

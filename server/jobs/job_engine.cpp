@@ -23,9 +23,7 @@ using errors::Reason;
 using store::JobRecord;
 using store::JobState;
 
-Error unknown(const std::string& id) {
-  return {Reason::not_found, "there is no jobs/" + id};
-}
+Error unknown(const std::string& id) { return {Reason::not_found, "there is no jobs/" + id}; }
 
 }  // namespace
 
@@ -218,8 +216,6 @@ EngineMetrics JobEngine::metrics() const {
   return metrics;
 }
 
-const EngineOptions& JobEngine::options() const noexcept {
-  return _state->core.options;
-}
+const EngineOptions& JobEngine::options() const noexcept { return _state->core.options; }
 
 }  // namespace anticrack::jobs

@@ -88,9 +88,7 @@ Task take_unit(const JobPtr& job) {
   return task;
 }
 
-std::size_t case_count(const store::JobSpec& spec) {
-  return spec.sweep ? 0 : spec.loads.size();
-}
+std::size_t case_count(const store::JobSpec& spec) { return spec.sweep ? 0 : spec.loads.size(); }
 
 void add_step(std::vector<store::Step>& timeline, JobState state, std::string detail) {
   if (timeline.size() >= max_steps)

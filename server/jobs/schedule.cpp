@@ -38,10 +38,24 @@ int Schedule::urgency(std::size_t priority, Time since, Time now) const {
 int Schedule::urgency(const Work& work, Time begin, Time now) const {
   int best = nothing;
   for (std::size_t priority = 0; priority < work.jobs.size(); ++priority) {
-    const auto& jobs = work.jobs[priority];
     if (work.parked[priority] > 0) best = std::min(best, urgency(priority, begin, now));
-    if (!jobs.empty())
+    for (const auto& [owner, jobs] : work.jobs[priority])
       best = std::min(best, urgency(priority, std::max(jobs.begin()->second, begin), now));
+  }
+  return best;
+}
+
+std::optional<Schedule::Place> Schedule::first(const Work& work, const Lasts& lasts,
+                                               Time now) const {
+  std::optional<Place> best;
+  for (std::size_t priority = 0; priority < work.jobs.size(); ++priority) {
+    for (const auto& [owner, jobs] : work.jobs[priority]) {
+      const auto& [number, since] = *jobs.begin();
+      const Last last = last_of(lasts, owner);
+      const Place place{urgency(priority, std::max(since, last.time), now), last.number,
+                        urgency(priority, since, now), number};
+      best = best ? std::min(*best, place) : place;
+    }
   }
   return best;
 }
@@ -56,8 +70,8 @@ void Schedule::add(const Waiting& job) {
   Mesh& mesh = _meshes[job.mesh];
   mesh.size_class = job.size_class;
   mesh.owner = job.owner;
-  mesh.lanes[static_cast<std::size_t>(job.lane)].jobs[class_of(job.priority)].emplace(job.number,
-                                                                                      job.since);
+  mesh.lanes[index(job.lane)].jobs[class_of(job.priority)][job.owner].emplace(job.number,
+                                                                              job.since);
   if (mesh.stage == Stage::absent) mesh.stage = Stage::unknown;  // it may have come meanwhile
 }
 
@@ -66,8 +80,10 @@ void Schedule::remove(std::uint64_t number) {
   if (found == _jobs.end()) return;
   const Waiting job = found->second;
   _jobs.erase(found);
-  _meshes.at(job.mesh).lanes[static_cast<std::size_t>(job.lane)].jobs[class_of(job.priority)].erase(
-      number);
+  auto& waiting = _meshes.at(job.mesh).lanes[index(job.lane)].jobs[class_of(job.priority)];
+  const auto own = waiting.find(job.owner);
+  own->second.erase(number);
+  if (own->second.empty()) waiting.erase(own);
   forget_if_empty(job.mesh);
 }
 
@@ -75,21 +91,20 @@ std::optional<std::uint64_t> Schedule::next_job(const std::string& mesh, Lane la
                                                 Time now) const {
   const auto found = _meshes.find(mesh);
   if (found == _meshes.end()) return std::nullopt;
-  const Jobs& jobs = found->second.lanes[index(lane)].jobs;
-  std::optional<std::pair<int, std::uint64_t>> best;
-  for (std::size_t priority = 0; priority < jobs.size(); ++priority) {
-    if (jobs[priority].empty()) continue;
-    const auto& [number, since] = *jobs[priority].begin();
-    const std::pair<int, std::uint64_t> key{urgency(priority, since, now), number};
-    best = best ? std::min(*best, key) : key;
-  }
-  return best ? std::optional(best->second) : std::nullopt;
+  const Work& work = found->second.lanes[index(lane)];
+  const std::optional<Place> place = first(work, work.taken, now);
+  return place ? std::optional(place->number) : std::nullopt;
+}
+
+void Schedule::taken(std::uint64_t number, Time now) {
+  const Waiting& job = _jobs.at(number);
+  _meshes.at(job.mesh).lanes[index(job.lane)].taken[job.owner] = {now, ++_turns};
 }
 
 std::optional<store::Priority> Schedule::most_urgent(const std::string& mesh, Lane lane) const {
   const auto found = _meshes.find(mesh);
   if (found != _meshes.end()) {
-    const Jobs& jobs = found->second.lanes[index(lane)].jobs;
+    const auto& jobs = found->second.lanes[index(lane)].jobs;
     for (std::size_t priority = 0; priority < jobs.size(); ++priority)
       if (!jobs[priority].empty())
         return static_cast<store::Priority>(most_urgent_class + priority);
@@ -117,28 +132,22 @@ std::optional<std::string> Schedule::next_to_prepare(Time now) {
   std::map<int, std::size_t> ahead = prepared_ahead();
   Mesh* best = nullptr;
   const std::string* name = nullptr;
-  std::tuple<int, std::uint64_t, int, std::uint64_t> best_key;
+  std::optional<Place> best_place;
   for (auto& [id, mesh] : _meshes) {
     const bool waits = mesh.stage == Stage::unknown || mesh.stage == Stage::absent;
     if (!waits || mesh.not_before > now || ahead[mesh.size_class] >= _prepared_limit) continue;
-    const Last last = last_of(_prepared, mesh.owner);
     for (const Work& work : mesh.lanes) {
-      for (std::size_t priority = 0; priority < work.jobs.size(); ++priority) {
-        if (work.jobs[priority].empty()) continue;
-        const auto& [number, since] = *work.jobs[priority].begin();
-        const std::tuple key{urgency(priority, std::max(since, last.time), now), last.number,
-                             urgency(priority, since, now), number};
-        if (best == nullptr || key < best_key) {
-          best = &mesh;
-          name = &id;
-          best_key = key;
-        }
+      const std::optional<Place> place = first(work, _prepared, now);
+      if (place && (!best_place || *place < *best_place)) {
+        best = &mesh;
+        name = &id;
+        best_place = place;
       }
     }
   }
   if (best == nullptr) return std::nullopt;
   best->stage = Stage::preparing;
-  _prepared[best->owner] = {now, ++_preparations};
+  _prepared[_jobs.at(best_place->number).owner] = {now, ++_preparations};
   return *name;
 }
 
@@ -221,7 +230,7 @@ std::optional<Turn> Schedule::next_turn(Time now) {
   } else {
     mesh.unused = false;
     mesh.served = now;
-    mesh.last_turn = mesh.lanes[static_cast<std::size_t>(best->lane)].last_turn = ++_turns;
+    mesh.last_turn = mesh.lanes[index(best->lane)].last_turn = ++_turns;
     _served[*owner] = {now, _turns};
   }
   return best;

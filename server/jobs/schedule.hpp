@@ -20,9 +20,7 @@ namespace anticrack::jobs {
 /// What can run together: load cases, or chunks of sweeps, of one mesh and one lane.
 enum class Lane { active_set, lumped, consistent, sweep };
 constexpr std::size_t lane_count = 4;
-constexpr std::size_t index(Lane lane) noexcept {
-  return static_cast<std::size_t>(lane);
-}
+constexpr std::size_t index(Lane lane) noexcept { return static_cast<std::size_t>(lane); }
 
 /// A job with load cases that no thread has taken.
 struct Waiting {
@@ -53,7 +51,8 @@ struct Turn {
 ///    longest ago; work of an owner has waited since that turn at most. Of the owner's meshes the
 ///    most urgent; at equal urgency the mesh whose turn is longest ago, on it the lane whose turn
 ///    is longest ago. A mesh belongs to the owner of the last job on it.
-/// 3. On a mesh and lane: the most urgent job, at equal urgency the oldest.
+/// 3. On a mesh and lane: owners in turn as in 2, by the load cases that were taken there; of the
+///    owner's jobs the most urgent, at equal urgency the oldest.
 /// 4. A job waits for its mesh without holding up another: only meshes that are ready, or that
 ///    nobody has looked for, have turns.
 /// 5. One preparation at a time per mesh, owners and then their meshes as in 2; of a class of sizes
@@ -72,6 +71,8 @@ class Schedule {
   void remove(std::uint64_t number);  ///< does nothing if it is not there
   /// The job whose load case is taken next.
   std::optional<std::uint64_t> next_job(const std::string& mesh, Lane lane, Time now) const;
+  /// A load case or chunk of the job was taken.
+  void taken(std::uint64_t number, Time now);
   /// The priority of the most urgent job there, however long it has waited.
   std::optional<store::Priority> most_urgent(const std::string& mesh, Lane lane) const;
 
@@ -97,12 +98,19 @@ class Schedule {
   bool others(const std::string& mesh, Lane lane) const;
 
  private:
-  /// By class and number: the first of each class is the one that waits longest.
-  using Jobs = std::array<std::map<std::uint64_t, Time>, 3>;
+  /// When an owner had the last turn or preparation.
+  struct Last {
+    Time time{};
+    std::uint64_t number = 0;
+  };
+  using Lasts = std::unordered_map<std::string, Last>;
+  /// By number: the first is the one that waits longest.
+  using Jobs = std::map<std::uint64_t, Time>;
 
   struct Work {
-    Jobs jobs;
-    std::array<int, 3> parked{};  ///< by class
+    std::array<std::map<std::string, Jobs>, 3> jobs;  ///< by class and owner
+    Lasts taken;                                      ///< by owner
+    std::array<int, 3> parked{};                      ///< by class
     std::uint64_t last_turn = 0;
     bool empty() const;
   };
@@ -120,16 +128,20 @@ class Schedule {
     bool has_turns() const { return stage == Stage::ready || stage == Stage::unknown; }
   };
 
-  /// When an owner had the last turn or preparation.
-  struct Last {
-    Time time{};
+  /// The least goes first.
+  struct Place {
+    int urgency_since_turn = 0;
+    std::uint64_t last_turn = 0;  ///< of the owner
+    int urgency = 0;
     std::uint64_t number = 0;
+    auto operator<=>(const Place&) const = default;
   };
-  using Lasts = std::unordered_map<std::string, Last>;
 
   int urgency(std::size_t priority, Time since, Time now) const;
   /// As if nothing had waited since before `begin`.
   int urgency(const Work& work, Time begin, Time now) const;
+  /// The first job of a lane, by when its owner last had what `lasts` says.
+  std::optional<Place> first(const Work& work, const Lasts& lasts, Time now) const;
   static Last last_of(const Lasts& lasts, const std::string& owner);
   /// Who has the next turn.
   std::optional<std::string> next_owner(Time now) const;

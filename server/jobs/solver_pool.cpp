@@ -251,6 +251,7 @@ std::vector<Task> SolverPool::take(Lock& lock, const Mesh& mesh, Lane lane, int 
       continue;
     }
     Task task = take_unit(job);
+    _core.schedule.taken(job->number, Clock::now());
     --mesh->waiting[index(lane)];
     if (job->next_unit == job->units) _core.schedule.remove(job->number);
     if (job->result_bytes > _core.options.max_result_bytes)

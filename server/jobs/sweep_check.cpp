@@ -24,13 +24,9 @@ std::uint64_t parts(std::uint64_t whole, std::uint64_t part) {
   return std::max<std::uint64_t>(1, (whole + part - 1) / part);
 }
 
-bool combines(const SweepSpec& sweep) {
-  return sweep.cases == SweepSpec::Cases::combinations;
-}
+bool combines(const SweepSpec& sweep) { return sweep.cases == SweepSpec::Cases::combinations; }
 
-std::string trace_path(std::size_t index) {
-  return "sweep.traces[" + std::to_string(index) + "]";
-}
+std::string trace_path(std::size_t index) { return "sweep.traces[" + std::to_string(index) + "]"; }
 
 void check_loads(const SweepSpec& sweep, std::size_t loads, std::size_t max_basis) {
   if (!combines(sweep)) {

@@ -23,9 +23,7 @@ using errors::Error;
 using errors::Reason;
 
 /// Thrown when the job must stop.
-Error stopped() {
-  return {Reason::cancelled, "the job was stopped"};
-}
+Error stopped() { return {Reason::cancelled, "the job was stopped"}; }
 
 /// Stops a solve with its job; the steps of a row are not reported.
 class StopOnly final : public contact::Observer {

@@ -37,9 +37,7 @@ Error ran_too_long(std::chrono::milliseconds limit) {
 
 TimeLimits::TimeLimits(EngineCore& core) : _core(core), _thread([this] { work(); }) {}
 
-TimeLimits::~TimeLimits() {
-  _thread.join();
-}
+TimeLimits::~TimeLimits() { _thread.join(); }
 
 void TimeLimits::work() {
   EngineCore::Lock lock(_core.mutex);

@@ -18,9 +18,7 @@ using errors::Reason;
 
 constexpr std::size_t max_name_bytes = 64;  // of a common name, by X.509
 
-std::string_view view(const grpc::string_ref& text) {
-  return {text.data(), text.size()};
-}
+std::string_view view(const grpc::string_ref& text) { return {text.data(), text.size()}; }
 
 /// The rest after "Bearer ", a word of any case.
 std::optional<std::string_view> bearer_token(std::string_view value) {

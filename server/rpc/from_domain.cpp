@@ -37,6 +37,13 @@ void present(const store::CaseRecord& record, v1::LoadCaseAnswer& answer) {
     warning = api::printable(warning, max_warning_bytes);
 }
 
+std::int32_t load_cases_ended(const store::JobRecord& record) {
+  return static_cast<std::int32_t>(
+      std::ranges::count_if(record.cases, [](const store::CaseRecord& each) {
+        return has_answer(each.status) || each.status == Status::failed;
+      }));
+}
+
 template <class To, class From>
 void append_rows(To& to, const std::vector<From>& from, std::size_t first, std::size_t count) {
   const auto begin = from.begin() + static_cast<std::ptrdiff_t>(first);
@@ -60,10 +67,7 @@ v1::Job from_domain(const store::JobRecord& record) {
   for (v1::Job::Step& step : *job.mutable_timeline())
     step.set_detail(api::printable(step.detail(), max_detail_text));
   job.set_load_case_count(job.load_cases_size());
-  job.set_load_cases_ended(static_cast<std::int32_t>(
-      std::ranges::count_if(record.cases, [](const store::CaseRecord& each) {
-        return has_answer(each.status) || each.status == Status::failed;
-      })));
+  job.set_load_cases_ended(load_cases_ended(record));
   if (job.ByteSizeLong() > max_job_message_bytes)
     for (v1::LoadCaseAnswer& answer : *job.mutable_answers()) answer.clear_contact_intervals();
   if (job.ByteSizeLong() > max_job_message_bytes)
@@ -71,12 +75,17 @@ v1::Job from_domain(const store::JobRecord& record) {
   return job;
 }
 
-v1::Job basic(v1::Job job) {
-  job.clear_load_cases();
-  job.clear_answers();
-  job.clear_timeline();
-  if (job.has_sweep()) job.mutable_sweep()->clear_traces();
-  if (job.has_sweep_answer()) job.mutable_sweep_answer()->clear_warnings();
+v1::Job basic(store::JobRecord record) {
+  const std::size_t load_cases = record.spec.loads.size();
+  const std::int32_t ended = load_cases_ended(record);
+  record.spec.loads.clear();
+  record.cases.clear();
+  record.timeline.clear();
+  record.sweep.warnings.clear();
+  if (record.spec.sweep) record.spec.sweep->traces.clear();
+  v1::Job job = from_domain(record);
+  job.set_load_case_count(static_cast<std::int32_t>(load_cases));
+  job.set_load_cases_ended(ended);
   return job;
 }
 

@@ -29,8 +29,8 @@ v1::Upload from_domain(const store::UploadRecord& record, std::chrono::milliseco
 /// The whole job. Where it would be larger than max_job_message_bytes its contact intervals are
 /// left out: ReadResult has them as traces.
 v1::Job from_domain(const store::JobRecord& record);
-/// JOB_VIEW_BASIC of a whole job.
-v1::Job basic(v1::Job job);
+/// JOB_VIEW_BASIC of it.
+v1::Job basic(store::JobRecord record);
 
 /// `name` of the load case.
 v1::LoadCaseAnswer from_domain(const store::CaseRecord& record, const std::string& name);

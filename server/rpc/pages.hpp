@@ -46,17 +46,18 @@ std::string fill_page(const Page& page, List list, Add add) {
       records = list(after, wanted);
     } catch (const errors::Error& error) {
       if (error.reason() != errors::Reason::not_found) throw;
+      if (after != page.after) return after;  // erased meanwhile: the next page says so
       throw errors::Error(errors::Reason::invalid_argument,
                           "the resource this page_token stands for is gone; start the list again")
           .at("page_token");
     }
-    for (const auto& record : records) {
+    for (auto& record : records) {
       if (count == page.size || bytes >= max_page_bytes || read == max_page_records) return after;
       ++read;
-      const std::size_t added = add(record);
+      after = record.id;
+      const std::size_t added = add(record);  // may move from it
       bytes += added;
       count += added > 0 ? 1 : 0;
-      after = record.id;
     }
     if (records.size() < wanted) return {};
   }

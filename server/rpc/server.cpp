@@ -37,9 +37,7 @@ constexpr auto shutdown_patience = 300ms;
 /// gRPC shuts down with its last server and then joins the thread that gRPC 1.51 starts when a peer
 /// does not take a write at once (run_poller in its tcp_posix.cc). That thread may sleep for ten
 /// seconds on sockets that are closed by then. So gRPC stays up until the process ends.
-void keep_grpc_up() {
-  grpc_init();
-}
+void keep_grpc_up() { grpc_init(); }
 
 void set_arguments(grpc::ServerBuilder& builder) {
   // Without it a second server on the port starts silently and takes half of the calls.
@@ -131,18 +129,14 @@ Server::~Server() {
   if (_state->server) drain(0ms);
 }
 
-const std::string& Server::address() const noexcept {
-  return _state->address;
-}
+const std::string& Server::address() const noexcept { return _state->address; }
 
 void Server::replace(const Security& security) {
   if (_state->certificates && security.tls) _state->certificates->replace(*security.tls);
   _state->edge.authentication.replace(security.tokens);
 }
 
-void Server::announce_stop() {
-  _state->set_serving(false);
-}
+void Server::announce_stop() { _state->set_serving(false); }
 
 void Server::drain(std::chrono::milliseconds grace) {
   std::call_once(_state->drained, [&] {

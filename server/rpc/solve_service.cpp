@@ -52,8 +52,9 @@ Unary* SolveService::CreateJob(Context* context, const v1::CreateJobRequest* req
 
 Unary* SolveService::GetJob(Context* context, const v1::GetJobRequest* request, v1::Job* response) {
   return look_up(_edge, context, *request, [this, request, response](const Identity& who) {
-    *response = from_domain(visible_job(_edge.backend, who, api::job_id(request->name(), "name")));
-    if (request->view() == v1::JOB_VIEW_BASIC) *response = basic(std::move(*response));
+    store::JobRecord record = visible_job(_edge.backend, who, api::job_id(request->name(), "name"));
+    *response =
+        request->view() == v1::JOB_VIEW_BASIC ? basic(std::move(record)) : from_domain(record);
   });
 }
 
@@ -67,14 +68,14 @@ Unary* SolveService::ListJobs(Context* context, const v1::ListJobsRequest* reque
           return _edge.backend.engine.list(
               {after, count, owner_filter(who, request->owner()), request->oldest_first()});
         },
-        [&](const store::JobRecord& record) -> std::size_t {
+        [&](store::JobRecord& record) -> std::size_t {
           if (!mesh.empty() && record.spec.mesh != mesh) return 0;
           if (!request->states().empty() &&
               !std::ranges::count(request->states(), static_cast<int>(record.state)))
             return 0;
-          v1::Job job = from_domain(record);
-          if (request->view() != v1::JOB_VIEW_FULL) job = basic(std::move(job));
-          return (*response->add_jobs() = std::move(job)).ByteSizeLong();
+          const bool full = request->view() == v1::JOB_VIEW_FULL;
+          return (*response->add_jobs() = full ? from_domain(record) : basic(std::move(record)))
+              .ByteSizeLong();
         }));
   });
 }

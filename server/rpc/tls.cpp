@@ -40,9 +40,7 @@ Bio reader_of(const std::string& pem) {
 }
 
 /// OpenSSL would ask for a passphrase at the terminal.
-int no_passphrase(char* /*buffer*/, int /*size*/, int /*writing*/, void* /*data*/) {
-  return -1;
-}
+int no_passphrase(char* /*buffer*/, int /*size*/, int /*writing*/, void* /*data*/) { return -1; }
 
 std::vector<Certificate> certificates_of(const std::string& pem, const char* field) {
   const Bio bio = reader_of(pem);
@@ -134,9 +132,7 @@ void require_usable(const Tls& tls) {
   if (!tls.client_roots.empty()) certificates_of(tls.client_roots, "tls-client-roots");
 }
 
-Certificates::Certificates(Tls tls) : _tls(std::move(tls)) {
-  require_usable(_tls);
-}
+Certificates::Certificates(Tls tls) : _tls(std::move(tls)) { require_usable(_tls); }
 
 void Certificates::replace(Tls tls) {
   require_usable(tls);

@@ -127,7 +127,7 @@ void UploadReceiver::accept(const v1::CreateUploadsRequest& request) {
 void UploadReceiver::drop() {
   _file.reset();
   _complete.clear();
-  _sha256s.clear();
+  _records.clear();
 }
 
 void UploadReceiver::begin(const v1::CreateUploadsRequest::Header& header) {
@@ -203,10 +203,10 @@ void UploadReceiver::end_file() {
   // Nothing else may reach gmsh, which runs what it takes for a script.
   if (!_array) at_chunk([&] { mesher::require_msh(_file->path()); });
   _complete.push_back(std::move(_file));
-  _sha256s.push_back(std::move(sha256));
+  _records.push_back({std::move(sha256), _owner, {}, _received_bytes, _array.has_value()});
 }
 
-std::vector<std::string> UploadReceiver::complete() {
+std::vector<store::UploadRecord> UploadReceiver::complete() {
   try {
     if (!_file) throw Error(Reason::invalid_argument, "an upload without a header").at("header");
     end_file();
@@ -217,10 +217,12 @@ std::vector<std::string> UploadReceiver::complete() {
   }
   const std::vector<std::unique_ptr<File>> files = std::move(_complete);
   std::vector<store::Upload> uploads;
-  for (std::size_t i = 0; i < files.size(); ++i) uploads.push_back({files[i]->path(), _sha256s[i]});
-  _store.keep_uploads(uploads, _owner);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    uploads.push_back({files[i]->path(), _records[i].id});
+  const store::Clock::time_point now = _store.keep_uploads(uploads, _owner);
   for (const auto& file : files) file->release();
-  return std::move(_sha256s);
+  for (store::UploadRecord& record : _records) record.created = now;
+  return std::move(_records);
 }
 
 }  // namespace anticrack::rpc

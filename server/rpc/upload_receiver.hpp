@@ -33,10 +33,10 @@ class UploadReceiver {
   /// Throws errors::Error: invalid_argument, limit_exceeded, disk_full, storage.
   void accept(const v1::CreateUploadsRequest& request);
 
-  /// Keeps all files and returns their sha256s, in order, when each is all there and is what was
-  /// announced: a .msh begins with $MeshFormat, an array is finite values of 8 bytes.
+  /// Keeps all files and returns them, in order, when each is all there and is what was announced:
+  /// a .msh begins with $MeshFormat, an array is finite values of 8 bytes.
   /// Throws errors::Error: invalid_argument, mesh_invalid, disk_full, storage.
-  std::vector<std::string> complete();
+  std::vector<store::UploadRecord> complete();
 
  private:
   class File;
@@ -50,8 +50,8 @@ class UploadReceiver {
   const std::string _owner;
   const std::uint64_t _max_bytes;
   std::vector<std::unique_ptr<File>> _complete;
-  std::vector<std::string> _sha256s;  ///< of these
-  std::unique_ptr<File> _file;        ///< that is being received
+  std::vector<store::UploadRecord> _records;  ///< of these
+  std::unique_ptr<File> _file;                ///< that is being received
   store::Sha256 _hash;
   std::string _announced_sha256;
   std::uint64_t _announced_bytes = 0;

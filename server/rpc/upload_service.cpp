@@ -2,6 +2,7 @@
 #include "rpc/upload_service.hpp"
 
 #include "api/names.hpp"
+#include "errors/errors.hpp"
 #include "jobs/job_engine.hpp"
 #include "rpc/from_domain.hpp"
 #include "rpc/pages.hpp"
@@ -23,7 +24,11 @@ Unary* UploadService::GetUpload(Context* context, const v1::GetUploadRequest* re
                                 v1::Upload* response) {
   return look_up(_edge, context, *request, [this, request, response](const Identity& who) {
     const std::string sha256 = api::upload_sha256(request->name(), "name");
-    *response = told_upload(_edge.backend, sha256, who.name);
+    const auto record = _edge.backend.store.upload(sha256, who.name);
+    if (!record) {
+      throw errors::Error(errors::Reason::not_found, "there is no " + api::upload_name(sha256));
+    }
+    *response = from_domain(*record, _edge.backend.engine.options().upload_ttl);
   });
 }
 

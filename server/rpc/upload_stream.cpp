@@ -4,8 +4,9 @@
 #include <utility>
 
 #include "api/unknown_fields.hpp"
+#include "jobs/job_engine.hpp"
 #include "rpc/error_table.hpp"
-#include "rpc/visible.hpp"
+#include "rpc/from_domain.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -24,8 +25,7 @@ class RefusedUpload final : public grpc::ServerReadReactor<v1::CreateUploadsRequ
 
 UploadStream::UploadStream(Edge& edge, std::string owner, v1::CreateUploadsResponse* response)
     : _edge(edge),
-      _owner(std::move(owner)),
-      _receiver(edge.backend.store, _owner, edge.limits.upload_bytes),
+      _receiver(edge.backend.store, std::move(owner), edge.limits.upload_bytes),
       _response(response) {}
 
 void UploadStream::start(const std::string& client) {
@@ -59,9 +59,7 @@ void UploadStream::OnReadDone(bool ok) noexcept {
   }
 }
 
-void UploadStream::OnCancel() noexcept {
-  finish(grpc::Status::CANCELLED);
-}
+void UploadStream::OnCancel() noexcept { finish(grpc::Status::CANCELLED); }
 
 void UploadStream::OnDone() noexcept {
   _edge.hub.remove(*this);
@@ -84,9 +82,7 @@ void UploadStream::tick(SteadyClock::time_point now) noexcept {
                     "upload again over a faster connection"));
 }
 
-void UploadStream::end(const errors::Error& error) noexcept {
-  finish(to_status(error));
-}
+void UploadStream::end(const errors::Error& error) noexcept { finish(to_status(error)); }
 
 void UploadStream::take(bool ok) noexcept {
   {
@@ -99,8 +95,8 @@ void UploadStream::take(bool ok) noexcept {
       _receiver.accept(_request);
       read_next();
     } else {
-      for (const std::string& sha256 : _receiver.complete())
-        *_response->add_uploads() = told_upload(_edge.backend, sha256, _owner);
+      for (const store::UploadRecord& record : _receiver.complete())
+        *_response->add_uploads() = from_domain(record, _edge.backend.engine.options().upload_ttl);
       finish(grpc::Status::OK);
     }
   } catch (...) {

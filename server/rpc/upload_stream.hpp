@@ -47,7 +47,6 @@ class UploadStream final : public grpc::ServerReadReactor<v1::CreateUploadsReque
 
   Edge& _edge;
   std::string _client;
-  const std::string _owner;
   UploadReceiver _receiver;
   v1::CreateUploadsRequest _request;
   v1::CreateUploadsResponse* const _response;

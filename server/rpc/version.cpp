@@ -3,11 +3,7 @@
 
 namespace anticrack::rpc {
 
-const char* version() noexcept {
-  return ANTICRACK_VERSION;
-}
-const char* build() noexcept {
-  return ANTICRACK_BUILD;
-}
+const char* version() noexcept { return ANTICRACK_VERSION; }
+const char* build() noexcept { return ANTICRACK_BUILD; }
 
 }  // namespace anticrack::rpc

@@ -5,8 +5,6 @@
 #include "errors/errors.hpp"
 #include "jobs/job_engine.hpp"
 #include "meshes/mesh_catalogue.hpp"
-#include "rpc/from_domain.hpp"
-#include "store/store.hpp"
 
 namespace anticrack::rpc {
 namespace {
@@ -35,13 +33,6 @@ store::MeshRecord visible_mesh(const Backend& backend, const access::Identity& w
 store::JobRecord visible_job(const Backend& backend, const access::Identity& who,
                              const std::string& id) {
   return visible(who, api::job_name(id), [&] { return backend.engine.get(id); });
-}
-
-v1::Upload told_upload(const Backend& backend, const std::string& sha256,
-                       const std::string& owner) {
-  const auto record = backend.store.upload(sha256, owner);
-  if (!record) throw Error(Reason::not_found, "there is no " + api::upload_name(sha256));
-  return from_domain(*record, backend.engine.options().upload_ttl);
 }
 
 std::optional<std::string> owner_filter(const access::Identity& who, const std::string& owner) {

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "access/identity.hpp"
-#include "anticrack/v1/upload.pb.h"
 #include "rpc/backend.hpp"
 #include "store/records.hpp"
 
@@ -19,9 +18,6 @@ store::MeshRecord visible_mesh(const Backend& backend, const access::Identity& w
                                const std::string& id);
 store::JobRecord visible_job(const Backend& backend, const access::Identity& who,
                              const std::string& id);
-
-/// An upload of `owner` as it is told; nobody else sees it. Throws errors::Error (not_found).
-v1::Upload told_upload(const Backend& backend, const std::string& sha256, const std::string& owner);
 
 /// What Page::owner is to be: an administrator sees all, or what is of `owner` (empty: no filter).
 /// Throws errors::Error (permission_denied) where a user asks for what is another's.

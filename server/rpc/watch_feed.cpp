@@ -30,9 +30,7 @@ WatchFeed::~WatchFeed() {
   if (_member) _group->leave(*_member);
 }
 
-void WatchFeed::start(std::function<void()> wake) {
-  _member = _group->join(std::move(wake));
-}
+void WatchFeed::start(std::function<void()> wake) { _member = _group->join(std::move(wake)); }
 
 WatchFeed::Next WatchFeed::next(v1::WatchJobResponse& response) {
   if (_ended) return Next::end;
@@ -53,9 +51,7 @@ WatchFeed::Next WatchFeed::next(v1::WatchJobResponse& response) {
   return Next::message;
 }
 
-bool WatchFeed::ending() const noexcept {
-  return _group->log().complete();
-}
+bool WatchFeed::ending() const noexcept { return _group->log().complete(); }
 
 std::uint64_t WatchFeed::lag() const noexcept {
   const std::uint64_t latest = _group->log().latest();

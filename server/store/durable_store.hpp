@@ -56,7 +56,8 @@ class DurableStore final : public Store {
   std::optional<std::string> upload_path(const std::string& sha256,
                                          const std::string& owner) const override;
   std::string new_upload_path(std::uint64_t bytes) override;
-  void keep_uploads(const std::vector<Upload>& uploads, const std::string& owner) override;
+  Clock::time_point keep_uploads(const std::vector<Upload>& uploads,
+                                 const std::string& owner) override;
   std::optional<UploadRecord> upload(const std::string& sha256,
                                      const std::string& owner) const override;
   std::vector<UploadRecord> uploads(const std::string& owner, const std::string& after,

@@ -49,7 +49,8 @@ std::string DurableStore::new_upload_path(std::uint64_t bytes) {
   return path;
 }
 
-void DurableStore::keep_uploads(const std::vector<Upload>& uploads, const std::string& owner) {
+Clock::time_point DurableStore::keep_uploads(const std::vector<Upload>& uploads,
+                                             const std::string& owner) {
   std::vector<std::string> flushed;  // where the bytes are on the disk
   std::vector<std::string> to_flush;
   std::vector<bool> damaged;  // what has the name already
@@ -75,7 +76,7 @@ void DurableStore::keep_uploads(const std::vector<Upload>& uploads, const std::s
   }
   flush_all(to_flush);
   for (const std::string& path : to_flush) _parts.mark_flushed(path);
-  const std::int64_t now = to_disk(Clock::now());
+  const Clock::time_point now = Clock::now();
   // Links, so that the uploads are still there when this fails and is tried again.
   _writer.run([&](Connection& connection) {
     for (std::size_t i = 0; i < uploads.size(); ++i) {
@@ -93,13 +94,14 @@ void DurableStore::keep_uploads(const std::vector<Upload>& uploads, const std::s
               "VALUES (?1, ?2, ?3, crc32c(?1, ?2, ?3))")
           .bind(std::string_view(upload.sha256))
           .bind(std::string_view(owner))
-          .bind(now)
+          .bind(to_disk(now))
           .run();
   });
   for (const Upload& upload : uploads) {
     _parts.forget(upload.path);
     const Part done(upload.path);
   }
+  return now;
 }
 
 std::vector<UploadRecord> DurableStore::uploads_where(const std::string& condition,

@@ -153,8 +153,9 @@ class Store {
   /// A fresh file to receive an upload of `bytes`; `keep_uploads` moves it to its place.
   virtual std::string new_upload_path(std::uint64_t bytes) = 0;
   /// Keeps all of them, or none, each in place of the same file where that has changed on the disk.
-  /// They share the waits for the disk.
-  virtual void keep_uploads(const std::vector<Upload>& uploads, const std::string& owner) = 0;
+  /// They share the waits for the disk. Returns when they were made.
+  virtual Clock::time_point keep_uploads(const std::vector<Upload>& uploads,
+                                         const std::string& owner) = 0;
   /// An upload of `owner`; empty where there is none.
   virtual std::optional<UploadRecord> upload(const std::string& sha256,
                                              const std::string& owner) const = 0;

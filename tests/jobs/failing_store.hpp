@@ -81,8 +81,9 @@ class FailingStore final : public store::Store {
     return _real.upload_path(sha256, owner);
   }
   std::string new_upload_path(std::uint64_t bytes) override { return _real.new_upload_path(bytes); }
-  void keep_uploads(const std::vector<store::Upload>& uploads, const std::string& owner) override {
-    _real.keep_uploads(uploads, owner);
+  store::Clock::time_point keep_uploads(const std::vector<store::Upload>& uploads,
+                                        const std::string& owner) override {
+    return _real.keep_uploads(uploads, owner);
   }
   std::optional<store::UploadRecord> upload(const std::string& sha256,
                                             const std::string& owner) const override {

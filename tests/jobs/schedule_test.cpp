@@ -68,6 +68,21 @@ TEST_F(ScheduleTest, OwnersTakeTurnsHoweverManyMeshesEachHas) {
   EXPECT_EQ(served.size(), 20U);  // the greedy one's own meshes take turns as ever
 }
 
+TEST_F(ScheduleTest, OwnersTakeTurnsOnAMeshThatTheyShare) {
+  ready("a");
+  std::vector<std::uint64_t> greedy;
+  for (int i = 0; i < 3; ++i) greedy.push_back(add("a", Priority::normal, Lane::lumped, "greedy"));
+  now += 10min;  // they have grown old
+  const auto modest = add("a", Priority::normal, Lane::lumped, "modest");
+  EXPECT_EQ(next("a"), greedy[0]);
+  schedule.taken(greedy[0], now);
+  EXPECT_EQ(next("a"), modest);
+  EXPECT_EQ(next("a"), modest);  // until a load case of it is taken
+  schedule.taken(modest, now);
+  schedule.remove(greedy[0]);
+  EXPECT_EQ(next("a"), greedy[1]);
+}
+
 TEST_F(ScheduleTest, OwnersTakeTurnsInPreparation) {
   for (int i = 0; i < 5; ++i)
     add("greedy-" + std::to_string(i), Priority::normal, Lane::lumped, "greedy");

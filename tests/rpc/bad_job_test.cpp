@@ -26,17 +26,11 @@ struct BadJob {
   grpc::StatusCode code = grpc::StatusCode::INVALID_ARGUMENT;
 };
 
-v1::Uzawa& uzawa(v1::Job& job) {
-  return *job.mutable_solver()->mutable_uzawa();
-}
+v1::Uzawa& uzawa(v1::Job& job) { return *job.mutable_solver()->mutable_uzawa(); }
 
-v1::ActiveSet& active_set(v1::Job& job) {
-  return *job.mutable_solver()->mutable_active_set();
-}
+v1::ActiveSet& active_set(v1::Job& job) { return *job.mutable_solver()->mutable_active_set(); }
 
-v1::Force& force(v1::Job& job) {
-  return *job.mutable_load_cases(0)->mutable_force();
-}
+v1::Force& force(v1::Job& job) { return *job.mutable_load_cases(0)->mutable_force(); }
 
 const std::vector<BadJob>& bad_jobs() {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -115,9 +109,7 @@ const std::vector<BadJob>& bad_jobs() {
   return all;
 }
 
-void PrintTo(const BadJob& bad, std::ostream* out) {
-  *out << bad.name;
-}
+void PrintTo(const BadJob& bad, std::ostream* out) { *out << bad.name; }
 
 /// One server for all: each bad job is followed by a good one.
 class BadJobTest : public ::testing::TestWithParam<BadJob> {

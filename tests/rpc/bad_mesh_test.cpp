@@ -28,9 +28,7 @@ struct BadMesh {
   grpc::StatusCode code = grpc::StatusCode::INVALID_ARGUMENT;
 };
 
-v1::Geometry& geometry(v1::CreateMeshRequest& request) {
-  return *request.mutable_geometry();
-}
+v1::Geometry& geometry(v1::CreateMeshRequest& request) { return *request.mutable_geometry(); }
 
 void move(v1::Point& point, double x, double y) {
   point.set_x(x);
@@ -141,9 +139,7 @@ const std::vector<BadMesh>& bad_meshes() {
   return all;
 }
 
-void PrintTo(const BadMesh& bad, std::ostream* out) {
-  *out << bad.name;
-}
+void PrintTo(const BadMesh& bad, std::ostream* out) { *out << bad.name; }
 
 class BadMeshTest : public ::testing::TestWithParam<BadMesh> {
  protected:

@@ -81,6 +81,8 @@ TEST(JobToDomain, RefusesTimesAndPrioritiesThereAreNot) {
          Reason::invalid_argument, "job.queue_timeout");
   expect([](v1::Job& job) { job.mutable_run_timeout()->set_nanos(1'000'000'000); },
          Reason::invalid_argument, "job.run_timeout");
+  expect([](v1::Job& job) { job.mutable_queue_timeout(); }, Reason::invalid_argument,
+         "job.queue_timeout");
   expect([](v1::Job& job) { job.mutable_run_timeout()->set_nanos(-1); }, Reason::invalid_argument,
          "job.run_timeout");
   expect([](v1::Job& job) { job.mutable_queue_timeout()->set_seconds(61); }, Reason::limit_exceeded,

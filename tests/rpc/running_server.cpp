@@ -11,9 +11,7 @@
 #include "store/digest.hpp"
 
 namespace anticrack::testing {
-Context::Context() {
-  set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(2));
-}
+Context::Context() { set_deadline(std::chrono::system_clock::now() + std::chrono::minutes(2)); }
 
 Context::Context(const std::string& token) : Context() {
   if (!token.empty()) AddMetadata("authorization", "Bearer " + token);
@@ -28,9 +26,7 @@ RunningServer::RunningServer(const std::function<void(Settings&)>& adjust) {
   start();
 }
 
-RunningServer::~RunningServer() {
-  stop();
-}
+RunningServer::~RunningServer() { stop(); }
 
 void RunningServer::restart() {
   stop();

@@ -55,9 +55,7 @@ class Recorded final : public Stream {
   int _ticks = 0;
 };
 
-StreamLimits hub_limits() {
-  return {2, 1, 3, 20ms, 1000ms};
-}
+StreamLimits hub_limits() { return {2, 1, 3, 20ms, 1000ms}; }
 
 TEST(StreamHub, WakesAndTicksOnItsOwnThread) {
   StreamHub hub(hub_limits());

@@ -25,9 +25,7 @@ using ::testing::ElementsAre;
 constexpr JobLimits sweep_limits{10, 1'000};
 const std::string sha256(64, 'c');
 
-v1::Job good_sweep() {
-  return sweep_job("meshes/a", {1, 2, 3}).job();
-}
+v1::Job good_sweep() { return sweep_job("meshes/a", {1, 2, 3}).job(); }
 
 TEST(SweepToDomain, NamesAPackedMatrixByItsHash) {
   v1::Job job = good_sweep();
@@ -93,9 +91,7 @@ struct BadSweepMessage {
   const char* field;
 };
 
-v1::Sweep::Matrix& matrix_of(v1::Job& job) {
-  return *job.mutable_sweep()->mutable_coefficients();
-}
+v1::Sweep::Matrix& matrix_of(v1::Job& job) { return *job.mutable_sweep()->mutable_coefficients(); }
 
 v1::Sweep::Matrix& nodal_forces(v1::Job& job) {
   job.clear_load_cases();

@@ -68,7 +68,7 @@ TEST_F(UploadReceiverTest, KeepsWhatWasSent) {
   receiver.accept(header_of(content));
   receiver.accept(chunk_of(content.substr(0, 20)));
   receiver.accept(chunk_of(content.substr(20)));
-  const std::string sha256 = receiver.complete().front();
+  const std::string sha256 = receiver.complete().front().id;
   EXPECT_EQ(sha256, store::Sha256().add(content).finish());
   const auto path = _store->upload_path(sha256, "ada");
   ASSERT_TRUE(path);
@@ -136,7 +136,7 @@ TEST_F(UploadReceiverTest, KeepsArrays) {
   receiver.accept(array_header_of(content));
   receiver.accept(chunk_of(content.substr(0, 5)));
   receiver.accept(chunk_of(content.substr(5)));
-  EXPECT_TRUE(_store->upload_path(receiver.complete().front(), "ada"));
+  EXPECT_TRUE(_store->upload_path(receiver.complete().front().id, "ada"));
 }
 
 TEST_F(UploadReceiverTest, TakesNothingElseForAnArray) {
@@ -173,7 +173,17 @@ TEST_F(UploadReceiverTest, KeepsFilesOfOneStreamInTheirOrder) {
     receiver.accept(chunk_of(content));
     expected.push_back(store::Sha256().add(content).finish());
   }
-  EXPECT_EQ(receiver.complete(), expected);
+  std::vector<std::string> kept;
+  for (const store::UploadRecord& record : receiver.complete()) {
+    kept.push_back(record.id);
+    EXPECT_EQ(record.array, record.bytes != small_msh().size());
+    const auto stored = _store->upload(record.id, "ada");
+    ASSERT_TRUE(stored);
+    EXPECT_EQ(record.bytes, stored->bytes);
+    EXPECT_EQ(record.array, stored->array);
+    EXPECT_EQ(record.created, stored->created);
+  }
+  EXPECT_EQ(kept, expected);
   for (const std::string& sha256 : expected) EXPECT_TRUE(_store->upload_path(sha256, "ada"));
   EXPECT_EQ(files(), 3u) << "equal files are one";
 }

@@ -24,9 +24,7 @@ struct BadCase {
   int code = 2;                        ///< any_error: seen now or once the mesh is known
 };
 
-void PrintTo(const BadCase& bad, std::ostream* out) {
-  *out << bad.name;
-}
+void PrintTo(const BadCase& bad, std::ostream* out) { *out << bad.name; }
 
 class BadInput : public ::testing::TestWithParam<BadCase> {};
 

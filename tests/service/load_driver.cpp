@@ -36,6 +36,8 @@ struct Options {
   unsigned seed = 1;
   std::uint64_t memory = 2'048;  ///< MiB the server may come to hold
   int greedy = 0;                ///< clients of each greedy owner; 0: no owners
+  std::string owner;             ///< in a process of greedy clients: theirs
+  std::string address;           ///< and the server's
 };
 
 struct Run {
@@ -61,9 +63,8 @@ struct Run {
     const std::lock_guard lock(mutex);
     complaints.push_back(text);
   }
-  /// Stops the server and prints the complaints; the exit code.
-  int report(Daemon& daemon) {
-    if (daemon.stop() != 0) complain("anticrackd did not stop well");
+  /// Prints the complaints; the exit code.
+  int report() {
     for (const std::string& complaint : complaints)
       std::fprintf(stderr, "anticrack-load: %s\n", complaint.c_str());
     return complaints.empty() ? 0 : 1;
@@ -160,46 +161,70 @@ void be_modest(Run& run, const client::ConnectionOptions& chosen, int seconds, c
   tell(what, times);
 }
 
+Work small_work() { return work("paper-3.toml", {"mesh.preset=uniform", "mesh.size=0.1"}); }
+
+client::ConnectionOptions as(const std::string& owner, const std::string& address, Run& run) {
+  client::ConnectionOptions chosen;
+  chosen.address = address;
+  chosen.first_contact = std::chrono::seconds(30);
+  chosen.credentials.token = "token of " + owner;
+  chosen.notice = [&run](const std::string&) { ++run.waits; };
+  return chosen;
+}
+
+/// A process of its own: the clients of one greedy owner.
+int be_greedy(const Options& options) {
+  Run run;
+  run.works = {small_work()};
+  std::vector<std::unique_ptr<client::Connection>> connections;
+  std::vector<std::thread> clients;
+  for (int i = 0; i < options.greedy; ++i) {
+    connections.push_back(
+        std::make_unique<client::Connection>(as(options.owner, options.address, run)));
+    clients.emplace_back(be_a_client, std::ref(run), std::ref(*connections.back()),
+                         options.seed + static_cast<unsigned>(i));
+  }
+  std::this_thread::sleep_for(std::chrono::seconds(options.seconds));
+  run.done = true;
+  for (std::thread& thread : clients) thread.join();
+  std::printf("%s: %llu jobs, %llu times turned away\n", options.owner.c_str(),
+              static_cast<unsigned long long>(run.jobs.load()),
+              static_cast<unsigned long long>(run.waits.load()));
+  if (run.jobs == 0) run.complain("no job of " + options.owner + " ended");
+  return run.report();
+}
+
 int drive_owners(const Options& options) {
   Run run;
-  run.works = {work("paper-3.toml", {"mesh.preset=uniform", "mesh.size=0.1"})};
+  run.works = {small_work()};
   const anticrack::testing::TemporaryFolder folder;
   const std::string file = folder / "tokens";
+  const std::vector<std::string> greedy{"greedy", "another"};
   std::ofstream tokens(file);
-  const std::vector<std::string> names{"modest", "greedy", "another"};
-  for (const std::string& name : names)
+  for (const std::string& name : {std::string("modest"), greedy[0], greedy[1]})
     tokens << name << " user " << store::Sha256().add("token of " + name).finish() << '\n';
   tokens.close();
   std::filesystem::permissions(file, std::filesystem::perms::owner_read);
   Daemon daemon({"--log-level", "error", "--queued-jobs", std::to_string(options.greedy),
                  "--kept-jobs", "200", "--tokens", file});
-  const auto as = [&](const std::string& name) {
-    client::ConnectionOptions chosen = daemon.connection();
-    chosen.credentials.token = "token of " + name;
-    chosen.notice = [&run](const std::string&) { ++run.waits; };
-    return chosen;
-  };
-  be_modest(run, as("modest"), options.seconds / 2, "modest, alone");
-  std::vector<std::unique_ptr<client::Connection>> connections;
-  std::vector<std::thread> clients;
-  for (int i = 0; i < 2 * options.greedy; ++i) {
-    connections.push_back(
-        std::make_unique<client::Connection>(as(names[1 + static_cast<std::size_t>(i % 2)])));
-    clients.emplace_back(be_a_client, std::ref(run), std::ref(*connections.back()),
-                         options.seed + static_cast<unsigned>(i));
+  const client::ConnectionOptions modest = as("modest", daemon.address(), run);
+  be_modest(run, modest, options.seconds / 2, "modest, alone");
+  // Clients run elsewhere: these leave the processors to the server and to the modest one.
+  std::vector<std::unique_ptr<anticrack::testing::Process>> others;
+  for (const std::string& owner : greedy) {
+    others.push_back(std::make_unique<anticrack::testing::Process>(std::vector<std::string>{
+        "/usr/bin/nice", "-n", "19", std::filesystem::read_symlink("/proc/self/exe"), "--owner",
+        owner, "--address", daemon.address(), "--greedy", std::to_string(options.greedy),
+        "--seconds", std::to_string(options.seconds / 2 + 2)}));
   }
-  try {
-    be_modest(run, as("modest"), options.seconds / 2, "modest, beside two greedy owners");
-  } catch (const std::exception& error) {
-    run.complain(std::string("the modest client failed: ") + error.what());
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  be_modest(run, modest, options.seconds / 2, "modest, beside two greedy owners");
+  for (const auto& other : others) {
+    if (other->wait() != 0) run.complain("greedy clients: " + other->error());
+    std::printf("%s", other->output().c_str());
   }
-  run.done = true;
-  for (std::thread& thread : clients) thread.join();
-  std::printf("%llu jobs of the greedy owners, %llu times turned away\n",
-              static_cast<unsigned long long>(run.jobs.load()),
-              static_cast<unsigned long long>(run.waits.load()));
-  if (run.jobs == 0) run.complain("no job of a greedy owner ended");
-  return run.report(daemon);
+  if (daemon.stop() != 0) run.complain("anticrackd did not stop well");
+  return run.report();
 }
 
 int drive(const Options& options) {
@@ -247,7 +272,8 @@ int drive(const Options& options) {
   if (metrics.jobs_queued() + metrics.jobs_running() != 0) {
     run.complain("some job has not ended");
   }
-  return run.report(daemon);
+  if (daemon.stop() != 0) run.complain("anticrackd did not stop well");
+  return run.report();
 }
 
 }  // namespace
@@ -266,8 +292,11 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--greedy", options.greedy, "Clients of each of two greedy owners; 0: no owners")
       ->capture_default_str();
+  app.add_option("--owner", options.owner, "Be the clients of this greedy owner");
+  app.add_option("--address", options.address, "Of their server");
   CLI11_PARSE(app, argc, argv);
   try {
+    if (!options.owner.empty()) return anticrack::service_test::be_greedy(options);
     return options.greedy > 0 ? anticrack::service_test::drive_owners(options)
                               : anticrack::service_test::drive(options);
   } catch (const std::exception& error) {

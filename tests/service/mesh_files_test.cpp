@@ -57,9 +57,7 @@ struct Sample {
   std::vector<std::string> warnings;  ///< each is a part of what is said, in order
 };
 
-void PrintTo(const Sample& sample, std::ostream* out) {
-  *out << sample.name;
-}
+void PrintTo(const Sample& sample, std::ostream* out) { *out << sample.name; }
 
 class MeshFiles : public ::testing::TestWithParam<Sample> {
  protected:

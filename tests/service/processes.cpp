@@ -23,9 +23,7 @@ Message from_json(const Ended& ended) {
   return message;
 }
 
-bool is_ended(v1::Job::State state) {
-  return state >= v1::Job::STATE_SUCCEEDED;
-}
+bool is_ended(v1::Job::State state) { return state >= v1::Job::STATE_SUCCEEDED; }
 
 }  // namespace
 
@@ -99,9 +97,7 @@ std::string Server::running_job() const {
   throw std::runtime_error("no job was running within a minute");
 }
 
-std::string example(const std::string& name) {
-  return std::string(EXAMPLES) + "/" + name;
-}
+std::string example(const std::string& name) { return std::string(EXAMPLES) + "/" + name; }
 
 std::vector<std::string> endless() {
   return {"--set", "solver.theta=1e-7",    "--set", "solver.max_iterations=1000000",

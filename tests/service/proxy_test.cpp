@@ -32,9 +32,7 @@ std::string haproxy_configuration(const std::string& mode, const std::string& pr
          front + protocol + "\n  server one unix@" + back + protocol + "\n";
 }
 
-std::vector<std::string> haproxy_arguments(const std::string& file) {
-  return {"-db", "-f", file};
-}
+std::vector<std::string> haproxy_arguments(const std::string& file) { return {"-db", "-f", file}; }
 
 const std::vector<Proxy> proxies{
     {"HaproxyPassingThrough", haproxy, haproxy_arguments,
