@@ -104,9 +104,7 @@ Section::Section(const toml::table& table, std::string path, std::vector<std::st
   }
 }
 
-std::string Section::path_of(std::string_view key) const {
-  return join(_path, key);
-}
+std::string Section::path_of(std::string_view key) const { return join(_path, key); }
 
 Spot Section::spot_of(std::string_view key) const {
   const toml::node* node = find(key);

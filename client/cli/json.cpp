@@ -118,9 +118,7 @@ JsonWriter& JsonWriter::value(std::string_view key, std::int64_t number) {
   return *this;
 }
 
-JsonWriter& JsonWriter::element(std::string_view text) {
-  return value({}, text);
-}
+JsonWriter& JsonWriter::element(std::string_view text) { return value({}, text); }
 
 JsonWriter& JsonWriter::texts(std::string_view key, const std::vector<std::string>& texts) {
   begin_array(key);

@@ -10,9 +10,7 @@
 
 namespace anticrack::cli {
 
-std::FILE* people(const Globals& globals) {
-  return globals.json ? stderr : stdout;
-}
+std::FILE* people(const Globals& globals) { return globals.json ? stderr : stdout; }
 
 bool shows_frames(const Globals& globals) {
   return !globals.quiet && takes_frames(people(globals));
@@ -50,9 +48,7 @@ Session::Session(const Globals& globals) : _globals(globals) {
   }
 }
 
-std::string Session::server_option() const {
-  return as_flags(_globals.connection);
-}
+std::string Session::server_option() const { return as_flags(_globals.connection); }
 
 void Session::notice(const std::string& message) {
   const std::lock_guard lock(_mutex);

@@ -30,9 +30,7 @@ results::Kkt relative(const v1::KktResiduals& kkt) {
 }
 
 // In the API 0 means none.
-double positive_or_unknown(double value) {
-  return value > 0 ? value : results::unknown;
-}
+double positive_or_unknown(double value) { return value > 0 ? value : results::unknown; }
 
 void set_solver(const v1::Solver& solver, results::Load& load) {
   // Defaults as the API documents them.

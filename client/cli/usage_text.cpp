@@ -48,9 +48,7 @@ Words options_of(const CLI::App* app) {
   return names;
 }
 
-std::string see(const CLI::App& app) {
-  return "; see " + path_of(app) + " --help";
-}
+std::string see(const CLI::App& app) { return "; see " + path_of(app) + " --help"; }
 
 // "run, mesh create": the commands below `app` that take an option.
 std::string takers_below(const CLI::App& app, const std::string& name, const std::string& path) {
@@ -134,9 +132,7 @@ class Walk {
   std::size_t _arguments = 0;
 };
 
-std::string before_colon(const std::string& text) {
-  return text.substr(0, text.find(':'));
-}
+std::string before_colon(const std::string& text) { return text.substr(0, text.find(':')); }
 
 // CLI11's own words, made to say what to do.
 std::string of_error(const CLI::ParseError& error) {

@@ -55,9 +55,7 @@ void Range::include(double value) noexcept {
   high = std::max(high, value);
 }
 
-Range empty_range() noexcept {
-  return {HUGE_VAL, -HUGE_VAL};
-}
+Range empty_range() noexcept { return {HUGE_VAL, -HUGE_VAL}; }
 
 double label_step(const Range& range, int most) {
   const double least = range.size() / most;

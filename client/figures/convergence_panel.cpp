@@ -31,13 +31,9 @@ std::vector<Series> series_of(const Load& load) {
       {&history.kkt.complementarity, "complementarity", "linecolor " + black + " dashtype (2,3)"}};
 }
 
-bool drawable(double value) {
-  return value > 0 && std::isfinite(value);
-}
+bool drawable(double value) { return value > 0 && std::isfinite(value); }
 
-bool has_epsilon(const Load& load) {
-  return drawable(load.epsilon);
-}
+bool has_epsilon(const Load& load) { return drawable(load.epsilon); }
 
 /// The power of ten below all that is drawn.
 double foot(const Load& load) {

@@ -27,9 +27,7 @@ struct FileKind {
 constexpr std::array<FileKind, 3> kinds{
     {{".png", "\x89PNG\r"}, {".svg", "<?xml"}, {".pdf", "%PDF-"}}};
 
-const FileKind& kind_of(Format format) {
-  return kinds.at(static_cast<std::size_t>(format));
-}
+const FileKind& kind_of(Format format) { return kinds.at(static_cast<std::size_t>(format)); }
 
 /// gnuplot leaves an empty file if it lacks the terminal.
 bool has_signature(const fs::path& path, Format format) {

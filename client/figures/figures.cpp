@@ -41,9 +41,7 @@ void draw_kept_rows(const Result& result, Drawing& drawing) {
   }
 }
 
-bool has_convergence(const Load& load) {
-  return load.history.size() > 1;
-}
+bool has_convergence(const Load& load) { return load.history.size() > 1; }
 
 void draw_load(const Result& result, const Load& load, const std::string& stem, Drawing& drawing) {
   if (load.traces.empty()) {

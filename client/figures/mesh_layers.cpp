@@ -21,9 +21,7 @@ Spot spot_of(const Mesh& mesh, std::int32_t node) {
   return {mesh.xy[i], mesh.xy[i + 1]};
 }
 
-double distance(const Spot& a, const Spot& b) {
-  return std::hypot(b.x - a.x, b.y - a.y);
-}
+double distance(const Spot& a, const Spot& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
 template <class Spots>
 Window box_of(const Spots& spots) {

@@ -39,9 +39,7 @@ const Style neumann{"neumann", "lines linewidth 2.5 linecolor " + green + " dash
 const Style tips{"tips", "points pointtype 6 pointsize 0.5 linewidth 1 linecolor rgb '#000000'",
                  "tip"};
 
-std::string at(const Spot& spot) {
-  return number(spot.x) + " " + number(spot.y) + "\n";
-}
+std::string at(const Spot& spot) { return number(spot.x) + " " + number(spot.y) + "\n"; }
 
 std::string mesh_block(const std::string& name, const std::string& content) {
   return "$" + name + " << EOD\n" + content + "EOD\n";

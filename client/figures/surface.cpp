@@ -142,13 +142,9 @@ std::vector<Corners> coarsen(const Mesh& mesh, const Cut& cut, const Surface& bo
 
 }  // namespace
 
-double Surface::largest() const noexcept {
-  return std::max(-lowest, highest);
-}
+double Surface::largest() const noexcept { return std::max(-lowest, highest); }
 
-double Surface::width() const noexcept {
-  return std::max(x_max - x_min, y_max - y_min);
-}
+double Surface::width() const noexcept { return std::max(x_max - x_min, y_max - y_min); }
 
 Surface surface(const Result& result, const Load& load, std::size_t limit) {
   const Mesh& mesh = result.mesh;

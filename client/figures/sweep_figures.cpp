@@ -98,9 +98,7 @@ Range with_room(Range heights) {
   return {heights.low - room, heights.high + room};
 }
 
-std::string axis_label(const SweepAxis& axis) {
-  return figures::quoted(axis.label);
-}
+std::string axis_label(const SweepAxis& axis) { return figures::quoted(axis.label); }
 
 std::string panel(const SweepAxis& axis, const std::string& label, const Range& heights,
                   const Scale& scale, const std::string& plots, const Place& place) {

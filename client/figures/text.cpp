@@ -101,9 +101,7 @@ std::string shortened(std::string_view text, std::size_t limit) {
   return std::string(text.substr(0, end)) + "\xE2\x80\xA6";
 }
 
-std::string power_of_ten(int exponent) {
-  return "10" + superscript(exponent);
-}
+std::string power_of_ten(int exponent) { return "10" + superscript(exponent); }
 
 std::vector<std::string> wrapped(std::string_view text, std::size_t width, std::size_t most) {
   std::vector<std::string> lines;
@@ -125,9 +123,7 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width, std::
   return lines;
 }
 
-std::string number(double value, int digits) {
-  return printed(value, digits);
-}
+std::string number(double value, int digits) { return printed(value, digits); }
 
 std::string readable(double value, int digits) {
   const std::string plain = printed(value, digits);

@@ -59,9 +59,7 @@ Command tree_of(const CLI::App& app, const std::string& path) {
 
 }  // namespace
 
-Command command_tree(const CLI::App& app) {
-  return tree_of(app, "");
-}
+Command command_tree(const CLI::App& app) { return tree_of(app, ""); }
 
 std::vector<const Command*> with_all_below(const Command& command) {
   std::vector<const Command*> result{&command};

@@ -142,9 +142,7 @@ Connection::Connection(ConnectionOptions options)
 
 Connection::~Connection() = default;
 
-const std::string& Connection::address() const noexcept {
-  return _state->options.address;
-}
+const std::string& Connection::address() const noexcept { return _state->options.address; }
 
 void authorise(const Connection::State& state, grpc::ClientContext& context) {
   // Not as call credentials: gRPC sends those over TLS only, but localhost and unix sockets need

@@ -31,9 +31,7 @@ std::uint64_t byte_count(const std::string& subject, const ArrayView& array) {
   return bytes;
 }
 
-void Block::fail(const std::string& cause) const {
-  throw Error(_subject, cause, compare_versions);
-}
+void Block::fail(const std::string& cause) const { throw Error(_subject, cause, compare_versions); }
 
 Edges edges_of(const Block& block, std::size_t interface) {
   Edges edges;

@@ -131,9 +131,7 @@ Quiet::Quiet() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-Quiet::~Quiet() {
-  H5Eset_auto2(H5E_DEFAULT, _function, _data);
-}
+Quiet::~Quiet() { H5Eset_auto2(H5E_DEFAULT, _function, _data); }
 
 Handle without_times(hid_t property_class) {
   const std::string what = "HDF5 has no creation properties";

@@ -100,9 +100,7 @@ SweepSummary summary(const Sweep& sweep) {
   return result;
 }
 
-std::string row_name(std::int64_t row) {
-  return "row-" + std::to_string(row);
-}
+std::string row_name(std::int64_t row) { return "row-" + std::to_string(row); }
 
 std::string first_fault(const Sweep& sweep, const std::vector<std::size_t>& interface_nodes) {
   const std::string fault = length_fault(sweep);

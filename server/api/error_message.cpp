@@ -78,9 +78,7 @@ v1::Status to_message(const Error& error, const Budget& budget) {
   return status;
 }
 
-void Translation<Error>::write(const Error& value, v1::Status& to) {
-  to = to_message(value);
-}
+void Translation<Error>::write(const Error& value, v1::Status& to) { to = to_message(value); }
 
 Error Translation<Error>::read(const v1::Status& from) {
   const auto info = unpacked<v1::ErrorInfo>(from);

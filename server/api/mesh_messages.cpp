@@ -32,9 +32,7 @@ void Translation<mesh::Point>::write(const mesh::Point& value, v1::Point& to) {
   to.set_y(value[1]);
 }
 
-mesh::Point Translation<mesh::Point>::read(const v1::Point& from) {
-  return {from.x(), from.y()};
-}
+mesh::Point Translation<mesh::Point>::read(const v1::Point& from) { return {from.x(), from.y()}; }
 
 void Translation<std::vector<mesh::Point>>::write(const std::vector<mesh::Point>& value,
                                                   v1::Polyline& to) {

@@ -29,15 +29,9 @@ std::string id_below(std::string_view collection, const std::string& name, std::
 
 }  // namespace
 
-std::string mesh_name(const std::string& id) {
-  return "meshes/" + id;
-}
-std::string job_name(const std::string& id) {
-  return "jobs/" + id;
-}
-std::string upload_name(const std::string& sha256) {
-  return "uploads/" + sha256;
-}
+std::string mesh_name(const std::string& id) { return "meshes/" + id; }
+std::string job_name(const std::string& id) { return "jobs/" + id; }
+std::string upload_name(const std::string& sha256) { return "uploads/" + sha256; }
 
 std::string mesh_id(const std::string& name, std::string_view field) {
   return id_below("meshes", name, field);

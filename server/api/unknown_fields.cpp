@@ -65,8 +65,6 @@ void visit(const Message& message, const std::string& path) {
 
 }  // namespace
 
-void require_known(const Message& request) {
-  visit(request, "");
-}
+void require_known(const Message& request) { visit(request, ""); }
 
 }  // namespace anticrack::api

@@ -29,9 +29,7 @@ Bio over(const std::string& text) {
 }
 
 /// Keeps OpenSSL from asking on the terminal.
-int no_passphrase(char* /*buffer*/, int /*size*/, int /*writing*/, void* /*data*/) {
-  return -1;
-}
+int no_passphrase(char* /*buffer*/, int /*size*/, int /*writing*/, void* /*data*/) { return -1; }
 
 Certificate first_certificate(const std::string& setting, const std::string& pem) {
   Certificate certificate(PEM_read_bio_X509(over(pem).get(), nullptr, no_passphrase, nullptr));
@@ -59,8 +57,6 @@ int check_certificate(const std::string& certificate, const std::string& key) {
   return seconds < 0 && days == 0 ? -1 : days;
 }
 
-void check_roots(const std::string& roots) {
-  first_certificate("tls-client-roots", roots);
-}
+void check_roots(const std::string& roots) { first_certificate("tls-client-roots", roots); }
 
 }  // namespace anticrack::app

@@ -62,9 +62,7 @@ void check_together(const Config& config) {
 
 }  // namespace
 
-bool has_tls(const Config& config) {
-  return !config.tls_certificate.empty();
-}
+bool has_tls(const Config& config) { return !config.tls_certificate.empty(); }
 
 Config make_config(const std::vector<Setting>& file, const std::vector<Setting>& command_line) {
   Config config;

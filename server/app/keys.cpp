@@ -56,9 +56,7 @@ Key key(const char* name, KeyType type, const char* placeholder, const char* hel
           [field, show](const Config& config) { return show(part<Part>(config).*field); }};
 }
 
-std::string same(const std::string& text) {
-  return text;
-}
+std::string same(const std::string& text) { return text; }
 
 /// An empty text means that the key is not given; the help says what follows.
 template <class Part>

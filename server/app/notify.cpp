@@ -16,9 +16,7 @@ void notify_stopping(const std::string& status) {
   sd_notify(0, ("STOPPING=1\nSTATUS=" + status).c_str());
 }
 
-void notify_alive() {
-  sd_notify(0, "WATCHDOG=1");
-}
+void notify_alive() { sd_notify(0, "WATCHDOG=1"); }
 
 std::optional<std::chrono::milliseconds> watchdog_interval() {
   std::uint64_t microseconds = 0;

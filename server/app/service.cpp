@@ -108,9 +108,7 @@ Service::~Service() {
   if (!_parts->address.socket_path.empty()) ::unlink(_parts->address.socket_path.c_str());
 }
 
-const std::string& Service::address() const noexcept {
-  return _parts->server->address();
-}
+const std::string& Service::address() const noexcept { return _parts->server->address(); }
 
 void Service::check_alive() const noexcept {
   try {

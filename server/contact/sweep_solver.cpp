@@ -14,9 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-std::size_t bytes_of(const MatrixXd& matrix) {
-  return sizeof(double) * at(matrix.size());
-}
+std::size_t bytes_of(const MatrixXd& matrix) { return sizeof(double) * at(matrix.size()); }
 
 }  // namespace
 

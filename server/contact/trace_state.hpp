@@ -34,9 +34,7 @@ double energy(std::span<const ddm::CondensedLoad> loads, const TraceState& state
 using ConstVectorRef = Eigen::Ref<const Eigen::VectorXd>;
 
 /// value / scale, 0 where the value is 0, whatever the scale.
-inline double ratio(double value, double scale) {
-  return value == 0 ? 0 : value / scale;
-}
+inline double ratio(double value, double scale) { return value == 0 ? 0 : value / scale; }
 
 /// max |v_i|, 0 without entries.
 double largest(const ConstVectorRef& values);

@@ -45,9 +45,7 @@ MatrixXd inner(std::span<const CondensedLoad* const> loads) {
   return result;
 }
 
-MatrixXd symmetric(const MatrixXd& matrix) {
-  return (matrix + matrix.transpose()) / 2;
-}
+MatrixXd symmetric(const MatrixXd& matrix) { return (matrix + matrix.transpose()) / 2; }
 
 }  // namespace
 

@@ -9,9 +9,7 @@
 namespace anticrack::ddm {
 namespace {
 
-Eigen::Index index(std::size_t i) {
-  return static_cast<Eigen::Index>(i);
-}
+Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 std::size_t bytes_of(const Eigen::SparseMatrix<double>& matrix) {
   return at(matrix.nonZeros()) * (sizeof(double) + sizeof(int)) +

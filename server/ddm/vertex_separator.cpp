@@ -12,18 +12,10 @@ namespace {
 constexpr std::int32_t none = -1;    // no path through this vertex
 constexpr std::int32_t a_side = -2;  // the path begins or ends here
 
-constexpr std::int32_t entered(std::int32_t vertex) {
-  return 2 * vertex;
-}
-constexpr std::int32_t left(std::int32_t vertex) {
-  return 2 * vertex + 1;
-}
-constexpr std::int32_t vertex_of(std::int32_t state) {
-  return state / 2;
-}
-constexpr bool is_left(std::int32_t state) {
-  return state % 2 == 1;
-}
+constexpr std::int32_t entered(std::int32_t vertex) { return 2 * vertex; }
+constexpr std::int32_t left(std::int32_t vertex) { return 2 * vertex + 1; }
+constexpr std::int32_t vertex_of(std::int32_t state) { return state / 2; }
+constexpr bool is_left(std::int32_t state) { return state % 2 == 1; }
 
 }  // namespace
 

@@ -15,13 +15,9 @@ constexpr int greatest_power = 16, greatest_degree = 20;
 
 }  // namespace
 
-Ref Tape::constant(double value) {
-  return push(Code::constant, -1, -1, -1, value);
-}
+Ref Tape::constant(double value) { return push(Code::constant, -1, -1, -1, value); }
 
-bool Tape::constant_operand(Ref a) const {
-  return a < 0 || (*this)[a].code == Code::constant;
-}
+bool Tape::constant_operand(Ref a) const { return a < 0 || (*this)[a].code == Code::constant; }
 
 Ref Tape::apply(Code code, Ref a, Ref b, Ref c) {
   const auto value = [this](Ref of) { return (*this)[of].value; };

@@ -552,17 +552,11 @@ Cutter::Cutter(Integration& integration, std::stop_token stop)
     : _work(std::make_unique<Work>(integration, std::move(stop))) {}
 Cutter::~Cutter() = default;
 
-bool Cutter::needed() const noexcept {
-  return _work->needed();
-}
+bool Cutter::needed() const noexcept { return _work->needed(); }
 
-double Cutter::cost() const noexcept {
-  return _work->cost();
-}
+double Cutter::cost() const noexcept { return _work->cost(); }
 
-void Cutter::find(const Frames& frames, std::array<bool, width>& cut) {
-  _work->find(frames, cut);
-}
+void Cutter::find(const Frames& frames, std::array<bool, width>& cut) { _work->find(frames, cut); }
 
 std::vector<Cell> Cutter::cut(const std::vector<std::int32_t>& triangles) {
   return _work->cut(triangles);

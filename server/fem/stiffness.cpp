@@ -12,9 +12,7 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 struct Entry {
   double value;

@@ -14,9 +14,7 @@ constexpr double largest_turn = std::numbers::pi / 18;
 constexpr int samples_a_span = 32;
 constexpr int samples_half_an_arc = 128;
 
-double dot(const Point& a, const Point& b) {
-  return a[0] * b[0] + a[1] * b[1];
-}
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1]; }
 
 /// Angle from one direction to another, without its sign.
 double turn(const Point& a, const Point& b) {

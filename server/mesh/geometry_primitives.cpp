@@ -128,9 +128,7 @@ std::string show(double value) {
   return {digits.data(), end.ptr};
 }
 
-std::string show(const Point& p) {
-  return "(" + show(p[0]) + ", " + show(p[1]) + ")";
-}
+std::string show(const Point& p) { return "(" + show(p[0]) + ", " + show(p[1]) + ")"; }
 
 std::string indexed(const std::string& name, std::size_t i) {
   return name + "[" + std::to_string(i) + "]";

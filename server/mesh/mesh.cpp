@@ -17,9 +17,7 @@ namespace {
 
 using EdgeKey = std::pair<std::int32_t, std::int32_t>;
 
-EdgeKey key(std::int32_t a, std::int32_t b) noexcept {
-  return {std::min(a, b), std::max(a, b)};
-}
+EdgeKey key(std::int32_t a, std::int32_t b) noexcept { return {std::min(a, b), std::max(a, b)}; }
 
 template <class... Parts>
 [[noreturn]] void fail(const Parts&... parts) {

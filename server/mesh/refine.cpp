@@ -28,9 +28,7 @@ template <class... Parts>
   throw errors::Error(errors::Reason::invalid_argument, text.str()).at(field);
 }
 
-double squared(const Point& p) noexcept {
-  return p[0] * p[0] + p[1] * p[1];
-}
+double squared(const Point& p) noexcept { return p[0] * p[0] + p[1] * p[1]; }
 
 /// Squared distance of the origin from the segment from p to q.
 double squared_distance(const Point& p, const Point& q) noexcept {

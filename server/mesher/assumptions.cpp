@@ -20,9 +20,7 @@ constexpr std::array words{
     "inside one subdomain: taken for a line the mesh follows, no interface",
     "on no edge of a triangle: left out"};
 
-const char* words_of(Assumed assumed) {
-  return words.at(static_cast<std::size_t>(assumed));
-}
+const char* words_of(Assumed assumed) { return words.at(static_cast<std::size_t>(assumed)); }
 
 /// `name`: how to name the edges; `tag`: their key in the groups of the mesh options.
 std::string cure(Assumed assumed, const std::string& name, const std::string& tag) {

@@ -73,9 +73,7 @@ void Descriptor::reset() noexcept {
   _value = -1;
 }
 
-int Descriptor::release() noexcept {
-  return std::exchange(_value, -1);
-}
+int Descriptor::release() noexcept { return std::exchange(_value, -1); }
 
 Child::Child(const std::string& executable, const std::vector<std::string>& arguments,
              Descriptor file) {
@@ -138,9 +136,7 @@ std::size_t Child::send(std::span<const std::byte> bytes) {
   return n > 0 ? static_cast<std::size_t>(n) : 0;
 }
 
-void Child::end_input() noexcept {
-  shutdown(_socket.get(), SHUT_WR);
-}
+void Child::end_input() noexcept { shutdown(_socket.get(), SHUT_WR); }
 
 void Child::kill() noexcept {
   if (!_ended) ::kill(-_pid, SIGKILL);

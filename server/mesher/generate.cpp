@@ -75,9 +75,7 @@ class Frame {
 };
 
 /// The tag of a point, curve or face in gmsh: its index + 1.
-int tag_of(std::size_t index) {
-  return static_cast<int>(index) + 1;
-}
+int tag_of(std::size_t index) { return static_cast<int>(index) + 1; }
 
 /// Makes the loop begin at its first interface. gmsh's mesh depends on where a loop begins; it must
 /// not depend on which vertex of the boundary the user wrote first.

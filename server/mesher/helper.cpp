@@ -35,9 +35,7 @@ constexpr std::chrono::seconds cpu_slack{10};
 constexpr std::size_t reply_bytes_a_triangle = 256;
 constexpr std::size_t other_reply_bytes = 16U << 20;
 
-Error failed(const std::string& message) {
-  return {Reason::mesher_failed, message};
-}
+Error failed(const std::string& message) { return {Reason::mesher_failed, message}; }
 
 std::size_t most_reply_bytes(const mesh::MesherRequest& request) {
   const std::size_t triangles =
@@ -248,9 +246,7 @@ mesh::Mesh run(const HelperOptions& options, const mesh::MesherRequest& request,
   return mesh;
 }
 
-void require_msh(const std::string& path) {
-  open_msh(path);
-}
+void require_msh(const std::string& path) { open_msh(path); }
 
 std::string default_executable() {
   namespace fs = std::filesystem;

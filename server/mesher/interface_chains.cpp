@@ -73,9 +73,7 @@ Chain reversed(Chain chain) {
   return chain;
 }
 
-bool is_glue(const InterfaceEdge* edge) {
-  return edge->meaning.role == CurveRole::glue;
-}
+bool is_glue(const InterfaceEdge* edge) { return edge->meaning.role == CurveRole::glue; }
 
 std::pair<double, double> point(const mesh::Mesh& mesh, std::int32_t node) {
   const auto i = 2 * at(node);

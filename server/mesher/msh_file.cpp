@@ -21,9 +21,7 @@ constexpr int point_type = 15;
 constexpr std::size_t max_groups = 64;
 
 /// Least bytes of an entry as text: a digit and a separator per number.
-constexpr std::size_t text_bytes(std::size_t numbers) {
-  return 2 * numbers;
-}
+constexpr std::size_t text_bytes(std::size_t numbers) { return 2 * numbers; }
 
 std::string refused_element(int type) {
   constexpr const char* volumes =

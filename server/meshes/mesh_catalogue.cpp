@@ -285,9 +285,7 @@ bool MeshCatalogue::pinned(const std::string& id) const {
   return !key.empty() && _state->cache.pinned(key);
 }
 
-std::uint64_t MeshCatalogue::meshings() const noexcept {
-  return _state->preparation.meshings();
-}
+std::uint64_t MeshCatalogue::meshings() const noexcept { return _state->preparation.meshings(); }
 
 int MeshCatalogue::size_class(const std::string& id) const {
   const auto lock = _state->preparation.lock();

@@ -22,9 +22,7 @@ namespace {
 
 using EdgeKey = std::pair<std::int32_t, std::int32_t>;
 
-EdgeKey key(std::int32_t a, std::int32_t b) noexcept {
-  return std::minmax(a, b);
-}
+EdgeKey key(std::int32_t a, std::int32_t b) noexcept { return std::minmax(a, b); }
 
 double length(const mesh::Mesh& mesh, std::int32_t a, std::int32_t b) noexcept {
   return mesh::distance(mesh::position(mesh, a), mesh::position(mesh, b));

@@ -102,8 +102,6 @@ HttpPage::HttpPage(const std::string& address, std::string path, std::string con
 
 HttpPage::~HttpPage() = default;
 
-const std::string& HttpPage::address() const noexcept {
-  return _state->address;
-}
+const std::string& HttpPage::address() const noexcept { return _state->address; }
 
 }  // namespace anticrack::metrics

@@ -153,9 +153,7 @@ struct Metrics::State {
 Metrics::Metrics(const std::string& version, const std::string& build)
     : _state(std::make_unique<State>(version, build)) {}
 
-Metrics::~Metrics() {
-  stop();
-}
+Metrics::~Metrics() { stop(); }
 
 void Metrics::call_ended(const std::string& method, int code,
                          std::chrono::duration<double> time) noexcept {

@@ -23,9 +23,7 @@ void append(std::string& key, std::uint64_t value) {
     key.push_back(static_cast<char>(value >> shift & 0xff));
 }
 
-void append(std::string& key, double value) {
-  append(key, std::bit_cast<std::uint64_t>(value));
-}
+void append(std::string& key, double value) { append(key, std::bit_cast<std::uint64_t>(value)); }
 
 /// With its length, so that no two lists run into the same bytes.
 void append(std::string& key, const std::string& text) {

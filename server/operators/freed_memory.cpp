@@ -18,8 +18,6 @@ void set_up_heaps() noexcept {
   static_cast<void>(done);
 }
 
-void return_freed_memory() noexcept {
-  malloc_trim(0);
-}
+void return_freed_memory() noexcept { malloc_trim(0); }
 
 }  // namespace anticrack::operators

@@ -81,13 +81,9 @@ std::shared_ptr<const MeshOperator> MeshOperator::factorise(std::shared_ptr<cons
   return std::shared_ptr<const MeshOperator>(new MeshOperator(std::move(parts)));
 }
 
-const std::string& MeshOperator::uzawa_obstacle() const noexcept {
-  return _parts->uzawa_obstacle;
-}
+const std::string& MeshOperator::uzawa_obstacle() const noexcept { return _parts->uzawa_obstacle; }
 
-const mesh::Mesh& MeshOperator::mesh() const noexcept {
-  return *_parts->mesh;
-}
+const mesh::Mesh& MeshOperator::mesh() const noexcept { return *_parts->mesh; }
 
 const std::vector<contact::TraceGeometry>& MeshOperator::trace_geometry() const noexcept {
   return _parts->geometry;
@@ -117,8 +113,6 @@ std::size_t MeshOperator::bytes() const noexcept {
   return bytes + _parts->skeleton.bytes() + _parts->sweep_geometry.bytes() + _parts->bases.bytes();
 }
 
-void require_threadsafe_blas() {
-  ddm::require_threadsafe_blas();
-}
+void require_threadsafe_blas() { ddm::require_threadsafe_blas(); }
 
 }  // namespace anticrack::operators

@@ -47,9 +47,7 @@ struct Entry {
   std::uint64_t bytes() const { return ready ? ready->bytes() : estimate; }
 };
 
-Error stopped() {
-  return {Reason::cancelled, "stopped while waiting for the mesh's operators"};
-}
+Error stopped() { return {Reason::cancelled, "stopped while waiting for the mesh's operators"}; }
 
 std::string mebibytes(std::uint64_t bytes) {
   return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MiB";

@@ -78,13 +78,9 @@ CondensedBasis basis_of(std::vector<LoadOnTraces> loads, const contact::Skeleton
 
 }  // namespace
 
-std::size_t LoadBasis::size() const noexcept {
-  return _data->basis->loads.size();
-}
+std::size_t LoadBasis::size() const noexcept { return _data->basis->loads.size(); }
 
-std::size_t LoadBasis::bytes() const noexcept {
-  return _data->basis->bytes();
-}
+std::size_t LoadBasis::bytes() const noexcept { return _data->basis->bytes(); }
 
 const std::vector<std::string>& LoadBasis::warnings() const noexcept {
   return _data->basis->warnings;

@@ -32,13 +32,9 @@ UzawaBlock::UzawaBlock(std::shared_ptr<const MeshOperator> mesh_operator, contac
 
 UzawaBlock::~UzawaBlock() = default;
 
-int UzawaBlock::columns() const noexcept {
-  return _state->columns.columns();
-}
+int UzawaBlock::columns() const noexcept { return _state->columns.columns(); }
 
-int UzawaBlock::capacity() const noexcept {
-  return _state->columns.capacity();
-}
+int UzawaBlock::capacity() const noexcept { return _state->columns.capacity(); }
 
 int UzawaBlock::add(PreparedLoad load, const contact::UzawaOptions& options, bool fields,
                     contact::Observer& observer) {
@@ -49,9 +45,7 @@ int UzawaBlock::add(PreparedLoad load, const contact::UzawaOptions& options, boo
   return place;
 }
 
-void UzawaBlock::step() {
-  _state->columns.step();
-}
+void UzawaBlock::step() { _state->columns.step(); }
 
 std::vector<UzawaBlock::Ended> UzawaBlock::take_ended() {
   std::vector<Ended> ended;

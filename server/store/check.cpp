@@ -122,8 +122,6 @@ class Check {
 
 }  // namespace
 
-CheckedStore check(const std::string& folder) {
-  return Check(folder).found;
-}
+CheckedStore check(const std::string& folder) { return Check(folder).found; }
 
 }  // namespace anticrack::store

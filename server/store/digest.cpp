@@ -41,9 +41,7 @@ Sha256& Sha256::add(std::span<const std::byte> bytes) {
   return *this;
 }
 
-Sha256& Sha256::add(const std::string& text) {
-  return add(std::as_bytes(std::span(text)));
-}
+Sha256& Sha256::add(const std::string& text) { return add(std::as_bytes(std::span(text))); }
 
 std::string Sha256::finish() {
   std::array<unsigned char, 32> hash{};

@@ -47,9 +47,7 @@ bool is_sha256(const std::string& text) noexcept {
          });
 }
 
-std::string database_path(const std::string& data) {
-  return data + "/anticrack.db";
-}
+std::string database_path(const std::string& data) { return data + "/anticrack.db"; }
 
 std::string folder_of(const std::string& data, FileKind kind) {
   constexpr std::array names{"/meshes", "/results", "/uploads"};

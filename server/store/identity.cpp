@@ -18,9 +18,7 @@ namespace {
 using errors::Error;
 using errors::Reason;
 
-std::string identity_path(const std::string& folder) {
-  return folder + "/identity";
-}
+std::string identity_path(const std::string& folder) { return folder + "/identity"; }
 
 /// Empty: the folder has none.
 std::string identity_in(const std::string& folder) {

@@ -121,9 +121,7 @@ enum class JobState {
 };
 
 /// Whether the job will not change any more, except that its result may be removed.
-constexpr bool ended(JobState state) noexcept {
-  return state >= JobState::succeeded;
-}
+constexpr bool ended(JobState state) noexcept { return state >= JobState::succeeded; }
 
 /// Who goes first. What waits long is treated as more urgent (jobs/schedule.hpp).
 enum class Priority { interactive = 1, normal, bulk };

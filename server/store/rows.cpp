@@ -75,21 +75,13 @@ void require_intact(const Row& row, FileKind kind) {
   if (!row.intact) throw damaged(row, kind, damaged_record("its checksum is wrong"));
 }
 
-MeshRecord read_mesh(const Row& row) {
-  return read(row, FileKind::mesh, decode_mesh_record);
-}
+MeshRecord read_mesh(const Row& row) { return read(row, FileKind::mesh, decode_mesh_record); }
 
-JobRecord read_job(const Row& row) {
-  return read(row, FileKind::result, decode_job_record);
-}
+JobRecord read_job(const Row& row) { return read(row, FileKind::result, decode_job_record); }
 
-MeshRecord mesh_of(const Row& row) {
-  return record_of(row, read_mesh);
-}
+MeshRecord mesh_of(const Row& row) { return record_of(row, read_mesh); }
 
-JobRecord job_of(const Row& row) {
-  return record_of(row, read_job);
-}
+JobRecord job_of(const Row& row) { return record_of(row, read_job); }
 
 bool is_referenced(Connection& connection, FileKind kind, const std::string& sha256, bool by_rows) {
   const Table& table = table_of(kind);

@@ -60,9 +60,7 @@ Statement& Statement::bind_blob(std::string_view bytes) {
   return checked(sqlite3_bind_blob64(_statement, ++_bound, bytes.data(), bytes.size(), nullptr));
 }
 
-Statement& Statement::bind_null() {
-  return checked(sqlite3_bind_null(_statement, ++_bound));
-}
+Statement& Statement::bind_null() { return checked(sqlite3_bind_null(_statement, ++_bound)); }
 
 bool Statement::step() {
   const int code = sqlite3_step(_statement);
@@ -75,9 +73,7 @@ void Statement::run() {
   }
 }
 
-std::int64_t Statement::integer(int column) {
-  return sqlite3_column_int64(_statement, column);
-}
+std::int64_t Statement::integer(int column) { return sqlite3_column_int64(_statement, column); }
 
 std::string Statement::text(int column) {
   const auto* bytes = static_cast<const char*>(sqlite3_column_blob(_statement, column));
@@ -131,9 +127,7 @@ bool Connection::in_transaction() const noexcept {
   return sqlite3_get_autocommit(_database.get()) == 0;
 }
 
-int Connection::changes() const noexcept {
-  return sqlite3_changes(_database.get());
-}
+int Connection::changes() const noexcept { return sqlite3_changes(_database.get()); }
 
 std::int64_t Connection::total_changes() const noexcept {
   return sqlite3_total_changes64(_database.get());
@@ -187,8 +181,6 @@ Transaction::~Transaction() {
   }
 }
 
-void Transaction::commit() {
-  _connection.execute("COMMIT");
-}
+void Transaction::commit() { _connection.execute("COMMIT"); }
 
 }  // namespace anticrack::store

@@ -22,9 +22,7 @@ mesh::Mesh diagonals(mesh::Kind condition) {
   return testing::structured_mesh(options);
 }
 
-mesh::Mesh rectangles() {
-  return testing::structured_mesh({12, 5, {}, {}, {"stiffener"}});
-}
+mesh::Mesh rectangles() { return testing::structured_mesh({12, 5, {}, {}, {"stiffener"}}); }
 
 mesh::Mesh shaken(unsigned seed) {
   mesh::Mesh mesh = diagonals();

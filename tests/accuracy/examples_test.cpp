@@ -56,9 +56,7 @@ const std::vector<Row>& rows() {
   return made;
 }
 
-double off(double value, double limit) {
-  return std::abs(value - limit) / std::abs(limit);
-}
+double off(double value, double limit) { return std::abs(value - limit) / std::abs(limit); }
 
 /// Saturation alone (see `unsaturated`) makes the mean rate of A 1.8 here. In Examples 2 and 4 the
 /// end of the contact moves from node to node besides, which A feels to the same order with either

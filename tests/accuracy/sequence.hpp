@@ -22,9 +22,7 @@ contact::Answer solve(const operators::MeshOperator& op, const fem::Force& force
 std::shared_ptr<const operators::MeshOperator> factorise(mesh::Mesh mesh);
 
 /// Order of convergence between two errors when h halves.
-inline double rate(double coarse, double fine) {
-  return std::log2(coarse / fine);
-}
+inline double rate(double coarse, double fine) { return std::log2(coarse / fine); }
 
 /// What grading by m leaves of the O(h0^2) of A and of the energy (of a squared energy norm) where
 /// u ~ r^{1/4}: each ring at distance r adds h^2 |D^2 u|^2 = h0^2 r^{-2m-3/2}, but rings inside
@@ -35,8 +33,6 @@ inline double rate(double coarse, double fine) {
 ///
 /// and with m = 0.2 the bracket, 1 - h0^{1/2}, is still growing at any h0 in use: the rate seen
 /// between h0 = 0.1 and 0.05 is 1.8, not 2. With m = 0.1 it is 1 - h0^3.
-inline double unsaturated(double h0, double m) {
-  return 1 - std::pow(h0, (0.5 - 2 * m) / m);
-}
+inline double unsaturated(double h0, double m) { return 1 - std::pow(h0, (0.5 - 2 * m) / m); }
 
 }  // namespace anticrack::accuracy

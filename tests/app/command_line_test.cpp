@@ -32,9 +32,7 @@ TEST(CommandLine, KnowsEveryKeyAsAFlag) {
   for (const Key& key : keys()) EXPECT_THAT(*help.text, HasSubstr("--" + key.name));
 }
 
-TEST(CommandLine, TellsTheVersion) {
-  EXPECT_EQ(parse({"--version"}).text, "anticrackd 1.2.3\n");
-}
+TEST(CommandLine, TellsTheVersion) { EXPECT_EQ(parse({"--version"}).text, "anticrackd 1.2.3\n"); }
 
 TEST(CommandLine, TakesTheFileAndTheCheck) {
   const CommandLine line = parse({"--config", "c.toml", "--check-config"});

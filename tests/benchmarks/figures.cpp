@@ -60,9 +60,7 @@ void Stopwatch::stop(Times& times, double parts) const {
   times.cpu.push_back((cpu_seconds(_server) - _cpu) / parts);
 }
 
-void let_blas_fall_asleep() {
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
-}
+void let_blas_fall_asleep() { std::this_thread::sleep_for(std::chrono::milliseconds(500)); }
 
 void Figures::set(const std::string& name, double value) {
   _entries.emplace_back(name, number(value));
@@ -102,8 +100,6 @@ std::string Figures::json() const {
   return result + '}';
 }
 
-void Figures::print() const {
-  std::printf("%s\n", json().c_str());
-}
+void Figures::print() const { std::printf("%s\n", json().c_str()); }
 
 }  // namespace anticrack::benchmarks

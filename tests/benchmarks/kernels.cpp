@@ -60,9 +60,7 @@ class Bench {
   const std::shared_ptr<const operators::MeshOperator> whole;
 };
 
-int columns_of(const benchmark::State& state) {
-  return static_cast<int>(state.range(0));
-}
+int columns_of(const benchmark::State& state) { return static_cast<int>(state.range(0)); }
 
 /// An iteration of Algorithm 2 for so many loads at once.
 void uzawa_iteration(benchmark::State& state, const Bench& bench) {

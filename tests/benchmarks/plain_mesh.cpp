@@ -108,9 +108,7 @@ double force(int number, double x, double y) {
   return std::sin(1.3 * x + (2.0 + 0.11 * k) * y + 0.7 * k);
 }
 
-double combination(int row, int j) {
-  return std::cos((0.01 + 0.003 * j) * row + 0.9 * j);
-}
+double combination(int row, int j) { return std::cos((0.01 + 0.003 * j) * row + 0.9 * j); }
 
 std::vector<double> nodal_force(const PlainMesh& mesh, int number) {
   std::vector<double> values(mesh.node_count());

@@ -17,9 +17,7 @@ namespace anticrack::benchmarks {
 constexpr std::int32_t kind_glue = 1, kind_delaminated = 4;
 
 /// An index >= 0 of an array, as a container wants it.
-constexpr std::size_t at(std::int64_t i) noexcept {
-  return static_cast<std::size_t>(i);
-}
+constexpr std::size_t at(std::int64_t i) noexcept { return static_cast<std::size_t>(i); }
 
 /// As mesh::Mesh, tension 1: plus side on the left of a chain, index base 0.
 struct PlainMesh {

@@ -19,9 +19,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-bool go_on(const LcpStep&) {
-  return true;
-}
+bool go_on(const LcpStep&) { return true; }
 
 LcpAnswer solve(const MatrixXd& s, const VectorXd& r, bool monotone_only = false,
                 const std::vector<char>& start = {}) {

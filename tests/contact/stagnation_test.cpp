@@ -20,12 +20,8 @@ int recognised(Criterion criterion, Turned turned, int limit = 100000) {
   return 0;
 }
 
-bool always(int) {
-  return true;
-}
-bool never(int) {
-  return false;
-}
+bool always(int) { return true; }
+bool never(int) { return false; }
 
 TEST(StagnationMonitor, RecognisesABoundedOscillationWithinTwoHundredIterations) {
   const auto falls_then_stays = [](int k) { return std::max(2.7, 1e3 * std::pow(0.7, k)); };

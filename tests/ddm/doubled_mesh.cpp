@@ -271,8 +271,6 @@ Eigen::MatrixXd DoubledMesh::schur() const {
          coupling.transpose() * stiffness(inner, inner).llt().solve(coupling);
 }
 
-DoubledMesh double_mesh(const mesh::Mesh& mesh) {
-  return Doubling(mesh).run();
-}
+DoubledMesh double_mesh(const mesh::Mesh& mesh) { return Doubling(mesh).run(); }
 
 }  // namespace anticrack::testing

@@ -102,9 +102,7 @@ void expect_exact(const Sparse& matrix, Eigen::Index interior) {
   expect_exact(matrix, interior, factorised(matrix, interior));
 }
 
-TEST(SubdomainFactor, IsTheSchurComplementOfAGrid) {
-  expect_exact(grid(23, 17), 23 * 16);
-}
+TEST(SubdomainFactor, IsTheSchurComplementOfAGrid) { expect_exact(grid(23, 17), 23 * 16); }
 
 TEST(SubdomainFactor, IsTheSameInAnyOrderAndReadsTheLowerTriangle) {
   const Sparse matrix = grid(23, 17), lower = matrix.triangularView<Eigen::Lower>();
@@ -114,9 +112,7 @@ TEST(SubdomainFactor, IsTheSameInAnyOrderAndReadsTheLowerTriangle) {
   expect_exact(matrix, 23 * 16, SubdomainFactor(lower, 23 * 16, order));
 }
 
-TEST(SubdomainFactor, OfAGridWithoutInteriorIsItsCholeskyFactor) {
-  expect_exact(grid(9, 1), 0);
-}
+TEST(SubdomainFactor, OfAGridWithoutInteriorIsItsCholeskyFactor) { expect_exact(grid(9, 1), 0); }
 
 TEST(SubdomainFactor, OfASubdomainWithoutInterfaceHasAnEmptyTrace) {
   const Sparse matrix = grid(7, 6);

@@ -15,9 +15,7 @@
 namespace anticrack::ddm {
 namespace {
 
-Eigen::Index index(std::size_t i) {
-  return static_cast<Eigen::Index>(i);
-}
+Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 using Field = std::function<double(double, double)>;
 
@@ -28,12 +26,8 @@ Eigen::VectorXd at_nodes(const fem::Triangulation& part, const Field& field) {
   });
 }
 
-double zero(double, double) {
-  return 0;
-}
-double force(double x, double y) {
-  return 0.001 * (std::sin(5 * x) + y);
-}
+double zero(double, double) { return 0; }
+double force(double x, double y) { return 0.001 * (std::sin(5 * x) + y); }
 
 struct Upper {
   explicit Upper(double tension = 1)

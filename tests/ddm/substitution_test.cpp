@@ -115,9 +115,7 @@ struct Substitution {
   MatrixXd (*expected)(const MatrixXd& l, int columns, MatrixXd y);
 };
 
-void PrintTo(const Substitution& substitution, std::ostream* out) {
-  *out << substitution.name;
-}
+void PrintTo(const Substitution& substitution, std::ostream* out) { *out << substitution.name; }
 
 class Substitutions : public ::testing::TestWithParam<Substitution> {
  protected:

@@ -13,9 +13,7 @@ using testing::nan_value;
 
 class FaultyGeometry : public ::testing::TestWithParam<Fault> {};
 
-TEST_P(FaultyGeometry, IsRefusedWithItsField) {
-  testing::expect_refused(GetParam());
-}
+TEST_P(FaultyGeometry, IsRefusedWithItsField) { testing::expect_refused(GetParam()); }
 
 const Fault faults[] = {
     {"TwoVertices", [](Geometry& g) { g.boundary.resize(2); }, "boundary", {"2 vertices"}},

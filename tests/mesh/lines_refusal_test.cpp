@@ -17,9 +17,7 @@ using testing::nan_value;
 
 class FaultyLines : public ::testing::TestWithParam<Fault> {};
 
-TEST_P(FaultyLines, IsRefusedWithItsField) {
-  testing::expect_refused(GetParam());
-}
+TEST_P(FaultyLines, IsRefusedWithItsField) { testing::expect_refused(GetParam()); }
 
 const Fault line_faults[] = {
     {"DelaminatedNan",

@@ -31,9 +31,7 @@ struct Damage {
   std::string message;
 };
 
-void PrintTo(const Damage& damage, std::ostream* out) {
-  *out << damage.name;
-}
+void PrintTo(const Damage& damage, std::ostream* out) { *out << damage.name; }
 
 class DamagedMesh : public ::testing::TestWithParam<Damage> {};
 
@@ -129,9 +127,7 @@ const Damage damages[] = {
 INSTANTIATE_TEST_SUITE_P(Each, DamagedMesh, ::testing::ValuesIn(damages),
                          [](const auto& case_) { return case_.param.name; });
 
-TEST(Mesh, SoundOneIsAccepted) {
-  EXPECT_NO_THROW(mesh::validate(sound()));
-}
+TEST(Mesh, SoundOneIsAccepted) { EXPECT_NO_THROW(mesh::validate(sound())); }
 
 /// All of it one subdomain: what was the interface no longer parts it.
 Mesh whole() {
@@ -143,9 +139,7 @@ Mesh whole() {
   return mesh;
 }
 
-TEST(Mesh, WithoutInterfacesIsAccepted) {
-  EXPECT_NO_THROW(mesh::validate(whole()));
-}
+TEST(Mesh, WithoutInterfacesIsAccepted) { EXPECT_NO_THROW(mesh::validate(whole())); }
 
 TEST(Mesh, TensionPerSubdomainIsAccepted) {
   Mesh mesh = sound();

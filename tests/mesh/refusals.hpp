@@ -30,9 +30,7 @@ struct Fault {
   errors::Reason reason = errors::Reason::geometry_invalid;
 };
 
-inline void PrintTo(const Fault& fault, std::ostream* out) {
-  *out << fault.name;
-}
+inline void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
 inline void expect_refused(const Fault& fault) {
   mesh::Geometry geometry = paper_geometry();

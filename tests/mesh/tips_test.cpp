@@ -53,9 +53,7 @@ TEST(Tips, AreNotWhereACrackLeavesThroughTheBoundary) {
   EXPECT_THAT(tips_on({{-1, 0.25, Kind::crack, -1}}), ElementsAre(0.25));
 }
 
-TEST(Tips, OfGlueAloneAreNone) {
-  EXPECT_THAT(tips_on({}), IsEmpty());
-}
+TEST(Tips, OfGlueAloneAreNone) { EXPECT_THAT(tips_on({}), IsEmpty()); }
 
 TEST(Tips, AreTheFreeEndsOfASlitInOneSubdomain) {
   Mesh made = structured_mesh(16, 4, {});

@@ -29,14 +29,10 @@ mesh::MeshOptions options(mesh::Preset preset, double size = 0) {
   return made;
 }
 
-mesh::Mesh base() {
-  return structured_mesh(16, 16, paper);
-}
+mesh::Mesh base() { return structured_mesh(16, 16, paper); }
 
 /// The paper's square with its left half pressed to needles of four degrees.
-mesh::Mesh needles() {
-  return structured_mesh(16, 16, paper, {-1, 1, -0.07, 0.07});
-}
+mesh::Mesh needles() { return structured_mesh(16, 16, paper, {-1, 1, -0.07, 0.07}); }
 
 TEST(Grading, OfAnUploadStartsFromItsLongestEdge) {
   const mesh::Mesh fine = graded(base(), options(mesh::Preset::graded), plenty);

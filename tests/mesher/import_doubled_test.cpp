@@ -358,9 +358,7 @@ TEST(ImportDoubled, DamagedSamplesThrowOrImport) {
     MshSample sample = square_sample(round % 2 == 0 ? "crack" : "gamma");
     if (round % 3 != 0) open_middle(sample, {-0.5, 0, 0.5});
     for (std::size_t hits = 1 + random() % 2; hits > 0; --hits) {
-      const auto any = [&](auto& of) -> auto& {
-        return of[random() % of.size()];
-      };
+      const auto any = [&](auto& of) -> auto& { return of[random() % of.size()]; };
       switch (random() % 6) {
         case 0:
           any(any(sample.triangles).nodes) = any(sample.tags);

@@ -20,9 +20,7 @@ struct Fault {
   std::string message;
 };
 
-void PrintTo(const Fault& fault, std::ostream* out) {
-  *out << fault.name;
-}
+void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
 class RefusedImport : public ::testing::TestWithParam<Fault> {};
 
@@ -38,9 +36,7 @@ TEST_P(RefusedImport, SaysWhy) {
   }
 }
 
-void name_middle(MshSample& sample, const std::string& name) {
-  sample.names.back().name = name;
-}
+void name_middle(MshSample& sample, const std::string& name) { sample.names.back().name = name; }
 
 void add_curve(MshSample& sample, int from, int to, const std::string& name) {
   sample.lines.push_back({{from, to}, 5, 13});

@@ -118,9 +118,7 @@ struct Text {
   std::string message;
 };
 
-void PrintTo(const Text& text, std::ostream* out) {
-  *out << text.name;
-}
+void PrintTo(const Text& text, std::ostream* out) { *out << text.name; }
 
 class RefusedText : public ::testing::TestWithParam<Text> {};
 

@@ -33,9 +33,7 @@ Mesh make_shape(const Geometry& geometry, const MeshOptions& options) {
       mesh::GenerateRequest{mesh::plan(geometry, options, shape_triangles), shape_triangles}, {});
 }
 
-MeshOptions uniform(double size) {
-  return {Preset::uniform, size};
-}
+MeshOptions uniform(double size) { return {Preset::uniform, size}; }
 
 Geometry square_shape() {
   Geometry geometry;
@@ -63,9 +61,7 @@ std::map<Kind, double> lengths(const Mesh& mesh) {
   return sums;
 }
 
-double length(const Mesh& mesh, Kind kind) {
-  return lengths(mesh)[kind];
-}
+double length(const Mesh& mesh, Kind kind) { return lengths(mesh)[kind]; }
 
 std::map<std::string, double> areas(const Mesh& mesh) {
   std::map<std::string, double> sums;

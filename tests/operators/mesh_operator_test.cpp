@@ -233,9 +233,7 @@ TEST(MeshOperator, EstimateIsAnUpperBoundOfWhatIsHeld) {
   }
 }
 
-TEST(Blas, IsTheThreadSafeBuild) {
-  EXPECT_NO_THROW(require_threadsafe_blas());
-}
+TEST(Blas, IsTheThreadSafeBuild) { EXPECT_NO_THROW(require_threadsafe_blas()); }
 
 }  // namespace
 }  // namespace anticrack::operators

@@ -31,9 +31,7 @@ class OperatorCacheBudget : public ::testing::Test {
   OperatorCache cache{measured + estimate, std::ref(factorise)};
 };
 
-TEST_F(OperatorCacheBudget, HasAnEstimateThatIsAnUpperBound) {
-  EXPECT_GE(estimate, measured);
-}
+TEST_F(OperatorCacheBudget, HasAnEstimateThatIsAnUpperBound) { EXPECT_GE(estimate, measured); }
 
 TEST_F(OperatorCacheBudget, EvictsTheLeastRecentlyUsed) {
   acquire(cache, "a");

@@ -19,9 +19,7 @@ namespace {
 
 using anticrack::testing::Silent;
 
-mesh::Kind glue(double) {
-  return mesh::Kind::glue;
-}
+mesh::Kind glue(double) { return mesh::Kind::glue; }
 
 /// Cuts one half once more along x = 0; `half` 0 lower, 1 upper. The new part is on x > 0.
 void cut_half(mesh::Mesh& mesh, int half, int columns, int rows) {

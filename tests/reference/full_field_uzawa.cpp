@@ -137,9 +137,7 @@ FullFieldUzawa::FullFieldUzawa(const mesh::Mesh& mesh, const fem::Force& force,
   _y = _problem2_gamma.solve(Vector::Zero(n), on_gamma(Vector::Constant(n, -1)));
 }
 
-Vector FullFieldUzawa::mass_times(const Vector& mu) const {
-  return _interface_mass * mu;
-}
+Vector FullFieldUzawa::mass_times(const Vector& mu) const { return _interface_mass * mu; }
 
 Vector FullFieldUzawa::solve_first(const Vector& load) const {
   return _problem1.solve(load, Vector::Zero(load.size()));

@@ -56,12 +56,8 @@ Answer solve(const std::string& force, const contact::SolverOptions& options = U
   return answer;
 }
 
-double begin_of(const Answer& answer) {
-  return answer.contact_intervals.at(0).begin - 1;
-}
-double end_of(const Answer& answer) {
-  return answer.contact_intervals.at(0).end - 1;
-}
+double begin_of(const Answer& answer) { return answer.contact_intervals.at(0).begin - 1; }
+double end_of(const Answer& answer) { return answer.contact_intervals.at(0).end - 1; }
 
 constexpr double spacing = 1.0 / 80;  // of nodes on the inclusion, from -0.5 to 0.5
 

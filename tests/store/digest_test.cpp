@@ -38,9 +38,7 @@ TEST(Sha256, DoesNotDependOnThePieces) {
             Sha256().add(std::string("abc")).finish());
 }
 
-TEST(Crc32c, OfTheCheckString) {
-  EXPECT_EQ(crc32c(bytes_of("123456789")), 0xE3069283U);
-}
+TEST(Crc32c, OfTheCheckString) { EXPECT_EQ(crc32c(bytes_of("123456789")), 0xE3069283U); }
 
 TEST(Crc32c, AgreesWithItsDefinitionAtEveryLength) {
   std::string text;

@@ -155,9 +155,7 @@ class StoreFaults : public ::testing::Test {
   const std::optional<std::string> _temporary = temporary();
 };
 
-TEST_F(StoreFaults, KilledAtEveryCall) {
-  EXPECT_TRUE(at_every_call("KILL", killed).empty());
-}
+TEST_F(StoreFaults, KilledAtEveryCall) { EXPECT_TRUE(at_every_call("KILL", killed).empty()); }
 
 TEST_F(StoreFaults, KilledInTheMiddleOfAWrite) {
   EXPECT_TRUE(at_every_call("TORN", killed, 3).empty());

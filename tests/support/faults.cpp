@@ -183,13 +183,9 @@ ssize_t writev(int file, const struct iovec* pieces, int count) {
   return behind<ssize_t(int, const struct iovec*, int)>("writev")(file, pieces, count);
 }
 
-int fsync(int file) {
-  return flush(file, "fsync");
-}
+int fsync(int file) { return flush(file, "fsync"); }
 
-int fdatasync(int file) {
-  return flush(file, "fdatasync");
-}
+int fdatasync(int file) { return flush(file, "fdatasync"); }
 
 int ftruncate(int file, off_t length) noexcept {
   return fails(file) ? -1 : behind<int(int, off_t)>("ftruncate")(file, length);
@@ -231,9 +227,7 @@ int mkdir(const char* path, mode_t mode) noexcept {
   return fails(path) ? -1 : behind<int(const char*, mode_t)>("mkdir")(path, mode);
 }
 
-int mkstemp(char* path) {
-  return fails(path) ? -1 : behind<int(char*)>("mkstemp")(path);
-}
+int mkstemp(char* path) { return fails(path) ? -1 : behind<int(char*)>("mkstemp")(path); }
 
 int mkostemp(char* path, int flags) {
   return fails(path) ? -1 : behind<int(char*, int)>("mkostemp")(path, flags);

@@ -175,8 +175,6 @@ std::unique_ptr<Peer> snesvi_peer(const PlainMesh& mesh) {
   return std::make_unique<SnesviPeer>(mesh);
 }
 
-std::unique_ptr<Peer> tron_peer(const PlainMesh& mesh) {
-  return std::make_unique<TronPeer>(mesh);
-}
+std::unique_ptr<Peer> tron_peer(const PlainMesh& mesh) { return std::make_unique<TronPeer>(mesh); }
 
 }  // namespace anticrack::benchmarks

@@ -272,9 +272,7 @@ const Mistake load_mistakes[] = {
          "number for each of them"),
 };
 
-std::string name_of(const ::testing::TestParamInfo<Mistake>& mistake) {
-  return mistake.param.what;
-}
+std::string name_of(const ::testing::TestParamInfo<Mistake>& mistake) { return mistake.param.what; }
 
 INSTANTIATE_TEST_SUITE_P(Case, Mistakes, ::testing::ValuesIn(mistakes), name_of);
 INSTANTIATE_TEST_SUITE_P(Geometry, Mistakes, ::testing::ValuesIn(geometry_mistakes), name_of);

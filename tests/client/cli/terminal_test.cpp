@@ -17,9 +17,7 @@ namespace {
 using anticrack::testing::eventually;
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-File make_file() {
-  return {std::tmpfile(), std::fclose};
-}
+File make_file() { return {std::tmpfile(), std::fclose}; }
 
 std::string content_of(std::FILE* file) {
   std::rewind(file);
