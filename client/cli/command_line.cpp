@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/connection_flags.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/json.hpp"
 #include "cli/report.hpp"
+#include "guide/completion.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -51,6 +54,10 @@ int run_command_line(int argc, char** argv) {
   add_files(app, globals, chosen);
   add_server(app, globals, chosen);
   add_guide(app, globals, chosen);
+  if (argc > 1 && std::string_view(argv[1]) == "--complete") {
+    print_document(guide::completions(app, {argv + 2, argv + argc}));
+    return exit_ok;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

@@ -12,7 +12,6 @@
 
 #include "casefile/duration.hpp"
 #include "cli/report.hpp"
-#include "guide/completion.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -22,7 +21,10 @@ std::string quoted_if_needed(const std::string& word) {
   const bool plain = word.find_first_not_of(
                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                          "0123456789-_./:@%+=,") == std::string::npos;
-  return plain ? word : guide::shell_word(word);
+  if (plain) return word;
+  std::string result = "'";
+  for (const char c : word) result += c == '\'' ? "'\\''" : std::string(1, c);
+  return result + "'";
 }
 
 [[noreturn]] void refuse(const std::string& address, const std::string& problem) {

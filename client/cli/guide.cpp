@@ -49,12 +49,13 @@ void add_guide(CLI::App& app, const Globals& globals, Command& chosen) {
   using guide::Shell;
   CLI::App* group = app.add_subcommand("completion", "Print the script that completes commands");
   group->require_subcommand(1);
-  const auto add = [&](const std::string& name, Shell shell, const std::string& use) {
+  const auto add = [&globals, &chosen, group](const std::string& name, Shell shell,
+                                              const std::string& use) {
     CLI::App* command = group->add_subcommand(name, "Completion for " + name);
     command->footer("Example:\n  " + use);
-    command->callback([&app, &globals, &chosen, name, shell] {
-      chosen = [&app, &globals, name, shell] {
-        const std::string script = guide::completion_script(app, shell);
+    command->callback([&globals, &chosen, name, shell] {
+      chosen = [&globals, name, shell] {
+        const std::string script(guide::completion_script(shell));
         print_document(globals.json ? JsonWriter()
                                           .begin_object()
                                           .value("shell", name)

@@ -3,59 +3,140 @@
 
 #include <algorithm>
 
+#include "guide/command_tree.hpp"
+
 namespace anticrack::guide {
+namespace {
 
-std::string shell_word(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
-  return result + "'";
+constexpr std::string_view bash_script =
+    R"(# bash completion of anticrack: source <(anticrack completion bash)
+_anticrack() {
+  local current=${COMP_WORDS[COMP_CWORD]} line
+  COMPREPLY=()
+  while IFS= read -r line; do
+    case $line in
+      :files) compopt -o filenames; COMPREPLY=($(compgen -f -- "$current")) ;;
+      :folders) compopt -o filenames; COMPREPLY=($(compgen -d -- "$current")) ;;
+      *) COMPREPLY+=("${line%%$'\t'*}") ;;
+    esac
+  done < <("${COMP_WORDS[0]}" --complete "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null)
+}
+complete -F _anticrack anticrack
+)";
+
+constexpr std::string_view zsh_script = R"(#compdef anticrack
+# zsh completion of anticrack: source <(anticrack completion zsh)
+_anticrack() {
+  local line
+  local -a found
+  for line in "${(@f)$($words[1] --complete "${(@)words[2,CURRENT]}" 2>/dev/null)}"; do
+    case $line in
+      :files) _files; return ;;
+      :folders) _files -/; return ;;
+      ?*) found+=("${line/$'\t'/:}") ;;
+    esac
+  done
+  if (( ! $#found )); then
+    _message 'a value'
+  elif [[ $PREFIX == -* ]]; then
+    _describe -o option found
+  else
+    _describe command found
+  fi
+}
+if [[ $funcstack[1] == _anticrack ]]; then _anticrack "$@"; else compdef _anticrack anticrack; fi
+)";
+
+constexpr std::string_view fish_script =
+    R"(# fish completion of anticrack: anticrack completion fish | source
+function __anticrack_completions --description 'What may stand in place of the word being typed'
+  set -l words (commandline -opc) (commandline -ct)
+  for line in ($words[1] --complete $words[2..-1] 2>/dev/null)
+    switch $line
+      case :files
+        __fish_complete_path (commandline -ct)
+      case :folders
+        __fish_complete_directories (commandline -ct)
+      case '*'
+        echo $line
+    end
+  end
+end
+complete -c anticrack -f -a '(__anticrack_completions)'
+)";
+
+template <class Item>
+const Item* named(const std::vector<Item>& items, const auto& has) {
+  const auto found = std::ranges::find_if(items, has);
+  return found == items.end() ? nullptr : &*found;
 }
 
-std::string joined(const std::vector<std::string>& words, const std::string& separator) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-  return text;
+/// Options of every command may stand after any.
+const Option* option_of(const Command& command, const Command& program, const std::string& name) {
+  const auto has = [&](const Option& option) { return std::ranges::count(option.names, name) > 0; };
+  const Option* own = named(command.options, has);
+  return own != nullptr ? own : named(program.options, has);
 }
 
-std::vector<std::string> with_value(const Command& program) {
-  std::vector<std::string> result;
-  for (const Command* command : with_all_below(program)) {
-    for (const Option& option : command->options)
-      if (option.value.kind != Value::Kind::none)
-        result.insert(result.end(), option.names.begin(), option.names.end());
+/// The lines for one word.
+class Lines {
+ public:
+  explicit Lines(std::string begin) : _begin(std::move(begin)) {}
+
+  void add(const std::string& word, const std::string& description) {
+    if (word.starts_with(_begin)) _text += word + '\t' + description + '\n';
   }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
-}
-
-Value first_positional(const Command& command) {
-  return command.positionals.empty() ? Value{} : command.positionals.front().value;
-}
-
-std::vector<Option> options_of(const Command& command, const Command& program) {
-  std::vector<Option> result = command.options;
-  if (&command != &program) {
-    for (const Option& option : program.options) {
-      const auto same = [&](const Option& other) { return other.names == option.names; };
-      if (std::none_of(result.begin(), result.end(), same))  // --help is each one's own
-        result.push_back(option);
-    }
+  void add(const Value& value) {
+    if (value.kind == Value::Kind::file) _text += ":files\n";
+    if (value.kind == Value::Kind::folder) _text += ":folders\n";
+    for (const std::string& word : value.words)
+      if (word.starts_with(_begin)) _text += word + '\n';
   }
-  return result;
+  void add(const std::vector<Option>& options) {
+    for (const Option& option : options)
+      for (const std::string& name : option.names) add(name, option.description);
+  }
+  const std::string& text() const { return _text; }
+
+ private:
+  std::string _begin;
+  std::string _text;
+};
+
+}  // namespace
+
+std::string_view completion_script(Shell shell) {
+  return shell == Shell::bash ? bash_script : shell == Shell::zsh ? zsh_script : fish_script;
 }
 
-std::string completion_script(const CLI::App& app, Shell shell) {
+std::string completions(const CLI::App& app, const std::vector<std::string>& words) {
   const Command program = command_tree(app);
-  switch (shell) {
-    case Shell::bash:
-      return bash_script(program);
-    case Shell::zsh:
-      return zsh_script(program);
-    case Shell::fish:
-      break;
+  const Command* command = &program;
+  const std::string last = words.empty() ? "" : words.back();
+  Lines lines(last);
+  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+    const Option* option = option_of(*command, program, words[i]);
+    if (option != nullptr && option->value.kind != Value::Kind::none) {
+      if (++i + 1 < words.size()) continue;
+      lines.add(option->value);
+      return lines.text();
+    }
+    const Command* below =
+        named(command->commands, [&](const Command& each) { return each.name == words[i]; });
+    if (below != nullptr) command = below;
   }
-  return fish_script(program);
+  if (last.starts_with('-')) {
+    lines.add(command->options);
+    if (command != &program) {
+      for (const Option& option : program.options)
+        if (option_of(*command, program, option.names.front()) == &option) lines.add({option});
+    }
+  } else if (!command->commands.empty()) {
+    for (const Command& below : command->commands) lines.add(below.name, below.description);
+  } else if (!command->positionals.empty()) {
+    lines.add(command->positionals.front().value);
+  }
+  return lines.text();
 }
 
 }  // namespace anticrack::guide

@@ -1,42 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Shell completion, made from the texts of --help.
+// Shell completion, from the texts of --help. The scripts know nothing of the commands: they ask
+// `anticrack --complete WORD...` for what may stand in place of the last word.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "guide/command_tree.hpp"
+namespace CLI {
+class App;
+}
 
 namespace anticrack::guide {
 
 enum class Shell { bash, zsh, fish };
 
-/// A script to source or to install among the shell's completions. It offers commands, options with
-/// descriptions (zsh, fish), files for the type FILE, folders for DIR, the words of {a,b,c}.
-std::string completion_script(const CLI::App& app, Shell shell);
+/// To source or to install among the shell's completions.
+std::string_view completion_script(Shell shell);
 
-// What the scripts have in common. All shells read a command line alike: a word that names a
-// subcommand of the current command leads to it, other words are skipped.
-
-/// The script that completes commands, options and their values.
-std::string bash_script(const Command& program);
-std::string zsh_script(const Command& program);
-std::string fish_script(const Command& program);
-
-/// 'text', as all three shells read it back.
-std::string shell_word(const std::string& text);
-
-/// The words with `separator` between.
-std::string joined(const std::vector<std::string>& words, const std::string& separator = " ");
-
-/// Names of all options that take a value: the word after one is not a command.
-std::vector<std::string> with_value(const Command& program);
-
-/// Its value; no command has a second positional.
-Value first_positional(const Command& command);
-
-/// Options of the command, and of the program, which may stand after any command.
-std::vector<Option> options_of(const Command& command, const Command& program);
+/// Of the words after the program's name: lines "WORD<tab>DESCRIPTION" of commands, options or
+/// values that begin as the last word; ":files" or ":folders" where a path is wanted. A word that
+/// names a subcommand of the current command leads to it, other words are skipped.
+std::string completions(const CLI::App& app, const std::vector<std::string>& words);
 
 }  // namespace anticrack::guide

@@ -20,6 +20,10 @@ printf '%s\n' "${COMPREPLY[@]}"
 """
 
 
+# The scripts ask the command.
+WITH_PATH = dict(os.environ, PATH=f"{os.path.dirname(ANTICRACK)}:{os.environ['PATH']}")
+
+
 class Shell(FolderTest):
     """The scripts' common expectations; `offers(words)` is what a shell offers for the last word."""
 
@@ -40,7 +44,8 @@ class Bash(Shell):
     name = "bash"
 
     def offers(self, *words):
-        ended = run("bash", "-c", BASH, "bash", self.script, "anticrack", *words, cwd=self.work)
+        ended = run("bash", "-c", BASH, "bash", self.script, "anticrack", *words, cwd=self.work,
+                    env=WITH_PATH)
         self.assertEqual((ended.returncode, ended.stderr), (0, ""))
         return set(ended.stdout.split())
 
@@ -71,7 +76,7 @@ class Fish(Shell):
 
     def offers(self, line):
         ended = run("fish", "--no-config", "-c", f"source {self.script}; complete -C '{line}'", cwd=self.work,
-                    env=dict(os.environ, HOME=str(self.folder)))
+                    env=dict(WITH_PATH, HOME=str(self.folder)))
         self.assertEqual((ended.returncode, ended.stderr), (0, ""))
         return dict(line.partition("\t")[::2] for line in ended.stdout.splitlines())
 
@@ -109,7 +114,7 @@ class Zsh(Shell):
         self.terminal, inside = pty.openpty()
         self.addCleanup(os.close, self.terminal)
         self.shell = subprocess.Popen(["zsh", "-f", "-i"], stdin=inside, stdout=inside, stderr=inside, cwd=self.work,
-                                      env=dict(os.environ, TERM="dumb", HOME=str(self.folder)), start_new_session=True)
+                                      env=dict(WITH_PATH, TERM="dumb", HOME=str(self.folder)), start_new_session=True)
         os.close(inside)
         self.addCleanup(self.shell.wait)
         self.addCleanup(self.shell.kill)
