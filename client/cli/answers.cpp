@@ -101,47 +101,43 @@ std::string answers_table(const results::Result& result) {
 }
 
 std::string answers_json(const results::Result& result, const std::filesystem::path& file) {
-  JsonWriter json;
-  json.begin_object();
-  json.value("title", result.title)
-      .value("file", file.string())
-      .value("job", result.job_name)
-      .value("mesh", result.mesh_name)
-      .value("mesh_seconds", result.timings.mesh_seconds)
-      .value("factorize_seconds", result.timings.factorize_seconds)
-      .value("solve_seconds", result.timings.solve_seconds)
-      .value("total_seconds", result.timings.total_seconds);
-  if (result.sweep) add_sweep(*result.sweep, json);
-  json.begin_array("answers");
+  Json json{{"title", result.title},
+            {"file", file.string()},
+            {"job", result.job_name},
+            {"mesh", result.mesh_name},
+            {"mesh_seconds", result.timings.mesh_seconds},
+            {"factorize_seconds", result.timings.factorize_seconds},
+            {"solve_seconds", result.timings.solve_seconds},
+            {"total_seconds", result.timings.total_seconds}};
+  if (result.sweep) json["sweep"] = sweep_json(*result.sweep);
+  Json& answers = json["answers"] = Json::array();
   for (const results::Load& load : result.loads) {
-    json.begin_object()
-        .value("name", load.name)
-        .value("status", results::name(load.status))
-        .value("reason", load.reason)
-        .value("error", load.error)
-        .value("method", load.method)
-        .value("iterations", std::int64_t{load.iterations})
-        .value("criterion", load.criterion)
-        .value("worst_kkt", has_answer(load) ? load.kkt_relative.largest() : results::unknown)
-        .value("theta", load.theta)
-        .value("theta_star", load.theta_star)
-        .value("energy", load.energy)
-        .value("contact_length", load.contact_length)
-        .value("weakly_active", std::int64_t{load.weakly_active})
-        .value("solve_seconds", load.solve_seconds);
-    json.begin_array("inclusions");
+    Json inclusions = Json::array();
     for (const results::Inclusion& inclusion : load.inclusions) {
-      json.begin_object()
-          .value("name", inclusion.name)
-          .value("A", inclusion.displacement)
-          .value("resultant", inclusion.resultant)
-          .value("contact_length", inclusion.contact_length)
-          .end_object();
+      inclusions.push_back({{"name", inclusion.name},
+                            {"A", inclusion.displacement},
+                            {"resultant", inclusion.resultant},
+                            {"contact_length", inclusion.contact_length}});
     }
-    json.end_array().texts("warnings", load.warnings).end_object();
+    answers.push_back(
+        {{"name", load.name},
+         {"status", results::name(load.status)},
+         {"reason", load.reason},
+         {"error", load.error},
+         {"method", load.method},
+         {"iterations", load.iterations},
+         {"criterion", load.criterion},
+         {"worst_kkt", has_answer(load) ? load.kkt_relative.largest() : results::unknown},
+         {"theta", load.theta},
+         {"theta_star", load.theta_star},
+         {"energy", load.energy},
+         {"contact_length", load.contact_length},
+         {"weakly_active", load.weakly_active},
+         {"solve_seconds", load.solve_seconds},
+         {"inclusions", std::move(inclusions)},
+         {"warnings", load.warnings}});
   }
-  json.end_array().end_object();
-  return json.text();
+  return to_text(json);
 }
 
 }  // namespace anticrack::cli

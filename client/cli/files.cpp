@@ -79,12 +79,9 @@ int show_file(const FileOptions& options, const Globals& globals) {
 int tell_made(const std::vector<std::filesystem::path>& files,
               const std::vector<std::string>& notes, const Globals& globals) {
   if (globals.json) {
-    JsonWriter json;
-    json.begin_object().begin_array("files");
-    for (const auto& file : files) json.element(file.string());
-    json.end_array().begin_array("notes");
-    for (const std::string& note : notes) json.element(note);
-    print_document(json.end_array().end_object().text());
+    Json made{{"files", Json::array()}, {"notes", notes}};
+    for (const auto& file : files) made["files"].push_back(file.string());
+    print_document(to_text(made));
     return exit_ok;
   }
   for (const auto& file : files) say(globals, file.string());

@@ -34,9 +34,9 @@ int write_manual(const CLI::App& app, const std::filesystem::path& folder, const
     }
   }
   if (globals.json) {
-    std::vector<std::string> files;
+    Json files = Json::array();
     for (const guide::Page& page : pages) files.push_back((folder / page.file).string());
-    print_document(JsonWriter().begin_object().texts("files", files).end_object().text());
+    print_document(to_text({{"files", std::move(files)}}));
   } else {
     say(globals, std::to_string(pages.size()) + " pages in " + folder.string());
   }
@@ -56,13 +56,7 @@ void add_guide(CLI::App& app, const Globals& globals, Command& chosen) {
     command->callback([&globals, &chosen, name, shell] {
       chosen = [&globals, name, shell] {
         const std::string script(guide::completion_script(shell));
-        print_document(globals.json ? JsonWriter()
-                                          .begin_object()
-                                          .value("shell", name)
-                                          .value("script", script)
-                                          .end_object()
-                                          .text()
-                                    : script);
+        print_document(globals.json ? to_text({{"shell", name}, {"script", script}}) : script);
         return exit_ok;
       };
     });

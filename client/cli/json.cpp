@@ -6,31 +6,11 @@
 #include <google/protobuf/util/type_resolver.h>
 #include <google/protobuf/util/type_resolver_util.h>
 
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <memory>
 #include <stdexcept>
 
-#include "cli/text.hpp"
-
 namespace anticrack::cli {
 namespace {
-
-std::string json_string(std::string_view text) {
-  std::string result = "\"";
-  while (true) {
-    // After sanitise() only these two need escaping.
-    const std::size_t end = text.find_first_of("\n\t");
-    for (const char c : sanitise(text.substr(0, end))) {
-      if (c == '"' || c == '\\') result += '\\';
-      result += c;
-    }
-    if (end == std::string_view::npos) return result + "\"";
-    result += text[end] == '\n' ? "\\n" : "\\t";
-    text.remove_prefix(end + 1);
-  }
-}
 
 constexpr const char* type_prefix = "type.googleapis.com";
 
@@ -66,64 +46,8 @@ class Types : public google::protobuf::util::TypeResolver {
 
 }  // namespace
 
-void JsonWriter::item(std::string_view key) {
-  if (_depth > 0) {
-    _text += _first ? "\n" : ",\n";
-    _text.append(2 * _depth, ' ');
-  }
-  _first = false;
-  if (!key.empty()) _text += json_string(key) + ": ";
-}
-
-JsonWriter& JsonWriter::open(std::string_view key, char bracket) {
-  item(key);
-  _text += bracket;
-  ++_depth;
-  _first = true;
-  return *this;
-}
-
-JsonWriter& JsonWriter::close(char bracket) {
-  --_depth;
-  if (!_first) {
-    _text += '\n';
-    _text.append(2 * _depth, ' ');
-  }
-  _text += bracket;
-  _first = false;
-  return *this;
-}
-
-JsonWriter& JsonWriter::value(std::string_view key, std::string_view text) {
-  item(key);
-  _text += json_string(text);
-  return *this;
-}
-
-JsonWriter& JsonWriter::value(std::string_view key, double number) {
-  item(key);
-  if (!std::isfinite(number)) {
-    _text += "null";
-    return *this;
-  }
-  std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number);
-  _text.append(buffer.data(), result.ptr);
-  return *this;
-}
-
-JsonWriter& JsonWriter::value(std::string_view key, std::int64_t number) {
-  item(key);
-  _text += std::to_string(number);
-  return *this;
-}
-
-JsonWriter& JsonWriter::element(std::string_view text) { return value({}, text); }
-
-JsonWriter& JsonWriter::texts(std::string_view key, const std::vector<std::string>& texts) {
-  begin_array(key);
-  for (const std::string& text : texts) element(text);
-  return end_array();
+std::string to_text(const Json& document) {
+  return document.dump(2, ' ', true, Json::error_handler_t::replace);
 }
 
 std::string to_json(const google::protobuf::Message& message) {

@@ -51,20 +51,14 @@ Complaint current_complaint() {
 }
 
 std::string document_of(const Complaint& complaint) {
-  JsonWriter json;
-  json.begin_object().begin_object("error");
-  json.value("code", complaint.code)
-      .value("reason", complaint.details.reason)
-      .value("message", complaint.message);
-  json.begin_array("fields");
-  for (const client::FieldViolation& violation : complaint.details.fields) {
-    json.begin_object()
-        .value("field", violation.field)
-        .value("description", violation.description)
-        .end_object();
-  }
-  json.end_array().end_object().end_object();
-  return json.text();
+  Json fields = Json::array();
+  for (const client::FieldViolation& violation : complaint.details.fields)
+    fields.push_back({{"field", violation.field}, {"description", violation.description}});
+  return to_text({{"error",
+                   {{"code", complaint.code},
+                    {"reason", complaint.details.reason},
+                    {"message", complaint.message},
+                    {"fields", std::move(fields)}}}});
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ void print_document(std::string_view text) {
 
 void tell_deleted(const Globals& globals, const std::string& name) {
   if (globals.json)
-    print_document(JsonWriter().begin_object().value("deleted", name).end_object().text());
+    print_document(to_text({{"deleted", name}}));
   else
     say(globals, name + ": deleted");
 }

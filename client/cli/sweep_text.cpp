@@ -33,8 +33,8 @@ std::string endings(const SweepSummary& counts) {
   return text;
 }
 
-void add_range(const char* name, const SweepSummary::Range& range, JsonWriter& json) {
-  json.begin_object(name).value("min", range.low).value("max", range.high).end_object();
+Json range_json(const SweepSummary::Range& range) {
+  return {{"min", range.low}, {"max", range.high}};
 }
 
 /// Shortest text that gives the number back.
@@ -77,29 +77,25 @@ std::string sweep_table(const results::Sweep& sweep) {
   return text;
 }
 
-void add_sweep(const results::Sweep& sweep, JsonWriter& json) {
+Json sweep_json(const results::Sweep& sweep) {
   const SweepSummary counts = summary(sweep);
-  const auto count = [](std::size_t number) { return static_cast<std::int64_t>(number); };
-  json.begin_object("sweep")
-      .value("source", sweep.source)
-      .value("rows", count(sweep.rows()))
-      .value("converged", count(counts.converged))
-      .value("not_converged", count(counts.not_converged))
-      .value("failed", count(counts.failed))
-      .value("not_solved", count(counts.other))
-      .value("most_steps", std::int64_t{counts.most_steps})
-      .value("worst_kkt", counts.worst_kkt)
-      .value("error", sweep.error);
-  json.texts("loads", sweep.loads).begin_array("inclusions");
-  for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
-    json.begin_object().value("name", sweep.inclusions[i]);
-    add_range("A", counts.displacement[i], json);
-    json.end_object();
-  }
-  json.end_array();
-  add_range("contact_length", counts.contact_length, json);
-  add_range("energy", counts.energy, json);
-  json.end_object();
+  Json inclusions = Json::array();
+  for (std::size_t i = 0; i < sweep.inclusions.size(); ++i)
+    inclusions.push_back(
+        {{"name", sweep.inclusions[i]}, {"A", range_json(counts.displacement[i])}});
+  return {{"source", sweep.source},
+          {"rows", sweep.rows()},
+          {"converged", counts.converged},
+          {"not_converged", counts.not_converged},
+          {"failed", counts.failed},
+          {"not_solved", counts.other},
+          {"most_steps", counts.most_steps},
+          {"worst_kkt", counts.worst_kkt},
+          {"error", sweep.error},
+          {"loads", sweep.loads},
+          {"inclusions", std::move(inclusions)},
+          {"contact_length", range_json(counts.contact_length)},
+          {"energy", range_json(counts.energy)}};
 }
 
 std::string sweep_csv(const results::Sweep& sweep) {

@@ -13,8 +13,7 @@ namespace anticrack::cli {
 /// How many rows ended how, the span of A, contact length and energy, and what went wrong.
 std::string sweep_table(const results::Sweep& sweep);
 
-/// The same as the object "sweep".
-void add_sweep(const results::Sweep& sweep, JsonWriter& json);
+Json sweep_json(const results::Sweep& sweep);  ///< the same
 
 /// A line per row: row, coefficients by the names of their loads, A per inclusion, energy,
 /// contact_length, steps, status. Numbers to full precision; those of a row that did not converge
