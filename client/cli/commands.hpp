@@ -34,7 +34,7 @@ int run_command_line(int argc, char** argv);
 
 /// One sentence about a command line (without the program's name) that `app` rejected with `error`:
 /// the command, the bad word and the cure.
-std::string usage_text(CLI::App& app, const CLI::ParseError& error,
+std::string usage_text(const CLI::App& app, const CLI::ParseError& error,
                        const std::vector<std::string>& words);
 
 }  // namespace anticrack::cli

@@ -7,76 +7,25 @@
 #include <utility>
 
 #include "casefile/nearest.hpp"
+#include "guide/command_tree.hpp"
 
 namespace anticrack::cli {
 namespace {
 
+using guide::Option;
 using Words = std::vector<std::string>;
 
-Words commands_of(CLI::App& app) {
+Words commands_of(const guide::Command& command) {
   Words names;
-  for (const CLI::App* command : app.get_subcommands({}))
-    if (!command->get_name().empty())  // else it is a group of options
-      names.push_back(command->get_name());
+  for (const guide::Command& below : command.commands) names.push_back(below.name);
   return names;
-}
-
-/// "anticrack job watch".
-std::string path_of(const CLI::App& app) {
-  const CLI::App* parent = app.get_parent();
-  return (parent == nullptr ? "" : path_of(*parent) + " ") + app.get_name();
-}
-
-// An option of a command or of one above it, whose options it takes too; null for none.
-const CLI::Option* option_of(const CLI::App* app, const std::string& name) {
-  for (; app != nullptr; app = app->get_parent())
-    if (const CLI::Option* option = app->get_option_no_throw(name)) return option;
-  return nullptr;
-}
-
-void add_options_of(const CLI::App& app, Words& names) {
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  const auto is_group = [](const CLI::App* below) { return below->get_name().empty(); };
-  for (const CLI::App* group : app.get_subcommands(is_group)) add_options_of(*group, names);
-}
-
-// Long names of all options that a command takes, its own first.
-Words options_of(const CLI::App* app) {
-  Words names;
-  for (; app != nullptr; app = app->get_parent()) add_options_of(*app, names);
-  return names;
-}
-
-std::string see(const CLI::App& app) { return "; see " + path_of(app) + " --help"; }
-
-// "run, mesh create": the commands below `app` that take an option.
-std::string takers_below(const CLI::App& app, const std::string& name, const std::string& path) {
-  std::string takers;
-  const auto add = [&takers](const std::string& more) {
-    takers += takers.empty() || more.empty() ? more : ", " + more;
-  };
-  const auto is_command = [](const CLI::App* below) { return !below->get_name().empty(); };
-  for (const CLI::App* command : app.get_subcommands(is_command)) {
-    const std::string here = path + command->get_name();
-    add(command->get_option_no_throw(name) == nullptr ? "" : here);
-    add(takers_below(*command, name, here + " "));
-  }
-  return takers;
-}
-
-std::string unknown_option(const CLI::App& app, const std::string& name) {
-  if (const std::string takers = takers_below(app, name, ""); !takers.empty())
-    return name + " is an option of " + takers + "; write it behind the command";
-  const auto meant = casefile::nearest(name, options_of(&app));
-  return "unknown option " + name + " of " + path_of(app) +
-         (meant ? "; did you mean " + *meant + "?" : see(app));
 }
 
 /// Walks the words as CLI11 does, to the command that is meant and the first word it does not know.
 class Walk {
  public:
-  Walk(CLI::App& app, const Words& words) : _level(&app), _words(words) {}
+  Walk(const guide::Command& program, const Words& words)
+      : _program(program), _level(&program), _words(words) {}
 
   /// Empty where every word has its place.
   std::string problem() {
@@ -90,43 +39,63 @@ class Walk {
     return "";
   }
 
-  CLI::App& level() const { return *_level; }
+  const guide::Command& level() const { return *_level; }
+  /// "anticrack job watch".
+  std::string path() const {
+    return _program.name + (_level->path.empty() ? "" : " " + _level->path);
+  }
+  std::string see() const { return "; see " + path() + " --help"; }
 
  private:
   std::string of_option(const std::string& word) {
     const bool is_long = word[1] == '-';
     const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
-    const CLI::Option* option = option_of(_level, name);
-    if (option == nullptr) return unknown_option(*_level, is_long ? name : word);
+    const Option* option = guide::option_of(*_level, _program, name);
+    if (option == nullptr) return unknown_option(is_long ? name : word);
     const bool holds_value = word.size() > name.size();
-    _next += option->get_items_expected_max() > 0 && !holds_value ? 1 : 0;
+    _next += option->value.kind != guide::Value::Kind::none && !holds_value ? 1 : 0;
     return "";
   }
 
+  std::string unknown_option(const std::string& name) const {
+    const std::size_t here = _level->path.empty() ? 0 : _level->path.size() + 1;
+    std::string takers;
+    for (const guide::Command* command : guide::with_all_below(*_level))
+      if (guide::option_of(*command, *command, name) != nullptr)
+        takers += (takers.empty() ? "" : ", ") + command->path.substr(here);
+    if (!takers.empty())
+      return name + " is an option of " + takers + "; write it behind the command";
+    Words names;
+    for (const guide::Command* command : {_level, &_program})
+      for (const Option& option : command->options)
+        if (option.names.back().starts_with("--")) names.push_back(option.names.back());
+    const auto meant = casefile::nearest(name, names);
+    return "unknown option " + name + " of " + path() +
+           (meant ? "; did you mean " + *meant + "?" : see());
+  }
+
   std::string of_word(const std::string& word) {
-    const Words commands = commands_of(*_level);
-    if (commands.empty()) {
-      const auto places =
-          _level->get_options([](const CLI::Option* o) { return o->get_positional(); }).size();
-      return ++_arguments > places
-                 ? "unexpected argument " + word + " of " + path_of(*_level) + see(*_level)
+    if (_level->commands.empty()) {
+      return ++_arguments > _level->positionals.size()
+                 ? "unexpected argument " + word + " of " + path() + see()
                  : "";
     }
-    if (std::find(commands.begin(), commands.end(), word) == commands.end())
-      return "unknown command " + word + "; " + cure(word, commands);
-    _level = _level->get_subcommand(word);
+    const auto below = std::ranges::find(_level->commands, word, &guide::Command::name);
+    if (below == _level->commands.end()) return "unknown command " + word + "; " + cure(word);
+    _level = &*below;
     return "";
   }
 
   // What a person types who forgets the command.
-  std::string cure(const std::string& word, const Words& commands) const {
+  std::string cure(const std::string& word) const {
     for (const auto& [end, command] : {std::pair{".toml", "run"}, std::pair{".h5", "show"}})
-      if (word.ends_with(end) && _level->get_parent() == nullptr)
+      if (word.ends_with(end) && _level == &_program)
         return std::string("did you mean anticrack ") + command + " " + word + "?";
-    return casefile::suggestion(word, commands);
+    return casefile::suggestion(word, commands_of(*_level));
   }
 
-  CLI::App* _level;
+  const guide::Command& _program;
+  const guide::Command* _level;
   const Words& _words;
   std::size_t _next = 0;
   std::size_t _arguments = 0;
@@ -161,15 +130,15 @@ std::string of_error(const CLI::ParseError& error) {
 
 }  // namespace
 
-std::string usage_text(CLI::App& app, const CLI::ParseError& error, const Words& words) {
-  Walk walk(app, words);
+std::string usage_text(const CLI::App& app, const CLI::ParseError& error, const Words& words) {
+  const guide::Command program = guide::command_tree(app);
+  Walk walk(program, words);
   if (std::string problem = walk.problem(); !problem.empty()) return problem;
-  const Words commands = commands_of(walk.level());
-  if (!commands.empty()) {
-    return "a command is missing after " + path_of(walk.level()) + "; " +
-           casefile::suggestion("", commands);
+  if (!walk.level().commands.empty()) {
+    return "a command is missing after " + walk.path() + "; " +
+           casefile::suggestion("", commands_of(walk.level()));
   }
-  return of_error(error) + see(walk.level());
+  return of_error(error) + walk.see();
 }
 
 }  // namespace anticrack::cli

@@ -61,6 +61,13 @@ Command tree_of(const CLI::App& app, const std::string& path) {
 
 Command command_tree(const CLI::App& app) { return tree_of(app, ""); }
 
+const Option* option_of(const Command& command, const Command& program, const std::string& name) {
+  for (const Command* taker : {&command, &program})
+    for (const Option& option : taker->options)
+      if (std::ranges::count(option.names, name) > 0) return &option;
+  return nullptr;
+}
+
 std::vector<const Command*> with_all_below(const Command& command) {
   std::vector<const Command*> result{&command};
   for (const Command& below : command.commands) {

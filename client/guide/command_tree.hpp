@@ -39,6 +39,10 @@ struct Command {
 /// The program. Options in groups belong to the command.
 Command command_tree(const CLI::App& app);
 
+/// The option with this name that may stand behind the command: its own, or one of the program,
+/// which every command takes. Null for none.
+const Option* option_of(const Command& command, const Command& program, const std::string& name);
+
 /// The command and all its subcommands, parents first.
 std::vector<const Command*> with_all_below(const Command& command);
 

@@ -65,19 +65,6 @@ end
 complete -c anticrack -f -a '(__anticrack_completions)'
 )";
 
-template <class Item>
-const Item* named(const std::vector<Item>& items, const auto& has) {
-  const auto found = std::ranges::find_if(items, has);
-  return found == items.end() ? nullptr : &*found;
-}
-
-/// Options of every command may stand after any.
-const Option* option_of(const Command& command, const Command& program, const std::string& name) {
-  const auto has = [&](const Option& option) { return std::ranges::count(option.names, name) > 0; };
-  const Option* own = named(command.options, has);
-  return own != nullptr ? own : named(program.options, has);
-}
-
 /// The lines for one word.
 class Lines {
  public:
@@ -121,9 +108,8 @@ std::string completions(const CLI::App& app, const std::vector<std::string>& wor
       lines.add(option->value);
       return lines.text();
     }
-    const Command* below =
-        named(command->commands, [&](const Command& each) { return each.name == words[i]; });
-    if (below != nullptr) command = below;
+    const auto below = std::ranges::find(command->commands, words[i], &Command::name);
+    if (below != command->commands.end()) command = &*below;
   }
   if (last.starts_with('-')) {
     lines.add(command->options);
