@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/text.hpp"
 
-#include <locale.h>
-#include <wchar.h>
+#include <unistr.h>
+#include <uniwidth.h>
 
 #include <algorithm>
 #include <array>
@@ -10,41 +10,24 @@
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
-#include <cwchar>
 
 #include "figures/text.hpp"
 
 namespace anticrack::cli {
 namespace {
 
-// Until the end of the scope: wcwidth knows wide and combining characters only in a Unicode locale.
-class UnicodeLocale {
- public:
-  UnicodeLocale() noexcept {
-    static const locale_t unicode = newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
-    _before = uselocale(unicode);
-  }
-  ~UnicodeLocale() { uselocale(_before); }
-  UnicodeLocale(const UnicodeLocale&) = delete;
-  UnicodeLocale& operator=(const UnicodeLocale&) = delete;
-
- private:
-  locale_t _before;
-};
-
 struct Character {
   std::size_t length;  // bytes
   std::size_t columns;
 };
 
-// The first of a text, in the locale of Unicode.
 Character first_character(std::string_view text) {
-  wchar_t point = 0;
-  std::mbstate_t state{};
-  const std::size_t length = std::mbrtowc(&point, text.data(), text.size(), &state);
-  if (length == 0 || length > text.size()) return {1, 1};  // not UTF-8
-  const int columns = wcwidth(point);
-  return {length, columns < 0 ? 1 : static_cast<std::size_t>(columns)};
+  ucs4_t point = 0;
+  const int length =
+      u8_mbtoucr(&point, reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  const int columns = length < 0 ? 1 : uc_width(point, "UTF-8");
+  return {length < 0 ? 1 : static_cast<std::size_t>(length),
+          columns < 0 ? 1 : static_cast<std::size_t>(columns)};
 }
 
 }  // namespace
@@ -61,7 +44,6 @@ std::string sanitise(std::string_view text) {
 }
 
 std::size_t columns_of(std::string_view text) noexcept {
-  const UnicodeLocale unicode;
   std::size_t columns = 0;
   while (!text.empty()) {
     const Character character = first_character(text);
@@ -74,7 +56,6 @@ std::size_t columns_of(std::string_view text) noexcept {
 std::string fit(std::string_view text, std::size_t width) {
   if (columns_of(text) <= width) return std::string(text);
   if (width == 0) return "";
-  const UnicodeLocale unicode;
   std::size_t end = 0;
   for (std::size_t columns = 0;;) {
     const Character character = first_character(text.substr(end));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "figures/text.hpp"
 
+#include <unistr.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -41,22 +43,14 @@ std::string lower(std::string text) {
 }  // namespace
 
 std::size_t character(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return lead >= 0x20 && lead != 0x7F ? 1 : 0;
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return 0;
-  unsigned code = lead & (0x7Fu >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0u) != 0x80u) return 0;
-    code = code << 6 | (byte(i) & 0x3Fu);
-  }
-  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
-  const bool surrogate = code >= 0xD800 && code < 0xE000;
+  ucs4_t code = 0;
+  const int length =
+      u8_mbtoucr(&code, reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   // Marks of the direction of writing and line separators can disguise a text as another one.
   const bool format = (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) ||
                       code == 0x200E || code == 0x200F;
-  return overlong || surrogate || format || code > 0x10FFFF || code < 0xA0 ? 0 : length;
+  const bool control = code < 0x20 || (code >= 0x7F && code < 0xA0);
+  return length < 0 || format || control ? 0 : static_cast<std::size_t>(length);
 }
 
 std::string quoted(std::string_view text, std::size_t limit) {

@@ -2,9 +2,9 @@
 #include "log/escape.hpp"
 
 #include <fmt/core.h>
+#include <unistr.h>
 
 #include <algorithm>
-#include <array>
 
 namespace anticrack::log {
 namespace {
@@ -23,20 +23,10 @@ bool is_plain(char c) {
 }  // namespace
 
 Character first_character(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(text[i]) & 0xFFU; };
-  const std::uint32_t lead = byte(0);
-  if (lead < 0x80) return {lead, 1, true};
-  const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4 || text.size() < bytes) return {};
-  std::uint32_t code = lead & (0x7FU >> bytes);
-  for (std::size_t i = 1; i < bytes; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return {};
-    code = (code << 6) | (byte(i) & 0x3F);
-  }
-  constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-  if (code < least[bytes] || code > 0x10FFFF || surrogate) return {};
-  return {code, bytes, true};
+  ucs4_t code = 0;
+  const int bytes =
+      u8_mbtoucr(&code, reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  return bytes > 0 ? Character{code, static_cast<std::size_t>(bytes), true} : Character{};
 }
 
 std::string escape(std::string_view value) {
