@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "casefile/nearest.hpp"
+#include "words/nearest.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -124,7 +124,7 @@ class Reader {
       const auto found = std::find(_loads.begin(), _loads.end(), _fields[i]);
       if (found == _loads.end()) {
         fail(i, shown_field(_fields[i]) + " is not a load of the case; " +
-                    suggestion(_fields[i], _loads));
+                    words::suggestion(_fields[i], _loads));
       }
       const auto load = static_cast<std::size_t>(found - _loads.begin());
       if (named[load]) fail(i, "load " + *found + " is named twice; keep one of the two columns");

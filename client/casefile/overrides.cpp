@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "casefile/error.hpp"
-#include "casefile/nearest.hpp"
 #include "toml/long_key.hpp"
+#include "words/nearest.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -98,7 +98,7 @@ class Walk {
     const auto found = std::find(names.begin(), names.end(), part);
     if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
     if (!index && !names.empty())
-      fail("none of them is called " + part + "; " + suggestion(part, names));
+      fail("none of them is called " + part + "; " + words::suggestion(part, names));
     fail("there is no entry " + part + "; write an index from 0 to " +
          std::to_string(array.size()) + (names.empty() ? "" : ", or a name"));
   }

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-#include "casefile/nearest.hpp"
+#include "words/nearest.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -99,7 +99,7 @@ Section::Section(const toml::table& table, std::string path, std::vector<std::st
     if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
       Spot spot = casefile::spot_of(node, path_of(key.str()));
       if (spot.line > 0 && key.source().begin.line > 0) spot.line = key.source().begin.line;
-      throw Error(std::move(spot), "unknown key; " + suggestion(key.str(), known));
+      throw Error(std::move(spot), "unknown key; " + words::suggestion(key.str(), known));
     }
   }
 }
@@ -219,7 +219,7 @@ std::optional<std::size_t> Section::choice(std::string_view key,
   const auto found = std::find(choices.begin(), choices.end(), *value);
   if (found == choices.end()) {
     throw Error(spot_of(key),
-                shown(*find(key)) + " is not possible; " + suggestion(*value, choices));
+                shown(*find(key)) + " is not possible; " + words::suggestion(*value, choices));
   }
   return static_cast<std::size_t>(found - choices.begin());
 }

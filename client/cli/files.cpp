@@ -8,7 +8,6 @@
 #include <memory>
 #include <vector>
 
-#include "casefile/nearest.hpp"
 #include "cli/answers.hpp"
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
@@ -19,6 +18,7 @@
 #include "results/error.hpp"
 #include "results/file.hpp"
 #include "vtk/export.hpp"
+#include "words/nearest.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -42,7 +42,7 @@ results::Result read_result(const FileOptions& options) {
     if (found == names.end()) {
       throw results::Error(options.file, "there is no load " + name,
                            names.empty() ? "it keeps traces of no row; run the sweep with --traces"
-                                         : casefile::suggestion(name, names));
+                                         : words::suggestion(name, names));
     }
     chosen.push_back(result.loads[static_cast<std::size_t>(found - names.begin())]);
   }

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "casefile/nearest.hpp"
 #include "cli/report.hpp"
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
+#include "words/nearest.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -75,7 +75,7 @@ std::string name_cure(Collection collection, const std::string& name,
     ids.push_back(each.substr(words.prefix.size()));
     if (each.starts_with(name)) longer.push_back(ids.back());
   }
-  const auto meant = longer.size() == 1 ? longer.front() : casefile::nearest(id, ids).value_or("");
+  const auto meant = longer.size() == 1 ? longer.front() : words::nearest(id, ids).value_or("");
   return meant.empty() ? words.see : "; did you mean " + words.prefix + meant + "?";
 }
 

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "casefile/coefficients.hpp"
-#include "casefile/nearest.hpp"
 #include "cli/text.hpp"
 #include "results/array_file.hpp"
+#include "words/nearest.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -60,7 +60,7 @@ std::vector<std::size_t> loads_of_columns(const std::vector<std::string>& names,
     const auto load = static_cast<std::size_t>(found - loads.begin());
     if (found == loads.end()) {
       fail(source, "its attribute loads: " + name + " is not a load of the case; " +
-                       casefile::suggestion(name, loads));
+                       words::suggestion(name, loads));
     }
     if (std::find(columns.begin(), columns.end(), load) != columns.end())
       fail(source, "its attribute loads: " + name + " is there twice; name each load once");

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "casefile/nearest.hpp"
 #include "guide/command_tree.hpp"
+#include "words/nearest.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -69,7 +69,7 @@ class Walk {
     for (const guide::Command* command : {_level, &_program})
       for (const Option& option : command->options)
         if (option.names.back().starts_with("--")) names.push_back(option.names.back());
-    const auto meant = casefile::nearest(name, names);
+    const auto meant = words::nearest(name, names);
     return "unknown option " + name + " of " + path() +
            (meant ? "; did you mean " + *meant + "?" : see());
   }
@@ -91,7 +91,7 @@ class Walk {
     for (const auto& [end, command] : {std::pair{".toml", "run"}, std::pair{".h5", "show"}})
       if (word.ends_with(end) && _level == &_program)
         return std::string("did you mean anticrack ") + command + " " + word + "?";
-    return casefile::suggestion(word, commands_of(*_level));
+    return words::suggestion(word, commands_of(*_level));
   }
 
   const guide::Command& _program;
@@ -136,7 +136,7 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error, const 
   if (std::string problem = walk.problem(); !problem.empty()) return problem;
   if (!walk.level().commands.empty()) {
     return "a command is missing after " + walk.path() + "; " +
-           casefile::suggestion("", commands_of(walk.level()));
+           words::suggestion("", commands_of(walk.level()));
   }
   return of_error(error) + walk.see();
 }

@@ -7,8 +7,8 @@
 
 #include "app/config.hpp"
 #include "app/listen_address.hpp"
-#include "app/nearest.hpp"
 #include "app/values.hpp"
+#include "words/nearest.hpp"
 
 namespace anticrack::app {
 namespace {
@@ -68,8 +68,8 @@ Key word(const char* name, const char* help, const std::vector<std::string>& kno
          std::string Config::*field) {
   const auto read = [known](const std::string& value) {
     if (std::find(known.begin(), known.end(), value) != known.end()) return value;
-    throw std::invalid_argument("unknown word \"" + value + "\"; did you mean \"" +
-                                nearest(value, known) + "\"?");
+    throw std::invalid_argument("unknown word \"" + value + "\"; " +
+                                words::suggestion(value, known));
   };
   return key(name, KeyType::text, "WORD", help, field, read, same);
 }
@@ -209,8 +209,7 @@ const Key& find_key(const std::string& name, const std::string& where) {
     if (key.name == name) return key;
     names.push_back(key.name);
   }
-  throw ConfigError(where + ": unknown key \"" + name + "\"; did you mean \"" +
-                    nearest(name, names) + "\"?");
+  throw ConfigError(where + ": unknown key \"" + name + "\"; " + words::suggestion(name, names));
 }
 
 }  // namespace anticrack::app

@@ -112,16 +112,16 @@ TEST(Config, FindsOutWhatIsLeftOpen) {
 TEST(Config, NamesFileLineAndTheNearestKey) {
   const std::string problem = problem_with("threads = 2\n\nmemory-buget = 1\n");
   EXPECT_THAT(problem, HasSubstr("c.toml:3: unknown key \"memory-buget\""));
-  EXPECT_THAT(problem, HasSubstr("\"memory-budget\""));
+  EXPECT_THAT(problem, HasSubstr("memory-budget?"));
 }
 
 TEST(Config, NamesFileLineAndKeyOfABadValue) {
   EXPECT_THAT(problem_with("\nthreads = 0\n"),
               HasSubstr("c.toml:2: threads: \"0\" is not an integer"));
   EXPECT_THAT(problem_with("listen = \"here\""), HasSubstr("c.toml:1: listen: \"here\""));
-  EXPECT_THAT(problem_with("log-level = \"inof\""), HasSubstr("did you mean \"info\"?"));
+  EXPECT_THAT(problem_with("log-level = \"inof\""), HasSubstr("did you mean info?"));
   EXPECT_THAT(problem_with("memory-budget = \"1KiB\""), HasSubstr("at least 1MiB"));
-  EXPECT_THAT(problem_with("log-format = \"jsn\""), HasSubstr("did you mean \"json\"?"));
+  EXPECT_THAT(problem_with("log-format = \"jsn\""), HasSubstr("did you mean json?"));
   EXPECT_THAT(problem_with("run-time = 0"), HasSubstr("at least 1"));
   EXPECT_THAT(problem_with("result-ttl = \"31d\""), HasSubstr("at most 30 days"));
   EXPECT_THAT(problem_with("metrics-listen = \"unix:/m\""), HasSubstr("not HOST:PORT"));

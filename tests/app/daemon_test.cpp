@@ -119,7 +119,7 @@ TEST_F(Daemon, RefusesABadConfigurationInOneLine) {
   EXPECT_EQ(daemon->wait(), 2);
   EXPECT_EQ(daemon->output(), "");
   EXPECT_THAT(daemon->error(), HasSubstr("c.toml:2: unknown key \"thread\""));
-  EXPECT_THAT(daemon->error(), EndsWith("did you mean \"threads\"?\n"));
+  EXPECT_THAT(daemon->error(), EndsWith("did you mean threads?\n"));
 }
 
 TEST_F(Daemon, RefusesToListenBeyondTheMachine) {

@@ -5,8 +5,6 @@
 
 #include <stdexcept>
 
-#include "app/nearest.hpp"
-
 namespace anticrack::app {
 namespace {
 
@@ -69,13 +67,6 @@ TEST(Times, AreWrittenSoThatTheyAreReadBack) {
   EXPECT_EQ(from_time(std::chrono::milliseconds(3005)), "3.005");
   EXPECT_EQ(from_time(std::chrono::hours(7 * 24)), "7d");
   EXPECT_EQ(from_time(std::chrono::minutes(90)), "90m");
-}
-
-TEST(Nearest, CountsEdits) {
-  const std::vector<std::string> words{"listen", "threads", "data-dir"};
-  EXPECT_EQ(nearest("thread", words), "threads");
-  EXPECT_EQ(nearest("data_dir", words), "data-dir");
-  EXPECT_EQ(nearest("lisent", words), "listen");
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "casefile/nearest.hpp"
+#include "words/nearest.hpp"
 
-namespace anticrack::casefile {
+namespace anticrack::words {
 namespace {
 
 TEST(EditDistance, CountsTheFourMistakes) {
@@ -40,4 +40,4 @@ TEST(Suggestion, ListsWhatIsKnownInOrder) {
 }
 
 }  // namespace
-}  // namespace anticrack::casefile
+}  // namespace anticrack::words

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "casefile/nearest.hpp"
+#include "words/nearest.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <numeric>
 
-namespace anticrack::casefile {
+namespace anticrack::words {
 namespace {
 
 std::string lower_case(std::string_view text) {
@@ -65,4 +65,4 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& ca
   return list;
 }
 
-}  // namespace anticrack::casefile
+}  // namespace anticrack::words

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace anticrack::casefile {
+namespace anticrack::words {
 
 /// Insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b` (optimal
 /// string alignment). O(|a| |b|).
@@ -23,4 +23,4 @@ std::optional<std::string> nearest(std::string_view word,
 /// "did you mean theta?", or "known are epsilon, p, theta" when nothing is near.
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
-}  // namespace anticrack::casefile
+}  // namespace anticrack::words
