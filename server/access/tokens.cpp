@@ -23,8 +23,9 @@ using Hash = std::array<std::uint8_t, 32>;
 constexpr std::size_t max_name_bytes = 64;
 
 errors::Error bad_line(const std::string& origin, std::size_t line, const std::string& what) {
-  return {errors::Reason::invalid_argument,
-          std::string(origin) + ", line " + std::to_string(line) + ": " + what};
+  return errors::Error(errors::Reason::invalid_argument,
+                       origin + ", line " + std::to_string(line) + ": " + what)
+      .at("tokens");
 }
 
 std::vector<std::string> words_of(const std::string& line) {

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "access/tokens.hpp"
-#include "app/certificates.hpp"
 #include "app/listen_address.hpp"
 #include "app/secret_file.hpp"
 #include "errors/errors.hpp"
+#include "rpc/tls.hpp"
 
 namespace anticrack::app {
 namespace {
@@ -18,12 +18,7 @@ constexpr int warn_days = 14;
 
 access::TokenTable load_tokens(const std::string& path) {
   const std::string text = read_guarded_file("tokens", path, OthersMay::read);
-  access::TokenTable tokens;
-  try {
-    tokens = access::TokenTable::parse(text, path);
-  } catch (const errors::Error& error) {
-    throw ConfigError(std::string("tokens: ") + error.what());
-  }
+  access::TokenTable tokens = access::TokenTable::parse(text, path);
   // An empty table would let everyone in.
   if (tokens.empty()) {
     throw ConfigError("tokens: " + path +
@@ -38,6 +33,16 @@ struct ReadFiles {
   access::TokenTable tokens;
 };
 
+/// What is wrong with a file, under the name of its key.
+void as_config_error(const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const errors::Error& error) {
+    throw ConfigError((error.fields().empty() ? "" : error.fields().front().field + ": ") +
+                      error.what());
+  }
+}
+
 /// Reads and checks every file that the configuration names. `attempt` runs a check: a start lets
 /// the first bad one throw, --check-config goes on.
 ReadFiles read_files(const Config& config,
@@ -51,9 +56,9 @@ ReadFiles read_files(const Config& config,
   read("tls-certificate", config.tls_certificate, OthersMay::read, certificate);
   read("tls-key", config.tls_key, OthersMay::nothing, key);
   if (!certificate.empty() && !key.empty())
-    attempt([&] { files.days_left = check_certificate(certificate, key); });
+    attempt([&] { files.days_left = rpc::check_certificate(certificate, key); });
   read("tls-client-roots", config.tls_client_roots, OthersMay::read, roots);
-  if (!roots.empty()) attempt([&] { check_roots(roots); });
+  if (!roots.empty()) attempt([&] { rpc::check_roots(roots); });
   if (!config.tokens.empty()) attempt([&] { files.tokens = load_tokens(config.tokens); });
   return files;
 }
@@ -73,7 +78,7 @@ std::vector<std::string> split_names(const std::string& names) {
 
 void note_problem(std::vector<std::string>& problems, const std::function<void()>& check) {
   try {
-    check();
+    as_config_error(check);
   } catch (const ConfigError& error) {
     problems.emplace_back(error.what());
   }
@@ -81,27 +86,19 @@ void note_problem(std::vector<std::string>& problems, const std::function<void()
 
 std::vector<std::string> problems_of_security(const Config& config) {
   std::vector<std::string> problems;
-  const ReadFiles files = read_files(
-      config, [&](const std::function<void()>& check) { note_problem(problems, check); });
-  if (files.days_left && *files.days_left < 0) {
-    problems.push_back("tls-certificate: " + config.tls_certificate +
-                       " has expired; renew it: no client would accept it");
-  }
+  read_files(config, [&](const std::function<void()>& check) { note_problem(problems, check); });
   return problems;
 }
 
 LoadedSecurity load_security(const Config& config) {
-  ReadFiles files = read_files(config, [](const std::function<void()>& check) { check(); });
+  ReadFiles files = read_files(config, as_config_error);
   LoadedSecurity loaded;
   if (has_tls(config)) loaded.security.tls = std::move(files.tls);
   loaded.security.tokens = std::move(files.tokens);
   loaded.security.admins = split_names(config.admins);
-  if (files.days_left && *files.days_left < warn_days) {
-    loaded.warnings.push_back(*files.days_left < 0
-                                  ? std::string("the certificate has expired")
-                                  : "the certificate expires in " +
-                                        std::to_string(*files.days_left) + " days");
-  }
+  if (files.days_left && *files.days_left < warn_days)
+    loaded.warnings.push_back("the certificate expires in " + std::to_string(*files.days_left) +
+                              " days");
 
   if (is_local(parse_listen_address(config.listen))) return loaded;
   if (config.tokens.empty() && config.tls_client_roots.empty()) {

@@ -119,17 +119,27 @@ class FetchedCredentials final : public grpc::ServerCredentials {
 
 }  // namespace
 
-void require_usable(const Tls& tls) {
-  const std::vector<Certificate> chain = certificates_of(tls.certificate, "tls-certificate");
-  const Key key = key_of(tls.key);
-  if (X509_check_private_key(chain.front().get(), key.get()) != 1) {
+int check_certificate(const std::string& certificate, const std::string& key) {
+  const std::vector<Certificate> chain = certificates_of(certificate, "tls-certificate");
+  const X509* own = chain.front().get();
+  if (X509_check_private_key(own, key_of(key).get()) != 1) {
     ERR_clear_error();
     throw refused("tls-key",
                   "the key belongs to another certificate than the first one of "
                   "tls-certificate");
   }
-  require_valid_today(chain.front().get());
-  if (!tls.client_roots.empty()) certificates_of(tls.client_roots, "tls-client-roots");
+  require_valid_today(own);
+  int days = 0;
+  int seconds = 0;
+  ASN1_TIME_diff(&days, &seconds, nullptr, X509_get0_notAfter(own));
+  return days;
+}
+
+void check_roots(const std::string& roots) { certificates_of(roots, "tls-client-roots"); }
+
+void require_usable(const Tls& tls) {
+  check_certificate(tls.certificate, tls.key);
+  if (!tls.client_roots.empty()) check_roots(tls.client_roots);
 }
 
 Certificates::Certificates(Tls tls) : _tls(std::move(tls)) { require_usable(_tls); }

@@ -11,10 +11,13 @@
 
 namespace anticrack::rpc {
 
-/// Throws errors::Error (invalid_argument; field "tls-certificate", "tls-key" or
-/// "tls-client-roots") where a text is no such PEM, the key belongs to another certificate, or the
-/// certificate is not valid today: gRPC would refuse each connection without a word.
-void require_usable(const Tls& tls);
+/// Days until the first certificate expires. These throw errors::Error (invalid_argument; field
+/// "tls-certificate", "tls-key" or "tls-client-roots") where a text is no such PEM, the key belongs
+/// to another certificate, or the certificate is not valid today: gRPC would refuse each connection
+/// without a word.
+int check_certificate(const std::string& certificate, const std::string& key);
+void check_roots(const std::string& roots);
+void require_usable(const Tls& tls);  ///< both
 
 /// The certificates of a server, which may be replaced while it serves. Thread-safe; outlives the
 /// server.

@@ -106,7 +106,7 @@ TEST_F(Daemon, ChecksTheFilesOfItsConfigurationAndNamesEachBadOne) {
   for (const std::string& flaw :
        {"tls-certificate: " + path("none.crt") + " cannot be read",
         "tls-key: " + path("none.key") + " cannot be read",
-        std::string("tls-client-roots: holds no certificate"),
+        std::string("tls-client-roots: no certificate in it"),
         "tokens: " + path("tokens") + ", line 1",
         "data-dir: " + path("file") + "/data: ", std::string("--mesher PATH")}) {
     EXPECT_THAT(check.error(), HasSubstr(flaw));

@@ -108,7 +108,7 @@ class Administration(FolderTest):
             used["key"].write_bytes((made["first"] / "server.key").read_bytes())
             said = daemon.hang_up()
             self.assertIn("not read again", said)
-            self.assertIn("tls-key: not the key of the certificate in tls-certificate", said)
+            self.assertIn("tls-key: the key belongs to another certificate", said)
             self.assertEqual(code("second"), grpc.StatusCode.OK, "the old ones stay")
 
     def test_sees_who_has_what(self):
