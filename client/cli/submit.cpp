@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/submit.hpp"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 
 #include <exception>
@@ -143,8 +145,10 @@ void tell_submitted(const Session& session, const v1::Job& job) {
     return;
   }
   say(session.globals(), job.name());
-  say(session.globals(),
-      "To watch it: anticrack job watch " + job.name() + session.server_option());
+  if (isatty(STDOUT_FILENO) == 1) {  // a script wants the name alone
+    say(session.globals(),
+        "To watch it: anticrack job watch " + job.name() + session.server_option());
+  }
 }
 
 results::Result fetch(Session& session, const v1::Job& job, const std::stop_token& stop,
