@@ -74,7 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     rpc::UploadReceiver receiver(the_store(), owner, max_bytes);
     for (const auto& message : list) receiver.accept(message);
-    const std::string sha256 = receiver.complete().front();
+    const std::string sha256 = receiver.complete().front().id;
     const auto path = the_store().upload_path(sha256, owner);
     fuzz::require(path.has_value(), "an upload that was accepted is not there");
     fuzz::require(std::filesystem::file_size(*path) <= max_bytes, "an upload over the bound");
