@@ -22,7 +22,6 @@ using errors::Reason;
 using store::JobState;
 
 constexpr std::chrono::milliseconds retry_write{1'000};
-constexpr std::chrono::minutes sweep_every{1};
 constexpr const char* writing = "writing the result";
 
 /// Whether the same call may succeed later.
@@ -57,16 +56,14 @@ void EndingThread::work() {
   while (!_core.quitting) {
     if (!_core.to_end.empty()) {
       const JobPtr job = _core.to_end.pop();
-      _swept = false;
       write(lock, conclude_job(lock, job));
     } else if (next_waiting(lock)) {
       continue;
-    } else if (!_swept || Clock::now() >= _next_sweep) {
-      sweep(lock);
+    } else if (_waiting.empty()) {
+      _core.ending.wait(lock);
     } else {
-      Clock::time_point next = _next_sweep;
-      for (const End& end : _waiting) next = std::min(next, end.next_try);
-      _core.ending.wait_until(lock, next);
+      _core.ending.wait_until(lock,
+                              std::ranges::min_element(_waiting, {}, &End::next_try)->next_try);
     }
   }
 }
@@ -145,6 +142,8 @@ void EndingThread::announce(Lock& lock, const End& end) {
   _core.running -= job->state == JobState::running ? 1 : 0;
   job->state = record->state;
   _core.retention.add({job->id(), *record->ended, record->result_bytes, record->owner});
+  _core.ended_since_sweep = true;
+  _core.sweeping.notify_one();
   _core.logs.add(job->id(), job->log, log_bytes);
   _core.jobs.erase(job->id());
   _core.admission.ended(job->created.owner, job->spec_bytes);
@@ -192,37 +191,6 @@ bool EndingThread::next_waiting(Lock& lock) {
   else
     write(lock, std::move(end));
   return true;
-}
-
-void EndingThread::sweep(Lock& lock) {
-  _swept = true;
-  const auto now = store::Clock::now();
-  const Expiry expiry = _core.retention.due(now);
-  const bool uploads = Clock::now() >= _next_sweep;
-  if (uploads) _next_sweep = Clock::now() + sweep_every;
-  lock.unlock();
-  std::vector<std::string> expired, erased;
-  const auto gone = [](const auto& remove) {
-    try {
-      remove();
-      return true;
-    } catch (const Error& error) {
-      return error.reason() == Reason::not_found;  // erased by a client in this moment
-    }
-  };
-  for (const std::string& id : expiry.expire)
-    if (gone([&] { _core.store.expire(id, now); })) expired.push_back(id);
-  for (const std::string& id : expiry.erase)
-    if (gone([&] { _core.store.erase_job(id); })) erased.push_back(id);
-  if (uploads && _core.options.upload_ttl.count() > 0)
-    gone([&] { _core.store.expire_uploads(store::Clock::now() - _core.options.upload_ttl); });
-  lock.lock();
-  for (const std::string& id : expired) _core.retention.expired(id);
-  _core.results_expired += expired.size();
-  for (const std::string& id : erased) {
-    _core.retention.remove(id);
-    _core.logs.remove(id);
-  }
 }
 
 }  // namespace anticrack::jobs

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The thread that writes the ends of jobs, and removes what is too old.
+// The thread that writes the ends of jobs.
 #pragma once
 
 #include <chrono>
@@ -15,8 +15,7 @@ namespace anticrack::jobs {
 /// Takes the jobs that have nothing left to solve, writes record and result to the store and tells
 /// the watchers. What the store cannot take is kept and tried again every second, without holding
 /// up other jobs, until it is written, the job is cancelled (then it ends without a result) or the
-/// engine stops (then the next start runs it again). After ends and once a minute results expire
-/// and records go as jobs/retention.hpp says.
+/// engine stops (then the next start runs it again).
 class EndingThread {
  public:
   /// Starts the thread; the core must outlive it.
@@ -45,12 +44,9 @@ class EndingThread {
   void keep(Lock& lock, End end);
   void leave_to_next_start(Lock& lock, const End& end);
   bool next_waiting(Lock& lock);
-  void sweep(Lock& lock);
 
   EngineCore& _core;
   std::deque<End> _waiting;  ///< for the store; of this thread alone
-  bool _swept = false;       ///< since the last end
-  Clock::time_point _next_sweep{};
   std::thread _thread;
 };
 

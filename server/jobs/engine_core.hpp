@@ -77,12 +77,14 @@ class EngineCore {
   std::atomic<std::uint64_t> iterations{0};
 
   mutable std::mutex mutex;
-  std::condition_variable solvers, preparers, ending, limits;  ///< work for each kind of thread
-  std::condition_variable settled;                             ///< fewer jobs live or end
-  bool draining = false;                                       ///< no job starts any more
+  /// Work for each kind of thread.
+  std::condition_variable solvers, preparers, ending, sweeping, limits;
+  std::condition_variable settled;  ///< fewer jobs live or end
+  bool draining = false;            ///< no job starts any more
   bool interrupting = false;  ///< what the store does not take at once is left to the next start
   bool stop_noted = false;    ///< noted in the store
   bool quitting = false;
+  bool ended_since_sweep = true;
   int idle_solvers = 0;
 
   Schedule schedule;

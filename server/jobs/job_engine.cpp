@@ -11,6 +11,7 @@
 #include "jobs/engine_core.hpp"
 #include "jobs/intake.hpp"
 #include "jobs/preparation_pool.hpp"
+#include "jobs/retention_thread.hpp"
 #include "jobs/solver_pool.hpp"
 #include "jobs/time_limits.hpp"
 
@@ -44,8 +45,9 @@ struct JobEngine::State {
 
   struct Pools {
     explicit Pools(EngineCore& core)
-        : ending(core), limits(core), preparation(core), solvers(core) {}
+        : ending(core), retention(core), limits(core), preparation(core), solvers(core) {}
     EndingThread ending;
+    RetentionThread retention;
     TimeLimits limits;
     PreparationPool preparation;
     SolverPool solvers;
@@ -65,7 +67,7 @@ JobEngine::~JobEngine() {
     const std::lock_guard lock(core.mutex);
     core.quitting = true;
   }
-  for (auto* changed : {&core.solvers, &core.preparers, &core.ending, &core.limits})
+  for (auto* changed : {&core.solvers, &core.preparers, &core.ending, &core.sweeping, &core.limits})
     changed->notify_all();
   _state->pools.reset();
 }
