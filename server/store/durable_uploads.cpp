@@ -42,8 +42,15 @@ std::optional<std::string> DurableStore::upload_path(const std::string& sha256,
 }
 
 std::string DurableStore::new_upload_path(std::uint64_t bytes) {
-  _parts.forget_lost();
-  DiskUsage::Reservation reservation = reserve(bytes);
+  const auto reserved = [&] {
+    try {
+      return reserve(bytes);
+    } catch (const Error&) {  // parts that were lost hold room
+      _parts.forget_lost();
+      return reserve(bytes);
+    }
+  };
+  DiskUsage::Reservation reservation = reserved();
   std::string path = _uploads.new_part();
   _parts.add(path, std::move(reservation));
   return path;

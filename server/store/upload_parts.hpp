@@ -19,13 +19,17 @@ class UploadParts {
   /// An upload begins.
   void add(const std::string& path, DiskUsage::Reservation reservation) {
     const std::lock_guard lock(_mutex);
+    // Looking at all of them for each new one would take the square of their number.
+    if (_reserved.size() >= _look_at) {
+      drop_lost();
+      _look_at = 2 * _reserved.size() + 16;
+    }
     _reserved.emplace(path, std::move(reservation));
   }
   /// Forgets those whose files were removed.
   void forget_lost() {
     const std::lock_guard lock(_mutex);
-    std::erase_if(_reserved, [](const auto& item) { return !file_size(item.first); });
-    std::erase_if(_unflushed, [](const auto& path) { return !file_size(path); });
+    drop_lost();
   }
   /// An upload has ended.
   void forget(const std::string& path) {
@@ -51,9 +55,15 @@ class UploadParts {
   }
 
  private:
+  void drop_lost() {
+    std::erase_if(_reserved, [](const auto& item) { return !file_size(item.first); });
+    std::erase_if(_unflushed, [](const auto& path) { return !file_size(path); });
+  }
+
   mutable std::mutex _mutex;
   std::map<std::string, DiskUsage::Reservation> _reserved;
   std::set<std::string> _unflushed;
+  std::size_t _look_at = 16;  // as many reservations as make the next look for lost ones
 };
 
 }  // namespace anticrack::store
