@@ -20,7 +20,9 @@ constexpr std::string_view reply_tag = "ACMREP2\n";
 constexpr auto last_reason = static_cast<std::int32_t>(errors::Reason::internal);
 
 /// Fields that do not count for the hash of a mesh.
-bool is_beside(std::string_view field) { return field == "warnings" || field == "bisection_bound"; }
+bool is_beside(std::string_view field) {
+  return field == "warnings" || field == "bisection_bound" || field == "motions";
+}
 
 void put(Writer& out, const Mesh& mesh) {
   fields::for_each(mesh, [&](const auto& field) {

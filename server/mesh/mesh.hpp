@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,18 @@ enum class Kind : std::int32_t {
   crack = 2,        ///< [u] >= 0
   inclusion = 3,    ///< u+ = u- = A_j, bonded rigid inclusion j
   delaminated = 4,  ///< u+ = A_j, [u] >= 0                        (gamma_c, paper (3)-(6))
+  free = 5,         ///< T du/dn = 0 on both faces, [u] of either sign: a crack without contact
 };
+
+/// How an inclusion moves. By default along its line u = A, the paper's; it keeps its direction.
+struct Motion {
+  /// u = A + B s of a straight one, s the arc length from its middle (negative at its first node);
+  /// of any other u = A + Bx (x - x0) + By (y - y0), (x0, y0) the middle of its bounding box: the
+  /// rigid motions of a thin plate.
+  bool tilt = false;
+  std::optional<double> fixed;  ///< held at u = this; does not tilt
+};
+ANTICRACK_FIELDS(Motion, tilt, fixed)
 
 /// A chain of k nodes and k-1 edges, its plus side (the paper's Omega_2) on the left. A closed
 /// chain repeats its first node as its last.
@@ -47,6 +59,7 @@ struct Mesh {
   std::vector<std::string> subdomains;  ///< names
   std::vector<double> tension;          ///< (subdomains) T > 0 of each; empty: 1 everywhere
   std::vector<std::string> inclusions;  ///< names
+  std::vector<Motion> motions;          ///< (inclusions) of each; empty: all keep their direction
   std::vector<Interface> interfaces;
   std::vector<std::array<std::int32_t, 2>> dirichlet;  ///< edges of the boundary where u = g_D
   std::vector<std::string> warnings;                   ///< what was repaired or assumed
@@ -57,8 +70,8 @@ struct Mesh {
   std::size_t node_count() const noexcept { return xy.size() / 2; }
   std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
 };
-ANTICRACK_FIELDS(Mesh, xy, triangles, subdomain, subdomains, tension, inclusions, interfaces,
-                 dirichlet, warnings, bisection_bound)
+ANTICRACK_FIELDS(Mesh, xy, triangles, subdomain, subdomains, tension, inclusions, motions,
+                 interfaces, dirichlet, warnings, bisection_bound)
 
 /// Throws errors::Error (mesh_invalid) naming the first invariant violated and where. O(m log m).
 void validate(const Mesh& mesh);
