@@ -40,7 +40,10 @@ Trace trace_of(const TraceProblem& problem, std::span<const ddm::CondensedLoad> 
     trace.u_minus.push_back(side_value(state, side.minus, side.minus_trace, dirichlet));
     trace.u_plus.push_back(side_value(state, side.plus, side.plus_trace, dirichlet));
     const bool paired = side.pair >= 0;
-    trace.jump.push_back(paired ? state.jump[side.pair] : 0);
+    const bool free = !paired && side.kind == mesh::Kind::free;
+    trace.jump.push_back(paired ? state.jump[side.pair]
+                         : free ? trace.u_plus.back() - trace.u_minus.back()
+                                : 0);
     trace.pressure.push_back(paired ? state.mu[side.pair] : 0);
     trace.contact.push_back(paired ? state.contact[at(side.pair)] : 0);
   }
@@ -61,20 +64,34 @@ void append_intervals(const std::string& interface, const std::vector<double>& a
 
 /// Outward fluxes of all sides: [T du/dn] = T du2/dn2 + T du1/dn1.
 void fill_inclusions(const TraceProblem& problem, const mesh::Mesh& mesh,
-                     std::span<const double> inclusion_forces, const TraceState& state,
+                     std::span<const RigidForce> inclusion_forces, const TraceState& state,
                      Answer& answer) {
   const ddm::Decomposition& decomposition = problem.decomposition();
   for (std::size_t j = 0; j < mesh.inclusions.size(); ++j) {
-    answer.inclusions.push_back({mesh.inclusions[j],
-                                 state.displacement[static_cast<Eigen::Index>(j)],
-                                 inclusion_forces.empty() ? 0 : inclusion_forces[j], 0});
+    const auto motion = state.motion.col(static_cast<Eigen::Index>(j));
+    const RigidForce given = inclusion_forces.empty() ? RigidForce{} : inclusion_forces[j];
+    InclusionAnswer inclusion;
+    inclusion.name = mesh.inclusions[j];
+    inclusion.displacement = motion[0];
+    inclusion.slope_x = motion[1];
+    inclusion.slope_y = motion[2];
+    inclusion.resultant = given.force;
+    inclusion.moment_x = given.moment_x;
+    inclusion.moment_y = given.moment_y;
+    answer.inclusions.push_back(std::move(inclusion));
   }
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
-    const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
-    for (std::size_t i = 0; i < unknown.size(); ++i) {
-      const std::size_t j = at(problem.forest().root(unknown[i]));  // A_j come first
-      if (j < answer.inclusions.size())
-        answer.inclusions[j].resultant += state.flux[s][static_cast<Eigen::Index>(i)];
+    const std::vector<std::int32_t>& carrier = problem.carriers()[s];
+    const ddm::Subdomain& subdomain = decomposition.subdomains[s];
+    for (std::size_t i = 0; i < carrier.size(); ++i) {
+      if (carrier[i] < 0) continue;
+      const mesh::Point& centre = decomposition.skeleton.motions[at(carrier[i])].centre;
+      const double* at_node = &subdomain.part.xy[2 * (subdomain.interior + i)];
+      const double flux = state.flux[s][static_cast<Eigen::Index>(i)];
+      InclusionAnswer& inclusion = answer.inclusions[at(carrier[i])];
+      inclusion.resultant += flux;
+      inclusion.moment_x += flux * (at_node[0] - centre[0]);
+      inclusion.moment_y += flux * (at_node[1] - centre[1]);
     }
   }
   for (std::size_t i = 0; i < decomposition.pairs.size(); ++i) {
@@ -97,6 +114,17 @@ Eigen::Map<Eigen::VectorXd> view(std::vector<double>& values) {
 }
 
 }  // namespace
+
+Eigen::VectorXd held_values(const ddm::Decomposition& decomposition,
+                            std::span<const ddm::CondensedLoad> loads, bool numbers) {
+  const std::vector<ddm::Held>& held = decomposition.skeleton.held;
+  Eigen::VectorXd values(static_cast<Eigen::Index>(held.size()));
+  for (std::size_t k = 0; k < held.size(); ++k)
+    values[static_cast<Eigen::Index>(k)] =
+        held[k].node >= 0 ? loads[at(held[k].subdomain)].dirichlet[held[k].dirichlet]
+                          : (numbers ? held[k].value : 0);
+  return values;
+}
 
 void describe(const TraceProblem& problem, const mesh::Mesh& mesh, const CaseLoads& loads,
               const TraceState& state, const Sample& sample, Answer& answer) {

@@ -3,6 +3,8 @@
 
 #include <cblas.h>
 
+#include <algorithm>
+
 #include "contact/dense_lcp.hpp"
 #include "mesh/at.hpp"
 
@@ -80,12 +82,13 @@ void OpenFactor::reserve(Index contacts) {
   _values.resize(contacts * contacts);
 }
 
-bool OpenFactor::factorise(const MatrixXd& matrix, const std::vector<char>& closed) {
+bool OpenFactor::factorise(const MatrixXd& matrix, const std::vector<ddm::Terms>& rows,
+                           const std::vector<char>& closed) {
   if (_closed == closed) return _regular;
   _closed = closed;
   _nodes.clear();
-  for (std::size_t i = 0; i < closed.size(); ++i)
-    if (closed[i] == 0) _nodes.push_back(static_cast<Index>(i));
+  for (Index i = 0; i < matrix.rows(); ++i)
+    if (closed[at(i)] == 0) _nodes.push_back(i);
   const auto n = static_cast<Index>(_nodes.size());
   if (_values.size() < n * n) _values.resize(n * n);
   Eigen::Map<MatrixXd> factor(_values.data(), n, n);
@@ -96,7 +99,30 @@ bool OpenFactor::factorise(const MatrixXd& matrix, const std::vector<char>& clos
   }
   _regular = cholesky(factor) &&
              (n == 0 || regular_pivot(factor.diagonal().array().square().minCoeff(), n));
+  _to_rows.resize(0, 0);
+  if (_regular && !rows.empty()) hold(rows, matrix.rows());
   return _regular;
+}
+
+void OpenFactor::hold(const std::vector<ddm::Terms>& rows, Index contacts) {
+  const auto n = static_cast<Index>(_nodes.size());
+  std::vector<const ddm::Terms*> holding;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const bool any = std::ranges::any_of(
+        rows[k], [this](const ddm::Term& term) { return _closed[at(term.index)] == 0; });
+    if (any && _closed[at(contacts) + k] != 0) holding.push_back(&rows[k]);
+  }
+  _to_rows.setZero(n, static_cast<Index>(holding.size()));
+  for (std::size_t k = 0; k < holding.size(); ++k) {
+    for (const ddm::Term& term : *holding[k]) {
+      const auto node = std::lower_bound(_nodes.begin(), _nodes.end(), Index{term.index});
+      if (node != _nodes.end() && *node == term.index)
+        _to_rows(node - _nodes.begin(), static_cast<Index>(k)) = term.factor;
+    }
+  }
+  solve_lower(Eigen::Map<const MatrixXd>(_values.data(), n, n), _to_rows);
+  _of_rows = _to_rows.transpose() * _to_rows;
+  _regular = cholesky(_of_rows);
 }
 
 VectorXd OpenFactor::solve(const VectorXd& b) const {
@@ -110,6 +136,12 @@ void OpenFactor::solve(const VectorXd& b, VectorXd& x) const {
   for (Index i = 0; i < n; ++i) x[i] = b[_nodes[at(i)]];
   const Eigen::Map<const MatrixXd> factor(_values.data(), n, n);
   solve_lower(factor, x.head(n));
+  if (_to_rows.cols() > 0) {
+    VectorXd nu = -(_to_rows.transpose() * x.head(n));
+    solve_lower(_of_rows, nu);
+    solve_lower_transposed(_of_rows, nu);
+    x.head(n) += _to_rows * nu;
+  }
   solve_lower_transposed(factor, x.head(n));
   x.tail(x.size() - n).setZero();
   for (Index i = n; i-- > 0;) {  // nodes are increasing, so nothing is overwritten before it moves

@@ -2,6 +2,8 @@
 #include "contact/dense_lcp.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -18,26 +20,91 @@ using Eigen::VectorXd;
 
 constexpr double rounding = lcp_rounding;
 
-/// One run on scaled data: unit diagonal, load of size 1.
+/// All scaled: unit diagonal of S, rows of norm 1.
+struct Problem {
+  const MatrixXd& matrix;
+  const std::vector<ddm::Terms>& rows;
+  const VectorXd& weights;
+
+  Index nodes() const { return matrix.rows(); }
+  Index row(std::size_t k) const { return nodes() + static_cast<Index>(k); }
+  bool any_open(std::size_t k, const std::vector<char>& closed) const {
+    return std::ranges::any_of(
+        rows[k], [&closed](const ddm::Term& term) { return closed[at(term.index)] == 0; });
+  }
+
+  /// Jumps of the rows below those of the nodes.
+  void add_rows(VectorXd& jumps) const {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      jumps[row(k)] = 0;
+      for (const ddm::Term& term : rows[k]) jumps[row(k)] += term.factor * jumps[term.index];
+    }
+  }
+
+  /// lambda of nodes and rows from S d - r in the nodes: what a row takes the nodes are spared.
+  void split(const std::vector<char>& closed, VectorXd& lambda) const {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const bool open = any_open(k, closed);
+      double nu = 0;
+      if (open && closed[at(row(k))] != 0)
+        nu = balancing(k, closed, lambda);
+      else if (!open)
+        nu = least(k, lambda);
+      lambda[row(k)] = nu;
+      for (const ddm::Term& term : rows[k]) lambda[term.index] -= nu * term.factor;
+    }
+  }
+
+  /// With which nothing is left on the open nodes.
+  double balancing(std::size_t k, const std::vector<char>& closed, const VectorXd& lambda) const {
+    double sum = 0, size = 0;
+    for (const ddm::Term& term : rows[k]) {
+      if (closed[at(term.index)] != 0) continue;
+      sum += term.factor * lambda[term.index];
+      size += term.factor * term.factor;
+    }
+    return sum / size;
+  }
+
+ private:
+  /// Of least weighted squares among those that leave no lambda below 0, if there are any.
+  double least(std::size_t k, const VectorXd& lambda) const {
+    double sum = 0, size = weights[row(k)], low = 0, high = std::numeric_limits<double>::infinity();
+    for (const auto& [i, factor] : rows[k]) {
+      sum += weights[i] * factor * lambda[i];
+      size += weights[i] * factor * factor;
+      (factor > 0 ? high : low) =
+          factor > 0 ? std::min(high, lambda[i] / factor) : std::max(low, lambda[i] / factor);
+    }
+    return std::clamp(sum / size, low, std::max(low, high));
+  }
+};
+
+/// One run on scaled data: load of size 1.
 class Run {
  public:
-  Run(const MatrixXd& matrix, const VectorXd& r, const LcpOptions& options,
+  Run(const Problem& problem, const VectorXd& r, const LcpOptions& options,
       std::span<const char> start, std::function<bool(const Run&)> on_step)
       : closed(start.begin(), start.end()),
-        d(VectorXd::Zero(r.size())),
-        lambda(-r),
-        _matrix(matrix),
+        d(VectorXd::Zero(problem.row(problem.rows.size()))),
+        lambda(VectorXd::Zero(d.size())),
+        _problem(problem),
         _r(r),
         _options(options),
         _on_step(std::move(on_step)) {
-    closed.resize(at(r.size()), 1);
+    lambda.head(r.size()) = -r;
+    if (closed.size() < at(r.size())) closed.resize(at(r.size()), 1);
+    closed.resize(at(d.size()), 0);
   }
 
   LcpStatus solve() {
     const bool settled = !_options.monotone_only && primal_dual();
     if (!settled && !status) {
       fell_back = true;
-      monotone();
+      if (_problem.rows.empty())
+        monotone();
+      else
+        one_by_one();
     }
     if (!status) {
       close_undecided();
@@ -54,7 +121,7 @@ class Run {
 
   /// Factor for the nodes that are open now.
   const OpenFactor& factor() {
-    _factor.factorise(_matrix, closed);
+    _factor.factorise(_problem.matrix, _problem.rows, closed);
     return _factor;
   }
   OpenFactor take_factor() {
@@ -63,9 +130,23 @@ class Run {
   }
 
  private:
+  Index nodes() const { return _r.size(); }
+
+  /// d from the set.
+  void solve_open() {
+    VectorXd of_nodes(nodes());
+    factor().solve(_r, of_nodes);
+    set_jumps(of_nodes);
+  }
+  void set_jumps(const VectorXd& of_nodes) {
+    d.head(nodes()) = of_nodes;
+    _problem.add_rows(d);
+  }
+
   void set_multipliers() {
-    multiply(_matrix, d, lambda);
-    lambda -= _r;
+    multiply(_problem.matrix, d.head(nodes()), lambda.head(nodes()));
+    lambda.head(nodes()) -= _r;
+    _problem.split(closed, lambda);
     for (Index i = 0; i < lambda.size(); ++i) lambda[i] = closed[at(i)] == 0 ? 0 : lambda[i];
   }
 
@@ -84,9 +165,11 @@ class Run {
   /// True when settled; false when a set recurs or S is singular on the open nodes.
   bool primal_dual() {
     std::set<std::vector<char>> met;
-    while (met.insert(closed).second) {
+    for (;;) {
+      close_rows_without_open_nodes();
+      if (!met.insert(closed).second) return false;
       if (!factor().regular()) return false;
-      d = factor().solve(_r);
+      solve_open();
       set_multipliers();
       std::vector<char> next = closed;
       for (Index i = 0; i < d.size(); ++i)
@@ -99,10 +182,14 @@ class Run {
       if (!may_go_on()) return false;
       closed = std::move(next);
     }
-    return false;
   }
 
-  double energy() const { return -_r.dot(d) / 2; }  // in the minimum over a face
+  void close_rows_without_open_nodes() {
+    for (std::size_t k = 0; k < _problem.rows.size(); ++k)
+      if (!_problem.any_open(k, closed)) closed[at(_problem.row(k))] = 1;
+  }
+
+  double energy() const { return -_r.dot(d.head(nodes())) / 2; }  // in the minimum over a face
 
   /// Moves d >= 0 to the minimum over the face of the open nodes, closing nodes whose d would turn
   /// negative, at least one a pass. S must be regular on the open nodes.
@@ -160,7 +247,7 @@ class Run {
   }
 
   void open_one(Index node) {
-    const VectorXd against_node = factor().solve(_matrix.col(node));
+    const VectorXd against_node = factor().solve(_problem.matrix.col(node));
     closed[at(node)] = 0;
     if (!factor().regular()) {
       // The energy falls linearly along this null direction, until an open node closes.
@@ -185,6 +272,64 @@ class Run {
     settle();
   }
 
+  /// To the minimum with the closed conditions as equalities, as far as no open one is violated.
+  void one_by_one() {
+    std::fill_n(closed.begin(), nodes(), char{1});
+    std::fill(closed.begin() + nodes(), closed.end(), char{0});
+    set_jumps(VectorXd::Zero(nodes()));
+    while (may_go_on()) {
+      if (!factor().regular()) {
+        status = LcpStatus::unbounded;
+        return;
+      }
+      const VectorXd from = d;
+      solve_open();
+      const Index blocking = go_towards(from);
+      if (blocking >= 0) {
+        closed[at(blocking)] = 1;
+        ++steps;
+        continue;
+      }
+      set_multipliers_of_set();
+      if (!report()) return;
+      const auto pulled = std::find_if(lambda.begin(), lambda.end(),
+                                       [](double value) { return value < -rounding; });
+      if (pulled == lambda.end()) break;
+      closed[at(pulled - lambda.begin())] = 0;
+    }
+  }
+
+  /// Shortens the way from `from` to d where an open condition blocks it; returns that, or -1.
+  Index go_towards(const VectorXd& from) {
+    double way = 1;
+    Index blocking = -1;
+    for (Index i = 0; i < d.size(); ++i) {
+      const bool moves = i < nodes() || _problem.any_open(at(i - nodes()), closed);
+      if (closed[at(i)] != 0 || !moves || d[i] >= 0 || d[i] >= from[i]) continue;
+      const double here = std::max(from[i], 0.0) / (from[i] - d[i]);
+      if (here < way) {
+        way = here;
+        blocking = i;
+      }
+    }
+    if (blocking >= 0) set_jumps((from + way * (d - from)).head(nodes()));
+    return blocking;
+  }
+
+  /// Rows that hold by themselves are not of the set and take nothing.
+  void set_multipliers_of_set() {
+    multiply(_problem.matrix, d.head(nodes()), lambda.head(nodes()));
+    lambda.head(nodes()) -= _r;
+    lambda.tail(lambda.size() - nodes()).setZero();
+    for (std::size_t k = 0; k < _problem.rows.size(); ++k) {
+      if (closed[at(_problem.row(k))] == 0 || !_problem.any_open(k, closed)) continue;
+      const double nu = _problem.balancing(k, closed, lambda);
+      lambda[_problem.row(k)] = nu;
+      for (const ddm::Term& term : _problem.rows[k]) lambda[term.index] -= nu * term.factor;
+    }
+    for (Index i = 0; i < nodes(); ++i) lambda[i] = closed[at(i)] == 0 ? 0 : lambda[i];
+  }
+
   /// Closes nodes that are open by rounding only, which makes the set unique.
   void close_undecided() {
     bool changed = false;
@@ -194,15 +339,16 @@ class Run {
         changed = true;
       }
     }
+    close_rows_without_open_nodes();
     if (changed || fell_back) {
-      d = factor().solve(_r);
+      solve_open();
       set_multipliers();
     }
     d = d.cwiseMax(0.0);
     lambda = lambda.cwiseMax(0.0);
   }
 
-  const MatrixXd& _matrix;
+  const Problem& _problem;
   const VectorXd& _r;
   const LcpOptions& _options;
   std::function<bool(const Run&)> _on_step;
@@ -211,23 +357,59 @@ class Run {
 
 }  // namespace
 
-DenseLcp::DenseLcp(MatrixXd matrix)
-    : _scale(matrix.diagonal().cwiseSqrt().cwiseInverse()), _matrix(std::move(matrix)) {
+DenseLcp::DenseLcp(MatrixXd matrix, std::vector<ddm::Terms> rows, VectorXd weights)
+    : _matrix(std::move(matrix)), _rows(std::move(rows)), _scale(conditions()) {
+  _scale.head(size()) = _matrix.diagonal().cwiseSqrt().cwiseInverse();
   for (Index j = 0; j < _matrix.cols(); ++j)
     for (Index i = 0; i < _matrix.rows(); ++i) _matrix(i, j) *= _scale[i] * _scale[j];
+  for (std::size_t k = 0; k < _rows.size(); ++k) {
+    double norm = 0;
+    for (ddm::Term& term : _rows[k]) {
+      term.factor *= _scale[term.index];
+      norm = std::hypot(norm, term.factor);
+    }
+    for (ddm::Term& term : _rows[k]) term.factor /= norm;
+    _scale[size() + static_cast<Index>(k)] = norm;
+  }
+  if (weights.size() == 0) weights.setOnes(conditions());
+  _weights = weights.cwiseQuotient(_scale.cwiseAbs2());
+}
+
+VectorXd DenseLcp::jumps(const VectorXd& d) const {
+  VectorXd result(conditions());
+  result.head(size()) = d.cwiseQuotient(_scale.head(size()));
+  Problem{_matrix, _rows, _weights}.add_rows(result);
+  result = result.cwiseProduct(_scale);
+  result.head(size()) = d;
+  return result;
+}
+
+VectorXd DenseLcp::split(const VectorXd& force, const std::vector<char>& closed) const {
+  VectorXd lambda(conditions());
+  lambda.head(size()) = force;
+  if (!_rows.empty()) {
+    lambda.head(size()) = force.cwiseProduct(_scale.head(size()));
+    Problem{_matrix, _rows, _weights}.split(closed, lambda);
+    lambda = lambda.cwiseQuotient(_scale);
+  }
+  for (Index i = 0; i < lambda.size(); ++i)
+    lambda[i] = closed[at(i)] != 0 ? std::max(lambda[i], 0.0) : 0;
+  return lambda;
 }
 
 LcpAnswer DenseLcp::solve(const VectorXd& r, const VectorXd& magnitude, const LcpOptions& options,
                           std::span<const char> start, const OnStep& on_step) const {
   const VectorXd& terms = magnitude.size() == 0 ? r : magnitude;
-  const double largest = size() == 0 ? 0 : _scale.cwiseProduct(terms).lpNorm<Eigen::Infinity>();
+  const auto of_nodes = _scale.head(size());
+  const double largest = size() == 0 ? 0 : of_nodes.cwiseProduct(terms).lpNorm<Eigen::Infinity>();
   const double unit = largest > 0 ? largest : 1;
-  const VectorXd scaled = _scale.cwiseProduct(r) / unit;
+  const VectorXd scaled = of_nodes.cwiseProduct(r) / unit;
   const auto jump = [&](const VectorXd& d) { return VectorXd(_scale.cwiseProduct(d) * unit); };
   const auto pressure = [&](const VectorXd& lambda) {
     return VectorXd(lambda.cwiseQuotient(_scale) * unit);
   };
-  Run run(_matrix, scaled, options, start, [&](const Run& state) {
+  const Problem problem{_matrix, _rows, _weights};
+  Run run(problem, scaled, options, start, [&](const Run& state) {
     return on_step({state.steps, state.closed, jump(state.d), pressure(state.lambda)});
   });
   LcpAnswer answer;
@@ -237,7 +419,7 @@ LcpAnswer DenseLcp::solve(const VectorXd& r, const VectorXd& magnitude, const Lc
   answer.d = jump(run.d.cwiseMax(0.0));
   answer.lambda = pressure(run.lambda.cwiseMax(0.0));
   const double weak = std::max(options.tolerance, rounding);
-  for (Index i = 0; i < size(); ++i) {
+  for (Index i = 0; i < conditions(); ++i) {
     answer.weakly_active += run.d[i] <= weak && run.lambda[i] <= weak ? 1 : 0;
     answer.pressed.push_back(run.lambda[i] > weak ? 1 : 0);
   }
@@ -247,11 +429,12 @@ LcpAnswer DenseLcp::solve(const VectorXd& r, const VectorXd& magnitude, const Lc
 }
 
 VectorXd DenseLcp::solve_open(const OpenFactor& open, const VectorXd& b) const {
-  return _scale.cwiseProduct(open.solve(_scale.cwiseProduct(b)));
+  const auto of_nodes = _scale.head(size());
+  return of_nodes.cwiseProduct(open.solve(of_nodes.cwiseProduct(b)));
 }
 
 std::size_t DenseLcp::bytes() const noexcept {
-  return sizeof(double) * at(_matrix.size() + _scale.size());
+  return sizeof(double) * at(_matrix.size() + 2 * _scale.size());
 }
 
 }  // namespace anticrack::contact

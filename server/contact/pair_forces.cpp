@@ -49,8 +49,7 @@ PairForces::PairForces(const ddm::Decomposition& decomposition, const VectorXd& 
   }
 }
 
-/// Down from the unknown of its plus side, over the contacts of the node. Those form a forest:
-/// there is one way at most.
+/// Down from the unknown of its plus side, over the contacts of the node: the first way found.
 std::vector<std::int32_t> PairForces::path_of(const std::vector<std::int32_t>& pairs_of_node,
                                               std::int32_t pair) const {
   const auto unknown = [this](std::int32_t subdomain, std::int32_t trace) {

@@ -30,6 +30,9 @@ class PairForces {
   };
   const std::vector<Implied>& implied() const noexcept { return _implied; }
 
+  /// Of each contact: the length that belongs to its pairs.
+  const Eigen::VectorXd& contact_mass() const noexcept { return _contact_mass; }
+
   /// Which contacts are closed under pressure. `pressed`: those with a force above rounding; where
   /// there are any, a shorter edge's force may be below, so those with a pressure above 1e-12 of
   /// the largest one join them. `lambda`: shape (contacts), >= 0. O(n), no allocation.

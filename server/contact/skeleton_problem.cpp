@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/skeleton_problem.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "contact/dense.hpp"
@@ -33,11 +32,12 @@ MatrixXd join(const ddm::Decomposition& decomposition,
 /// the first of them.
 std::vector<std::vector<Index>> chains(const ddm::Decomposition& decomposition) {
   std::vector<std::vector<Index>> result;
-  std::vector<char> seen(decomposition.skeleton.contacts.size(), 0);
+  std::vector<char> seen(decomposition.skeleton.independent, 0);
   for (const std::vector<ddm::SidePair>& sides : decomposition.interface_sides) {
     result.emplace_back();
     for (const ddm::SidePair& side : sides) {
       const std::int32_t contact = side.pair < 0 ? -1 : decomposition.pairs[at(side.pair)].contact;
+      if (at(contact) >= decomposition.skeleton.independent && contact >= 0) continue;
       if (contact < 0) {  // tied: a jump of 0
         result.emplace_back();
       } else if (seen[at(contact)] == 0) {
@@ -66,14 +66,12 @@ struct SkeletonProblem::Blocks {
   MatrixXd w;
   MatrixXd condensed;
 
-  Blocks(const Forest& forest, MatrixXd k) {
-    forest.accumulate(k);
-    k.transposeInPlace();
-    forest.accumulate(k);
-    h = factorise(k(forest.roots(), forest.roots()));
-    const auto sign = forest.sign().asDiagonal();
-    w = MatrixXd(k(forest.roots(), forest.hung())) * sign;
-    condensed = sign * MatrixXd(k(forest.hung(), forest.hung())) * sign;
+  Blocks(const Maps& maps, const MatrixXd& k) {
+    const MatrixXd of_jumps = k * maps.jumps();
+    w = maps.free().transpose() * of_jumps;
+    condensed = maps.jumps().transpose() * of_jumps;
+    const MatrixXd of_free = k * maps.free();
+    h = factorise(maps.free().transpose() * of_free);
     solve_lower(h, w);
     subtract_square(w, condensed);  // C'H^-1 C
     solve_lower_transposed(h, w);
@@ -83,48 +81,51 @@ struct SkeletonProblem::Blocks {
 
 SkeletonProblem::SkeletonProblem(const TraceProblem& traces)
     : SkeletonProblem(traces,
-                      Blocks(traces.forest(), join(traces.decomposition(), traces.operators()))) {}
+                      Blocks(traces.maps(), join(traces.decomposition(), traces.operators()))) {}
 
 SkeletonProblem::SkeletonProblem(const TraceProblem& traces, Blocks blocks)
     : _traces(traces),
       _h(std::move(blocks.h)),
       _closed_to_open(std::move(blocks.w)),
       _nested_start(blocks.condensed, chains(traces.decomposition())),
-      _lcp(std::move(blocks.condensed)) {}
+      _lcp(std::move(blocks.condensed), traces.decomposition().skeleton.dependent,
+           traces.pair_forces().contact_mass().cwiseInverse()) {}
 
-void SkeletonProblem::solve_roots(VectorXd& q) const {
+void SkeletonProblem::solve_free(VectorXd& q) const {
   solve_lower(_h, q);
   solve_lower_transposed(_h, q);
 }
 
-SkeletonProblem::Reduced SkeletonProblem::reduce(const VectorXd& h) const {
-  const auto reduced = [this](const VectorXd& values) {
-    MatrixXd sums = values;
-    forest().accumulate(sums);
-    return std::pair{VectorXd(sums.col(0)(forest().roots())),
-                     VectorXd(sums.col(0)(forest().hung()))};
-  };
-  const auto [on_roots, on_hung] = reduced(h);
-  const auto [size_on_roots, size_on_hung] = reduced(h.cwiseAbs());
+SkeletonProblem::Reduced SkeletonProblem::reduce(const VectorXd& h, const VectorXd& p) const {
+  VectorXd load = h, size = h.cwiseAbs();
+  if (p.size() > 0) {
+    const VectorXd of_held = apply(maps().held() * p);
+    load -= of_held;
+    size += of_held.cwiseAbs();
+  }
+  const VectorXd on_free = maps().free().transpose() * load;
+  const VectorXd size_on_free = maps().free().cwiseAbs().transpose() * size;
   Reduced result;
-  result.q = on_roots;
-  solve_roots(result.q);
-  result.r.resize(on_hung.size());
-  multiply_transposed(_closed_to_open, on_roots, result.r);
-  result.r -= forest().sign().cwiseProduct(on_hung);
-  result.magnitude = size_on_hung;
+  result.p = p;
+  result.q = on_free;
+  solve_free(result.q);
+  result.r.resize(maps().jump_count());
+  multiply_transposed(_closed_to_open, on_free, result.r);
+  result.r -= maps().jumps().transpose() * load;
+  result.magnitude = maps().jumps().cwiseAbs().transpose() * size;
   for (Index c = 0; c < result.magnitude.size(); ++c) {
     // One by one: Eigen would make a copy of |W| for the product.
-    result.magnitude[c] += _closed_to_open.col(c).cwiseAbs().dot(size_on_roots);
+    result.magnitude[c] += _closed_to_open.col(c).cwiseAbs().dot(size_on_free);
   }
   return result;
 }
 
-SkeletonProblem::Reduced SkeletonProblem::reduce_refined(const VectorXd& h) const {
-  Reduced result = reduce(h);
-  const VectorXd closed = VectorXd::Zero(forest().contact_count());
+SkeletonProblem::Reduced SkeletonProblem::reduce_refined(const VectorXd& h,
+                                                         const VectorXd& p) const {
+  Reduced result = reduce(h, p);
+  const VectorXd closed = VectorXd::Zero(maps().jump_count());
   // r of the residual is r of h, for any q, but of smaller terms.
-  const Reduced correction = reduce(h - apply(forest().expand(result.q, closed)));
+  const Reduced correction = reduce(h - apply(maps().expand(result.q, closed, p)));
   result.q += correction.q;
   result.r = correction.r;
   return result;
@@ -137,21 +138,19 @@ VectorXd SkeletonProblem::apply(const VectorXd& w) const {
   return gather(forces);
 }
 
-VectorXd SkeletonProblem::response(std::int32_t unknown) const {
-  MatrixXd path = VectorXd::Unit(forest().unknowns(), unknown);
-  forest().accumulate(path);
-  const std::vector<Index>& roots = forest().roots();
-  const Index root =
-      std::lower_bound(roots.begin(), roots.end(), forest().root(unknown)) - roots.begin();
-  return _closed_to_open.row(root).transpose() -
-         forest().sign().cwiseProduct(VectorXd(path.col(0)(forest().hung())));
+VectorXd SkeletonProblem::response(const ddm::Terms& terms) const {
+  VectorXd of_terms = VectorXd::Zero(maps().unknowns());
+  for (const ddm::Term& term : terms) of_terms[term.index] += term.factor;
+  VectorXd result(maps().jump_count());
+  multiply_transposed(_closed_to_open, maps().free().transpose() * of_terms, result);
+  return result - maps().jumps().transpose() * of_terms;
 }
 
 VectorXd SkeletonProblem::unknowns(const Reduced& load, const VectorXd& d) const {
   VectorXd q(load.q.size());
   multiply(_closed_to_open, d, q);
   q += load.q;
-  return forest().expand(q, d);
+  return maps().expand(q, d, load.p);
 }
 
 void SkeletonProblem::refine(const VectorXd& residual, const OpenFactor& open, Reduced& load,
@@ -162,13 +161,11 @@ void SkeletonProblem::refine(const VectorXd& residual, const OpenFactor& open, R
 }
 
 VectorXd SkeletonProblem::multipliers(const VectorXd& residual) const {
-  MatrixXd sums = residual;
-  forest().accumulate(sums);
-  return forest().sign().cwiseProduct(VectorXd(sums.col(0)(forest().hung())));
+  return maps().jumps().transpose() * residual;
 }
 
 VectorXd SkeletonProblem::gather(const std::vector<VectorXd>& on_traces) const {
-  VectorXd sum = VectorXd::Zero(forest().unknowns());
+  VectorXd sum = VectorXd::Zero(maps().unknowns());
   for (std::size_t s = 0; s < on_traces.size(); ++s) {
     const std::vector<std::int32_t>& unknown = _traces.decomposition().subdomains[s].unknown;
     for (Index i = 0; i < on_traces[s].size(); ++i) sum[unknown[at(i)]] += on_traces[s][i];
@@ -189,7 +186,7 @@ std::vector<VectorXd> SkeletonProblem::scatter(const VectorXd& w) const {
 
 std::size_t SkeletonProblem::bytes() const noexcept {
   return sizeof(double) * at(_h.size() + _closed_to_open.size()) + _nested_start.bytes() +
-         _lcp.bytes() + at(forest().unknowns()) * 6 * sizeof(Index);
+         _lcp.bytes() + maps().bytes();
 }
 
 }  // namespace anticrack::contact

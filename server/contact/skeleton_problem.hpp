@@ -13,7 +13,7 @@
 namespace anticrack::contact {
 
 /// All subdomains joined at their traces and condensed to the cracks. With K = sum_i S_i over the
-/// skeleton's unknowns w = Z q - P d (Forest), load h = sum_i g_i:
+/// skeleton's unknowns w = Z q - P d + O p (Maps), load h = sum_i g_i - K O p:
 ///
 ///   H = Z'K Z,  C = Z'K P,  D = P'K P,  S^ = D - C'H^-1 C,  r = C'H^-1 Z'h - P'h
 ///   d >= 0,  lambda = S^ d - r >= 0,  d'lambda = 0;         q = H^-1 (Z'h + C d)
@@ -28,28 +28,30 @@ class SkeletonProblem {
   /// One load, reduced.
   struct Reduced {
     Eigen::VectorXd q;          ///< H^-1 Z'h: the answer with every crack closed
+    Eigen::VectorXd p;          ///< held values; empty: none
     Eigen::VectorXd r;          ///< per contact
     Eigen::VectorXd magnitude;  ///< sums of the absolute values r is made of
   };
-  /// O(n^2).
-  Reduced reduce(const Eigen::VectorXd& h) const;
+  /// `h`: sum_i g_i; `p`: held values. O(n^2).
+  Reduced reduce(const Eigen::VectorXd& h, const Eigen::VectorXd& p = {}) const;
 
   /// The same with a step of iterative refinement at d = 0, after which q and r are right to
   /// rounding of h. O(n^2).
-  Reduced reduce_refined(const Eigen::VectorXd& h) const;
+  Reduced reduce_refined(const Eigen::VectorXd& h, const Eigen::VectorXd& p) const;
 
   /// K w. O(n_G^2).
   Eigen::VectorXd apply(const Eigen::VectorXd& w) const;
-  /// What unit jumps of the contacts do to one of the unknowns: w[unknown] = (that for d = 0) +
-  /// response'd. O(n).
-  Eigen::VectorXd response(std::int32_t unknown) const;
+  /// What unit jumps of the contacts do to a sum of unknowns: it is that for d = 0 plus response'd.
+  /// O(n) a term.
+  Eigen::VectorXd response(const ddm::Terms& terms) const;
   /// w for jumps d, shape (unknowns). O(n c).
   Eigen::VectorXd unknowns(const Reduced& load, const Eigen::VectorXd& d) const;
   /// Adds to q of the load and to d what brings the residual h - K w to zero with d unchanged on
   /// the closed nodes: a step of iterative refinement. `open`: of the answer's open nodes. O(n^2).
   void refine(const Eigen::VectorXd& residual, const OpenFactor& open, Reduced& load,
               Eigen::VectorXd& d) const;
-  /// lambda = P'(h - K w) of a residual, shape (contacts). O(n).
+  /// P'(h - K w) of a residual, shape (d): lambda, which DenseLcp::split shares among dependent
+  /// contacts. O(n).
   Eigen::VectorXd multipliers(const Eigen::VectorXd& residual) const;
 
   /// Sum over the subdomains of values on their traces, shape (unknowns).
@@ -67,9 +69,9 @@ class SkeletonProblem {
   struct Blocks;
   SkeletonProblem(const TraceProblem& traces, Blocks blocks);
 
-  const Forest& forest() const noexcept { return _traces.forest(); }
+  const Maps& maps() const noexcept { return _traces.maps(); }
   /// q <- H^-1 q.
-  void solve_roots(Eigen::VectorXd& q) const;
+  void solve_free(Eigen::VectorXd& q) const;
 
   const TraceProblem& _traces;
   Eigen::MatrixXd _h;               // Cholesky factor of H, lower triangle

@@ -10,12 +10,22 @@
 
 namespace anticrack::contact {
 
+/// A force on an inclusion with its moments about the inclusion's middle.
+struct RigidForce {
+  double force = 0;
+  double moment_x = 0, moment_y = 0;
+};
+
 /// Condensed loads, one per subdomain, and the forces F_j on inclusions that are already in them
 /// (one per inclusion, or none at all).
 struct CaseLoads {
   std::span<const ddm::CondensedLoad> subdomains;
-  std::span<const double> inclusion_forces = {};
+  std::span<const RigidForce> inclusion_forces = {};
 };
+
+/// p of a load: the values that are held. `numbers`: whether those that no load changes are in it.
+Eigen::VectorXd held_values(const ddm::Decomposition& decomposition,
+                            std::span<const ddm::CondensedLoad> loads, bool numbers = true);
 
 /// The exact contact problem, by DenseLcp and a step of iterative refinement; one sample a step,
 /// whose criterion is that of step 3 of Algorithm 2, 1 in the first. The bits depend on the final
@@ -37,9 +47,9 @@ struct SolvedCase {
 void recover_fields(const TraceProblem& problem, std::span<const SolvedCase> cases);
 
 /// Fills an answer from the last state and sample: energy, residuals, traces, contact, inclusions.
-/// The resultant on inclusion j is the sum of the fluxes of all sides below A_j in the forest (its
-/// own and, through contact, the delaminated ones), of the load without the force F_j on the
-/// inclusion: F_j in the solution.
+/// The resultant on inclusion j is the sum of the fluxes of its sides (its own and, through
+/// contact, the delaminated ones), of the load without the force F_j on the inclusion: F_j in the
+/// solution unless it is held or shares nodes; the moment is that of the same forces.
 void describe(const TraceProblem& problem, const mesh::Mesh& mesh, const CaseLoads& loads,
               const TraceState& state, const Sample& sample, Answer& answer);
 

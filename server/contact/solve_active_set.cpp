@@ -18,38 +18,37 @@ using Eigen::VectorXd;
 /// Traces, multipliers and samples of one load from the skeleton's unknowns.
 class Case {
  public:
-  Case(const SkeletonProblem& problem, std::size_t inclusions, const CaseLoads& loads)
+  Case(const SkeletonProblem& problem, const CaseLoads& loads)
       : _problem(problem), _traces(problem.traces()), _loads(loads.subdomains) {
-    _state.displacement = VectorXd::Zero(static_cast<Index>(inclusions));
     std::vector<VectorXd> g;
     g.reserve(_loads.size());
     for (const ddm::CondensedLoad& load : _loads) g.push_back(load.g);
-    _reduced = problem.reduce(problem.gather(g));
+    _reduced = problem.reduce(problem.gather(g), held_values(_traces.decomposition(), _loads));
   }
 
   const SkeletonProblem::Reduced& reduced() const noexcept { return _reduced; }
   const TraceState& state() const noexcept { return _state; }
   const Sample& sample() const noexcept { return _sample; }
 
-  void sample_step(int number, const VectorXd& d, const VectorXd& lambda) {
+  /// `jumps` and `lambda`: of all contacts.
+  void sample_step(int number, const VectorXd& jumps, const VectorXd& lambda) {
     _sample.iteration = number;
-    _d = d;
-    move_to(_problem.unknowns(_reduced, d));
-    fill(d, lambda);
+    _d = jumps.head(_problem.lcp().size());
+    move_to(_problem.unknowns(_reduced, _d));
+    fill(jumps, lambda);
   }
 
   /// One step of iterative refinement, and multipliers from the forces themselves.
   void refine(const LcpAnswer& solution) {
-    VectorXd d = solution.d;
+    VectorXd d = solution.d.head(_d.size());
     if (d != _d)  // after the last sample, nodes open by rounding were closed
       move_to(_problem.unknowns(_reduced, d));
     _problem.refine(-_problem.gather(_state.flux), solution.factor, _reduced, d);
     d = d.cwiseMax(0.0);
     move_to(_problem.unknowns(_reduced, d));
-    VectorXd lambda = _problem.multipliers(-_problem.gather(_state.flux));
-    for (Index c = 0; c < lambda.size(); ++c)
-      lambda[c] = solution.closed[at(c)] != 0 ? std::max(lambda[c], 0.0) : 0;
-    fill(d, lambda);
+    const VectorXd lambda =
+        _problem.lcp().split(_problem.multipliers(-_problem.gather(_state.flux)), solution.closed);
+    fill(_problem.lcp().jumps(d), lambda);
     settle_contact(solution.pressed, lambda);
   }
 
@@ -59,7 +58,13 @@ class Case {
     std::vector<VectorXd> previous_flux = std::move(_state.flux);
     _state.trace = _problem.scatter(w);
     _state.flux = fluxes(_traces.operators(), _loads, _state.trace);
-    _state.displacement = w.head(_state.displacement.size());
+    const std::vector<ddm::RigidMotion>& motions = _traces.decomposition().skeleton.motions;
+    _state.motion.resize(3, static_cast<Index>(motions.size()));
+    for (std::size_t j = 0; j < motions.size(); ++j) {
+      const ddm::RigidMotion& motion = motions[j];
+      _state.motion.col(static_cast<Index>(j)) << sum_of(motion.displacement, w),
+          sum_of(motion.slope_x, w), sum_of(motion.slope_y, w);
+    }
     _sample.criterion = previous_trace.empty() ? 1 : criterion(previous_trace, previous_flux);
   }
 
@@ -95,15 +100,15 @@ class Case {
       _state.contact[at(implied.pair)] = pressed_through(implied.path, pressed) ? 1 : 0;
   }
 
-  void fill(const VectorXd& d, const VectorXd& lambda) {
+  void fill(const VectorXd& jumps, const VectorXd& lambda) {
     const std::vector<ddm::NodePair>& pairs = _traces.decomposition().pairs;
     _state.mu = _traces.pair_forces().multipliers(_state.flux, lambda);
     _state.force = _traces.lumped_mass().cwiseProduct(_state.mu);
     _state.jump = VectorXd::Zero(_traces.pair_count());
     for (Index i = 0; i < _state.jump.size(); ++i) {
       const ddm::NodePair& pair = pairs[at(i)];
-      // d where it is known; the difference of the traces has rounding errors.
-      _state.jump[i] = pair.contact >= 0 ? d[pair.contact]
+      // The jump where it is known; the difference of the traces has rounding errors.
+      _state.jump[i] = pair.contact >= 0 ? jumps[pair.contact]
                                          : _state.trace[at(pair.plus)][pair.plus_trace] -
                                                _state.trace[at(pair.minus)][pair.minus_trace];
     }
@@ -142,7 +147,7 @@ std::string overflow(std::span<const ddm::CondensedLoad> loads) {
 Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
                         const CaseLoads& loads, const ActiveSetOptions& options, bool fields,
                         Observer& observer, std::span<const char> start) {
-  Case load_case(problem, mesh.inclusions.size(), loads);
+  Case load_case(problem, loads);
   const auto on_step = [&](const LcpStep& step) {
     load_case.sample_step(step.number, step.d, step.lambda);
     return observer.on_iteration(load_case.sample());

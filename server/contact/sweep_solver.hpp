@@ -20,15 +20,14 @@ namespace anticrack::contact {
 
 /// What the rows of all sweeps on a mesh have in common.
 struct SweepGeometry {
-  /// `inclusions`: how many the mesh has.
-  SweepGeometry(const SkeletonProblem& problem, std::size_t inclusions);
+  explicit SweepGeometry(const SkeletonProblem& problem);
 
   /// Nodes of the interfaces that may open (interface, index of the node in it), and the contact
   /// condition of each: one is there twice where interfaces cross.
   std::vector<std::array<std::int32_t, 2>> nodes;
   std::vector<std::int32_t> contact;
-  Eigen::MatrixXd displacement;  ///< (inclusions, contacts): A of jumps
-  Eigen::VectorXd length;        ///< of each contact: lumped mass of its pairs
+  Eigen::MatrixXd motion;  ///< (motions, d): those of sweep_motions, of jumps
+  Eigen::VectorXd length;  ///< of each contact: lumped mass of its pairs
   /// Pairs of cross points that are closed where several contacts are.
   struct Implied {
     std::vector<std::int32_t> path;  ///< those contacts
@@ -40,11 +39,15 @@ struct SweepGeometry {
   std::size_t bytes() const noexcept;
 };
 
+/// Rows of a mesh's inclusions in what follows: A of each, then where any tilts Bx and By of each.
+std::vector<ddm::Terms> sweep_motions(const ddm::Skeleton& skeleton);
+
 /// Loads with every contact closed, a column each. Of a combination sum_j c_j f_j all but the
-/// energy are linear in c, and that is c' energy c.
+/// energy are linear in c, and that is c' energy c. Where numbers hold inclusions they are a load
+/// of their own, the last column, and every row has it once.
 struct SweepLoads {
   Eigen::MatrixXd r, magnitude;  ///< (contacts, loads), SkeletonProblem::Reduced
-  Eigen::MatrixXd displacement;  ///< (inclusions, loads): A
+  Eigen::MatrixXd motion;        ///< (motions, loads)
   Eigen::MatrixXd energy;        ///< (loads, loads), symmetric: Pi
 
   /// Memory of its arrays.
@@ -53,15 +56,15 @@ struct SweepLoads {
 
 /// `constants`: (loads, loads), the part of the energy that the traces do not change (sum over the
 /// subdomains of ddm::LoadProducts::energy; of one load: of energy_constant). O(n^2) a load.
-SweepLoads reduce(const SkeletonProblem& problem, std::size_t inclusions,
-                  std::span<const CaseLoads> loads, const Eigen::MatrixXd& constants);
+SweepLoads reduce(const SkeletonProblem& problem, std::span<const CaseLoads> loads,
+                  const Eigen::MatrixXd& constants);
 
 /// Solves row after row, each from the contact of the one before. A row's numbers are those of
 /// solve_active_set for the same load, to rounding, and do not depend on the rows before. No
 /// allocation in a row but as WarmLcp says. One object belongs to one thread. Keeps references to
 /// what it is made of.
 ///   Pi = Pi(closed) - r'd/2                          (from d'lambda = 0)
-///   A  = A(closed) + displacement d
+///   A  = A(closed) + motion d, and so the slopes
 ///   kkt: WarmLcp::residual, the largest |lambda - (S^ d - r)| relative to the largest force on the
 ///        contacts, with d and lambda clipped at 0 and one of them 0 in each: what is wrong with
 ///        equilibrium, gap, sign or complementarity of the contacts is in it. The nodes between are
@@ -87,7 +90,7 @@ class SweepSolver {
   const PairForces& _forces;
   WarmLcp _lcp;
   std::vector<char> _pressed;
-  Eigen::VectorXd _sizes, _r, _magnitude, _displacement, _of_jumps, _product;
+  Eigen::VectorXd _coefficients, _sizes, _r, _magnitude, _motion, _of_jumps, _product;
   double _energy = 0;
 };
 

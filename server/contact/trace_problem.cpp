@@ -115,16 +115,52 @@ Eigen::SparseMatrix<double> root(const Eigen::VectorXd& mass) {
   return Eigen::SparseMatrix<double>(mass.cwiseSqrt().asDiagonal());
 }
 
+/// Inclusion whose motion an unknown follows or hangs on.
+std::vector<std::int32_t> inclusions_of(const ddm::Skeleton& skeleton) {
+  std::vector<std::int32_t> of_free(skeleton.free, -1), result(skeleton.unknowns, -1);
+  for (std::size_t i = 0; i < skeleton.unknowns; ++i)
+    if (skeleton.inclusion[i] >= 0)
+      for (const ddm::Term& term : skeleton.rows[i].free)
+        of_free[at(term.index)] = skeleton.inclusion[i];
+  for (std::size_t i = 0; i < skeleton.unknowns; ++i) {
+    result[i] = skeleton.inclusion[i];
+    for (const ddm::Term& term : skeleton.rows[i].free)
+      if (result[i] < 0) result[i] = of_free[at(term.index)];
+    for (const ddm::Term& term : skeleton.rows[i].held)
+      if (result[i] < 0) result[i] = skeleton.held[at(term.index)].inclusion;
+  }
+  return result;
+}
+
+std::vector<std::vector<std::int32_t>> find_carriers(const ddm::Decomposition& decomposition) {
+  const std::vector<std::int32_t> inclusion = inclusions_of(decomposition.skeleton);
+  std::vector<std::vector<std::int32_t>> result;
+  for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
+    std::vector<std::int32_t>& of_trace = result.emplace_back(subdomain.rigid);
+    for (std::size_t i = 0; i < of_trace.size(); ++i)
+      if (of_trace[i] < 0) of_trace[i] = inclusion[at(subdomain.unknown[i])];
+  }
+  // Of a body of several inclusions: the one that lies on the other side.
+  for (const ddm::NodePair& pair : decomposition.pairs) {
+    std::int32_t& minus = result[at(pair.minus)][at(pair.minus_trace)];
+    if (pair.inclusion >= 0 && minus >= 0 &&
+        decomposition.subdomains[at(pair.minus)].rigid[at(pair.minus_trace)] < 0)
+      minus = pair.inclusion;
+  }
+  return result;
+}
+
 }  // namespace
 
 TraceProblem::TraceProblem(const ddm::Decomposition& decomposition,
                            const std::vector<ddm::SubdomainOperator>& operators, bool uzawa)
     : _decomposition(decomposition),
       _operators(operators),
-      _forest(decomposition.skeleton),
+      _maps(decomposition.skeleton),
       _lumped(fem::lumped_mass(decomposition.edges, decomposition.pairs.size())),
       _consistent(fem::consistent_mass(decomposition.edges, decomposition.pairs.size())),
       _pair_forces(decomposition, _lumped),
+      _carriers(find_carriers(decomposition)),
       _uzawa(uzawa) {}
 
 double TraceProblem::theta_star(Mass mass) const {

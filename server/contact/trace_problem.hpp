@@ -3,10 +3,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cstdint>
 #include <vector>
 
 #include "contact/answer.hpp"
-#include "contact/forest.hpp"
+#include "contact/maps.hpp"
 #include "contact/pair_forces.hpp"
 #include "ddm/decomposition.hpp"
 #include "ddm/lazy.hpp"
@@ -29,8 +30,11 @@ class TraceProblem {
 
   const ddm::Decomposition& decomposition() const noexcept { return _decomposition; }
   const std::vector<ddm::SubdomainOperator>& operators() const noexcept { return _operators; }
-  const Forest& forest() const noexcept { return _forest; }
+  const Maps& maps() const noexcept { return _maps; }
   const PairForces& pair_forces() const noexcept { return _pair_forces; }
+  /// Per subdomain and trace node: the inclusion that its flux acts on, directly or through
+  /// contact, or -1.
+  const std::vector<std::vector<std::int32_t>>& carriers() const noexcept { return _carriers; }
   /// Pairs of nodes, tied ones included.
   Eigen::Index pair_count() const noexcept { return _lumped.size(); }
 
@@ -56,10 +60,11 @@ class TraceProblem {
 
   const ddm::Decomposition& _decomposition;
   const std::vector<ddm::SubdomainOperator>& _operators;
-  Forest _forest;
+  Maps _maps;
   Eigen::VectorXd _lumped;
   Eigen::SparseMatrix<double> _consistent;
   PairForces _pair_forces;
+  std::vector<std::vector<std::int32_t>> _carriers;
   bool _uzawa;
   ddm::Lazy<double> _theta_star_lumped, _theta_star_consistent;
 };

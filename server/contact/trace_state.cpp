@@ -56,23 +56,27 @@ double equilibrium_residual(const ddm::Decomposition& decomposition, const Trace
     residual[at(pair.minus)][pair.minus_trace] += state.force[i];
     residual[at(pair.plus)][pair.plus_trace] -= state.force[i];
   }
-  VectorXd on_inclusion(state.displacement.size());
-  return largest_unbalanced(decomposition, residual, on_inclusion);
+  VectorXd on_motions(static_cast<Index>(decomposition.skeleton.free));
+  return largest_unbalanced(decomposition, residual, on_motions);
 }
 
 double largest_unbalanced(const ddm::Decomposition& decomposition, std::span<const VectorXd> forces,
-                          VectorXd& on_inclusion) {
+                          VectorXd& on_motions) {
   double worst = 0;
-  on_inclusion.setZero();
+  on_motions.setZero();
   for (std::size_t s = 0; s < forces.size(); ++s) {
-    const std::vector<std::int32_t>& rigid = decomposition.subdomains[s].rigid;
-    for (Index k = 0; k < forces[s].size(); ++k)
-      if (rigid[at(k)] < 0)
+    const ddm::Subdomain& subdomain = decomposition.subdomains[s];
+    for (Index k = 0; k < forces[s].size(); ++k) {
+      if (subdomain.rigid[at(k)] < 0) {
         worst = std::max(worst, std::abs(forces[s][k]));
-      else
-        on_inclusion[rigid[at(k)]] += forces[s][k];
+        continue;
+      }
+      for (const auto& [motion, factor] :
+           decomposition.skeleton.rows[at(subdomain.unknown[at(k)])].free)
+        on_motions[motion] += factor * forces[s][k];
+    }
   }
-  return std::max(worst, largest(on_inclusion));
+  return std::max(worst, largest(on_motions));
 }
 
 Scales scales_of(std::span<const ddm::CondensedLoad> loads, const TraceState& state) {

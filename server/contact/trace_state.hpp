@@ -15,7 +15,7 @@ namespace anticrack::contact {
 struct TraceState {
   std::vector<Eigen::VectorXd> trace;  ///< t_i, per subdomain
   std::vector<Eigen::VectorXd> flux;   ///< S t - g: int T du/dn phi_i, n outward
-  Eigen::VectorXd displacement;        ///< A, per inclusion
+  Eigen::MatrixXd motion;              ///< (3, inclusions): A, and B in x and y
   Eigen::VectorXd mu;                  ///< per pair
   Eigen::VectorXd force;               ///< M mu, per pair
   Eigen::VectorXd jump;                ///< u+ - u-, per pair
@@ -42,12 +42,13 @@ double largest(const ConstVectorRef& values);
 /// gap, sign and complementarity; `equilibrium` is left 0. O(n_G), no allocation.
 KktResiduals contact_residuals(const ddm::Decomposition& decomposition, const ConstVectorRef& mu,
                                const ConstVectorRef& jump);
-/// max |(S t - g - B'M mu)_i|, summed over the nodes an inclusion holds rigid. O(n_G).
+/// max |(S t - g - B'M mu)_i|, for nodes held rigid the virtual work of it on each free motion of
+/// their body (whose largest displacement is 1). O(n_G).
 double equilibrium_residual(const ddm::Decomposition& decomposition, const TraceState& state);
-/// The same of forces S t - g - B'M mu that are at hand, per subdomain. `on_inclusion` is
-/// workspace, one entry per inclusion. No allocation.
+/// The same of forces S t - g - B'M mu that are at hand, per subdomain. `on_motions` is workspace,
+/// Skeleton::free entries. No allocation.
 double largest_unbalanced(const ddm::Decomposition& decomposition,
-                          std::span<const Eigen::VectorXd> forces, Eigen::VectorXd& on_inclusion);
+                          std::span<const Eigen::VectorXd> forces, Eigen::VectorXd& on_motions);
 
 /// What residuals are relative to.
 struct Scales {

@@ -45,7 +45,7 @@ Uzawa::Uzawa(const TraceProblem& problem, Mass mass, int capacity)
   }
   _mu = _jump = _pair_force = _change = MatrixXd::Zero(problem.pair_count(), capacity);
   _g = _trace = _force = _previous_trace = _previous_force = MatrixXd::Zero(rows, capacity);
-  _on_inclusion.resize(static_cast<Index>(_inclusion_row.size()));
+  _on_motions.resize(static_cast<Index>(decomposition.skeleton.free));
 }
 
 void Uzawa::start(int column, std::span<const ddm::CondensedLoad> loads, double theta, double p) {
@@ -156,7 +156,7 @@ double Uzawa::equilibrium(int column) {
     _problem.operators()[s].factor().apply_schur(trace(column, s), _unbalanced[s]);
     _unbalanced[s] -= _force.col(column).segment(_sides[s].first, _sides[s].size);
   }
-  return largest_unbalanced(_problem.decomposition(), _unbalanced, _on_inclusion);
+  return largest_unbalanced(_problem.decomposition(), _unbalanced, _on_motions);
 }
 
 Scales Uzawa::scales(int column) const {
@@ -182,9 +182,9 @@ TraceState Uzawa::state(int column) const {
   TraceState state;
   for (std::size_t s = 0; s < _sides.size(); ++s) state.trace.emplace_back(trace(column, s));
   state.flux = fluxes(_problem.operators(), loads, state.trace);
-  state.displacement.resize(static_cast<Index>(_inclusion_row.size()));
+  state.motion.setZero(3, static_cast<Index>(_inclusion_row.size()));
   for (std::size_t j = 0; j < _inclusion_row.size(); ++j)
-    state.displacement[static_cast<Index>(j)] = displacement(column, j);
+    state.motion(0, static_cast<Index>(j)) = displacement(column, j);
   state.mu = _mu.col(column);
   state.force = _pair_force.col(column);
   state.jump = _jump.col(column);

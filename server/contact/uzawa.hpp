@@ -107,7 +107,7 @@ class Uzawa {
   Eigen::MatrixXd _g, _trace, _force;
   Eigen::MatrixXd _previous_trace, _previous_force;  // within a step only
   std::vector<Eigen::VectorXd> _unbalanced;          // workspace of equilibrium(), per subdomain
-  Eigen::VectorXd _on_inclusion;
+  Eigen::VectorXd _on_motions;
 };
 
 }  // namespace anticrack::contact

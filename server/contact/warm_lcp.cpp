@@ -27,14 +27,38 @@ WarmLcp::WarmLcp(const DenseLcp& lcp, int max_steps, std::span<const char> start
       _max_steps(max_steps),
       _tolerance(std::max(tolerance, lcp_rounding)),
       _closed(start.begin(), start.end()) {
-  _closed.resize(at(lcp.size()), 1);
+  if (_closed.size() < at(lcp.size())) _closed.resize(at(lcp.size()), 1);
+  _closed.resize(at(lcp.conditions()), 0);
   _pressed.resize(_closed.size(), 0);
   _met.reserve(_closed.size());
   _open.reserve(lcp.size());
-  for (VectorXd* vector : {&_r, &_d, &_force, &_jump, &_pressure}) vector->setZero(lcp.size());
+  for (VectorXd* vector : {&_r, &_d, &_force, &_jump}) vector->setZero(lcp.size());
+  _pressure.setZero(lcp.conditions());
+}
+
+LcpStatus WarmLcp::solve_with_rows(const VectorXd& r, const VectorXd& magnitude) {
+  LcpOptions options;
+  options.max_steps = _max_steps;
+  options.tolerance = _tolerance;
+  LcpAnswer answer =
+      _lcp.solve(r, magnitude, options, _closed, [](const LcpStep&) { return true; });
+  _steps = answer.steps;
+  if (answer.status != LcpStatus::solved) return answer.status;
+  _closed = std::move(answer.closed);
+  _pressed = std::move(answer.pressed);
+  _jump = answer.d.head(_lcp.size());
+  _pressure = std::move(answer.lambda);
+  const auto scale = _lcp.scale().head(_lcp.size());
+  _d = _jump.cwiseQuotient(scale);
+  const VectorXd force = (_lcp.scaled_matrix() * _d).cwiseQuotient(scale) - r;
+  const double size = std::max(r.lpNorm<Eigen::Infinity>(), _pressure.lpNorm<Eigen::Infinity>());
+  const double error = (_lcp.split(force, _closed) - _pressure).lpNorm<Eigen::Infinity>();
+  _residual = error == 0 ? 0 : error / size;
+  return LcpStatus::solved;
 }
 
 LcpStatus WarmLcp::solve(const VectorXd& r, const VectorXd& magnitude) {
+  if (_lcp.conditions() > _lcp.size()) return solve_with_rows(r, magnitude);
   const double largest =
       r.size() == 0 ? 0 : _lcp.scale().cwiseProduct(magnitude).lpNorm<Eigen::Infinity>();
   const double unit = largest > 0 ? largest : 1;

@@ -14,8 +14,9 @@ namespace anticrack::contact {
 /// primal-dual steps, keeping the factor of the open nodes while they stay the same. An r then
 /// costs two triangular solves and a product, O(c^2); a step that changes the set O(c^3). If sets
 /// recur, or S is singular on the open nodes, DenseLcp starts over from all closed. d and lambda
-/// are computed from the final set alone: same r, same bits, whatever came before. solve()
-/// allocates only where DenseLcp or NestedStart takes over. For one thread.
+/// are computed from the final set alone: same r, same bits, whatever came before. With dependent
+/// conditions DenseLcp solves each r. solve() allocates only where DenseLcp or NestedStart takes
+/// over. For one thread.
 class WarmLcp {
  public:
   /// Keeps references. `start`: closed nodes; empty: all. `nested`: of the same problem, gives the
@@ -28,8 +29,8 @@ class WarmLcp {
   /// next call if this returns `solved`.
   LcpStatus solve(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude);
 
-  const Eigen::VectorXd& d() const noexcept { return _jump; }             ///< >= 0
-  const Eigen::VectorXd& lambda() const noexcept { return _pressure; }    ///< >= 0
+  const Eigen::VectorXd& d() const noexcept { return _jump; }             ///< (c) >= 0
+  const Eigen::VectorXd& lambda() const noexcept { return _pressure; }    ///< (conditions) >= 0
   const std::vector<char>& pressed() const noexcept { return _pressed; }  ///< LcpAnswer::pressed
   /// max_i |lambda - (S d - r)|_i over the largest of |r| and lambda, with d and lambda clipped at
   /// 0.
@@ -40,12 +41,13 @@ class WarmLcp {
  private:
   LcpStatus find_set(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude);
   /// Factorises S on the open nodes; false if it is singular there.
-  bool factorise() { return _open.factorise(_lcp.scaled_matrix(), _closed); }
+  bool factorise() { return _open.factorise(_lcp.scaled_matrix(), {}, _closed); }
   void solve_open();
   Eigen::Index step();
   LcpStatus start_over(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude);
   void close_undecided();
   void finish(const Eigen::VectorXd& r, double unit);
+  LcpStatus solve_with_rows(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude);
 
   const DenseLcp& _lcp;
   const NestedStart* const _nested;

@@ -62,7 +62,8 @@ struct Ties {
   std::vector<std::array<std::int32_t, 2>> of_end;  ///< (edges) couple at each end, or -1
 };
 
-/// Throws errors::Error as `cut` does. O(k log k).
+/// Tied sides share an unknown; what is left are conditions, independent or not. Throws
+/// errors::Error as `cut` does. O(k log k).
 Ties tie(const mesh::Mesh& mesh, const Sides& sides);
 
 // Parts of the membrane that could move as a whole, which makes matrices singular.

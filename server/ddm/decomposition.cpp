@@ -131,8 +131,7 @@ class Numbering {
 };
 
 std::vector<NodePair> place_pairs(const Sides& sides, const Ties& ties,
-                                  const std::vector<std::int32_t>& side_trace,
-                                  std::int32_t inclusions) {
+                                  const std::vector<std::int32_t>& side_trace) {
   std::vector<NodePair> pairs;
   pairs.reserve(ties.couples.size());
   for (const Couple& couple : ties.couples) {
@@ -146,12 +145,14 @@ std::vector<NodePair> place_pairs(const Sides& sides, const Ties& ties,
                   -1,
                   couple.contact};
     const std::int32_t above = ties.unknown[at(couple.plus)];
-    const bool rigid = above < inclusions;
+    const std::int32_t of_unknown = ties.skeleton.inclusion[at(above)];
+    const std::int32_t own = ties.rigid[at(couple.plus)];
+    pair.inclusion = of_unknown >= 0 && own >= 0 ? own : of_unknown;
+    const bool rigid = pair.inclusion >= 0;
     if (above == ties.unknown[at(couple.minus)])
       pair.kind = rigid ? Kind::inclusion : Kind::glue;
     else
       pair.kind = rigid ? Kind::delaminated : Kind::crack;
-    pair.inclusion = rigid ? above : -1;
     pairs.push_back(pair);
   }
   return pairs;
@@ -163,8 +164,10 @@ std::vector<fem::MassEdge> place_edges(const mesh::Mesh& mesh, const Sides& side
   edges.reserve(sides.edges.size());
   for (std::size_t e = 0; e < sides.edges.size(); ++e) {
     const std::size_t a = at(sides.edges[e].node[0]), b = at(sides.edges[e].node[1]);
-    edges.push_back({ties.of_end[e], std::hypot(mesh.xy[2 * b] - mesh.xy[2 * a],
-                                                mesh.xy[2 * b + 1] - mesh.xy[2 * a + 1])});
+    const bool free = sides.edges[e].kind == Kind::free;  // it takes no pressure
+    edges.push_back(
+        {free ? std::array{-1, -1} : ties.of_end[e],
+         std::hypot(mesh.xy[2 * b] - mesh.xy[2 * a], mesh.xy[2 * b + 1] - mesh.xy[2 * a + 1])});
   }
   return edges;
 }
@@ -174,7 +177,10 @@ SidePair side_pair(const Decomposition& decomposition, const Sides& sides, const
                    const std::vector<std::int32_t>& side_trace, std::size_t edge, std::size_t end) {
   SidePair result;
   const std::int32_t minus = sides.edges[edge].minus[end], plus = sides.edges[edge].plus[end];
-  if (plus < 0) return result;
+  if (plus < 0) {
+    result.kind = sides.edges[edge].inclusion >= 0 ? Kind::inclusion : Kind::glue;
+    return result;
+  }
   result.pair = ties.of_end[edge][end];
   result.minus = sides.sides[at(minus)].subdomain;
   result.minus_trace = side_trace[at(minus)];
@@ -182,6 +188,8 @@ SidePair side_pair(const Decomposition& decomposition, const Sides& sides, const
   result.plus_trace = side_trace[at(plus)];
   if (result.pair >= 0)
     result.kind = decomposition.pairs[at(result.pair)].kind;
+  else if (minus != plus)
+    result.kind = Kind::free;
   else
     result.kind = ties.rigid[at(plus)] >= 0 ? Kind::inclusion : Kind::glue;
   return result;
@@ -201,6 +209,20 @@ std::vector<std::vector<SidePair>> place_sides(const mesh::Mesh& mesh,
   return result;
 }
 
+/// Where the held values on the Dirichlet boundary are found.
+void place_held(const std::vector<Subdomain>& subdomains, std::vector<Held>& held) {
+  for (Held& one : held) {
+    for (std::size_t s = 0; s < subdomains.size() && one.node >= 0 && one.subdomain < 0; ++s) {
+      const auto begin =
+          subdomains[s].node.begin() + static_cast<std::ptrdiff_t>(subdomains[s].free());
+      const auto found = std::lower_bound(begin, subdomains[s].node.end(), one.node);
+      if (found == subdomains[s].node.end() || *found != one.node) continue;
+      one.subdomain = static_cast<std::int32_t>(s);
+      one.dirichlet = static_cast<std::int32_t>(found - begin);
+    }
+  }
+}
+
 }  // namespace
 
 Decomposition cut(const mesh::Mesh& mesh) {
@@ -210,11 +232,11 @@ Decomposition cut(const mesh::Mesh& mesh) {
   numbering.add_unknowns(ties);
   Decomposition result;
   result.subdomains = numbering.take_subdomains();
-  result.pairs = place_pairs(sides, ties, numbering.side_trace(),
-                             static_cast<std::int32_t>(mesh.inclusions.size()));
+  result.pairs = place_pairs(sides, ties, numbering.side_trace());
   result.edges = place_edges(mesh, sides, ties);
   result.interface_sides = place_sides(mesh, result, sides, ties, numbering.side_trace());
   result.skeleton = std::move(ties.skeleton);
+  place_held(result.subdomains, result.skeleton.held);
   find_floating_parts(result);
   return result;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ddm/linear_conditions.hpp"
 #include "fem/interface_mass.hpp"
 #include "fem/triangulation.hpp"
 #include "mesh/mesh.hpp"
@@ -39,8 +40,8 @@ struct Subdomain {
 
 /// The two sides of an interface node off the Dirichlet boundary, with one multiplier mu, a force
 /// per length that pushes the minus side down and the plus side up. Both may lie in one subdomain
-/// (slit); the tip of a slit has one side and no pair. Where two edges meet the stricter condition
-/// holds: a tip is tied, u+ = u- (= A_j).
+/// (slit); the tip of a slit has one side and no pair, nor has a node of a free crack alone. Where
+/// two edges meet the stricter condition holds: a tip is tied, u+ = u- (= A_j).
 struct NodePair {
   std::int32_t node = 0;   ///< index into Mesh::xy
   std::int32_t minus = 0;  ///< subdomain, and number in its trace
@@ -49,7 +50,7 @@ struct NodePair {
   std::int32_t plus_trace = 0;
   mesh::Kind kind = mesh::Kind::glue;
   std::int32_t inclusion = -1;
-  /// Of the skeleton; -1 where tied, and where [u] >= 0 follows from other contacts of the node.
+  /// Condition of the skeleton; -1 where tied, and where [u] >= 0 follows from others of the node.
   std::int32_t contact = -1;
 
   /// [u] >= 0 here; elsewhere [u] = 0.
@@ -58,22 +59,52 @@ struct NodePair {
   }
 };
 
-/// All traces together. Sides tied by glue, tips and rigid inclusions share one unknown of w; the
-/// A_j come first, w_j = A_j. Contacts on cracks:  d_c = w[plus_c] - w[minus_c] >= 0,  once for
-/// each node of a crack, also where several pairs of a cross point require it. The contacts form a
-/// forest, so the d_c are independent.
+/// A condition  w[plus] - w[minus] >= 0.
 struct Contact {
   std::int32_t plus = 0;
   std::int32_t minus = 0;
 };
+
+/// A prescribed combination of a body's motions: its value in a node of the Dirichlet boundary, or
+/// a number.
+struct Held {
+  std::int32_t inclusion = -1;  ///< the first of the body
+  std::int32_t node = -1;       ///< on the Dirichlet boundary; -1: `value`
+  double value = 0;
+  /// Subdomain that has the node, and its number among the Dirichlet nodes there.
+  std::int32_t subdomain = -1, dirichlet = -1;
+};
+
+/// How an inclusion moves, in terms of w:  u = A + B.(x - centre)  along it.
+struct RigidMotion {
+  mesh::Point centre{};    ///< of its nodes' bounding box
+  Terms displacement;      ///< A
+  Terms slope_x, slope_y;  ///< B; empty if it does not tilt
+};
+
+/// All traces together: one value w for sides tied by glue, tips and rigid inclusions. The rigid
+/// motions come first. With d the jumps of the independent conditions, q what is left free and p
+/// the held values:
+///
+///   w = Z q - P d + O p,   d >= 0,   sum of `dependent` d >= 0
+///
+/// A node of a crack has one condition, also where several pairs of a cross point require it.
 struct Skeleton {
-  std::size_t unknowns = 0;
-  std::vector<Contact> contacts;
+  std::size_t unknowns = 0;          ///< entries of w
+  std::size_t free = 0;              ///< entries of q, in the order of w
+  std::vector<Row> rows;             ///< (unknowns) of Z, -P and O
+  std::vector<Contact> contacts;     ///< conditions; those with a jump d of their own come first
+  std::size_t independent = 0;       ///< length of d
+  std::vector<Terms> dependent;      ///< jumps of the other contacts, as sums of d
+  std::vector<Held> held;            ///< of p
+  std::vector<Terms> agreements;     ///< sums of p that must be 0: else nothing solves the problem
+  std::vector<RigidMotion> motions;  ///< (inclusions)
+  std::vector<std::int32_t> inclusion;  ///< (unknowns) whose body's motion it is or follows, or -1
 };
 
 /// The sides at which the traces of an interface node are read, tied or not.
 struct SidePair {
-  std::int32_t pair = -1;                     ///< -1: Dirichlet node, or the tip of a slit
+  std::int32_t pair = -1;                     ///< -1: Dirichlet node, tip of a slit, or free crack
   std::int32_t minus = -1, minus_trace = -1;  ///< subdomain and trace number; -1: Dirichlet
   std::int32_t plus = -1, plus_trace = -1;
   mesh::Kind kind = mesh::Kind::glue;  ///< condition in the node; a tip is tied
@@ -89,13 +120,13 @@ struct Decomposition {
 
 /// O(m log k) for k interface edges. Throws errors::Error: mesh_invalid for an interface edge
 /// without a triangle on each side, an inclusion without edges, or a part of the membrane without
-/// Dirichlet node and interface; not_implemented, with the cure, for a crack or inclusion that
-/// touches the Dirichlet boundary, two inclusions that share a node, or crossing cracks whose
-/// contact conditions depend on each other.
+/// Dirichlet node and interface; invalid_argument for inclusions that share nodes and are fixed at
+/// different values; numerical for a part that nothing holds.
 Decomposition cut(const mesh::Mesh& mesh);
 
 /// Why Algorithm 2 of the paper does not apply, with the cure, or empty: a subdomain has a part
-/// without Dirichlet nodes, or the rigid sides of an inclusion lie in two subdomains.
+/// without Dirichlet nodes, the rigid sides of an inclusion lie in two subdomains, or an inclusion
+/// tilts, is held, or shares nodes with another.
 std::string uzawa_obstacle(const Decomposition& decomposition, const mesh::Mesh& mesh);
 
 }  // namespace anticrack::ddm

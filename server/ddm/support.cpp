@@ -71,7 +71,14 @@ void find_floating_parts(Decomposition& decomposition) {
       std::any_of(decomposition.subdomains.begin(), decomposition.subdomains.end(),
                   [](const Subdomain& subdomain) { return subdomain.dirichlet > 0; });
   const auto ground = static_cast<std::int32_t>(decomposition.skeleton.unknowns);
-  mesh::UnionFind held(decomposition.skeleton.unknowns + 1);
+  const Skeleton& skeleton = decomposition.skeleton;
+  mesh::UnionFind held(skeleton.unknowns + 1);
+  // Along each of its edges a body that tilts has the values of one part: what holds A holds it.
+  for (std::size_t i = 0; i < skeleton.inclusion.size(); ++i)
+    if (const std::int32_t j = skeleton.inclusion[i]; j >= 0)
+      held.unite(static_cast<std::int32_t>(i), skeleton.motions[at(j)].displacement.front().index);
+  for (const Held& one : skeleton.held)
+    held.unite(skeleton.motions[at(one.inclusion)].displacement.front().index, ground);
   for (Subdomain& subdomain : decomposition.subdomains) {
     mesh::UnionFind parts = connected_parts(subdomain);
     const PartNodes nodes = nodes_of_parts(subdomain, parts);
@@ -91,9 +98,8 @@ void find_floating_parts(Decomposition& decomposition) {
     }
     join(subdomain, parts, nodes, ground, held);
   }
-  const char* const holds = decomposition.skeleton.contacts.empty() || !dirichlet
-                                ? "nothing holds "
-                                : "nothing but contact holds ";
+  const char* const holds =
+      skeleton.contacts.empty() || !dirichlet ? "nothing holds " : "nothing but contact holds ";
   for (const Subdomain& subdomain : decomposition.subdomains) {
     for (const std::int32_t trace : subdomain.floating) {
       if (!held.same(subdomain.unknown[at(trace)], ground)) {
@@ -108,8 +114,32 @@ void find_floating_parts(Decomposition& decomposition) {
   }
 }
 
+namespace {
+
+/// What an inclusion does that Algorithm 2 does not know, or empty.
+std::string moves_otherwise(const Skeleton& skeleton, std::size_t inclusion) {
+  const RigidMotion& motion = skeleton.motions[inclusion];
+  const auto j = static_cast<std::int32_t>(inclusion);
+  if (!motion.slope_x.empty()) return "tilts";
+  const std::int32_t unknown = motion.displacement.front().index;
+  const std::int32_t first = skeleton.inclusion[at(unknown)];
+  if (first != j) return "shares nodes with another";
+  if (std::ranges::any_of(skeleton.held, [&](const Held& held) { return held.inclusion == j; }))
+    return "is held";
+  return {};
+}
+
+}  // namespace
+
 std::string uzawa_obstacle(const Decomposition& decomposition, const mesh::Mesh& mesh) {
   const std::string cure = "; use the method \"active-set\"";
+  for (std::size_t j = 0; j < mesh.inclusions.size(); ++j) {
+    const std::string otherwise = moves_otherwise(decomposition.skeleton, j);
+    if (!otherwise.empty()) {
+      return "the inclusion \"" + mesh.inclusions[j] + "\" " + otherwise +
+             ", and Algorithm 2 knows only an unknown constant for each" + cure;
+    }
+  }
   std::vector<const Subdomain*> owner(mesh.inclusions.size(), nullptr);
   for (const Subdomain& subdomain : decomposition.subdomains) {
     if (!subdomain.floating.empty()) {

@@ -7,94 +7,148 @@
 #include <set>
 #include <utility>
 
-#include "errors/errors.hpp"
+#include "ddm/bodies.hpp"
 #include "mesh/at.hpp"
 #include "mesh/union_find.hpp"
 
 namespace anticrack::ddm {
 namespace {
 
-using errors::Error;
-using errors::Reason;
 using mesh::Kind;
 
-void refuse_crack_on_dirichlet(const mesh::Mesh& mesh, const Sides& sides) {
-  for (const CutEdge& edge : sides.edges) {
-    for (const std::int32_t node : edge.node) {
-      if (edge.kind != Kind::glue && sides.on_dirichlet[at(node)] != 0) {
-        throw Error(Reason::not_implemented,
-                    "a crack or inclusion touches the Dirichlet boundary at " + place(mesh, node) +
-                        "; let it end inside, an edge away from it");
-      }
-    }
-  }
-}
-
-void refuse_shared_inclusion_nodes(const mesh::Mesh& mesh, const Sides& sides) {
-  std::vector<std::int32_t> owner(mesh.node_count(), -1);
-  std::vector<char> found(mesh.inclusions.size(), 0);
-  for (const CutEdge& edge : sides.edges) {
-    if (edge.inclusion < 0) continue;
-    found[at(edge.inclusion)] = 1;
-    for (const std::int32_t node : edge.node) {
-      std::int32_t& other = owner[at(node)];
-      if (other >= 0 && other != edge.inclusion) {
-        throw Error(Reason::not_implemented,
-                    "the inclusions \"" + mesh.inclusions[at(other)] + "\" and \"" +
-                        mesh.inclusions[at(edge.inclusion)] + "\" share the node at " +
-                        place(mesh, node) + ", which would make them one rigid body" +
-                        "; make them one inclusion, or leave an edge between them");
-      }
-      other = edge.inclusion;
-    }
-  }
-  for (std::size_t j = 0; j < found.size(); ++j) {
-    if (found[j] == 0) {
-      throw Error(Reason::mesh_invalid,
-                  "the inclusion \"" + mesh.inclusions[j] + "\" has no edge on any interface");
-    }
-  }
-}
-
-/// The sets of tied sides: the A_j are members 0..J-1, side i is member J + i.
+/// Sets of tied sides. Members: the bodies (of one that does not tilt, with all its nodes), the
+/// nodes of bodies that tilt, the sides.
 class Classes {
  public:
-  Classes(const mesh::Mesh& mesh, const Sides& sides)
-      : _inclusions(static_cast<std::int32_t>(mesh.inclusions.size())),
-        _sets(mesh.inclusions.size() + sides.sides.size()) {
+  Classes(const mesh::Mesh& mesh, const Sides& sides, const Bodies& bodies)
+      : _mesh(mesh),
+        _bodies(bodies),
+        _rigid(bodies.bodies.size()),
+        _at_node(mesh.node_count(), -1) {
+    for (const CutEdge& edge : sides.edges)
+      if (edge.inclusion >= 0) add_rigid(edge);
+    _sets = mesh::UnionFind(_rigid + sides.sides.size());
     for (const CutEdge& edge : sides.edges) {
       for (std::size_t end = 0; end < 2; ++end)
         if (edge.plus[end] >= 0) tie(edge, end);
     }
   }
 
-  std::int32_t of(std::int32_t side) { return _sets.find(_inclusions + side); }
+  std::int32_t of(std::int32_t side) {
+    return _sets.find(static_cast<std::int32_t>(_rigid) + side);
+  }
   void unite(std::int32_t a, std::int32_t b) { _sets.unite(a, b); }
 
-  /// The A_j first, then the other sets in the order of their first sides.
-  std::vector<std::int32_t> number(std::size_t sides, std::size_t& unknowns) {
-    std::vector<std::int32_t> of_class(at(_inclusions) + sides, -1), result(sides);
-    std::int32_t count = 0;
-    for (; count < _inclusions; ++count) of_class[at(count)] = count;
-    for (std::size_t i = 0; i < sides; ++i) {
-      std::int32_t& unknown = of_class[at(of(static_cast<std::int32_t>(i)))];
-      if (unknown < 0) unknown = count++;
-      result[i] = unknown;
+  /// The motions first, then the other sets in the order of their first sides. Returns the unknown
+  /// of each side.
+  std::vector<std::int32_t> number(std::size_t sides, Skeleton& skeleton) {
+    std::vector<std::int32_t> of_class(_rigid + sides, -1), result(sides);
+    for (std::size_t b = 0; b < _bodies.bodies.size(); ++b) {
+      const Body& body = _bodies.bodies[b];
+      of_class[b] = static_cast<std::int32_t>(skeleton.inclusion.size());
+      _motion.push_back(of_class[b]);
+      skeleton.inclusion.insert(skeleton.inclusion.end(), 1 + body.axes.size(),
+                                body.inclusions.front());
     }
-    unknowns = at(count);
+    for (std::size_t i = 0; i < sides; ++i) {
+      const std::size_t set = at(of(static_cast<std::int32_t>(i)));
+      if (of_class[set] < 0) {
+        of_class[set] = static_cast<std::int32_t>(skeleton.inclusion.size());
+        const bool follows = set < _rigid;
+        const std::int32_t body = follows ? _follower[set - _bodies.bodies.size()].body : -1;
+        if (follows) _follower[set - _bodies.bodies.size()].unknown = of_class[set];
+        skeleton.inclusion.push_back(follows ? _bodies.bodies[at(body)].inclusions.front() : -1);
+      }
+      result[i] = of_class[set];
+    }
+    skeleton.unknowns = skeleton.inclusion.size();
     return result;
   }
 
- private:
-  void tie(const CutEdge& edge, std::size_t end) {
-    const std::int32_t minus = _inclusions + edge.minus[end], plus = _inclusions + edge.plus[end];
-    if (edge.kind == Kind::glue) _sets.unite(minus, plus);
-    if (edge.kind == Kind::inclusion) _sets.unite(minus, edge.inclusion);
-    if (edge.inclusion >= 0) _sets.unite(plus, edge.inclusion);
+  /// Unknowns that are motions.
+  std::size_t motions() const {
+    return _motion.empty() ? 0 : at(_motion.back()) + 1 + _bodies.bodies.back().axes.size();
   }
 
-  std::int32_t _inclusions;
-  mesh::UnionFind _sets;
+  /// What holds and what follows the motions, and the motions of each inclusion.
+  void move_bodies(LinearConditions& conditions, Skeleton& skeleton) const {
+    for (const Follower& one : _follower)
+      if (one.unknown >= 0) conditions.follow(one.unknown, value(one.body, position(one.node)));
+    for (std::size_t b = 0; b < _bodies.bodies.size(); ++b) {
+      const Body& body = _bodies.bodies[b];
+      const auto number = static_cast<std::int32_t>(b);
+      const std::int32_t inclusion = body.inclusions.front();
+      if (body.fixed)
+        hold(conditions, skeleton, value(number, body.centre), {inclusion, -1, *body.fixed});
+      for (const std::int32_t node : body.on_dirichlet)
+        hold(conditions, skeleton, value(number, position(node)), {inclusion, node});
+    }
+    for (std::size_t j = 0; j < _bodies.of.size(); ++j) {
+      const std::int32_t body = _bodies.of[j];
+      RigidMotion motion{_bodies.centre[j], value(body, _bodies.centre[j]), {}, {}};
+      const std::vector<mesh::Point>& axes = _bodies.bodies[at(body)].axes;
+      for (std::size_t k = 0; k < axes.size(); ++k) {
+        const std::int32_t unknown = _motion[at(body)] + 1 + static_cast<std::int32_t>(k);
+        motion.slope_x.push_back({unknown, axes[k][0]});
+        motion.slope_y.push_back({unknown, axes[k][1]});
+      }
+      skeleton.motions.push_back(std::move(motion));
+    }
+  }
+
+ private:
+  struct Follower {
+    std::int32_t body, node;
+    std::int32_t unknown = -1;
+  };
+
+  mesh::Point position(std::int32_t node) const { return mesh::position(_mesh, node); }
+
+  void add_rigid(const CutEdge& edge) {
+    const std::int32_t body = _bodies.of[at(edge.inclusion)];
+    for (const std::int32_t node : edge.node) {
+      std::int32_t& member = _at_node[at(node)];
+      if (member >= 0) continue;
+      member = body;
+      if (_bodies.bodies[at(body)].axes.empty()) continue;
+      member = static_cast<std::int32_t>(_rigid++);
+      _follower.push_back({body, node});
+    }
+  }
+
+  void tie(const CutEdge& edge, std::size_t end) {
+    const auto first = static_cast<std::int32_t>(_rigid);
+    const std::int32_t minus = first + edge.minus[end], plus = first + edge.plus[end];
+    const std::int32_t body = _at_node[at(edge.node[end])];
+    if (edge.kind == Kind::glue) _sets.unite(minus, plus);
+    if (edge.kind == Kind::inclusion) _sets.unite(minus, body);
+    if (edge.inclusion >= 0) _sets.unite(plus, body);
+  }
+
+  /// u of a body in a point.
+  Terms value(std::int32_t body, const mesh::Point& x) const {
+    const Body& of = _bodies.bodies[at(body)];
+    Terms terms{{_motion[at(body)], 1}};
+    for (std::size_t k = 0; k < of.axes.size(); ++k)
+      terms.push_back({_motion[at(body)] + 1 + static_cast<std::int32_t>(k), lever(of, k, x)});
+    return terms;
+  }
+
+  static void hold(LinearConditions& conditions, Skeleton& skeleton, const Terms& terms,
+                   const Held& held) {
+    const auto k = static_cast<std::int32_t>(skeleton.held.size());
+    skeleton.held.push_back(held);
+    if (Terms agreement = conditions.hold(terms, k); !agreement.empty())
+      skeleton.agreements.push_back(std::move(agreement));
+  }
+
+  const mesh::Mesh& _mesh;
+  const Bodies& _bodies;
+  std::size_t _rigid;                  // members that are rigid
+  std::vector<std::int32_t> _at_node;  // (nodes) the rigid member there, or -1
+  std::vector<Follower> _follower;
+  std::vector<std::int32_t> _motion;  // (bodies) unknown that is A; the slopes follow
+  mesh::UnionFind _sets{0};
 };
 
 /// A condition w[upper] >= w[lower] between two values of one node.
@@ -191,46 +245,63 @@ std::vector<NodeContacts> contacts_by_node(const Sides& sides, Classes& classes)
   return result;
 }
 
-/// Contacts in the order of the couples, so that they follow the cracks.
-void number_contacts(const mesh::Mesh& mesh, const std::vector<NodeContacts>& nodes,
-                     Classes& classes, Ties& ties) {
-  mesh::UnionFind trees(mesh.inclusions.size() + ties.unknown.size());
+/// Conditions in the order of the couples, so that they follow the cracks; those that earlier ones
+/// determine come last.
+void number_contacts(const std::vector<NodeContacts>& nodes, Classes& classes,
+                     LinearConditions& conditions, Ties& ties) {
+  constexpr std::int32_t unseen = -1;
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> number;
-  for (const NodeContacts& node : nodes) {
-    for (const Above& contact : node.above) {
-      if (!trees.unite(contact.upper, contact.lower)) {
-        throw Error(Reason::not_implemented,
-                    "the cracks that cross at " + place(mesh, node.node) +
-                        " have contact conditions that depend on each other; let one of them end "
-                        "an edge before the other");
-      }
-      number[{contact.upper, contact.lower}] = -1;
-    }
-  }
+  for (const NodeContacts& node : nodes)
+    for (const Above& contact : node.above) number[{contact.upper, contact.lower}] = unseen;
+  Skeleton& skeleton = ties.skeleton;
+  std::vector<Contact> dependent;
   for (Couple& couple : ties.couples) {
     const auto found = number.find({classes.of(couple.plus), classes.of(couple.minus)});
     if (found == number.end()) continue;
-    if (found->second < 0) {
-      found->second = static_cast<std::int32_t>(ties.skeleton.contacts.size());
-      ties.skeleton.contacts.push_back(
-          {ties.unknown[at(couple.plus)], ties.unknown[at(couple.minus)]});
+    if (found->second == unseen) {
+      const Contact contact{ties.unknown[at(couple.plus)], ties.unknown[at(couple.minus)]};
+      const auto next = static_cast<std::int32_t>(skeleton.contacts.size());
+      if (auto follows = conditions.part(contact.plus, contact.minus, next)) {
+        skeleton.dependent.push_back(std::move(*follows));
+        dependent.push_back(contact);
+        found->second = -1 - static_cast<std::int32_t>(dependent.size());
+      } else {
+        skeleton.contacts.push_back(contact);
+        found->second = next;
+      }
     }
     couple.contact = found->second;
   }
+  skeleton.independent = skeleton.contacts.size();
+  for (Couple& couple : ties.couples)
+    if (couple.contact < unseen)
+      couple.contact = static_cast<std::int32_t>(skeleton.independent) - 2 - couple.contact;
+  skeleton.contacts.insert(skeleton.contacts.end(), dependent.begin(), dependent.end());
 }
 
+/// A free crack has none of its own; where it meets another edge between the same sides, that
+/// one's.
 void list_couples(const Sides& sides, Ties& ties) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> number;
   ties.of_end.assign(sides.edges.size(), {-1, -1});
-  for (std::size_t e = 0; e < sides.edges.size(); ++e) {
-    const CutEdge& edge = sides.edges[e];
-    for (std::size_t end = 0; end < 2; ++end) {
-      if (edge.minus[end] == edge.plus[end])  // a Dirichlet node, or the tip of a slit
-        continue;
-      const auto [entry, is_new] = number.try_emplace(
-          {edge.minus[end], edge.plus[end]}, static_cast<std::int32_t>(ties.couples.size()));
-      if (is_new) ties.couples.push_back({edge.minus[end], edge.plus[end], -1});
-      ties.of_end[e][end] = entry->second;
+  for (const bool free : {false, true}) {
+    for (std::size_t e = 0; e < sides.edges.size(); ++e) {
+      const CutEdge& edge = sides.edges[e];
+      if ((edge.kind == Kind::free) != free) continue;
+      for (std::size_t end = 0; end < 2; ++end) {
+        if (edge.minus[end] == edge.plus[end])  // a Dirichlet node, or the tip of a slit
+          continue;
+        const std::pair between{edge.minus[end], edge.plus[end]};
+        if (free) {
+          if (const auto found = number.find(between); found != number.end())
+            ties.of_end[e][end] = found->second;
+          continue;
+        }
+        const auto [entry, is_new] =
+            number.try_emplace(between, static_cast<std::int32_t>(ties.couples.size()));
+        if (is_new) ties.couples.push_back({edge.minus[end], edge.plus[end], -1});
+        ties.of_end[e][end] = entry->second;
+      }
     }
   }
 }
@@ -238,8 +309,7 @@ void list_couples(const Sides& sides, Ties& ties) {
 }  // namespace
 
 Ties tie(const mesh::Mesh& mesh, const Sides& sides) {
-  refuse_crack_on_dirichlet(mesh, sides);
-  refuse_shared_inclusion_nodes(mesh, sides);
+  const Bodies bodies = find_bodies(mesh, sides);
   Ties ties;
   list_couples(sides, ties);
   ties.rigid.assign(sides.sides.size(), -1);
@@ -247,10 +317,13 @@ Ties tie(const mesh::Mesh& mesh, const Sides& sides) {
     for (const std::int32_t plus : edge.plus)
       if (plus >= 0 && edge.inclusion >= 0) ties.rigid[at(plus)] = edge.inclusion;
   }
-  Classes classes(mesh, sides);
+  Classes classes(mesh, sides, bodies);
   const std::vector<NodeContacts> contacts = contacts_by_node(sides, classes);
-  ties.unknown = classes.number(sides.sides.size(), ties.skeleton.unknowns);
-  number_contacts(mesh, contacts, classes, ties);
+  ties.unknown = classes.number(sides.sides.size(), ties.skeleton);
+  LinearConditions conditions(ties.skeleton.unknowns, classes.motions());
+  classes.move_bodies(conditions, ties.skeleton);
+  number_contacts(contacts, classes, conditions, ties);
+  ties.skeleton.rows = conditions.rows(ties.skeleton.free);
   return ties;
 }
 

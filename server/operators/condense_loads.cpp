@@ -113,9 +113,45 @@ class Block {
     }
   }
 
+  /// A body held in several places needs values there that it can have.
+  void require_agreement(const mesh::Mesh& mesh) {
+    const ddm::Skeleton& skeleton = _decomposition.skeleton;
+    if (skeleton.agreements.empty()) return;
+    for (std::size_t i = 0; i < _loads.size(); ++i) {
+      attempt(i, [&](LoadOnTraces& result) {
+        const Eigen::VectorXd held = contact::held_values(_decomposition, result.subdomains);
+        for (const ddm::Terms& agreement : skeleton.agreements) require_zero(agreement, held, mesh);
+      });
+    }
+  }
+
   std::vector<CondensedOutcome> take() { return std::move(_outcomes); }
 
  private:
+  void require_zero(const ddm::Terms& agreement, const Eigen::VectorXd& held,
+                    const mesh::Mesh& mesh) const {
+    constexpr double rounding = 1e-9;
+    double sum = 0, size = 0;
+    std::ostringstream values;
+    for (const auto& [k, factor] : agreement) {
+      sum += factor * held[k];
+      size = std::max(size, std::abs(factor * held[k]));
+      const ddm::Held& one = _decomposition.skeleton.held[at(k)];
+      values << (values.str().empty() ? "" : ", ") << held[k];
+      if (one.node >= 0)
+        values << " at (" << mesh.xy[2 * at(one.node)] << ", " << mesh.xy[2 * at(one.node) + 1]
+               << ")";
+    }
+    if (std::abs(sum) <= rounding * size) return;
+    const auto inclusion = at(_decomposition.skeleton.held[at(agreement.front().index)].inclusion);
+    throw errors::Error(
+        errors::Reason::invalid_argument,
+        "nothing solves this load: the inclusion \"" + mesh.inclusions[inclusion] +
+            "\" is rigid and cannot have the values " + values.str() +
+            " it is held at; give values that agree, or let it tilt or end inside the membrane")
+        .at("boundary_value");
+  }
+
   /// An error of a load becomes its outcome.
   template <class Work>
   void attempt(std::size_t i, const Work& work) {
@@ -210,6 +246,7 @@ std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> l
     Block block(loads.subspan(first, std::min(at_once, loads.size() - first)), mesh, decomposition,
                 neumann, stop);
     for (std::size_t s = 0; s < operators.size(); ++s) block.condense_on(s, operators[s]);
+    block.require_agreement(mesh);
     for (CondensedOutcome& outcome : block.take()) result.push_back(std::move(outcome));
   }
   return result;

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "contact/solve.hpp"
 #include "ddm/decomposition.hpp"
 #include "ddm/neumann_boundary.hpp"
 #include "ddm/subdomain_operator.hpp"
@@ -21,9 +22,9 @@ namespace anticrack::operators {
 /// A load case condensed to the traces.
 struct LoadOnTraces {
   std::vector<ddm::CondensedLoad> subdomains;  ///< one per subdomain
-  /// Total force on each of Mesh::inclusions, point forces included. Already in `g` of
-  /// `subdomains`, at one trace node of the inclusion.
-  std::vector<double> inclusion_forces;
+  /// Total force on each of Mesh::inclusions, point forces included, with the moments of the forces
+  /// on trace nodes that stand for it in `g` of `subdomains`.
+  std::vector<contact::RigidForce> inclusion_forces;
   std::vector<std::string> warnings;  ///< integrals that reached a limit, with their error bound
 };
 
@@ -57,7 +58,7 @@ struct NodalForce {
 
 struct PlacedForces {
   std::vector<std::vector<NodalForce>> subdomains;  ///< one list per subdomain
-  std::vector<double> inclusions;                   ///< force on each of Mesh::inclusions
+  std::vector<contact::RigidForce> inclusions;      ///< as LoadOnTraces::inclusion_forces
 };
 
 /// Distance, as a fraction of the diagonal of the membrane's bounding box, within which a point
@@ -66,10 +67,12 @@ constexpr double point_tolerance = 1e-9;
 
 /// A point force on an edge of an inclusion, bonded or delaminated, acts on the inclusion;
 /// elsewhere on the corners of the triangle that contains it, by barycentric coordinates (int delta
-/// phi_i). A force on an inclusion acts on one trace node of it, since all share its displacement.
-/// Throws errors::Error (invalid_argument): "point_forces[I].at" for a point outside the membrane
-/// or on a crack without inclusion, "inclusion_forces[NAME]" for an unknown inclusion. O(m log k +
-/// hits) for k points.
+/// phi_i). A force on an inclusion acts in its middle: on one trace node where all share its
+/// displacement; of one that tilts, with its moments, on all of them, by the least forces that have
+/// this resultant and moment. Throws errors::Error (invalid_argument): "point_forces[I].at" for a
+/// point outside the membrane or on a crack without inclusion, "inclusion_forces[NAME]" and
+/// "inclusion_moments[NAME]" for an unknown inclusion, or for one whose nodes cannot carry it, as a
+/// moment on one that does not tilt. O(m log k + hits) for k points.
 PlacedForces place_forces(const fem::Load& load, const mesh::Mesh& mesh,
                           const ddm::Decomposition& decomposition);
 

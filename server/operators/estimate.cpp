@@ -38,21 +38,24 @@ struct SkeletonSize {
   double contacts = 0;
 };
 
-/// A node has one unknown if all its edges are closed; otherwise up to one per side, and one
-/// contact fewer.
+/// A node has one unknown if all its edges are closed; otherwise up to one per side, and, if its
+/// sides may touch, one contact fewer.
 SkeletonSize skeleton_size(const mesh::Mesh& mesh, const ddm::Sides& sides) {
-  std::vector<char> open(mesh.node_count(), 0), seen(mesh.node_count(), 0);
+  std::vector<char> open(mesh.node_count(), 0), touches(open), seen(open);
   for (const ddm::CutEdge& edge : sides.edges) {
-    if (edge.kind == mesh::Kind::crack || edge.kind == mesh::Kind::delaminated)
-      for (const std::int32_t node : edge.node) open[at(node)] = 1;
+    const bool contact = edge.kind == mesh::Kind::crack || edge.kind == mesh::Kind::delaminated;
+    for (const std::int32_t node : edge.node) {
+      touches[at(node)] |= contact ? 1 : 0;
+      open[at(node)] |= contact || edge.kind == mesh::Kind::free ? 1 : 0;
+    }
   }
-  SkeletonSize size{static_cast<double>(mesh.inclusions.size()), 0};
+  SkeletonSize size{3 * static_cast<double>(mesh.inclusions.size()), 0};
   for (const ddm::Side& side : sides.sides) {
     const auto node = at(side.node);
     const bool another = seen[node] != 0;
     seen[node] = 1;
     size.unknowns += another && open[node] == 0 ? 0 : 1;
-    size.contacts += another && open[node] != 0 ? 1 : 0;
+    size.contacts += another && touches[node] != 0 ? 1 : 0;
   }
   return size;
 }

@@ -70,7 +70,7 @@ MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threa
       uzawa_obstacle(ddm::uzawa_obstacle(decomposition, *mesh)),
       problem(decomposition, operators, uzawa_obstacle.empty()),
       skeleton(problem),
-      sweep_geometry(skeleton, mesh->inclusions.size()),
+      sweep_geometry(skeleton),
       geometry(contact::trace_geometry(decomposition, *mesh)) {}
 
 std::shared_ptr<const MeshOperator> MeshOperator::factorise(std::shared_ptr<const mesh::Mesh> mesh,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "operators/condense_loads.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -50,11 +51,10 @@ std::vector<OnInterface> find_on_interfaces(const mesh::Mesh& mesh, const fem::P
         if (fem::distance_to_segment(points[i], ends[0], ends[1]) > tolerance) {
           return;
         }
-        if (interface.kind[e] == mesh::Kind::crack) {
+        if (interface.inclusion[e] < 0)
           found[i].crack = &interface;
-        } else {
+        else
           found[i].inclusion = interface.inclusion[e];
-        }
       });
     }
   }
@@ -91,7 +91,13 @@ void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& 
   const std::vector<Placed> in = find_in_subdomains(decomposition, points, tolerance);
   for (std::size_t i = 0; i < forces.size(); ++i) {
     if (on[i].inclusion >= 0) {
-      placed.inclusions[at(on[i].inclusion)] += forces[i].value;
+      const auto j = at(on[i].inclusion);
+      const ddm::RigidMotion& motion = decomposition.skeleton.motions[j];
+      contact::RigidForce& on_inclusion = placed.inclusions[j];
+      on_inclusion.force += forces[i].value;
+      if (motion.slope_x.empty()) continue;
+      on_inclusion.moment_x += forces[i].value * (forces[i].x - motion.centre[0]);
+      on_inclusion.moment_y += forces[i].value * (forces[i].y - motion.centre[1]);
       continue;
     }
     if (on[i].crack != nullptr) {
@@ -110,21 +116,95 @@ void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& 
   }
 }
 
-void place_on_inclusion(std::size_t inclusion, double force,
-                        const ddm::Decomposition& decomposition, PlacedForces& placed) {
+/// A trace node of the inclusion, and where it is from the inclusion's middle.
+struct RigidNode {
+  std::size_t subdomain;
+  std::int32_t node;
+  double x, y;
+};
+
+std::vector<RigidNode> nodes_of(std::size_t inclusion, const ddm::Decomposition& decomposition,
+                                bool one) {
+  const mesh::Point& centre = decomposition.skeleton.motions[inclusion].centre;
+  std::vector<RigidNode> nodes;
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const ddm::Subdomain& subdomain = decomposition.subdomains[s];
-    const auto held = std::find(subdomain.rigid.begin(), subdomain.rigid.end(),
-                                static_cast<std::int32_t>(inclusion));
-    if (held != subdomain.rigid.end()) {
-      const auto trace = at(held - subdomain.rigid.begin());
-      placed.subdomains[s].push_back(
-          {static_cast<std::int32_t>(subdomain.interior + trace), force});
-      return;
+    for (std::size_t i = 0; i < subdomain.trace; ++i) {
+      if (at(subdomain.rigid[i]) != inclusion || subdomain.rigid[i] < 0) continue;
+      const std::size_t node = subdomain.interior + i;
+      nodes.push_back({s, static_cast<std::int32_t>(node), subdomain.part.xy[2 * node] - centre[0],
+                       subdomain.part.xy[2 * node + 1] - centre[1]});
+      if (one) return nodes;
     }
   }
-  throw Error(Reason::internal,
-              "inclusion " + std::to_string(inclusion) + " holds no node of the mesh");
+  return nodes;
+}
+
+/// Forces on the nodes of least squares with the force and moment given; false if there are none.
+bool balance(const std::vector<RigidNode>& nodes, const contact::RigidForce& given,
+             Eigen::VectorXd& forces) {
+  constexpr double rounding = 1e-9;
+  double size = 0;
+  for (const RigidNode& node : nodes) size = std::max({size, std::abs(node.x), std::abs(node.y)});
+  if (!(size > 0)) return false;
+  Eigen::Matrix3Xd rows(3, static_cast<Eigen::Index>(nodes.size()));
+  for (Eigen::Index i = 0; i < rows.cols(); ++i)
+    rows.col(i) << 1, nodes[at(i)].x / size, nodes[at(i)].y / size;
+  const Eigen::Vector3d wanted(given.force, given.moment_x / size, given.moment_y / size);
+  forces = rows.completeOrthogonalDecomposition().solve(wanted);
+  return (rows * forces - wanted).norm() <= rounding * wanted.norm();
+}
+
+/// The part of a moment that does work: of a straight inclusion, that along it.
+void keep_working_part(const ddm::RigidMotion& motion, contact::RigidForce& given) {
+  if (motion.slope_x.size() != 1) return;
+  const double x = motion.slope_x.front().factor, y = motion.slope_y.front().factor;
+  const double along = (given.moment_x * x + given.moment_y * y) / (x * x + y * y);
+  given.moment_x = along * x;
+  given.moment_y = along * y;
+}
+
+/// `given`: replaced by what the forces on the nodes are.
+void place_on_inclusion(std::size_t inclusion, const std::string& name, contact::RigidForce& given,
+                        const ddm::Decomposition& decomposition, PlacedForces& placed) {
+  const ddm::RigidMotion& motion = decomposition.skeleton.motions[inclusion];
+  const bool tilts = !motion.slope_x.empty();
+  const std::vector<RigidNode> nodes = nodes_of(inclusion, decomposition, !tilts);
+  Eigen::VectorXd forces =
+      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(nodes.size()), given.force);
+  keep_working_part(motion, given);
+  if (nodes.empty() || (tilts && !balance(nodes, given, forces))) {
+    throw Error(Reason::invalid_argument,
+                "the inclusion \"" + name +
+                    "\" has too few nodes off the Dirichlet boundary to take a force or moment; "
+                    "mesh it finer, or leave them out")
+        .at((given.force != 0 ? "inclusion_forces[" : "inclusion_moments[") + name + "]");
+  }
+  given = {};
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const double force = forces[static_cast<Eigen::Index>(i)];
+    placed.subdomains[nodes[i].subdomain].push_back({nodes[i].node, force});
+    given.force += force;
+    given.moment_x += force * nodes[i].x;
+    given.moment_y += force * nodes[i].y;
+  }
+}
+
+void add_moments(const fem::Load& load, const mesh::Mesh& mesh,
+                 const ddm::Decomposition& decomposition, PlacedForces& placed) {
+  for (const auto& [name, moment] : load.inclusion_moments) {
+    const std::string field = "inclusion_moments[" + name + "]";
+    const std::size_t j = index_of(mesh.inclusions, name, "inclusion", field);
+    if (decomposition.skeleton.motions[j].slope_x.empty()) {
+      throw Error(Reason::invalid_argument,
+                  "the inclusion \"" + name +
+                      "\" does not tilt, so a moment on it does nothing: let it tilt, or leave the "
+                      "moment out")
+          .at(field);
+    }
+    placed.inclusions[j].moment_x += moment.x;
+    placed.inclusions[j].moment_y += moment.y;
+  }
 }
 
 }  // namespace
@@ -150,13 +230,17 @@ PlacedForces place_forces(const fem::Load& load, const mesh::Mesh& mesh,
   placed.subdomains.resize(decomposition.subdomains.size());
   placed.inclusions.resize(mesh.inclusions.size());
   for (const auto& [name, value] : load.inclusion_forces) {
-    placed.inclusions[index_of(mesh.inclusions, name, "inclusion",
-                               "inclusion_forces[" + name + "]")] += value;
+    placed
+        .inclusions[index_of(mesh.inclusions, name, "inclusion", "inclusion_forces[" + name + "]")]
+        .force += value;
   }
+  add_moments(load, mesh, decomposition, placed);
   place_points(load.point_forces, mesh, decomposition, placed);
-  for (std::size_t j = 0; j < placed.inclusions.size(); ++j)
-    if (placed.inclusions[j] != 0)
-      place_on_inclusion(j, placed.inclusions[j], decomposition, placed);
+  for (std::size_t j = 0; j < placed.inclusions.size(); ++j) {
+    contact::RigidForce& force = placed.inclusions[j];
+    if (force.force != 0 || force.moment_x != 0 || force.moment_y != 0)
+      place_on_inclusion(j, mesh.inclusions[j], force, decomposition, placed);
+  }
   return placed;
 }
 

@@ -50,8 +50,7 @@ std::vector<const ddm::CondensedLoad*> on_subdomain(const std::vector<LoadOnTrac
 }
 
 /// Computes the products of loads that the energy needs, then frees their interiors.
-CondensedBasis basis_of(std::vector<LoadOnTraces> loads, const contact::SkeletonProblem& skeleton,
-                        std::size_t inclusions) {
+CondensedBasis basis_of(std::vector<LoadOnTraces> loads, const contact::SkeletonProblem& skeleton) {
   CondensedBasis result;
   const auto m = static_cast<Index>(loads.size());
   MatrixXd constants = MatrixXd::Zero(m, m);
@@ -71,7 +70,7 @@ CondensedBasis basis_of(std::vector<LoadOnTraces> loads, const contact::Skeleton
           result.warnings.end())
         result.warnings.push_back(warning);
   }
-  result.reduced = contact::reduce(skeleton, inclusions, cases, constants);
+  result.reduced = contact::reduce(skeleton, cases, constants);
   result.loads = std::move(loads);
   return result;
 }
@@ -97,7 +96,7 @@ std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* 
     return std::make_shared<const CondensedBasis>(
         basis_of(sound(condense_loads(loads, *_parts->mesh, _parts->decomposition,
                                       _parts->operators, _parts->neumann, stop)),
-                 _parts->skeleton, _parts->mesh->inclusions.size()));
+                 _parts->skeleton));
   };
   const std::optional<std::string> key = key_of(loads);
   return std::make_shared<const LoadBasis>(std::make_shared<const LoadBasis::Data>(
@@ -108,7 +107,7 @@ template <class SolveRow>
 bool MeshOperator::sweep_rows(const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
                               std::vector<char>& start, const std::stop_token& stop,
                               const SolveRow& solve_row) const {
-  const auto contacts = static_cast<std::size_t>(_parts->skeleton.lcp().size());
+  const auto contacts = static_cast<std::size_t>(_parts->skeleton.lcp().conditions());
   if (rows.inclusions != _parts->mesh->inclusions.size() ||
       rows.contacts != contact_nodes().size() || (!start.empty() && start.size() != contacts))
     throw errors::Error(errors::Reason::internal, "rows of a sweep on another mesh");
@@ -142,9 +141,7 @@ bool MeshOperator::sweep(std::span<const PreparedLoad> loads,
     MatrixXd constant = MatrixXd::Zero(1, 1);
     for (const ddm::CondensedLoad& part : parts[0].subdomains)
       constant(0, 0) += part.energy_constant;
-    solver.solve(
-        contact::reduce(_parts->skeleton, _parts->mesh->inclusions.size(), parts, constant), once,
-        row, rows);
+    solver.solve(contact::reduce(_parts->skeleton, parts, constant), once, row, rows);
   });
 }
 
@@ -163,11 +160,15 @@ PreparedLoad MeshOperator::combine(const LoadBasis& basis,
     data->condensed.subdomains.push_back(
         ddm::combine(on_subdomain(condensed.loads, s), condensed.products[s], c));
   }
-  data->condensed.inclusion_forces.resize(_parts->mesh->inclusions.size(), 0);
+  data->condensed.inclusion_forces.resize(_parts->mesh->inclusions.size());
   for (std::size_t j = 0; j < coefficients.size(); ++j) {
-    const std::vector<double>& forces = condensed.loads[j].inclusion_forces;
-    for (std::size_t i = 0; i < forces.size(); ++i)
-      data->condensed.inclusion_forces[i] += coefficients[j] * forces[i];
+    const std::vector<contact::RigidForce>& forces = condensed.loads[j].inclusion_forces;
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      contact::RigidForce& sum = data->condensed.inclusion_forces[i];
+      sum.force += coefficients[j] * forces[i].force;
+      sum.moment_x += coefficients[j] * forces[i].moment_x;
+      sum.moment_y += coefficients[j] * forces[i].moment_y;
+    }
   }
   return PreparedLoad(std::move(data));
 }

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ddm/bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "errors/errors.hpp"
+#include "mesh/at.hpp"
+#include "mesh/union_find.hpp"
+
+namespace anticrack::ddm {
+namespace {
+
+using mesh::Point;
+
+/// Of its length, that the nodes of a straight body may lie off its line.
+constexpr double straight = 1e-9;
+
+struct Box {
+  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Point high{-low[0], -low[1]};
+
+  void add(const Point& p) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  }
+  Point centre() const { return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2}; }
+};
+
+mesh::UnionFind join_at_nodes(const mesh::Mesh& mesh, const Sides& sides) {
+  mesh::UnionFind joined(mesh.inclusions.size());
+  std::vector<std::int32_t> first(mesh.node_count(), -1);
+  for (const CutEdge& edge : sides.edges) {
+    if (edge.inclusion < 0) continue;
+    for (const std::int32_t node : edge.node) {
+      if (first[at(node)] < 0) first[at(node)] = edge.inclusion;
+      joined.unite(first[at(node)], edge.inclusion);
+    }
+  }
+  return joined;
+}
+
+void hold(Body& body, const mesh::Motion& motion, const std::string& name) {
+  if (!motion.fixed) return;
+  if (body.fixed && *body.fixed != *motion.fixed) {
+    std::ostringstream text;
+    text << "the inclusion \"" << name << "\" is fixed at " << *motion.fixed
+         << ", but shares nodes with one that is fixed at " << *body.fixed
+         << ": they are one body; fix them at one value, or leave an edge between them";
+    throw errors::Error(errors::Reason::invalid_argument, text.str());
+  }
+  body.fixed = motion.fixed;
+}
+
+/// The axes of a body whose inclusions all tilt.
+void let_tilt(Body& body, const std::vector<Point>& nodes) {
+  const auto from_centre = [&](const Point& p) {
+    return Point{p[0] - body.centre[0], p[1] - body.centre[1]};
+  };
+  const auto size = [](const Point& p) { return std::hypot(p[0], p[1]); };
+  Point far{};
+  for (const Point& node : nodes)
+    if (const Point p = from_centre(node); size(p) > size(far)) far = p;
+  const double half = size(far);
+  const Point along{far[0] / half, far[1] / half};
+  double off = 0;
+  for (const Point& node : nodes) {
+    const Point p = from_centre(node);
+    off = std::max(off, std::abs(along[0] * p[1] - along[1] * p[0]));
+  }
+  if (off <= straight * half)
+    body.axes = {{along[0] / half, along[1] / half}};
+  else
+    body.axes = {{1 / half, 0}, {0, 1 / half}};
+}
+
+}  // namespace
+
+double lever(const Body& body, std::size_t axis, const Point& x) {
+  return body.axes[axis][0] * (x[0] - body.centre[0]) +
+         body.axes[axis][1] * (x[1] - body.centre[1]);
+}
+
+Bodies find_bodies(const mesh::Mesh& mesh, const Sides& sides) {
+  const std::size_t count = mesh.inclusions.size();
+  mesh::UnionFind joined = join_at_nodes(mesh, sides);
+  std::vector<Box> box(count);
+  std::vector<std::vector<Point>> nodes(count);  // by the first inclusion of the body
+  std::vector<std::vector<std::int32_t>> on_dirichlet(count);
+  for (const CutEdge& edge : sides.edges) {
+    if (edge.inclusion < 0) continue;
+    const std::size_t first = at(joined.find(edge.inclusion));
+    for (const std::int32_t node : edge.node) {
+      box[at(edge.inclusion)].add(mesh::position(mesh, node));
+      nodes[first].push_back(mesh::position(mesh, node));
+      if (sides.on_dirichlet[at(node)] != 0) on_dirichlet[first].push_back(node);
+    }
+  }
+  Bodies result;
+  result.of.resize(count);
+  std::vector<std::int32_t> number(count, -1);
+  for (std::size_t j = 0; j < count; ++j) {
+    if (!std::isfinite(box[j].low[0])) {
+      throw errors::Error(errors::Reason::mesh_invalid, "the inclusion \"" + mesh.inclusions[j] +
+                                                            "\" has no edge on any interface");
+    }
+    result.centre.push_back(box[j].centre());
+    std::int32_t& body = number[at(joined.find(static_cast<std::int32_t>(j)))];
+    if (body < 0) {
+      body = static_cast<std::int32_t>(result.bodies.size());
+      result.bodies.emplace_back();
+    }
+    result.of[j] = body;
+    result.bodies[at(body)].inclusions.push_back(static_cast<std::int32_t>(j));
+    if (!mesh.motions.empty()) hold(result.bodies[at(body)], mesh.motions[j], mesh.inclusions[j]);
+  }
+  for (Body& body : result.bodies) {
+    const std::size_t first = at(body.inclusions.front());
+    Box all;
+    for (const Point& node : nodes[first]) all.add(node);
+    body.centre = all.centre();
+    body.on_dirichlet = std::move(on_dirichlet[first]);
+    std::ranges::sort(body.on_dirichlet);
+    const auto twice = std::ranges::unique(body.on_dirichlet);
+    body.on_dirichlet.erase(twice.begin(), twice.end());
+    const bool tilts = !body.fixed && !mesh.motions.empty() &&
+                       std::ranges::all_of(body.inclusions, [&](std::int32_t j) {
+                         return mesh.motions[at(j)].tilt;
+                       });
+    if (tilts) let_tilt(body, nodes[first]);
+  }
+  return result;
+}
+
+}  // namespace anticrack::ddm
