@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/codec.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <map>
@@ -14,12 +15,19 @@ namespace {
 
 // The first eight bytes: what follows, and the version of the format.
 constexpr std::string_view mesh_tag = "ACMESH2\n";
+constexpr std::string_view moving_mesh_tag = "ACMESH3\n";  // motions follow
 constexpr std::string_view request_tag = "ACMREQ2\n";
 constexpr std::string_view reply_tag = "ACMREP2\n";
 
 constexpr auto last_reason = static_cast<std::int32_t>(errors::Reason::internal);
 
-/// Fields that do not count for the hash of a mesh.
+/// Whether an inclusion moves otherwise than by default.
+bool moves(const Mesh& mesh) {
+  return std::ranges::any_of(mesh.motions, [](const Motion& m) { return m != Motion(); });
+}
+
+/// Fields that do not count for the hash of a mesh, and motions, which are new: a mesh without them
+/// keeps its hash.
 bool is_beside(std::string_view field) {
   return field == "warnings" || field == "bisection_bound" || field == "motions";
 }
@@ -103,7 +111,7 @@ errors::Error get_error(Reader& in) {
 }  // namespace
 
 static Choices choices_of(Kind) {
-  return {1, static_cast<std::int32_t>(Kind::delaminated), "an edge's kind"};
+  return {1, static_cast<std::int32_t>(Kind::free), "an edge's kind"};
 }
 static Choices choices_of(Role) {
   return {0, static_cast<std::int32_t>(Role::align), "a curve's role"};
@@ -113,14 +121,18 @@ static Choices choices_of(Preset) {
 }
 
 Bytes encode(const Mesh& mesh) {
-  Writer out(mesh_tag);
+  const bool moving = moves(mesh);
+  Writer out(moving ? moving_mesh_tag : mesh_tag);
   put(out, mesh);
+  if (moving) out.value(mesh.motions);
   return out.take();
 }
 
 Mesh decode_mesh(std::span<const std::byte> bytes) {
-  Reader in(bytes, mesh_tag);
+  const bool moving = Reader::begins(bytes, moving_mesh_tag);
+  Reader in(bytes, moving ? moving_mesh_tag : mesh_tag);
   Mesh mesh = get_mesh(in);
+  if (moving) in.read(mesh.motions);
   in.end();
   return mesh;
 }
@@ -150,6 +162,7 @@ Bytes encode(const MesherReply& reply) {
   out.number(static_cast<std::int32_t>(reply.index()));
   if (const auto* mesh = std::get_if<Mesh>(&reply)) {
     put(out, *mesh);
+    out.value(mesh->motions);
     out.value(mesh->warnings);
     out.value(mesh->bisection_bound);
   } else {
@@ -166,6 +179,7 @@ MesherReply decode_reply(std::span<const std::byte> bytes) {
     return error;
   }
   Mesh mesh = get_mesh(in);
+  in.read(mesh.motions);
   in.read(mesh.warnings);
   in.read(mesh.bisection_bound);
   in.end();

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -46,7 +47,7 @@ class Writer {
   /// Numbers, texts, containers and listed structs, nested at will; a list after its length.
   template <class T>
   void value(const T& from) {
-    if constexpr (std::is_enum_v<T>) {
+    if constexpr (std::is_enum_v<T> || std::is_same_v<T, bool>) {
       number(static_cast<std::int32_t>(from));
     } else if constexpr (std::is_arithmetic_v<T>) {
       number(from);
@@ -57,6 +58,9 @@ class Writer {
     } else if constexpr (fields::is_a<T, std::pair>) {
       value(from.first);
       value(from.second);
+    } else if constexpr (fields::is_a<T, std::optional>) {
+      value(from.has_value());
+      if (from) value(*from);
     } else {
       if constexpr (requires { typename T::allocator_type; }) count(from.size());  // no std::array
       for (const auto& item : from) value(item);
@@ -86,7 +90,7 @@ struct Choices {
 template <class T>
 std::size_t least_bytes() {
   std::size_t bytes = 8;  // the length of a text or list
-  if constexpr (std::is_enum_v<T>) {
+  if constexpr (std::is_enum_v<T> || std::is_same_v<T, bool> || fields::is_a<T, std::optional>) {
     bytes = sizeof(std::int32_t);
   } else if constexpr (std::is_arithmetic_v<T>) {
     bytes = sizeof(T);
@@ -106,9 +110,14 @@ class Reader {
  public:
   /// All calls throw errors::Error (mesh_invalid) for bytes that do not fit.
   Reader(std::span<const std::byte> bytes, std::string_view tag) : _bytes(bytes) {
-    if (left() < tag.size() || std::memcmp(_bytes.data(), tag.data(), tag.size()) != 0)
+    if (!begins(bytes, tag))
       fail("they do not begin with the tag " + std::string(tag.substr(0, tag.size() - 1)));
     _at = tag.size();
+  }
+
+  /// Whether the bytes begin with the tag.
+  static bool begins(std::span<const std::byte> bytes, std::string_view tag) noexcept {
+    return bytes.size() >= tag.size() && std::memcmp(bytes.data(), tag.data(), tag.size()) == 0;
   }
 
   /// The next of what Writer::number wrote.
@@ -145,6 +154,8 @@ class Reader {
     if constexpr (std::is_enum_v<T>) {
       const Choices choices = choices_of(T{});
       to = static_cast<T>(choice(choices.first, choices.last, choices.what));
+    } else if constexpr (std::is_same_v<T, bool>) {
+      to = choice(0, 1, "a truth value") == 1;
     } else if constexpr (std::is_arithmetic_v<T>) {
       to = number<T>();
     } else if constexpr (std::is_same_v<T, std::string>) {
@@ -161,6 +172,10 @@ class Reader {
       } else {
         for (Item& item : to) read(item);
       }
+    } else if constexpr (fields::is_a<T, std::optional>) {
+      bool there = false;
+      read(there);
+      if (there) read(to.emplace());
     } else if constexpr (fields::is_a<T, std::map>) {
       const auto n =
           count(least_bytes<typename T::key_type>() + least_bytes<typename T::mapped_type>());

@@ -103,6 +103,17 @@ void check_tension(const Mesh& mesh) {
   }
 }
 
+void check_motions(const Mesh& mesh) {
+  if (!mesh.motions.empty() && mesh.motions.size() != mesh.inclusions.size()) {
+    fail("motions has ", mesh.motions.size(), " entries for ", mesh.inclusions.size(),
+         " inclusions; it takes one each, or none at all");
+  }
+  for (std::size_t j = 0; j < mesh.motions.size(); ++j) {
+    const std::string fault = fault_of(mesh.motions[j]);
+    if (!fault.empty()) fail("inclusion ", j, " (\"", mesh.inclusions[j], "\"): ", fault);
+  }
+}
+
 /// Sorts edges; fails where one is there twice.
 void sort_once(const Mesh& mesh, std::vector<EdgeKey>& edges, const char* fault) {
   std::ranges::sort(edges);
@@ -133,8 +144,8 @@ void check_interface_shape(const Mesh& mesh, const Interface& interface) {
   for (std::size_t i = 0; i < edges; ++i) {
     const auto number = static_cast<std::int32_t>(interface.kind[i]);
     if (number < static_cast<std::int32_t>(Kind::glue) ||
-        number > static_cast<std::int32_t>(Kind::delaminated))
-      fail("edge ", i, " of interface \"", name, "\" has kind ", number, "; the kinds are 1 to 4");
+        number > static_cast<std::int32_t>(Kind::free))
+      fail("edge ", i, " of interface \"", name, "\" has kind ", number, "; the kinds are 1 to 5");
     const std::int32_t j = interface.inclusion[i];
     if (j < -1 || j >= static_cast<std::int32_t>(mesh.inclusions.size())) {
       fail("edge ", i, " of interface \"", name, "\" has inclusion ", j, "; there are ",
@@ -215,6 +226,15 @@ void check_boundary(const Mesh& mesh, const EdgeTable& edges) {
 
 }  // namespace
 
+std::string fault_of(const Motion& motion) {
+  if (!motion.fixed) return "";
+  if (!std::isfinite(*motion.fixed))
+    return "it is fixed at " + show(*motion.fixed) + "; give a finite displacement";
+  if (!motion.tilt) return "";
+  return "it is fixed at " + show(*motion.fixed) +
+         " and tilts; an inclusion that is held does not tilt, so leave one of the two out";
+}
+
 double area(const Mesh& mesh, std::size_t triangle) noexcept {
   const Point a = corner(mesh, triangle, 0);
   const Point b = corner(mesh, triangle, 1);
@@ -236,6 +256,7 @@ void validate(const Mesh& mesh) {
   check_nodes(mesh);
   check_triangles(mesh);
   check_tension(mesh);
+  check_motions(mesh);
   const EdgeTable edges(mesh.triangles);
   check_edges(mesh, edges, check_interfaces(mesh, edges));
   check_boundary(mesh, edges);

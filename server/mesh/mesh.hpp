@@ -32,6 +32,7 @@ struct Motion {
   /// rigid motions of a thin plate.
   bool tilt = false;
   std::optional<double> fixed;  ///< held at u = this; does not tilt
+  bool operator==(const Motion&) const = default;
 };
 ANTICRACK_FIELDS(Motion, tilt, fixed)
 
@@ -50,8 +51,8 @@ ANTICRACK_FIELDS(Interface, name, nodes, kind, inclusion)
 /// not overlapping at an edge; every node and subdomain has a triangle; an interface edge is an
 /// edge of exactly two triangles, of different subdomains if it is glue; an edge between two
 /// subdomains lies on exactly one interface; a Dirichlet edge belongs to exactly one triangle; an
-/// edge has an inclusion if and only if its kind needs one; tension is positive. Edges of one
-/// triangle that are not in `dirichlet` are the Neumann boundary.
+/// edge has an inclusion if and only if its kind needs one; tension is positive; no motion has a
+/// fault. Edges of one triangle that are not in `dirichlet` are the Neumann boundary.
 struct Mesh {
   std::vector<double> xy;               ///< (n,2) row-major, unit of the geometry
   std::vector<std::int32_t> triangles;  ///< (m,3) row-major
@@ -75,6 +76,9 @@ ANTICRACK_FIELDS(Mesh, xy, triangles, subdomain, subdomains, tension, inclusions
 
 /// Throws errors::Error (mesh_invalid) naming the first invariant violated and where. O(m log m).
 void validate(const Mesh& mesh);
+
+/// What is wrong with a motion, and the cure; empty: nothing.
+std::string fault_of(const Motion& motion);
 
 /// Signed area of a triangle, length unit squared; positive when counterclockwise.
 double area(const Mesh& mesh, std::size_t triangle) noexcept;
