@@ -139,7 +139,7 @@ struct Plan {
   std::vector<PlannedFace> faces;
   std::vector<std::string> inclusions;
   std::vector<Motion> motions;  ///< (inclusions)
-  double growth = 0.3;  ///< how much longer edges become per length away from a finer curve
+  double growth = 0.3;          ///< how much longer edges become per length away from a finer curve
   GradingSpec grading;
   std::size_t triangles = 0;            ///< to be expected, before grading
   std::vector<std::string> warnings{};  ///< for Mesh::warnings: points that were moved onto a line
@@ -149,11 +149,12 @@ ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, motions, g
 
 /// Checks a geometry and cuts it into curves with the intervals of the preset. Throws errors::Error
 /// with the field at fault ("boundary", "interfaces[0].polyline", "inclusions[1].part.from",
-/// "inclusions[0].fixed", "regions[0].at", "options.size", ...): geometry_invalid (the boundary crosses itself, an
-/// interface leaves the membrane or runs along another, a part lies on no interface, touches the
-/// Dirichlet boundary or overlaps another, values are not finite, names are empty, malformed or
-/// used twice); invalid_argument for options; limit_exceeded for more than 20,000 vertices or more
-/// than `max_triangles` expected triangles. O(v^2) for v vertices.
+/// "inclusions[0].fixed", "regions[0].at", "options.size", ...): geometry_invalid (the boundary
+/// crosses itself, an interface leaves the membrane or runs along another, a part lies on no
+/// interface, touches the Dirichlet boundary or overlaps another, values are not finite, names are
+/// empty, malformed or used twice, a motion has a fault); invalid_argument for options;
+/// limit_exceeded for more than 20,000 vertices or more than `max_triangles` expected triangles.
+/// O(v^2) for v vertices.
 Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_triangles);
 
 /// Check the options of a geometry (all but the points of `align`, which plan() checks) and of an
