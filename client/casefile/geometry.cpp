@@ -59,22 +59,29 @@ void read_delamination(const Section& section, const std::string& field, v1::Inc
 }
 
 void read_inclusions(const Section& geometry_section, v1::Geometry& geometry, Spots& spots) {
-  for (const Section& section :
-       geometry_section.sections("inclusion", {"name", "from", "to", "delaminated"})) {
+  for (const Section& section : geometry_section.sections(
+           "inclusion", {"name", "from", "to", "delaminated", "tilt", "fixed", "contact"})) {
+    refuse_keys(section, {"contact"},
+                "belongs to [[geometry.crack]]; an inclusion has delaminated = true or false");
     const std::string field = entry_field("geometry.inclusions", geometry.inclusions().size());
     v1::Inclusion& inclusion = *geometry.add_inclusions();
     inclusion.set_name(section.need_text("name", "give the inclusion a name"));
     read_line(section, field, inclusion, spots);
     read_delamination(section, field, inclusion, spots);
+    read_motion(section, inclusion);
   }
 }
 
 void read_cracks(const Section& geometry_section, v1::Geometry& geometry, Spots& spots) {
-  for (const Section& section : geometry_section.sections("crack", {"name", "from", "to"})) {
+  for (const Section& section :
+       geometry_section.sections("crack", {"name", "from", "to", "contact", "tilt", "fixed"})) {
+    refuse_keys(section, {"tilt", "fixed"},
+                "belongs to [[geometry.inclusion]]; nothing rigid lies on a crack, so remove it");
     const std::string field = entry_field("geometry.cracks", geometry.cracks().size());
     v1::Crack& crack = *geometry.add_cracks();
     crack.set_name(section.need_text("name", "give the crack a name"));
     read_line(section, field, crack, spots);
+    if (const auto contact = section.boolean("contact")) crack.set_contact(*contact);
   }
 }
 

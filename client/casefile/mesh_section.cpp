@@ -10,11 +10,6 @@ constexpr const char* group_cure =
     "write the tag of a physical group and its meaning in quotes, for example curve.7 = "
     "\"crack\" or surface.1 = \"top\"";
 
-void refuse_keys(const Section& section, const std::vector<const char*>& keys, const char* why) {
-  for (const char* key : keys)
-    if (section.find(key)) throw Error(section.spot_of(key), why);
-}
-
 v1::MeshPreset read_preset(const Section& section) {
   const auto preset = section.choice("preset", {"paper", "uniform", "graded"});
   return preset ? static_cast<v1::MeshPreset>(v1::MESH_PRESET_PAPER + static_cast<int>(*preset))
@@ -37,6 +32,9 @@ void refuse_what_means_nothing(const Section& section, v1::MeshPreset preset) {
     refuse_keys(section, {"tension"},
                 "belongs to mesh.file; for a geometry write [[geometry.region]] with name, at and "
                 "tension");
+    refuse_keys(section, {"inclusions"},
+                "belongs to mesh.file; for a geometry write tilt or fixed in its "
+                "[[geometry.inclusion]]");
   }
 }
 
@@ -81,6 +79,26 @@ void read_groups(const Section& section, const char* key, const std::string& fie
   }
 }
 
+void read_motions(const Section& section, v1::MeshOptions& options, Spots& spots) {
+  constexpr const char* cure =
+      " is not a table; write NAME = { tilt = true } or NAME = { fixed = 0.1 } for each of them";
+  const std::string field = "options.inclusion_motions";
+  const toml::node* node = section.find("inclusions");
+  if (!node) return;
+  spots[field] = section.spot_of("inclusions");
+  const toml::table* inclusions = node->as_table();
+  if (!inclusions) throw Error(section.spot_of("inclusions"), shown(*node) + cure);
+  for (const auto& [key, entry] : *inclusions) {
+    const std::string name(key.str());
+    const std::string path = section.path_of("inclusions") + "." + name;
+    const toml::table* motion = entry.as_table();
+    if (!motion) throw Error(spot_of(entry, path), shown(entry) + cure);
+    read_motion(Section(*motion, path, {"tilt", "fixed"}),
+                (*options.mutable_inclusion_motions())[name]);
+    set_entry(spots, field, name, spot_of(entry, path));
+  }
+}
+
 }  // namespace
 
 v1::MeshOptions read_mesh_options(const Section& section, Spots& spots) {
@@ -99,6 +117,7 @@ v1::MeshOptions read_mesh_options(const Section& section, Spots& spots) {
   }
   add_numbers(section, "tension", "write subdomain = number for each of them", "options.tension",
               *options.mutable_tension(), spots);
+  read_motions(section, options, spots);
   return options;
 }
 

@@ -19,8 +19,8 @@ using Spots = std::map<std::string, Spot>;
 
 inline const std::vector<std::string> geometry_keys{"boundary", "interface", "inclusion",
                                                     "crack",    "neumann",   "region"};
-inline const std::vector<std::string> mesh_keys{"preset", "size", "tip_size", "grading",
-                                                "align",  "file", "groups",   "tension"};
+inline const std::vector<std::string> mesh_keys{
+    "preset", "size", "tip_size", "grading", "align", "file", "groups", "tension", "inclusions"};
 
 /// `section` is [geometry], read with geometry_keys.
 v1::Geometry read_geometry(const Section& section, Spots& spots);
@@ -29,7 +29,8 @@ v1::Geometry read_geometry(const Section& section, Spots& spots);
 void read_interfaces(const Section& section, v1::Geometry& geometry, Spots& spots);
 
 /// `section` is [mesh], read with mesh_keys. Throws Error for a key that has no meaning beside the
-/// others: sizes of another preset, `align` with a file, groups and tension without one.
+/// others: sizes of another preset, `align` with a file, groups, tension and inclusions without
+/// one.
 v1::MeshOptions read_mesh_options(const Section& section, Spots& spots);
 
 /// [solver] of the root. Throws Error for a key of the other method.
@@ -59,6 +60,27 @@ inline void set(v1::Point& point, const Point& xy) {
 /// "list[3]": the field of an entry of a repeated field.
 inline std::string entry_field(const std::string& list, std::integral auto index) {
   return list + "[" + std::to_string(index) + "]";
+}
+
+/// Throws Error with the reason for a key that has no meaning here.
+inline void refuse_keys(const Section& section, const std::vector<const char*>& keys,
+                        const char* why) {
+  for (const char* key : keys)
+    if (section.find(key)) throw Error(section.spot_of(key), why);
+}
+
+/// Reads tilt and fixed of an inclusion.
+template <class Motion>
+void read_motion(const Section& section, Motion& motion) {
+  motion.set_tilt(section.boolean("tilt").value_or(false));
+  const auto fixed = section.number("fixed");
+  if (!fixed) return;
+  if (motion.tilt()) {
+    throw Error(section.spot_of("fixed"),
+                "the inclusion has tilt = true too, but one that is held does not tilt; remove one "
+                "of the two");
+  }
+  motion.set_fixed(*fixed);
 }
 
 /// Records the spot of an entry of a map, in both notations of a field violation.

@@ -13,14 +13,28 @@ namespace {
 using Rows = std::vector<std::vector<std::string>>;
 
 std::string kind_of(v1::InterfaceKind kind) {
-  constexpr std::array<std::string_view, 5> words{"unknown", "glue", "crack", "bonded",
-                                                  "delaminated"};
+  constexpr std::array<std::string_view, 6> words{"unknown", "glue",        "crack",
+                                                  "bonded",  "delaminated", "free crack"};
   return std::string(word_of(words, kind));
 }
 
+template <class Motion>
+std::string motion_of(const Motion& motion) {
+  if (motion.has_fixed()) return ", u = " + number(motion.fixed());
+  return motion.tilt() ? ", tilts" : "";
+}
+
+/// Its name, and how it moves, which the mesh's definition says.
 std::string inclusion_of(const v1::Mesh& mesh, int inclusion) {
   const bool named = inclusion >= 0 && inclusion < mesh.inclusions_size();
-  return named ? sanitise(mesh.inclusions(inclusion)) : "-";
+  if (!named) return "-";
+  const std::string& name = mesh.inclusions(inclusion);
+  std::string text = sanitise(name);
+  for (const v1::Inclusion& each : mesh.geometry().inclusions())
+    if (each.name() == name) text += motion_of(each);
+  const auto motion = mesh.options().inclusion_motions().find(name);
+  if (motion != mesh.options().inclusion_motions().end()) text += motion_of(motion->second);
+  return text;
 }
 
 std::string head(const v1::Mesh& mesh) {

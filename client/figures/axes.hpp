@@ -20,6 +20,7 @@ inline const std::string contact_shade = "rgb '#C9E4F4'";
 inline const std::string bonded_colour = "rgb '#000000'";
 inline const std::string delaminated_colour = "rgb '#E69F00'";
 inline const std::string crack_colour = "rgb '#B04A8A'";
+inline const std::string free_colour = "rgb '#8CD17D'";
 
 /// Position of the axes, fractions of the place.
 std::string margins(const Place& place, double left, double right, double bottom, double top);

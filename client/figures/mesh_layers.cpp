@@ -158,10 +158,13 @@ std::vector<T> thinned(const std::vector<T>& all, std::size_t count) {
 /// Where a subdomain has room for its name: far from all lines that are drawn.
 void add_subdomain_names(const Mesh& mesh, const Window& window, MeshLayers& to) {
   std::vector<Spot> lines;
-  for (const auto* stretches : {&to.dirichlet, &to.neumann, &to.interfaces[1], &to.interfaces[2],
-                                &to.interfaces[3], &to.interfaces[4]})
-    for (const Stretch& stretch : *stretches)
+  const auto add = [&lines](const std::vector<Stretch>& stretches) {
+    for (const Stretch& stretch : stretches)
       lines.insert(lines.end(), stretch.begin(), stretch.end());
+  };
+  add(to.dirichlet);
+  add(to.neumann);
+  std::ranges::for_each(to.interfaces, add);
   for (const auto* pointers : {&to.plus_sides, &to.inclusions})
     for (const Pointer& pointer : *pointers) lines.push_back(pointer.to);
   lines = thinned(lines, 1000);

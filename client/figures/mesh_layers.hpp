@@ -40,7 +40,7 @@ struct Pointer {
 struct MeshLayers {
   std::vector<std::vector<std::array<Spot, 3>>> triangles;  ///< by subdomain
   std::size_t triangle_count = 0;                           ///< of those
-  std::array<std::vector<Stretch>, 5> interfaces;           ///< by results::Kind, 0 unused
+  std::array<std::vector<Stretch>, 6> interfaces;           ///< by results::Kind, 0 unused
   std::vector<Stretch> dirichlet, neumann;                  ///< edges of the boundary
   std::vector<results::Tip> tips;
   std::vector<Pointer> plus_sides;  ///< of interfaces

@@ -27,6 +27,8 @@ const Style glue{"glue", "lines linewidth 1.2 linecolor " + blue + " dashtype (6
                  "glue, u\xE2\x81\xBA = u\xE2\x81\xBB"};
 const Style crack{"crack", "lines linewidth 2.5 linecolor " + crack_colour + " dashtype solid",
                   "crack, [u] \xE2\x89\xA5 0", true};
+const Style free_crack{"free", "lines linewidth 2.5 linecolor " + free_colour + " dashtype solid",
+                       "free crack", true};
 const Style bonded{"bonded", "lines linewidth 3.5 linecolor " + bonded_colour + " dashtype solid",
                    "bonded inclusion", true};
 const Style delaminated{"delaminated",
@@ -64,12 +66,13 @@ std::string triangles_of(const std::vector<std::array<Spot, 3>>& triangles) {
 using Layer = std::pair<Style, const std::vector<Stretch>*>;
 
 /// From the lowest to the highest.
-std::array<Layer, 6> line_layers(const MeshLayers& layers) {
+std::array<Layer, 7> line_layers(const MeshLayers& layers) {
   return {{{dirichlet, &layers.dirichlet},
            {neumann, &layers.neumann},
            {glue, &layers.interfaces[1]},
            {bonded, &layers.interfaces[3]},
            {delaminated, &layers.interfaces[4]},
+           {free_crack, &layers.interfaces[5]},
            {crack, &layers.interfaces[2]}}};
 }
 

@@ -74,6 +74,7 @@ Profile profile(const results::Result& result, std::size_t index, const results:
             [](const Fibre& a, const Fibre& b) { return a.band.begin < b.band.begin; });
   profile.delaminated = edges_of(Kind::delaminated);
   profile.crack = edges_of(Kind::crack);
+  profile.free = edges_of(Kind::free);
   profile.bonded = edges_of(Kind::inclusion);
   for (const auto& [first, last] :
        runs(k, [&](std::size_t i) { return trace.contact[i] != 0 ? 0 : -1; })) {

@@ -29,6 +29,7 @@ struct Profile {
   std::vector<double> position;  ///< (k) along the axis, increasing or decreasing
   std::vector<Band> delaminated;
   std::vector<Band> crack;
+  std::vector<Band> free;  ///< cracks without contact
   std::vector<Band> bonded;
   std::vector<Fibre> fibres;  ///< if known; by Band::begin
   /// Contact; each node covers half of its edges, so a single node is visible and the bands add up

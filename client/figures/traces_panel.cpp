@@ -95,7 +95,8 @@ std::string traces_panel(const Profile& profile, const results::Trace& trace, co
                          const Place& place) {
   const Mark marks[] = {{profile.delaminated, "delaminated inclusion", delaminated_colour},
                         {profile.bonded, "bonded inclusion", bonded_colour},
-                        {profile.crack, "crack", crack_colour}};
+                        {profile.crack, "crack", crack_colour},
+                        {profile.free, "free crack", free_colour}};
   std::string text = margins(place, 0.305, 0.905) + axes();
   std::string keys;
   int entries = 3;

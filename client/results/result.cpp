@@ -91,8 +91,8 @@ void check_mesh(const Mesh& mesh, Faults& faults) {
 void check_kinds(const std::string& at, const std::vector<Kind>& kinds, Faults& faults) {
   for (std::size_t i = 0; i < kinds.size() && !faults.any(); ++i) {
     const auto number = static_cast<std::int32_t>(kinds[i]);
-    faults.require(number >= 1 && number <= 4,
-                   item(at, i) + " is " + std::to_string(number) + ", not 1 to 4");
+    faults.require(number >= 1 && number <= 5,
+                   item(at, i) + " is " + std::to_string(number) + ", not 1 to 5");
   }
 }
 

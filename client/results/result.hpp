@@ -24,6 +24,7 @@ enum class Kind : std::int32_t {
   crack = 2,        ///< [u] >= 0, no inclusion
   inclusion = 3,    ///< u+ = u- = A, bonded; the tips of a delaminated part too
   delaminated = 4,  ///< u+ = A, [u] >= 0             gamma_c, (3)-(6)
+  free = 5,         ///< T du/dn = 0 on both faces, a crack without contact
 };
 
 struct Mesh {

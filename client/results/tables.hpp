@@ -53,7 +53,7 @@ inline constexpr auto interface = std::tuple{
 };
 inline constexpr auto edges = std::tuple{
     explained("edge_kind", "k-1", &Edges::kind,
-              "1 glue, 2 crack, 3 bonded inclusion, 4 delaminated inclusion"),
+              "1 glue, 2 crack, 3 bonded inclusion, 4 delaminated inclusion, 5 free crack"),
     explained("edge_inclusion", "k-1", &Edges::inclusion, "index into /mesh/inclusions, -1 none"),
 };
 

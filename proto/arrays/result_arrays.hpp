@@ -20,7 +20,7 @@ inline constexpr auto interface_nodes = std::tuple{
     array("x", "k", &Interface::x, ""),
     array("y", "k", &Interface::y, "coordinates"),
     explained("kind", "k", &Interface::kind,
-              "1 glue, 2 crack, 3 bonded inclusion, 4 delaminated inclusion"),
+              "1 glue, 2 crack, 3 bonded inclusion, 4 delaminated inclusion, 5 free crack"),
 };
 
 /// Below load_traces or row_traces and the interface's index: an entry for each node.

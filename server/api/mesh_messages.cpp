@@ -16,7 +16,7 @@ using Points = google::protobuf::RepeatedPtrField<v1::Point>;
 
 // Enums travel as their numbers, but for mesh::Preset.
 static_assert(int(store::MeshState::failed) == v1::Mesh::STATE_FAILED);
-static_assert(int(mesh::Kind::delaminated) == v1::INTERFACE_KIND_DELAMINATED);
+static_assert(int(mesh::Kind::free) == v1::INTERFACE_KIND_FREE);
 static_assert(int(store::ArrayType::uint8) == v1::ArrayLayout::TYPE_UINT8);
 
 namespace {
@@ -92,7 +92,8 @@ mesh::InterfaceSpec Translation<mesh::InterfaceSpec>::read(const v1::InterfaceCu
 }
 
 void Translation<mesh::InclusionSpec>::write(const mesh::InclusionSpec& value, v1::Inclusion& to) {
-  write_fields(value, to, {"delaminated"});
+  write_fields(value, to, {"delaminated", "motion"});
+  write_fields(value.motion, to);
   if (value.delaminated.empty()) {
     to.set_delaminated(false);
   } else {
@@ -103,7 +104,8 @@ void Translation<mesh::InclusionSpec>::write(const mesh::InclusionSpec& value, v
 
 mesh::InclusionSpec Translation<mesh::InclusionSpec>::read(const v1::Inclusion& from) {
   mesh::InclusionSpec value;
-  read_fields(from, value, {"delaminated"});
+  read_fields(from, value, {"delaminated", "motion"});
+  read_fields(from, value.motion);
   if (!from.has_delaminated_parts()) {
     const bool whole = !from.has_delaminated() || from.delaminated();
     if (whole) value.delaminated = {value.part};

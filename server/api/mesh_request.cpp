@@ -52,6 +52,8 @@ void require_counts(const v1::MeshOptions& options) {
   require_count(options.curve_groups().size(), max_regions, "options.curve_groups", "groups");
   require_count(options.surface_groups().size(), max_regions, "options.surface_groups", "groups");
   require_count(options.tension().size(), max_regions, "options.tension", "subdomains");
+  require_count(options.inclusion_motions().size(), max_parts, "options.inclusion_motions",
+                "inclusions");
 }
 
 }  // namespace

@@ -28,6 +28,14 @@ inline constexpr bool is_a<Container<Items...>, Container> = true;
 template <class T>
 concept Whole = std::is_integral_v<T> || std::is_enum_v<T>;
 
+/// A struct with a field that came after its hashes were kept: added_field(value), beside its list,
+/// returns that field. At its default it has no leaves, so that the old hashes hold; else they
+/// follow its name with a "+", which no user's name has.
+template <class T>
+concept Grown = Listed<const T> && requires(const T& value) {
+  added_field(value);
+};
+
 /// Calls sink(leaf) in order with every std::uint64_t (integers, enums, times, lengths of lists,
 /// indices of alternatives), double and std::string. Different values give different leaves;
 /// targets of shared pointers do not count. O(size).
@@ -59,7 +67,15 @@ void walk(const T& value, Sink&& sink) {
       walk(item, sink);
     }
   } else if constexpr (Listed<const T>) {
-    for_each(value, [&sink](const auto& field) { walk(field.value, sink); });
+    for_each(value, [&](const auto& field) {
+      if constexpr (Grown<T>) {
+        if (static_cast<const void*>(&field.value) == &added_field(value)) {
+          if (added_field(value) == added_field(T())) return;
+          sink("+" + std::string(field.name));
+        }
+      }
+      walk(field.value, sink);
+    });
   } else if constexpr (!is_a<T, std::shared_ptr>) {
     each(value);  // a std::array, whose length is known
   }

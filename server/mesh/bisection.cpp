@@ -235,6 +235,7 @@ Mesh Bisection::finish() && {
   mesh.subdomains = _base.subdomains;
   mesh.tension = _base.tension;
   mesh.inclusions = _base.inclusions;
+  mesh.motions = _base.motions;
   mesh.interfaces = _base.interfaces;
   mesh.dirichlet = _base.dirichlet;
   mesh.warnings = _base.warnings;

@@ -165,8 +165,10 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   cut(network, size, curve_limit);
 
   plan.triangles = triangles;
-  for (const InclusionSpec& inclusion : geometry.inclusions)
+  for (const InclusionSpec& inclusion : geometry.inclusions) {
     plan.inclusions.push_back(inclusion.name);
+    plan.motions.push_back(inclusion.motion);
+  }
   add_curves(layout, network, plan);
   check_inclusions_apart(plan);
   lay_subdomains(geometry, network, names, plan);

@@ -38,14 +38,18 @@ struct InclusionSpec {
   std::string name;
   Part part;
   std::vector<Part> delaminated;  ///< parts of `part`; the rest is bonded. {part}: all delaminated
+  Motion motion{};
 };
-ANTICRACK_FIELDS(InclusionSpec, name, part, delaminated)
+ANTICRACK_FIELDS(InclusionSpec, name, part, delaminated, motion)
+inline const auto& added_field(const InclusionSpec& of) { return of.motion; }
 
 struct CrackSpec {
   std::string name;
   Part part;
+  bool contact = true;  ///< [u] >= 0; false: its faces are free
 };
-ANTICRACK_FIELDS(CrackSpec, name, part)
+ANTICRACK_FIELDS(CrackSpec, name, part, contact)
+inline const auto& added_field(const CrackSpec& of) { return of.contact; }
 
 struct RegionSpec {
   std::string name;
@@ -77,9 +81,11 @@ struct MeshOptions {
       curve_groups{};  ///< physical tag -> "crack", "inclusion:NAME"...
   std::map<std::int32_t, std::string> surface_groups{};  ///< physical tag -> subdomain
   std::map<std::string, double> tension{};               ///< subdomain -> T
+  std::map<std::string, Motion> inclusion_motions{};     ///< inclusion -> how it moves
 };
 ANTICRACK_FIELDS(MeshOptions, preset, size, tip_size, grading, align, curve_groups, surface_groups,
-                 tension)
+                 tension, inclusion_motions)
+inline const auto& added_field(const MeshOptions& of) { return of.inclusion_motions; }
 
 /// What a straight curve of the plan is.
 enum class Role : std::int32_t { dirichlet, neumann, interface, align };
@@ -132,21 +138,23 @@ struct Plan {
   std::vector<PlannedInterface> interfaces;
   std::vector<PlannedFace> faces;
   std::vector<std::string> inclusions;
-  double growth = 0.3;  ///< how much longer edges become per length away from a finer curve
+  std::vector<Motion> motions;  ///< (inclusions)
+  double growth = 0.3;          ///< how much longer edges become per length away from a finer curve
   GradingSpec grading;
   std::size_t triangles = 0;            ///< to be expected, before grading
   std::vector<std::string> warnings{};  ///< for Mesh::warnings: points that were moved onto a line
 };
-ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, growth, grading, triangles,
-                 warnings)
+ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, motions, growth, grading,
+                 triangles, warnings)
 
 /// Checks a geometry and cuts it into curves with the intervals of the preset. Throws errors::Error
 /// with the field at fault ("boundary", "interfaces[0].polyline", "inclusions[1].part.from",
-/// "regions[0].at", "options.size", ...): geometry_invalid (the boundary crosses itself, an
-/// interface leaves the membrane or runs along another, a part lies on no interface, touches the
-/// Dirichlet boundary or overlaps another, values are not finite, names are empty, malformed or
-/// used twice); invalid_argument for options; limit_exceeded for more than 20,000 vertices or more
-/// than `max_triangles` expected triangles. O(v^2) for v vertices.
+/// "inclusions[0].fixed", "regions[0].at", "options.size", ...): geometry_invalid (the boundary
+/// crosses itself, an interface leaves the membrane or runs along another, a part lies on no
+/// interface, touches the Dirichlet boundary or overlaps another, values are not finite, names are
+/// empty, malformed or used twice, a motion has a fault); invalid_argument for options;
+/// limit_exceeded for more than 20,000 vertices or more than `max_triangles` expected triangles.
+/// O(v^2) for v vertices.
 Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_triangles);
 
 /// Check the options of a geometry (all but the points of `align`, which plan() checks) and of an

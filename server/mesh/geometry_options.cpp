@@ -44,13 +44,13 @@ std::string quoted(const std::string& text) {
 }
 
 void check_curve_group(const std::string& name, const std::string& field) {
-  for (const char* whole : {"dirichlet", "neumann", "crack", "glue"})
+  for (const char* whole : {"dirichlet", "neumann", "crack", "free", "glue"})
     if (name == whole) return;
-  for (const std::string prefix : {"crack:", "inclusion:", "delaminated:"})
+  for (const std::string prefix : {"crack:", "free:", "inclusion:", "delaminated:"})
     if (name.starts_with(prefix) && valid_name(name.substr(prefix.size()))) return;
   refuse_option(field, field + " is " + quoted(name) +
-                           "; a curve is dirichlet, neumann, glue, crack, crack:NAME, "
-                           "inclusion:NAME or delaminated:NAME, NAME being " +
+                           "; a curve is dirichlet, neumann, glue, crack, crack:NAME, free, "
+                           "free:NAME, inclusion:NAME or delaminated:NAME, NAME being " +
                            std::string(name_rule));
 }
 
@@ -78,6 +78,8 @@ void check_for_geometry(const MeshOptions& options) {
               "name subdomains by the regions of the geometry");
   for_uploads(options.tension.empty(), "options.tension",
               "give tensions in the regions of the geometry");
+  for_uploads(options.inclusion_motions.empty(), "options.inclusion_motions",
+              "say tilt or fixed in the inclusions of the geometry");
 }
 
 void check_for_upload(const MeshOptions& options) {
@@ -100,6 +102,12 @@ void check_for_upload(const MeshOptions& options) {
     if (std::isfinite(tension) && tension > 0) continue;
     const std::string field = "options.tension[" + name + "]";
     refuse_option(field, field + " is " + show(tension) + "; a tension is a number above 0");
+  }
+  for (const auto& [name, motion] : options.inclusion_motions) {
+    // As above: the import knows the inclusions.
+    const std::string field = "options.inclusion_motions[" + name + "]";
+    const std::string fault = fault_of(motion);
+    if (!fault.empty()) refuse_option(field, field + ": " + fault);
   }
 }
 

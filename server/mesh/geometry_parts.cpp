@@ -238,11 +238,14 @@ Layout lay_parts(const Geometry& geometry, Network& network) {
     add(geometry.inclusions[i].part, indexed("inclusions", i), static_cast<int>(i));
     const PlacedPart& whole = layout.parts.back();
     add_inclusion(whole, place_delaminated(network, geometry.inclusions[i], whole), layout);
+    const std::string fault = fault_of(geometry.inclusions[i].motion);
+    if (!fault.empty()) refuse(whole.field + ".fixed", whole.field, ": ", fault);
   }
   for (std::size_t i = 0; i < geometry.cracks.size(); ++i) {
     add(geometry.cracks[i].part, indexed("cracks", i), -1);
     const PlacedPart& placed = layout.parts.back();
-    layout.stretches.push_back({placed.line, placed.begin.t, placed.end.t, Kind::crack, -1});
+    const Kind kind = geometry.cracks[i].contact ? Kind::crack : Kind::free;
+    layout.stretches.push_back({placed.line, placed.begin.t, placed.end.t, kind, -1});
   }
   check_apart(network, layout.parts);
   layout.neumann = lay_neumann(geometry, network);

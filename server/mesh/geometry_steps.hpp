@@ -62,7 +62,8 @@ struct Layout {
 
 /// Places the parts on the lines, which get stations at their ends; a tip keeps the coordinates it
 /// was given. Throws errors::Error (geometry_invalid) at "inclusions[1].part.from",
-/// "neumann[0].to", ... for a part off every interface, without length, or overlapping another one.
+/// "neumann[0].to", ... for a part off every interface, without length, or overlapping another one;
+/// at "inclusions[0].fixed" for a motion with a fault.
 Layout lay_parts(const Geometry& geometry, Network& network);
 
 /// The stretch that holds a chord; none: null.

@@ -28,7 +28,8 @@ std::string cure(Assumed assumed, const std::string& name, const std::string& ta
   const bool boundary = assumed == Assumed::dirichlet || assumed == Assumed::neumann;
   return fmt::format(
       "; to choose, {} {}, or give {} a meaning in the groups of the mesh options", name,
-      boundary ? "dirichlet or neumann" : "glue, crack, inclusion:NAME or delaminated:NAME", tag);
+      boundary ? "dirichlet or neumann" : "glue, crack, free, inclusion:NAME or delaminated:NAME",
+      tag);
 }
 
 std::string edges(std::size_t count) {

@@ -13,7 +13,8 @@ namespace anticrack::mesher {
 namespace {
 
 constexpr const char* choices =
-    "dirichlet, neumann, glue, crack, crack:NAME, inclusion:NAME or delaminated:NAME";
+    "dirichlet, neumann, glue, crack, crack:NAME, free, free:NAME, inclusion:NAME or "
+    "delaminated:NAME";
 
 struct Keyword {
   std::string_view word;
@@ -25,6 +26,7 @@ constexpr Keyword keywords[] = {{"dirichlet", CurveRole::dirichlet, true, false}
                                 {"neumann", CurveRole::neumann, true, false},
                                 {"glue", CurveRole::glue, true, false},
                                 {"crack", CurveRole::crack, true, true},
+                                {"free", CurveRole::free, true, true},
                                 {"inclusion", CurveRole::inclusion, false, true},
                                 {"delaminated", CurveRole::delaminated, false, true}};
 
@@ -47,7 +49,7 @@ void check_names(const std::map<std::int32_t, CurveGroup>& groups) {
   std::map<std::string, bool> is_crack;
   for (const auto& [tag, group] : groups) {
     if (!group.meaning || group.meaning->name.empty()) continue;
-    const bool crack = group.meaning->role == CurveRole::crack;
+    const bool crack = !is_rigid(group.meaning->role);
     if (is_crack.emplace(group.meaning->name, crack).first->second == crack) continue;
     refuse("\"{}\" is the name of a crack and of an inclusion; give each its own name",
            group.meaning->name);

@@ -44,10 +44,7 @@ std::vector<Mark> sorted_marks(std::span<const CurveEdge> lines) {
 
 /// The meaning that includes both, or null.
 const CurveMeaning* agree(const CurveMeaning& a, const CurveMeaning& b) {
-  if (a.role == b.role) {
-    const bool rigid = a.role == CurveRole::inclusion || a.role == CurveRole::delaminated;
-    return !rigid || a.name == b.name ? &a : nullptr;
-  }
+  if (a.role == b.role) return !is_rigid(a.role) || a.name == b.name ? &a : nullptr;
   if (a.name != b.name) return nullptr;
   if (a.role == CurveRole::delaminated && b.role == CurveRole::inclusion) return &a;
   if (b.role == CurveRole::delaminated && a.role == CurveRole::inclusion) return &b;
@@ -178,14 +175,14 @@ class Reading {
     const std::string edge = edge_of(_mesh, uses[0].from, uses[0].to) + " of " + group.title;
     if (for_boundary) {
       refuse(
-          "{} lies inside the membrane, but its name is for the boundary (a crack is free on "
-          "both sides: call it \"crack\")",
+          "{} lies inside the membrane, but its name is for the boundary (call it \"crack\", or "
+          "\"free\" if its faces never touch)",
           edge);
     }
     refuse(
         "{} has a triangle on one side only and no other edge lies on it; only \"dirichlet\" and "
-        "\"neumann\" may lie on the boundary",
-        edge);
+        "\"neumann\" may lie on the boundary{}",
+        edge, role == CurveRole::free ? ": one that is free is \"neumann\"" : "");
   }
 
   void take(Uses uses, Side side, const CurveMeaning& meaning) {

@@ -290,6 +290,7 @@ void require_curves(const mesh::Mesh& mesh, const Plan& plan,
 mesh::Mesh read_mesh(const Plan& plan, const Frame& frame) {
   mesh::Mesh mesh;
   mesh.inclusions = plan.inclusions;
+  mesh.motions = plan.motions;
   mesh.warnings = plan.warnings;
   Nodes nodes(mesh, frame);
   std::vector<std::vector<std::int32_t>> chains;

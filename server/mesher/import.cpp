@@ -119,6 +119,7 @@ std::vector<std::pair<std::int32_t, std::int32_t>> cuts_of(const std::vector<Cur
 
 Kind kind_of(CurveRole role) {
   if (role == CurveRole::crack) return Kind::crack;
+  if (role == CurveRole::free) return Kind::free;
   if (role == CurveRole::inclusion) return Kind::inclusion;
   return role == CurveRole::delaminated ? Kind::delaminated : Kind::glue;
 }
@@ -129,7 +130,7 @@ void take_interfaces(const EdgeRoles& roles, const std::vector<bool>& on_boundar
   const bool single = chains.size() == 1;
   std::map<std::string, std::int32_t> inclusions;  // numbered in the order in which they are met
   const auto inclusion_of = [&](const CurveMeaning& meaning) -> std::int32_t {
-    if (meaning.role != CurveRole::inclusion && meaning.role != CurveRole::delaminated) return -1;
+    if (!is_rigid(meaning.role)) return -1;
     const auto next = static_cast<std::int32_t>(inclusions.size());
     const auto [entry, added] = inclusions.emplace(meaning.name, next);
     if (added) mesh.inclusions.push_back(meaning.name);
@@ -149,6 +150,23 @@ void take_interfaces(const EdgeRoles& roles, const std::vector<bool>& on_boundar
     }
     if (!oriented.note.empty()) mesh.warnings.push_back(interface.name + ": " + oriented.note);
     mesh.interfaces.push_back(std::move(interface));
+  }
+}
+
+void take_motions(const std::map<std::string, mesh::Motion>& given, Mesh& mesh) {
+  if (given.empty()) return;
+  mesh.motions.resize(mesh.inclusions.size());
+  for (const auto& [name, motion] : given) {
+    const auto found = std::find(mesh.inclusions.begin(), mesh.inclusions.end(), name);
+    if (found == mesh.inclusions.end()) {
+      throw errors::Error(
+          errors::Reason::invalid_argument,
+          fmt::format("\"{}\" is not an inclusion of the file; {}", printable(name),
+                      mesh.inclusions.empty() ? "it has none"
+                                              : "they are " + list_of(mesh.inclusions, "\"")))
+          .at(fmt::format("options.inclusion_motions[{}]", printable(name)));
+    }
+    mesh.motions[at(found - mesh.inclusions.begin())] = motion;
   }
 }
 
@@ -174,6 +192,7 @@ Mesh to_mesh(const MshFile& file, const mesh::MeshOptions& options) {
   DirectedLines directed;
   for (const CurveEdge& line : lines) directed.insert({line.from, line.to});
   take_interfaces(roles, edges.boundary_nodes(mesh.node_count()), directed, mesh);
+  take_motions(options.inclusion_motions, mesh);
   mesh.dirichlet = std::move(roles.dirichlet);
   shorten(mesh.warnings);
   mesh::validate(mesh);

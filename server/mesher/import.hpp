@@ -15,7 +15,8 @@ namespace anticrack::mesher {
 
 /// From the bytes of a file; the base mesh, not graded. Throws errors::Error: mesh_invalid,
 /// limit_exceeded, and invalid_argument at "options.curve_groups[TAG]",
-/// "options.surface_groups[TAG]" or "options.tension[NAME]" for options that do not fit the file.
+/// "options.surface_groups[TAG]", "options.tension[NAME]" or "options.inclusion_motions[NAME]" for
+/// options that do not fit the file.
 mesh::Mesh import_msh(std::string_view bytes, const mesh::MeshOptions& options,
                       std::size_t max_triangles);
 

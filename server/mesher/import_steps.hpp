@@ -40,7 +40,12 @@ PlaneMesh read_plane(const MshFile& file);
 
 // Groups of curves and their meanings, from the file or from the request.
 
-enum class CurveRole { neumann, dirichlet, glue, crack, inclusion, delaminated };
+enum class CurveRole { neumann, dirichlet, glue, crack, free, inclusion, delaminated };
+
+/// Whether it is (a part of) an inclusion.
+constexpr bool is_rigid(CurveRole role) noexcept {
+  return role == CurveRole::inclusion || role == CurveRole::delaminated;
+}
 
 struct CurveMeaning {
   CurveRole role = CurveRole::glue;
@@ -52,8 +57,8 @@ struct ReadMeaning {
   std::optional<CurveMeaning> meaning;
   std::string fault;  ///< not empty: what is wrong with the NAME of a keyword
 };
-/// Reads dirichlet, neumann, glue, crack, crack:NAME, inclusion:NAME or delaminated:NAME, in upper
-/// or lower case, with or without blanks around the words.
+/// Reads dirichlet, neumann, glue, crack, crack:NAME, free, free:NAME, inclusion:NAME or
+/// delaminated:NAME, in upper or lower case, with or without blanks around the words.
 ReadMeaning read_meaning(const std::string& text);
 
 struct CurveGroup {
@@ -133,7 +138,7 @@ struct InterfaceEdge {
   std::int32_t to = 0;
   std::int32_t left = 0;
   std::int32_t right = 0;
-  CurveMeaning meaning;  ///< glue, crack, inclusion or delaminated
+  CurveMeaning meaning;  ///< neither dirichlet nor neumann
 };
 
 struct EdgeRoles {
@@ -142,7 +147,8 @@ struct EdgeRoles {
 };
 
 /// Groups with a meaning decide. Several groups must agree: names that are not keywords do not
-/// count, inclusion:NAME with delaminated:NAME gives delaminated:NAME, and any two cracks agree.
+/// count, inclusion:NAME with delaminated:NAME gives delaminated:NAME, any two cracks agree, as do
+/// any two free ones.
 /// Without a meaning the surroundings decide:
 ///   - on the boundary: dirichlet if the edge is in a group or no boundary edge is; else neumann;
 ///   - on doubled nodes: crack, unless both sides were meshed separately;

@@ -35,6 +35,7 @@ void expect_equal(const Mesh& a, const Mesh& b) {
   EXPECT_EQ(a.subdomains, b.subdomains);
   EXPECT_EQ(a.tension, b.tension);
   EXPECT_EQ(a.inclusions, b.inclusions);
+  EXPECT_EQ(a.motions, b.motions);
   EXPECT_EQ(a.dirichlet, b.dirichlet);
   ASSERT_EQ(a.interfaces.size(), b.interfaces.size());
   for (std::size_t i = 0; i < a.interfaces.size(); ++i) {
@@ -43,6 +44,14 @@ void expect_equal(const Mesh& a, const Mesh& b) {
     EXPECT_EQ(a.interfaces[i].kind, b.interfaces[i].kind);
     EXPECT_EQ(a.interfaces[i].inclusion, b.interfaces[i].inclusion);
   }
+}
+
+/// One whose inclusion tilts, with a free crack.
+Mesh moving_mesh() {
+  Mesh mesh = small_mesh();
+  mesh.motions = {{true, {}}};
+  mesh.interfaces[0].kind[0] = mesh::Kind::free;
+  return mesh;
 }
 
 /// Every shorter part, and one byte more, must be refused.
@@ -61,6 +70,7 @@ void expect_exact(const Bytes& bytes, const Decode& decode) {
 
 mesh::GenerateRequest generate_request() {
   mesh::Geometry geometry = testing::paper_geometry();
+  geometry.inclusions[0].motion.fixed = 0.25;
   geometry.interfaces.push_back(
       {"ring", mesh::Shape::polyline, {{-0.5, -0.5}, {0, -0.25}, {0.5, -0.5}}, true});
   mesh::MeshOptions options;
@@ -78,10 +88,11 @@ errors::Error full_error() {
 }
 
 TEST(Codec, MeshComesBack) {
-  const Mesh mesh = small_mesh();
-  const Mesh back = mesh::decode_mesh(mesh::encode(mesh));
-  expect_equal(mesh, back);
-  EXPECT_TRUE(back.warnings.empty());
+  for (const Mesh& mesh : {small_mesh(), moving_mesh()}) {
+    const Mesh back = mesh::decode_mesh(mesh::encode(mesh));
+    expect_equal(mesh, back);
+    EXPECT_TRUE(back.warnings.empty());
+  }
 }
 
 TEST(Codec, EqualMeshesGiveEqualBytes) {
@@ -98,6 +109,12 @@ TEST(Codec, EqualMeshesGiveEqualBytes) {
   b.tension[0] = 2;
   EXPECT_NE(mesh::encode(a), mesh::encode(b));
   b.tension[0] = 1;
+  // no motions mean the default of each
+  b.motions.resize(b.inclusions.size());
+  EXPECT_EQ(mesh::encode(a), mesh::encode(b));
+  b.motions[0].fixed = 0;
+  EXPECT_NE(mesh::encode(a), mesh::encode(b));
+  b.motions.clear();
   b.xy[2] = 1e-300;
   EXPECT_NE(mesh::encode(a), mesh::encode(b));
 }
@@ -111,6 +128,7 @@ TEST(Codec, GenerateRequestComesBack) {
   const mesh::Plan& b = back.plan;
   EXPECT_EQ(b.points, a.points);
   EXPECT_EQ(b.inclusions, a.inclusions);
+  EXPECT_EQ(b.motions, (std::vector<mesh::Motion>{{false, 0.25}}));
   EXPECT_EQ(b.growth, a.growth);
   EXPECT_EQ(b.grading.h0, a.grading.h0);
   EXPECT_EQ(b.grading.m, 0.125);
@@ -167,6 +185,7 @@ mesh::MesherRequest import_request() {
   request.options.curve_groups = {{3, "crack"}, {-1, "delaminated:a"}};
   request.options.surface_groups = {{7, "left"}};
   request.options.tension = {{"left", 2.5}, {"right", 1}};
+  request.options.inclusion_motions = {{"a", {true, {}}}, {"b", {false, -1}}};
   return request;
 }
 
@@ -184,10 +203,11 @@ TEST(Codec, ImportRequestComesBack) {
   EXPECT_EQ(back.options.curve_groups, sent.options.curve_groups);
   EXPECT_EQ(back.options.surface_groups, sent.options.surface_groups);
   EXPECT_EQ(back.options.tension, sent.options.tension);
+  EXPECT_EQ(back.options.inclusion_motions, sent.options.inclusion_motions);
 }
 
 TEST(Codec, ReplyCarriesWarnings) {
-  const mesh::MesherReply reply = small_mesh();
+  const mesh::MesherReply reply = moving_mesh();
   const Mesh back = std::get<Mesh>(mesh::decode_reply(mesh::encode(reply)));
   expect_equal(std::get<Mesh>(reply), back);
   EXPECT_EQ(back.warnings, std::get<Mesh>(reply).warnings);
@@ -207,6 +227,7 @@ TEST(Codec, ReplyCarriesAnError) {
 
 TEST(Codec, TruncationAtEveryByteIsRefused) {
   expect_exact(mesh::encode(small_mesh()), [](const Bytes& b) { mesh::decode_mesh(b); });
+  expect_exact(mesh::encode(moving_mesh()), [](const Bytes& b) { mesh::decode_mesh(b); });
   const auto request = [](const Bytes& b) { mesh::decode_request(b); };
   expect_exact(mesh::encode(mesh::MesherRequest(generate_request())), request);
   expect_exact(mesh::encode(import_request()), request);

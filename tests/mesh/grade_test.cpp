@@ -216,6 +216,7 @@ Mesh ring_mesh(int low, int high) {
   made.subdomains = {"inside", "outside"};
   made.tension = {2, 0.5};
   made.inclusions = {"rim"};
+  made.motions = {{true, {}}};
   for (std::size_t t = 0; t < made.triangle_count(); ++t) {
     const auto cell = static_cast<int>(t / 2);
     const auto within = [&](int i) { return low <= i && i < high; };

@@ -314,6 +314,16 @@ const Fault line_faults[] = {
      },
      "regions[0].tension",
      {"-2", "above 0"}},
+    {"FixedNan",
+     [](Geometry& g) { g.inclusions[0].motion.fixed = nan_value; },
+     "inclusions[0].fixed",
+     {"fixed at nan", "finite"}},
+    {"FixedAndTilting",
+     [](Geometry& g) {
+       g.inclusions[0].motion = {true, 0.5};
+     },
+     "inclusions[0].fixed",
+     {"fixed at 0.5 and tilts", "leave one of the two out"}},
     {"TensionNan",
      [](Geometry& g) {
        g.regions = {{"r", {0, 0.5}, nan_value}};

@@ -46,6 +46,7 @@ TEST(MeshOptions, AreThoseOfAGeometry) {
   expect_refused({.curve_groups = {{1, "crack"}}}, "options.curve_groups");
   expect_refused({.surface_groups = {{1, "left"}}}, "options.surface_groups");
   expect_refused({.tension = {{"left", 1}}}, "options.tension");
+  expect_refused({.inclusion_motions = {{"fibre", {true, {}}}}}, "options.inclusion_motions");
 }
 
 TEST(MeshOptions, AlignLinesAreCheckedAsInterfaces) {
@@ -90,12 +91,15 @@ TEST(MeshOptions, OfAnUploadAreChecked) {
   refused({.preset = mesh::Preset::paper}, "options.preset");
   refused({.size = nan_value}, "options.size");
   refused({.align = {{{0, 0}, {1, 0}}}}, "options.align");
-  for (const char* name : {"", "fibre", "inclusion", "inclusion:", "crack:1", "delaminated:a b"}) {
+  for (const char* name :
+       {"", "fibre", "inclusion", "inclusion:", "crack:1", "free:", "delaminated:a b"}) {
     refused({.curve_groups = {{3, name}}}, "options.curve_groups[3]");
   }
   refused({.surface_groups = {{-7, "a/b"}}}, "options.surface_groups[-7]");
   refused({.tension = {{"a", 0}}}, "options.tension[a]");
   refused({.tension = {{"a", infinite}}}, "options.tension[a]");
+  refused({.inclusion_motions = {{"a", {false, nan_value}}}}, "options.inclusion_motions[a]");
+  refused({.inclusion_motions = {{"a", {true, 1}}}}, "options.inclusion_motions[a]");
   EXPECT_NO_THROW(mesh::check_for_upload({.size = 0.1,
                                           .tip_size = 1e-6,
                                           .curve_groups = {{1, "dirichlet"},
@@ -104,9 +108,12 @@ TEST(MeshOptions, OfAnUploadAreChecked) {
                                                            {4, "crack:c"},
                                                            {5, "inclusion:a"},
                                                            {6, "delaminated:a"},
-                                                           {7, "glue"}},
+                                                           {7, "glue"},
+                                                           {8, "free"},
+                                                           {9, "free:f"}},
                                           .surface_groups = {{1, "left"}},
-                                          .tension = {{"left", 2}}}));
+                                          .tension = {{"left", 2}},
+                                          .inclusion_motions = {{"a", {true, {}}}}}));
 }
 
 }  // namespace

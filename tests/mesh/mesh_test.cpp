@@ -72,10 +72,12 @@ const Damage damages[] = {
     {"ShortInterface", [](Mesh& m) { m.interfaces[0].nodes = {18}; }, "has 1 nodes"},
     {"KindCount", [](Mesh& m) { m.interfaces[0].kind.pop_back(); }, "7 kinds"},
     {"InterfaceNode", [](Mesh& m) { m.interfaces[0].nodes[3] = 99; }, "node 99 at place 3"},
-    {"UnknownKind", [](Mesh& m) { m.interfaces[0].kind[2] = static_cast<Kind>(5); }, "kind 5"},
+    {"UnknownKind", [](Mesh& m) { m.interfaces[0].kind[2] = static_cast<Kind>(6); }, "kind 6"},
     {"InclusionIndex", [](Mesh& m) { m.interfaces[0].inclusion[3] = 1; }, "has inclusion 1"},
     {"InclusionOnGlue", [](Mesh& m) { m.interfaces[0].inclusion[0] = 0; },
      "edge 0 of interface \"sigma\" has kind 1 and inclusion 0"},
+    {"InclusionOnAFreeCrack", [](Mesh& m) { m.interfaces[0].kind[3] = Kind::free; },
+     "kind 5 and inclusion 0"},
     {"NoInclusion", [](Mesh& m) { m.interfaces[0].inclusion[3] = -1; }, "kind 4 and inclusion -1"},
     {"InterfaceOffTheEdges", [](Mesh& m) { m.interfaces[0].nodes[1] = 20; },
      "belongs to 0 triangles"},
@@ -105,6 +107,17 @@ const Damage damages[] = {
        m.tension = {std::numeric_limits<double>::infinity(), 1};
      },
      "tension of subdomain 0 (\"lower\") is inf"},
+    {"MotionCount", [](Mesh& m) { m.motions.resize(2); }, "motions has 2 entries for 1 inclusions"},
+    {"FixedNowhere",
+     [](Mesh& m) {
+       m.motions = {{false, std::numeric_limits<double>::infinity()}};
+     },
+     "fixed at inf; give a finite"},
+    {"FixedAndTilting",
+     [](Mesh& m) {
+       m.motions = {{true, 0.5}};
+     },
+     "fixed at 0.5 and tilts"},
     {"InterfaceTwice", [](Mesh& m) { m.interfaces.push_back(m.interfaces[0]); }, "more than once"},
     {"InterfaceMissing", [](Mesh& m) { m.interfaces.clear(); }, "lies on no interface"},
     {"DirichletInside",
@@ -127,7 +140,14 @@ const Damage damages[] = {
 INSTANTIATE_TEST_SUITE_P(Each, DamagedMesh, ::testing::ValuesIn(damages),
                          [](const auto& case_) { return case_.param.name; });
 
-TEST(Mesh, SoundOneIsAccepted) { EXPECT_NO_THROW(mesh::validate(sound())); }
+TEST(Mesh, SoundOneIsAccepted) {
+  Mesh mesh = sound();
+  EXPECT_NO_THROW(mesh::validate(mesh));
+  for (const mesh::Motion& motion : {mesh::Motion{}, {true, {}}, {false, -0.5}}) {
+    mesh.motions = {motion};
+    EXPECT_NO_THROW(mesh::validate(mesh));
+  }
+}
 
 /// All of it one subdomain: what was the interface no longer parts it.
 Mesh whole() {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "mesh/plans.hpp"
 #include "support/errors.hpp"
@@ -146,6 +147,21 @@ TEST(PlanParts, AnInterfaceMayHaveTwentyThousandPoints) {
     EXPECT_GE(plan.curves.size(), std::size_t{count});
     EXPECT_EQ(plan.faces.size(), 2U);
   }
+}
+
+TEST(PlanParts, CracksMayBeFreeAndInclusionsMove) {
+  Geometry geometry = testing::paper_geometry();
+  geometry.cracks = {{"touching", {{-0.9, 0}, {-0.6, 0}}}, {"free", {{0.6, 0}, {0.9, 0}}, false}};
+  geometry.inclusions.push_back({"second", {{0.25, 0}, {0.5, 0}}, {}, {true, {}}});
+  geometry.inclusions[0].part.to = {0, 0};
+  geometry.inclusions[0].delaminated = {geometry.inclusions[0].part};
+  const Plan plan = plan_of(geometry);
+  EXPECT_EQ(plan.motions, (std::vector<mesh::Motion>{{}, {true, {}}}));
+  std::map<mesh::Kind, double> lengths;
+  for (const auto& curve : plan.curves)
+    if (curve.role == mesh::Role::interface) lengths[curve.kind] += testing::length(plan, curve);
+  EXPECT_NEAR(lengths.at(mesh::Kind::crack), 0.3, 1e-12);
+  EXPECT_NEAR(lengths.at(mesh::Kind::free), 0.3, 1e-12);
 }
 
 TEST(PlanParts, RegionsNameWhatHoldsThem) {

@@ -115,6 +115,7 @@ inline void expect_refines(const mesh::Mesh& base, const mesh::Mesh& fine) {
   EXPECT_EQ(fine.subdomains, base.subdomains);
   EXPECT_EQ(fine.tension, base.tension);
   EXPECT_EQ(fine.inclusions, base.inclusions);
+  EXPECT_EQ(fine.motions, base.motions);
   EXPECT_EQ(fine.warnings, base.warnings);
   const std::vector<double> before = areas(base);
   const std::vector<double> after = areas(fine);

@@ -34,6 +34,11 @@ TEST(Tips, AreTheEndsOfABondedInclusionAndOfACrack) {
               ElementsAre(-0.5, -0.25, 0.25, 0.5));
 }
 
+TEST(Tips, AreTheEndsOfAFreeCrackAndWhereItsFacesBeginToTouch) {
+  EXPECT_THAT(tips_on({{-0.5, 0, Kind::free, -1}, {0, 0.5, Kind::crack, -1}}),
+              ElementsAre(-0.5, 0, 0.5));
+}
+
 TEST(Tips, AreWhereADelaminationEndsWithinItsInclusion) {
   EXPECT_THAT(tips_on({{-0.5, 0.5, Kind::inclusion, 0}, {-0.25, 0.125, Kind::delaminated, 0}}),
               ElementsAre(-0.5, -0.25, 0.125, 0.5));

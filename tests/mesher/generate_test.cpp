@@ -123,11 +123,14 @@ TEST(Generate, BentInterfaceInAClockwisePolygon) {
   geometry.boundary = {{0, 0}, {0, 2}, {1, 3}, {3, 2}, {4, 0}, {2, 0.5}};
   geometry.interfaces = {{"interface", mesh::Shape::polyline, {{0, 1}, {1, 1.5}, {2, 1}, {4, 0}}}};
   geometry.inclusions = {{"a", {{0.5, 1.25}, {1.5, 1.25}}, {{{0.5, 1.25}, {0.75, 1.375}}}}};
-  geometry.cracks = {{"c", {{2.5, 0.75}, {3, 0.5}}}};
+  geometry.cracks = {{"c", {{2.5, 0.75}, {3, 0.5}}}, {"d", {{3.25, 0.375}, {3.5, 0.25}}, false}};
+  geometry.inclusions[0].motion.tilt = true;
   const Mesh mesh = make(geometry);
   const auto& kinds = mesh.interfaces[0].kind;
-  EXPECT_EQ(std::set<Kind>(kinds.begin(), kinds.end()),
-            (std::set<Kind>{Kind::glue, Kind::crack, Kind::inclusion, Kind::delaminated}));
+  EXPECT_EQ(
+      std::set<Kind>(kinds.begin(), kinds.end()),
+      (std::set<Kind>{Kind::glue, Kind::crack, Kind::inclusion, Kind::delaminated, Kind::free}));
+  EXPECT_EQ(mesh.motions, (std::vector<mesh::Motion>{{true, {}}}));
   EXPECT_EQ(kinds.size(), 160U);
   EXPECT_GT(mesh::minimum_angle(mesh), 10);
   // every node of the interface lies on one of its three edges

@@ -108,9 +108,10 @@ TEST(ImportGroups, AnEdgeInTwoGroupsTakesWhatTheyAgreeOn) {
   EXPECT_EQ(kind("delaminated:a", "fibre"), Kind::delaminated);
   EXPECT_EQ(kind("crack:one", "crack"), Kind::crack);
   EXPECT_EQ(kind("crack:one", "crack:two"), Kind::crack);
+  EXPECT_EQ(kind("free:one", "free"), Kind::free);
   EXPECT_EQ(kind("inclusion:a", "delaminated:a"), Kind::delaminated);
   EXPECT_EQ(kind("delaminated:a", "inclusion:a"), Kind::delaminated);
-  for (const char* other : {"glue", "crack", "inclusion:b", "delaminated:b"}) {
+  for (const char* other : {"glue", "crack", "free:a", "inclusion:b", "delaminated:b"}) {
     MshSample sample = square_sample("inclusion:a");
     add_lines(sample, middle, 9, other);
     const auto error = testing::error_of([&] { import_sample(sample); });
@@ -206,6 +207,27 @@ TEST(ImportGroups, TensionIsPerSubdomain) {
     EXPECT_THAT(fault(options, "options.tension[minus]"),
                 AllOf(HasSubstr("the tension of \"minus\" is "), HasSubstr("above 0")));
   }
+}
+
+TEST(ImportGroups, AnInclusionMovesAsTheOptionsSay) {
+  EXPECT_THAT(import_sample(square_sample()).motions, IsEmpty());
+  MeshOptions options;
+  options.inclusion_motions = {{"stiffener", {false, 0.25}}};
+  EXPECT_THAT(import_sample(square_sample(), options).motions,
+              ElementsAre(mesh::Motion{false, 0.25}));
+  options.inclusion_motions = {{"fibre", {true, {}}}};
+  EXPECT_EQ(fault(options, "options.inclusion_motions[fibre]"),
+            "\"fibre\" is not an inclusion of the file; they are \"stiffener\"");
+  EXPECT_EQ(fault(options, "options.inclusion_motions[fibre]", square_sample("free:fibre")),
+            "\"fibre\" is not an inclusion of the file; it has none");
+}
+
+TEST(ImportGroups, ABoundaryThatIsFreeIsCalledNeumann) {
+  MshSample sample = square_sample();
+  rename(sample, 1, 3, "free");
+  const auto error = testing::error_of([&] { import_sample(sample); });
+  ASSERT_TRUE(error);
+  EXPECT_THAT(error->what(), HasSubstr("may lie on the boundary: one that is free is \"neumann\""));
 }
 
 TEST(ImportGroups, WithoutAnyGroupAdjacencyDecides) {

@@ -55,9 +55,11 @@ TEST(Import, GroupsBecomeSubdomainsInterfaceAndBoundary) {
   }
 }
 
-TEST(Import, CurvesMayBeCracksBondedOrNamelessGlue) {
+TEST(Import, CurvesMayBeCracksFreeBondedOrNamelessGlue) {
   EXPECT_EQ(import(square_sample("crack")).interfaces[0].kind[1], Kind::crack);
   EXPECT_EQ(import(square_sample("crack:one")).interfaces[0].kind[1], Kind::crack);
+  EXPECT_EQ(import(square_sample("free")).interfaces[0].kind[1], Kind::free);
+  EXPECT_EQ(import(square_sample("Free: one")).interfaces[0].kind[1], Kind::free);
   EXPECT_EQ(import(square_sample("inclusion:one")).interfaces[0].kind[1], Kind::inclusion);
   EXPECT_EQ(import(square_sample("")).interfaces[0].kind[1], Kind::glue);
   MshSample unnamed = square_sample();

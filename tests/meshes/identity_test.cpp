@@ -76,7 +76,13 @@ TEST(Identity, IsThatOfTheWholeDefinition) {
       [](mesh::Geometry& g) { g.inclusions.clear(); },
       [](mesh::Geometry& g) {
         g.cracks = {{"crack", {{0.6, 0}, {0.8, 0}}}};
-      }};
+      },
+      [](mesh::Geometry& g) {
+        g.cracks = {{"crack", {{0.6, 0}, {0.8, 0}}, false}};
+      },
+      [](mesh::Geometry& g) { g.inclusions[0].motion.tilt = true; },
+      [](mesh::Geometry& g) { g.inclusions[0].motion.fixed = 0; },
+      [](mesh::Geometry& g) { g.inclusions[0].motion.fixed = 1; }};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     GeometrySource source = paper();
     changes[i](source.geometry);
@@ -111,6 +117,15 @@ TEST(Identity, CountsEveryOptionOfAGeometryAndOfAnUpload) {
       },
       [](mesh::MeshOptions& o) {
         o.tension = {{"crack", 2}};
+      },
+      [](mesh::MeshOptions& o) {
+        o.inclusion_motions = {{"a", {true, {}}}};
+      },
+      [](mesh::MeshOptions& o) {
+        o.inclusion_motions = {{"a", {false, 1}}};
+      },
+      [](mesh::MeshOptions& o) {
+        o.inclusion_motions = {{"b", {false, 1}}};
       }};
   std::set<std::string> seen;
   for (std::size_t i = 0; i < changes.size(); ++i) {
@@ -119,6 +134,13 @@ TEST(Identity, CountsEveryOptionOfAGeometryAndOfAnUpload) {
     EXPECT_TRUE(seen.insert(identity(source)).second) << i;
     EXPECT_TRUE(seen.insert(identity(UploadRef{"ab", source.options})).second) << i;
   }
+}
+
+TEST(Identity, IsWhatItWasBeforeThereWereMotionsAndFreeCracks) {
+  GeometrySource source = paper();
+  source.geometry.cracks = {{"crack", {{0.6, 0}, {0.8, 0}}}};
+  EXPECT_EQ(identity(source).substr(0, 16), "446f220f0e595265");
+  EXPECT_EQ(identity(UploadRef{"ab", {mesh::Preset::uniform}}).substr(0, 16), "32b0565c32e8a5e3");
 }
 
 TEST(Identity, TellsOwnersApart) {

@@ -112,6 +112,18 @@ const std::vector<BadMesh>& bad_meshes() {
          region.set_tension(0);
        },
        "GEOMETRY_INVALID", "geometry.regions[0].tension"},
+      {"FixedThatTilts",
+       [](auto& request) {
+         v1::Inclusion& inclusion = *geometry(request).mutable_inclusions(0);
+         inclusion.set_tilt(true);
+         inclusion.set_fixed(0.1);
+       },
+       "GEOMETRY_INVALID", "geometry.inclusions[0].fixed"},
+      {"MotionsForAGeometry",
+       [](auto& request) {
+         (*request.mutable_options()->mutable_inclusion_motions())["gamma"].set_tilt(true);
+       },
+       "INVALID_ARGUMENT", "options.inclusion_motions"},
       {"MoreTrianglesThanAllowed", [](auto& request) { request.mutable_options()->set_size(1e-3); },
        "LIMIT_EXCEEDED", "options.size"},
       {"PaperPresetForTwoInterfaces",

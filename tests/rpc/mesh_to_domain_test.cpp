@@ -38,14 +38,24 @@ TEST(GeometryToDomain, TakesEveryPart) {
   crack.set_name("slit");
   crack.mutable_part()->mutable_from()->set_x(0.6);
   crack.mutable_part()->mutable_to()->set_x(0.8);
+  *request.mutable_geometry()->add_cracks() = crack;
+  request.mutable_geometry()->mutable_cracks(1)->set_contact(false);
+  *request.mutable_geometry()->add_inclusions() = request.geometry().inclusions(0);
+  request.mutable_geometry()->mutable_inclusions(0)->set_fixed(0);
+  request.mutable_geometry()->mutable_inclusions(1)->set_tilt(true);
   const auto source = std::get<store::GeometrySource>(to_definition(request));
   EXPECT_EQ(source.options.preset, mesh::Preset::uniform);
   EXPECT_EQ(source.options.size, 0.1);
   EXPECT_EQ(source.geometry.boundary.size(), 4u);
   ASSERT_EQ(source.geometry.interfaces.size(), 1u);
   EXPECT_EQ(source.geometry.interfaces[0].points.front(), (mesh::Point{-1, 0}));
-  ASSERT_EQ(source.geometry.cracks.size(), 1u);
+  ASSERT_EQ(source.geometry.cracks.size(), 2u);
   EXPECT_EQ(source.geometry.cracks[0].part.to, (mesh::Point{0.8, 0}));
+  EXPECT_TRUE(source.geometry.cracks[0].contact);
+  EXPECT_FALSE(source.geometry.cracks[1].contact);
+  ASSERT_EQ(source.geometry.inclusions.size(), 2u);
+  EXPECT_EQ(source.geometry.inclusions[0].motion, (mesh::Motion{false, 0.0}));
+  EXPECT_EQ(source.geometry.inclusions[1].motion, (mesh::Motion{true, {}}));
 }
 
 TEST(GeometryToDomain, TakesEveryShapeRegionAndBoundaryPart) {
@@ -116,12 +126,16 @@ TEST(GeometryToDomain, TakesTheOptionsOfAnUpload) {
   (*options.mutable_curve_groups())[3] = "inclusion:a";
   (*options.mutable_surface_groups())[7] = "left";
   (*options.mutable_tension())["left"] = 2;
+  (*options.mutable_inclusion_motions())["a"].set_tilt(true);
+  (*options.mutable_inclusion_motions())["b"].set_fixed(-1);
   const auto source = std::get<store::UploadRef>(to_definition(request));
   EXPECT_EQ(source.options.preset, mesh::Preset::graded);
   EXPECT_EQ(source.options.size, 0.5);
   EXPECT_EQ(source.options.curve_groups.at(3), "inclusion:a");
   EXPECT_EQ(source.options.surface_groups.at(7), "left");
   EXPECT_EQ(source.options.tension.at("left"), 2);
+  EXPECT_EQ(source.options.inclusion_motions.at("a"), (mesh::Motion{true, {}}));
+  EXPECT_EQ(source.options.inclusion_motions.at("b"), (mesh::Motion{false, -1}));
   (*options.mutable_curve_groups())[3] = "fibre";
   expect_refused([&] { to_definition(request); }, Reason::invalid_argument,
                  "options.curve_groups[3]");
@@ -233,6 +247,12 @@ TEST(GeometryToDomain, CountsBeforeItConverts) {
         }
       },
       Reason::limit_exceeded, "options.curve_groups");
+  expect_mesh_refused(
+      [](auto& request) {
+        for (std::size_t i = 0; i <= max_parts; ++i)
+          (*request.mutable_options()->mutable_inclusion_motions())[std::to_string(i)];
+      },
+      Reason::limit_exceeded, "options.inclusion_motions");
   expect_mesh_refused(
       [](auto& request) {
         for (std::size_t i = 0; i < max_parts; ++i) request.mutable_geometry()->add_cracks();

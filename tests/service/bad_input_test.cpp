@@ -90,6 +90,11 @@ INSTANTIATE_TEST_SUITE_P(
                 {"geometry.region.0.name=top", "geometry.region.0.at=[0,0.5]",
                  "geometry.region.0.tension=-1"},
                 {"tension", "-1"}},
+        BadCase{
+            "ContactOnAnInclusion", {"geometry.inclusion.0.contact=false"}, {"contact", "crack"}},
+        BadCase{"FixedThatTilts",
+                {"geometry.inclusion.0.tilt=true", "geometry.inclusion.0.fixed=1"},
+                {"fixed", "tilt"}},
         BadCase{"InterfacesAlongEachOther",
                 {"mesh.preset=graded",
                  "geometry.interface=[{points=[[-1,0],[1,0]]},{points=[[0,0],[1,0]]}]"},

@@ -42,7 +42,7 @@ inline results::MeshPlan sample_mesh_plan(int n, double power = 1) {
   for (int j = n + n / 2; j < side; ++j) {
     slit.nodes.push_back(j * side + n);
     if (j + 1 == side) break;
-    slit.edges.kind.push_back(results::Kind::crack);
+    slit.edges.kind.push_back(results::Kind::free);
     slit.edges.inclusion.push_back(-1);
   }
   plan.interfaces = {sigma, slit};

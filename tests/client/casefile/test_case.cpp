@@ -111,6 +111,9 @@ surface.1 = "top"
 curve.8 = "neumann"
 [mesh.tension]
 top = 2.5
+[mesh.inclusions]
+rod = { tilt = true }
+bar.fixed = -0.5
 [[load]]
 name = "one"
 f = 1
@@ -126,6 +129,11 @@ f = 1
   EXPECT_EQ(the_case.locate("options.curve_groups[7]")->line, 5U);
   EXPECT_EQ(the_case.locate("options.curve_groups[12]")->key, "mesh.groups.curve");
   EXPECT_EQ(the_case.locate("options.tension.top")->line, 9U);
+  EXPECT_TRUE(options.inclusion_motions().at("rod").tilt());
+  EXPECT_FALSE(options.inclusion_motions().at("rod").has_fixed());
+  EXPECT_EQ(options.inclusion_motions().at("bar").fixed(), -0.5);
+  EXPECT_EQ(the_case.locate("options.inclusion_motions[rod]")->line, 11U);
+  EXPECT_EQ(the_case.locate("options.inclusion_motions[rod]")->key, "mesh.inclusions.rod");
 }
 
 TEST(Case, TakesAFileWithoutACase) {
@@ -175,6 +183,24 @@ at = [0, -0.9]
   EXPECT_EQ(the_case.locate("geometry.interfaces[2]")->line, 12U);
   EXPECT_EQ(the_case.locate("geometry.regions[0].tension")->line, 17U);
   EXPECT_EQ(the_case.locate("geometry.neumann[0].from")->key, "geometry.neumann");
+}
+
+TEST(Case, TakesHowInclusionsMoveAndWhetherCracksTouch) {
+  const std::string from = "from = [-0.5, 0]\n";
+  const std::string cracks =
+      "[[geometry.crack]]\nname = \"a\"\nfrom = [0.6, 0]\nto = [0.7, 0]\n"
+      "[[geometry.crack]]\nname = \"b\"\nfrom = [0.8, 0]\nto = [0.9, 0]\ncontact = false\n";
+  const Case held = parse(sample_with(from, from + "fixed = 0.1\n"));
+  EXPECT_EQ(held.mesh.geometry().inclusions(0).fixed(), 0.1);
+  EXPECT_FALSE(held.mesh.geometry().inclusions(0).tilt());
+  EXPECT_EQ(held.locate("geometry.inclusions[0].fixed")->line, 10U);
+  const Case tilting = parse(sample_with("[solver]\n", cracks + "[solver]\n"),
+                             {"geometry.inclusion.fibre.tilt=true"});
+  EXPECT_TRUE(tilting.mesh.geometry().inclusions(0).tilt());
+  EXPECT_FALSE(tilting.mesh.geometry().inclusions(0).has_fixed());
+  EXPECT_FALSE(tilting.mesh.geometry().cracks(0).has_contact());
+  EXPECT_TRUE(tilting.mesh.geometry().cracks(1).has_contact());
+  EXPECT_FALSE(tilting.mesh.geometry().cracks(1).contact());
 }
 
 TEST(Case, NeedsNoInterface) {

@@ -157,6 +157,22 @@ const Mistake geometry_mistakes[] = {
     interface("neumann_three", "neumann = [[[1, -1], [1, 1], [0, 0]]]\n",
               "plate.toml:5: geometry.neumann.0: [ [ 1, -1 ], [ 1, 1 ], [ 0, 0 ] ] is not a part; "
               "write [from, to] with points from and to"),
+    {"contact_of_an_inclusion", "from = [-0.5, 0]\n", "from = [-0.5, 0]\ncontact = false\n",
+     "plate.toml:10: geometry.inclusion.0.contact: belongs to [[geometry.crack]]; an inclusion has "
+     "delaminated = true or false"},
+    {"fixed_text", "from = [-0.5, 0]\n", "from = [-0.5, 0]\nfixed = \"yes\"\n",
+     "plate.toml:10: geometry.inclusion.0.fixed: 'yes' is not a finite number; write a number "
+     "without quotes"},
+    {"fixed_and_tilt", "from = [-0.5, 0]\n", "from = [-0.5, 0]\nfixed = 1\ntilt = true\n",
+     "plate.toml:10: geometry.inclusion.0.fixed: the inclusion has tilt = true too, but one that "
+     "is "
+     "held does not tilt; remove one of the two"},
+    {"tilt_number", "from = [-0.5, 0]\n", "from = [-0.5, 0]\ntilt = 1\n",
+     "plate.toml:10: geometry.inclusion.0.tilt: 1 is neither true nor false"},
+    {"tilt_of_a_crack", "[[geometry.inclusion]]\n", "[[geometry.crack]]\ntilt = false\n",
+     "plate.toml:8: geometry.crack.0.tilt: belongs to [[geometry.inclusion]]; nothing rigid lies "
+     "on "
+     "a crack, so remove it"},
     interface("region_without_name", "[[geometry.region]]\nat = [0, 1]\n",
               "plate.toml:5: geometry.region.0.name: missing; give the region a name"),
     interface("region_without_at", "[[geometry.region]]\nname = \"top\"\n",
@@ -200,6 +216,21 @@ const Mistake mesh_mistakes[] = {
     mesh("tension_without_file", "[mesh.tension]\ntop = 2",
          "plate.toml:12: mesh.tension: belongs to mesh.file; for a geometry write "
          "[[geometry.region]] with name, at and tension"),
+    mesh("inclusions_without_file", "[mesh.inclusions]\nfibre = { tilt = true }",
+         "plate.toml:12: mesh.inclusions: belongs to mesh.file; for a geometry write tilt or fixed "
+         "in its [[geometry.inclusion]]"),
+    mesh(
+        "motion_number", "[mesh]\nfile = \"a.msh\"\n[mesh.inclusions]\nfibre = 1",
+        "plate.toml:15: mesh.inclusions.fibre: 1 is not a table; write NAME = { tilt = true } or "
+        "NAME = { fixed = 0.1 } for each of them"),
+    mesh("motion_list", "[mesh]\nfile = \"a.msh\"\ninclusions = [\"fibre\"]",
+         "plate.toml:14: mesh.inclusions: [ 'fibre' ] is not a table; write NAME = { tilt = true } "
+         "or NAME = { fixed = 0.1 } for each of them"),
+    mesh("motion_key", "[mesh]\nfile = \"a.msh\"\n[mesh.inclusions]\nfibre = { tlit = true }",
+         "plate.toml:15: mesh.inclusions.fibre.tlit: unknown key; did you mean tilt?"),
+    mesh("motion_nan", "[mesh]\nfile = \"a.msh\"\n[mesh.inclusions]\nfibre.fixed = nan",
+         "plate.toml:15: mesh.inclusions.fibre.fixed: nan is not a finite number; write a finite "
+         "number"),
     mesh("groups_key", "[mesh]\nfile = \"a.msh\"\n[mesh.groups]\ncurves.7 = \"crack\"",
          "plate.toml:15: mesh.groups.curves: unknown key; did you mean curve?"),
     mesh(

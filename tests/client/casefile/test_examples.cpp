@@ -37,7 +37,7 @@ TEST(Examples, EachOfTheFourIsOneLoadOfThePaperOnTheSameMesh) {
 
 TEST(Examples, OfOtherGeometriesUseTheDefaults) {
   for (const char* name :
-       {"several-inclusions", "slit", "arc", "floating", "partly-delaminated", "shear"}) {
+       {"several-inclusions", "slit", "arc", "floating", "partly-delaminated", "shear", "tilt"}) {
     const Case the_case = read_case(folder + "/" + name + ".toml");
     EXPECT_EQ(the_case.mesh.options().preset(), v1::MESH_PRESET_GRADED) << name;
     EXPECT_TRUE(the_case.job.solver().has_active_set()) << name;

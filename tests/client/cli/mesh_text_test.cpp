@@ -43,6 +43,13 @@ v1::Mesh sample_mesh() {
   delaminated.set_begin(0.25);
   delaminated.set_end(1);
   delaminated.set_edge_count(7);
+  v1::InterfaceInfo& slit = *mesh.add_interfaces();
+  slit.set_name("slit");
+  auto& free = *slit.add_segments();
+  free.set_kind(v1::INTERFACE_KIND_FREE);
+  free.set_inclusion(-1);
+  free.set_end(0.5);
+  free.set_edge_count(2);
   v1::TipInfo& tip = *mesh.add_tips();
   tip.mutable_at()->set_x(0.5);
   tip.set_interface("rim");
@@ -69,12 +76,24 @@ TEST(MeshText, TabulatesWhatTheServerUnderstood) {
             "interface  from    to  kind         inclusion  edges\n"
             "rim           0  0.25  glue         -              3\n"
             "rim        0.25     1  delaminated  fibre          7\n"
+            "slit          0   0.5  free crack   -              2\n"
             "\n"
             "tip on    x  y  smallest edge\n"
             "rim     0.5  0          1e-13\n"
             "\n"
             "boundary: u given on a length of 6, traction on 2\n"
             "warning: took curve 7 for a crack\n");
+}
+
+TEST(MeshText, SaysHowAnInclusionMovesWhereItIsKnown) {
+  v1::Mesh mesh = sample_mesh();
+  v1::Inclusion& fibre = *mesh.mutable_geometry()->add_inclusions();
+  fibre.set_name("fibre");
+  fibre.set_tilt(true);
+  EXPECT_THAT(mesh_text(mesh), HasSubstr("  fibre, tilts      7\n"));
+  mesh.set_upload("uploads/1");
+  (*mesh.mutable_options()->mutable_inclusion_motions())["fibre"].set_fixed(0);
+  EXPECT_THAT(mesh_text(mesh), HasSubstr("  fibre, u = 0      7\n"));
 }
 
 TEST(MeshText, OfAMeshThatFailedSaysWhy) {

@@ -144,6 +144,20 @@ CASES = [
     (more('[[geometry.region]]\nname = "top"\nat = [0, 0.5]\ntension = -1'), 2,
      "wrong.toml:16: geometry.region.0.tension: -1 is not above 0; write a number above 0, or leave "
      "the key out for its default"),
+    ([("delaminated = true", "contact = false")], 2,
+     "wrong.toml:11: geometry.inclusion.0.contact: belongs to [[geometry.crack]]; an inclusion has delaminated "
+     "= true or false"),
+    (more('[[geometry.crack]]\nname = "c"\nfrom = [0.6, 0]\nto = [0.7, 0]\ntilt = true'), 2,
+     "wrong.toml:17: geometry.crack.0.tilt: belongs to [[geometry.inclusion]]; nothing rigid lies on a crack, so "
+     "remove it"),
+    ([("delaminated = true", "fixed = nan")], 2,
+     "wrong.toml:11: geometry.inclusion.0.fixed: nan is not a finite number; write a finite number"),
+    ([("delaminated = true", "tilt = true\nfixed = 0.1")], 2,
+     "wrong.toml:12: geometry.inclusion.0.fixed: the inclusion has tilt = true too, but one that is held does not "
+     "tilt; remove one of the two"),
+    (more("[mesh.inclusions]\nfibre = { tilt = true }"), 2,
+     "wrong.toml:13: mesh.inclusions: belongs to mesh.file; for a geometry write tilt or fixed in its "
+     "[[geometry.inclusion]]"),
     ([("[1, 0]]\n", '[1, 0]]\nneumann = "left"\n')], 2,
      "wrong.toml:6: geometry.neumann: 'left' is not possible; write [[from, to], ...], parts of the "
      'boundary walked counterclockwise, or "all"'),

@@ -79,12 +79,34 @@ class Shapes(GalleryTest):
         w, height, a = 1, 3, 0.25
         c = height / (height - 2 * w / math.pi * math.log(math.cos(math.pi * a / (2 * w))))
         exact = c * 4 * w / math.pi * math.acosh(1 / math.cos(math.pi * a / (2 * w)))
-        self.assert_close(answers.opens("opening")[0], exact, 6e-3)
-        self.assert_told(("0.5026", answers.opens("opening")[0]), ("0.5049", exact))
-        self.assertEqual(answers.loads["opening"]["contact_length"], 0)
-        self.assert_balanced(answers, "opening", +1)
-        self.assert_close(answers.loads["closing"]["energy"], 6, 1e-12)  # u = -y on an area of 12
+        self.assert_close(answers.opens("sheared")[0], exact, 6e-3)
+        self.assert_told(("0.5026", answers.opens("sheared")[0]), ("0.5049", exact))
+        jumps = [answers.traces(load)["jump"] for load in ("sheared", "reversed")]
+        self.assertLess(numpy.abs(jumps[0] + jumps[1]).max(), 1e-12)
+        for load in ("sheared", "reversed"):
+            self.assertEqual(answers.loads[load]["contact_length"], 0)
+            self.assert_balanced(answers, load, +1)
+        self.assert_figures("sheared", "reversed")
+
+    def test_tilt(self):
+        answers = self.follow_one("tilt")
+        # For a plate without end: along the fibre, s = a t, the part of u = y that does not change across it is
+        # u = 0.6 s already. The other is Re F - 0.8 A with F = p (e^(i pi/4) X - e^(-i pi/4) Y), p = -0.8/sqrt(2),
+        # X = (z - a)^(1/4) (z + a)^(3/4) and Y = (z - a)^(3/4) (z + a)^(1/4): its moment is 0.
+        a, tilt, across = 0.5, 0.6, 0.8
+        t = answers.traces("opening")["s"] / a - 1
+        upper, lower = numpy.clip(1 + t, 0, 2) ** 0.25, numpy.clip(1 - t, 0, 2) ** 0.25
+        exact = across * a / math.sqrt(2) * upper * lower * (upper ** 2 + lower ** 2)
+        self.assert_close(answers.displacement("opening"), across * a / 2, 0.02)
+        self.assertLess(numpy.abs(answers.traces("opening")["jump"] - exact).max(), 0.01)
+        self.assert_told(("0.2", across * a / 2), ("0.566", exact.max()))
+        for load, sign in (("opening", 1), ("closing", -1)):
+            rigid = answers.traces(load)["u_plus"]
+            self.assert_close((rigid[-1] - rigid[0]) / (2 * a), sign * tilt, 0.01 if sign > 0 else 1e-9)
+            self.assert_balanced(answers, load, +1)
+        self.assertAlmostEqual(answers.displacement("closing"), 0, delta=1e-11)
         self.assertAlmostEqual(answers.loads["closing"]["contact_length"], 2 * a, delta=1e-9)
+        self.assert_close(answers.loads["closing"]["energy"], 32, 1e-12)  # u = -y on an area of 64
         self.assert_figures("opening", "closing")
 
     def test_arc(self):

@@ -43,9 +43,10 @@ TEST(MeshLayers, sort_everything_by_what_it_is) {
   EXPECT_EQ(seen.triangle_count, 800u);
   EXPECT_EQ(seen.triangles[0].size(), 400u);
   EXPECT_NEAR(length_of(seen.interfaces[1]), 0.9, 1e-12);  // glue
-  EXPECT_NEAR(length_of(seen.interfaces[2]), 0.8, 1e-12);  // crack: of both interfaces
+  EXPECT_NEAR(length_of(seen.interfaces[2]), 0.3, 1e-12);  // crack
   EXPECT_NEAR(length_of(seen.interfaces[3]), 0.4, 1e-12);  // bonded
   EXPECT_NEAR(length_of(seen.interfaces[4]), 0.4, 1e-12);  // delaminated
+  EXPECT_NEAR(length_of(seen.interfaces[5]), 0.5, 1e-12);  // free crack
   EXPECT_NEAR(length_of(seen.dirichlet), 6, 1e-12);
   EXPECT_NEAR(length_of(seen.neumann), 2, 1e-12);
   EXPECT_EQ(seen.tips.size(), 6u);
@@ -113,7 +114,7 @@ TEST(MeshFigure, is_drawn_with_its_legend_and_the_finest_tip) {
   const std::string svg = file_bytes(drawn.files[1]);
   for (const char* text :
        {"A made-up mesh", "1681 nodes", "around the tip (0.5, 0)", "sigma +", "slit +", "upper",
-        "glue", "traction given", "bonded inclusion", ">fibre<", "x [-]", "y [-]"}) {
+        "glue", "traction given", "bonded inclusion", "free crack", ">fibre<", "x [-]", "y [-]"}) {
     EXPECT_THAT(svg, HasSubstr(text));
   }
 }

@@ -44,9 +44,11 @@ TEST(Profile, a_single_node_in_contact_can_be_seen) {
 
 TEST(Profile, tells_the_kinds_apart) {
   auto result = sample_result(10);
-  // An inclusion from x = -0.5 to 0.5, bonded right of 0; a crack from 0.7 to 0.9.
+  // An inclusion from x = -0.5 to 0.5, bonded right of 0; a crack from 0.7 to 0.9, free from 0.8
+  // on.
   set_edges(result.interfaces[0], 10, 15, Kind::inclusion, 0);
-  set_edges(result.interfaces[0], 17, 19, Kind::crack, -1);
+  set_edges(result.interfaces[0], 17, 18, Kind::crack, -1);
+  set_edges(result.interfaces[0], 18, 19, Kind::free, -1);
   const Profile seen = profile(result, 0, result.loads[0].traces[0]);
   ASSERT_EQ(seen.delaminated.size(), 1u);
   EXPECT_NEAR(seen.delaminated[0].end, 0.0, 1e-12);
@@ -55,7 +57,10 @@ TEST(Profile, tells_the_kinds_apart) {
   EXPECT_NEAR(seen.bonded[0].end, 0.5, 1e-12);
   ASSERT_EQ(seen.crack.size(), 1u);
   EXPECT_NEAR(seen.crack[0].begin, 0.7, 1e-12);
-  EXPECT_NEAR(seen.crack[0].end, 0.9, 1e-12);
+  EXPECT_NEAR(seen.crack[0].end, 0.8, 1e-12);
+  ASSERT_EQ(seen.free.size(), 1u);
+  EXPECT_NEAR(seen.free[0].begin, 0.8, 1e-12);
+  EXPECT_NEAR(seen.free[0].end, 0.9, 1e-12);
 }
 
 TEST(Profile, takes_bonded_and_delaminated_parts_for_one_fibre) {
