@@ -3,6 +3,7 @@
 // How a load case is solved, and what comes out: plain data, no linear algebra types.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -94,11 +95,18 @@ enum class Status : std::int32_t {
 
 struct InclusionAnswer {
   std::string name;
-  double displacement = 0;    ///< A, equation (5)
+  double displacement = 0;    ///< A, equation (5); of one that tilts u in its middle (x0, y0)
   double resultant = 0;       ///< int [T du/dnu] ds over it, equation (6): the force on it
   double contact_length = 0;  ///< lumped length of its delaminated nodes in contact
+  /// Bx, By of u = A + Bx (x - x0) + By (y - y0) along it, (x0, y0) the middle of the bounding box
+  /// of its nodes; 0 of one that does not tilt.
+  double slope_x = 0, slope_y = 0;
+  /// Moment on it about its middle: the sum of flux times (x - x0), and times (y - y0). Of one that
+  /// does not tilt the moment that holds its direction.
+  double moment_x = 0, moment_y = 0;
 };
-ANTICRACK_FIELDS(InclusionAnswer, name, displacement, resultant, contact_length)
+ANTICRACK_FIELDS(InclusionAnswer, name, displacement, resultant, contact_length, slope_x, slope_y,
+                 moment_x, moment_y)
 
 struct ContactInterval {
   std::string interface;  ///< its name
@@ -161,9 +169,15 @@ struct TraceGeometry {
 
 // Answers to many load cases as columns.
 
+/// Whether an inclusion of the mesh tilts.
+inline bool tilts(const mesh::Mesh& mesh) noexcept {
+  return std::ranges::any_of(mesh.motions, &mesh::Motion::tilt);
+}
+
 /// Entry k of every column belongs to row k.
 struct SweepColumns {
-  SweepColumns(std::size_t row_count, std::size_t inclusion_count, std::size_t contact_count)
+  SweepColumns(std::size_t row_count, std::size_t inclusion_count, std::size_t contact_count,
+               bool tilting = false)
       : inclusions(inclusion_count),
         contacts(contact_count),
         status(row_count, Status::not_converged),
@@ -172,6 +186,7 @@ struct SweepColumns {
         contact_length(row_count, 0),
         kkt(row_count, 0),
         displacement(row_count * inclusion_count, 0),
+        slope(tilting ? row_count * inclusion_count * 2 : 0, 0),
         contact(row_count * contact_count, 0) {}
 
   std::size_t rows() const noexcept { return status.size(); }
@@ -184,9 +199,11 @@ struct SweepColumns {
   std::vector<double> contact_length;  ///< over all cracks and delaminated parts
   std::vector<double> kkt;             ///< largest of the relative KktResiduals
   std::vector<double> displacement;    ///< (rows, inclusions), row-major: A of equation (5)
-  std::vector<std::uint8_t> contact;   ///< (rows, contacts), row-major: 1 closed under pressure
+  /// (rows, inclusions, 2), row-major: Bx, By of each; empty where no inclusion of the mesh tilts.
+  std::vector<double> slope;
+  std::vector<std::uint8_t> contact;  ///< (rows, contacts), row-major: 1 closed under pressure
 };
 ANTICRACK_FIELDS(SweepColumns, inclusions, contacts, status, steps, energy, contact_length, kkt,
-                 displacement, contact)
+                 displacement, slope, contact)
 
 }  // namespace anticrack::contact

@@ -80,6 +80,12 @@ void check(const Load& load, std::size_t max_expression_bytes) {
                 "inclusion_forces");
   for (const auto& [name, value] : load.inclusion_forces)
     require_finite(value, "inclusion_forces[" + name + "]");
+  require_count(load.inclusion_moments.size(), max_named_forces, "moments on inclusions",
+                "inclusion_moments");
+  for (const auto& [name, moment] : load.inclusion_moments) {
+    require_finite(moment.x, "inclusion_moments[" + name + "]", "x of the moment");
+    require_finite(moment.y, "inclusion_moments[" + name + "]", "y of the moment");
+  }
 }
 
 }  // namespace anticrack::fem

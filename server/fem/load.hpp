@@ -46,25 +46,36 @@ struct PointForce {
 };
 ANTICRACK_FIELDS(PointForce, x, y, value)
 
+/// On an inclusion that tilts, about (x0, y0), the middle of the bounding box of its nodes: its
+/// work is x Bx + y By. A force F at a point p of the inclusion has the moment F (p - (x0, y0)).
+struct Moment {
+  double x = 0;
+  double y = 0;
+};
+ANTICRACK_FIELDS(Moment, x, y)
+
 struct Load {
   std::string name;
   Force force = 0.0;
   std::string boundary_value = {};  ///< g_D on the Dirichlet boundary, an expression; empty: 0
   std::string traction = {};  ///< g_N = T du/dn on the Neumann boundary, an expression; empty: 0
   std::vector<PointForce> point_forces = {};
-  std::map<std::string, double> inclusion_forces = {};  ///< by name of the inclusion
+  std::map<std::string, double> inclusion_forces = {};   ///< by name of the inclusion
+  std::map<std::string, Moment> inclusion_moments = {};  ///< by name of the inclusion, which tilts
 };
-ANTICRACK_FIELDS(Load, name, force, boundary_value, traction, point_forces, inclusion_forces)
+ANTICRACK_FIELDS(Load, name, force, boundary_value, traction, point_forces, inclusion_forces,
+                 inclusion_moments)
 
 /// Of one load case.
 constexpr std::size_t max_point_forces = 10'000;
-/// Regions of a PerRegion, and inclusions with a force.
+/// Regions of a PerRegion, inclusions with a force, and those with a moment.
 constexpr std::size_t max_named_forces = 1'000;
 
 /// Throws errors::Error (expression_invalid, invalid_argument, limit_exceeded) with the field at
 /// fault: "force.expression", "force.per_region[NAME]", "force.constant", "force.array.upload",
-/// "boundary_value", "traction", "point_forces[I].value", "inclusion_forces[NAME]", ... Checks what
-/// can be checked without a mesh: syntax, symbols, lengths, counts, finite values.
+/// "boundary_value", "traction", "point_forces[I].value", "inclusion_forces[NAME]",
+/// "inclusion_moments[NAME]", ... Checks what can be checked without a mesh: syntax, symbols,
+/// lengths, counts, finite values.
 void check(const Load& load, std::size_t max_expression_bytes);
 
 }  // namespace anticrack::fem
