@@ -59,6 +59,19 @@ void read_point_forces(const Section& section, const std::string& field, v1::Loa
   }
 }
 
+void read_moments(const Section& section, const std::string& field, v1::LoadCase& load,
+                  Spots& spots) {
+  const char* cure = "write inclusion = [Mx, My] for each of them";
+  for (const auto& [name, entry] : section.entries("inclusion_moments", cure)) {
+    const std::string key = section.path_of("inclusion_moments", name);
+    const auto [x, y] = pair_of(*entry, key, "a moment", cure);
+    v1::InclusionMoment& moment = (*load.mutable_inclusion_moments())[name];
+    moment.set_x(x);
+    moment.set_y(y);
+    set_entry(spots, field + ".inclusion_moments", name, spot_of(*entry, key));
+  }
+}
+
 void read_load(const Section& section, std::size_t index, Case& result) {
   const std::string field = entry_field("load_cases", index);
   Spots& spots = result.spots;
@@ -70,10 +83,12 @@ void read_load(const Section& section, std::size_t index, Case& result) {
   read_point_forces(section, field, load, spots);
   add_numbers(section, "inclusion_forces", "write inclusion = number for each of them",
               field + ".inclusion_forces", *load.mutable_inclusion_forces(), spots);
+  read_moments(section, field, load, spots);
 
   // Without any other load, a missing f is most likely forgotten.
   const bool loaded = !load.boundary_value().empty() || !load.traction().empty() ||
-                      !load.point_forces().empty() || !load.inclusion_forces().empty();
+                      !load.point_forces().empty() || !load.inclusion_forces().empty() ||
+                      !load.inclusion_moments().empty();
   if (section.find("f") || !loaded) {
     auto file = read_force(section, result.path.parent_path(), *load.mutable_force());
     spots[field + ".force"] = section.spot_of("f");
@@ -88,8 +103,9 @@ void read_load(const Section& section, std::size_t index, Case& result) {
 
 void read_loads(const Section& root, Case& result) {
   root.need("load", "write [[load]] with name and f for each load case");
-  const std::vector<Section> loads = root.sections(
-      "load", {"name", "f", "boundary_value", "traction", "point_forces", "inclusion_forces"});
+  const std::vector<Section> loads =
+      root.sections("load", {"name", "f", "boundary_value", "traction", "point_forces",
+                             "inclusion_forces", "inclusion_moments"});
   for (std::size_t i = 0; i < loads.size(); ++i) read_load(loads[i], i, result);
 }
 

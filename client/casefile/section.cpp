@@ -72,12 +72,16 @@ double number_of(const toml::node& node, const std::string& key, std::string_vie
   return *value;
 }
 
-Point point_of(const toml::node& node, const std::string& key) {
+Point pair_of(const toml::node& node, const std::string& key, const std::string& what,
+              std::string_view cure) {
   const toml::array* pair = node.as_array();
   if (!pair || pair->size() != 2)
-    throw Error(spot_of(node, key), shown(node) + " is not a point; write [x, y]");
-  return {number_of(*pair->get(0), key, "write [x, y]"),
-          number_of(*pair->get(1), key, "write [x, y]")};
+    throw Error(spot_of(node, key), shown(node) + " is not " + what + "; " + std::string(cure));
+  return {number_of(*pair->get(0), key, cure), number_of(*pair->get(1), key, cure)};
+}
+
+Point point_of(const toml::node& node, const std::string& key) {
+  return pair_of(node, key, "a point", "write [x, y]");
 }
 
 std::vector<Point> points_of(const toml::node& node, const std::string& key) {
@@ -105,6 +109,10 @@ Section::Section(const toml::table& table, std::string path, std::vector<std::st
 }
 
 std::string Section::path_of(std::string_view key) const { return join(_path, key); }
+
+std::string Section::path_of(std::string_view key, std::string_view name) const {
+  return join(path_of(key), name);
+}
 
 Spot Section::spot_of(std::string_view key) const {
   const toml::node* node = find(key);
@@ -155,18 +163,23 @@ std::optional<std::string> Section::expression(std::string_view key) const {
   return std::string(digits.data(), end);
 }
 
-std::vector<std::pair<std::string, double>> Section::numbers(std::string_view key,
-                                                             std::string_view cure) const {
+std::vector<std::pair<std::string, const toml::node*>> Section::entries(
+    std::string_view key, std::string_view cure) const {
   const toml::node* node = find(key);
   if (!node) return {};
   const toml::table* table = node->as_table();
   if (!table) throw Error(spot_of(key), shown(*node) + " is not a table; " + std::string(cure));
+  std::vector<std::pair<std::string, const toml::node*>> found;
+  found.reserve(table->size());
+  for (const auto& [name, entry] : *table) found.emplace_back(name.str(), &entry);
+  return found;
+}
+
+std::vector<std::pair<std::string, double>> Section::numbers(std::string_view key,
+                                                             std::string_view cure) const {
   std::vector<std::pair<std::string, double>> values;
-  values.reserve(table->size());
-  for (const auto& [name, entry] : *table) {
-    const std::string entry_name(name.str());
-    values.emplace_back(entry_name, number_of(entry, join(path_of(key), entry_name), cure));
-  }
+  for (const auto& [name, entry] : entries(key, cure))
+    values.emplace_back(name, number_of(*entry, path_of(key, name), cure));
   return values;
 }
 

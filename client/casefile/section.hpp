@@ -27,6 +27,9 @@ std::string shown(const toml::node& node);
 
 /// A finite number. Throws Error: "... is not a number; CURE".
 double number_of(const toml::node& node, const std::string& key, std::string_view cure);
+/// Two finite numbers. Throws Error: "... is not WHAT; CURE".
+Point pair_of(const toml::node& node, const std::string& key, const std::string& what,
+              std::string_view cure);
 /// [x, y], both finite.
 Point point_of(const toml::node& node, const std::string& key);
 /// [[x, y], ...].
@@ -45,6 +48,8 @@ class Section {
   const toml::table& table() const { return _table; }
   /// For messages: "load.force".
   std::string path_of(std::string_view key) const;
+  /// The same of an entry of its table: "load.force.NAME".
+  std::string path_of(std::string_view key, std::string_view name) const;
   /// Where the value of the key was written; of an absent key where the table begins.
   Spot spot_of(std::string_view key) const;
   /// Where the table itself begins.
@@ -57,6 +62,9 @@ class Section {
   std::optional<double> positive(std::string_view key) const;
   /// An expression in quotes, or a number.
   std::optional<std::string> expression(std::string_view key) const;
+  /// {name = value, ...}, in order of the names; empty where the key is absent.
+  std::vector<std::pair<std::string, const toml::node*>> entries(std::string_view key,
+                                                                 std::string_view cure) const;
   /// {name = number, ...}, in order of the names.
   std::vector<std::pair<std::string, double>> numbers(std::string_view key,
                                                       std::string_view cure) const;

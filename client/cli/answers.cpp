@@ -2,7 +2,10 @@
 #include "cli/answers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "cli/json.hpp"
@@ -17,25 +20,47 @@ bool has_answer(const results::Load& load) {
   return load.status == results::Status::converged || load.status == results::Status::not_converged;
 }
 
-// Names of all inclusions, each once.
-std::vector<std::string> inclusions_of(const std::vector<results::Load>& loads) {
-  std::vector<std::string> names;
+struct Moved {
+  std::string name;
+  bool tilted = false;  // in one of the loads at least
+};
+
+// All inclusions, each once.
+std::vector<Moved> inclusions_of(const std::vector<results::Load>& loads) {
+  std::vector<Moved> all;
   for (const results::Load& load : loads) {
-    for (const results::Inclusion& inclusion : load.inclusions)
-      if (std::find(names.begin(), names.end(), inclusion.name) == names.end())
-        names.push_back(inclusion.name);
+    for (const results::Inclusion& inclusion : load.inclusions) {
+      auto place = std::ranges::find(all, inclusion.name, &Moved::name);
+      if (place == all.end()) place = all.insert(all.end(), {inclusion.name});
+      place->tilted |= inclusion.tilted();
+    }
   }
-  return names;
+  return all;
 }
 
-std::string displacement_of(const results::Load& load, const std::string& name) {
-  const auto found = std::find_if(load.inclusions.begin(), load.inclusions.end(),
-                                  [&](const auto& inclusion) { return inclusion.name == name; });
-  return found == load.inclusions.end() ? "-" : number(found->displacement);
+using Column = std::pair<const char*, double results::Inclusion::*>;
+
+// What is told of an inclusion: of one that never tilts, A alone.
+std::span<const Column> told_of(const Moved& inclusion) {
+  using results::Inclusion;
+  static constexpr std::array<Column, 5> columns{{{"A", &Inclusion::displacement},
+                                                  {"Bx", &Inclusion::slope_x},
+                                                  {"By", &Inclusion::slope_y},
+                                                  {"Mx", &Inclusion::moment_x},
+                                                  {"My", &Inclusion::moment_y}}};
+  return std::span(columns).first(inclusion.tilted ? columns.size() : 1);
 }
 
-std::vector<std::string> row_of(const results::Load& load,
-                                const std::vector<std::string>& inclusions, bool by_uzawa) {
+void add_inclusion(const results::Load& load, const Moved& inclusion,
+                   std::vector<std::string>& row) {
+  const auto found = std::ranges::find(load.inclusions, inclusion.name, &results::Inclusion::name);
+  const bool told = has_answer(load) && found != load.inclusions.end();
+  for (const auto& [name, member] : told_of(inclusion))
+    row.push_back(told ? number((*found).*member) : "-");
+}
+
+std::vector<std::string> row_of(const results::Load& load, const std::vector<Moved>& inclusions,
+                                bool by_uzawa) {
   const bool answered = has_answer(load);
   const auto when_answered = [answered](double value, int digits = 6, bool exponent = false) {
     return answered ? number(value, digits, exponent) : "-";
@@ -43,8 +68,7 @@ std::vector<std::string> row_of(const results::Load& load,
   std::vector<std::string> row{
       sanitise(load.name), std::string(word(load.status)), std::to_string(load.iterations),
       when_answered(by_uzawa ? load.criterion : load.kkt_relative.largest(), 2, true)};
-  for (const std::string& name : inclusions)
-    row.push_back(answered ? displacement_of(load, name) : "-");
+  for (const Moved& inclusion : inclusions) add_inclusion(load, inclusion, row);
   row.push_back(when_answered(load.energy));
   row.push_back(when_answered(load.contact_length));
   if (by_uzawa) {
@@ -73,13 +97,15 @@ std::vector<std::string> remarks_on(const results::Load& load) {
 }  // namespace
 
 std::string answers_table(const std::vector<results::Load>& loads) {
-  const std::vector<std::string> inclusions = inclusions_of(loads);
+  const std::vector<Moved> inclusions = inclusions_of(loads);
   const bool by_uzawa = std::any_of(loads.begin(), loads.end(), [](const results::Load& load) {
     return std::isfinite(load.theta);
   });
   std::vector<std::string> head{"load", "status", "iterations", by_uzawa ? "criterion" : "KKT"};
-  for (const std::string& name : inclusions)
-    head.push_back(inclusions.size() == 1 ? "A" : "A " + sanitise(name));
+  for (const Moved& inclusion : inclusions) {
+    for (const auto& [name, member] : told_of(inclusion))
+      head.push_back(inclusions.size() == 1 ? name : name + (" " + sanitise(inclusion.name)));
+  }
   head.insert(head.end(), {"energy", "contact length"});
   if (by_uzawa) head.insert(head.end(), {"theta", "theta*"});
   head.emplace_back("wall time");
@@ -116,7 +142,11 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
     for (const results::Inclusion& inclusion : load.inclusions) {
       inclusions.push_back({{"name", inclusion.name},
                             {"A", inclusion.displacement},
+                            {"Bx", inclusion.slope_x},
+                            {"By", inclusion.slope_y},
                             {"resultant", inclusion.resultant},
+                            {"Mx", inclusion.moment_x},
+                            {"My", inclusion.moment_y},
                             {"contact_length", inclusion.contact_length}});
     }
     answers.push_back(

@@ -12,7 +12,8 @@
 namespace anticrack::cli {
 
 /// A head row, a row of units ("-": dimensionless), one row per load case; below it, why load cases
-/// did not converge or failed. A column "A" per inclusion, with its name where there are several.
+/// did not converge or failed. A column "A" per inclusion, with its name where there are several;
+/// of one that tilts "Bx", "By", "Mx" and "My", too.
 /// Of Uzawa's method the criterion that stops it, with theta; of the active set, which is exact,
 /// the largest relative KKT residual.
 std::string answers_table(const std::vector<results::Load>& loads);

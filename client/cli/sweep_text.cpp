@@ -3,6 +3,7 @@
 
 #include <array>
 #include <charconv>
+#include <utility>
 #include <vector>
 
 #include "cli/text.hpp"
@@ -17,9 +18,11 @@ std::string counted(std::size_t count, const char* what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
+constexpr std::array<const char*, 2> slope_parts{"Bx", "By"};
+
 // "A", or "A fibre" where there are several.
-std::string name_of_displacement(const results::Sweep& sweep, std::size_t inclusion) {
-  return sweep.inclusions.size() == 1 ? "A" : "A " + sweep.inclusions[inclusion];
+std::string name_of(const char* number, const results::Sweep& sweep, std::size_t inclusion) {
+  return sweep.inclusions.size() == 1 ? number : number + (" " + sweep.inclusions[inclusion]);
 }
 
 std::string endings(const SweepSummary& counts) {
@@ -47,8 +50,11 @@ void append(std::string& text, double value) {
 std::string csv_head(const results::Sweep& sweep, std::size_t loads) {
   std::string head = "row";
   for (std::size_t i = 0; i < loads; ++i) head += "," + sweep.loads[i];
-  for (std::size_t i = 0; i < sweep.inclusions.size(); ++i)
-    head += "," + name_of_displacement(sweep, i);
+  for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
+    head += "," + name_of("A", sweep, i);
+    for (const char* part : slope_parts)
+      if (!sweep.slope.empty()) head += "," + name_of(part, sweep, i);
+  }
   return head + ",energy,contact_length,steps,status\n";
 }
 
@@ -66,8 +72,11 @@ std::string sweep_table(const results::Sweep& sweep) {
     const auto add = [&rows](const std::string& name, const SweepSummary::Range& range) {
       rows.push_back({sanitise(name), number(range.low), number(range.high)});
     };
-    for (std::size_t i = 0; i < sweep.inclusions.size(); ++i)
-      add(name_of_displacement(sweep, i), counts.displacement[i]);
+    for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
+      add(name_of("A", sweep, i), counts.displacement[i]);
+      for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(i); ++part)
+        add(name_of(slope_parts[part], sweep, i), counts.slope[i][part]);
+    }
     add("contact length", counts.contact_length);
     add("energy", counts.energy);
     text += table(rows);
@@ -80,9 +89,12 @@ std::string sweep_table(const results::Sweep& sweep) {
 Json sweep_json(const results::Sweep& sweep) {
   const SweepSummary counts = summary(sweep);
   Json inclusions = Json::array();
-  for (std::size_t i = 0; i < sweep.inclusions.size(); ++i)
-    inclusions.push_back(
-        {{"name", sweep.inclusions[i]}, {"A", range_json(counts.displacement[i])}});
+  for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
+    Json inclusion{{"name", sweep.inclusions[i]}, {"A", range_json(counts.displacement[i])}};
+    for (std::size_t part = 0; part < slope_parts.size(); ++part)
+      inclusion[slope_parts[part]] = range_json(counts.slope[i][part]);
+    inclusions.push_back(std::move(inclusion));
+  }
   return {{"source", sweep.source},
           {"rows", sweep.rows()},
           {"converged", counts.converged},
@@ -114,7 +126,11 @@ std::string sweep_csv(const results::Sweep& sweep) {
       text += ',';
       append(text, sweep.coefficients[row * loads + i]);
     }
-    for (std::size_t i = 0; i < inclusions; ++i) add(sweep.displacement[row * inclusions + i]);
+    for (std::size_t i = 0; i < inclusions; ++i) {
+      add(sweep.displacement[row * inclusions + i]);
+      for (std::size_t part = 0; part < slope_parts.size() && !sweep.slope.empty(); ++part)
+        add(sweep.slope_at(row, i, part));
+    }
     add(sweep.energy[row]);
     add(sweep.contact_length[row]);
     text += "," + std::to_string(sweep.steps[row]) + ",";

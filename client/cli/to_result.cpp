@@ -92,7 +92,8 @@ results::Load to_load(const v1::LoadCase& load_case, const v1::LoadCaseAnswer& a
   load.warnings.assign(answer.warnings().begin(), answer.warnings().end());
   for (const v1::InclusionAnswer& inclusion : answer.inclusions()) {
     load.inclusions.push_back({inclusion.name(), inclusion.displacement(), inclusion.resultant(),
-                               inclusion.contact_length()});
+                               inclusion.contact_length(), inclusion.slope_x(), inclusion.slope_y(),
+                               inclusion.moment_x(), inclusion.moment_y()});
   }
   return load;
 }

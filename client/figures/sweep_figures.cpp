@@ -111,24 +111,65 @@ std::string panel(const SweepAxis& axis, const std::string& label, const Range& 
 /// Entries of the legend; what is beyond is drawn alike and counted.
 constexpr std::size_t named = 6;
 
-std::string displacement_plots(const SweepAxis& axis, const std::vector<std::string>& inclusions,
-                               const Scale& scale) {
-  std::string plots;
-  for (std::size_t i = inclusions.size(); i-- > 0;) {
-    const CurveStyle style = i < named ? style_of(i) : CurveStyle{"#bbbbbb", "solid"};
-    plots += (plots.empty() ? "$A" : ", $A") + std::to_string(i) + " using 1:" + scale.column(2) +
-             drawn_as(axis, style) + " notitle";
+/// A number of every inclusion over the axis.
+struct Curves {
+  std::string name;  ///< of the number; that of its data blocks goes on with the inclusion's index
+  std::string blocks;  ///< the data
+  Range heights = empty_range();
+};
+
+/// Of column `part` of `parts` that `values` has for each inclusion.
+Curves curves_of(const Sweep& sweep, const SweepAxis& axis, const std::string& name,
+                 const std::vector<double>& values, std::size_t part, std::size_t parts) {
+  Curves curves{name, {}};
+  const std::size_t inclusions = sweep.inclusions.size();
+  for (std::size_t i = 0; i < inclusions; ++i) {
+    curves.blocks +=
+        curve_block(name + std::to_string(i),
+                    curve(sweep, axis, values, i * parts + part, inclusions * parts, point_limit),
+                    curves.heights);
   }
-  if (inclusions.size() == 1) return plots;
+  return curves;
+}
+
+/// The entries of the legend, to go on a plot.
+std::string legend_of(const SweepAxis& axis, const std::vector<std::string>& inclusions) {
+  std::string keys;
+  if (inclusions.size() == 1) return keys;
   for (std::size_t i = 0; i < std::min(named, inclusions.size()); ++i) {
-    plots +=
+    keys +=
         ", keyentry" + drawn_as(axis, style_of(i)) + " title " + figures::quoted(inclusions[i], 18);
   }
   if (inclusions.size() > named) {
-    plots += ", keyentry with lines linecolor rgb '#bbbbbb' title '" +
-             std::to_string(inclusions.size() - named) + " more'";
+    keys += ", keyentry with lines linecolor rgb '#bbbbbb' title '" +
+            std::to_string(inclusions.size() - named) + " more'";
   }
-  return plots;
+  return keys;
+}
+
+std::string panel(const SweepAxis& axis, const Curves& curves, std::size_t inclusions,
+                  const std::string& keys, const Place& place) {
+  const Scale scale(curves.heights);
+  std::string plots;
+  for (std::size_t i = inclusions; i-- > 0;) {
+    const CurveStyle style = i < named ? style_of(i) : CurveStyle{"#bbbbbb", "solid"};
+    plots += (plots.empty() ? "$" : ", $") + curves.name + std::to_string(i) +
+             " using 1:" + scale.column(2) + drawn_as(axis, style) + " notitle";
+  }
+  return panel(axis, curves.name, with_room(curves.heights), scale, plots + keys, place);
+}
+
+/// One panel above the other, over one axis; the legend of the upper one in between.
+std::string stacked(const Sweep& sweep, const SweepAxis& axis, const std::string& upper,
+                    const std::string& lower, const Place& place) {
+  const bool legend = sweep.inclusions.size() > 1;
+  std::string text = margins(place, legend ? 0.6 : 0.545, 0.935) + axes();
+  text += "set format x ''\n" + caption(counted_rows(sweep), place);
+  text += "set key at screen " + number(place.x + 0.54 * place.width) + ", screen " +
+          number(place.y + 0.59 * place.height) +
+          " center top horizontal maxrows 3 Left reverse noenhanced samplen 2.5 font ',7'\n";
+  text += upper + margins(place, 0.11, legend ? 0.475 : 0.5);
+  return text + "set format x\nunset key\n" + below(axis_label(axis), 0.04, place) + axes() + lower;
 }
 
 }  // namespace
@@ -137,42 +178,42 @@ Picture sweep_picture(const Result& result, const SweepAxis& axis) {
   const Sweep& sweep = *result.sweep;
   const std::size_t inclusions = sweep.inclusions.size();
   Range lengths{0, 0};
-  Range displacements = empty_range();
-  std::string data =
+  const std::string data =
       curve_block("length", curve(sweep, axis, sweep.contact_length, 0, 1, point_limit), lengths);
-  for (std::size_t i = 0; i < inclusions; ++i) {
-    data += curve_block("A" + std::to_string(i),
-                        curve(sweep, axis, sweep.displacement, i, inclusions, point_limit),
-                        displacements);
-  }
+  const Curves displacements = curves_of(sweep, axis, "A", sweep.displacement, 0, 1);
   if (lengths.high == 0) lengths.high = 1;
   lengths = with_room(lengths);
   const Scale of_lengths(lengths);
-  const Scale of_displacements(displacements);
 
-  return {data, sweep_title(result),
+  return {data + displacements.blocks, sweep_title(result),
           [=, &sweep, &axis](Format, const Place& place) {
             const std::string contact = panel(axis, "contact length", lengths, of_lengths,
                                               "$length using 1:" + of_lengths.column(2) +
                                                   drawn_as(axis, style_of(0)) + " notitle",
                                               place);
-            const std::string foot = below(axis_label(axis), 0.04, place) + axes();
-            const std::string head = caption(counted_rows(sweep), place);
-            if (inclusions == 0) return margins(place, 0.16, 0.905) + foot + head + contact;
-            // One above the other, over one axis; the legend in between.
-            const bool legend = inclusions > 1;
-            std::string text = margins(place, legend ? 0.6 : 0.545, 0.935) + axes();
-            text += "set format x ''\n" + head;
-            text +=
-                "set key at screen " + number(place.x + 0.54 * place.width) + ", screen " +
-                number(place.y + 0.59 * place.height) +
-                " center top horizontal maxrows 3 Left reverse noenhanced samplen 2.5 font ',7'\n";
-            text += panel(axis, "A", with_room(displacements), of_displacements,
-                          displacement_plots(axis, sweep.inclusions, of_displacements), place);
-            text += margins(place, 0.11, legend ? 0.475 : 0.5);
-            return text + "set format x\nunset key\n" + foot + contact;
+            if (inclusions == 0) {
+              return margins(place, 0.16, 0.905) + below(axis_label(axis), 0.04, place) + axes() +
+                     caption(counted_rows(sweep), place) + contact;
+            }
+            const std::string keys = legend_of(axis, sweep.inclusions);
+            return stacked(sweep, axis, panel(axis, displacements, inclusions, keys, place),
+                           contact, place);
           },
           inclusions == 0 ? narrow : tall};
+}
+
+Picture slope_picture(const Result& result, const SweepAxis& axis) {
+  const Sweep& sweep = *result.sweep;
+  const Curves along_x = curves_of(sweep, axis, "Bx", sweep.slope, 0, 2);
+  const Curves along_y = curves_of(sweep, axis, "By", sweep.slope, 1, 2);
+  return {along_x.blocks + along_y.blocks, sweep_title(result),
+          [=, &sweep, &axis](Format, const Place& place) {
+            const std::size_t inclusions = sweep.inclusions.size();
+            const std::string keys = legend_of(axis, sweep.inclusions);
+            return stacked(sweep, axis, panel(axis, along_x, inclusions, keys, place),
+                           panel(axis, along_y, inclusions, "", place), place);
+          },
+          tall};
 }
 
 Picture contact_picture(const Result& result, const SweepAxis& axis, const ContactMap& map) {
@@ -223,11 +264,13 @@ Picture contact_picture(const Result& result, const SweepAxis& axis, const Conta
 
 void draw_sweep(const Result& result, Drawing& drawing) {
   const SweepAxis axis = sweep_axis(*result.sweep);
-  if (summary(*result.sweep).converged == 0) {
+  const results::SweepSummary counts = summary(*result.sweep);
+  if (counts.converged == 0) {
     drawing.drawn.notes.push_back("no row of the sweep converged: nothing to draw of it");
     return;
   }
   drawing.draw("sweep", sweep_picture(result, axis));
+  if (counts.tilted()) drawing.draw("sweep-slope", slope_picture(result, axis));
   for (std::size_t i = 0; i < result.interfaces.size(); ++i) {
     const ContactMap map = contact_map(result, axis, i, strip_limit);
     if (map.boxes.empty()) continue;

@@ -63,11 +63,15 @@ ContactMap contact_map(const results::Result& result, const SweepAxis& axis, std
 /// A of every inclusion above, contact length below, over the axis.
 Picture sweep_picture(const results::Result& result, const SweepAxis& axis);
 
+/// Bx of every inclusion above, By below, over the axis.
+Picture slope_picture(const results::Result& result, const SweepAxis& axis);
+
 /// Where the cracks of one interface are closed, over the axis.
 Picture contact_picture(const results::Result& result, const SweepAxis& axis,
                         const ContactMap& map);
 
-/// Draws "sweep" and, for each interface with cracks, "sweep-contact"; notes what is left out.
+/// Draws "sweep", where an inclusion tilted "sweep-slope" and, for each interface with cracks,
+/// "sweep-contact"; notes what is left out.
 void draw_sweep(const results::Result& result, Drawing& drawing);
 
 }  // namespace anticrack::figures

@@ -61,6 +61,9 @@ std::string traces_heading(const Profile& profile, const Load& load) {
                     [&](const Fibre& fibre) { return fibre.inclusion == inclusion.name; });
     if (!here) continue;
     answer += ",  A = " + readable(inclusion.displacement);
+    if (inclusion.tilted()) {
+      answer += ", B = (" + readable(inclusion.slope_x) + ", " + readable(inclusion.slope_y) + ")";
+    }
     if (load.inclusions.size() > 1) answer += " (" + shortened(inclusion.name, 12) + ")";
   }
   if (load.status == results::Status::not_converged) answer += ",  not converged";

@@ -35,7 +35,7 @@ hdf5::Dataset open_below(const Handle& group, const std::string& path, std::uint
   const std::string name = path.substr(0, slash);
   if (!hdf5::has(group, name)) throw hdf5::Fault(missing_text(group, name));
   if (slash == std::string::npos)
-    return hdf5::open_array(group, name, ValueType::float64, budget, columns);
+    return hdf5::open_array(group, name, ValueType::float64, budget, {columns});
   return open_below(hdf5::open_group(group, name), path.substr(slash + 1), budget, columns);
 }
 

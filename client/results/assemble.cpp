@@ -58,8 +58,9 @@ Load load_of(const Sweep& sweep, std::size_t row, std::vector<Trace> traces,
   load.contact_length = sweep.contact_length[row];
   const std::size_t inclusions = sweep.inclusions.size();
   for (std::size_t i = 0; i < inclusions; ++i) {
-    load.inclusions.push_back(
-        {sweep.inclusions[i], sweep.displacement[row * inclusions + i], unknown, unknown});
+    load.inclusions.push_back({sweep.inclusions[i], sweep.displacement[row * inclusions + i],
+                               unknown, unknown, sweep.slope_at(row, i, 0),
+                               sweep.slope_at(row, i, 1), unknown, unknown});
   }
   for (std::size_t i = 0; i < traces.size(); ++i)
     add_contact_intervals(interfaces[i], i, traces[i], load.contact_intervals);

@@ -42,19 +42,24 @@ class Block {
     return found != _arrays.end() && found->first.compare(0, prefix.size(), prefix) == 0;
   }
 
-  /// Array of shape (n) for columns 0, (rows, n) for columns arrays::named, else (n, columns).
+  bool has(const std::string& name) const { return _arrays.contains(name); }
+
+  /// Array of shape (n) for columns 0, (rows, n) for columns arrays::named, else (n, columns); with
+  /// a depth above 1 (rows, n, depth) or (n, columns, depth).
   template <typename T>
-  std::vector<T> get(const std::string& name, std::uint64_t columns = 0,
-                     std::uint64_t rows = 0) const {
+  std::vector<T> get(const std::string& name, std::uint64_t columns = 0, std::uint64_t rows = 0,
+                     std::uint64_t depth = 1) const {
     const ArrayView& array = find<T>(name);
     const std::vector<std::uint64_t>& shape = array.shape;
     const bool by_rows = columns == arrays::named;
-    const bool fits = shape.size() == (columns == 0 ? 1U : 2U) &&
-                      (columns == 0 || (by_rows ? shape[0] == rows : shape[1] == columns));
+    const bool fits = shape.size() == (columns == 0 ? 1U : 2U) + (depth > 1 ? 1U : 0U) &&
+                      (columns == 0 || (by_rows ? shape[0] == rows : shape[1] == columns)) &&
+                      (depth == 1 || shape.back() == depth);
     if (!fits) {
       fail("array " + name + " has shape " + text_of(shape) + ", not (" +
            (by_rows ? std::to_string(rows) + "," : "") + "n" +
-           (by_rows || columns == 0 ? "" : "," + std::to_string(columns)) + ")");
+           (by_rows || columns == 0 ? "" : "," + std::to_string(columns)) +
+           (depth == 1 ? "" : "," + std::to_string(depth)) + ")");
     }
     if (byte_count(_subject, array) != array.bytes.size()) {
       fail("array " + name + " of shape " + text_of(shape) + " comes with " +
@@ -87,7 +92,8 @@ class Block {
   std::map<std::string, const ArrayView*> _arrays;
 };
 
-/// The arrays of a table. `folder` ends with a slash; `rows`: of shapes whose columns are a word.
+/// The arrays of a table; what is optional and missing stays as it is. `folder` ends with a slash;
+/// `rows`: of shapes whose columns are a word.
 template <class Record, class Table>
 void get_arrays(const Block& block, const std::string& folder, Record& record, const Table& table,
                 std::uint64_t rows = 0) {
@@ -95,8 +101,10 @@ void get_arrays(const Block& block, const std::string& folder, Record& record, c
       [&](const auto& row) {
         auto& values = std::invoke(row.member, record);
         using Value = typename std::remove_cvref_t<decltype(values)>::value_type;
-        values =
-            block.get<Value>(folder + std::string(row.name), arrays::columns_of(row.shape), rows);
+        const std::string name = folder + std::string(row.name);
+        if (row.optional && !block.has(name)) return;
+        values = block.get<Value>(name, arrays::columns_of(row.shape), rows,
+                                  arrays::depth_of(row.shape));
       },
       table);
 }

@@ -31,7 +31,7 @@ template <class Row, class Record>
 std::size_t columns_of(const Row& row, const Record& record) {
   if constexpr (requires { record.extent(row.shape); }) {
     if (arrays::columns_of(row.shape) == arrays::named)
-      return record.extent(row.shape.substr(row.shape.find(',') + 1));
+      return record.extent(arrays::second_of(row.shape));
   }
   return arrays::columns_of(row.shape);
 }
@@ -40,8 +40,8 @@ std::size_t columns_of(const Row& row, const Record& record) {
 template <class Row, class T>
 void put_row(const Handle& group, const Row& row, const std::vector<T>& values,
              std::size_t columns) {
-  const Handle dataset =
-      put_array(group, std::string(row.name), value_type<T>, values.data(), values.size(), columns);
+  const Handle dataset = put_array(group, std::string(row.name), value_type<T>, values.data(),
+                                   values.size(), {columns, arrays::depth_of(row.shape)});
   if (row.explained) put(dataset, "meaning", std::string(row.what));
 }
 
@@ -78,7 +78,8 @@ void get_arrays(const Handle& group, std::uint64_t budget, Record& record,
       [&](const auto& row) {
         const std::string name(row.name);
         if (arrays::columns_of(row.shape) == arrays::named && !has(group, name)) return;
-        get_array(group, name, budget, columns_of(row, record), std::invoke(row.member, record));
+        get_array(group, name, budget, {columns_of(row, record), arrays::depth_of(row.shape)},
+                  std::invoke(row.member, record));
       },
       tables...);
 }
@@ -101,7 +102,8 @@ void put_list(const Handle& group, const std::vector<Record>& records, const Tab
       },
       table);
 }
-/// Throws Fault where the datasets differ in length; `what` names the list.
+/// What is optional and missing stays as it is. Throws Fault where the datasets differ in length;
+/// `what` names the list.
 template <class Record, class Table>
 std::vector<Record> get_list(const Handle& group, std::uint64_t budget, const char* what,
                              const Table& table) {
@@ -110,8 +112,10 @@ std::vector<Record> get_list(const Handle& group, std::uint64_t budget, const ch
   arrays::for_each(
       [&](const auto& row) {
         using Value = arrays::MemberOf<Record, decltype(row.member)>;
+        const std::string name(row.name);
+        if (row.optional && !has(group, name)) return;
         std::vector<Stored<Value>> column;
-        get_array(group, std::string(row.name), budget, 0, column);
+        get_array(group, name, budget, {}, column);
         if (first) records.resize(column.size());
         first = false;
         if (column.size() != records.size())

@@ -67,6 +67,20 @@ class Quiet {
   void* _data = nullptr;
 };
 
+inline constexpr std::size_t any_columns = static_cast<std::size_t>(-1);
+
+/// What a dataset of n rows has in each: its shape is (n) for 0 columns, else (n, columns), and
+/// with a depth above 1 (n, columns, depth).
+struct Row {
+  std::size_t columns = 0;
+  std::size_t depth = 1;
+
+  /// Of the dataset.
+  int rank() const noexcept { return columns == 0 ? 1 : depth == 1 ? 2 : 3; }
+  /// Entries of one.
+  std::size_t width() const noexcept { return columns == 0 ? 1 : columns * depth; }
+};
+
 // Writing.
 
 /// The bytes of an HDF5 file (format 1.10) that `fill` writes into, given its root group. Made in
@@ -89,11 +103,10 @@ inline void put(const Handle& object, const std::string& attribute,
   put_attribute(object, attribute, ValueType::text, texts.data(), texts.size());
 }
 
-/// Dataset of `count` values, of shape (n) for columns 0, else (n / columns, columns). Numbers
-/// carry a checksum; large datasets are compressed, unless their chunks come `filtered`. Returned
-/// for further attributes.
+/// Dataset of `count` values. Numbers carry a checksum; large datasets are compressed, unless their
+/// chunks come `filtered`. Returned for further attributes.
 Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
-                 std::size_t count, std::size_t columns, const FilteredChunks& filtered = {});
+                 std::size_t count, const Row& row, const FilteredChunks& filtered = {});
 
 // Reading. Only hard links are followed and only data inside the file is read, so a file from
 // elsewhere cannot pull in others.
@@ -119,29 +132,27 @@ void get(const Handle& object, const std::string& attribute, T& value) {
 void get(const Handle& object, const std::string& attribute, std::vector<std::string>& texts,
          std::uint64_t most = 1'000'000);
 
-inline constexpr std::size_t any_columns = static_cast<std::size_t>(-1);
-
 /// A dataset to be read; its shape is known.
 struct Dataset {
   Handle id;
   std::string name;
   ValueType type;
   std::size_t rows;
-  std::size_t columns;  ///< 1 for one dimension
+  std::size_t columns;  ///< entries in a row; 1 for one dimension
 
   /// Entries in total.
   std::size_t count() const { return rows * columns; }
 };
-/// Throws Fault unless it has the type and shape: (n) for columns 0, else (n, columns). Allocates
-/// nothing; `budget` is the largest number of bytes it may take in memory.
+/// Throws Fault unless it has the type and rows like this, with any_columns two dimensions.
+/// Allocates nothing; `budget` is the largest number of bytes it may take in memory.
 Dataset open_array(const Handle& group, const std::string& name, ValueType type,
-                   std::uint64_t budget, std::size_t columns);
+                   std::uint64_t budget, const Row& row);
 /// Reads all entries into `values`, which has room for them.
 void read_values(const Dataset& dataset, void* values);
 template <class T>
-void get_array(const Handle& group, const std::string& name, std::uint64_t budget,
-               std::size_t columns, std::vector<T>& values) {
-  const Dataset dataset = open_array(group, name, value_type<T>, budget, columns);
+void get_array(const Handle& group, const std::string& name, std::uint64_t budget, const Row& row,
+               std::vector<T>& values) {
+  const Dataset dataset = open_array(group, name, value_type<T>, budget, row);
   values.resize(dataset.count());
   read_values(dataset, values.data());
 }

@@ -144,7 +144,7 @@ void get(const Handle& object, const std::string& attribute, std::vector<std::st
 }
 
 Dataset open_array(const Handle& group, const std::string& name, ValueType wanted,
-                   std::uint64_t budget, std::size_t columns) {
+                   std::uint64_t budget, const Row& row) {
   const std::string what = "dataset " + name;
   require_hard_link(group, name);
   Handle id(H5Dopen2(group.get(), name.c_str(), H5P_DEFAULT), H5Dclose, what + " is damaged");
@@ -157,18 +157,21 @@ Dataset open_array(const Handle& group, const std::string& name, ValueType wante
     throw Fault(what + " lies in another file");
 
   const Handle space(H5Dget_space(id.get()), H5Sclose, what + " is damaged");
-  const int rank = columns == 0 ? 1 : 2;
-  std::array<hsize_t, 2> shape{0, 0};
+  const int rank = row.rank();
+  std::array<hsize_t, 3> shape{0, 1, 1};
   if (H5Sget_simple_extent_type(space.get()) != H5S_SIMPLE ||
       H5Sget_simple_extent_ndims(space.get()) != rank ||
       H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr) != rank ||
-      (columns != 0 && columns != any_columns && shape[1] != columns)) {
+      (rank > 1 && row.columns != any_columns && shape[1] != row.columns) ||
+      shape[2] != row.depth) {
     throw Fault(what + " is not of shape " +
-                (columns == 0             ? std::string("(n)")
-                 : columns == any_columns ? std::string("(rows,columns)")
-                                          : "(n," + std::to_string(columns) + ")"));
+                (rank == 1 ? std::string("(n)")
+                 : row.columns == any_columns
+                     ? std::string("(rows,columns)")
+                     : "(n," + std::to_string(row.columns) +
+                           (rank == 2 ? "" : "," + std::to_string(row.depth)) + ")"));
   }
-  const hsize_t width = columns == 0 ? 1 : shape[1];
+  const hsize_t width = shape[1] * shape[2];
   const std::uint64_t entries = budget / bytes_of(wanted);
   if (width > entries || (width > 0 && shape[0] > entries / width)) {
     throw Fault(what + " claims " + std::to_string(shape[0]) +

@@ -60,17 +60,17 @@ struct Values {
   hid_t in_file = -1, in_memory = -1;
 };
 
-Handle new_creation_properties(std::size_t rows, std::size_t columns) {
+Handle new_creation_properties(std::size_t rows, const Row& row) {
   const std::string what = "HDF5 has no creation properties";
   Handle properties = without_times(H5P_DATASET_CREATE);
   if (rows == 0) return properties;
-  const std::size_t width = std::max<std::size_t>(columns, 1);
+  const std::size_t width = row.width();
   if (rows * width <= compact_entries) {
     require(H5Pset_layout(properties.get(), H5D_COMPACT), what);
     return properties;
   }
-  const std::array<hsize_t, 2> chunk{chunk_rows(rows, columns), width};
-  require(H5Pset_chunk(properties.get(), columns == 0 ? 1 : 2, chunk.data()), what);
+  const std::array<hsize_t, 3> chunk{chunk_rows(rows, width), row.columns, row.depth};
+  require(H5Pset_chunk(properties.get(), row.rank(), chunk.data()), what);
   if (rows * width >= compressed_from) {
     require(H5Pset_shuffle(properties.get()), what);
     require(H5Pset_deflate(properties.get(), deflate_level), what);
@@ -80,10 +80,10 @@ Handle new_creation_properties(std::size_t rows, std::size_t columns) {
 }
 
 /// Of a dataset of this shape; 0 rows: of one without a checksum.
-hid_t creation_properties(std::size_t rows, std::size_t columns) {
-  static std::map<std::pair<std::size_t, std::size_t>, hid_t> known;
-  const auto place = known.try_emplace({rows, columns}, H5I_INVALID_HID).first;
-  if (place->second < 0) place->second = new_creation_properties(rows, columns).release();
+hid_t creation_properties(std::size_t rows, const Row& row) {
+  static std::map<std::array<std::size_t, 3>, hid_t> known;
+  const auto place = known.try_emplace({rows, row.columns, row.depth}, H5I_INVALID_HID).first;
+  if (place->second < 0) place->second = new_creation_properties(rows, row).release();
   return place->second;
 }
 
@@ -167,27 +167,27 @@ void put_attribute(const Handle& object, const std::string& name, ValueType type
 }
 
 Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
-                 std::size_t count, std::size_t columns, const FilteredChunks& filtered) {
+                 std::size_t count, const Row& row, const FilteredChunks& filtered) {
   const std::string what = "cannot write dataset " + name;
-  if (columns != 0 && count % columns != 0) throw Fault(what + ": not whole rows");
-  const std::size_t rows = columns == 0 ? count : count / columns;
-  const std::array<hsize_t, 2> shape{rows, columns};
-  const Handle space(H5Screate_simple(columns == 0 ? 1 : 2, shape.data(), nullptr), H5Sclose, what);
+  const std::size_t width = row.width();
+  if (count % width != 0) throw Fault(what + ": not whole rows");
+  const std::size_t rows = count / width;
+  const std::array<hsize_t, 3> shape{rows, row.columns, row.depth};
+  const Handle space(H5Screate_simple(row.rank(), shape.data(), nullptr), H5Sclose, what);
   const Values source(type, values, count);
   // HDF5 refuses a checksum over text, which would cover pointers into the heap.
   const bool is_text = type == ValueType::text;
   Handle dataset(
       H5Dcreate2(group.get(), name.c_str(), source.in_file, space.get(), H5P_DEFAULT,
-                 creation_properties(is_text ? 0 : rows, columns),
+                 creation_properties(is_text ? 0 : rows, row),
                  count > compact_entries && count <= chunk_entries ? one_chunk() : H5P_DEFAULT),
       H5Dclose, what);
   // HDF5 writes a chunk when its cache of 1 MB is full, and those left when the dataset is closed,
   // behind its attributes: the same order gives the same file.
-  const std::size_t chunk = chunk_rows(rows, columns);
+  const std::size_t chunk = chunk_rows(rows, width);
   std::size_t before = 0;
   if (!filtered.empty()) {
-    const std::size_t left =
-        chunk_cache_bytes / (chunk * std::max<std::size_t>(columns, 1) * bytes_of(type));
+    const std::size_t left = chunk_cache_bytes / (chunk * width * bytes_of(type));
     before = filtered.size() - std::min(filtered.size(), left);
     write_chunks(dataset, filtered, 0, before, chunk, what);
   } else if (count != 0) {

@@ -75,9 +75,14 @@ struct Kkt {
 
 struct Inclusion {
   std::string name;
-  double displacement = 0;    ///< A of equation (5)
+  double displacement = 0;    ///< A of equation (5); of one that tilts u in its middle (x0, y0)
   double resultant = 0;       ///< int [T du/dnu] ds over it, equation (6): the force on it
   double contact_length = 0;  ///< length of its delaminated part in contact
+  /// Bx, By of u = A + Bx (x - x0) + By (y - y0) along it, (x0, y0) the middle of its bounding box;
+  /// 0 of one that does not tilt.
+  double slope_x = 0, slope_y = 0;
+  double moment_x = 0, moment_y = 0;  ///< on it, about its middle
+  bool tilted() const noexcept { return slope_x != 0 || slope_y != 0; }
   bool operator==(const Inclusion&) const = default;
 };
 

@@ -20,13 +20,14 @@ std::string length_fault(const Sweep& sweep) {
   arrays::for_each(
       [&](const auto& row) {
         const std::size_t have = std::invoke(row.member, sweep).size();
-        if (!fault.empty() || (have == 0 && row.name == "coefficients")) return;
+        if (!fault.empty() || (have == 0 && row.optional)) return;
         const std::size_t columns = arrays::columns_of(row.shape);
         const std::size_t want =
             sweep.extent(row.shape.substr(0, row.shape.find(','))) *
             (columns == 0               ? 1
-             : columns == arrays::named ? sweep.extent(row.shape.substr(row.shape.find(',') + 1))
-                                        : columns);
+             : columns == arrays::named ? sweep.extent(arrays::second_of(row.shape))
+                                        : columns) *
+            arrays::depth_of(row.shape);
         if (have == want) return;
         fault = "sweep." + std::string(row.name) + " has " + std::to_string(have) +
                 " entries instead of " + std::to_string(want);
@@ -79,10 +80,17 @@ std::size_t Sweep::extent(std::string_view word) const noexcept {
                                 : kept.size();
 }
 
+bool SweepSummary::tilted() const noexcept {
+  for (std::size_t i = 0; i < slope.size(); ++i)
+    if (tilted(i)) return true;
+  return false;
+}
+
 SweepSummary summary(const Sweep& sweep) {
   SweepSummary result;
   const std::size_t inclusions = sweep.inclusions.size();
   result.displacement.resize(inclusions);
+  result.slope.resize(inclusions);
   for (std::size_t row = 0; row < sweep.rows(); ++row) {
     const Status status = sweep.status[row];
     result.not_converged += status == Status::not_converged ? 1U : 0U;
@@ -93,8 +101,11 @@ SweepSummary summary(const Sweep& sweep) {
     result.worst_kkt = std::fmax(result.worst_kkt, sweep.kkt[row]);
     widen(result.energy, sweep.energy[row]);
     widen(result.contact_length, sweep.contact_length[row]);
-    for (std::size_t i = 0; i < inclusions; ++i)
+    for (std::size_t i = 0; i < inclusions; ++i) {
       widen(result.displacement[i], sweep.displacement[row * inclusions + i]);
+      for (const std::size_t part : {0U, 1U})
+        widen(result.slope[i][part], sweep.slope_at(row, i, part));
+    }
   }
   result.other = sweep.rows() - result.converged - result.not_converged - result.failed;
   return result;

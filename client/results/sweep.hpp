@@ -3,6 +3,8 @@
 // Many load cases on one mesh, answered in columns: row k of every array is load case k.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -28,6 +30,7 @@ struct Sweep {
   std::vector<double> contact_length;       ///< (rows) over all cracks and delaminated parts
   std::vector<double> kkt;                  ///< (rows) largest relative residual
   std::vector<double> displacement;         ///< (rows, inclusions) row-major: A of equation (5)
+  std::vector<double> slope;                ///< (rows, inclusions, 2) Bx, By; empty: none tilts
   std::vector<std::uint8_t> contact;        ///< (rows, contacts) row-major: 1 closed under pressure
   std::vector<std::int32_t> contact_nodes;  ///< (contacts, 2): interface, and node of it
 
@@ -42,6 +45,10 @@ struct Sweep {
   std::size_t contacts() const noexcept { return contact_nodes.size() / 2; }
   /// The number for a word of a shape: "rows", "contacts", "inclusions", "loads", "kept".
   std::size_t extent(std::string_view word) const noexcept;
+  /// Bx (part 0) or By (part 1) of an inclusion in a row; 0 where none tilts.
+  double slope_at(std::size_t row, std::size_t inclusion, std::size_t part) const noexcept {
+    return slope.empty() ? 0 : slope[(row * inclusions.size() + inclusion) * 2 + part];
+  }
   bool operator==(const Sweep&) const = default;
 };
 
@@ -50,13 +57,22 @@ struct SweepSummary {
   struct Range {
     double low = std::numeric_limits<double>::quiet_NaN();  ///< NaN where no row converged
     double high = std::numeric_limits<double>::quiet_NaN();
+    bool nonzero() const noexcept { return low < 0 || high > 0; }
   };
   std::size_t converged = 0, not_converged = 0, failed = 0;
   std::size_t other = 0;  ///< cancelled, or not begun
   std::int32_t most_steps = 0;
-  double worst_kkt = 0;             ///< over the converged rows
-  std::vector<Range> displacement;  ///< one an inclusion
+  double worst_kkt = 0;                     ///< over the converged rows
+  std::vector<Range> displacement;          ///< one an inclusion
+  std::vector<std::array<Range, 2>> slope;  ///< of Bx and By, one an inclusion
   Range contact_length, energy;
+
+  /// Whether the inclusion has a slope in a row that converged.
+  bool tilted(std::size_t inclusion) const noexcept {
+    return std::ranges::any_of(slope[inclusion], &Range::nonzero);
+  }
+  /// Whether any has.
+  bool tilted() const noexcept;
 };
 
 /// O(rows).

@@ -11,6 +11,7 @@ namespace anticrack::results::tables {
 
 using arrays::array;
 using arrays::explained;
+using arrays::optional;
 using arrays::scalar;
 using arrays::within;
 
@@ -97,6 +98,13 @@ inline constexpr auto inclusions = std::tuple{
     array("A", "i", &Inclusion::displacement, "equation (5)"),
     array("resultant", "i", &Inclusion::resultant, "the force on it, equation (6)"),
     array("contact_length", "i", &Inclusion::contact_length, "of its delaminated part"),
+    // Files from before inclusions could tilt lack what follows.
+    optional(array("Bx", "i", &Inclusion::slope_x, "")),
+    optional(array("By", "i", &Inclusion::slope_y,
+                   "u = A + Bx (x - x0) + By (y - y0) along it, (x0, y0) the middle of its "
+                   "bounding box; 0 unless it tilts")),
+    optional(array("Mx", "i", &Inclusion::moment_x, "")),
+    optional(array("My", "i", &Inclusion::moment_y, "the moment on it about (x0, y0)")),
 };
 inline constexpr auto contact_intervals = std::tuple{
     array("interface", "c", &ContactInterval::interface, "index into /interfaces"),
@@ -117,8 +125,8 @@ inline constexpr auto sweep_kept = std::tuple{
     explained("kept", "kept", &Sweep::kept, "rows whose traces are in /loads/row-K"),
 };
 inline constexpr auto sweep_loads = std::tuple{
-    explained("coefficients", "rows,loads", &Sweep::coefficients,
-              "of each load, in the order of the attribute loads"),
+    optional(explained("coefficients", "rows,loads", &Sweep::coefficients,
+                       "of each load, in the order of the attribute loads")),
 };
 /// All arrays of /sweep.
 inline constexpr auto sweep_arrays =

@@ -67,7 +67,7 @@ void put_mesh(const Handle& root, const Mesh& mesh, const CompressedMesh& compre
         const auto chunks = compressed.find(std::string(row.name));
         hdf5::put_array(group, std::string(row.name),
                         value_type<std::ranges::range_value_t<decltype(values)>>, values.data(),
-                        values.size(), arrays::columns_of(row.shape),
+                        values.size(), {arrays::columns_of(row.shape)},
                         chunks == compressed.end() ? hdf5::FilteredChunks() : chunks->second);
       },
       tables::mesh);

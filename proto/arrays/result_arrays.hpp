@@ -82,11 +82,14 @@ inline constexpr auto sweep_contacts = std::tuple{
               "column of contact -> interface, and index of the node in its s, x, y"),
 };
 
-/// Below sweep_folder: a row for each row of the sweep. No array where it would have no column.
+/// Below sweep_folder: a row for each row of the sweep. No array where it would have no column, and
+/// no slope where no inclusion tilts.
 template <class Columns>
 inline constexpr auto sweep_matrices = std::tuple{
     explained("displacement", "rows,inclusions", &Columns::displacement,
               "A of each inclusion, in the order of the attribute inclusions"),
+    optional(explained("slope", "rows,inclusions,2", &Columns::slope,
+                       "Bx, By of each inclusion; none where no inclusion tilts")),
     explained("contact", "rows,contacts", &Columns::contact,
               "1 where the node is closed under pressure"),
 };

@@ -21,6 +21,7 @@ struct Array {
   std::string_view what;    ///< for people
   bool explained = false;   ///< files say `what`, too: the numbers do not explain themselves
   std::string_view unit{};  ///< for people; empty: that of the case
+  bool optional = false;    ///< may be missing: the member then is empty, or its default
 };
 
 /// A row: a std::vector of numbers or texts, or with an empty shape a single one.
@@ -44,6 +45,13 @@ constexpr Array<Member> scalar(std::string_view name, Member member, std::string
   return {name, {}, member, what, false, unit};
 }
 
+/// The same row, of what may be missing.
+template <class Member>
+constexpr Array<Member> optional(Array<Member> row) {
+  row.optional = true;
+  return row;
+}
+
 /// A member of a member.
 template <class Outer, class Inner>
 constexpr auto within(Outer outer, Inner inner) {
@@ -62,12 +70,27 @@ void for_each(Visit&& visit, const Tables&... tables) {
 /// Columns that a shape names by a word: their number depends on other arrays.
 inline constexpr std::size_t named = static_cast<std::size_t>(-1);
 
+/// The second extent of a shape, as "inclusions" of "rows,inclusions,2"; empty where it has one.
+constexpr std::string_view second_of(std::string_view shape) {
+  const std::size_t comma = shape.find(',');
+  if (comma == std::string_view::npos) return {};
+  const std::string_view rest = shape.substr(comma + 1);
+  return rest.substr(0, rest.find(','));
+}
+
 /// Columns of a shape: 0 for one of one dimension, else their number, or `named`.
 constexpr std::size_t columns_of(std::string_view shape) {
-  const std::size_t comma = shape.find(',');
-  if (comma == std::string_view::npos) return 0;
-  const char digit = shape[comma + 1];  // more than one is not needed
+  const std::string_view second = second_of(shape);
+  if (second.empty()) return 0;
+  const char digit = second[0];  // more than one is not needed
   return digit >= '0' && digit <= '9' ? static_cast<std::size_t>(digit - '0') : named;
+}
+
+/// The third extent of a shape, a digit: 2 of "rows,inclusions,2"; 1 where it has none.
+constexpr std::size_t depth_of(std::string_view shape) {
+  const std::size_t comma = shape.rfind(',');
+  if (comma == shape.find(',')) return 1;
+  return static_cast<std::size_t>(shape[comma + 1] - '0');
 }
 
 /// What a row's member is in a struct.

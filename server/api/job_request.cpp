@@ -29,6 +29,8 @@ void require_loads(const v1::Job& job) {
                   "point forces");
     require_count(load.inclusion_forces().size(), fem::max_named_forces,
                   field + ".inclusion_forces", "forces on inclusions");
+    require_count(load.inclusion_moments().size(), fem::max_named_forces,
+                  field + ".inclusion_moments", "moments on inclusions");
     if (load.force().has_array())
       upload_sha256(load.force().array().upload(), field + ".force.array.upload");
   }

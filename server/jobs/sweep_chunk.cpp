@@ -44,9 +44,7 @@ class ChunkRows {
         _first(_plan.first_row(task.index)),
         _count(_plan.rows_in(task.index)),
         _stop(_job.stop.get_token()),
-        _columns(std::make_shared<SweepColumns>(_count,
-                                                _job.mesh_operator->mesh().inclusions.size(),
-                                                _job.mesh_operator->contact_nodes().size())) {}
+        _columns(std::make_shared<SweepColumns>(unsolved_rows(_job, _count))) {}
 
   const std::shared_ptr<SweepColumns>& columns() const noexcept { return _columns; }
 

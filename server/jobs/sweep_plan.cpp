@@ -20,8 +20,13 @@ constexpr std::size_t contacts_a_chunk = std::size_t{1} << 15U;
 /// Loads are condensed in blocks of 32 columns: more would not make a row cheaper.
 constexpr std::size_t most_forces = 32;
 constexpr std::size_t force_bytes_a_chunk = std::size_t{64} << 20U;
-/// A chunk is one message to a watcher, and its displacements are most of it: half a megabyte.
-constexpr std::size_t displacements_a_chunk = std::size_t{1} << 16U;
+/// A chunk is one message to a watcher, and how inclusions moved is most of it: half a megabyte.
+constexpr std::size_t motions_a_chunk = std::size_t{1} << 16U;
+
+/// Numbers that say how the inclusions moved in a row: A of each and, where one tilts, Bx, By.
+std::size_t motions(const mesh::Mesh& mesh) {
+  return mesh.inclusions.size() * (contact::tilts(mesh) ? 3 : 1);
+}
 
 /// Of the arrays of sweep_result.hpp.
 std::uint64_t result_bytes(const operators::MeshOperator& mesh_operator, std::uint64_t rows,
@@ -35,22 +40,22 @@ std::uint64_t result_bytes(const operators::MeshOperator& mesh_operator, std::ui
   std::uint64_t nodes = 0;
   for (const contact::TraceGeometry& interface : mesh_operator.trace_geometry())
     nodes += interface.s.size();
-  return rows * (a_row + sizeof(double) * mesh_operator.mesh().inclusions.size() + contacts) +
+  return rows * (a_row + sizeof(double) * motions(mesh_operator.mesh()) + contacts) +
          contacts * 2 * sizeof(std::int32_t) + nodes * (a_node + traces * a_trace_node) +
-         alignment * (8 + interfaces * (4 + 5 * traces));
+         alignment * (9 + interfaces * (4 + 5 * traces));
 }
 
 }  // namespace
 
 std::size_t chunk_rows(SweepSpec::Cases cases, std::size_t nodes, std::size_t contacts,
-                       std::size_t inclusions) {
+                       std::size_t motions) {
   constexpr std::size_t one = 1;
   const std::size_t rows =
       cases == SweepSpec::Cases::combinations
           ? std::clamp(contacts_a_chunk / std::max(one, contacts), fewest_combinations,
                        most_combinations)
           : std::clamp(force_bytes_a_chunk / (sizeof(double) * nodes), one, most_forces);
-  return std::min(rows, std::max(one, displacements_a_chunk / std::max(one, inclusions)));
+  return std::min(rows, std::max(one, motions_a_chunk / std::max(one, motions)));
 }
 
 SweepPlan plan_sweep(const store::JobSpec& spec, MatrixFile matrix,
@@ -62,7 +67,7 @@ SweepPlan plan_sweep(const store::JobSpec& spec, MatrixFile matrix,
   plan.rows = rows_of(sweep, matrix.values, plan.columns, options.max_sweep_rows);
   plan.matrix = std::move(matrix.path);
   plan.chunk_rows = chunk_rows(sweep.cases, nodes, mesh_operator.contact_nodes().size(),
-                               mesh_operator.mesh().inclusions.size());
+                               motions(mesh_operator.mesh()));
   plan.result_bytes = result_bytes(mesh_operator, plan.rows, sweep.traces.size());
   if (plan.result_bytes > options.max_result_bytes) {
     throw Error(Reason::limit_exceeded, "the answers to " + std::to_string(plan.rows) +

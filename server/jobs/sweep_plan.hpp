@@ -36,9 +36,9 @@ struct SweepPlan {
 };
 
 /// Rows of a chunk: about what a thread solves in some milliseconds, long against the lock and the
-/// event it costs, short against a turn.
+/// event it costs, short against a turn. `motions`: numbers that say how the inclusions moved.
 std::size_t chunk_rows(store::SweepSpec::Cases cases, std::size_t nodes, std::size_t contacts,
-                       std::size_t inclusions);
+                       std::size_t motions);
 
 /// Throws errors::Error as rows_of does, and limit_exceeded at matrix_field where the columns of
 /// the answers would be larger than a result may be.

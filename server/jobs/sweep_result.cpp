@@ -22,8 +22,7 @@ using store::Spool;
 
 /// A chunk of that many rows without an answer.
 store::Block no_answers(const LiveJob& job, std::size_t rows, contact::Status status) {
-  SweepColumns columns(rows, job.mesh_operator->mesh().inclusions.size(),
-                       job.mesh_operator->contact_nodes().size());
+  SweepColumns columns = unsolved_rows(job, rows);
   std::ranges::fill(columns.status, status);
   return chunk_arrays(columns);
 }
@@ -66,6 +65,12 @@ Contacts contacts_of(const std::vector<std::array<std::int32_t, 2>>& nodes) {
 
 }  // namespace
 
+SweepColumns unsolved_rows(const LiveJob& job, std::size_t rows) {
+  const mesh::Mesh& mesh = job.mesh_operator->mesh();
+  return {rows, mesh.inclusions.size(), job.mesh_operator->contact_nodes().size(),
+          contact::tilts(mesh)};
+}
+
 store::Block chunk_arrays(const SweepColumns& columns) {
   BlockBuilder builder;
   arrays::for_each(
@@ -76,10 +81,14 @@ store::Block chunk_arrays(const SweepColumns& columns) {
       arrays::sweep_rows<SweepColumns>);
   arrays::for_each(
       [&](const auto& row) {
-        const std::size_t width =
-            row.shape.ends_with(",inclusions") ? columns.inclusions : columns.contacts;
-        builder.add(arrays::sweep_folder() + std::string(row.name),
-                    std::invoke(row.member, columns), {columns.rows(), width});
+        const auto& values = std::invoke(row.member, columns);
+        if (row.optional && values.empty()) return;
+        const bool by_inclusion = arrays::second_of(row.shape) == "inclusions";
+        std::vector<std::uint64_t> shape{columns.rows(),
+                                         by_inclusion ? columns.inclusions : columns.contacts};
+        if (const std::size_t depth = arrays::depth_of(row.shape); depth > 1)
+          shape.push_back(depth);
+        builder.add(arrays::sweep_folder() + std::string(row.name), values, std::move(shape));
       },
       arrays::sweep_matrices<SweepColumns>);
   return builder.take();

@@ -10,6 +10,9 @@
 
 namespace anticrack::jobs {
 
+/// Columns for that many rows on the job's mesh, none with an answer yet.
+contact::SweepColumns unsolved_rows(const LiveJob& job, std::size_t rows);
+
 /// The rows of a chunk: the arrays of arrays::sweep_rows and sweep_matrices.
 store::Block chunk_arrays(const contact::SweepColumns& columns);
 

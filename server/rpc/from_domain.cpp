@@ -146,6 +146,10 @@ void append(v1::SweepRows& rows, const jobs::RowsEvent& event, std::size_t first
   append_rows(*rows.mutable_kkt(), from.kkt, first, count);
   append_rows(*rows.mutable_displacement(), from.displacement, first * from.inclusions,
               count * from.inclusions);
+  if (!from.slope.empty()) {
+    append_rows(*rows.mutable_slope(), from.slope, first * 2 * from.inclusions,
+                count * 2 * from.inclusions);
+  }
 }
 
 }  // namespace anticrack::rpc

@@ -24,6 +24,7 @@ constexpr std::array features{
     "force.expression",
     "force.per_region",
     "inclusion_forces",
+    "inclusion_moments",
     "mass.consistent",
     "mass.lumped",
     "mesh.align",

@@ -56,4 +56,13 @@ inline results::Result sample_sweep(std::size_t rows = 21, int n = 10) {
   return result;
 }
 
+/// The same of an inclusion that tilts: Bx = 0.2 c and By = -0.5 for the coefficient c.
+inline results::Result tilting_sweep(std::size_t rows = 21, int n = 10) {
+  results::Result result = sample_sweep(rows, n);
+  for (const double a : result.sweep->displacement) {
+    result.sweep->slope.insert(result.sweep->slope.end(), {2 * a, -0.5});
+  }
+  return result;
+}
+
 }  // namespace anticrack::testing

@@ -25,6 +25,7 @@ Load good() {
   load.traction = "y > 0 ? 1 : 0";
   load.point_forces = {{0.1, 0.2, 3}, {0.1, 0.2, -3}};
   load.inclusion_forces = {{"fibre", 2.0}};
+  load.inclusion_moments = {{"fibre", {0.5, -0.25}}};
   return load;
 }
 
@@ -60,6 +61,10 @@ TEST(LoadCheck, NamesTheFieldAtFault) {
   EXPECT_TRUE(
       refuses([](Load& load) { load.point_forces[1].value = HUGE_VAL; }, "point_forces[1].value"));
   EXPECT_TRUE(refuses([](Load& load) { load.inclusion_forces["b"] = nan; }, "inclusion_forces[b]"));
+  EXPECT_TRUE(
+      refuses([](Load& load) { load.inclusion_moments["b"].x = nan; }, "inclusion_moments[b]"));
+  EXPECT_TRUE(refuses([](Load& load) { load.inclusion_moments["b"].y = HUGE_VAL; },
+                      "inclusion_moments[b]"));
 }
 
 TEST(LoadCheck, CountsWhatACaseMayHave) {
@@ -72,6 +77,13 @@ TEST(LoadCheck, CountsWhatACaseMayHave) {
         }
       },
       "inclusion_forces", Reason::limit_exceeded));
+  EXPECT_TRUE(refuses(
+      [](Load& load) {
+        for (std::size_t i = 0; i <= max_named_forces; ++i) {
+          load.inclusion_moments[std::to_string(i)] = {1, 0};
+        }
+      },
+      "inclusion_moments", Reason::limit_exceeded));
   EXPECT_TRUE(refuses(
       [](Load& load) {
         PerRegion regions;

@@ -175,6 +175,12 @@ TEST(Fingerprint, IsThatOfTheWholeJob) {
       },
       [](JobSpec& spec) { spec.loads[3].inclusion_forces["fibre"] = 2; },
       [](JobSpec& spec) { spec.loads[3].inclusion_forces["other"] = 0; },
+      [](JobSpec& spec) {
+        spec.loads[3].inclusion_moments["fibre"] = {2, 0};
+      },
+      [](JobSpec& spec) {
+        spec.loads[3].inclusion_moments["fibre"] = {0, 2};
+      },
       [](JobSpec& spec) { std::get<fem::Array>(spec.loads[3].force).per_triangle = false; },
       [](JobSpec& spec) { std::get<fem::Array>(spec.loads[3].force).upload[0] = 'b'; },
       [](JobSpec& spec) { spec.loads.pop_back(); },

@@ -19,12 +19,17 @@ using errors::Reason;
 /// A job of 300 rows in two chunks, as it is when a thread takes the first.
 class ChunkTest : public ::testing::Test {
  protected:
-  ChunkTest() {
+  explicit ChunkTest(bool tilt = false) {
     store::JobRecord record;
     record.spec = combinations("mesh", upload(backend, eighths(300 * std::size_t{3})));
     job = std::make_shared<LiveJob>(1, record, 1, 1U << 20U, nullptr);
     const std::string mesh = ready_mesh(backend, 0.25);
     job->mesh_operator = backend.catalogue.find(mesh);
+    if (tilt) {
+      auto tilting = std::make_shared<mesh::Mesh>(job->mesh_operator->mesh());
+      tilting->motions.assign(tilting->inclusions.size(), {true, {}});
+      job->mesh_operator = operators::MeshOperator::factorise(tilting, 1, {});
+    }
     job->spool = backend.store->new_spool();
     job->sweep = std::make_unique<LiveSweep>(
         plan_sweep(*job->spec, find_matrix(*job->spec->sweep, *backend.store, ""),
@@ -52,6 +57,30 @@ TEST_F(ChunkTest, HasItsRows) {
   add(sum, last.record);
   EXPECT_EQ(sum.converged, 300U);
   EXPECT_EQ(sum.worst_kkt, std::max(first.record.worst_kkt, last.record.worst_kkt));
+}
+
+class TiltingChunkTest : public ChunkTest {
+ protected:
+  TiltingChunkTest() : ChunkTest(true) {}
+};
+
+TEST_F(ChunkTest, HasNoSlopesWhereNothingTilts) {
+  job->sweep->chunks[0] = solve(0).solved;
+  const auto block = sweep_result(*job, contact::Status::cancelled);
+  EXPECT_EQ(layout(*block, "sweep/slope"), nullptr);
+}
+
+TEST_F(TiltingChunkTest, HasSlopesOfEveryRowAndTheBytesThatWerePlanned) {
+  job->sweep->chunks[1] = solve(1).solved;
+  const auto block = sweep_result(*job, contact::Status::cancelled);
+  const store::ArrayLayout* slope = layout(*block, "sweep/slope");
+  ASSERT_TRUE(slope);
+  const std::uint64_t inclusions = job->mesh_operator->mesh().inclusions.size();
+  EXPECT_EQ(slope->shape, (std::vector<std::uint64_t>{300, inclusions, 2}));
+  EXPECT_EQ(array<std::int32_t>(*block, "sweep/status")->back(), converged);
+  EXPECT_EQ(array<double>(*block, "sweep/slope")->front(), 0) << "of a row without an answer";
+  EXPECT_LE(block->size(), job->sweep->plan.result_bytes);
+  EXPECT_GT(block->size() + 1000, job->sweep->plan.result_bytes);
 }
 
 TEST_F(ChunkTest, IsLeftWhereItsJobStops) {

@@ -64,7 +64,7 @@ TEST(LoadKey, TellsLoadsApartByAllButTheirNames) {
     const fem::Load* const one[] = {&load};
     return key_of(one);
   };
-  std::vector<fem::Load> loads(11);
+  std::vector<fem::Load> loads(13);
   loads[1].force = 1.0;
   loads[2].force = fem::Expression{"1"};
   loads[3].force = fem::PerRegion{{{"upper", 1.0}}};
@@ -75,6 +75,8 @@ TEST(LoadKey, TellsLoadsApartByAllButTheirNames) {
   loads[8].inclusion_forces["bar"] = 1;
   loads[9].force = fem::Array{"hash", true, nullptr};
   loads[10].force = fem::Array{"hash", false, nullptr};
+  loads[11].inclusion_moments["bar"] = {1, 0};
+  loads[12].inclusion_moments["bar"] = {0, 1};
   for (std::size_t i = 0; i < loads.size(); ++i) {
     fem::Load renamed = loads[i];
     renamed.name = "name";

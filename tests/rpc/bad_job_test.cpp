@@ -105,6 +105,11 @@ const std::vector<BadJob>& bad_jobs() {
       {"InclusionForceNan",
        [](auto& job) { (*job.mutable_load_cases(0)->mutable_inclusion_forces())["fibre"] = nan; },
        "INVALID_ARGUMENT", "job.load_cases[0].inclusion_forces[fibre]"},
+      {"InclusionMomentNan",
+       [](auto& job) {
+         (*job.mutable_load_cases(0)->mutable_inclusion_moments())["fibre"].set_y(nan);
+       },
+       "INVALID_ARGUMENT", "job.load_cases[0].inclusion_moments[fibre]"},
   };
   return all;
 }

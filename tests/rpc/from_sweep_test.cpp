@@ -60,6 +60,19 @@ TEST(FromSweep, GoesOnWhereTheMessageEnds) {
   EXPECT_THAT(rows.displacement(), ElementsAre(1000, 1001, 1000));
 }
 
+TEST(FromSweep, TellsSlopesWhereAnInclusionTilts) {
+  auto columns = std::make_shared<contact::SweepColumns>(3, 2, 0, true);
+  for (std::size_t i = 0; i < columns->slope.size(); ++i) {
+    columns->slope[i] = static_cast<double>(i);
+  }
+  v1::SweepRows rows;
+  append(rows, {0, columns}, 1, 2);
+  EXPECT_THAT(rows.slope(), ElementsAre(4, 5, 6, 7, 8, 9, 10, 11));
+  v1::SweepRows none;
+  append(none, event_of(0, 3, 2), 1, 2);
+  EXPECT_EQ(none.slope_size(), 0);
+}
+
 TEST(FromSweep, TellsRowsOfAMeshWithoutInclusions) {
   v1::SweepRows rows;
   append(rows, event_of(0, 2, 0), 0, 2);

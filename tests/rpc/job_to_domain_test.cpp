@@ -174,6 +174,9 @@ TEST(JobFromDomain, TellsTheWholeJobAgain) {
   point.mutable_at()->set_x(0.5);
   point.set_value(4);
   (*load.mutable_inclusion_forces())["fibre"] = -5;
+  v1::InclusionMoment& moment = (*load.mutable_inclusion_moments())["fibre"];
+  moment.set_x(0.5);
+  moment.set_y(-0.25);
   load.mutable_force()->mutable_array()->set_upload("uploads/" + std::string(64, 'c'));
   load.mutable_force()->mutable_array()->set_per_triangle(true);
   store::JobRecord record;
@@ -182,10 +185,24 @@ TEST(JobFromDomain, TellsTheWholeJobAgain) {
   const v1::Job told = from_domain(record);
   EXPECT_EQ(told.solver().SerializeAsString(), job.solver().SerializeAsString());
   EXPECT_EQ(told.load_cases(0).SerializeAsString(), load.SerializeAsString());
+  EXPECT_EQ(record.spec.loads[0].inclusion_moments.at("fibre").y, -0.25);
 
   job.mutable_solver()->mutable_uzawa()->set_kkt_tolerance(1e-9);
   record.spec = to_spec(job, limits);
   EXPECT_EQ(from_domain(record).solver().uzawa().kkt_tolerance(), 1e-9);
+}
+
+TEST(AnswerFromDomain, TellsHowAnInclusionTilts) {
+  store::CaseRecord record;
+  record.status = contact::Status::converged;
+  record.answer.inclusions = {{"fibre", 1, 2, 3, 4, 5, 6, 7}};
+  const v1::LoadCaseAnswer told = from_domain(record, "a");
+  ASSERT_EQ(told.inclusions_size(), 1);
+  EXPECT_EQ(told.inclusions(0).contact_length(), 3);
+  EXPECT_EQ(told.inclusions(0).slope_x(), 4);
+  EXPECT_EQ(told.inclusions(0).slope_y(), 5);
+  EXPECT_EQ(told.inclusions(0).moment_x(), 6);
+  EXPECT_EQ(told.inclusions(0).moment_y(), 7);
 }
 
 TEST(AnswerFromDomain, TellsWarningsAndWhatJustTouches) {
@@ -229,6 +246,13 @@ TEST(JobToDomain, RefusesWhatItsTypesCannotExpress) {
         }
       },
       Reason::limit_exceeded, "job.load_cases[0].inclusion_forces");
+  expect_job_refused(
+      [](auto& job) {
+        for (std::size_t i = 0; i <= fem::max_named_forces; ++i) {
+          (*job.mutable_load_cases(0)->mutable_inclusion_moments())[std::to_string(i)].set_x(1);
+        }
+      },
+      Reason::limit_exceeded, "job.load_cases[0].inclusion_moments");
   expect_job_refused(
       [](auto& job) {
         for (std::size_t i = 0; i <= fem::max_point_forces; ++i) {

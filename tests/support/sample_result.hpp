@@ -99,7 +99,7 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
   load.weakly_active = 3;
   load.solve_seconds = 0.05;
   load.warnings = {"f jumps along a curve that the mesh does not follow"};
-  load.inclusions = {{"fibre", 0.0863, 1e-12, contact ? 0.3 : 0.0}};
+  load.inclusions = {{"fibre", 0.0863, 1e-12, contact ? 0.3 : 0.0, 0, 0, 0.01, -0.02}};
 
   results::Trace trace;
   for (std::size_t i = 0; i < interface.node_count(); ++i) {

@@ -217,6 +217,7 @@ TEST(Case, TakesEveryKindOfLoad) {
 boundary_value = "-y"
 point_forces = [{at = [0.5, 0.25], value = -2}, {at = [0, 0.5], value = 1}]
 inclusion_forces = {fibre = 2}
+inclusion_moments = {fibre = [0.5, -0.25]}
 )"));
   const v1::LoadCase& load = the_case.job.load_cases(0);
   EXPECT_FALSE(load.has_force());
@@ -226,9 +227,12 @@ inclusion_forces = {fibre = 2}
   EXPECT_EQ(load.point_forces(0).at().y(), 0.25);
   EXPECT_EQ(load.point_forces(0).value(), -2);
   EXPECT_EQ(load.inclusion_forces().at("fibre"), 2);
+  EXPECT_EQ(load.inclusion_moments().at("fibre").x(), 0.5);
+  EXPECT_EQ(load.inclusion_moments().at("fibre").y(), -0.25);
   EXPECT_EQ(the_case.locate("job.load_cases[0].point_forces[1].at")->line, 19U);
   EXPECT_EQ(the_case.locate("job.load_cases[0].inclusion_forces[fibre]")->key,
             "load.0.inclusion_forces.fibre");
+  EXPECT_EQ(the_case.locate("job.load_cases[0].inclusion_moments[fibre]")->line, 21U);
   EXPECT_EQ(the_case.locate("job.load_cases[0].traction")->line, 17U);
 }
 

@@ -39,7 +39,7 @@ const Mistake mistakes[] = {
      "plate.toml:12: slover: unknown key; did you mean solver?"},
     {"unknown_key_in_list", "f = 1\n", "force = 1\n",
      "plate.toml:17: load.0.force: unknown key; known are boundary_value, f, "
-     "inclusion_forces, name, point_forces, traction"},
+     "inclusion_forces, inclusion_moments, name, point_forces, traction"},
     {"theta_text", "theta = 1.5", "theta = \"fast\"",
      "plate.toml:13: solver.theta: 'fast' is not a finite number; write a number above 0, or "
      "\"auto\""},
@@ -301,6 +301,18 @@ const Mistake load_mistakes[] = {
          "plate.toml:17: load.0.inclusion_forces.fibre: '2' is not a finite number; write "
          "inclusion = "
          "number for each of them"),
+    load("inclusion_moments_list", "inclusion_moments = [0, 1]\n",
+         "plate.toml:17: load.0.inclusion_moments: [ 0, 1 ] is not a table; write inclusion = "
+         "[Mx, My] for each of them"),
+    load("inclusion_moment_number", "inclusion_moments = {fibre = 2}\n",
+         "plate.toml:17: load.0.inclusion_moments.fibre: 2 is not a moment; write inclusion = "
+         "[Mx, My] for each of them"),
+    load("inclusion_moment_of_three", "inclusion_moments = {fibre = [0, 0, 2]}\n",
+         "plate.toml:17: load.0.inclusion_moments.fibre: [ 0, 0, 2 ] is not a moment; write "
+         "inclusion = [Mx, My] for each of them"),
+    load("inclusion_moment_nan", "inclusion_moments = {fibre = [0, nan]}\n",
+         "plate.toml:17: load.0.inclusion_moments.fibre: nan is not a finite number; write "
+         "inclusion = [Mx, My] for each of them"),
 };
 
 std::string name_of(const ::testing::TestParamInfo<Mistake>& mistake) { return mistake.param.what; }

@@ -75,11 +75,29 @@ TEST(AnswersTable, NamesInclusionsWhereThereAreSeveral) {
   EXPECT_THAT(text, ::testing::HasSubstr("-0.5"));
 }
 
+TEST(AnswersTable, HasSlopeAndMomentOfWhatTilts) {
+  results::Result result = two_loads();
+  result.loads[0].inclusions = {{"fibre", 0.25, 0, 0, 0, 0, 7, 7},
+                                {"rod", -0.5, 0, 0, 0.125, 0, 3, -4}};
+  EXPECT_EQ(answers_table(result),
+            "load     status     iterations  criterion  A fibre  A rod  Bx rod  By rod  Mx rod  "
+            "My rod     energy  contact length  theta  theta*  wall time\n"
+            "                             -          -        -      -       -       -       -  "
+            "     -          -               -      -       -          s\n"
+            "opening  converged         346   9.92e-13     0.25   -0.5   0.125       0       3  "
+            "    -4  -0.163945               0      2   1.743      0.012\n"
+            "failed   failed              0          -        -      -       -       -       -  "
+            "     -          -               -      -       -          0\n"
+            "failed: the expression is not finite at? (0, 0)\n");
+}
+
 TEST(AnswersJson, IsOneDocumentWithEveryLoad) {
   google::protobuf::Struct parsed;
+  results::Result result = two_loads();
+  result.loads[0].inclusions[0].slope_y = -0.25;
+  result.loads[0].inclusions[0].moment_y = 4;
   ASSERT_TRUE(
-      google::protobuf::util::JsonStringToMessage(answers_json(two_loads(), "out.h5"), &parsed)
-          .ok());
+      google::protobuf::util::JsonStringToMessage(answers_json(result, "out.h5"), &parsed).ok());
   EXPECT_EQ(parsed.fields().at("title").string_value(), "A plate");
   EXPECT_EQ(parsed.fields().at("file").string_value(), "out.h5");
   const auto& answers = parsed.fields().at("answers").list_value();
@@ -89,6 +107,8 @@ TEST(AnswersJson, IsOneDocumentWithEveryLoad) {
   EXPECT_EQ(opening.at("iterations").number_value(), 346);
   const auto& inclusion = opening.at("inclusions").list_value().values(0).struct_value().fields();
   EXPECT_EQ(inclusion.at("A").number_value(), 0.086569);
+  EXPECT_EQ(inclusion.at("By").number_value(), -0.25);
+  EXPECT_EQ(inclusion.at("My").number_value(), 4);
   const auto& failed = answers.values(1).struct_value().fields();
   EXPECT_EQ(failed.at("energy").kind_case(), google::protobuf::Value::kNullValue);
 }

@@ -15,6 +15,7 @@ namespace anticrack::cli {
 namespace {
 
 using anticrack::testing::sample_sweep;
+using anticrack::testing::tilting_sweep;
 using results::Status;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -33,6 +34,16 @@ TEST(SweepTable, SumsUp) {
             "contact length      0   0.9\n"
             "energy             -2    -1\n"
             "traces of 2 rows\n");
+}
+
+TEST(SweepTable, HasTheSlopesOfWhatTilts) {
+  EXPECT_THAT(answers_table(tilting_sweep(5)), HasSubstr("A                -0.1   0.1\n"
+                                                         "Bx               -0.2   0.2\n"
+                                                         "By               -0.5  -0.5\n"
+                                                         "contact length"));
+  results::Result level = sample_sweep(5);
+  level.sweep->slope.assign(10, 0.0);
+  EXPECT_EQ(answers_table(level), answers_table(sample_sweep(5)));
 }
 
 TEST(SweepTable, NamesSeveralInclusionsAndWhatWentWrong) {
@@ -61,7 +72,7 @@ TEST(SweepTable, HasNoNumbersWhereNothingConverged) {
 TEST(SweepJson, IsADocumentWithTheSameNumbers) {
   google::protobuf::Struct document;
   ASSERT_TRUE(
-      google::protobuf::util::JsonStringToMessage(answers_json(sample_sweep(5), "a.h5"), &document)
+      google::protobuf::util::JsonStringToMessage(answers_json(tilting_sweep(5), "a.h5"), &document)
           .ok());
   const auto& sweep = document.fields().at("sweep").struct_value().fields();
   EXPECT_EQ(sweep.at("rows").number_value(), 5);
@@ -72,6 +83,7 @@ TEST(SweepJson, IsADocumentWithTheSameNumbers) {
   const auto& inclusion = sweep.at("inclusions").list_value().values(0).struct_value().fields();
   EXPECT_EQ(inclusion.at("name").string_value(), "fibre");
   EXPECT_EQ(inclusion.at("A").struct_value().fields().at("max").number_value(), 0.1);
+  EXPECT_EQ(inclusion.at("By").struct_value().fields().at("min").number_value(), -0.5);
   EXPECT_EQ(document.fields().at("answers").list_value().values_size(), 2) << "the kept rows";
 }
 
@@ -98,6 +110,13 @@ TEST(SweepCsv, HasALinePerRow) {
   std::getline(lines, line);
   EXPECT_FALSE(line.empty());
   EXPECT_FALSE(std::getline(lines, line));
+}
+
+TEST(SweepCsv, HasSlopesWhereAnInclusionTilts) {
+  const std::string text = sweep_csv(*tilting_sweep(5).sweep);
+  EXPECT_THAT(text, ::testing::StartsWith("row,skew,opening,A,Bx,By,energy,contact_length,steps,"
+                                          "status\n0,1,-1,-0.1,-0.2,-0.5,-2,"));
+  EXPECT_THAT(text, HasSubstr("\n3,1,0.5,,,,,,5,not_converged\n"));
 }
 
 TEST(SweepCsv, GivesNumbersBackExactly) {

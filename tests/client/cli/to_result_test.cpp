@@ -86,6 +86,10 @@ Fetched fetched() {
   v1::InclusionAnswer& inclusion = *answer.add_inclusions();
   inclusion.set_name("fibre");
   inclusion.set_displacement(0.75);
+  inclusion.set_slope_x(0.5);
+  inclusion.set_slope_y(-0.5);
+  inclusion.set_moment_x(2);
+  inclusion.set_moment_y(-3);
   v1::ContactInterval& interval = *answer.add_contact_intervals();
   interval.set_interface("sigma");
   interval.set_begin(0.25);
@@ -133,7 +137,7 @@ TEST(ToResult, KeepsWhatTheServerSaid) {
   EXPECT_EQ(load.kkt.gap, 0.125);
   EXPECT_EQ(load.kkt_relative.gap, 0.0625);
   EXPECT_EQ(load.solve_seconds, 1.5);
-  EXPECT_EQ(load.inclusions[0].displacement, 0.75);
+  EXPECT_TRUE(load.inclusions[0] == (results::Inclusion{"fibre", 0.75, 0, 0, 0.5, -0.5, 2, -3}));
   EXPECT_EQ(load.contact_intervals[0].end, 0.5);
   EXPECT_EQ(load.traces[0].u_plus, (Reals{0.5, 0.5}));
   EXPECT_EQ(load.history.iteration, Integers{1});
@@ -268,6 +272,7 @@ TEST(ToResult, KeepsTheColumnsOfASweep) {
   EXPECT_EQ(sweep.energy, (Reals{-1, 0, -3}));
   EXPECT_EQ(sweep.contact_length, (Reals{0, 0, 1}));
   EXPECT_EQ(sweep.displacement, (Reals{0.5, 0, 0.25}));
+  EXPECT_TRUE(sweep.slope.empty()) << "nothing tilts";
   EXPECT_EQ(sweep.contact, (std::vector<std::uint8_t>{0, 0, 0, 1, 1, 1}));
   EXPECT_EQ(sweep.contact_nodes, (Integers{0, 0, 0, 1}));
   EXPECT_EQ(sweep.error, "row 1 is odd");
@@ -290,6 +295,33 @@ TEST(ToResult, MakesLoadsOfTheRowsThatHaveTraces) {
   ASSERT_EQ(load.contact_intervals.size(), 1U);
   EXPECT_EQ(load.contact_intervals[0].begin, 0);
   EXPECT_EQ(load.contact_intervals[0].end, 1);
+}
+
+/// With the slopes of the inclusion in an array of this shape.
+Fetched fetched_tilting(std::initializer_list<std::uint64_t> shape) {
+  Fetched result = fetched_sweep();
+  BlockMaker maker;
+  maker.add("sweep/slope", Reals{1, 2, 3, 4, 5, 6});
+  client::Block& block = result.result_block;
+  v1::ArrayLayout& slope = *block.layout.add_arrays();
+  slope = maker.block().layout.arrays(0);
+  slope.clear_shape();
+  for (const std::uint64_t extent : shape) slope.add_shape(extent);
+  slope.set_offset(block.bytes.size());
+  const client::Block added = maker.block();
+  block.bytes.insert(block.bytes.end(), added.bytes.begin(), added.bytes.end());
+  return result;
+}
+
+TEST(ToResult, KeepsTheSlopesOfASweep) {
+  const results::Result result = to_result(fetched_tilting({3, 1, 2}));
+  EXPECT_EQ(result.sweep->slope, (Reals{1, 2, 3, 4, 5, 6}));
+  const results::Inclusion& fibre = result.loads.at(0).inclusions.at(0);
+  EXPECT_EQ(fibre.slope_x, 5);
+  EXPECT_EQ(fibre.slope_y, 6);
+  EXPECT_TRUE(std::isnan(fibre.moment_x));
+  for (const auto& shape : {std::initializer_list<std::uint64_t>{3, 2, 1}, {3, 2}, {1, 3, 2}})
+    EXPECT_THROW(to_result(fetched_tilting(shape)), results::Error);
 }
 
 TEST(ToResult, TakesASweepWithoutInclusionsAndCracks) {

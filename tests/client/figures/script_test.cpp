@@ -78,6 +78,13 @@ TEST(Script, names_an_inclusion_where_it_lies) {
   EXPECT_THAT(named(), Not(HasSubstr("other")));
 }
 
+TEST(Script, tells_the_slope_of_an_inclusion_that_tilts) {
+  auto result = sample_result(4);
+  result.loads[0].inclusions[0].slope_y = 0.25;
+  EXPECT_THAT(script(traces_picture(result, result.loads[0], 0), both),
+              HasSubstr("A = 0.0863, B = (0, 0.25)'"));
+}
+
 TEST(Script, names_two_inclusions_of_one_displacement) {
   const auto result = sample_pair(4);
   const std::string drawn = script(traces_picture(result, result.loads[0], 0), both);

@@ -141,6 +141,19 @@ TEST(SweepScript, HasACurvePerInclusionAndKeepsStrangeNamesQuoted) {
   EXPECT_THAT(drawn, HasSubstr("3 rows, 1 without an answer left out"));
 }
 
+TEST(SweepScript, DrawsTheSlopesOneAboveTheOther) {
+  results::Result result = anticrack::testing::tilting_sweep(3);
+  result.sweep->inclusions = {"one", "two"};
+  result.sweep->displacement = {1, 2, 3, 4, 5, 6};
+  result.sweep->slope = {11, 21, 12, 22, 13, 23, 14, 24, 15, 25, 16, 26};
+  const std::string drawn = script(slope_picture(result, sweep_axis(*result.sweep)), png);
+  EXPECT_THAT(drawn, HasSubstr("$Bx1 << EOD\n-1 12\n"));
+  EXPECT_THAT(drawn, HasSubstr("$By0 << EOD\n-1 21\n"));
+  EXPECT_THAT(drawn, HasSubstr("'Bx [-]'"));
+  EXPECT_THAT(drawn, HasSubstr("'By [-]'"));
+  EXPECT_EQ(drawn.find("title 'two'"), drawn.rfind("title 'two'")) << "one legend for both";
+}
+
 TEST(SweepScript, CountsInclusionsThatAreTooManyToName) {
   results::Result result = sample_sweep(3);
   result.sweep->inclusions.clear();
@@ -186,6 +199,19 @@ TEST(DrawSweep, MakesThePicturesOfTheSweepAndOfItsFirstKeptRows) {
                                    "sweep-contact.svg", "row-0-traces.png", "row-0-traces.svg",
                                    "row-20-traces.png", "row-20-traces.svg"}));
   EXPECT_THAT(drawn.notes, IsEmpty());
+}
+
+TEST(DrawSweep, DrawsSlopesWhereAnInclusionTilted) {
+  results::Result result = anticrack::testing::tilting_sweep(21);
+  result.sweep->kept.clear();
+  result.loads.clear();
+  const TemporaryFolder folder;
+  draw(result, folder.path());
+  EXPECT_GT(std::filesystem::file_size(folder / "sweep-slope.png"), 5000U);
+  result.sweep->slope.assign(42, 0.0);
+  const TemporaryFolder other;
+  draw(result, other.path());
+  EXPECT_FALSE(std::filesystem::exists(other / "sweep-slope.png"));
 }
 
 TEST(DrawSweep, SaysThatThereIsNothingToDraw) {

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <hdf5.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -163,6 +164,31 @@ TEST(File, keeps_both_faces_of_a_slit) {
   const TemporaryFolder folder;
   const Result result = with_a_doubled_node();
   write(folder / "a.h5", result);
+  expect_same(read(folder / "a.h5"), result);
+}
+
+TEST(File, keeps_how_inclusions_tilt) {
+  const TemporaryFolder folder;
+  Result result = sample_result(2);
+  result.loads[1].inclusions[0].slope_x = 0.25;
+  result.loads[1].inclusions[0].slope_y = -1e-17;
+  write(folder / "a.h5", result);
+  expect_same(read(folder / "a.h5"), result);
+}
+
+TEST(File, from_before_inclusions_tilted_has_none_that_does) {
+  const TemporaryFolder folder;
+  Result result = sample_result(2);
+  write(folder / "a.h5", result);
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  for (Load& load : result.loads) {
+    for (const char* column : {"Bx", "By", "Mx", "My"}) {
+      const std::string path = "/loads/" + load.name + "/inclusions/" + column;
+      ASSERT_GE(H5Ldelete(file, path.c_str(), H5P_DEFAULT), 0) << path;
+    }
+    load.inclusions[0].moment_x = load.inclusions[0].moment_y = 0;
+  }
+  H5Fclose(file);
   expect_same(read(folder / "a.h5"), result);
 }
 

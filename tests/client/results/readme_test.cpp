@@ -137,7 +137,7 @@ void add_names(const Result& result, Names& names) {
 TEST(Readme, lists_what_a_file_holds_and_nothing_else) {
   Names held;
   add_names(anticrack::testing::sample_result(2), held);
-  add_names(anticrack::testing::sample_sweep(5), held);
+  add_names(anticrack::testing::tilting_sweep(5), held);
   Names listed;
   std::istringstream lines(readme_table());
   for (std::string text; std::getline(lines, text);) {

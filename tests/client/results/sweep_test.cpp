@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -18,6 +19,7 @@ namespace {
 
 using anticrack::testing::sample_sweep;
 using anticrack::testing::TemporaryFolder;
+using anticrack::testing::tilting_sweep;
 using ::testing::HasSubstr;
 
 Result written_and_read(const Result& result) {
@@ -35,6 +37,45 @@ TEST(SweepFile, ComesBackAsItWasWritten) {
   ASSERT_EQ(back.loads.size(), 2U);
   EXPECT_EQ(back.loads[1].name, "row-2999");
   EXPECT_EQ(back.loads[1].traces[0].jump, result.loads[1].traces[0].jump);
+}
+
+TEST(SweepFile, HasSlopesInThreeDimensions) {
+  for (const std::size_t rows : {5, 3000}) {  // in a header, and compressed
+    Result result = tilting_sweep(rows);
+    Sweep& sweep = *result.sweep;
+    sweep.inclusions.emplace_back("other");
+    sweep.displacement.insert(sweep.displacement.end(), rows, 0.0);
+    sweep.slope.insert(sweep.slope.end(), 2 * rows, 0.75);
+    const TemporaryFolder folder;
+    write(folder / "a.h5", result);
+    EXPECT_TRUE(*read(folder / "a.h5").sweep == sweep);
+    const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t set = H5Dopen2(file, "/sweep/slope", H5P_DEFAULT);
+    const hid_t space = H5Dget_space(set);
+    std::array<hsize_t, 3> shape{};
+    ASSERT_EQ(H5Sget_simple_extent_ndims(space), 3);
+    H5Sget_simple_extent_dims(space, shape.data(), nullptr);
+    EXPECT_EQ(shape, (std::array<hsize_t, 3>{rows, 2, 2}));
+    H5Sclose(space);
+    H5Dclose(set);
+    H5Fclose(file);
+  }
+}
+
+TEST(SweepFile, RefusesSlopesOfAnotherShape) {
+  const TemporaryFolder folder;
+  write(folder / "a.h5", tilting_sweep(5));
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  ASSERT_GE(H5Ldelete(file, "/sweep/slope", H5P_DEFAULT), 0);
+  ASSERT_GE(H5Lcopy(file, "/sweep/displacement", file, "/sweep/slope", H5P_DEFAULT, H5P_DEFAULT),
+            0);
+  H5Fclose(file);
+  try {
+    read(folder / "a.h5");
+    ADD_FAILURE() << "was read";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("dataset slope is not of shape (n,1,2)"));
+  }
 }
 
 TEST(SweepFile, HoldsASweepWithoutCoefficientsInclusionsAndCracks) {
@@ -59,11 +100,11 @@ TEST(SweepFile, IsNoSweepWithoutOne) {
 
 TEST(SweepFile, SaysWhatItsColumnsAre) {
   const TemporaryFolder folder;
-  write(folder / "a.h5", sample_sweep());
+  write(folder / "a.h5", tilting_sweep());
   const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
   for (const char* name : {"status", "steps", "energy", "contact_length", "kkt", "kept",
-                           "contact_nodes", "displacement", "contact", "coefficients"}) {
+                           "contact_nodes", "displacement", "slope", "contact", "coefficients"}) {
     const std::string path = std::string("/sweep/") + name;
     for (const char* attribute : {"units", "meaning"}) {
       EXPECT_GT(H5Aexists_by_name(file, path.c_str(), attribute, H5P_DEFAULT), 0) << path;
@@ -84,6 +125,8 @@ TEST(Sweep, IsNotWrittenFromWhatDoesNotFitTogether) {
       {"sweep.contact_length", [](Result& r) { r.sweep->contact_length.pop_back(); }},
       {"sweep.kkt", [](Result& r) { r.sweep->kkt.pop_back(); }},
       {"sweep.displacement", [](Result& r) { r.sweep->inclusions.emplace_back("other"); }},
+      {"sweep.slope has 40 entries instead of 42",
+       [](Result& r) { r.sweep->slope.assign(40, 0.0); }},
       {"sweep.contact has", [](Result& r) { r.sweep->contact.pop_back(); }},
       {"sweep.contact_nodes has", [](Result& r) { r.sweep->contact_nodes.push_back(0); }},
       {"sweep.coefficients", [](Result& r) { r.sweep->coefficients.pop_back(); }},
@@ -128,9 +171,18 @@ TEST(SweepSummary, CountsAndSpansTheConvergedRows) {
   EXPECT_EQ(counts.other, 1U);
   EXPECT_DOUBLE_EQ(counts.displacement.at(0).low, -0.1);
   EXPECT_DOUBLE_EQ(counts.displacement.at(0).high, 0.1);
+  EXPECT_FALSE(counts.tilted());
   EXPECT_DOUBLE_EQ(counts.energy.low, -2);
   EXPECT_EQ(counts.most_steps, 2) << "of rows 0 and 4";
   EXPECT_EQ(counts.worst_kkt, 1e-13);
+}
+
+TEST(SweepSummary, SpansTheSlopes) {
+  const SweepSummary counts = summary(*tilting_sweep(5).sweep);  // row 3 did not converge
+  EXPECT_TRUE(counts.tilted());
+  EXPECT_DOUBLE_EQ(counts.slope.at(0)[0].low, -0.2);
+  EXPECT_DOUBLE_EQ(counts.slope.at(0)[0].high, 0.2);
+  EXPECT_EQ(counts.slope.at(0)[1].high, -0.5);
 }
 
 TEST(SweepSummary, KnowsNoRangeWhereNothingConverged) {
