@@ -139,10 +139,12 @@ TEST(Cut, HoldsTheMembraneByAnyDirichletNode) {
   expect_refused(mesh, Reason::numerical, "nothing holds the subdomain \"lower\"");
 }
 
-TEST(Cut, RefusesACrackThatTouchesTheDirichletBoundary) {
+TEST(Cut, ACrackMayReachTheBoundary) {
   mesh::Mesh mesh = testing::structured_mesh({16, 4, [](double) { return Kind::crack; }, {}, {}});
-  expect_refused(mesh, Reason::not_implemented, "touches the Dirichlet boundary at (-1, 0)");
-  // On a free boundary a crack may end.
+  const Decomposition held = cut(mesh);
+  EXPECT_EQ(held.skeleton.contacts.size(),
+            15U);  // its ends have the boundary's value on both sides
+  EXPECT_EQ(held.interface_sides[0].front().pair, -1);
   mesh.interfaces[0].kind.back() = Kind::glue;
   std::erase_if(mesh.dirichlet, [&mesh](const std::array<std::int32_t, 2>& edge) {
     return mesh.xy[2 * static_cast<std::size_t>(edge[0])] == -1 &&
@@ -152,11 +154,17 @@ TEST(Cut, RefusesACrackThatTouchesTheDirichletBoundary) {
   EXPECT_EQ(pair_at(decomposition, 0, 0).kind, Kind::crack);
 }
 
-TEST(Cut, RefusesTwoInclusionsInOneNode) {
-  const auto kind = [](double x) { return std::abs(x) < 0.5 ? Kind::inclusion : Kind::glue; };
-  const auto inclusion = [](double x) { return x < 0 ? 0 : 1; };
-  expect_refused(testing::structured_mesh({16, 4, kind, inclusion, {"one", "two"}}),
-                 Reason::not_implemented, "\"one\" and \"two\" share the node at (0, 0)");
+TEST(Cut, AnInclusionThatReachesTheDirichletBoundaryIsHeldThere) {
+  const auto kind = [](double x) { return x < 0.5 ? Kind::inclusion : Kind::glue; };
+  mesh::Mesh mesh = testing::structured_mesh({16, 4, kind, {}, {"bar"}});
+  const Skeleton held = cut(mesh).skeleton;
+  ASSERT_EQ(held.held.size(), 1U);
+  EXPECT_GE(held.held[0].subdomain, 0);
+  EXPECT_TRUE(held.rows[0].free.empty());  // A is the boundary's value
+  mesh.motions = {{true, {}}};
+  const Skeleton hinged = cut(mesh).skeleton;
+  EXPECT_EQ(hinged.held.size(), 1U);
+  EXPECT_EQ(hinged.rows[0].free.size() + hinged.rows[1].free.size(), 2U);  // it turns about its end
 }
 
 TEST(Cut, RefusesAnInclusionWithoutEdges) {

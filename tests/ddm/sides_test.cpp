@@ -279,12 +279,19 @@ TEST(CrossPoint, ACrackThatEndsOnACrackLeavesAChain) {
   EXPECT_EQ(implied->plus, 1);
 }
 
-TEST(CrossPoint, RefusesCracksThatCross) {
+TEST(CrossPoint, OneOfTheConditionsOfCracksThatCrossDependsOnTheOthers) {
   GridMesh grid = four();
   const std::vector<Kind> crack = {g, g, c, c, c, c, g, g};
-  expect_refused(
-      grid.add(west_east, crack).add(south_north, crack).mesh, Reason::not_implemented,
-      "the cracks that cross at (4, 4) have contact conditions that depend on each other");
+  const Decomposition result = cut_valid(grid.add(west_east, crack).add(south_north, crack));
+  EXPECT_EQ(result.skeleton.contacts.size(), 4U + 4);  // an edge from the cross point, and in it
+  EXPECT_EQ(result.skeleton.independent, 4U + 3);
+  ASSERT_EQ(result.skeleton.dependent.size(), 1U);
+  double sum = 0;
+  for (const Term& term : result.skeleton.dependent[0]) {
+    EXPECT_EQ(std::abs(term.factor), 1);
+    sum += term.factor;
+  }
+  EXPECT_EQ(sum, 1);  // d4 = d1 + d2 - d3
 }
 
 TEST(CrossPoint, SidesThatMayNotLieBelowEachOtherAllTheWayRoundAreTied) {
@@ -315,12 +322,33 @@ TEST(CrossPoint, AnInclusionPassesAWall) {
   EXPECT_THAT(uzawa_obstacle(result, grid.mesh), HasSubstr("\"bar\" lies in two subdomains"));
 }
 
-TEST(CrossPoint, RefusesTwoInclusionsWithOneTip) {
+TEST(CrossPoint, InclusionsThatShareANodeAreOneBody) {
   GridMesh grid = four();
   grid.mesh.inclusions = {"one", "two"};
   grid.add(west_east, {g, g, d, d, g, g, g, g}, 0).add(south_north, {g, g, g, g, d, d, g, g}, 1);
-  expect_refused(grid.mesh, Reason::not_implemented,
-                 "\"one\" and \"two\" share the node at (4, 4)");
+  const Decomposition result = cut_valid(grid);
+  const Skeleton& skeleton = result.skeleton;
+  ASSERT_EQ(skeleton.motions.size(), 2U);
+  for (const RigidMotion& motion : skeleton.motions) {
+    ASSERT_EQ(motion.displacement.size(), 1U);
+    EXPECT_EQ(motion.displacement[0].index, 0);
+    EXPECT_TRUE(motion.slope_x.empty());
+  }
+  EXPECT_THAT(uzawa_obstacle(result, grid.mesh), ::testing::HasSubstr("\"two\" shares nodes"));
+}
+
+TEST(CrossPoint, ABodyOfTwoDirectionsThatTiltsHasTwoSlopes) {
+  GridMesh grid = four();
+  grid.mesh.inclusions = {"one", "two"};
+  grid.mesh.motions = {{true, {}}, {true, {}}};
+  grid.add(west_east, {g, g, d, d, g, g, g, g}, 0).add(south_north, {g, g, g, g, d, d, g, g}, 1);
+  const Skeleton skeleton = cut_valid(grid).skeleton;
+  EXPECT_EQ(skeleton.motions[0].slope_x.size(), 2U);
+  EXPECT_EQ(skeleton.motions[1].displacement.size(), 3U);
+  grid.mesh.motions[1].tilt = false;  // it keeps the direction of both
+  EXPECT_TRUE(cut_valid(grid).skeleton.motions[0].slope_x.empty());
+  grid.mesh.motions = {{false, 1.0}, {false, 2.0}};
+  expect_refused(grid.mesh, Reason::invalid_argument, "is fixed at 2, but shares nodes");
 }
 
 TEST(CrossPoint, ADiagonalPatternGivesASubdomainTwoSides) {
