@@ -181,7 +181,7 @@ TEST(EngineLimits, OneBudgetBoundsTheMemoryOfJobs) {
   ASSERT_TRUE(eventually([&] { return test.engine.events(first)->earliest() > 1; }));
   store::JobSpec large = short_job(mesh);
   for (int i = 0; i < 70; ++i) {
-    const std::string text = "1" + std::string(4'000, ' ');
+    const std::string text = "1" + std::string(3'900, ' ');
     large.loads.push_back({"l" + std::to_string(i), fem::Expression{text}, ""});
   }
   EXPECT_TRUE(throws([&] { test.submit(large); }, Reason::busy));
