@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -63,7 +64,9 @@ toml::table parse(const std::string& text, const std::string& name) {
 }  // namespace
 
 std::optional<Spot> Case::locate(const std::string& field) const {
-  std::string place = field.rfind("job.", 0) == 0 ? field.substr(4) : field;
+  std::string place = field;
+  for (const char* request : {"job.", "mesh."})
+    if (place.starts_with(request)) place = place.substr(std::string_view(request).size());
   while (!place.empty()) {
     const auto found = spots.find(place);
     if (found != spots.end()) return found->second;

@@ -35,7 +35,7 @@ struct Case {
   std::map<std::string, Spot> spots;  ///< field of a request -> where its value was written
 
   /// Where the value of a field of CreateMeshRequest or CreateJobRequest was written, or the
-  /// nearest enclosing table; empty for a default.
+  /// nearest enclosing table; empty for a default. Below "job" or "mesh", too.
   std::optional<Spot> locate(const std::string& field) const;
 };
 

@@ -151,7 +151,11 @@ Outcome conclude(LiveJob& job) {
 }
 
 Error mesh_failed(const std::string& mesh, const Error& error) {
-  return retold(error, "meshes/" + mesh + ": " + error.what(), {"mesh"});
+  std::vector<std::string> fields;
+  for (const errors::FieldViolation& violation : error.fields())
+    if (violation.field.starts_with("options.")) fields.push_back("mesh." + violation.field);
+  if (fields.empty()) fields.emplace_back("mesh");
+  return retold(error, "meshes/" + mesh + ": " + error.what(), fields);
 }
 
 }  // namespace anticrack::jobs

@@ -128,7 +128,8 @@ struct Outcome {
 /// solved. With the engine's mutex held.
 Outcome conclude(LiveJob& job);
 
-/// A mesh's error as a job's, at field "mesh".
+/// A mesh's error as a job's, at field "mesh", or below it where options of the mesh are at fault:
+/// "mesh.options.tension[top]".
 errors::Error mesh_failed(const std::string& mesh, const errors::Error& error);
 
 }  // namespace anticrack::jobs

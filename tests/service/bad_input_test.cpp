@@ -134,6 +134,21 @@ TEST(BadInputFile, UnknownTomlKeyNamesFileLineAndNearestKey) {
   EXPECT_THAT(run.error, AllOf(HasSubstr("typo.toml"), HasSubstr("titel"), HasSubstr("title")));
 }
 
+TEST(BadInputFile, MotionOfAnInclusionThatTheFileLacks) {
+  const Server server;
+  const anticrack::testing::TemporaryFolder folder;
+  const std::string path = write_file(folder, "plate.toml",
+                                      "mesh.file = '" + example("plate.msh") +
+                                          "'\n[[load]]\nname = \"one\"\nf = 1\n"
+                                          "[mesh.inclusions]\nrod = { tilt = true }\n");
+  const Ended run = server.client({"run", path, "-o", folder / "out.h5"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.error, AllOf(HasSubstr("plate.toml:6: mesh.inclusions.rod: "),
+                               HasSubstr("\"rod\" is not an inclusion of the file; they are "
+                                         "\"fibre\"")));
+  expect_still_serving(server);
+}
+
 TEST(BadInputFile, MeshOverTheLimit) {
   const Server server({"--mesh-triangles", "1000"});
   const anticrack::testing::TemporaryFolder folder;

@@ -133,7 +133,7 @@ f = 1
   EXPECT_FALSE(options.inclusion_motions().at("rod").has_fixed());
   EXPECT_EQ(options.inclusion_motions().at("bar").fixed(), -0.5);
   EXPECT_EQ(the_case.locate("options.inclusion_motions[rod]")->line, 11U);
-  EXPECT_EQ(the_case.locate("options.inclusion_motions[rod]")->key, "mesh.inclusions.rod");
+  EXPECT_EQ(the_case.locate("mesh.options.inclusion_motions[rod]")->key, "mesh.inclusions.rod");
 }
 
 TEST(Case, TakesAFileWithoutACase) {
