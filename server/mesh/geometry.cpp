@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <span>
 #include <unordered_map>
 
 #include "mesh/at.hpp"
 #include "mesh/geometry_primitives.hpp"
 #include "mesh/geometry_steps.hpp"
+#include "mesh/refine.hpp"
 
 namespace anticrack::mesh {
 namespace {
@@ -20,12 +23,34 @@ constexpr double paper_growth = 0.057;
 constexpr double uniform_divisions = 50;
 constexpr double graded_divisions = 20.3;
 
+/// Of many tips: h0 as a part of the reach of a tip that has no more than its share.
+constexpr double share_divisions = 2.75;
+
 /// Limit of the curves of a plan; the work on them grows nearly quadratically.
 constexpr std::size_t curve_limit = 50'000;
 
 /// Equilateral triangles of this edge length fill the area, or line its boundary.
 double expected_triangles(double area, double size, double pieces) {
   return std::max(area / (std::sqrt(3.0) / 4 * size * size), pieces);
+}
+
+/// The ends of inclusions, of their delaminated parts, and of cracks.
+std::size_t tip_count(const Geometry& geometry) {
+  std::set<Point> ends;
+  const auto add = [&](const Part& part) { ends.insert({part.from, part.to}); };
+  for (const InclusionSpec& inclusion : geometry.inclusions) {
+    add(inclusion.part);
+    std::ranges::for_each(inclusion.delaminated, add);
+  }
+  for (const CrackSpec& crack : geometry.cracks) add(crack.part);
+  return ends.size();
+}
+
+/// The edge length where none is given.
+double default_size(const Geometry& geometry, Preset preset, std::span<const Point> polygon) {
+  if (preset != Preset::graded) return diagonal(polygon) / uniform_divisions;
+  const double share = tip_share(0.5 * std::sqrt(signed_area(polygon)), tip_count(geometry));
+  return std::min(diagonal(polygon) / graded_divisions, share / share_divisions);
 }
 
 /// What is expected, as a count.
@@ -153,8 +178,8 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   const std::vector<std::string> names = check_names(geometry);
   const std::vector<Point> polygon = network.lines.front().line.vertices();
   const double area = signed_area(polygon);
-  const double divisions = options.preset == Preset::graded ? graded_divisions : uniform_divisions;
-  const double size = options.size > 0 ? options.size : diagonal(polygon) / divisions;
+  const double size =
+      options.size > 0 ? options.size : default_size(geometry, options.preset, polygon);
   std::size_t triangles = 0;
   if (options.preset != Preset::paper) triangles = check_size(network, area, size, max_triangles);
   // The lines alone first, so that their faults are not reported as faults of the parts on them.

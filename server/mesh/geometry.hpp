@@ -73,7 +73,7 @@ enum class Preset { graded, paper, uniform };
 struct MeshOptions {
   Preset preset = Preset::graded;
   double size = 0;       ///< edge length away from tips; 0: chosen, see MeshOptions of the API
-  double tip_size = 0;   ///< graded: smallest edge wanted; 0: as small as coordinates resolve
+  double tip_size = 0;   ///< graded: smallest edge wanted; 0: chosen, see mesh/refine.hpp
   double grading = 0.2;  ///< graded: m
   std::vector<std::vector<Point>> align{};  ///< geometry: lines that edges must follow
   // An upload's:

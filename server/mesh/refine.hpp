@@ -26,23 +26,37 @@
 
 namespace anticrack::mesh {
 
-/// A triangle T with longest edge h_T at distance r from the nearest tip is bisected until
+/// A triangle T with longest edge h_T at distance r_t from a tip t is bisected until, for every
+/// tip,
 ///
-///   h_T <= min(h0, max(h_tip, h0 (r/R)^{1-m})),   R = characteristic_length(mesh).
+///   h_T <= min(h0, max(h_tip, h0 (r_t/R_t)^{1-m})).
 ///
-/// Lengths in the unit of the mesh; R makes the rule independent of it.
-/// Closer to a tip than R (h0/R)^{1/m} the rule requires less than the distance itself, and only
-/// triangles at the tip are still cut, about a dozen per halving of h_tip. Stopping at h_tip costs
-/// an error of order (h_tip/R)^{1/2} in A; h_tip = R (h0/R)^{1/m} doubles the error of Example 3 at
-/// 20,000 triangles, so the default is the smallest.
+/// R_t is how far the grading of a tip reaches. Up to 16 tips: over the membrane, R_t = R =
+/// characteristic_length(mesh). Of more tips each has a share of it, R_t = R sqrt(16/tips), or the
+/// length of the crack or of the part of an inclusion that ends in it if that is longer, at most R.
+/// So n short fibres at distances d are graded up to about 1.4 d from their tips, whatever n, and
+/// not all over one another. At distances far below R_t cracks that differ in length by any factor
+/// have the same rule: a small one is resolved as well as a large one. Lengths in the unit of the
+/// mesh; R makes the rule independent of it.
+///
+/// Closer to a tip than R_t (h0/R_t)^{1/m} the rule requires less than the distance itself, and
+/// only triangles at the tip are still cut, about a dozen per halving of h_tip. Stopping at h_tip
+/// costs an error of order (h_tip/R_t)^{1/2} in A; h_tip = R (h0/R)^{1/m} doubles the error of
+/// Example 3 at 20,000 triangles. So the default is the smallest size for up to 16 tips. For more,
+/// whose halvings would be most of the mesh, it is R_t (h0/R_t)^{1/m} / 1000: an error 30 times
+/// smaller than that, and of higher order in h0 than those away from tips.
 struct Grading {
-  double h0 = 0;        ///< longest edge allowed at a distance of R and more, > 0
-  double m = 0.2;       ///< 0 < m < 1 below the exponent of the solution at a tip; 1: uniform
-  double tip_size = 0;  ///< h_tip; 0: `smallest_tip_size`
+  double h0 = 0;              ///< longest edge allowed at a distance of R_t and more, > 0
+  double m = 0.2;             ///< 0 < m < 1 below the exponent of the solution at a tip; 1: uniform
+  double tip_size = 0;        ///< h_tip; 0: see above
+  double least_tip_size = 0;  ///< h_tip is at least this, and `smallest_tip_size`
 };
 
 /// Half the side of a square of the mesh's area: 1 for (-1,1) x (-1,1).
 double characteristic_length(const Mesh& mesh);
+
+/// The part of a length, R, that each of so many tips has for itself: sqrt(16/tips), at most 1.
+double tip_share(double length, std::size_t tip_count) noexcept;
 
 /// 1e-13 max(R, largest |coordinate| of a node of `centres`): at least 450 ulp there, so rounding
 /// of midpoints changes angles by about a hundredth at most.

@@ -50,11 +50,12 @@ std::string option_of(const std::string& field) {
 
 mesh::Mesh bisected(const mesh::Mesh& base, const std::vector<std::int32_t>& tips,
                     const mesh::GradingSpec& spec, double bound, std::size_t max_triangles) {
-  mesh::Grading grading{spec.h0, spec.m, spec.tip_size};
+  mesh::Grading grading{spec.h0, spec.m, spec.tip_size, 0};
   if (bound > 0 && bound < sound_angle) {
     const double smallest = mesh::smallest_tip_size(base, tips) * (sound_angle / bound);
-    if (grading.tip_size == 0) grading.tip_size = smallest;
-    if (grading.tip_size < smallest) refuse_tip_size(grading.tip_size, smallest, bound);
+    if (grading.tip_size > 0 && grading.tip_size < smallest)
+      refuse_tip_size(grading.tip_size, smallest, bound);
+    grading.least_tip_size = smallest;
   }
   try {
     return mesh::grade(base, tips, grading, max_triangles);

@@ -237,6 +237,89 @@ Mesh ring_mesh(int low, int high) {
   return made;
 }
 
+/// One subdomain of squares 1/16 wide with rows of slits two squares long, four squares between
+/// their middles, from the left; and, below them, one as long as asked for.
+Mesh many_slits(int rows, int in_a_row, int long_slit) {
+  constexpr int n = 32;
+  Mesh made = structured_mesh(n, n, {});
+  made.subdomain.assign(made.triangle_count(), 0);
+  made.subdomains = {"all"};
+  made.interfaces.clear();
+  const auto add = [&](int column, int row, int length) {
+    Interface slit{"slit" + std::to_string(made.interfaces.size()), {}, {}, {}};
+    for (int i = 0; i <= length; ++i) slit.nodes.push_back((n + 1) * row + column + i);
+    slit.kind.assign(static_cast<std::size_t>(length), Kind::crack);
+    slit.inclusion.assign(static_cast<std::size_t>(length), -1);
+    made.interfaces.push_back(slit);
+  };
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < in_a_row; ++i) add(4 * i + 2, 4 * j + 6, 2);
+  if (long_slit > 0) add(2, 2, long_slit);
+  return made;
+}
+
+/// The rule of `Grading` for that mesh, whose R is 1: all tips but the long slit's two alike.
+std::vector<testing::GradedTip> many_tips(const Mesh& base, double h0, double tip_size) {
+  std::vector<testing::GradedTip> all;
+  const std::vector<std::int32_t> found = tips(base);
+  const double share = found.size() > 16 ? 4 / std::sqrt(static_cast<double>(found.size())) : 1;
+  for (const std::int32_t node : found) {
+    const Interface& last = base.interfaces.back();
+    const bool ends_it = node == last.nodes.front() || node == last.nodes.back();
+    const double length = ends_it ? static_cast<double>(last.kind.size()) / 16 : 1.0 / 8;
+    const double radius = std::min(1.0, std::max(share, length));
+    const double end = found.size() > 16 ? 1e-3 * std::pow(h0, 5) / std::pow(radius, 4) : 1e-13;
+    all.push_back({testing::point(base, node), radius, tip_size > 0 ? tip_size : end});
+  }
+  return all;
+}
+
+TEST(Grade, MeetsTheSizeRuleOfEveryTipWhereThereAreMany) {
+  struct Case {
+    int rows, in_a_row, long_slit;
+    double h0, tip_size;
+  };
+  for (const Case& c : {Case{2, 4, 0, 0.2, 0}, Case{3, 3, 0, 0.2, 0}, Case{6, 7, 24, 0.1, 0},
+                        Case{6, 7, 28, 0.2, 1e-6}}) {
+    SCOPED_TRACE(c.rows * c.in_a_row);
+    const Mesh base = many_slits(c.rows, c.in_a_row, c.long_slit);
+    const auto all = many_tips(base, c.h0, c.tip_size);
+    const Mesh fine = grade(base, {.h0 = c.h0, .tip_size = c.tip_size}, plenty);
+    expect_refines(base, fine);
+    const double worst = testing::worst_size_ratio(fine, all, c.h0, 0.2);
+    EXPECT_LT(worst, sampling);
+    EXPECT_GT(worst, 0.9);
+    const double least = std::ranges::min_element(all, {}, &testing::GradedTip::tip_size)->tip_size;
+    EXPECT_GT(quality(fine).smallest_diameter, 0.4 * least);
+    EXPECT_EQ(grade(base, {.h0 = c.h0, .tip_size = c.tip_size}, plenty).xy, fine.xy);
+  }
+}
+
+TEST(Grade, OfManyTipsDoesNotReachOverTheMembrane) {
+  const Mesh base = many_slits(6, 3, 0);  // in the left half
+  const double h0 = 0.04;
+  const auto all = many_tips(base, h0, 0);
+  ASSERT_EQ(all.size(), 36U);
+  const Mesh fine = grade(base, {.h0 = h0}, plenty);
+  double least_far = h0;
+  for (std::size_t t = 0; t < fine.triangle_count(); ++t) {
+    const bool far = std::ranges::all_of(all, [&](const testing::GradedTip& tip) {
+      return testing::distance(corner(fine, t, 0), tip.at) > tip.radius + 2 * h0;
+    });
+    if (far) least_far = std::min(least_far, testing::diameter(fine, t));
+  }
+  EXPECT_LT(least_far, h0);  // some are far
+  EXPECT_GT(least_far, h0 / 2);
+}
+
+TEST(Grade, TakesNoDefaultTipSizeBelowTheOneAskedFor) {
+  for (const int rows : {2, 6}) {
+    const Mesh base = many_slits(rows, 4, 0);
+    const Mesh fine = grade(base, {.h0 = 0.2, .least_tip_size = 1e-3}, plenty);
+    EXPECT_EQ(fine.xy, grade(base, {.h0 = 0.2, .tip_size = 1e-3}, plenty).xy);
+  }
+}
+
 TEST(Grade, ConformsAcrossASlitInOneSubdomain) {
   const Mesh base = slit_mesh();
   const Mesh fine = grade(base, {.h0 = 0.2}, plenty);

@@ -166,6 +166,25 @@ TEST(Plan, GradedIsTheDefault) {
   EXPECT_EQ(intervals(plan, Role::interface), 8);
 }
 
+TEST(Plan, GradedIsFinerWhereTipsAreMany) {
+  const auto size = [](int rows) {
+    Geometry geometry = testing::square();
+    for (int k = 0; k < rows * rows; ++k) {
+      const double x = -1 + 2 * (k % rows + 0.25) / rows;
+      const double y = -1 + 2 * (k / rows + 0.5) / rows;
+      const mesh::Part part{{x, y}, {x + 1.0 / rows, y}};
+      const std::string name = "fibre" + std::to_string(k);
+      geometry.interfaces.push_back(testing::polyline(name.c_str(), {part.from, part.to}));
+      geometry.inclusions.push_back({name, part, {part}});
+    }
+    return mesh::plan(geometry, {}, enough).grading.h0;
+  };
+  EXPECT_DOUBLE_EQ(size(7), std::sqrt(8.0) / 20.3);
+  // 128, 200 and 512 tips, each of which has R sqrt(16/tips) for itself
+  for (const int rows : {8, 10, 16})
+    EXPECT_NEAR(size(rows), 4 / std::sqrt(2.0) / rows / 2.75, 1e-12);
+}
+
 TEST(Plan, TooManyTrianglesAreRefusedBeforeTheyAreMade) {
   for (const double size : {1e-3, 1e-12, 1e-300}) {
     EXPECT_TRUE(testing::throws([&] { mesh::plan(paper_geometry(), uniform(size), 100'000); },

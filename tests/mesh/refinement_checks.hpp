@@ -65,19 +65,42 @@ inline double sampled_distance(const mesh::Mesh& m, std::size_t t, const mesh::P
   return least;
 }
 
-/// The largest h_T / h(r_T) over all triangles. A sample overestimates the distance, so this is a
-/// lower bound of the truth, short of it by less than 1/32 of h_T at most.
-inline double worst_size_ratio(const mesh::Mesh& m, std::span<const mesh::Point> centres, double h0,
-                               double exponent_m, double tip_size, double radius) {
+/// A tip as the size rule sees it: R and h_tip of mesh::Grading.
+struct GradedTip {
+  mesh::Point at{};
+  double radius = 0;
+  double tip_size = 0;
+};
+
+/// The largest h_T / h over all triangles, h the least that a tip allows. A sample overestimates
+/// the distance, so this is a lower bound of the truth, short of it by less than 1/32 of h_T at
+/// most.
+inline double worst_size_ratio(const mesh::Mesh& m, std::span<const GradedTip> tips, double h0,
+                               double exponent_m) {
   double worst = 0;
   for (std::size_t t = 0; t < m.triangle_count(); ++t) {
-    double r = std::numeric_limits<double>::infinity();
-    for (const mesh::Point& centre : centres) r = std::min(r, sampled_distance(m, t, centre));
-    const double allowed =
-        std::min(h0, std::max(tip_size, h0 * std::pow(r / radius, 1 - exponent_m)));
-    worst = std::max(worst, diameter(m, t) / allowed);
+    const double own = diameter(m, t);
+    double allowed = h0;
+    for (const GradedTip& tip : tips) {
+      const auto size = [&](double r) {
+        return std::max(tip.tip_size, h0 * std::pow(r / tip.radius, 1 - exponent_m));
+      };
+      // nearer than this no point of the triangle lies
+      const double near = distance(mesh::corner(m, t, 0), tip.at) - own;
+      if (near > 0 && size(near) >= allowed) continue;
+      allowed = std::min(allowed, size(sampled_distance(m, t, tip.at)));
+    }
+    worst = std::max(worst, own / allowed);
   }
   return worst;
+}
+
+/// Of tips that are alike.
+inline double worst_size_ratio(const mesh::Mesh& m, std::span<const mesh::Point> centres, double h0,
+                               double exponent_m, double tip_size, double radius) {
+  std::vector<GradedTip> tips;
+  for (const mesh::Point& centre : centres) tips.push_back({centre, radius, tip_size});
+  return worst_size_ratio(m, tips, h0, exponent_m);
 }
 
 /// That the interface has its ends, direction, kinds and inclusions of before: every node of the

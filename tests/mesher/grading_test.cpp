@@ -3,9 +3,15 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "mesh/edges.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
 #include "mesh/refinement_mesh.hpp"
+#include "mesher/real_helper.hpp"
 #include "support/errors.hpp"
 #include "support/mesh_quality.hpp"
 
@@ -91,6 +97,48 @@ TEST(Grading, StopsEarlierWhereTheBaseHasNeedles) {
   bad.tip_size = 1.01 * least;
   EXPECT_TRUE(throws([&] { graded(needles(), bad, plenty); }, Reason::invalid_argument,
                      "options.tip_size"));
+}
+
+/// Fibres in cells of the unit square, half as long as a cell is wide, turned and shifted within.
+mesh::Geometry fibres(int count, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto draw = [&] { return random() / 4294967296.0; };
+  const int rows = static_cast<int>(std::ceil(std::sqrt(count)));
+  mesh::Geometry geometry;
+  geometry.boundary = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (int k = 0; k < count; ++k) {
+    const double x = (k % rows + 0.35 + 0.3 * draw()) / rows;
+    const double y = (k / rows + 0.35 + 0.3 * draw()) / rows;
+    const double angle = std::numbers::pi * draw();
+    const double dx = 0.25 * std::cos(angle) / rows;
+    const double dy = 0.25 * std::sin(angle) / rows;
+    const mesh::Part part{{x - dx, y - dy}, {x + dx, y + dy}};
+    const std::string name = "fibre" + std::to_string(k);
+    geometry.interfaces.push_back({name, mesh::Shape::polyline, {part.from, part.to}});
+    geometry.inclusions.push_back({name, part, {part}});
+  }
+  return geometry;
+}
+
+TEST(Grading, OfManyFibresByDefaultResolvesEachAndNoMore) {
+  const struct {
+    int fibres;
+    std::size_t most;
+  } cases[] = {{100, 250'000}, {1'000, 1'500'000}};
+  for (const auto& [count, most] : cases) {
+    SCOPED_TRACE(count);
+    const mesh::GenerateRequest request{mesh::plan(fibres(count, 3), {}, most), most};
+    const mesh::Mesh fine = run(testing::real_helper(), request, {});
+    EXPECT_GT(mesh::minimum_angle(fine), 15);
+    ASSERT_EQ(fine.interfaces.size(), static_cast<std::size_t>(count));
+    for (const mesh::Interface& fibre : fine.interfaces) {
+      const std::vector<double> s = mesh::arc_length(fine, fibre);
+      const auto away = std::ranges::count_if(
+          s, [&](double at) { return 0.01 * s.back() < at && at < 0.99 * s.back(); });
+      ASSERT_GE(away, 16);
+      for (const double edge : {s[1], s.back() - s[s.size() - 2]}) ASSERT_LT(edge, 1e-4 * s.back());
+    }
+  }
 }
 
 TEST(Grading, GivesTheSameMeshTwice) {

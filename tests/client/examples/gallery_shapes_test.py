@@ -57,6 +57,25 @@ class Shapes(GalleryTest):
         self.assert_balanced(answers, "opening", +1)
         self.assert_figures("opening", "closing")
 
+    def test_fibres(self):
+        answers = self.follow_one("fibres")
+        load = answers.loads["sheared"]
+        fibres = {fibre["name"]: fibre for fibre in load["inclusions"]}
+        self.assertEqual(len(fibres), 100)
+        shut = {f"r{row}-c{column}" for row in range(1, 11) for column in range(1, 11) if (row + column) % 2 == 0}
+        for name, fibre in fibres.items():
+            self.assertGreater(fibre["contact_length"], 0.04 if name in shut else -1, name)
+            self.assertLess(fibre["contact_length"], 0.05 if name in shut else 1e-3, name)
+        # against 360,000 triangles and tips of 1e-9
+        for name, fine in (("r5-c5", 0.450425), ("r5-c6", 0.560027), ("r1-c1", 0.048764), ("r10-c1", 0.058726)):
+            self.assertAlmostEqual(fibres[name]["A"], fine, delta=0.01 * 0.0566, msg=name)
+        self.assert_close(load["energy"], 0.533538, 3e-3)
+        self.assert_balanced(answers, "sheared", +1)
+        self.assert_told(("0.4504", fibres["r5-c5"]["A"]), ("0.5598", fibres["r5-c6"]["A"]),
+                         ("2.21", load["contact_length"]), ("0.044", fibres["r5-c5"]["contact_length"]),
+                         ("0.5347", load["energy"]))
+        self.assert_figures("sheared", "sheared-membrane")
+
     def test_slit(self):
         answers = self.follow_one("slit")
         opening = slit_series.opening()

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/size_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "errors/errors.hpp"
+#include "mesh/at.hpp"
+#include "mesh/geometry_primitives.hpp"
+
+namespace anticrack::mesh {
+namespace {
+
+constexpr std::size_t centres_in_a_leaf = 8;
+
+/// With more tips than have the membrane to themselves, the part of the radius R (h0/R)^{1/m},
+/// where the rule ends, at which bisection stops.
+constexpr double tip_part = 1e-3;
+
+template <class... Parts>
+[[noreturn]] void refuse_value(const char* field, const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  throw errors::Error(errors::Reason::invalid_argument, text.str()).at(field);
+}
+
+void check(const Grading& grading) {
+  if (!(std::isfinite(grading.h0) && grading.h0 > 0))
+    refuse_value("h0", "h0 = ", grading.h0, "; it is an edge length and must be positive");
+  if (!(grading.m > 0 && grading.m <= 1))
+    refuse_value("m", "m = ", grading.m, "; it must be positive and at most 1, say 0.2");
+  if (!(std::isfinite(grading.tip_size) && grading.tip_size >= 0)) {
+    refuse_value("tip_size", "tip_size = ", grading.tip_size,
+                 "; it must be an edge length, or 0 for the default");
+  }
+}
+
+double squared(const Point& p) noexcept { return p[0] * p[0] + p[1] * p[1]; }
+
+/// Squared distance of the origin from the segment from p to q.
+double squared_distance(const Point& p, const Point& q) noexcept {
+  const Point e = minus(q, p);
+  const double along = -(p[0] * e[0] + p[1] * e[1]);
+  const double length = squared(e);
+  if (along <= 0 || !(length > 0)) return squared(p);
+  if (along >= length) return squared(q);
+  const double t = along / length;
+  return squared({p[0] + t * e[0], p[1] + t * e[1]});
+}
+
+/// Of a triangle from a point that is not inside it.
+double squared_distance(const std::array<Point, 3>& triangle, const Point& from) noexcept {
+  const Point a = minus(triangle[0], from);
+  const Point b = minus(triangle[1], from);
+  const Point c = minus(triangle[2], from);
+  return std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
+}
+
+/// For each node the length of the longest crack or part of an inclusion that ends there, else 0.
+std::vector<double> lengths_ending(const Mesh& mesh) {
+  std::vector<double> longest(mesh.node_count(), 0.0);
+  for (const Interface& line : mesh.interfaces) {
+    for (std::size_t first = 0; first < line.kind.size();) {
+      double length = 0;
+      std::size_t end = first;
+      for (; end < line.kind.size() && line.kind[end] == line.kind[first] &&
+             line.inclusion[end] == line.inclusion[first];
+           ++end)
+        length += distance(position(mesh, line.nodes[end]), position(mesh, line.nodes[end + 1]));
+      if (line.kind[first] != Kind::glue) {
+        for (const std::int32_t node : {line.nodes[first], line.nodes[end]})
+          longest[at(node)] = std::max(longest[at(node)], length);
+      }
+      first = end;
+    }
+  }
+  return longest;
+}
+
+}  // namespace
+
+SizeRule::SizeRule(const Mesh& mesh, std::span<const std::int32_t> centres, const Grading& grading)
+    : _h0(grading.h0), _tip_size(grading.h0) {
+  check(grading);
+  const double floor = std::max(grading.least_tip_size, smallest_tip_size(mesh, centres));
+  if (_h0 < floor) {
+    refuse_value("h0", "h0 = ", _h0, "; in this mesh ", floor, " is the smallest size whose ",
+                 "triangles keep their shape in double precision");
+  }
+  if (grading.tip_size > 0 && grading.tip_size < floor) {
+    refuse_value("tip_size", "tip_size = ", grading.tip_size, "; next to these tips ", floor,
+                 " is the smallest size whose triangles keep their shape in double precision");
+  }
+  // with m = 1 the size does not depend on the distance, and the exponent would be infinite
+  if (grading.m == 1 || centres.empty()) return;
+  _exponent = 1 / (1 - grading.m);
+
+  const double whole = characteristic_length(mesh);
+  const double share = tip_share(whole, centres.size());
+  const std::vector<double> lengths = lengths_ending(mesh);
+  for (const std::int32_t node : centres) {
+    const double reach = std::clamp(lengths[at(node)], share, whole);
+    double tip_size = grading.tip_size;
+    if (tip_size == 0) {
+      const double end = reach * std::pow(_h0 / reach, 1 / grading.m);
+      tip_size = share < whole ? std::clamp(tip_part * end, floor, _h0) : floor;
+    }
+    _tip_size = std::min(_tip_size, tip_size);
+    _centres.push_back({position(mesh, node), reach, tip_size});
+  }
+  build(0, _centres.size());
+}
+
+std::size_t SizeRule::build(std::size_t begin, std::size_t end) {
+  const std::size_t index = _boxes.size();
+  Box box{_centres[begin].at, _centres[begin].at, 0, begin, end, 0, 0};
+  for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      box.low[axis] = std::min(box.low[axis], _centres[i].at[axis]);
+      box.high[axis] = std::max(box.high[axis], _centres[i].at[axis]);
+    }
+    box.reach = std::max(box.reach, _centres[i].reach);
+  }
+  _boxes.push_back(box);
+  if (end - begin <= centres_in_a_leaf) return index;
+  const std::size_t axis = box.high[0] - box.low[0] > box.high[1] - box.low[1] ? 0 : 1;
+  const std::size_t middle = begin + (end - begin) / 2;
+  const auto place = [&](std::size_t i) {
+    return _centres.begin() + static_cast<std::ptrdiff_t>(i);
+  };
+  std::nth_element(place(begin), place(middle), place(end),
+                   [axis](const Centre& c, const Centre& d) { return c.at[axis] < d.at[axis]; });
+  const std::size_t left = build(begin, middle);
+  const std::size_t right = build(middle, end);
+  _boxes[index].left = left;
+  _boxes[index].right = right;
+  return index;
+}
+
+bool SizeRule::search(std::size_t index, const std::array<Point, 3>& triangle, double diameter,
+                      double part) const noexcept {
+  const Box& box = _boxes[index];
+  Point gap{};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto [low, high] = std::minmax({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
+    gap[axis] = std::max({box.low[axis] - high, 0.0, low - box.high[axis]});
+  }
+  const double farthest = box.reach * part;
+  if (squared(gap) > farthest * farthest) return false;
+  if (box.left > 0)
+    return search(box.left, triangle, diameter, part) ||
+           search(box.right, triangle, diameter, part);
+  for (std::size_t i = box.begin; i < box.end; ++i) {
+    const Centre& centre = _centres[i];
+    const double reach = centre.reach * part;
+    if (diameter > centre.tip_size && squared_distance(triangle, centre.at) < reach * reach)
+      return true;
+  }
+  return false;
+}
+
+bool SizeRule::too_large(const std::array<Point, 3>& triangle) const noexcept {
+  const auto& [a, b, c] = triangle;
+  const double diameter =
+      std::sqrt(std::max({squared(minus(b, a)), squared(minus(c, b)), squared(minus(a, c))}));
+  if (diameter > _h0) return true;
+  if (diameter <= _tip_size) return false;
+  // the rule solved for r/R: closer to a centre than this, the diameter is too large
+  return search(0, triangle, diameter, std::pow(diameter / _h0, _exponent));
+}
+
+}  // namespace anticrack::mesh

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The rule of `Grading` for the tips of a mesh, asked for one triangle after another.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/refine.hpp"
+
+namespace anticrack::mesh {
+
+/// Keeps nothing of the mesh. A tree of bounding boxes of the tips.
+class SizeRule {
+ public:
+  /// Throws errors::Error (invalid_argument) at "h0", "m" or "tip_size". O(m + c log c) for m
+  /// triangles and c centres.
+  SizeRule(const Mesh& mesh, std::span<const std::int32_t> centres, const Grading& grading);
+
+  /// Whether the longest edge exceeds what some centre allows; distances from exact differences to
+  /// the centre. Usually O(log c).
+  bool too_large(const std::array<Point, 3>& triangle) const noexcept;
+
+ private:
+  struct Centre {
+    Point at{};
+    double reach = 0;     ///< R of the tip
+    double tip_size = 0;  ///< h_tip
+  };
+  struct Box {
+    Point low{};
+    Point high{};
+    double reach = 0;  ///< largest inside
+    std::size_t begin = 0;
+    std::size_t end = 0;   ///< of its centres
+    std::size_t left = 0;  ///< its parts; 0: none
+    std::size_t right = 0;
+  };
+
+  std::size_t build(std::size_t begin, std::size_t end);
+  bool search(std::size_t box, const std::array<Point, 3>& triangle, double diameter,
+              double part) const noexcept;
+
+  double _h0;
+  double _exponent = 1;  ///< 1/(1-m)
+  double _tip_size;      ///< the smallest
+  std::vector<Centre> _centres;
+  std::vector<Box> _boxes;
+};
+
+}  // namespace anticrack::mesh
