@@ -64,12 +64,12 @@ void append_intervals(const std::string& interface, const std::vector<double>& a
 
 /// Outward fluxes of all sides: [T du/dn] = T du2/dn2 + T du1/dn1.
 void fill_inclusions(const TraceProblem& problem, const mesh::Mesh& mesh,
-                     std::span<const RigidForce> inclusion_forces, const TraceState& state,
+                     std::span<const InclusionForce> inclusion_forces, const TraceState& state,
                      Answer& answer) {
   const ddm::Decomposition& decomposition = problem.decomposition();
   for (std::size_t j = 0; j < mesh.inclusions.size(); ++j) {
     const auto motion = state.motion.col(static_cast<Eigen::Index>(j));
-    const RigidForce given = inclusion_forces.empty() ? RigidForce{} : inclusion_forces[j];
+    const RigidForce given = inclusion_forces.empty() ? RigidForce{} : inclusion_forces[j].on_nodes;
     InclusionAnswer inclusion;
     inclusion.name = mesh.inclusions[j];
     inclusion.displacement = motion[0];
@@ -115,14 +115,19 @@ Eigen::Map<Eigen::VectorXd> view(std::vector<double>& values) {
 
 }  // namespace
 
+double work(const RigidForce& force, const Eigen::Ref<const Eigen::Vector3d>& motion) {
+  return force.force * motion[0] + force.moment_x * motion[1] + force.moment_y * motion[2];
+}
+
 Eigen::VectorXd held_values(const ddm::Decomposition& decomposition,
-                            std::span<const ddm::CondensedLoad> loads, bool numbers) {
+                            std::span<const ddm::CondensedLoad> loads) {
   const std::vector<ddm::Held>& held = decomposition.skeleton.held;
   Eigen::VectorXd values(static_cast<Eigen::Index>(held.size()));
-  for (std::size_t k = 0; k < held.size(); ++k)
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const ddm::Held& one = held[k];
     values[static_cast<Eigen::Index>(k)] =
-        held[k].node >= 0 ? loads[at(held[k].subdomain)].dirichlet[held[k].dirichlet]
-                          : (numbers ? held[k].value : 0);
+        one.node >= 0 ? loads[at(one.subdomain)].dirichlet[one.dirichlet] : one.value;
+  }
   return values;
 }
 

@@ -375,12 +375,14 @@ DenseLcp::DenseLcp(MatrixXd matrix, std::vector<ddm::Terms> rows, VectorXd weigh
   _weights = weights.cwiseQuotient(_scale.cwiseAbs2());
 }
 
-VectorXd DenseLcp::jumps(const VectorXd& d) const {
+VectorXd DenseLcp::jumps(const VectorXd& d, const std::vector<char>& closed) const {
   VectorXd result(conditions());
   result.head(size()) = d.cwiseQuotient(_scale.head(size()));
   Problem{_matrix, _rows, _weights}.add_rows(result);
   result = result.cwiseProduct(_scale);
   result.head(size()) = d;
+  for (Index k = size(); k < result.size(); ++k)
+    result[k] = closed[at(k)] != 0 ? 0 : std::max(result[k], 0.0);
   return result;
 }
 
@@ -392,8 +394,7 @@ VectorXd DenseLcp::split(const VectorXd& force, const std::vector<char>& closed)
     Problem{_matrix, _rows, _weights}.split(closed, lambda);
     lambda = lambda.cwiseQuotient(_scale);
   }
-  for (Index i = 0; i < lambda.size(); ++i)
-    lambda[i] = closed[at(i)] != 0 ? std::max(lambda[i], 0.0) : 0;
+  for (Index i = 0; i < lambda.size(); ++i) lambda[i] = closed[at(i)] != 0 ? lambda[i] : 0;
   return lambda;
 }
 

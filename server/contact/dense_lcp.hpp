@@ -101,9 +101,9 @@ class DenseLcp {
   /// x with (S x)_i = b_i on the open nodes of an answer's factor, else 0, for refinement. O(c^2).
   Eigen::VectorXd solve_open(const OpenFactor& open, const Eigen::VectorXd& b) const;
 
-  /// The jumps of all conditions: d, then G d.
-  Eigen::VectorXd jumps(const Eigen::VectorXd& d) const;
-  /// lambda of all conditions from S d - r, given which are closed; not below 0. O(c).
+  /// The jumps of all conditions: d, then G d, 0 where closed and not below.
+  Eigen::VectorXd jumps(const Eigen::VectorXd& d, const std::vector<char>& closed) const;
+  /// lambda of all conditions from S d - r, given which are closed. O(c).
   Eigen::VectorXd split(const Eigen::VectorXd& force, const std::vector<char>& closed) const;
 
   /// 1 / sqrt(S_ii) of the nodes, the norms of the rows of S-scaled d; and S with it on both sides:

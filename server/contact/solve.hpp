@@ -16,16 +16,26 @@ struct RigidForce {
   double moment_x = 0, moment_y = 0;
 };
 
-/// Condensed loads, one per subdomain, and the forces F_j on inclusions that are already in them
-/// (one per inclusion, or none at all).
-struct CaseLoads {
-  std::span<const ddm::CondensedLoad> subdomains;
-  std::span<const RigidForce> inclusion_forces = {};
+/// The force F_j on an inclusion: what acts on its trace nodes, and what only those who hold it
+/// feel.
+struct InclusionForce {
+  RigidForce on_nodes;
+  RigidForce on_holders;
 };
 
-/// p of a load: the values that are held. `numbers`: whether those that no load changes are in it.
+/// Condensed loads, one per subdomain, and the forces on inclusions, of which on_nodes are already
+/// in them (one per inclusion, or none at all).
+struct CaseLoads {
+  std::span<const ddm::CondensedLoad> subdomains;
+  std::span<const InclusionForce> inclusion_forces = {};
+};
+
+/// Work of a force on a motion (A, Bx, By).
+double work(const RigidForce& force, const Eigen::Ref<const Eigen::Vector3d>& motion);
+
+/// p of a load: the values that are held.
 Eigen::VectorXd held_values(const ddm::Decomposition& decomposition,
-                            std::span<const ddm::CondensedLoad> loads, bool numbers = true);
+                            std::span<const ddm::CondensedLoad> loads);
 
 /// The exact contact problem, by DenseLcp and a step of iterative refinement; one sample a step,
 /// whose criterion is that of step 3 of Algorithm 2, 1 in the first. The bits depend on the final

@@ -37,14 +37,45 @@ std::vector<ddm::Terms> sweep_motions(const ddm::Skeleton& skeleton) {
   return rows;
 }
 
-SweepGeometry::SweepGeometry(const SkeletonProblem& problem)
-    : length(problem.traces().pair_forces().contact_mass()) {
-  const TraceProblem& traces = problem.traces();
+bool held_by_numbers(const ddm::Skeleton& skeleton) {
+  return std::ranges::any_of(skeleton.held, [](const ddm::Held& held) { return held.value != 0; });
+}
+
+VectorXd held_part(const ddm::Decomposition& decomposition,
+                   std::span<const ddm::CondensedLoad> loads, bool numbers) {
+  const std::vector<ddm::Held>& held = decomposition.skeleton.held;
+  VectorXd values = VectorXd::Zero(static_cast<Index>(held.size()));
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const ddm::Held& one = held[k];
+    if (numbers)
+      values[static_cast<Index>(k)] = one.value;
+    else if (one.node >= 0)
+      values[static_cast<Index>(k)] = loads[at(one.subdomain)].dirichlet[one.dirichlet];
+  }
+  return values;
+}
+
+void take_from_holders(std::span<const CaseLoads> loads, SweepLoads& reduced) {
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const auto inclusions = static_cast<Index>(loads[i].inclusion_forces.size());
+    const auto row = static_cast<Index>(i);
+    for (Index j = 0; j < reduced.energy.cols(); ++j) {
+      double sum = 0;
+      for (Index k = 0; k < inclusions; ++k) {
+        Eigen::Vector3d motion(reduced.motion(k, j), 0, 0);
+        if (reduced.motion.rows() > inclusions)
+          motion.tail(2) = reduced.motion.col(j).segment(inclusions + 2 * k, 2);
+        sum += work(loads[i].inclusion_forces[at(k)].on_holders, motion);
+      }
+      reduced.energy(row, j) -= sum / 2;
+      reduced.energy(j, row) -= sum / 2;
+    }
+  }
+}
+
+SweepGeometry::SweepGeometry(const TraceProblem& traces)
+    : length(traces.pair_forces().contact_mass()) {
   const ddm::Decomposition& decomposition = traces.decomposition();
-  const std::vector<ddm::Terms> motions = sweep_motions(decomposition.skeleton);
-  motion.resize(static_cast<Index>(motions.size()), problem.lcp().size());
-  for (Index j = 0; j < motion.rows(); ++j)
-    motion.row(j) = problem.response(motions[at(j)]).transpose();
   for (const PairForces::Implied& pair : traces.pair_forces().implied())
     implied.push_back({pair.path, traces.lumped_mass()[pair.pair]});
   for (std::size_t c = 0; c < decomposition.interface_sides.size(); ++c) {
@@ -60,69 +91,31 @@ SweepGeometry::SweepGeometry(const SkeletonProblem& problem)
 }
 
 std::size_t SweepGeometry::bytes() const noexcept {
-  return bytes_of(motion) + sizeof(double) * at(length.size()) +
-         nodes.capacity() * sizeof(nodes[0]) + contact.capacity() * sizeof(contact[0]);
+  return sizeof(double) * at(length.size()) + nodes.capacity() * sizeof(nodes[0]) +
+         contact.capacity() * sizeof(contact[0]);
 }
 
 std::size_t SweepLoads::bytes() const noexcept {
   return bytes_of(r) + bytes_of(magnitude) + bytes_of(motion) + bytes_of(energy);
 }
 
-SweepLoads reduce(const SkeletonProblem& problem, std::span<const CaseLoads> loads,
-                  const MatrixXd& constants) {
-  const ddm::Decomposition& decomposition = problem.traces().decomposition();
-  const std::vector<ddm::Terms> motions = sweep_motions(decomposition.skeleton);
-  const bool numbers = std::ranges::any_of(decomposition.skeleton.held,
-                                           [](const ddm::Held& held) { return held.value != 0; });
-  const Index contacts = problem.lcp().size(), given = static_cast<Index>(loads.size());
-  const Index m = given + (numbers ? 1 : 0);
-  const VectorXd no_jump = VectorXd::Zero(contacts);
-  SweepLoads result{MatrixXd(contacts, m), MatrixXd(contacts, m),
-                    MatrixXd(static_cast<Index>(motions.size()), m), MatrixXd::Zero(m, m)};
-  MatrixXd h = MatrixXd::Zero(problem.traces().maps().unknowns(), m), w(h.rows(), m),
-           forces(h.rows(), m);
-  for (Index j = 0; j < m; ++j) {
-    VectorXd held = VectorXd::Zero(problem.traces().maps().held_count());
-    if (j < given) {
-      std::vector<VectorXd> g;
-      for (const ddm::CondensedLoad& load : loads[at(j)].subdomains) g.push_back(load.g);
-      h.col(j) = problem.gather(g);
-      held = held_values(decomposition, loads[at(j)].subdomains, false);
-    } else {
-      for (Index k = 0; k < held.size(); ++k) held[k] = decomposition.skeleton.held[at(k)].value;
-    }
-    const SkeletonProblem::Reduced reduced = problem.reduce_refined(h.col(j), held);
-    w.col(j) = problem.unknowns(reduced, no_jump);
-    forces.col(j) = held.size() > 0 ? problem.apply(w.col(j)) : h.col(j);
-    result.r.col(j) = reduced.r;
-    result.magnitude.col(j) = reduced.magnitude;
-    for (Index k = 0; k < result.motion.rows(); ++k)
-      result.motion(k, j) = sum_of(motions[at(k)], w.col(j));
-  }
-  // w'K w/2 - h'w; without held values w'K w = h'w.
-  const MatrixXd work = h.transpose() * w, strain = forces.transpose() * w;
-  result.energy.topLeftCorner(given, given) = constants;
-  result.energy += (strain + strain.transpose()) / 4 - (work + work.transpose()) / 2;
-  return result;
-}
-
-SweepSolver::SweepSolver(const SkeletonProblem& problem, const SweepGeometry& geometry,
-                         const ActiveSetOptions& options, std::span<const char> start)
+SweepSolver::SweepSolver(const TraceProblem& traces, const SweepGeometry& geometry,
+                         std::unique_ptr<RowContact> contact)
     : _geometry(geometry),
-      _forces(problem.traces().pair_forces()),
-      _lcp(problem.lcp(), options.max_steps, start, &problem.nested_start(), options.tolerance),
-      _r(problem.lcp().size()),
-      _magnitude(problem.lcp().size()),
-      _motion(geometry.motion.rows()),
-      _of_jumps(geometry.motion.rows()) {}
+      _forces(traces.pair_forces()),
+      _contact(std::move(contact)),
+      _r(static_cast<Index>(traces.decomposition().skeleton.independent)),
+      _magnitude(_r.size()),
+      _motion(static_cast<Index>(sweep_motions(traces.decomposition().skeleton).size())),
+      _of_jumps(_motion.size()) {}
 
 void SweepSolver::solve(const SweepLoads& loads, std::span<const double> coefficients,
                         std::size_t row, SweepColumns& rows) {
   rows.steps[row] = 0;
   bool sound = combine(loads, coefficients);
   if (sound) {
-    sound = _lcp.solve(_r, _magnitude) == LcpStatus::solved;
-    rows.steps[row] = _lcp.steps();
+    sound = _contact->solve(_r, _magnitude) == LcpStatus::solved;
+    rows.steps[row] = _contact->steps();
   }
   sound = sound && write(row, rows);
   rows.status[row] = sound ? Status::converged : Status::not_converged;
@@ -151,22 +144,22 @@ bool SweepSolver::combine(const SweepLoads& loads, std::span<const double> coeff
 }
 
 bool SweepSolver::write(std::size_t row, SweepColumns& rows) {
-  const VectorXd& d = _lcp.d();
-  const VectorXd& lambda = _lcp.lambda();
+  const VectorXd& d = _contact->d();
+  const VectorXd& lambda = _contact->lambda();
   double energy = _energy, length = 0;
-  _pressed = _lcp.pressed();
+  _pressed = _contact->pressed();
   _forces.complete_contact(lambda, _pressed);
   for (Index i = 0; i < d.size(); ++i) energy -= _r[i] * d[i] / 2;
   for (Index i = 0; i < _geometry.length.size(); ++i)
     length += _pressed[at(i)] != 0 ? _geometry.length[i] : 0;
   for (const SweepGeometry::Implied& implied : _geometry.implied)
     length += pressed_through(implied.path, _pressed) ? implied.length : 0;
-  multiply(_geometry.motion, d, _of_jumps);
+  _contact->motion(_of_jumps);
   _motion += _of_jumps;
   if (!std::isfinite(energy) || !_motion.allFinite() || !lambda.allFinite()) return false;
   rows.energy[row] = energy;
   rows.contact_length[row] = length;
-  rows.kkt[row] = _lcp.residual();
+  rows.kkt[row] = _contact->residual();
   const auto slope = _motion.begin() + static_cast<Index>(rows.inclusions);
   std::copy(_motion.begin(), slope, rows.displacement.data() + row * rows.inclusions);
   if (!rows.slope.empty()) std::copy(slope, _motion.end(), rows.slope.data() + row * slopes(rows));

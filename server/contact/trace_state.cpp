@@ -31,7 +31,7 @@ double energy(std::span<const ddm::CondensedLoad> loads, const TraceState& state
     of_traces += state.trace[s].dot(state.flux[s] - loads[s].g) / 2;
     constant += loads[s].energy_constant;
   }
-  return of_traces + constant;
+  return of_traces + constant + state.of_interiors;
 }
 
 KktResiduals contact_residuals(const ddm::Decomposition& decomposition, const ConstVectorRef& mu,

@@ -15,6 +15,7 @@ namespace anticrack::contact {
 struct TraceState {
   std::vector<Eigen::VectorXd> trace;  ///< t_i, per subdomain
   std::vector<Eigen::VectorXd> flux;   ///< S t - g: int T du/dn phi_i, n outward
+  double of_interiors = 0;             ///< of the energy, where loads are not condensed
   Eigen::MatrixXd motion;              ///< (3, inclusions): A, and B in x and y
   Eigen::VectorXd mu;                  ///< per pair
   Eigen::VectorXd force;               ///< M mu, per pair

@@ -52,7 +52,8 @@ LcpStatus WarmLcp::solve_with_rows(const VectorXd& r, const VectorXd& magnitude)
   _d = _jump.cwiseQuotient(scale);
   const VectorXd force = (_lcp.scaled_matrix() * _d).cwiseQuotient(scale) - r;
   const double size = std::max(r.lpNorm<Eigen::Infinity>(), _pressure.lpNorm<Eigen::Infinity>());
-  const double error = (_lcp.split(force, _closed) - _pressure).lpNorm<Eigen::Infinity>();
+  const double error =
+      (_lcp.split(force, _closed).cwiseMax(0.0) - _pressure).lpNorm<Eigen::Infinity>();
   _residual = error == 0 ? 0 : error / size;
   return LcpStatus::solved;
 }

@@ -49,12 +49,13 @@ MatrixXd symmetric(const MatrixXd& matrix) { return (matrix + matrix.transpose()
 
 }  // namespace
 
-LoadProducts products(std::span<const CondensedLoad* const> loads) {
-  const MatrixXd interior = inner<&CondensedLoad::z_interior, &CondensedLoad::z_interior>(loads);
-  const MatrixXd mixed = inner<&CondensedLoad::z_interior, &CondensedLoad::z_boundary>(loads);
+LoadProducts products(std::span<const CondensedLoad* const> loads, bool condensed) {
   const MatrixXd boundary =
       inner<&CondensedLoad::dirichlet, &CondensedLoad::dirichlet_force>(loads);
   const MatrixXd work = inner<&CondensedLoad::on_dirichlet, &CondensedLoad::dirichlet>(loads);
+  if (!condensed) return {symmetric(boundary / 2 - work), symmetric(boundary)};
+  const MatrixXd interior = inner<&CondensedLoad::z_interior, &CondensedLoad::z_interior>(loads);
+  const MatrixXd mixed = inner<&CondensedLoad::z_interior, &CondensedLoad::z_boundary>(loads);
   return {symmetric((boundary - interior) / 2 - work), symmetric(interior - 2 * mixed + boundary)};
 }
 
@@ -66,7 +67,9 @@ CondensedLoad combine(std::span<const CondensedLoad* const> loads, const LoadPro
     if (j == 0) {
       result.g = result.g_boundary = VectorXd::Zero(load.g.size());
       result.dirichlet = VectorXd::Zero(load.dirichlet.size());
+      result.z_interior = VectorXd::Zero(load.z_interior.size());
     }
+    result.z_interior += coefficients[j] * load.z_interior;
     result.g += coefficients[j] * load.g;
     result.g_boundary += coefficients[j] * load.g_boundary;
     result.dirichlet += coefficients[j] * load.dirichlet;

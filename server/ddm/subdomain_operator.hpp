@@ -78,10 +78,11 @@ struct LoadProducts {
   Eigen::MatrixXd norm;
 };
 
-/// O(n m^2), n the nodes of the subdomain.
-LoadProducts products(std::span<const CondensedLoad* const> loads);
+/// `condensed`: the interior is eliminated, its energy in z_interior; else the constants are those
+/// of the Dirichlet nodes alone. O(n m^2), n the nodes of the subdomain.
+LoadProducts products(std::span<const CondensedLoad* const> loads, bool condensed = true);
 
-/// sum_j c_j f_j without z_interior, so without fields. O((trace + Dirichlet) m).
+/// sum_j c_j f_j, with z_interior if the loads have it. O((trace + Dirichlet) m).
 CondensedLoad combine(std::span<const CondensedLoad* const> loads, const LoadProducts& products,
                       const Eigen::Ref<const Eigen::VectorXd>& coefficients);
 

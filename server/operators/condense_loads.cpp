@@ -74,7 +74,7 @@ class Block {
     }
   }
 
-  void condense_on(std::size_t s, const ddm::SubdomainOperator& subdomain_operator) {
+  void condense_on(std::size_t s, const Condense& condense) {
     const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
     const auto columns = static_cast<Eigen::Index>(_loads.size());
     Eigen::MatrixXd dirichlet(static_cast<Eigen::Index>(subdomain.dirichlet), columns);
@@ -105,7 +105,7 @@ class Block {
     const auto width = static_cast<Eigen::Index>(sound.size());
     try {
       std::vector<ddm::CondensedLoad> condensed =
-          subdomain_operator.condense(of_nodes.leftCols(width), dirichlet.leftCols(width));
+          condense(s, of_nodes.leftCols(width), dirichlet.leftCols(width));
       for (std::size_t k = 0; k < sound.size(); ++k)
         std::get<LoadOnTraces>(_outcomes[sound[k]]).subdomains.push_back(std::move(condensed[k]));
     } catch (const errors::Error& error) {  // out of memory fails every load of the block
@@ -236,7 +236,7 @@ Eigen::Index most_nodes(const ddm::Decomposition& decomposition) {
 std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> loads,
                                              const mesh::Mesh& mesh,
                                              const ddm::Decomposition& decomposition,
-                                             std::span<const ddm::SubdomainOperator> operators,
+                                             const Condense& condense,
                                              const ddm::NeumannBoundary& neumann,
                                              const std::stop_token& stop) {
   const auto at_once = at(ddm::columns_at_once(most_nodes(decomposition)));
@@ -245,7 +245,8 @@ std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> l
   for (std::size_t first = 0; first < loads.size(); first += at_once) {
     Block block(loads.subspan(first, std::min(at_once, loads.size() - first)), mesh, decomposition,
                 neumann, stop);
-    for (std::size_t s = 0; s < operators.size(); ++s) block.condense_on(s, operators[s]);
+    for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s)
+      block.condense_on(s, condense);
     block.require_agreement(mesh);
     for (CondensedOutcome& outcome : block.take()) result.push_back(std::move(outcome));
   }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -22,24 +23,28 @@ namespace anticrack::operators {
 /// A load case condensed to the traces.
 struct LoadOnTraces {
   std::vector<ddm::CondensedLoad> subdomains;  ///< one per subdomain
-  /// Total force on each of Mesh::inclusions, point forces included, with the moments of the forces
-  /// on trace nodes that stand for it in `g` of `subdomains`.
-  std::vector<contact::RigidForce> inclusion_forces;
+  /// Total force on each of Mesh::inclusions, point forces included; on_nodes is in `g` of
+  /// `subdomains`.
+  std::vector<contact::InclusionForce> inclusion_forces;
   std::vector<std::string> warnings;  ///< integrals that reached a limit, with their error bound
 };
+
+/// (subdomain, int f phi_i of all its nodes, g_D in its Dirichlet nodes), a load each column.
+using Condense = std::function<std::vector<ddm::CondensedLoad>(
+    std::size_t, const Eigen::Ref<const Eigen::MatrixXd>&,
+    const Eigen::Ref<const Eigen::MatrixXd>&)>;
 
 using CondensedOutcome = std::variant<LoadOnTraces, errors::Error>;
 
 /// Integrates all loads on the membrane (paper: f, g_D; tractions, point forces, forces on
 /// inclusions) and condenses them to the traces: one forward solve per subdomain and load, two
-/// where g_D is not zero, in blocks of loads. `operators`: one per subdomain of the decomposition
-/// of `mesh`. Entry i holds the result or error of loads[i]: invalid_argument (unknown subdomain or
-/// inclusion, array of another length, point force outside or on a crack, overflow),
-/// expression_invalid, or cancelled if `stop` came first.
+/// where g_D is not zero, in blocks of loads. Entry i holds the result or error of loads[i]:
+/// invalid_argument (unknown subdomain or inclusion, array of another length, point force outside
+/// or on a crack, overflow), expression_invalid, or cancelled if `stop` came first.
 std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> loads,
                                              const mesh::Mesh& mesh,
                                              const ddm::Decomposition& decomposition,
-                                             std::span<const ddm::SubdomainOperator> operators,
+                                             const Condense& condense,
                                              const ddm::NeumannBoundary& neumann,
                                              const std::stop_token& stop);
 
@@ -58,7 +63,7 @@ struct NodalForce {
 
 struct PlacedForces {
   std::vector<std::vector<NodalForce>> subdomains;  ///< one list per subdomain
-  std::vector<contact::RigidForce> inclusions;      ///< as LoadOnTraces::inclusion_forces
+  std::vector<contact::InclusionForce> inclusions;  ///< as LoadOnTraces::inclusion_forces
 };
 
 /// Distance, as a fraction of the diagonal of the membrane's bounding box, within which a point
@@ -68,11 +73,11 @@ constexpr double point_tolerance = 1e-9;
 /// A point force on an edge of an inclusion, bonded or delaminated, acts on the inclusion;
 /// elsewhere on the corners of the triangle that contains it, by barycentric coordinates (int delta
 /// phi_i). A force on an inclusion acts in its middle: on one trace node where all share its
-/// displacement; of one that tilts, with its moments, on all of them, by the least forces that have
-/// this resultant and moment. Throws errors::Error (invalid_argument): "point_forces[I].at" for a
-/// point outside the membrane or on a crack without inclusion, "inclusion_forces[NAME]" and
-/// "inclusion_moments[NAME]" for an unknown inclusion, or for one whose nodes cannot carry it, as a
-/// moment on one that does not tilt. O(m log k + hits) for k points.
+/// displacement; of one that tilts, with its moments, on all of them, by the least forces that do
+/// the same work on the motions that are free. Throws errors::Error (invalid_argument):
+/// "point_forces[I].at" for a point outside the membrane or on a crack without inclusion,
+/// "inclusion_forces[NAME]" and "inclusion_moments[NAME]" for an unknown inclusion, or a moment on
+/// one that does not tilt. O(m log k + hits) for k points.
 PlacedForces place_forces(const fem::Load& load, const mesh::Mesh& mesh,
                           const ddm::Decomposition& decomposition);
 

@@ -34,6 +34,10 @@ std::vector<ddm::SubdomainOperator> factorise_subdomains(
   return operators;
 }
 
+constexpr const char* long_interfaces =
+    "the interfaces have too many nodes for the dense matrices of Algorithm 2; use the method "
+    "\"active-set\"";
+
 template <class Value>
 std::size_t bytes_of(const std::vector<Value>& values) {
   return values.capacity() * sizeof(Value);
@@ -62,22 +66,38 @@ std::size_t bytes_of(const ddm::Decomposition& decomposition) {
 }  // namespace
 
 MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads,
-                           const std::stop_token& stop)
+                           const std::stop_token& stop, std::size_t most_dense)
     : mesh(std::move(cut_mesh)),
       decomposition(ddm::cut(*mesh)),
       neumann(*mesh, decomposition),
-      operators(factorise_subdomains(decomposition.subdomains, threads, stop)),
-      uzawa_obstacle(ddm::uzawa_obstacle(decomposition, *mesh)),
+      operators(contact::is_long(decomposition, most_dense)
+                    ? std::vector<ddm::SubdomainOperator>()
+                    : factorise_subdomains(decomposition.subdomains, threads, stop)),
+      uzawa_obstacle(contact::is_long(decomposition, most_dense)
+                         ? long_interfaces
+                         : ddm::uzawa_obstacle(decomposition, *mesh)),
       problem(decomposition, operators, uzawa_obstacle.empty()),
-      skeleton(problem),
-      sweep_geometry(skeleton),
-      geometry(contact::trace_geometry(decomposition, *mesh)) {}
+      sweep_geometry(problem),
+      geometry(contact::trace_geometry(decomposition, *mesh)) {
+  if (contact::is_long(decomposition, most_dense))
+    joined.emplace(problem, threads, stop);
+  else
+    skeleton.emplace(problem);
+}
+
+Condense MeshOperator::Parts::condense() const {
+  return [this](std::size_t subdomain, const auto& of_nodes, const auto& dirichlet) {
+    return joined ? joined->membrane().loads(subdomain, of_nodes, dirichlet)
+                  : operators[subdomain].condense(of_nodes, dirichlet);
+  };
+}
 
 std::shared_ptr<const MeshOperator> MeshOperator::factorise(std::shared_ptr<const mesh::Mesh> mesh,
-                                                            int threads, std::stop_token stop) {
+                                                            int threads, std::stop_token stop,
+                                                            std::size_t most_dense) {
   require_threadsafe_blas();
   require_running(stop);
-  auto parts = std::make_shared<const Parts>(std::move(mesh), threads, stop);
+  auto parts = std::make_shared<const Parts>(std::move(mesh), threads, stop, most_dense);
   return std::shared_ptr<const MeshOperator>(new MeshOperator(std::move(parts)));
 }
 
@@ -110,7 +130,8 @@ std::size_t MeshOperator::bytes() const noexcept {
   std::size_t bytes = sizeof(Parts) + bytes_of(*_parts->mesh) + bytes_of(_parts->decomposition) +
                       _parts->neumann.bytes();
   for (const ddm::SubdomainOperator& subdomain : _parts->operators) bytes += subdomain.bytes();
-  return bytes + _parts->skeleton.bytes() + _parts->sweep_geometry.bytes() + _parts->bases.bytes();
+  bytes += _parts->with_problem([](const auto& problem) { return problem.bytes(); });
+  return bytes + _parts->sweep_geometry.bytes() + _parts->bases.bytes();
 }
 
 void require_threadsafe_blas() { ddm::require_threadsafe_blas(); }

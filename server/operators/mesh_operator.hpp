@@ -26,6 +26,9 @@ class PreparedLoad;
 class LoadBasis;
 class UzawaBlock;
 
+/// Nodes of the interfaces up to which their matrices are dense.
+constexpr std::size_t max_dense = 3000;
+
 /// Factorised subdomains, Schur complements, the skeleton condensed to the cracks and the interface
 /// mass of one mesh; on demand also the flexibilities and theta* of Algorithm 2 and bases of
 /// sweeps. Thread-safe; answers do not depend on other calls.
@@ -33,9 +36,11 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
  public:
   /// Factorises every subdomain (paper: the matrices of Algorithm 2) on `threads` threads. Throws
   /// errors::Error: numerical (a part that nothing or contact alone holds), cancelled. One sparse
-  /// Cholesky factorisation per subdomain plus O(n_G^3) for n_G interface nodes.
+  /// Cholesky factorisation per subdomain plus O(n_G^3) for n_G interface nodes. Of more than
+  /// `most_dense` the membrane is joined instead: one sparse factor, O(N^1.5).
   static std::shared_ptr<const MeshOperator> factorise(std::shared_ptr<const mesh::Mesh> mesh,
-                                                       int threads, std::stop_token stop);
+                                                       int threads, std::stop_token stop,
+                                                       std::size_t most_dense = max_dense);
   /// Condenses loads by forward solves in blocks of columns, O(N) each. Entry i belongs to loads[i]
   /// and holds its error: expression_invalid (a value that is not finite, with the place),
   /// invalid_argument (an unknown subdomain or inclusion, an array of another length, a point
@@ -102,9 +107,10 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// theta_star() if known, else 0. Does not wait.
   double known_theta_star() const noexcept;
 
+  struct Parts;
+
  private:
   friend class UzawaBlock;
-  struct Parts;
   explicit MeshOperator(std::shared_ptr<const Parts> parts) : _parts(std::move(parts)) {}
   /// Throws errors::Error (internal) unless the load is of this mesh, and has fields if asked for.
   void require_prepared(const PreparedLoad& load, bool fields) const;

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
+#include "contact/joined_problem.hpp"
 #include "contact/skeleton_problem.hpp"
 #include "contact/solve.hpp"
 #include "contact/sweep_solver.hpp"
@@ -22,19 +24,33 @@
 namespace anticrack::operators {
 
 struct MeshOperator::Parts {
-  Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads, const std::stop_token& stop);
+  Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads, const std::stop_token& stop,
+        std::size_t most_dense);
 
   std::shared_ptr<const mesh::Mesh> mesh;
   ddm::Decomposition decomposition;
-  ddm::NeumannBoundary neumann;  // refers to the mesh and the decomposition
-  std::vector<ddm::SubdomainOperator> operators;
+  ddm::NeumannBoundary neumann;                   // refers to the mesh and the decomposition
+  std::vector<ddm::SubdomainOperator> operators;  // none where the membrane is joined
   std::string uzawa_obstacle;
-  contact::TraceProblem problem;      // refers to the decomposition and the operators
-  contact::SkeletonProblem skeleton;  // refers to the problem
+  contact::TraceProblem problem;  // refers to the decomposition and the operators
+  // One of the two; they refer to the problem.
+  std::optional<contact::SkeletonProblem> skeleton;
+  std::optional<contact::JoinedProblem> joined;
   contact::SweepGeometry sweep_geometry;
   std::vector<contact::TraceGeometry> geometry;
   mutable BasisCache bases;
+
+  template <class Use>
+  decltype(auto) with_problem(const Use& use) const;
+  /// Loads of a subdomain by nodes (rows) and g_D, a column each.
+  Condense condense() const;
 };
+
+/// Calls use(problem) with the skeleton or the joined membrane.
+template <class Use>
+decltype(auto) MeshOperator::Parts::with_problem(const Use& use) const {
+  return joined ? use(*joined) : use(*skeleton);
+}
 
 struct PreparedLoad::Data {
   std::shared_ptr<const MeshOperator> mesh_operator;

@@ -3,7 +3,9 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "errors/errors.hpp"
@@ -80,7 +82,8 @@ std::vector<Placed> find_in_subdomains(const ddm::Decomposition& decomposition,
 }
 
 void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& mesh,
-                  const ddm::Decomposition& decomposition, PlacedForces& placed) {
+                  const ddm::Decomposition& decomposition, PlacedForces& placed,
+                  std::vector<contact::RigidForce>& given) {
   if (forces.empty()) return;
   std::vector<fem::PlanePoint> positions;
   positions.reserve(forces.size());
@@ -93,7 +96,7 @@ void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& 
     if (on[i].inclusion >= 0) {
       const auto j = at(on[i].inclusion);
       const ddm::RigidMotion& motion = decomposition.skeleton.motions[j];
-      contact::RigidForce& on_inclusion = placed.inclusions[j];
+      contact::RigidForce& on_inclusion = given[j];
       on_inclusion.force += forces[i].value;
       if (motion.slope_x.empty()) continue;
       on_inclusion.moment_x += forces[i].value * (forces[i].x - motion.centre[0]);
@@ -116,82 +119,101 @@ void place_points(const std::vector<fem::PointForce>& forces, const mesh::Mesh& 
   }
 }
 
-/// A trace node of the inclusion, and where it is from the inclusion's middle.
+/// A trace node of a body, the inclusion it belongs to, and where it is.
 struct RigidNode {
   std::size_t subdomain;
-  std::int32_t node;
-  double x, y;
+  std::int32_t node, inclusion;
+  mesh::Point at;
 };
 
+/// Of the body that the inclusion is, or is a part of.
+std::int32_t first_of_body(const ddm::Skeleton& skeleton, std::size_t inclusion) {
+  return skeleton.inclusion[at(skeleton.motions[inclusion].displacement.front().index)];
+}
+
+/// Of the inclusion alone where `one` is enough.
 std::vector<RigidNode> nodes_of(std::size_t inclusion, const ddm::Decomposition& decomposition,
                                 bool one) {
-  const mesh::Point& centre = decomposition.skeleton.motions[inclusion].centre;
+  const std::int32_t body = first_of_body(decomposition.skeleton, inclusion);
   std::vector<RigidNode> nodes;
   for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
     const ddm::Subdomain& subdomain = decomposition.subdomains[s];
     for (std::size_t i = 0; i < subdomain.trace; ++i) {
-      if (at(subdomain.rigid[i]) != inclusion || subdomain.rigid[i] < 0) continue;
+      const std::int32_t owner = subdomain.rigid[i];
+      if (owner < 0 ||
+          (one ? at(owner) != inclusion : first_of_body(decomposition.skeleton, at(owner)) != body))
+        continue;
       const std::size_t node = subdomain.interior + i;
-      nodes.push_back({s, static_cast<std::int32_t>(node), subdomain.part.xy[2 * node] - centre[0],
-                       subdomain.part.xy[2 * node + 1] - centre[1]});
+      nodes.push_back({s,
+                       static_cast<std::int32_t>(node),
+                       owner,
+                       {subdomain.part.xy[2 * node], subdomain.part.xy[2 * node + 1]}});
       if (one) return nodes;
     }
   }
   return nodes;
 }
 
-/// Forces on the nodes of least squares with the force and moment given; false if there are none.
-bool balance(const std::vector<RigidNode>& nodes, const contact::RigidForce& given,
-             Eigen::VectorXd& forces) {
-  constexpr double rounding = 1e-9;
-  double size = 0;
-  for (const RigidNode& node : nodes) size = std::max({size, std::abs(node.x), std::abs(node.y)});
-  if (!(size > 0)) return false;
-  Eigen::Matrix3Xd rows(3, static_cast<Eigen::Index>(nodes.size()));
-  for (Eigen::Index i = 0; i < rows.cols(); ++i)
-    rows.col(i) << 1, nodes[at(i)].x / size, nodes[at(i)].y / size;
-  const Eigen::Vector3d wanted(given.force, given.moment_x / size, given.moment_y / size);
-  forces = rows.completeOrthogonalDecomposition().solve(wanted);
-  return (rows * forces - wanted).norm() <= rounding * wanted.norm();
+/// The motions (A, Bx, By) that are free, in columns; of one that is held fewer than it has.
+Eigen::Matrix3Xd free_motions(const ddm::Skeleton& skeleton, std::size_t inclusion) {
+  const ddm::RigidMotion& motion = skeleton.motions[inclusion];
+  std::map<std::int32_t, Eigen::Vector3d> columns;
+  const std::array<const ddm::Terms*, 3> parts{&motion.displacement, &motion.slope_x,
+                                               &motion.slope_y};
+  for (Eigen::Index k = 0; k < 3; ++k)
+    for (const auto& [unknown, factor] : *parts[at(k)])
+      for (const auto& [free, of_unknown] : skeleton.rows[at(unknown)].free)
+        columns.try_emplace(free, Eigen::Vector3d::Zero()).first->second[k] += factor * of_unknown;
+  Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(columns.size()));
+  Eigen::Index count = 0;
+  for (const auto& [free, column] : columns) result.col(count++) = column;
+  return result;
 }
 
-/// The part of a moment that does work: of a straight inclusion, that along it.
-void keep_working_part(const ddm::RigidMotion& motion, contact::RigidForce& given) {
-  if (motion.slope_x.size() != 1) return;
-  const double x = motion.slope_x.front().factor, y = motion.slope_y.front().factor;
-  const double along = (given.moment_x * x + given.moment_y * y) / (x * x + y * y);
-  given.moment_x = along * x;
-  given.moment_y = along * y;
+Eigen::Vector3d vector_of(const contact::RigidForce& force) {
+  return {force.force, force.moment_x, force.moment_y};
 }
 
-/// `given`: replaced by what the forces on the nodes are.
-void place_on_inclusion(std::size_t inclusion, const std::string& name, contact::RigidForce& given,
+void place_on_inclusion(std::size_t inclusion, const contact::RigidForce& given,
                         const ddm::Decomposition& decomposition, PlacedForces& placed) {
-  const ddm::RigidMotion& motion = decomposition.skeleton.motions[inclusion];
-  const bool tilts = !motion.slope_x.empty();
-  const std::vector<RigidNode> nodes = nodes_of(inclusion, decomposition, !tilts);
-  Eigen::VectorXd forces =
-      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(nodes.size()), given.force);
-  keep_working_part(motion, given);
-  if (nodes.empty() || (tilts && !balance(nodes, given, forces))) {
-    throw Error(Reason::invalid_argument,
-                "the inclusion \"" + name +
-                    "\" has too few nodes off the Dirichlet boundary to take a force or moment; "
-                    "mesh it finer, or leave them out")
-        .at((given.force != 0 ? "inclusion_forces[" : "inclusion_moments[") + name + "]");
+  const ddm::Skeleton& skeleton = decomposition.skeleton;
+  const Eigen::Matrix3Xd motions = free_motions(skeleton, inclusion);
+  const bool one = skeleton.motions[inclusion].slope_x.empty();
+  std::vector<RigidNode> nodes;
+  if (motions.cols() > 0) nodes = nodes_of(inclusion, decomposition, one);
+  const mesh::Point& centre = skeleton.motions[inclusion].centre;
+  Eigen::Matrix3Xd levers(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    levers.col(static_cast<Eigen::Index>(i)) << 1, nodes[i].at[0] - centre[0],
+        nodes[i].at[1] - centre[1];
+  const Eigen::Vector3d wanted = vector_of(given);
+  Eigen::VectorXd on_nodes = Eigen::VectorXd::Constant(levers.cols(), wanted[0]);
+  if (!one && levers.cols() > 0) {
+    on_nodes = (motions.transpose() * levers)
+                   .completeOrthogonalDecomposition()
+                   .solve(motions.transpose() * wanted);
   }
-  given = {};
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const double force = forces[static_cast<Eigen::Index>(i)];
-    placed.subdomains[nodes[i].subdomain].push_back({nodes[i].node, force});
-    given.force += force;
-    given.moment_x += force * nodes[i].x;
-    given.moment_y += force * nodes[i].y;
+    const RigidNode& node = nodes[i];
+    const double force = on_nodes[static_cast<Eigen::Index>(i)];
+    placed.subdomains[node.subdomain].push_back({node.node, force});
+    const mesh::Point& middle = skeleton.motions[at(node.inclusion)].centre;
+    contact::RigidForce& sum = placed.inclusions[at(node.inclusion)].on_nodes;
+    sum.force += force;
+    sum.moment_x += force * (node.at[0] - middle[0]);
+    sum.moment_y += force * (node.at[1] - middle[1]);
+  }
+  // What is left does no work on the free motions; of one that is not held, none at all.
+  const std::int32_t body = first_of_body(skeleton, inclusion);
+  if (std::ranges::any_of(skeleton.held,
+                          [&](const auto& each) { return each.inclusion == body; })) {
+    const Eigen::Vector3d left = wanted - levers * on_nodes;
+    placed.inclusions[inclusion].on_holders = {left[0], left[1], left[2]};
   }
 }
 
 void add_moments(const fem::Load& load, const mesh::Mesh& mesh,
-                 const ddm::Decomposition& decomposition, PlacedForces& placed) {
+                 const ddm::Decomposition& decomposition, std::vector<contact::RigidForce>& given) {
   for (const auto& [name, moment] : load.inclusion_moments) {
     const std::string field = "inclusion_moments[" + name + "]";
     const std::size_t j = index_of(mesh.inclusions, name, "inclusion", field);
@@ -202,8 +224,8 @@ void add_moments(const fem::Load& load, const mesh::Mesh& mesh,
                       "moment out")
           .at(field);
     }
-    placed.inclusions[j].moment_x += moment.x;
-    placed.inclusions[j].moment_y += moment.y;
+    given[j].moment_x += moment.x;
+    given[j].moment_y += moment.y;
   }
 }
 
@@ -229,18 +251,15 @@ PlacedForces place_forces(const fem::Load& load, const mesh::Mesh& mesh,
   PlacedForces placed;
   placed.subdomains.resize(decomposition.subdomains.size());
   placed.inclusions.resize(mesh.inclusions.size());
+  std::vector<contact::RigidForce> given(mesh.inclusions.size());
   for (const auto& [name, value] : load.inclusion_forces) {
-    placed
-        .inclusions[index_of(mesh.inclusions, name, "inclusion", "inclusion_forces[" + name + "]")]
-        .force += value;
+    const std::string field = "inclusion_forces[" + name + "]";
+    given[index_of(mesh.inclusions, name, "inclusion", field)].force += value;
   }
-  add_moments(load, mesh, decomposition, placed);
-  place_points(load.point_forces, mesh, decomposition, placed);
-  for (std::size_t j = 0; j < placed.inclusions.size(); ++j) {
-    contact::RigidForce& force = placed.inclusions[j];
-    if (force.force != 0 || force.moment_x != 0 || force.moment_y != 0)
-      place_on_inclusion(j, mesh.inclusions[j], force, decomposition, placed);
-  }
+  add_moments(load, mesh, decomposition, given);
+  place_points(load.point_forces, mesh, decomposition, placed, given);
+  for (std::size_t j = 0; j < given.size(); ++j)
+    if (!vector_of(given[j]).isZero(0)) place_on_inclusion(j, given[j], decomposition, placed);
   return placed;
 }
 

@@ -24,7 +24,7 @@ void MeshOperator::require_prepared(const PreparedLoad& load, bool fields) const
 std::vector<std::variant<PreparedLoad, errors::Error>> MeshOperator::prepare(
     std::span<const fem::Load* const> loads, const std::stop_token& stop) const {
   std::vector<CondensedOutcome> condensed = condense_loads(
-      loads, *_parts->mesh, _parts->decomposition, _parts->operators, _parts->neumann, stop);
+      loads, *_parts->mesh, _parts->decomposition, _parts->condense(), _parts->neumann, stop);
   std::vector<std::variant<PreparedLoad, errors::Error>> prepared;
   prepared.reserve(condensed.size());
   for (auto& one : condensed) {
@@ -44,8 +44,10 @@ contact::Answer MeshOperator::solve(const PreparedLoad& load,
                                     const contact::ActiveSetOptions& options, bool fields,
                                     contact::Observer& observer) const {
   require_prepared(load, fields);
-  contact::Answer answer = contact::solve_active_set(
-      _parts->skeleton, *_parts->mesh, load._data->loads(), options, fields, observer);
+  contact::Answer answer = _parts->with_problem([&](const auto& problem) {
+    return contact::solve_active_set(problem, *_parts->mesh, load._data->loads(), options, fields,
+                                     observer);
+  });
   load._data->add_warnings(answer);
   return answer;
 }
@@ -58,7 +60,10 @@ void MeshOperator::recover_fields(std::span<const PreparedLoad* const> loads,
     require_prepared(*loads[i], true);
     cases.push_back({loads[i]->_data->condensed.subdomains, *answers[i]});
   }
-  contact::recover_fields(_parts->problem, cases);
+  if (_parts->joined)
+    _parts->joined->recover_fields(cases);
+  else
+    contact::recover_fields(_parts->problem, cases);
 }
 
 }  // namespace anticrack::operators

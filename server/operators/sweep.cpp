@@ -28,6 +28,12 @@ void require_memory(std::size_t loads, const ddm::Decomposition& decomposition) 
   }
 }
 
+void add(contact::RigidForce& sum, const contact::RigidForce& force, double factor) {
+  sum.force += factor * force.force;
+  sum.moment_x += factor * force.moment_x;
+  sum.moment_y += factor * force.moment_y;
+}
+
 /// Throws the first error, with the number of its load.
 std::vector<LoadOnTraces> sound(std::vector<CondensedOutcome> outcomes) {
   std::vector<LoadOnTraces> loads;
@@ -49,19 +55,21 @@ std::vector<const ddm::CondensedLoad*> on_subdomain(const std::vector<LoadOnTrac
   return result;
 }
 
-/// Computes the products of loads that the energy needs, then frees their interiors.
-CondensedBasis basis_of(std::vector<LoadOnTraces> loads, const contact::SkeletonProblem& skeleton) {
+/// Computes the products of loads that the energy needs, then frees the interiors that nothing
+/// needs any more.
+CondensedBasis basis_of(std::vector<LoadOnTraces> loads, const MeshOperator::Parts& parts) {
   CondensedBasis result;
   const auto m = static_cast<Index>(loads.size());
+  const bool condensed = parts.skeleton.has_value();
   MatrixXd constants = MatrixXd::Zero(m, m);
-  for (std::size_t s = 0; s < skeleton.traces().operators().size(); ++s) {
-    result.products.push_back(ddm::products(on_subdomain(loads, s)));
+  for (std::size_t s = 0; s < parts.decomposition.subdomains.size(); ++s) {
+    result.products.push_back(ddm::products(on_subdomain(loads, s), condensed));
     constants += result.products.back().energy;
   }
   std::vector<contact::CaseLoads> cases;
   for (LoadOnTraces& load : loads) {
     for (ddm::CondensedLoad& part : load.subdomains) {
-      part.z_interior.resize(0);
+      if (condensed) part.z_interior.resize(0);
       part.z_boundary.resize(0);
     }
     cases.push_back({load.subdomains, load.inclusion_forces});
@@ -70,7 +78,8 @@ CondensedBasis basis_of(std::vector<LoadOnTraces> loads, const contact::Skeleton
           result.warnings.end())
         result.warnings.push_back(warning);
   }
-  result.reduced = contact::reduce(skeleton, cases, constants);
+  result.reduced = parts.with_problem(
+      [&](const auto& problem) { return contact::reduce(problem, cases, constants); });
   result.loads = std::move(loads);
   return result;
 }
@@ -95,8 +104,8 @@ std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* 
   const auto make = [&]() -> BasisCache::Basis {
     return std::make_shared<const CondensedBasis>(
         basis_of(sound(condense_loads(loads, *_parts->mesh, _parts->decomposition,
-                                      _parts->operators, _parts->neumann, stop)),
-                 _parts->skeleton));
+                                      _parts->condense(), _parts->neumann, stop)),
+                 *_parts));
   };
   const std::optional<std::string> key = key_of(loads);
   return std::make_shared<const LoadBasis>(std::make_shared<const LoadBasis::Data>(
@@ -107,11 +116,14 @@ template <class SolveRow>
 bool MeshOperator::sweep_rows(const contact::ActiveSetOptions& options, contact::SweepColumns& rows,
                               std::vector<char>& start, const std::stop_token& stop,
                               const SolveRow& solve_row) const {
-  const auto contacts = static_cast<std::size_t>(_parts->skeleton.lcp().conditions());
+  const auto contacts = _parts->decomposition.skeleton.contacts.size();
   if (rows.inclusions != _parts->mesh->inclusions.size() ||
       rows.contacts != contact_nodes().size() || (!start.empty() && start.size() != contacts))
     throw errors::Error(errors::Reason::internal, "rows of a sweep on another mesh");
-  contact::SweepSolver solver(_parts->skeleton, _parts->sweep_geometry, options, start);
+  contact::SweepSolver solver(_parts->problem, _parts->sweep_geometry,
+                              _parts->with_problem([&](const auto& problem) {
+                                return contact::rows_of(problem, options, start);
+                              }));
   std::size_t row = 0;
   for (; row < rows.rows() && !stop.stop_requested(); ++row) solve_row(solver, row);
   start = solver.closed();
@@ -141,7 +153,10 @@ bool MeshOperator::sweep(std::span<const PreparedLoad> loads,
     MatrixXd constant = MatrixXd::Zero(1, 1);
     for (const ddm::CondensedLoad& part : parts[0].subdomains)
       constant(0, 0) += part.energy_constant;
-    solver.solve(contact::reduce(_parts->skeleton, parts, constant), once, row, rows);
+    solver.solve(_parts->with_problem([&](const auto& problem) {
+      return contact::reduce(problem, parts, constant);
+    }),
+                 once, row, rows);
   });
 }
 
@@ -162,12 +177,10 @@ PreparedLoad MeshOperator::combine(const LoadBasis& basis,
   }
   data->condensed.inclusion_forces.resize(_parts->mesh->inclusions.size());
   for (std::size_t j = 0; j < coefficients.size(); ++j) {
-    const std::vector<contact::RigidForce>& forces = condensed.loads[j].inclusion_forces;
+    const std::vector<contact::InclusionForce>& forces = condensed.loads[j].inclusion_forces;
     for (std::size_t i = 0; i < forces.size(); ++i) {
-      contact::RigidForce& sum = data->condensed.inclusion_forces[i];
-      sum.force += coefficients[j] * forces[i].force;
-      sum.moment_x += coefficients[j] * forces[i].moment_x;
-      sum.moment_y += coefficients[j] * forces[i].moment_y;
+      add(data->condensed.inclusion_forces[i].on_nodes, forces[i].on_nodes, coefficients[j]);
+      add(data->condensed.inclusion_forces[i].on_holders, forces[i].on_holders, coefficients[j]);
     }
   }
   return PreparedLoad(std::move(data));

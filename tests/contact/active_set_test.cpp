@@ -406,7 +406,7 @@ TEST(ActiveSet, ResultantIsTheForceOnTheInclusion) {
   const Membrane membrane(slits().mesh);
   auto loads = membrane.space.condense(fem::Expression{"sin(x) - 0.3*y"});
   constexpr double force = 1.75;
-  const std::vector<RigidForce> inclusion_forces = {{force}};
+  const std::vector<InclusionForce> inclusion_forces = {{{force}, {}}};
   for (std::size_t s = 0; s < loads.size(); ++s) {
     const auto& rigid = membrane.space.decomposition.subdomains[s].rigid;
     const auto held = std::find(rigid.begin(), rigid.end(), 0);

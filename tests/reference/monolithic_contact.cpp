@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reference/monolithic_contact.hpp"
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
@@ -42,7 +43,7 @@ MonolithicContact::MonolithicContact(const mesh::Mesh& mesh, const MonolithicLoa
   }
   find_edges();
   double_nodes();
-  tie();
+  tie(load);
   solve(load);
 }
 
@@ -111,50 +112,159 @@ void MonolithicContact::double_nodes() {
   }
 }
 
-void MonolithicContact::tie() {
-  const auto inclusions = static_cast<std::int32_t>(_mesh.inclusions.size());
-  Sets equal(at(_dofs + inclusions));
-  _rigid.assign(at(_dofs), 0);
+/// Conditions between the unknowns [dofs; A, Bx, By of each inclusion], a row and its value each.
+class Conditions {
+ public:
+  explicit Conditions(Index unknowns) : _unknowns(unknowns) {}
+
+  void require(const std::vector<std::pair<Index, double>>& terms, double value) {
+    for (const auto& [column, factor] : terms) _entries.emplace_back(rows(), column, factor);
+    _value.push_back(value);
+  }
+  Index rows() const { return static_cast<Index>(_value.size()); }
+  Eigen::MatrixXd matrix() const {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows(), _unknowns);
+    for (const auto& entry : _entries) result(entry.row(), entry.col()) += entry.value();
+    return result;
+  }
+  VectorXd values() const { return Eigen::Map<const VectorXd>(_value.data(), rows()); }
+
+ private:
+  Index _unknowns;
+  std::vector<Eigen::Triplet<double>> _entries;
+  std::vector<double> _value;
+};
+
+/// Which inclusions are one rigid body, for they share nodes; where each has its middle.
+void MonolithicContact::find_bodies() {
+  const std::size_t count = _mesh.inclusions.size();
+  Sets joined(count);
+  std::map<std::int32_t, std::int32_t> at_node;
+  std::vector<std::array<double, 4>> box(count, {1e300, -1e300, 1e300, -1e300});
   for (const auto& edges : _edges) {
     for (const Edge& edge : edges) {
-      for (std::size_t end = 0; end < 2; ++end) {
-        if (_dirichlet[at(end == 0 ? edge.a : edge.b)] != 0) {
-          continue;
-        }
-        const std::int32_t plus = _dof[at(edge.end[end].plus)];
-        const std::int32_t minus = _dof[at(edge.end[end].minus)];
-        if (edge.kind == Kind::glue || edge.kind == Kind::inclusion) {
-          equal.unite(plus, minus);
-        }
-        if (edge.inclusion >= 0) {
-          equal.unite(plus, _dofs + edge.inclusion);
-          _rigid[at(plus)] = 1;
+      for (const std::int32_t node : {edge.a, edge.b}) {
+        if (edge.inclusion < 0) continue;
+        joined.unite(edge.inclusion, at_node.try_emplace(node, edge.inclusion).first->second);
+        for (std::size_t k = 0; k < 2; ++k) {
+          double* limits = &box[at(edge.inclusion)][2 * k];
+          limits[0] = std::min(limits[0], _mesh.xy[2 * at(node) + k]);
+          limits[1] = std::max(limits[1], _mesh.xy[2 * at(node) + k]);
         }
       }
     }
   }
-  std::vector<char> prescribed(at(_dofs + inclusions), 0);
-  for (std::size_t i = 0; i < _dof.size(); ++i) {
-    prescribed[at(_dof[i])] |= _dirichlet[at(_mesh.triangles[i])];
+  for (std::size_t j = 0; j < count; ++j) {
+    _body.push_back(joined.find(static_cast<std::int32_t>(j)));
+    _middle.push_back({(box[j][0] + box[j][1]) / 2, (box[j][2] + box[j][3]) / 2});
   }
-  std::map<std::int32_t, std::int32_t> number;
-  for (std::int32_t i = 0; i < _dofs + inclusions; ++i) {
-    if (prescribed[at(i)] != 0) {
-      _unknown.push_back(-1);
-      continue;
+}
+
+/// Direction of a body whose nodes lie on a line, else (0, 0).
+std::array<double, 2> MonolithicContact::direction(std::int32_t body) const {
+  std::vector<std::array<double, 2>> points;
+  for (const auto& edges : _edges)
+    for (const Edge& edge : edges)
+      for (const std::int32_t node : {edge.a, edge.b})
+        if (edge.inclusion >= 0 && _body[at(edge.inclusion)] == body)
+          points.push_back({_mesh.xy[2 * at(node)], _mesh.xy[2 * at(node) + 1]});
+  std::array<double, 2> along{};
+  for (const auto& p : points)
+    if (std::hypot(p[0] - points[0][0], p[1] - points[0][1]) > std::hypot(along[0], along[1]))
+      along = {p[0] - points[0][0], p[1] - points[0][1]};
+  const double length = std::hypot(along[0], along[1]);
+  for (const auto& p : points)
+    if (std::abs(along[0] * (p[1] - points[0][1]) - along[1] * (p[0] - points[0][0])) >
+        1e-9 * length * length)
+      return {0, 0};
+  return {along[0] / length, along[1] / length};
+}
+
+void MonolithicContact::tie(const MonolithicLoad& load) {
+  find_bodies();
+  const std::size_t inclusions = _mesh.inclusions.size();
+  const Index unknowns = _dofs + static_cast<Index>(3 * inclusions);
+  Conditions conditions(unknowns);
+  const auto motion = [&](std::int32_t inclusion, std::int32_t node, double sign,
+                          std::vector<std::pair<Index, double>>& terms) {
+    const Index first = _dofs + 3 * Index{inclusion};
+    const auto& middle = _middle[at(inclusion)];
+    terms.emplace_back(first, sign);
+    for (std::size_t k = 0; k < 2; ++k)
+      terms.emplace_back(first + 1 + static_cast<Index>(k),
+                         sign * (_mesh.xy[2 * at(node) + k] - middle[k]));
+  };
+  std::vector<char> known(at(_dofs), 0);
+  for (std::size_t i = 0; i < _dof.size(); ++i) {
+    const std::int32_t node = _mesh.triangles[i];
+    if (_dirichlet[at(node)] == 0 || known[at(_dof[i])] != 0) continue;
+    known[at(_dof[i])] = 1;
+    conditions.require({{_dof[i], 1}},
+                       load.boundary(_mesh.xy[2 * at(node)], _mesh.xy[2 * at(node) + 1]));
+  }
+  _rigid.assign(at(_dofs), 0);
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> of_body;  // (body, node)
+  for (const auto& edges : _edges) {
+    for (const Edge& edge : edges) {
+      for (std::size_t end = 0; end < 2; ++end) {
+        const std::int32_t node = end == 0 ? edge.a : edge.b;
+        const std::int32_t plus = _dof[at(edge.end[end].plus)];
+        const std::int32_t minus = _dof[at(edge.end[end].minus)];
+        if (edge.kind == Kind::glue || edge.kind == Kind::inclusion)
+          conditions.require({{plus, 1}, {minus, -1}}, 0);
+        if (edge.inclusion < 0) continue;
+        std::vector<std::pair<Index, double>> terms{{plus, 1}};
+        motion(edge.inclusion, node, -1, terms);
+        conditions.require(terms, 0);
+        _rigid[at(plus)] = 1;
+        const auto first = of_body.try_emplace({_body[at(edge.inclusion)], node}, edge.inclusion);
+        if (first.first->second == edge.inclusion) continue;
+        terms.clear();
+        motion(edge.inclusion, node, 1, terms);
+        motion(first.first->second, node, -1, terms);
+        conditions.require(terms, 0);
+      }
     }
-    const auto entry = number.try_emplace(equal.find(i), _unknowns);
-    _unknowns += entry.second ? 1 : 0;
-    _unknown.push_back(entry.first->second);
+  }
+  for (std::size_t j = 0; j < inclusions; ++j) {
+    const Index first = _dofs + static_cast<Index>(3 * j);
+    const Index body = _dofs + 3 * Index{_body[j]};
+    bool tilts = true;
+    for (std::size_t i = 0; i < inclusions; ++i)
+      tilts = tilts && (_body[i] != _body[j] || (!_mesh.motions.empty() && _mesh.motions[i].tilt));
+    const std::array<double, 2> along = direction(_body[j]);
+    for (Index k = 1; k < 3; ++k) {
+      if (!tilts)
+        conditions.require({{first + k, 1}}, 0);
+      else if (first != body)
+        conditions.require({{first + k, 1}, {body + k, -1}}, 0);
+    }
+    if (tilts && (along[0] != 0 || along[1] != 0))
+      conditions.require({{first + 1, -along[1]}, {first + 2, along[0]}}, 0);
+    if (!_mesh.motions.empty() && _mesh.motions[j].fixed)
+      conditions.require({{first, 1}}, *_mesh.motions[j].fixed);
+  }
+  const Eigen::MatrixXd matrix = conditions.matrix();
+  const VectorXd values = conditions.values();
+  if (conditions.rows() == 0) {
+    _particular = VectorXd::Zero(unknowns);
+    _free = Eigen::MatrixXd::Identity(unknowns, unknowns);
+  } else {
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+    solver.setThreshold(1e-10);
+    solver.compute(matrix);
+    _particular = solver.solve(values);
+    _solvable = (matrix * _particular - values).norm() <= 1e-9 * (1 + values.norm());
+    const Eigen::MatrixXd z = solver.matrixZ();
+    _free = (solver.colsPermutation() * z.adjoint()).rightCols(unknowns - solver.rank());
   }
   for (const auto& edges : _edges) {
     for (const Edge& edge : edges) {
       for (const Ends& end : edge.end) {
-        const std::int32_t upper = _unknown[at(_dof[at(end.plus)])];
-        const std::int32_t lower = _unknown[at(_dof[at(end.minus)])];
-        if ((edge.kind == Kind::crack || edge.kind == Kind::delaminated) && upper != lower) {
+        const std::int32_t upper = _dof[at(end.plus)], lower = _dof[at(end.minus)];
+        if ((edge.kind == Kind::crack || edge.kind == Kind::delaminated) &&
+            (_free.row(upper) - _free.row(lower)).norm() > 1e-10)
           _inequalities.push_back({upper, lower});
-        }
       }
     }
   }
@@ -187,16 +297,12 @@ VectorXd MonolithicContact::project(const Eigen::MatrixXd& matrix, const VectorX
 void MonolithicContact::solve(const MonolithicLoad& load) {
   std::vector<Eigen::Triplet<double>> entries;
   VectorXd f = VectorXd::Zero(_dofs);
-  _u = VectorXd::Zero(_dofs);
   for (std::size_t t = 0; t < _mesh.triangle_count(); ++t) {
     double x[3], y[3];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t node = at(_mesh.triangles[3 * t + k]);
       x[k] = _mesh.xy[2 * node];
       y[k] = _mesh.xy[2 * node + 1];
-      if (_dirichlet[node] != 0) {
-        _u[_dof[3 * t + k]] = load.boundary(x[k], y[k]);
-      }
     }
     const double area = ((x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])) / 2;
     const double tension = _mesh.tension.empty() ? 1 : _mesh.tension[at(_mesh.subdomain[t])];
@@ -214,48 +320,42 @@ void MonolithicContact::solve(const MonolithicLoad& load) {
   }
   Eigen::SparseMatrix<double> k(_dofs, _dofs);
   k.setFromTriplets(entries.begin(), entries.end());
-
-  std::vector<Eigen::Triplet<double>> expansion;
-  for (std::int32_t i = 0; i < _dofs; ++i) {
-    if (_unknown[at(i)] >= 0) {
-      expansion.emplace_back(i, _unknown[at(i)], 1.0);
-    }
-  }
-  Eigen::SparseMatrix<double> t(_dofs, _unknowns);
-  t.setFromTriplets(expansion.begin(), expansion.end());
-  VectorXd right = t.transpose() * (f - k * _u);
-  for (std::size_t j = 0; j < load.inclusion_forces.size(); ++j) {
-    right[_unknown[at(_dofs) + j]] += load.inclusion_forces[j];
-  }
-  const Eigen::SparseMatrix<double> reduced = t.transpose() * k * t;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(reduced);
+  // All unknowns are _particular + _free z.
+  VectorXd work = VectorXd::Zero(_particular.size());
+  work.head(_dofs) = f;
+  for (std::size_t j = 0; j < load.inclusion_forces.size(); ++j)
+    work[_dofs + static_cast<Index>(3 * j)] = load.inclusion_forces[j];
+  for (std::size_t j = 0; j < load.inclusion_moments.size(); ++j)
+    for (Index i = 0; i < 2; ++i)
+      work[_dofs + static_cast<Index>(3 * j) + 1 + i] = load.inclusion_moments[j][at(i)];
+  const Eigen::MatrixXd free = _free.topRows(_dofs);
+  const Eigen::MatrixXd reduced = free.transpose() * (k * free);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(reduced);
   _held = factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 1e-10;
-  if (!_held) {
-    return;
-  }
-  _x = factor.solve(right);
+  if (!_held || !_solvable) return;
+  const VectorXd right =
+      _free.transpose() * work - free.transpose() * (k * _particular.head(_dofs));
+  VectorXd z = factor.solve(right);
   const auto count = static_cast<Index>(_inequalities.size());
   if (count > 0) {
-    Eigen::MatrixXd b = Eigen::MatrixXd::Zero(_unknowns, count);
+    Eigen::MatrixXd b(z.size(), count);
+    VectorXd gap(count);
     for (Index i = 0; i < count; ++i) {
-      b(_inequalities[at(i)].upper, i) = 1;
-      b(_inequalities[at(i)].lower, i) = -1;
+      const auto [upper, lower] = _inequalities[at(i)];
+      b.col(i) = (free.row(upper) - free.row(lower)).transpose();
+      gap[i] = _particular[upper] - _particular[lower] + b.col(i).dot(z);
     }
     const Eigen::MatrixXd answers = factor.solve(b);
-    const VectorXd lambda = project(b.transpose() * answers, b.transpose() * _x);
-    _x = factor.solve(VectorXd(right + b * lambda));
-    for (Index i = 0; i < count; ++i) {
-      ++(lambda[i] > 0 ? _closed : _open);
-    }
+    const VectorXd lambda = project(b.transpose() * answers, gap);
+    z = factor.solve(VectorXd(right + b * lambda));
+    for (Index i = 0; i < count; ++i) ++(lambda[i] > 0 ? _closed : _open);
   } else {
     _converged = true;
   }
-  _u += t * _x;
+  _x = _particular + _free * z;
+  _u = _x.head(_dofs);
   _residual = k * _u - f;
-  _energy = _u.dot(k * _u) / 2 - f.dot(_u);
-  for (std::size_t j = 0; j < load.inclusion_forces.size(); ++j) {
-    _energy -= load.inclusion_forces[j] * displacement(j);
-  }
+  _energy = _u.dot(k * _u) / 2 - work.dot(_x);
 }
 
 double MonolithicContact::u(std::size_t triangle, std::size_t corner) const {
@@ -286,15 +386,20 @@ std::optional<double> MonolithicContact::multiplier(std::size_t c, std::size_t e
         if (_dof[at(other.end[k].plus)] != plus || _dof[at(other.end[k].minus)] != minus) {
           return std::nullopt;
         }
-        mass += other.length / 2;
+        mass += other.kind == Kind::free ? 0 : other.length / 2;
       }
     }
   }
-  return -_residual[minus] / mass;
+  return mass > 0 ? std::optional(-_residual[minus] / mass) : std::nullopt;
 }
 
 double MonolithicContact::displacement(std::size_t inclusion) const {
-  return _x[_unknown[at(_dofs) + inclusion]];
+  return _x[_dofs + static_cast<Index>(3 * inclusion)];
+}
+
+std::array<double, 2> MonolithicContact::slope(std::size_t inclusion) const {
+  const Index first = _dofs + static_cast<Index>(3 * inclusion);
+  return {_x[first + 1], _x[first + 2]};
 }
 
 }  // namespace anticrack::reference

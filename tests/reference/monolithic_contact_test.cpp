@@ -25,7 +25,7 @@ namespace {
 using anticrack::testing::Silent;
 
 struct Tally {
-  int compared = 0, refused = 0, not_held = 0, unsettled = 0;
+  int compared = 0, refused = 0, not_held = 0, unsettled = 0, unsolvable = 0;
   int open = 0, closed = 0, multipliers = 0, steps = 0, floating = 0;
   double u = 0, mu = 0, displacement = 0, energy = 0, equilibrium = 0;
 };
@@ -79,19 +79,58 @@ void compare_fields(const mesh::Mesh& mesh, const MonolithicContact& reference,
   }
 }
 
-void compare(unsigned seed, Tally& tally) {
+/// Inclusions whose bodies tilt: all that share nodes do.
+std::vector<char> tilting(const mesh::Mesh& mesh) {
+  std::vector<char> tilts;
+  for (const mesh::Motion& motion : mesh.motions) tilts.push_back(motion.tilt ? 1 : 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    std::map<std::int32_t, char> at_node;
+    for (int round = 0; round < 2; ++round) {
+      for (const mesh::Interface& interface : mesh.interfaces) {
+        for (std::size_t e = 0; e < interface.kind.size(); ++e) {
+          const std::int32_t j = interface.inclusion[e];
+          for (const std::int32_t node : {interface.nodes[e], interface.nodes[e + 1]}) {
+            if (j < 0) continue;
+            char& all = at_node.try_emplace(node, 1).first->second;
+            char& own = tilts[static_cast<std::size_t>(j)];
+            changed = changed || all != own;
+            all = own = static_cast<char>(all & own);
+          }
+        }
+      }
+      if (round == 0) changed = false;
+    }
+  }
+  return tilts;
+}
+
+/// On inclusions that tilt, with their bodies; a force acts in the middle.
+void add_moments(RandomMembrane& membrane, MonolithicLoad& load, fem::Load& given) {
+  const mesh::Mesh& mesh = membrane.mesh();
+  if (mesh.motions.empty()) return;
+  load.inclusion_moments.assign(mesh.inclusions.size(), {0, 0});
+  const auto conditions = tilting(mesh);
+  for (std::size_t j = 0; j < mesh.inclusions.size(); ++j) {
+    if (!conditions[j]) continue;
+    load.inclusion_moments[j] = {membrane.uniform(-1, 1), membrane.uniform(-1, 1)};
+    given.inclusion_moments[mesh.inclusions[j]] = {load.inclusion_moments[j][0],
+                                                   load.inclusion_moments[j][1]};
+  }
+}
+
+/// `most_dense`: 0 for the joined membrane.
+void compare(unsigned seed, bool rich, std::size_t most_dense, Tally& tally) {
   SCOPED_TRACE("seed " + std::to_string(seed));
-  RandomMembrane membrane(seed);
+  RandomMembrane membrane(seed, rich);
   const mesh::Mesh& mesh = membrane.mesh();
   std::shared_ptr<const operators::MeshOperator> op;
   try {
-    op = operators::MeshOperator::factorise(std::make_shared<const mesh::Mesh>(mesh), 1, {});
+    op = operators::MeshOperator::factorise(std::make_shared<const mesh::Mesh>(mesh), 1, {},
+                                            most_dense);
   } catch (const errors::Error& error) {
-    // Cracks whose conditions depend on each other, parts that only contact holds.
-    ++tally.refused;
-    EXPECT_TRUE(error.reason() == errors::Reason::not_implemented ||
-                error.reason() == errors::Reason::numerical)
-        << error.what();
+    ++tally.refused;  // parts that only contact holds
+    EXPECT_EQ(error.reason(), errors::Reason::numerical) << error.what();
     return;
   }
   MonolithicLoad load;
@@ -104,16 +143,27 @@ void compare(unsigned seed, Tally& tally) {
   char expression[64];
   std::snprintf(expression, sizeof expression, "%.17g*x - 0.4*y", slope);
   load.boundary = [slope](double x, double y) { return slope * x - 0.4 * y; };
-  fem::Load given{"random", 0.0, expression, "", {}, {}};
+  fem::Load given;
+  given.name = "random";
+  given.boundary_value = expression;
   given.force = fem::Array{"", true, std::make_shared<const std::vector<double>>(load.force)};
   for (const std::string& inclusion : mesh.inclusions) {
     load.inclusion_forces.push_back(membrane.uniform(-3, 3));
     given.inclusion_forces[inclusion] = load.inclusion_forces.back();
   }
+  add_moments(membrane, load, given);
   const MonolithicContact reference(mesh, load);
   Silent observer;
-  const contact::Answer answer =
-      testing::solve(*op, given, contact::ActiveSetOptions{}, true, observer);
+  contact::Answer answer;
+  try {
+    answer = testing::solve(*op, given, contact::ActiveSetOptions{}, true, observer);
+  } catch (const errors::Error& error) {
+    ++tally.unsolvable;
+    EXPECT_FALSE(reference.solvable()) << error.what();
+    EXPECT_EQ(error.reason(), errors::Reason::invalid_argument);
+    return;
+  }
+  ASSERT_TRUE(reference.solvable());
   if (!reference.held()) {
     ++tally.not_held;
     return;
@@ -148,7 +198,15 @@ void compare(unsigned seed, Tally& tally) {
     tally.displacement =
         std::max(tally.displacement,
                  std::abs(answer.inclusions[j].displacement - reference.displacement(j)) / u_scale);
-    EXPECT_NEAR(answer.inclusions[j].resultant, load.inclusion_forces[j], 1e-9 * (1 + u_scale));
+    const auto slope = reference.slope(j);
+    // A body with a slight kink has next to nothing against tilting about its line.
+    const double slope_scale = std::max(u_scale, std::hypot(slope[0], slope[1]));
+    tally.displacement = std::max(
+        {tally.displacement, std::abs(answer.inclusions[j].slope_x - slope[0]) / slope_scale,
+         std::abs(answer.inclusions[j].slope_y - slope[1]) / slope_scale});
+    if (!rich) {
+      EXPECT_NEAR(answer.inclusions[j].resultant, load.inclusion_forces[j], 1e-9 * (1 + u_scale));
+    }
   }
   tally.energy = std::max(tally.energy, std::abs(answer.energy - reference.energy()) /
                                             std::max(std::abs(reference.energy()), u_scale));
@@ -156,7 +214,7 @@ void compare(unsigned seed, Tally& tally) {
   EXPECT_LT(tally.mu, 1e-9);
   EXPECT_LT(tally.displacement, 1e-9);
   EXPECT_LT(tally.energy, 1e-9);
-  EXPECT_LT(answer.kkt_relative.equilibrium, 1e-12);
+  EXPECT_LT(answer.kkt_relative.equilibrium, most_dense > 0 ? 1e-12 : 1e-10);
   EXPECT_EQ(answer.kkt.gap, 0);
   EXPECT_EQ(answer.kkt.sign, 0);
   EXPECT_EQ(answer.kkt.complementarity, 0);
@@ -216,27 +274,40 @@ TEST(MonolithicContact, AgreesWithUzawaOnRandomMembranes) {
   EXPECT_GT(compared, static_cast<int>(tries) / 4);
 }
 
-TEST(MonolithicContact, AgreesWithTheActiveSetOnRandomMembranes) {
+class RandomMembranes : public ::testing::TestWithParam<std::tuple<bool, std::size_t>> {};
+
+TEST_P(RandomMembranes, AgreeWithTheActiveSet) {
+  const auto [rich, most_dense] = GetParam();
   const unsigned seed = first_seed();
   constexpr unsigned tries = 300;
   std::printf("[ seed     ] %u to %u\n", seed, seed + tries - 1);
   Tally tally;
-  for (unsigned k = 0; k < tries && !HasFailure(); ++k) {
-    compare(seed + k, tally);
-  }
+  for (unsigned k = 0; k < tries && !HasFailure(); ++k) compare(seed + k, rich, most_dense, tally);
   std::printf(
-      "[ figures  ] %d compared (%d without Algorithm 2), %d refused, %d held by contact only, %d "
-      "without a reference; %d nodes open, %d closed, %d multipliers; at most %d steps; worst "
+      "[ figures  ] %d compared (%d without Algorithm 2), %d refused, %d without a solution, %d "
+      "held "
+      "by contact only, %d without a reference; %d nodes open, %d closed, %d multipliers; at most "
+      "%d steps; worst "
       "relative difference: u %.1e mu %.1e A %.1e energy %.1e; equilibrium %.1e\n",
-      tally.compared, tally.floating, tally.refused, tally.not_held, tally.unsettled, tally.open,
-      tally.closed, tally.multipliers, tally.steps, tally.u, tally.mu, tally.displacement,
-      tally.energy, tally.equilibrium);
+      tally.compared, tally.floating, tally.refused, tally.unsolvable, tally.not_held,
+      tally.unsettled, tally.open, tally.closed, tally.multipliers, tally.steps, tally.u, tally.mu,
+      tally.displacement, tally.energy, tally.equilibrium);
   EXPECT_GT(tally.compared, static_cast<int>(tries) / 3);
   EXPECT_GT(tally.open, 100);
   EXPECT_GT(tally.closed, 100);
   EXPECT_GT(tally.floating, 0);
-  EXPECT_EQ(tally.unsettled, 0);
+  EXPECT_LE(tally.unsettled, 3);  // the reference's iteration, where conditions depend on others
 }
+
+INSTANTIATE_TEST_SUITE_P(MonolithicContact, RandomMembranes,
+                         ::testing::Values(std::tuple{false, operators::max_dense},
+                                           std::tuple{true, operators::max_dense},
+                                           std::tuple{false, std::size_t{0}},
+                                           std::tuple{true, std::size_t{0}}),
+                         [](const auto& instance) {
+                           return std::string(std::get<0>(instance.param) ? "Rich" : "Plain") +
+                                  (std::get<1>(instance.param) > 0 ? "Dense" : "Joined");
+                         });
 
 }  // namespace
 }  // namespace anticrack::reference

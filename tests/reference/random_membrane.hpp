@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Random membranes: rectangles glued, cracked and stiffened along the lines of a grid, slits inside
-// them, parts of the boundary free.
+// them, parts of the boundary free. Rich ones also have free cracks, inclusions that tilt, are
+// fixed or share nodes, and all of these on the Dirichlet boundary.
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -15,8 +17,9 @@ namespace anticrack::reference {
 
 class RandomMembrane {
  public:
-  explicit RandomMembrane(unsigned seed)
+  explicit RandomMembrane(unsigned seed, bool rich = false)
       : _random(seed),
+        _rich(rich),
         _columns(pick(1, 3)),
         _rows(pick(1, 3)),
         _cells(pick(4, 6)),
@@ -105,10 +108,13 @@ class RandomMembrane {
       if (e == 0 || chance(0.4)) {
         constexpr Kind all[] = {Kind::crack, Kind::delaminated, Kind::inclusion, Kind::glue};
         kind = all[pick(0, glue ? 3 : 2)];
+        if (_rich && chance(0.25)) kind = Kind::free;
       }
-      Kind here = on_boundary(points[e]) || on_boundary(points[e + 1]) ? Kind::glue : kind;
+      const bool ends = on_boundary(points[e]) || on_boundary(points[e + 1]);
+      Kind here = ends && !_rich && glue ? Kind::glue : kind;
       if (here == Kind::inclusion || here == Kind::delaminated) {
-        const bool taken = foreign(points[e], inclusion) || foreign(points[e + 1], inclusion);
+        const bool taken =
+            !_rich && (foreign(points[e], inclusion) || foreign(points[e + 1], inclusion));
         here = taken ? Kind::crack : here;
         held |= !taken;
         if (!taken) {
@@ -120,6 +126,11 @@ class RandomMembrane {
     }
     if (held) {
       _grid.mesh.inclusions.push_back("inclusion " + std::to_string(inclusion));
+      if (_rich) {
+        const double which = uniform(0, 1);
+        _grid.mesh.motions.push_back(
+            {which<0.5, which> 0.9 ? std::optional<double>(0.3) : std::nullopt});
+      }
     }
     _grid.add({from, to}, kinds, inclusion);
   }
@@ -147,6 +158,7 @@ class RandomMembrane {
   }
 
   std::mt19937 _random;
+  bool _rich;
   int _columns, _rows, _cells;
   testing::GridMesh _grid;
   std::vector<std::int32_t> _owner;  // inclusion at each node

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/contact_blocks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "ddm/at_once.hpp"
+#include "ddm/elimination_order.hpp"
+#include "ddm/subdomain_factor.hpp"
+#include "errors/errors.hpp"
+#include "mesh/at.hpp"
+#include "mesh/union_find.hpp"
+
+namespace anticrack::contact {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Sparse = Eigen::SparseMatrix<double>;
+using Indices = std::vector<std::int32_t>;
+
+/// Contacts of a block at most: beyond, a crack is cut into several.
+constexpr std::size_t most_contacts = 400;
+/// How far the membrane around a block reaches, of the length of its box.
+constexpr double reach = 0.2;
+
+/// Contacts along each crack, in order: cut where a node is tied.
+std::vector<Indices> runs(const ddm::Decomposition& decomposition) {
+  std::vector<char> seen(decomposition.skeleton.independent, 0);
+  std::vector<Indices> result(1);
+  const auto cut = [&result] {
+    if (!result.back().empty()) result.emplace_back();
+  };
+  for (const std::vector<ddm::SidePair>& sides : decomposition.interface_sides) {
+    cut();
+    for (const ddm::SidePair& side : sides) {
+      const std::int32_t contact = side.pair < 0 ? -1 : decomposition.pairs[at(side.pair)].contact;
+      if (contact < 0) cut();
+      if (contact < 0 || at(contact) >= seen.size() || seen[at(contact)] != 0) continue;
+      seen[at(contact)] = 1;
+      result.back().push_back(contact);
+    }
+  }
+  if (result.back().empty()) result.pop_back();
+  return result;
+}
+
+struct Partition {
+  std::vector<Indices> blocks;
+  std::vector<Eigen::Triplet<double>> hats;
+  Index hat_count = 0;
+};
+
+/// Hats with their tops at the ends between the blocks of a crack and in their middles.
+void add_hats(const Indices& run, std::size_t each, Partition& partition) {
+  const double half = static_cast<double>(each) / 2;
+  const auto count = static_cast<Index>(std::ceil(static_cast<double>(run.size() + 1) / half)) - 1;
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const double place = static_cast<double>(i + 1) / half;  // hat k has its top at k + 1
+    const auto left = static_cast<Index>(std::floor(place)) - 1;
+    const double right_part = place - std::floor(place);
+    if (left >= 0 && left < count)
+      partition.hats.emplace_back(run[i], partition.hat_count + left, 1 - right_part);
+    if (left + 1 < count && right_part > 0)
+      partition.hats.emplace_back(run[i], partition.hat_count + left + 1, right_part);
+  }
+  partition.hat_count += count;
+}
+
+/// Dependent contacts and what they depend on are in one block.
+Partition part(const ddm::Decomposition& decomposition) {
+  Partition result;
+  std::vector<Indices> pieces;
+  for (const Indices& run : runs(decomposition)) {
+    const std::size_t count = (run.size() + most_contacts - 1) / most_contacts;
+    const std::size_t each = (run.size() + count - 1) / count;
+    for (std::size_t first = 0; first < run.size(); first += each)
+      pieces.emplace_back(
+          run.begin() + static_cast<std::ptrdiff_t>(first),
+          run.begin() + static_cast<std::ptrdiff_t>(std::min(first + each, run.size())));
+    if (count > 1) add_hats(run, each, result);
+  }
+  const ddm::Skeleton& skeleton = decomposition.skeleton;
+  Indices piece_of(skeleton.independent, -1);
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    for (const std::int32_t contact : pieces[k])
+      piece_of[at(contact)] = static_cast<std::int32_t>(k);
+  mesh::UnionFind joined(pieces.size());
+  for (const ddm::Terms& row : skeleton.dependent)
+    for (const ddm::Term& term : row)
+      joined.unite(piece_of[at(row.front().index)], piece_of[at(term.index)]);
+  std::vector<Indices> merged(pieces.size());
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    Indices& into = merged[at(joined.find(static_cast<std::int32_t>(k)))];
+    into.insert(into.end(), pieces[k].begin(), pieces[k].end());
+  }
+  for (Indices& block : merged) {
+    if (block.empty()) continue;
+    std::ranges::sort(block);
+    result.blocks.push_back(std::move(block));
+  }
+  return result;
+}
+
+/// Entries of x by their abscissae, to find those in a box.
+class Places {
+ public:
+  explicit Places(const std::vector<double>& xy) : _xy(xy), _order(xy.size() / 2) {
+    std::iota(_order.begin(), _order.end(), 0);
+    std::ranges::sort(_order, {}, [this](std::int32_t i) { return std::pair{_xy[2 * at(i)], i}; });
+  }
+  /// Ascending.
+  Indices in_box(const std::array<double, 2>& low, const std::array<double, 2>& high) const {
+    Indices found;
+    auto i = std::ranges::lower_bound(_order, low[0], {},
+                                      [this](std::int32_t k) { return _xy[2 * at(k)]; });
+    for (; i != _order.end() && _xy[2 * at(*i)] <= high[0]; ++i)
+      if (const double y = _xy[2 * at(*i) + 1]; y >= low[1] && y <= high[1]) found.push_back(*i);
+    std::ranges::sort(found);
+    return found;
+  }
+  const double* of(std::int32_t i) const { return &_xy[2 * at(i)]; }
+
+ private:
+  const std::vector<double>& _xy;
+  Indices _order;
+};
+
+/// The membrane around one block. For one thread.
+class Patch {
+ public:
+  Patch(const JoinedMembrane& membrane, const Places& places, const Indices& first_motion)
+      : _membrane(membrane),
+        _places(places),
+        _motion(first_motion),
+        _local(at(membrane.matrix().rows()), -1) {}
+
+  MatrixXd schur(const Indices& contacts) {
+    const Indices inside = nodes_around(contacts);
+    const auto interior = static_cast<Index>(inside.size());
+    std::vector<double> xy;
+    for (std::size_t k = 0; k < inside.size(); ++k) {
+      _local[at(inside[k])] = static_cast<std::int32_t>(k);
+      xy.insert(xy.end(), _places.of(inside[k]), _places.of(inside[k]) + 2);
+    }
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      _local[at(contact(contacts[k]))] =
+          static_cast<std::int32_t>(interior + static_cast<Index>(k));
+    std::vector<Eigen::Triplet<double, std::int32_t>> entries;
+    const auto add = [&](std::int32_t column) {
+      for (Sparse::InnerIterator entry(_membrane.matrix(), column); entry; ++entry) {
+        const std::int32_t i = _local[at(entry.row())], j = _local[at(column)];
+        if (i >= 0) entries.emplace_back(std::max(i, j), std::min(i, j), entry.value());
+      }
+    };
+    for (const std::int32_t node : inside) add(node);
+    for (const std::int32_t c : contacts) add(static_cast<std::int32_t>(contact(c)));
+    for (const std::int32_t node : inside) _local[at(node)] = -1;
+    for (const std::int32_t c : contacts) _local[at(contact(c))] = -1;
+    const Index all = interior + static_cast<Index>(contacts.size());
+    Sparse matrix(all, all);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return ddm::SubdomainFactor(matrix, interior, ddm::elimination_order(matrix, interior, xy))
+        .schur();
+  }
+
+ private:
+  Index contact(std::int32_t c) const { return _membrane.size() + c; }
+
+  /// Entries of x that B couples to a contact.
+  template <class Visit>
+  void each_neighbour(std::int32_t c, const Visit& visit) const {
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(_membrane.coupling(), c);
+         entry; ++entry)
+      visit(static_cast<std::int32_t>(entry.col()));
+  }
+
+  Indices nodes_around(const Indices& contacts) const {
+    constexpr double far = std::numeric_limits<double>::infinity();
+    std::array<double, 2> low{far, far}, high{-far, -far};
+    Indices motions;
+    for (const std::int32_t c : contacts) {
+      each_neighbour(c, [&](std::int32_t i) {
+        if (_motion[at(i)] != 0) {
+          motions.push_back(i);
+          return;
+        }
+        for (std::size_t k = 0; k < 2; ++k) {
+          low[k] = std::min(low[k], _places.of(i)[k]);
+          high[k] = std::max(high[k], _places.of(i)[k]);
+        }
+      });
+    }
+    const double grow = reach * std::hypot(high[0] - low[0], high[1] - low[1]);
+    for (std::size_t k = 0; k < 2; ++k) {
+      low[k] -= grow;
+      high[k] += grow;
+    }
+    Indices found = _places.in_box(low, high);
+    std::erase_if(found, [this](std::int32_t i) { return _motion[at(i)] != 0; });
+    found.insert(found.end(), motions.begin(), motions.end());
+    std::ranges::sort(found);
+    const auto twice = std::ranges::unique(found);
+    found.erase(twice.begin(), twice.end());
+    return found;
+  }
+
+  const JoinedMembrane& _membrane;
+  const Places& _places;
+  const Indices& _motion;  // (x) 1 for a rigid motion
+  Indices _local;
+};
+
+Indices mark_motions(const JoinedMembrane& membrane) {
+  const ddm::Skeleton& skeleton = membrane.decomposition().skeleton;
+  Indices result(at(membrane.size()), 0);
+  const std::size_t first = result.size() - skeleton.free;
+  for (std::size_t i = 0; i < skeleton.unknowns; ++i)
+    if (skeleton.inclusion[i] >= 0)
+      for (const ddm::Term& term : skeleton.rows[i].free) result[first + at(term.index)] = 1;
+  return result;
+}
+
+/// The dependent contacts of a block, in the numbers of the block.
+std::vector<ddm::Terms> rows_of(const Indices& contacts, const ddm::Skeleton& skeleton,
+                                Indices& conditions) {
+  std::vector<ddm::Terms> rows;
+  for (std::size_t k = 0; k < skeleton.dependent.size(); ++k) {
+    ddm::Terms row;
+    for (const auto& [c, factor] : skeleton.dependent[k]) {
+      const auto found = std::ranges::lower_bound(contacts, c);
+      if (found != contacts.end() && *found == c)
+        row.push_back({static_cast<std::int32_t>(found - contacts.begin()), factor});
+    }
+    if (row.empty()) continue;
+    rows.push_back(std::move(row));
+    conditions.push_back(static_cast<std::int32_t>(skeleton.independent + k));
+  }
+  return rows;
+}
+
+}  // namespace
+
+ContactBlocks::ContactBlocks(const JoinedMembrane& membrane, const PairForces& forces, int threads,
+                             const std::stop_token& stop) {
+  const ddm::Skeleton& skeleton = membrane.decomposition().skeleton;
+  const Partition partition = part(membrane.decomposition());
+  const Places places(membrane.places());
+  const Indices motion = mark_motions(membrane);
+  std::vector<std::optional<ContactBlock>> done(partition.blocks.size());
+  const auto require_running = [&stop] {
+    if (stop.stop_requested())
+      throw errors::Error(errors::Reason::cancelled, "stopped while factorising a mesh");
+  };
+  ddm::at_once(done.size(), threads, [&] {
+    return [&, patch = Patch(membrane, places, motion)](std::size_t b) mutable {
+      require_running();
+      const Indices& contacts = partition.blocks[b];
+      Indices conditions = contacts;
+      std::vector<ddm::Terms> rows = rows_of(contacts, skeleton, conditions);
+      const VectorXd weights = forces.contact_mass()(conditions).cwiseInverse();
+      done[b] = ContactBlock{contacts, conditions,
+                             DenseLcp(patch.schur(contacts), std::move(rows), weights)};
+    };
+  });
+  _blocks.reserve(done.size());
+  for (std::optional<ContactBlock>& block : done) _blocks.push_back(std::move(*block));
+  _hats.resize(membrane.contacts(), partition.hat_count);
+  _hats.setFromTriplets(partition.hats.begin(), partition.hats.end());
+  if (partition.hat_count == 0) return;
+  MatrixXd of_hats(membrane.contacts(), partition.hat_count);
+  ddm::at_once(at(partition.hat_count), threads, [&] {
+    return [&](std::size_t k) {
+      require_running();
+      const auto column = static_cast<Index>(k);
+      of_hats.col(column) = membrane.apply(VectorXd(_hats.col(column)));
+    };
+  });
+  _coarse_matrix = _hats.transpose() * of_hats;
+  _coarse_matrix = (_coarse_matrix + _coarse_matrix.transpose()).eval() / 2;
+  _coarse.emplace(_coarse_matrix);
+}
+
+std::size_t ContactBlocks::bytes() const noexcept {
+  std::size_t bytes = sizeof(double) * at(_coarse_matrix.size()) +
+                      at(_hats.nonZeros()) * (sizeof(double) + sizeof(int));
+  for (const ContactBlock& block : _blocks)
+    bytes += block.lcp.bytes() + block.contacts.capacity() * 2 * sizeof(std::int32_t);
+  return bytes + (_coarse ? _coarse->bytes() : 0);
+}
+
+}  // namespace anticrack::contact

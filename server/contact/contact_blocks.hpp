@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "contact/dense_lcp.hpp"
+#include "contact/joined_membrane.hpp"
+#include "contact/pair_forces.hpp"
+
+namespace anticrack::contact {
+
+/// Contacts of one crack, or of a part of a long one, with S^ of them alone in the membrane around
+/// them: what lies further away than a part of their length is held, and so are other cracks; the
+/// rigid motions of their inclusion are free.
+struct ContactBlock {
+  std::vector<std::int32_t> contacts;    ///< of d, ascending
+  std::vector<std::int32_t> conditions;  ///< those, then the dependent ones among them
+  DenseLcp lcp;
+};
+
+/// S^ of all contacts by blocks, as a preconditioner and as small contact problems. Cracks of many
+/// blocks have hats as well, each over two of them, on which S^ is exact: they carry what is smooth
+/// along the crack. Immutable.
+class ContactBlocks {
+ public:
+  /// O(c m^2) with blocks of m contacts, and a solve for each hat.
+  ContactBlocks(const JoinedMembrane& membrane, const PairForces& forces, int threads,
+                const std::stop_token& stop = {});
+
+  const std::vector<ContactBlock>& blocks() const noexcept { return _blocks; }
+  /// Hats as columns, shape (d, hats), and P'S^ P; no columns without long cracks.
+  const Eigen::SparseMatrix<double>& hats() const noexcept { return _hats; }
+  const std::optional<DenseLcp>& coarse() const noexcept { return _coarse; }
+  const Eigen::MatrixXd& coarse_matrix() const noexcept { return _coarse_matrix; }
+  std::size_t bytes() const noexcept;
+
+ private:
+  std::vector<ContactBlock> _blocks;
+  Eigen::SparseMatrix<double> _hats;
+  Eigen::MatrixXd _coarse_matrix;
+  std::optional<DenseLcp> _coarse;
+};
+
+}  // namespace anticrack::contact

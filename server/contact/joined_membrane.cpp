@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/joined_membrane.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "ddm/at_once.hpp"
+#include "ddm/elimination_order.hpp"
+#include "errors/errors.hpp"
+#include "mesh/at.hpp"
+
+namespace anticrack::contact {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using Sparse = Eigen::SparseMatrix<double>;
+
+Index index(std::size_t i) { return static_cast<Index>(i); }
+
+std::size_t bytes_of(const Sparse& matrix) {
+  return at(matrix.nonZeros()) * (sizeof(double) + sizeof(int)) +
+         at(matrix.cols() + 1) * sizeof(int);
+}
+
+/// y += K x for the lower triangle of K.
+void add_product(const Sparse& lower, const VectorXd& x, VectorXd& y) {
+  y += lower.selfadjointView<Eigen::Lower>() * x;
+}
+
+void require_running(const std::stop_token& stop) {
+  if (stop.stop_requested())
+    throw errors::Error(errors::Reason::cancelled, "stopped while factorising a mesh");
+}
+
+}  // namespace
+
+JoinedMembrane::JoinedMembrane(const ddm::Decomposition& decomposition, int threads,
+                               const std::stop_token& stop)
+    : _decomposition(decomposition),
+      _stiffness(decomposition.subdomains.size()),
+      _matrix(assemble()),
+      _a(_matrix.topLeftCorner(_interior + index(decomposition.skeleton.free),
+                               _interior + index(decomposition.skeleton.free))),
+      _b(_matrix.block(_a.rows(), 0, index(decomposition.skeleton.independent), _a.rows())),
+      _d(_matrix.block(_a.rows(), _a.rows(), _b.rows(), _b.rows())),
+      _factor((require_running(stop), _a), _a.rows(),
+              ddm::elimination_order(_a, _a.rows(), _places), threads) {
+  const Index held = index(decomposition.skeleton.held.size()), last = _a.rows() + _b.rows();
+  _xp = Sparse(_matrix.block(last, 0, held, _a.rows()).transpose());
+  _dp = Sparse(_matrix.block(last, _a.rows(), held, _b.rows()).transpose());
+  _pp = _matrix.block(last, last, held, held);
+}
+
+/// Sets _stiffness, _first, _interior and _places as well.
+Sparse JoinedMembrane::assemble() {
+  const ddm::Skeleton& skeleton = _decomposition.skeleton;
+  for (std::size_t s = 0; s < _stiffness.size(); ++s) {
+    const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
+    _stiffness[s] = fem::stiffness(subdomain.part, subdomain.tension, index(subdomain.free()));
+    _first.push_back(_interior);
+    _interior += index(subdomain.interior);
+  }
+  const Index x = _interior + index(skeleton.free), d = x + index(skeleton.independent);
+  const Index all = d + index(skeleton.held.size());
+  _places.assign(2 * at(x), 0);
+  // What each value of the skeleton is made of, in the numbers of [x d p].
+  std::vector<ddm::Terms> made_of(skeleton.unknowns);
+  for (std::size_t i = 0; i < skeleton.unknowns; ++i) {
+    for (const auto& [k, factor] : skeleton.rows[i].free)
+      made_of[i].push_back({static_cast<std::int32_t>(_interior) + k, factor});
+    for (const auto& [k, factor] : skeleton.rows[i].jumps)
+      made_of[i].push_back({static_cast<std::int32_t>(x) + k, factor});
+    for (const auto& [k, factor] : skeleton.rows[i].held)
+      made_of[i].push_back({static_cast<std::int32_t>(d) + k, factor});
+  }
+  std::vector<Eigen::Triplet<double, std::int32_t>> entries;
+  std::size_t count = 0;
+  for (const fem::Stiffness& stiffness : _stiffness) count += at(stiffness.free.nonZeros());
+  entries.reserve(count + count / 8);
+  for (std::size_t s = 0; s < _stiffness.size(); ++s) {
+    const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
+    const auto interior = static_cast<std::int32_t>(subdomain.interior);
+    const auto first = static_cast<std::int32_t>(_first[s]);
+    for (std::size_t i = 0; i < subdomain.free(); ++i) {
+      const double* place = &subdomain.part.xy[2 * i];
+      if (i < subdomain.interior) {
+        std::copy_n(place, 2, &_places[2 * (at(first) + i)]);
+        continue;
+      }
+      for (const ddm::Term& term : made_of[at(subdomain.unknown[i - subdomain.interior])])
+        if (term.index < x) std::copy_n(place, 2, &_places[2 * at(term.index)]);
+    }
+    const auto terms_of = [&](std::int32_t node, ddm::Term& own) -> std::span<const ddm::Term> {
+      own = {first + node, 1};
+      if (node < interior) return {&own, 1};
+      return made_of[at(subdomain.unknown[at(node - interior)])];
+    };
+    const Sparse& lower = _stiffness[s].free;
+    for (Index column = 0; column < lower.outerSize(); ++column) {
+      ddm::Term own_column, own_row;
+      const auto columns = terms_of(static_cast<std::int32_t>(column), own_column);
+      for (Sparse::InnerIterator entry(lower, column); entry; ++entry) {
+        const auto rows = terms_of(static_cast<std::int32_t>(entry.row()), own_row);
+        for (const ddm::Term& a : rows) {
+          for (const ddm::Term& b : columns) {
+            if (entry.row() == column && b.index > a.index) continue;  // met the other way round
+            const double value = entry.value() * a.factor * b.factor;
+            entries.emplace_back(std::max(a.index, b.index), std::min(a.index, b.index), value);
+            // Off the diagonal of K an entry stands for two, which may meet on the diagonal here.
+            if (entry.row() != column && a.index == b.index)
+              entries.emplace_back(a.index, a.index, value);
+          }
+        }
+      }
+    }
+  }
+  for (const ddm::RigidMotion& motion : skeleton.motions)
+    for (const ddm::Terms* terms : {&motion.displacement, &motion.slope_x, &motion.slope_y})
+      for (const ddm::Term& term : *terms)
+        for (const ddm::Term& of : made_of[at(term.index)])
+          if (of.index < x) {
+            _places[2 * at(of.index)] = motion.centre[0];
+            _places[2 * at(of.index) + 1] = motion.centre[1];
+          }
+  Sparse result(all, all);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+std::vector<ddm::CondensedLoad> JoinedMembrane::loads(
+    std::size_t subdomain, const Eigen::Ref<const Eigen::MatrixXd>& of_nodes,
+    const Eigen::Ref<const Eigen::MatrixXd>& dirichlet) const {
+  const fem::Stiffness& stiffness = _stiffness[subdomain];
+  const Index interior = index(_decomposition.subdomains[subdomain].interior);
+  const Index free = stiffness.free.rows();
+  std::vector<ddm::CondensedLoad> result(at(of_nodes.cols()));
+  for (Index j = 0; j < of_nodes.cols(); ++j) {
+    ddm::CondensedLoad& load = result[at(j)];
+    load.dirichlet = dirichlet.col(j);
+    load.on_dirichlet = of_nodes.col(j).tail(dirichlet.rows());
+    load.dirichlet_force = stiffness.dirichlet * load.dirichlet;
+    const VectorXd of_boundary = -(stiffness.free_dirichlet * load.dirichlet);
+    const VectorXd force = of_nodes.col(j).head(free) + of_boundary;
+    load.z_interior = force.head(interior);
+    load.g = force.tail(free - interior);
+    load.g_boundary = of_boundary.tail(free - interior);
+    load.norm_constant = load.dirichlet.dot(load.dirichlet_force);
+    load.energy_constant = load.norm_constant / 2 - load.on_dirichlet.dot(load.dirichlet);
+  }
+  return result;
+}
+
+std::vector<ddm::CondensedLoad> JoinedMembrane::no_loads() const {
+  std::vector<ddm::CondensedLoad> result;
+  for (std::size_t s = 0; s < _stiffness.size(); ++s) {
+    const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
+    const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(index(subdomain.node.size()), 1);
+    result.push_back(loads(s, zero, zero.topRows(index(subdomain.dirichlet))).front());
+  }
+  return result;
+}
+
+/// F in [x d p].
+VectorXd JoinedMembrane::gather(std::span<const ddm::CondensedLoad> loads) const {
+  const ddm::Skeleton& skeleton = _decomposition.skeleton;
+  VectorXd force = VectorXd::Zero(_matrix.rows()),
+           on_values = VectorXd::Zero(index(skeleton.unknowns));
+  for (std::size_t s = 0; s < loads.size(); ++s) {
+    force.segment(_first[s], loads[s].z_interior.size()) = loads[s].z_interior;
+    const std::vector<std::int32_t>& unknown = _decomposition.subdomains[s].unknown;
+    for (std::size_t i = 0; i < unknown.size(); ++i) on_values[unknown[i]] += loads[s].g[index(i)];
+  }
+  for (std::size_t i = 0; i < skeleton.unknowns; ++i) {
+    const double value = on_values[index(i)];
+    for (const auto& [k, factor] : skeleton.rows[i].free) force[_interior + k] += factor * value;
+    for (const auto& [k, factor] : skeleton.rows[i].jumps) force[size() + k] += factor * value;
+    for (const auto& [k, factor] : skeleton.rows[i].held)
+      force[size() + contacts() + k] += factor * value;
+  }
+  return force;
+}
+
+VectorXd JoinedMembrane::solve_once(const VectorXd& force) const {
+  const std::vector<ddm::SubdomainFactor::Forward> forward = _factor.forward(force);
+  VectorXd x(size());
+  const VectorXd nothing(0);
+  ddm::SubdomainFactor::Backward column{forward[0].z_interior, nothing, x};
+  _factor.recover({&column, 1});
+  return x;
+}
+
+VectorXd JoinedMembrane::solve_refined(const VectorXd& force) const {
+  VectorXd x = solve_once(force), of_x = VectorXd::Zero(size());
+  add_product(_a, x, of_x);
+  x += solve_once(force - of_x);
+  return x;
+}
+
+JoinedMembrane::Reduced JoinedMembrane::reduce(std::span<const ddm::CondensedLoad> loads,
+                                               const VectorXd& p) const {
+  const VectorXd force = gather(loads);
+  Reduced result;
+  result.p = p;
+  result.force = force.head(size()) - _xp * p;
+  result.x = solve_refined(result.force);
+  const VectorXd on_contacts = force.segment(size(), contacts());
+  result.r = on_contacts - _dp * p - _b * result.x;
+  result.magnitude =
+      on_contacts.cwiseAbs() + (_dp * p).cwiseAbs() + _b.cwiseAbs() * result.x.cwiseAbs();
+  return result;
+}
+
+VectorXd JoinedMembrane::apply(const VectorXd& d, bool refined) const {
+  const VectorXd force = _b.transpose() * d;
+  VectorXd result = -(_b * (refined ? solve_refined(force) : solve_once(force)));
+  add_product(_d, d, result);
+  return result;
+}
+
+VectorXd JoinedMembrane::solve(const Reduced& load, const VectorXd& d) const {
+  return solve_refined(load.force - _b.transpose() * d);
+}
+
+VectorXd JoinedMembrane::values(const Reduced& load, const VectorXd& x, const VectorXd& d) const {
+  const ddm::Skeleton& skeleton = _decomposition.skeleton;
+  VectorXd w(index(skeleton.unknowns));
+  for (std::size_t i = 0; i < skeleton.unknowns; ++i) {
+    const ddm::Row& row = skeleton.rows[i];
+    w[index(i)] = sum_of(row.free, x.tail(index(skeleton.free))) + sum_of(row.jumps, d) +
+                  sum_of(row.held, load.p);
+  }
+  return w;
+}
+
+VectorXd JoinedMembrane::field(std::size_t subdomain, const VectorXd& x, const VectorXd& w) const {
+  const ddm::Subdomain& of = _decomposition.subdomains[subdomain];
+  VectorXd u(index(of.free()));
+  u.head(index(of.interior)) = x.segment(_first[subdomain], index(of.interior));
+  for (std::size_t i = 0; i < of.trace; ++i) u[index(of.interior + i)] = w[of.unknown[i]];
+  return u;
+}
+
+void JoinedMembrane::fill(std::span<const ddm::CondensedLoad> loads, const VectorXd& x,
+                          const VectorXd& w, TraceState& state) const {
+  state.trace.clear();
+  state.flux.clear();
+  state.of_interiors = 0;
+  for (std::size_t s = 0; s < loads.size(); ++s) {
+    const Index trace = index(_decomposition.subdomains[s].trace);
+    const VectorXd u = field(s, x, w);
+    VectorXd force = VectorXd::Zero(u.size());
+    add_product(_stiffness[s].free, u, force);
+    state.trace.emplace_back(u.tail(trace));
+    state.flux.emplace_back(force.tail(trace) - loads[s].g);
+    const auto interior = u.head(u.size() - trace);
+    state.of_interiors += interior.dot(force.head(interior.size()) / 2 - loads[s].z_interior);
+  }
+}
+
+VectorXd JoinedMembrane::multipliers(const TraceState& state) const {
+  const ddm::Skeleton& skeleton = _decomposition.skeleton;
+  VectorXd result = VectorXd::Zero(contacts());
+  for (std::size_t s = 0; s < state.flux.size(); ++s) {
+    const std::vector<std::int32_t>& unknown = _decomposition.subdomains[s].unknown;
+    for (std::size_t i = 0; i < unknown.size(); ++i)
+      for (const auto& [k, factor] : skeleton.rows[at(unknown[i])].jumps)
+        result[k] += factor * state.flux[s][index(i)];
+  }
+  return result;
+}
+
+double JoinedMembrane::work(const Reduced& a, const Reduced& b) const {
+  VectorXd of_held = _xp.transpose() * b.x;
+  add_product(_pp, b.p, of_held);
+  return a.x.dot(b.force + _xp * b.p) + a.p.dot(of_held);
+}
+
+double JoinedMembrane::work(std::span<const ddm::CondensedLoad> loads,
+                            const Reduced& closed) const {
+  const VectorXd force = gather(loads);
+  return force.head(size()).dot(closed.x) + force.tail(closed.p.size()).dot(closed.p);
+}
+
+std::size_t JoinedMembrane::bytes() const noexcept {
+  std::size_t bytes = _factor.bytes() + _places.capacity() * sizeof(double);
+  for (const Sparse* one : {&_matrix, &_a, &_d, &_xp, &_dp, &_pp}) bytes += bytes_of(*one);
+  bytes += bytes_of(_matrix) - bytes_of(_a) - bytes_of(_d);  // B
+  for (const fem::Stiffness& stiffness : _stiffness)
+    bytes += bytes_of(stiffness.free) + bytes_of(stiffness.free_dirichlet) +
+             bytes_of(stiffness.dirichlet);
+  return bytes;
+}
+
+}  // namespace anticrack::contact

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/joined_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/case_state.hpp"
+#include "mesh/at.hpp"
+
+namespace anticrack::contact {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// One load.
+class JoinedCase {
+ public:
+  JoinedCase(const JoinedProblem& problem, const CaseLoads& loads)
+      : _problem(problem),
+        _membrane(problem.membrane()),
+        _loads(loads.subdomains),
+        _solved(problem.traces(), loads),
+        _reduced(_membrane.reduce(_loads, held_values(_membrane.decomposition(), _loads))),
+        _d(VectorXd::Zero(_membrane.contacts())) {
+    _closed_energy = _membrane.work(_reduced, _reduced) / 2 - _membrane.work(_loads, _reduced);
+    for (const ddm::CondensedLoad& load : _loads) _closed_energy += load.energy_constant;
+  }
+
+  const JoinedMembrane::Reduced& reduced() const noexcept { return _reduced; }
+  const CaseState& solved() const noexcept { return _solved; }
+
+  /// From jumps and multipliers alone: traces would take a solve.
+  void sample_step(const LcpStep& step) {
+    Sample& sample = _solved.sample();
+    const VectorXd d = step.d.head(_d.size()), change = d - _d;
+    const double worked = change.dot(_reduced.r), all = std::abs(_reduced.r.dot(d)) + size();
+    sample.criterion = sample.iteration == 0 ? 1 : ratio(std::abs(worked), all);
+    sample.iteration = step.number;
+    sample.energy = _closed_energy - _reduced.r.dot(d) / 2;
+    sample.kkt = {};
+    sample.contact_count = 0;
+    const VectorXd& mass = _problem.traces().pair_forces().contact_mass();
+    for (Index i = 0; i < step.lambda.size(); ++i) {
+      const double mu = step.lambda[i] / mass[i];
+      sample.kkt.gap = std::max(sample.kkt.gap, -step.d[i]);
+      sample.kkt.complementarity = std::max(sample.kkt.complementarity, std::abs(mu * step.d[i]));
+      sample.contact_count += mu > 0 ? 1 : 0;
+    }
+    _d = d;
+  }
+
+  /// Traces, fluxes, and multipliers from the forces themselves.
+  void finish(const BlockLcp::Answer& solution) {
+    const VectorXd x = _membrane.solve(_reduced, solution.d);
+    const VectorXd w = _membrane.values(_reduced, x, solution.d);
+    _membrane.fill(_loads, x, w, _solved.state());
+    _solved.set_motion(w);
+    const VectorXd force = _membrane.multipliers(_solved.state());
+    const VectorXd lambda = _problem.lcp().split(force, solution.closed).cwiseMax(0.0);
+    _solved.fill(_problem.lcp().jumps(solution.d, solution.closed), lambda);
+    _solved.settle_contact(solution.pressed, lambda);
+  }
+
+ private:
+  /// |u|_V^2 with every contact closed.
+  double size() const { return _membrane.work(_reduced, _reduced); }
+
+  const JoinedProblem& _problem;
+  const JoinedMembrane& _membrane;
+  std::span<const ddm::CondensedLoad> _loads;
+  CaseState _solved;
+  JoinedMembrane::Reduced _reduced;
+  double _closed_energy = 0;
+  VectorXd _d;  // of the last step
+};
+
+}  // namespace
+
+bool is_long(const ddm::Decomposition& decomposition, std::size_t most) {
+  return decomposition.skeleton.unknowns > most ||
+         std::ranges::any_of(decomposition.subdomains, [most](const ddm::Subdomain& subdomain) {
+           return subdomain.trace > most;
+         });
+}
+
+JoinedProblem::JoinedProblem(const TraceProblem& traces, int threads, const std::stop_token& stop)
+    : _traces(traces),
+      _membrane(traces.decomposition(), threads, stop),
+      _blocks(_membrane, traces.pair_forces(), threads, stop),
+      _lcp(_membrane, _blocks) {}
+
+Answer solve_active_set(const JoinedProblem& problem, const mesh::Mesh& mesh,
+                        const CaseLoads& loads, const ActiveSetOptions& options, bool fields,
+                        Observer& observer, std::span<const char> start) {
+  JoinedCase load_case(problem, loads);
+  const BlockLcp::Answer solution =
+      problem.lcp().solve(load_case.reduced().r, load_case.reduced().magnitude,
+                          {options.tolerance, options.max_steps}, start, [&](const LcpStep& step) {
+                            load_case.sample_step(step);
+                            return observer.on_iteration(load_case.solved().sample());
+                          });
+  load_case.finish(solution);
+  Answer answer =
+      conclude(problem.traces(), mesh, loads, load_case.solved(),
+               {solution.status, solution.steps, solution.weakly_active, solution.closed});
+  if (fields) {
+    const SolvedCase solved{loads.subdomains, answer};
+    problem.recover_fields({&solved, 1});
+  }
+  return answer;
+}
+
+void JoinedProblem::recover_fields(std::span<const SolvedCase> cases) const {
+  const ddm::Decomposition& decomposition = _traces.decomposition();
+  const ddm::Skeleton& skeleton = decomposition.skeleton;
+  for (const SolvedCase& one : cases) {
+    // The jumps from the traces, and from those everything else.
+    VectorXd w(static_cast<Index>(skeleton.unknowns));
+    for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+      const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
+      for (std::size_t i = 0; i < unknown.size(); ++i) w[unknown[i]] = one.answer.side_traces[s][i];
+    }
+    VectorXd d(_membrane.contacts());
+    for (Index c = 0; c < d.size(); ++c)
+      d[c] = w[skeleton.contacts[at(c)].plus] - w[skeleton.contacts[at(c)].minus];
+    const JoinedMembrane::Reduced reduced =
+        _membrane.reduce(one.loads, held_values(decomposition, one.loads));
+    const VectorXd x = _membrane.solve(reduced, d);
+    for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+      const VectorXd u = _membrane.field(s, x, w);
+      Field field{decomposition.subdomains[s].node, std::vector<double>(u.begin(), u.end())};
+      field.u.insert(field.u.end(), one.loads[s].dirichlet.begin(), one.loads[s].dirichlet.end());
+      one.answer.fields.push_back(std::move(field));
+    }
+  }
+}
+
+}  // namespace anticrack::contact
