@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -60,24 +61,50 @@ SkeletonSize skeleton_size(const mesh::Mesh& mesh, const ddm::Sides& sides) {
   return size;
 }
 
+/// Of the blocks of contacts where the membrane is joined: upper bound, with as many contacts in
+/// each as on its interface or as a block may have.
+double block_bytes(const mesh::Mesh& mesh) {
+  constexpr double most = 400, matrices = 2.5;
+  double bytes = 0;
+  for (const mesh::Interface& interface : mesh.interfaces) {
+    const double contacts =
+        static_cast<double>(std::ranges::count(interface.kind, mesh::Kind::crack) +
+                            std::ranges::count(interface.kind, mesh::Kind::delaminated) + 1);
+    bytes += matrices * sizeof(double) * contacts * std::min(contacts, most);
+  }
+  return bytes;
+}
+
 }  // namespace
 
 std::size_t estimate_bytes(const mesh::Mesh& mesh) {
   // The factor of a planar graph ordered by nested dissection has O(n log n) entries; measured with
   // all other data per node: 30 to 42 bytes a node and log2(n), from 1 k to 2 M nodes. Dense: S and
   // the flexibility on the trace; H and W on the skeleton; S^ with its coarser levels, a factor and
-  // a block of either on the contacts.
-  constexpr double bytes_per_node_and_level = 60, bytes_per_node = 200;
+  // a block of either on the contacts. Joined: the stiffness three times, and the blocks.
+  constexpr double bytes_per_node_and_level = 60, bytes_per_node = 200, bytes_per_joined_node = 500;
   constexpr double trace_blocks = 3, skeleton_blocks = 2, contact_blocks = 3.5, fixed = 1 << 14;
   const ddm::Sides sides = ddm::find_sides(mesh);
-  double bytes = fixed;
-  for (const Size& size : subdomain_sizes(mesh, sides)) {
+  const std::vector<Size> sizes = subdomain_sizes(mesh, sides);
+  const SkeletonSize skeleton = skeleton_size(mesh, sides);
+  constexpr auto most = static_cast<double>(max_dense);
+  const bool joined = skeleton.unknowns > most || std::ranges::any_of(sizes, [](const Size& size) {
+                        return size.trace > most;
+                      });
+  double bytes = fixed, nodes = 0;
+  for (const Size& size : sizes) {
+    nodes += size.nodes;
+    if (joined) continue;
     bytes += size.nodes * (bytes_per_node + bytes_per_node_and_level * std::log2(size.nodes + 1));
     bytes += trace_blocks * sizeof(double) * size.trace * size.trace;
   }
-  const SkeletonSize size = skeleton_size(mesh, sides);
-  bytes += skeleton_blocks * sizeof(double) * size.unknowns * size.unknowns;
-  bytes += contact_blocks * sizeof(double) * size.contacts * size.contacts;
+  if (joined) {
+    bytes += nodes * (bytes_per_joined_node + bytes_per_node_and_level * std::log2(nodes + 1));
+    bytes += block_bytes(mesh);
+  } else {
+    bytes += skeleton_blocks * sizeof(double) * skeleton.unknowns * skeleton.unknowns;
+    bytes += contact_blocks * sizeof(double) * skeleton.contacts * skeleton.contacts;
+  }
   return static_cast<std::size_t>(bytes);
 }
 
