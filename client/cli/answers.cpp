@@ -4,7 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <map>
 #include <span>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -12,6 +17,7 @@
 #include "cli/progress.hpp"
 #include "cli/sweep_text.hpp"
 #include "cli/text.hpp"
+#include "results/tables.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -25,17 +31,22 @@ struct Moved {
   bool tilted = false;  // in one of the loads at least
 };
 
-// All inclusions, each once.
+// All inclusions, each once, in the order of the loads.
 std::vector<Moved> inclusions_of(const std::vector<results::Load>& loads) {
   std::vector<Moved> all;
+  std::map<std::string_view, std::size_t> places;
   for (const results::Load& load : loads) {
     for (const results::Inclusion& inclusion : load.inclusions) {
-      auto place = std::ranges::find(all, inclusion.name, &Moved::name);
-      if (place == all.end()) place = all.insert(all.end(), {inclusion.name});
-      place->tilted |= inclusion.tilted();
+      const auto [place, is_new] = places.try_emplace(inclusion.name, all.size());
+      if (is_new) all.push_back({inclusion.name});
+      all[place->second].tilted |= inclusion.tilted();
     }
   }
   return all;
+}
+
+bool any_tilts(const std::vector<Moved>& inclusions) {
+  return std::ranges::any_of(inclusions, &Moved::tilted);
 }
 
 using Column = std::pair<const char*, double results::Inclusion::*>;
@@ -51,16 +62,76 @@ std::span<const Column> told_of(const Moved& inclusion) {
   return std::span(columns).first(inclusion.tilted ? columns.size() : 1);
 }
 
-void add_inclusion(const results::Load& load, const Moved& inclusion,
-                   std::vector<std::string>& row) {
-  const auto found = std::ranges::find(load.inclusions, inclusion.name, &results::Inclusion::name);
-  const bool told = has_answer(load) && found != load.inclusions.end();
-  for (const auto& [name, member] : told_of(inclusion))
-    row.push_back(told ? number((*found).*member) : "-");
-}
+// What the rows of the table tell of inclusions: each, or of many how far they move.
+class Told {
+ public:
+  explicit Told(std::vector<Moved> inclusions)
+      : _inclusions(std::move(inclusions)), _tilt(any_tilts(_inclusions)) {}
 
-std::vector<std::string> row_of(const results::Load& load, const std::vector<Moved>& inclusions,
-                                bool by_uzawa) {
+  bool each() const { return _inclusions.size() <= few_inclusions; }
+
+  std::vector<std::string> head() const {
+    std::vector<std::string> head;
+    for (const Moved& inclusion : _inclusions) {
+      if (!each()) break;
+      for (const auto& [name, member] : told_of(inclusion))
+        head.push_back(_inclusions.size() == 1 ? name : name + (" " + sanitise(inclusion.name)));
+    }
+    if (each()) return head;
+    head = {"inclusions", "least A", of, "greatest A", of};
+    if (_tilt) head.insert(head.end(), {"greatest |B|", of});
+    return head;
+  }
+
+  void add(const results::Load& load, std::vector<std::string>& row) const {
+    if (!each()) return add_extremes(load, row);
+    for (const Moved& inclusion : _inclusions) {
+      const auto found =
+          std::ranges::find(load.inclusions, inclusion.name, &results::Inclusion::name);
+      const bool told = has_answer(load) && found != load.inclusions.end();
+      for (const auto& [name, member] : told_of(inclusion))
+        row.push_back(told ? number((*found).*member) : "-");
+    }
+  }
+
+  // Below the table.
+  std::string hint() const {
+    if (each()) return "";
+    return "all " + std::to_string(_inclusions.size()) +
+           " inclusions: anticrack show RESULT --inclusions, or --csv FILE\n";
+  }
+
+  static constexpr const char* of = "of";  // heads a column of names
+
+ private:
+  void add_extremes(const results::Load& load, std::vector<std::string>& row) const {
+    if (!has_answer(load) || load.inclusions.empty()) {
+      row.insert(row.end(), {"-", "-", "", "-", ""});
+      if (_tilt) row.insert(row.end(), {"-", ""});
+      return;
+    }
+    constexpr std::size_t widest_name = 24;
+    const auto add_one = [&row](const results::Inclusion& inclusion, double value) {
+      row.insert(row.end(), {number(value), fit(sanitise(inclusion.name), widest_name)});
+    };
+    row.push_back(std::to_string(load.inclusions.size()));
+    const auto [least, greatest] =
+        std::ranges::minmax_element(load.inclusions, {}, &results::Inclusion::displacement);
+    add_one(*least, least->displacement);
+    add_one(*greatest, greatest->displacement);
+    if (!_tilt) return;
+    const auto slope = [](const results::Inclusion& inclusion) {
+      return std::hypot(inclusion.slope_x, inclusion.slope_y);
+    };
+    const auto steepest = std::ranges::max_element(load.inclusions, {}, slope);
+    add_one(*steepest, slope(*steepest));
+  }
+
+  std::vector<Moved> _inclusions;
+  bool _tilt;
+};
+
+std::vector<std::string> row_of(const results::Load& load, const Told& inclusions, bool by_uzawa) {
   const bool answered = has_answer(load);
   const auto when_answered = [answered](double value, int digits = 6, bool exponent = false) {
     return answered ? number(value, digits, exponent) : "-";
@@ -68,7 +139,7 @@ std::vector<std::string> row_of(const results::Load& load, const std::vector<Mov
   std::vector<std::string> row{
       sanitise(load.name), std::string(word(load.status)), std::to_string(load.iterations),
       when_answered(by_uzawa ? load.criterion : load.kkt_relative.largest(), 2, true)};
-  for (const Moved& inclusion : inclusions) add_inclusion(load, inclusion, row);
+  inclusions.add(load, row);
   row.push_back(when_answered(load.energy));
   row.push_back(when_answered(load.contact_length));
   if (by_uzawa) {
@@ -97,21 +168,24 @@ std::vector<std::string> remarks_on(const results::Load& load) {
 }  // namespace
 
 std::string answers_table(const std::vector<results::Load>& loads) {
-  const std::vector<Moved> inclusions = inclusions_of(loads);
+  const Told inclusions(inclusions_of(loads));
   const bool by_uzawa = std::any_of(loads.begin(), loads.end(), [](const results::Load& load) {
     return std::isfinite(load.theta);
   });
   std::vector<std::string> head{"load", "status", "iterations", by_uzawa ? "criterion" : "KKT"};
-  for (const Moved& inclusion : inclusions) {
-    for (const auto& [name, member] : told_of(inclusion))
-      head.push_back(inclusions.size() == 1 ? name : name + (" " + sanitise(inclusion.name)));
-  }
+  std::ranges::move(inclusions.head(), std::back_inserter(head));
   head.insert(head.end(), {"energy", "contact length"});
   if (by_uzawa) head.insert(head.end(), {"theta", "theta*"});
   head.emplace_back("wall time");
   std::vector<std::string> units(head.size(), "-");
+  std::vector<std::size_t> left{1};
   units[0] = units[1] = "";
   units.back() = "s";
+  for (std::size_t i = 0; i < head.size(); ++i) {
+    if (head[i] != Told::of) continue;
+    units[i] = "";
+    left.push_back(i);
+  }
   std::vector<std::vector<std::string>> rows{head, units};
   std::string remarks;
   for (const results::Load& load : loads) {
@@ -119,11 +193,55 @@ std::string answers_table(const std::vector<results::Load>& loads) {
     for (const std::string& remark : remarks_on(load))
       remarks += sanitise(load.name) + ": " + sanitise(remark) + "\n";
   }
-  return table(rows, {1}) + remarks;
+  return table(rows, left) + inclusions.hint() + remarks;
 }
 
 std::string answers_table(const results::Result& result) {
   return result.sweep ? sweep_table(*result.sweep) : answers_table(result.loads);
+}
+
+std::string inclusions_table(const results::Result& result) {
+  if (result.sweep) return sweep_inclusions(*result.sweep);
+  const auto columns = told_of({"", any_tilts(inclusions_of(result.loads))});
+  std::vector<std::vector<std::string>> rows{{"load", "inclusion"}, {"", ""}};
+  for (const auto& [name, member] : columns) rows[0].emplace_back(name);
+  rows[0].insert(rows[0].end(), {"resultant", "contact length"});
+  rows[1].resize(rows[0].size(), "-");
+  for (const results::Load& load : result.loads) {
+    if (!has_answer(load)) continue;
+    for (const results::Inclusion& inclusion : load.inclusions) {
+      auto& row = rows.emplace_back(std::vector{sanitise(load.name), sanitise(inclusion.name)});
+      for (const auto& [name, member] : columns) row.push_back(number(inclusion.*member));
+      row.insert(row.end(), {number(inclusion.resultant), number(inclusion.contact_length)});
+    }
+  }
+  return rows.size() == 2 ? "no inclusions\n" : table(rows, {1});
+}
+
+std::string answers_csv(const results::Result& result) {
+  if (result.sweep) return sweep_csv(*result.sweep);
+  std::string text = "load,inclusion";
+  arrays::for_each(
+      [&](const auto& column) {
+        if (column.name != "name") text.append(",").append(column.name);
+      },
+      results::tables::inclusions);
+  text += '\n';
+  for (const results::Load& load : result.loads) {
+    if (!has_answer(load)) continue;
+    for (const results::Inclusion& inclusion : load.inclusions) {
+      text += csv_field(load.name) + "," + csv_field(inclusion.name);
+      arrays::for_each(
+          [&](const auto& column) {
+            const auto& value = std::invoke(column.member, inclusion);
+            if constexpr (std::is_floating_point_v<std::remove_cvref_t<decltype(value)>>)
+              text += "," + exact(value);
+          },
+          results::tables::inclusions);
+      text += '\n';
+    }
+  }
+  return text;
 }
 
 std::string answers_json(const results::Result& result, const std::filesystem::path& file) {

@@ -10,6 +10,7 @@
 
 #include "cli/answers.hpp"
 #include "cli/commands.hpp"
+#include "cli/csv_file.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/json.hpp"
 #include "cli/options.hpp"
@@ -27,6 +28,8 @@ struct FileOptions {
   std::string file;
   std::string folder;
   std::vector<std::string> loads;  ///< none: all
+  std::string csv;
+  bool inclusions = false;
   figures::Options figures;
 };
 
@@ -61,7 +64,9 @@ void add_file(CLI::App& command, FileOptions& options, const char* help) {
 }
 
 int show_file(const FileOptions& options, const Globals& globals) {
+  const std::filesystem::path csv = csv_file(options.csv, options.file);
   const results::Result result = read_result(options);
+  if (!csv.empty()) write_csv(csv, answers_csv(result));
   if (globals.json) {
     print_document(answers_json(result, options.file));
     return exit_ok;
@@ -71,7 +76,7 @@ int show_file(const FileOptions& options, const Globals& globals) {
   head += std::to_string(result.mesh.triangle_count()) + " triangles, " +
           std::to_string(result.mesh.node_count()) + " nodes (" + sanitise(result.mesh_name) +
           "), solved by " + sanitise(result.job_name) + "\n\n";
-  print_document(head + answers_table(result));
+  print_document(head + (options.inclusions ? inclusions_table(result) : answers_table(result)));
   return exit_ok;
 }
 
@@ -106,7 +111,16 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
   const auto options = std::make_shared<FileOptions>();
   CLI::App* show_command = app.add_subcommand("show", "Show the answers of a result file");
   add_file(*show_command, *options, "Result file, HDF5");
-  show_command->footer("Example:\n  anticrack show paper.h5");
+  show_command->add_flag("--inclusions", options->inclusions,
+                         "A row for each inclusion of each load case, also of many");
+  show_command
+      ->add_option("--csv", options->csv,
+                   "Also write comma-separated text, one line per load case and inclusion; of a "
+                   "sweep one per row")
+      ->type_name("FILE.csv");
+  show_command->footer(
+      "Example:\n  anticrack show paper.h5\n"
+      "  anticrack show fibres.h5 --inclusions --csv fibres.csv");
   show_command->callback([options, &globals, &chosen] {
     chosen = [options, &globals] { return show_file(*options, globals); };
   });

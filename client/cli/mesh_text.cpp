@@ -2,6 +2,8 @@
 #include "cli/mesh_text.hpp"
 
 #include <array>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "cli/progress.hpp"
@@ -24,17 +26,15 @@ std::string motion_of(const Motion& motion) {
   return motion.tilt() ? ", tilts" : "";
 }
 
-/// Its name, and how it moves, which the mesh's definition says.
-std::string inclusion_of(const v1::Mesh& mesh, int inclusion) {
-  const bool named = inclusion >= 0 && inclusion < mesh.inclusions_size();
-  if (!named) return "-";
-  const std::string& name = mesh.inclusions(inclusion);
-  std::string text = sanitise(name);
+/// How inclusions move that do not just move by u = A, by their names: the mesh's definition says
+/// it.
+std::map<std::string, std::string> motions_of(const v1::Mesh& mesh) {
+  std::map<std::string, std::string> motions;
   for (const v1::Inclusion& each : mesh.geometry().inclusions())
-    if (each.name() == name) text += motion_of(each);
-  const auto motion = mesh.options().inclusion_motions().find(name);
-  if (motion != mesh.options().inclusion_motions().end()) text += motion_of(motion->second);
-  return text;
+    motions[each.name()] += motion_of(each);
+  for (const auto& [name, motion] : mesh.options().inclusion_motions())
+    motions[name] += motion_of(motion);
+  return motions;
 }
 
 std::string head(const v1::Mesh& mesh) {
@@ -75,19 +75,26 @@ std::string subdomains(const v1::Mesh& mesh) {
                     number(each.longest_edge(), 3),
                     each.floating() ? "interfaces only" : "the boundary"});
   }
-  return table(rows, {8});
+  return short_table(std::move(rows), {8});
 }
 
 std::string interfaces(const v1::Mesh& mesh) {
+  const auto motions = motions_of(mesh);
+  const auto inclusion_of = [&](int inclusion) -> std::string {
+    if (inclusion < 0 || inclusion >= mesh.inclusions_size()) return "-";
+    const std::string& name = mesh.inclusions(inclusion);
+    const auto motion = motions.find(name);
+    return sanitise(name) + (motion == motions.end() ? "" : motion->second);
+  };
   Rows rows{{"interface", "from", "to", "kind", "inclusion", "edges"}};
   for (const v1::InterfaceInfo& interface : mesh.interfaces()) {
     for (const auto& segment : interface.segments()) {
       rows.push_back({sanitise(interface.name()), number(segment.begin()), number(segment.end()),
-                      kind_of(segment.kind()), inclusion_of(mesh, segment.inclusion()),
+                      kind_of(segment.kind()), inclusion_of(segment.inclusion()),
                       std::to_string(segment.edge_count())});
     }
   }
-  return rows.size() == 1 ? "no interfaces\n" : table(rows, {3, 4});
+  return rows.size() == 1 ? "no interfaces\n" : short_table(std::move(rows), {3, 4});
 }
 
 std::string tips(const v1::Mesh& mesh) {
@@ -96,7 +103,7 @@ std::string tips(const v1::Mesh& mesh) {
     rows.push_back({sanitise(tip.interface()), number(tip.at().x()), number(tip.at().y()),
                     number(tip.smallest_edge(), 3)});
   }
-  return rows.size() == 1 ? "" : "\n" + table(rows);
+  return rows.size() == 1 ? "" : "\n" + short_table(std::move(rows));
 }
 
 std::string boundary(const v1::Mesh& mesh) {

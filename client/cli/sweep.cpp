@@ -4,10 +4,10 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
-#include <span>
 #include <utility>
 
 #include "cli/answers.hpp"
+#include "cli/csv_file.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/follow.hpp"
 #include "cli/job_run.hpp"
@@ -17,8 +17,6 @@
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
 #include "client/uuid.hpp"
-#include "results/file.hpp"
-#include "results/replace_file.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -66,8 +64,7 @@ void add_matrix(Session& session, const SweepInput& input, v1::Job& job) {
 
 void save_csv(const fs::path& csv, const results::Sweep& sweep, const Globals& globals) {
   if (csv.empty()) return;
-  const std::string text = sweep_csv(sweep);
-  results::replace_file(csv, std::as_bytes(std::span(text)));
+  write_csv(csv, sweep_csv(sweep));
   say(globals, "Rows: " + csv.string());
 }
 
@@ -80,14 +77,7 @@ struct Targets {
 Targets check_targets(const SweepOptions& options) {
   Targets targets;
   if (!options.detach) targets.result = result_file(options.case_file, options.output);
-  if (!options.csv.empty()) {
-    targets.csv = options.csv;
-    results::check_writable(targets.csv);
-    if (fs::absolute(targets.csv) == fs::absolute(targets.result)) {
-      throw casefile::Error({"", "--csv " + options.csv, 0},
-                            "this is also the result file; name another one");
-    }
-  }
+  targets.csv = csv_file(options.csv, targets.result);
   return targets;
 }
 

@@ -2,10 +2,10 @@
 #include "cli/sweep_text.hpp"
 
 #include <array>
-#include <charconv>
 #include <utility>
 #include <vector>
 
+#include "cli/answers.hpp"
 #include "cli/text.hpp"
 #include "results/result.hpp"
 
@@ -36,24 +36,58 @@ std::string endings(const SweepSummary& counts) {
   return text;
 }
 
+using Rows = std::vector<std::vector<std::string>>;
+
+const std::vector<std::string> head_of_spans{"", "least", "of", "most", "of"};
+
+void add_span(const std::string& name, const SweepSummary::Range& range, Rows& rows) {
+  rows.push_back({sanitise(name), number(range.low), "", number(range.high), ""});
+}
+
+void add_inclusions(const results::Sweep& sweep, const SweepSummary& counts, Rows& rows) {
+  for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
+    add_span(name_of("A", sweep, i), counts.displacement[i], rows);
+    for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(i); ++part)
+      add_span(name_of(slope_parts[part], sweep, i), counts.slope[i][part], rows);
+  }
+}
+
+/// Without the columns of names where no row has one.
+std::string table_of_spans(Rows rows) {
+  for (const std::size_t column : {4U, 2U}) drop_if_empty(rows, column);
+  const bool named = rows[0].size() == head_of_spans.size();
+  return table(rows, named ? std::vector<std::size_t>{2, 4} : std::vector<std::size_t>{});
+}
+
+/// The least and the most of all inclusions, and whose they are.
+void add_extremes(const results::Sweep& sweep, const SweepSummary& counts, Rows& rows) {
+  const std::size_t inclusions = sweep.inclusions.size();
+  const auto add_one = [&](const char* name, const auto& range_of) {
+    std::size_t least = 0, most = 0;
+    for (std::size_t i = 1; i < inclusions; ++i) {
+      if (range_of(i).low < range_of(least).low) least = i;
+      if (range_of(i).high > range_of(most).high) most = i;
+    }
+    rows.push_back({name + (" of " + std::to_string(inclusions) + " inclusions"),
+                    number(range_of(least).low), sanitise(sweep.inclusions[least]),
+                    number(range_of(most).high), sanitise(sweep.inclusions[most])});
+  };
+  add_one("A", [&](std::size_t i) { return counts.displacement[i]; });
+  for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(); ++part)
+    add_one(slope_parts[part], [&](std::size_t i) { return counts.slope[i][part]; });
+}
+
 Json range_json(const SweepSummary::Range& range) {
   return {{"min", range.low}, {"max", range.high}};
 }
 
-/// Shortest text that gives the number back.
-void append(std::string& text, double value) {
-  std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  text.append(buffer.data(), result.ptr);
-}
-
 std::string csv_head(const results::Sweep& sweep, std::size_t loads) {
   std::string head = "row";
-  for (std::size_t i = 0; i < loads; ++i) head += "," + sweep.loads[i];
+  for (std::size_t i = 0; i < loads; ++i) head += "," + csv_field(sweep.loads[i]);
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
-    head += "," + name_of("A", sweep, i);
+    head += "," + csv_field(name_of("A", sweep, i));
     for (const char* part : slope_parts)
-      if (!sweep.slope.empty()) head += "," + name_of(part, sweep, i);
+      if (!sweep.slope.empty()) head += "," + csv_field(name_of(part, sweep, i));
   }
   return head + ",energy,contact_length,steps,status\n";
 }
@@ -68,22 +102,27 @@ std::string sweep_table(const results::Sweep& sweep) {
   if (counts.converged > 0) {
     text += "at most " + counted(static_cast<std::size_t>(counts.most_steps), "step") +
             ", KKT residuals at most " + number(counts.worst_kkt, 2) + "\n\n";
-    std::vector<std::vector<std::string>> rows{{"", "least", "most"}};
-    const auto add = [&rows](const std::string& name, const SweepSummary::Range& range) {
-      rows.push_back({sanitise(name), number(range.low), number(range.high)});
-    };
-    for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
-      add(name_of("A", sweep, i), counts.displacement[i]);
-      for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(i); ++part)
-        add(name_of(slope_parts[part], sweep, i), counts.slope[i][part]);
-    }
-    add("contact length", counts.contact_length);
-    add("energy", counts.energy);
-    text += table(rows);
+    Rows rows{head_of_spans};
+    if (sweep.inclusions.size() > few_inclusions)
+      add_extremes(sweep, counts, rows);
+    else
+      add_inclusions(sweep, counts, rows);
+    add_span("contact length", counts.contact_length, rows);
+    add_span("energy", counts.energy, rows);
+    text += table_of_spans(std::move(rows));
+    if (sweep.inclusions.size() > few_inclusions)
+      text += "all inclusions: anticrack show RESULT --inclusions, or --csv FILE\n";
   }
   if (!sweep.kept.empty()) text += "traces of " + counted(sweep.kept.size(), "row") + "\n";
   if (!sweep.error.empty()) text += sanitise(sweep.error) + "\n";
   return text;
+}
+
+std::string sweep_inclusions(const results::Sweep& sweep) {
+  Rows rows{head_of_spans};
+  const SweepSummary counts = summary(sweep);
+  if (counts.converged > 0) add_inclusions(sweep, counts, rows);
+  return rows.size() == 1 ? "no inclusions\n" : table_of_spans(std::move(rows));
 }
 
 Json sweep_json(const results::Sweep& sweep) {
@@ -119,12 +158,12 @@ std::string sweep_csv(const results::Sweep& sweep) {
     const bool right = status == results::Status::converged;
     const auto add = [&text, right](double value) {
       text += ',';
-      if (right) append(text, value);
+      if (right) text += exact(value);
     };
     text += std::to_string(row);
     for (std::size_t i = 0; i < loads; ++i) {
       text += ',';
-      append(text, sweep.coefficients[row * loads + i]);
+      text += exact(sweep.coefficients[row * loads + i]);
     }
     for (std::size_t i = 0; i < inclusions; ++i) {
       add(sweep.displacement[row * inclusions + i]);

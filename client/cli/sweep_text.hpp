@@ -10,8 +10,12 @@
 
 namespace anticrack::cli {
 
-/// How many rows ended how, the span of A, contact length and energy, and what went wrong.
+/// How many rows ended how, the span of A, contact length and energy, and what went wrong. Of many
+/// inclusions one span, and whose its ends are.
 std::string sweep_table(const results::Sweep& sweep);
+
+/// The span of A of every inclusion, and of B of those that tilt.
+std::string sweep_inclusions(const results::Sweep& sweep);
 
 Json sweep_json(const results::Sweep& sweep);  ///< the same
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -83,6 +84,20 @@ std::string number(double value, int digits, bool exponent) {
   return std::string(buffer.data(), static_cast<std::size_t>(length));
 }
 
+std::string exact(double value) {
+  if (!std::isfinite(value)) return "";
+  std::array<char, 32> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char each : text) quoted += each == '"' ? std::string("\"\"") : std::string(1, each);
+  return quoted + "\"";
+}
+
 std::string seconds(double value) {
   constexpr double a_second = 1e4;
   return number(std::round(value * a_second) / a_second, 3);
@@ -139,6 +154,15 @@ std::string table(const std::vector<std::vector<std::string>>& rows,
     text += line + "\n";
   }
   return text;
+}
+
+std::string short_table(std::vector<std::vector<std::string>> rows,
+                        const std::vector<std::size_t>& left) {
+  constexpr std::size_t most = 11;  // with the head
+  if (rows.size() <= most + 1) return table(rows, left);
+  const std::size_t others = rows.size() - most;
+  rows.resize(most);
+  return table(rows, left) + "and " + std::to_string(others) + " more, see --json\n";
 }
 
 void drop_if_empty(std::vector<std::vector<std::string>>& rows, std::size_t column) {

@@ -28,6 +28,12 @@ std::string pad_left(std::string_view text, std::size_t width);
 /// As printf's %.*g or, for `exponent`, %.*e; "-" for what is not finite.
 std::string number(double value, int digits = 6, bool exponent = false);
 
+/// Shortest text that gives the number back; empty for what is not finite.
+std::string exact(double value);
+
+/// A field of comma-separated text, in quotes where it needs them.
+std::string csv_field(std::string_view text);
+
 /// Seconds to three digits, no finer than 0.1 ms: "0.0118", "0.0002", "12.5".
 std::string seconds(double value);
 
@@ -44,6 +50,10 @@ std::string clock_text(std::int64_t seconds);
 /// spaces.
 std::string table(const std::vector<std::vector<std::string>>& rows,
                   const std::vector<std::size_t>& left = {});
+
+/// `table` of a head and the first rows, with a line that counts the others: --json has them all.
+std::string short_table(std::vector<std::vector<std::string>> rows,
+                        const std::vector<std::size_t>& left = {});
 
 /// Removes a column of a table that has a title, in the first row, and nothing else.
 void drop_if_empty(std::vector<std::vector<std::string>>& rows, std::size_t column);

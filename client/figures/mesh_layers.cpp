@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <set>
 
 namespace anticrack::figures {
 namespace {
@@ -130,15 +131,22 @@ void add_pointers(const MeshPlan& plan, const InterfaceLine& line, const Window&
   // A little off the middle: there may be a tip, a cross point or another interface's arrow.
   const auto plus = pointer(plan, line, window, 0.56, [](std::size_t) { return true; });
   if (plus) to.plus_sides.push_back(*plus);
-  for (std::size_t i = 0; i < plan.mesh.inclusions.size(); ++i) {
-    auto found = pointer(plan, line, window, 0.5, [&](std::size_t e) {
-      return line.edges.inclusion[e] == static_cast<std::int32_t>(i);
-    });
+  std::set<std::int32_t> here(line.edges.inclusion.begin(), line.edges.inclusion.end());
+  here.erase(-1);
+  for (const std::int32_t inclusion : here) {
+    auto found = pointer(plan, line, window, 0.5,
+                         [&](std::size_t e) { return line.edges.inclusion[e] == inclusion; });
     if (!found) continue;
     found->to = {2 * found->from.x - found->to.x, 2 * found->from.y - found->to.y};
-    found->name = plan.mesh.inclusions[i];
+    found->name = plan.mesh.inclusions[static_cast<std::size_t>(inclusion)];
     to.inclusions.push_back(*found);
   }
+}
+
+/// Names and arrows of more would cover each other and the lines.
+void drop_if_many(std::vector<Pointer>& pointers) {
+  constexpr std::size_t most = 16;
+  if (pointers.size() > most) pointers.clear();
 }
 
 double squared(const Spot& a, const Spot& b) {
@@ -227,6 +235,8 @@ MeshLayers layers(const MeshPlan& plan, const Window& window) {
     add_stretches(plan, line, smallest, result);
     add_pointers(plan, line, window, result);
   }
+  drop_if_many(result.plus_sides);
+  drop_if_many(result.inclusions);
   for (const results::Tip& tip : plan.tips)
     if (inside({tip.x, tip.y}, window)) result.tips.push_back(tip);
   add_subdomain_names(plan.mesh, window, result);
