@@ -60,6 +60,7 @@ struct Distances {
       moment.add(one.moment_y, other.moment_y);
     }
     energy.add(a.energy, b.energy);
+    energy.size = std::max(energy.size, u.size);  // what g_D and the forces give may cancel
     length.add(a.contact_length, b.contact_length);
   }
 };
