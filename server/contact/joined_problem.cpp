@@ -55,6 +55,7 @@ class JoinedCase {
     const VectorXd x = _membrane.solve(_reduced, solution.d);
     const VectorXd w = _membrane.values(_reduced, x, solution.d);
     _membrane.fill(_loads, x, w, _solved.state());
+    _solved.state().load_size = std::max(largest(_reduced.force), largest(_reduced.r));
     _solved.set_motion(w);
     const VectorXd force = _membrane.multipliers(_solved.state());
     const VectorXd lambda = _problem.lcp().split(force, solution.closed).cwiseMax(0.0);

@@ -80,7 +80,7 @@ double largest_unbalanced(const ddm::Decomposition& decomposition, std::span<con
 }
 
 Scales scales_of(std::span<const ddm::CondensedLoad> loads, const TraceState& state) {
-  Scales result{largest(state.force), 0, largest(state.mu)};
+  Scales result{std::max(largest(state.force), state.load_size), 0, largest(state.mu)};
   for (std::size_t s = 0; s < loads.size(); ++s) {
     result.force = std::max(result.force, largest(loads[s].g));
     result.trace = std::max(result.trace, largest(state.trace[s]));

@@ -15,11 +15,13 @@ namespace anticrack::contact {
 struct TraceState {
   std::vector<Eigen::VectorXd> trace;  ///< t_i, per subdomain
   std::vector<Eigen::VectorXd> flux;   ///< S t - g: int T du/dn phi_i, n outward
-  double of_interiors = 0;             ///< of the energy, where loads are not condensed
-  Eigen::MatrixXd motion;              ///< (3, inclusions): A, and B in x and y
-  Eigen::VectorXd mu;                  ///< per pair
-  Eigen::VectorXd force;               ///< M mu, per pair
-  Eigen::VectorXd jump;                ///< u+ - u-, per pair
+  // Where loads are not condensed: energy of the interiors, and the largest force on them or on a
+  // contact.
+  double of_interiors = 0, load_size = 0;
+  Eigen::MatrixXd motion;     ///< (3, inclusions): A, and B in x and y
+  Eigen::VectorXd mu;         ///< per pair
+  Eigen::VectorXd force;      ///< M mu, per pair
+  Eigen::VectorXd jump;       ///< u+ - u-, per pair
   std::vector<char> contact;  ///< per pair: 1 where it may open and is closed under pressure
 };
 

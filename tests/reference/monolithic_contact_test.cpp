@@ -147,6 +147,10 @@ void compare(unsigned seed, bool rich, std::size_t most_dense, Tally& tally) {
     return;
   }
   ASSERT_EQ(answer.status, contact::Status::converged) << answer.reason;
+  // A body with a slight kink has next to nothing against tilting about its line: all digits go.
+  constexpr double ill_posed = 1e4;
+  for (std::size_t j = 0; j < mesh.inclusions.size(); ++j)
+    if (std::hypot(reference.slope(j)[0], reference.slope(j)[1]) > ill_posed) return;
   ++tally.compared;
   tally.open += reference.open();
   tally.closed += reference.closed();
@@ -173,7 +177,6 @@ void compare(unsigned seed, bool rich, std::size_t most_dense, Tally& tally) {
         std::max(tally.displacement,
                  std::abs(answer.inclusions[j].displacement - reference.displacement(j)) / u_scale);
     const auto slope = reference.slope(j);
-    // A body with a slight kink has next to nothing against tilting about its line.
     const double slope_scale = std::max(u_scale, std::hypot(slope[0], slope[1]));
     tally.displacement = std::max(
         {tally.displacement, std::abs(answer.inclusions[j].slope_x - slope[0]) / slope_scale,
