@@ -79,32 +79,6 @@ void compare_fields(const mesh::Mesh& mesh, const MonolithicContact& reference,
   }
 }
 
-/// Inclusions whose bodies tilt: all that share nodes do.
-std::vector<char> tilting(const mesh::Mesh& mesh) {
-  std::vector<char> tilts;
-  for (const mesh::Motion& motion : mesh.motions) tilts.push_back(motion.tilt ? 1 : 0);
-  for (bool changed = true; changed;) {
-    changed = false;
-    std::map<std::int32_t, char> at_node;
-    for (int round = 0; round < 2; ++round) {
-      for (const mesh::Interface& interface : mesh.interfaces) {
-        for (std::size_t e = 0; e < interface.kind.size(); ++e) {
-          const std::int32_t j = interface.inclusion[e];
-          for (const std::int32_t node : {interface.nodes[e], interface.nodes[e + 1]}) {
-            if (j < 0) continue;
-            char& all = at_node.try_emplace(node, 1).first->second;
-            char& own = tilts[static_cast<std::size_t>(j)];
-            changed = changed || all != own;
-            all = own = static_cast<char>(all & own);
-          }
-        }
-      }
-      if (round == 0) changed = false;
-    }
-  }
-  return tilts;
-}
-
 /// On inclusions that tilt, with their bodies; a force acts in the middle.
 void add_moments(RandomMembrane& membrane, MonolithicLoad& load, fem::Load& given) {
   const mesh::Mesh& mesh = membrane.mesh();
