@@ -195,6 +195,14 @@ class BlockLcp::Run {
     return b.dot(precondition(b));
   }
 
+  /// What the iteration has to bring to 0: without the forces of the rows that hold, which would
+  /// cancel in products.
+  VectorXd open_residual() const {
+    VectorXd left = residual;
+    project(left);
+    return left;
+  }
+
  private:
   void subtract(const VectorXd& step) {
     residual -= _lcp._membrane.apply(step);
@@ -206,14 +214,6 @@ class BlockLcp::Run {
     VectorXd next = d;
     project(next);
     move_to(next);
-  }
-
-  /// What the iteration has to bring to 0: without the forces of the rows that hold, which would
-  /// cancel in products.
-  VectorXd open_residual() const {
-    VectorXd left = residual;
-    project(left);
-    return left;
   }
 
   /// Onto the d that are 0 where closed and on the rows that hold.
@@ -315,15 +315,12 @@ BlockLcp::Answer BlockLcp::solve(const VectorXd& r, const VectorXd& magnitude,
   answer.lambda = lambda.cwiseMax(0.0);
   answer.solves = run.solves;
   const double weak = std::max(options.tolerance, solve_rounding);
-  double error = 0;
+  answer.residual = scale.cwiseProduct(run.open_residual()).lpNorm<Eigen::Infinity>() / unit;
   for (Index i = 0; i < _conditions; ++i) {
     const bool pressed = lambda[i] * _scale[i] > weak * unit;
     answer.pressed.push_back(pressed ? 1 : 0);
     answer.weakly_active += !pressed && jump[i] <= weak * unit * _scale[i] ? 1 : 0;
-    if (i < r.size() && run.closed[at(i)] == 0)
-      error = std::max(error, std::abs(run.residual[i]) * _scale[i] / unit);
   }
-  answer.residual = error;
   answer.closed = std::move(run.closed);
   return answer;
 }

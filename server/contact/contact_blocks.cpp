@@ -28,7 +28,8 @@ constexpr std::size_t most_contacts = 400;
 /// How far the membrane around a block reaches, of the length of its box.
 constexpr double reach = 0.2;
 
-/// Contacts along each crack, in order: cut where a node is tied.
+/// Contacts along each crack, in order: cut where a node is tied. Where cracks cross there are more
+/// pairs than the interfaces read: their contacts come last, each alone.
 std::vector<Indices> runs(const ddm::Decomposition& decomposition) {
   std::vector<char> seen(decomposition.skeleton.independent, 0);
   std::vector<Indices> result(1);
@@ -46,6 +47,8 @@ std::vector<Indices> runs(const ddm::Decomposition& decomposition) {
     }
   }
   if (result.back().empty()) result.pop_back();
+  for (std::size_t c = 0; c < seen.size(); ++c)
+    if (seen[c] == 0) result.push_back({static_cast<std::int32_t>(c)});
   return result;
 }
 

@@ -139,11 +139,15 @@ VectorXd SkeletonProblem::apply(const VectorXd& w) const {
 }
 
 VectorXd SkeletonProblem::response(const ddm::Terms& terms) const {
-  VectorXd of_terms = VectorXd::Zero(maps().unknowns());
-  for (const ddm::Term& term : terms) of_terms[term.index] += term.factor;
-  VectorXd result(maps().jump_count());
-  multiply_transposed(_closed_to_open, maps().free().transpose() * of_terms, result);
-  return result - maps().jumps().transpose() * of_terms;
+  VectorXd result = VectorXd::Zero(maps().jump_count());
+  const ddm::Skeleton& skeleton = _traces.decomposition().skeleton;
+  for (const ddm::Term& term : terms) {
+    const ddm::Row& row = skeleton.rows[at(term.index)];
+    for (const auto& [q, factor] : row.free)
+      result += term.factor * factor * _closed_to_open.row(q).transpose();
+    for (const auto& [c, factor] : row.jumps) result[c] += term.factor * factor;
+  }
+  return result;
 }
 
 VectorXd SkeletonProblem::unknowns(const Reduced& load, const VectorXd& d) const {

@@ -42,7 +42,7 @@ class SkeletonProblem {
   /// K w. O(n_G^2).
   Eigen::VectorXd apply(const Eigen::VectorXd& w) const;
   /// What unit jumps of the contacts do to a sum of unknowns: it is that for d = 0 plus response'd.
-  /// O(n) a term.
+  /// O(c) a term.
   Eigen::VectorXd response(const ddm::Terms& terms) const;
   /// w for jumps d, shape (unknowns). O(n c).
   Eigen::VectorXd unknowns(const Reduced& load, const Eigen::VectorXd& d) const;

@@ -39,6 +39,7 @@ class Case {
 
   /// One step of iterative refinement, and multipliers from the forces themselves.
   void refine(const LcpAnswer& solution) {
+    const double criterion = _solved.sample().criterion;  // of the steps
     VectorXd d = solution.d.head(_d.size());
     if (d != _d)  // after the last sample, nodes open by rounding were closed
       move_to(_problem.unknowns(_reduced, d));
@@ -51,6 +52,7 @@ class Case {
             .cwiseMax(0.0);
     _solved.fill(_problem.lcp().jumps(d, solution.closed), lambda);
     _solved.settle_contact(solution.pressed, lambda);
+    _solved.sample().criterion = criterion;
   }
 
  private:

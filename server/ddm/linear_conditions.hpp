@@ -22,8 +22,9 @@ struct Row {
   Terms free, jumps, held;  ///< each ascending in its index
 };
 
-/// Starts with all unknowns free. Each condition is solved for the unknown with the largest number
-/// below `motions`-th... see add; O(terms) each where, as on meshes, conditions stay within a node.
+/// Starts with all unknowns free. Each condition is solved for the last of its unknowns or, where
+/// only motions are left, for the one with the largest factor; O(terms) each where, as on meshes,
+/// conditions stay within a node.
 class LinearConditions {
  public:
   /// Unknowns 0..motions-1 are rigid motions: others are eliminated before them.

@@ -55,11 +55,12 @@ struct BasisCache::Flight {
 std::size_t CondensedBasis::bytes() const noexcept {
   std::size_t bytes = sizeof(*this) + reduced.bytes();
   for (const LoadOnTraces& load : loads) {
-    bytes += sizeof(load) + sizeof(double) * load.inclusion_forces.capacity();
+    bytes += sizeof(load) + sizeof(contact::InclusionForce) * load.inclusion_forces.capacity();
     for (const ddm::CondensedLoad& part : load.subdomains) {
-      bytes += sizeof(part) + bytes_of(part.g) + bytes_of(part.g_boundary) +
-               bytes_of(part.dirichlet) + bytes_of(part.dirichlet_force) +
-               bytes_of(part.on_dirichlet) + bytes_of(part.z_interior) + bytes_of(part.z_boundary);
+      bytes += sizeof(part) + bytes_of(part.g) + bytes_of(part.z_interior) +
+               bytes_of(part.g_boundary) + bytes_of(part.dirichlet) +
+               bytes_of(part.dirichlet_force) + bytes_of(part.on_dirichlet) +
+               bytes_of(part.z_interior) + bytes_of(part.z_boundary);
     }
   }
   for (const ddm::LoadProducts& product : products)

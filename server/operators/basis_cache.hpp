@@ -25,7 +25,7 @@ namespace anticrack::operators {
 /// Loads of one mesh, condensed and reduced for the rows of a sweep. Does not keep the mesh.
 struct CondensedBasis {
   contact::SweepLoads reduced;
-  std::vector<LoadOnTraces> loads;          ///< without z_interior and z_boundary
+  std::vector<LoadOnTraces> loads;          ///< without z_boundary; z_interior only where joined
   std::vector<ddm::LoadProducts> products;  ///< per subdomain
   std::vector<std::string> warnings;        ///< of all loads, each once
 

@@ -16,7 +16,7 @@ mesh::Mesh diagonals(mesh::Kind condition) {
   options.columns = 8;
   options.rows = 4;
   options.kind = [condition](double x) { return std::abs(x) < 0.5 ? condition : mesh::Kind::glue; };
-  if (condition == mesh::Kind::crack) {
+  if (condition == mesh::Kind::crack || condition == mesh::Kind::free) {
     options.inclusions.clear();
   }
   return testing::structured_mesh(options);
@@ -73,6 +73,21 @@ mesh::Mesh mirrored(mesh::Mesh mesh, Mirror mirror) {
     std::swap(mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]);
   }
   return turned(std::move(mesh));
+}
+
+Placement::Placement(double angle, double scale)
+    : _cos(scale * std::cos(angle)), _sin(scale * std::sin(angle)) {}
+
+mesh::Point Placement::operator()(const mesh::Point& p) const {
+  return {_cos * p[0] - _sin * p[1], _sin * p[0] + _cos * p[1]};
+}
+
+mesh::Mesh Placement::operator()(mesh::Mesh mesh) const {
+  for (std::size_t i = 0; i < mesh.xy.size(); i += 2) {
+    const mesh::Point moved = (*this)({mesh.xy[i], mesh.xy[i + 1]});
+    std::copy(moved.begin(), moved.end(), mesh.xy.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return mesh;
 }
 
 }  // namespace anticrack::accuracy

@@ -31,4 +31,15 @@ mesh::Mesh mirrored(mesh::Mesh mesh, Mirror mirror);
 /// Plus and minus sides exchanged.
 mesh::Mesh turned(mesh::Mesh mesh);
 
+/// Turns about the origin and scales: a point, or all nodes of a mesh.
+class Placement {
+ public:
+  Placement(double angle, double scale);
+  mesh::Point operator()(const mesh::Point& p) const;
+  mesh::Mesh operator()(mesh::Mesh mesh) const;
+
+ private:
+  double _cos, _sin;
+};
+
 }  // namespace anticrack::accuracy

@@ -30,9 +30,9 @@ contact::Answer solve(const operators::MeshOperator& op, const fem::Force& force
   return solve(op, load, fields);
 }
 
-std::shared_ptr<const operators::MeshOperator> factorise(mesh::Mesh mesh) {
+std::shared_ptr<const operators::MeshOperator> factorise(mesh::Mesh mesh, std::size_t most_dense) {
   return operators::MeshOperator::factorise(std::make_shared<const mesh::Mesh>(std::move(mesh)), 2,
-                                            {});
+                                            {}, most_dense);
 }
 
 }  // namespace anticrack::accuracy

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -19,7 +20,9 @@ contact::Answer solve(const operators::MeshOperator& op, const fem::Load& load, 
 contact::Answer solve(const operators::MeshOperator& op, const fem::Force& force,
                       const std::string& boundary = "", bool fields = false);
 
-std::shared_ptr<const operators::MeshOperator> factorise(mesh::Mesh mesh);
+/// `most_dense`: 0 for one sparse factor (operators::MeshOperator::factorise).
+std::shared_ptr<const operators::MeshOperator> factorise(
+    mesh::Mesh mesh, std::size_t most_dense = operators::max_dense);
 
 /// Order of convergence between two errors when h halves.
 inline double rate(double coarse, double fine) { return std::log2(coarse / fine); }

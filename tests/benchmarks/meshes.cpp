@@ -26,13 +26,32 @@ struct Made {
   Times times;  ///< of the helper, its start and what travels included
 };
 
-Made make(const std::string& helper, const mesh::MeshOptions& options) {
+/// n x n slits in the square, each with an inclusion that is delaminated from tip to tip.
+mesh::Geometry fibres(int n) {
+  mesh::Geometry geometry;
+  geometry.boundary = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  const double spacing = 2.0 / n;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const double x = -1 + (i + 0.5) * spacing, y = -1 + (j + 0.5) * spacing;
+      const mesh::Part part{{x - spacing / 4, y}, {x + spacing / 4, y}};
+      const std::string number = std::to_string(i * n + j + 1);
+      geometry.interfaces.push_back(
+          {"slit-" + number, mesh::Shape::polyline, {part.from, part.to}});
+      geometry.inclusions.push_back({"fibre-" + number, part, {part}});
+    }
+  }
+  return geometry;
+}
+
+Made make(const std::string& helper, const mesh::MeshOptions& options,
+          const mesh::Geometry& geometry = testing::paper_geometry()) {
   mesher::HelperOptions how;
   how.executable = helper;
   how.time_limit = std::chrono::hours(1);
   how.memory_limit = 16ULL << 30;
-  const mesh::GenerateRequest request{
-      mesh::plan(testing::paper_geometry(), options, most_triangles), most_triangles};
+  const mesh::GenerateRequest request{mesh::plan(geometry, options, most_triangles),
+                                      most_triangles};
   Made made{{}, options, {}};
   const Stopwatch watch;
   made.mesh = mesher::run(how, request, {});
@@ -80,7 +99,7 @@ Figures describe(const std::string& name, const PlainMesh& plain, const Made& ma
 struct Options {
   std::string helper, folder;
   bool paper = false;
-  std::vector<double> graded, uniform;
+  std::vector<double> graded, uniform, fibres;
 };
 
 void run(const Options& options) {
@@ -100,6 +119,10 @@ void run(const Options& options) {
   };
   keep_all("graded-", mesh::Preset::graded, options.graded);
   keep_all("uniform-", mesh::Preset::uniform, options.uniform);
+  for (const double n : options.fibres) {
+    const auto count = static_cast<int>(std::lround(std::sqrt(n)));
+    keep("fibres-" + std::to_string(count * count), make(options.helper, {}, fibres(count)));
+  }
   Figures figures;
   figures.set("meshes", all);
   figures.print();
@@ -118,6 +141,8 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(2'000.0, 9e6));
   app.add_option("--uniform", options.uniform, "Uniform meshes of about so many triangles")
       ->check(CLI::Range(100.0, 9e6));
+  app.add_option("--fibres", options.fibres, "Default meshes of so many fibres in a square grid")
+      ->check(CLI::Range(1.0, 1000.0));
   CLI11_PARSE(app, argc, argv);
   try {
     anticrack::benchmarks::run(options);

@@ -111,7 +111,7 @@ TEST(ImportGroups, AnEdgeInTwoGroupsTakesWhatTheyAgreeOn) {
   EXPECT_EQ(kind("free:one", "free"), Kind::free);
   EXPECT_EQ(kind("inclusion:a", "delaminated:a"), Kind::delaminated);
   EXPECT_EQ(kind("delaminated:a", "inclusion:a"), Kind::delaminated);
-  for (const char* other : {"glue", "crack", "free:a", "inclusion:b", "delaminated:b"}) {
+  for (const char* other : {"glue", "crack", "free:c", "inclusion:b", "delaminated:b"}) {
     MshSample sample = square_sample("inclusion:a");
     add_lines(sample, middle, 9, other);
     const auto error = testing::error_of([&] { import_sample(sample); });

@@ -54,7 +54,13 @@ class CondenseLoad : public ::testing::Test {
   LoadOnTraces condense(const fem::Load& load, const std::stop_token& stop = {}) const {
     const fem::Load* const one[] = {&load};
     CondensedOutcome outcome =
-        std::move(condense_loads(one, mesh, decomposition, operators, neumann, stop).front());
+        std::move(condense_loads(
+                      one, mesh, decomposition,
+                      [this](std::size_t s, const auto& of_nodes, const auto& dirichlet) {
+                        return operators[s].condense(of_nodes, dirichlet);
+                      },
+                      neumann, stop)
+                      .front());
     if (const auto* error = std::get_if<errors::Error>(&outcome)) {
       throw errors::Error(*error);
     }
@@ -112,7 +118,7 @@ TEST_F(CondenseLoad, TakesTheSameForceInEveryForm) {
                               "sha", true, std::make_shared<const std::vector<double>>(values)}))),
             1e-14);
   EXPECT_TRUE(expected.warnings.empty());
-  EXPECT_EQ(expected.inclusion_forces, std::vector<double>{0.0});
+  EXPECT_EQ(expected.inclusion_forces.at(0).on_nodes.force, 0.0);
 }
 
 TEST_F(CondenseLoad, TakesNodalValuesInTheOrderOfTheMesh) {
@@ -140,7 +146,7 @@ TEST_F(CondenseLoad, PutsAForceOnAnInclusionIntoOneOfItsTraceNodes) {
   fem::Load load;
   load.inclusion_forces = {{"stiffener", 7.0}};
   const LoadOnTraces pushed = condense(load);
-  EXPECT_EQ(pushed.inclusion_forces, std::vector<double>{7.0});
+  EXPECT_EQ(pushed.inclusion_forces.at(0).on_nodes.force, 7.0);
   double sum = 0;
   for (std::size_t s = 0; s < operators.size(); ++s) {
     const std::vector<std::int32_t>& rigid = decomposition.subdomains[s].rigid;
@@ -156,10 +162,45 @@ TEST_F(CondenseLoad, PutsAForceOnAnInclusionIntoOneOfItsTraceNodes) {
 TEST_F(CondenseLoad, LetsAPointForceOnAnInclusionActOnIt) {
   for (const double x : {-0.5, -0.3, 0.0, 0.31, 0.5}) {  // delaminated, bonded, tips
     const PlacedForces placed = place(x, 0);
-    EXPECT_EQ(placed.inclusions, std::vector<double>{3.0}) << x;
+    EXPECT_EQ(placed.inclusions.at(0).on_nodes.force, 3.0) << x;
     EXPECT_EQ(placed_sum(placed), 3.0);
   }
-  EXPECT_EQ(place(-0.3, 1e-8).inclusions, std::vector<double>{0.0});
+  EXPECT_EQ(place(-0.3, 1e-8).inclusions.at(0).on_nodes.force, 0);
+}
+
+TEST_F(CondenseLoad, SpreadsForcesAndMomentsOverAnInclusionThatTilts) {
+  mesh.motions = {{true, {}}};
+  decomposition = ddm::cut(mesh);
+  fem::Load load;
+  load.inclusion_forces = {{"stiffener", 7.0}};
+  load.inclusion_moments = {{"stiffener", {0.5, 99.0}}};  // y does no work on a line along x
+  load.point_forces = {{0.25, 0, 2.0}};
+  const PlacedForces placed = place_forces(load, mesh, decomposition);
+  const contact::RigidForce& there = placed.inclusions.at(0).on_nodes;
+  EXPECT_NEAR(there.force, 9, 1e-13);
+  EXPECT_NEAR(there.moment_x, 0.5 + 2 * 0.25, 1e-13);
+  EXPECT_NEAR(there.moment_y, 0, 1e-13);
+  EXPECT_NEAR(placed_sum(placed), 9, 1e-13);
+}
+
+TEST_F(CondenseLoad, ForcesOnAHeldInclusionActOnItsHolders) {
+  mesh.motions = {{false, 0.25}};
+  decomposition = ddm::cut(mesh);
+  fem::Load load;
+  load.inclusion_forces = {{"stiffener", 7.0}};
+  const PlacedForces placed = place_forces(load, mesh, decomposition);
+  EXPECT_EQ(placed.inclusions.at(0).on_nodes.force, 0);
+  EXPECT_EQ(placed.inclusions.at(0).on_holders.force, 7);
+  EXPECT_EQ(placed_sum(placed), 0);
+}
+
+TEST_F(CondenseLoad, RefusesAMomentOnWhatDoesNotTilt) {
+  fem::Load load;
+  load.inclusion_moments = {{"stiffener", {1, 0}}};
+  const auto error = error_of([&] { condense(load); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->fields().at(0).field, "inclusion_moments[stiffener]");
+  EXPECT_NE(std::string(error->what()).find("does not tilt"), std::string::npos);
 }
 
 TEST_F(CondenseLoad, SharesAPointForceAmongTheCornersAroundIt) {
@@ -167,7 +208,7 @@ TEST_F(CondenseLoad, SharesAPointForceAmongTheCornersAroundIt) {
       {0.33, -0.71}, {-0.8, 0.0}, {1, 0.4}, {0.6, 1e-6}, {-1, -1}};
   for (const std::array<double, 2>& at : points) {
     const PlacedForces placed = place(at[0], at[1]);
-    EXPECT_EQ(placed.inclusions, std::vector<double>{0.0});
+    EXPECT_EQ(placed.inclusions.at(0).on_nodes.force, 0.0);
     double force = 0, x = 0, y = 0;
     for (std::size_t s = 0; s < placed.subdomains.size(); ++s) {
       for (const NodalForce& nodal : placed.subdomains[s]) {

@@ -44,7 +44,7 @@ inline std::shared_ptr<const LoadBasis> basis_of(const MeshOperator& op,
 }
 
 inline contact::SweepColumns columns(const MeshOperator& op, std::size_t rows) {
-  return {rows, op.mesh().inclusions.size(), op.contact_nodes().size()};
+  return {rows, op.mesh().inclusions.size(), op.contact_nodes().size(), contact::tilts(op.mesh())};
 }
 
 }  // namespace anticrack::operators

@@ -79,32 +79,6 @@ void compare_fields(const mesh::Mesh& mesh, const MonolithicContact& reference,
   }
 }
 
-/// Inclusions whose bodies tilt: all that share nodes do.
-std::vector<char> tilting(const mesh::Mesh& mesh) {
-  std::vector<char> tilts;
-  for (const mesh::Motion& motion : mesh.motions) tilts.push_back(motion.tilt ? 1 : 0);
-  for (bool changed = true; changed;) {
-    changed = false;
-    std::map<std::int32_t, char> at_node;
-    for (int round = 0; round < 2; ++round) {
-      for (const mesh::Interface& interface : mesh.interfaces) {
-        for (std::size_t e = 0; e < interface.kind.size(); ++e) {
-          const std::int32_t j = interface.inclusion[e];
-          for (const std::int32_t node : {interface.nodes[e], interface.nodes[e + 1]}) {
-            if (j < 0) continue;
-            char& all = at_node.try_emplace(node, 1).first->second;
-            char& own = tilts[static_cast<std::size_t>(j)];
-            changed = changed || all != own;
-            all = own = static_cast<char>(all & own);
-          }
-        }
-      }
-      if (round == 0) changed = false;
-    }
-  }
-  return tilts;
-}
-
 /// On inclusions that tilt, with their bodies; a force acts in the middle.
 void add_moments(RandomMembrane& membrane, MonolithicLoad& load, fem::Load& given) {
   const mesh::Mesh& mesh = membrane.mesh();
@@ -173,6 +147,10 @@ void compare(unsigned seed, bool rich, std::size_t most_dense, Tally& tally) {
     return;
   }
   ASSERT_EQ(answer.status, contact::Status::converged) << answer.reason;
+  // A body with a slight kink has next to nothing against tilting about its line: all digits go.
+  constexpr double ill_posed = 1e4;
+  for (std::size_t j = 0; j < mesh.inclusions.size(); ++j)
+    if (std::hypot(reference.slope(j)[0], reference.slope(j)[1]) > ill_posed) return;
   ++tally.compared;
   tally.open += reference.open();
   tally.closed += reference.closed();
@@ -199,7 +177,6 @@ void compare(unsigned seed, bool rich, std::size_t most_dense, Tally& tally) {
         std::max(tally.displacement,
                  std::abs(answer.inclusions[j].displacement - reference.displacement(j)) / u_scale);
     const auto slope = reference.slope(j);
-    // A body with a slight kink has next to nothing against tilting about its line.
     const double slope_scale = std::max(u_scale, std::hypot(slope[0], slope[1]));
     tally.displacement = std::max(
         {tally.displacement, std::abs(answer.inclusions[j].slope_x - slope[0]) / slope_scale,

@@ -6,6 +6,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <random>
 #include <string>
@@ -14,6 +16,32 @@
 #include "support/grid_mesh.hpp"
 
 namespace anticrack::reference {
+
+/// Inclusions whose bodies tilt: all that share nodes do.
+inline std::vector<char> tilting(const mesh::Mesh& mesh) {
+  std::vector<char> tilts(mesh.inclusions.size(), 0);
+  for (std::size_t j = 0; j < mesh.motions.size(); ++j) tilts[j] = mesh.motions[j].tilt ? 1 : 0;
+  for (bool changed = true; changed;) {
+    changed = false;
+    std::map<std::int32_t, char> at_node;
+    for (int round = 0; round < 2; ++round) {
+      for (const mesh::Interface& interface : mesh.interfaces) {
+        for (std::size_t e = 0; e < interface.kind.size(); ++e) {
+          const std::int32_t j = interface.inclusion[e];
+          for (const std::int32_t node : {interface.nodes[e], interface.nodes[e + 1]}) {
+            if (j < 0) continue;
+            char& all = at_node.try_emplace(node, 1).first->second;
+            char& own = tilts[static_cast<std::size_t>(j)];
+            changed = changed || all != own;
+            all = own = static_cast<char>(all & own);
+          }
+        }
+      }
+      if (round == 0) changed = false;
+    }
+  }
+  return tilts;
+}
 
 class RandomMembrane {
  public:

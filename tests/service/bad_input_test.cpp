@@ -108,6 +108,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{
             "PointForceOutside", {"load.0.point_forces=[{at=[3,3],value=1}]"}, {"3"}, any_error},
         BadCase{"InclusionForceOnNone", {"load.0.inclusion_forces={rod=1}"}, {"rod"}, any_error},
+        BadCase{"MomentOnOneThatDoesNotTilt",
+                {"load.0.inclusion_moments={gamma_c=[1,0]}"},
+                {"does not tilt"},
+                any_error},
         BadCase{"ForceFileMissing",
                 {"load.0.f={file='no.h5',dataset='/f',per='node'}"},
                 {"load.0.f", "no.h5"}}),

@@ -3,69 +3,102 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace anticrack::benchmarks {
 namespace {
 
-enum class Role : char { free, dirichlet, contact, tied };
+using Edge = std::pair<std::int32_t, std::int32_t>;
 
-std::vector<Role> roles(const PlainMesh& mesh) {
-  std::vector<Role> role(mesh.node_count(), Role::free);
-  if (mesh.chains.size() != 1) throw std::runtime_error("the peers take one interface");
-  const PlainMesh::Chain& chain = mesh.chains.front();
-  for (std::size_t e = 0; e < chain.kind.size(); ++e) {
-    if (chain.kind[e] == kind_glue) continue;
-    if (chain.kind[e] != kind_delaminated || chain.inclusion[e] != 0) {
-      throw std::runtime_error("the peers take glue and one delaminated inclusion");
-    }
-    for (const std::size_t end : {e, e + 1}) role[at(chain.nodes[end])] = Role::contact;
+/// The corner at `a` of the triangle that has a -> b, counterclockwise.
+std::map<Edge, std::size_t> corners_before(const PlainMesh& mesh) {
+  std::map<Edge, std::size_t> result;
+  for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
+    const std::size_t next = c / 3 * 3 + (c % 3 + 1) % 3;
+    result[{mesh.triangles[c], mesh.triangles[next]}] = c;
   }
-  // A tip has glue on its other side and is tied.
-  for (std::size_t e = 0; e < chain.kind.size(); ++e) {
-    if (chain.kind[e] != kind_glue) continue;
-    for (const std::size_t end : {e, e + 1}) {
-      Role& r = role[at(chain.nodes[end])];
-      if (r == Role::contact) r = Role::tied;
-    }
-  }
-  for (const std::int32_t node : mesh.dirichlet) role[at(node)] = Role::dirichlet;
-  return role;
+  return result;
 }
 
-/// The subdomain on the left of the chain.
-std::int32_t plus_side(const PlainMesh& mesh) {
-  const std::int32_t a = mesh.chains.front().nodes[0], b = mesh.chains.front().nodes[1];
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (mesh.triangles[3 * t + k] == a && mesh.triangles[3 * t + (k + 1) % 3] == b) {
-        return mesh.subdomain[t];
+/// What the delaminated inclusions make of the nodes.
+struct Slits {
+  std::vector<std::int32_t> inclusion;  ///< (nodes) whose node it is, or -1
+  std::vector<char> tip;                ///< (nodes)
+  std::vector<char> rigid;              ///< (corners) on the plus side
+  std::int32_t inclusions = 0;
+};
+
+/// Walks around each node of a slit from the corners left of its edges, as far as no slit is
+/// crossed.
+Slits find_slits(const PlainMesh& mesh) {
+  Slits slits{std::vector<std::int32_t>(mesh.node_count(), -1),
+              std::vector<char>(mesh.node_count(), 0), std::vector<char>(mesh.triangles.size(), 0),
+              0};
+  std::vector<int> edges(mesh.node_count(), 0);
+  std::set<Edge> slit;
+  for (const PlainMesh::Chain& chain : mesh.chains) {
+    for (std::size_t e = 0; e < chain.kind.size(); ++e) {
+      if (chain.kind[e] == kind_glue) continue;
+      if (chain.kind[e] != kind_delaminated)
+        throw std::runtime_error("the peers take glue and delaminated inclusions");
+      for (const std::size_t end : {e, e + 1}) {
+        slits.inclusion[at(chain.nodes[end])] = chain.inclusion[e];
+        ++edges[at(chain.nodes[end])];
       }
+      slits.inclusions = std::max(slits.inclusions, chain.inclusion[e] + 1);
+      slit.insert({chain.nodes[e], chain.nodes[e + 1]});
     }
   }
-  throw std::runtime_error("nothing is on the plus side of the interface");
+  for (std::size_t i = 0; i < edges.size(); ++i) slits.tip[i] = edges[i] == 1 ? 1 : 0;
+  const std::map<Edge, std::size_t> before = corners_before(mesh);
+  const auto cut = [&slit](std::int32_t a, std::int32_t b) {
+    return slit.count({a, b}) != 0 || slit.count({b, a}) != 0;
+  };
+  for (const auto& [a, b] : slit) {
+    // Counterclockwise about a, from the triangle on the left of a -> b.
+    for (std::size_t corner = before.at({a, b});;) {
+      slits.rigid[corner] = 1;
+      const std::int32_t third = mesh.triangles[corner / 3 * 3 + (corner % 3 + 2) % 3];
+      const auto next = before.find({a, third});
+      if (cut(a, third) || next == before.end()) break;
+      corner = next->second;
+    }
+    // Clockwise about b, from the same triangle.
+    for (std::size_t corner = before.at({a, b}) / 3 * 3 + (before.at({a, b}) % 3 + 1) % 3;;) {
+      slits.rigid[corner] = 1;
+      const std::int32_t third = mesh.triangles[corner / 3 * 3 + (corner % 3 + 1) % 3];
+      const auto next = before.find({third, b});
+      if (cut(b, third) || next == before.end()) break;
+      corner = next->second / 3 * 3 + (next->second % 3 + 1) % 3;
+    }
+  }
+  return slits;
 }
 
 void number(const PlainMesh& mesh, Monolithic& system) {
-  const std::vector<Role> role = roles(mesh);
-  const auto count = [&role](Role which) {
-    return static_cast<std::int32_t>(std::count(role.begin(), role.end(), which));
-  };
-  system.contacts = count(Role::contact);
-  system.unknowns = count(Role::free) + system.contacts + 1;
-  std::int32_t free = 0, contact = system.interior();
-  std::vector<std::int32_t> of_node(role.size(), -1);
-  for (std::size_t i = 0; i < role.size(); ++i) {
-    if (role[i] == Role::free) of_node[i] = free++;
-    if (role[i] == Role::contact) of_node[i] = contact++;
-    if (role[i] == Role::tied) of_node[i] = system.unknowns - 1;
+  const Slits slits = find_slits(mesh);
+  std::vector<char> fixed(mesh.node_count(), 0);
+  for (const std::int32_t node : mesh.dirichlet) fixed[at(node)] = 1;
+  const auto contact = [&](std::size_t i) { return slits.inclusion[i] >= 0 && slits.tip[i] == 0; };
+  system.inclusions = slits.inclusions;
+  std::int32_t free = 0;
+  std::vector<std::int32_t> of_node(mesh.node_count(), -1);
+  for (std::size_t i = 0; i < of_node.size(); ++i)
+    if (fixed[i] == 0 && slits.inclusion[i] < 0) of_node[i] = free++;
+  for (std::size_t i = 0; i < of_node.size(); ++i) {
+    if (!contact(i)) continue;
+    of_node[i] = free + system.contacts++;
+    system.above.push_back(slits.inclusion[i]);
   }
-  const std::int32_t plus = plus_side(mesh);
+  system.unknowns = free + system.contacts + system.inclusions;
   system.corner.resize(mesh.triangles.size());
   for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
     const std::size_t node = at(mesh.triangles[c]);
-    const bool rigid = role[node] == Role::contact && mesh.subdomain[c / 3] == plus;
-    system.corner[c] = rigid ? system.unknowns - 1 : of_node[node];
+    const bool rigid = slits.inclusion[node] >= 0 && (slits.tip[node] != 0 || slits.rigid[c] != 0);
+    system.corner[c] = rigid ? system.displacement(slits.inclusion[node]) : of_node[node];
   }
 }
 
@@ -77,11 +110,12 @@ struct Parts {
 
 Parts parts(const Monolithic& system, std::size_t corner) {
   const std::int32_t unknown = system.corner[corner];
-  const bool jump =
-      system.minus == Minus::jumps && unknown >= system.interior() && unknown < system.unknowns - 1;
+  const std::int32_t contact = unknown - system.interior();
   Parts result;
-  result.unknown = jump ? std::array<std::int32_t, 2>{system.unknowns - 1, unknown}
-                        : std::array<std::int32_t, 2>{unknown, -1};
+  if (system.minus == Minus::jumps && contact >= 0 && contact < system.contacts)
+    result.unknown = {system.displacement(system.above[at(contact)]), unknown};
+  else
+    result.unknown = {unknown, -1};
   return result;
 }
 

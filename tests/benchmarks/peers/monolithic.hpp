@@ -18,11 +18,13 @@ enum class Minus {
   jumps,   ///< d = A - u- >= 0: a bound, as solvers off the shelf ask for
 };
 
-/// Unknowns: free nodes, then the contacts, last A. One interface between two subdomains with one
-/// inclusion, delaminated on its minus side; anything else is refused.
+/// Unknowns: free nodes, then the contacts, last the A_j. Glue and inclusions that are delaminated
+/// on their minus sides from tip to tip; anything else is refused.
 struct Monolithic {
   std::int32_t unknowns = 0;
   std::int32_t contacts = 0;
+  std::int32_t inclusions = 0;
+  std::vector<std::int32_t> above;  ///< (contacts) the inclusion on the other side
   // Upper triangle, compressed rows, columns ascending.
   std::vector<std::int32_t> first;   ///< (unknowns + 1)
   std::vector<std::int32_t> column;  ///< index base 0
@@ -30,7 +32,9 @@ struct Monolithic {
   std::vector<std::int32_t> corner;  ///< (3m) unknown of the triangle's corner, -1: u = 0
   Minus minus = Minus::values;
 
-  std::int32_t interior() const noexcept { return unknowns - contacts - 1; }
+  std::int32_t interior() const noexcept { return unknowns - contacts - inclusions; }
+  /// Unknown that is A_j.
+  std::int32_t displacement(std::int32_t j) const noexcept { return interior() + contacts + j; }
 };
 
 /// Throws std::runtime_error for a mesh of another kind. O(m).

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The contact problem by blocks against the dense one, on cracks that are cut into several blocks.
+#include "contact/block_lcp.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "contact/joined_problem.hpp"
+#include "contact/membrane.hpp"
+#include "support/grid_mesh.hpp"
+
+namespace anticrack::contact {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using mesh::Kind;
+
+constexpr int length = 1200, height = 8;
+
+/// A strip of `length` squares with one crack or delaminated inclusion along nearly all of it.
+mesh::Mesh strip_with(Kind kind) {
+  testing::GridMesh grid(length, height, {"all"}, [](int, int) { return 0; });
+  if (kind == Kind::delaminated) {
+    grid.mesh.inclusions = {"stiffener"};
+    grid.mesh.motions = {{true, {}}};
+  }
+  grid.add({{20, height / 2}, {length - 20, height / 2}}, std::vector<Kind>(length - 40, kind), 0);
+  return std::move(grid.mesh);
+}
+
+/// Short cracks cross the long one: the conditions of the cross points depend on each other.
+mesh::Mesh crossed_strip() {
+  testing::GridMesh grid(length, height, {"all"}, [](int, int) { return 0; });
+  grid.add({{20, height / 2}, {length - 20, height / 2}},
+           std::vector<Kind>(length - 40, Kind::crack));
+  for (int x = 100; x < length; x += 250)
+    grid.add({{x, 2}, {x, height - 2}}, std::vector<Kind>(height - 4, Kind::crack));
+  return std::move(grid.mesh);
+}
+
+/// A strip solved both ways.
+class Strip {
+ public:
+  explicit Strip(mesh::Mesh mesh) : _dense(std::move(mesh)), _joined(_dense.problem, 2, {}) {}
+
+  JoinedMembrane::Reduced reduce(const char* force) const {
+    const ddm::Decomposition& decomposition = _dense.space.decomposition;
+    std::vector<ddm::CondensedLoad> loads;
+    for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+      const ddm::Subdomain& part = decomposition.subdomains[s];
+      loads.push_back(
+          _joined.membrane()
+              .loads(s, fem::load_vector(part.part, fem::Expression{force}, part.name),
+                     fem::boundary_values(part.part, "0.1*y", part.free(), part.dirichlet))
+              .front());
+    }
+    return _joined.membrane().reduce(loads, held_values(decomposition, loads));
+  }
+  const DenseLcp& dense() const { return _dense.skeleton.lcp(); }
+  const BlockLcp& blocks() const { return _joined.lcp(); }
+  const JoinedMembrane& membrane() const { return _joined.membrane(); }
+  const PairForces& forces() const { return _dense.problem.pair_forces(); }
+
+ private:
+  Membrane _dense;
+  JoinedProblem _joined;
+};
+
+bool proceed(const LcpStep&) { return true; }
+
+/// Waves along the crack that open it here and close it there; one that opens nearly all of it.
+const char* const waves[] = {"(y - 4)*sin(0.02*x)", "(y - 4)*sin(0.3*x) + 0.1*cos(0.011*x)",
+                             "(y > 4 ? 1 : -1)*(1 - (x/1200)^8)", "0.3*sin(0.05*x)*(y > 4 ? 1 : 0)",
+                             "(4 - y)"};
+
+/// Relative to the largest.
+double difference(const VectorXd& a, const VectorXd& b) {
+  const double size = std::max(a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>());
+  return size == 0 ? 0 : (a - b).lpNorm<Eigen::Infinity>() / size;
+}
+
+struct Named {
+  const char* name;
+  mesh::Mesh (*make)();
+};
+class LongCrack : public ::testing::TestWithParam<Named> {};
+
+TEST_P(LongCrack, HasTheAnswersOfTheDenseProblem) {
+  const Strip strip(GetParam().make());
+  const ContactBlocks cut(strip.membrane(), strip.forces(), 2);
+  ASSERT_GT(strip.dense().size(), 1000);
+  ASSERT_GE(cut.blocks().size(), 3U);
+  ASSERT_GT(cut.hats().cols(), 2);
+  std::mt19937 random(1);
+  for (const char* wave : waves) {
+    SCOPED_TRACE(wave);
+    const JoinedMembrane::Reduced load = strip.reduce(wave);
+    const LcpAnswer dense = strip.dense().solve(load.r, load.magnitude, {}, {}, proceed);
+    ASSERT_EQ(dense.status, LcpStatus::solved);
+    std::vector<std::vector<char>> starts = {{}, dense.closed};
+    starts.emplace_back(dense.closed.size());
+    for (char& closed : starts.back()) closed = static_cast<char>(random() % 2);
+    for (const std::vector<char>& start : starts) {
+      const BlockLcp::Answer answer =
+          strip.blocks().solve(load.r, load.magnitude, {}, start, proceed);
+      ASSERT_EQ(answer.status, LcpStatus::solved);
+      const auto opened = std::ranges::count(answer.closed, 0);
+      std::printf(
+          "[ figures  ] %s, %s: %zd of %zu open, %d steps, %d solves, residual %.1e; d %.1e, "
+          "lambda %.1e\n",
+          GetParam().name, wave, static_cast<std::ptrdiff_t>(opened), answer.closed.size(),
+          answer.steps, answer.solves, answer.residual,
+          difference(answer.d, dense.d.head(answer.d.size())),
+          difference(answer.lambda, dense.lambda));
+      EXPECT_EQ(answer.closed, dense.closed);
+      EXPECT_EQ(answer.pressed, dense.pressed);
+      EXPECT_EQ(answer.weakly_active, dense.weakly_active);
+      EXPECT_LT(difference(answer.d, dense.d.head(answer.d.size())), 1e-10);
+      EXPECT_LT(difference(answer.lambda, dense.lambda), 1e-10);
+      EXPECT_LT(answer.residual, 1e-10);
+      EXPECT_LT(answer.solves, 250);
+      EXPECT_LT(difference(strip.blocks().jumps(answer.d, answer.closed),
+                           strip.dense().jumps(dense.d, dense.closed)),
+                1e-10);
+    }
+  }
+}
+
+/// S^ is that of the dense problem.
+TEST_P(LongCrack, AppliesTheMatrixOfTheDenseProblem) {
+  const Strip strip(GetParam().make());
+  const VectorXd d = VectorXd::Random(strip.dense().size());
+  const VectorXd scale = strip.dense().scale().head(d.size());
+  const VectorXd wanted =
+      (strip.dense().scaled_matrix() * d.cwiseQuotient(scale)).cwiseQuotient(scale);
+  EXPECT_LT(difference(strip.membrane().apply(d, true), wanted), 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Strips, LongCrack,
+                         ::testing::Values(Named{"Crack", [] { return strip_with(Kind::crack); }},
+                                           Named{"Inclusion",
+                                                 [] { return strip_with(Kind::delaminated); }},
+                                           Named{"Crossed", crossed_strip}),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST(BlockLcp, StopsAtTheLimitAndWhenTold) {
+  const Strip strip(strip_with(Kind::crack));
+  const JoinedMembrane::Reduced load = strip.reduce(waves[1]);
+  LcpOptions options;
+  options.max_steps = 1;
+  EXPECT_EQ(strip.blocks().solve(load.r, load.magnitude, options, {}, proceed).status,
+            LcpStatus::step_limit);
+  const BlockLcp::Answer told = strip.blocks().solve(
+      load.r, load.magnitude, {}, {}, [](const LcpStep& step) { return step.number < 2; });
+  EXPECT_EQ(told.status, LcpStatus::stopped);
+  EXPECT_EQ(told.steps, 2);
+}
+
+TEST(BlockLcp, ZeroLoadIsClosedAndWeaklyActiveEverywhere) {
+  const Strip strip(strip_with(Kind::crack));
+  const Index n = strip.dense().size();
+  const BlockLcp::Answer answer =
+      strip.blocks().solve(VectorXd::Zero(n), VectorXd::Zero(n), {}, {}, proceed);
+  EXPECT_EQ(answer.status, LcpStatus::solved);
+  EXPECT_EQ(answer.weakly_active, n);
+  EXPECT_EQ(answer.d.norm() + answer.lambda.norm(), 0);
+}
+
+}  // namespace
+}  // namespace anticrack::contact
