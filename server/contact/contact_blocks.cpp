@@ -207,8 +207,7 @@ class Patch {
     std::erase_if(found, [this](std::int32_t i) { return _motion[at(i)] != 0; });
     found.insert(found.end(), motions.begin(), motions.end());
     std::ranges::sort(found);
-    const auto twice = std::ranges::unique(found);
-    found.erase(twice.begin(), twice.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
   }
 

@@ -125,8 +125,8 @@ Bodies find_bodies(const mesh::Mesh& mesh, const Sides& sides) {
     body.centre = all.centre();
     body.on_dirichlet = std::move(on_dirichlet[first]);
     std::ranges::sort(body.on_dirichlet);
-    const auto twice = std::ranges::unique(body.on_dirichlet);
-    body.on_dirichlet.erase(twice.begin(), twice.end());
+    body.on_dirichlet.erase(std::unique(body.on_dirichlet.begin(), body.on_dirichlet.end()),
+                            body.on_dirichlet.end());
     const bool tilts = !body.fixed && !mesh.motions.empty() &&
                        std::ranges::all_of(body.inclusions, [&](std::int32_t j) {
                          return mesh.motions[at(j)].tilt;

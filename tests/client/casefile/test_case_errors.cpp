@@ -219,10 +219,9 @@ const Mistake mesh_mistakes[] = {
     mesh("inclusions_without_file", "[mesh.inclusions]\nfibre = { tilt = true }",
          "plate.toml:12: mesh.inclusions: belongs to mesh.file; for a geometry write tilt or fixed "
          "in its [[geometry.inclusion]]"),
-    mesh(
-        "motion_number", "[mesh]\nfile = \"a.msh\"\n[mesh.inclusions]\nfibre = 1",
-        "plate.toml:15: mesh.inclusions.fibre: 1 is not a table; write NAME = { tilt = true } or "
-        "NAME = { fixed = 0.1 } for each of them"),
+    mesh("motion_number", "[mesh]\nfile = \"a.msh\"\n[mesh.inclusions]\nfibre = 1",
+         "plate.toml:15: mesh.inclusions.fibre: 1 is not a table; write NAME = { tilt = true } or "
+         "NAME = { fixed = 0.1 } for each of them"),
     mesh("motion_list", "[mesh]\nfile = \"a.msh\"\ninclusions = [\"fibre\"]",
          "plate.toml:14: mesh.inclusions: [ 'fibre' ] is not a table; write NAME = { tilt = true } "
          "or NAME = { fixed = 0.1 } for each of them"),

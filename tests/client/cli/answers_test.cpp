@@ -6,6 +6,9 @@
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 namespace anticrack::cli {
 namespace {
 
@@ -89,6 +92,53 @@ TEST(AnswersTable, HasSlopeAndMomentOfWhatTilts) {
             "failed   failed              0          -        -      -       -       -       -  "
             "     -          -               -      -       -          0\n"
             "failed: the expression is not finite at? (0, 0)\n");
+}
+
+results::Result many_inclusions() {
+  results::Result result = two_loads();
+  auto& inclusions = result.loads[0].inclusions;
+  inclusions.clear();
+  for (int i = 0; i < 7; ++i)
+    inclusions.push_back({"rod, \x1b" + std::to_string(i), i == 4 ? -3.0 : 0.5 * i, 0.25, 0.125});
+  inclusions[2].slope_x = -0.75;
+  return result;
+}
+
+TEST(AnswersTable, TellsOfManyInclusionsHowFarTheyMove) {
+  EXPECT_EQ(
+      answers_table(many_inclusions()),
+      "load     status     iterations  criterion  inclusions  least A  of       greatest A  of     "
+      " "
+      " greatest |B|  of          energy  contact length  theta  theta*  wall time\n"
+      "                             -          -           -        -                    -         "
+      "             -                   -               -      -       -          s\n"
+      "opening  converged         346   9.92e-13           7       -3  rod, ?4           3  rod, ?6"
+      "          0.75  rod, ?2  -0.163945               0      2   1.743      0.012\n"
+      "failed   failed              0          -           -        -                    -         "
+      "             -                   -               -      -       -          0\n"
+      "all 7 inclusions: anticrack show RESULT --inclusions, or --csv FILE\n"
+      "failed: the expression is not finite at? (0, 0)\n");
+}
+
+TEST(InclusionsTable, HasARowForEach) {
+  const std::string text = inclusions_table(many_inclusions());
+  EXPECT_THAT(text, ::testing::StartsWith(
+                        "load     inclusion    A     Bx  By  Mx  My  resultant  contact length\n"));
+  EXPECT_THAT(text, ::testing::HasSubstr(
+                        "opening  rod, ?2      1  -0.75   0   0   0       0.25           0.125\n"));
+  EXPECT_EQ(std::ranges::count(text, '\n'), 2 + 7);
+  results::Result none = two_loads();
+  none.loads[0].inclusions.clear();
+  EXPECT_EQ(inclusions_table(none), "no inclusions\n");
+}
+
+TEST(AnswersCsv, HasALineForEachAndQuotesNames) {
+  results::Result result = two_loads();
+  result.loads[0].name = "a \"b\", c";
+  result.loads[0].inclusions[0].displacement = 0.1;
+  EXPECT_EQ(answers_csv(result),
+            "load,inclusion,A,resultant,contact_length,Bx,By,Mx,My\n"
+            "\"a \"\"b\"\", c\",fibre,0.1,1e-16,0,0,0,0,0\n");
 }
 
 TEST(AnswersJson, IsOneDocumentWithEveryLoad) {

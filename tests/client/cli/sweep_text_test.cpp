@@ -46,6 +46,21 @@ TEST(SweepTable, HasTheSlopesOfWhatTilts) {
   EXPECT_EQ(answers_table(level), answers_table(sample_sweep(5)));
 }
 
+TEST(SweepTable, TellsOfManyInclusionsWhoseTheEndsAre) {
+  results::Result result = sample_sweep(3);
+  results::Sweep& sweep = *result.sweep;
+  sweep.inclusions.clear();
+  sweep.displacement.clear();
+  for (int i = 0; i < 7; ++i) sweep.inclusions.push_back("rod" + std::to_string(i));
+  for (int row = 0; row < 3; ++row)
+    for (int i = 0; i < 7; ++i) sweep.displacement.push_back((i == 3 ? -2 : i) * (row + 1));
+  EXPECT_THAT(answers_table(result), HasSubstr("                   least  of    most  of\n"
+                                               "A of 7 inclusions     -6  rod3    18  rod6\n"));
+  EXPECT_THAT(answers_table(result),
+              HasSubstr("all inclusions: anticrack show RESULT --inclusions, or --csv FILE\n"));
+  EXPECT_THAT(sweep_inclusions(sweep), HasSubstr("A rod5      5    15\n"));
+}
+
 TEST(SweepTable, NamesSeveralInclusionsAndWhatWentWrong) {
   results::Result result = sample_sweep(3);
   results::Sweep& sweep = *result.sweep;
