@@ -62,7 +62,8 @@ void copy_scalars(const v1::LoadCaseAnswer& answer, results::Load& load) {
         using Value = std::remove_cvref_t<decltype(member)>;
         const Type::CppType type = field->cpp_type();
         if constexpr (std::is_same_v<Value, double>) {
-          if (type == Type::CPPTYPE_DOUBLE) member = fields.GetDouble(answer, field);
+          const bool is_set = !field->has_presence() || fields.HasField(answer, field);
+          if (type == Type::CPPTYPE_DOUBLE && is_set) member = fields.GetDouble(answer, field);
         } else if constexpr (std::is_same_v<Value, std::string>) {
           if (type == Type::CPPTYPE_STRING) member = fields.GetString(answer, field);
         } else if constexpr (std::is_same_v<Value, std::int32_t>) {
@@ -91,9 +92,21 @@ results::Load to_load(const v1::LoadCase& load_case, const v1::LoadCaseAnswer& a
   load.kkt_relative = relative(answer.kkt());
   load.warnings.assign(answer.warnings().begin(), answer.warnings().end());
   for (const v1::InclusionAnswer& inclusion : answer.inclusions()) {
-    load.inclusions.push_back({inclusion.name(), inclusion.displacement(), inclusion.resultant(),
-                               inclusion.contact_length(), inclusion.slope_x(), inclusion.slope_y(),
-                               inclusion.moment_x(), inclusion.moment_y()});
+    results::Inclusion& to = load.inclusions.emplace_back(
+        results::Inclusion{inclusion.name(), inclusion.displacement(), inclusion.resultant(),
+                           inclusion.contact_length(), inclusion.slope_x(), inclusion.slope_y(),
+                           inclusion.moment_x(), inclusion.moment_y()});
+    const auto copy = [](bool is_set, double value, double& to_value) {
+      if (is_set) to_value = value;
+    };
+    copy(inclusion.has_displacement_lower(), inclusion.displacement_lower(), to.displacement_lower);
+    copy(inclusion.has_displacement_upper(), inclusion.displacement_upper(), to.displacement_upper);
+    copy(inclusion.has_displacement_estimated_error(), inclusion.displacement_estimated_error(),
+         to.displacement_estimated_error);
+    copy(inclusion.has_slope_x_lower(), inclusion.slope_x_lower(), to.slope_x_lower);
+    copy(inclusion.has_slope_x_upper(), inclusion.slope_x_upper(), to.slope_x_upper);
+    copy(inclusion.has_slope_y_lower(), inclusion.slope_y_lower(), to.slope_y_lower);
+    copy(inclusion.has_slope_y_upper(), inclusion.slope_y_upper(), to.slope_y_upper);
   }
   return load;
 }

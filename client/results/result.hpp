@@ -62,6 +62,8 @@ struct Interface {
   bool operator==(const Interface&) const = default;
 };
 
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
 /// Residuals of the optimality conditions: see KktResiduals of the API.
 struct Kkt {
   double equilibrium = 0;
@@ -82,6 +84,11 @@ struct Inclusion {
   /// 0 of one that does not tilt.
   double slope_x = 0, slope_y = 0;
   double moment_x = 0, moment_y = 0;  ///< on it, about its middle
+  /// Bounds of the membrane's own A and B; an estimate, no bound, of its A - displacement.
+  double displacement_lower = unknown, displacement_upper = unknown;
+  double displacement_estimated_error = unknown;
+  double slope_x_lower = unknown, slope_x_upper = unknown;
+  double slope_y_lower = unknown, slope_y_upper = unknown;
   bool tilted() const noexcept { return slope_x != 0 || slope_y != 0; }
   bool operator==(const Inclusion&) const = default;
 };
@@ -129,8 +136,6 @@ struct Field {
   bool operator==(const Field&) const = default;
 };
 
-inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
 struct Load {
   std::string name;  ///< [A-Za-z0-9][A-Za-z0-9_. -]{0,63}, unique
   Status status = Status::unspecified;
@@ -147,7 +152,11 @@ struct Load {
   double theta = unknown;          ///< used by Algorithm 2
   double theta_star = unknown;     ///< of the mesh and mass, Theorem 4
   double energy = unknown;         ///< Pi(u)
-  Kkt kkt;                         ///< absolute
+  /// Bounds of the membrane's own Pi, of |u - u_h| in the energy norm, and of this over |u_h|.
+  double energy_lower = unknown, energy_upper = unknown;
+  double error_bound = unknown, error_bound_relative = unknown;
+  std::string no_bracket;  ///< why there are none, and the cure
+  Kkt kkt;                 ///< absolute
   Kkt kkt_relative;
   double contact_length = 0;
   std::int32_t weakly_active = 0;  ///< crack nodes with neither jump nor pressure

@@ -104,9 +104,16 @@ struct InclusionAnswer {
   /// Moment on it about its middle: the sum of flux times (x - x0), and times (y - y0). Of one that
   /// does not tilt the moment that holds its direction.
   double moment_x = 0, moment_y = 0;
+  /// Bounds of the membrane's A and B, and an estimate of its A - displacement (estimate/).
+  std::optional<double> displacement_lower = {}, displacement_upper = {},
+                        displacement_estimated_error = {};
+  std::optional<double> slope_x_lower = {}, slope_x_upper = {};
+  std::optional<double> slope_y_lower = {}, slope_y_upper = {};
 };
 ANTICRACK_FIELDS(InclusionAnswer, name, displacement, resultant, contact_length, slope_x, slope_y,
-                 moment_x, moment_y)
+                 moment_x, moment_y, displacement_lower, displacement_upper,
+                 displacement_estimated_error, slope_x_lower, slope_x_upper, slope_y_lower,
+                 slope_y_upper)
 
 struct ContactInterval {
   std::string interface;  ///< its name
@@ -147,10 +154,15 @@ struct AnswerSummary {
   std::vector<InclusionAnswer> inclusions;  ///< one per Mesh::inclusions
   double contact_length = 0;
   std::vector<ContactInterval> contact_intervals;
+  /// Bounds of the membrane's own Pi, of |u - u_h| in the energy norm, and of this over |u_h|
+  /// (estimate/); none: not asked for, or `no_bracket` says why there cannot be one.
+  std::optional<double> energy_lower, energy_upper, error_bound, error_bound_relative;
+  std::string no_bracket;
 };
 ANTICRACK_FIELDS(AnswerSummary, reason, iterations, criterion, theta, theta_star, energy, kkt,
                  kkt_relative, weakly_active, warnings, inclusions, contact_length,
-                 contact_intervals)
+                 contact_intervals, energy_lower, energy_upper, error_bound, error_bound_relative,
+                 no_bracket)
 
 struct Answer : AnswerSummary {
   Status status = Status::not_converged;

@@ -92,8 +92,8 @@ void require_result_arrays(const store::JobSpec& spec, std::uint64_t interfaces,
 }
 
 void require_answers(const store::JobSpec& spec, const std::vector<std::string>& inclusions) {
-  constexpr std::uint64_t a_case = 500;       // numbers and texts
-  constexpr std::uint64_t an_inclusion = 76;  // seven numbers and tags
+  constexpr std::uint64_t a_case = 800;        // numbers and texts
+  constexpr std::uint64_t an_inclusion = 139;  // fourteen numbers and tags
   std::uint64_t answer = a_case;
   for (const std::string& name : inclusions) answer += an_inclusion + name.size();
   const std::uint64_t bytes = spec.sweep ? 0 : spec.loads.size() * answer;

@@ -59,6 +59,15 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   void recover_fields(std::span<const PreparedLoad* const> loads,
                       std::span<contact::Answer* const> answers) const;
 
+  /// Fills the bounds of an answer to this load (energy_lower, ..., those of its inclusions; or
+  /// no_bracket), and returns the indicator of the error of each triangle of the mesh, shape (m):
+  /// int |sigma - T grad u_h|^2 / T + 2 int p [u_h] over its minus faces, whose sum is at least
+  /// |u - u_h|^2 in the energy norm; empty where there is no bracket. Recovers the fields meanwhile
+  /// where the answer has none. O(N), and two solves for each inclusion's bounds. Throws
+  /// errors::Error (cancelled).
+  std::vector<double> estimate(const PreparedLoad& load, contact::Answer& answer,
+                               const std::stop_token& stop = {}) const;
+
   /// Condenses loads to be combined: O(N) each and O(n_G^2 + N m) for the energy of pairs; N m
   /// numbers of memory meanwhile. Cached (BasisCache): loads that differ by name only, arrays
   /// compared by the hash of their upload, are condensed once. Errors of

@@ -66,4 +66,11 @@ void MeshOperator::recover_fields(std::span<const PreparedLoad* const> loads,
     contact::recover_fields(_parts->problem, cases);
 }
 
+std::vector<double> MeshOperator::estimate(const PreparedLoad& load, contact::Answer& answer,
+                                           const std::stop_token&) const {
+  require_prepared(load, true);
+  answer.no_bracket = "not computed";
+  return {};
+}
+
 }  // namespace anticrack::operators
