@@ -148,7 +148,8 @@ class LoadIntegrator {
         const double p = _corner[0][t], q = _corner[1][t], r = _corner[2][t];
         const double part = _area[t] / 12, sum = p + q + r;
         const Moments linear{{4 * part * sum, part * (sum + q), part * (sum + r)},
-                             4 * part * (std::abs(p) + std::abs(q) + std::abs(r))};
+                             4 * part * (std::abs(p) + std::abs(q) + std::abs(r)),
+                             part * (sum * sum + p * p + q * q + r * r)};
         _integration.add(static_cast<std::int32_t>(first + t), linear, 0);
         if (looked_at) {
           Moments sampled;
@@ -179,6 +180,7 @@ class LoadIntegrator {
         _of_b[t] = (p == 0 ? 0 : _of_b[t]) + part * b;
         _of_c[t] = (p == 0 ? 0 : _of_c[t]) + part * c;
         _absolute[t] = (p == 0 ? 0 : _absolute[t]) + std::abs(part);
+        _square[t] = (p == 0 ? 0 : _square[t]) + part * v[t];
       }
     }
     if (!_exact) {
@@ -273,7 +275,9 @@ class LoadIntegrator {
         _integration.f.function().require_finite(_x[i], _y[i], values[i]);
       }
     }
-    const Moments found{{area * _whole[t], area * _of_b[t], area * _of_c[t]}, area * _absolute[t]};
+    const Moments found{{area * _whole[t], area * _of_b[t], area * _of_c[t]},
+                        area * _absolute[t],
+                        area * _square[t]};
     _integration.absolute += found.absolute;
     const double error = area * _error[t];
     if (error <= 0.5 * _integration.tolerance * found.absolute && _trust[t] == Trust::sound) {
@@ -296,7 +300,7 @@ class LoadIntegrator {
   Cutter::Frames _frames{};
   Lane _area{};
   std::array<Trust, width> _trust{};
-  Lane _whole{}, _of_b{}, _of_c{}, _absolute{}, _error{};
+  Lane _whole{}, _of_b{}, _of_c{}, _absolute{}, _square{}, _error{};
   std::array<Lane, 3> _corner{};
 };
 
@@ -305,10 +309,16 @@ class LoadIntegrator {
 IntegrationReport integrate_load(std::span<const double> xy,
                                  std::span<const std::int32_t> triangles,
                                  const expression::Function& f, std::span<double> load,
-                                 const IntegrationLimits& limits, std::stop_token stop) {
+                                 const IntegrationLimits& limits, std::stop_token stop,
+                                 ForceParts* parts) {
   std::fill(load.begin(), load.end(), 0.0);
   Sampler sampler(f, stop);
   Integration integration{xy, triangles, sampler, load, limits.relative_tolerance, limits.work};
+  if (parts != nullptr) {
+    parts->load.assign(triangles.size(), 0);
+    parts->square.assign(triangles.size() / 3, 0);
+    integration.parts = parts;
+  }
   const expression::Tape& tape = f.tape();
   integration.exact = tape.degree_between_switches(tape.result()) <= 4;
   LoadIntegrator integrator(integration, stop);

@@ -12,6 +12,8 @@
 
 namespace anticrack::fem {
 
+struct ForceParts;
+
 struct IntegrationLimits {
   double relative_tolerance = 1e-10;  ///< of int |f|
   /// Work after the first samples, ns, roughly. Counted in operations, not measured, so that
@@ -45,9 +47,11 @@ struct IntegrationReport {
 /// Reproducible on one kind of processor. Memory O(m). About n + 7 m evaluations if f is smooth.
 /// Triangles with zero area to rounding have no load. Throws errors::Error (expression_invalid if f
 /// is not finite inside a triangle; cancelled at most 10 ms of work after `stop` is requested).
+/// `parts`, if given, receives the load by triangles.
 IntegrationReport integrate_load(std::span<const double> xy,
                                  std::span<const std::int32_t> triangles,
                                  const expression::Function& f, std::span<double> load,
-                                 const IntegrationLimits& limits = {}, std::stop_token stop = {});
+                                 const IntegrationLimits& limits = {}, std::stop_token stop = {},
+                                 ForceParts* parts = nullptr);
 
 }  // namespace anticrack::fem

@@ -9,6 +9,7 @@
 #include "expression/function.hpp"
 #include "fem/adaptive_load.hpp"
 #include "fem/cell.hpp"
+#include "fem/load_parts.hpp"
 #include "fem/sampler.hpp"
 
 namespace anticrack::fem {
@@ -154,13 +155,68 @@ struct AssembleForce {
     Eigen::VectorXd load = zero();
     const IntegrationReport report =
         integrate_load(part.xy, part.triangles, force, {load.data(), part.node_count()},
-                       limits(part.triangle_count()), context.stop);
+                       limits(part.triangle_count()), context.stop, context.parts);
     if (context.relative_error != nullptr) *context.relative_error = report.relative_error_estimate;
     return load;
   }
 };
 
+struct LinearParts {
+  const Triangulation& part;
+  const std::string& region;
+  const LoadContext& context;
+  using Result = std::optional<ForceParts>;
+
+  /// value(corner) of each corner of all triangles.
+  template <class Value>
+  Result linear(const Value& value) const {
+    ForceParts parts;
+    parts.load.resize(part.triangles.size());
+    for (std::size_t t = 0; t < part.triangle_count(); ++t) {
+      const double twelfth = area(part, t) / 12;
+      const std::array<double, 3> f{value(3 * t), value(3 * t + 1), value(3 * t + 2)};
+      for (std::size_t i = 0; i < 3; ++i)
+        parts.load[3 * t + i] = twelfth * (f[0] + f[1] + f[2] + f[i]);
+    }
+    return parts;
+  }
+
+  Result operator()(double value) const {
+    return linear([value](std::size_t) { return value; });
+  }
+  Result operator()(const PerRegion& regions) const {
+    const auto found = regions.values.find(region);
+    return (*this)(found == regions.values.end() ? 0.0 : found->second);
+  }
+  Result operator()(const Array& array) const {
+    const std::vector<double>& values = *array.values;
+    return linear([&](std::size_t corner) {
+      const std::int32_t place =
+          array.per_triangle ? context.triangle[corner / 3]
+                             : context.node[static_cast<std::size_t>(part.triangles[corner])];
+      return values[static_cast<std::size_t>(place)];
+    });
+  }
+  Result operator()(const Expression& expression) const {
+    const expression::Function force(expression.text, "force.expression");
+    const expression::Tape& tape = force.tape();
+    const int degree = tape.degree(tape.result());
+    if (degree == 0)
+      return (*this)(tape.operations()[static_cast<std::size_t>(tape.result())].value);
+    if (degree != 1) return std::nullopt;
+    const std::vector<double> values = at_nodes(part, force, 0, part.node_count(), context.stop);
+    return linear([&](std::size_t corner) {
+      return values[static_cast<std::size_t>(part.triangles[corner])];
+    });
+  }
+};
+
 }  // namespace
+
+std::optional<ForceParts> linear_parts(const Triangulation& part, const Force& force,
+                                       const std::string& region, const LoadContext& context) {
+  return std::visit(LinearParts{part, region, context}, force);
+}
 
 Eigen::VectorXd load_vector(const Triangulation& part, const Force& force,
                             const std::string& region, const LoadContext& context) {
@@ -178,6 +234,13 @@ Eigen::MatrixXd load_vectors(const Triangulation& part, std::span<const std::int
   integrate_arrays<together>(part, node, arrays.first(in_blocks), 0, loads);
   integrate_arrays<1>(part, node, arrays.last(alone), static_cast<Eigen::Index>(in_blocks), loads);
   return loads;
+}
+
+bool is_linear(const std::string& text) {
+  if (text.empty()) return true;
+  const expression::Function function(text, "boundary_value");
+  const int degree = function.tape().degree(function.tape().result());
+  return degree == 0 || degree == 1;
 }
 
 Eigen::VectorXd boundary_values(const Triangulation& part, const std::string& text,

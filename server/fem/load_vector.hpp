@@ -12,6 +12,8 @@
 
 namespace anticrack::fem {
 
+struct ForceParts;
+
 /// Inputs and results of integration besides the values.
 struct LoadContext {
   /// Mesh numbers of the subdomain's nodes and triangles: where its entries of an Array are.
@@ -21,6 +23,9 @@ struct LoadContext {
   /// Receives the estimated error of an expression's integral, relative to int |f|: above
   /// force_tolerance() only if the work was limited, infinite if no estimate is possible.
   double* relative_error = nullptr;
+  /// Receives the parts of an expression that is integrated (load_parts.hpp); of a force that is
+  /// linear on every triangle nothing.
+  ForceParts* parts = nullptr;
 };
 
 /// Tolerance of the load of an expression, relative to int |f| of the subdomain. The relative error
@@ -45,6 +50,10 @@ Eigen::VectorXd load_vector(const Triangulation& part, const Force& force,
 /// at once. `arrays`: as many values as the mesh has nodes; `node` as in LoadContext. O(m arrays).
 Eigen::MatrixXd load_vectors(const Triangulation& part, std::span<const std::int32_t> node,
                              std::span<const double* const> arrays);
+
+/// Whether an expression is a polynomial of degree 0 or 1; empty text is 0. Throws errors::Error
+/// (expression_invalid).
+bool is_linear(const std::string& text);
 
 /// g_D at `count` nodes from number `first` on, shape (count); an empty text is 0. Throws
 /// errors::Error (expression_invalid at "boundary_value").

@@ -8,6 +8,7 @@
 #include <stop_token>
 #include <string>
 
+#include "fem/load_parts.hpp"
 #include "fem/triangulation.hpp"
 
 namespace anticrack::fem {
@@ -17,9 +18,9 @@ namespace anticrack::fem {
 /// int |g_N|, towards jumps as far as numbers resolve. Returns the estimated error relative to
 /// int |g_N|: above the tolerance only if the work was limited, infinite if no estimate is possible
 /// because the integral may not exist. Throws errors::Error (expression_invalid at "traction" where
-/// it is not finite, cancelled).
+/// it is not finite, cancelled). `parts`, if given, receives the load edge by edge.
 double add_traction(const Triangulation& part, std::span<const std::array<std::int32_t, 2>> edges,
                     const std::string& traction, Eigen::Ref<Eigen::VectorXd> load,
-                    const std::stop_token& stop = {});
+                    const std::stop_token& stop = {}, TractionParts* parts = nullptr);
 
 }  // namespace anticrack::fem

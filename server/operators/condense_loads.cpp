@@ -56,11 +56,12 @@ class Block {
  public:
   Block(std::span<const fem::Load* const> loads, const mesh::Mesh& mesh,
         const ddm::Decomposition& decomposition, const ddm::NeumannBoundary& neumann,
-        std::stop_token stop)
+        std::stop_token stop, bool parts)
       : _loads(loads),
         _decomposition(decomposition),
         _neumann(neumann),
         _stop(std::move(stop)),
+        _parts(parts),
         _placed(loads.size()),
         _outcomes(loads.size()) {
     for (std::size_t i = 0; i < loads.size(); ++i) {
@@ -70,6 +71,7 @@ class Block {
         _placed[i] = place_forces(*loads[i], mesh, decomposition);
         result.subdomains.reserve(decomposition.subdomains.size());
         result.inclusion_forces = _placed[i].inclusions;
+        if (_parts) describe(*loads[i], _placed[i], result.parts);
       });
     }
   }
@@ -128,6 +130,18 @@ class Block {
   std::vector<CondensedOutcome> take() { return std::move(_outcomes); }
 
  private:
+  void describe(const fem::Load& load, const PlacedForces& placed, LoadParts& parts) const {
+    parts.force = load.force;
+    parts.integrated.resize(_decomposition.subdomains.size());
+    if (!load.traction.empty()) parts.traction.resize(_decomposition.subdomains.size());
+    parts.boundary_value = !fem::is_linear(load.boundary_value);
+    if (placed.on_points) {
+      parts.obstacle =
+          "a point force in the membrane has an infinite energy, and no bound exists; spread it "
+          "over a small disc, or let it act on an inclusion";
+    }
+  }
+
   void require_zero(const ddm::Terms& agreement, const Eigen::VectorXd& held,
                     const mesh::Mesh& mesh) const {
     constexpr double rounding = 1e-9;
@@ -185,13 +199,18 @@ class Block {
   Eigen::VectorXd integrate(std::size_t i, std::size_t s, LoadOnTraces& result) const {
     const ddm::Subdomain& subdomain = _decomposition.subdomains[s];
     double error = 0;
-    Eigen::VectorXd of_nodes =
-        fem::load_vector(subdomain.part, _loads[i]->force, subdomain.name,
-                         {subdomain.node, subdomain.triangle, _stop, &error});
+    Eigen::VectorXd of_nodes = fem::load_vector(subdomain.part, _loads[i]->force, subdomain.name,
+                                                {subdomain.node, subdomain.triangle, _stop, &error,
+                                                 _parts ? &result.parts.integrated[s] : nullptr});
     const double wanted = fem::force_tolerance(subdomain.part.triangle_count());
-    if (error > wanted)
-      result.warnings.push_back(inexact("the force", subdomain.name, error, wanted));
+    if (error > wanted) warn(inexact("the force", subdomain.name, error, wanted), result);
     return of_nodes;
+  }
+
+  /// A load that is not known well enough has no bounds.
+  static void warn(const std::string& warning, LoadOnTraces& result) {
+    result.warnings.push_back(warning);
+    result.parts.obstacle = warning;
   }
 
   /// Traction and point forces.
@@ -201,11 +220,10 @@ class Block {
     const fem::Load& load = *_loads[i];
     if (!load.traction.empty() && !_neumann.of(s).empty()) {
       const double error =
-          fem::add_traction(subdomain.part, _neumann.of(s), load.traction, of_nodes, _stop);
-      if (error > fem::traction_tolerance) {
-        result.warnings.push_back(
-            inexact("the traction", subdomain.name, error, fem::traction_tolerance));
-      }
+          fem::add_traction(subdomain.part, _neumann.of(s), load.traction, of_nodes, _stop,
+                            _parts ? &result.parts.traction[s] : nullptr);
+      if (error > fem::traction_tolerance)
+        warn(inexact("the traction", subdomain.name, error, fem::traction_tolerance), result);
     }
     for (const NodalForce& force : _placed[i].subdomains[s]) of_nodes[force.node] += force.value;
     if (!of_nodes.allFinite()) {
@@ -219,6 +237,7 @@ class Block {
   const ddm::Decomposition& _decomposition;
   const ddm::NeumannBoundary& _neumann;
   std::stop_token _stop;
+  bool _parts;
   std::vector<PlacedForces> _placed;
   std::vector<CondensedOutcome> _outcomes;
 };
@@ -238,13 +257,13 @@ std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> l
                                              const ddm::Decomposition& decomposition,
                                              const Condense& condense,
                                              const ddm::NeumannBoundary& neumann,
-                                             const std::stop_token& stop) {
+                                             const std::stop_token& stop, bool parts) {
   const auto at_once = at(ddm::columns_at_once(most_nodes(decomposition)));
   std::vector<CondensedOutcome> result;
   result.reserve(loads.size());
   for (std::size_t first = 0; first < loads.size(); first += at_once) {
     Block block(loads.subspan(first, std::min(at_once, loads.size() - first)), mesh, decomposition,
-                neumann, stop);
+                neumann, stop, parts);
     for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s)
       block.condense_on(s, condense);
     block.require_agreement(mesh);

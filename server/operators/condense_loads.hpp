@@ -16,9 +16,19 @@
 #include "ddm/subdomain_operator.hpp"
 #include "errors/errors.hpp"
 #include "fem/load.hpp"
+#include "fem/load_parts.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::operators {
+
+/// What acts on each triangle and Neumann edge, for bounds of the error.
+struct LoadParts {
+  fem::Force force;
+  std::vector<fem::ForceParts> integrated;   ///< per subdomain; empty parts: fem::linear_parts
+  std::vector<fem::TractionParts> traction;  ///< per subdomain; none: 0
+  bool boundary_value = false;               ///< g_D is not linear along edges
+  std::string obstacle;                      ///< why there are no bounds, and the cure
+};
 
 /// A load case condensed to the traces.
 struct LoadOnTraces {
@@ -27,6 +37,7 @@ struct LoadOnTraces {
   /// `subdomains`.
   std::vector<contact::InclusionForce> inclusion_forces;
   std::vector<std::string> warnings;  ///< integrals that reached a limit, with their error bound
+  LoadParts parts;                    ///< if asked for
 };
 
 /// (subdomain, int f phi_i of all its nodes, g_D in its Dirichlet nodes), a load each column.
@@ -40,13 +51,14 @@ using CondensedOutcome = std::variant<LoadOnTraces, errors::Error>;
 /// inclusions) and condenses them to the traces: one forward solve per subdomain and load, two
 /// where g_D is not zero, in blocks of loads. Entry i holds the result or error of loads[i]:
 /// invalid_argument (unknown subdomain or inclusion, array of another length, point force outside
-/// or on a crack, overflow), expression_invalid, or cancelled if `stop` came first.
+/// or on a crack, overflow), expression_invalid, or cancelled if `stop` came first. `parts`: with
+/// LoadOnTraces::parts.
 std::vector<CondensedOutcome> condense_loads(std::span<const fem::Load* const> loads,
                                              const mesh::Mesh& mesh,
                                              const ddm::Decomposition& decomposition,
                                              const Condense& condense,
                                              const ddm::NeumannBoundary& neumann,
-                                             const std::stop_token& stop);
+                                             const std::stop_token& stop, bool parts = false);
 
 // Point forces and forces on inclusions as forces on nodes.
 
@@ -64,6 +76,7 @@ struct NodalForce {
 struct PlacedForces {
   std::vector<std::vector<NodalForce>> subdomains;  ///< one list per subdomain
   std::vector<contact::InclusionForce> inclusions;  ///< as LoadOnTraces::inclusion_forces
+  bool on_points = false;                           ///< one acts in a point of the membrane itself
 };
 
 /// Distance, as a fraction of the diagonal of the membrane's bounding box, within which a point

@@ -131,6 +131,7 @@ std::size_t MeshOperator::bytes() const noexcept {
                       _parts->neumann.bytes();
   for (const ddm::SubdomainOperator& subdomain : _parts->operators) bytes += subdomain.bytes();
   bytes += _parts->with_problem([](const auto& problem) { return problem.bytes(); });
+  if (const estimate::CutMesh* cut = _parts->cut.known()) bytes += cut->bytes();
   return bytes + _parts->sweep_geometry.bytes() + _parts->bases.bytes();
 }
 

@@ -15,8 +15,10 @@
 #include "contact/sweep_solver.hpp"
 #include "contact/trace_problem.hpp"
 #include "ddm/decomposition.hpp"
+#include "ddm/lazy.hpp"
 #include "ddm/neumann_boundary.hpp"
 #include "ddm/subdomain_operator.hpp"
+#include "estimate/cut_mesh.hpp"
 #include "operators/basis_cache.hpp"
 #include "operators/condense_loads.hpp"
 #include "operators/mesh_operator.hpp"
@@ -39,6 +41,7 @@ struct MeshOperator::Parts {
   contact::SweepGeometry sweep_geometry;
   std::vector<contact::TraceGeometry> geometry;
   mutable BasisCache bases;
+  ddm::Lazy<estimate::CutMesh> cut;  // made for the first bounds
 
   template <class Use>
   decltype(auto) with_problem(const Use& use) const;

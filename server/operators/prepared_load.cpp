@@ -24,7 +24,7 @@ void MeshOperator::require_prepared(const PreparedLoad& load, bool fields) const
 std::vector<std::variant<PreparedLoad, errors::Error>> MeshOperator::prepare(
     std::span<const fem::Load* const> loads, const std::stop_token& stop) const {
   std::vector<CondensedOutcome> condensed = condense_loads(
-      loads, *_parts->mesh, _parts->decomposition, _parts->condense(), _parts->neumann, stop);
+      loads, *_parts->mesh, _parts->decomposition, _parts->condense(), _parts->neumann, stop, true);
   std::vector<std::variant<PreparedLoad, errors::Error>> prepared;
   prepared.reserve(condensed.size());
   for (auto& one : condensed) {
@@ -64,13 +64,6 @@ void MeshOperator::recover_fields(std::span<const PreparedLoad* const> loads,
     _parts->joined->recover_fields(cases);
   else
     contact::recover_fields(_parts->problem, cases);
-}
-
-std::vector<double> MeshOperator::estimate(const PreparedLoad& load, contact::Answer& answer,
-                                           const std::stop_token&) const {
-  require_prepared(load, true);
-  answer.no_bracket = "not computed";
-  return {};
 }
 
 }  // namespace anticrack::operators

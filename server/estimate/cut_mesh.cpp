@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "estimate/cut_mesh.hpp"
+
+#include <algorithm>
+#include <span>
+#include <sstream>
+
+#include "mesh/at.hpp"
+#include "mesh/edges.hpp"
+
+namespace anticrack::estimate {
+namespace {
+
+constexpr std::int32_t next(std::int32_t corner) {
+  return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+constexpr std::int32_t previous(std::int32_t corner) {
+  return corner % 3 == 0 ? corner + 2 : corner - 1;
+}
+
+class Cutting {
+ public:
+  Cutting(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition)
+      : _mesh(mesh), _decomposition(decomposition), _edges(mesh.triangles) {}
+
+  CutMesh operator()() {
+    number();
+    find_faces();
+    find_fans();
+    find_obstacle();
+    return std::move(_cut);
+  }
+
+ private:
+  void number() {
+    _place.resize(_mesh.triangle_count());
+    _cut.first_triangle.push_back(0);
+    _cut.first_copy.push_back(0);
+    for (const ddm::Subdomain& subdomain : _decomposition.subdomains) {
+      const std::int32_t copies = _cut.first_copy.back();
+      for (const std::int32_t triangle : subdomain.triangle) {
+        _place[at(triangle)] = static_cast<std::int32_t>(_cut.triangle.size());
+        _cut.triangle.push_back(triangle);
+      }
+      for (const std::int32_t node : subdomain.part.triangles) _cut.copy.push_back(copies + node);
+      for (std::size_t i = 0; i < subdomain.part.node_count(); ++i)
+        _cut.at.push_back({subdomain.part.xy[2 * i], subdomain.part.xy[2 * i + 1]});
+      _cut.tension.push_back(subdomain.tension);
+      _cut.first_triangle.push_back(static_cast<std::int32_t>(_cut.triangle.size()));
+      _cut.first_copy.push_back(static_cast<std::int32_t>(_cut.at.size()));
+    }
+  }
+
+  std::int32_t side_of(const mesh::EdgeUse& use) const {
+    const std::int32_t* node = &_mesh.triangles[3 * at(use.triangle)];
+    const auto from = static_cast<std::int32_t>(std::find(node, node + 3, use.from) - node);
+    return previous(3 * _place[at(use.triangle)] + from);
+  }
+
+  std::int32_t add_face(std::int32_t side, Condition condition, std::int32_t inclusion = -1) {
+    const auto number = static_cast<std::int32_t>(_cut.faces.size());
+    _cut.faces.push_back({side, condition, inclusion, -1, -1});
+    _across[at(side)] = -1 - number;
+    return number;
+  }
+
+  void find_faces() {
+    constexpr std::int32_t nothing = INT32_MIN;
+    _across.assign(_cut.copy.size(), nothing);
+    for (const mesh::Interface& line : _mesh.interfaces)
+      for (std::size_t i = 0; i < line.kind.size(); ++i)
+        if (line.kind[i] != mesh::Kind::glue) cut_edge(line, i);
+    for (const auto& [a, b] : _mesh.dirichlet)
+      for (const mesh::EdgeUse& use : _edges.find(a, b)) add_face(side_of(use), Condition::free);
+    // In the order of ddm::NeumannBoundary.
+    std::vector<std::vector<std::int32_t>> neumann(_decomposition.subdomains.size());
+    _edges.each([&](std::span<const mesh::EdgeUse> uses) {
+      const std::int32_t side = side_of(uses[0]);
+      if (_across[at(side)] != nothing) return;
+      if (uses.size() == 1) {
+        neumann[at(_mesh.subdomain[at(uses[0].triangle)])].push_back(side);
+        return;
+      }
+      const std::int32_t other = side_of(uses[1]);
+      _across[at(side)] = other;
+      _across[at(other)] = side;
+    });
+    std::int32_t number = 0;
+    for (const std::vector<std::int32_t>& of_subdomain : neumann)
+      for (const std::int32_t side : of_subdomain)
+        _cut.faces[at(add_face(side, Condition::given))].traction = number++;
+  }
+
+  void cut_edge(const mesh::Interface& line, std::size_t i) {
+    const std::span<const mesh::EdgeUse> uses = _edges.find(line.nodes[i], line.nodes[i + 1]);
+    const std::size_t on_left = uses[0].from == line.nodes[i] ? 0 : 1;
+    Condition plus = Condition::free, minus = Condition::free;
+    switch (line.kind[i]) {
+      case mesh::Kind::crack:
+        plus = Condition::crack_plus;
+        minus = Condition::crack_minus;
+        break;
+      case mesh::Kind::delaminated:
+        minus = Condition::pressed;
+        break;
+      case mesh::Kind::free:
+        plus = minus = Condition::given;
+        break;
+      case mesh::Kind::glue:
+      case mesh::Kind::inclusion:
+        break;
+    }
+    const std::int32_t up = add_face(side_of(uses[on_left]), plus, line.inclusion[i]);
+    const std::int32_t down = add_face(side_of(uses[1 - on_left]), minus, line.inclusion[i]);
+    _cut.faces[at(up)].other = down;
+    _cut.faces[at(down)].other = up;
+  }
+
+  /// The corner of the same node across the side before it (clockwise) or after it; -1 - face where
+  /// there is none.
+  std::int32_t clockwise(std::int32_t corner) const {
+    const std::int32_t side = _across[at(previous(corner))];
+    return side < 0 ? side : previous(side);
+  }
+  std::int32_t counterclockwise(std::int32_t corner) const {
+    const std::int32_t side = _across[at(next(corner))];
+    return side < 0 ? side : next(side);
+  }
+
+  bool is_crack(std::int32_t face) const {
+    const Condition condition = _cut.faces[at(face)].condition;
+    return condition == Condition::crack_minus || condition == Condition::crack_plus;
+  }
+
+  /// The first corner of the fan of a corner: behind a face that is not a crack's. Of a fan that
+  /// goes all round behind a crack, if there is one, else any.
+  std::int32_t first_of(std::int32_t corner) const {
+    std::int32_t behind_crack = -1;
+    for (std::int32_t now = corner;;) {
+      std::int32_t before = clockwise(now);
+      if (before < 0) {
+        const std::int32_t face = -1 - before;
+        if (!is_crack(face)) return now;
+        behind_crack = now;
+        before = previous(_cut.faces[at(_cut.faces[at(face)].other)].side);  // its end 1
+      }
+      if (before == corner) return behind_crack >= 0 ? behind_crack : corner;
+      now = before;
+    }
+  }
+
+  void add_stop(std::size_t first, std::int32_t face, std::int32_t end) {
+    const auto spoke = static_cast<std::int32_t>(_cut.corners.size() - first);
+    _cut.stops.push_back({spoke, face, end});
+  }
+
+  void find_fans() {
+    std::vector<bool> seen(_cut.copy.size(), false);
+    _cut.corners.reserve(_cut.copy.size());
+    _cut.first_corner.push_back(0);
+    _cut.first_stop.push_back(0);
+    for (std::size_t corner = 0; corner < seen.size(); ++corner) {
+      if (seen[corner]) continue;
+      const std::int32_t begin = first_of(static_cast<std::int32_t>(corner));
+      const std::size_t first = _cut.corners.size();
+      if (const std::int32_t before = clockwise(begin); before < 0) add_stop(first, -1 - before, 0);
+      for (std::int32_t now = begin;;) {
+        seen[at(now)] = true;
+        _cut.corners.push_back(now);
+        std::int32_t after = counterclockwise(now);
+        if (after < 0) {
+          const std::int32_t face = -1 - after;
+          add_stop(first, face, 1);
+          if (!is_crack(face)) break;
+          const std::int32_t other = _cut.faces[at(face)].other;
+          after = next(_cut.faces[at(other)].side);  // its end 0 is this node
+          if (after != begin) add_stop(first, other, 0);
+        }
+        if (after == begin) break;
+        now = after;
+      }
+      _cut.first_corner.push_back(static_cast<std::int32_t>(_cut.corners.size()));
+      _cut.first_stop.push_back(static_cast<std::int32_t>(_cut.stops.size()));
+    }
+  }
+
+  /// Contact of two rigid bodies, or of one with the boundary, in a single node where the sides of
+  /// the delaminated inclusion lie in two fans: the force between the bodies is then no part of
+  /// either fan.
+  void find_obstacle() {
+    std::vector<std::int32_t> ends(_mesh.node_count(), 0);
+    for (std::size_t fan = 0; fan < _cut.fan_count() && _cut.obstacle.empty(); ++fan) {
+      const std::span<const Stop> stops(&_cut.stops[at(_cut.first_stop[fan])],
+                                        at(_cut.first_stop[fan + 1] - _cut.first_stop[fan]));
+      const auto has = [&](const auto& what) {
+        return std::ranges::any_of(
+            stops, [&](const Stop& stop) { return what(_cut.faces[at(stop.face)]); });
+      };
+      std::int32_t pressed_by = -1;
+      has([&](const Face& face) {
+        if (face.condition == Condition::pressed) pressed_by = face.inclusion;
+        return false;
+      });
+      const bool held_by_another =
+          pressed_by >= 0 && has([&](const Face& face) {
+            return face.condition == Condition::free && face.inclusion != pressed_by;
+          });
+      if (!held_by_another) continue;
+      const std::int32_t corner = _cut.corners[at(_cut.first_corner[fan])];
+      const auto node = at(_mesh.triangles[3 * at(_cut.triangle[at(corner / 3)]) + at(corner % 3)]);
+      if (++ends[node] < 2) continue;
+      std::ostringstream text;
+      text << "there is no bound where a delaminated inclusion lies on another rigid one, as at ("
+           << _mesh.xy[2 * node] << ", " << _mesh.xy[2 * node + 1] << "); let them cross elsewhere";
+      _cut.obstacle = text.str();
+    }
+  }
+
+  const mesh::Mesh& _mesh;
+  const ddm::Decomposition& _decomposition;
+  mesh::EdgeTable _edges;
+  std::vector<std::int32_t> _place;   // T of each triangle of the mesh
+  std::vector<std::int32_t> _across;  // per side: the side of the neighbour, or -1 - face
+  CutMesh _cut;
+};
+
+}  // namespace
+
+std::size_t CutMesh::bytes() const noexcept {
+  const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
+  return of(first_triangle) + of(first_copy) + of(copy) + of(at) + of(tension) + of(triangle) +
+         of(faces) + of(first_corner) + of(corners) + of(first_stop) + of(stops);
+}
+
+CutMesh cut_mesh(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition) {
+  return Cutting(mesh, decomposition)();
+}
+
+}  // namespace anticrack::estimate

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The triangles of a membrane cut along its cracks and inclusions, and how they lie around nodes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ddm/decomposition.hpp"
+#include "mesh/mesh.hpp"
+
+namespace anticrack::estimate {
+
+using Vector = std::array<double, 2>;
+
+/// What holds of the outward flux w through a face.
+enum class Condition : std::uint8_t {
+  free,         ///< Dirichlet boundary, bonded inclusion, plus face of a delaminated one: any w
+  given,        ///< Neumann boundary: w = int g; faces of a free crack: w = 0
+  pressed,      ///< minus face of a delaminated inclusion: w <= 0
+  crack_minus,  ///< w <= 0
+  crack_plus,   ///< the negative of w on the other face
+};
+
+/// An edge that belongs to one triangle of the cut membrane. Its ends are numbered 0, 1
+/// counterclockwise about the triangle.
+struct Face {
+  std::int32_t side = 0;  ///< 3 T + i: the edge opposite to corner i of triangle T
+  Condition condition = Condition::free;
+  std::int32_t inclusion = -1;  ///< index into Mesh::inclusions
+  std::int32_t other = -1;      ///< face of the same edge on the other side
+  std::int32_t traction = -1;   ///< number among the Neumann edges, subdomain after subdomain
+};
+
+/// Where a fan meets a face: the flux x through spoke `spoke` is w = sign x through the face.
+struct Stop {
+  std::int32_t spoke = 0;
+  std::int32_t face = 0;
+  std::int32_t end = 0;  ///< of the face: 0 where the fan begins at it (sign -1), 1 where it ends
+  double sign() const noexcept { return end == 0 ? -1 : 1; }
+};
+
+/// Triangles T are numbered subdomain after subdomain in the order of ddm::Subdomain::triangle,
+/// nodes likewise ("copies": a node of a crack has one on each side, a node of glue one in each
+/// subdomain). Corners are 3 T + i, and so are sides: the edge opposite to corner i.
+struct CutMesh {
+  std::vector<std::int32_t> first_triangle;  ///< (subdomains + 1)
+  std::vector<std::int32_t> first_copy;      ///< (subdomains + 1)
+  std::vector<std::int32_t> copy;            ///< (corners)
+  std::vector<Vector> at;                    ///< (copies) coordinates
+  std::vector<double> tension;               ///< (subdomains)
+  std::vector<std::int32_t> triangle;        ///< (triangles) index into the mesh's
+
+  std::vector<Face> faces;
+
+  /// A fan: the corners about a node, counterclockwise from face to face or all round. It goes on
+  /// through cracks, whose flux is the same on both faces. Between its corners are spokes 0, ...,
+  /// m; of a closed fan the last is the first.
+  std::vector<std::int32_t> first_corner;  ///< (fans + 1) index into corners
+  std::vector<std::int32_t> corners;       ///< of all fans
+  std::vector<std::int32_t> first_stop;    ///< (fans + 1) index into stops
+  std::vector<Stop> stops;
+
+  /// Why no flux can be equilibrated fan by fan, with the place; empty: it can.
+  std::string obstacle;
+
+  std::size_t triangle_count() const noexcept { return triangle.size(); }
+  std::size_t fan_count() const noexcept { return first_corner.size() - 1; }
+  std::size_t bytes() const noexcept;
+};
+
+/// O(m log m).
+CutMesh cut_mesh(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition);
+
+}  // namespace anticrack::estimate

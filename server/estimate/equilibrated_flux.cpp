@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "estimate/equilibrated_flux.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesh/at.hpp"
+
+namespace anticrack::estimate {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1]}; }
+void add(Vector& to, double factor, const Vector& what) {
+  to[0] += factor * what[0];
+  to[1] += factor * what[1];
+}
+/// Outward normal of an edge of a counterclockwise triangle, as long as the edge.
+Vector normal(const Vector& edge) { return {edge[1], -edge[0]}; }
+
+constexpr std::size_t next(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+constexpr std::size_t previous(std::size_t corner) {
+  return corner % 3 == 0 ? corner + 2 : corner - 1;
+}
+
+bool presses(Condition condition) {
+  return condition == Condition::pressed || condition == Condition::crack_minus;
+}
+
+}  // namespace
+
+EquilibratedFlux::EquilibratedFlux(const CutMesh& cut, const Balance& balance, FaceBounds bounds,
+                                   int polish_sweeps)
+    : _cut(cut), _balance(balance), _is_pressure(bounds.empty()) {
+  measure();
+  build(bounds);
+  centre();
+  for (int sweep = 0; sweep < polish_sweeps; ++sweep) polish(bounds);
+}
+
+void EquilibratedFlux::measure() {
+  const std::size_t count = _cut.triangle_count();
+  _tension.resize(count);
+  for (std::size_t s = 0; s < _cut.tension.size(); ++s)
+    for (auto t = at(_cut.first_triangle[s]); t < at(_cut.first_triangle[s + 1]); ++t)
+      _tension[t] = _cut.tension[s];
+  _area.resize(count);
+  _edge.resize(3 * count);
+  _excess.resize(3 * count);
+  for (std::size_t t = 0; t < count; ++t) {
+    const std::int32_t* copy = &_cut.copy[3 * t];
+    const Vector &p = _cut.at[at(copy[0])], &q = _cut.at[at(copy[1])], &r = _cut.at[at(copy[2])];
+    Vector* edge = &_edge[3 * t];
+    edge[0] = minus(r, q);
+    edge[1] = minus(p, r);
+    edge[2] = minus(q, p);
+    _area[t] = 0.5 * (edge[2][1] * edge[1][0] - edge[2][0] * edge[1][1]);
+    Vector gradient{};
+    for (std::size_t i = 0; i < 3; ++i)
+      add(gradient, -_balance.u[at(copy[i])] / (2 * _area[t]), normal(edge[i]));
+    for (std::size_t i = 0; i < 3; ++i)
+      _excess[3 * t + i] = -_tension[t] * dot(gradient, normal(edge[i]));
+    _norm_squared += _tension[t] * _area[t] * dot(gradient, gradient);
+  }
+}
+
+std::span<const Stop> EquilibratedFlux::stops(std::size_t fan) const {
+  return std::span(_cut.stops)
+      .subspan(at(_cut.first_stop[fan]), at(_cut.first_stop[fan + 1] - _cut.first_stop[fan]));
+}
+
+/// [u] at both ends of a face, added up.
+double EquilibratedFlux::jump(std::int32_t face) const {
+  const auto sum = [&](const Face& one) {
+    const auto side = at(one.side);
+    return _balance.u[at(_cut.copy[next(side)])] + _balance.u[at(_cut.copy[previous(side)])];
+  };
+  const Face& minus_face = _cut.faces[at(face)];
+  return sum(_cut.faces[at(minus_face.other)]) - sum(minus_face);
+}
+
+/// Derivative of int p [u] by the flux through the fan's spokes.
+double EquilibratedFlux::slope_of_work(std::size_t fan) const {
+  double slope = 0;
+  if (!_is_pressure) return slope;
+  for (const Stop& stop : stops(fan))
+    if (presses(_cut.faces[at(stop.face)].condition)) slope -= 0.5 * stop.sign() * jump(stop.face);
+  return slope;
+}
+
+/// How far the flux through the fan's spokes is changed: to the least distance that is allowed.
+double EquilibratedFlux::step(std::size_t fan, double slope, FaceBounds bounds) const {
+  double low = -infinite, high = infinite;
+  for (const Stop& stop : stops(fan)) {
+    const Face& face = _cut.faces[at(stop.face)];
+    const std::size_t place = 2 * at(stop.face) + at(stop.end);
+    double least = -infinite, most = infinite;
+    if (face.condition == Condition::given) {
+      least = most = face.traction < 0 || _balance.traction.empty()
+                         ? 0
+                         : _balance.traction[2 * at(face.traction) + at(stop.end)];
+    } else if (presses(face.condition)) {
+      most = _is_pressure ? 0 : bounds[place];
+      if (!_is_pressure) least = -most;
+    } else {
+      continue;
+    }
+    const double now = _through[place];
+    if (stop.end == 0) {  // w = -x
+      low = std::max(low, now - most);
+      high = std::min(high, now - least);
+    } else {
+      low = std::max(low, least - now);
+      high = std::min(high, most - now);
+    }
+  }
+  if (low > high) return 0.5 * (low + high);  // by rounding
+  return std::clamp(-slope / _stiffness[fan], low, high);
+}
+
+void EquilibratedFlux::build(FaceBounds bounds) {
+  _through.assign(2 * _cut.faces.size(), 0);
+  _stiffness.assign(_cut.fan_count(), 0);
+  const std::vector<double> target = _excess;  // minus the flux of T grad u
+  std::vector<double> x;                       // through the spokes
+  for (std::size_t fan = 0; fan < _cut.fan_count(); ++fan) {
+    const auto corners = std::span(_cut.corners)
+                             .subspan(at(_cut.first_corner[fan]),
+                                      at(_cut.first_corner[fan + 1] - _cut.first_corner[fan]));
+    x.assign(1, 0.0);
+    double slope = slope_of_work(fan);
+    for (const std::int32_t corner : corners) {
+      const std::size_t i = at(corner), j = next(i), k = previous(i), t = i / 3;
+      const double force = _balance.force.empty() ? 0 : _balance.force[i];
+      x.push_back(x.back() + 0.5 * target[i] - force);
+      const double out = x.back() + 0.5 * target[j], in = -x.end()[-2] + 0.5 * target[k];
+      Vector mean{};
+      add(mean, out, minus(_edge[i], _edge[k]));
+      add(mean, in, minus(_edge[j], _edge[i]));
+      slope += dot(mean, _edge[i]) / (12 * _area[t] * _tension[t]);
+      _stiffness[fan] += dot(_edge[i], _edge[i]) / (4 * _area[t] * _tension[t]);
+    }
+    for (const Stop& stop : stops(fan))
+      _through[2 * at(stop.face) + at(stop.end)] = stop.sign() * x[at(stop.spoke)];
+    if (stops(fan).empty()) _imbalance = std::max(_imbalance, std::abs(x.back()));
+    const double change = step(fan, slope, bounds);
+    for (const Stop& stop : stops(fan))
+      _through[2 * at(stop.face) + at(stop.end)] += stop.sign() * change;
+    for (std::size_t n = 0; n < corners.size(); ++n) {
+      const std::size_t i = at(corners[n]);
+      _excess[next(i)] += x[n + 1] + change;
+      _excess[previous(i)] -= x[n] + change;
+    }
+  }
+}
+
+/// On each triangle sigma - T grad u is its mean, d/2 (x - centroid) with the divergence d, and the
+/// bubble  b = 1/3 sum_(i<j) (f_j - f_i)(P_j - P_i) l_i l_j  less its mean: div b = -(f - mean f),
+/// and no flux through the sides.
+void EquilibratedFlux::centre() {
+  const std::size_t count = _cut.triangle_count();
+  _centre.assign(count, Vector{});
+  _rest.assign(count, 0.0);
+  for (std::size_t t = 0; t < count; ++t) {
+    const Vector* edge = &_edge[3 * t];
+    const double* excess = &_excess[3 * t];
+    for (std::size_t i = 0; i < 3; ++i)
+      add(_centre[t], excess[i] / (6 * _area[t]), minus(edge[(i + 2) % 3], edge[(i + 1) % 3]));
+    if (_balance.force.empty()) continue;
+    const double* force = &_balance.force[3 * t];
+    const double divergence = -(force[0] + force[1] + force[2]) / _area[t];
+    const double lengths = dot(edge[0], edge[0]) + dot(edge[1], edge[1]) + dot(edge[2], edge[2]);
+    _rest[t] = divergence * divergence * _area[t] * lengths / 144;
+    if (force[0] == force[1] && force[1] == force[2]) continue;
+    // Along the edge opposite to corner i, from j to k, f grows by 12 / area times the loads.
+    std::array<Vector, 3> along{};
+    Vector sum{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      add(along[i], 4 * (force[k] - force[j]) / _area[t], edge[i]);  // a third of it
+      add(sum, 1, along[i]);
+    }
+    add(_centre[t], 1.0 / 12, sum);
+    double squares = 0, products = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      squares += dot(along[i], along[i]);
+      products += dot(along[i], along[j]);
+      // P_j + P_k - 2 P_i
+      _rest[t] += divergence * _area[t] / 180 * dot(along[i], minus(edge[k], edge[j]));
+    }
+    _rest[t] += _area[t] * ((squares + products) / 90 - dot(sum, sum) / 144);
+  }
+}
+
+void EquilibratedFlux::polish(FaceBounds bounds) {
+  for (std::size_t fan = 0; fan < _cut.fan_count(); ++fan) {
+    double slope = slope_of_work(fan);
+    const auto first = at(_cut.first_corner[fan]), end = at(_cut.first_corner[fan + 1]);
+    for (std::size_t n = first; n < end; ++n) {
+      const std::size_t i = at(_cut.corners[n]);
+      slope += dot(_centre[i / 3], _edge[i]) / (2 * _tension[i / 3]);
+    }
+    const double change = step(fan, slope, bounds);
+    for (const Stop& stop : stops(fan))
+      _through[2 * at(stop.face) + at(stop.end)] += stop.sign() * change;
+    for (std::size_t n = first; n < end; ++n) {
+      const std::size_t i = at(_cut.corners[n]);
+      add(_centre[i / 3], change / (2 * _area[i / 3]), _edge[i]);
+    }
+  }
+}
+
+std::vector<double> EquilibratedFlux::distance() const {
+  std::vector<double> distance(_centre.size());
+  for (std::size_t t = 0; t < distance.size(); ++t)
+    distance[t] = (_area[t] * dot(_centre[t], _centre[t]) + _rest[t]) / _tension[t];
+  return distance;
+}
+
+std::vector<double> EquilibratedFlux::work_of_pressure() const {
+  std::vector<double> work(_cut.faces.size(), 0);
+  for (std::size_t face = 0; face < work.size(); ++face) {
+    if (presses(_cut.faces[face].condition)) {
+      work[face] = -0.5 * (_through[2 * face] + _through[2 * face + 1]) *
+                   jump(static_cast<std::int32_t>(face));
+    }
+  }
+  return work;
+}
+
+std::vector<double> EquilibratedFlux::through_sides() const {
+  std::vector<double> through(_edge.size());
+  for (std::size_t t = 0; t < _centre.size(); ++t) {
+    Vector mean = _centre[t], gradient{};
+    double force = 0;
+    for (std::size_t i = 0; i < 3 && !_balance.force.empty(); ++i) {
+      const double* of = &_balance.force[3 * t];
+      add(mean, -(of[(i + 2) % 3] - of[(i + 1) % 3]) / (3 * _area[t]), _edge[3 * t + i]);
+      force += of[i];
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      add(gradient, -_balance.u[at(_cut.copy[3 * t + i])] / (2 * _area[t]),
+          normal(_edge[3 * t + i]));
+    }
+    add(mean, _tension[t], gradient);
+    for (std::size_t i = 0; i < 3; ++i)
+      through[3 * t + i] = dot(mean, normal(_edge[3 * t + i])) - force / 3;
+  }
+  return through;
+}
+
+}  // namespace anticrack::estimate

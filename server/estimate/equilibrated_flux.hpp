@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A flux in equilibrium with the load, near the flux of a discrete solution: RT0, made fan by fan
+// without a linear solve. Braess & Schoeberl, Math. Comp. 77 (2008), for contact and inclusions.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "estimate/cut_mesh.hpp"
+
+namespace anticrack::estimate {
+
+/// What a flux is made for. Of triangles and Neumann edges subdomain after subdomain, as in
+/// CutMesh; empty: 0.
+struct Balance {
+  std::span<const double> u;         ///< (copies) the discrete solution
+  std::span<const double> force;     ///< (corners) int_T f phi_i
+  std::span<const double> traction;  ///< (Neumann edges, 2) int g phi_i at ends 0 and 1
+};
+
+/// Bounds of the fluxes through minus faces, (faces, 2) at ends 0 and 1, of any sign: |w| <= bound.
+/// Empty: w <= 0 instead, the contact pressure.
+using FaceBounds = std::span<const double>;
+
+/// sigma with  div sigma + f = 0  in the elementwise linear f of `force`, sigma.n = mean g on
+/// Neumann edges, continuous across all edges but cracks' and inclusions'; on a minus face
+/// sigma.n = -p, on both of a crack the same. O(m); `polish`: sweeps over the fans that bring it
+/// nearer to T grad u.
+class EquilibratedFlux {
+ public:
+  EquilibratedFlux(const CutMesh& cut, const Balance& balance, FaceBounds bounds = {},
+                   int polish = 2);
+
+  /// int |sigma - T grad u|^2 / T of each triangle, shape (m).
+  std::vector<double> distance() const;
+  /// Mean of sigma - T grad u on each triangle, shape (m).
+  const std::vector<Vector>& mean_distance() const noexcept { return _centre; }
+  /// int p [u] of each face, on minus faces, shape (faces): 0 elsewhere.
+  std::vector<double> work_of_pressure() const;
+  /// Outward flux through each face, (faces, 2): the parts of its ends 0 and 1.
+  const std::vector<double>& through_faces() const noexcept { return _through; }
+  /// int |T grad u|^2 / T.
+  double norm_squared() const noexcept { return _norm_squared; }
+  /// Total outward flux through each side, (corners).
+  std::vector<double> through_sides() const;
+  /// Largest imbalance of a closed fan: rounding, where u solves the discrete problem.
+  double imbalance() const noexcept { return _imbalance; }
+
+ private:
+  void measure();
+  void build(FaceBounds bounds);
+  void centre();
+  void polish(FaceBounds bounds);
+  double jump(std::int32_t face) const;
+  double slope_of_work(std::size_t fan) const;
+  double step(std::size_t fan, double slope, FaceBounds bounds) const;
+  std::span<const Stop> stops(std::size_t fan) const;
+  Vector bubble_mean(std::size_t triangle) const;
+
+  const CutMesh& _cut;
+  Balance _balance;
+  bool _is_pressure;               // the work of the pressure counts
+  std::vector<double> _tension;    // (m)
+  std::vector<double> _area;       // (m)
+  std::vector<Vector> _edge;       // (corners) opposite to the corner, counterclockwise
+  std::vector<double> _excess;     // (corners) outward flux of sigma - T grad u
+  std::vector<double> _stiffness;  // (fans) second derivative of the distance by the fan's flux
+  std::vector<Vector> _centre;     // (m) mean of sigma - T grad u
+  std::vector<double> _rest;       // (m) int |sigma - T grad u - its mean|^2
+  std::vector<double> _through;
+  double _norm_squared = 0;
+  double _imbalance = 0;
+};
+
+}  // namespace anticrack::estimate

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A load triangle by triangle: what an equilibrated flux has to balance.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fem/load.hpp"
+#include "fem/load_vector.hpp"
+#include "fem/triangulation.hpp"
+
+namespace anticrack::fem {
+
+/// f on the triangles K of a subdomain.
+struct ForceParts {
+  std::vector<double> load;    ///< (m,3) int_K f phi_i for the corners i, as they are in the load
+  std::vector<double> square;  ///< (m) int_K f^2; empty: f is linear on every triangle
+};
+
+/// g_N on the edges of the Neumann boundary of a subdomain.
+struct TractionParts {
+  std::vector<double> load;    ///< (edges,2) int g phi_i for both ends
+  std::vector<double> square;  ///< (edges) int g^2
+};
+
+/// The parts of a force that is linear on every triangle: a constant, an array, an expression of
+/// degree 0 or 1. None: it is integrated, and load_vector() says them (LoadContext::parts). O(m).
+std::optional<ForceParts> linear_parts(const Triangulation& part, const Force& force,
+                                       const std::string& region, const LoadContext& context);
+
+}  // namespace anticrack::fem

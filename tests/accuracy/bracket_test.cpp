@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Bounds of the energy against what finer and finer meshes lead to.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "accuracy/base_meshes.hpp"
+#include "accuracy/paper_limits.hpp"
+#include "accuracy/sequence.hpp"
+#include "mesh/refine.hpp"
+#include "support/silent_observer.hpp"
+
+namespace anticrack::accuracy {
+namespace {
+
+struct Bounded {
+  contact::Answer answer;
+  std::vector<double> indicator;
+};
+
+Bounded solve_bounded(const operators::MeshOperator& op, const fem::Load& load) {
+  const fem::Load* const one[] = {&load};
+  const auto prepared = std::get<operators::PreparedLoad>(std::move(op.prepare(one).front()));
+  testing::Silent silent;
+  Bounded result{op.solve(prepared, {}, false, silent), {}};
+  result.indicator = op.estimate(prepared, result.answer);
+  return result;
+}
+
+TEST(Bracket, ContainsTheEnergyOfThePaperExamples) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (double h0 = 0.4; h0 > 0.02; h0 /= 2) {
+      const auto op = factorise(mesh::grade(diagonals(), {h0, 0.2, 0}, 2'000'000));
+      fem::Load load;
+      load.force = fem::Expression{paper_forces[i]};
+      const Bounded found = solve_bounded(*op, load);
+      const contact::Answer& answer = found.answer;
+      ASSERT_EQ(answer.no_bracket, "");
+      const double limit = energy_limits[i];
+      std::printf(
+          "[ figures  ] example %zu, %7zu triangles: [%.7f, %.7f], limit %.6f; gap over error "
+          "%.2f, error %.4f\n",
+          i + 1, op->mesh().triangle_count(), *answer.energy_lower, *answer.energy_upper, limit,
+          (*answer.energy_upper - *answer.energy_lower) / (*answer.energy_upper - limit),
+          *answer.error_bound_relative);
+      EXPECT_LT(*answer.energy_lower, limit);
+      EXPECT_GT(*answer.energy_upper, limit);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace anticrack::accuracy
