@@ -3,23 +3,71 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "mesh/at.hpp"
 
 namespace anticrack::estimate {
+namespace {
 
-Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, double energy,
-                std::span<const double> oscillation) {
+/// w on one triangle; two edges of a corner of the membrane may be on the boundary.
+struct OnTriangle {
+  double norm = 0;     ///< >= |w| in the energy norm
+  double work = 0;     ///< int f w, f linear
+  double product = 0;  ///< int T grad u_h . grad w
+  double through = 0;  ///< int sigma.n phi over its edges
+};
+
+void add(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBalance& load,
+         const Lift& lift, OnTriangle& to) {
+  const auto side = at(cut.faces[at(lift.face)].side);
+  const std::size_t t = side / 3, i = side % 3;
+  to.norm += std::sqrt(flux.tension(t) * lift.gradient_squared);
+  const double* force = &load.force[3 * t];
+  const double sum = force[0] + force[1] + force[2];
+  const auto value = [&](std::size_t corner) { return 12 * (force[corner % 3] - sum / 4); };
+  to.work += 0.5 * (value(i + 1) * (lift.mean - lift.first) + value(i + 2) * lift.first) +
+             value(i) * lift.mean / 6;
+  to.product += lift.mean * flux.discrete(side);
+  const double* through = &flux.through_faces()[2 * at(lift.face)];
+  to.through += (through[0] + through[1]) * lift.mean;
+}
+
+}  // namespace
+
+Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBalance& load,
+                const std::vector<Lift>& lifts, double energy) {
+  std::vector<OnTriangle> lifted;
+  if (!lifts.empty()) lifted.resize(cut.triangle_count());
+  for (const Lift& lift : lifts)
+    add(cut, flux, load, lift, lifted[at(cut.faces[at(lift.face)].side / 3)]);
+
   Bracket result;
   result.indicator = flux.distance();
-  double squared = 0, work = 0;
+  double half_distance = 0;  // eta^2 / 2 less |w|^2 / 2, which Pi(v) has as well
+  double squared = 0, work = 0, lift_energy = 0, lift_norm = 0;
   for (std::size_t t = 0; t < result.indicator.size(); ++t) {
     double& one = result.indicator[t];
     one = std::max(0.0, one);
-    if (!oscillation.empty() && oscillation[t] > 0) {
-      const double size = std::sqrt(one) + oscillation[t];
-      one = size * size;
+    const double oscillation = load.oscillation.empty() ? 0 : load.oscillation[t];
+    if (lifted.empty()) {
+      const double size = std::sqrt(one) + oscillation;
+      one = oscillation > 0 ? size * size : one;
+      half_distance += 0.5 * one;
+      squared += one;
+      continue;
     }
+    const OnTriangle& w = lifted[t];
+    const double product = w.work + w.through - w.product;  // int (sigma - T grad u_h).grad w
+    const double distance = std::max(0.0, one - 2 * product + w.norm * w.norm);
+    const double rest = oscillation * (j_11 / std::numbers::pi * w.norm);  // of int f w
+    const double size = std::sqrt(distance) + oscillation;
+    half_distance += 0.5 * one - product + oscillation * std::sqrt(distance) +
+                     0.5 * oscillation * oscillation + 2 * rest;
+    lift_energy += w.product - w.work;
+    result.upper += 0.5 * w.norm * w.norm + rest;
+    lift_norm += w.norm * w.norm;
+    one = size * size;
     squared += one;
   }
   const std::vector<double> work_of_face = flux.work_of_pressure();
@@ -31,9 +79,9 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, double energy,
   work = std::max(0.0, work);
   // No interval arithmetic: rounding is some 1e-14.
   const double rounding = 1e-12 * (std::abs(energy) + flux.norm_squared());
-  result.lower = energy - 0.5 * squared - work - rounding;
-  result.upper = energy + rounding;
-  result.error = 0.5 * (std::sqrt(squared) + std::sqrt(squared + 4 * work + 4 * rounding));
+  result.lower = energy + lift_energy - half_distance - work - rounding;
+  result.upper += energy + lift_energy + rounding;
+  result.error = 0.5 * (std::sqrt(squared) + std::sqrt(squared + 4 * work)) + std::sqrt(lift_norm);
   result.error_relative = result.error > 0 ? result.error / std::sqrt(flux.norm_squared()) : 0;
   return result;
 }

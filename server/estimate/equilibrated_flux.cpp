@@ -232,23 +232,26 @@ std::vector<double> EquilibratedFlux::work_of_pressure() const {
   return work;
 }
 
+double EquilibratedFlux::discrete(std::size_t side) const {
+  const std::size_t t = side / 3;
+  Vector gradient{};
+  for (std::size_t i = 3 * t; i < 3 * t + 3; ++i)
+    add(gradient, -_balance.u[at(_cut.copy[i])] / (2 * _area[t]), normal(_edge[i]));
+  return _tension[t] * dot(gradient, normal(_edge[side]));
+}
+
 std::vector<double> EquilibratedFlux::through_sides() const {
   std::vector<double> through(_edge.size());
   for (std::size_t t = 0; t < _centre.size(); ++t) {
-    Vector mean = _centre[t], gradient{};
+    Vector mean = _centre[t];
     double force = 0;
     for (std::size_t i = 0; i < 3 && !_balance.force.empty(); ++i) {
       const double* of = &_balance.force[3 * t];
       add(mean, -(of[(i + 2) % 3] - of[(i + 1) % 3]) / (3 * _area[t]), _edge[3 * t + i]);
       force += of[i];
     }
-    for (std::size_t i = 0; i < 3; ++i) {
-      add(gradient, -_balance.u[at(_cut.copy[3 * t + i])] / (2 * _area[t]),
-          normal(_edge[3 * t + i]));
-    }
-    add(mean, _tension[t], gradient);
-    for (std::size_t i = 0; i < 3; ++i)
-      through[3 * t + i] = dot(mean, normal(_edge[3 * t + i])) - force / 3;
+    for (std::size_t i = 3 * t; i < 3 * t + 3; ++i)
+      through[i] = discrete(i) + dot(mean, normal(_edge[i])) - force / 3;
   }
   return through;
 }

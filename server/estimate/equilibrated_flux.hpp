@@ -42,6 +42,9 @@ class EquilibratedFlux {
   std::vector<double> work_of_pressure() const;
   /// Outward flux through each face, (faces, 2): the parts of its ends 0 and 1.
   const std::vector<double>& through_faces() const noexcept { return _through; }
+  /// Outward flux of T grad u through a side.
+  double discrete(std::size_t side) const;
+  double tension(std::size_t triangle) const { return _tension[triangle]; }
   /// int |T grad u|^2 / T.
   double norm_squared() const noexcept { return _norm_squared; }
   /// Total outward flux through each side, (corners).
@@ -58,7 +61,6 @@ class EquilibratedFlux {
   double slope_of_work(std::size_t fan) const;
   double step(std::size_t fan, double slope, FaceBounds bounds) const;
   std::span<const Stop> stops(std::size_t fan) const;
-  Vector bubble_mean(std::size_t triangle) const;
 
   const CutMesh& _cut;
   Balance _balance;

@@ -9,7 +9,6 @@
 namespace anticrack::estimate {
 namespace {
 
-constexpr double j_11 = 3.8317059702075123;
 constexpr double trace_constant = 0.329;
 
 struct Shape {

@@ -11,6 +11,9 @@
 
 namespace anticrack::estimate {
 
+/// First zero of the Bessel function J_1.
+inline constexpr double j_11 = 3.8317059702075123;
+
 /// A load on all subdomains, in the order of CutMesh.
 struct LoadBalance {
   std::vector<double> force;     ///< as Balance::force

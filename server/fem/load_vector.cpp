@@ -68,10 +68,10 @@ void integrate_arrays(const Triangulation& part, std::span<const std::int32_t> n
   }
 }
 
-/// Of a function at `count` nodes from number `first` on.
-std::vector<double> at_nodes(const Triangulation& part, const expression::Function& function,
-                             std::size_t first, std::size_t count,
-                             const std::stop_token& stop = {}) {
+/// Of a function at points (n,2).
+std::vector<double> at_points(std::span<const double> xy, const expression::Function& function,
+                              const std::stop_token& stop = {}) {
+  const std::size_t count = xy.size() / 2;
   constexpr std::size_t block = expression::Evaluator::block;
   const expression::Ref root = function.tape().result();
   expression::Evaluator evaluator(function.tape(), {&root, 1});
@@ -81,8 +81,8 @@ std::vector<double> at_nodes(const Triangulation& part, const expression::Functi
     const std::size_t n = std::min(block, count - begin);
     look_at(stop);
     for (std::size_t i = 0; i < n; ++i) {
-      x[i] = part.xy[2 * (first + begin + i)];
-      y[i] = part.xy[2 * (first + begin + i) + 1];
+      x[i] = xy[2 * (begin + i)];
+      y[i] = xy[2 * (begin + i) + 1];
     }
     evaluator(x.data(), y.data(), n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -146,7 +146,7 @@ struct AssembleForce {
     if (degree == 0)
       return (*this)(tape.operations()[static_cast<std::size_t>(tape.result())].value);
     if (degree == 1) {
-      const std::vector<double> values = at_nodes(part, force, 0, part.node_count(), context.stop);
+      const std::vector<double> values = at_points(part.xy, force, context.stop);
       const double* const one[] = {values.data()};
       std::vector<std::int32_t> own(part.node_count());
       std::iota(own.begin(), own.end(), 0);
@@ -204,7 +204,7 @@ struct LinearParts {
     if (degree == 0)
       return (*this)(tape.operations()[static_cast<std::size_t>(tape.result())].value);
     if (degree != 1) return std::nullopt;
-    const std::vector<double> values = at_nodes(part, force, 0, part.node_count(), context.stop);
+    const std::vector<double> values = at_points(part.xy, force, context.stop);
     return linear([&](std::size_t corner) {
       return values[static_cast<std::size_t>(part.triangles[corner])];
     });
@@ -236,6 +236,11 @@ Eigen::MatrixXd load_vectors(const Triangulation& part, std::span<const std::int
   return loads;
 }
 
+std::vector<double> values_at(std::span<const double> xy, const std::string& text,
+                              const std::string& field) {
+  return at_points(xy, expression::Function(text, field));
+}
+
 bool is_linear(const std::string& text) {
   if (text.empty()) return true;
   const expression::Function function(text, "boundary_value");
@@ -248,7 +253,8 @@ Eigen::VectorXd boundary_values(const Triangulation& part, const std::string& te
   Eigen::VectorXd values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
   if (text.empty()) return values;
   const expression::Function function(text, "boundary_value");
-  const std::vector<double> found = at_nodes(part, function, first, count);
+  const std::vector<double> found =
+      at_points(std::span(part.xy).subspan(2 * first, 2 * count), function);
   std::copy(found.begin(), found.end(), values.begin());
   return values;
 }

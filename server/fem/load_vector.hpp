@@ -6,6 +6,7 @@
 #include <span>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "fem/load.hpp"
 #include "fem/triangulation.hpp"
@@ -54,6 +55,11 @@ Eigen::MatrixXd load_vectors(const Triangulation& part, std::span<const std::int
 /// Whether an expression is a polynomial of degree 0 or 1; empty text is 0. Throws errors::Error
 /// (expression_invalid).
 bool is_linear(const std::string& text);
+
+/// An expression at points (n,2) row-major, shape (n). Throws errors::Error (expression_invalid
+/// where it is not finite).
+std::vector<double> values_at(std::span<const double> xy, const std::string& text,
+                              const std::string& field);
 
 /// g_D at `count` nodes from number `first` on, shape (count); an empty text is 0. Throws
 /// errors::Error (expression_invalid at "boundary_value").

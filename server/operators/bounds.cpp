@@ -17,8 +17,6 @@ std::string obstacle_of(const LoadOnTraces& load, const estimate::CutMesh& cut,
                         const contact::Answer& answer) {
   if (!cut.obstacle.empty()) return cut.obstacle;
   if (!load.parts.obstacle.empty()) return load.parts.obstacle;
-  if (load.parts.boundary_value)
-    return "the boundary value is not linear along the edges of the mesh";
   if (answer.status != contact::Status::converged ||
       !contact::within(answer.kkt_relative, most_kkt))
     return "the discrete problem is not solved to 1e-10; see its KKT residuals";
@@ -61,10 +59,14 @@ std::vector<double> MeshOperator::estimate(const PreparedLoad& load, contact::An
                               {subdomains[s].node, subdomains[s].triangle, stop}))
       force[s] = std::move(*linear);
   }
+  std::vector<estimate::Lift> lifts;
+  if (const std::string& given = condensed.parts.boundary_value; !given.empty())
+    lifts = estimate::lifts(cut,
+                            fem::values_at(estimate::lift_points(cut), given, "boundary_value"), u);
   const estimate::LoadBalance balance =
       estimate::load_balance(cut, force, condensed.parts.traction);
   const estimate::EquilibratedFlux flux(cut, {u, balance.force, balance.traction});
-  estimate::Bracket bracket = estimate::bracket(cut, flux, answer.energy, balance.oscillation);
+  estimate::Bracket bracket = estimate::bracket(cut, flux, balance, lifts, answer.energy);
   answer.energy_lower = bracket.lower;
   answer.energy_upper = bracket.upper;
   answer.error_bound = bracket.error;

@@ -26,7 +26,7 @@ struct LoadParts {
   fem::Force force;
   std::vector<fem::ForceParts> integrated;   ///< per subdomain; empty parts: fem::linear_parts
   std::vector<fem::TractionParts> traction;  ///< per subdomain; none: 0
-  bool boundary_value = false;               ///< g_D is not linear along edges
+  std::string boundary_value;                ///< g_D; empty: linear along edges
   std::string obstacle;                      ///< why there are no bounds, and the cure
 };
 

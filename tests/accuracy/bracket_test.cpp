@@ -3,11 +3,11 @@
 // Bounds of the energy against what finer and finer meshes lead to.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
 #include "accuracy/base_meshes.hpp"
+#include "accuracy/error_norms.hpp"
 #include "accuracy/paper_limits.hpp"
 #include "accuracy/sequence.hpp"
 #include "mesh/refine.hpp"
@@ -25,7 +25,7 @@ Bounded solve_bounded(const operators::MeshOperator& op, const fem::Load& load) 
   const fem::Load* const one[] = {&load};
   const auto prepared = std::get<operators::PreparedLoad>(std::move(op.prepare(one).front()));
   testing::Silent silent;
-  Bounded result{op.solve(prepared, {}, false, silent), {}};
+  Bounded result{op.solve(prepared, {}, true, silent), {}};
   result.indicator = op.estimate(prepared, result.answer);
   return result;
 }
@@ -50,6 +50,39 @@ TEST(Bracket, ContainsTheEnergyOfThePaperExamples) {
       EXPECT_GT(*answer.energy_upper, limit);
     }
   }
+}
+
+/// Bounds over true errors in the energy norm.
+void check_effectivity(const char* title, mesh::Kind kind, const testing::ExactSolution& exact) {
+  for (double h0 = 0.4; h0 > 0.02; h0 /= 2) {
+    const auto op = factorise(mesh::grade(diagonals(kind), {h0, 0.2, 0}, 2'000'000));
+    fem::Load load;
+    load.boundary_value = exact.boundary;
+    const Bounded found = solve_bounded(*op, load);
+    const contact::Answer& answer = found.answer;
+    ASSERT_EQ(answer.no_bracket, "");
+    const double error = energy_error(op->mesh(), answer, exact);
+    std::printf("[ figures  ] %s, %7zu triangles: error %.3e, bound %.3e, %.2f times\n", title,
+                op->mesh().triangle_count(), error, *answer.error_bound,
+                *answer.error_bound / error);
+    EXPECT_GT(*answer.error_bound, error);
+    EXPECT_LT(*answer.error_bound, 2 * error);
+  }
+}
+
+TEST(Bracket, IsWithinTwiceTheErrorOfExactSolutions) {
+  check_effectivity("open inclusion", mesh::Kind::delaminated, testing::open_inclusion(0.3));
+  check_effectivity("open crack", mesh::Kind::crack, testing::open_crack(0.8));
+}
+
+TEST(Bracket, OfALinearSolutionIsRounding) {
+  const auto op = factorise(diagonals());
+  fem::Load load;
+  load.boundary_value = testing::closed_crack(0.7, 0.3).boundary;
+  const Bounded found = solve_bounded(*op, load);
+  ASSERT_EQ(found.answer.no_bracket, "");
+  EXPECT_LT(*found.answer.energy_upper - *found.answer.energy_lower,
+            1e-11 * std::abs(found.answer.energy));
 }
 
 }  // namespace

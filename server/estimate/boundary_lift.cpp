@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "estimate/boundary_lift.hpp"
+
+#include <array>
+
+#include "fem/triangle_rules.hpp"
+#include "mesh/at.hpp"
+
+namespace anticrack::estimate {
+namespace {
+
+constexpr std::size_t points = fem::line_5.size;
+constexpr std::size_t halves = 2;
+
+bool is_dirichlet(const Face& face) {
+  return face.condition == Condition::free && face.inclusion < 0;
+}
+
+/// Corners of a face's ends 0 and 1, and the third.
+std::array<std::size_t, 3> corners_of(const Face& face) {
+  const std::size_t t = at(face.side / 3), i = at(face.side % 3);
+  return {3 * t + (i + 1) % 3, 3 * t + (i + 2) % 3, 3 * t + i};
+}
+
+double place(std::size_t half, std::size_t k) {
+  return (static_cast<double>(half) + fem::line_5.at[k]) / halves;
+}
+
+/// Derivatives at the points of the polynomial through values there.
+std::array<double, points> derivatives(const std::array<double, points>& values) {
+  const auto& x = fem::line_5.at;
+  std::array<double, points> result{};
+  for (std::size_t i = 0; i < points; ++i) {
+    for (std::size_t j = 0; j < points; ++j) {
+      double slope = 0;  // of the j-th basis polynomial at the i-th point
+      for (std::size_t m = 0; m < points; ++m) {
+        if (m == j) continue;
+        double product = 1 / (x[j] - x[m]);
+        for (std::size_t n = 0; n < points; ++n)
+          if (n != j && n != m) product *= (x[i] - x[n]) / (x[j] - x[n]);
+        slope += product;
+      }
+      result[i] += values[j] * slope;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<double> lift_points(const CutMesh& cut) {
+  std::vector<double> xy;
+  for (const Face& face : cut.faces) {
+    if (!is_dirichlet(face)) continue;
+    const auto corners = corners_of(face);
+    const Vector &p = cut.at[at(cut.copy[corners[0]])], &q = cut.at[at(cut.copy[corners[1]])];
+    for (std::size_t half = 0; half < halves; ++half) {
+      for (std::size_t k = 0; k < points; ++k) {
+        const double s = place(half, k);
+        for (std::size_t d = 0; d < 2; ++d) xy.push_back(p[d] + s * (q[d] - p[d]));
+      }
+    }
+  }
+  return xy;
+}
+
+std::vector<Lift> lifts(const CutMesh& cut, std::span<const double> samples,
+                        std::span<const double> u) {
+  std::vector<Lift> result;
+  const double* sample = samples.data();
+  for (std::size_t f = 0; f < cut.faces.size(); ++f) {
+    if (!is_dirichlet(cut.faces[f])) continue;
+    const auto corners = corners_of(cut.faces[f]);
+    const Vector &p = cut.at[at(cut.copy[corners[0]])], &q = cut.at[at(cut.copy[corners[1]])],
+                 &r = cut.at[at(cut.copy[corners[2]])];
+    const double area = 0.5 * ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]));
+    // Gradients of l_2 and l_3.
+    const Vector second{(r[1] - p[1]) / (2 * area), -(r[0] - p[0]) / (2 * area)};
+    const Vector third{-(q[1] - p[1]) / (2 * area), (q[0] - p[0]) / (2 * area)};
+    const double at_p = u[at(cut.copy[corners[0]])], at_q = u[at(cut.copy[corners[1]])];
+    Lift lift{static_cast<std::int32_t>(f)};
+    for (std::size_t half = 0; half < halves; ++half) {
+      std::array<double, points> phi{};
+      for (std::size_t k = 0; k < points; ++k) {
+        const double s = place(half, k);
+        phi[k] = *sample++ - (at_p + s * (at_q - at_p));
+      }
+      const std::array<double, points> slope = derivatives(phi);
+      for (std::size_t k = 0; k < points; ++k) {
+        const double s = place(half, k), weight = fem::line_5.weight[k] / halves;
+        const double along = halves * slope[k];
+        const Vector gradient{along * second[0] + (along * s - phi[k]) * third[0],
+                              along * second[1] + (along * s - phi[k]) * third[1]};
+        lift.mean += weight * phi[k];
+        lift.first += weight * s * phi[k];
+        lift.gradient_squared +=
+            weight * area * (gradient[0] * gradient[0] + gradient[1] * gradient[1]);
+      }
+    }
+    result.push_back(lift);
+  }
+  return result;
+}
+
+}  // namespace anticrack::estimate

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Boundary values that are not linear along the edges of the mesh: u_h has g_D in the nodes alone,
+// u_h + w on the edges as well. On a triangle with corners P_1, P_2 on the boundary and P_3,
+//
+//   w = (1 - l_3) phi(s),   phi = g_D - its linear interpolant,   s = l_2 / (1 - l_3).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "estimate/cut_mesh.hpp"
+
+namespace anticrack::estimate {
+
+/// w on the triangle of a face, of s from its end 0 to its end 1.
+struct Lift {
+  std::int32_t face = 0;
+  double mean = 0;              ///< int_0^1 phi ds
+  double first = 0;             ///< int_0^1 s phi ds
+  double gradient_squared = 0;  ///< int |grad w|^2
+};
+
+/// Where g_D is to be sampled: (n,2) row-major, on all faces of the Dirichlet boundary.
+std::vector<double> lift_points(const CutMesh& cut);
+
+/// From g_D at these points, and u_h in the copies. By Gauss's rule in each half of an edge.
+std::vector<Lift> lifts(const CutMesh& cut, std::span<const double> samples,
+                        std::span<const double> u);
+
+}  // namespace anticrack::estimate
