@@ -25,6 +25,8 @@ class Cutting {
 
   CutMesh operator()() {
     number();
+    for (const ddm::RigidMotion& motion : _decomposition.skeleton.motions)
+      _cut.tilts.push_back(motion.slope_x.empty() && motion.slope_y.empty() ? 0 : 1);
     find_faces();
     find_fans();
     find_obstacle();

@@ -55,6 +55,7 @@ struct CutMesh {
   std::vector<std::int32_t> triangle;        ///< (triangles) index into the mesh's
 
   std::vector<Face> faces;
+  std::vector<char> tilts;  ///< (inclusions) 1: the flux needs its moment as well
 
   /// A fan: the corners about a node, counterclockwise from face to face or all round. It goes on
   /// through cracks, whose flux is the same on both faces. Between its corners are spokes 0, ...,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fem/triangle_rules.hpp"
 #include "mesh/at.hpp"
 
 namespace anticrack::estimate {
@@ -39,6 +40,7 @@ EquilibratedFlux::EquilibratedFlux(const CutMesh& cut, const Balance& balance, F
   build(bounds);
   centre();
   for (int sweep = 0; sweep < polish_sweeps; ++sweep) polish(bounds);
+  turn();
 }
 
 void EquilibratedFlux::measure() {
@@ -214,10 +216,63 @@ void EquilibratedFlux::polish(FaceBounds bounds) {
   }
 }
 
+/// The moment of w_0, w_1 in the ends of a face less that of their even flux along it is
+/// (w_0 - w_1)/2 (x_0 - x_1), that of kappa curl(l_0 l_1) is kappa/6 (x_0 - x_1). Where one face
+/// may not be pulled the other takes both.
+void EquilibratedFlux::turn() {
+  const auto defect = [this](std::size_t face) {
+    return 3 * (_through[2 * face] - _through[2 * face + 1]);
+  };
+  for (std::size_t f = 0; f < _cut.faces.size(); ++f) {
+    const Face& face = _cut.faces[f];
+    if (face.inclusion < 0 || _cut.tilts[at(face.inclusion)] == 0) continue;
+    if (presses(face.condition)) continue;
+    const auto other = at(face.other);
+    const double taken = presses(_cut.faces[other].condition) ? defect(other) : 0;
+    _turns.push_back({at(face.side), defect(f) - taken});
+  }
+  std::sort(_turns.begin(), _turns.end(),
+            [](const Turn& a, const Turn& b) { return a.side < b.side; });
+}
+
+Vector EquilibratedFlux::difference(std::size_t triangle,
+                                    const std::array<double, 3>& place) const {
+  Vector result = _centre[triangle];
+  for (std::size_t i = 3 * triangle; i < 3 * triangle + 3 && !_balance.force.empty(); ++i) {
+    const std::size_t j = next(i), k = previous(i);
+    const double rise = 4 * (_balance.force[k] - _balance.force[j]) / _area[triangle];
+    add(result, rise * (place[j % 3] * place[k % 3] - 1.0 / 12), _edge[i]);
+    // x - centroid = sum of l_i (P_i - centroid)
+    const double sum = _balance.force[i] + _balance.force[j] + _balance.force[k];
+    add(result, sum / _area[triangle] / 6 * place[i % 3], minus(_edge[k], _edge[j]));
+  }
+  const auto first =
+      std::lower_bound(_turns.begin(), _turns.end(), 3 * triangle,
+                       [](const Turn& turn, std::size_t side) { return turn.side < side; });
+  for (auto one = first; one != _turns.end() && one->side < 3 * triangle + 3; ++one) {
+    // curl l_j of a corner is half its opposite edge over the area.
+    const std::size_t j = next(one->side), k = previous(one->side);
+    const double scale = one->kappa / (2 * _area[triangle]);
+    add(result, scale * place[j % 3], _edge[k]);
+    add(result, scale * place[k % 3], _edge[j]);
+  }
+  return result;
+}
+
 std::vector<double> EquilibratedFlux::distance() const {
   std::vector<double> distance(_centre.size());
   for (std::size_t t = 0; t < distance.size(); ++t)
     distance[t] = (_area[t] * dot(_centre[t], _centre[t]) + _rest[t]) / _tension[t];
+  for (const Turn& one : _turns) {
+    const std::size_t t = one.side / 3;
+    double sum = 0;
+    for (std::size_t p = 0; p < fem::rule_5.size; ++p) {
+      const double b = fem::rule_5.b[p], c = fem::rule_5.c[p];
+      const Vector value = difference(t, {1 - b - c, b, c});
+      sum += fem::rule_5.weight[p] * dot(value, value);
+    }
+    distance[t] = _area[t] * sum / _tension[t];
+  }
   return distance;
 }
 
@@ -238,22 +293,6 @@ double EquilibratedFlux::discrete(std::size_t side) const {
   for (std::size_t i = 3 * t; i < 3 * t + 3; ++i)
     add(gradient, -_balance.u[at(_cut.copy[i])] / (2 * _area[t]), normal(_edge[i]));
   return _tension[t] * dot(gradient, normal(_edge[side]));
-}
-
-std::vector<double> EquilibratedFlux::through_sides() const {
-  std::vector<double> through(_edge.size());
-  for (std::size_t t = 0; t < _centre.size(); ++t) {
-    Vector mean = _centre[t];
-    double force = 0;
-    for (std::size_t i = 0; i < 3 && !_balance.force.empty(); ++i) {
-      const double* of = &_balance.force[3 * t];
-      add(mean, -(of[(i + 2) % 3] - of[(i + 1) % 3]) / (3 * _area[t]), _edge[3 * t + i]);
-      force += of[i];
-    }
-    for (std::size_t i = 3 * t; i < 3 * t + 3; ++i)
-      through[i] = discrete(i) + dot(mean, normal(_edge[i])) - force / 3;
-  }
-  return through;
 }
 
 }  // namespace anticrack::estimate

@@ -27,8 +27,10 @@ using FaceBounds = std::span<const double>;
 
 /// sigma with  div sigma + f = 0  in the elementwise linear f of `force`, sigma.n = mean g on
 /// Neumann edges, continuous across all edges but cracks' and inclusions'; on a minus face
-/// sigma.n = -p, on both of a crack the same. O(m); `polish`: sweeps over the fans that bring it
-/// nearer to T grad u.
+/// sigma.n = -p, on both of a crack the same; through the faces of an inclusion the force on it.
+/// RT0 gives those of one that tilts another moment than the nodal forces have; there kappa
+/// curl(l_0 l_1) is added, which changes no other flux and no mean. O(m); `polish`: sweeps over the
+/// fans that bring it nearer to T grad u.
 class EquilibratedFlux {
  public:
   EquilibratedFlux(const CutMesh& cut, const Balance& balance, FaceBounds bounds = {},
@@ -36,19 +38,17 @@ class EquilibratedFlux {
 
   /// int |sigma - T grad u|^2 / T of each triangle, shape (m).
   std::vector<double> distance() const;
-  /// Mean of sigma - T grad u on each triangle, shape (m).
-  const std::vector<Vector>& mean_distance() const noexcept { return _centre; }
   /// int p [u] of each face, on minus faces, shape (faces): 0 elsewhere.
   std::vector<double> work_of_pressure() const;
   /// Outward flux through each face, (faces, 2): the parts of its ends 0 and 1.
   const std::vector<double>& through_faces() const noexcept { return _through; }
+  /// sigma - T grad u in a point of a triangle given by its barycentric coordinates.
+  Vector difference(std::size_t triangle, const std::array<double, 3>& place) const;
   /// Outward flux of T grad u through a side.
   double discrete(std::size_t side) const;
   double tension(std::size_t triangle) const { return _tension[triangle]; }
   /// int |T grad u|^2 / T.
   double norm_squared() const noexcept { return _norm_squared; }
-  /// Total outward flux through each side, (corners).
-  std::vector<double> through_sides() const;
   /// Largest imbalance of a closed fan: rounding, where u solves the discrete problem.
   double imbalance() const noexcept { return _imbalance; }
 
@@ -57,6 +57,7 @@ class EquilibratedFlux {
   void build(FaceBounds bounds);
   void centre();
   void polish(FaceBounds bounds);
+  void turn();
   double jump(std::int32_t face) const;
   double slope_of_work(std::size_t fan) const;
   double step(std::size_t fan, double slope, FaceBounds bounds) const;
@@ -73,6 +74,11 @@ class EquilibratedFlux {
   std::vector<Vector> _centre;     // (m) mean of sigma - T grad u
   std::vector<double> _rest;       // (m) int |sigma - T grad u - its mean|^2
   std::vector<double> _through;
+  struct Turn {
+    std::size_t side;
+    double kappa;
+  };
+  std::vector<Turn> _turns;  // by triangle
   double _norm_squared = 0;
   double _imbalance = 0;
 };
