@@ -10,37 +10,43 @@
 namespace anticrack::estimate {
 namespace {
 
-/// w on one triangle; two edges of a corner of the membrane may be on the boundary.
+/// All edges of one triangle on the boundary.
 struct OnTriangle {
-  double norm = 0;     ///< >= |w| in the energy norm
-  double work = 0;     ///< int f w, f linear
-  double product = 0;  ///< int T grad u_h . grad w
-  double through = 0;  ///< int sigma.n phi over its edges
+  double norm = 0;        ///< >= |w| in the energy norm
+  double difference = 0;  ///< int (sigma - T grad u_h) . grad w
+  double energy = 0;      ///< Pi(u_h + w) - Pi(u_h) - |w|^2 / 2
 };
-
-void add(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBalance& load,
-         const Lift& lift, OnTriangle& to) {
-  const auto side = at(cut.faces[at(lift.face)].side);
-  const std::size_t t = side / 3, i = side % 3;
-  to.norm += std::sqrt(flux.tension(t) * lift.gradient_squared);
-  const double* force = &load.force[3 * t];
-  const double sum = force[0] + force[1] + force[2];
-  const auto value = [&](std::size_t corner) { return 12 * (force[corner % 3] - sum / 4); };
-  to.work += 0.5 * (value(i + 1) * (lift.mean - lift.first) + value(i + 2) * lift.first) +
-             value(i) * lift.mean / 6;
-  to.product += lift.mean * flux.discrete(side);
-  const double* through = &flux.through_faces()[2 * at(lift.face)];
-  to.through += (through[0] + through[1]) * lift.mean;
-}
 
 }  // namespace
 
+LiftIntegrals integrals_of(const CutMesh& cut, const EquilibratedFlux& flux,
+                           const LoadBalance& load, const Lift& lift, std::span<const double> u) {
+  LiftIntegrals to;
+  const auto side = at(cut.faces[at(lift.face)].side);
+  const std::size_t t = side / 3, i = side % 3;
+  to.norm = std::sqrt(flux.tension(t) * lift.gradient_squared);
+  const double* force = &load.force[3 * t];
+  const double sum = force[0] + force[1] + force[2];
+  const auto value = [&](std::size_t corner) { return 12 * (force[corner % 3] - sum / 4); };
+  to.work = 0.5 * (value(i + 1) * (lift.mean - lift.first) + value(i + 2) * lift.first) +
+            value(i) * lift.mean / 6;
+  to.product = lift.mean * flux.flux_through(side, u);
+  const double* through = &flux.through_faces()[2 * at(lift.face)];
+  to.through = (through[0] + through[1]) * lift.mean;
+  return to;
+}
+
 Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBalance& load,
-                const std::vector<Lift>& lifts, double energy) {
+                const std::vector<Lift>& lifts, std::span<const double> u, double energy) {
   std::vector<OnTriangle> lifted;
   if (!lifts.empty()) lifted.resize(cut.triangle_count());
-  for (const Lift& lift : lifts)
-    add(cut, flux, load, lift, lifted[at(cut.faces[at(lift.face)].side / 3)]);
+  for (const Lift& lift : lifts) {
+    const LiftIntegrals one = integrals_of(cut, flux, load, lift, u);
+    OnTriangle& all = lifted[at(cut.faces[at(lift.face)].side / 3)];
+    all.norm += one.norm;
+    all.difference += one.difference();
+    all.energy += one.product - one.work;
+  }
 
   Bracket result;
   result.indicator = flux.distance();
@@ -58,13 +64,12 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
       continue;
     }
     const OnTriangle& w = lifted[t];
-    const double product = w.work + w.through - w.product;  // int (sigma - T grad u_h).grad w
-    const double distance = std::max(0.0, one - 2 * product + w.norm * w.norm);
+    const double distance = std::max(0.0, one - 2 * w.difference + w.norm * w.norm);
     const double rest = oscillation * (j_11 / std::numbers::pi * w.norm);  // of int f w
     const double size = std::sqrt(distance) + oscillation;
-    half_distance += 0.5 * one - product + oscillation * std::sqrt(distance) +
+    half_distance += 0.5 * one - w.difference + oscillation * std::sqrt(distance) +
                      0.5 * oscillation * oscillation + 2 * rest;
-    lift_energy += w.product - w.work;
+    lift_energy += w.energy;
     result.upper += 0.5 * w.norm * w.norm + rest;
     lift_norm += w.norm * w.norm;
     one = size * size;

@@ -10,6 +10,7 @@
 // Prager & Synge's hypercircle with contact. The polygonal membrane is meant.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "estimate/boundary_lift.hpp"
@@ -17,6 +18,18 @@
 #include "estimate/load_balance.hpp"
 
 namespace anticrack::estimate {
+
+/// Integrals of w over the triangle of a face, force times length.
+struct LiftIntegrals {
+  double norm = 0;     ///< |w|, its square root
+  double work = 0;     ///< int f w, f linear
+  double product = 0;  ///< int T grad u_h . grad w
+  double through = 0;  ///< int sigma.n phi
+  /// int (sigma - T grad u_h) . grad w
+  double difference() const noexcept { return work + through - product; }
+};
+LiftIntegrals integrals_of(const CutMesh& cut, const EquilibratedFlux& flux,
+                           const LoadBalance& load, const Lift& lift, std::span<const double> u);
 
 struct Bracket {
   double lower = 0;  ///< of the membrane's Pi, force times length
@@ -27,8 +40,9 @@ struct Bracket {
   std::vector<double> indicator;
 };
 
-/// `energy`: Pi(u_h). The flux balances `load` and is near T grad u_h. O(m).
+/// `u`: u_h in the copies, `energy`: Pi(u_h). The flux balances `load` and is near T grad u_h.
+/// O(m).
 Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBalance& load,
-                const std::vector<Lift>& lifts, double energy);
+                const std::vector<Lift>& lifts, std::span<const double> u, double energy);
 
 }  // namespace anticrack::estimate

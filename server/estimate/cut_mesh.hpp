@@ -35,6 +35,11 @@ struct Face {
   std::int32_t traction = -1;   ///< number among the Neumann edges, subdomain after subdomain
 };
 
+/// Whether w <= 0 through it: minus faces, whose pressure is -w.
+constexpr bool presses(Condition condition) noexcept {
+  return condition == Condition::pressed || condition == Condition::crack_minus;
+}
+
 /// Where a fan meets a face: the flux x through spoke `spoke` is w = sign x through the face.
 struct Stop {
   std::int32_t spoke = 0;
@@ -70,6 +75,12 @@ struct CutMesh {
 
   std::size_t triangle_count() const noexcept { return triangle.size(); }
   std::size_t fan_count() const noexcept { return first_corner.size() - 1; }
+  /// Copies at ends 0 and 1 of a face.
+  std::array<std::int32_t, 2> ends(const Face& face) const noexcept {
+    const std::int32_t t = face.side / 3, i = face.side % 3;
+    return {copy[static_cast<std::size_t>(3 * t + (i + 1) % 3)],
+            copy[static_cast<std::size_t>(3 * t + (i + 2) % 3)]};
+  }
   std::size_t bytes() const noexcept;
 };
 

@@ -27,10 +27,6 @@ constexpr std::size_t previous(std::size_t corner) {
   return corner % 3 == 0 ? corner + 2 : corner - 1;
 }
 
-bool presses(Condition condition) {
-  return condition == Condition::pressed || condition == Condition::crack_minus;
-}
-
 }  // namespace
 
 EquilibratedFlux::EquilibratedFlux(const CutMesh& cut, const Balance& balance, FaceBounds bounds,
@@ -74,14 +70,10 @@ std::span<const Stop> EquilibratedFlux::stops(std::size_t fan) const {
       .subspan(at(_cut.first_stop[fan]), at(_cut.first_stop[fan + 1] - _cut.first_stop[fan]));
 }
 
-/// [u] at both ends of a face, added up.
-double EquilibratedFlux::jump(std::int32_t face) const {
-  const auto sum = [&](const Face& one) {
-    const auto side = at(one.side);
-    return _balance.u[at(_cut.copy[next(side)])] + _balance.u[at(_cut.copy[previous(side)])];
-  };
-  const Face& minus_face = _cut.faces[at(face)];
-  return sum(_cut.faces[at(minus_face.other)]) - sum(minus_face);
+double EquilibratedFlux::jump(std::size_t face, std::size_t end) const {
+  const Face& own = _cut.faces[face];
+  return _balance.u[at(_cut.ends(_cut.faces[at(own.other)])[1 - end])] -
+         _balance.u[at(_cut.ends(own)[end])];
 }
 
 /// Derivative of int p [u] by the flux through the fan's spokes.
@@ -89,7 +81,8 @@ double EquilibratedFlux::slope_of_work(std::size_t fan) const {
   double slope = 0;
   if (!_is_pressure) return slope;
   for (const Stop& stop : stops(fan))
-    if (presses(_cut.faces[at(stop.face)].condition)) slope -= 0.5 * stop.sign() * jump(stop.face);
+    if (presses(_cut.faces[at(stop.face)].condition))
+      slope -= 0.5 * stop.sign() * (jump(at(stop.face), 0) + jump(at(stop.face), 1));
   return slope;
 }
 
@@ -235,6 +228,12 @@ void EquilibratedFlux::turn() {
             [](const Turn& a, const Turn& b) { return a.side < b.side; });
 }
 
+std::vector<EquilibratedFlux::Turn>::const_iterator EquilibratedFlux::first_turn(
+    std::size_t triangle) const {
+  return std::lower_bound(_turns.begin(), _turns.end(), 3 * triangle,
+                          [](const Turn& turn, std::size_t side) { return turn.side < side; });
+}
+
 Vector EquilibratedFlux::difference(std::size_t triangle,
                                     const std::array<double, 3>& place) const {
   Vector result = _centre[triangle];
@@ -246,10 +245,8 @@ Vector EquilibratedFlux::difference(std::size_t triangle,
     const double sum = _balance.force[i] + _balance.force[j] + _balance.force[k];
     add(result, sum / _area[triangle] / 6 * place[i % 3], minus(_edge[k], _edge[j]));
   }
-  const auto first =
-      std::lower_bound(_turns.begin(), _turns.end(), 3 * triangle,
-                       [](const Turn& turn, std::size_t side) { return turn.side < side; });
-  for (auto one = first; one != _turns.end() && one->side < 3 * triangle + 3; ++one) {
+  for (auto one = first_turn(triangle); one != _turns.end() && one->side < 3 * triangle + 3;
+       ++one) {
     // curl l_j of a corner is half its opposite edge over the area.
     const std::size_t j = next(one->side), k = previous(one->side);
     const double scale = one->kappa / (2 * _area[triangle]);
@@ -280,19 +277,30 @@ std::vector<double> EquilibratedFlux::work_of_pressure() const {
   std::vector<double> work(_cut.faces.size(), 0);
   for (std::size_t face = 0; face < work.size(); ++face) {
     if (presses(_cut.faces[face].condition)) {
-      work[face] = -0.5 * (_through[2 * face] + _through[2 * face + 1]) *
-                   jump(static_cast<std::int32_t>(face));
+      work[face] =
+          -0.5 * (_through[2 * face] + _through[2 * face + 1]) * (jump(face, 0) + jump(face, 1));
     }
   }
   return work;
 }
 
-double EquilibratedFlux::discrete(std::size_t side) const {
-  const std::size_t t = side / 3;
-  Vector gradient{};
-  for (std::size_t i = 3 * t; i < 3 * t + 3; ++i)
-    add(gradient, -_balance.u[at(_cut.copy[i])] / (2 * _area[t]), normal(_edge[i]));
-  return _tension[t] * dot(gradient, normal(_edge[side]));
+Vector EquilibratedFlux::flux_of(std::size_t triangle, std::span<const double> values) const {
+  Vector flux{};
+  for (std::size_t i = 3 * triangle; i < 3 * triangle + 3; ++i) {
+    add(flux, -_tension[triangle] * values[at(_cut.copy[i])] / (2 * _area[triangle]), normal_of(i));
+  }
+  return flux;
+}
+
+double EquilibratedFlux::flux_through(std::size_t side, std::span<const double> values) const {
+  return dot(flux_of(side / 3, values), normal_of(side));
+}
+
+Vector EquilibratedFlux::normal_of(std::size_t side) const { return normal(_edge[side]); }
+
+bool EquilibratedFlux::turned(std::size_t triangle) const {
+  const auto first = first_turn(triangle);
+  return first != _turns.end() && first->side < 3 * triangle + 3;
 }
 
 }  // namespace anticrack::estimate

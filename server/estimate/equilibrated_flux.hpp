@@ -44,9 +44,18 @@ class EquilibratedFlux {
   const std::vector<double>& through_faces() const noexcept { return _through; }
   /// sigma - T grad u in a point of a triangle given by its barycentric coordinates.
   Vector difference(std::size_t triangle, const std::array<double, 3>& place) const;
-  /// Outward flux of T grad u through a side.
-  double discrete(std::size_t side) const;
+  /// Its mean over a triangle; where `turned` is false and f is 0 it is constant.
+  const Vector& mean_difference(std::size_t triangle) const { return _centre[triangle]; }
+  bool turned(std::size_t triangle) const;
+  /// [u] at an end of a minus face.
+  double jump(std::size_t face, std::size_t end) const;
+  /// T grad v of a triangle, and its outward flux through a side; values of v in the copies.
+  Vector flux_of(std::size_t triangle, std::span<const double> values) const;
+  double flux_through(std::size_t side, std::span<const double> values) const;
   double tension(std::size_t triangle) const { return _tension[triangle]; }
+  double area(std::size_t triangle) const { return _area[triangle]; }
+  /// Outward normal of a side, as long as the side.
+  Vector normal_of(std::size_t side) const;
   /// int |T grad u|^2 / T.
   double norm_squared() const noexcept { return _norm_squared; }
   /// Largest imbalance of a closed fan: rounding, where u solves the discrete problem.
@@ -58,7 +67,6 @@ class EquilibratedFlux {
   void centre();
   void polish(FaceBounds bounds);
   void turn();
-  double jump(std::int32_t face) const;
   double slope_of_work(std::size_t fan) const;
   double step(std::size_t fan, double slope, FaceBounds bounds) const;
   std::span<const Stop> stops(std::size_t fan) const;
@@ -79,6 +87,7 @@ class EquilibratedFlux {
     double kappa;
   };
   std::vector<Turn> _turns;  // by triangle
+  std::vector<Turn>::const_iterator first_turn(std::size_t triangle) const;
   double _norm_squared = 0;
   double _imbalance = 0;
 };

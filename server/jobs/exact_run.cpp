@@ -32,12 +32,16 @@ Solved solve(const PreparedCase& prepared, std::atomic<std::uint64_t>& iteration
   return solved;
 }
 
+bool wants_fields(const PreparedCase& prepared) {
+  return spec_of(prepared).fields || !spec_of(prepared).without_bounds;
+}
+
 void recover_fields(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
   std::vector<const operators::PreparedLoad*> loads;
   std::vector<contact::Answer*> answers;
   std::vector<std::exception_ptr*> failures;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (spec_of(cases[i]).fields && !solved[i].failure &&
+    if (wants_fields(cases[i]) && !solved[i].failure &&
         solved[i].answer.status != contact::Status::cancelled) {
       loads.push_back(&cases[i].load);
       answers.push_back(&solved[i].answer);
@@ -52,16 +56,31 @@ void recover_fields(const std::vector<PreparedCase>& cases, std::vector<Solved>&
   }
 }
 
+/// From the fields, which are kept only where they are asked for.
+void add_bounds(const PreparedCase& prepared, Solved& solved) {
+  const store::JobSpec& spec = spec_of(prepared);
+  if (solved.failure || spec.without_bounds) return;
+  try {
+    if (solved.answer.status == contact::Status::converged)
+      prepared.task.job->mesh_operator->estimate(prepared.load, solved.answer);
+  } catch (...) {
+    solved.failure = std::current_exception();
+  }
+  if (!spec.fields) solved.answer.fields.clear();
+}
+
 }  // namespace
 
 std::vector<PreparedCase> take_together(std::deque<PreparedCase>& prepared, int share) {
+  constexpr std::size_t most_fields = 16;  // in memory at once; more are not faster
   const std::size_t most =
-      (prepared.size() + static_cast<std::size_t>(share) - 1) / static_cast<std::size_t>(share);
+      std::min(most_fields, (prepared.size() + static_cast<std::size_t>(share) - 1) /
+                                static_cast<std::size_t>(share));
   std::vector<PreparedCase> cases;
   do {
     cases.push_back(std::move(prepared.front()));
     prepared.pop_front();
-  } while (cases.size() < most && spec_of(cases.back()).fields && spec_of(prepared.front()).fields);
+  } while (cases.size() < most && wants_fields(cases.back()) && wants_fields(prepared.front()));
   return cases;
 }
 
@@ -71,6 +90,7 @@ std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases,
   solved.reserve(cases.size());
   for (const PreparedCase& prepared : cases) solved.push_back(solve(prepared, iterations));
   recover_fields(cases, solved);
+  for (std::size_t i = 0; i < cases.size(); ++i) add_bounds(cases[i], solved[i]);
   std::vector<EndedCase> ended;
   ended.reserve(cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {

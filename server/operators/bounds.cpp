@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
+#include "contact/adjoint.hpp"
 #include "contact/trace_state.hpp"
 #include "estimate/bracket.hpp"
+#include "estimate/interval.hpp"
 #include "estimate/load_balance.hpp"
 #include "mesh/at.hpp"
 #include "operators/mesh_parts.hpp"
@@ -21,6 +25,98 @@ std::string obstacle_of(const LoadOnTraces& load, const estimate::CutMesh& cut,
       !contact::within(answer.kkt_relative, most_kkt))
     return "the discrete problem is not solved to 1e-10; see its KKT residuals";
   return "";
+}
+
+using Displacement = std::optional<double>;
+
+/// A displacement of an inclusion, and where its bounds go.
+struct Aim {
+  const ddm::Terms& goal;
+  double value;
+  Displacement &lower, &upper;
+  Displacement* estimate;
+};
+
+class Intervals {
+ public:
+  Intervals(const MeshOperator::Parts& parts, const LoadOnTraces& load,
+            const contact::Answer& answer, const estimate::Primal& primal)
+      : _parts(parts),
+        _primal(primal),
+        _adjoint(*parts.skeleton, {load.subdomains, load.inclusion_forces}, answer) {}
+
+  bool possible() const { return _adjoint.possible(); }
+
+  /// The best of bounds of the cone: wider and wider, as long as they pay.
+  void find(const Aim& aim, double norm) const {
+    const contact::Adjoint::Goal goal = _adjoint.aim(aim.goal);
+    if (!(goal.compliance > 0)) return;  // held
+    const double unit = norm > 0 ? std::sqrt(goal.compliance) / norm : 1;
+    const double unloaded =
+        _primal.load.oscillation.empty()
+            ? 0
+            : estimate::norm_of_flux(_primal.cut, field(_adjoint.clipped(goal, 0).reacting));
+    estimate::Interval best;
+    for (double c = unit / 2; c < 100 * unit; c *= 2) {
+      const contact::Adjoint::Pair pair = _adjoint.clipped(goal, c);
+      const std::vector<double> z = field(pair.z), reacting = field(pair.reacting);
+      const estimate::Interval one =
+          estimate::interval(_primal, {z, reacting, aim.value, pair.work, c}, unloaded);
+      const bool better = one.width() < best.width();
+      best.lower = std::max(best.lower, one.lower);
+      best.upper = std::min(best.upper, one.upper);
+      best.estimate = one.estimate;
+      if (!better) break;
+    }
+    aim.lower = best.lower;
+    aim.upper = best.upper;
+    if (aim.estimate != nullptr) *aim.estimate = best.estimate;
+  }
+
+ private:
+  /// In the copies, without a load of its own.
+  std::vector<double> field(const Eigen::VectorXd& w) const {
+    std::vector<double> u;
+    const std::vector<Eigen::VectorXd> traces = _parts.skeleton->scatter(w);
+    for (std::size_t s = 0; s < traces.size(); ++s) {
+      const ddm::Subdomain& subdomain = _parts.decomposition.subdomains[s];
+      ddm::CondensedLoad none;
+      none.z_interior.setZero(static_cast<Eigen::Index>(subdomain.interior));
+      none.dirichlet.setZero(static_cast<Eigen::Index>(subdomain.dirichlet));
+      Eigen::VectorXd values(static_cast<Eigen::Index>(subdomain.node.size()));
+      ddm::SubdomainOperator::Solved one{none, traces[s], values};
+      _parts.operators[s].recover({&one, 1});
+      u.insert(u.end(), values.begin(), values.end());
+    }
+    return u;
+  }
+
+  const MeshOperator::Parts& _parts;
+  const estimate::Primal& _primal;
+  contact::Adjoint _adjoint;
+};
+
+/// Of each inclusion that moves.
+void add_intervals(const MeshOperator::Parts& parts, const LoadOnTraces& load,
+                   const estimate::Primal& primal, contact::Answer& answer) {
+  constexpr std::size_t most_inclusions = 16;  // a few solves each
+  if (!parts.skeleton || answer.inclusions.size() > most_inclusions) return;
+  const Intervals intervals(parts, load, answer, primal);
+  if (!intervals.possible()) return;
+  const double norm = std::sqrt(primal.flux.norm_squared());
+  for (std::size_t j = 0; j < answer.inclusions.size(); ++j) {
+    const ddm::RigidMotion& motion = parts.decomposition.skeleton.motions[j];
+    contact::InclusionAnswer& one = answer.inclusions[j];
+    intervals.find({motion.displacement, one.displacement, one.displacement_lower,
+                    one.displacement_upper, &one.displacement_estimated_error},
+                   norm);
+    if (!motion.slope_x.empty())
+      intervals.find({motion.slope_x, one.slope_x, one.slope_x_lower, one.slope_x_upper, nullptr},
+                     norm);
+    if (!motion.slope_y.empty())
+      intervals.find({motion.slope_y, one.slope_y, one.slope_y_lower, one.slope_y_upper, nullptr},
+                     norm);
+  }
 }
 
 std::vector<double> of_copies(const std::vector<contact::Field>& fields) {
@@ -66,11 +162,12 @@ std::vector<double> MeshOperator::estimate(const PreparedLoad& load, contact::An
   const estimate::LoadBalance balance =
       estimate::load_balance(cut, force, condensed.parts.traction);
   const estimate::EquilibratedFlux flux(cut, {u, balance.force, balance.traction});
-  estimate::Bracket bracket = estimate::bracket(cut, flux, balance, lifts, answer.energy);
+  estimate::Bracket bracket = estimate::bracket(cut, flux, balance, lifts, u, answer.energy);
   answer.energy_lower = bracket.lower;
   answer.energy_upper = bracket.upper;
   answer.error_bound = bracket.error;
   answer.error_bound_relative = bracket.error_relative;
+  add_intervals(*_parts, condensed, {cut, flux, balance, lifts, u}, answer);
   std::vector<double> indicator(bracket.indicator.size());
   for (std::size_t t = 0; t < indicator.size(); ++t)
     indicator[at(cut.triangle[t])] = bracket.indicator[t];

@@ -169,13 +169,14 @@ struct JobSpec {
   std::vector<fem::Load> loads;
   contact::SolverOptions solver;
   bool fields = false;
+  bool without_bounds = false;       ///< answers have no bounds of their errors
   std::optional<SweepSpec> sweep{};  ///< loads are its basis
   Priority priority = Priority::normal;
   std::chrono::milliseconds queue_time_limit{0};  ///< from creation to start; 0: the server's
   std::chrono::milliseconds run_time_limit{0};    ///< from start to end; 0: the server's
 };
-ANTICRACK_FIELDS(JobSpec, title, mesh, loads, solver, fields, sweep, priority, queue_time_limit,
-                 run_time_limit)
+ANTICRACK_FIELDS(JobSpec, title, mesh, loads, solver, fields, without_bounds, sweep, priority,
+                 queue_time_limit, run_time_limit)
 
 /// A step of a job's way: it passed into `state`, or into another phase of it.
 struct Step {

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "estimate/interval.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimate/bracket.hpp"
+#include "fem/triangle_rules.hpp"
+#include "mesh/at.hpp"
+
+namespace anticrack::estimate {
+namespace {
+
+double half_width(double c, double eta, double rho) {
+  return 2 * c * rho <= eta ? eta * rho : c * rho * rho + eta * eta / (4 * c);
+}
+
+/// Integrals of tau - T grad z with itself and with sigma - T grad u_h, over T.
+struct Products {
+  double square = 0;
+  double mixed = 0;
+};
+
+class Sum {
+ public:
+  Sum(const Primal& primal, const Dual& dual, const EquilibratedFlux& tau)
+      : _primal(primal), _tau(tau), _rest(dual.z.size()) {
+    for (std::size_t i = 0; i < _rest.size(); ++i) _rest[i] = dual.reacting[i] - dual.z[i];
+  }
+
+  Products products() const {
+    Products sum;
+    const EquilibratedFlux& sigma = _primal.flux;
+    for (std::size_t t = 0; t < _primal.cut.triangle_count(); ++t) {
+      const Vector shift = sigma.flux_of(t, _rest);
+      const double scale = sigma.area(t) / sigma.tension(t);
+      const auto add = [&](double weight, const Vector& of_tau, const Vector& of_sigma) {
+        const Vector off{of_tau[0] + shift[0], of_tau[1] + shift[1]};
+        sum.square += weight * scale * (off[0] * off[0] + off[1] * off[1]);
+        sum.mixed += weight * scale * (off[0] * of_sigma[0] + off[1] * of_sigma[1]);
+      };
+      if (!_tau.turned(t)) {  // constant
+        add(1, _tau.mean_difference(t), sigma.mean_difference(t));
+        continue;
+      }
+      for (std::size_t p = 0; p < fem::rule_5.size; ++p) {
+        const double b = fem::rule_5.b[p], c = fem::rule_5.c[p];
+        add(fem::rule_5.weight[p], _tau.difference(t, {1 - b - c, b, c}),
+            sigma.difference(t, {1 - b - c, b, c}));
+      }
+    }
+    return sum;
+  }
+
+  /// int (tau - T grad z) . grad w, its mean where it is not constant: w is on the outer boundary.
+  double lifted(const Lift& lift) const {
+    const auto side = at(_primal.cut.faces[at(lift.face)].side);
+    const Vector normal = _primal.flux.normal_of(side), mean = _tau.mean_difference(side / 3),
+                 shift = _primal.flux.flux_of(side / 3, _rest);
+    return lift.mean * ((mean[0] + shift[0]) * normal[0] + (mean[1] + shift[1]) * normal[1]);
+  }
+
+ private:
+  const Primal& _primal;
+  const EquilibratedFlux& _tau;
+  std::vector<double> _rest;
+};
+
+}  // namespace
+
+Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
+  const CutMesh& cut = primal.cut;
+  const EquilibratedFlux& sigma = primal.flux;
+  std::vector<double> bounds = sigma.through_faces();
+  for (double& bound : bounds) bound = dual.c * std::abs(bound);
+  const EquilibratedFlux tau(cut, {dual.reacting, {}, {}}, bounds);
+
+  double distance = 0, pressure = 0;
+  for (const double one : sigma.distance()) distance += std::max(0.0, one);
+  for (const double one : sigma.work_of_pressure()) pressure += std::max(0.0, one);
+  const Sum sum(primal, dual, tau);
+  const Products products = sum.products();
+  double residual = -dual.work, mixed = 0.5 * products.mixed;
+  for (const Lift& lift : primal.lifts) {
+    const auto side = at(cut.faces[at(lift.face)].side);
+    residual -= lift.mean * sigma.flux_through(side, dual.z);
+    mixed -= 0.5 * sum.lifted(lift);
+    const LiftIntegrals of = integrals_of(cut, sigma, primal.load, lift, primal.u);
+    distance += of.norm * of.norm - 2 * of.difference();
+  }
+
+  double above = 0, below = 0, work = 0;
+  const auto limit = [&](double of_dual, double of_primal) {
+    if (of_dual == 0) return;
+    const double ratio = of_primal > 0 ? std::min(dual.c, std::abs(of_dual) / of_primal) : dual.c;
+    (of_dual > 0 ? above : below) = std::max(of_dual > 0 ? above : below, ratio);
+  };
+  for (std::size_t f = 0; f < cut.faces.size(); ++f) {
+    const Face& face = cut.faces[f];
+    if (face.traction >= 0 && !primal.load.traction.empty()) {
+      const double* load = &primal.load.traction[2 * at(face.traction)];
+      const auto ends = cut.ends(face);
+      residual -= 0.5 * (load[0] - load[1]) * (dual.z[at(ends[0])] - dual.z[at(ends[1])]);
+    }
+    if (!presses(face.condition)) continue;
+    const auto ends = cut.ends(face), others = cut.ends(cut.faces[at(face.other)]);
+    for (const std::size_t end : {0, 1})
+      limit(dual.z[at(others[1 - end])] - dual.z[at(ends[end])], sigma.jump(face, end));
+    const auto through = [&](const EquilibratedFlux& flux) {
+      return flux.through_faces()[2 * f] + flux.through_faces()[2 * f + 1];
+    };
+    work -= 0.5 * through(tau) * (sigma.jump(face, 0) + sigma.jump(face, 1));
+    limit(through(tau), -through(sigma));  // -q, p
+  }
+  double beyond = 0;
+  for (const double one : primal.load.oscillation) beyond += one * one;
+  const double rho = std::sqrt(std::max(0.0, distance) / 4 + pressure);
+  const double eta = std::sqrt(products.square), middle = dual.value + work + residual + mixed;
+  const double extra =
+      unloaded * std::sqrt(beyond) + 1e-12 * (std::abs(dual.value) + std::abs(middle));
+  return {middle - half_width(below, eta, rho) - extra,
+          middle + half_width(above, eta, rho) + extra, mixed};
+}
+
+double norm_of_flux(const CutMesh& cut, std::span<const double> reacting) {
+  const std::vector<double> none(2 * cut.faces.size(), 0.0);
+  const EquilibratedFlux tau(cut, {reacting, {}, {}}, none);
+  double distance = 0;
+  for (const double one : tau.distance()) distance += std::max(0.0, one);
+  return std::sqrt(tau.norm_squared()) + std::sqrt(distance);
+}
+
+}  // namespace anticrack::estimate

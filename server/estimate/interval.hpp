@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// An interval for a displacement of the membrane: A of an inclusion, or a component of its slope.
+//
+// sigma in equilibrium with the load, tau with a unit force on the goal; v = u_h + w, z = 0 on the
+// Dirichlet boundary. With p the pressure of sigma, q that of tau (of any sign), and
+//
+//   -c_l [v] <= [z] <= c_u [v],   -c_u p <= q <= c_l p   on the cracks,
+//   rho^2 = |sigma - T grad v|^2 / 4 + int p [v],   eta = |tau - T grad z|,
+//   mid = A(v) + int q [v] + l(z) - a(v, z) + 1/2 int (tau - T grad z).(sigma/T - grad v):
+//
+//   mid - R(c_l) <= A <= mid + R(c_u),
+//   R(c) = eta rho  if 2 c rho <= eta,  else  c rho^2 + eta^2 / (4 c).
+//
+// Guaranteed for the load that sigma balances; a load beyond (LoadBalance::oscillation) widens it.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "estimate/boundary_lift.hpp"
+#include "estimate/equilibrated_flux.hpp"
+#include "estimate/load_balance.hpp"
+
+namespace anticrack::estimate {
+
+/// The discrete answer and its flux.
+struct Primal {
+  const CutMesh& cut;
+  const EquilibratedFlux& flux;
+  const LoadBalance& load;
+  const std::vector<Lift>& lifts;
+  std::span<const double> u;  ///< (copies)
+};
+
+struct Dual {
+  std::span<const double> z;         ///< (copies)
+  std::span<const double> reacting;  ///< (copies) what tau is made for
+  double value = 0;                  ///< A(u_h)
+  double work = 0;                   ///< sum of lambda [z] = -(l(z) - a(u_h, z))
+  double c = 0;                      ///< bound of c_l and c_u
+};
+
+struct Interval {
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  double estimate = 0;  ///< of A - A(u_h), no bound
+  double width() const noexcept { return upper - lower; }
+};
+
+/// `unloaded`: norm of a tau without q, of which the oscillation takes its share. O(m).
+Interval interval(const Primal& primal, const Dual& dual, double unloaded);
+
+/// |tau| of a tau for a unit force with all cracks free. O(m).
+double norm_of_flux(const CutMesh& cut, std::span<const double> reacting);
+
+}  // namespace anticrack::estimate
