@@ -105,11 +105,11 @@ Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
     if (!presses(face.condition)) continue;
     const auto ends = cut.ends(face), others = cut.ends(cut.faces[at(face.other)]);
     for (const std::size_t end : {0, 1})
-      limit(dual.z[at(others[1 - end])] - dual.z[at(ends[end])], sigma.jump(face, end));
+      limit(dual.z[at(others[1 - end])] - dual.z[at(ends[end])], sigma.jump(f, end));
     const auto through = [&](const EquilibratedFlux& flux) {
       return flux.through_faces()[2 * f] + flux.through_faces()[2 * f + 1];
     };
-    work -= 0.5 * through(tau) * (sigma.jump(face, 0) + sigma.jump(face, 1));
+    work -= 0.5 * through(tau) * (sigma.jump(f, 0) + sigma.jump(f, 1));
     limit(through(tau), -through(sigma));  // -q, p
   }
   double beyond = 0;
