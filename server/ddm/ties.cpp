@@ -211,8 +211,9 @@ std::vector<OpenEnd> open_ends(const Sides& sides) {
   std::vector<OpenEnd> ends;
   ends.reserve(2 * sides.edges.size());
   for (const CutEdge& edge : sides.edges) {
-    if (edge.kind == Kind::crack || edge.kind == Kind::delaminated)
-      for (std::size_t end = 0; end < 2; ++end)
+    if (edge.kind != Kind::crack && edge.kind != Kind::delaminated) continue;
+    for (std::size_t end = 0; end < 2; ++end)
+      if (edge.plus[end] >= 0)  // not on the Dirichlet boundary
         ends.push_back({edge.node[end], edge.minus[end], edge.plus[end]});
   }
   std::stable_sort(ends.begin(), ends.end(),
