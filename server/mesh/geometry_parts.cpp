@@ -44,9 +44,7 @@ void refuse_off(const Network& network, const Point& p, const std::string& field
          t ? "; nearest is " + show(nearest->at(*t)) : "");
 }
 
-Ends mark_ends(Network& network, const Part& part, const std::string& field) {
-  check_point(part.from, field + ".from");
-  check_point(part.to, field + ".to");
+Ends mark_ends(Network& network, const Part& part) {
   return {mark(network, part.from), mark(network, part.to)};
 }
 
@@ -102,7 +100,7 @@ std::vector<PlacedPart> place_delaminated(Network& network, const InclusionSpec&
   for (std::size_t k = 0; k < inclusion.delaminated.size(); ++k) {
     const std::string field = indexed(list, k);
     const Part& part = inclusion.delaminated[k];
-    const Ends ends = mark_ends(network, part, field);
+    const Ends ends = mark_ends(network, part);
     const NetworkLine& line = network.lines[at(whole.line)];
     const auto within = [&](int point, const Point& p, const char* which) {
       double t = station_of(line, point);
@@ -192,7 +190,7 @@ std::vector<Stretch> lay_neumann(const Geometry& geometry, Network& network) {
   for (std::size_t i = 0; i < geometry.neumann.size(); ++i) {
     const std::string field = indexed("neumann", i);
     const Part& part = geometry.neumann[i];
-    const Ends ends = mark_ends(network, part, field);
+    const Ends ends = mark_ends(network, part);
     const auto on_boundary = [&](int point, const Point& p, const char* which) {
       const double t = station_of(network.lines.front(), point);
       if (t >= 0) return t;
@@ -228,7 +226,7 @@ Layout lay_parts(const Geometry& geometry, Network& network) {
   layout.parts.reserve(geometry.inclusions.size() + geometry.cracks.size());
   const auto add = [&](const Part& part, const std::string& owner, int inclusion) {
     const std::string field = owner + ".part";
-    const Ends ends = mark_ends(network, part, field);
+    const Ends ends = mark_ends(network, part);
     PlacedPart placed = place(network, line_of(network, part, ends, field), ends);
     placed.field = owner;
     placed.inclusion = inclusion;

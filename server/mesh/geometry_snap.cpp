@@ -17,9 +17,11 @@ class Snap {
   Snap(const Network& network, std::vector<std::string>& warnings)
       : _network(network), _reach(snap_distance(network)), _warnings(warnings) {}
 
-  /// Onto a line for which `holds` is true, unless one passes through the point already.
+  /// Onto a line for which `holds` is true, unless one passes through the point already. Throws
+  /// geometry_invalid for a point that is not finite.
   template <class Holds>
   void move(Point& p, const std::string& field, const Holds& holds) {
+    check_point(p, field);
     double least = std::numeric_limits<double>::infinity();
     Point to{};
     for (std::size_t l = 0; l < _network.lines.size(); ++l) {

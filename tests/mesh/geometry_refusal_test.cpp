@@ -192,6 +192,14 @@ const Fault faults[] = {
      [](Geometry& g) { g.inclusions[0].part.to[1] = nan_value; },
      "inclusions[0].part.to",
      {"nan"}},
+    {"InclusionNanOnAnArc",
+     [](Geometry& g) {
+       g.interfaces[0].shape = mesh::Shape::arc;
+       g.interfaces[0].points = {{-1, 0}, {0, 0.25}, {1, 0}};
+       g.inclusions[0].part.from[0] = nan_value;
+     },
+     "inclusions[0].part.from",
+     {"nan"}},
     {"InclusionAtTheStart",
      [](Geometry& g) {
        g.inclusions[0] = {"a", {{-1, 0}, {0, 0}}, {}};
