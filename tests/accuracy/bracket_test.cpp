@@ -48,6 +48,17 @@ TEST(Bracket, ContainsTheEnergyOfThePaperExamples) {
           *answer.error_bound_relative);
       EXPECT_LT(*answer.energy_lower, limit);
       EXPECT_GT(*answer.energy_upper, limit);
+      const contact::InclusionAnswer& inclusion = answer.inclusions.front();
+      ASSERT_TRUE(inclusion.displacement_lower && inclusion.displacement_upper);
+      std::printf("[ figures  ] A %.7f in [%.7f, %.7f], limit %.7f; half over error %.2f, estimate over error %.2f\n",
+                  inclusion.displacement, *inclusion.displacement_lower,
+                  *inclusion.displacement_upper, a_limits[i],
+                  (*inclusion.displacement_upper - *inclusion.displacement_lower) / 2 /
+                      std::abs(inclusion.displacement - a_limits[i]),
+                  inclusion.displacement_estimated_error.value_or(NAN) /
+                      (a_limits[i] - inclusion.displacement));
+      EXPECT_LT(*inclusion.displacement_lower, a_limits[i]);
+      EXPECT_GT(*inclusion.displacement_upper, a_limits[i]);
     }
   }
 }
