@@ -230,12 +230,16 @@ class Cutting {
 
 std::size_t CutMesh::bytes() const noexcept {
   const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
-  return of(first_triangle) + of(first_copy) + of(copy) + of(at) + of(tension) + of(triangle) +
+  return shapes.bytes() + of(first_triangle) + of(first_copy) + of(copy) + of(at) + of(tension) + of(triangle) +
          of(faces) + of(first_corner) + of(corners) + of(first_stop) + of(stops);
 }
 
 CutMesh cut_mesh(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition) {
-  return Cutting(mesh, decomposition)();
+  CutMesh cut = Cutting(mesh, decomposition)();
+  if (cut.obstacle.empty())
+    cut.shapes = shapes({cut.copy, cut.at, cut.first_triangle, cut.tension},
+                        {cut.first_corner, cut.corners});
+  return cut;
 }
 
 }  // namespace anticrack::estimate

@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "ddm/decomposition.hpp"
+#include "estimate/shapes.hpp"
 #include "mesh/mesh.hpp"
 
 namespace anticrack::estimate {
-
-using Vector = std::array<double, 2>;
 
 /// What holds of the outward flux w through a face.
 enum class Condition : std::uint8_t {
@@ -69,6 +68,7 @@ struct CutMesh {
   std::vector<std::int32_t> corners;       ///< of all fans
   std::vector<std::int32_t> first_stop;    ///< (fans + 1) index into stops
   std::vector<Stop> stops;
+  Shapes shapes;
 
   /// Why no flux can be equilibrated fan by fan, with the place; empty: it can.
   std::string obstacle;

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
 Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1]}; }
 void add(Vector& to, double factor, const Vector& what) {
   to[0] += factor * what[0];
@@ -31,7 +30,12 @@ constexpr std::size_t previous(std::size_t corner) {
 
 EquilibratedFlux::EquilibratedFlux(const CutMesh& cut, const Balance& balance, FaceBounds bounds,
                                    int polish_sweeps)
-    : _cut(cut), _balance(balance), _is_pressure(bounds.empty()) {
+    : _cut(cut),
+      _balance(balance),
+      _is_pressure(bounds.empty()),
+      _tension(cut.shapes.tension),
+      _area(cut.shapes.area),
+      _edge(cut.shapes.edge) {
   measure();
   build(bounds);
   centre();
@@ -39,35 +43,29 @@ EquilibratedFlux::EquilibratedFlux(const CutMesh& cut, const Balance& balance, F
   turn();
 }
 
+/// Minus the outward flux of T grad u: through side i it is w_k (u_j - u_i) + w_j (u_k - u_i).
 void EquilibratedFlux::measure() {
   const std::size_t count = _cut.triangle_count();
-  _tension.resize(count);
-  for (std::size_t s = 0; s < _cut.tension.size(); ++s)
-    for (auto t = at(_cut.first_triangle[s]); t < at(_cut.first_triangle[s + 1]); ++t)
-      _tension[t] = _cut.tension[s];
-  _area.resize(count);
-  _edge.resize(3 * count);
   _excess.resize(3 * count);
   for (std::size_t t = 0; t < count; ++t) {
     const std::int32_t* copy = &_cut.copy[3 * t];
-    const Vector &p = _cut.at[at(copy[0])], &q = _cut.at[at(copy[1])], &r = _cut.at[at(copy[2])];
-    Vector* edge = &_edge[3 * t];
-    edge[0] = minus(r, q);
-    edge[1] = minus(p, r);
-    edge[2] = minus(q, p);
-    _area[t] = 0.5 * (edge[2][1] * edge[1][0] - edge[2][0] * edge[1][1]);
-    Vector gradient{};
-    for (std::size_t i = 0; i < 3; ++i)
-      add(gradient, -_balance.u[at(copy[i])] / (2 * _area[t]), normal(edge[i]));
-    for (std::size_t i = 0; i < 3; ++i)
-      _excess[3 * t + i] = -_tension[t] * dot(gradient, normal(edge[i]));
-    _norm_squared += _tension[t] * _area[t] * dot(gradient, gradient);
+    const std::array<double, 3>& weight = _cut.shapes.weight[t];
+    const double u[3] = {_balance.u[at(copy[0])], _balance.u[at(copy[1])], _balance.u[at(copy[2])]};
+    const double d[3] = {u[2] - u[1], u[0] - u[2], u[1] - u[0]};
+    const double w[3] = {weight[0] * d[0], weight[1] * d[1], weight[2] * d[2]};
+    for (std::size_t i = 0; i < 3; ++i) _excess[3 * t + i] = w[(i + 1) % 3] - w[(i + 2) % 3];
+    _norm_squared += 0.5 * (w[0] * d[0] + w[1] * d[1] + w[2] * d[2]);
   }
 }
 
 std::span<const Stop> EquilibratedFlux::stops(std::size_t fan) const {
   return std::span(_cut.stops)
       .subspan(at(_cut.first_stop[fan]), at(_cut.first_stop[fan + 1] - _cut.first_stop[fan]));
+}
+
+std::span<const FanCorner> EquilibratedFlux::corners(std::size_t fan) const {
+  return std::span(_cut.shapes.around)
+      .subspan(at(_cut.first_corner[fan]), at(_cut.first_corner[fan + 1] - _cut.first_corner[fan]));
 }
 
 double EquilibratedFlux::jump(std::size_t face, std::size_t end) const {
@@ -88,6 +86,7 @@ double EquilibratedFlux::slope_of_work(std::size_t fan) const {
 
 /// How far the flux through the fan's spokes is changed: to the least distance that is allowed.
 double EquilibratedFlux::step(std::size_t fan, double slope, FaceBounds bounds) const {
+  const double best = -slope / _cut.shapes.stiffness[fan];
   double low = -infinite, high = infinite;
   for (const Stop& stop : stops(fan)) {
     const Face& face = _cut.faces[at(stop.face)];
@@ -113,39 +112,35 @@ double EquilibratedFlux::step(std::size_t fan, double slope, FaceBounds bounds) 
     }
   }
   if (low > high) return 0.5 * (low + high);  // by rounding
-  return std::clamp(-slope / _stiffness[fan], low, high);
+  return std::clamp(best, low, high);
 }
 
 void EquilibratedFlux::build(FaceBounds bounds) {
   _through.assign(2 * _cut.faces.size(), 0);
-  _stiffness.assign(_cut.fan_count(), 0);
   const std::vector<double> target = _excess;  // minus the flux of T grad u
   std::vector<double> x;                       // through the spokes
   for (std::size_t fan = 0; fan < _cut.fan_count(); ++fan) {
-    const auto corners = std::span(_cut.corners)
-                             .subspan(at(_cut.first_corner[fan]),
-                                      at(_cut.first_corner[fan + 1] - _cut.first_corner[fan]));
-    x.assign(1, 0.0);
-    double slope = slope_of_work(fan);
-    for (const std::int32_t corner : corners) {
-      const std::size_t i = at(corner), j = next(i), k = previous(i), t = i / 3;
+    const std::span<const FanCorner> around = corners(fan);
+    const std::span<const Stop> stops = this->stops(fan);
+    x.resize(around.size() + 1);
+    x[0] = 0;
+    double slope = stops.empty() ? 0 : slope_of_work(fan);
+    for (std::size_t n = 0; n < around.size(); ++n) {
+      const FanCorner& one = around[n];
+      const std::size_t i = at(one.corner);
       const double force = _balance.force.empty() ? 0 : _balance.force[i];
-      x.push_back(x.back() + 0.5 * target[i] - force);
-      const double out = x.back() + 0.5 * target[j], in = -x.end()[-2] + 0.5 * target[k];
-      Vector mean{};
-      add(mean, out, minus(_edge[i], _edge[k]));
-      add(mean, in, minus(_edge[j], _edge[i]));
-      slope += dot(mean, _edge[i]) / (12 * _area[t] * _tension[t]);
-      _stiffness[fan] += dot(_edge[i], _edge[i]) / (4 * _area[t] * _tension[t]);
+      x[n + 1] = x[n] + 0.5 * target[i] - force;
+      slope += one.out * (x[n + 1] + 0.5 * target[next(i)]) +
+               one.in * (0.5 * target[previous(i)] - x[n]);
     }
-    for (const Stop& stop : stops(fan))
+    for (const Stop& stop : stops)
       _through[2 * at(stop.face) + at(stop.end)] = stop.sign() * x[at(stop.spoke)];
-    if (stops(fan).empty()) _imbalance = std::max(_imbalance, std::abs(x.back()));
+    if (stops.empty()) _imbalance = std::max(_imbalance, std::abs(x.back()));
     const double change = step(fan, slope, bounds);
-    for (const Stop& stop : stops(fan))
+    for (const Stop& stop : stops)
       _through[2 * at(stop.face) + at(stop.end)] += stop.sign() * change;
-    for (std::size_t n = 0; n < corners.size(); ++n) {
-      const std::size_t i = at(corners[n]);
+    for (std::size_t n = 0; n < around.size(); ++n) {
+      const std::size_t i = at(around[n].corner);
       _excess[next(i)] += x[n + 1] + change;
       _excess[previous(i)] -= x[n] + change;
     }
@@ -193,19 +188,15 @@ void EquilibratedFlux::centre() {
 
 void EquilibratedFlux::polish(FaceBounds bounds) {
   for (std::size_t fan = 0; fan < _cut.fan_count(); ++fan) {
-    double slope = slope_of_work(fan);
-    const auto first = at(_cut.first_corner[fan]), end = at(_cut.first_corner[fan + 1]);
-    for (std::size_t n = first; n < end; ++n) {
-      const std::size_t i = at(_cut.corners[n]);
-      slope += dot(_centre[i / 3], _edge[i]) / (2 * _tension[i / 3]);
-    }
+    const std::span<const FanCorner> around = corners(fan);
+    const std::span<const Stop> stops = this->stops(fan);
+    double slope = stops.empty() ? 0 : slope_of_work(fan);
+    for (const FanCorner& one : around) slope += dot(_centre[at(one.corner) / 3], one.slope);
     const double change = step(fan, slope, bounds);
-    for (const Stop& stop : stops(fan))
+    for (const Stop& stop : stops)
       _through[2 * at(stop.face) + at(stop.end)] += stop.sign() * change;
-    for (std::size_t n = first; n < end; ++n) {
-      const std::size_t i = at(_cut.corners[n]);
-      add(_centre[i / 3], change / (2 * _area[i / 3]), _edge[i]);
-    }
+    for (const FanCorner& one : around)
+      add(_centre[at(one.corner) / 3], change * one.compliance, one.slope);
   }
 }
 

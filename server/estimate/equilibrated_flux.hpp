@@ -70,16 +70,15 @@ class EquilibratedFlux {
   double slope_of_work(std::size_t fan) const;
   double step(std::size_t fan, double slope, FaceBounds bounds) const;
   std::span<const Stop> stops(std::size_t fan) const;
+  std::span<const FanCorner> corners(std::size_t fan) const;
 
   const CutMesh& _cut;
   Balance _balance;
   bool _is_pressure;               // the work of the pressure counts
-  std::vector<double> _tension;    // (m)
-  std::vector<double> _area;       // (m)
-  std::vector<Vector> _edge;       // (corners) opposite to the corner, counterclockwise
-  std::vector<double> _excess;     // (corners) outward flux of sigma - T grad u
-  std::vector<double> _stiffness;  // (fans) second derivative of the distance by the fan's flux
-  std::vector<Vector> _centre;     // (m) mean of sigma - T grad u
+  const std::vector<double>&_tension, &_area;  // (m)
+  const std::vector<Vector>& _edge;            // (corners) opposite to the corner, counterclockwise
+  std::vector<double> _excess;                 // (corners) outward flux of sigma - T grad u
+  std::vector<Vector> _centre;                 // (m) mean of sigma - T grad u
   std::vector<double> _rest;       // (m) int |sigma - T grad u - its mean|^2
   std::vector<double> _through;
   struct Turn {

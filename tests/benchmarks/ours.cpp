@@ -91,6 +91,22 @@ Operator first_answers(const Options& options, const std::shared_ptr<const mesh:
   return op;
 }
 
+/// Bounds of an answer whose fields are known.
+Times estimates(const Options& options, const MeshOperator& op,
+                const std::vector<fem::Load>& loads) {
+  Times times;
+  Silent nobody;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(options.loads); ++k) {
+    const auto prepared = op.prepare(std::array{&loads[k]});
+    const auto& load = std::get<operators::PreparedLoad>(prepared.front());
+    contact::Answer answer = testing::solve(op, load, contact::ActiveSetOptions{}, true, nobody);
+    const Stopwatch watch;
+    op.estimate(load, answer);
+    watch.stop(times);
+  }
+  return times;
+}
+
 void further_loads(const Options& options, const MeshOperator& op,
                    const std::vector<fem::Load>& loads, Figures& figures) {
   Times alone;
@@ -104,6 +120,7 @@ void further_loads(const Options& options, const MeshOperator& op,
     answers.add(answer);
   }
   figures.set("further", alone);
+  figures.set("estimate", estimates(options, op, loads));
   answers.put(figures);
 }
 
