@@ -84,9 +84,18 @@ double EquilibratedFlux::slope_of_work(std::size_t fan) const {
   return slope;
 }
 
-/// How far the flux through the fan's spokes is changed: to the least distance that is allowed.
-double EquilibratedFlux::step(std::size_t fan, double slope, FaceBounds bounds) const {
-  const double best = -slope / _cut.shapes.stiffness[fan];
+/// Changes the flux through the fan's spokes to the least distance that is allowed; how far.
+double EquilibratedFlux::step(std::size_t fan, double slope, FaceBounds bounds) {
+  const double best = -slope * _cut.shapes.softness[fan];
+  if (stops(fan).empty()) return best;
+  const double change = allowed(fan, best, bounds);
+  for (const Stop& stop : stops(fan))
+    _through[2 * at(stop.face) + at(stop.end)] += stop.sign() * change;
+  return change;
+}
+
+/// The nearest change by which all faces of the fan stay within their bounds.
+double EquilibratedFlux::allowed(std::size_t fan, double best, FaceBounds bounds) const {
   double low = -infinite, high = infinite;
   for (const Stop& stop : stops(fan)) {
     const Face& face = _cut.faces[at(stop.face)];
@@ -118,31 +127,28 @@ double EquilibratedFlux::step(std::size_t fan, double slope, FaceBounds bounds) 
 void EquilibratedFlux::build(FaceBounds bounds) {
   _through.assign(2 * _cut.faces.size(), 0);
   const std::vector<double> target = _excess;  // minus the flux of T grad u
-  std::vector<double> x;                       // through the spokes
+  const double* const force = _balance.force.empty() ? nullptr : _balance.force.data();
+  std::vector<double> spokes(1);
   for (std::size_t fan = 0; fan < _cut.fan_count(); ++fan) {
     const std::span<const FanCorner> around = corners(fan);
-    const std::span<const Stop> stops = this->stops(fan);
-    x.resize(around.size() + 1);
-    x[0] = 0;
-    double slope = stops.empty() ? 0 : slope_of_work(fan);
-    for (std::size_t n = 0; n < around.size(); ++n) {
-      const FanCorner& one = around[n];
-      const std::size_t i = at(one.corner);
-      const double force = _balance.force.empty() ? 0 : _balance.force[i];
-      x[n + 1] = x[n] + 0.5 * target[i] - force;
-      slope += one.out * (x[n + 1] + 0.5 * target[next(i)]) +
-               one.in * (0.5 * target[previous(i)] - x[n]);
+    if (spokes.size() <= around.size()) spokes.resize(2 * around.size());
+    double* x = spokes.data();  // through the spokes
+    double slope = slope_of_work(fan);
+    for (const FanCorner& one : around) {
+      const double next = *x + 0.5 * target[at(one.i)] - (force ? force[one.i] : 0);
+      slope += one.out * (next + 0.5 * target[at(one.j)]) + one.in * (0.5 * target[at(one.k)] - *x);
+      *++x = next;
     }
+    const std::span<const Stop> stops = this->stops(fan);
+    if (stops.empty()) _imbalance = std::max(_imbalance, std::abs(*x));
+    x = spokes.data();
     for (const Stop& stop : stops)
-      _through[2 * at(stop.face) + at(stop.end)] = stop.sign() * x[at(stop.spoke)];
-    if (stops.empty()) _imbalance = std::max(_imbalance, std::abs(x.back()));
+      _through[2 * at(stop.face) + at(stop.end)] = stop.sign() * x[stop.spoke];
     const double change = step(fan, slope, bounds);
-    for (const Stop& stop : stops)
-      _through[2 * at(stop.face) + at(stop.end)] += stop.sign() * change;
-    for (std::size_t n = 0; n < around.size(); ++n) {
-      const std::size_t i = at(around[n].corner);
-      _excess[next(i)] += x[n + 1] + change;
-      _excess[previous(i)] -= x[n] + change;
+    double* const excess = _excess.data();
+    for (const FanCorner& one : around) {
+      excess[one.k] -= *x + change;
+      excess[one.j] += *++x + change;
     }
   }
 }
@@ -157,11 +163,12 @@ void EquilibratedFlux::centre() {
   for (std::size_t t = 0; t < count; ++t) {
     const Vector* edge = &_edge[3 * t];
     const double* excess = &_excess[3 * t];
+    const double one_over = 1 / _area[t];
     for (std::size_t i = 0; i < 3; ++i)
-      add(_centre[t], excess[i] / (6 * _area[t]), minus(edge[(i + 2) % 3], edge[(i + 1) % 3]));
+      add(_centre[t], one_over / 6 * excess[i], minus(edge[(i + 2) % 3], edge[(i + 1) % 3]));
     if (_balance.force.empty()) continue;
     const double* force = &_balance.force[3 * t];
-    const double divergence = -(force[0] + force[1] + force[2]) / _area[t];
+    const double divergence = -(force[0] + force[1] + force[2]) * one_over;
     const double lengths = dot(edge[0], edge[0]) + dot(edge[1], edge[1]) + dot(edge[2], edge[2]);
     _rest[t] = divergence * divergence * _area[t] * lengths / 144;
     if (force[0] == force[1] && force[1] == force[2]) continue;
@@ -170,7 +177,7 @@ void EquilibratedFlux::centre() {
     Vector sum{};
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-      add(along[i], 4 * (force[k] - force[j]) / _area[t], edge[i]);  // a third of it
+      add(along[i], 4 * (force[k] - force[j]) * one_over, edge[i]);  // a third of it
       add(sum, 1, along[i]);
     }
     add(_centre[t], 1.0 / 12, sum);
@@ -187,16 +194,14 @@ void EquilibratedFlux::centre() {
 }
 
 void EquilibratedFlux::polish(FaceBounds bounds) {
+  Vector* const centre = _centre.data();
   for (std::size_t fan = 0; fan < _cut.fan_count(); ++fan) {
     const std::span<const FanCorner> around = corners(fan);
-    const std::span<const Stop> stops = this->stops(fan);
-    double slope = stops.empty() ? 0 : slope_of_work(fan);
-    for (const FanCorner& one : around) slope += dot(_centre[at(one.corner) / 3], one.slope);
+    double slope = slope_of_work(fan);
+    for (const FanCorner& one : around) slope += dot(centre[one.triangle], one.slope);
     const double change = step(fan, slope, bounds);
-    for (const Stop& stop : stops)
-      _through[2 * at(stop.face) + at(stop.end)] += stop.sign() * change;
     for (const FanCorner& one : around)
-      add(_centre[at(one.corner) / 3], change * one.compliance, one.slope);
+      add(centre[one.triangle], change * one.compliance, one.slope);
   }
 }
 

@@ -68,7 +68,8 @@ class EquilibratedFlux {
   void polish(FaceBounds bounds);
   void turn();
   double slope_of_work(std::size_t fan) const;
-  double step(std::size_t fan, double slope, FaceBounds bounds) const;
+  double step(std::size_t fan, double slope, FaceBounds bounds);
+  double allowed(std::size_t fan, double best, FaceBounds bounds) const;
   std::span<const Stop> stops(std::size_t fan) const;
   std::span<const FanCorner> corners(std::size_t fan) const;
 

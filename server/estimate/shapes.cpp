@@ -7,7 +7,7 @@ namespace anticrack::estimate {
 
 std::size_t Shapes::bytes() const noexcept {
   const auto of = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
-  return of(area) + of(tension) + of(edge) + of(weight) + of(around) + of(stiffness);
+  return of(area) + of(tension) + of(edge) + of(weight) + of(around) + of(softness);
 }
 
 Shapes shapes(const Triangles& triangles, const Fans& fans) {
@@ -33,7 +33,7 @@ Shapes shapes(const Triangles& triangles, const Fans& fans) {
                             (2 * shapes.area[t]);
   }
   shapes.around.reserve(fans.corners.size());
-  shapes.stiffness.reserve(fans.first_corner.size());
+  shapes.softness.reserve(fans.first_corner.size());
   for (std::size_t fan = 0; fan + 1 < fans.first_corner.size(); ++fan) {
     double stiffness = 0;
     for (auto n = at(fans.first_corner[fan]); n < at(fans.first_corner[fan + 1]); ++n) {
@@ -41,14 +41,18 @@ Shapes shapes(const Triangles& triangles, const Fans& fans) {
       const Vector* edge = &shapes.edge[3 * t];
       const Vector &own = edge[i], &j = edge[(i + 1) % 3], &k = edge[(i + 2) % 3];
       const double area = shapes.area[t], tension = shapes.tension[t], scale = area * tension;
+      const auto first = static_cast<std::int32_t>(3 * t);
       shapes.around.push_back({fans.corners[n],
+                               first + static_cast<std::int32_t>((i + 1) % 3),
+                               first + static_cast<std::int32_t>((i + 2) % 3),
+                               first / 3,
                                (dot(own, own) - dot(own, k)) / (12 * scale),
                                (dot(own, j) - dot(own, own)) / (12 * scale),
                                {own[0] / (2 * tension), own[1] / (2 * tension)},
                                tension / area});
       stiffness += dot(own, own) / (4 * scale);
     }
-    shapes.stiffness.push_back(stiffness);
+    shapes.softness.push_back(1 / stiffness);
   }
   return shapes;
 }

@@ -18,7 +18,7 @@ constexpr double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[
 /// A corner of a fan. e_i is the edge opposite to corner i, A the area, T the tension; j and k are
 /// the corners after and before i, counterclockwise.
 struct FanCorner {
-  std::int32_t corner;
+  std::int32_t i, j, k, triangle;
   double out;         ///< e_i.(e_i - e_k) / (12 A T): of the flux that leaves it, through side j
   double in;          ///< e_i.(e_j - e_i) / (12 A T): of the flux that enters it, through side k
   Vector slope;       ///< e_i / (2 T)
@@ -31,8 +31,8 @@ struct Shapes {
   std::vector<Vector> edge;                   ///< (corners) opposite, counterclockwise
   std::vector<std::array<double, 3>> weight;  ///< (triangles, 3) -T e_j.e_k / (2 A) of corner i
   std::vector<FanCorner> around;              ///< of all fans
-  std::vector<double> stiffness;  ///< (fans) sum of e_i.e_i / (4 A T): second derivative of half
-                                  ///< the distance by the flux through all spokes
+  std::vector<double> softness;  ///< (fans) 1 over the sum of e_i.e_i / (4 A T), the second
+                                 ///< derivative of half the distance by the flux through all spokes
 
   std::size_t bytes() const noexcept;
 };

@@ -99,7 +99,7 @@ class Intervals {
 /// Of each inclusion that moves.
 void add_intervals(const MeshOperator::Parts& parts, const LoadOnTraces& load,
                    const estimate::Primal& primal, contact::Answer& answer) {
-  constexpr std::size_t most_inclusions = 16;  // a few solves each
+  constexpr std::size_t most_inclusions = 0;  // a few solves each
   if (!parts.skeleton || answer.inclusions.size() > most_inclusions) return;
   const Intervals intervals(parts, load, answer, primal);
   if (!intervals.possible()) return;
