@@ -119,7 +119,7 @@ Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
   const double extra =
       unloaded * std::sqrt(beyond) + 1e-12 * (std::abs(dual.value) + std::abs(middle));
   return {middle - half_width(below, eta, rho) - extra,
-          middle + half_width(above, eta, rho) + extra, mixed};
+          middle + half_width(above, eta, rho) + extra, mixed, eta / (2 * dual.c * rho)};
 }
 
 double norm_of_flux(const CutMesh& cut, std::span<const double> reacting) {

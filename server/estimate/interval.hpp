@@ -46,6 +46,7 @@ struct Interval {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   double estimate = 0;  ///< of A - A(u_h), no bound
+  double short_of = 0;  ///< eta / (2 c rho): a larger c is better about where it is above 1
   double width() const noexcept { return upper - lower; }
 };
 

@@ -14,6 +14,9 @@
 namespace anticrack::operators {
 namespace {
 
+/// Of bounds of the cone; most answers need two.
+constexpr int most_tries = 4;
+
 /// Above it u_h does not solve the discrete problem well enough.
 constexpr double most_kkt = 1e-10;
 
@@ -47,7 +50,7 @@ class Intervals {
 
   bool possible() const { return _adjoint.possible(); }
 
-  /// The best of bounds of the cone: wider and wider, as long as they pay.
+  /// The best of a few bounds of the cone, each wider than the one before.
   void find(const Aim& aim, double norm) const {
     const contact::Adjoint::Goal goal = _adjoint.aim(aim.goal);
     if (!(goal.compliance > 0)) return;  // held
@@ -57,16 +60,18 @@ class Intervals {
             ? 0
             : estimate::norm_of_flux(_primal.cut, field(_adjoint.clipped(goal, 0).reacting));
     estimate::Interval best;
-    for (double c = unit / 2; c < 100 * unit; c *= 2) {
+    double c = 2 * unit;
+    for (int tries = 0; tries < most_tries; ++tries) {
       const contact::Adjoint::Pair pair = _adjoint.clipped(goal, c);
       const std::vector<double> z = field(pair.z), reacting = field(pair.reacting);
       const estimate::Interval one =
           estimate::interval(_primal, {z, reacting, aim.value, pair.work, c}, unloaded);
       const bool better = one.width() < best.width();
+      if (better) best.estimate = one.estimate;
       best.lower = std::max(best.lower, one.lower);
       best.upper = std::min(best.upper, one.upper);
-      best.estimate = one.estimate;
-      if (!better) break;
+      if (!better || !(one.short_of > 1)) break;
+      c *= std::clamp(one.short_of, 1.5, 8.0);
     }
     aim.lower = best.lower;
     aim.upper = best.upper;
@@ -99,7 +104,7 @@ class Intervals {
 /// Of each inclusion that moves.
 void add_intervals(const MeshOperator::Parts& parts, const LoadOnTraces& load,
                    const estimate::Primal& primal, contact::Answer& answer) {
-  constexpr std::size_t most_inclusions = 0;  // a few solves each
+  constexpr std::size_t most_inclusions = 16;  // a few solves each
   if (!parts.skeleton || answer.inclusions.size() > most_inclusions) return;
   const Intervals intervals(parts, load, answer, primal);
   if (!intervals.possible()) return;
