@@ -72,7 +72,9 @@ Adjoint::Goal Adjoint::aim(const ddm::Terms& terms) const {
     const VectorXd jumps = _of_open.solve(of_open);
     goal.jumps(_open) = jumps;
   }
-  goal.reactions = (_problem.lcp().scaled_matrix() * goal.jumps).cwiseQuotient(scale) - goal.load.r;
+  goal.reactions = -goal.load.r;
+  if (!_open.empty())
+    goal.reactions += (_problem.lcp().scaled_matrix() * goal.jumps).cwiseQuotient(scale);
   goal.reactions(_open).setZero();
   goal.jumps = goal.jumps.cwiseProduct(scale);
   goal.compliance = unit.dot(_problem.unknowns(goal.load, goal.jumps));

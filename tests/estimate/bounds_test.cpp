@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Bounds on random membranes of all kinds: they hold for every finer mesh as for the membrane
+// itself, so the answers of a mesh two levels finer lie in them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <random>
+
+#include "support/mesh_quality.hpp"
+#include "operators/mesh_operator.hpp"
+#include "reference/random_membrane.hpp"
+#include "support/silent_observer.hpp"
+#include "support/solve.hpp"
+
+namespace anticrack::estimate {
+namespace {
+
+struct Contained {
+  int energies = 0, displacements = 0, slopes = 0, without = 0, unsolved = 0;
+  double widest = 0;   // half an interval over the error, both of A
+  double nearest = 1;  // room left beside the finer answer, over half the interval
+};
+
+struct Random {
+  fem::Load load;
+  std::vector<double> force;
+};
+
+Random random_load(reference::RandomMembrane& membrane, const mesh::Mesh& mesh) {
+  Random random;
+  random.load.name = "random";
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    random.force.push_back(membrane.uniform(-1, 1));
+  random.load.boundary_value = std::to_string(membrane.uniform(-1, 1)) + "*x - 0.4*y";
+  const std::vector<char> tilts = reference::tilting(mesh);
+  for (std::size_t j = 0; j < mesh.inclusions.size(); ++j) {
+    random.load.inclusion_forces[mesh.inclusions[j]] = membrane.uniform(-3, 3);
+    if (tilts[j] != 0)
+      random.load.inclusion_moments[mesh.inclusions[j]] = {membrane.uniform(-1, 1),
+                                                           membrane.uniform(-1, 1)};
+  }
+  return random;
+}
+
+contact::Answer solve(const mesh::Mesh& mesh, const Random& random, std::size_t copies,
+                      bool bounds) {
+  const auto op =
+      operators::MeshOperator::factorise(std::make_shared<const mesh::Mesh>(mesh), 1, {});
+  std::vector<double> force;
+  for (const double one : random.force) force.insert(force.end(), copies, one);
+  fem::Load load = random.load;
+  load.force = fem::Array{"", true, std::make_shared<const std::vector<double>>(std::move(force))};
+  const fem::Load* const one[] = {&load};
+  const auto prepared = std::move(op->prepare(one).front());
+  if (const auto* error = std::get_if<errors::Error>(&prepared)) throw errors::Error(*error);
+  const auto& ready = std::get<operators::PreparedLoad>(prepared);
+  testing::Silent silent;
+  contact::Answer answer = testing::solve(*op, ready, contact::ActiveSetOptions{}, bounds, silent);
+  if (bounds) op->estimate(ready, answer);
+  return answer;
+}
+
+bool check_interval(const std::optional<double>& lower, const std::optional<double>& upper,
+                    double coarse, double fine, const char* what, Contained& tally) {
+  EXPECT_EQ(lower.has_value(), upper.has_value());
+  if (!lower || !upper) return false;
+  const double half = 0.5 * (*upper - *lower), rounding = 1e-11 * (1 + std::abs(fine));
+  EXPECT_GT(fine, *lower - rounding) << what;
+  EXPECT_LT(fine, *upper + rounding) << what;
+  if (half > 1e-9) {
+    tally.nearest = std::min(tally.nearest, std::min(fine - *lower, *upper - fine) / half);
+    if (std::abs(fine - coarse) > 1e-9)
+      tally.widest = std::max(tally.widest, half / std::abs(fine - coarse));
+  }
+  return true;
+}
+
+void check_bounds(unsigned seed, bool rich, Contained& tally) {
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  reference::RandomMembrane membrane(seed, rich);
+  const mesh::Mesh mesh = membrane.mesh();
+  const mesh::Mesh finer = mesh::refine_uniform(mesh::refine_uniform(mesh));
+  const Random random = random_load(membrane, mesh);
+  contact::Answer coarse, fine;
+  try {
+    coarse = solve(mesh, random, 1, true);
+    fine = solve(finer, random, 16, false);
+  } catch (const errors::Error&) {  // nothing holds a part, or no solution
+    ++tally.unsolved;
+    return;
+  }
+  if (coarse.status != contact::Status::converged || fine.status != contact::Status::converged) {
+    ++tally.unsolved;
+    return;
+  }
+  if (!coarse.no_bracket.empty()) {
+    ++tally.without;
+    return;
+  }
+  ++tally.energies;
+  const double scale = 1e-11 * (std::abs(coarse.energy) + std::abs(fine.energy) + 1);
+  EXPECT_GT(fine.energy, *coarse.energy_lower - scale);
+  EXPECT_LT(fine.energy, *coarse.energy_upper + scale);
+  for (std::size_t j = 0; j < coarse.inclusions.size(); ++j) {
+    const contact::InclusionAnswer &one = coarse.inclusions[j], &better = fine.inclusions[j];
+    tally.displacements += check_interval(one.displacement_lower, one.displacement_upper,
+                                          one.displacement, better.displacement, "A", tally);
+    tally.slopes += check_interval(one.slope_x_lower, one.slope_x_upper, one.slope_x,
+                                   better.slope_x, "Bx", tally);
+    tally.slopes += check_interval(one.slope_y_lower, one.slope_y_upper, one.slope_y,
+                                   better.slope_y, "By", tally);
+  }
+}
+
+class Bounds : public ::testing::TestWithParam<bool> {};
+
+TEST_P(Bounds, ContainTheAnswersOfAMeshTwoLevelsFiner) {
+  const auto given = static_cast<unsigned>(::testing::GTEST_FLAG(random_seed));
+  const unsigned first = given > 0 ? given : std::random_device{}() % 99'000 + 1;
+  const char* seeds = std::getenv("ANTICRACK_SEEDS");
+  const unsigned count = seeds != nullptr ? static_cast<unsigned>(std::atoi(seeds)) : 60;
+  Contained tally;
+  for (unsigned k = 0; k < count; ++k) check_bounds(first + k, GetParam(), tally);
+  std::printf(
+      "[ figures  ] seeds from %u: %d energies, %d A, %d slopes, %d without, %d unsolved; widest "
+      "%.0f times, nearest %.2f\n",
+      first, tally.energies, tally.displacements, tally.slopes, tally.without, tally.unsolved,
+      tally.widest, tally.nearest);
+  EXPECT_GT(tally.energies, static_cast<int>(count) / 2);
+  EXPECT_GT(tally.displacements, static_cast<int>(count) / 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, Bounds, ::testing::Bool(),
+                         [](const auto& one) { return one.param ? "Rich" : "Plain"; });
+
+}  // namespace
+}  // namespace anticrack::estimate
