@@ -49,16 +49,30 @@ bool any_tilts(const std::vector<Moved>& inclusions) {
   return std::ranges::any_of(inclusions, &Moved::tilted);
 }
 
-using Column = std::pair<const char*, double results::Inclusion::*>;
+using Member = double results::Inclusion::*;
+
+// A number of an inclusion and, where it may have them, its bounds.
+struct Column {
+  const char* name;
+  Member value;
+  Member lower = nullptr, upper = nullptr;
+
+  std::string of(const results::Inclusion& inclusion) const {
+    if (lower == nullptr || !std::isfinite(inclusion.*lower)) return number(inclusion.*value);
+    return interval(inclusion.*lower, inclusion.*upper);
+  }
+};
 
 // What is told of an inclusion: of one that never tilts, A alone.
 std::span<const Column> told_of(const Moved& inclusion) {
   using results::Inclusion;
-  static constexpr std::array<Column, 5> columns{{{"A", &Inclusion::displacement},
-                                                  {"Bx", &Inclusion::slope_x},
-                                                  {"By", &Inclusion::slope_y},
-                                                  {"Mx", &Inclusion::moment_x},
-                                                  {"My", &Inclusion::moment_y}}};
+  static constexpr std::array<Column, 5> columns{
+      {{"A", &Inclusion::displacement, &Inclusion::displacement_lower,
+        &Inclusion::displacement_upper},
+       {"Bx", &Inclusion::slope_x, &Inclusion::slope_x_lower, &Inclusion::slope_x_upper},
+       {"By", &Inclusion::slope_y, &Inclusion::slope_y_lower, &Inclusion::slope_y_upper},
+       {"Mx", &Inclusion::moment_x},
+       {"My", &Inclusion::moment_y}}};
   return std::span(columns).first(inclusion.tilted ? columns.size() : 1);
 }
 
@@ -74,8 +88,10 @@ class Told {
     std::vector<std::string> head;
     for (const Moved& inclusion : _inclusions) {
       if (!each()) break;
-      for (const auto& [name, member] : told_of(inclusion))
-        head.push_back(_inclusions.size() == 1 ? name : name + (" " + sanitise(inclusion.name)));
+      for (const Column& column : told_of(inclusion)) {
+        head.emplace_back(column.name);
+        if (_inclusions.size() > 1) head.back() += " " + sanitise(inclusion.name);
+      }
     }
     if (each()) return head;
     head = {"inclusions", "least A", of, "greatest A", of};
@@ -89,8 +105,7 @@ class Told {
       const auto found =
           std::ranges::find(load.inclusions, inclusion.name, &results::Inclusion::name);
       const bool told = has_answer(load) && found != load.inclusions.end();
-      for (const auto& [name, member] : told_of(inclusion))
-        row.push_back(told ? number((*found).*member) : "-");
+      for (const Column& column : told_of(inclusion)) row.push_back(told ? column.of(*found) : "-");
     }
   }
 
@@ -131,7 +146,12 @@ class Told {
   bool _tilt;
 };
 
-std::vector<std::string> row_of(const results::Load& load, const Told& inclusions, bool by_uzawa) {
+bool is_bounded(const results::Load& load) {
+  return has_answer(load) && std::isfinite(load.error_bound);
+}
+
+std::vector<std::string> row_of(const results::Load& load, const Told& inclusions, bool by_uzawa,
+                                bool bounded) {
   const bool answered = has_answer(load);
   const auto when_answered = [answered](double value, int digits = 6, bool exponent = false) {
     return answered ? number(value, digits, exponent) : "-";
@@ -140,7 +160,9 @@ std::vector<std::string> row_of(const results::Load& load, const Told& inclusion
       sanitise(load.name), std::string(word(load.status)), std::to_string(load.iterations),
       when_answered(by_uzawa ? load.criterion : load.kkt_relative.largest(), 2, true)};
   inclusions.add(load, row);
-  row.push_back(when_answered(load.energy));
+  row.push_back(is_bounded(load) ? interval(load.energy_lower, load.energy_upper)
+                                 : when_answered(load.energy));
+  if (bounded) row.push_back(when_answered(100 * load.error_bound_relative, 2));
   row.push_back(when_answered(load.contact_length));
   if (by_uzawa) {
     row.push_back(when_answered(load.theta, 4));
@@ -153,7 +175,7 @@ std::vector<std::string> row_of(const results::Load& load, const Told& inclusion
 // Lines for people below the table.
 std::vector<std::string> remarks_on(const results::Load& load) {
   std::vector<std::string> remarks;
-  remarks.reserve(2 + load.warnings.size());
+  remarks.reserve(4 + load.warnings.size());
   if (const std::string& cause = load.error.empty() ? load.reason : load.error; !cause.empty())
     remarks.push_back(cause);
   if (load.weakly_active > 0) {
@@ -162,6 +184,11 @@ std::vector<std::string> remarks_on(const results::Load& load) {
                       ": neither jump nor pressure");
   }
   for (const std::string& warning : load.warnings) remarks.push_back("warning: " + warning);
+  if (!load.no_bracket.empty()) remarks.push_back("no bounds of the error: " + load.no_bracket);
+  constexpr double small_error = 0.01;
+  if (is_bounded(load) && load.error_bound_relative > small_error)
+    remarks.push_back("u is within " + number(100 * load.error_bound_relative, 2) +
+                      " % of the membrane's in the energy norm; a smaller mesh.size gives less");
   return remarks;
 }
 
@@ -174,10 +201,14 @@ std::string answers_table(const std::vector<results::Load>& loads) {
   });
   std::vector<std::string> head{"load", "status", "iterations", by_uzawa ? "criterion" : "KKT"};
   std::ranges::move(inclusions.head(), std::back_inserter(head));
-  head.insert(head.end(), {"energy", "contact length"});
+  const bool bounded = std::ranges::any_of(loads, is_bounded);
+  head.emplace_back("energy");
+  if (bounded) head.emplace_back("error");
+  head.emplace_back("contact length");
   if (by_uzawa) head.insert(head.end(), {"theta", "theta*"});
   head.emplace_back("wall time");
   std::vector<std::string> units(head.size(), "-");
+  if (bounded) units[std::ranges::find(head, "error") - head.begin()] = "%";
   std::vector<std::size_t> left{1};
   units[0] = units[1] = "";
   units.back() = "s";
@@ -189,7 +220,7 @@ std::string answers_table(const std::vector<results::Load>& loads) {
   std::vector<std::vector<std::string>> rows{head, units};
   std::string remarks;
   for (const results::Load& load : loads) {
-    rows.push_back(row_of(load, inclusions, by_uzawa));
+    rows.push_back(row_of(load, inclusions, by_uzawa, bounded));
     for (const std::string& remark : remarks_on(load))
       remarks += sanitise(load.name) + ": " + sanitise(remark) + "\n";
   }
@@ -204,14 +235,14 @@ std::string inclusions_table(const results::Result& result) {
   if (result.sweep) return sweep_inclusions(*result.sweep);
   const auto columns = told_of({"", any_tilts(inclusions_of(result.loads))});
   std::vector<std::vector<std::string>> rows{{"load", "inclusion"}, {"", ""}};
-  for (const auto& [name, member] : columns) rows[0].emplace_back(name);
+  for (const Column& column : columns) rows[0].emplace_back(column.name);
   rows[0].insert(rows[0].end(), {"resultant", "contact length"});
   rows[1].resize(rows[0].size(), "-");
   for (const results::Load& load : result.loads) {
     if (!has_answer(load)) continue;
     for (const results::Inclusion& inclusion : load.inclusions) {
       auto& row = rows.emplace_back(std::vector{sanitise(load.name), sanitise(inclusion.name)});
-      for (const auto& [name, member] : columns) row.push_back(number(inclusion.*member));
+      for (const Column& column : columns) row.push_back(column.of(inclusion));
       row.insert(row.end(), {number(inclusion.resultant), number(inclusion.contact_length)});
     }
   }
@@ -260,6 +291,9 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
     for (const results::Inclusion& inclusion : load.inclusions) {
       inclusions.push_back({{"name", inclusion.name},
                             {"A", inclusion.displacement},
+                            {"A_lower", inclusion.displacement_lower},
+                            {"A_upper", inclusion.displacement_upper},
+                            {"A_estimated_error", inclusion.displacement_estimated_error},
                             {"Bx", inclusion.slope_x},
                             {"By", inclusion.slope_y},
                             {"resultant", inclusion.resultant},
@@ -279,6 +313,11 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
          {"theta", load.theta},
          {"theta_star", load.theta_star},
          {"energy", load.energy},
+         {"energy_lower", load.energy_lower},
+         {"energy_upper", load.energy_upper},
+         {"error_bound", load.error_bound},
+         {"error_bound_relative", load.error_bound_relative},
+         {"no_bracket", load.no_bracket},
          {"contact_length", load.contact_length},
          {"weakly_active", load.weakly_active},
          {"solve_seconds", load.solve_seconds},

@@ -84,6 +84,16 @@ TEST(Number, IsShortAndSaysWhenThereIsNone) {
   EXPECT_EQ(number(std::numeric_limits<double>::infinity()), "-");
 }
 
+TEST(Text, IntervalsContainWhatTheyPrint) {
+  EXPECT_EQ(interval(0.1028791, 0.1047679), "0.10382 +- 0.00095");
+  EXPECT_EQ(interval(-0.1703715, -0.1695454), "-0.16996 +- 0.00042");
+  EXPECT_EQ(interval(1, 1), "1.000000 +- 0.000000");
+  EXPECT_EQ(interval(-2e-5, 4e-5), "(1.0 +- 3.0)e-5");
+  EXPECT_EQ(interval(123456789, 123456999), "(1.234569 +- 0.000002)e8");
+  EXPECT_EQ(interval(0, 0), "0 +- 0");
+  EXPECT_EQ(interval(0, std::numeric_limits<double>::infinity()), "-");
+}
+
 TEST(Seconds, AreNoFinerThanATenthOfAMillisecond) {
   EXPECT_EQ(seconds(0.011756), "0.0118");
   EXPECT_EQ(seconds(9.87e-05), "0.0001");
