@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -55,15 +56,16 @@ class Intervals {
     const contact::Adjoint::Goal goal = _adjoint.aim(aim.goal);
     if (!(goal.compliance > 0)) return;  // held
     const double unit = norm > 0 ? std::sqrt(goal.compliance) / norm : 1;
-    const double unloaded =
-        _primal.load.oscillation.empty()
-            ? 0
-            : estimate::norm_of_flux(_primal.cut, field(_adjoint.clipped(goal, 0).reacting));
+    double unloaded = 0;
+    if (!_primal.load.oscillation.empty()) {
+      const contact::Adjoint::Pair pair = _adjoint.clipped(goal, 0);
+      unloaded = estimate::norm_of_flux(_primal.cut, fields({&pair.z, &pair.reacting})[1]);
+    }
     estimate::Interval best;
     double c = 2 * unit;
     for (int tries = 0; tries < most_tries; ++tries) {
       const contact::Adjoint::Pair pair = _adjoint.clipped(goal, c);
-      const std::vector<double> z = field(pair.z), reacting = field(pair.reacting);
+      const auto [z, reacting] = fields({&pair.z, &pair.reacting});
       const estimate::Interval one =
           estimate::interval(_primal, {z, reacting, aim.value, pair.work, c}, unloaded);
       const bool better = one.width() < best.width();
@@ -79,21 +81,26 @@ class Intervals {
   }
 
  private:
-  /// In the copies, without a load of its own.
-  std::vector<double> field(const Eigen::VectorXd& w) const {
-    std::vector<double> u;
-    const std::vector<Eigen::VectorXd> traces = _parts.skeleton->scatter(w);
-    for (std::size_t s = 0; s < traces.size(); ++s) {
+  /// In the copies, without loads of their own.
+  std::array<std::vector<double>, 2> fields(
+      const std::array<const Eigen::VectorXd*, 2>& unknowns) const {
+    std::array<std::vector<double>, 2> fields;
+    std::array<std::vector<Eigen::VectorXd>, 2> traces;
+    for (std::size_t f = 0; f < 2; ++f) traces[f] = _parts.skeleton->scatter(*unknowns[f]);
+    for (std::size_t s = 0; s < _parts.operators.size(); ++s) {
       const ddm::Subdomain& subdomain = _parts.decomposition.subdomains[s];
       ddm::CondensedLoad none;
       none.z_interior.setZero(static_cast<Eigen::Index>(subdomain.interior));
       none.dirichlet.setZero(static_cast<Eigen::Index>(subdomain.dirichlet));
-      Eigen::VectorXd values(static_cast<Eigen::Index>(subdomain.node.size()));
-      ddm::SubdomainOperator::Solved one{none, traces[s], values};
-      _parts.operators[s].recover({&one, 1});
-      u.insert(u.end(), values.begin(), values.end());
+      const auto count = static_cast<Eigen::Index>(subdomain.node.size());
+      std::array<Eigen::VectorXd, 2> values{Eigen::VectorXd(count), Eigen::VectorXd(count)};
+      std::array<ddm::SubdomainOperator::Solved, 2> both{{{none, traces[0][s], values[0]},
+                                                          {none, traces[1][s], values[1]}}};
+      _parts.operators[s].recover(both);
+      for (std::size_t f = 0; f < 2; ++f)
+        fields[f].insert(fields[f].end(), values[f].begin(), values[f].end());
     }
-    return u;
+    return fields;
   }
 
   const MeshOperator::Parts& _parts;
