@@ -45,7 +45,7 @@ void put_row(const Handle& group, const Row& row, const std::vector<T>& values,
   if (row.explained) put(dataset, "meaning", std::string(row.what));
 }
 
-/// Attributes of an object.
+/// Attributes of an object. What is optional and missing stays as it is.
 template <class Record, class Table>
 void put_values(const Handle& object, const Record& record, const Table& table) {
   arrays::for_each(
@@ -55,7 +55,11 @@ void put_values(const Handle& object, const Record& record, const Table& table) 
 template <class Record, class Table>
 void get_values(const Handle& object, Record& record, const Table& table) {
   arrays::for_each(
-      [&](const auto& row) { get(object, std::string(row.name), std::invoke(row.member, record)); },
+      [&](const auto& row) {
+        const std::string name(row.name);
+        if (row.optional && !has_attribute(object, name)) return;
+        get(object, name, std::invoke(row.member, record));
+      },
       table);
 }
 

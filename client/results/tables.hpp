@@ -76,11 +76,14 @@ inline constexpr auto load = std::tuple{
     scalar("theta", &Load::theta, "used by Algorithm 2"),
     scalar("theta_star", &Load::theta_star, "of Theorem 4"),
     scalar("energy", &Load::energy, "Pi(u)"),
-    scalar("energy_lower", &Load::energy_lower, ""),
-    scalar("energy_upper", &Load::energy_upper, "the membrane's own Pi lies between them"),
-    scalar("error_bound", &Load::error_bound, "of u in the energy norm"),
-    scalar("error_bound_relative", &Load::error_bound_relative, "the same over the norm of u"),
-    scalar("no_bracket", &Load::no_bracket, "why there are no bounds"),
+    // Files from before answers had bounds lack these.
+    optional(scalar("energy_lower", &Load::energy_lower, "")),
+    optional(
+        scalar("energy_upper", &Load::energy_upper, "the membrane's own Pi lies between them")),
+    optional(scalar("error_bound", &Load::error_bound, "of u in the energy norm")),
+    optional(
+        scalar("error_bound_relative", &Load::error_bound_relative, "the same over the norm of u")),
+    optional(scalar("no_bracket", &Load::no_bracket, "why there are no bounds")),
     scalar("kkt_equilibrium", within(&Load::kkt, &Kkt::equilibrium), ""),
     scalar("kkt_gap", within(&Load::kkt, &Kkt::gap), ""),
     scalar("kkt_sign", within(&Load::kkt, &Kkt::sign), ""),

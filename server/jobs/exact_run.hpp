@@ -16,8 +16,8 @@ namespace anticrack::jobs {
 std::vector<PreparedCase> take_together(std::deque<PreparedCase>& prepared, int share);
 
 /// Solves each by the active set, then recovers the fields of all that need them in one pass over
-/// the factors, and from these the bounds. All on one mesh. The bits of a case do not depend on the others. Throws nothing.
-/// Without a lock.
+/// the factors, and from these the bounds. All on one mesh. The bits of a case do not depend on the
+/// others. Throws nothing. Without a lock.
 std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases,
                                      std::atomic<std::uint64_t>& iterations);
 

@@ -211,7 +211,7 @@ TEST(EngineLimits, LoadCasesPastTheBytesOfAResultFail) {
 
 TEST(EngineLimits, TheEventLogIsTrimmedAndTheResultIsNot) {
   EngineOptions options = one_thread();
-  options.event_log_bytes = 2048;
+  options.event_log_bytes = 2500;
   Engine test(options);
   store::JobSpec spec = short_job(test.ready_mesh());
   uzawa_of(spec).epsilon = 1e-300;

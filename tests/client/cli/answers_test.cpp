@@ -137,7 +137,8 @@ TEST(AnswersCsv, HasALineForEachAndQuotesNames) {
   result.loads[0].name = "a \"b\", c";
   result.loads[0].inclusions[0].displacement = 0.1;
   EXPECT_EQ(answers_csv(result),
-            "load,inclusion,A,resultant,contact_length,Bx,By,Mx,My,A_lower,A_upper,A_estimated_error,Bx_lower,Bx_upper,By_lower,"
+            "load,inclusion,A,resultant,contact_length,Bx,By,Mx,My,A_lower,A_upper,A_estimated_"
+            "error,Bx_lower,Bx_upper,By_lower,"
             "By_upper\n"
             "\"a \"\"b\"\", c\",fibre,0.1,1e-16,0,0,0,0,0,,,,,,,\n");
 }

@@ -43,9 +43,18 @@ std::size_t files_in(const std::string& folder) {
 /// With a number in place of what is not known, which equals nothing.
 Result comparable(Result result) {
   for (Load& load : result.loads) {
-    for (double* value : {&load.epsilon, &load.p, &load.kkt_tolerance, &load.tolerance,
-                          &load.criterion, &load.theta, &load.theta_star, &load.energy}) {
+    for (double* value :
+         {&load.epsilon, &load.p, &load.kkt_tolerance, &load.tolerance, &load.criterion,
+          &load.theta, &load.theta_star, &load.energy, &load.energy_lower, &load.energy_upper,
+          &load.error_bound, &load.error_bound_relative}) {
       if (std::isnan(*value)) *value = -1e300;
+    }
+    for (Inclusion& one : load.inclusions) {
+      for (double* value :
+           {&one.displacement_lower, &one.displacement_upper, &one.displacement_estimated_error,
+            &one.slope_x_lower, &one.slope_x_upper, &one.slope_y_lower, &one.slope_y_upper}) {
+        if (std::isnan(*value)) *value = -1e300;
+      }
     }
   }
   return result;
