@@ -90,6 +90,13 @@ Fetched fetched() {
   inclusion.set_slope_y(-0.5);
   inclusion.set_moment_x(2);
   inclusion.set_moment_y(-3);
+  inclusion.set_displacement_lower(0.7);
+  inclusion.set_displacement_upper(0.8);
+  inclusion.set_displacement_estimated_error(0.01);
+  inclusion.set_slope_x_lower(0.4);
+  inclusion.set_slope_x_upper(0.6);
+  inclusion.set_slope_y_lower(-0.6);
+  inclusion.set_slope_y_upper(-0.4);
   v1::ContactInterval& interval = *answer.add_contact_intervals();
   interval.set_interface("sigma");
   interval.set_begin(0.25);
@@ -137,7 +144,8 @@ TEST(ToResult, KeepsWhatTheServerSaid) {
   EXPECT_EQ(load.kkt.gap, 0.125);
   EXPECT_EQ(load.kkt_relative.gap, 0.0625);
   EXPECT_EQ(load.solve_seconds, 1.5);
-  EXPECT_TRUE(load.inclusions[0] == (results::Inclusion{"fibre", 0.75, 0, 0, 0.5, -0.5, 2, -3}));
+  EXPECT_TRUE(load.inclusions[0] == (results::Inclusion{"fibre", 0.75, 0, 0, 0.5, -0.5, 2, -3, 0.7,
+                                                        0.8, 0.01, 0.4, 0.6, -0.6, -0.4}));
   EXPECT_EQ(load.contact_intervals[0].end, 0.5);
   EXPECT_EQ(load.traces[0].u_plus, (Reals{0.5, 0.5}));
   EXPECT_EQ(load.history.iteration, Integers{1});
