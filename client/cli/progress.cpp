@@ -38,6 +38,7 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
     case v1::WatchJobResponse::kSweepRows:
       if (sweep) sweep->apply(event.sweep_rows(), seconds);
       break;
+    case v1::WatchJobResponse::kStageEnded:
     case v1::WatchJobResponse::EVENT_NOT_SET:
       break;  // only ended load cases, or an event of a later version
   }

@@ -136,6 +136,20 @@ struct Field {
   bool operator==(const Field&) const = default;
 };
 
+/// One entry per stage of a job with an accuracy, each on a finer mesh than the one before. NaN
+/// where the stage had no bounds.
+struct Stages {
+  std::vector<std::int64_t> triangles;       ///< of the stage's mesh, increasing
+  std::vector<double> energy;                ///< Pi(u)
+  std::vector<double> energy_lower, energy_upper, error_bound_relative;  ///< as in Load
+  /// Half the width of the bounds of A over |A|, the largest of all inclusions.
+  std::vector<double> displacement_error;
+  std::vector<double> seconds;  ///< from the start of the first stage to the end of this one
+
+  std::size_t size() const noexcept { return triangles.size(); }
+  bool operator==(const Stages&) const = default;
+};
+
 struct Load {
   std::string name;  ///< [A-Za-z0-9][A-Za-z0-9_. -]{0,63}, unique
   Status status = Status::unspecified;
@@ -167,6 +181,9 @@ struct Load {
   std::vector<Trace> traces;  ///< one per Result::interfaces, or none
   History history;
   std::vector<Field> fields;  ///< one per Mesh::subdomains, or none (not asked for)
+  /// (m) the part of each triangle in error_bound^2; empty: not asked for, or no bounds.
+  std::vector<double> indicator;
+  Stages stages;  ///< none: the job had no accuracy
   bool operator==(const Load&) const = default;
 };
 
@@ -186,6 +203,7 @@ struct Result {
   std::string mesh_name;    ///< "meshes/ID"
   std::string job_name;     ///< "jobs/ID"
   std::string mesh_sha256;  ///< 64 lower-case hexadecimal digits
+  std::string not_reached;  ///< which accuracy of the job, what stopped it, and the cure
   Timings timings;
   Mesh mesh;
   std::vector<Interface> interfaces;

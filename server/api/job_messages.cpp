@@ -27,12 +27,12 @@ namespace {
 constexpr const char* relative = "_relative";
 
 /// 0: unset.
-void write_limit(milliseconds limit, v1::Job& to, const char* name) {
+void write_limit(milliseconds limit, Message& to, const char* name) {
   if (limit.count() > 0) write_field(std::chrono::nanoseconds(limit), to, name);
 }
 
 /// Rounded up, so that a short limit does not become 0 (unset).
-milliseconds limit_of(const v1::Job& from, const char* name) {
+milliseconds limit_of(const Message& from, const char* name) {
   return std::chrono::ceil<milliseconds>(read_one<std::chrono::nanoseconds>(from, name));
 }
 
@@ -182,13 +182,43 @@ store::CaseRecord Translation<store::CaseRecord>::read(const v1::LoadCaseAnswer&
   return value;
 }
 
-const Except of_spec{"mesh", "loads", "fields", "queue_time_limit", "run_time_limit"};
+void Translation<store::AccuracySpec>::write(const store::AccuracySpec& value, v1::Accuracy& to) {
+  write_fields(value, to, {"time"});
+  write_limit(value.time, to, "time");
+}
+
+store::AccuracySpec Translation<store::AccuracySpec>::read(const v1::Accuracy& from) {
+  store::AccuracySpec value;
+  read_fields(from, value, {"time"});
+  value.time = limit_of(from, "time");
+  return value;
+}
+
+void Translation<store::StageRecord>::write(const store::StageRecord& value, v1::Stage& to) {
+  write_fields(value, to, {"mesh"});
+  to.set_mesh(mesh_name(value.mesh));
+}
+
+store::StageRecord Translation<store::StageRecord>::read(const v1::Stage& from) {
+  store::StageRecord value;
+  read_fields(from, value, {"mesh"});
+  value.mesh = after_slash(from.mesh(), "mesh");
+  return value;
+}
+
+const Except of_spec{"mesh",       "loads",            "fields",
+                     "indicators", "queue_time_limit", "run_time_limit"};
+
+bool asks_for(const v1::Job& job, v1::Output output) {
+  return std::ranges::find(job.outputs(), output) != job.outputs().end();
+}
 
 void Translation<store::JobSpec>::write(const store::JobSpec& value, v1::Job& to) {
   write_fields(value, to, of_spec);
   write_field(mesh_name(value.mesh), to, "mesh");
   write_field(value.loads, to, "load_cases");
   if (value.fields) to.add_outputs(v1::OUTPUT_FIELDS);
+  if (value.indicators) to.add_outputs(v1::OUTPUT_INDICATORS);
   write_limit(value.queue_time_limit, to, "queue_timeout");
   write_limit(value.run_time_limit, to, "run_timeout");
 }
@@ -198,7 +228,8 @@ store::JobSpec Translation<store::JobSpec>::read(const v1::Job& from) {
   read_fields(from, value, of_spec);
   value.mesh = after_slash(from.mesh(), "mesh");
   read_field(from, "load_cases", value.loads);
-  value.fields = std::ranges::find(from.outputs(), v1::OUTPUT_FIELDS) != from.outputs().end();
+  value.fields = asks_for(from, v1::OUTPUT_FIELDS);
+  value.indicators = asks_for(from, v1::OUTPUT_INDICATORS);
   value.queue_time_limit = limit_of(from, "queue_timeout");
   value.run_time_limit = limit_of(from, "run_timeout");
   return value;

@@ -23,7 +23,7 @@ namespace {
 
 /// The order of mesh::Preset, whose numbers are part of the identity of meshes.
 constexpr std::array presets{v1::MESH_PRESET_GRADED, v1::MESH_PRESET_PAPER,
-                             v1::MESH_PRESET_UNIFORM};
+                             v1::MESH_PRESET_UNIFORM, v1::MESH_PRESET_COARSE};
 
 }  // namespace
 
@@ -148,10 +148,21 @@ mesh::MeshOptions Translation<mesh::MeshOptions>::read(const v1::MeshOptions& fr
   return value;
 }
 
+void Translation<store::Refinement>::write(const store::Refinement& value, v1::Refinement& to) {
+  write_fields(value, to, {"parent"});
+  to.set_parent(mesh_name(value.parent));
+}
+
+store::Refinement Translation<store::Refinement>::read(const v1::Refinement& from) {
+  return {after_slash(from.parent(), "parent"), from.levels_sha256()};
+}
+
 void write_definition(const store::MeshDefinition& value, Message& to) {
   if (const auto* upload = std::get_if<store::UploadRef>(&value)) {
     write_field(upload_name(upload->sha256), to, "upload");
     write_field(upload->options, to, "options");
+  } else if (const auto* refinement = std::get_if<store::Refinement>(&value)) {
+    write_field(*refinement, to, "refinement");
   } else {
     write_fields(std::get<store::GeometrySource>(value), to);
   }

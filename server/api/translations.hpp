@@ -58,17 +58,21 @@ ANTICRACK_TRANSLATION(contact::SolverOptions, v1::Solver);
 // store/
 /// Without its definition.
 ANTICRACK_TRANSLATION(store::MeshRecord, v1::Mesh);
+ANTICRACK_TRANSLATION(store::Refinement, v1::Refinement);
 /// Its rows are in Job.sweep_answer.
 ANTICRACK_TRANSLATION(store::SweepSpec, v1::Sweep);
 /// Without the name, which is the load's.
 ANTICRACK_TRANSLATION(store::CaseRecord, v1::LoadCaseAnswer);
+ANTICRACK_TRANSLATION(store::AccuracySpec, v1::Accuracy);
+ANTICRACK_TRANSLATION(store::StageRecord, v1::Stage);
 /// The part of Job that the client sets.
 ANTICRACK_TRANSLATION(store::JobSpec, v1::Job);
 /// Without its request id.
 ANTICRACK_TRANSLATION(store::JobRecord, v1::Job);
 #undef ANTICRACK_TRANSLATION
 
-/// What a mesh is made from: source and options of a v1::CreateMeshRequest or v1::Mesh.
+/// What a mesh is made from: source and options of a v1::CreateMeshRequest or v1::Mesh; a
+/// refinement only of the latter and of records.
 void write_definition(const store::MeshDefinition& value, Message& to);
 store::MeshDefinition read_definition(const v1::CreateMeshRequest& from);
 

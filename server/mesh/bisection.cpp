@@ -2,6 +2,7 @@
 #include "mesh/bisection.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -115,6 +116,7 @@ void cut_lines(Mesh& mesh, const Midpoints& midpoints) {
 
 std::vector<std::uint8_t> reference_sides(const Mesh& mesh, const EdgeTable& edges) {
   std::vector<std::uint8_t> sides(mesh.triangle_count(), 0);
+  if (mesh.bisection_bound > 0) return sides;
   std::vector<double> longest(mesh.triangle_count(), -1.0);
   edges.each([&](std::span<const EdgeUse> uses) {
     const double length = squared_length(mesh, uses[0].low(), uses[0].high());
@@ -133,6 +135,8 @@ Bisection::Bisection(const Mesh& base, std::size_t max_triangles)
     : _base(base), _max_triangles(max_triangles), _xy(base.xy), _subdomain(base.subdomain) {
   const EdgeTable edges(base.triangles);
   const std::vector<std::uint8_t> reference = reference_sides(base, edges);
+  _origin.resize(base.triangle_count());
+  std::iota(_origin.begin(), _origin.end(), 0);
   _corners.resize(base.triangle_count());
   for (std::size_t t = 0; t < _corners.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i)
@@ -172,6 +176,7 @@ std::int32_t Bisection::append_triangle(std::int32_t like) {
   _corners.emplace_back();
   _across.emplace_back();
   _subdomain.push_back(_subdomain[at(like)]);
+  _origin.push_back(_origin[at(like)]);
   return t;
 }
 
@@ -239,11 +244,13 @@ Mesh Bisection::finish() && {
   mesh.interfaces = _base.interfaces;
   mesh.dirichlet = _base.dirichlet;
   mesh.warnings = _base.warnings;
+  mesh.bisection_bound = bisection_bound(_base);
   cut_lines(mesh, Midpoints(static_cast<std::int32_t>(_base.node_count()), _parents));
   return mesh;
 }
 
 double bisection_bound(const Mesh& base) {
+  if (base.bisection_bound > 0) return base.bisection_bound;
   const std::vector<std::uint8_t> reference = reference_sides(base, EdgeTable(base.triangles));
   double smallest = 180;
   for (std::size_t t = 0; t < base.triangle_count(); ++t) {

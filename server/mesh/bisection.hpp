@@ -4,7 +4,9 @@
 //
 // Bisection joins the midpoint of a triangle's reference edge to the opposite corner; the reference
 // edges of the children are the other two edges of the parent. At first it is the longest edge; of
-// equal ones that with the smaller (low, high) pair of nodes, which makes the order strict.
+// equal ones that with the smaller (low, high) pair of nodes, which makes the order strict. A mesh
+// that was bisected before (Mesh::bisection_bound) goes on from its own reference edges: `finish`
+// leaves them as the sides from corner 0 to corner 1.
 #pragma once
 
 #include <array>
@@ -29,6 +31,8 @@ class Bisection {
 
   /// Of the mesh as it is now.
   std::size_t triangle_count() const noexcept { return _subdomain.size(); }
+  /// Of the base, that the triangle is a part of.
+  std::int32_t origin(std::size_t triangle) const noexcept { return _origin[triangle]; }
   /// Counterclockwise.
   std::array<Point, 3> corners(std::size_t triangle) const noexcept;
 
@@ -37,7 +41,8 @@ class Bisection {
   /// `max_triangles`; part of the work may be done then. O(1) amortised over all calls.
   [[nodiscard]] bool bisect(std::size_t triangle);
 
-  /// The mesh as it stands, interfaces and dirichlet edges cut with it. O(n log n).
+  /// The mesh as it stands, interfaces and dirichlet edges cut with it, and its `bisection_bound`.
+  /// O(n log n).
   Mesh finish() &&;
 
  private:
@@ -54,6 +59,7 @@ class Bisection {
   /// Triangle across the side from corner i to the next, -1 for none; so [0] across the reference.
   std::vector<std::array<std::int32_t, 3>> _across;
   std::vector<std::int32_t> _subdomain;
+  std::vector<std::int32_t> _origin;
   std::vector<std::int32_t> _waiting;
 };
 

@@ -117,7 +117,7 @@ static Choices choices_of(Role) {
   return {0, static_cast<std::int32_t>(Role::align), "a curve's role"};
 }
 static Choices choices_of(Preset) {
-  return {0, static_cast<std::int32_t>(Preset::uniform), "the preset"};
+  return {0, static_cast<std::int32_t>(Preset::coarse), "the preset"};
 }
 
 Bytes encode(const Mesh& mesh) {

@@ -26,6 +26,9 @@ constexpr double graded_divisions = 20.3;
 /// Of many tips: h0 as a part of the reach of a tip that has no more than its share.
 constexpr double share_divisions = 2.75;
 
+/// Default size of preset coarse over that of graded.
+constexpr double coarsening = 4;
+
 /// Limit of the curves of a plan; the work on them grows nearly quadratically.
 constexpr std::size_t curve_limit = 50'000;
 
@@ -48,9 +51,10 @@ std::size_t tip_count(const Geometry& geometry) {
 
 /// The edge length where none is given.
 double default_size(const Geometry& geometry, Preset preset, std::span<const Point> polygon) {
-  if (preset != Preset::graded) return diagonal(polygon) / uniform_divisions;
+  if (!graded(preset)) return diagonal(polygon) / uniform_divisions;
   const double share = tip_share(0.5 * std::sqrt(signed_area(polygon)), tip_count(geometry));
-  return std::min(diagonal(polygon) / graded_divisions, share / share_divisions);
+  const double size = std::min(diagonal(polygon) / graded_divisions, share / share_divisions);
+  return preset == Preset::coarse ? coarsening * size : size;
 }
 
 /// What is expected, as a count.
@@ -204,7 +208,7 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   }
   cut_near(plan, size, plan.growth, curve_limit);
   set_intervals(plan, size);
-  if (options.preset == Preset::graded) plan.grading = {size, options.grading, options.tip_size};
+  if (graded(options.preset)) plan.grading = {size, options.grading, options.tip_size};
   return plan;
 }
 

@@ -68,7 +68,11 @@ struct Geometry {
 };
 ANTICRACK_FIELDS(Geometry, boundary, interfaces, inclusions, cracks, neumann, regions)
 
-enum class Preset { graded, paper, uniform };
+/// Coarse: graded, from a default size four times as large.
+enum class Preset { graded, paper, uniform, coarse };
+constexpr bool graded(Preset preset) noexcept {
+  return preset == Preset::graded || preset == Preset::coarse;
+}
 
 struct MeshOptions {
   Preset preset = Preset::graded;

@@ -26,7 +26,7 @@ void check_sizes(const MeshOptions& options) {
     refuse_option("options.grading", "options.grading is " + show(options.grading) +
                                          "; it is an exponent above 0 and at most 1");
   }
-  if (options.tip_size > 0 && options.preset != Preset::graded) {
+  if (options.tip_size > 0 && !graded(options.preset)) {
     refuse_option("options.tip_size", "options.tip_size is " + show(options.tip_size) +
                                           ", but only preset graded uses it; leave it unset");
   }

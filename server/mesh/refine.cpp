@@ -116,4 +116,25 @@ Mesh grade(const Mesh& base, std::span<const std::int32_t> centres, const Gradin
   return std::move(mesh).finish();
 }
 
+Mesh refine(const Mesh& base, std::span<const std::uint8_t> levels, std::size_t max_triangles) {
+  Bisection mesh(base, std::min(max_triangles, at(std::numeric_limits<std::int32_t>::max())));
+  const auto twice_area = [](const std::array<Point, 3>& p) {
+    return (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1]);
+  };
+  // Halves are exact but for rounding: half a level lies between.
+  std::vector<double> enough(base.triangle_count());
+  for (std::size_t t = 0; t < enough.size(); ++t)
+    enough[t] = twice_area(mesh.corners(t)) * std::exp2(0.5 - levels[t]);
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    while (twice_area(mesh.corners(t)) > enough[at(mesh.origin(t))]) {
+      if (mesh.bisect(t)) continue;
+      throw errors::Error(errors::Reason::limit_exceeded,
+                          "refining " + std::to_string(base.triangle_count()) +
+                              " triangles takes more than the " + std::to_string(max_triangles) +
+                              " allowed");
+    }
+  }
+  return std::move(mesh).finish();
+}
+
 }  // namespace anticrack::mesh

@@ -70,8 +70,7 @@ double smallest_tip_size(const Mesh& mesh, std::span<const std::int32_t> centres
 std::vector<std::int32_t> tips(const Mesh& mesh);
 
 /// Grades towards tips(base); without tips every edge is at most h0. Triangles that are fine enough
-/// stay. Grade a base once, not its graded mesh: the longest edges there are not the reference
-/// edges. Throws errors::Error: invalid_argument at "h0", "m" or "tip_size"; limit_exceeded at "h0"
+/// stay. Throws errors::Error: invalid_argument at "h0", "m" or "tip_size"; limit_exceeded at "h0"
 /// beyond `max_triangles`; mesh_invalid for an edge of three triangles. O(n log n) for n triangles
 /// of the result; 60 bytes a triangle besides the result.
 Mesh grade(const Mesh& base, const Grading& grading, std::size_t max_triangles);
@@ -80,8 +79,13 @@ Mesh grade(const Mesh& base, const Grading& grading, std::size_t max_triangles);
 Mesh grade(const Mesh& base, std::span<const std::int32_t> centres, const Grading& grading,
            std::size_t max_triangles);
 
-/// Lower bound, degrees, of all angles `grade` can make of this base: bisection produces four
-/// classes of similar triangles from each triangle. O(m log m).
+/// Bisects triangle t of the base until its parts have at most 2^-levels[t] of its area, and what
+/// must be bisected with them; levels (m). With `bisection_bound`. Throws errors::Error:
+/// limit_exceeded beyond `max_triangles`; mesh_invalid as grade(). Complexity of grade().
+Mesh refine(const Mesh& base, std::span<const std::uint8_t> levels, std::size_t max_triangles);
+
+/// Lower bound, degrees, of all angles that bisection can make of this base: four classes of
+/// similar triangles from each triangle. O(m log m).
 double bisection_bound(const Mesh& base);
 
 }  // namespace anticrack::mesh

@@ -75,7 +75,6 @@ mesh::Mesh graded(mesh::Mesh base, const mesh::GradingSpec& spec, std::size_t ma
   const std::vector<std::int32_t> tips =
       spec.m < 1 ? mesh::tips(base) : std::vector<std::int32_t>();
   mesh::Mesh fine = bisected(base, tips, spec, bound, max_triangles);
-  fine.bisection_bound = bound;
   if (const double angle = mesh::minimum_angle(fine); !(angle >= bound * (1 - angle_slack))) {
     throw errors::Error(
         errors::Reason::internal,
@@ -87,7 +86,7 @@ mesh::Mesh graded(mesh::Mesh base, const mesh::GradingSpec& spec, std::size_t ma
 }
 
 mesh::Mesh graded(mesh::Mesh base, const mesh::MeshOptions& options, std::size_t max_triangles) {
-  if (options.preset == mesh::Preset::graded) {
+  if (mesh::graded(options.preset)) {
     const double h0 = options.size > 0 ? options.size : mesh::longest_edge(base);
     return graded(std::move(base), {h0, options.grading, options.tip_size}, max_triangles);
   }

@@ -12,7 +12,7 @@ namespace {
 /// Clears options that have no effect with the preset.
 mesh::MeshOptions effective(mesh::MeshOptions options) {
   if (options.preset == mesh::Preset::paper) options.size = 0;
-  if (options.preset != mesh::Preset::graded) {
+  if (!mesh::graded(options.preset)) {
     options.tip_size = 0;
     options.grading = 0;
   }
@@ -25,6 +25,8 @@ std::string identity(const store::MeshDefinition& definition) {
   store::CanonicalHash hash;
   if (const auto* upload = std::get_if<store::UploadRef>(&definition)) {
     hash.add(std::string("upload")).add(upload->sha256).add_all(effective(upload->options));
+  } else if (const auto* refinement = std::get_if<store::Refinement>(&definition)) {
+    hash.add(std::string("refinement")).add_all(*refinement);
   } else {
     const auto& source = std::get<store::GeometrySource>(definition);
     hash.add(std::string("geometry")).add_all(source.geometry).add_all(effective(source.options));

@@ -24,6 +24,11 @@ mesh::MesherRequest request_for(const store::MeshRecord& record, const Catalogue
         mesh::plan(source->geometry, source->options, options.max_triangles),
         options.max_triangles};
   }
+  if (std::holds_alternative<store::Refinement>(record.definition)) {
+    throw errors::Error(errors::Reason::storage,
+                        "the triangulation of meshes/" + record.id +
+                            ", which a job made, is gone: run the job again");
+  }
   const auto& upload = std::get<store::UploadRef>(record.definition);
   std::string path = require_upload(store, upload, record.owner);
   store::require_intact_upload(path, upload.sha256);
@@ -47,6 +52,7 @@ std::size_t check_definition(const store::MeshDefinition& definition, const std:
                              const CatalogueOptions& options, const store::Store& store) {
   if (const auto* source = std::get_if<store::GeometrySource>(&definition))
     return mesh::plan(source->geometry, source->options, options.max_triangles).triangles;
+  if (std::holds_alternative<store::Refinement>(definition)) return 0;
   constexpr std::size_t bytes_a_triangle = 60;  // of a .msh file, nodes included
   const auto& upload = std::get<store::UploadRef>(definition);
   mesh::check_for_upload(upload.options);

@@ -63,7 +63,10 @@ void update(v1::Job& job) {
 std::string encode(const MeshRecord& record) {
   disk::MeshRecord out;
   api::Translation<MeshRecord>::write(record, *out.mutable_mesh());
-  api::write_definition(record.definition, *out.mutable_definition());
+  if (const auto* refinement = std::get_if<Refinement>(&record.definition))
+    api::write_field(*refinement, out, "refinement");
+  else
+    api::write_definition(record.definition, *out.mutable_definition());
   return api::serialized(out);
 }
 
@@ -78,7 +81,10 @@ std::string encode(const JobRecord& record) {
 MeshRecord decode_mesh_record(std::string_view bytes) {
   return decoded<disk::MeshRecord>(bytes, [](const disk::MeshRecord& in) {
     MeshRecord record = api::Translation<MeshRecord>::read(in.mesh());
-    record.definition = api::read_definition(in.definition());
+    if (in.has_refinement())
+      record.definition = api::read_one<Refinement>(in, "refinement");
+    else
+      record.definition = api::read_definition(in.definition());
     return record;
   });
 }

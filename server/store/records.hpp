@@ -35,8 +35,15 @@ struct GeometrySource {
 };
 ANTICRACK_FIELDS(GeometrySource, geometry, options)
 
+/// Another mesh, whose triangles were bisected for a job.
+struct Refinement {
+  std::string parent;         ///< id; it may have gone
+  std::string levels_sha256;  ///< of mesh::refine()'s levels
+};
+ANTICRACK_FIELDS(Refinement, parent, levels_sha256)
+
 /// What a mesh is made from; its identity is the hash of this.
-using MeshDefinition = std::variant<GeometrySource, UploadRef>;
+using MeshDefinition = std::variant<GeometrySource, UploadRef, Refinement>;
 
 enum class MeshState { pending = 1, meshing, factorizing, ready, evicted, failed };
 
@@ -162,6 +169,35 @@ struct SweepRecord {
 ANTICRACK_FIELDS(SweepRecord, converged, not_converged, failed, most_steps, worst_kkt, solve_time,
                  warnings)
 
+/// Load cases solved stage after stage, on meshes refined until their bounds are close enough.
+struct AccuracySpec {
+  std::optional<double> energy{};        ///< energy_upper - energy_lower over |energy|
+  std::optional<double> displacement{};  ///< half the width of the bounds of A over |A|
+  std::uint64_t max_triangles = 0;       ///< 0: the server's
+  std::chrono::milliseconds time{0};     ///< no stage begins later; 0: none is too late
+  bool keep_stages = false;              ///< the meshes of all stages
+};
+ANTICRACK_FIELDS(AccuracySpec, energy, displacement, max_triangles, time, keep_stages)
+
+/// A load case at the end of a stage; without bounds where it has none.
+struct StageAnswer {
+  double energy = 0;
+  std::optional<double> energy_lower{};
+  std::optional<double> energy_upper{};
+  std::optional<double> error_bound_relative{};
+  std::optional<double> displacement_error{};  ///< largest of the inclusions, as AccuracySpec has it
+};
+ANTICRACK_FIELDS(StageAnswer, energy, energy_lower, energy_upper, error_bound_relative,
+                 displacement_error)
+
+struct StageRecord {
+  std::string mesh;  ///< id
+  std::uint64_t triangles = 0;
+  double seconds = 0;  ///< from the start of the first stage to the end of this
+  std::vector<StageAnswer> answers{};  ///< (loads); empty: it has not ended
+};
+ANTICRACK_FIELDS(StageRecord, mesh, triangles, seconds, answers)
+
 /// What a client asked for.
 struct JobSpec {
   std::string title;
@@ -169,14 +205,16 @@ struct JobSpec {
   std::vector<fem::Load> loads;
   contact::SolverOptions solver;
   bool fields = false;
-  bool without_bounds = false;       ///< answers have no bounds of their errors
-  std::optional<SweepSpec> sweep{};  ///< loads are its basis
+  bool indicators = false;                 ///< of the error, by triangle
+  bool without_bounds = false;             ///< answers have no bounds of their errors
+  std::optional<SweepSpec> sweep{};        ///< loads are its basis
+  std::optional<AccuracySpec> accuracy{};  ///< solved in stages
   Priority priority = Priority::normal;
   std::chrono::milliseconds queue_time_limit{0};  ///< from creation to start; 0: the server's
   std::chrono::milliseconds run_time_limit{0};    ///< from start to end; 0: the server's
 };
-ANTICRACK_FIELDS(JobSpec, title, mesh, loads, solver, fields, without_bounds, sweep, priority,
-                 queue_time_limit, run_time_limit)
+ANTICRACK_FIELDS(JobSpec, title, mesh, loads, solver, fields, indicators, without_bounds, sweep,
+                 accuracy, priority, queue_time_limit, run_time_limit)
 
 /// A step of a job's way: it passed into `state`, or into another phase of it.
 struct Step {
@@ -199,12 +237,14 @@ struct JobRecord {
   std::optional<Clock::time_point> expired;  ///< when the result was removed, by age or budget
   std::vector<CaseRecord> cases;             ///< one per load; empty for a sweep
   SweepRecord sweep;                         ///< of a sweep
+  std::vector<StageRecord> stages;           ///< begun so far; `cases` are of the last
+  std::string not_reached;                   ///< which accuracy, why, and the cure
   std::uint64_t result_bytes = 0;
   int attempt = 1;             ///< counts restarts of the server while it ran
   int crashes = 0;             ///< attempts that ended with the server's process, without a stop
   std::vector<Step> timeline;  ///< of this attempt and those before, at most a few dozen
 };
 ANTICRACK_FIELDS(JobRecord, id, owner, request_id, spec, state, error, created, started, ended,
-                 expired, cases, sweep, result_bytes, attempt, crashes, timeline)
+                 expired, cases, sweep, stages, not_reached, result_bytes, attempt, crashes, timeline)
 
 }  // namespace anticrack::store
