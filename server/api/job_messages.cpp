@@ -206,8 +206,7 @@ store::StageRecord Translation<store::StageRecord>::read(const v1::Stage& from) 
   return value;
 }
 
-const Except of_spec{"mesh",       "loads",            "fields",
-                     "indicators", "queue_time_limit", "run_time_limit"};
+const Except of_spec{"mesh", "loads", "fields", "indicators", "queue_time_limit", "run_time_limit"};
 
 bool asks_for(const v1::Job& job, v1::Output output) {
   return std::ranges::find(job.outputs(), output) != job.outputs().end();

@@ -133,6 +133,7 @@ std::string fingerprint(const v1::Job& job) {
         v1::Job::kEndTimeFieldNumber, v1::Job::kAnswersFieldNumber,
         v1::Job::kResultBytesFieldNumber, v1::Job::kAttemptFieldNumber, v1::Job::kOwnerFieldNumber,
         v1::Job::kTimelineFieldNumber, v1::Job::kSweepAnswerFieldNumber,
+        v1::Job::kStagesFieldNumber, v1::Job::kNotReachedFieldNumber,
         v1::Job::kResultStateFieldNumber, v1::Job::kExpireTimeFieldNumber,
         v1::Job::kLoadCaseCountFieldNumber, v1::Job::kLoadCasesEndedFieldNumber})
     sent.GetReflection()->ClearField(&sent, sent.GetDescriptor()->FindFieldByNumber(number));
@@ -164,6 +165,8 @@ store::JobSpec to_spec(const v1::Job& job, const JobLimits& limits) {
   if (job.has_queue_timeout())
     require_time(job.queue_timeout(), limits.queue_time, "job.queue_timeout");
   if (job.has_run_timeout()) require_time(job.run_timeout(), limits.run_time, "job.run_timeout");
+  if (job.accuracy().has_time())
+    require_time(job.accuracy().time(), limits.run_time, "job.accuracy.time");
   require_loads(job);
   if (job.has_sweep()) require_sweep(job.sweep(), limits);
   store::JobSpec spec;

@@ -22,8 +22,8 @@ static_assert(int(store::ArrayType::uint8) == v1::ArrayLayout::TYPE_UINT8);
 namespace {
 
 /// The order of mesh::Preset, whose numbers are part of the identity of meshes.
-constexpr std::array presets{v1::MESH_PRESET_GRADED, v1::MESH_PRESET_PAPER,
-                             v1::MESH_PRESET_UNIFORM, v1::MESH_PRESET_COARSE};
+constexpr std::array presets{v1::MESH_PRESET_GRADED, v1::MESH_PRESET_PAPER, v1::MESH_PRESET_UNIFORM,
+                             v1::MESH_PRESET_COARSE};
 
 }  // namespace
 
@@ -149,12 +149,14 @@ mesh::MeshOptions Translation<mesh::MeshOptions>::read(const v1::MeshOptions& fr
 }
 
 void Translation<store::Refinement>::write(const store::Refinement& value, v1::Refinement& to) {
-  write_fields(value, to, {"parent"});
+  write_fields(value, to, {"parent", "job"});
   to.set_parent(mesh_name(value.parent));
+  to.set_job(job_name(value.job));
 }
 
 store::Refinement Translation<store::Refinement>::read(const v1::Refinement& from) {
-  return {after_slash(from.parent(), "parent"), from.levels_sha256()};
+  return {after_slash(from.parent(), "parent"), after_slash(from.job(), "job"),
+          from.levels_sha256()};
 }
 
 void write_definition(const store::MeshDefinition& value, Message& to) {

@@ -75,12 +75,12 @@ class EquilibratedFlux {
 
   const CutMesh& _cut;
   Balance _balance;
-  bool _is_pressure;               // the work of the pressure counts
+  bool _is_pressure;                           // the work of the pressure counts
   const std::vector<double>&_tension, &_area;  // (m)
   const std::vector<Vector>& _edge;            // (corners) opposite to the corner, counterclockwise
   std::vector<double> _excess;                 // (corners) outward flux of sigma - T grad u
   std::vector<Vector> _centre;                 // (m) mean of sigma - T grad u
-  std::vector<double> _rest;       // (m) int |sigma - T grad u - its mean|^2
+  std::vector<double> _rest;                   // (m) int |sigma - T grad u - its mean|^2
   std::vector<double> _through;
   struct Turn {
     std::size_t side;

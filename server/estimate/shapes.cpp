@@ -29,8 +29,8 @@ Shapes shapes(const Triangles& triangles, const Fans& fans) {
     }
     shapes.area[t] = 0.5 * (edge[2][1] * edge[1][0] - edge[2][0] * edge[1][1]);
     for (std::size_t i = 0; i < 3; ++i)
-      shapes.weight[t][i] = -shapes.tension[t] * dot(edge[(i + 1) % 3], edge[(i + 2) % 3]) /
-                            (2 * shapes.area[t]);
+      shapes.weight[t][i] =
+          -shapes.tension[t] * dot(edge[(i + 1) % 3], edge[(i + 2) % 3]) / (2 * shapes.area[t]);
   }
   shapes.around.reserve(fans.corners.size());
   shapes.softness.reserve(fans.first_corner.size());

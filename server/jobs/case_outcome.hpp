@@ -18,6 +18,7 @@ namespace anticrack::jobs {
 struct CaseOutcome {
   std::shared_ptr<const store::CaseRecord> record;
   std::optional<ResultPart> result{};  ///< converged and not_converged only
+  std::vector<double> indicator{};     ///< (triangles), of a job with an accuracy
 };
 
 /// Keeps a load case's history, and stops the case when its job must stop. One object belongs to
@@ -56,7 +57,8 @@ class Recorder final : public History {
 /// The end of a load case that was solved or stopped; `history`: its iterations. Its arrays go into
 /// the job's spool.
 CaseOutcome solved_case(const Task& task, const contact::Answer& answer,
-                        const std::vector<contact::Sample>& history);
+                        const std::vector<contact::Sample>& history,
+                        std::vector<double> indicator = {});
 /// What was thrown, whatever it is.
 errors::Error error_of(const std::exception_ptr& failure);
 

@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "errors/errors.hpp"
+#include "jobs/accuracy.hpp"
 #include "jobs/sweep_check.hpp"
 #include "store/canonical.hpp"
 
@@ -95,6 +96,7 @@ void check(const store::JobSpec& spec, const EngineOptions& options) {
     check_sweep(spec, options);
   else
     check_count(spec.loads.size(), options);
+  if (spec.accuracy) check_accuracy(spec);
   check_names(spec.loads);
   for (std::size_t i = 0; i < spec.loads.size(); ++i) {
     try {

@@ -83,6 +83,8 @@ EndingThread::End EndingThread::conclude_job(Lock& lock, const JobPtr& job) {
       const auto unsolved =
           outcome.state == JobState::failed ? contact::Status::failed : contact::Status::cancelled;
       end.result = sweep_result(*job, unsolved);
+    } else if (job->stages && job->stages->last.result) {
+      end.result = std::move(job->stages->last.result);
     } else if (job->mesh_operator) {
       end.result = result_block(*job);
     }
@@ -138,6 +140,7 @@ void EndingThread::announce(Lock& lock, const End& end) {
   const std::uint64_t log_bytes = job->log->bytes() + fields::bytes_of(*record);
   if (_core.options.ended) _core.options.ended(*record);
   job->mesh_use.reset();
+  if (job->stages) forget_meshes(*job);
   lock.lock();
   _core.running -= job->state == JobState::running ? 1 : 0;
   job->state = record->state;
@@ -153,6 +156,19 @@ void EndingThread::announce(Lock& lock, const End& end) {
   lock.lock();
   --_core.not_announced;
   _core.settled.notify_all();
+}
+
+void EndingThread::forget_meshes(const LiveJob& job) {
+  LiveStages& stages = *job.stages;
+  stages.mesh_use.reset();
+  for (const std::string& mesh : stages.made) {
+    if (job.spec->accuracy->keep_stages || mesh == stages.records.back().mesh) continue;
+    try {
+      _core.catalogue.erase(mesh);
+    } catch (const std::exception&) {
+      // It stays among the owner's meshes, who may delete it.
+    }
+  }
 }
 
 void EndingThread::keep(Lock& lock, End end) {

@@ -40,6 +40,9 @@ class EndingThread {
   void work();
   End conclude_job(Lock& lock, const JobPtr& job);
   void write(Lock& lock, End end);
+  /// Deletes the meshes that a job with an accuracy made, but that of its answers. Without the
+  /// lock.
+  void forget_meshes(const LiveJob& job);
   void announce(Lock& lock, const End& end);
   void keep(Lock& lock, End end);
   void leave_to_next_start(Lock& lock, const End& end);

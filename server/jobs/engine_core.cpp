@@ -2,9 +2,11 @@
 #include "jobs/engine_core.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "fields/walk.hpp"
+#include "jobs/accuracy.hpp"
 #include "operators/freed_memory.hpp"
 
 namespace anticrack::jobs {
@@ -20,6 +22,22 @@ constexpr std::size_t prepared_limit = 3;
 /// Bytes of results between two returns of freed memory to the system: the records that stay lie
 /// between the arrays that went, and would keep their pages.
 constexpr std::uint64_t trim_every = std::uint64_t{16} << 20U;
+
+/// See LiveStages::indicator.
+void add_indicator(LiveStages& stages, const store::AccuracySpec& wanted,
+                   const store::CaseRecord& record, std::vector<double>& indicator) {
+  constexpr double most = 1e3;  // where bounds of A are missing yet
+  const double factor = std::min(excess(stage_answer(record), wanted), most);
+  const double sum = std::accumulate(indicator.begin(), indicator.end(), 0.0);
+  if (!(factor > 1) || !(sum > 0)) return;
+  for (double& one : indicator) one *= factor / sum;
+  if (stages.indicator.empty()) {
+    stages.indicator = std::move(indicator);
+    return;
+  }
+  for (std::size_t t = 0; t < indicator.size(); ++t)
+    stages.indicator[t] = std::max(stages.indicator[t], indicator[t]);
+}
 
 }  // namespace
 
@@ -38,31 +56,53 @@ EngineCore::EngineCore(EngineOptions engine_options, store::Store& records,
       logs(memory) {}
 
 void EngineCore::add(const JobPtr& job) {
-  std::shared_ptr<MeshWork>& mesh = meshes[job->spec->mesh];
-  if (!mesh) mesh = std::make_shared<MeshWork>(job->spec->mesh);
   jobs.emplace(job->id(), job);
   numbers.emplace(job->number, job);
   ++live;
-  mesh->jobs.emplace(job->number, job);
-  mesh->waiting[index(job->lane)] += job->units;
-  offer(job);
-  if (!mesh->phase.empty()) {
+  if (const auto mesh = enter_mesh(job); !mesh->phase.empty()) {
     job->state = JobState::waiting_for_mesh;
     add_step(job->timeline, job->state, mesh->phase);
     job->log->append(PhaseEvent{job->state, mesh->phase});  // there are no watchers yet
   }
 }
 
+std::shared_ptr<MeshWork> EngineCore::enter_mesh(const JobPtr& job) {
+  std::shared_ptr<MeshWork>& mesh = meshes[job->mesh];
+  if (!mesh) mesh = std::make_shared<MeshWork>(job->mesh);
+  mesh->jobs.emplace(job->number, job);
+  mesh->waiting[index(job->lane)] += job->units;
+  offer(job);
+  return mesh;
+}
+
+void EngineCore::leave_mesh(const JobPtr& job) {
+  const std::shared_ptr<MeshWork> mesh = meshes.at(job->mesh);
+  mesh->jobs.erase(job->number);
+  release(mesh);
+}
+
+void EngineCore::move_on(const JobPtr& job) {
+  leave_mesh(job);
+  job->mesh = job->stages->records.back().mesh;
+  job->mesh_operator.reset();
+  job->spool.reset();
+  job->cases.assign(job->cases.size(), {});
+  job->next_unit = 0;
+  job->result_bytes = 0;
+  job->answer_bytes = 0;
+  enter_mesh(job);
+}
+
 void EngineCore::offer(const JobPtr& job) {
-  schedule.add({job->number, job->spec->mesh, job->lane, job->spec->priority, job->since,
-                catalogue.size_class(job->spec->mesh), job->created.owner});
+  schedule.add({job->number, job->mesh, job->lane, job->spec->priority, job->since,
+                catalogue.size_class(job->mesh), job->created.owner});
   preparers.notify_one();
   solvers.notify_all();
 }
 
 void EngineCore::begin_sweep(const JobPtr& job, SweepPlan plan) {
   job->sweep = std::make_unique<LiveSweep>(std::move(plan));
-  std::uint64_t& waiting = meshes.at(job->spec->mesh)->waiting[index(job->lane)];
+  std::uint64_t& waiting = meshes.at(job->mesh)->waiting[index(job->lane)];
   waiting -= job->units;
   job->units = job->sweep->chunks.size();
   waiting += job->units;
@@ -70,6 +110,12 @@ void EngineCore::begin_sweep(const JobPtr& job, SweepPlan plan) {
 
 void EngineCore::settle(const JobPtr& job) {
   if (job->ending || job->active > 0 || job->next_unit < job->units) return;
+  if (job->stages && !job->stages->over && job->why == Stop::none) {
+    ++job->active;
+    to_refine.push(job->created.owner, job);
+    preparers.notify_one();
+    return;
+  }
   job->ending = true;
   leave(job);
   --live;
@@ -81,6 +127,7 @@ void EngineCore::settle(const JobPtr& job) {
     job->spool.reset();
     job->sweep.reset();
     job->sweep_record = {};
+    job->stages.reset();
   } else {
     ++not_announced;
     to_end.push(job->created.owner, job);
@@ -94,9 +141,7 @@ void EngineCore::leave(const JobPtr& job) {
   if (job->state != JobState::running) admission.started();
   deadlines.clear(job->number);
   numbers.erase(job->number);
-  const std::shared_ptr<MeshWork> mesh = meshes.at(job->spec->mesh);
-  mesh->jobs.erase(job->number);
-  release(mesh);
+  leave_mesh(job);
 }
 
 void EngineCore::release(const std::shared_ptr<MeshWork>& mesh) {
@@ -135,8 +180,13 @@ void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
     job->memory.set(job->spec_bytes + job->answer_bytes + (job->spool ? job->spool->memory() : 0));
     --job->active;
     ++cases_ended;
-    --job->queued_cases;
-    admission.cases_ended(job->spec->mesh, 1);
+    if (job->stages) {
+      add_indicator(*job->stages, *job->spec->accuracy, *live_case.record,
+                    ended_case.outcome.indicator);
+    } else {
+      --job->queued_cases;
+      admission.cases_ended(job->spec->mesh, 1);
+    }
     settle(job);
   }
 }
@@ -189,7 +239,7 @@ void EngineCore::stop(const JobPtr& job, Stop why, const std::optional<Error>& f
   job->why = why;
   job->failure = failure;
   schedule.remove(job->number);
-  const std::shared_ptr<MeshWork> mesh = meshes.at(job->spec->mesh);
+  const std::shared_ptr<MeshWork> mesh = meshes.at(job->mesh);
   mesh->waiting[index(job->lane)] -= job->units - job->next_unit;
   job->next_unit = job->units;
   stopped = take_stopped(*mesh);

@@ -96,7 +96,8 @@ class EngineCore {
   std::unordered_map<std::string, JobPtr> jobs;  ///< that have not ended, by id
   std::unordered_map<std::uint64_t, JobPtr> numbers;
   std::unordered_map<std::string, std::shared_ptr<MeshWork>> meshes;
-  access::TurnQueue<JobPtr> to_end;  ///< owners take turns
+  access::TurnQueue<JobPtr> to_end;     ///< owners take turns
+  access::TurnQueue<JobPtr> to_refine;  ///< a stage ended; counted in LiveJob::active
 
   std::uint64_t last_number = 0;
   std::uint64_t created = 0;
@@ -114,6 +115,8 @@ class EngineCore {
   void add(const JobPtr& job);
   /// Puts a job's waiting units into the schedule.
   void offer(const JobPtr& job);
+  /// The job's next stage begins: it waits for the last of its meshes.
+  void move_on(const JobPtr& job);
   /// The chunks of a sweep that starts are known: they are its units from now on.
   void begin_sweep(const JobPtr& job, SweepPlan plan);
   /// Call it when a case of the job ended or the job must stop: passes on a job that has nothing
@@ -143,6 +146,9 @@ class EngineCore {
  private:
   /// Load cases of stopped jobs that no thread iterates: put down, or prepared.
   std::vector<EndedCase> take_stopped(MeshWork& mesh);
+  /// Among the jobs of its mesh, and out of them.
+  std::shared_ptr<MeshWork> enter_mesh(const JobPtr& job);
+  void leave_mesh(const JobPtr& job);
   void leave(const JobPtr& job);
 };
 

@@ -54,6 +54,8 @@ std::size_t kept_bytes(const Event& event) {
     bytes += fields::bytes_of(*ended->record);
   else if (const auto* rows = std::get_if<RowsEvent>(&event))
     bytes += fields::bytes_of(*rows->rows);
+  else if (const auto* stage = std::get_if<StageEvent>(&event))
+    bytes += fields::bytes_of(*stage->stage);
   else if (const auto* end = std::get_if<EndEvent>(&event))
     bytes += fields::bytes_of(*end->job);
   return bytes;

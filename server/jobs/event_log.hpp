@@ -37,12 +37,17 @@ struct RowsEvent {
   std::shared_ptr<const contact::SweepColumns> rows;
 };
 
+/// A stage of a job with an accuracy ended, after its load cases.
+struct StageEvent {
+  std::shared_ptr<const store::StageRecord> stage;
+};
+
 /// The job ended: always the last event.
 struct EndEvent {
   std::shared_ptr<const store::JobRecord> job;
 };
 
-using Event = std::variant<SampleEvent, PhaseEvent, CaseEvent, RowsEvent, EndEvent>;
+using Event = std::variant<SampleEvent, PhaseEvent, CaseEvent, RowsEvent, StageEvent, EndEvent>;
 
 struct NumberedEvent {
   std::uint64_t sequence = 0;
@@ -57,7 +62,7 @@ struct ProgressEvents {
 };
 
 /// What goes to a watcher in one message: the progress of load cases, or one other event.
-using Batch = std::variant<ProgressEvents, PhaseEvent, RowsEvent, EndEvent>;
+using Batch = std::variant<ProgressEvents, PhaseEvent, RowsEvent, StageEvent, EndEvent>;
 
 struct NumberedBatch {
   std::uint64_t last = 0;  ///< sequence of its last event

@@ -13,6 +13,7 @@ namespace {
 struct Solved {
   contact::Answer answer;
   std::vector<contact::Sample> history;
+  std::vector<double> indicator;
   std::exception_ptr failure;
 };
 
@@ -62,7 +63,8 @@ void add_bounds(const PreparedCase& prepared, Solved& solved) {
   if (solved.failure || spec.without_bounds) return;
   try {
     if (solved.answer.status == contact::Status::converged)
-      prepared.task.job->mesh_operator->estimate(prepared.load, solved.answer);
+      solved.indicator = prepared.task.job->mesh_operator->estimate(
+          prepared.load, solved.answer, prepared.task.job->stop.get_token());
   } catch (...) {
     solved.failure = std::current_exception();
   }
@@ -98,7 +100,8 @@ std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases,
     try {
       ended.push_back({task, solved[i].failure
                                  ? failed_case(task, solved[i].failure)
-                                 : solved_case(task, solved[i].answer, solved[i].history)});
+                                 : solved_case(task, solved[i].answer, solved[i].history,
+                                               std::move(solved[i].indicator))});
     } catch (...) {
       ended.push_back({task, failed_case(task, std::current_exception())});
     }

@@ -178,7 +178,14 @@ void recover(EngineCore& core) {
     record.cases.assign(case_count(record.spec), {});
     record.sweep = {};
     add_step(record.timeline, JobState::queued, "the server was started");
-    std::shared_ptr<void> mesh_use;
+    std::shared_ptr<void> mesh_use, stage_use;
+    if (!record.stages.empty()) {
+      try {
+        stage_use = core.catalogue.use(record.stages.back().mesh);
+      } catch (const Error&) {
+        record.stages.clear();  // its mesh is gone: it begins anew
+      }
+    }
     std::optional<Error> gone = too_many_crashes(record, core.options);
     try {
       mesh_use = use(core, record.spec.mesh);
@@ -191,6 +198,7 @@ void recover(EngineCore& core) {
     const auto job =
         std::make_shared<LiveJob>(++core.last_number, std::move(record), cases,
                                   core.options.event_log_bytes, std::move(mesh_use), core.memory);
+    if (job->stages) job->stages->mesh_use = std::move(stage_use);
     {
       const std::lock_guard lock(core.mutex);
       core.admission.add(job->created.owner, job->spec->mesh, cases, job->spec_bytes);

@@ -63,11 +63,18 @@ void try_again_later(EngineCore& core, const LiveJob& job) {
 }
 
 /// The job runs, in this phase.
-void tell(EngineCore::Lock& lock, LiveJob& job, const char* phase) {
+void tell(EngineCore::Lock& lock, LiveJob& job, const std::string& phase) {
   add_step(job.timeline, JobState::running, phase);
   lock.unlock();
   job.log->append(PhaseEvent{JobState::running, phase});
   lock.lock();
+}
+
+/// The first stage is known once the job starts, or was recovered; the others since their meshes
+/// were made.
+void begin_stage(LiveStages& stages, const std::string& id, const mesh::Mesh& mesh) {
+  if (!stages.begun) stages.begun = EngineCore::Clock::now();
+  if (stages.records.empty()) stages.records.push_back({id, mesh.triangle_count()});
 }
 
 /// The loads that a sweep combines: before any thread takes a chunk, so that none waits for another
@@ -94,11 +101,13 @@ std::chrono::milliseconds run_limit(const LiveJob& job, const EngineOptions& opt
 void start_job(EngineCore& core, EngineCore::Lock& lock,
                std::shared_ptr<const operators::MeshOperator> mesh_operator, const JobPtr& job) {
   core.schedule.remove(job->number);
-  if (core.memory->exceeded() && core.running > 0) {
+  const bool another_stage = job->state == JobState::running;
+  if (!another_stage && core.memory->exceeded() && core.running > 0) {
     try_again_later(core, *job);
     return;
   }
   ++job->active;  // it cannot end before its first event is in the log
+  if (job->stages) begin_stage(*job->stages, job->mesh, mesh_operator->mesh());
   const JobSnapshot snapshot(*job);
   lock.unlock();
   std::optional<SweepPlan> plan;
@@ -108,7 +117,7 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
                           mesh_operator->mesh().subdomains.size(), core.options.max_result_arrays);
     require_answers(*job->spec, mesh_operator->mesh().inclusions);
     plan = plan_of(core, *job, *mesh_operator);
-    stored = store_start(core, snapshot, plan);
+    stored = another_stage || store_start(core, snapshot, plan);
   } catch (...) {
     core.stop(job, Stop::failed, error_of(std::current_exception()));
   }
@@ -119,17 +128,19 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
     core.settle(job);
     return;
   }
-  core.admission.started();
-  ++core.running;
-  job->state = JobState::running;
-  job->started = store::Clock::now();
   job->mesh_operator = std::move(mesh_operator);
   job->spool = core.store.new_spool();
-  if (plan && job->why == Stop::none) core.begin_sweep(job, std::move(*plan));
-  core.deadlines.clear(job->number, Due::queue_time);
-  core.deadlines.set(job->number, Due::run_time,
-                     EngineCore::Clock::now() + run_limit(*job, core.options));
-  core.limits.notify_one();
+  if (!another_stage) {
+    core.admission.started();
+    ++core.running;
+    job->state = JobState::running;
+    job->started = store::Clock::now();
+    if (plan && job->why == Stop::none) core.begin_sweep(job, std::move(*plan));
+    core.deadlines.clear(job->number, Due::queue_time);
+    core.deadlines.set(job->number, Due::run_time,
+                       EngineCore::Clock::now() + run_limit(*job, core.options));
+    core.limits.notify_one();
+  }
   if (job->sweep && !job->spec->loads.empty()) {
     tell(lock, *job, "condensing the load cases");
     lock.unlock();
@@ -137,7 +148,7 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
     lock.lock();
     if (job->sweep->basis) job->sweep_record.warnings = job->sweep->basis->warnings();
   }
-  tell(lock, *job, "");
+  tell(lock, *job, job->stages ? stage_name(*job) : "");
   --job->active;
   if (job->why == Stop::none) core.offer(job);
   core.settle(job);

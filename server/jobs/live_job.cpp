@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/live_job.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -44,6 +45,7 @@ Lane lane_of(const store::JobSpec& spec) {
 JobRecord without_lists(JobRecord record) {
   record.spec = {};
   record.cases.clear();
+  record.stages.clear();
   return record;
 }
 
@@ -61,6 +63,13 @@ Outcome conclude_sweep(LiveJob& job) {
   return {JobState::cancelled, std::nullopt};
 }
 
+/// A stage was cut short: back to the answers of the one before, if there is one.
+void fall_back(LiveJob& job) {
+  if (job.stages->last.cases.empty()) return;
+  job.cases = std::move(job.stages->last.cases);
+  job.stages->records.pop_back();
+}
+
 }  // namespace
 
 LiveJob::LiveJob(std::uint64_t submission, JobRecord record, std::uint64_t cases_in_queue,
@@ -75,11 +84,22 @@ LiveJob::LiveJob(std::uint64_t submission, JobRecord record, std::uint64_t cases
       log(std::make_shared<EventLog>(event_log_bytes, sequence_base(created.attempt), budget)),
       arrays(spec->loads, created.owner),
       timeline(created.timeline),
+      mesh(spec->mesh),
       mesh_use(std::move(mesh_in_use)),
       cases(case_count(*spec)),
       units(spec->sweep ? 1 : cases.size()),
       queued_cases(cases_in_queue),
-      memory(budget, spec_bytes) {}
+      memory(budget, spec_bytes) {
+  if (!spec->accuracy) return;
+  stages = std::make_unique<LiveStages>();
+  stages->records = std::move(record.stages);
+  if (stages->records.empty()) return;
+  mesh = stages->records.back().mesh;
+  for (std::size_t i = 1; i < stages->records.size(); ++i)
+    stages->made.push_back(stages->records[i].mesh);
+  if (stages->records.size() > 1)
+    stages->seconds_before = stages->records[stages->records.size() - 2].seconds;
+}
 
 Task take_unit(const JobPtr& job) {
   Task task{job, job->next_unit++, std::chrono::steady_clock::now()};
@@ -102,6 +122,10 @@ JobSnapshot::JobSnapshot(const LiveJob& job) : _head(job.created), _spec(job.spe
   _head.timeline = job.timeline;
   _head.sweep = job.sweep_record;
   _rows = job.sweep ? job.sweep->plan.rows : 0;
+  if (job.stages) {
+    _head.stages = job.stages->records;
+    _head.not_reached = job.stages->not_reached;
+  }
   for (const LiveCase& live : job.cases) {
     _running.push_back(live.running);
     _cases.push_back(live.record);
@@ -123,6 +147,8 @@ JobRecord JobSnapshot::record() const {
 
 Outcome conclude(LiveJob& job) {
   if (job.spec->sweep) return conclude_sweep(job);
+  const bool between_stages = job.stages && job.why != Stop::none && !job.stages->over;
+  if (between_stages) fall_back(job);
   const bool failed = job.why == Stop::failed;
   const auto unsolved = std::make_shared<CaseRecord>();
   unsolved->status = failed ? Status::failed : Status::cancelled;
@@ -134,7 +160,8 @@ Outcome conclude(LiveJob& job) {
       complete = false;
     }
   }
-  if (failed && !complete) return {JobState::failed, job.failure};
+  if (failed && (between_stages || !complete)) return {JobState::failed, job.failure};
+  if (between_stages) return {JobState::cancelled, std::nullopt};
   Outcome result;
   std::size_t converged_cases = 0;
   std::size_t failed_cases = 0;
@@ -147,7 +174,13 @@ Outcome conclude(LiveJob& job) {
   }
   if (converged_cases < job.cases.size())
     result.state = failed_cases == job.cases.size() ? JobState::failed : JobState::not_converged;
+  else if (job.stages && !job.stages->not_reached.empty())
+    result.state = JobState::not_converged;
   return result;
+}
+
+std::string stage_name(const LiveJob& job) {
+  return "stage " + std::to_string(job.stages->records.size());
 }
 
 Error mesh_failed(const std::string& mesh, const Error& error) {

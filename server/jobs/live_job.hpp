@@ -29,6 +29,25 @@ struct LiveCase {
   std::optional<ResultPart> result;                 ///< where it has an answer
 };
 
+/// Of a job with an accuracy. `last` is the last stage of which all load cases ended; the one under
+/// way begins anew with a spool and cases of its own.
+struct LiveStages {
+  std::vector<store::StageRecord> records;  ///< the last one has begun
+  std::string not_reached;
+  bool over = false;          ///< no stage comes after the one that has ended
+  double seconds_before = 0;  ///< until this server had it
+  std::optional<std::chrono::steady_clock::time_point> begun;  ///< here
+  /// (triangles) of the load cases that are not accurate enough, each over its sum and times its
+  /// excess (accuracy.hpp), the largest; empty: none.
+  std::vector<double> indicator;
+  struct Complete {
+    std::vector<LiveCase> cases;  ///< empty: no stage has ended
+    std::shared_ptr<const store::BlockSource> result;
+  } last;
+  std::shared_ptr<void> mesh_use;  ///< of the stage's mesh
+  std::vector<std::string> made;   ///< ids of the meshes that the job made
+};
+
 /// Why a job is not to go on.
 enum class Stop {
   none,
@@ -62,12 +81,14 @@ struct LiveJob {
   store::JobState state = store::JobState::queued;
   std::optional<store::Clock::time_point> started;
   std::vector<store::Step> timeline;
-  std::shared_ptr<void> mesh_use;  ///< released when the job has ended
-  /// Set when the job starts, reset by the thread that ends it.
+  std::string mesh;                ///< id: spec's, or that of its stage
+  std::shared_ptr<void> mesh_use;  ///< of spec's mesh; released when the job has ended
+  /// Set when the job, or a stage of it, starts; reset by the thread that ends it.
   std::shared_ptr<const operators::MeshOperator> mesh_operator;
-  std::shared_ptr<store::Spool> spool;  ///< of the result; set when the job starts
+  std::shared_ptr<store::Spool> spool;  ///< of the result; set with the operator
   std::vector<LiveCase> cases;          ///< empty for a sweep
   std::unique_ptr<LiveSweep> sweep;     ///< once it has started
+  std::unique_ptr<LiveStages> stages;   ///< of a job with an accuracy
   store::SweepRecord sweep_record;      ///< of the rows that ended so far
   std::size_t units = 0;
   std::size_t next_unit = 0;       ///< first one that no thread has taken
@@ -127,6 +148,9 @@ struct Outcome {
 /// (by index), with the path of its field. A sweep is cancelled or fails if rows of it were not
 /// solved. With the engine's mutex held.
 Outcome conclude(LiveJob& job);
+
+/// "stage 3", of the one that has begun.
+std::string stage_name(const LiveJob& job);
 
 /// A mesh's error as a job's, at field "mesh", or below it where options of the mesh are at fault:
 /// "mesh.options.tension[top]".

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "errors/errors.hpp"
+#include "jobs/stage_end.hpp"
 
 namespace anticrack::jobs {
 
@@ -47,6 +48,11 @@ void PreparationPool::work() {
   Lock lock(_core.mutex);
   while (!_core.quitting) {
     const auto now = EngineCore::Clock::now();
+    if (!_core.to_refine.empty()) {
+      make_others_look();
+      end_stage(_core, lock, _core.to_refine.pop());
+      continue;
+    }
     if (const auto mesh = _core.schedule.next_to_prepare(now)) {
       make_others_look();
       prepare(lock, Mesh(_core.meshes.at(*mesh)));
@@ -74,19 +80,22 @@ void PreparationPool::make_others_look() {
 }
 
 void PreparationPool::tell(MeshWork& mesh, const std::string& phase) {
-  std::vector<std::shared_ptr<EventLog>> logs;
+  std::vector<std::pair<std::shared_ptr<EventLog>, PhaseEvent>> events;
   {
     const std::lock_guard lock(_core.mutex);
     if (mesh.phase == phase) return;
     mesh.phase = phase;
     for (const auto& [number, job] : mesh.jobs) {
+      if (job->state == JobState::running) {  // a stage of it
+        events.push_back({job->log, {job->state, stage_name(*job) + ": " + phase}});
+        continue;
+      }
       job->state = JobState::waiting_for_mesh;
       add_step(job->timeline, job->state, phase);
-      logs.push_back(job->log);
+      events.push_back({job->log, {job->state, phase}});
     }
   }
-  for (const std::shared_ptr<EventLog>& log : logs)
-    log->append(PhaseEvent{JobState::waiting_for_mesh, phase});
+  for (auto& [log, event] : events) log->append(std::move(event));
 }
 
 void PreparationPool::prepare(Lock& lock, const Mesh& mesh) {

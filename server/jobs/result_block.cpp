@@ -44,12 +44,14 @@ constexpr std::uint64_t rows_of(const std::tuple<Rows...>&) {
 }  // namespace
 
 store::Block case_arrays(std::size_t index, const contact::Answer& answer,
-                         const std::vector<contact::Sample>& history) {
+                         const std::vector<contact::Sample>& history,
+                         const std::vector<double>& indicator) {
   BlockBuilder builder;
   add_traces(builder, arrays::load_traces(index), answer.traces);
   add_history(builder, arrays::load_history(index), history);
   for (std::size_t i = 0; i < answer.fields.size(); ++i)
     builder.add(arrays::load_fields(index) + std::to_string(i), answer.fields[i].u);
+  if (!indicator.empty()) builder.add(arrays::load_folder(index) + "indicator", indicator);
   return builder.take();
 }
 
@@ -80,7 +82,8 @@ void require_result_arrays(const store::JobSpec& spec, std::uint64_t interfaces,
   } else {
     const std::uint64_t fields = spec.fields ? subdomains : 0;
     count += rows_of(arrays::subdomain<Subdomain>) * fields +
-             spec.loads.size() * (traces + rows_of(arrays::history<contact::Sample>) + fields);
+             spec.loads.size() * (traces + rows_of(arrays::history<contact::Sample>) + fields +
+                                  (spec.indicators ? 1 : 0));
   }
   if (count > max_arrays) {
     throw errors::Error(errors::Reason::limit_exceeded,

@@ -15,9 +15,11 @@
 
 namespace anticrack::jobs {
 
-/// Traces, history and fields of a load case, with the index of the case in the arrays' names.
+/// Traces, history, fields and indicator (empty: none) of a load case, with the index of the case
+/// in the arrays' names.
 store::Block case_arrays(std::size_t index, const contact::Answer& answer,
-                         const std::vector<contact::Sample>& history);
+                         const std::vector<contact::Sample>& history,
+                         const std::vector<double>& indicator = {});
 
 /// The arrays of ReadResult for the cases that have an answer, in their order; null when none has.
 /// Throws errors::Error (storage).

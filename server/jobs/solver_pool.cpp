@@ -245,7 +245,7 @@ std::vector<Task> SolverPool::take(Lock& lock, const Mesh& mesh, Lane lane, int 
     const auto next = _core.schedule.next_job(mesh->id, lane, Clock::now());
     if (!next) break;
     const JobPtr job = _core.numbers.at(*next);
-    if (job->state != store::JobState::running) {
+    if (!job->mesh_operator) {
       if (max_starts-- == 0) break;
       start_job(_core, lock, mesh->mesh_operator, job);
       continue;

@@ -3,15 +3,19 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <chrono>
 #include <optional>
 #include <utility>
 
 #include "errors/errors.hpp"
+#include "mesh/refine.hpp"
 #include "meshes/identity.hpp"
 #include "meshes/preparation.hpp"
 #include "meshes/size_class.hpp"
 #include "meshes/summary.hpp"
 #include "meshes/triangulation.hpp"
+#include "store/digest.hpp"
 
 namespace anticrack::meshes {
 
@@ -82,7 +86,6 @@ struct MeshCatalogue::State {
 
   /// Reserves a place in the index for a new mesh, so that no other call makes it meanwhile.
   LiveMesh& claim(const std::string& id) {
-    require_room();
     if (index().find(id) == nullptr && index().size() >= options.max_meshes) {
       throw Error(Reason::quota_exceeded,
                   fmt::format("the server keeps {} meshes and may keep no more: delete some",
@@ -94,8 +97,8 @@ struct MeshCatalogue::State {
     return mesh;
   }
 
-  /// The claimed record has been written, or (null) could not be.
-  void end_claim(const std::string& id, const MeshRecord* record) {
+  /// The claimed record has been written, or (null) could not be; `begin`: prepare it.
+  void end_claim(const std::string& id, const MeshRecord* record, bool begin = true) {
     LiveMesh& mesh = index().add(id);
     mesh.claimed = false;
     --claims;
@@ -103,7 +106,7 @@ struct MeshCatalogue::State {
       mesh.stage = record->sha256.empty() ? Stage::pending : Stage::meshed;
       mesh.error.reset();
       ++mesh.version;
-      preparation.begin(id, true);
+      if (begin) preparation.begin(id, true);
     } else if (mesh.stage == Stage::absent) {
       index().remove(id);
     }
@@ -129,6 +132,7 @@ MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const 
       lock.unlock();
       return get(id);
     }
+    _state->require_room();
     LiveMesh& mesh = _state->claim(id);
     mesh.definition = identity(definition);
     mesh.size_class = meshes::size_class(triangles);
@@ -160,6 +164,47 @@ MeshRecord MeshCatalogue::create(const store::MeshDefinition& definition, const 
   return seen(_state->index().known(id), std::move(record), false);
 }
 
+MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint8_t> levels,
+                                 std::size_t max_triangles) {
+  const store::MeshDefinition definition = store::Refinement{
+      parent.mesh, parent.job, store::Sha256().add(std::as_bytes(levels)).finish()};
+  MeshRecord record;
+  record.id = identity(definition, parent.owner).substr(0, id_digits);
+  Preparation& preparation = _state->preparation;
+  {
+    auto lock = preparation.lock();
+    const LiveMesh* mesh = preparation.settled(lock, record.id);
+    if (mesh != nullptr && mesh->stage == Stage::meshed) {
+      lock.unlock();
+      return get(record.id);
+    }
+    _state->claim(record.id).definition = identity(definition);
+  }
+  try {
+    const auto start = std::chrono::steady_clock::now();
+    const mesh::Mesh fine = mesh::refine(*triangulation(parent.mesh), levels,
+                                         std::min(max_triangles, _state->options.max_triangles));
+    record.owner = parent.owner;
+    record.title = "a stage of jobs/" + parent.job;
+    record.definition = definition;
+    record.created = store::Clock::now();
+    meshed(fine, start, record);
+    _state->store.put(record, fine);
+  } catch (...) {
+    const auto lock = preparation.lock();
+    _state->end_claim(record.id, nullptr);
+    throw;
+  }
+  const auto lock = preparation.lock();
+  _state->end_claim(record.id, &record, false);
+  LiveMesh& mesh = _state->index().known(record.id);
+  mesh.sha256 = record.sha256;
+  mesh.size_class = meshes::size_class(record.triangle_count);
+  return seen(mesh, std::move(record), false);
+}
+
+std::size_t MeshCatalogue::max_triangles() const noexcept { return _state->options.max_triangles; }
+
 MeshRecord MeshCatalogue::get(const std::string& id) const {
   return _state->preparation.record(id);
 }
@@ -173,7 +218,7 @@ std::vector<MeshRecord> MeshCatalogue::list(const store::Page& page) const {
   return records;
 }
 
-std::shared_ptr<const store::BlockSource> MeshCatalogue::read(const std::string& id) const {
+std::shared_ptr<const mesh::Mesh> MeshCatalogue::triangulation(const std::string& id) const {
   const MeshRecord record = get(id);
   if (record.sha256.empty()) {
     throw Error(Reason::not_ready,
@@ -186,7 +231,11 @@ std::shared_ptr<const store::BlockSource> MeshCatalogue::read(const std::string&
     get(id);  // throws if it was erased meanwhile
     throw Error(Reason::storage, "the triangulation of meshes/" + id + " is missing");
   }
-  return store::in_memory(std::make_shared<const store::Block>(mesh_block(*mesh)));
+  return mesh;
+}
+
+std::shared_ptr<const store::BlockSource> MeshCatalogue::read(const std::string& id) const {
+  return store::in_memory(std::make_shared<const store::Block>(mesh_block(*triangulation(id))));
 }
 
 MeshRecord MeshCatalogue::warm(const std::string& id, bool pin) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -49,6 +50,19 @@ class MeshCatalogue {
   store::MeshRecord create(const store::MeshDefinition& definition, const std::string& title,
                            const std::string& owner);
 
+  struct Parent {
+    std::string mesh;  ///< id
+    std::string job;   ///< id of the job that refines it
+    std::string owner;
+  };
+  /// A mesh whose triangles are bisected, levels (m) as mesh::refine() has them: made at once and
+  /// written, its operators when they are prepared. The same parent and levels give the same mesh.
+  /// Throws errors::Error: not_found, not_ready (the parent), limit_exceeded, quota_exceeded,
+  /// disk_full.
+  store::MeshRecord refine(const Parent& parent, std::span<const std::uint8_t> levels,
+                           std::size_t max_triangles);
+  std::size_t max_triangles() const noexcept;  ///< of a mesh
+
   store::MeshRecord get(const std::string& id) const;                  ///< throws not_found
   std::vector<store::MeshRecord> list(const store::Page& page) const;  ///< newest first
   /// Throws not_found, not_ready (not meshed). O(m): reads the triangulation.
@@ -85,6 +99,9 @@ class MeshCatalogue {
   int pending() const;                       ///< meshes waiting for the mesher or in it
 
  private:
+  /// Throws as read().
+  std::shared_ptr<const mesh::Mesh> triangulation(const std::string& id) const;
+
   struct State;
   std::unique_ptr<State> _state;
 };

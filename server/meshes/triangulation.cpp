@@ -72,16 +72,21 @@ std::size_t expected_triangles(const store::MeshRecord& record, const CatalogueO
   }
 }
 
+void meshed(const mesh::Mesh& mesh, std::chrono::steady_clock::time_point start,
+            store::MeshRecord& record) {
+  record.mesh_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  record.sha256 = store::Sha256().add(mesh::encode(mesh)).finish();
+  record.state = store::MeshState::evicted;
+  summarize(mesh, record);
+}
+
 Triangulation triangulate(store::MeshRecord record, const CatalogueOptions& options,
                           const store::Store& store, const std::stop_token& stop) {
   const auto start = std::chrono::steady_clock::now();
   auto mesh = std::make_shared<const mesh::Mesh>(
       mesher::run(options.helper, request_for(record, options, store), stop));
-  record.mesh_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  record.sha256 = store::Sha256().add(mesh::encode(*mesh)).finish();
-  record.state = store::MeshState::evicted;
-  summarize(*mesh, record);
+  meshed(*mesh, start, record);
   return {std::move(mesh), std::move(record)};
 }
 

@@ -3,6 +3,7 @@
 // From the definition of a mesh to its triangulation and summary.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -30,6 +31,10 @@ std::size_t check_definition(const store::MeshDefinition& definition, const std:
 /// The same for a record; 0 if its definition is wrong.
 std::size_t expected_triangles(const store::MeshRecord& record, const CatalogueOptions& options,
                                const store::Store& store);
+
+/// Fills in what a record says of its triangulation, which took since `start` to make. O(m log m).
+void meshed(const mesh::Mesh& mesh, std::chrono::steady_clock::time_point start,
+            store::MeshRecord& record);
 
 /// Runs the helper: seconds to minutes. Throws as mesher::run, mesh::plan and require_upload do.
 Triangulation triangulate(store::MeshRecord record, const CatalogueOptions& options,

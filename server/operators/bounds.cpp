@@ -54,7 +54,10 @@ class Intervals {
   /// The best of a few bounds of the cone, each wider than the one before.
   void find(const Aim& aim, double norm) const {
     const contact::Adjoint::Goal goal = _adjoint.aim(aim.goal);
-    if (!(goal.compliance > 0)) return;  // held
+    if (!(goal.compliance > 0)) {  // held
+      aim.lower = aim.upper = aim.value;
+      return;
+    }
     const double unit = norm > 0 ? std::sqrt(goal.compliance) / norm : 1;
     double unloaded = 0;
     if (!_primal.load.oscillation.empty()) {
@@ -94,8 +97,8 @@ class Intervals {
       none.dirichlet.setZero(static_cast<Eigen::Index>(subdomain.dirichlet));
       const auto count = static_cast<Eigen::Index>(subdomain.node.size());
       std::array<Eigen::VectorXd, 2> values{Eigen::VectorXd(count), Eigen::VectorXd(count)};
-      std::array<ddm::SubdomainOperator::Solved, 2> both{{{none, traces[0][s], values[0]},
-                                                          {none, traces[1][s], values[1]}}};
+      std::array<ddm::SubdomainOperator::Solved, 2> both{
+          {{none, traces[0][s], values[0]}, {none, traces[1][s], values[1]}}};
       _parts.operators[s].recover(both);
       for (std::size_t f = 0; f < 2; ++f)
         fields[f].insert(fields[f].end(), values[f].begin(), values[f].end());

@@ -81,6 +81,7 @@ v1::Job basic(store::JobRecord record) {
   record.spec.loads.clear();
   record.cases.clear();
   record.timeline.clear();
+  record.stages.clear();
   record.sweep.warnings.clear();
   if (record.spec.sweep) record.spec.sweep->traces.clear();
   v1::Job job = from_domain(record);

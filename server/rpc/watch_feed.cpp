@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "api/translations.hpp"
 #include "errors/errors.hpp"
 #include "jobs/job_engine.hpp"
 #include "rpc/from_domain.hpp"
@@ -113,6 +114,10 @@ void WatchFeed::fill(const jobs::PhaseEvent& phase, v1::WatchJobResponse& respon
 
 void WatchFeed::fill(const jobs::RowsEvent& rows, v1::WatchJobResponse& response) {
   append(*response.mutable_sweep_rows(), rows, 0, rows.rows->rows());
+}
+
+void WatchFeed::fill(const jobs::StageEvent& stage, v1::WatchJobResponse& response) {
+  *response.mutable_stage_ended() = api::message(*stage.stage);
 }
 
 void WatchFeed::fill(const jobs::EndEvent& end, v1::WatchJobResponse& response) {

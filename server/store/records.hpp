@@ -38,9 +38,10 @@ ANTICRACK_FIELDS(GeometrySource, geometry, options)
 /// Another mesh, whose triangles were bisected for a job.
 struct Refinement {
   std::string parent;         ///< id; it may have gone
+  std::string job;            ///< id of the job
   std::string levels_sha256;  ///< of mesh::refine()'s levels
 };
-ANTICRACK_FIELDS(Refinement, parent, levels_sha256)
+ANTICRACK_FIELDS(Refinement, parent, job, levels_sha256)
 
 /// What a mesh is made from; its identity is the hash of this.
 using MeshDefinition = std::variant<GeometrySource, UploadRef, Refinement>;
@@ -185,7 +186,8 @@ struct StageAnswer {
   std::optional<double> energy_lower{};
   std::optional<double> energy_upper{};
   std::optional<double> error_bound_relative{};
-  std::optional<double> displacement_error{};  ///< largest of the inclusions, as AccuracySpec has it
+  std::optional<double>
+      displacement_error{};  ///< largest of the inclusions, as AccuracySpec has it
 };
 ANTICRACK_FIELDS(StageAnswer, energy, energy_lower, energy_upper, error_bound_relative,
                  displacement_error)
@@ -193,7 +195,7 @@ ANTICRACK_FIELDS(StageAnswer, energy, energy_lower, energy_upper, error_bound_re
 struct StageRecord {
   std::string mesh;  ///< id
   std::uint64_t triangles = 0;
-  double seconds = 0;  ///< from the start of the first stage to the end of this
+  double seconds = 0;                  ///< from the start of the first stage to the end of this
   std::vector<StageAnswer> answers{};  ///< (loads); empty: it has not ended
 };
 ANTICRACK_FIELDS(StageRecord, mesh, triangles, seconds, answers)
@@ -245,6 +247,7 @@ struct JobRecord {
   std::vector<Step> timeline;  ///< of this attempt and those before, at most a few dozen
 };
 ANTICRACK_FIELDS(JobRecord, id, owner, request_id, spec, state, error, created, started, ended,
-                 expired, cases, sweep, stages, not_reached, result_bytes, attempt, crashes, timeline)
+                 expired, cases, sweep, stages, not_reached, result_bytes, attempt, crashes,
+                 timeline)
 
 }  // namespace anticrack::store

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/accuracy.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "errors/errors.hpp"
+
+namespace anticrack::jobs {
+
+namespace {
+
+using errors::Error;
+using errors::Reason;
+
+/// Below the first the smallest triangles at a tip leave a larger error.
+constexpr double finest = 1e-6;
+constexpr double coarsest = 1;
+
+/// Their answers are in the job's record once for each stage.
+constexpr std::size_t most_loads = 256;
+constexpr std::size_t most_stages = 40;
+
+/// Stages without a smaller error after which there is no hope.
+constexpr std::size_t patience = 3;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+void check_tolerance(const std::optional<double>& value, const char* field) {
+  if (!value || (*value >= finest && *value <= coarsest)) return;
+  throw Error(Reason::invalid_argument,
+              fmt::format("{:g} is not an accuracy: give a relative error from 1e-6 to 1", *value))
+      .at(field);
+}
+
+/// The worst load case, and its excess.
+struct Worst {
+  std::size_t load = 0;
+  double excess = 0;
+};
+Worst worst_of(const store::StageRecord& stage, const store::AccuracySpec& wanted) {
+  Worst worst;
+  for (std::size_t i = 0; i < stage.answers.size(); ++i)
+    if (const double one = excess(stage.answers[i], wanted); one > worst.excess) worst = {i, one};
+  return worst;
+}
+
+double relative_width(const store::StageAnswer& answer) {
+  const double width = *answer.energy_upper - *answer.energy_lower;
+  return width > 0 ? width / std::abs(answer.energy) : 0;
+}
+
+}  // namespace
+
+void check_accuracy(const store::JobSpec& spec) {
+  const store::AccuracySpec& wanted = *spec.accuracy;
+  if (!wanted.energy && !wanted.displacement) {
+    throw Error(Reason::invalid_argument, "no accuracy is asked for: set energy or displacement")
+        .at("accuracy");
+  }
+  check_tolerance(wanted.energy, "accuracy.energy");
+  check_tolerance(wanted.displacement, "accuracy.displacement");
+  if (!std::holds_alternative<contact::ActiveSetOptions>(spec.solver)) {
+    throw Error(Reason::invalid_argument,
+                "an accuracy needs bounds, which Algorithm 2 does not have: use active_set")
+        .at("solver");
+  }
+  if (spec.without_bounds) {
+    throw Error(Reason::invalid_argument, "an accuracy needs bounds: leave without_bounds out")
+        .at("without_bounds");
+  }
+  if (spec.loads.size() > most_loads) {
+    throw Error(Reason::limit_exceeded,
+                fmt::format("{} load cases: a job with an accuracy has at most {}; make several "
+                            "jobs",
+                            spec.loads.size(), most_loads))
+        .at("load_cases");
+  }
+  for (std::size_t i = 0; i < spec.loads.size(); ++i) {
+    if (!std::holds_alternative<fem::Array>(spec.loads[i].force)) continue;
+    throw Error(Reason::invalid_argument,
+                "an array belongs to one mesh, and a job with an accuracy has several: give f as "
+                "an expression")
+        .at(fmt::format("load_cases[{}].force", i));
+  }
+}
+
+store::StageAnswer stage_answer(const store::CaseRecord& ended_case) {
+  const contact::AnswerSummary& answer = ended_case.answer;
+  store::StageAnswer result{answer.energy, answer.energy_lower, answer.energy_upper,
+                            answer.error_bound_relative};
+  double half = 0;
+  double largest = 0;
+  for (const contact::InclusionAnswer& one : answer.inclusions) {
+    if (!one.displacement_lower || !one.displacement_upper) return result;
+    half = std::max(half, (*one.displacement_upper - *one.displacement_lower) / 2);
+    largest = std::max(largest, std::abs(one.displacement));
+  }
+  if (!answer.inclusions.empty()) result.displacement_error = half > 0 ? half / largest : 0;
+  return result;
+}
+
+double excess(const store::StageAnswer& answer, const store::AccuracySpec& wanted) {
+  double result = 0;
+  if (wanted.energy) {
+    result = answer.energy_lower && answer.energy_upper
+                 ? std::max(result, relative_width(answer) / *wanted.energy)
+                 : infinity;
+  }
+  if (wanted.displacement) {
+    result = answer.displacement_error
+                 ? std::max(result, *answer.displacement_error / *wanted.displacement)
+                 : infinity;
+  }
+  return result;
+}
+
+std::string not_reached(const store::StageRecord& last, const store::JobSpec& spec,
+                        const std::string& why) {
+  const store::AccuracySpec& wanted = *spec.accuracy;
+  const std::size_t load = worst_of(last, wanted).load;
+  const store::StageAnswer& answer = last.answers[load];
+  std::string reached;
+  if (wanted.energy && answer.energy_lower)
+    reached += fmt::format("energy {:.2g} of {:g}", relative_width(answer), *wanted.energy);
+  if (wanted.displacement && answer.displacement_error) {
+    reached += fmt::format("{}A {:.2g} of {:g}", reached.empty() ? "" : ", ",
+                           *answer.displacement_error, *wanted.displacement);
+  }
+  return fmt::format("load case \"{}\" reached {} on {} triangles: {}", spec.loads[load].name,
+                     reached.empty() ? "no bounds" : reached, last.triangles, why);
+}
+
+Verdict judge(const std::vector<store::StageRecord>& stages,
+              const std::vector<const store::CaseRecord*>& cases, const store::JobSpec& spec,
+              std::uint64_t max_triangles, double seconds) {
+  const store::AccuracySpec& wanted = *spec.accuracy;
+  const store::StageRecord& last = stages.back();
+  const auto stop = [&](const std::string& why) {
+    return Verdict{true, not_reached(last, spec, why)};
+  };
+  for (const store::CaseRecord* one : cases) {
+    if (one->status != contact::Status::converged) return {true, ""};  // the job says so
+    if (!one->answer.no_bracket.empty()) return stop(one->answer.no_bracket);
+  }
+  const Worst worst = worst_of(last, wanted);
+  if (worst.excess <= 1) return {true, ""};
+  if (wanted.displacement && !last.answers[worst.load].displacement_error) {
+    return stop(cases[worst.load]->answer.inclusions.empty()
+                    ? "the mesh has no inclusion; ask for an accuracy of the energy"
+                    : "there are no bounds of A on this mesh (more than 16 inclusions, or 3000 "
+                      "nodes on interfaces); ask for an accuracy of the energy");
+  }
+  if (last.triangles >= max_triangles)
+    return stop("that is all that max_triangles allows; raise it");
+  if (spec.accuracy->time.count() > 0 &&
+      seconds >= std::chrono::duration<double>(spec.accuracy->time).count())
+    return stop("the time for it is over; raise accuracy.time");
+  if (stages.size() >= most_stages)
+    return stop("a job has at most 40 stages; start from a finer mesh");
+  if (stages.size() > patience) {
+    const Worst before = worst_of(stages[stages.size() - 1 - patience], wanted);
+    if (worst.excess > 0.9 * before.excess)
+      return stop("finer meshes no longer help: rounding, or a tip_size too large for it");
+  }
+  return {};
+}
+
+}  // namespace anticrack::jobs

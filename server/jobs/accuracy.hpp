@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// When a job with an accuracy goes on to another stage: the policy, without threads or locks.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "store/records.hpp"
+
+namespace anticrack::jobs {
+
+/// Throws errors::Error (invalid_argument, at "accuracy...", "solver" or "load_cases[i]...") for a
+/// job that cannot be solved in stages.
+void check_accuracy(const store::JobSpec& spec);
+
+/// What is kept of an answer. Its displacement_error is half the width of the bounds of A over the
+/// largest |A| of the load case, the largest of all inclusions; unset where one has no bounds.
+store::StageAnswer stage_answer(const store::CaseRecord& ended_case);
+
+/// The largest of the errors over the accuracies asked for: at most 1 where they are reached,
+/// infinity without bounds.
+double excess(const store::StageAnswer& answer, const store::AccuracySpec& wanted);
+
+/// After a stage: whether it was the last, and what was not reached, why, with the cure.
+struct Verdict {
+  bool over = false;
+  std::string not_reached;
+};
+/// `stages`: all have ended; `cases`: of the last; `seconds`: since the first began.
+Verdict judge(const std::vector<store::StageRecord>& stages,
+              const std::vector<const store::CaseRecord*>& cases, const store::JobSpec& spec,
+              std::uint64_t max_triangles, double seconds);
+
+/// "not reached" with the accuracy that is farthest from it, for another reason to stop.
+std::string not_reached(const store::StageRecord& last, const store::JobSpec& spec,
+                        const std::string& why);
+
+}  // namespace anticrack::jobs

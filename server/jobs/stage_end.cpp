@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/stage_end.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <numeric>
+#include <utility>
+
+#include "estimate/marking.hpp"
+#include "jobs/accuracy.hpp"
+#include "jobs/case_outcome.hpp"
+#include "jobs/result_block.hpp"
+
+namespace anticrack::jobs {
+
+namespace {
+
+using errors::Error;
+using errors::Reason;
+
+/// How far below the accuracy the next stage aims: bounds fall a little less than predicted.
+constexpr double aim = 0.85;
+
+/// Of the indicators in one stage: those of a coarse mesh say little of a very fine one.
+constexpr double most_reduction = 8;
+constexpr double least_reduction = 1.2;
+
+/// What is bisected so that the mesh conforms, over what is asked for.
+constexpr double conforming = 1.25;
+
+std::uint64_t most_triangles(const EngineCore& core, const LiveJob& job) {
+  const std::uint64_t asked = job.spec->accuracy->max_triangles;
+  const std::uint64_t server = core.catalogue.max_triangles();
+  return asked > 0 ? std::min(asked, server) : server;
+}
+
+/// The mesh of the next stage: as much finer as the accuracy and the limit let it. Throws
+/// errors::Error.
+store::MeshRecord next_mesh(EngineCore& core, const LiveJob& job,
+                            const std::vector<double>& indicator) {
+  const std::uint64_t most = most_triangles(core, job);
+  const double sum = std::accumulate(indicator.begin(), indicator.end(), 0.0);
+  for (double reduction = std::min(sum / aim, most_reduction);;
+       reduction = 1 + (reduction - 1) / 2) {
+    const std::vector<std::uint8_t> levels =
+        estimate::levels(indicator, std::max(reduction, least_reduction));
+    const bool last_try = reduction <= least_reduction;
+    if (!last_try && estimate::expected_triangles(levels) * conforming > static_cast<double>(most))
+      continue;
+    try {
+      return core.catalogue.refine({job.mesh, job.id(), job.created.owner}, levels, most);
+    } catch (const Error& error) {
+      if (error.reason() != Reason::limit_exceeded || last_try) throw;
+    }
+  }
+}
+
+/// Forgets the operators of a mesh that no other stage needs.
+void evict(EngineCore& core, const std::string& mesh) {
+  try {
+    core.catalogue.evict(mesh);
+  } catch (const Error&) {
+    // Somebody uses them: they go when memory is needed.
+  }
+}
+
+/// How far it is, for the next start of the server; without it the stage is solved again then.
+void store_progress(EngineCore& core, const JobSnapshot& snapshot) {
+  try {
+    core.store.put(snapshot.record());
+  } catch (const std::exception&) {
+    // A disk that refuses now is asked again at the next stage.
+  }
+}
+
+}  // namespace
+
+void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
+  LiveStages& stages = *job->stages;
+  std::vector<store::StageRecord> records = stages.records;
+  std::vector<const store::CaseRecord*> cases;
+  for (const LiveCase& live : job->cases) cases.push_back(live.record.get());
+  const std::vector<double> indicator = std::exchange(stages.indicator, {});
+  const auto now = EngineCore::Clock::now();
+  lock.unlock();
+
+  store::StageRecord& ended = records.back();
+  ended.seconds =
+      stages.seconds_before + std::chrono::duration<double>(now - *stages.begun).count();
+  for (const store::CaseRecord* one : cases) ended.answers.push_back(stage_answer(*one));
+  Verdict verdict = judge(records, cases, *job->spec, most_triangles(core, *job), ended.seconds);
+  LiveStages::Complete complete;
+  store::StageRecord next;
+  std::shared_ptr<void> use;
+  if (!verdict.over) {
+    try {
+      const store::MeshRecord mesh = next_mesh(core, *job, indicator);
+      use = core.catalogue.use(mesh.id);
+      complete = {job->cases, result_block(*job)};
+      next = {mesh.id, mesh.triangle_count};
+    } catch (...) {
+      const Error error = error_of(std::current_exception());
+      verdict = {true, not_reached(ended, *job->spec, error.what())};
+    }
+  }
+  job->log->append(StageEvent{std::make_shared<const store::StageRecord>(ended)});
+
+  lock.lock();
+  --job->active;
+  const std::string before = job->mesh;
+  stages.records = std::move(records);
+  if (!verdict.over) stages.made.push_back(next.mesh);
+  if (verdict.over || job->why != Stop::none) {
+    stages.over = verdict.over;
+    stages.not_reached = std::move(verdict.not_reached);
+    stages.last = {};
+    core.settle(job);
+    return;
+  }
+  stages.last = std::move(complete);
+  stages.records.push_back(std::move(next));
+  stages.mesh_use = std::move(use);
+  core.move_on(job);
+  const JobSnapshot snapshot(*job);
+  lock.unlock();
+  store_progress(core, snapshot);
+  if (before != job->spec->mesh) evict(core, before);
+  lock.lock();
+}
+
+}  // namespace anticrack::jobs

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "jobs/engine_core.hpp"
+
+namespace anticrack::jobs {
+
+/// All load cases of the job's stage have ended: decides whether it was the last, else makes the
+/// mesh of the next, stores and tells how far the job is, and puts it back into the queue. Counted
+/// in LiveJob::active meanwhile. Releases the lock.
+void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job);
+
+}  // namespace anticrack::jobs
