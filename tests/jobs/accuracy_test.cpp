@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/accuracy.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "support/errors.hpp"
+
+namespace anticrack::jobs {
+namespace {
+
+using anticrack::testing::error_of;
+using store::CaseRecord;
+using store::JobSpec;
+using store::StageRecord;
+using ::testing::HasSubstr;
+using namespace std::chrono_literals;
+
+JobSpec energy_to(double accuracy) {
+  JobSpec spec;
+  spec.mesh = "mesh";
+  spec.loads = {{"pull", 1.0, ""}};
+  spec.accuracy.emplace().energy = accuracy;
+  return spec;
+}
+
+CaseRecord answer_between(double lower, double upper) {
+  CaseRecord record;
+  record.status = contact::Status::converged;
+  record.answer.energy = upper;
+  record.answer.energy_lower = lower;
+  record.answer.energy_upper = upper;
+  return record;
+}
+
+contact::InclusionAnswer inclusion(double displacement, double lower, double upper) {
+  contact::InclusionAnswer one;
+  one.displacement = displacement;
+  one.displacement_lower = lower;
+  one.displacement_upper = upper;
+  return one;
+}
+
+Verdict judge_one(const CaseRecord& record, const JobSpec& spec,
+                  std::vector<StageRecord> before = {}, std::uint64_t most = 1000,
+                  double seconds = 0) {
+  before.push_back({"mesh", 100, 0, {stage_answer(record)}});
+  return judge(before, {&record}, spec, most, seconds);
+}
+
+TEST(Accuracy, IsTheWidthOfTheBracketOverTheEnergy) {
+  const JobSpec spec = energy_to(0.1);
+  EXPECT_NEAR(excess(stage_answer(answer_between(-2.2, -2)), *spec.accuracy), 1, 1e-12);
+  EXPECT_NEAR(excess(stage_answer(answer_between(-3, -2)), *spec.accuracy), 5, 1e-12);
+  EXPECT_EQ(excess(stage_answer(answer_between(0, 0)), *spec.accuracy), 0) << "nothing acts";
+  EXPECT_TRUE(std::isinf(excess({}, *spec.accuracy))) << "no bracket";
+}
+
+TEST(Accuracy, OfADisplacementIsRelativeToTheLargestOfTheLoadCase) {
+  JobSpec spec = energy_to(1);
+  spec.accuracy->displacement = 0.01;
+  CaseRecord record = answer_between(-1, -1);
+  record.answer.inclusions = {inclusion(2, 1.9, 2.1), inclusion(1e-9, -0.04, 0.04)};
+  EXPECT_NEAR(*stage_answer(record).displacement_error, 0.05, 1e-12);
+  EXPECT_NEAR(excess(stage_answer(record), *spec.accuracy), 5, 1e-12);
+  record.answer.inclusions[1].displacement_lower.reset();
+  EXPECT_FALSE(stage_answer(record).displacement_error) << "one has no bounds";
+  EXPECT_TRUE(std::isinf(excess(stage_answer(record), *spec.accuracy)));
+}
+
+TEST(Accuracy, GoesOnUntilItIsReached) {
+  const JobSpec spec = energy_to(0.1);
+  EXPECT_FALSE(judge_one(answer_between(-3, -2), spec).over);
+  const Verdict reached = judge_one(answer_between(-2.1, -2), spec);
+  EXPECT_TRUE(reached.over);
+  EXPECT_EQ(reached.not_reached, "");
+}
+
+TEST(Accuracy, SaysWhatWasReachedAndWhatStoppedIt) {
+  JobSpec spec = energy_to(0.1);
+  const CaseRecord far = answer_between(-3, -2);
+  const Verdict full = judge_one(far, spec, {}, 100);
+  EXPECT_TRUE(full.over);
+  EXPECT_THAT(full.not_reached, HasSubstr("load case \"pull\" reached energy 0.5 of 0.1 on 100"));
+  EXPECT_THAT(full.not_reached, HasSubstr("max_triangles"));
+
+  spec.accuracy->time = 2s;
+  EXPECT_FALSE(judge_one(far, spec, {}, 1000, 1.9).over);
+  EXPECT_THAT(judge_one(far, spec, {}, 1000, 2).not_reached, HasSubstr("time"));
+
+  const StageRecord same{"mesh", 50, 0, {stage_answer(far)}};
+  EXPECT_FALSE(judge_one(far, spec, {same, same}).over);
+  EXPECT_THAT(judge_one(far, spec, {same, same, same}).not_reached, HasSubstr("no longer help"));
+
+  CaseRecord unbounded = far;
+  unbounded.answer.no_bracket = "a point force";
+  EXPECT_THAT(judge_one(unbounded, spec).not_reached, HasSubstr("a point force"));
+}
+
+TEST(Accuracy, AFailedLoadCaseEndsIt) {
+  CaseRecord failed;
+  failed.status = contact::Status::failed;
+  const Verdict verdict = judge_one(failed, energy_to(0.1));
+  EXPECT_TRUE(verdict.over);
+  EXPECT_EQ(verdict.not_reached, "") << "the load case says why";
+}
+
+std::string field_at_fault(const JobSpec& spec) {
+  const auto error = error_of([&] { check_accuracy(spec); });
+  return error ? error->fields().at(0).field : "";
+}
+
+TEST(Accuracy, RefusesWhatCannotBeSolvedInStages) {
+  EXPECT_EQ(field_at_fault(energy_to(1e-3)), "");
+  for (const double bad : {0.0, -1.0, 9e-7, 1.1, std::numeric_limits<double>::quiet_NaN(),
+                           std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(field_at_fault(energy_to(bad)), "accuracy.energy") << bad;
+    JobSpec spec = energy_to(0.1);
+    spec.accuracy->displacement = bad;
+    EXPECT_EQ(field_at_fault(spec), "accuracy.displacement") << bad;
+  }
+  JobSpec spec = energy_to(0.1);
+  spec.accuracy->energy.reset();
+  EXPECT_EQ(field_at_fault(spec), "accuracy");
+  spec = energy_to(0.1);
+  spec.solver = contact::UzawaOptions();
+  EXPECT_EQ(field_at_fault(spec), "solver");
+  spec = energy_to(0.1);
+  spec.without_bounds = true;
+  EXPECT_EQ(field_at_fault(spec), "without_bounds");
+  spec = energy_to(0.1);
+  spec.loads.push_back({"array", fem::Array{"00", false, nullptr}, ""});
+  EXPECT_EQ(field_at_fault(spec), "load_cases[1].force");
+  spec = energy_to(0.1);
+  spec.loads.resize(257, spec.loads.front());
+  EXPECT_EQ(field_at_fault(spec), "load_cases");
+}
+
+}  // namespace
+}  // namespace anticrack::jobs
