@@ -19,7 +19,8 @@ mesh::Mesh rectangles();
 mesh::Mesh shaken(unsigned seed);
 
 /// What the service makes of the paper's geometry with its default preset, by the helper process
-/// and graded towards the tips: unstructured. `h0` is the edge length away from them.
+/// and graded towards the tips: unstructured. `h0` is the edge length away from them, 0: the
+/// default.
 mesh::Mesh generated(double h0);
 
 enum class Mirror { x, y };
