@@ -14,6 +14,7 @@
 #include "cli/exit_codes.hpp"
 #include "cli/json.hpp"
 #include "cli/options.hpp"
+#include "cli/stages_text.hpp"
 #include "cli/text.hpp"
 #include "figures/figures.hpp"
 #include "results/error.hpp"
@@ -76,7 +77,12 @@ int show_file(const FileOptions& options, const Globals& globals) {
   head += std::to_string(result.mesh.triangle_count()) + " triangles, " +
           std::to_string(result.mesh.node_count()) + " nodes (" + sanitise(result.mesh_name) +
           "), solved by " + sanitise(result.job_name) + "\n\n";
-  print_document(head + (options.inclusions ? inclusions_table(result) : answers_table(result)));
+  std::string foot;
+  if (!result.not_reached.empty()) foot = "not reached: " + sanitise(result.not_reached) + "\n";
+  if (result.loads.size() == 1 || !options.loads.empty())
+    for (const results::Load& load : result.loads) foot += stages_table(load);
+  print_document(head + (options.inclusions ? inclusions_table(result) : answers_table(result)) +
+                 foot);
   return exit_ok;
 }
 
@@ -119,6 +125,7 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
                    "sweep one per row")
       ->type_name("FILE.csv");
   show_command->footer(
+      "Of one load, or with --load, also the stages of a job with an accuracy.\n\n"
       "Example:\n  anticrack show paper.h5\n"
       "  anticrack show fibres.h5 --inclusions --csv fibres.csv");
   show_command->callback([options, &globals, &chosen] {
@@ -132,11 +139,11 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
       ->type_name("DIR");
   add_figure_options(*plot_command, options->figures);
   plot_command->footer(
-      "Of every load: LOAD-membrane, LOAD-traces (u-, u+ and [u] on the interface) and\n"
-      "LOAD-convergence, 85 mm wide, a column of a journal; and LOAD, the first two side by side. "
-      "Of\n"
-      "a sweep: sweep (A and the contact length), sweep-contact (where the cracks are closed) and\n"
-      "the traces of rows that were kept.\n\n"
+      "Of every load: LOAD-membrane, LOAD-traces (u-, u+ and [u] on the interface),\n"
+      "LOAD-convergence and, of a job with an accuracy, LOAD-accuracy (error against triangles),\n"
+      "85 mm wide, a column of a journal; and LOAD, the first two side by side. Of a sweep: sweep\n"
+      "(A and the contact length), sweep-contact (where the cracks are closed) and the traces of\n"
+      "rows that were kept.\n\n"
       "Example:\n  anticrack plot paper.h5 -o figures\n"
       "  anticrack plot paper.h5 -o figures --format pdf --no-titles");
   plot_command->callback([options, &globals, &chosen] {
@@ -151,7 +158,9 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
       ->type_name("DIR");
   export_command->footer(
       "The membrane needs u on every node: run the case with [output] fields = true. To see it\n"
-      "deformed, apply the filter Warp By Scalar to u.\n\n"
+      "deformed, apply the filter Warp By Scalar to u. Where the result has them, each triangle "
+      "has\n"
+      "its error_indicator.\n\n"
       "Example:\n  anticrack export paper.h5 -o paraview");
   export_command->callback([options, &globals, &chosen] {
     chosen = [options, &globals] { return export_file(*options, globals); };

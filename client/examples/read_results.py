@@ -19,6 +19,11 @@ def answers(file):
         inclusions = zip(load["inclusions/name"].asstr(), load["inclusions/A"])
         moved = ", ".join(f"A of {inclusion} = {a:.6g}" for inclusion, a in inclusions)
         print(f"{name}: {load.attrs['status']}, energy {load.attrs['energy']:.6g}{', ' if moved else ''}{moved}")
+        if "stages" in load:
+            stages = load["stages"]
+            count, width = stages["triangles"][:], stages["energy_upper"][:] - stages["energy_lower"][:]
+            print(f"  {len(count)} stages, {count[0]} to {count[-1]} triangles: bounds of the energy {width[0]:.2g} "
+                  f"to {width[-1]:.2g} apart")
 
 
 def draw(file, name, path):

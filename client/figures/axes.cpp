@@ -98,4 +98,30 @@ std::string axis_range(char axis, const Range& range, int most, double step) {
          "]\nset " + axis + "tics " + number(step > 0 ? step : label_step(shown, most)) + "\n";
 }
 
+std::string log_axis(char axis, const Range& range, bool labelled) {
+  const double size = range.high / range.low;
+  // A factor of 2.1 has a label at least.
+  const double room = std::max({1.15, std::pow(size, 0.05), std::sqrt(2.1 / size)});
+  const Range shown{range.low / room, range.high * room};
+  const double decades = std::log10(shown.high / shown.low);
+  constexpr double fewest = 0.7, few = 2;  // decades, of which 1 to 9, or 1, 2 and 5 have labels
+  const int every = std::max(1, static_cast<int>(std::ceil(decades / 6)));
+  std::string marks;
+  for (int power = static_cast<int>(std::floor(std::log10(shown.low)));
+       power <= std::log10(shown.high); ++power) {
+    for (int leading = 1; leading < 10; ++leading) {
+      const double value = leading * std::pow(10.0, power);
+      if (value < shown.low || value > shown.high) continue;
+      if (every > 1 && leading != 1) continue;
+      const bool major = decades <= fewest || (leading == 1 && power % every == 0) ||
+                         (decades <= few && (leading == 2 || leading == 5));
+      const std::string label = decades > few ? power_of_ten(power) : readable(value);
+      marks += (marks.empty() ? "'" : ", '") + (major && labelled ? label : "") + "' " +
+               number(value) + (major ? "" : " 1");
+    }
+  }
+  return std::string("set logscale ") + axis + "\nset " + axis + "range [" + number(shown.low) +
+         ":" + number(shown.high) + "]\nset " + axis + "tics (" + marks + ")\n";
+}
+
 }  // namespace anticrack::figures

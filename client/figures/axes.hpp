@@ -83,4 +83,8 @@ class Scale {
 /// `most` labels. A range without extent is widened.
 std::string axis_range(char axis, const Range& range, int most = 6, double step = 0);
 
+/// The same with a log scale, for positive values, with some room around them; `labelled` or with
+/// marks alone.
+std::string log_axis(char axis, const Range& range, bool labelled = true);
+
 }  // namespace anticrack::figures

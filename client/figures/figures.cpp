@@ -60,6 +60,12 @@ void draw_load(const Result& result, const Load& load, const std::string& stem, 
   }
   draw_traces(result, load, stem, drawing);
   if (has_convergence(load)) drawing.draw(stem + "-convergence", convergence_picture(result, load));
+  if (bounded_stages(load) > 1) {
+    drawing.draw(stem + "-accuracy", accuracy_picture(result, load));
+  } else if (load.stages.size() != 0) {
+    drawing.drawn.notes.push_back("load \"" + load.name +
+                                  "\": no accuracy drawn, fewer than two stages have bounds");
+  }
 }
 
 void note_single_steps(const Result& result, Drawing& drawing) {
@@ -79,7 +85,7 @@ Drawn draw(const Result& result, const fs::path& folder, const Options& options)
 
   std::vector<std::string> names;
   for (const Load& load : result.loads) names.push_back(load.name);
-  std::vector<std::string> suffixes{"-membrane", "-convergence"};
+  std::vector<std::string> suffixes{"-membrane", "-convergence", "-accuracy"};
   for (std::size_t i = 0; i < result.interfaces.size(); ++i) suffixes.push_back(traces_suffix(i));
   const std::vector<std::string> stems = file_stems(names, suffixes);
 

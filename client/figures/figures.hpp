@@ -38,6 +38,7 @@ struct Drawn {
 ///   LOAD-traces       u-, u+ and [u] along each interface, contact shaded
 ///   LOAD-convergence  the criterion of every iteration, or the KKT residuals of every step, log;
 ///                     not of a single step
+///   LOAD-accuracy     the bounds of the energy and of A over the triangles of the stages
 ///   LOAD              membrane left, traces right, as in the paper; 170 mm wide, all else 85 mm
 /// Of a sweep instead:
 ///   sweep             A and the contact length over the rows, or over the coefficient that varies

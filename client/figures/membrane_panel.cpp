@@ -79,8 +79,23 @@ std::string membrane_data(const Surface& surface) {
   return text + "EOD\n";
 }
 
+/// A job with an accuracy made the mesh for its answer. Of more triangles edges could not be told
+/// apart; of a coarsened surface they would be no edges of the mesh.
+bool shows_mesh(const results::Result& result, const results::Load& load, const Surface& surface) {
+  constexpr std::size_t most = 12000;
+  return load.stages.size() != 0 && surface.triangles.size() == result.mesh.triangle_count() &&
+         surface.triangles.size() <= most;
+}
+
+/// Of each triangle.
+std::string border(bool mesh, Format format) {
+  if (mesh) return "set pm3d border linewidth 0.2 linecolor rgb '#B0000000'\n";
+  // Cairo blurs the edges of polygons, and what lies behind shines through; SVG draws them crisp.
+  return format == Format::svg ? "set pm3d noborder\n" : "set pm3d border retrace linewidth 0.3\n";
+}
+
 std::string membrane_panel(const Surface& surface, const results::Load& load, double view,
-                           const Place& place, Format format) {
+                           bool mesh, const Place& place, Format format) {
   const double factor = amplification(surface);
   const double low = factor * surface.lowest;
   const double high = factor * surface.highest;
@@ -105,8 +120,7 @@ std::string membrane_panel(const Surface& surface, const results::Load& load, do
   const Scale scale({surface.lowest, surface.highest});
   text += colours(surface, scale);
   text += "set pm3d depthorder corners2color mean lighting primary 0.35 specular 0.08\n";
-  // Cairo blurs the edges of polygons, and what lies behind shines through; SVG draws them crisp.
-  text += format == Format::svg ? "set pm3d noborder\n" : "set pm3d border retrace linewidth 0.3\n";
+  text += border(mesh, format);
   text += "set colorbox user horizontal origin " + at(0.22, 0.105) + " size screen " +
           number(0.56 * place.width) + ", screen " + number(0.03 * place.height) + "\n";
   text += "set label 5 'u " + scale.unit() + "' at " + at(0.81, 0.12) + " left noenhanced\n";
@@ -140,8 +154,8 @@ Picture membrane_picture(const results::Result& result, const results::Load& loa
                          const Surface& surface) {
   return {membrane_data(surface),
           {result.title, load.name},
-          [&](Format format, const Place& place) {
-            return membrane_panel(surface, load, membrane_view(result), place, format);
+          [&, mesh = shows_mesh(result, load, surface)](Format format, const Place& place) {
+            return membrane_panel(surface, load, membrane_view(result), mesh, place, format);
           },
           narrow};
 }

@@ -28,6 +28,13 @@ Picture traces_picture(const results::Result& result, const results::Load& load,
 /// the active set. On a log axis with a place for zero at the bottom.
 Picture convergence_picture(const results::Result& result, const results::Load& load);
 
+/// Stages of the load whose bounds of the energy have a place in accuracy_picture.
+std::size_t bounded_stages(const results::Load& load);
+
+/// How wide the bounds of the energy and of A are over the triangles of the stages, both log; below
+/// it the energy with its bounds as a band. Of at least one of bounded_stages.
+Picture accuracy_picture(const results::Result& result, const results::Load& load);
+
 /// Membrane left, traces of the first interface right: the paper's Figures 2-5.
 Picture combined_picture(const results::Result& result, const results::Load& load,
                          const Surface& surface);

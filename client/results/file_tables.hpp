@@ -40,8 +40,9 @@ std::size_t columns_of(const Row& row, const Record& record) {
 template <class Row, class T>
 void put_row(const Handle& group, const Row& row, const std::vector<T>& values,
              std::size_t columns) {
-  const Handle dataset = put_array(group, std::string(row.name), value_type<T>, values.data(),
-                                   values.size(), {columns, arrays::depth_of(row.shape)});
+  const Handle dataset =
+      put_array(group, std::string(row.name), value_type<T>, values.data(), values.size(),
+                {columns, arrays::depth_of(row.shape)}, {}, row.unit);
   if (row.explained) put(dataset, "meaning", std::string(row.what));
 }
 
@@ -63,14 +64,19 @@ void get_values(const Handle& object, Record& record, const Table& table) {
       table);
 }
 
-/// Datasets of a group. What has columns by name is left out where it is empty: HDF5 has no chunks
-/// without extent.
+template <class Row>
+bool may_be_missing(const Row& row) {
+  return row.optional || arrays::columns_of(row.shape) == arrays::named;
+}
+
+/// Datasets of a group. What is optional is left out where it is empty, and what has columns by
+/// name: HDF5 has no chunks without extent.
 template <class Record, class... Tables>
 void put_arrays(const Handle& group, const Record& record, const Tables&... tables) {
   arrays::for_each(
       [&](const auto& row) {
         const auto& values = std::invoke(row.member, record);
-        if (values.empty() && arrays::columns_of(row.shape) == arrays::named) return;
+        if (values.empty() && may_be_missing(row)) return;
         put_row(group, row, values, columns_of(row, record));
       },
       tables...);
@@ -81,7 +87,7 @@ void get_arrays(const Handle& group, std::uint64_t budget, Record& record,
   arrays::for_each(
       [&](const auto& row) {
         const std::string name(row.name);
-        if (arrays::columns_of(row.shape) == arrays::named && !has(group, name)) return;
+        if (may_be_missing(row) && !has(group, name)) return;
         get_array(group, name, budget, {columns_of(row, record), arrays::depth_of(row.shape)},
                   std::invoke(row.member, record));
       },

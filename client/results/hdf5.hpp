@@ -12,6 +12,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -104,9 +105,10 @@ inline void put(const Handle& object, const std::string& attribute,
 }
 
 /// Dataset of `count` values. Numbers carry a checksum; large datasets are compressed, unless their
-/// chunks come `filtered`. Returned for further attributes.
+/// chunks come `filtered`. An empty unit is that of the case. Returned for further attributes.
 Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
-                 std::size_t count, const Row& row, const FilteredChunks& filtered = {});
+                 std::size_t count, const Row& row, const FilteredChunks& filtered = {},
+                 std::string_view unit = {});
 
 // Reading. Only hard links are followed and only data inside the file is read, so a file from
 // elsewhere cannot pull in others.

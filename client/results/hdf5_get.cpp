@@ -22,6 +22,8 @@ bool is(const Handle& type, ValueType wanted) {
       return H5Tget_class(type.get()) == H5T_INTEGER && H5Tget_size(type.get()) == 4;
     case ValueType::uint8:
       return H5Tget_class(type.get()) == H5T_INTEGER && H5Tget_size(type.get()) == 1;
+    case ValueType::int64:
+      return H5Tget_class(type.get()) == H5T_INTEGER && H5Tget_size(type.get()) == 8;
     case ValueType::text:
       return H5Tis_variable_str(type.get()) > 0;
   }
@@ -46,6 +48,7 @@ Attribute open_attribute(const Handle& object, const std::string& name) {
 hid_t native(ValueType type) {
   return type == ValueType::float64 ? H5T_NATIVE_DOUBLE
          : type == ValueType::int32 ? H5T_NATIVE_INT32
+         : type == ValueType::int64 ? H5T_NATIVE_INT64
                                     : H5T_NATIVE_UINT8;
 }
 

@@ -46,6 +46,10 @@ struct Values {
         in_file = H5T_STD_U8LE;
         in_memory = H5T_NATIVE_UINT8;
         break;
+      case ValueType::int64:
+        in_file = H5T_STD_I64LE;
+        in_memory = H5T_NATIVE_INT64;
+        break;
       case ValueType::text:
         in_file = in_memory = text_type();
         for (std::size_t i = 0; i < count; ++i)
@@ -167,7 +171,8 @@ void put_attribute(const Handle& object, const std::string& name, ValueType type
 }
 
 Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
-                 std::size_t count, const Row& row, const FilteredChunks& filtered) {
+                 std::size_t count, const Row& row, const FilteredChunks& filtered,
+                 std::string_view unit) {
   const std::string what = "cannot write dataset " + name;
   const std::size_t width = row.width();
   if (count % width != 0) throw Fault(what + ": not whole rows");
@@ -195,7 +200,7 @@ Handle put_array(const Handle& group, const std::string& name, ValueType type, c
                      is_text ? text_transfer() : H5P_DEFAULT, source.data),
             what);
   }
-  put(dataset, "units", std::string("-"));  // quantities are in the units of the case
+  put(dataset, "units", std::string(unit.empty() ? "-" : unit));
   write_chunks(dataset, filtered, before, filtered.size(), chunk, what);
   return dataset;
 }

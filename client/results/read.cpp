@@ -37,7 +37,7 @@ Load get_load(const Handle& group, const std::string& name, std::uint64_t budget
   Load load;
   load.name = name;
   get_values(group, load, tables::load);
-  get_arrays(group, budget, load, tables::load_arrays);
+  get_arrays(group, budget, load, tables::load_arrays, tables::indicator);
   load.inclusions = get_list<Inclusion>(open_group(group, "inclusions"), budget, "inclusions",
                                         tables::inclusions);
   load.contact_intervals =
@@ -49,6 +49,8 @@ Load get_load(const Handle& group, const std::string& name, std::uint64_t budget
     return trace;
   });
   get_arrays(open_group(group, "history"), budget, load.history, arrays::history<History>);
+  if (hdf5::has(group, "stages"))
+    get_arrays(open_group(group, "stages"), budget, load.stages, tables::stages);
   if (!hdf5::has(group, "fields")) return load;
   load.fields = list_of(group, "fields", [budget](const Handle& at) {
     Field field;

@@ -158,6 +158,10 @@ void check_load(const std::string& at, const Load& load, const Result& result, F
   for (std::size_t i = 0; i < load.traces.size() && !faults.any(); ++i)
     check_trace(item(at + ".traces", i), load.traces[i], result.interfaces[i].node_count(), faults);
   check_history(at + ".history", load.history, faults);
+  faults.lengths(at + ".stages", load.stages, load.stages.size(), "stages", tables::stages);
+  faults.increasing(at + ".stages.triangles", load.stages.triangles);
+  if (!load.indicator.empty())
+    faults.lengths(at, load, result.mesh.triangle_count(), "triangles", tables::indicator);
   if (!load.fields.empty())
     faults.length(at + ".fields", load.fields.size(), result.mesh.subdomains.size(), "subdomains");
   if (!load.fields.empty() && !faults.any()) {

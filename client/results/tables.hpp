@@ -25,6 +25,9 @@ inline constexpr auto result = std::tuple{
     scalar("mesh", &Result::mesh_name, ""),
     scalar("job", &Result::job_name, "names on the server"),
     scalar("mesh_sha256", &Result::mesh_sha256, "of the mesh's arrays"),
+    // Files from before jobs had an accuracy lack it.
+    optional(scalar("not_reached", &Result::not_reached,
+                    "which accuracy of the job, what stopped it, and the cure")),
 };
 inline constexpr auto timings = std::tuple{
     scalar("mesh_seconds", &Timings::mesh_seconds, "meshing", "s"),
@@ -100,6 +103,26 @@ inline constexpr auto load = std::tuple{
 };
 inline constexpr auto load_arrays = std::tuple{
     array("warnings", "w", &Load::warnings, "e.g. of a load not integrated as exactly as asked"),
+};
+inline constexpr auto indicator = std::tuple{
+    optional(explained("indicator", "m", &Load::indicator,
+                       "part of each triangle in the square of error_bound; none where it was not "
+                       "asked for or there are no bounds")),
+};
+/// Of a job with an accuracy.
+inline constexpr auto stages = std::tuple{
+    explained("triangles", "stages", &Stages::triangles, "of the stage's mesh, increasing"),
+    array("energy", "stages", &Stages::energy, "Pi(u)"),
+    array("energy_lower", "stages", &Stages::energy_lower, ""),
+    array("energy_upper", "stages", &Stages::energy_upper,
+          "the membrane's own Pi lies between them"),
+    explained("error_bound_relative", "stages", &Stages::error_bound_relative,
+              "of u in the energy norm, over the norm of u"),
+    explained(
+        "displacement_error", "stages", &Stages::displacement_error,
+        "half the width of the bounds of A over the amount of A, the largest of all inclusions"),
+    explained("seconds", "stages", &Stages::seconds,
+              "from the start of the first stage to the end of this one", "s"),
 };
 inline constexpr auto inclusions = std::tuple{
     array("name", "i", &Inclusion::name, "of the inclusion"),

@@ -9,18 +9,20 @@
 namespace anticrack::results {
 
 /// Type of the entries of an array, in a block and in a file. The first three have the numbers of
-/// the API's ArrayLayout.Type; blocks hold no text.
-enum class ValueType { float64 = 1, int32, uint8, text };
+/// the API's ArrayLayout.Type; blocks hold no others.
+enum class ValueType { float64 = 1, int32, uint8, int64, text };
 
-/// Of double, std::int32_t and enums of that size, std::uint8_t, std::string.
+/// Of double, std::int32_t and enums of that size, std::uint8_t, std::int64_t, std::string.
 template <class T>
 inline constexpr ValueType value_type = [] {
   static_assert(std::is_same_v<T, double> || std::is_same_v<T, std::int32_t> ||
-                std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::string> ||
+                std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::int64_t> ||
+                std::is_same_v<T, std::string> ||
                 (std::is_enum_v<T> && sizeof(T) == sizeof(std::int32_t)));
   return std::is_same_v<T, double>        ? ValueType::float64
          : std::is_same_v<T, std::string> ? ValueType::text
          : sizeof(T) == 1                 ? ValueType::uint8
+         : sizeof(T) == 8                 ? ValueType::int64
                                           : ValueType::int32;
 }();
 
@@ -29,6 +31,7 @@ constexpr const char* name_of(ValueType type) {
   return type == ValueType::float64 ? "float64"
          : type == ValueType::int32 ? "int32"
          : type == ValueType::uint8 ? "uint8"
+         : type == ValueType::int64 ? "int64"
                                     : "variable-length text";
 }
 /// Size of an entry; of text that of the pointer to it.

@@ -31,7 +31,7 @@ void put_load(const Handle& parent, std::size_t index, const Load& load, const M
   const Handle group = create_group(parent, load.name);
   put(group, "index", static_cast<std::int32_t>(index));
   put_values(group, load, tables::load);
-  put_arrays(group, load, tables::load_arrays);
+  put_arrays(group, load, tables::load_arrays, tables::indicator);
   put_list(create_group(group, "inclusions"), load.inclusions, tables::inclusions);
   put_list(create_group(group, "contact_intervals"), load.contact_intervals,
            tables::contact_intervals);
@@ -39,6 +39,8 @@ void put_load(const Handle& parent, std::size_t index, const Load& load, const M
   for (std::size_t i = 0; i < load.traces.size(); ++i)
     put_arrays(create_group(traces, std::to_string(i)), load.traces[i], arrays::trace<Trace>);
   put_arrays(create_group(group, "history"), load.history, arrays::history<History>);
+  if (load.stages.size() != 0)
+    put_arrays(create_group(group, "stages"), load.stages, tables::stages);
   if (load.fields.empty()) return;
   const Handle fields = create_group(group, "fields");
   for (std::size_t i = 0; i < load.fields.size(); ++i) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtk/export.hpp"
 
+#include <algorithm>
+#include <array>
 #include <span>
 #include <utility>
 
@@ -40,6 +42,41 @@ bool exportable(const Result& result, const std::string& source, const Load& loa
   return true;
 }
 
+using Corners = std::array<std::int32_t, 3>;
+
+/// For look-ups: in any order, from any corner.
+Corners sorted(Corners corners) {
+  std::ranges::sort(corners);
+  return corners;
+}
+
+/// The indicators by cell: fields have the triangles of a subdomain in an order of their own. NaN
+/// for one that is not of the mesh.
+std::vector<double> indicator_by_cell(const results::Mesh& mesh, const Load& load) {
+  const auto corners = [](const std::vector<std::int32_t>& all, std::size_t triangle) {
+    return Corners{all[3 * triangle], all[3 * triangle + 1], all[3 * triangle + 2]};
+  };
+  std::vector<std::pair<Corners, double>> known;
+  known.reserve(mesh.triangle_count());
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    known.emplace_back(sorted(corners(mesh.triangles, t)), load.indicator[t]);
+  std::ranges::sort(known);
+  std::vector<double> values;
+  values.reserve(known.size());
+  for (const results::Field& field : load.fields) {
+    for (std::size_t t = 0; 3 * t < field.triangles.size(); ++t) {
+      Corners nodes = corners(field.triangles, t);
+      for (std::int32_t& node : nodes) node = field.nodes[static_cast<std::size_t>(node)];
+      nodes = sorted(nodes);
+      const auto found =
+          std::ranges::lower_bound(known, nodes, {}, &decltype(known)::value_type::first);
+      values.push_back(found != known.end() && found->first == nodes ? found->second
+                                                                     : results::unknown);
+    }
+  }
+  return values;
+}
+
 }  // namespace
 
 UnstructuredGrid membrane(const Result& result, const Load& load) {
@@ -64,6 +101,8 @@ UnstructuredGrid membrane(const Result& result, const Load& load) {
   }
   grid.points = {{"u", std::move(u)}, {"node", std::move(node)}};
   grid.cells = {{"tension", std::move(tension)}, {"subdomain", std::move(subdomain)}};
+  if (!load.indicator.empty())
+    grid.cells.push_back({"error_indicator", indicator_by_cell(result.mesh, load)});
   return grid;
 }
 

@@ -14,7 +14,8 @@
 namespace anticrack::vtk {
 
 /// The membrane under a load. Subdomains share no points, which keeps both faces of cracks and
-/// slits. Point data u, node (index in the mesh); cell data subdomain, tension. Needs load.fields.
+/// slits. Point data u, node (index in the mesh); cell data subdomain, tension and, where the
+/// load has it, error_indicator. Needs load.fields.
 UnstructuredGrid membrane(const results::Result& result, const results::Load& load);
 
 /// The interfaces as lines. Point data u_minus, u_plus, jump, pressure, s (arc length), kind

@@ -34,8 +34,8 @@ constexpr Array<Member> array(std::string_view name, std::string_view shape, Mem
 /// The same with `explained`.
 template <class Member>
 constexpr Array<Member> explained(std::string_view name, std::string_view shape, Member member,
-                                  std::string_view what) {
-  return {name, shape, member, what, true};
+                                  std::string_view what, std::string_view unit = {}) {
+  return {name, shape, member, what, true, unit};
 }
 
 /// A single value.

@@ -29,6 +29,15 @@ TEST(Axes, of_a_range_without_extent_reach_around_it) {
   EXPECT_THAT(axis_range('x', {-0.5, 0.5}, 6, 1), HasSubstr("set xtics 1\n"));
 }
 
+TEST(Axes, with_a_log_scale_label_whole_decades_or_parts_of_few) {
+  EXPECT_THAT(log_axis('x', {100, 1500}), HasSubstr("('' 90 1, '100' 100, '200' 200, '' 300 1"));
+  EXPECT_THAT(log_axis('y', {1e-5, 2e-2}), HasSubstr("'10\xE2\x81\xBB\xE2\x81\xB4' 0.0001"));
+  EXPECT_THAT(log_axis('x', {100, 1500}, false), HasSubstr("('' 90 1, '' 100, "));
+  EXPECT_THAT(log_axis('x', {1, 1e9}), HasSubstr("'10\xE2\x81\xB0' 1, '' 10 1, '10\xC2\xB2' 100"));
+  EXPECT_THAT(log_axis('x', {300, 900}), HasSubstr("'300' 300, '400' 400, "));
+  EXPECT_THAT(log_axis('x', {1300, 1300}), HasSubstr("tics ('900' 900, '1000' 1000)"));
+}
+
 TEST(Range, takes_in_what_is_finite) {
   Range range = empty_range();
   for (const double value : {2.0, std::nan(""), -1.0, HUGE_VAL}) range.include(value);

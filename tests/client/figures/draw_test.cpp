@@ -22,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using anticrack::testing::sample_result;
 using anticrack::testing::TemporaryFolder;
+using anticrack::testing::with_stages;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -40,12 +41,12 @@ std::set<std::string> files_in(const fs::path& folder) {
 
 TEST(Draw, makes_every_figure_of_every_load) {
   const TemporaryFolder folder;
-  const Drawn drawn = draw(sample_result(10), folder / "new/figures");
+  const Drawn drawn = draw(with_stages(sample_result(10)), folder / "new/figures");
   EXPECT_THAT(drawn.notes, IsEmpty());
-  EXPECT_EQ(drawn.files.size(), 16u);
+  EXPECT_EQ(drawn.files.size(), 20u);
   std::set<std::string> expected;
   for (const char* load : {"opening", "partly_closed"}) {
-    for (const char* figure : {"", "-membrane", "-traces", "-convergence"}) {
+    for (const char* figure : {"", "-membrane", "-traces", "-convergence", "-accuracy"}) {
       expected.insert(std::string(load) + figure + ".png");
       expected.insert(std::string(load) + figure + ".svg");
     }
@@ -118,6 +119,16 @@ TEST(Draw, says_what_it_left_out) {
   EXPECT_THAT(drawn.notes,
               ElementsAre(HasSubstr("no fields"), HasSubstr("no traces (failed)"),
                           HasSubstr("no fields"), HasSubstr("1 load solved in a single step")));
+}
+
+TEST(Draw, draws_no_accuracy_of_a_single_stage) {
+  const TemporaryFolder folder;
+  auto result = sample_result(4);
+  result.loads.resize(1);
+  result.loads[0].stages = {{128}, {-1}, {-1.1}, {-1}, {0.1}, {0.1}, {0.1}};
+  const Drawn drawn = draw(result, folder.path(), {.formats = {Format::png}});
+  EXPECT_EQ(files_in(folder.path()).count("opening-accuracy.png"), 0u);
+  EXPECT_THAT(drawn.notes, ElementsAre(HasSubstr("fewer than two stages have bounds")));
 }
 
 TEST(Draw, replaces_old_figures) {

@@ -15,6 +15,7 @@ namespace {
 
 using anticrack::testing::sample_pair;
 using anticrack::testing::sample_result;
+using anticrack::testing::with_stages;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -26,7 +27,8 @@ std::string scripts(const results::Result& result, const results::Load& load) {
   return script(combined_picture(result, load, membrane), both) +
          script(membrane_picture(result, load, membrane), both) +
          script(traces_picture(result, load, 0), both) +
-         script(convergence_picture(result, load), both);
+         script(convergence_picture(result, load), both) +
+         (bounded_stages(load) == 0 ? "" : script(accuracy_picture(result, load), both));
 }
 
 /// What gnuplot would take for commands: the script without the insides of quoted strings. Throws
@@ -148,6 +150,43 @@ TEST(Script, draws_epsilon_where_it_is_known) {
               Not(HasSubstr("\xCE\xB5 =")));
 }
 
+TEST(Script, shows_how_the_bounds_close_in) {
+  auto result = with_stages(sample_result(4));
+  results::Stages& stages = result.loads[0].stages;
+  stages = {{100, 1000, 20000}, {-1, -1.5, -2},   {-3, -2.1, -2.002},
+            {-1, -1.5, -1.998}, {0.9, 0.3, 0.03}, {results::unknown, 0.25, 0.01},
+            {0.1, 0.2, 1}};
+  const auto drawn = [&] { return script(accuracy_picture(result, result.loads[0]), both); };
+  EXPECT_THAT(drawn(), HasSubstr("'energy to 0.2 % on 20000 triangles, 3 stages'"));
+  EXPECT_THAT(drawn(), HasSubstr("\n100 2 NaN -3 -1 -1 0.4 \n"));
+  EXPECT_THAT(drawn(), HasSubstr("\n20000 0.002 0.01 -2.002 -1.998 -2 0.002 \n"));
+  EXPECT_THAT(drawn(), HasSubstr("title 'A, half the width of its bounds'"));
+  for (double& error : stages.displacement_error) error = results::unknown;
+  EXPECT_THAT(drawn(), Not(HasSubstr("title 'A, half")));
+}
+
+TEST(Script, leaves_out_stages_without_bounds) {
+  auto result = with_stages(sample_result(4));
+  results::Stages& stages = result.loads[0].stages;
+  EXPECT_EQ(bounded_stages(result.loads[0]), 5U);
+  stages.energy_lower[0] = results::unknown;
+  stages.energy[1] = stages.energy_upper[1] = stages.energy_lower[1] = 0;
+  EXPECT_EQ(bounded_stages(result.loads[0]), 3U);
+  EXPECT_THAT(script(accuracy_picture(result, result.loads[0]), both), HasSubstr("3 stages"));
+  EXPECT_EQ(bounded_stages(sample_result(4).loads[0]), 0U);
+}
+
+TEST(Script, shows_the_mesh_of_a_job_with_an_accuracy) {
+  const auto drawn = [](const results::Result& result, std::size_t limit) {
+    const results::Load& load = result.loads[0];
+    return script(membrane_picture(result, load, surface(result, load, limit)), both);
+  };
+  EXPECT_THAT(drawn(with_stages(sample_result(4)), 1000), HasSubstr("border linewidth 0.2"));
+  EXPECT_THAT(drawn(with_stages(sample_result(4)), 100), HasSubstr("noborder"));
+  EXPECT_THAT(drawn(with_stages(sample_result(40)), 20000), HasSubstr("noborder"));
+  EXPECT_THAT(drawn(sample_result(4), 1000), HasSubstr("noborder"));
+}
+
 TEST(Script, says_how_a_load_ended) {
   auto result = sample_result(4);
   result.loads[0].status = results::Status::not_converged;
@@ -164,7 +203,7 @@ TEST(Script, looks_over_the_minus_side) {
 
 /// All scripts of a result whose texts are all `text`.
 std::string scripts_saying(const std::string& text) {
-  auto result = sample_result(4);
+  auto result = with_stages(sample_result(4));
   auto& load = result.loads[0];
   result.title = load.name = load.method = load.mass = load.reason = text;
   load.inclusions = {{text, 0.1, 0, 0}, {text, 0.2, 0, 0}};

@@ -16,6 +16,7 @@ namespace {
 
 using anticrack::testing::sample_pair;
 using anticrack::testing::sample_result;
+using anticrack::testing::with_stages;
 using ::testing::HasSubstr;
 
 /// The two blocks a server would send for a result, with bytes of their own.
@@ -101,6 +102,7 @@ class Blocks {
       add(answer, trace + "pressure", load.traces[i].pressure);
       add(answer, trace + "contact", load.traces[i].contact);
     }
+    if (!load.indicator.empty()) add(answer, at + "indicator", load.indicator);
     const History& history = load.history;
     add(answer, at + "history/iteration", history.iteration);
     add(answer, at + "history/criterion", history.criterion);
@@ -132,6 +134,7 @@ Result answers_of(Result result) {
     load.traces.clear();
     load.history = {};
     load.fields.clear();
+    load.indicator.clear();
   }
   return result;
 }
@@ -152,6 +155,16 @@ TEST(Assemble, gives_back_what_the_blocks_hold) {
   EXPECT_EQ(built.loads[0].fields[1].u, result.loads[0].fields[1].u);
   EXPECT_EQ(built.loads[0].fields[1].nodes, result.loads[0].fields[1].nodes);
   EXPECT_EQ(built.loads[0].name, "opening");
+}
+
+TEST(Assemble, keeps_stages_and_adds_indicators) {
+  Result result = with_stages(sample_result(4));
+  result.loads[1].indicator.clear();
+  const Blocks blocks(result);
+  const Result built = assemble(answers_of(result), blocks.mesh, blocks.answer);
+  EXPECT_EQ(built.loads[0].indicator, result.loads[0].indicator);
+  EXPECT_TRUE(built.loads[1].indicator.empty());
+  EXPECT_EQ(built.loads[1].stages, result.loads[1].stages);
 }
 
 TEST(Assemble, a_load_that_failed_needs_no_arrays) {

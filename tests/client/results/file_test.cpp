@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 using anticrack::testing::sample_pair;
 using anticrack::testing::sample_result;
 using anticrack::testing::TemporaryFolder;
+using anticrack::testing::with_stages;
 using ::testing::HasSubstr;
 
 std::string bytes_of(const std::string& path) {
@@ -201,6 +202,31 @@ TEST(File, from_before_inclusions_tilted_has_none_that_does) {
   expect_same(read(folder / "a.h5"), result);
 }
 
+TEST(File, keeps_stages_and_indicators) {
+  const TemporaryFolder folder;
+  Result result = with_stages(sample_result(40));
+  result.loads[1].stages = {};
+  result.loads[1].indicator.clear();
+  result.loads[0].stages.triangles.back() = std::int64_t{1} << 40;
+  write(folder / "a.h5", result);
+  expect_same(read(folder / "a.h5"), result);
+}
+
+TEST(File, from_before_jobs_had_an_accuracy_has_no_stages) {
+  const TemporaryFolder folder;
+  write(folder / "a.h5", with_stages(sample_result(2)));
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  ASSERT_GE(H5Adelete(file, "not_reached"), 0);
+  for (const char* load : {"opening", "partly closed"}) {
+    for (const char* name : {"/stages", "/indicator"}) {
+      const std::string path = std::string("/loads/") + load + name;
+      ASSERT_GE(H5Ldelete(file, path.c_str(), H5P_DEFAULT), 0) << path;
+    }
+  }
+  H5Fclose(file);
+  expect_same(read(folder / "a.h5"), sample_result(2));
+}
+
 TEST(File, keeps_unknown_numbers_as_nan) {
   const TemporaryFolder folder;
   Result result = sample_result(2);
@@ -245,6 +271,10 @@ TEST(File, is_not_written_from_an_inconsistent_result) {
   result.loads[1].name = "../x";
   EXPECT_THROW(write(folder / "a.h5", result), Error);
   result.loads[1].name = result.loads[0].name;
+  EXPECT_THROW(write(folder / "a.h5", result), Error);
+  result = with_stages(sample_result(2));
+  result.loads[1].stages.seconds.pop_back();
+  EXPECT_EQ(first_fault(result), "loads[1].stages.seconds has 4 entries for 5 stages");
   EXPECT_THROW(write(folder / "a.h5", result), Error);
   EXPECT_EQ(files_in(folder.path()), 0u);
 }

@@ -16,6 +16,7 @@ namespace {
 using anticrack::testing::Process;
 using anticrack::testing::sample_result;
 using anticrack::testing::TemporaryFolder;
+using anticrack::testing::with_stages;
 
 std::string python(const std::string& program) {
   Process process({"/usr/bin/python3", "-c", program});
@@ -28,7 +29,7 @@ class H5py : public ::testing::Test {
   void SetUp() override {
     Process process({"/usr/bin/python3", "-c", "import h5py"});
     if (process.wait() != 0) GTEST_SKIP() << "python3-h5py is not installed";
-    write(path, sample_result(20));
+    write(path, with_stages(sample_result(20)));
   }
 
   const TemporaryFolder folder;
@@ -78,6 +79,23 @@ TEST_F(H5py, sees_which_inclusion_lies_where) {
             "-1 index into /mesh/inclusions, -1 none\n");
 }
 
+TEST_F(H5py, sees_stages_and_indicators) {
+  EXPECT_EQ(python("import h5py\n"
+                   "f = h5py.File('" +
+                   path +
+                   "')\n"
+                   "load = f['loads/opening']\n"
+                   "stages = load['stages']\n"
+                   "print(stages['triangles'][:], stages['triangles'].dtype)\n"
+                   "print(round(stages['energy_upper'][4], 5), stages['seconds'].attrs['units'])\n"
+                   "print(load['indicator'].shape == f['mesh/subdomain'].shape)\n"
+                   "print(f.attrs['not_reached'])"),
+            "[ 293  532  968 1760 3200] int64\n"
+            "-0.16785 s\n"
+            "True\n"
+            "energy to 0.0001: the mesh has max_triangles\n");
+}
+
 TEST_F(H5py, finds_units_on_every_dataset) {
   EXPECT_EQ(python("import h5py\n"
                    "f = h5py.File('" +
@@ -87,7 +105,7 @@ TEST_F(H5py, finds_units_on_every_dataset) {
                    "f.visititems(lambda n, o: seen.append('units' in o.attrs)\n"
                    "             if isinstance(o, h5py.Dataset) else None)\n"
                    "print(len(seen), all(seen))"),
-            "89 True\n");
+            "105 True\n");
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ namespace {
 
 using anticrack::testing::sample_result;
 using anticrack::testing::TemporaryFolder;
+using anticrack::testing::with_stages;
 using ::testing::HasSubstr;
 
 void expect_refused(const std::string& path, const std::string& cause) {
@@ -179,7 +180,8 @@ class Damaged : public ::testing::TestWithParam<Damage> {};
 
 TEST_P(Damaged, is_refused) {
   const TemporaryFolder folder;
-  write(folder / "a.h5", sample_result(4));  // 81 nodes, 128 triangles, 9 interface nodes
+  // 81 nodes, 128 triangles, 9 interface nodes, 5 stages
+  write(folder / "a.h5", with_stages(sample_result(4)));
   const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   ASSERT_GE(file, 0);
   GetParam().inflict(file);
@@ -187,7 +189,7 @@ TEST_P(Damaged, is_refused) {
   expect_refused(folder / "a.h5", GetParam().complaint);
 }
 
-const std::array<Damage, 34> damages{{
+const std::array<Damage, 39> damages{{
     {"format_missing", [](hid_t f) { H5Adelete(f, "format"); },
      "is HDF5, but no result of anticrack"},
     {"format_foreign", [](hid_t f) { replace_text(f, "/", "format", "netcdf"); },
@@ -240,6 +242,21 @@ const std::array<Damage, 34> damages{{
     {"wrong_length_of_inclusions",
      [](hid_t f) { replace_dataset(f, "/loads/opening/inclusions/A", H5T_IEEE_F64LE, {4}); },
      "inclusions has datasets of different lengths"},
+    {"wrong_length_of_stages",
+     [](hid_t f) { replace_dataset(f, "/loads/opening/stages/energy", H5T_IEEE_F64LE, {4}); },
+     "loads[0].stages.energy has 4 entries for 5 stages"},
+    {"stages_of_another_type",
+     [](hid_t f) { replace_dataset(f, "/loads/opening/stages/triangles", H5T_STD_I32LE, {5}); },
+     "dataset triangles is not int64"},
+    {"stages_do_not_grow",
+     [](hid_t f) { replace_dataset(f, "/loads/opening/stages/triangles", H5T_STD_I64LE, {5}); },
+     "loads[0].stages.triangles does not increase at entry 1"},
+    {"stages_without_their_times",
+     [](hid_t f) { H5Ldelete(f, "/loads/opening/stages/seconds", H5P_DEFAULT); },
+     "\"seconds\" is missing"},
+    {"indicators_of_another_mesh",
+     [](hid_t f) { replace_dataset(f, "/loads/opening/indicator", H5T_IEEE_F64LE, {127}); },
+     "loads[0].indicator has 127 entries for 128 triangles"},
     {"claims_more_than_the_file_holds",
      [](hid_t f) {
        replace_dataset(f, "/mesh/nodes", H5T_IEEE_F64LE, {hsize_t{1} << 40, 2});

@@ -66,7 +66,8 @@ std::string readme_table() {
          line("/interfaces/I", entries<Interface>(arrays::interface_nodes<Interface>) + "; " +
                                    entries<Edges>(tables::edges)) +
          line("/loads/LOAD", values + "`index`: from 0; " + entries<Load>(tables::load)) +
-         line("/loads/LOAD", entries<Load>(tables::load_arrays)) +
+         line("/loads/LOAD", entries<Load>(tables::load_arrays, tables::indicator)) +
+         line("/loads/LOAD/stages", "with an accuracy: " + entries<Stages>(tables::stages)) +
          line("/loads/LOAD/inclusions", entries<Inclusion>(tables::inclusions)) +
          line("/loads/LOAD/contact_intervals",
               entries<ContactInterval>(tables::contact_intervals)) +
@@ -136,7 +137,7 @@ void add_names(const Result& result, Names& names) {
 
 TEST(Readme, lists_what_a_file_holds_and_nothing_else) {
   Names held;
-  add_names(anticrack::testing::sample_result(2), held);
+  add_names(anticrack::testing::with_stages(anticrack::testing::sample_result(2)), held);
   add_names(anticrack::testing::tilting_sweep(5), held);
   Names listed;
   std::istringstream lines(readme_table());
@@ -149,7 +150,8 @@ TEST(Readme, lists_what_a_file_holds_and_nothing_else) {
       const std::size_t close = text.find('`', i + 1);
       const std::string before = text.substr(0, i);
       if (before.ends_with("; ") || before.ends_with("`, ") || before.ends_with("| ") ||
-          before.ends_with("attributes ") || before.ends_with("attribute ")) {
+          before.ends_with("accuracy: ") || before.ends_with("attributes ") ||
+          before.ends_with("attribute ")) {
         listed.emplace(at, text.substr(i + 1, close - i - 1));
       }
       i = text.find('`', close + 1);

@@ -17,6 +17,7 @@ namespace {
 
 using anticrack::testing::sample_result;
 using anticrack::testing::TemporaryFolder;
+using anticrack::testing::with_stages;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -79,6 +80,24 @@ TEST(Export, keeps_both_faces_of_a_slit) {
   EXPECT_EQ(grid.xy.size(), 2 * 91u);
   EXPECT_EQ(std::get<std::vector<double>>(grid.points[0].values).back(), 7);
   EXPECT_EQ(std::count(grid.corners.begin(), grid.corners.end(), 90), 1);
+}
+
+TEST(Export, gives_each_triangle_its_error_indicator) {
+  const TemporaryFolder folder;
+  results::Result result = with_stages(sample_result(4));
+  result.loads[1].indicator.clear();
+  // A field may have its triangles in any order, each from any corner.
+  auto& triangles = result.loads[0].fields[1].triangles;
+  std::reverse(triangles.begin(), triangles.end());
+  for (std::size_t t = 0; t < triangles.size(); t += 3) std::swap(triangles[t], triangles[t + 2]);
+  export_result(result, "paper.h5", folder.path());
+  const ReadVtu seen = read_vtu(bytes_of(folder / "opening.vtu"));
+  const auto indicator = seen.arrays.at("error_indicator").as<double>();
+  ASSERT_EQ(indicator.size(), 128u);
+  EXPECT_EQ(indicator[0], result.loads[0].indicator[0]);
+  EXPECT_EQ(indicator[64], result.loads[0].indicator[127]);
+  EXPECT_EQ(indicator[127], result.loads[0].indicator[64]);
+  EXPECT_EQ(read_vtu(bytes_of(folder / "partly_closed.vtu")).arrays.count("error_indicator"), 0u);
 }
 
 TEST(Export, carries_traces_and_pressure_along_the_interface) {
