@@ -65,12 +65,22 @@ void evict(EngineCore& core, const std::string& mesh) {
 }
 
 /// How far it is, for the next start of the server; without it the stage is solved again then.
-void store_progress(EngineCore& core, const JobSnapshot& snapshot) {
+void store_progress(EngineCore& core, const JobSnapshot& snapshot,
+                    const std::vector<store::StageRecord>& stages) {
   try {
-    core.store.put(snapshot.record());
+    store::JobRecord record = snapshot.record();
+    record.stages = stages;
+    record.cases.assign(record.cases.size(), {});
+    core.store.put(record);
   } catch (const std::exception&) {
     // A disk that refuses now is asked again at the next stage.
   }
+}
+
+std::string why_no_mesh(const Error& error) {
+  return error.reason() == Reason::limit_exceeded
+             ? "a finer mesh has more triangles than max_triangles or the server allow; raise it"
+             : error.what();
 }
 
 }  // namespace
@@ -81,6 +91,7 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
   std::vector<const store::CaseRecord*> cases;
   for (const LiveCase& live : job->cases) cases.push_back(live.record.get());
   const std::vector<double> indicator = std::exchange(stages.indicator, {});
+  const JobSnapshot snapshot(*job);
   const auto now = EngineCore::Clock::now();
   lock.unlock();
 
@@ -88,42 +99,42 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
   ended.seconds =
       stages.seconds_before + std::chrono::duration<double>(now - *stages.begun).count();
   for (const store::CaseRecord* one : cases) ended.answers.push_back(stage_answer(*one));
+  const auto event = std::make_shared<const store::StageRecord>(ended);
   Verdict verdict = judge(records, cases, *job->spec, most_triangles(core, *job), ended.seconds);
   LiveStages::Complete complete;
-  store::StageRecord next;
   std::shared_ptr<void> use;
   if (!verdict.over) {
     try {
       const store::MeshRecord mesh = next_mesh(core, *job, indicator);
       use = core.catalogue.use(mesh.id);
       complete = {job->cases, result_block(*job)};
-      next = {mesh.id, mesh.triangle_count};
+      records.push_back({mesh.id, mesh.triangle_count});
+      store_progress(core, snapshot, records);
     } catch (...) {
       const Error error = error_of(std::current_exception());
-      verdict = {true, not_reached(ended, *job->spec, error.what())};
+      verdict = {true, not_reached(*event, *job->spec, why_no_mesh(error))};
     }
   }
-  job->log->append(StageEvent{std::make_shared<const store::StageRecord>(ended)});
+  job->log->append(StageEvent{event});
 
   lock.lock();
   --job->active;
-  const std::string before = job->mesh;
-  stages.records = std::move(records);
-  if (!verdict.over) stages.made.push_back(next.mesh);
+  if (!verdict.over) stages.made.push_back(records.back().mesh);
   if (verdict.over || job->why != Stop::none) {
+    if (!verdict.over) records.pop_back();
+    stages.records = std::move(records);
     stages.over = verdict.over;
     stages.not_reached = std::move(verdict.not_reached);
     stages.last = {};
     core.settle(job);
     return;
   }
+  stages.records = std::move(records);
   stages.last = std::move(complete);
-  stages.records.push_back(std::move(next));
   stages.mesh_use = std::move(use);
+  const std::string before = job->mesh;
   core.move_on(job);
-  const JobSnapshot snapshot(*job);
   lock.unlock();
-  store_progress(core, snapshot);
   if (before != job->spec->mesh) evict(core, before);
   lock.lock();
 }

@@ -52,7 +52,7 @@ std::vector<std::vector<double>> numbers_of(const JobEngine& engine, const std::
 
 /// Calls `act` once, on the thread that appends the event which `at` chooses.
 template <class At, class Act>
-auto when(const JobEngine& engine, const std::string& id, const At& at, const Act& act) {
+auto when(const JobEngine& engine, const std::string& id, At at, Act act) {
   const std::shared_ptr<EventLog> log = engine.events(id);
   return log->listen([log, at, act, seen = std::uint64_t{0}, done = false]() mutable {
     for (const NumberedEvent& event : log->read(std::max(seen, log->earliest() - 1), 1000)) {
@@ -116,9 +116,12 @@ TEST(EngineStages, RefineUntilEveryLoadCaseIsAccurate) {
   EXPECT_EQ(made.parent, job.stages[job.stages.size() - 2].mesh);
 
   std::size_t told = 0;
-  for (const NumberedEvent& event : test.events(id))
-    if (const auto* stage = std::get_if<StageEvent>(&event.event))
+  for (const NumberedEvent& event : test.events(id)) {
+    const auto* stage = std::get_if<StageEvent>(&event.event);
+    if (stage != nullptr) {
       EXPECT_EQ(stage->stage->mesh, job.stages.at(told++).mesh);
+    }
+  }
   EXPECT_EQ(told, job.stages.size());
 }
 
