@@ -142,7 +142,7 @@ struct Stages {
   std::vector<std::int64_t> triangles;       ///< of the stage's mesh, increasing
   std::vector<double> energy;                ///< Pi(u)
   std::vector<double> energy_lower, energy_upper, error_bound_relative;  ///< as in Load
-  /// Half the width of the bounds of A over |A|, the largest of all inclusions.
+  /// Half the width of the bounds of A over the largest |A|, the largest of all inclusions.
   std::vector<double> displacement_error;
   std::vector<double> seconds;  ///< from the start of the first stage to the end of this one
 

@@ -173,7 +173,7 @@ ANTICRACK_FIELDS(SweepRecord, converged, not_converged, failed, most_steps, wors
 /// Load cases solved stage after stage, on meshes refined until their bounds are close enough.
 struct AccuracySpec {
   std::optional<double> energy{};        ///< energy_upper - energy_lower over |energy|
-  std::optional<double> displacement{};  ///< half the width of the bounds of A over |A|
+  std::optional<double> displacement{};  ///< half the width of the bounds of A over the largest |A|
   std::uint64_t max_triangles = 0;       ///< 0: the server's
   std::chrono::milliseconds time{0};     ///< no stage begins later; 0: none is too late
   bool keep_stages = false;              ///< the meshes of all stages
