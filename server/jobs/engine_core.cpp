@@ -177,16 +177,19 @@ void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
     live_case.record = std::move(ended_case.outcome.record);
     live_case.result = std::move(ended_case.outcome.result);
     job->answer_bytes += fields::bytes_of(*live_case.record);
-    job->memory.set(job->spec_bytes + job->answer_bytes + (job->spool ? job->spool->memory() : 0));
     --job->active;
     ++cases_ended;
+    std::uint64_t of_stages = 0;
     if (job->stages) {
       add_indicator(*job->stages, *job->spec->accuracy, *live_case.record,
                     ended_case.outcome.indicator);
+      of_stages = job->stages->last.bytes + fields::bytes_of(job->stages->indicator);
     } else {
       --job->queued_cases;
       admission.cases_ended(job->spec->mesh, 1);
     }
+    job->memory.set(job->spec_bytes + job->answer_bytes + of_stages +
+                    (job->spool ? job->spool->memory() : 0));
     settle(job);
   }
 }

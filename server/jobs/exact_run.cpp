@@ -69,6 +69,7 @@ void add_bounds(const PreparedCase& prepared, Solved& solved) {
     solved.failure = std::current_exception();
   }
   if (!spec.fields) solved.answer.fields.clear();
+  if (!spec.indicators && !spec.accuracy) solved.indicator = {};
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ struct LiveStages {
   struct Complete {
     std::vector<LiveCase> cases;  ///< empty: no stage has ended
     std::shared_ptr<const store::BlockSource> result;
+    std::uint64_t bytes = 0;  ///< in memory
   } last;
   std::shared_ptr<void> mesh_use;  ///< of the stage's mesh
   std::vector<std::string> made;   ///< ids of the meshes that the job made

@@ -107,7 +107,7 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
     try {
       const store::MeshRecord mesh = next_mesh(core, *job, indicator);
       use = core.catalogue.use(mesh.id);
-      complete = {job->cases, result_block(*job)};
+      complete = {job->cases, result_block(*job), job->answer_bytes + job->spool->memory()};
       records.push_back({mesh.id, mesh.triangle_count});
       store_progress(core, snapshot, records);
     } catch (...) {

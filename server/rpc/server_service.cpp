@@ -14,6 +14,7 @@ namespace anticrack::rpc {
 namespace {
 
 constexpr std::array features{
+    "accuracy",
     "active_set",
     "batching",
     "boundary_value",

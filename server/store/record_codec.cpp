@@ -34,30 +34,6 @@ auto decoded(std::string_view bytes, const Read& read) {
   }
 }
 
-bool all_converged(const v1::Job& job) {
-  const auto converged = [](const v1::LoadCaseAnswer& answer) {
-    return answer.status() == v1::LoadCaseAnswer::STATUS_CONVERGED;
-  };
-  return job.has_sweep() ? job.sweep_answer().converged() == job.sweep_answer().rows()
-                         : std::all_of(job.answers().begin(), job.answers().end(), converged);
-}
-
-/// Makes a job of schema version 5 one of version 6. A job whose result had expired was in a state
-/// of its own, and only its timeline said how it had ended. A job was SUCCEEDED, too, if load cases
-/// did not converge.
-void update(v1::Job& job) {
-  constexpr int expired = 7;
-  if (job.state() == expired) {
-    job.set_state(job.timeline().empty() ? v1::Job::STATE_SUCCEEDED
-                                         : job.timeline().rbegin()->state());
-    *job.mutable_expire_time() = job.end_time();
-  }
-  if (job.state() == v1::Job::STATE_SUCCEEDED && !all_converged(job)) {
-    job.set_state(v1::Job::STATE_NOT_CONVERGED);
-    if (!job.timeline().empty()) job.mutable_timeline()->rbegin()->set_state(job.state());
-  }
-}
-
 }  // namespace
 
 std::string encode(const MeshRecord& record) {
@@ -90,8 +66,7 @@ MeshRecord decode_mesh_record(std::string_view bytes) {
 }
 
 JobRecord decode_job_record(std::string_view bytes) {
-  return decoded<disk::JobRecord>(bytes, [](disk::JobRecord& in) {
-    if (in.job().result_state() == v1::Job::RESULT_STATE_UNSPECIFIED) update(*in.mutable_job());
+  return decoded<disk::JobRecord>(bytes, [](const disk::JobRecord& in) {
     JobRecord record = api::Translation<JobRecord>::read(in.job());
     record.request_id = in.request_id();
     record.crashes = in.crashes();

@@ -14,9 +14,9 @@ using errors::Reason;
 /// Raised with every change of the tables or of what records are (records.proto), since a database
 /// of another version is refused, except that of the version before, which is read (record_codec)
 /// and becomes one of this version. Versions 1 to 3 had records of their own form, 4 no checksums,
-/// 5 no end NOT_CONVERGED.
-constexpr std::int64_t schema_version = 6;
-constexpr std::int64_t updated_version = 5;
+/// 5 no end NOT_CONVERGED, 6 no meshes that jobs made.
+constexpr std::int64_t schema_version = 7;
+constexpr std::int64_t updated_version = 6;
 
 /// Columns beside a record are those that are searched for. `number` is the order of creation;
 /// AUTOINCREMENT gives none twice, so that a page stays where it is when records are erased.

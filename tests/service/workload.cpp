@@ -53,6 +53,15 @@ std::vector<std::string> iterations(int count) {
           "solver.max_iterations=" + std::to_string(count)};
 }
 
+/// Half a dozen stages.
+Work in_stages() {
+  Work accurate = work("several-inclusions.toml");
+  accurate.name += " (accuracy)";
+  accurate.mesh.mutable_options()->set_preset(v1::MESH_PRESET_COARSE);
+  accurate.job.mutable_accuracy()->set_energy(2e-3);
+  return accurate;
+}
+
 std::vector<Work> mixed_work() {
   const std::vector<std::string> coarse{"mesh.preset=uniform", "mesh.size=0.1"};
   return {work("paper.toml", iterations(200)),
@@ -60,7 +69,8 @@ std::vector<Work> mixed_work() {
           work("slit.toml", coarse),
           work("slit.toml"),
           work("arc.toml", coarse),
-          work("several-inclusions.toml", coarse)};
+          work("several-inclusions.toml", coarse),
+          in_stages()};
 }
 
 v1::Job submit(client::Connection& connection, const Work& work, const std::string& request_id) {

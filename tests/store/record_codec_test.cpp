@@ -85,32 +85,6 @@ TEST(RecordCodec, SaysSomethingInEveryFieldOfTheMessages) {
                           "anticrack.v1.Sweep.Matrix.packed"));  // an upload by then
 }
 
-/// A job as version 5 of the database had it.
-JobRecord read_version_5(int state, v1::LoadCaseAnswer::Status status) {
-  disk::JobRecord old;
-  v1::Job& job = *old.mutable_job();
-  job.set_name("jobs/j");
-  job.set_mesh("meshes/m");
-  job.set_state(static_cast<v1::Job::State>(state));
-  job.mutable_end_time()->set_seconds(5);
-  job.add_answers()->set_status(status);
-  job.add_timeline()->set_state(v1::Job::STATE_SUCCEEDED);
-  return decode_job_record(old.SerializeAsString());
-}
-
-TEST(RecordCodec, ReadsTheEndsOfTheVersionBefore) {
-  constexpr int succeeded = 4, expired = 7;
-  const JobRecord gone = read_version_5(expired, v1::LoadCaseAnswer::STATUS_CONVERGED);
-  EXPECT_EQ(gone.state, JobState::succeeded);
-  EXPECT_EQ(gone.expired, gone.ended);
-  for (const int state : {succeeded, expired}) {
-    const JobRecord record = read_version_5(state, v1::LoadCaseAnswer::STATUS_NOT_CONVERGED);
-    EXPECT_EQ(record.state, JobState::not_converged);
-    EXPECT_EQ(record.timeline.at(0).state, JobState::not_converged);
-  }
-  EXPECT_FALSE(read_version_5(succeeded, v1::LoadCaseAnswer::STATUS_CONVERGED).expired);
-}
-
 TEST(RecordCodec, MakesUtf8OfWhatIsNot) {
   MeshRecord record;
   record.id = "m";
