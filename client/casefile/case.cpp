@@ -30,6 +30,8 @@ void read_mesh(const Section& root, Case& result) {
   }
   root.need("geometry", "write [geometry] with boundary and interface, or mesh.file = \"x.msh\"");
   *result.mesh.mutable_geometry() = read_geometry(*geometry, result.spots);
+  if (root.find("accuracy") && !(mesh && mesh->find("preset")))
+    result.mesh.mutable_options()->set_preset(v1::MESH_PRESET_COARSE);
 }
 
 // The text of a line (from 1), shortened.
@@ -96,7 +98,8 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
     out << table << '\n';
     result.text = out.str();
   }
-  const Section root(table, "", {"title", "geometry", "mesh", "solver", "load", "job", "output"});
+  const Section root(table, "",
+                     {"title", "geometry", "mesh", "solver", "accuracy", "load", "job", "output"});
   if (const auto title = root.text("title")) {
     result.mesh.set_title(*title);
     result.job.set_title(*title);
@@ -105,11 +108,16 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
   read_mesh(root, result);
   *result.job.mutable_solver() = read_solver(root, result.spots);
   if (loads == Loads::needed || root.find("load")) read_loads(root, result);
+  read_accuracy(root, result);
   read_job(root, result.job, result.spots);
   if (const auto output = root.section("output", {"fields"})) {
     if (output->boolean("fields").value_or(false)) result.job.add_outputs(v1::OUTPUT_FIELDS);
     note(*output, "", result.spots);
   }
+  // Fields are drawn with where their errors come from, if the method bounds them.
+  if (result.job.has_accuracy() ||
+      (result.job.outputs_size() > 0 && result.job.solver().has_active_set()))
+    result.job.add_outputs(v1::OUTPUT_INDICATORS);
   return result;
 }
 

@@ -3,12 +3,10 @@
 #include "casefile/sections.hpp"
 
 namespace anticrack::casefile {
-namespace {
 
-/// Seconds as a number, or text with a unit; false where the key is absent.
-bool read_time(const Section& section, const char* key, google::protobuf::Duration& duration) {
+std::optional<google::protobuf::Duration> read_time(const Section& section, const char* key) {
   const toml::node* node = section.find(key);
-  if (!node) return false;
+  if (!node) return std::nullopt;
   const std::string text = node->value_exact<std::string>().value_or(shown(*node));
   const auto time = node->is_string() || node->is_number() ? parse_duration(text) : std::nullopt;
   if (!time) {
@@ -16,12 +14,11 @@ bool read_time(const Section& section, const char* key, google::protobuf::Durati
                                           " is not a time above 0; write seconds, or \"90s\", "
                                           "\"10min\", \"2h\", \"1d\"");
   }
+  google::protobuf::Duration duration;
   duration.set_seconds(time->count() / 1000);
   duration.set_nanos(static_cast<std::int32_t>(time->count() % 1000 * 1'000'000));
-  return true;
+  return duration;
 }
-
-}  // namespace
 
 void read_job(const Section& root, v1::Job& job, Spots& spots) {
   const auto section = root.section("job", {"priority", "queue_timeout", "run_timeout"});
@@ -31,9 +28,8 @@ void read_job(const Section& root, v1::Job& job, Spots& spots) {
     job.set_priority(static_cast<v1::Job::Priority>(v1::Job::PRIORITY_INTERACTIVE +
                                                     static_cast<int>(*priority)));
   }
-  google::protobuf::Duration time;
-  if (read_time(*section, "queue_timeout", time)) *job.mutable_queue_timeout() = time;
-  if (read_time(*section, "run_timeout", time)) *job.mutable_run_timeout() = time;
+  if (const auto time = read_time(*section, "queue_timeout")) *job.mutable_queue_timeout() = *time;
+  if (const auto time = read_time(*section, "run_timeout")) *job.mutable_run_timeout() = *time;
 }
 
 }  // namespace anticrack::casefile

@@ -11,7 +11,7 @@ constexpr const char* group_cure =
     "\"crack\" or surface.1 = \"top\"";
 
 v1::MeshPreset read_preset(const Section& section) {
-  const auto preset = section.choice("preset", {"paper", "uniform", "graded"});
+  const auto preset = section.choice("preset", {"paper", "uniform", "graded", "coarse"});
   return preset ? static_cast<v1::MeshPreset>(v1::MESH_PRESET_PAPER + static_cast<int>(*preset))
                 : v1::MESH_PRESET_GRADED;
 }

@@ -6,6 +6,7 @@
 
 #include <concepts>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,12 @@ void read_loads(const Section& root, Case& result);
 
 /// [job] of the root: priority and time limits.
 void read_job(const Section& root, v1::Job& job, Spots& spots);
+
+/// [accuracy] of the root, once solver and loads are read: Error where they do not go with it.
+void read_accuracy(const Section& root, Case& result);
+
+/// Seconds as a number, or text with a unit; empty where the key is absent.
+std::optional<google::protobuf::Duration> read_time(const Section& section, const char* key);
 
 /// Writes the value of "key=value" into the case. The key is a dotted path. An entry of an array is
 /// an index from 0 (one past the end appends a table) or, where all entries have one, a `name`.

@@ -186,10 +186,26 @@ std::vector<std::string> remarks_on(const results::Load& load) {
   for (const std::string& warning : load.warnings) remarks.push_back("warning: " + warning);
   if (!load.no_bracket.empty()) remarks.push_back("no bounds of the error: " + load.no_bracket);
   constexpr double small_error = 0.01;
-  if (is_bounded(load) && load.error_bound_relative > small_error)
+  const bool in_stages = load.stages.size() > 0;  // the accuracy was chosen
+  if (is_bounded(load) && load.error_bound_relative > small_error && !in_stages)
     remarks.push_back("u is within " + number(100 * load.error_bound_relative, 2) +
-                      " % of the membrane's in the energy norm; a smaller mesh.size gives less");
+                      " % of the membrane's in the energy norm; for less write [accuracy] with "
+                      "energy = 1e-3, or a smaller one");
   return remarks;
+}
+
+Json stages_json(const results::Stages& stages) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    json.push_back({{"triangles", stages.triangles[i]},
+                    {"energy", stages.energy[i]},
+                    {"energy_lower", stages.energy_lower[i]},
+                    {"energy_upper", stages.energy_upper[i]},
+                    {"error_bound_relative", stages.error_bound_relative[i]},
+                    {"displacement_error", stages.displacement_error[i]},
+                    {"seconds", stages.seconds[i]}});
+  }
+  return json;
 }
 
 }  // namespace
@@ -283,7 +299,8 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
             {"mesh_seconds", result.timings.mesh_seconds},
             {"factorize_seconds", result.timings.factorize_seconds},
             {"solve_seconds", result.timings.solve_seconds},
-            {"total_seconds", result.timings.total_seconds}};
+            {"total_seconds", result.timings.total_seconds},
+            {"not_reached", result.not_reached}};
   if (result.sweep) json["sweep"] = sweep_json(*result.sweep);
   Json& answers = json["answers"] = Json::array();
   for (const results::Load& load : result.loads) {
@@ -322,6 +339,7 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
          {"weakly_active", load.weakly_active},
          {"solve_seconds", load.solve_seconds},
          {"inclusions", std::move(inclusions)},
+         {"stages", stages_json(load.stages)},
          {"warnings", load.warnings}});
   }
   return to_text(json);

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 
+#include "cli/accuracy_text.hpp"
 #include "cli/answers.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/follow.hpp"
@@ -151,7 +152,8 @@ int fetch_result(const JobOptions& options, const Globals& globals) {
   const results::Result result = fetch(session, job, session.stop());
   results::write(output, result);
   print_document(globals.json ? answers_json(result, output)
-                              : answers_table(result) + "\nResults: " + sanitise(output));
+                              : answers_table(result) + accuracy_text(job) +
+                                    "\nResults: " + sanitise(output));
   return exit_code_of(job);
 }
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "cli/accuracy_text.hpp"
 #include "cli/answers.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/job_text.hpp"
@@ -98,7 +99,7 @@ Followed submit_and_follow(Session& session, const casefile::Case& the_case, con
   for (int attempt = 1;; ++attempt) {
     const v1::Job job = submit(session, the_case, request_id, prepare);
     say(session.globals(), job.name() + " on " + job.mesh() + ": " + counted_cases(job, rows));
-    const AheadFuture ahead = fetch_ahead(session, job.mesh());
+    const AheadFuture ahead = fetch_ahead(session, job);
     try {
       Followed followed = follow(session, job, rows);
       followed.ahead = ahead;
@@ -156,11 +157,13 @@ void save(const fs::path& file, const results::Result& result, const Session& se
   }
 }
 
-void print_answers(const Globals& globals, const results::Result& result, const fs::path& file) {
+void print_answers(const Globals& globals, const v1::Job& job, const results::Result& result,
+                   const fs::path& file) {
   if (globals.json)
     print_document(answers_json(result, file));
   else
-    print_document("\n" + answers_table(result) + "\n" + sanitise(summary(result, file)));
+    print_document("\n" + answers_table(result) + accuracy_text(job) + "\n" +
+                   sanitise(summary(result, file)));
 }
 
 }  // namespace anticrack::cli

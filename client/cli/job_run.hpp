@@ -41,7 +41,7 @@ void save(const std::filesystem::path& file, const results::Result& result, cons
           const Followed& followed);
 
 /// The answers, and where they were saved.
-void print_answers(const Globals& globals, const results::Result& result,
+void print_answers(const Globals& globals, const v1::Job& job, const results::Result& result,
                    const std::filesystem::path& file);
 
 }  // namespace anticrack::cli

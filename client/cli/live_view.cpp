@@ -105,7 +105,14 @@ std::vector<std::string> frame(const JobProgress& progress, std::size_t width, s
     lines.push_back(sweep_line(*progress.sweep, room));
     return lines;
   }
-  const std::size_t left = std::max<std::size_t>(height, lines.size() + 2) - lines.size();
+  std::size_t left = std::max<std::size_t>(height, lines.size() + 2) - lines.size();
+  if (progress.accuracy) {
+    const std::size_t for_cases = std::min(progress.cases.size(), (left + 1) / 2);
+    std::vector<std::string> stages =
+        stage_lines(progress.stages, *progress.accuracy, room, left - for_cases);
+    left -= stages.size();
+    std::ranges::move(stages, std::back_inserter(lines));
+  }
   std::ranges::move(case_lines(progress, room, left), std::back_inserter(lines));
   return lines;
 }
@@ -140,11 +147,15 @@ std::vector<std::string> PlainLog::lines(const JobProgress& progress) {
     _attempt = progress.attempt;
   }
   if (progress.sweep) add_sweep_line(*progress.sweep, lines);
+  for (; _stages < progress.stages.size(); ++_stages)
+    lines.push_back(stage_text(_stages + 1, progress.stages[_stages], *progress.accuracy));
   _cases.resize(progress.cases.size());
   for (std::size_t i = 0; i < _cases.size(); ++i) {
     const CaseProgress& now = progress.cases[i];
     Seen& seen = _cases[i];
-    const bool newly_ended = ended(now.status) && !ended(seen.status);
+    // In each stage again: what goes well there is told by the line of the stage.
+    const bool told = progress.accuracy && now.status == results::Status::converged;
+    const bool newly_ended = ended(now.status) && now.status != seen.status && !told;
     if (newly_ended) {
       lines.push_back(now.name + ": " + std::string(word(now.status)) +
                       (now.iteration == 0

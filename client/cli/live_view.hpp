@@ -14,12 +14,13 @@ namespace anticrack::cli {
 /// At most max(`height`, 3) lines of fewer than `width` columns: a head line, lines for a notice
 /// and for the effect of Ctrl-C, then one line per load case. If they do not fit: those running,
 /// the last ones that ended and the next ones, in the order of the job, and a line that counts the
-/// others. For a sweep one line: bar, rows per second, time left, rows that did not converge.
-/// Narrow terminals keep state, progress and criterion longest.
+/// others. With an accuracy a line per stage before them, the last ones if they do not fit. For a
+/// sweep one line: bar, rows per second, time left, rows that did not converge. Narrow terminals
+/// keep state, progress and criterion longest.
 std::vector<std::string> frame(const JobProgress& progress, std::size_t width, std::size_t height);
 
 /// Lines for a pipe: changes of state, ends of load cases, iterations 50, 100, 200, ... (doubling,
-/// so that a long iteration does not fill a log), and every tenth of a sweep.
+/// so that a long iteration does not fill a log), every tenth of a sweep, and stages.
 class PlainLog {
  public:
   /// What has changed since the last call.
@@ -39,6 +40,7 @@ class PlainLog {
   std::int32_t _attempt = 0;
   std::vector<Seen> _cases;
   std::uint64_t _rows = 0;  // printed last
+  std::size_t _stages = 0;  // printed
 };
 
 /// At most `height` lines, at least 1, of at most `width` columns; see frame.

@@ -17,6 +17,7 @@ using results::Status;
 
 void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
   notice.clear();
+  if (_between_stages && (event.has_samples() || event.load_cases_ended_size() > 0)) begin_stage();
   switch (event.event_case()) {
     case v1::WatchJobResponse::kSnapshot:
       apply(event.snapshot().job());
@@ -45,6 +46,24 @@ void JobProgress::apply(const v1::WatchJobResponse& event, double seconds) {
   for (const v1::LoadCaseEnded& load_case : event.load_cases_ended())
     if (load_case.load_case() >= 0)
       apply(static_cast<std::size_t>(load_case.load_case()), load_case.answer());
+  if (event.has_stage_ended()) apply(event.stage_ended());
+}
+
+void JobProgress::begin_stage() {
+  _between_stages = false;
+  ended_count = 0;
+  for (CaseProgress& each : cases) {
+    CaseProgress anew;
+    anew.name = std::move(each.name);
+    each = std::move(anew);
+  }
+}
+
+// A late watch repeats stages that the snapshot had.
+void JobProgress::apply(const v1::Stage& stage) {
+  _between_stages = true;
+  const auto known = std::ranges::find(stages, stage.mesh(), &StageErrors::mesh);
+  if (known == stages.end()) stages.push_back(errors_of(stage));
 }
 
 void JobProgress::enter(v1::Job::State next, const std::string& what) {
@@ -73,6 +92,13 @@ void JobProgress::apply(const v1::Job& job_now) {
     if (!sweep) sweep.emplace();
     sweep->apply(job_now.sweep_answer());
     return;
+  }
+  if (job_now.has_accuracy()) {
+    accuracy = job_now.accuracy();
+    begin_stage();  // the answers are those of the newest
+    stages = stages_of(job_now);
+    _between_stages =
+        !stages.empty() && stages.size() == static_cast<std::size_t>(job_now.stages_size());
   }
   cases.resize(static_cast<std::size_t>(job_now.load_cases_size()));
   for (std::size_t i = 0; i < cases.size(); ++i)

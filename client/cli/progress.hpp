@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "anticrack/v1/solve.pb.h"
+#include "cli/accuracy_text.hpp"
 #include "cli/sweep_progress.hpp"
 #include "results/status.hpp"
 
@@ -37,8 +38,10 @@ struct JobProgress {
   std::int32_t attempt = 0;  ///< of the server at the job; 0 before the first snapshot
   bool active_set = false;   ///< a handful of steps, no criterion; else iterations of Algorithm 2
   double target = 1e-12;     ///< of the criterion; 0: something else ends the iteration
-  std::vector<CaseProgress> cases;     ///< none of a sweep
-  std::optional<SweepProgress> sweep;  ///< of a sweep
+  std::vector<CaseProgress> cases;       ///< none of a sweep; with an accuracy in the newest stage
+  std::optional<SweepProgress> sweep;    ///< of a sweep
+  std::optional<v1::Accuracy> accuracy;  ///< of a job in stages
+  std::vector<StageErrors> stages;       ///< that have ended
   std::size_t ended_count = 0;
   /// Seconds since it was submitted; NaN: unknown. Set by the caller until the job has ended.
   double elapsed = std::numeric_limits<double>::quiet_NaN();
@@ -48,9 +51,13 @@ struct JobProgress {
 
  private:
   void apply(const v1::Job& job_now);
+  void apply(const v1::Stage& stage);
+  void begin_stage();
   void enter(v1::Job::State next, const std::string& what);
   void apply(const v1::Samples& samples);
   void apply(std::size_t index, const v1::LoadCaseAnswer& answer);
+
+  bool _between_stages = false;  // the cases are those of a stage that has ended
 };
 
 /// "converged", "not converged", "running", ... for people.

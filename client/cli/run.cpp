@@ -34,7 +34,7 @@ int run(const RunOptions& options, const Globals& globals) {
   const auto result = results_of(session, the_case, followed, begin);
   if (!result) return job_code;
   save(output, *result, session, followed);
-  print_answers(globals, *result, output);
+  print_answers(globals, followed.job, *result, output);
   return job_code;
 }
 

@@ -161,9 +161,10 @@ results::Result fetch(Session& session, const v1::Job& job, const std::stop_toke
     fetched.server = ahead->server;
     fetched.mesh_block = std::move(ahead->mesh_block);
   } else {
-    fetched.mesh = client::get_mesh(connection, job.mesh(), stop);
+    const std::string mesh = mesh_of(job);
+    fetched.mesh = client::get_mesh(connection, mesh, stop);
     fetched.server = client::server_info(connection, stop);
-    fetched.mesh_block = client::read_mesh(connection, job.mesh(), stop);
+    fetched.mesh_block = client::read_mesh(connection, mesh, stop);
   }
   fetched.result_block = client::read_result(connection, job.name(), stop);
   return to_result(fetched);
@@ -175,11 +176,12 @@ int exit_code_of(const v1::Job& job) {
   return none_failed ? exit_not_converged : exit_job_failed;
 }
 
-AheadFuture fetch_ahead(Session& session, const std::string& mesh) {
+AheadFuture fetch_ahead(Session& session, const v1::Job& job) {
   return std::async(std::launch::async,
-                    [&session, mesh]() -> std::shared_ptr<Ahead> {
+                    [&session, mesh = job.mesh(),
+                     in_stages = job.has_accuracy()]() -> std::shared_ptr<Ahead> {
                       try {
-                        return fetch_now(session, mesh);
+                        return in_stages ? nullptr : fetch_now(session, mesh);
                       } catch (const std::exception&) {
                         return nullptr;
                       }

@@ -69,8 +69,9 @@ struct Ahead {
 /// which also reports what is wrong.
 using AheadFuture = std::shared_future<std::shared_ptr<Ahead>>;
 
-/// Begins on a thread of its own. The session must outlive the future.
-AheadFuture fetch_ahead(Session& session, const std::string& mesh);
+/// Begins on a thread of its own; null for a job in stages, which ends on another mesh. The session
+/// must outlive the future.
+AheadFuture fetch_ahead(Session& session, const v1::Job& job);
 
 /// Everything about a job that has ended and has results. `ahead`: what of it is here already, its
 /// block is taken; may be null.

@@ -94,7 +94,7 @@ int follow_sweep(Session& session, const Targets& targets, const casefile::Case&
   if (!input.nodal) result->sweep->coefficients = std::move(input.values);
   save(targets.result, *result, session, followed);
   save_csv(targets.csv, *result->sweep, globals);
-  print_answers(globals, *result, targets.result);
+  print_answers(globals, followed.job, *result, targets.result);
   return job_code;
 }
 

@@ -110,7 +110,12 @@ void read_combinations(const SweepFiles& files, const casefile::Case& the_case, 
   }
 }
 
-void check_solver(const casefile::Case& the_case) {
+void check_task(const casefile::Case& the_case) {
+  if (the_case.job.has_accuracy()) {
+    throw casefile::Error(the_case.locate("accuracy").value_or(casefile::Spot{}),
+                          "a sweep has one mesh, and [accuracy] refines it; take [accuracy] out of "
+                          "the case, and set mesh.size");
+  }
   if (the_case.job.solver().has_uzawa()) {
     throw casefile::Error(
         the_case.locate("solver.method").value_or(casefile::Spot{}),
@@ -143,7 +148,7 @@ void check_limits(const SweepInput& input, const v1::ServerLimits& limits) {
 }  // namespace
 
 SweepInput read_sweep_input(const SweepFiles& files, const casefile::Case& the_case) {
-  check_solver(the_case);
+  check_task(the_case);
   SweepInput input;
   input.nodal = !files.nodal.empty();
   input.source = input.nodal ? files.nodal : files.coefficients;

@@ -158,7 +158,30 @@ results::Sweep to_sweep(const Fetched& fetched) {
   return sweep;
 }
 
+void add_stage(const v1::Stage& stage, int load, results::Stages& stages) {
+  const auto or_unknown = [](bool is_set, double value) {
+    return is_set ? value : results::unknown;
+  };
+  const v1::StageAnswer& answer = stage.answers(load);
+  stages.triangles.push_back(static_cast<std::int64_t>(stage.triangles()));
+  stages.energy.push_back(answer.energy());
+  stages.energy_lower.push_back(or_unknown(answer.has_energy_lower(), answer.energy_lower()));
+  stages.energy_upper.push_back(or_unknown(answer.has_energy_upper(), answer.energy_upper()));
+  stages.error_bound_relative.push_back(
+      or_unknown(answer.has_error_bound_relative(), answer.error_bound_relative()));
+  stages.displacement_error.push_back(
+      or_unknown(answer.has_displacement_error(), answer.displacement_error()));
+  stages.seconds.push_back(stage.seconds());
+}
+
 }  // namespace
+
+std::string mesh_of(const v1::Job& job) {
+  std::string mesh = job.mesh();
+  for (const v1::Stage& stage : job.stages())
+    if (stage.answers_size() > 0) mesh = stage.mesh();
+  return mesh;
+}
 
 std::vector<results::Load> to_loads(const v1::Job& job) {
   std::vector<results::Load> loads;
@@ -167,6 +190,8 @@ std::vector<results::Load> to_loads(const v1::Job& job) {
     const auto& answer =
         i < job.answers_size() ? job.answers(i) : v1::LoadCaseAnswer::default_instance();
     loads.push_back(to_load(job.load_cases(i), answer, job.solver()));
+    for (const v1::Stage& stage : job.stages())
+      if (i < stage.answers_size()) add_stage(stage, i, loads.back().stages);
   }
   return loads;
 }
@@ -192,6 +217,7 @@ results::Result to_result(const Fetched& fetched) {
   result.mesh_name = fetched.mesh.name();
   result.job_name = fetched.job.name();
   result.mesh_sha256 = fetched.mesh.sha256();
+  result.not_reached = fetched.job.not_reached();
   result.timings.mesh_seconds = fetched.mesh.mesh_seconds();
   result.timings.factorize_seconds = fetched.mesh.factorize_seconds();
   add_names(fetched.mesh, result.mesh);

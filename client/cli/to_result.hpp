@@ -23,6 +23,9 @@ struct Fetched {
   client::Block result_block;
 };
 
+/// The mesh that the answers of a job are on: of its last stage that has any.
+std::string mesh_of(const v1::Job& job);
+
 /// Throws results::Error for parts that do not fit together.
 results::Result to_result(const Fetched& fetched);
 

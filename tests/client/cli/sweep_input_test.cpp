@@ -109,6 +109,16 @@ TEST(SweepInput, IsOfTheActiveSetOnly) {
               HasSubstr("plate.toml:7: solver.method: a sweep is solved by the active set"));
 }
 
+TEST(SweepInput, HasNoAccuracy) {
+  casefile::Case the_case = two_load_case();
+  the_case.job.mutable_accuracy()->set_energy(1e-3);
+  the_case.spots["accuracy"] = {"accuracy", "plate.toml", 7};
+  EXPECT_THAT(complaint_of([&] {
+                read_sweep_input({"c.csv", "", "none"}, the_case);
+              }),
+              HasSubstr("plate.toml:7: accuracy: a sweep has one mesh"));
+}
+
 SweepInput rows_of_two(std::size_t rows) {
   SweepInput input;
   input.source = "c.csv";

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/accuracy_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/live_view.hpp"
+#include "cli/progress.hpp"
+#include "cli/text.hpp"
+#include "results/result.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+// One that is unknown is the largest.
+double larger(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
+
+double energy_error(const v1::StageAnswer& answer) {
+  if (!answer.has_energy_lower() || !answer.has_energy_upper()) return results::unknown;
+  const double width = answer.energy_upper() - answer.energy_lower();
+  return width > 0 ? width / std::abs(answer.energy()) : 0;
+}
+
+// "0.0021 of 0.001"; what is not asked for in per cent.
+std::string error_text(double error, double asked) {
+  return asked > 0 ? pad_left(number(error, 2), 7) + " of " + number(asked, 6)
+                   : number(100 * error, 2) + " %";
+}
+
+std::string unpadded(std::string text) { return text.erase(0, text.find_first_not_of(' ')); }
+
+// A mesh without inclusions has no A.
+bool tells_displacement(const StageErrors& stage, const v1::Accuracy& asked) {
+  return asked.has_displacement() || std::isfinite(stage.displacement);
+}
+
+double fraction_of(const StageErrors& stage, const v1::Accuracy& asked) {
+  double fraction = 1;
+  if (asked.has_energy()) fraction = bar_fraction(stage.energy, asked.energy());
+  if (asked.has_displacement())
+    fraction = std::min(fraction, bar_fraction(stage.displacement, asked.displacement()));
+  return fraction;
+}
+
+std::string errors_text(const StageErrors& stage, const v1::Accuracy& asked) {
+  std::string text = "energy " + unpadded(error_text(stage.energy, asked.energy()));
+  if (tells_displacement(stage, asked))
+    text += ", A " + unpadded(error_text(stage.displacement, asked.displacement()));
+  return text;
+}
+
+std::string counted(std::size_t count, const std::string& one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+StageErrors errors_of(const v1::Stage& stage) {
+  StageErrors errors{stage.mesh(), stage.triangles(), 0, 0, stage.seconds()};
+  for (const v1::StageAnswer& answer : stage.answers()) {
+    errors.energy = larger(errors.energy, energy_error(answer));
+    errors.displacement =
+        larger(errors.displacement,
+               answer.has_displacement_error() ? answer.displacement_error() : results::unknown);
+  }
+  return errors;
+}
+
+std::vector<StageErrors> stages_of(const v1::Job& job) {
+  std::vector<StageErrors> stages;
+  for (const v1::Stage& stage : job.stages())
+    if (stage.answers_size() > 0) stages.push_back(errors_of(stage));
+  return stages;
+}
+
+std::vector<std::string> stage_lines(const std::vector<StageErrors>& stages,
+                                     const v1::Accuracy& asked, std::size_t width,
+                                     std::size_t count) {
+  std::vector<std::string> lines;
+  for (std::size_t i = stages.size() - std::min(stages.size(), count); i < stages.size(); ++i) {
+    std::string line = "  stage " + pad_left(std::to_string(i + 1), 2) + "  " +
+                       pad_left(std::to_string(stages[i].triangles), 8) + " triangles   energy " +
+                       error_text(stages[i].energy, asked.energy());
+    if (tells_displacement(stages[i], asked))
+      line += "   A " + error_text(stages[i].displacement, asked.displacement());
+    lines.push_back(std::move(line));
+  }
+  std::size_t widest = 0;
+  for (const std::string& line : lines) widest = std::max(widest, line.size());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const StageErrors& stage = stages[stages.size() - lines.size() + i];
+    if (widest + bar_room <= width)
+      lines[i] = pad_right(lines[i], widest) + bar(fraction_of(stage, asked), width - widest);
+    lines[i] = fit(lines[i], width);
+  }
+  return lines;
+}
+
+std::string stage_text(std::size_t number, const StageErrors& stage, const v1::Accuracy& asked) {
+  return "stage " + std::to_string(number) + ": " + std::to_string(stage.triangles) +
+         " triangles, " + errors_text(stage, asked);
+}
+
+std::string accuracy_text(const v1::Job& job) {
+  std::string text;
+  if (const auto stages = stages_of(job); !stages.empty()) {
+    const StageErrors& last = stages.back();
+    text = "accuracy: " + errors_text(last, job.accuracy()) + "; " +
+           counted(stages.size(), "stage") + ", " + std::to_string(last.triangles) +
+           " triangles, " + seconds(last.seconds) + " s\n";
+  }
+  if (!job.not_reached().empty()) text += "not reached: " + sanitise(job.not_reached()) + "\n";
+  return text;
+}
+
+}  // namespace anticrack::cli

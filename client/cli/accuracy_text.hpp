@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How far a job with an accuracy has come. Pure.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "anticrack/v1/solve.pb.h"
+
+namespace anticrack::cli {
+
+/// A stage that has ended. The errors are those that Accuracy asks about, relative, the largest of
+/// all load cases; NaN where one has no bounds.
+struct StageErrors {
+  std::string mesh;  ///< "meshes/ID"
+  std::uint64_t triangles = 0;
+  double energy = 0;
+  double displacement = 0;
+  double seconds = 0;  ///< since the first stage began
+};
+
+StageErrors errors_of(const v1::Stage& stage);
+
+/// Those that have ended.
+std::vector<StageErrors> stages_of(const v1::Job& job);
+
+/// "  stage 4    12345 triangles   energy  0.0021 of 0.001   A 0.8 %  [######----]" for each of the
+/// last stages, at most `count`. The bar is full where all that is asked for is reached; a terminal
+/// of few columns has none.
+std::vector<std::string> stage_lines(const std::vector<StageErrors>& stages,
+                                     const v1::Accuracy& asked, std::size_t width,
+                                     std::size_t count);
+
+/// "stage 4: 12345 triangles, energy 0.0021 of 0.001, A 0.8 %".
+std::string stage_text(std::size_t number, const StageErrors& stage, const v1::Accuracy& asked);
+
+/// For below the answers: what was reached on which mesh, and what was not and why. Empty of a job
+/// without accuracy.
+std::string accuracy_text(const v1::Job& job);
+
+}  // namespace anticrack::cli

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "client/casefile/sample_case.hpp"
+
+namespace anticrack::casefile {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+/// `sample_text` by the active set, then [accuracy] in line 19 with these lines.
+std::string sample_to(const std::string& lines) {
+  return sample_with("theta = 1.5\nmethod = \"uzawa\"\n", "") + "[accuracy]\n" + lines;
+}
+
+TEST(AccuracySection, BecomesTheTaskOfTheJob) {
+  EXPECT_FALSE(parse(sample_text).job.has_accuracy());
+  const Case the_case = parse(sample_to(R"(energy = 1e-3
+A = 0.01
+max_triangles = 200000
+time = "10min"
+keep_stages = true
+)"));
+  const v1::Accuracy& accuracy = the_case.job.accuracy();
+  EXPECT_EQ(accuracy.energy(), 1e-3);
+  EXPECT_EQ(accuracy.displacement(), 0.01);
+  EXPECT_EQ(accuracy.max_triangles(), 200000U);
+  EXPECT_EQ(accuracy.time().seconds(), 600);
+  EXPECT_TRUE(accuracy.keep_stages());
+  EXPECT_THAT(the_case.job.outputs(), ElementsAre(v1::OUTPUT_INDICATORS));
+  EXPECT_EQ(the_case.locate("job.accuracy.energy")->line, 20U);
+  EXPECT_EQ(the_case.locate("job.accuracy.displacement")->line, 21U);
+}
+
+TEST(OutputSection, HasIndicatorsBesideFieldsThatAreBounded) {
+  const std::string output = "[output]\nfields = true\n";
+  EXPECT_THAT(parse(sample_text + output).job.outputs(), ElementsAre(v1::OUTPUT_FIELDS));
+  EXPECT_THAT(parse(sample_to("A = 1e-3\n" + output)).job.outputs(),
+              ElementsAre(v1::OUTPUT_FIELDS, v1::OUTPUT_INDICATORS));
+  EXPECT_THAT(parse(sample_with("theta = 1.5\nmethod = \"uzawa\"\n", "") + output).job.outputs(),
+              ElementsAre(v1::OUTPUT_FIELDS, v1::OUTPUT_INDICATORS));
+}
+
+TEST(AccuracySection, NeedsOneOfItsErrors) {
+  const v1::Accuracy one = parse(sample_to("A = 1\n")).job.accuracy();
+  EXPECT_FALSE(one.has_energy());
+  EXPECT_EQ(one.displacement(), 1);
+  EXPECT_EQ(complaint(sample_to("time = 5\n")),
+            "plate.toml:19: accuracy: no accuracy; write energy = 1e-3, A = 1e-3, or both");
+}
+
+TEST(AccuracySection, NamesWhatIsWrong) {
+  const auto complaint_of = [](const std::string& line) { return complaint(sample_to(line)); };
+  for (const char* key : {"energy", "A"}) {
+    for (const char* bad : {"0", "9e-7", "1.001", "-1"}) {
+      EXPECT_EQ(
+          complaint_of(std::string(key) + " = " + bad + "\n").find("plate.toml:20: accuracy."), 0U);
+      EXPECT_THAT(complaint_of(std::string(key) + " = " + bad + "\n"),
+                  EndsWith(" is out of range; write a relative error from 1e-6 to 1, as 1e-3"));
+    }
+    for (const char* bad : {"nan", "'small'", "true"})
+      EXPECT_THAT(complaint_of(std::string(key) + " = " + bad + "\n"),
+                  HasSubstr("is not a finite number"));
+  }
+  for (const char* bad : {"0", "1.5", "-3", "'all'"})
+    EXPECT_THAT(complaint_of(std::string("energy = 1e-3\nmax_triangles = ") + bad + "\n"),
+                HasSubstr("plate.toml:21: accuracy.max_triangles: "));
+  for (const char* bad : {"0", "-3", "'soon'", "true"})
+    EXPECT_THAT(complaint_of(std::string("energy = 1e-3\ntime = ") + bad + "\n"),
+                HasSubstr("plate.toml:21: accuracy.time: "));
+  EXPECT_THAT(complaint_of("energy = 1e-3\nkeep_stages = 1\n"),
+              HasSubstr("accuracy.keep_stages: 1 is neither true nor false"));
+  EXPECT_THAT(complaint_of("enrgy = 1e-3\n"), HasSubstr("did you mean energy?"));
+}
+
+TEST(AccuracySection, IsOfTheActiveSetAndOfExpressions) {
+  EXPECT_EQ(
+      complaint(sample_text + "[accuracy]\nA = 1e-3\n"),
+      "plate.toml:14: solver.method: the answers of \"uzawa\" have no bounds; with [accuracy] "
+      "write method = \"active-set\"");
+  std::string text = sample_to("A = 1e-3\n");
+  const std::string f = "f = 1\n";
+  text.replace(text.find(f), f.size(),
+               "f = { file = \"f.h5\", dataset = \"/f\", per = \"node\" }\n");
+  EXPECT_EQ(complaint(text),
+            "plate.toml:15: load.0.f: values in a file belong to one mesh, and [accuracy] refines "
+            "it; write f as an expression");
+}
+
+TEST(AccuracySection, BeginsOnACoarseMeshUnlessThatIsChosen) {
+  const auto preset = [](const std::string& text, const std::vector<std::string>& overrides = {}) {
+    return parse(text, overrides).mesh.options().preset();
+  };
+  const std::string text = sample_to("A = 1e-3\n");
+  EXPECT_EQ(preset(sample_text), v1::MESH_PRESET_GRADED);
+  EXPECT_EQ(preset(text), v1::MESH_PRESET_COARSE);
+  EXPECT_EQ(preset(text, {"mesh.size=0.5"}), v1::MESH_PRESET_COARSE);
+  EXPECT_EQ(preset(text, {"mesh.preset=uniform"}), v1::MESH_PRESET_UNIFORM);
+  EXPECT_EQ(preset(sample_text, {"mesh.preset=coarse"}), v1::MESH_PRESET_COARSE);
+  EXPECT_EQ(preset(text.substr(text.find("[[load]]")), {"mesh.file=a.msh"}),
+            v1::MESH_PRESET_GRADED);
+}
+
+}  // namespace
+}  // namespace anticrack::casefile
