@@ -249,6 +249,17 @@ TEST(EngineStages, DoNotNeedToBeStored) {
   EXPECT_GT(store.failures, 0);
 }
 
+TEST(EngineStages, EndWithWhatTheyHaveWhereTheDiskHasNoRoomForAFinerMesh) {
+  anticrack::testing::BackendOptions options;
+  options.disk_budget = 100'000;
+  Engine test({}, options);
+  const JobRecord job = test.ended(test.submit(accurate_job(test.ready_mesh(0.4), 1e-4)));
+  EXPECT_EQ(job.state, JobState::not_converged);
+  EXPECT_THAT(job.not_reached, HasSubstr("disk"));
+  EXPECT_GE(job.stages.size(), 2U);
+  EXPECT_EQ(job.cases[0].answer.energy, job.stages.back().answers[0].energy);
+}
+
 TEST(EngineStages, AMeshThatIsGoneMakesThemBeginAnew) {
   Backend backend;
   const store::JobSpec spec = accurate_job(ready_mesh(backend, 0.4));

@@ -80,6 +80,7 @@ TEST(RecordCodec, SaysSomethingInEveryFieldOfTheMessages) {
                           "anticrack.v1.Job.load_cases_ended",
                           "anticrack.v1.Mesh.geometry",  // CreateMeshRequest has the definition
                           "anticrack.v1.Mesh.upload", "anticrack.v1.Mesh.options",
+                          "anticrack.v1.Mesh.refinement",        // MeshRecord has it
                           "anticrack.v1.Mesh.pinned",            // not for longer than a process
                           "anticrack.v1.Status.code",            // follows from the reason
                           "anticrack.v1.Sweep.Matrix.packed"));  // an upload by then

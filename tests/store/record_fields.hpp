@@ -128,6 +128,7 @@ class AnyValue {
       positive(value.theta);
       positive(value.theta_star);
     } else if constexpr (std::is_same_v<Struct, store::JobRecord>) {
+      if (value.spec.accuracy) value.spec.sweep.reset();  // a job has one task
       if (!value.spec.sweep) value.sweep = {};
     }
   }
