@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "contact/adjoint.hpp"
 #include "contact/trace_state.hpp"
 #include "estimate/bracket.hpp"
 #include "mesh/at.hpp"
@@ -60,23 +59,28 @@ class Intervals {
         _adjoint(adjoint),
         _norm(std::sqrt(primal.flux.norm_squared())) {}
 
-  /// The best of a few bounds of the cone, each wider than the one before.
-  void find(const Aim& aim, contact::InclusionAnswer& answer) const {
+  /// The best of a few bounds of the cone, each wider than the one before. False where none holds:
+  /// forces that tie the sides of crossing cracks may leave any cone.
+  bool find(const Aim& aim, contact::InclusionAnswer& answer) const {
     const contact::Adjoint::Goal goal = _adjoint.aim(aim.goal);
-    if (!(goal.compliance > 0)) return;  // held
+    if (!(goal.compliance > 0)) return true;  // held
     const double unit = _norm > 0 ? std::sqrt(goal.compliance) / _norm : 1;
     double unloaded = 0;
     if (!_primal.load.oscillation.empty()) {
       const contact::Adjoint::Pair pair = _adjoint.clipped(goal, 0);
-      unloaded = estimate::norm_of_flux(_primal.cut, fields({&pair.z, &pair.reacting})[1]);
+      unloaded = estimate::norm_of_flux(_primal.cut, adjoint_fields(_parts, pair)[1]);
     }
     estimate::Interval best;
     double c = 2 * unit;
     for (int tries = 0; tries < most_tries; ++tries) {
       const contact::Adjoint::Pair pair = _adjoint.clipped(goal, c);
-      const auto [z, reacting] = fields({&pair.z, &pair.reacting});
+      const auto [z, reacting] = adjoint_fields(_parts, pair);
       const estimate::Interval one =
           estimate::interval(_primal, {z, reacting, answer.*aim.value, pair.work, c}, unloaded);
+      if (!std::isfinite(one.width())) {
+        c *= 8;
+        continue;
+      }
       const bool better = one.width() < best.width();
       if (better) best.estimate = one.estimate;
       best.lower = std::max(best.lower, one.lower);
@@ -84,34 +88,14 @@ class Intervals {
       if (!better || !(one.short_of > 1)) break;
       c *= std::clamp(one.short_of, 1.5, 8.0);
     }
+    if (!std::isfinite(best.width())) return false;
     answer.*aim.lower = best.lower;
     answer.*aim.upper = best.upper;
     if (aim.estimate != nullptr) answer.*aim.estimate = best.estimate;
+    return true;
   }
 
  private:
-  /// In the copies, without loads of their own.
-  std::array<std::vector<double>, 2> fields(
-      const std::array<const Eigen::VectorXd*, 2>& unknowns) const {
-    std::array<std::vector<double>, 2> fields;
-    std::array<std::vector<Eigen::VectorXd>, 2> traces;
-    for (std::size_t f = 0; f < 2; ++f) traces[f] = _parts.skeleton->scatter(*unknowns[f]);
-    for (std::size_t s = 0; s < _parts.operators.size(); ++s) {
-      const ddm::Subdomain& subdomain = _parts.decomposition.subdomains[s];
-      ddm::CondensedLoad none;
-      none.z_interior.setZero(static_cast<Eigen::Index>(subdomain.interior));
-      none.dirichlet.setZero(static_cast<Eigen::Index>(subdomain.dirichlet));
-      const auto count = static_cast<Eigen::Index>(subdomain.node.size());
-      std::array<Eigen::VectorXd, 2> values{Eigen::VectorXd(count), Eigen::VectorXd(count)};
-      std::array<ddm::SubdomainOperator::Solved, 2> both{
-          {{none, traces[0][s], values[0]}, {none, traces[1][s], values[1]}}};
-      _parts.operators[s].recover(both);
-      for (std::size_t f = 0; f < 2; ++f)
-        fields[f].insert(fields[f].end(), values[f].begin(), values[f].end());
-    }
-    return fields;
-  }
-
   const MeshOperator::Parts& _parts;
   const estimate::Primal& _primal;
   const contact::Adjoint& _adjoint;
@@ -205,6 +189,27 @@ bool bounded(const contact::Answer& answer) {
          contact::within(answer.kkt_relative, most_kkt);
 }
 
+std::array<std::vector<double>, 2> adjoint_fields(const MeshOperator::Parts& parts,
+                                                  const contact::Adjoint::Pair& pair) {
+  const std::array<std::vector<Eigen::VectorXd>, 2> traces{parts.skeleton->scatter(pair.z),
+                                                           parts.skeleton->scatter(pair.reacting)};
+  std::array<std::vector<double>, 2> fields;
+  for (std::size_t s = 0; s < parts.operators.size(); ++s) {
+    const ddm::Subdomain& subdomain = parts.decomposition.subdomains[s];
+    ddm::CondensedLoad none;
+    none.z_interior.setZero(static_cast<Eigen::Index>(subdomain.interior));
+    none.dirichlet.setZero(static_cast<Eigen::Index>(subdomain.dirichlet));
+    const auto count = static_cast<Eigen::Index>(subdomain.node.size());
+    std::array<Eigen::VectorXd, 2> values{Eigen::VectorXd(count), Eigen::VectorXd(count)};
+    std::array<ddm::SubdomainOperator::Solved, 2> both{
+        {{none, traces[0][s], values[0]}, {none, traces[1][s], values[1]}}};
+    parts.operators[s].recover(both);
+    for (std::size_t f = 0; f < 2; ++f)
+      fields[f].insert(fields[f].end(), values[f].begin(), values[f].end());
+  }
+  return fields;
+}
+
 std::vector<double> of_copies(const std::vector<contact::Field>& fields) {
   std::vector<double> u;
   for (const contact::Field& field : fields) u.insert(u.end(), field.u.begin(), field.u.end());
@@ -223,9 +228,7 @@ void bound_displacements(const MeshOperator::Parts& parts, const LoadOnTraces& l
   const bool possible = adjoint && adjoint->possible();
   for (const Aim& aim : aims(parts)) {
     contact::InclusionAnswer& one = answer.inclusions[aim.inclusion];
-    if (possible)
-      Intervals(parts, *adjoint, primal).find(aim, one);
-    else
+    if (!possible || !Intervals(parts, *adjoint, primal).find(aim, one))
       Slopes(parts, load, primal, *answer.energy_lower, *answer.energy_upper, stop).find(aim, one);
   }
 }
