@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/adjoint.hpp"
 
+#include <map>
+
 #include "mesh/at.hpp"
 
 namespace anticrack::contact {
@@ -28,6 +30,19 @@ bool factorise(const Eigen::MatrixXd& matrix, Eigen::LLT<Eigen::MatrixXd>& facto
   return regular_pivot(smallest * smallest, matrix.rows());
 }
 
+/// Where cracks cross, how the flux shares lambda among them is no part of the answer: a contact
+/// beside another one in its node.
+std::vector<bool> cross(const ddm::Decomposition& decomposition) {
+  std::vector<bool> found(decomposition.skeleton.independent, false);
+  std::map<std::int32_t, std::int32_t> at_node;
+  for (const ddm::NodePair& pair : decomposition.pairs) {
+    if (pair.contact < 0) continue;
+    const std::int32_t first = at_node.try_emplace(pair.node, pair.contact).first->second;
+    if (first != pair.contact) found[at(first)] = found[at(pair.contact)] = true;
+  }
+  return found;
+}
+
 VectorXd clip(const VectorXd& values, const VectorXd& most) {
   return values.cwiseMin(most).cwiseMax(-most);
 }
@@ -46,6 +61,8 @@ Adjoint::Adjoint(const SkeletonProblem& problem, const CaseLoads& loads, const A
   for (const ddm::CondensedLoad& load : loads.subdomains) g.push_back(load.g);
   _lambda = problem.multipliers(problem.gather(g) - problem.apply(w)).cwiseMax(0.0);
   _jumps.resize(contacts);
+  _bound.resize(contacts);
+  const std::vector<bool> crossing = cross(decomposition);
   for (Index i = 0; i < contacts; ++i) {
     const ddm::Contact& contact = skeleton.contacts[at(i)];
     _jumps[i] = std::max(0.0, w[contact.plus] - w[contact.minus]);
@@ -53,6 +70,7 @@ Adjoint::Adjoint(const SkeletonProblem& problem, const CaseLoads& loads, const A
       _open.push_back(i);
       _lambda[i] = 0;
     }
+    _bound[i] = crossing[at(i)] ? 0 : _lambda[i];
   }
   const Eigen::MatrixXd& matrix = problem.lcp().scaled_matrix();
   _possible = factorise(matrix, _of_all) && factorise(matrix(_open, _open), _of_open);
@@ -87,7 +105,7 @@ Adjoint::Pair Adjoint::clipped(const Goal& goal, double c) const {
   pair.z = _problem.unknowns(goal.load, jumps);
   pair.work = _lambda.dot(jumps);
   const VectorXd scale = _problem.lcp().scale().head(_jumps.size());
-  VectorXd free = scale.cwiseProduct(goal.load.r + clip(goal.reactions, c * _lambda));
+  VectorXd free = scale.cwiseProduct(goal.load.r + clip(goal.reactions, c * _bound));
   if (free.size() > 0) _of_all.solveInPlace(free);
   pair.reacting = _problem.unknowns(goal.load, free.cwiseProduct(scale));
   return pair;

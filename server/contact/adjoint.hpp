@@ -35,7 +35,7 @@ class Adjoint {
   Goal aim(const ddm::Terms& goal) const;
 
   /// z with the jumps clipped to [-c [u], c [u]], z' with the reactions clipped to [-c lambda, c
-  /// lambda] and free jumps; w of the skeleton.
+  /// lambda], where cracks cross to 0, and free jumps; w of the skeleton.
   struct Pair {
     Eigen::VectorXd z, reacting;
     double work = 0;  ///< lambda'[z]
@@ -46,6 +46,7 @@ class Adjoint {
   const SkeletonProblem& _problem;
   bool _possible = false;
   Eigen::VectorXd _jumps, _lambda;  // of the answer
+  Eigen::VectorXd _bound;           // of reactions over c
   std::vector<Eigen::Index> _open;
   Eigen::LLT<Eigen::MatrixXd> _of_open, _of_all;  // of S, scaled
 };

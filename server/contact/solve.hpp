@@ -16,6 +16,12 @@ struct RigidForce {
   double moment_x = 0, moment_y = 0;
 };
 
+inline void add(RigidForce& sum, const RigidForce& force, double factor) {
+  sum.force += factor * force.force;
+  sum.moment_x += factor * force.moment_x;
+  sum.moment_y += factor * force.moment_y;
+}
+
 /// The force F_j on an inclusion: what acts on its trace nodes, and what only those who hold it
 /// feel.
 struct InclusionForce {

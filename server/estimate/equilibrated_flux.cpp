@@ -18,6 +18,10 @@ void add(Vector& to, double factor, const Vector& what) {
   to[0] += factor * what[0];
   to[1] += factor * what[1];
 }
+/// By coordinates, which are multiplied at once.
+void add_product(Vector& to, const FanCorner& corner, const Vector& mean) {
+  for (std::size_t d = 0; d < 2; ++d) to[d] += corner.compliance * (corner.edge[d] * mean[d]);
+}
 /// Outward normal of an edge of a counterclockwise triangle, as long as the edge.
 Vector normal(const Vector& edge) { return {edge[1], -edge[0]}; }
 
@@ -36,26 +40,51 @@ EquilibratedFlux::EquilibratedFlux(const CutMesh& cut, const Balance& balance, F
       _tension(cut.shapes.tension),
       _area(cut.shapes.area),
       _edge(cut.shapes.edge) {
-  measure();
-  build(bounds);
-  centre();
+  build(measure(), bounds);
   for (int sweep = 0; sweep < polish_sweeps; ++sweep) polish(bounds);
   turn();
 }
 
-/// Minus the outward flux of T grad u: through side i it is w_k (u_j - u_i) + w_j (u_k - u_i).
-void EquilibratedFlux::measure() {
+/// Minus half the outward flux of T grad u through each side: with G = sum of u_i e_i, that of side
+/// i is -T G.e_i / (2 area).
+std::vector<double> EquilibratedFlux::measure() {
   const std::size_t count = _cut.triangle_count();
-  _excess.resize(3 * count);
+  std::vector<double> half(3 * count);
+  _mean.assign(count, Vector{});
+  if (!_balance.force.empty()) _rest.resize(count);
   for (std::size_t t = 0; t < count; ++t) {
     const std::int32_t* copy = &_cut.copy[3 * t];
-    const std::array<double, 3>& weight = _cut.shapes.weight[t];
-    const double u[3] = {_balance.u[at(copy[0])], _balance.u[at(copy[1])], _balance.u[at(copy[2])]};
-    const double d[3] = {u[2] - u[1], u[0] - u[2], u[1] - u[0]};
-    const double w[3] = {weight[0] * d[0], weight[1] * d[1], weight[2] * d[2]};
-    for (std::size_t i = 0; i < 3; ++i) _excess[3 * t + i] = w[(i + 1) % 3] - w[(i + 2) % 3];
-    _norm_squared += 0.5 * (w[0] * d[0] + w[1] * d[1] + w[2] * d[2]);
+    const Vector* edge = &_edge[3 * t];
+    const double u = _balance.u[at(copy[0])], q = _cut.shapes.stiffness[t];
+    Vector sum{};
+    add(sum, _balance.u[at(copy[1])] - u, edge[1]);
+    add(sum, _balance.u[at(copy[2])] - u, edge[2]);
+    for (std::size_t i = 0; i < 3; ++i) half[3 * t + i] = q * dot(sum, edge[i]);
+    _norm_squared += q * dot(sum, sum);
+    if (!_rest.empty()) balance(t);
   }
+  return half;
+}
+
+/// What the load makes of sigma - T grad u besides: d/2 (x - centroid) with the divergence d, and
+/// the bubble  b = 1/3 sum_(i<j) (f_j - f_i)(P_j - P_i) l_i l_j,  div b = -(f - mean f), which has
+/// no flux through the sides. With the loads f_i, their sum s and d_i = f_k - f_j this is a part
+/// -(f_0 e_2 + f_1 e_0 + f_2 e_1) / (2 area) of the mean, and the square of what is left
+///   1/area sum_i e_i.e_i (s^2 / 144 + (2 d_i^2 - d_j d_k - s (s - 3 f_i)) / 45).
+void EquilibratedFlux::balance(std::size_t t) {
+  const Vector* edge = &_edge[3 * t];
+  const double* force = &_balance.force[3 * t];
+  const double d[3] = {force[2] - force[1], force[0] - force[2], force[1] - force[0]};
+  const double sum = force[0] + force[1] + force[2];
+  add(_mean[t], d[2], edge[2]);
+  add(_mean[t], -d[0], edge[1]);
+  double rest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double bubble =
+        2 * d[i] * d[i] - d[(i + 1) % 3] * d[(i + 2) % 3] - sum * (sum - 3 * force[i]);
+    rest += dot(edge[i], edge[i]) * (1.0 / 144 * sum * sum + 1.0 / 45 * bubble);
+  }
+  _rest[t] = 4 * rest;
 }
 
 std::span<const Stop> EquilibratedFlux::stops(std::size_t fan) const {
@@ -124,84 +153,55 @@ double EquilibratedFlux::allowed(std::size_t fan, double best, FaceBounds bounds
   return std::clamp(best, low, high);
 }
 
-void EquilibratedFlux::build(FaceBounds bounds) {
+/// `flux` round the node, by its part in a triangle.
+void EquilibratedFlux::rotate(const FanCorner& corner, double flux) {
+  Vector& mean = _mean[at(corner.triangle)];
+  const Vector old = mean;
+  mean = {old[0] + flux * corner.edge[0], old[1] + flux * corner.edge[1]};
+}
+
+/// The fan of corner i adds to the flux through the sides j and k of its triangle x out and x' in,
+/// where fans to come stand for half of T grad u. With a = x less half of T grad u through side j
+/// this adds a e_i / (2 area) to the mean of sigma - T grad u, the load apart.
+void EquilibratedFlux::build(const std::vector<double>& half, FaceBounds bounds) {
   _through.assign(2 * _cut.faces.size(), 0);
-  const std::vector<double> target = _excess;  // minus the flux of T grad u
   const double* const force = _balance.force.empty() ? nullptr : _balance.force.data();
-  std::vector<double> spokes(1);
+  std::vector<double> spokes(1), rotations;
   for (std::size_t fan = 0; fan < _cut.fan_count(); ++fan) {
     const std::span<const FanCorner> around = corners(fan);
-    if (spokes.size() <= around.size()) spokes.resize(2 * around.size());
-    double* x = spokes.data();  // through the spokes
-    double slope = slope_of_work(fan);
+    if (rotations.size() < around.size()) {
+      rotations.resize(2 * around.size());
+      spokes.resize(2 * around.size() + 1);
+    }
+    double* x = spokes.data();
+    double* a = rotations.data();
+    Vector slope{slope_of_work(fan), 0};
     for (const FanCorner& one : around) {
-      const double next = *x + 0.5 * target[at(one.i)] - (force ? force[one.i] : 0);
-      slope += one.out * (next + 0.5 * target[at(one.j)]) + one.in * (0.5 * target[at(one.k)] - *x);
-      *++x = next;
+      const double out = *x + half[one.own()] - (force ? force[one.own()] : 0);
+      *a = out + half[one.next()];
+      Vector mean = _mean[at(one.triangle)];
+      add(mean, *a, one.edge);
+      add_product(slope, one, mean);
+      *++x = out;
+      ++a;
     }
     const std::span<const Stop> stops = this->stops(fan);
     if (stops.empty()) _imbalance = std::max(_imbalance, std::abs(*x));
-    x = spokes.data();
     for (const Stop& stop : stops)
-      _through[2 * at(stop.face) + at(stop.end)] = stop.sign() * x[stop.spoke];
-    const double change = step(fan, slope, bounds);
-    double* const excess = _excess.data();
-    for (const FanCorner& one : around) {
-      excess[one.k] -= *x + change;
-      excess[one.j] += *++x + change;
-    }
-  }
-}
-
-/// On each triangle sigma - T grad u is its mean, d/2 (x - centroid) with the divergence d, and the
-/// bubble  b = 1/3 sum_(i<j) (f_j - f_i)(P_j - P_i) l_i l_j  less its mean: div b = -(f - mean f),
-/// and no flux through the sides.
-void EquilibratedFlux::centre() {
-  const std::size_t count = _cut.triangle_count();
-  _centre.assign(count, Vector{});
-  _rest.assign(count, 0.0);
-  for (std::size_t t = 0; t < count; ++t) {
-    const Vector* edge = &_edge[3 * t];
-    const double* excess = &_excess[3 * t];
-    const double one_over = 1 / _area[t];
-    for (std::size_t i = 0; i < 3; ++i)
-      add(_centre[t], one_over / 6 * excess[i], minus(edge[(i + 2) % 3], edge[(i + 1) % 3]));
-    if (_balance.force.empty()) continue;
-    const double* force = &_balance.force[3 * t];
-    const double divergence = -(force[0] + force[1] + force[2]) * one_over;
-    const double lengths = dot(edge[0], edge[0]) + dot(edge[1], edge[1]) + dot(edge[2], edge[2]);
-    _rest[t] = divergence * divergence * _area[t] * lengths / 144;
-    if (force[0] == force[1] && force[1] == force[2]) continue;
-    // Along the edge opposite to corner i, from j to k, f grows by 12 / area times the loads.
-    std::array<Vector, 3> along{};
-    Vector sum{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-      add(along[i], 4 * (force[k] - force[j]) * one_over, edge[i]);  // a third of it
-      add(sum, 1, along[i]);
-    }
-    add(_centre[t], 1.0 / 12, sum);
-    double squares = 0, products = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-      squares += dot(along[i], along[i]);
-      products += dot(along[i], along[j]);
-      // P_j + P_k - 2 P_i
-      _rest[t] += divergence * _area[t] / 180 * dot(along[i], minus(edge[k], edge[j]));
-    }
-    _rest[t] += _area[t] * ((squares + products) / 90 - dot(sum, sum) / 144);
+      _through[2 * at(stop.face) + at(stop.end)] = stop.sign() * spokes[at(stop.spoke)];
+    const double change = step(fan, slope[0] + slope[1], bounds);
+    a = rotations.data();
+    for (const FanCorner& one : around) rotate(one, *a++ + change);
   }
 }
 
 void EquilibratedFlux::polish(FaceBounds bounds) {
-  Vector* const centre = _centre.data();
   for (std::size_t fan = 0; fan < _cut.fan_count(); ++fan) {
     const std::span<const FanCorner> around = corners(fan);
-    double slope = slope_of_work(fan);
-    for (const FanCorner& one : around) slope += dot(centre[one.triangle], one.slope);
-    const double change = step(fan, slope, bounds);
-    for (const FanCorner& one : around)
-      add(centre[one.triangle], change * one.compliance, one.slope);
+    Vector slope{slope_of_work(fan), 0};
+    for (const FanCorner& one : around) add_product(slope, one, _mean[at(one.triangle)]);
+    const double change = step(fan, slope[0] + slope[1], bounds);
+    for (const FanCorner& one : around) rotate(one, change);
   }
 }
 
@@ -230,9 +230,14 @@ std::vector<EquilibratedFlux::Turn>::const_iterator EquilibratedFlux::first_turn
                           [](const Turn& turn, std::size_t side) { return turn.side < side; });
 }
 
+Vector EquilibratedFlux::mean_difference(std::size_t triangle) const {
+  const double scale = 0.5 / _area[triangle];
+  return {scale * _mean[triangle][0], scale * _mean[triangle][1]};
+}
+
 Vector EquilibratedFlux::difference(std::size_t triangle,
                                     const std::array<double, 3>& place) const {
-  Vector result = _centre[triangle];
+  Vector result = mean_difference(triangle);
   for (std::size_t i = 3 * triangle; i < 3 * triangle + 3 && !_balance.force.empty(); ++i) {
     const std::size_t j = next(i), k = previous(i);
     const double rise = 4 * (_balance.force[k] - _balance.force[j]) / _area[triangle];
@@ -253,9 +258,11 @@ Vector EquilibratedFlux::difference(std::size_t triangle,
 }
 
 std::vector<double> EquilibratedFlux::distance() const {
-  std::vector<double> distance(_centre.size());
-  for (std::size_t t = 0; t < distance.size(); ++t)
-    distance[t] = (_area[t] * dot(_centre[t], _centre[t]) + _rest[t]) / _tension[t];
+  std::vector<double> distance(_mean.size());
+  for (std::size_t t = 0; t < distance.size(); ++t) {
+    const double rest = _rest.empty() ? 0 : _rest[t];
+    distance[t] = _cut.shapes.compliance[t] * (dot(_mean[t], _mean[t]) + rest);
+  }
   for (const Turn& one : _turns) {
     const std::size_t t = one.side / 3;
     double sum = 0;
@@ -281,11 +288,12 @@ std::vector<double> EquilibratedFlux::work_of_pressure() const {
 }
 
 Vector EquilibratedFlux::flux_of(std::size_t triangle, std::span<const double> values) const {
-  Vector flux{};
-  for (std::size_t i = 3 * triangle; i < 3 * triangle + 3; ++i) {
-    add(flux, -_tension[triangle] * values[at(_cut.copy[i])] / (2 * _area[triangle]), normal_of(i));
-  }
-  return flux;
+  const std::int32_t* copy = &_cut.copy[3 * triangle];
+  const double first = values[at(copy[0])], scale = 2 * _cut.shapes.stiffness[triangle];
+  Vector sum{};
+  add(sum, values[at(copy[1])] - first, _edge[3 * triangle + 1]);
+  add(sum, values[at(copy[2])] - first, _edge[3 * triangle + 2]);
+  return {-scale * sum[1], scale * sum[0]};
 }
 
 double EquilibratedFlux::flux_through(std::size_t side, std::span<const double> values) const {

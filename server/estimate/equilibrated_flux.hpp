@@ -30,11 +30,11 @@ using FaceBounds = std::span<const double>;
 /// sigma.n = -p, on both of a crack the same; through the faces of an inclusion the force on it.
 /// RT0 gives those of one that tilts another moment than the nodal forces have; there kappa
 /// curl(l_0 l_1) is added, which changes no other flux and no mean. O(m); `polish`: sweeps over the
-/// fans that bring it nearer to T grad u.
+/// fans, after the first, that bring it nearer to T grad u.
 class EquilibratedFlux {
  public:
   EquilibratedFlux(const CutMesh& cut, const Balance& balance, FaceBounds bounds = {},
-                   int polish = 2);
+                   int polish = 1);
 
   /// int |sigma - T grad u|^2 / T of each triangle, shape (m).
   std::vector<double> distance() const;
@@ -45,7 +45,7 @@ class EquilibratedFlux {
   /// sigma - T grad u in a point of a triangle given by its barycentric coordinates.
   Vector difference(std::size_t triangle, const std::array<double, 3>& place) const;
   /// Its mean over a triangle; where `turned` is false and f is 0 it is constant.
-  const Vector& mean_difference(std::size_t triangle) const { return _centre[triangle]; }
+  Vector mean_difference(std::size_t triangle) const;
   bool turned(std::size_t triangle) const;
   /// [u] at an end of a minus face.
   double jump(std::size_t face, std::size_t end) const;
@@ -62,10 +62,11 @@ class EquilibratedFlux {
   double imbalance() const noexcept { return _imbalance; }
 
  private:
-  void measure();
-  void build(FaceBounds bounds);
-  void centre();
+  std::vector<double> measure();
+  void balance(std::size_t triangle);
+  void build(const std::vector<double>& half, FaceBounds bounds);
   void polish(FaceBounds bounds);
+  void rotate(const FanCorner& corner, double flux);
   void turn();
   double slope_of_work(std::size_t fan) const;
   double step(std::size_t fan, double slope, FaceBounds bounds);
@@ -78,9 +79,14 @@ class EquilibratedFlux {
   bool _is_pressure;                           // the work of the pressure counts
   const std::vector<double>&_tension, &_area;  // (m)
   const std::vector<Vector>& _edge;            // (corners) opposite to the corner, counterclockwise
+<<<<<<< HEAD
   std::vector<double> _excess;                 // (corners) outward flux of sigma - T grad u
   std::vector<Vector> _centre;                 // (m) mean of sigma - T grad u
   std::vector<double> _rest;                   // (m) int |sigma - T grad u - its mean|^2
+=======
+  std::vector<Vector> _mean;                   // (m) of sigma - T grad u, times 2 area
+  std::vector<double> _rest;  // (m) int |sigma - T grad u - its mean|^2 times 4 area; empty: 0
+>>>>>>> bounds
   std::vector<double> _through;
   struct Turn {
     std::size_t side;

@@ -11,9 +11,11 @@
 namespace anticrack::estimate {
 namespace {
 
-double half_width(double c, double eta, double rho) {
-  return 2 * c * rho <= eta ? eta * rho : c * rho * rho + eta * eta / (4 * c);
-}
+/// Whether what must lie in the cone leaves it by more than rounding.
+struct Cone {
+  double largest = 0, beyond = 0;
+  bool left() const { return beyond > 1e-10 * largest; }
+};
 
 /// Integrals of tau - T grad z with itself and with sigma - T grad u_h, over T.
 struct Products {
@@ -68,12 +70,20 @@ class Sum {
 
 }  // namespace
 
+double half_width(double c, double eta, double rho) {
+  return 2 * c * rho <= eta ? eta * rho : c * rho * rho + eta * eta / (4 * c);
+}
+
+EquilibratedFlux dual_flux(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual) {
+  std::vector<double> bounds = sigma.through_faces();
+  for (double& bound : bounds) bound = dual.c * std::abs(bound);
+  return EquilibratedFlux(cut, {dual.reacting, {}, {}}, bounds);
+}
+
 Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
   const CutMesh& cut = primal.cut;
   const EquilibratedFlux& sigma = primal.flux;
-  std::vector<double> bounds = sigma.through_faces();
-  for (double& bound : bounds) bound = dual.c * std::abs(bound);
-  const EquilibratedFlux tau(cut, {dual.reacting, {}, {}}, bounds);
+  const EquilibratedFlux tau = dual_flux(cut, sigma, dual);
 
   double distance = 0, pressure = 0;
   for (const double one : sigma.distance()) distance += std::max(0.0, one);
@@ -90,10 +100,14 @@ Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
   }
 
   double above = 0, below = 0, work = 0;
-  const auto limit = [&](double of_dual, double of_primal) {
+  Cone jumps, pressures;
+  const auto limit = [&](Cone& cone, double of_dual, double of_primal) {
     if (of_dual == 0) return;
-    const double ratio = of_primal > 0 ? std::min(dual.c, std::abs(of_dual) / of_primal) : dual.c;
-    (of_dual > 0 ? above : below) = std::max(of_dual > 0 ? above : below, ratio);
+    const double most = dual.c * std::max(0.0, of_primal), size = std::abs(of_dual);
+    cone.largest = std::max(cone.largest, size);
+    cone.beyond = std::max(cone.beyond, size - most);
+    double& c = of_dual > 0 ? above : below;
+    c = std::max(c, size < most ? size / of_primal : dual.c);
   };
   for (std::size_t f = 0; f < cut.faces.size(); ++f) {
     const Face& face = cut.faces[f];
@@ -105,13 +119,14 @@ Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
     if (!presses(face.condition)) continue;
     const auto ends = cut.ends(face), others = cut.ends(cut.faces[at(face.other)]);
     for (const std::size_t end : {0, 1})
-      limit(dual.z[at(others[1 - end])] - dual.z[at(ends[end])], sigma.jump(f, end));
+      limit(jumps, dual.z[at(others[1 - end])] - dual.z[at(ends[end])], sigma.jump(f, end));
     const auto through = [&](const EquilibratedFlux& flux) {
       return flux.through_faces()[2 * f] + flux.through_faces()[2 * f + 1];
     };
     work -= 0.5 * through(tau) * (sigma.jump(f, 0) + sigma.jump(f, 1));
-    limit(through(tau), -through(sigma));  // -q, p
+    limit(pressures, through(tau), -through(sigma));  // -q, p
   }
+  if (jumps.left() || pressures.left()) return {};
   double beyond = 0;
   for (const double one : primal.load.oscillation) beyond += one * one;
   const double rho = std::sqrt(std::max(0.0, distance) / 4 + pressure);
@@ -119,7 +134,14 @@ Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
   const double extra =
       unloaded * std::sqrt(beyond) + 1e-12 * (std::abs(dual.value) + std::abs(middle));
   return {middle - half_width(below, eta, rho) - extra,
-          middle + half_width(above, eta, rho) + extra, mixed, eta / (2 * dual.c * rho)};
+          middle + half_width(above, eta, rho) + extra,
+          mixed,
+          eta / (2 * dual.c * rho),
+          middle,
+          eta,
+          rho,
+          below,
+          above};
 }
 
 double norm_of_flux(const CutMesh& cut, std::span<const double> reacting) {

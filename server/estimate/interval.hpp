@@ -47,10 +47,19 @@ struct Interval {
   double upper = std::numeric_limits<double>::infinity();
   double estimate = 0;  ///< of A - A(u_h), no bound
   double short_of = 0;  ///< eta / (2 c rho): a larger c is better about where it is above 1
+  // What it is made of; c_l, c_u.
+  double middle = 0, eta = 0, rho = 0, below = 0, above = 0;
   double width() const noexcept { return upper - lower; }
 };
 
-/// `unloaded`: norm of a tau without q, of which the oscillation takes its share. O(m).
+/// R(c).
+double half_width(double c, double eta, double rho);
+
+/// The tau of a Dual, next to a flux sigma: |q| <= c p on each end of a face.
+EquilibratedFlux dual_flux(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual);
+
+/// `unloaded`: norm of a tau without q, of which the oscillation takes its share. Infinite where z
+/// or tau leave the cone. O(m).
 Interval interval(const Primal& primal, const Dual& dual, double unloaded);
 
 /// |tau| of a tau for a unit force with all cracks free. O(m).

@@ -9,30 +9,33 @@
 #include <span>
 #include <vector>
 
+#include "mesh/at.hpp"
+
 namespace anticrack::estimate {
 
 using Vector = std::array<double, 2>;
 
 constexpr double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
 
-/// A corner of a fan. e_i is the edge opposite to corner i, A the area, T the tension; j and k are
-/// the corners after and before i, counterclockwise.
+/// A corner of a fan: corner i of a triangle, with the one after it, and what loops over fans need.
 struct FanCorner {
-  std::int32_t i, j, k, triangle;
-  double out;         ///< e_i.(e_i - e_k) / (12 A T): of the flux that leaves it, through side j
-  double in;          ///< e_i.(e_j - e_i) / (12 A T): of the flux that enters it, through side k
-  Vector slope;       ///< e_i / (2 T)
-  double compliance;  ///< T / A
+  std::int32_t triangle;
+  std::int16_t i, j;
+  Vector edge;        ///< e_i
+  double compliance;  ///< of the triangle
+
+  std::size_t own() const noexcept { return 3 * at(triangle) + at(i); }
+  std::size_t next() const noexcept { return 3 * at(triangle) + at(j); }
 };
 
 struct Shapes {
-  std::vector<double> area;                   ///< (triangles)
-  std::vector<double> tension;                ///< (triangles)
-  std::vector<Vector> edge;                   ///< (corners) opposite, counterclockwise
-  std::vector<std::array<double, 3>> weight;  ///< (triangles, 3) -T e_j.e_k / (2 A) of corner i
-  std::vector<FanCorner> around;              ///< of all fans
-  std::vector<double> softness;  ///< (fans) 1 over the sum of e_i.e_i / (4 A T), the second
-                                 ///< derivative of half the distance by the flux through all spokes
+  std::vector<double> area;        ///< (triangles)
+  std::vector<double> tension;     ///< (triangles)
+  std::vector<double> stiffness;   ///< (triangles) T / (4 area)
+  std::vector<double> compliance;  ///< (triangles) 1 / (4 area T)
+  std::vector<Vector> edge;        ///< (corners) e_i, opposite, counterclockwise
+  std::vector<FanCorner> around;   ///< of all fans
+  std::vector<double> softness;    ///< (fans) 1 over the sum of e_i.e_i / (4 area T)
 
   std::size_t bytes() const noexcept;
 };

@@ -28,12 +28,6 @@ void require_memory(std::size_t loads, const ddm::Decomposition& decomposition) 
   }
 }
 
-void add(contact::RigidForce& sum, const contact::RigidForce& force, double factor) {
-  sum.force += factor * force.force;
-  sum.moment_x += factor * force.moment_x;
-  sum.moment_y += factor * force.moment_y;
-}
-
 /// Throws the first error, with the number of its load.
 std::vector<LoadOnTraces> sound(std::vector<CondensedOutcome> outcomes) {
   std::vector<LoadOnTraces> loads;

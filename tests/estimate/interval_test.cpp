@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Identities behind bounds of the energy and of A, exact for the solution u of any finer mesh in
+// place of the membrane's: containment alone would not show a wrong term. v is the solution of the
+// coarse mesh, X = <p,[v]> + int p_s [u], m = grad u - (grad v + sigma/T)/2.
+#include "estimate/interval.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "contact/adjoint.hpp"
+#include "estimate/solved.hpp"
+#include "operators/displacement_bounds.hpp"
+
+namespace anticrack::estimate {
+namespace {
+
+/// Integrals over the fine membrane, of energies.
+struct Energies {
+  double error = 0;           ///< |u - v|^2
+  double from_u = 0;          ///< |sigma - T grad u|^2
+  double from_v = 0;          ///< |sigma - T grad v|^2
+  double middle = 0;          ///< |m|^2
+  double of_u = 0, of_v = 0;  ///< |u|^2, |v|^2
+};
+
+Energies energies(const Nested& nested, const EquilibratedFlux& sigma) {
+  Energies sum;
+  integrate(nested, [&](std::size_t t, std::size_t in, const auto& place, double weight) {
+    const double tension = nested.fine->tension(t);
+    const Vector own = nested.fine->gradient(t, nested.fine->u),
+                 before = nested.coarse->gradient(in, nested.coarse->u),
+                 off = sigma.difference(in, place);
+    for (std::size_t d = 0; d < 2; ++d) {
+      const double difference = own[d] - before[d], w = weight * tension;
+      sum.error += w * difference * difference;
+      sum.from_u += w * std::pow(off[d] / tension - difference, 2);
+      sum.from_v += w * std::pow(off[d] / tension, 2);
+      sum.middle += w * std::pow(difference - off[d] / tension / 2, 2);
+      sum.of_u += w * own[d] * own[d];
+      sum.of_v += w * before[d] * before[d];
+    }
+  });
+  return sum;
+}
+
+struct Figures {
+  int brackets = 0, intervals = 0, left = 0;
+  double energy = 0, displacement = 0, cone = 0, nearest = 1;
+};
+
+double sum_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double one : values) sum += one;
+  return sum;
+}
+
+/// A of the fine solution from the coarse one, its bounds' own middle and what bounds them.
+double displacement_from(const Nested& nested, const EquilibratedFlux& sigma,
+                         const EquilibratedFlux& tau, const Dual& dual, const Interval& found) {
+  const Solved &coarse = *nested.coarse, &fine = *nested.fine;
+  const std::vector<double> z(dual.z.begin(), dual.z.end()),
+      reacting(dual.reacting.begin(), dual.reacting.end());
+  double product = 0, pressure = dual.work;  // <p,[z]> = a(u,z) - l(z), l(z) = a(v,z) - work
+  integrate(nested, [&](std::size_t t, std::size_t in, const auto& place, double weight) {
+    const double tension = fine.tension(t);
+    const Vector own = fine.gradient(t, fine.u), before = coarse.gradient(in, coarse.u),
+                 of_z = coarse.gradient(in, z), of_reacting = coarse.gradient(in, reacting),
+                 off = sigma.difference(in, place), off_tau = tau.difference(in, place);
+    for (std::size_t d = 0; d < 2; ++d) {
+      const double dual_off = off_tau[d] + tension * (of_reacting[d] - of_z[d]);
+      product += weight * dual_off * (own[d] - before[d] - off[d] / tension / 2);
+      pressure += weight * tension * (own[d] - before[d]) * of_z[d];
+    }
+  });
+  return found.middle + product + pressure - work_of_pressure(nested, tau);
+}
+
+/// How far the jumps of z and the pressures of tau leave the cone of the bounds.
+double outside_cone(const Solved& in, const EquilibratedFlux& sigma, const EquilibratedFlux& tau,
+                    const Dual& dual, const Interval& found) {
+  const std::vector<double> z(dual.z.begin(), dual.z.end());
+  double jumps = 0, pressures = 0, largest_jump = 1e-12, largest_pressure = 1e-12;
+  for (std::size_t f = 0; f < in.cut.faces.size(); ++f) {
+    const Face& face = in.cut.faces[f];
+    if (!presses(face.condition)) continue;
+    for (const std::size_t end : {0U, 1U}) {
+      const double of_z = in.jump(z, face, end), of_v = in.jump(in.u, face, end);
+      jumps = std::max({jumps, of_z - found.above * of_v, -of_z - found.below * of_v});
+      largest_jump = std::max(largest_jump, std::abs(of_z));
+    }
+    const auto pressure = [f](const EquilibratedFlux& flux) {
+      return -flux.through_faces()[2 * f] - flux.through_faces()[2 * f + 1];
+    };
+    const double q = pressure(tau), p = pressure(sigma);
+    pressures = std::max({pressures, q - found.below * p, -q - found.above * p});
+    largest_pressure = std::max(largest_pressure, std::abs(q));
+  }
+  return std::max(jumps / std::max(1.0, largest_jump), pressures / std::max(1.0, largest_pressure));
+}
+
+void check_identities(unsigned seed, bool rich, Figures& tally) {
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  const Nested nested(seed, rich);
+  if (!nested.solved() || !nested.coarse->cut.obstacle.empty()) return;
+  const Solved &coarse = *nested.coarse, &fine = *nested.fine;
+  const EquilibratedFlux sigma(coarse.cut, coarse.balance());
+  const Energies of = energies(nested, sigma);
+  const double scale = std::abs(coarse.answer.energy) + sigma.norm_squared();
+
+  // <p,[v]> = a(u, v - u) - l(v - u)
+  const double x =
+      coarse.answer.energy - fine.answer.energy - of.error / 2 + work_of_pressure(nested, sigma);
+  const double pressure = sum_of(sigma.work_of_pressure());
+  const double rho_squared = of.from_v / 4 + pressure;
+  EXPECT_NEAR(of.from_v, sum_of(sigma.distance()), 1e-10 * scale);
+  for (const auto& [left, right] :
+       {std::pair{of.error + of.from_u + 2 * x, of.from_v + 2 * pressure},
+        std::pair{of.middle + x, rho_squared}}) {
+    EXPECT_NEAR(left, right, 1e-10 * scale);
+    tally.energy = std::max(tally.energy, std::abs(left - right) / scale);
+  }
+  // z = a (u - v), tau = a (sigma - T grad u) of the functional 0: the worst that c = a allows.
+  for (const double a : {0.1, 1.0, 10.0})
+    EXPECT_NEAR(half_width(a, 2 * a * std::sqrt(of.middle), std::sqrt(rho_squared)),
+                a * (2 * of.middle + x), 1e-10 * a * scale);
+  ++tally.brackets;
+
+  const contact::Adjoint adjoint(*coarse.parts.skeleton, coarse.loads(), coarse.answer);
+  if (!adjoint.possible()) return;
+  LoadBalance load;
+  load.force = coarse.force;
+  load.traction = coarse.traction;
+  const std::vector<Lift> none;
+  for (std::size_t j = 0; j < coarse.answer.inclusions.size(); ++j) {
+    const contact::Adjoint::Goal goal =
+        adjoint.aim(coarse.parts.decomposition.skeleton.motions[j].displacement);
+    if (!(goal.compliance > 1e-9)) continue;
+    const double unit = std::sqrt(goal.compliance / std::max(scale, 1e-9));
+    const double truth = fine.answer.inclusions[j].displacement;
+    for (const double c : {0.5 * unit, 2 * unit, 16 * unit}) {
+      const contact::Adjoint::Pair pair = adjoint.clipped(goal, c);
+      const auto [z, reacting] = operators::adjoint_fields(coarse.parts, pair);
+      const Dual dual{z, reacting, coarse.answer.inclusions[j].displacement, pair.work, c};
+      const Interval found = interval({coarse.cut, sigma, load, none, coarse.u}, dual, 0);
+      tally.left += std::isfinite(found.width()) ? 0 : 1;
+      if (!std::isfinite(found.width())) continue;
+      const EquilibratedFlux tau = dual_flux(coarse.cut, sigma, dual);
+      const double from_coarse = displacement_from(nested, sigma, tau, dual, found);
+      const double size = std::abs(truth) + std::sqrt(goal.compliance * scale);
+      tally.displacement = std::max(tally.displacement, std::abs(truth - from_coarse) / size);
+      EXPECT_NEAR(truth, from_coarse, 1e-9 * size);
+      const double outside = outside_cone(coarse, sigma, tau, dual, found);
+      tally.cone = std::max(tally.cone, outside);
+      EXPECT_LT(outside, 1e-10);
+      EXPECT_NEAR(found.lower, found.middle - half_width(found.below, found.eta, found.rho),
+                  1e-11 * size);
+      EXPECT_NEAR(found.upper, found.middle + half_width(found.above, found.eta, found.rho),
+                  1e-11 * size);
+      EXPECT_NEAR(found.rho, std::sqrt(rho_squared), 1e-9 * std::sqrt(scale));
+      const double half = found.width() / 2;
+      if (half > 1e-9)
+        tally.nearest =
+            std::min(tally.nearest, std::min(truth - found.lower, found.upper - truth) / half);
+      EXPECT_GT(truth, found.lower - 1e-11 * size);
+      EXPECT_LT(truth, found.upper + 1e-11 * size);
+      ++tally.intervals;
+    }
+  }
+}
+
+class Identities : public ::testing::TestWithParam<bool> {};
+
+TEST_P(Identities, HoldOnNestedMeshes) {
+  const auto given = static_cast<unsigned>(::testing::GTEST_FLAG(random_seed));
+  const unsigned first = given > 0 ? given : std::random_device{}() % 99'000 + 1;
+  Figures tally;
+  for (unsigned k = 0; k < 100; ++k) check_identities(first + k, GetParam(), tally);
+  std::printf(
+      "[ figures  ] seeds from %u: %d energies to %.1e, %d intervals to %.1e, cone %.1e (left %d "
+      "times), nearest %.2f\n",
+      first, tally.brackets, tally.energy, tally.intervals, tally.displacement, tally.cone,
+      tally.left, tally.nearest);
+  EXPECT_GT(tally.brackets, 50);
+  EXPECT_GT(tally.intervals, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, Identities, ::testing::Bool(),
+                         [](const auto& one) { return one.param ? "Rich" : "Plain"; });
+
+/// R(c) is the largest eta y + c (rho^2 - y^2) for 0 <= y <= rho.
+TEST(HalfWidth, IsTheWorstThatTheConeAllows) {
+  for (const double c : {0.0, 0.01, 0.4, 3.0}) {
+    const double eta = 0.7, rho = 1.3;
+    double worst = 0;
+    for (int k = 0; k <= 10'000; ++k) {
+      const double y = rho * k / 10'000;
+      worst = std::max(worst, eta * y + c * (rho * rho - y * y));
+    }
+    EXPECT_NEAR(half_width(c, eta, rho), worst, 1e-7);
+  }
+}
+
+}  // namespace
+}  // namespace anticrack::estimate
