@@ -79,14 +79,8 @@ class EquilibratedFlux {
   bool _is_pressure;                           // the work of the pressure counts
   const std::vector<double>&_tension, &_area;  // (m)
   const std::vector<Vector>& _edge;            // (corners) opposite to the corner, counterclockwise
-<<<<<<< HEAD
-  std::vector<double> _excess;                 // (corners) outward flux of sigma - T grad u
-  std::vector<Vector> _centre;                 // (m) mean of sigma - T grad u
-  std::vector<double> _rest;                   // (m) int |sigma - T grad u - its mean|^2
-=======
   std::vector<Vector> _mean;                   // (m) of sigma - T grad u, times 2 area
   std::vector<double> _rest;  // (m) int |sigma - T grad u - its mean|^2 times 4 area; empty: 0
->>>>>>> bounds
   std::vector<double> _through;
   struct Turn {
     std::size_t side;
