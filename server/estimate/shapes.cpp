@@ -30,14 +30,8 @@ Shapes shapes(const Triangles& triangles, const Fans& fans) {
       edge[i] = {to[0] - from[0], to[1] - from[1]};
     }
     shapes.area[t] = 0.5 * (edge[2][1] * edge[1][0] - edge[2][0] * edge[1][1]);
-<<<<<<< HEAD
-    for (std::size_t i = 0; i < 3; ++i)
-      shapes.weight[t][i] =
-          -shapes.tension[t] * dot(edge[(i + 1) % 3], edge[(i + 2) % 3]) / (2 * shapes.area[t]);
-=======
     shapes.stiffness[t] = shapes.tension[t] / (4 * shapes.area[t]);
     shapes.compliance[t] = 1 / (4 * shapes.area[t] * shapes.tension[t]);
->>>>>>> bounds
   }
   shapes.around.reserve(fans.corners.size());
   shapes.softness.reserve(fans.first_corner.size());
