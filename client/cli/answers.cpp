@@ -188,8 +188,8 @@ std::vector<std::string> remarks_on(const results::Load& load) {
   constexpr double small_error = 0.01;
   const bool in_stages = load.stages.size() > 0;  // the accuracy was chosen
   if (is_bounded(load) && load.error_bound_relative > small_error && !in_stages)
-    remarks.push_back("u is within " + number(100 * load.error_bound_relative, 2) +
-                      " % of the membrane's in the energy norm; for less write [accuracy] with "
+    remarks.push_back("u is within " + per_cent(load.error_bound_relative) +
+                      " of the membrane's in the energy norm; for less write [accuracy] with "
                       "energy = 1e-3, or a smaller one");
   return remarks;
 }
