@@ -58,10 +58,9 @@ TEST(AnswersTable, NamesTheCureOfAnErrorAboveOnePerCentThatNobodyChose) {
   load.energy_upper = -0.17;
   load.error_bound = 0.1;
   load.error_bound_relative = 0.17;
-  EXPECT_THAT(
-      answers_table(result),
-      ::testing::EndsWith("opening: u is within 17 % of the membrane's in the energy norm; "
-                          "for less write [accuracy] with energy = 1e-3, or a smaller one\n"));
+  EXPECT_THAT(answers_table(result),
+              ::testing::EndsWith("opening: u is within 17 % of the membrane's in the energy norm; "
+                                  "for less write [accuracy] energy = 1e-3, or smaller\n"));
   load.stages = {{900}, {-0.17}, {-0.18}, {-0.17}, {0.17}, {results::unknown}, {0.1}};
   EXPECT_THAT(answers_table(result), ::testing::Not(::testing::HasSubstr("[accuracy]")));
   load.stages = {};

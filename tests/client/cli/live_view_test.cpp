@@ -173,11 +173,11 @@ JobProgress staged(int stages) {
 }
 
 TEST(Frame, HasALinePerStageAboveTheLoadCasesOfTheNewest) {
-  EXPECT_THAT(frame(staged(2), 91, 24),
+  EXPECT_THAT(frame(staged(2), 92, 24),
               ElementsAre("jobs/1: running, 0 of 2 load cases ended",
-                          "  stage  1      1000 triangles   energy     0.1 of 0.001   A 100 %  "
+                          "  stage  1      1000 triangles   energy      0.1 of 0.001   A 100 %  "
                           "[######--------------]",
-                          "  stage  2      2000 triangles   energy   0.025 of 0.001   A 25 %   "
+                          "  stage  2      2000 triangles   energy    0.025 of 0.001   A 25 %   "
                           "[##########----------]",
                           "  load-0  waiting",  //
                           "  load-1  running        step     2  contact  41"));
