@@ -23,8 +23,7 @@ double energy_error(const v1::StageAnswer& answer) {
 
 // "0.0021 of 0.001"; what is not asked for in per cent.
 std::string error_text(double error, double asked) {
-  return asked > 0 ? pad_left(number(error, 2), 7) + " of " + number(asked, 6)
-                   : number(100 * error, 2) + " %";
+  return asked > 0 ? pad_left(number(error, 3), 8) + " of " + number(asked, 6) : per_cent(error);
 }
 
 std::string unpadded(std::string text) { return text.erase(0, text.find_first_not_of(' ')); }

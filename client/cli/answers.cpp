@@ -162,7 +162,9 @@ std::vector<std::string> row_of(const results::Load& load, const Told& inclusion
   inclusions.add(load, row);
   row.push_back(is_bounded(load) ? interval(load.energy_lower, load.energy_upper)
                                  : when_answered(load.energy));
-  if (bounded) row.push_back(when_answered(100 * load.error_bound_relative, 2));
+  if (bounded)
+    row.push_back(
+        when_answered(100 * load.error_bound_relative, load.error_bound_relative < 1 ? 2 : 3));
   row.push_back(when_answered(load.contact_length));
   if (by_uzawa) {
     row.push_back(when_answered(load.theta, 4));
@@ -188,9 +190,9 @@ std::vector<std::string> remarks_on(const results::Load& load) {
   constexpr double small_error = 0.01;
   const bool in_stages = load.stages.size() > 0;  // the accuracy was chosen
   if (is_bounded(load) && load.error_bound_relative > small_error && !in_stages)
-    remarks.push_back("u is within " + number(100 * load.error_bound_relative, 2) +
-                      " % of the membrane's in the energy norm; for less write [accuracy] with "
-                      "energy = 1e-3, or a smaller one");
+    remarks.push_back("u is within " + per_cent(load.error_bound_relative) +
+                      " of the membrane's in the energy norm; for less write "
+                      "[accuracy] energy = 1e-3, or smaller");
   return remarks;
 }
 

@@ -115,6 +115,8 @@ std::string exact(double value) {
   return {buffer.data(), result.ptr};
 }
 
+std::string per_cent(double value) { return number(100 * value, value < 1 ? 2 : 3) + " %"; }
+
 std::string csv_field(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";

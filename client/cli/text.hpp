@@ -37,6 +37,9 @@ std::string interval(double lower, double upper);
 /// Shortest text that gives the number back; empty for what is not finite.
 std::string exact(double value);
 
+/// Of a relative error: "0.8 %", "12 %", "110 %".
+std::string per_cent(double value);
+
 /// A field of comma-separated text, in quotes where it needs them.
 std::string csv_field(std::string_view text);
 

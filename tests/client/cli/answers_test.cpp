@@ -50,6 +50,24 @@ TEST(AnswersTable, HasUnitsAndSaysWhatIsUnknown) {
       "failed: the expression is not finite at? (0, 0)\n");
 }
 
+TEST(AnswersTable, NamesTheCureOfAnErrorAboveOnePerCentThatNobodyChose) {
+  results::Result result = two_loads();
+  result.loads.resize(1);
+  results::Load& load = result.loads[0];
+  load.energy_lower = -0.18;
+  load.energy_upper = -0.17;
+  load.error_bound = 0.1;
+  load.error_bound_relative = 0.17;
+  EXPECT_THAT(answers_table(result),
+              ::testing::EndsWith("opening: u is within 17 % of the membrane's in the energy norm; "
+                                  "for less write [accuracy] energy = 1e-3, or smaller\n"));
+  load.stages = {{900}, {-0.17}, {-0.18}, {-0.17}, {0.17}, {results::unknown}, {0.1}};
+  EXPECT_THAT(answers_table(result), ::testing::Not(::testing::HasSubstr("[accuracy]")));
+  load.stages = {};
+  load.error_bound_relative = 0.01;
+  EXPECT_THAT(answers_table(result), ::testing::Not(::testing::HasSubstr("[accuracy]")));
+}
+
 TEST(AnswersTable, OfTheActiveSetHasTheLargestKktResidual) {
   results::Result result = two_loads();
   result.loads[0].theta = result.loads[0].theta_star = results::unknown;

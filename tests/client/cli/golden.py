@@ -61,6 +61,15 @@ queue_timeout = "1h"
 fields = true
 """
 
+# Without the point force, which has no bounds.
+ACCURACY = PLATE[:PLATE.index('[[load]]\nname = "skew"')] + """\
+[accuracy]
+energy = 0.1
+
+[output]
+fields = true
+"""
+
 # Two triangles and nothing else.
 MSH = """\
 $MeshFormat
@@ -90,7 +99,7 @@ class GoldenTest(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = pathlib.Path(
             cls.enterClassContext(tempfile.TemporaryDirectory(prefix="anticrack-test-")))
-        files = {"plate.toml": PLATE, "plate.msh": MSH, "rows.csv": "opening,skew\n1,0\n0.5,0.5\n0,1\n",
+        files = {"plate.toml": PLATE, "accuracy.toml": ACCURACY, "plate.msh": MSH, "rows.csv": "opening,skew\n1,0\n0.5,0.5\n0,1\n",
                  # The force is infinite in a node: the job fails.
                  "failing.toml": PLATE.replace("y > 0 ? 1 : -1", "1 / (x - x)")}
         for name, text in files.items():

@@ -98,6 +98,19 @@ class JsonGolden(GoldenTest):
         self.document("run-failed", "run", "failing.toml", "-o", "failed.h5", code=1)
         self.document("job-failed", "run", "failing.toml", "--set", "load.skew.f=1 / (x - x)", code=1)
 
+    def test_stages(self):
+        answers = self.document("run-accuracy", "run", "accuracy.toml", "-o", "accuracy.h5")
+        self.assertGreater(len(answers["answers"][0]["stages"]), 1)
+        job = self.document("job-show-accuracy", "job", "show", answers["job"])
+        self.assertEqual(answers["mesh"], job["stages"][-1]["mesh"], "not that of the first stage")
+        self.assertNotEqual(answers["mesh"], job["mesh"])
+        self.document("job-show-accuracy", "job", "watch", answers["job"])
+        self.document("run-accuracy", "job", "fetch", answers["job"], "-o", "fetched.h5")
+        self.document("run-accuracy", "show", "accuracy.h5")
+        short = self.document("run-accuracy", "run", "accuracy.toml", "-o", "short.h5", "--set",
+                              "accuracy.max_triangles=100", code=3)
+        self.assertIn("max_triangles", short["not_reached"])
+
     def test_sweeps(self):
         rows = ("sweep", "plate.toml", "--coefficients", "rows.csv")
         answers = self.document("sweep", *rows, "--traces", "0", "-o", "rows.h5", "--csv", "answers.csv")["sweep"]

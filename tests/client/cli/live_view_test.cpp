@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/text.hpp"
-#include "client/cli/sample_progress.hpp"
+#include "client/cli/sample_stages.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -157,6 +157,56 @@ TEST(Frame, OfTheActiveSetHasStepsAndNoBar) {
               ElementsAre("jobs/1: running, 1 of 2 load cases ended",
                           "  load-0  converged      step     4     0.0125 s",
                           "  load-1  running        step     2  contact  41"));
+}
+
+JobProgress staged(int stages) {
+  JobProgress progress;
+  progress.apply(staged_snapshot(2));
+  double error = 0.1;
+  for (int i = 1; i <= stages; ++i, error /= 4) {
+    progress.apply(load_ended(0, 4, 0));
+    progress.apply(load_ended(1, 4, 0));
+    progress.apply(stage_ended(stage(i, 1000 * static_cast<std::uint64_t>(i), error, 2)));
+  }
+  progress.apply(sample(1, 2, 0, 41));
+  return progress;
+}
+
+TEST(Frame, HasALinePerStageAboveTheLoadCasesOfTheNewest) {
+  EXPECT_THAT(frame(staged(2), 92, 24),
+              ElementsAre("jobs/1: running, 0 of 2 load cases ended",
+                          "  stage  1      1000 triangles   energy      0.1 of 0.001   A 100 %  "
+                          "[######--------------]",
+                          "  stage  2      2000 triangles   energy    0.025 of 0.001   A 25 %   "
+                          "[##########----------]",
+                          "  load-0  waiting",  //
+                          "  load-1  running        step     2  contact  41"));
+}
+
+TEST(Frame, ShowsTheLastStagesWhereTheyDoNotFit) {
+  const JobProgress many = staged(30);
+  for (const std::size_t height : {3, 4, 5, 9, 24})
+    EXPECT_LE(frame(many, 80, height).size(), height);
+  const std::vector<std::string> lines = frame(many, 80, 6);
+  EXPECT_THAT(lines.at(1), HasSubstr("stage 28"));
+  EXPECT_THAT(lines.at(3), HasSubstr("stage 30"));
+  EXPECT_THAT(lines.at(5), HasSubstr("load-1"));
+}
+
+TEST(PlainLog, TellsEachStageOnceAndWhatGoesWrongInIt) {
+  JobProgress progress;
+  PlainLog log;
+  progress.apply(staged_snapshot(1));
+  log.lines(progress);
+  progress.apply(load_ended(0, 4, 0));
+  EXPECT_THAT(log.lines(progress), IsEmpty());
+  progress.apply(stage_ended(stage(1, 900, 0.02)));
+  EXPECT_THAT(log.lines(progress),
+              ElementsAre("stage 1: 900 triangles, energy 0.02 of 0.001, A 20 %"));
+  progress.apply(stage_ended(stage(1, 900, 0.02)));
+  EXPECT_THAT(log.lines(progress), IsEmpty());
+  progress.apply(load_ended(0, 7, 0, v1::LoadCaseAnswer::STATUS_NOT_CONVERGED));
+  EXPECT_THAT(log.lines(progress), ElementsAre("load-0: not converged after 7 steps"));
 }
 
 TEST(PlainLog, OfTheActiveSetCountsSteps) {

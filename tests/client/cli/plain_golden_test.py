@@ -57,6 +57,8 @@ class PlainGolden(GoldenTest):
         self.said("show-load", "show", "plate.h5", "--load", "skew")
         self.said("run", "run", "plate.toml")
         self.said("run-uzawa", "run", "plate.toml", "-o", "uzawa.h5", "--set", 'solver={method="uzawa", theta=1.5}')
+        self.said("run-accuracy", "run", "accuracy.toml")
+        self.said("run-not-reached", "run", "accuracy.toml", "--set", "accuracy.max_triangles=100", code=3)
         self.said("export", "export", "plate.h5", "-o", "paraview")
         self.said("plot", "plot", "plate.h5", "--load", "skew", "-o", "figures")
         self.said("sweep", "sweep", "plate.toml", "--coefficients", "rows.csv", "--traces", "all", "-o", "rows.h5",

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "client/cli/sample_progress.hpp"
+#include "client/cli/sample_stages.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -107,6 +107,104 @@ TEST(JobProgress, ForgetsANoticeWithTheNextEvent) {
   progress.notice = "no connection";
   progress.apply(snapshot(1));
   EXPECT_EQ(progress.notice, "");
+}
+
+TEST(JobProgress, BeginsItsLoadCasesAgainInEachStage) {
+  JobProgress progress;
+  progress.apply(staged_snapshot(2));
+  progress.apply(sample(0, 3, 0, 12));
+  progress.apply(load_ended(0, 4, 0));
+  progress.apply(load_ended(1, 4, 0));
+  progress.apply(stage_ended(stage(1, 900, 0.1, 2)));
+  EXPECT_EQ(progress.ended_count, 2U) << "the next stage has not begun";
+  ASSERT_EQ(progress.stages.size(), 1U);
+
+  progress.apply(sample(0, 1, 0, 7));
+  EXPECT_EQ(progress.ended_count, 0U);
+  EXPECT_EQ(progress.cases[0].name, "load-0");
+  EXPECT_EQ(progress.cases[0].iteration, 1);
+  EXPECT_EQ(progress.cases[1].status, results::Status::pending);
+  progress.apply(load_ended(1, 6, 0, v1::LoadCaseAnswer::STATUS_NOT_CONVERGED));
+  progress.apply(load_ended(0, 5, 0));
+  EXPECT_EQ(progress.ended_count, 2U);
+  EXPECT_EQ(progress.cases[0].iteration, 5) << "the last one counts";
+}
+
+/// What a log has of a job of one load case that is in its third stage.
+std::vector<v1::WatchJobResponse> three_stages() {
+  return {sample(0, 1, 0, 5), load_ended(0, 4, 0), stage_ended(stage(1, 900, 0.1)),
+          sample(0, 1, 0, 5), load_ended(0, 5, 0), stage_ended(stage(2, 5000, 0.01)),
+          sample(0, 2, 0, 6)};
+}
+
+TEST(JobProgress, OfStagesIsTheSameForWhoComesLate) {
+  v1::WatchJobResponse late = staged_snapshot(1);
+  v1::Job& job = *late.mutable_snapshot()->mutable_job();
+  *job.add_stages() = stage(1, 900, 0.1);
+  *job.add_stages() = stage(2, 5000, 0.01);
+  job.add_stages()->set_mesh("meshes/3");
+  const auto events = three_stages();
+  // From the earliest event, from one in the middle of a log that was trimmed, and from the last.
+  for (std::size_t first = 0; first <= events.size(); ++first) {
+    JobProgress progress;
+    progress.apply(late);
+    for (std::size_t i = first; i < events.size(); ++i) progress.apply(events[i]);
+    ASSERT_EQ(progress.stages.size(), 2U) << first;
+    EXPECT_EQ(progress.stages[1].triangles, 5000U);
+    EXPECT_EQ(progress.ended_count, 0U) << first;
+    EXPECT_EQ(progress.cases[0].iteration, first < events.size() ? 2 : 0) << first;
+  }
+  // The watch of who lost the connection between two stages goes on as if nothing had been.
+  JobProgress resumed;
+  resumed.apply(staged_snapshot(1));
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (i == 3) resumed.apply(late);
+    resumed.apply(events[i]);
+  }
+  EXPECT_EQ(resumed.stages.size(), 2U);
+  EXPECT_EQ(resumed.cases[0].iteration, 2);
+  EXPECT_EQ(resumed.ended_count, 0U);
+}
+
+TEST(JobProgress, BetweenStagesKeepsTheAnswersUntilTheNextBegins) {
+  v1::WatchJobResponse between = staged_snapshot(1);
+  v1::Job& job = *between.mutable_snapshot()->mutable_job();
+  *job.add_stages() = stage(1, 900, 0.1);
+  *job.mutable_answers(0) = load_ended(0, 4, 0).load_cases_ended(0).answer();
+  JobProgress progress;
+  progress.apply(between);
+  EXPECT_EQ(progress.cases[0].status, results::Status::converged);
+  progress.apply(sample(0, 1, 0, 5));
+  EXPECT_EQ(progress.cases[0].status, results::Status::running);
+}
+
+TEST(JobProgress, AfterARestartOfTheServerGoesOnInTheStageItHadReached) {
+  JobProgress progress;
+  progress.apply(staged_snapshot(1));
+  for (const auto& event : three_stages()) progress.apply(event);
+  progress.apply(load_ended(0, 3, 0));
+  v1::WatchJobResponse again = staged_snapshot(1);
+  v1::Job& job = *again.mutable_snapshot()->mutable_job();
+  job.set_attempt(2);
+  *job.add_stages() = stage(1, 900, 0.1);
+  *job.add_stages() = stage(2, 5000, 0.01);
+  job.add_stages()->set_mesh("meshes/3");
+  progress.apply(again);
+  EXPECT_EQ(progress.stages.size(), 2U);
+  EXPECT_EQ(progress.cases[0].status, results::Status::pending) << "it is solved again";
+  progress.apply(load_ended(0, 3, 0));
+  progress.apply(stage_ended(stage(3, 20000, 0.001)));
+  EXPECT_EQ(progress.stages.size(), 3U);
+  EXPECT_EQ(progress.ended_count, 1U);
+
+  v1::WatchJobResponse end;
+  v1::Job& ended = *end.mutable_ended() = job;
+  *ended.mutable_stages(2) = stage(3, 20000, 0.001);
+  ended.set_state(v1::Job::STATE_SUCCEEDED);
+  *ended.mutable_answers(0) = load_ended(0, 3, 0).load_cases_ended(0).answer();
+  progress.apply(end);
+  EXPECT_EQ(progress.stages.size(), 3U);
+  EXPECT_EQ(progress.cases[0].status, results::Status::converged);
 }
 
 TEST(BarFraction, IsLogarithmic) {

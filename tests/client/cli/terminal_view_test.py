@@ -169,6 +169,22 @@ class TerminalView(FolderTest):
             self.assertTrue((self.folder / "out.h5").is_file())
         self.assertEqual([job["attempt"] for job in self.jobs()], [2], "one job, run twice")
 
+    def test_a_line_per_stage_also_after_a_crash(self):
+        with self.run_case((EXAMPLES / "accuracy.toml", "--set", "accuracy.energy=1e-4")) as terminal:
+            terminal.wait_for("  stage  2")
+            self.daemon.kill()
+            terminal.wait_for("gone, trying again")
+            self.start_daemon(port=self.daemon.port)
+            self.assertEqual(terminal.end(), 0, terminal.text())
+            view = terminal.rows()[2:]
+            self.assertRegex(view[0], r"^jobs/\w+: done, attempt 2, ")
+            stages = [row for row in view if row.startswith("  stage ")]
+            self.assertEqual([int(row.split()[1]) for row in stages], list(range(1, len(stages) + 1)))
+            for row in stages:
+                self.assertRegex(row, r"^  stage +\d+ +\d+ triangles   energy +\S+ of 0.0001 .*\[#*-*\]$")
+            self.assertTrue(stages[-1].endswith("#]"), "it is reached")
+            self.assertRegex(view[1 + len(stages)], "^  example-3  converged ")
+
     def test_the_view_is_stopped_and_goes_on_below_what_others_wrote(self):
         command = [ANTICRACK, "run", *forever(), "-o", self.folder / "out.h5", "--server", self.server]
         with Terminal("bash", "--norc", "-i", columns=150, environment={"PS1": "$ "}) as shell:

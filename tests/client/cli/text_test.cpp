@@ -126,5 +126,13 @@ TEST(Table, TakesRowsOfDifferentLength) {
   EXPECT_EQ(table({}), "");
 }
 
+TEST(PerCent, HasTwoDigitsAndNoExponentFromAHundredOn) {
+  EXPECT_EQ(per_cent(0.00821), "0.82 %");
+  EXPECT_EQ(per_cent(0.1234), "12 %");
+  EXPECT_EQ(per_cent(1), "100 %");
+  EXPECT_EQ(per_cent(1.13), "113 %");
+  EXPECT_EQ(per_cent(std::numeric_limits<double>::quiet_NaN()), "- %");
+}
+
 }  // namespace
 }  // namespace anticrack::cli

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "client/cli/sample_stages.hpp"
 #include "results/error.hpp"
 
 namespace anticrack::cli {
@@ -150,6 +151,30 @@ TEST(ToResult, KeepsWhatTheServerSaid) {
   EXPECT_EQ(load.traces[0].u_plus, (Reals{0.5, 0.5}));
   EXPECT_EQ(load.history.iteration, Integers{1});
   EXPECT_EQ(result.timings.solve_seconds, 1.5);
+}
+
+TEST(ToResult, KeepsTheStagesThatEnded) {
+  Fetched staged = fetched();
+  EXPECT_EQ(mesh_of(staged.job), staged.job.mesh());
+  *staged.job.add_stages() = stage(1, 900, 0.02, 2);
+  *staged.job.add_stages() = stage(2, 5000, 0.01);
+  staged.job.mutable_stages(1)->mutable_answers(0)->clear_energy_lower();
+  staged.job.mutable_stages(1)->mutable_answers(0)->clear_displacement_error();
+  staged.job.add_stages()->set_mesh("meshes/3");  // was stopped
+  staged.job.set_not_reached("too few triangles");
+  EXPECT_EQ(mesh_of(staged.job), "meshes/2");
+  const results::Result result = to_result(staged);
+  EXPECT_EQ(result.not_reached, "too few triangles");
+  const results::Stages& stages = result.loads.at(0).stages;
+  EXPECT_EQ(stages.triangles, (std::vector<std::int64_t>{900, 5000}));
+  EXPECT_EQ(stages.energy, (Reals{-2, -2}));
+  EXPECT_EQ(stages.energy_upper, (Reals{-2, -2}));
+  EXPECT_EQ(stages.energy_lower.at(0), -2.04);
+  EXPECT_TRUE(std::isnan(stages.energy_lower.at(1)));
+  EXPECT_EQ(stages.error_bound_relative, (Reals{0.01, 0.005}));
+  EXPECT_EQ(stages.displacement_error.at(0), 0.2);
+  EXPECT_TRUE(std::isnan(stages.displacement_error.at(1)));
+  EXPECT_EQ(stages.seconds, (Reals{0.25, 0.5}));
 }
 
 TEST(ToResult, KeepsTheParametersAskedFor) {

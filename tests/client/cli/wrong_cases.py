@@ -76,6 +76,15 @@ CASES = [
      "wrong.toml:3: geometry: there is a mesh.file too; remove one of the two"),
     ([("size = 0.5", 'file = "x.msh"'), (GEOMETRY, "")], 2,
      "wrong.toml:5: mesh.file: x.msh: there is no such file; name a .msh file"),
+    (more("[accuracy]\nenergy = 1e-3"), 2,
+     'wrong.toml:21: solver.method: the answers of "uzawa" have no bounds; with [accuracy] write method = '
+     '"active-set"'),
+    (more("[accuracy]\nenrgy = 1e-3"), 2,
+     "wrong.toml:14: accuracy.enrgy: unknown key; did you mean energy?"),
+    (more("[accuracy]\ntime = 60"), 2,
+     "wrong.toml:13: accuracy: no accuracy; write energy = 1e-3, A = 1e-3, or both"),
+    (more("[accuracy]\nA = 2"), 2,
+     "wrong.toml:14: accuracy.A: 2 is out of range; write a relative error from 1e-6 to 1, as 1e-3"),
     # Types and values.
     ([("size = 0.5", 'size = "fine"')], 2,
      "wrong.toml:15: mesh.size: 'fine' is not a finite number; write a number without quotes"),

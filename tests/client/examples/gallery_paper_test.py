@@ -61,6 +61,23 @@ class Paper(GalleryTest):
         self.assertEqual(graded.loads["example-3"]["status"], "not_converged")  # a gap of 0.1
         self.assert_close(graded.displacement("example-3"), LIMITS["example-3"][0], 5e-3)
 
+    def test_accuracy(self):
+        results = self.follow("accuracy")
+        for answers, reached in ((results["accuracy.h5"], True), (results["short.h5"], False)):
+            answer, (fibre,) = answers.loads["example-3"], answers.loads["example-3"]["inclusions"]
+            limit_a, limit_energy = LIMITS["example-3"]
+            self.assertTrue(fibre["A_lower"] <= limit_a <= fibre["A_upper"])
+            self.assertTrue(answer["energy_lower"] <= limit_energy <= answer["energy_upper"])
+            width = answer["energy_upper"] - answer["energy_lower"]
+            self.assertEqual(width <= 1e-3 * abs(answer["energy"]), reached)
+            self.assertEqual(len(answers.file["mesh/triangles"]), answer["stages"][-1]["triangles"])
+        answers = results["accuracy.h5"]
+        self.assertLessEqual(len(answers.loads["example-3"]["stages"]), 6)
+        middle = lambda of, name: (of[f"{name}_lower"] + of[f"{name}_upper"]) / 2
+        self.assert_told(("0.1700", -middle(answers.loads["example-3"], "energy")),
+                         ("0.1038", middle(answers.loads["example-3"]["inclusions"][0], "A")))
+        self.assertLessEqual(len(results["short.h5"].file["mesh/triangles"]), 9000)
+
     def test_paper_4(self):
         answers = self.follow_one("paper-4")
         self.assert_example(answers, "example-4", 411, 0.3375)

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/accuracy_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cli/text.hpp"
+#include "client/cli/sample_stages.hpp"
+
+namespace anticrack::cli {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+v1::Accuracy asked(double energy) {
+  v1::Accuracy accuracy;
+  accuracy.set_energy(energy);
+  return accuracy;
+}
+
+TEST(ErrorsOf, AreTheLargestOfAllLoadCases) {
+  const StageErrors errors = errors_of(stage(1, 900, 0.02, 2));
+  EXPECT_NEAR(errors.energy, 0.02, 1e-12);
+  EXPECT_NEAR(errors.displacement, 0.2, 1e-12);
+  EXPECT_EQ(errors.triangles, 900U);
+}
+
+TEST(ErrorsOf, AreUnknownWhereALoadCaseHasNoBounds) {
+  for (const int load : {0, 1}) {
+    v1::Stage ended = stage(1, 900, 0.02, 2);
+    ended.mutable_answers(load)->clear_energy_lower();
+    ended.mutable_answers(load)->clear_displacement_error();
+    EXPECT_TRUE(std::isnan(errors_of(ended).energy));
+    EXPECT_TRUE(std::isnan(errors_of(ended).displacement));
+  }
+}
+
+TEST(ErrorsOf, OfNoLoadIsZero) {
+  v1::Stage ended = stage(1, 900, 0);
+  ended.mutable_answers(0)->set_energy(0);
+  ended.mutable_answers(0)->set_energy_lower(0);
+  ended.mutable_answers(0)->set_energy_upper(0);
+  EXPECT_EQ(errors_of(ended).energy, 0);
+}
+
+TEST(StageLines, HaveABarOfTheLogarithmOfTheError) {
+  const std::vector<StageErrors> stages{errors_of(stage(1, 900, 0.032)),
+                                        errors_of(stage(2, 12345, 0.0009))};
+  EXPECT_THAT(stage_lines(stages, asked(1e-3), 91, 9),
+              ElementsAre("  stage  1       900 triangles   energy    0.032 of 0.001   A 32 %   "
+                          "[#########-----------]",
+                          "  stage  2     12345 triangles   energy   0.0009 of 0.001   A 0.9 %  "
+                          "[####################]"));
+  EXPECT_THAT(stage_lines(stages, asked(1e-3), 90, 1), ElementsAre(HasSubstr("stage  2")));
+  EXPECT_THAT(stage_lines(stages, asked(1e-3), 90, 0), ElementsAre());
+  EXPECT_THAT(stage_lines({}, asked(1e-3), 90, 9), ElementsAre());
+  EXPECT_THAT(stage_lines(stages, asked(1e-3), 70, 1),
+              ElementsAre("  stage  2     12345 triangles   energy   0.0009 of 0.001   A 0.9 %"));
+  for (const std::string& line : stage_lines(stages, asked(1e-3), 20, 9))
+    EXPECT_EQ(columns_of(line), 20U);
+}
+
+TEST(StageLines, AreFullWhereAllThatIsAskedForIsReached) {
+  v1::Accuracy both = asked(0.01);
+  both.set_displacement(0.05);
+  const auto line = [&both](double error) {
+    return stage_lines({errors_of(stage(1, 900, error))}, both, 120, 1).at(0);
+  };
+  EXPECT_THAT(line(0.01), HasSubstr("energy     0.01 of 0.01   A      0.1 of 0.05"));
+  EXPECT_THAT(line(0.01), HasSubstr("#-")) << "not yet A";
+  EXPECT_THAT(line(0.004), HasSubstr("##]"));
+  StageErrors unknown = errors_of(stage(1, 900, 0.004));
+  unknown.displacement = NAN;
+  EXPECT_THAT(stage_lines({unknown}, both, 120, 1).at(0), HasSubstr("A        - of 0.05  [--"));
+}
+
+TEST(AccuracyText, TellsWhatWasReachedAndWhatNot) {
+  v1::Job job;
+  EXPECT_EQ(accuracy_text(job), "");
+  *job.mutable_accuracy() = asked(1e-3);
+  EXPECT_EQ(accuracy_text(job), "");
+  *job.add_stages() = stage(1, 900, 0.02);
+  *job.add_stages() = stage(2, 12345, 0.0009);
+  job.add_stages()->set_mesh("meshes/3");  // was stopped
+  EXPECT_EQ(accuracy_text(job),
+            "accuracy: energy 0.0009 of 0.001, A 0.9 %; 2 stages, 12345 triangles, 0.5 s\n");
+  job.mutable_stages()->DeleteSubrange(1, 2);
+  job.mutable_stages(0)->mutable_answers(0)->clear_displacement_error();
+  job.set_not_reached("no\x1bmore");
+  EXPECT_EQ(accuracy_text(job),
+            "accuracy: energy 0.02 of 0.001; 1 stage, 900 triangles, 0.25 s\n"
+            "not reached: no?more\n");
+}
+
+}  // namespace
+}  // namespace anticrack::cli
