@@ -251,7 +251,7 @@ TEST(EngineStages, DoNotNeedToBeStored) {
 
 TEST(EngineStages, EndWithWhatTheyHaveWhereTheDiskHasNoRoomForAFinerMesh) {
   anticrack::testing::BackendOptions options;
-  options.disk_budget = 100'000;
+  options.disk_budget = 1'000'000;
   Engine test({}, options);
   const JobRecord job = test.ended(test.submit(accurate_job(test.ready_mesh(0.4), 1e-4)));
   EXPECT_EQ(job.state, JobState::not_converged);
