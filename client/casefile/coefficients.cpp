@@ -25,13 +25,13 @@ std::string_view trimmed(std::string_view text) {
   return in_quotes ? text.substr(1, text.size() - 2) : text;
 }
 
-void split_fields(std::string_view line, std::vector<std::string_view>& fields) {
+void split_fields(std::string_view line, char separator, std::vector<std::string_view>& fields) {
   fields.clear();
   while (true) {
-    const std::size_t comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return;
-    line.remove_prefix(comma + 1);
+    const std::size_t end = line.find(separator);
+    fields.push_back(trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos) return;
+    line.remove_prefix(end + 1);
   }
 }
 
@@ -83,8 +83,10 @@ class Reader {
       text.remove_prefix(byte_order_mark.size());
     const std::size_t begin = text.find_first_not_of(" \t\r");
     if (begin == std::string_view::npos || text[begin] == '#') return;
-    split_fields(text, _fields);
-    if (!std::exchange(_begun, true) && is_header())
+    const bool first = !std::exchange(_begun, true);
+    if (first && text.find(';') != std::string_view::npos) _separator = ';';
+    split_fields(text, _separator, _fields);
+    if (first && is_header())
       take_header();
     else
       take_row();
@@ -114,7 +116,36 @@ class Reader {
       return std::find(_loads.begin(), _loads.end(), field) != _loads.end();
     };
     return std::all_of(_fields.begin(), _fields.end(), is_load) ||
-           std::none_of(_fields.begin(), _fields.end(), number);
+           std::none_of(_fields.begin(), _fields.end(),
+                        [this](std::string_view field) { return value_of(field).has_value(); });
+  }
+
+  /// Of a field. Between semicolons a comma is a decimal point.
+  std::optional<double> value_of(std::string_view field) const {
+    if (_separator == ',') return number(field);
+    const std::size_t comma = field.find(',');
+    if (comma == std::string_view::npos) return number(field);
+    if (field.find('.') != std::string_view::npos) return std::nullopt;
+    std::string text(field);
+    text[comma] = '.';
+    return number(text);
+  }
+
+  /// A number with a decimal comma beside one with a decimal point: one of them is of thousands.
+  void check_decimal_mark(std::size_t column) {
+    if (_separator == ',') return;
+    const std::string_view field = _fields[column];
+    const std::size_t at = field.find_first_of(".,");
+    if (at == std::string_view::npos) return;
+    if (_decimal_mark == 0) {
+      _decimal_mark = field[at];
+      _mark_line = _line;
+    }
+    if (field[at] == _decimal_mark) return;
+    fail(column, shown_field(field) +
+                     (field[at] == ',' ? " has a decimal comma" : " has a decimal point") +
+                     ", line " + std::to_string(_mark_line) + " has decimal " +
+                     (_decimal_mark == ',' ? "commas" : "points") + "; write all numbers one way");
   }
 
   void take_header() {
@@ -140,17 +171,25 @@ class Reader {
     _columns = std::move(columns);
   }
 
+  std::string cure_of(std::string_view field) const {
+    if (_separator == ',' && field.find(';') != std::string_view::npos)
+      return "the first line has no semicolons; write the same separator in every line";
+    return "write one as 1.5 or -2e-3";
+  }
+
   void take_row() {
     if (_fields.size() != _columns.size()) {
       fail(counted(_fields.size(), "value") + " in this line, the case has " +
            counted(_loads.size(), "load") + "; write one coefficient for each of " +
-           listed(_loads) + ", with commas between");
+           listed(_loads) + ", with " + (_separator == ';' ? "semicolons" : "commas") +
+           " between (semicolons where the numbers have decimal commas)");
     }
     const std::size_t row = _values.size();
     _values.resize(row + _loads.size());
     for (std::size_t i = 0; i < _fields.size(); ++i) {
-      const std::optional<double> value = number(_fields[i]);
-      if (!value) fail(i, shown_field(_fields[i]) + " is not a number; write one as 1.5 or -2e-3");
+      const std::optional<double> value = value_of(_fields[i]);
+      if (!value) fail(i, shown_field(_fields[i]) + " is not a number; " + cure_of(_fields[i]));
+      check_decimal_mark(i);
       if (!std::isfinite(*value))
         fail(i, shown_field(_fields[i]) + " is not finite; write a finite number");
       _values[row + _columns[i]] = *value;
@@ -163,6 +202,9 @@ class Reader {
   std::vector<std::string_view> _fields;
   std::vector<double> _values;
   unsigned _line = 0;
+  char _separator = ',';    ///< of all lines: a semicolon where the first has one
+  char _decimal_mark = 0;   ///< of all numbers; 0: none had one yet
+  unsigned _mark_line = 0;  ///< where it was first
   bool _begun = false;
 };
 

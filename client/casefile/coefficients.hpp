@@ -12,7 +12,8 @@
 
 namespace anticrack::casefile {
 
-/// Comma-separated numbers, a line per row. Blank lines and lines that begin with # are skipped.
+/// Comma-separated numbers, a line per row; separated by semicolons where the first line has one,
+/// and then decimal commas are read, too. Blank lines and lines that begin with # are skipped.
 /// The first line may name the loads, in any order; without it the columns follow `loads`. Quotes
 /// around a field are removed. Returns (rows, loads) row-major, in the order of `loads`: at least
 /// one row, all values finite. Throws Error with `source`, line, column, value and cure. O(length).

@@ -16,13 +16,38 @@ Keys all_keys() {
   return keys;
 }
 
-void refuse_other_method(const Section& section, const Keys& keys, const std::string& method) {
+bool is_override(const Spot& spot) { return spot.source.starts_with("--set "); }
+
+// The keys of one method do not go with another. The cure is where the wrong one of the two was
+// written: in the case, or by --set.
+void refuse_other_method(const Section& section, const Keys& keys, const std::string& method,
+                         const std::string& other) {
+  std::string found;
+  const std::string* first = nullptr;
+  bool several = false;
   for (const std::string& key : keys) {
-    if (section.find(key)) {
-      throw Error(section.spot_of(key), "belongs to method \"" + method +
-                                            "\"; remove it, or write method = \"" + method + "\"");
-    }
+    if (!section.find(key)) continue;
+    several = first != nullptr;
+    found += (several ? ", " : "") + key;
+    if (!several) first = &key;
   }
+  if (first == nullptr) return;
+  const Spot spot = section.spot_of(*first);
+  const auto whole_section = [](const std::string& name) {
+    return "--set 'solver={method=\"" + name + "\"}'";
+  };
+  const std::string remove = several ? "remove them" : "remove it";
+  std::string problem = several ? found + " belong" : "belongs";
+  problem += " to method \"" + other + "\"; ";
+  if (is_override(section.spot_of("method"))) {
+    problem += "write " + whole_section(method) + ", which replaces all of [solver]";
+    problem += is_override(spot) ? "" : ", or " + remove + " from the case";
+  } else if (is_override(spot)) {
+    problem += remove + ", or put " + whole_section(other) + " before it";
+  } else {
+    problem += remove + ", or write method = \"" + other + "\"";
+  }
+  throw Error(spot, problem);
 }
 
 void read_step(const Section& section, v1::Uzawa& uzawa) {
@@ -37,7 +62,7 @@ void read_step(const Section& section, v1::Uzawa& uzawa) {
 }
 
 void read_uzawa(const Section& section, v1::Uzawa& uzawa, Spots& spots) {
-  refuse_other_method(section, active_set_keys, "active-set");
+  refuse_other_method(section, active_set_keys, "uzawa", "active-set");
   read_step(section, uzawa);
   if (const auto epsilon = section.number("epsilon")) uzawa.set_epsilon(*epsilon);
   if (const auto p = section.number("p")) uzawa.set_p(*p);
@@ -51,7 +76,7 @@ void read_uzawa(const Section& section, v1::Uzawa& uzawa, Spots& spots) {
 }
 
 void read_active_set(const Section& section, v1::ActiveSet& active_set, Spots& spots) {
-  refuse_other_method(section, uzawa_keys, "uzawa");
+  refuse_other_method(section, uzawa_keys, "active-set", "uzawa");
   if (const auto tolerance = section.number("tolerance")) active_set.set_tolerance(*tolerance);
   if (const auto limit = section.count("max_steps")) active_set.set_max_steps(*limit);
   note(section, "solver.active_set", spots);

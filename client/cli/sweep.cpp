@@ -121,7 +121,8 @@ void add_options(CLI::App& command, SweepOptions& options) {
   input
       .add_option(
           "--coefficients,--combinations", options.files.coefficients,
-          "One row per load case: the coefficients of the case's loads. Comma-separated text, "
+          "One row per load case: the coefficients of the case's loads. Comma-separated text (or "
+          "with semicolons, and then decimal commas, too), "
           "optionally with a first line of their names, or a dataset (rows,loads) of an HDF5 "
           "file (default /coefficients), optionally with their names as attribute loads")
       ->type_name("FILE.csv|FILE.h5:/PATH");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/events.hpp"
 
-#include <fmt/core.h>
-
 #include <exception>
 #include <string>
 
@@ -14,10 +12,6 @@ namespace anticrack::app {
 namespace {
 
 using metrics::Phase;
-
-std::string shown_seconds(std::chrono::duration<double> time) {
-  return fmt::format("{:.3f}", time.count());
-}
 
 std::string reason(const std::optional<errors::Error>& error) {
   return error ? std::string(errors::name(error->reason())) : std::string();
@@ -38,9 +32,7 @@ void quietly(const Action& action) noexcept {
 
 void log_job(const store::JobRecord& job) {
   const metrics::PhaseTimes times = metrics::phase_times(job);
-  const auto in = [&](Phase phase) {
-    return shown_seconds(times[static_cast<std::size_t>(phase)]);
-  };
+  const auto in = [&](Phase phase) { return times[static_cast<std::size_t>(phase)].count(); };
   log::info("job ended", {{"job", "jobs/" + job.id},
                           {"mesh", "meshes/" + job.spec.mesh},
                           {"request_id", job.request_id},
@@ -48,9 +40,9 @@ void log_job(const store::JobRecord& job) {
                           {"state", std::string(metrics::name(job.state))},
                           {"reason", reason(job.error)},
                           {"message", message(job.error)},
-                          {"attempt", std::to_string(job.attempt)},
-                          {"load_cases", std::to_string(job.cases.size())},
-                          {"result_bytes", std::to_string(job.result_bytes)},
+                          {"attempt", job.attempt},
+                          {"load_cases", job.cases.size()},
+                          {"result_bytes", job.result_bytes},
                           {"queued_seconds", in(Phase::queued)},
                           {"waiting_seconds", in(Phase::waiting)},
                           {"meshing_seconds", in(Phase::meshing)},
@@ -66,11 +58,10 @@ void log_mesh(const store::MeshRecord& mesh) {
                               {"reason", reason(mesh.error)},
                               {"message", message(mesh.error)}});
   } else {
-    log::info("mesh made",
-              {{"mesh", "meshes/" + mesh.id},
-               {"owner", mesh.owner},
-               {"triangles", std::to_string(mesh.triangle_count)},
-               {"seconds", shown_seconds(std::chrono::duration<double>(mesh.mesh_seconds))}});
+    log::info("mesh made", {{"mesh", "meshes/" + mesh.id},
+                            {"owner", mesh.owner},
+                            {"triangles", mesh.triangle_count},
+                            {"seconds", mesh.mesh_seconds}});
   }
 }
 
@@ -88,7 +79,7 @@ void meshed(metrics::Metrics& metrics, const store::MeshRecord& mesh) noexcept {
 
 void factorised(metrics::Metrics& metrics, std::chrono::duration<double> time) noexcept {
   metrics.factorised(time);
-  quietly([&] { log::info("factorised", {{"seconds", shown_seconds(time)}}); });
+  quietly([&] { log::info("factorised", {{"seconds", time.count()}}); });
 }
 
 }  // namespace anticrack::app

@@ -52,7 +52,7 @@ int serve(const app::Config& config) {
                         {"data", config.store.folder}});
   app::notify_ready("listening on " + service->address());
   const int number = wait_for_end(signals, *service);
-  log::info("stopping", {{"signal", std::to_string(number)}, {"again", "stops at once"}});
+  log::info("stopping", {{"signal", number}, {"again", "stops at once"}});
   app::notify_stopping("draining; jobs that do not end are queued again at the next start");
   signals.run_unless_interrupted([&] {
     service->drain();

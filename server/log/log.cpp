@@ -6,6 +6,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -28,15 +29,17 @@ Logger& current() {
 std::string text_line(std::string_view event, const Fields& fields) {
   std::string line = escape(event);
   for (const auto& [key, value] : fields)
-    line += fmt::format(" {}={}", escape(key), quote_if_needed(value));
+    line += fmt::format(" {}={}", escape(key), quote_if_needed(value.text()));
   return line;
 }
 
 /// The pattern adds time, level and braces.
 std::string json_members(std::string_view event, const Fields& fields) {
   std::string line = fmt::format(R"("event":"{}")", escape(event));
-  for (const auto& [key, value] : fields)
-    line += fmt::format(R"(,"{}":"{}")", escape(key), escape(value));
+  for (const auto& [key, value] : fields) {
+    line += fmt::format(R"(,"{}":)", escape(key));
+    line += value.is_number() ? value.text() : fmt::format(R"("{}")", escape(value.text()));
+  }
   return line;
 }
 
@@ -73,6 +76,9 @@ void write(spdlog::level::level_enum level, std::string_view event, const Fields
 }
 
 }  // namespace
+
+Value::Value(double number)
+    : _text(std::isfinite(number) ? fmt::format("{:.3f}", number) : "null"), _is_number(true) {}
 
 void start(const std::string& level, Format format) {
   const bool json = format == Format::json;

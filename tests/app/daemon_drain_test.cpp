@@ -61,6 +61,7 @@ TEST_F(DaemonsEnd, IsLoggedAsJson) {
   EXPECT_EQ(daemon->wait(), 0);
   const std::string log = daemon->error();
   EXPECT_THAT(log, HasSubstr(R"("event":"metrics","url":"http://127.0.0.1:)"));
+  EXPECT_THAT(log, HasSubstr(R"("event":"stopping","signal":15,"again":)"));
   EXPECT_THAT(log, HasSubstr(R"("event":"stopped"})"));
   std::istringstream lines(log);
   for (std::string line; std::getline(lines, line);) {

@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
 
+#include <cstdint>
 #include <functional>
+#include <limits>
 
 namespace anticrack::log {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::MatchesRegex;
 
 std::string written(const std::string& level, Format format, const std::function<void()>& action) {
@@ -38,16 +41,32 @@ TEST(Log, WritesJsonForMachines) {
                            "\n"));
 }
 
+TEST(Log, WritesNumbersOfJsonWithoutQuotes) {
+  const auto numbers = [] {
+    info("job ended", {{"attempt", 1},
+                       {"bytes", std::uint64_t{18446744073709551615U}},
+                       {"seconds", 0.25},
+                       {"lost", std::numeric_limits<double>::quiet_NaN()},
+                       {"id", "42"}});
+  };
+  EXPECT_THAT(written("info", Format::json, numbers),
+              EndsWith(R"("attempt":1,"bytes":18446744073709551615,"seconds":0.250,"lost":null,)"
+                       R"("id":"42"})"
+                       "\n"));
+  EXPECT_THAT(written("info", Format::text, numbers),
+              EndsWith("attempt=1 bytes=18446744073709551615 seconds=0.250 lost=null id=42\n"));
+}
+
 TEST(Log, LetsNoValueForgeALineOrAKey) {
   const auto attack = [] {
     info("mesh made", {{"title", "x\" state=\"READY\n2026 error all lost {0} %v"}});
   };
   EXPECT_THAT(written("info", Format::text, attack),
-              ::testing::EndsWith(R"(title="x\" state=\"READY\n2026 error all lost {0} %v")"
-                                  "\n"));
+              EndsWith(R"(title="x\" state=\"READY\n2026 error all lost {0} %v")"
+                       "\n"));
   EXPECT_THAT(written("info", Format::json, attack),
-              ::testing::EndsWith(R"("title":"x\" state=\"READY\n2026 error all lost {0} %v"})"
-                                  "\n"));
+              EndsWith(R"("title":"x\" state=\"READY\n2026 error all lost {0} %v"})"
+                       "\n"));
 }
 
 TEST(Log, TakesWhatLibrariesSayTheSameWay) {
@@ -56,9 +75,8 @@ TEST(Log, TakesWhatLibrariesSayTheSameWay) {
               MatchesRegex(R"(\{"time":"20[0-9T:.+-]+","level":"error",)"
                            R"("event":"broken \\"a\\nb\\""\})"
                            "\n"));
-  EXPECT_THAT(written("info", Format::text, library),
-              ::testing::EndsWith(R"( error broken \"a\nb\")"
-                                  "\n"));
+  EXPECT_THAT(written("info", Format::text, library), EndsWith(R"( error broken \"a\nb\")"
+                                                               "\n"));
   EXPECT_EQ(written("off", Format::text, library), "");
 }
 

@@ -40,6 +40,16 @@ TEST(Coefficients, TakeNumbersAsPeopleAndProgramsWriteThem) {
               ElementsAre(1, -2e-3, 0.5, 1000, 0, 0));
 }
 
+TEST(Coefficients, MayHaveSemicolonsBetween) {
+  EXPECT_THAT(parse_rows("1;2\n3.5;-4e-1\n"), ElementsAre(1, 2, 3.5, -0.4));
+  EXPECT_THAT(parse_rows("opening;skew\r\n1 ; \"2\"\r\n"), ElementsAre(2, 1));
+}
+
+TEST(Coefficients, MayHaveDecimalCommasBetweenSemicolons) {
+  EXPECT_THAT(parse_rows("1,5;2\n-3,25e-1;\"4,5\"\n"), ElementsAre(1.5, 2, -0.325, 4.5));
+  EXPECT_THAT(parse_rows("opening;skew\n1,5;,5\n"), ElementsAre(0.5, 1.5));
+}
+
 TEST(Coefficients, PassOverBlankLinesCommentsAndAByteOrderMark) {
   EXPECT_THAT(parse_rows("\xEF\xBB\xBF# made by a script\n\nskew,opening\n  \n1,2\n# the end\n"),
               ElementsAre(1, 2));
@@ -63,8 +73,18 @@ TEST(Coefficients, RefuseWhatIsNoMatrixWithLineColumnValueAndCure) {
       {"1,2\n1,\n", {"c.csv:2: column 2: ", "\"\" is not a number"}},
       {"1,2\n1,2,3\n", {"c.csv:2: 3 values in this line, the case has 2 loads", "skew, opening"}},
       {"1,2\n1\n", {"c.csv:2: 1 value in this line"}},
-      {"1;2\n", {"\"1;2\" is not a load of the case"}},
-      {"1,5;2,5\n3,5;4,5\n", {"c.csv:1: 3 values in this line", "with commas between"}},
+      {"1,2\n1;2\n", {"c.csv:2: 1 value in this line", "with commas between"}},
+      {"1,2\n1,2;3\n", {"c.csv:2: column 2: \"2;3\" is not a number; the first line has no sem"}},
+      {"1;2\n1,2\n", {"c.csv:2: 1 value in this line", "with semicolons between"}},
+      {"1;2;3\n", {"c.csv:1: 3 values in this line", "with semicolons between"}},
+      {"1;2;\n", {"c.csv:1: 3 values in this line"}},
+      {"1;x\n", {"c.csv:1: column 2: \"x\" is not a number; write one as 1.5"}},
+      {"1,5;2\n3;4.5\n",
+       {"c.csv:2: column 2: \"4.5\" has a decimal point, line 1 has decimal commas; write all"}},
+      {"1.5;2,5\n", {"c.csv:1: column 2: \"2,5\" has a decimal comma, line 1 has decimal points"}},
+      {"1;1.234,5\n", {"c.csv:1: column 2: \"1.234,5\" is not a number"}},
+      {"1;1,234,5\n", {"\"1,234,5\" is not a number"}},
+      {"skew;openig\n1;2\n", {"c.csv:1: column 2: \"openig\" is not a load of the case; did you"}},
       {"1,nan\n", {"c.csv:1: column 2: ", "\"nan\" is not finite; write a finite number"}},
       {"1,inf\n", {"\"inf\" is not finite"}},
       {"1,1e999\n", {"\"1e999\" is not finite"}},

@@ -54,6 +54,24 @@ TEST(Overrides, TheLastOfTwoWins) {
             3);
 }
 
+TEST(Overrides, OfTheMethodSayWhatToDoAboutKeysOfTheOther) {
+  const std::string replace = "write --set 'solver={method=\"active-set\"}', which replaces all";
+  const std::vector<std::string> chosen{"solver.method=active-set"};
+  EXPECT_THAT(complaint(sample_text, chosen),
+              HasSubstr("plate.toml:13: solver.theta: belongs to method \"uzawa\"; " + replace +
+                        " of [solver], or remove it from the case"));
+  EXPECT_THAT(complaint(sample_with("theta = 1.5", "theta = 1.5\np = 10"), chosen),
+              HasSubstr("solver.theta: theta, p belong to method \"uzawa\"; " + replace));
+  EXPECT_THAT(complaint(sample_text, {"solver.max_steps=3"}),
+              HasSubstr("--set solver.max_steps=3: solver.max_steps: belongs to method "
+                        "\"active-set\"; remove it, or put --set 'solver={method=\"active-set\"}' "
+                        "before it"));
+  EXPECT_TRUE(parse(sample_text, {"solver={method=\"active-set\"}", "solver.max_steps=3"})
+                  .job.solver()
+                  .has_active_set())
+      << "the cure";
+}
+
 TEST(Overrides, AreInTheTextThatIsKept) {
   const Case the_case = parse(sample_text, {"solver.theta=1.75"});
   EXPECT_THAT(the_case.text, HasSubstr("1.75"));
