@@ -22,6 +22,7 @@ struct StageErrors {
   double seconds = 0;  ///< since the first stage began
 };
 
+/// Of one that has ended.
 StageErrors errors_of(const v1::Stage& stage);
 
 /// Those that have ended.

@@ -58,7 +58,8 @@ void add_run(CLI::App& app, const Globals& globals, Command& chosen) {
       "Either\n"
       "exits with 130.\n\n"
       "Example:\n  anticrack --local run paper.toml -o paper.h5\n"
-      "  anticrack run plate.toml --set mesh.preset=uniform --set mesh.size=0.02");
+      "  anticrack run plate.toml --set mesh.preset=uniform --set mesh.size=0.02\n"
+      "  anticrack run plate.toml --set accuracy.A=1e-3");
   command->callback(
       [=, &globals, &chosen] { chosen = [options, &globals] { return run(*options, globals); }; });
 }
