@@ -21,6 +21,7 @@ mesh::Mesh shaken(unsigned seed);
 /// What the service makes of the paper's geometry with its default preset, by the helper process
 /// and graded towards the tips: unstructured. `h0` is the edge length away from them.
 mesh::Mesh generated(double h0);
+mesh::Mesh generated(const mesh::MeshOptions& options);
 
 enum class Mirror { x, y };
 
