@@ -61,16 +61,13 @@ Adjoint::Adjoint(const SkeletonProblem& problem, const CaseLoads& loads, const A
   for (const ddm::CondensedLoad& load : loads.subdomains) g.push_back(load.g);
   _lambda = problem.multipliers(problem.gather(g) - problem.apply(w)).cwiseMax(0.0);
   _jumps.resize(contacts);
-  _bound.resize(contacts);
   const std::vector<bool> crossing = cross(decomposition);
   for (Index i = 0; i < contacts; ++i) {
     const ddm::Contact& contact = skeleton.contacts[at(i)];
     _jumps[i] = std::max(0.0, w[contact.plus] - w[contact.minus]);
-    if (answer.closed[at(i)] == 0) {
-      _open.push_back(i);
-      _lambda[i] = 0;
-    }
-    _bound[i] = crossing[at(i)] ? 0 : _lambda[i];
+    const bool open = answer.closed[at(i)] == 0;
+    if (open) _open.push_back(i);
+    if (open || crossing[at(i)]) _lambda[i] = 0;
   }
   const Eigen::MatrixXd& matrix = problem.lcp().scaled_matrix();
   _possible = factorise(matrix, _of_all) && factorise(matrix(_open, _open), _of_open);
@@ -103,9 +100,8 @@ Adjoint::Pair Adjoint::clipped(const Goal& goal, double c) const {
   Pair pair;
   const VectorXd jumps = clip(goal.jumps, c * _jumps);
   pair.z = _problem.unknowns(goal.load, jumps);
-  pair.work = _lambda.dot(jumps);
   const VectorXd scale = _problem.lcp().scale().head(_jumps.size());
-  VectorXd free = scale.cwiseProduct(goal.load.r + clip(goal.reactions, c * _bound));
+  VectorXd free = scale.cwiseProduct(goal.load.r + clip(goal.reactions, c * _lambda));
   if (free.size() > 0) _of_all.solveInPlace(free);
   pair.reacting = _problem.unknowns(goal.load, free.cwiseProduct(scale));
   return pair;

@@ -38,15 +38,13 @@ class Adjoint {
   /// lambda], where cracks cross to 0, and free jumps; w of the skeleton.
   struct Pair {
     Eigen::VectorXd z, reacting;
-    double work = 0;  ///< lambda'[z]
   };
   Pair clipped(const Goal& goal, double c) const;
 
  private:
   const SkeletonProblem& _problem;
   bool _possible = false;
-  Eigen::VectorXd _jumps, _lambda;  // of the answer
-  Eigen::VectorXd _bound;           // of reactions over c
+  Eigen::VectorXd _jumps, _lambda;  // of the answer; lambda 0 where cracks cross
   std::vector<Eigen::Index> _open;
   Eigen::LLT<Eigen::MatrixXd> _of_open, _of_all;  // of S, scaled
 };

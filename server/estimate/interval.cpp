@@ -11,10 +11,13 @@
 namespace anticrack::estimate {
 namespace {
 
-/// Whether what must lie in the cone leaves it by more than rounding.
+/// How far jumps or pressures leave the cone, against the largest value that rounding is of.
 struct Cone {
+  explicit Cone(std::span<const double> values) {
+    for (const double one : values) largest = std::max(largest, std::abs(one));
+  }
   double largest = 0, beyond = 0;
-  bool left() const { return beyond > 1e-10 * largest; }
+  bool left() const { return beyond > 1e-12 * largest; }
 };
 
 /// Integrals of tau - T grad z with itself and with sigma - T grad u_h, over T.
@@ -90,7 +93,7 @@ Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
   for (const double one : sigma.work_of_pressure()) pressure += std::max(0.0, one);
   const Sum sum(primal, dual, tau);
   const Products products = sum.products();
-  double residual = -dual.work, mixed = 0.5 * products.mixed;
+  double residual = 0, mixed = 0.5 * products.mixed;
   for (const Lift& lift : primal.lifts) {
     const auto side = at(cut.faces[at(lift.face)].side);
     residual -= lift.mean * sigma.flux_through(side, dual.z);
@@ -100,11 +103,10 @@ Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
   }
 
   double above = 0, below = 0, work = 0;
-  Cone jumps, pressures;
+  Cone jumps(dual.z), pressures(tau.through_faces());
   const auto limit = [&](Cone& cone, double of_dual, double of_primal) {
     if (of_dual == 0) return;
     const double most = dual.c * std::max(0.0, of_primal), size = std::abs(of_dual);
-    cone.largest = std::max(cone.largest, size);
     cone.beyond = std::max(cone.beyond, size - most);
     double& c = of_dual > 0 ? above : below;
     c = std::max(c, size < most ? size / of_primal : dual.c);

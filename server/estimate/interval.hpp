@@ -34,11 +34,11 @@ struct Primal {
   std::span<const double> u;  ///< (copies)
 };
 
+/// Where u_h is closed, [z] = 0: it takes no part in l(z) - a(u_h, z), which is 0 then.
 struct Dual {
   std::span<const double> z;         ///< (copies)
   std::span<const double> reacting;  ///< (copies) what tau is made for
   double value = 0;                  ///< A(u_h)
-  double work = 0;                   ///< sum of lambda [z] = -(l(z) - a(u_h, z))
   double c = 0;                      ///< bound of c_l and c_u
 };
 

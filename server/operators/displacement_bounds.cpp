@@ -79,7 +79,7 @@ class Intervals {
       const contact::Adjoint::Pair pair = _adjoint.clipped(goal, c);
       const auto [z, reacting] = adjoint_fields(_parts, pair);
       const estimate::Interval one =
-          estimate::interval(_primal, {z, reacting, answer.*aim.value, pair.work, c}, unloaded);
+          estimate::interval(_primal, {z, reacting, answer.*aim.value, c}, unloaded);
       if (!std::isfinite(one.width())) {
         c *= 8;
         continue;

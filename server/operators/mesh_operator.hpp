@@ -63,7 +63,7 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// no_bracket), and returns the indicator of the error of each triangle of the mesh, shape (m):
   /// int |sigma - T grad u_h|^2 / T + 2 int p [u_h] over its minus faces, whose sum is at least
   /// |u - u_h|^2 in the energy norm; empty where there is no bracket. Recovers the fields meanwhile
-  /// where the answer has none. O(N), and two solves for each inclusion's bounds. Throws
+  /// where the answer has none. O(N), and a few solves for each inclusion's bounds. Throws
   /// errors::Error (cancelled).
   std::vector<double> estimate(const PreparedLoad& load, contact::Answer& answer,
                                const std::stop_token& stop = {}) const;

@@ -46,11 +46,15 @@ mesh::Mesh shaken(unsigned seed) {
 }
 
 mesh::Mesh generated(double h0) {
+  mesh::MeshOptions options;
+  options.size = h0;
+  return generated(options);
+}
+
+mesh::Mesh generated(const mesh::MeshOptions& options) {
   mesher::HelperOptions helper;
   helper.executable = ANTICRACK_MESHER;
   constexpr std::size_t limit = 1'000'000;
-  mesh::MeshOptions options;
-  options.size = h0;
   return mesher::run(
       helper, mesh::GenerateRequest{mesh::plan(testing::paper_geometry(), options, limit), limit},
       {});

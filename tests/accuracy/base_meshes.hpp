@@ -22,6 +22,7 @@ mesh::Mesh shaken(unsigned seed);
 /// and graded towards the tips: unstructured. `h0` is the edge length away from them, 0: the
 /// default.
 mesh::Mesh generated(double h0);
+mesh::Mesh generated(const mesh::MeshOptions& options);
 
 enum class Mirror { x, y };
 

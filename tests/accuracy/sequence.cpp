@@ -30,6 +30,15 @@ contact::Answer solve(const operators::MeshOperator& op, const fem::Force& force
   return solve(op, load, fields);
 }
 
+contact::Answer solve_bounded(const operators::MeshOperator& op, const fem::Load& load) {
+  const fem::Load* const one[] = {&load};
+  const auto prepared = std::get<operators::PreparedLoad>(std::move(op.prepare(one).front()));
+  Silent silent;
+  contact::Answer answer = op.solve(prepared, {}, true, silent);
+  op.estimate(prepared, answer);
+  return answer;
+}
+
 std::shared_ptr<const operators::MeshOperator> factorise(mesh::Mesh mesh, std::size_t most_dense) {
   return operators::MeshOperator::factorise(std::make_shared<const mesh::Mesh>(std::move(mesh)), 2,
                                             {}, most_dense);

@@ -20,6 +20,9 @@ contact::Answer solve(const operators::MeshOperator& op, const fem::Load& load, 
 contact::Answer solve(const operators::MeshOperator& op, const fem::Force& force,
                       const std::string& boundary = "", bool fields = false);
 
+/// With fields and bounds.
+contact::Answer solve_bounded(const operators::MeshOperator& op, const fem::Load& load);
+
 /// `most_dense`: 0 for one sparse factor (operators::MeshOperator::factorise).
 std::shared_ptr<const operators::MeshOperator> factorise(
     mesh::Mesh mesh, std::size_t most_dense = operators::max_dense);

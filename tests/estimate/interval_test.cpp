@@ -65,7 +65,7 @@ double displacement_from(const Nested& nested, const EquilibratedFlux& sigma,
   const Solved &coarse = *nested.coarse, &fine = *nested.fine;
   const std::vector<double> z(dual.z.begin(), dual.z.end()),
       reacting(dual.reacting.begin(), dual.reacting.end());
-  double product = 0, pressure = dual.work;  // <p,[z]> = a(u,z) - l(z), l(z) = a(v,z) - work
+  double product = 0, pressure = 0;  // <p,[z]> = a(u,z) - l(z), l(z) = a(v,z)
   integrate(nested, [&](std::size_t t, std::size_t in, const auto& place, double weight) {
     const double tension = fine.tension(t);
     const Vector own = fine.gradient(t, fine.u), before = coarse.gradient(in, coarse.u),
@@ -145,7 +145,7 @@ void check_identities(unsigned seed, bool rich, Figures& tally) {
     for (const double c : {0.5 * unit, 2 * unit, 16 * unit}) {
       const contact::Adjoint::Pair pair = adjoint.clipped(goal, c);
       const auto [z, reacting] = operators::adjoint_fields(coarse.parts, pair);
-      const Dual dual{z, reacting, coarse.answer.inclusions[j].displacement, pair.work, c};
+      const Dual dual{z, reacting, coarse.answer.inclusions[j].displacement, c};
       const Interval found = interval({coarse.cut, sigma, load, none, coarse.u}, dual, 0);
       tally.left += std::isfinite(found.width()) ? 0 : 1;
       if (!std::isfinite(found.width())) continue;

@@ -28,6 +28,19 @@ TEST(MeshOptions, SizeMustBeAnEdgeLength) {
       Reason::invalid_argument, "options.size"));
 }
 
+TEST(MeshOptions, CoarseIsGradedFromASizeFourTimesAsLarge) {
+  const auto plan = [](const mesh::MeshOptions& options) {
+    return mesh::plan(testing::paper_geometry(), options, 100'000);
+  };
+  const mesh::Plan graded = plan({}), coarse = plan({.preset = mesh::Preset::coarse});
+  EXPECT_EQ(coarse.grading.h0, 4 * graded.grading.h0);
+  EXPECT_EQ(coarse.grading.m, graded.grading.m);
+  EXPECT_LT(coarse.triangles, graded.triangles);
+  const mesh::Plan given = plan({.preset = mesh::Preset::coarse, .size = 0.1, .tip_size = 1e-3});
+  EXPECT_EQ(given.grading.h0, 0.1);
+  EXPECT_EQ(given.grading.tip_size, 1e-3);
+}
+
 void expect_refused(const mesh::MeshOptions& options, const std::string& field,
                     Reason reason = Reason::invalid_argument) {
   EXPECT_TRUE(testing::throws([&] { mesh::plan(testing::paper_geometry(), options, 100'000); },
