@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import tempfile
+import unittest
 
 from processes import FolderTest, run
 
@@ -48,12 +49,31 @@ FILES = {
 }
 
 
+BUILD = pathlib.Path(os.environ["BUILD"])
+
+
+class Build(unittest.TestCase):
+    def test_is_completed_by_cpack(self):
+        """A build of the two programs only, as that of quickstart, lacks other files of the packages."""
+        self.assertRegex((BUILD / "CPackConfig.cmake").read_text(encoding="utf-8"),
+                         r'set\(CPACK_INSTALL_COMMANDS ".* --target product"\)')
+
+        def ninja(*words):
+            return run("ninja", "-C", BUILD, "-t", *words).stdout
+        made = {line.split(": ")[0] for line in ninja("targets", "all").splitlines()}
+        script = (BUILD / "deploy/cmake_install.cmake").read_text(encoding="utf-8")
+        packed = set(re.findall(rf'"{re.escape(str(BUILD))}/([^"]+)"', script)) & made
+        self.assertIn("deploy/changelog.gz", packed)
+        commands = ninja("commands", "product")
+        self.assertEqual({path for path in packed if path not in commands}, set())
+
+
 class Packages(FolderTest):
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory(prefix="anticrack-test-")
         cls.addClassCleanup(folder.cleanup)
-        made = run(os.environ["CPACK"], "--config", pathlib.Path(os.environ["BUILD"]) / "CPackConfig.cmake", "-B", folder.name,
+        made = run(os.environ["CPACK"], "--config", BUILD / "CPackConfig.cmake", "-B", folder.name,
                    "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip", umask=0o077)  # half the time of xz
         assert made.returncode == 0, made.stdout + made.stderr
         assert "WARNING" not in made.stdout + made.stderr, made.stderr
