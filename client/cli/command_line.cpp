@@ -45,7 +45,7 @@ int run_command_line(int argc, char** argv) {
   app.add_flag("--json", globals.json,
                "One JSON document on standard output, everything else on standard error");
   app.add_flag("--quiet", globals.quiet,
-               "Plain lines instead of the live view of a job; the same as NO_COLOR=1");
+               "Nothing but errors and what is asked for as output, such as the name of a new job");
   app.footer(footer);
   add_run(app, globals, chosen);
   add_sweep(app, globals, chosen);

@@ -162,8 +162,9 @@ Followed follow(Session& session, const v1::Job& job, std::uint64_t rows) {
   }
   if (!last) {
     const std::string target = job.name() + session.server_option();
-    say(session.globals(), "The job goes on. To attach again: anticrack job watch " + target);
-    say(session.globals(), "To save its results in the end: anticrack job fetch " + target);
+    say_always(session.globals(),
+               "The job goes on. To attach again: anticrack job watch " + target);
+    say_always(session.globals(), "To save its results in the end: anticrack job fetch " + target);
     return {Followed::How::detached, job, {}};
   }
   const bool in_time = cancelling && last->state() == v1::Job::STATE_CANCELLED;

@@ -36,10 +36,11 @@ struct JobOptions {
   std::string full() const { return full_name(Collection::jobs, name); }
 };
 
-int show_job(const Globals& globals, const v1::Job& job, int exit_code = exit_ok) {
+void print_job(const Globals& globals, const v1::Job& job) {
   print_document(globals.json ? to_json(job) : job_text(job));
-  return exit_code;
 }
+
+bool prints_outcome(const Globals& globals) { return globals.json || !globals.quiet; }
 
 int submit_case(const JobOptions& options, const Globals& globals) {
   const casefile::Case the_case = casefile::read_case(options.case_file, options.overrides);
@@ -109,13 +110,16 @@ v1::Job get_job(Session& session, const std::string& name) {
 int show(const JobOptions& options, const Globals& globals) {
   const std::string name = options.full();
   Session session(globals);
-  return show_job(globals, get_job(session, name));
+  print_job(globals, get_job(session, name));
+  return exit_ok;
 }
 
 int cancel(const JobOptions& options, const Globals& globals) {
   const std::string name = options.full();
   Session session(globals);
-  return show_job(globals, call_about(session, Collection::jobs, name, client::cancel_job));
+  const v1::Job job = call_about(session, Collection::jobs, name, client::cancel_job);
+  if (prints_outcome(globals)) print_job(globals, job);
+  return exit_ok;
 }
 
 int remove(const JobOptions& options, const Globals& globals) {
@@ -135,9 +139,11 @@ int watch_job(const JobOptions& options, const Globals& globals) {
     if (globals.json) print_document(to_json(followed.job));
     return exit_interrupted;
   }
-  return show_job(
-      globals, followed.job,
-      followed.how == Followed::How::cancelled ? exit_interrupted : exit_code_of(followed.job));
+  if (prints_outcome(globals))
+    print_job(globals, followed.job);
+  else
+    complain_of(followed.job);
+  return followed.how == Followed::How::cancelled ? exit_interrupted : exit_code_of(followed.job);
 }
 
 int fetch_result(const JobOptions& options, const Globals& globals) {
@@ -151,9 +157,12 @@ int fetch_result(const JobOptions& options, const Globals& globals) {
     throw client::Error(client::Code::failed_precondition, expired_text(job));
   const results::Result result = fetch(session, job, session.stop());
   results::write(output, result);
-  print_document(globals.json ? answers_json(result, output)
-                              : answers_table(result) + accuracy_text(job) +
-                                    "\nResults: " + sanitise(output));
+  if (globals.json)
+    print_document(answers_json(result, output));
+  else if (globals.quiet)
+    complain_of(job);
+  else
+    print_document(answers_table(result) + accuracy_text(job) + "\nResults: " + sanitise(output));
   return exit_code_of(job);
 }
 

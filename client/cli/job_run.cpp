@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/job_run.hpp"
 
-#include <cstdio>
 #include <vector>
 
 #include "cli/accuracy_text.hpp"
@@ -67,8 +66,9 @@ void tell_warnings(Session& session, const v1::Job& job, const std::stop_token& 
 // For who has no results yet though the server has them.
 void tell_fetch(const Session& session, const std::string& job) {
   if (!session.globals().local) {
-    say(session.globals(), "The server still has the results. To fetch them: anticrack job fetch " +
-                               job + session.server_option());
+    say_always(session.globals(),
+               "The server still has the results. To fetch them: anticrack job fetch " + job +
+                   session.server_option());
   }
 }
 
@@ -134,8 +134,7 @@ std::optional<results::Result> results_of(Session& session, const casefile::Case
   Ahead* const ahead = followed.ahead.get().get();
   or_later(session, job, [&] { tell_warnings(session, job, stop, ahead); });
   if (job.result_bytes() == 0) {
-    for (const std::string& line : causes(the_case, job))
-      std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
+    for (const std::string& line : causes(the_case, job)) complain(line);
     if (session.globals().json) print_document(to_json(job));
     return std::nullopt;
   }
@@ -161,6 +160,8 @@ void print_answers(const Globals& globals, const v1::Job& job, const results::Re
                    const fs::path& file) {
   if (globals.json)
     print_document(answers_json(result, file));
+  else if (globals.quiet)
+    complain_of(job);
   else
     print_document("\n" + answers_table(result) + accuracy_text(job) + "\n" +
                    sanitise(summary(result, file)));

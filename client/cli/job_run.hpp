@@ -40,7 +40,7 @@ std::optional<results::Result> results_of(Session& session, const casefile::Case
 void save(const std::filesystem::path& file, const results::Result& result, const Session& session,
           const Followed& followed);
 
-/// The answers, and where they were saved.
+/// The answers, and where they were saved; with --quiet only what is wrong with them.
 void print_answers(const Globals& globals, const v1::Job& job, const results::Result& result,
                    const std::filesystem::path& file);
 

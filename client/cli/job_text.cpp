@@ -84,4 +84,23 @@ std::string job_text(const v1::Job& job) {
          timeline(job);
 }
 
+std::vector<std::string> shortfalls(const v1::Job& job) {
+  if (job.state() == v1::Job::STATE_CANCELLED) return {job.name() + " was cancelled"};
+  std::vector<std::string> lines;
+  if (job.has_error()) lines.push_back(job.name() + " failed: " + job.error().message());
+  for (const v1::LoadCaseAnswer& answer : job.answers()) {
+    if (answer.status() == v1::LoadCaseAnswer::STATUS_NOT_CONVERGED)
+      lines.push_back(answer.name() + " did not converge: " + answer.reason());
+    if (answer.has_error()) lines.push_back(answer.name() + " failed: " + answer.error().message());
+  }
+  if (!job.not_reached().empty()) lines.push_back("not reached: " + job.not_reached());
+  const v1::SweepAnswer& sweep = job.sweep_answer();
+  if (sweep.not_converged() + sweep.failed() > 0) {
+    lines.push_back("of " + std::to_string(sweep.rows()) + " rows " +
+                    std::to_string(sweep.not_converged()) + " did not converge, " +
+                    std::to_string(sweep.failed()) + " failed");
+  }
+  return lines;
+}
+
 }  // namespace anticrack::cli

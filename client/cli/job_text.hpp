@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "anticrack/v1/solve.pb.h"
 
@@ -14,5 +15,8 @@ std::string job_text(const v1::Job& job);
 
 /// That the results of a job were removed, and what to do.
 std::string expired_text(const v1::Job& job);
+
+/// What did not go as it was asked for in a job that has ended, line by line; none: nothing.
+std::vector<std::string> shortfalls(const v1::Job& job);
 
 }  // namespace anticrack::cli

@@ -41,6 +41,13 @@ int show_mesh(const Globals& globals, const v1::Mesh& mesh) {
   return exit_ok;
 }
 
+// Of a command that is not asked to show the mesh: with --quiet only how to find one it has made.
+int tell_mesh(const Globals& globals, const v1::Mesh& mesh, bool made) {
+  if (!globals.quiet || globals.json) return show_mesh(globals, mesh);
+  if (made) print_document(mesh.name());
+  return exit_ok;
+}
+
 v1::Mesh get_mesh(Session& session, const std::string& name) {
   return call_about(session, Collection::meshes, name, client::get_mesh);
 }
@@ -60,7 +67,7 @@ int create(const casefile::Case& the_case, const MeshOptions& options, const Glo
   const v1::Mesh mesh = create_mesh(session, the_case);
   return translated(the_case, [&] {
     checked(mesh);
-    return show_mesh(globals, options.no_wait ? mesh : wait_for(session, mesh.name()));
+    return tell_mesh(globals, options.no_wait ? mesh : wait_for(session, mesh.name()), true);
   });
 }
 
@@ -131,13 +138,14 @@ int warm(const MeshOptions& options, const Globals& globals) {
   Session session(globals);
   const v1::Mesh mesh =
       call_about(session, Collection::meshes, name, client::warm_mesh, options.pin);
-  return show_mesh(globals, options.no_wait ? mesh : wait_for(session, mesh.name()));
+  return tell_mesh(globals, options.no_wait ? mesh : wait_for(session, mesh.name()), false);
 }
 
 int evict(const MeshOptions& options, const Globals& globals) {
   const std::string name = full_name(Collection::meshes, options.name);
   Session session(globals);
-  return show_mesh(globals, call_about(session, Collection::meshes, name, client::evict_mesh));
+  return tell_mesh(globals, call_about(session, Collection::meshes, name, client::evict_mesh),
+                   false);
 }
 
 int delete_mesh(const MeshOptions& options, const Globals& globals) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/report.hpp"
 
-#include <cstdio>
 #include <exception>
 #include <sstream>
 #include <string>
@@ -9,7 +8,6 @@
 #include "casefile/error.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/json.hpp"
-#include "cli/text.hpp"
 #include "figures/figures.hpp"
 #include "results/error.hpp"
 
@@ -85,8 +83,7 @@ int guarded(const Globals& globals, const std::function<int()>& command) {
   } catch (...) {
     const Complaint complaint = current_complaint();
     std::istringstream lines(complaint.message);
-    for (std::string line; std::getline(lines, line);)
-      std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
+    for (std::string line; std::getline(lines, line);) complain(line);
     if (globals.json) print_document(document_of(complaint));
     return complaint.exit_code;
   }

@@ -17,9 +17,21 @@ bool shows_frames(const Globals& globals) {
 }
 
 void say(const Globals& globals, std::string_view line) {
+  if (globals.quiet) return;
   const std::string text = sanitise(line) + "\n";
   std::fwrite(text.data(), 1, text.size(), people(globals));
   std::fflush(people(globals));
+}
+
+void say_always(const Globals& globals, std::string_view line) {
+  if (globals.quiet)
+    complain(line);
+  else
+    say(globals, line);
+}
+
+void complain(std::string_view line) {
+  std::fprintf(stderr, "anticrack: %s\n", sanitise(line).c_str());
 }
 
 void print_document(std::string_view text) {
@@ -56,10 +68,8 @@ void Session::notice(const std::string& message) {
     _listener(message);
     return;
   }
-  if (message != _last_notice) {
-    std::fprintf(stderr, "anticrack: %s\n", sanitise(message).c_str());
-    _last_notice = message;
-  }
+  if (message != _last_notice && !_globals.quiet) complain(message);
+  _last_notice = message;
 }
 
 }  // namespace anticrack::cli

@@ -22,15 +22,19 @@ struct Globals {
   ConnectionFlags connection;
   bool local = false;
   bool json = false;
-  bool quiet = false;  ///< plain lines also on a terminal
+  bool quiet = false;  ///< errors, and what was asked for as output
 };
 
 /// Stream for messages: standard output, with --json standard error.
 std::FILE* people(const Globals& globals);
 /// Whether messages are frames drawn over each other and not lines.
 bool shows_frames(const Globals& globals);
-/// Prints a message.
+/// Prints a message; nothing with --quiet.
 void say(const Globals& globals, std::string_view line);
+/// The same of one that --quiet does not silence; then it goes to standard error.
+void say_always(const Globals& globals, std::string_view line);
+/// An error, on standard error.
+void complain(std::string_view line);
 /// Prints the document of --json, or the answer of a command.
 void print_document(std::string_view text);
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "cli/exit_codes.hpp"
+#include "cli/job_text.hpp"
 #include "cli/json.hpp"
 #include "cli/to_result.hpp"
 #include "client/jobs.hpp"
@@ -144,7 +145,7 @@ void tell_submitted(const Session& session, const v1::Job& job) {
     print_document(to_json(job));
     return;
   }
-  say(session.globals(), job.name());
+  print_document(job.name());
   if (isatty(STDOUT_FILENO) == 1) {  // a script wants the name alone
     say(session.globals(),
         "To watch it: anticrack job watch " + job.name() + session.server_option());
@@ -174,6 +175,10 @@ int exit_code_of(const v1::Job& job) {
   if (job.state() == v1::Job::STATE_SUCCEEDED) return exit_ok;
   const bool none_failed = job.state() == v1::Job::STATE_NOT_CONVERGED && !job.has_error();
   return none_failed ? exit_not_converged : exit_job_failed;
+}
+
+void complain_of(const v1::Job& job) {
+  for (const std::string& line : shortfalls(job)) complain(line);
 }
 
 AheadFuture fetch_ahead(Session& session, const v1::Job& job) {

@@ -82,4 +82,7 @@ results::Result fetch(Session& session, const v1::Job& job, const std::stop_toke
 /// load cases failed or was cancelled.
 int exit_code_of(const v1::Job& job);
 
+/// Prints as errors what did not go as it was asked for: with --quiet this is all that is told.
+void complain_of(const v1::Job& job);
+
 }  // namespace anticrack::cli

@@ -110,7 +110,7 @@ TEST(Sweep, IsShownAndDrawnFromItsFile) {
   const Server server;
   const TemporaryFolder folder;
   const Ended sweep =
-      server.client(with(ratio_sweep(), {"-o", folder / "r.h5", "--traces", "0,40", "--quiet"}));
+      server.client(with(ratio_sweep(), {"-o", folder / "r.h5", "--traces", "0,40"}));
   ASSERT_EQ(sweep.code, 0) << sweep.output << sweep.error;
   EXPECT_THAT(sweep.output, HasSubstr("81 rows of "));
   EXPECT_THAT(sweep.output, HasSubstr("81 converged"));

@@ -11,6 +11,7 @@
 namespace anticrack::cli {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -39,6 +40,34 @@ TEST(JobText, TellsWhoseJobItIsAndHowUrgent) {
   job.set_priority(v1::Job::PRIORITY_BULK);
   job.mutable_run_timeout()->set_seconds(90);
   EXPECT_THAT(job_text(job), HasSubstr("priority bulk, of ada?[2J, runs at most 90 s"));
+}
+
+TEST(Shortfalls, AreNoneOfAJobThatSucceeded) { EXPECT_TRUE(shortfalls(sample_job()).empty()); }
+
+TEST(Shortfalls, NameWhatFailedOrDidNotConverge) {
+  v1::Job job = sample_job();
+  job.set_state(v1::Job::STATE_NOT_CONVERGED);
+  job.set_not_reached("energy");
+  v1::LoadCaseAnswer& slow = *job.add_answers();
+  slow.set_name("slow");
+  slow.set_status(v1::LoadCaseAnswer::STATUS_NOT_CONVERGED);
+  slow.set_reason("3 iterations");
+  v1::LoadCaseAnswer& bad = *job.add_answers();
+  bad.set_name("bad");
+  bad.set_status(v1::LoadCaseAnswer::STATUS_FAILED);
+  bad.mutable_error()->set_message("f is infinite");
+  EXPECT_THAT(shortfalls(job), ElementsAre("slow did not converge: 3 iterations",
+                                           "bad failed: f is infinite", "not reached: energy"));
+  job.set_state(v1::Job::STATE_CANCELLED);
+  EXPECT_THAT(shortfalls(job), ElementsAre("jobs/1 was cancelled"));
+}
+
+TEST(Shortfalls, CountTheRowsOfASweep) {
+  v1::Job job = sample_job();
+  job.mutable_sweep_answer()->set_rows(9);
+  EXPECT_TRUE(shortfalls(job).empty());
+  job.mutable_sweep_answer()->set_not_converged(2);
+  EXPECT_THAT(shortfalls(job), ElementsAre("of 9 rows 2 did not converge, 0 failed"));
 }
 
 TEST(JobText, GivesAOfEveryInclusion) {

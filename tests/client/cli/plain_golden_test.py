@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What people read -- tables and the lines around them -- is what golden/*.txt says, letter by letter
 but for what differs from run to run. How to renew the files: see golden.py."""
+import json
 import re
 
 from golden import GoldenTest
@@ -41,6 +42,41 @@ class PlainGolden(GoldenTest):
 
     def test_a_fresh_server(self):  # comes first
         self.said("server", "server")
+
+    def test_quiet(self):
+        def quiet(*words, code=0, error=""):
+            ended = self.anticrack(*words, "--quiet")
+            self.assertEqual(ended.returncode, code, ended.stderr)
+            self.assertRegex(ended.stderr, rf"\A{error}\Z")
+            return ended.stdout
+
+        uzawa = ("--set", 'solver={method="uzawa", max_iterations=2}')
+        stopped = r"(anticrack: \w+ did not converge: .+\n){2}"
+        self.assertEqual(quiet("run", "plate.toml", "-o", "quiet.h5"), "")
+        self.assertEqual(quiet("run", "plate.toml", "-o", "stopped.h5", *uzawa, code=3, error=stopped), "")
+        self.assertEqual(quiet("run", "failing.toml", "-o", "failed.h5", code=1,
+                               error=r"anticrack: jobs/\w+ failed: .+\n(anticrack: opening failed: .+\n)?"), "")
+        self.assertEqual(quiet("run", "no.toml", code=2, error="anticrack: no.toml.+\n"), "")
+        self.assertEqual(quiet("sweep", "plate.toml", "--coefficients", "rows.csv", "-o", "quiet-rows.h5", "--csv",
+                               "quiet.csv"), "")
+        job = quiet("job", "submit", "plate.toml")
+        self.assertRegex(job, r"\Ajobs/\w+\n\Z")
+        job = job.strip()
+        self.assertEqual(quiet("job", "watch", job), "")
+        self.assertIn(job, quiet("job", "show", job))
+        self.assertIn(job, quiet("job", "list"))
+        self.assertEqual(quiet("job", "fetch", job, "-o", "quiet-fetched.h5"), "")
+        self.assertEqual(quiet("job", "cancel", job), "")
+        self.assertEqual(quiet("job", "delete", job), "")
+        mesh = quiet("mesh", "create", "plate.toml")
+        self.assertRegex(mesh, r"\Ameshes/\w+\n\Z")
+        for verb in ("warm", "evict"):
+            self.assertEqual(quiet("mesh", verb, mesh.strip()), "")
+        self.assertIn("44 triangles", quiet("mesh", "show", mesh.strip()))
+        self.assertIn("opening", quiet("show", "quiet.h5"))
+        self.assertIn("answers", json.loads(quiet("run", "plate.toml", "-o", "quiet.h5", "--json")))
+        self.assertEqual(quiet("export", "quiet.h5", "-o", "quiet"), "")
+        self.assertEqual(quiet("plot", "quiet.h5", "--load", "skew", "-o", "quiet"), "")
 
     def test_version(self):
         self.said("version", "--version")

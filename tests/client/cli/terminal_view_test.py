@@ -199,12 +199,14 @@ class TerminalView(FolderTest):
 
     def test_plain_lines_where_no_frames_are_wanted(self):
         case = (EXAMPLES / "paper-1.toml",)
-        for name, flags, environment in (("quiet", ["--quiet"], {}), ("NO_COLOR", [], {"NO_COLOR": "1"}),
-                                         ("dumb", [], {"TERM": "dumb"})):
-            with self.subTest(name), self.run_case(case, *flags, environment=environment) as terminal:
+        for name, environment in (("NO_COLOR", {"NO_COLOR": "1"}), ("dumb", {"TERM": "dumb"})):
+            with self.subTest(name), self.run_case(case, environment=environment) as terminal:
                 self.assertEqual(terminal.end(), 0)
                 self.assertIn(b"example-1: converged after ", terminal.output)
                 self.assertNotIn(b"\x1b", terminal.output)
+        with self.subTest("quiet"), self.run_case(case, "--quiet") as terminal:
+            self.assertEqual(terminal.end(), 0)
+            self.assertEqual(terminal.output, b"")
         with self.subTest("an empty NO_COLOR says nothing"), \
                 self.run_case(case, environment={"NO_COLOR": ""}) as terminal:
             self.assertEqual(terminal.end(), 0)
