@@ -208,6 +208,16 @@ Json stages_json(const results::Stages& stages) {
   return json;
 }
 
+Json contact_json(const results::Load& load, const std::vector<results::Interface>& interfaces) {
+  Json json = Json::array();
+  for (const results::ContactInterval& interval : load.contact_intervals) {
+    json.push_back({{"interface", interfaces.at(interval.interface).name},
+                    {"begin", interval.begin},
+                    {"end", interval.end}});
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string answers_table(const std::vector<results::Load>& loads) {
@@ -296,6 +306,8 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
             {"file", file.string()},
             {"job", result.job_name},
             {"mesh", result.mesh_name},
+            {"triangle_count", result.mesh.triangle_count()},
+            {"node_count", result.mesh.node_count()},
             {"mesh_seconds", result.timings.mesh_seconds},
             {"factorize_seconds", result.timings.factorize_seconds},
             {"solve_seconds", result.timings.solve_seconds},
@@ -336,6 +348,7 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
          {"error_bound_relative", load.error_bound_relative},
          {"no_bracket", load.no_bracket},
          {"contact_length", load.contact_length},
+         {"contact_intervals", contact_json(load, result.interfaces)},
          {"weakly_active", load.weakly_active},
          {"solve_seconds", load.solve_seconds},
          {"inclusions", std::move(inclusions)},

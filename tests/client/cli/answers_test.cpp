@@ -148,15 +148,28 @@ TEST(AnswersJson, IsOneDocumentWithEveryLoad) {
   results::Result result = two_loads();
   result.loads[0].inclusions[0].slope_y = -0.25;
   result.loads[0].inclusions[0].moment_y = 4;
+  result.mesh.xy = {0, 0, 1, 0, 0, 1};
+  result.mesh.triangles = {0, 1, 2};
+  result.interfaces.resize(2);
+  result.interfaces[1].name = "seam";
+  result.loads[0].contact_intervals = {{1, 0.25, 0.5}};
   ASSERT_TRUE(
       google::protobuf::util::JsonStringToMessage(answers_json(result, "out.h5"), &parsed).ok());
   EXPECT_EQ(parsed.fields().at("title").string_value(), "A plate");
   EXPECT_EQ(parsed.fields().at("file").string_value(), "out.h5");
+  EXPECT_EQ(parsed.fields().at("triangle_count").number_value(), 1);
+  EXPECT_EQ(parsed.fields().at("node_count").number_value(), 3);
   const auto& answers = parsed.fields().at("answers").list_value();
   ASSERT_EQ(answers.values_size(), 2);
   const auto& opening = answers.values(0).struct_value().fields();
   EXPECT_EQ(opening.at("status").string_value(), "converged");
   EXPECT_EQ(opening.at("iterations").number_value(), 346);
+  const auto& contact = opening.at("contact_intervals").list_value();
+  ASSERT_EQ(contact.values_size(), 1);
+  const auto& closed = contact.values(0).struct_value().fields();
+  EXPECT_EQ(closed.at("interface").string_value(), "seam");
+  EXPECT_EQ(closed.at("begin").number_value(), 0.25);
+  EXPECT_EQ(closed.at("end").number_value(), 0.5);
   const auto& inclusion = opening.at("inclusions").list_value().values(0).struct_value().fields();
   EXPECT_EQ(inclusion.at("A").number_value(), 0.086569);
   EXPECT_EQ(inclusion.at("By").number_value(), -0.25);
