@@ -157,10 +157,10 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
       ->required()
       ->type_name("DIR");
   export_command->footer(
-      "The membrane needs u on every node: run the case with [output] fields = true. To see it\n"
-      "deformed, apply the filter Warp By Scalar to u. Where the result has them, each triangle "
-      "has\n"
-      "its error_indicator.\n\n"
+      "The membrane needs u on every node: run the case with [output] fields = true, or fetch its\n"
+      "job with --fields (anticrack job fetch). To see it deformed, apply the filter Warp By "
+      "Scalar\n"
+      "to u. Where the result has them, each triangle has its error_indicator.\n\n"
       "Example:\n  anticrack export paper.h5 -o paraview");
   export_command->callback([options, &globals, &chosen] {
     chosen = [options, &globals] { return export_file(*options, globals); };

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 //   anticrack job submit | list | show | watch | cancel | fetch | delete
+#include <algorithm>
 #include <map>
 #include <memory>
-
 #include <string>
 #include <utility>
+
 #include "cli/accuracy_text.hpp"
 #include "cli/answers.hpp"
 #include "cli/exit_codes.hpp"
@@ -14,14 +15,15 @@
 #include "cli/json.hpp"
 #include "cli/options.hpp"
 #include "cli/progress.hpp"
+#include "cli/report.hpp"
 #include "cli/resource_names.hpp"
 #include "cli/submit.hpp"
 #include "cli/text.hpp"
-#include "client/jobs.hpp"
-#include "client/uuid.hpp"
 #include "cli/to_result.hpp"
-#include "results/file.hpp"
+#include "client/jobs.hpp"
 #include "client/meshes.hpp"
+#include "client/uuid.hpp"
+#include "results/file.hpp"
 
 namespace anticrack::cli {
 namespace {
@@ -36,6 +38,7 @@ struct JobOptions {
   std::vector<std::string> states;
   std::string mesh;
   bool oldest_first = false;
+  bool fields = false;
 
   std::string full() const { return full_name(Collection::jobs, name); }
 };
@@ -164,13 +167,48 @@ int watch_job(const JobOptions& options, const Globals& globals) {
   return followed.how == Followed::How::cancelled ? exit_interrupted : exit_code_of(followed.job);
 }
 
+// The load cases of a job, to be solved again on its mesh, which is factorised, with fields.
+v1::Job with_fields(const v1::Job& job) {
+  v1::Job again;
+  again.set_title(job.title());
+  again.set_mesh(mesh_of(job));
+  *again.mutable_load_cases() = job.load_cases();
+  *again.mutable_solver() = job.solver();
+  *again.mutable_outputs() = job.outputs();
+  again.add_outputs(v1::OUTPUT_FIELDS);
+  again.set_without_bounds(job.without_bounds());
+  again.set_priority(v1::Job::PRIORITY_INTERACTIVE);
+  return again;
+}
+
+bool has_fields(const v1::Job& job) {
+  return std::ranges::find(job.outputs(), v1::OUTPUT_FIELDS) != job.outputs().end();
+}
+
+// Of a job that has ended without fields: one that is solved anew and has them.
+Followed solve_with_fields(Session& session, const v1::Job& job) {
+  if (job.has_sweep()) {
+    throw UsageError(job.name() +
+                     " is a sweep, which has no fields; run a case of the load you want to see");
+  }
+  const v1::Job again = client::create_job(session.connection(), with_fields(job),
+                                           client::make_uuid(), session.stop());
+  say(session.globals(), job.name() + " has no fields; " + again.name() + " solves it again");
+  return follow(session, again);
+}
+
 int fetch_result(const JobOptions& options, const Globals& globals) {
   const std::string name = options.full();
   const std::string output =
       options.output.empty() ? name.substr(std::string("jobs/").size()) + ".h5" : options.output;
   results::check_writable(output);
   Session session(globals);
-  const v1::Job job = get_job(session, name);
+  v1::Job job = get_job(session, name);
+  if (options.fields && client::ended(job.state()) && !has_fields(job)) {
+    Followed followed = solve_with_fields(session, job);
+    if (followed.how == Followed::How::detached) return exit_interrupted;
+    job = std::move(followed.job);
+  }
   if (job.result_state() == v1::Job::RESULT_STATE_EXPIRED)
     throw client::Error(client::Code::failed_precondition, expired_text(job));
   const results::Result result = fetch(session, job, session.stop());
@@ -222,10 +260,14 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
           "seconds cancels the job. The exit code is then 130.\n\n"
           "Example:\n  anticrack job watch jobs/0123456789abcdef");
   add_named("cancel", "Cancel a job", "", cancel);
-  add_named("fetch", "Save the results of a job that has ended", " -o plate.h5", fetch_result)
+  CLI::App* fetch =
+      add_named("fetch", "Save the results of a job that has ended", " -o plate.h5", fetch_result);
+  fetch
       ->add_option("-o,--output", options->output,
                    "Result file, HDF5 (default: ID.h5 in this folder)")
       ->type_name("FILE");
+  fetch->add_flag("--fields", options->fields,
+                  "With u on every node; where the job has it not, it is solved again");
   add_named("delete", "Delete a job that has ended, and its results", "", remove);
 }
 

@@ -52,8 +52,9 @@ void draw_load(const Result& result, const Load& load, const std::string& stem, 
   const Surface membrane =
       load.fields.empty() ? Surface{} : surface(result, load, surface_triangles);
   if (membrane.triangles.empty()) {
-    drawing.drawn.notes.push_back(
-        "load \"" + load.name + "\": no membrane drawn, the result has no fields; run with fields");
+    drawing.drawn.notes.push_back("load \"" + load.name +
+                                  "\": no membrane drawn, it has no fields; " +
+                                  results::fields_cure(result));
   } else {
     drawing.draw(stem, combined_picture(result, load, membrane));
     drawing.draw(stem + "-membrane", membrane_picture(result, load, membrane));

@@ -197,6 +197,13 @@ double Kkt::largest() const noexcept {
   return result;
 }
 
+std::string fields_cure(const Result& result) {
+  const std::string anew = "run the case again with --set output.fields=true";
+  if (result.job_name.empty()) return anew;
+  return "to have them: anticrack job fetch " + result.job_name +
+         " --fields -o fields.h5, while the server keeps the job; else " + anew;
+}
+
 bool is_load_name(std::string_view name) noexcept {
   // Not std::isalnum: that depends on the locale.
   const auto alphanumeric = [](char c) {

@@ -223,6 +223,9 @@ std::string first_mesh_fault(const Mesh& mesh);
 std::string first_edge_fault(const std::string& at, const Edges& edges, std::size_t nodes,
                              const Mesh& mesh);
 
+/// How to get the fields of a result without any: by the job, while the server keeps it, or anew.
+std::string fields_cure(const Result& result);
+
 /// Whether a load may have this name (it becomes the name of a group).
 bool is_load_name(std::string_view name) noexcept;
 

@@ -36,8 +36,7 @@ bool exportable(const Result& result, const std::string& source, const Load& loa
   if (load.fields.empty() && !result.sweep) {
     throw results::Error(source + ": load \"" + load.name + "\"",
                          "the result has no fields: u is known only along the interfaces",
-                         "run the case again with [output] fields = true, or with --set "
-                         "output.fields=true");
+                         results::fields_cure(result));
   }
   return true;
 }

@@ -145,7 +145,11 @@ Verdict judge(const std::vector<store::StageRecord>& stages,
   };
   for (const store::CaseRecord* one : cases) {
     if (one->status != contact::Status::converged) return {true, ""};  // the job says so
-    if (!one->answer.no_bracket.empty()) return stop(one->answer.no_bracket);
+    if (one->answer.no_bracket.empty()) continue;
+    if (stages.size() == 1) return stop(one->answer.no_bracket);
+    const std::string why =
+        fmt::format("on {} there are no bounds: {}", last.triangles, one->answer.no_bracket);
+    return {true, not_reached(stages[stages.size() - 2], spec, why), true};
   }
   const Worst worst = worst_of(last, wanted);
   if (worst.excess <= 1) return {true, ""};

@@ -27,6 +27,7 @@ double excess(const store::StageAnswer& answer, const store::AccuracySpec& wante
 struct Verdict {
   bool over = false;
   std::string not_reached;
+  bool fall_back = false;  ///< the answers of the stage before are better: they have bounds
 };
 /// `stages`: all have ended; `cases`: of the last; `seconds`: since the first began.
 Verdict judge(const std::vector<store::StageRecord>& stages,

@@ -121,11 +121,14 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
   --job->active;
   if (!verdict.over) stages.made.push_back(records.back().mesh);
   if (verdict.over || job->why != Stop::none) {
-    if (!verdict.over) records.pop_back();
+    if (!verdict.over || verdict.fall_back) records.pop_back();
+    if (verdict.fall_back)
+      job->cases = std::exchange(stages.last.cases, {});
+    else
+      stages.last = {};
     stages.records = std::move(records);
     stages.over = verdict.over;
     stages.not_reached = std::move(verdict.not_reached);
-    stages.last = {};
     core.settle(job);
     return;
   }

@@ -29,6 +29,7 @@ constexpr std::array features{
     "mass.consistent",
     "mass.lumped",
     "mesh.align",
+    "mesh.coarse",
     "mesh.delete",
     "mesh.evict",
     "mesh.fixed",

@@ -98,6 +98,10 @@ TEST(Accuracy, SaysWhatWasReachedAndWhatStoppedIt) {
   CaseRecord unbounded = far;
   unbounded.answer.no_bracket = "a point force";
   EXPECT_THAT(judge_one(unbounded, spec).not_reached, HasSubstr("a point force"));
+  EXPECT_FALSE(judge_one(unbounded, spec).fall_back) << "to nothing";
+  const Verdict lost = judge_one(unbounded, spec, {same});
+  EXPECT_TRUE(lost.fall_back) << "to the stage that has bounds";
+  EXPECT_THAT(lost.not_reached, HasSubstr("on 50 triangles: on 100 there are no bounds: a point"));
 }
 
 TEST(Accuracy, AFailedLoadCaseEndsIt) {

@@ -30,6 +30,7 @@ def make_files(folder):
     texts = {"case.toml": wrong_cases.GOOD, "two.toml": TWO_LOADS, "empty.toml": "", "plate.msh": MSH,
              "token": "secret\n", "empty.csv": "", "good.csv": "opening,skew\n1,2\n3,4\n",
              "short.csv": "opening,skew\n1,2\n3\n", "letters.csv": "1,2\n3,four\n", "nan.csv": "1,nan\n",
+             "mixed.csv": "opening;skew\n1,5;2\n3;2.5\n",
              "unknown.csv": "opening,skwe\n1,2\n", "twice.csv": "skew,skew\n1,2\n", "partial.csv": "skew\n1\n"}
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")

@@ -43,6 +43,31 @@ class PlainGolden(GoldenTest):
     def test_a_fresh_server(self):  # comes first
         self.said("server", "server")
 
+    def test_results_without_fields(self):
+        bare = self.anticrack("run", "plate.toml", "--set", "output.fields=false", "-o", "bare.h5")
+        self.assertEqual(bare.returncode, 0, bare.stderr)
+        refused = self.anticrack("export", "bare.h5", "-o", "later")
+        self.assertEqual(refused.returncode, 2)
+        command = re.search(r"anticrack (job fetch jobs/\w+ --fields -o \S+),", refused.stderr)[1].split()
+        self.assertIn(" ".join(command), self.anticrack("plot", "bare.h5", "-o", "later").stdout)
+        job, file = command[2], command[-1]
+        fetched = self.anticrack(*command)
+        self.assertEqual(fetched.returncode, 0, fetched.stderr)
+        self.assertRegex(fetched.stdout, rf"\A{job} has no fields; jobs/\w+ solves it again\n")
+        exported = self.anticrack("export", file, "-o", "later")
+        self.assertEqual((exported.returncode, exported.stderr), (0, ""))
+        self.assertIn("opening.vtu", exported.stdout)
+        answers = [json.loads(self.anticrack("show", name, "--json").stdout)["answers"] for name in ("bare.h5", file)]
+        for answer in answers[0] + answers[1]:
+            answer["solve_seconds"] = 0
+        self.assertEqual(*answers, "the same answers to the last bit")
+        again = json.loads(self.anticrack("show", file, "--json").stdout)["job"]
+        self.assertNotIn("solves it again", self.anticrack("job", "fetch", again, "--fields", "-o", "same.h5").stdout)
+        sweep = self.anticrack("sweep", "plate.toml", "--coefficients", "rows.csv", "-o", "no.h5", "--json")
+        refused = self.anticrack("job", "fetch", json.loads(sweep.stdout)["job"], "--fields", "-o", "no.h5")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("is a sweep, which has no fields; run a case", refused.stderr)
+
     def test_quiet(self):
         def quiet(*words, code=0, error=""):
             ended = self.anticrack(*words, "--quiet")

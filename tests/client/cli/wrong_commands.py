@@ -69,6 +69,9 @@ COMMANDS = [
      "--set solver..theta=1: a part of the key is empty; write for example solver.theta=2"),
     ("run case.toml --set solver.thetta=1", 2,
      "--set solver.thetta=1: solver.thetta: unknown key; did you mean theta?"),
+    ("run case.toml --set solver.method=active-set", 2,
+     'case.toml:19: solver.theta: belongs to method "uzawa"; write --set \'solver={method="active-set"}\', which '
+     "replaces all of [solver], or remove it from the case"),
     ("run case.toml --set solver.theta.x=1", 2,
      "--set solver.theta.x=1: solver.theta.x: nothing lies below a plain value; set the key above it"),
     ("run case.toml --set load.openning.f=1", 2,
@@ -137,8 +140,9 @@ COMMANDS = [
     ("plot truncated.h5 -o figures", 2,
      "truncated.h5: is truncated or damaged; copy it again from where it was made, or run again"),
     ("export no-fields.h5 -o paraview", 2,
-     'no-fields.h5: load "opening": the result has no fields: u is known only along the interfaces; run the case '
-     "again with [output] fields = true, or with --set output.fields=true"),
+     'no-fields.h5: load "opening": the result has no fields: u is known only along the interfaces; to have '
+     "them: anticrack job fetch jobs/ID --fields -o fields.h5, while the server keeps the job; else run the case again "
+     "with --set output.fields=true"),
     # Sweeps.
     ("sweep two.toml --coefficients no.csv", 2,
      "no.csv: cannot be read; name a .csv file, or a dataset as FILE.h5:/PATH"),
@@ -146,7 +150,9 @@ COMMANDS = [
      "empty.csv: there is no row; write a line of 2 coefficients for each load case of the sweep"),
     ("sweep two.toml --coefficients short.csv", 2,
      "short.csv:3: 1 value in this line, the case has 2 loads; write one coefficient for each of "
-     "opening, skew, with commas between"),
+     "opening, skew, with commas between (semicolons where the numbers have decimal commas)"),
+    ("sweep two.toml --coefficients mixed.csv", 2,
+     'mixed.csv:3: column 2: "2.5" has a decimal point, line 2 has decimal commas; write all numbers one way'),
     ("sweep two.toml --coefficients letters.csv", 2,
      'letters.csv:2: column 2: "four" is not a number; write one as 1.5 or -2e-3'),
     ("sweep two.toml --coefficients nan.csv", 2,

@@ -117,8 +117,9 @@ TEST(Draw, says_what_it_left_out) {
             (std::set<std::string>{"opening-convergence.png", "opening-traces.png",
                                    "single_step-traces.png"}));
   EXPECT_THAT(drawn.notes,
-              ElementsAre(HasSubstr("no fields"), HasSubstr("no traces (failed)"),
-                          HasSubstr("no fields"), HasSubstr("1 load solved in a single step")));
+              ElementsAre(HasSubstr("no fields; to have them: anticrack job fetch jobs/"),
+                          HasSubstr("no traces (failed)"), HasSubstr("no fields"),
+                          HasSubstr("1 load solved in a single step")));
 }
 
 TEST(Draw, draws_no_accuracy_of_a_single_stage) {

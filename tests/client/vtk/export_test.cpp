@@ -139,7 +139,8 @@ TEST(Export, says_how_to_get_fields) {
     FAIL();
   } catch (const results::Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("paper.h5: load \"opening\": the result has no fields"));
-    EXPECT_THAT(error.cure(), HasSubstr("output.fields=true"));
+    EXPECT_THAT(error.cure(), HasSubstr("anticrack job fetch " + result.job_name + " --fields -o"));
+    EXPECT_THAT(error.cure(), HasSubstr("--set output.fields=true"));
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "a"));
 }
