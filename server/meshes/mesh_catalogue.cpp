@@ -182,8 +182,11 @@ MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint
   }
   try {
     const auto start = std::chrono::steady_clock::now();
-    const mesh::Mesh fine = mesh::refine(*triangulation(parent.mesh), levels,
-                                         std::min(max_triangles, _state->options.max_triangles));
+    mesh::Mesh coarse = *triangulation(parent.mesh);
+    // Its encoding does not have it; without it bisection would begin at the longest edges again.
+    coarse.bisection_bound = get(parent.mesh).bisection_bound;
+    const mesh::Mesh fine =
+        mesh::refine(coarse, levels, std::min(max_triangles, _state->options.max_triangles));
     record.owner = parent.owner;
     record.title = "a stage of jobs/" + parent.job;
     record.definition = definition;

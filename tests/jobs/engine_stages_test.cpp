@@ -111,6 +111,8 @@ TEST(EngineStages, RefineUntilEveryLoadCaseIsAccurate) {
   EXPECT_EQ(meshes_of(test.backend), (std::set<std::string>{mesh, job.stages.back().mesh}));
   const store::MeshRecord last = test.backend.catalogue.get(job.stages.back().mesh);
   EXPECT_EQ(last.triangle_count, job.stages.back().triangles);
+  EXPECT_GT(last.bisection_bound, 0);
+  EXPECT_GE(last.minimum_angle, 0.99 * last.bisection_bound) << "bisected from the newest vertices";
   const auto& made = std::get<store::Refinement>(last.definition);
   EXPECT_EQ(made.job, id);
   EXPECT_EQ(made.parent, job.stages[job.stages.size() - 2].mesh);
