@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "estimate/boundary_lift.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "fem/triangle_rules.hpp"
 #include "mesh/at.hpp"
@@ -46,6 +48,30 @@ std::array<double, points> derivatives(const std::array<double, points>& values)
   return result;
 }
 
+/// The same polynomial at 0 or 1.
+double value_at(double end, const std::array<double, points>& values) {
+  const auto& x = fem::line_5.at;
+  double result = 0;
+  for (std::size_t j = 0; j < points; ++j) {
+    double basis = values[j];
+    for (std::size_t m = 0; m < points; ++m)
+      if (m != j) basis *= (end - x[m]) / (x[j] - x[m]);
+    result += basis;
+  }
+  return result;
+}
+
+/// Whether the polynomials of the halves meet, and are 0 at the ends, as phi does and is.
+bool is_smooth(const std::array<std::array<double, points>, halves>& phi, double size) {
+  constexpr double most = 0.1, rounding = 1e-10;
+  double largest = 0;
+  for (const auto& half : phi)
+    for (const double value : half) largest = std::max(largest, std::abs(value));
+  const double miss = std::max({std::abs(value_at(0, phi[0])), std::abs(value_at(1, phi[1])),
+                                std::abs(value_at(1, phi[0]) - value_at(0, phi[1]))});
+  return largest <= rounding * size || miss <= most * largest;
+}
+
 }  // namespace
 
 std::vector<double> lift_points(const CutMesh& cut) {
@@ -79,12 +105,18 @@ std::vector<Lift> lifts(const CutMesh& cut, std::span<const double> samples,
     const Vector third{-(q[1] - p[1]) / (2 * area), (q[0] - p[0]) / (2 * area)};
     const double at_p = u[at(cut.copy[corners[0]])], at_q = u[at(cut.copy[corners[1]])];
     Lift lift{static_cast<std::int32_t>(f)};
+    std::array<std::array<double, points>, halves> of_halves{};
+    double size = std::max(std::abs(at_p), std::abs(at_q));
     for (std::size_t half = 0; half < halves; ++half) {
-      std::array<double, points> phi{};
       for (std::size_t k = 0; k < points; ++k) {
         const double s = place(half, k);
-        phi[k] = *sample++ - (at_p + s * (at_q - at_p));
+        size = std::max(size, std::abs(*sample));
+        of_halves[half][k] = *sample++ - (at_p + s * (at_q - at_p));
       }
+    }
+    lift.smooth = is_smooth(of_halves, size);
+    for (std::size_t half = 0; half < halves; ++half) {
+      const std::array<double, points>& phi = of_halves[half];
       const std::array<double, points> slope = derivatives(phi);
       for (std::size_t k = 0; k < points; ++k) {
         const double s = place(half, k), weight = fem::line_5.weight[k] / halves;

@@ -19,6 +19,9 @@ struct Lift {
   double mean = 0;              ///< int_0^1 phi ds
   double first = 0;             ///< int_0^1 s phi ds
   double gradient_squared = 0;  ///< int |grad w|^2
+  /// Whether phi looks like the polynomials by which this is integrated. Of a g_D that jumps, or
+  /// rises like the square root of s, the energy is infinite and the integral means nothing.
+  bool smooth = true;
 };
 
 /// Where g_D is to be sampled: (n,2) row-major, on all faces of the Dirichlet boundary.

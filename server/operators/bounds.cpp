@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <utility>
 
 #include "estimate/bracket.hpp"
@@ -51,6 +52,12 @@ std::vector<double> MeshOperator::estimate(const PreparedLoad& load, contact::An
   if (const std::string& given = condensed.parts.boundary_value; !given.empty())
     lifts = estimate::lifts(cut,
                             fem::values_at(estimate::lift_points(cut), given, "boundary_value"), u);
+  if (!std::ranges::all_of(lifts, &estimate::Lift::smooth)) {
+    answer.no_bracket =
+        "boundary_value jumps along an edge, or is too sharp for the mesh: make it continuous, or "
+        "the mesh finer";
+    return {};
+  }
   const estimate::LoadBalance balance =
       estimate::load_balance(cut, force, condensed.parts.traction);
   const estimate::EquilibratedFlux flux(cut, {u, balance.force, balance.traction});

@@ -115,5 +115,18 @@ TEST(Bracket, OfALinearSolutionIsRounding) {
   EXPECT_LT(*answer.energy_upper - *answer.energy_lower, 1e-11 * std::abs(answer.energy));
 }
 
+TEST(Bracket, IsNotGivenForBoundaryValuesOfInfiniteEnergy) {
+  for (const char* jump : {"x > 0.3 ? 1 : 0", "x < -0.5 ? 0 : 1", "sqrt(abs(x))"}) {
+    fem::Load load;
+    load.boundary_value = jump;
+    EXPECT_NE(solve_bounded(*factorise(diagonals()), load).no_bracket, "") << jump;
+  }
+  for (const char* smooth : {"abs(x - 0.3)", "sin(6*x)*y", "exp(x)", "x*x*x"}) {
+    fem::Load load;
+    load.boundary_value = smooth;
+    EXPECT_EQ(solve_bounded(*factorise(diagonals()), load).no_bracket, "") << smooth;
+  }
+}
+
 }  // namespace
 }  // namespace anticrack::accuracy
