@@ -85,7 +85,8 @@ inclusion_forces = { fibre = 1 }
         (self.folder / "case.toml").write_text(text, encoding="utf-8")
         with Daemon(self.folder) as daemon, anticrack.connect(f"127.0.0.1:{daemon.port}") as client:
             ours = client.submit(self.folder / "case.toml").refresh().message
-            submitted = run(ANTICRACK, "--server", f"127.0.0.1:{daemon.port}", "job", "submit", self.folder / "case.toml")
+            submitted = run(ANTICRACK, "--server", f"127.0.0.1:{daemon.port}", "job", "submit",
+                            self.folder / "case.toml")
             theirs = client.job(submitted.stdout.strip()).message
         for name in ("mesh", "load_cases", "solver", "priority", "queue_timeout", "run_timeout"):
             self.assertEqual(getattr(ours, name), getattr(theirs, name), name)
