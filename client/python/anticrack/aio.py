@@ -151,8 +151,8 @@ def connect(address: str | None = None, *, tls: bool = False, ca: Path | None = 
 
 
 @contextlib.asynccontextmanager
-async def local(program: Path | None = None, *flags: str) -> AsyncIterator[AsyncClient]:
+async def local(*flags: str, program: Path | None = None) -> AsyncIterator[AsyncClient]:
     """As anticrack.local."""
-    with private_server.server(program, *flags) as address:
+    with private_server.server(*flags, program=program) as address:
         async with connect(address) as client:
             yield client

@@ -173,8 +173,8 @@ def connect(address: str | None = None, *, tls: bool = False, ca: Path | None = 
 
 
 @contextlib.contextmanager
-def local(program: Path | None = None, *flags: str) -> Iterator[Client]:
-    """A client of a private server, which lives as long as the context. program: anticrackd, that on PATH unless
-    named; `flags` are further ones of its command line, as "--threads", "2"."""
-    with private_server.server(program, *flags) as address, connect(address) as client:
+def local(*flags: str, program: Path | None = None) -> Iterator[Client]:
+    """A client of a private server, which lives as long as the context. flags: of anticrackd, as "--threads", "2";
+    program: that on PATH unless named."""
+    with private_server.server(*flags, program=program) as address, connect(address) as client:
         yield client

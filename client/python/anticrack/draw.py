@@ -99,13 +99,16 @@ def traces(result: Result, load: str | Load | None = None, interface: int | str 
     ax.plot(line.s, trace.u_minus, label="$u^-$")
     ax.plot(line.s, trace.u_plus, "--", label="$u^+$")
     ax.plot(line.s, trace.jump, ":", color="black", label="$[u] = u^+ - u^-$")
-    if trace.contact.any():
-        ax.fill_between(line.s, 0, 1, where=trace.contact != 0, transform=ax.get_xaxis_transform(), color="0.85",
-                        zorder=0, label="contact")
+    label: str | None = "contact"
+    for first, last in _runs(trace.contact):
+        if trace.contact[first]:
+            ax.axvspan(line.s[first], line.s[last - 1], color="0.85", zorder=0, label=label)
+            label = None
     for inclusion in sorted(set(line.edge_inclusion.tolist()) - {-1}):
         lies = line.edge_inclusion == inclusion
-        ax.stairs(0.02 * lies, line.s, fill=True, color="0.3", transform=ax.get_xaxis_transform())
-        ax.annotate(result.mesh.inclusions[inclusion], (line.s[:-1][lies].mean(), 0.03), ha="center",
+        begin, end = line.s[:-1][lies].min(), line.s[1:][lies].max()
+        ax.axvspan(begin, end, 0, 0.02, color="0.3")
+        ax.annotate(result.mesh.inclusions[inclusion], ((begin + end) / 2, 0.03), ha="center",
                     xycoords=ax.get_xaxis_transform())
     ax.set(xlabel=f"arc length of {line.name or 'the interface'}", ylabel="displacement", title=load.name)
     ax.legend()

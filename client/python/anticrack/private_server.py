@@ -16,7 +16,7 @@ from .errors import LocalServerError
 
 
 @contextlib.contextmanager
-def server(program: Path | None = None, *flags: str) -> Iterator[str]:
+def server(*flags: str, program: Path | None = None) -> Iterator[str]:
     """The address of an anticrackd (that on PATH unless named) on a socket that only this user can reach, with a data
     folder that goes with it; `flags` are further ones of its command line. Raises LocalServerError."""
     found = shutil.which("anticrackd" if program is None else program)

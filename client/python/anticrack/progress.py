@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import sys
+import time
 from typing import Any, TextIO
 
 from .v1 import solve_pb2
 
 WIDTH = 30
+PAUSE = 0.1  # between two looks of a bar [s]
 
 
 class State:
@@ -17,6 +19,7 @@ class State:
         self.total = job.sweep_answer.rows if job.HasField("sweep") else job.load_case_count or len(job.load_cases)
         self.loads = [load.name for load in job.load_cases]
         self.unit = "rows" if job.HasField("sweep") else "load cases"
+        self.step = "iteration" if job.solver.HasField("uzawa") else "step"
         self.ended, self.now = 0, "submitted"
 
     def take(self, message: solve_pb2.WatchJobResponse) -> str | None:
@@ -43,7 +46,9 @@ class State:
         for load in message.load_cases_ended:
             self.ended += 1
             status = solve_pb2.LoadCaseAnswer.Status.Name(load.answer.status).removeprefix("STATUS_").lower()
-            said = f"{load.answer.name}: {status.replace('_', ' ')} after {load.answer.iterations} iterations"
+            count = load.answer.iterations
+            said = (f"{load.answer.name}: {status.replace('_', ' ')} after {count} {self.step}"
+                    f"{'' if count == 1 else 's'}")
             line = f"{line}\n{said}" if line else said
         return line
 
@@ -61,10 +66,15 @@ class Progress:
         self._out = out or sys.stderr
         self._handle = _notebook_handle() if out is None else None
         self._bar = self._handle is None and self._out.isatty()
-        self._shown = 0
+        self._shown, self._next = 0, 0.0
 
     def take(self, message: solve_pb2.WatchJobResponse) -> None:
         line = self._state.take(message)
+        drawn = self._handle is not None or self._bar
+        if drawn and not message.HasField("ended"):
+            if time.monotonic() < self._next:
+                return
+            self._next = time.monotonic() + PAUSE
         if self._handle is not None:
             self._handle.update({"text/plain": self._text()}, raw=True)
         elif self._bar:

@@ -26,6 +26,11 @@ class Backoff:
         other.met = self.met
         return other
 
+    @property
+    def failing(self) -> bool:
+        """Since the last success."""
+        return self._since > 0
+
     def succeeded(self) -> None:
         self.met, self._delay, self._since = True, FIRST, 0.0
 

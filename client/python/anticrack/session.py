@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import logging
 import os
 import pathlib
 import uuid
@@ -21,7 +22,9 @@ from .translate import Requests
 from .transport import Transport
 from .v1 import mesh_pb2, server_pb2, solve_pb2, upload_pb2
 
+LOG = logging.getLogger("anticrack")
 CHUNK = 1 << 20
+FILES_A_STREAM = 500  # the server takes 1000
 TRIES_OF_DAMAGED_DATA = 3
 ENDED = (solve_pb2.Job.STATE_SUCCEEDED, solve_pb2.Job.STATE_NOT_CONVERGED, solve_pb2.Job.STATE_FAILED,
          solve_pb2.Job.STATE_CANCELLED)
@@ -34,7 +37,10 @@ class Session:
     async def _wait(self, backoff: Backoff, error: ServerError) -> None:
         """Until the next try; raises `error`, if it is about a lost connection with the cure, to give up."""
         try:
+            first = not backoff.failing
             delay = backoff.next(error)
+            if first and self.backoff.met:
+                LOG.warning("server %s: %s; trying again for up to %g s", self.address, error, backoff.patience)
         except ServerError:
             if not error.lost or error.reason:
                 raise
@@ -111,6 +117,12 @@ class Session:
 
     async def upload(self, contents: Sequence[bytes], kind: upload_pb2.Upload.Kind) -> list[str]:
         """Their names."""
+        names: list[str] = []
+        for begin in range(0, len(contents), FILES_A_STREAM):
+            names += await self._upload(contents[begin:begin + FILES_A_STREAM], kind)
+        return names
+
+    async def _upload(self, contents: Sequence[bytes], kind: upload_pb2.Upload.Kind) -> list[str]:
         def parts() -> Iterable[upload_pb2.CreateUploadsRequest]:
             for content in contents:
                 header = upload_pb2.CreateUploadsRequest.Header(
@@ -155,12 +167,14 @@ class Session:
         return await self.call(self.transport.jobs.CreateJob, request)  # type: ignore[no-any-return]
 
     async def mesh(self, name: str) -> mesh_pb2.Mesh:
-        """Once it is meshed; raises ServerError where it failed."""
+        """Once it is meshed, or has failed."""
+        pause = 0.02
         while True:
             mesh = await self.call(self.transport.meshes.GetMesh, mesh_pb2.GetMeshRequest(name=name))
             if mesh.state == mesh_pb2.Mesh.STATE_FAILED or mesh.sha256:
                 return mesh  # type: ignore[no-any-return]
-            await self.transport.sleep(0.05)
+            await self.transport.sleep(pause)
+            pause = min(1.5 * pause, 0.5)
 
     async def mesh_arrays(self, name: str) -> dict[str, Array]:
         return await self.block(self.transport.meshes.ReadMesh, mesh_pb2.ReadMeshRequest, name)

@@ -17,7 +17,7 @@ def case(force, **options):
 
 class Async(unittest.IsolatedAsyncioTestCase):
     async def test_many_at_once(self):
-        async with aio.local(ANTICRACKD) as client:
+        async with aio.local(program=ANTICRACKD) as client:
             results = await asyncio.gather(*(client.run(case(f)) for f in (1, 2, 3)))
             energies = [result["load"].energy for result in results]
             self.assertAlmostEqual(energies[2] / energies[0], 9, places=9)
@@ -28,7 +28,7 @@ class Async(unittest.IsolatedAsyncioTestCase):
             self.assertIn("uzawa", (await client.info()).features)
 
     async def test_cancel_and_delete(self):
-        async with aio.local(ANTICRACKD) as client:
+        async with aio.local(program=ANTICRACKD) as client:
             job = await client.submit(case("y > 0 ? 1 : -1", solver=Uzawa(theta=1e-3)))
             async for message in job.events():
                 if message.HasField("samples"):

@@ -5,6 +5,7 @@ import io
 import os
 import pathlib
 import unittest
+import unittest.mock
 
 import numpy
 
@@ -26,7 +27,7 @@ LONG = anticrack.Uzawa(theta=1e-3, max_iterations=20_000)
 class Jobs(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.client = cls.enterClassContext(anticrack.local(ANTICRACKD))
+        cls.client = cls.enterClassContext(anticrack.local(program=ANTICRACKD))
 
     def test_are_solved(self):
         result = self.client.run(Case(GEOMETRY, [OPENING], title="a fibre", fields=True), progress=False)
@@ -164,13 +165,23 @@ class Jobs(unittest.TestCase):
                 return True
         plain, bar = io.StringIO(), Terminal()
         job = self.client.submit(Case(GEOMETRY, [OPENING], COARSE)).wait(out=plain)
-        self.assertRegex(plain.getvalue(), rf"(?m)^{job.name}: opening: converged after \d+ iterations$")
+        self.assertRegex(plain.getvalue(), rf"(?m)^{job.name}: opening: converged after \d+ steps?$")
         self.assertTrue(plain.getvalue().endswith(f"{job.name}: succeeded\n"))
         shown = Progress(job.message, bar)
         for message in job.events():
             shown.take(message)
         self.assertIn(f"\r{job.name} [##############################] 1/1 load cases, succeeded", bar.getvalue())
         self.assertEqual(bar.getvalue().count("\n"), 1)
+
+    def test_progress_in_a_notebook_is_one_text_that_changes(self):
+        ipython = unittest.mock.MagicMock()
+        handle = ipython.display.display.return_value
+        job = self.client.submit(Case(GEOMETRY, [OPENING], COARSE))
+        with unittest.mock.patch.dict("sys.modules", IPython=ipython):
+            job.wait()
+        ((shown,), options) = handle.update.call_args
+        self.assertRegex(shown["text/plain"], rf"^{job.name} \[#+\] 1/1 load cases, succeeded$")
+        self.assertTrue(options["raw"])
 
 
 class Connections(FolderTest):
@@ -219,10 +230,10 @@ class Connections(FolderTest):
             with self.assertRaisesRegex(anticrack.ServerError, "cannot reach the server at unix:.*nobody"):
                 client.info()
         with self.assertRaisesRegex(anticrack.LocalServerError, "no anticrackd"):
-            with anticrack.local("no-such-program"):
+            with anticrack.local(program="no-such-program"):
                 pass
         with self.assertRaisesRegex(anticrack.LocalServerError, "(?s)before it was ready.*--no-such-flag"):
-            with anticrack.local(ANTICRACKD, "--no-such-flag"):
+            with anticrack.local("--no-such-flag", program=ANTICRACKD):
                 pass
 
     def test_a_watch_goes_on_after_a_crash(self):
@@ -234,12 +245,13 @@ class Connections(FolderTest):
                 if message.HasField("samples"):
                     break
             first.kill()
-            with Daemon(self.folder, port=first.port):
+            with Daemon(self.folder, port=first.port), self.assertLogs("anticrack", "WARNING") as logged:
                 for message in events:
                     if message.WhichOneof("event") not in ("snapshot", "heartbeat"):
                         numbers.append(message.sequence)
                     if message.HasField("samples") and job.refresh().message.attempt == 2 and not job.ended:
                         job.cancel()
                 self.assertEqual((job.state, job.message.attempt), ("cancelled", 2))
+        self.assertRegex(logged.output[0], rf"server 127.0.0.1:{first.port}: .*trying again for up to 300 s")
         self.assertEqual(numbers, sorted(numbers))
         self.assertEqual(len(numbers[1:]), len(set(numbers[1:])))

@@ -21,7 +21,7 @@ EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
 class Figures(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        with anticrack.local(ANTICRACKD) as client:
+        with anticrack.local(program=ANTICRACKD) as client:
             cls.several = client.run(EXAMPLES / "several-inclusions.toml", progress=False)
             cls.skew = client.run(EXAMPLES / "paper-2.toml", progress=False)
             cls.sweep = client.run(EXAMPLES / "load-ratio.toml", numpy.eye(2), progress=False)

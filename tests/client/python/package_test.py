@@ -14,7 +14,7 @@ EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
 BUILT = pathlib.Path(anticrack.__file__).parents[1]
 USED = """
 import anticrack, pathlib
-with anticrack.local({program!r}) as client:
+with anticrack.local(program={program!r}) as client:
     print(client.run({case!r}, progress=False)["opening"].status)
 print(pathlib.Path(anticrack.__file__).parent)
 """
