@@ -9,7 +9,7 @@ import numpy as np
 
 from .arrays import Array
 from .errors import Error
-from .result import BONDED, CRACK, DELAMINATED, FREE, Load, Result
+from .result import BONDED, CRACK, DELAMINATED, FREE, Load, Result, runs
 
 _TIPS = 0.02  # of the length of a crack at each end: there the pressure grows without bound
 
@@ -42,18 +42,12 @@ def _interface(result: Result, load: Load, interface: int | str | None) -> int:
     return int(np.argmax([np.abs(trace.jump).max(initial=0) for trace in load.traces]))
 
 
-def _runs(kinds: Array) -> list[tuple[int, int]]:
-    """(first, last + 1) of equal entries."""
-    cuts = np.flatnonzero(np.diff(kinds)) + 1
-    return list(zip([0, *cuts.tolist()], [*cuts.tolist(), len(kinds)]))
-
-
 def interfaces(result: Result, ax: Any = None, labels: bool = True) -> Any:
     """Inclusions (black, solid where bonded, dashed where delaminated), with their names, and cracks (red)."""
     ax = _axes(ax)
     named: set[int] = set()
     for interface in result.interfaces:
-        for first, last in _runs(interface.edge_kind * 100_000 + interface.edge_inclusion):
+        for first, last in runs(interface.edge_kind * 100_000 + interface.edge_inclusion):
             kind, inclusion = int(interface.edge_kind[first]), int(interface.edge_inclusion[first])
             x, y = interface.x[first:last + 1], interface.y[first:last + 1]
             if kind in (BONDED, DELAMINATED):
@@ -100,7 +94,7 @@ def traces(result: Result, load: str | Load | None = None, interface: int | str 
     ax.plot(line.s, trace.u_plus, "--", label="$u^+$")
     ax.plot(line.s, trace.jump, ":", color="black", label="$[u] = u^+ - u^-$")
     label: str | None = "contact"
-    for first, last in _runs(trace.contact):
+    for first, last in runs(trace.contact):
         if trace.contact[first]:
             ax.axvspan(line.s[first], line.s[last - 1], color="0.85", zorder=0, label=label)
             label = None
@@ -123,7 +117,7 @@ def pressure(result: Result, load: str | Load | None = None, interface: int | st
     index = _interface(result, load, interface)
     line, trace = result.interfaces[index], load.traces[index]
     cracked = np.isin(line.edge_kind, (CRACK, DELAMINATED))
-    for first, last in _runs(cracked):
+    for first, last in runs(cracked):
         if cracked[first]:
             s = line.s[first:last + 1]
             cut = tips * (s[-1] - s[0])

@@ -16,6 +16,7 @@ from .v1 import mesh_pb2, solve_pb2
 
 NAN = float("nan")
 Arrays = dict[str, Array]
+KKT = ("equilibrium", "gap", "sign", "complementarity")
 GLUE, CRACK, BONDED, DELAMINATED, FREE = range(1, 6)  # kinds of nodes and edges of an interface
 
 
@@ -96,7 +97,8 @@ _INCLUSION = {"A": "displacement", "Bx": "slope_x", "By": "slope_y", "Mx": "mome
 @dataclass
 class Load:
     """The answer to a load case. status: "converged", "not_converged" (see reason), "failed" (see error) or
-    "cancelled". The membrane's own energy lies between energy_lower and energy_upper.
+    "cancelled". mass to tolerance: as asked of the method. The membrane's own energy lies between energy_lower and
+    energy_upper.
 
     kkt: relative residuals of the optimality conditions. traces: one for each interface. history: arrays (n), one
     entry an iteration. stages: arrays, one entry a stage; empty without an accuracy. contact_intervals: (index of the
@@ -107,6 +109,11 @@ class Load:
     reason: str = ""
     error: str = ""
     method: str = ""
+    mass: str = ""
+    epsilon: float = NAN
+    p: float = NAN
+    kkt_tolerance: float = NAN
+    tolerance: float = NAN
     iterations: int = 0
     criterion: float = NAN
     theta: float = NAN
@@ -119,9 +126,10 @@ class Load:
     no_bracket: str = ""
     contact_length: float = NAN
     weakly_active: int = 0
-    solve_seconds: float = NAN
+    solve_seconds: float = 0.0
     warnings: list[str] = field(default_factory=list)
-    kkt: dict[str, float] = field(default_factory=dict)
+    kkt: dict[str, float] = field(default_factory=lambda: dict.fromkeys(KKT, NAN))
+    kkt_absolute: dict[str, float] = field(default_factory=lambda: dict.fromkeys(KKT, NAN))
     inclusions: dict[str, Inclusion] = field(default_factory=dict)
     traces: list[Trace] = field(default_factory=list)
     history: Arrays = field(default_factory=dict)
@@ -139,8 +147,7 @@ class Load:
         return {name: inclusion.A for name, inclusion in self.inclusions.items()}
 
 
-_SCALARS = [entry.name for entry in fields(Load) if str(entry.type) in ("str", "int", "float") and entry.name != "name"]
-_KKT = ("equilibrium", "gap", "sign", "complementarity")
+SCALARS = [entry.name for entry in fields(Load) if str(entry.type) in ("str", "int", "float") and entry.name != "name"]
 
 
 @dataclass
@@ -163,6 +170,7 @@ class Sweep:
     coefficients: Array | None = None
     kept: list[int] = field(default_factory=list)
     error: str = ""
+    solve_seconds: float = NAN
 
     @property
     def converged(self) -> Array:
@@ -197,6 +205,12 @@ class Result:
     sweep: Sweep | None = None
     not_reached: str = ""
     case: str = ""
+    server_version: str = ""
+    mesh_sha256: str = ""
+    mesh_seconds: float = NAN
+    factorize_seconds: float = NAN
+    solve_seconds: float = NAN
+    total_seconds: float = NAN
 
     @property
     def converged(self) -> bool:
@@ -213,7 +227,7 @@ class Result:
         import pandas
         lines = []
         for load in self.loads.values():
-            line = {name: getattr(load, name) for name in ("name", *_SCALARS)}
+            line = {name: getattr(load, name) for name in ("name", *SCALARS)}
             for name, inclusion in load.inclusions.items():
                 line.update({f"{column} of {name}": getattr(inclusion, column)
                              for column in ("A", "A_lower", "A_upper", "resultant")})
@@ -232,11 +246,21 @@ class Result:
         except (OSError, KeyError) as error:
             raise Error(f"{os.fspath(path)}: cannot be read as a result file: {error}") from None
 
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """As a result file, which the command shows, plots and exports too; replaces one that is there."""
+        from .save import save
+        save(self, path)
+
     @classmethod
     def of_job(cls, job: solve_pb2.Job, mesh: mesh_pb2.Mesh, mesh_arrays: Mapping[str, Array],
-               arrays: Mapping[str, Array], case: str = "") -> Result:
+               arrays: Mapping[str, Array], case: str = "", server_version: str = "") -> Result:
         """Of what the server streams."""
-        return _of_job(job, mesh, mesh_arrays, arrays, case)
+        result = _of_job(job, mesh, mesh_arrays, arrays, case)
+        result.server_version, result.mesh_sha256 = server_version, mesh.sha256
+        result.mesh_seconds, result.factorize_seconds = mesh.mesh_seconds, mesh.factorize_seconds
+        result.solve_seconds = _seconds(job.sweep_answer.solve_time) if result.sweep is not None else sum(
+            load.solve_seconds for load in result.loads.values())
+        return result
 
 
 def _below(arrays: Mapping[str, Array], prefix: str) -> Arrays:
@@ -261,17 +285,15 @@ def _of_job(job: solve_pb2.Job, mesh: mesh_pb2.Mesh, mesh_arrays: Mapping[str, A
         tension=np.array([subdomain.tension or 1.0 for subdomain in mesh.subdomains]),
         inclusions=list(mesh.inclusions)), interfaces, {}, not_reached=job.not_reached, case=case)
     if job.HasField("sweep"):
-        kept = list(job.sweep.traces)
-        result.sweep = Sweep([load.name for load in job.load_cases], list(mesh.inclusions),
-                             **_below(arrays, "sweep/"), kept=kept, error=job.error.message)
-        for row in kept:
-            result.loads[f"row-{row}"] = Load(f"row-{row}", _status(result.sweep.status[row]),
-                                              energy=float(result.sweep.energy[row]),
-                                              traces=_traces(arrays, f"traces/{row}", len(interfaces)))
+        traces = {int(row): _traces(arrays, f"traces/{row}", len(interfaces)) for row in job.sweep.traces}
+        kept = [row for row, found in traces.items() if found]  # the others did not end
+        result.sweep = _sweep([load.name for load in job.load_cases], list(mesh.inclusions), _below(arrays, "sweep/"),
+                              kept, job.error.message, _seconds(job.sweep_answer.solve_time))
+        result.loads = {f"row-{row}": _row(result.sweep, row, traces[row], interfaces) for row in kept}
         return result
     indices = {interface.name: i for i, interface in enumerate(interfaces)}
     for i, answer in enumerate(job.answers):
-        load = _load_of(answer, "uzawa" if job.solver.HasField("uzawa") else "active-set")
+        load = _load_of(answer, job.solver)
         prefix = f"loads/{i}/"
         load.traces = _traces(arrays, prefix + "traces", len(interfaces))
         load.history = _below(arrays, prefix + "history/")
@@ -294,23 +316,73 @@ def _status(code: int) -> str:
     return str(solve_pb2.LoadCaseAnswer.Status.Name(int(code))).removeprefix("STATUS_").lower()
 
 
+def _sweep(loads: list[str], inclusions: list[str], columns: Arrays, kept: list[int], error: str,
+           seconds: float) -> Sweep:
+    rows = len(columns["status"])
+    every: Arrays = {"displacement": np.empty((rows, 0)), "contact": np.empty((rows, 0), np.uint8),
+                     "contact_nodes": np.empty((0, 2), np.int32), **columns}
+    return Sweep(loads, inclusions, **every, kept=kept, error=error, solve_seconds=seconds)
+
+
+def _row(sweep: Sweep, row: int, traces: list[Trace], interfaces: list[Interface]) -> Load:
+    """The answer to a row whose traces were kept."""
+    load = Load(f"row-{row}", _status(sweep.status[row]), method="active-set", iterations=int(sweep.steps[row]),
+                energy=float(sweep.energy[row]), contact_length=float(sweep.contact_length[row]), traces=traces)
+    for i, name in enumerate(sweep.inclusions):
+        slope = sweep.slope[row, i].tolist() if sweep.slope is not None else (0.0, 0.0)
+        load.inclusions[name] = Inclusion(name, float(sweep.displacement[row, i]), Bx=slope[0], By=slope[1])
+    for i, trace in enumerate(traces):
+        for first, last in runs(trace.contact):
+            if trace.contact[first]:
+                s = interfaces[i].s
+                load.contact_intervals.append((i, float(s[first]), float(s[last - 1])))
+    return load
+
+
+def runs(values: Array) -> list[tuple[int, int]]:
+    """(first, last + 1) of equal entries."""
+    cuts = (np.flatnonzero(np.diff(values)) + 1).tolist()
+    return list(zip([0, *cuts], [*cuts, len(values)])) if len(values) else []
+
+
 def _known(message: Any, name: str) -> Any:
     """NaN where it is optional and not set."""
     described = message.DESCRIPTOR.fields_by_name[name]
     return NAN if described.has_presence and not message.HasField(name) else getattr(message, name)
 
 
-def _load_of(answer: solve_pb2.LoadCaseAnswer, method: str) -> Load:
+def _seconds(duration: Any) -> float:
+    return float(duration.seconds + duration.nanos * 1e-9)
+
+
+def _asked(load: Load, solver: solve_pb2.Solver) -> None:
+    """Of the method, with the defaults of the API."""
+    def given(message: Any, name: str, default: float) -> float:
+        return float(getattr(message, name)) if message.HasField(name) else default
+    load.method = "uzawa" if solver.HasField("uzawa") else "active-set"
+    if load.method == "active-set":
+        load.tolerance = given(solver.active_set, "tolerance", 1e-12)
+        return
+    load.mass = "consistent" if solver.uzawa.mass == solve_pb2.MASS_CONSISTENT else "lumped"
+    load.p = given(solver.uzawa, "p", 1e5)
+    load.kkt_tolerance = given(solver.uzawa, "kkt_tolerance", NAN)
+    if not solver.uzawa.HasField("kkt_tolerance"):
+        load.epsilon = given(solver.uzawa, "epsilon", 1e-12)
+
+
+def _load_of(answer: solve_pb2.LoadCaseAnswer, solver: solve_pb2.Solver) -> Load:
     status = _status(answer.status)
-    load = Load(answer.name, status, answer.reason, answer.error.message, method)
+    load = Load(answer.name, status, answer.reason, answer.error.message, iterations=answer.iterations,
+                solve_seconds=_seconds(answer.solve_time))
+    _asked(load, solver)
     if status not in ("converged", "not_converged"):
         return load
-    for name in _SCALARS:
-        if name not in ("status", "reason", "error", "method", "solve_seconds"):
+    for name in SCALARS:
+        if name in answer.DESCRIPTOR.fields_by_name and name not in ("status", "reason", "error"):
             setattr(load, name, _known(answer, name))
-    load.solve_seconds = answer.solve_time.seconds + answer.solve_time.nanos * 1e-9
     load.warnings = list(answer.warnings)
-    load.kkt = {name: getattr(answer.kkt, name + "_relative") for name in _KKT}
+    load.kkt = {name: getattr(answer.kkt, name + "_relative") for name in KKT}
+    load.kkt_absolute = {name: getattr(answer.kkt, name) for name in KKT}
     for part in answer.inclusions:
         load.inclusions[part.name] = Inclusion(part.name, **{
             entry.name: _known(part, _INCLUSION.get(entry.name, entry.name))
@@ -336,28 +408,24 @@ def _of_file(file: Any) -> Result:
     attributes = file.attrs
     result = Result(attributes["title"], attributes["job"], attributes["mesh"], mesh, interfaces,
                     {name: _load_in(name, item) for name, item in groups}, None, attributes.get("not_reached", ""),
-                    attributes["case"])
+                    attributes["case"], attributes["server_version"], attributes["mesh_sha256"],
+                    *(float(attributes[name + "_seconds"]) for name in ("mesh", "factorize", "solve", "total")))
     if "sweep" in file:
         sweep = file["sweep"]
         arrays = _arrays(sweep)
         kept = [int(row) for row in arrays.pop("kept", [])]
-        rows = len(arrays["status"])
-        arrays.setdefault("displacement", np.empty((rows, 0)))
-        arrays.setdefault("contact", np.empty((rows, 0), np.uint8))
-        arrays.setdefault("contact_nodes", np.empty((0, 2), np.int32))
-        result.sweep = Sweep([str(name) for name in sweep.attrs["loads"]],
-                             [str(name) for name in sweep.attrs["inclusions"]], **arrays, kept=kept,
-                             error=sweep.attrs["error"])
+        loads, inclusions = ([str(name) for name in sweep.attrs[key]] for key in ("loads", "inclusions"))
+        result.sweep = _sweep(loads, inclusions, arrays, kept, sweep.attrs["error"],
+                              float(sweep.attrs["solve_seconds"]))
     return result
 
 
 def _load_in(name: str, group: Any) -> Load:
     load = Load(name, group.attrs["status"])
-    for key in _SCALARS:
+    for key in SCALARS:
         if key in group.attrs:
             value = group.attrs[key]
             setattr(load, key, value if isinstance(value, str) else value.item())
-    load.kkt = {key: float(group.attrs["kkt_relative_" + key]) for key in _KKT}
     load.warnings = _texts(group["warnings"]) if "warnings" in group else []
     parts = group["inclusions"]
     known = {entry.name for entry in fields(Inclusion)} - {"name"}
@@ -366,7 +434,13 @@ def _load_in(name: str, group: Any) -> Load:
                        for i, part in enumerate(_texts(parts["name"]))}
     traces = group["traces"] if "traces" in group else {}
     load.traces = [Trace(**_arrays(traces[str(i)])) for i in range(len(traces))]
-    load.history = _arrays(group["history"]) if "history" in group else {}
+    history = _arrays(group["history"]) if "history" in group else {}
+    if any(values.size for values in history.values()):
+        load.history = history
+        load.kkt = {key: float(group.attrs["kkt_relative_" + key]) for key in KKT}
+        load.kkt_absolute = {key: float(group.attrs["kkt_" + key]) for key in KKT}
+    elif load.status == "failed":  # the file of the command has 0
+        load.contact_length = NAN
     load.stages = _arrays(group["stages"]) if "stages" in group else {}
     contact = _arrays(group["contact_intervals"])
     load.contact_intervals = [(int(i), float(begin), float(end)) for i, begin, end in

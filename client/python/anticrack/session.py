@@ -15,6 +15,7 @@ from .arrays import Array
 from .blocks import BlockReceiver
 from .case import Case, as_case
 from .errors import CaseError, ServerError
+from .places import in_terms_of
 from .result import Result
 from .retry import Backoff
 from .sweeps import sweep_of
@@ -147,11 +148,23 @@ class Session:
         return await self.call(self.transport.meshes.CreateMesh, requests.mesh)  # type: ignore[no-any-return]
 
     async def create_mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
-        return await self._create_mesh(as_case(case).requests(loads_needed=False))
+        case = as_case(case)
+        try:
+            return await self._create_mesh(case.requests(loads_needed=False))
+        except ServerError as error:
+            raise in_terms_of(case.source, error) from None
 
     async def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
-                     traces: Sequence[int] = (), request_id: str | None = None) -> solve_pb2.Job:
-        requests = as_case(case).requests(loads_needed=nodal_forces is None)
+                     traces: Sequence[int] = ()) -> solve_pb2.Job:
+        case = as_case(case)
+        try:
+            return await self._submit(case.requests(loads_needed=nodal_forces is None), coefficients, nodal_forces,
+                                      traces)
+        except ServerError as error:
+            raise in_terms_of(case.source, error) from None
+
+    async def _submit(self, requests: Requests, coefficients: Any, nodal_forces: Any,
+                      traces: Sequence[int]) -> solve_pb2.Job:
         job = requests.job
         if requests.arrays:
             names = await self.upload([values.tobytes() for _, values in requests.arrays],
@@ -163,7 +176,7 @@ class Session:
             target = job.sweep.coefficients if coefficients is not None else job.sweep.nodal_forces
             target.upload = (await self.upload([matrix], upload_pb2.Upload.KIND_ARRAY))[0]
         job.mesh = (await self._create_mesh(requests)).name
-        request = solve_pb2.CreateJobRequest(job=job, request_id=request_id or str(uuid.uuid4()))
+        request = solve_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
         return await self.call(self.transport.jobs.CreateJob, request)  # type: ignore[no-any-return]
 
     async def mesh(self, name: str) -> mesh_pb2.Mesh:
@@ -210,7 +223,8 @@ class Session:
         stages = [stage.mesh for stage in job.stages if stage.answers]
         mesh = await self.mesh(stages[-1] if stages else job.mesh)
         arrays = await self.block(self.transport.jobs.ReadResult, solve_pb2.ReadResultRequest, name)
-        return Result.of_job(job, mesh, await self.mesh_arrays(mesh.name), arrays, case_text)
+        mesh_arrays, info = await self.mesh_arrays(mesh.name), await self.info()
+        return Result.of_job(job, mesh, mesh_arrays, arrays, case_text, info.version)
 
 
 def _content(path: pathlib.Path) -> bytes:

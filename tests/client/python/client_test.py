@@ -73,7 +73,16 @@ class Jobs(unittest.TestCase):
         with self.assertRaises(anticrack.ServerError) as caught:
             self.client.submit(Case(GEOMETRY, [Load("a", "sin(z)")], COARSE))
         self.assertEqual(caught.exception.code, "INVALID_ARGUMENT")
-        self.assertIn("load_cases[0].force.expression", str(caught.exception))
+        self.assertTrue(str(caught.exception).startswith("load.0.f: "), caught.exception)
+        for text, said in (("[solver]\nmethod = 'uzawa'\ntheta = -1", "case: solver.theta: "),
+                           ("[mesh]\nsize = 1e-9", "case: mesh.size: "),
+                           ("[[geometry.region]]\nname = 'a b'\nat = [0, 0.5]", "case: geometry.region.0.name: "),
+                           ("[[geometry.inclusion]]\nname = 'i'\nfrom = [0, 3]\nto = [0, 4]",
+                            "case: geometry.inclusion.0")):
+            case = "[geometry]\nboundary = [[-1,-1], [1,-1], [1,1], [-1,1]]\ninterface = [[-1,0], [1,0]]\n" + text
+            with self.assertRaises(anticrack.ServerError, msg=text) as caught:
+                self.client.submit(Case.parse(case + "\n[[load]]\nname = 'a'\nf = 1"))
+            self.assertTrue(str(caught.exception).startswith(said), caught.exception)
 
     def test_a_mesh_that_fails_says_why(self):
         far = Geometry(GEOMETRY.boundary, [Interface([(3, 0), (4, 0)])], [Inclusion("fibre", (3, 0), (4, 0))])
