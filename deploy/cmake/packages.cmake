@@ -4,7 +4,7 @@ set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_GENERATOR DEB)
 # Of a build that made programs only, as that of quickstart, the manual pages and the library are missing.
 set(CPACK_INSTALL_COMMANDS "\"${CMAKE_COMMAND}\" --build \"${CMAKE_BINARY_DIR}\" --target product")
-set(CPACK_COMPONENTS_ALL server client library)
+set(CPACK_COMPONENTS_ALL server client library python)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGE_VENDOR anticrack)
 set(CPACK_PACKAGE_CONTACT "The anticrack maintainers <anticrack@localhost>")
@@ -30,7 +30,7 @@ cracks and delaminated thin rigid inclusions, by domain decomposition.")
 set(CPACK_DEBIAN_CLIENT_PACKAGE_NAME anticrack-client)
 set(CPACK_DEBIAN_CLIENT_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_CLIENT_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot, fonts-dejavu-core") # of anticrack plot
-set(CPACK_DEBIAN_CLIENT_PACKAGE_SUGGESTS "anticrack-server, python3-grpcio, python3-h5py, python3-matplotlib")
+set(CPACK_DEBIAN_CLIENT_PACKAGE_SUGGESTS "anticrack-server, python3-anticrack")
 set(CPACK_DEBIAN_CLIENT_DESCRIPTION "command of the membrane solver anticrack
 The command anticrack: submits cases to anticrackd, watches every iteration,
 saves the answers in HDF5, draws figures and exports to ParaView. With the
@@ -44,4 +44,18 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS "anticrack-client, cmake")
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "C++ client library of the membrane solver anticrack
 A static library with headers and a CMake package: connect to anticrackd,
 create meshes, submit jobs, watch them and read their results.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-anticrack)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= 3.11), python3-grpcio, python3-h5py, python3-numpy, python3-protobuf")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-matplotlib)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "anticrack-client, anticrack-server, python3-pandas")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${debian}/python/postinst ${debian}/python/prerm)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Python client of the membrane solver anticrack
+The module anticrack: starts or connects to anticrackd, submits cases from TOML
+or from Python objects, watches them, and gives the answers as numpy arrays.
+Draws them with matplotlib, and works with asyncio.")
 include(CPack)

@@ -14,6 +14,7 @@ from processes import FolderTest
 
 PROJECT = pathlib.Path(os.environ["PROJECT"])
 BIN = pathlib.Path(os.environ["BIN"])
+PYTHON = pathlib.Path(os.environ["PYTHON"])
 DOCUMENTS = [PROJECT / "README.md", *sorted(document for folder in ("client", "server", "proto", "deploy", "tests")
                                             for document in (PROJECT / folder).rglob("*.md"))]
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.M | re.S)
@@ -67,9 +68,11 @@ class Commands(FolderTest):
                 (project / entry.name).symlink_to(entry)
         for name in ("anticrack", "anticrack-mesher"):
             (programs / name).symlink_to(BIN / name)
+        (project / "build/release/python").symlink_to(PYTHON)
         socket = self.folder / "socket"  # in place of the port that everybody's server has
         daemon = programs / "anticrackd"
-        daemon.write_text(f'#!/bin/sh\nexec {BIN}/anticrackd "$@" --listen unix:{socket}\n', encoding="utf-8")
+        daemon.write_text(f'#!/bin/sh\ncase "$*" in *--listen*) ;; *) set -- "$@" --listen unix:{socket} ;; esac\n'
+                          f'exec {BIN}/anticrackd "$@"\n', encoding="utf-8")
         daemon.chmod(0o755)
 
         script = [SHELL]
@@ -89,9 +92,10 @@ class Commands(FolderTest):
         (debian / "python3").symlink_to(sys.executable)
         environment = {"HOME": str(self.folder), "OUTPUT": str(self.folder / "output"), "SOCKET": str(socket),
                        "ANTICRACK_SERVER": f"unix:{socket}", "PATH": f"{debian}:{os.environ['PATH']}",
-                       "LC_ALL": "C.UTF-8"}
+                       "LC_ALL": "C.UTF-8", "MPLBACKEND": "Agg"}
         if document != PROJECT / "README.md":  # which says how to set it
             environment["PATH"] = f"{programs}:{environment['PATH']}"
+            environment["PYTHONPATH"] = str(PYTHON)
         ended = subprocess.run(["bash", "-c", "\n".join(script)], cwd=project, env=environment, text=True,
                                capture_output=True, check=False)
         self.assertEqual((ended.returncode, ended.stderr), (0, ""))

@@ -65,10 +65,12 @@ class Installed(FolderTest):
         succeed(self.prefix / "bin/anticrack", "--local", "run", self.examples / "paper-3.toml", "-o", result)
         self.assertGreater(result.stat().st_size, 10_000)
 
-    def test_python_example_finds_the_proto_files(self):
+    def test_python_example_finds_the_package(self):
+        (packages,) = self.prefix.glob("lib/python3.*/dist-packages")
         with Daemon(self.folder) as daemon:
-            said = succeed(sys.executable, self.examples / "submit_job.py", f"127.0.0.1:{daemon.port}")
-        self.assertIn("opening: STATUS_CONVERGED", said)
+            said = succeed("env", f"PYTHONPATH={packages}", sys.executable, self.examples / "submit_job.py",
+                           f"127.0.0.1:{daemon.port}")
+        self.assertIn("opening: converged", said)
 
     def test_manual_of_the_server_names_every_key(self):
         check_config = succeed(processes.ANTICRACKD, "--data-dir", self.folder, "--check-config")

@@ -11,6 +11,7 @@ from processes import FolderTest, run
 
 DOC = "usr/share/doc"
 SHARE = "usr/share"
+PYTHON = "usr/lib/python3/dist-packages"
 EXECUTABLE, PLAIN = "-rwxr-xr-x", "-rw-r--r--"
 
 # Every file of a package has its pattern, every pattern its file.
@@ -45,6 +46,14 @@ FILES = {
                   for kind in ("pb", "grpc.pb")),
                 f"{SHARE}/anticrack/examples/library/CMakeLists.txt", f"{SHARE}/anticrack/examples/library/main.cpp",
                 f"{DOC}/libanticrack-dev/copyright", f"{DOC}/libanticrack-dev/changelog.gz"],
+    },
+    "python3-anticrack": {
+        EXECUTABLE: [],
+        PLAIN: [f"{PYTHON}/anticrack/py.typed", *(f"{PYTHON}/anticrack/{part}.py" for part in ("__init__", "client", "*")),
+                *(f"{PYTHON}/anticrack/v1/{part}" for part in ("__init__.py", "solve_pb2.py", "solve_pb2.pyi", "solve_pb2_grpc.py",
+                                                               "*_pb2*.py*")),
+                *(f"{PYTHON}/anticrack.egg-info/{part}" for part in ("PKG-INFO", "*.txt")),
+                f"{DOC}/python3-anticrack/copyright", f"{DOC}/python3-anticrack/changelog.gz"],
     },
 }
 
@@ -82,7 +91,7 @@ class Packages(FolderTest):
     def field(self, package, name):
         return run("dpkg-deb", "-f", self.packages[package], name).stdout.strip()
 
-    def test_are_three(self):
+    def test_are_these(self):
         self.assertEqual(set(self.packages), set(FILES))
 
     def test_hold_each_file_at_its_place(self):
@@ -125,6 +134,9 @@ class Packages(FolderTest):
         self.assertEqual(needs("libanticrack-dev"), {"libgrpc++-dev", "libprotobuf-dev", "libisal-dev", "libssl-dev",
                                                      "pkg-config", "protobuf-compiler-grpc"})
         self.assertIn("gnuplot-nox", self.field("anticrack-client", "Recommends"))
+        self.assertEqual(needs("python3-anticrack"), {"python3", "python3-grpcio", "python3-h5py", "python3-numpy",
+                                                      "python3-protobuf"})
+        self.assertEqual(self.field("python3-anticrack", "Architecture"), "all")
 
     def test_of_the_server_keeps_its_configuration_and_starts_its_unit(self):
         control, files = self.folder / "control", self.folder / "files"

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The client for asyncio: as anticrack.connect and anticrack.local, with await."""
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+from collections.abc import AsyncIterator, Callable, Iterable, Sequence
+from typing import Any, TextIO
+
+import grpc
+
+from .arrays import Array
+from . import private_server
+from .case import Case, as_case
+from .client import JobState
+from .credentials import CHANNEL, Credentials, Path, address_of, token_of
+from .errors import of_call, of_status
+from .progress import Progress
+from .result import Result
+from .retry import Backoff
+from .session import Session
+from .transport import DEADLINE, Transport
+from .v1 import mesh_pb2, server_pb2, solve_pb2
+
+
+class AsyncTransport(Transport):
+    """The same calls on grpc.aio."""
+
+    def _open(self, address: str, secrets: Any) -> Any:
+        if secrets is None:
+            return grpc.aio.insecure_channel(address, CHANNEL)
+        return grpc.aio.secure_channel(address, secrets, CHANNEL)
+
+    async def unary(self, method: Callable[..., Any], request: Any) -> Any:
+        try:
+            return await method(request, timeout=DEADLINE, metadata=self.metadata)
+        except grpc.RpcError as error:
+            raise of_call(error) from None
+
+    async def upload(self, parts: Callable[[], Iterable[Any]]) -> Any:
+        try:
+            return await self.uploads.CreateUploads(iter(parts()), metadata=self.metadata)
+        except grpc.RpcError as error:
+            raise of_call(error) from None
+
+    async def stream(self, method: Callable[..., Any], request: Any) -> AsyncIterator[Any]:
+        call = method(request, metadata=self.metadata)
+        try:
+            async for message in call:
+                yield message
+        except grpc.RpcError as error:
+            raise of_call(error) from None
+        finally:
+            call.cancel()
+
+    async def sleep(self, seconds: float) -> None:
+        await asyncio.sleep(seconds)
+
+    async def close(self) -> None:
+        await self.channel.close()
+
+
+class AsyncJob(JobState):
+    """As anticrack.Job."""
+
+    async def refresh(self) -> AsyncJob:
+        self.message = await self._session.job(self.name)
+        return self
+
+    async def events(self, after: int = 0) -> AsyncIterator[solve_pb2.WatchJobResponse]:
+        async for message in self._session.events(self.name, after):
+            if message.HasField("ended"):
+                self.message = message.ended
+            yield message
+
+    async def wait(self, progress: bool = False, out: TextIO | None = None) -> AsyncJob:
+        shown = Progress(self.message, out) if progress else None
+        async for message in self.events():
+            if shown is not None:
+                shown.take(message)
+        return self
+
+    async def cancel(self) -> AsyncJob:
+        self.message = await self._session.cancel(self.name)
+        return self
+
+    async def delete(self) -> None:
+        await self._session.delete(self.name)
+
+    async def result(self) -> Result:
+        await self.refresh()
+        if not self.ended:
+            await self.wait()
+        self._raise_if_nothing_came()
+        return self._complete(await self._session.result(self.name, self._case_text))
+
+
+class AsyncClient:
+    """As anticrack.Client."""
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+
+    async def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
+                     traces: Sequence[int] = ()) -> AsyncJob:
+        case = as_case(case)
+        message = await self._session.submit(case, coefficients, nodal_forces, traces)
+        return AsyncJob(self._session, message, case.text, coefficients)
+
+    async def run(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
+                  traces: Sequence[int] = (), progress: bool = False) -> Result:
+        job = await self.submit(case, coefficients, nodal_forces, traces)
+        return await (await job.wait(progress)).result()
+
+    async def mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
+        mesh = await self._session.mesh((await self._session.create_mesh(case)).name)
+        if mesh.HasField("error"):
+            raise of_status(mesh.error)
+        return mesh
+
+    async def mesh_arrays(self, mesh: mesh_pb2.Mesh | str) -> dict[str, Array]:
+        return await self._session.mesh_arrays(mesh if isinstance(mesh, str) else mesh.name)
+
+    async def job(self, name: str) -> AsyncJob:
+        return AsyncJob(self._session, await self._session.job(name))
+
+    async def jobs(self, limit: int = 50) -> list[AsyncJob]:
+        return [AsyncJob(self._session, message) for message in await self._session.jobs(limit)]
+
+    async def info(self) -> server_pb2.ServerInfo:
+        return await self._session.info()
+
+    async def close(self) -> None:
+        await self._session.transport.close()
+
+    async def __aenter__(self) -> AsyncClient:
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        await self.close()
+
+
+def connect(address: str | None = None, *, tls: bool = False, ca: Path | None = None, cert: Path | None = None,
+            key: Path | None = None, token: str | None = None, token_file: Path | None = None,
+            patience: float = 300.0, first_contact: float = 3.0) -> AsyncClient:
+    """As anticrack.connect; call it where a loop runs."""
+    address = address_of(address)
+    credentials = Credentials(tls, ca, cert, key, token_of(token, token_file))
+    return AsyncClient(Session(AsyncTransport(address, credentials), address, Backoff(patience, first_contact)))
+
+
+@contextlib.asynccontextmanager
+async def local(*flags: str, program: Path | None = None) -> AsyncIterator[AsyncClient]:
+    """As anticrack.local."""
+    with private_server.server(*flags, program=program) as address:
+        async with connect(address) as client:
+            yield client

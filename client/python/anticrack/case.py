@@ -1,0 +1,240 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A case: a membrane, its mesh, its loads and how to solve them. Built of the objects below, or read from TOML; the
+keys, their meaning and their defaults are those of the guide. Lengths, forces and displacements are in your units.
+A point is (x, y), points are a list of them or an array (n, 2). What is None is left to the default."""
+from __future__ import annotations
+
+import copy
+import os
+import pathlib
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+import numpy as np
+
+from .arrays import Array
+from .errors import CaseError
+from .msh import Msh
+from .translate import Requests, requests_of
+
+Point = Sequence[float]
+Points = Sequence[Point] | Array
+Part = tuple[Point, Point]
+# Where a name of Python's differs from the key in TOML.
+_KEYS = {"start": "from", "end": "to", "interfaces": "interface", "inclusions": "inclusion", "cracks": "crack",
+         "regions": "region"}
+
+
+def _table(record: Any, keys: Mapping[str, str] = _KEYS) -> dict[str, Any]:
+    """Of TOML: what is None or empty is left out."""
+    out: dict[str, Any] = {}
+    for entry in fields(record):
+        value = getattr(record, entry.name)
+        if isinstance(value, list) and value and hasattr(value[0], "table"):
+            value = [item.table() for item in value]
+        if value is not None and not (isinstance(value, (list, dict)) and not value):
+            out[keys.get(entry.name, entry.name)] = value
+    return out
+
+
+class _Table:
+    def table(self) -> dict[str, Any]:
+        """As in TOML."""
+        return _table(self)
+
+
+@dataclass
+class Interface(_Table):
+    """A line on which cracks and inclusions lie, by its points, as an arc (start, through, end) or a spline; its plus
+    side is on its left. closed: a ring of points or of a spline."""
+    points: Points | None = None
+    arc: Points | None = None
+    spline: Points | None = None
+    name: str | None = None
+    closed: bool | None = None
+
+
+@dataclass
+class Inclusion(_Table):
+    """A thin rigid inclusion on an interface. delaminated: all of it, none, or parts [(start, end), ...]. tilt: it
+    turns as well; fixed: held at this u."""
+    name: str
+    start: Point
+    end: Point
+    delaminated: bool | Sequence[Part] | None = None
+    tilt: bool | None = None
+    fixed: float | None = None
+
+
+@dataclass
+class Crack(_Table):
+    """A crack on an interface; contact: [u] >= 0 (the default), else free faces."""
+    name: str
+    start: Point
+    end: Point
+    contact: bool | None = None
+
+
+@dataclass
+class Region(_Table):
+    """Names the subdomain around a point and gives it its tension T [force per length]."""
+    name: str
+    at: Point
+    tension: float | None = None
+
+
+@dataclass
+class Geometry(_Table):
+    """boundary: polygon, u = g_D on it but on the parts `neumann`, [(start, end), ...] walked counterclockwise or
+    "all"."""
+    boundary: Points
+    interfaces: list[Interface] = field(default_factory=list)
+    inclusions: list[Inclusion] = field(default_factory=list)
+    cracks: list[Crack] = field(default_factory=list)
+    regions: list[Region] = field(default_factory=list)
+    neumann: Sequence[Part] | str | None = None
+
+
+@dataclass
+class Mesh(_Table):
+    """How fine the mesh is: preset "graded" (default), "uniform", "paper" or "coarse"; sizes are lengths.
+
+    file: a .msh, or an Msh of arrays, instead of a geometry; only with it curves and surfaces (physical tag -> what it
+    is), tension (by subdomain) and inclusions (by name: {"tilt": True} or {"fixed": u})."""
+    preset: str | None = None
+    size: float | None = None
+    tip_size: float | None = None
+    grading: float | None = None
+    align: Sequence[Points] | None = None
+    file: str | os.PathLike[str] | Msh | None = None
+    curves: Mapping[int, str] | None = None
+    surfaces: Mapping[int, str] | None = None
+    tension: Mapping[str, float] | None = None
+    inclusions: Mapping[str, Mapping[str, Any]] | None = None
+
+    def table(self) -> dict[str, Any]:
+        out = _table(self, {})
+        groups = {toml: {str(tag): meaning for tag, meaning in out.pop(name).items()}
+                  for name, toml in (("curves", "curve"), ("surfaces", "surface")) if name in out}
+        if groups:
+            out["groups"] = groups
+        if isinstance(self.file, Msh):
+            out["file"] = self.file.to_bytes()
+        elif self.file is not None:
+            out["file"] = os.fspath(self.file)
+        return out
+
+
+@dataclass
+class Load(_Table):
+    """f [force per area]: a number, an expression in x and y, {subdomain: number}, or with per = "node" or "triangle"
+    an array with a value for each of the mesh. boundary_value, traction: numbers or expressions. point_forces:
+    [((x, y), force), ...]. inclusion_forces: {name: force}; inclusion_moments: {name: (Mx, My)}."""
+    name: str
+    f: float | str | Mapping[str, float] | Array | None = None
+    per: str | None = None
+    boundary_value: float | str | None = None
+    traction: float | str | None = None
+    point_forces: Sequence[tuple[Point, float]] | None = None
+    inclusion_forces: Mapping[str, float] | None = None
+    inclusion_moments: Mapping[str, Point] | None = None
+
+    def table(self) -> dict[str, Any]:
+        out = _table(self)
+        per = out.pop("per", None)
+        if isinstance(self.f, np.ndarray) and self.f.ndim > 0:
+            out["f"] = {"values": self.f, **({"per": per} if per else {})}
+        elif per is not None:
+            raise CaseError(f"load {self.name}: per goes with an array of values")
+        if self.point_forces is not None:
+            out["point_forces"] = [{"at": at, "value": value} for at, value in self.point_forces]
+        return out
+
+
+@dataclass
+class ActiveSet(_Table):
+    """Exact, the default."""
+    tolerance: float | None = None
+    max_steps: int | None = None
+
+    def table(self) -> dict[str, Any]:
+        return {"method": "active-set", **_table(self)}
+
+
+@dataclass
+class Uzawa(_Table):
+    """Algorithm 2 of the paper. theta: a number or "auto"; mass: "lumped" or "consistent"."""
+    theta: float | str | None = None
+    epsilon: float | None = None
+    p: float | None = None
+    max_iterations: int | None = None
+    mass: str | None = None
+    kkt_tolerance: float | None = None
+
+    def table(self) -> dict[str, Any]:
+        return {"method": "uzawa", **_table(self)}
+
+
+@dataclass
+class Accuracy(_Table):
+    """Relative errors to reach, with proof: of the energy and of the displacements A. time: seconds, or "10min"."""
+    energy: float | None = None
+    A: float | None = None
+    max_triangles: int | None = None
+    time: float | str | None = None
+    keep_stages: bool | None = None
+
+
+class Case:
+    """tables: as tomllib reads a case; may be changed before it is submitted."""
+
+    def __init__(self, geometry: Geometry | None = None, loads: Sequence[Load] = (), mesh: Mesh | None = None,
+                 solver: ActiveSet | Uzawa | None = None, accuracy: Accuracy | None = None, title: str = "",
+                 fields: bool = False, priority: str | None = None, queue_timeout: float | str | None = None,
+                 run_timeout: float | str | None = None) -> None:
+        """fields: keep u on every node, to draw the membrane. Timeouts are seconds, or text such as "2h"."""
+        job = {"priority": priority, "queue_timeout": queue_timeout, "run_timeout": run_timeout}
+        tables: dict[str, Any] = {
+            "title": title or None, "geometry": geometry and geometry.table(), "mesh": mesh and mesh.table(),
+            "solver": solver and solver.table(), "accuracy": accuracy and accuracy.table(),
+            "load": [load.table() for load in loads] or None, "output": {"fields": True} if fields else None,
+            "job": {key: value for key, value in job.items() if value is not None} or None}
+        self.tables = {key: value for key, value in tables.items() if value is not None}
+        self.text, self.source, self.folder = "", "", pathlib.Path()
+
+    @classmethod
+    def parse(cls, text: str, source: str = "case", folder: str | os.PathLike[str] = ".") -> Case:
+        """A case in TOML; names of files in it are relative to `folder`, errors call it `source`."""
+        case = cls()
+        try:
+            case.tables = tomllib.loads(text)
+        except tomllib.TOMLDecodeError as error:
+            raise CaseError(f"{source}: this is not TOML: {error}") from None
+        case.text, case.source, case.folder = text, source, pathlib.Path(folder)
+        return case
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Case:
+        """A case from a TOML file."""
+        path = pathlib.Path(path)
+        try:
+            text = path.read_text(encoding="utf-8")
+        except OSError as error:
+            raise CaseError(f"{path}: cannot be read: {error.strerror}; name a case, a TOML file") from None
+        except UnicodeDecodeError:
+            raise CaseError(f"{path}: this is not text; name a case, a TOML file") from None
+        return cls.parse(text, str(path), path.parent)
+
+    def copy(self) -> Case:
+        return copy.deepcopy(self)
+
+    def requests(self, loads_needed: bool = True) -> Requests:
+        """For the server; raises CaseError."""
+        return requests_of(self.tables, self.source, self.folder, loads_needed)
+
+
+def as_case(case: Case | str | os.PathLike[str]) -> Case:
+    """Of a path: its file."""
+    return case if isinstance(case, Case) else Case.read(case)

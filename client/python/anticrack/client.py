@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The client that waits for each answer. anticrack.aio has the same with await."""
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Iterator, Sequence
+from typing import Any, TextIO
+
+import numpy as np
+
+from .arrays import Array
+from . import private_server
+from .case import Case, as_case
+from .credentials import Credentials, Path, address_of, token_of
+from .errors import ServerError, of_status
+from .progress import Progress
+from .result import Result
+from .retry import Backoff
+from .session import ENDED, Session
+from .transport import Transport, each, finished
+from .v1 import mesh_pb2, server_pb2, solve_pb2
+
+
+class JobState:
+    """A job as it was last heard of: `message`, see Job in solve.proto."""
+
+    def __init__(self, session: Session, message: solve_pb2.Job, case_text: str = "", coefficients: Any = None) -> None:
+        self.message = message
+        self._session, self._case_text, self._coefficients = session, case_text, coefficients
+
+    @property
+    def name(self) -> str:
+        """"jobs/ID"; client.job(name) finds it again, from any machine."""
+        return str(self.message.name)
+
+    @property
+    def state(self) -> str:
+        """"queued", "waiting_for_mesh", "running", "succeeded", "not_converged", "failed" or "cancelled"."""
+        return str(solve_pb2.Job.State.Name(self.message.state)).removeprefix("STATE_").lower()
+
+    @property
+    def ended(self) -> bool:
+        return self.message.state in ENDED
+
+    @property
+    def error(self) -> ServerError | None:
+        """Of one that failed."""
+        return of_status(self.message.error) if self.message.HasField("error") else None
+
+    def _raise_if_nothing_came(self) -> None:
+        if self.message.result_state != solve_pb2.Job.RESULT_STATE_AVAILABLE:
+            raise self.error or ServerError("FAILED_PRECONDITION", f"{self.name} is {self.state} and has no answers")
+
+    def _complete(self, result: Result) -> Result:
+        if result.sweep is not None and self._coefficients is not None:
+            values = self._coefficients
+            result.sweep.coefficients = np.asarray(
+                values[result.sweep.loads].to_numpy() if hasattr(values, "columns") else values, dtype=float)
+        return result
+
+    def __repr__(self) -> str:
+        return f"<{self.name}: {self.state}>"
+
+
+class Job(JobState):
+    """Outlives this program: only cancel() ends it."""
+
+    def refresh(self) -> Job:
+        self.message = finished(self._session.job(self.name))
+        return self
+
+    def events(self, after: int = 0) -> Iterator[solve_pb2.WatchJobResponse]:
+        """Every event after a sequence number, in order, up to the one that ends the job; see WatchJobResponse."""
+        for message in each(self._session.events(self.name, after)):
+            if message.HasField("ended"):
+                self.message = message.ended
+            yield message
+
+    def wait(self, progress: bool = True, out: TextIO | None = None) -> Job:
+        """Until it has ended; an interrupt leaves it running. progress: shown on `out`, standard error by default."""
+        shown = Progress(self.message, out) if progress else None
+        for message in self.events():
+            if shown is not None:
+                shown.take(message)
+        return self
+
+    def cancel(self) -> Job:
+        """It ends within an iteration and keeps what is finished."""
+        self.message = finished(self._session.cancel(self.name))
+        return self
+
+    def delete(self) -> None:
+        """One that has ended, and its results."""
+        finished(self._session.delete(self.name))
+
+    def result(self, progress: bool = False) -> Result:
+        """Once it has ended. Raises ServerError where there are no answers; one that did not converge is not an
+        error: see Result.converged."""
+        self.refresh()
+        if not self.ended:
+            self.wait(progress)
+        self._raise_if_nothing_came()
+        return self._complete(finished(self._session.result(self.name, self._case_text)))
+
+
+class Client:
+    """Of one server; may be used as a context. Raises ServerError where a call is refused."""
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+
+    def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
+               traces: Sequence[int] = ()) -> Job:
+        """A job of a case, or of a file with one; returns at once.
+
+        A sweep solves a load case for every row of coefficients (rows, loads), a DataFrame or an array in the order of
+        the loads, or of nodal_forces (rows, nodes): f on the mesh's nodes. traces: rows whose traces are kept."""
+        case = as_case(case)
+        message = finished(self._session.submit(case, coefficients, nodal_forces, traces))
+        return Job(self._session, message, case.text, coefficients)
+
+    def run(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
+            traces: Sequence[int] = (), progress: bool = True) -> Result:
+        """Submits, waits and fetches the answers."""
+        return self.submit(case, coefficients, nodal_forces, traces).wait(progress).result()
+
+    def mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
+        """The mesh of a case, once it is meshed: its counts, subdomains and interfaces (Mesh in mesh.proto)."""
+        mesh = finished(self._session.create_mesh(case))
+        mesh = finished(self._session.mesh(mesh.name))
+        if mesh.HasField("error"):
+            raise of_status(mesh.error)
+        return mesh
+
+    def mesh_arrays(self, mesh: mesh_pb2.Mesh | str) -> dict[str, Array]:
+        """nodes (n, 2), triangles (m, 3), subdomain (m), boundary (b, 2), interfaces/I/...: see ReadMeshResponse."""
+        return finished(self._session.mesh_arrays(mesh if isinstance(mesh, str) else mesh.name))
+
+    def job(self, name: str) -> Job:
+        return Job(self._session, finished(self._session.job(name)))
+
+    def jobs(self, limit: int = 50) -> list[Job]:
+        """The newest first, without load cases and answers."""
+        return [Job(self._session, message) for message in finished(self._session.jobs(limit))]
+
+    def info(self) -> server_pb2.ServerInfo:
+        """Version, limits and counters."""
+        return finished(self._session.info())
+
+    def close(self) -> None:
+        finished(self._session.transport.close())
+
+    def __enter__(self) -> Client:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def connect(address: str | None = None, *, tls: bool = False, ca: Path | None = None, cert: Path | None = None,
+            key: Path | None = None, token: str | None = None, token_file: Path | None = None,
+            patience: float = 300.0, first_contact: float = 3.0) -> Client:
+    """A client of the server at "HOST:PORT" or "unix:PATH" (ANTICRACK_SERVER, or localhost:7433). The first call
+    connects.
+
+    tls: with the system's authorities; ca: with this one. cert, key: of this client. token, or its file (or
+    ANTICRACK_TOKEN): never sent over a network unencrypted. A lost connection is restored for up to `patience`
+    seconds, before the first answer for `first_contact`."""
+    address = address_of(address)
+    credentials = Credentials(tls, ca, cert, key, token_of(token, token_file))
+    return Client(Session(Transport(address, credentials), address, Backoff(patience, first_contact)))
+
+
+@contextlib.contextmanager
+def local(*flags: str, program: Path | None = None) -> Iterator[Client]:
+    """A client of a private server, which lives as long as the context. flags: of anticrackd, as "--threads", "2";
+    program: that on PATH unless named."""
+    with private_server.server(*flags, program=program) as address, connect(address) as client:
+        yield client

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What goes wrong: in a case, on the way to the server, or on it."""
+from __future__ import annotations
+
+from typing import Any
+
+import grpc
+
+from .v1 import error_pb2
+
+
+class Error(Exception):
+    """All errors of this package."""
+
+
+class CaseError(Error, ValueError):
+    """A case that is wrong before the server sees it; the message names the file, the key and the cure."""
+
+
+class LocalServerError(Error):
+    """A private server did not start."""
+
+
+class ServerError(Error):
+    """A call, a mesh or a job that the server refused or that failed, or a server that is not there.
+
+    code: gRPC's name, as "NOT_FOUND". reason: see ErrorInfo in error.proto. fields: (path in the request, what is
+    wrong with it). metadata: values named in the message. retry_delay [s]: wait at least this long; 0: none given.
+    """
+
+    def __init__(self, code: str, message: str, reason: str = "", fields: tuple[tuple[str, str], ...] = (),
+                 metadata: dict[str, str] | None = None, retry_delay: float = 0) -> None:
+        lines = [f"{path}: {what}" for path, what in fields]
+        super().__init__("\n".join(lines) or message)
+        self.code, self.reason, self.fields = code, reason, fields
+        self.metadata, self.retry_delay = metadata or {}, retry_delay
+
+    @property
+    def lost(self) -> bool:
+        """Whether the connection was lost rather than the call refused."""
+        return (self.code == "UNAVAILABLE" or (self.code == "UNKNOWN" and "Stream removed" in str(self))
+                or (self.code == "INTERNAL" and "RST_STREAM" in str(self)))
+
+    @property
+    def may_retry(self) -> bool:
+        return self.lost or (self.code == "RESOURCE_EXHAUSTED" and self.retry_delay > 0)
+
+
+def of_status(status: error_pb2.Status) -> ServerError:
+    """The error of a mesh, a job or a load case."""
+    names = {code.value[0]: code.name for code in grpc.StatusCode}
+    info, request, retry = error_pb2.ErrorInfo(), error_pb2.BadRequest(), error_pb2.RetryInfo()
+    kinds: dict[str, Any] = {"google.rpc.ErrorInfo": info, "google.rpc.BadRequest": request,
+                             "google.rpc.RetryInfo": retry}
+    for detail in status.details:
+        message = kinds.get(detail.type_url.rpartition("/")[2])
+        if message is not None:
+            message.ParseFromString(detail.value)
+    fields = tuple((violation.field, violation.description) for violation in request.field_violations)
+    return ServerError(names.get(status.code, "UNKNOWN"), status.message, info.reason, fields, dict(info.metadata),
+                       retry.retry_delay.seconds + retry.retry_delay.nanos * 1e-9)
+
+
+def of_call(call: Any) -> ServerError:
+    """The error of a failed call, a grpc.RpcError."""
+    for key, value in call.trailing_metadata() or ():
+        if key == "grpc-status-details-bin":
+            try:
+                return of_status(error_pb2.Status.FromString(value))
+            except Exception:  # not ours: what gRPC says has to do
+                break
+    return ServerError(call.code().name, call.details() or "")

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes of one's own as files that the server reads."""
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from .arrays import Array
+from .errors import CaseError
+
+_TYPES = {"line": (1, 1, 2), "triangle": (2, 2, 3)}  # of a cell: type in MSH, dimension, nodes
+
+
+@dataclass
+class Msh:
+    """points (n, 2) or (n, 3); cells: "triangle" (m, 3) and "line" (l, 2), indices of points from 0.
+
+    groups: for each kind of cell a name for every cell, "" for none: of triangles the subdomain, of lines what they
+    are, as "dirichlet", "crack:NAME" or "delaminated:NAME" (see the guide on .msh files)."""
+    points: Array
+    cells: Mapping[str, Array]
+    groups: Mapping[str, Any] = field(default_factory=dict)
+
+    @classmethod
+    def of_meshio(cls, mesh: Any) -> Msh:
+        """Of a meshio.Mesh: its lines, triangles and physical groups."""
+        names = {(int(tag), int(dimension)): name for name, (tag, dimension) in mesh.field_data.items()}
+        tags = mesh.cell_data_dict.get("gmsh:physical", {})
+        cells = {kind: array for kind, array in mesh.cells_dict.items() if kind in _TYPES}
+        groups = {kind: [names.get((int(tag), _TYPES[kind][1]), "") for tag in tags[kind]]
+                  for kind in cells if kind in tags}
+        return cls(mesh.points, cells, groups)
+
+    def to_bytes(self) -> bytes:
+        """MSH 2.2, ascii: every number reads back as the same."""
+        points = np.asarray(self.points, dtype=float)
+        if points.ndim != 2 or points.shape[1] not in (2, 3) or not np.isfinite(points).all():
+            raise CaseError(f"points of shape {points.shape} are not finite (n, 2) or (n, 3)")
+        tags: dict[tuple[int, str], int] = {}
+        elements: list[str] = []
+        for kind, array in self.cells.items():
+            if kind not in _TYPES:
+                raise CaseError(f"cells of kind '{kind}' are no part of a membrane; known are line, triangle")
+            code, dimension, corners = _TYPES[kind]
+            nodes = np.asarray(array)
+            if nodes.ndim != 2 or nodes.shape[1] != corners or nodes.dtype.kind not in "iu":
+                raise CaseError(f"cells '{kind}' of {nodes.dtype} and shape {nodes.shape} are not integers "
+                                f"(n, {corners})")
+            if nodes.size and not 0 <= int(nodes.min()) <= int(nodes.max()) < len(points):
+                raise CaseError(f"cells '{kind}' name points that are not there; they count from 0")
+            names = [str(name) for name in self.groups.get(kind, [""] * len(nodes))]
+            if len(names) != len(nodes):
+                raise CaseError(f"groups of '{kind}' are {len(names)} names for {len(nodes)} cells")
+            for name, cell in zip(names, nodes.tolist()):
+                tag = tags.setdefault((dimension, name), len(tags) + 1) if name else 0
+                entity = tag or 10**6 + dimension
+                elements.append(f"{len(elements) + 1} {code} 2 {tag} {entity} " + " ".join(str(i + 1) for i in cell))
+        lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat"]
+        if tags:
+            lines += ["$PhysicalNames", str(len(tags))]
+            lines += [f'{dimension} {tag} "{name}"' for (dimension, name), tag in tags.items()]
+            lines += ["$EndPhysicalNames"]
+        lines += ["$Nodes", str(len(points))]
+        lines += [f"{i} {x!r} {y!r} 0" for i, (x, y, *_) in enumerate(points.tolist(), 1)]
+        lines += ["$EndNodes", "$Elements", str(len(elements)), *elements, "$EndElements", ""]
+        return "\n".join(lines).encode()

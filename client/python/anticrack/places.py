@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fields of a request that the server refuses, as keys of the case."""
+from __future__ import annotations
+
+import re
+
+from .errors import ServerError
+
+# In order; the indices of lists are already ".0".
+_KEYS = [(r"^(job|mesh)\.", ""), (r"^load_cases\b", "load"), (r"^(load\.\d+)\.force\b.*", r"\1.f"),
+         (r"^geometry\.interfaces\b", "geometry.interface"), (r"^geometry\.inclusions\b", "geometry.inclusion"),
+         (r"^geometry\.cracks\b", "geometry.crack"), (r"^geometry\.regions\b", "geometry.region"),
+         (r"\.polyline\b(\.points)?", ".points"), (r"\.spline\.points\b", ".spline"), (r"\.part\.(from|to)\b", r".\1"),
+         (r"\.delaminated_parts\.parts\b", ".delaminated"), (r"^solver\.(uzawa|active_set)\b", "solver"),
+         (r"^options\.(curve|surface)_groups\b", r"mesh.groups.\1"),
+         (r"^options\.inclusion_motions\b", "mesh.inclusions"), (r"^options\b", "mesh"),
+         (r"^accuracy\.displacement\b", "accuracy.A"), (r"^(upload|header|chunk)\b.*", "mesh.file"),
+         (r"^(priority|queue_timeout|run_timeout)\b", r"job.\1")]
+
+
+def key_of(field: str) -> str:
+    """"job.load_cases[0].force.expression" is "load.0.f"."""
+    key = re.sub(r"\[([^\]]*)\]", r".\1", field)
+    for pattern, replacement in _KEYS:
+        key = re.sub(pattern, replacement, key)
+    return key
+
+
+def in_terms_of(source: str, error: ServerError) -> ServerError:
+    """With the keys of the case `source` in its message."""
+    if not error.fields:
+        return error
+    fields = tuple((f"{source}: {key_of(field)}" if source else key_of(field), what) for field, what in error.fields)
+    return ServerError(error.code, str(error), error.reason, fields, error.metadata, error.retry_delay)

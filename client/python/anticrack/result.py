@@ -1,0 +1,451 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Answers with their arrays, the same whether they come from a result file or from the server. Lengths, forces and
+displacements are in the units of the case; a number that is not known is NaN."""
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+import numpy as np
+
+from .arrays import Array
+from .errors import Error
+from .v1 import mesh_pb2, solve_pb2
+
+NAN = float("nan")
+Arrays = dict[str, Array]
+KKT = ("equilibrium", "gap", "sign", "complementarity")
+GLUE, CRACK, BONDED, DELAMINATED, FREE = range(1, 6)  # kinds of nodes and edges of an interface
+
+
+@dataclass
+class Mesh:
+    """nodes (n, 2); triangles (m, 3) and boundary (b, 2), where u is prescribed: indices of nodes; subdomain (m): of a
+    triangle, index of subdomain_names (d) and tension (d); inclusions: names."""
+    nodes: Array
+    triangles: Array
+    subdomain: Array
+    boundary: Array
+    subdomain_names: list[str]
+    tension: Array
+    inclusions: list[str]
+
+
+@dataclass
+class Interface:
+    """s (k): arc length; x, y (k): coordinates; kind (k) and edge_kind (k-1): 1 glue, 2 crack, 3 bonded inclusion,
+    4 delaminated inclusion, 5 free crack; edge_inclusion (k-1): index of Mesh.inclusions, -1 none."""
+    name: str
+    s: Array
+    x: Array
+    y: Array
+    kind: Array
+    edge_kind: Array
+    edge_inclusion: Array
+
+
+@dataclass
+class Trace:
+    """On the nodes (k) of an interface: u on its sides, jump = u_plus - u_minus, pressure (on glue the flux), contact
+    (1 where a crack is closed under pressure)."""
+    u_minus: Array
+    u_plus: Array
+    jump: Array
+    pressure: Array
+    contact: Array
+
+
+@dataclass
+class Field:
+    """u (n) of a subdomain on nodes (n), indices of Mesh.nodes, a slit's twice; triangles (m, 3): indices of these."""
+    subdomain: str
+    nodes: Array
+    triangles: Array
+    u: Array
+
+
+@dataclass
+class Inclusion:
+    """u = A + Bx (x - x0) + By (y - y0) along it; resultant: the force on it; Mx, My: the moment about (x0, y0); the
+    membrane's own A lies between A_lower and A_upper."""
+    name: str
+    A: float = NAN
+    resultant: float = NAN
+    contact_length: float = NAN
+    Bx: float = 0.0
+    By: float = 0.0
+    Mx: float = NAN
+    My: float = NAN
+    A_lower: float = NAN
+    A_upper: float = NAN
+    A_estimated_error: float = NAN
+    Bx_lower: float = NAN
+    Bx_upper: float = NAN
+    By_lower: float = NAN
+    By_upper: float = NAN
+
+
+# Names in the file -> in InclusionAnswer.
+_INCLUSION = {"A": "displacement", "Bx": "slope_x", "By": "slope_y", "Mx": "moment_x", "My": "moment_y",
+              "A_lower": "displacement_lower", "A_upper": "displacement_upper",
+              "A_estimated_error": "displacement_estimated_error", "Bx_lower": "slope_x_lower",
+              "Bx_upper": "slope_x_upper", "By_lower": "slope_y_lower", "By_upper": "slope_y_upper"}
+
+
+@dataclass
+class Load:
+    """The answer to a load case. status: "converged", "not_converged" (see reason), "failed" (see error) or
+    "cancelled". mass to tolerance: as asked of the method. The membrane's own energy lies between energy_lower and
+    energy_upper.
+
+    kkt: relative residuals of the optimality conditions. traces: one for each interface. history: arrays (n), one
+    entry an iteration. stages: arrays, one entry a stage; empty without an accuracy. contact_intervals: (index of the
+    interface, begin, end) in arc length. fields: one for each subdomain, where they were asked for. indicator (m): part
+    of each triangle in the square of error_bound, or None."""
+    name: str
+    status: str
+    reason: str = ""
+    error: str = ""
+    method: str = ""
+    mass: str = ""
+    epsilon: float = NAN
+    p: float = NAN
+    kkt_tolerance: float = NAN
+    tolerance: float = NAN
+    iterations: int = 0
+    criterion: float = NAN
+    theta: float = NAN
+    theta_star: float = NAN
+    energy: float = NAN
+    energy_lower: float = NAN
+    energy_upper: float = NAN
+    error_bound: float = NAN
+    error_bound_relative: float = NAN
+    no_bracket: str = ""
+    contact_length: float = NAN
+    weakly_active: int = 0
+    solve_seconds: float = 0.0
+    warnings: list[str] = field(default_factory=list)
+    kkt: dict[str, float] = field(default_factory=lambda: dict.fromkeys(KKT, NAN))
+    kkt_absolute: dict[str, float] = field(default_factory=lambda: dict.fromkeys(KKT, NAN))
+    inclusions: dict[str, Inclusion] = field(default_factory=dict)
+    traces: list[Trace] = field(default_factory=list)
+    history: Arrays = field(default_factory=dict)
+    stages: Arrays = field(default_factory=dict)
+    contact_intervals: list[tuple[int, float, float]] = field(default_factory=list)
+    fields: list[Field] = field(default_factory=list)
+    indicator: Array | None = None
+
+    @property
+    def converged(self) -> bool:
+        return self.status == "converged"
+
+    def displacements(self) -> dict[str, float]:
+        """A of every inclusion."""
+        return {name: inclusion.A for name, inclusion in self.inclusions.items()}
+
+
+SCALARS = [entry.name for entry in fields(Load) if str(entry.type) in ("str", "int", "float") and entry.name != "name"]
+
+
+@dataclass
+class Sweep:
+    """Columns, an entry a row: status (3 converged, 4 not converged, 5 failed, 6 cancelled), steps, energy,
+    contact_length, kkt (largest relative residual), displacement (rows, inclusions): A, slope (rows, inclusions, 2) or
+    None, contact (rows, contacts) of the crack nodes contact_nodes (contacts, 2): interface, node. coefficients
+    (rows, loads), or None where they are not known. kept: rows whose traces are in Result.loads["row-K"]."""
+    loads: list[str]
+    inclusions: list[str]
+    status: Array
+    steps: Array
+    energy: Array
+    contact_length: Array
+    kkt: Array
+    displacement: Array
+    contact: Array
+    contact_nodes: Array
+    slope: Array | None = None
+    coefficients: Array | None = None
+    kept: list[int] = field(default_factory=list)
+    error: str = ""
+    solve_seconds: float = NAN
+
+    @property
+    def converged(self) -> Array:
+        """(rows) bool"""
+        return np.asarray(self.status == solve_pb2.LoadCaseAnswer.STATUS_CONVERGED)
+
+    def frame(self) -> Any:
+        """A pandas.DataFrame, a line a row: coefficients, A and slopes by name; takes pandas."""
+        import pandas
+        columns: dict[str, Any] = {}
+        if self.coefficients is not None:
+            columns.update((name, self.coefficients[:, i]) for i, name in enumerate(self.loads))
+        columns["status"] = [_status(code) for code in self.status]
+        for name in ("steps", "energy", "contact_length", "kkt"):
+            columns[name] = getattr(self, name)
+        for i, name in enumerate(self.inclusions):
+            columns[f"A of {name}"] = self.displacement[:, i]
+            if self.slope is not None:
+                columns[f"Bx of {name}"], columns[f"By of {name}"] = self.slope[:, i, 0], self.slope[:, i, 1]
+        return pandas.DataFrame(columns).rename_axis("row")
+
+
+@dataclass
+class Result:
+    """loads: answers by name, in the order of the case. not_reached: which accuracy was not reached and why."""
+    title: str
+    job: str
+    mesh_name: str
+    mesh: Mesh
+    interfaces: list[Interface]
+    loads: dict[str, Load]
+    sweep: Sweep | None = None
+    not_reached: str = ""
+    case: str = ""
+    server_version: str = ""
+    mesh_sha256: str = ""
+    mesh_seconds: float = NAN
+    factorize_seconds: float = NAN
+    solve_seconds: float = NAN
+    total_seconds: float = NAN
+
+    @property
+    def converged(self) -> bool:
+        """Whether everything is, and an accuracy reached."""
+        if self.sweep is not None:
+            return bool(self.sweep.converged.all())
+        return not self.not_reached and all(load.converged for load in self.loads.values())
+
+    def __getitem__(self, load: str) -> Load:
+        return self.loads[load]
+
+    def frame(self) -> Any:
+        """The answers as a pandas.DataFrame, a line a load case, with "A of NAME" and its bounds; takes pandas."""
+        import pandas
+        lines = []
+        for load in self.loads.values():
+            line = {name: getattr(load, name) for name in ("name", *SCALARS)}
+            for name, inclusion in load.inclusions.items():
+                line.update({f"{column} of {name}": getattr(inclusion, column)
+                             for column in ("A", "A_lower", "A_upper", "resultant")})
+            lines.append(line)
+        return pandas.DataFrame(lines).set_index("name") if lines else pandas.DataFrame()
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Result:
+        """Of a result file, "anticrack-result/1"."""
+        import h5py
+        try:
+            with h5py.File(path) as file:
+                if file.attrs.get("format") != "anticrack-result/1":
+                    raise Error(f"{os.fspath(path)}: is no result file of anticrack")
+                return _of_file(file)
+        except (OSError, KeyError) as error:
+            raise Error(f"{os.fspath(path)}: cannot be read as a result file: {error}") from None
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """As a result file, which the command shows, plots and exports too; replaces one that is there."""
+        from .save import save
+        save(self, path)
+
+    @classmethod
+    def of_job(cls, job: solve_pb2.Job, mesh: mesh_pb2.Mesh, mesh_arrays: Mapping[str, Array],
+               arrays: Mapping[str, Array], case: str = "", server_version: str = "") -> Result:
+        """Of what the server streams."""
+        result = _of_job(job, mesh, mesh_arrays, arrays, case)
+        result.server_version, result.mesh_sha256 = server_version, mesh.sha256
+        result.mesh_seconds, result.factorize_seconds = mesh.mesh_seconds, mesh.factorize_seconds
+        result.solve_seconds = _seconds(job.sweep_answer.solve_time) if result.sweep is not None else sum(
+            load.solve_seconds for load in result.loads.values())
+        return result
+
+
+def _below(arrays: Mapping[str, Array], prefix: str) -> Arrays:
+    """Arrays directly under a name."""
+    return {name[len(prefix):]: array for name, array in arrays.items()
+            if name.startswith(prefix) and "/" not in name[len(prefix):]}
+
+
+def _traces(arrays: Mapping[str, Array], prefix: str, count: int) -> list[Trace]:
+    found = [_below(arrays, f"{prefix}/{i}/") for i in range(count)]
+    return [Trace(**trace) for trace in found if trace]
+
+
+def _of_job(job: solve_pb2.Job, mesh: mesh_pb2.Mesh, mesh_arrays: Mapping[str, Array],
+            arrays: Mapping[str, Array], case: str) -> Result:
+    interfaces = [Interface(info.name, **_below(arrays, f"interfaces/{i}/"), **{
+        name: mesh_arrays[f"interfaces/{i}/{name}"] for name in ("edge_kind", "edge_inclusion")})
+        for i, info in enumerate(mesh.interfaces)]
+    names = [subdomain.name for subdomain in mesh.subdomains]
+    result = Result(job.title, job.name, mesh.name, Mesh(
+        **{name: mesh_arrays[name] for name in ("nodes", "triangles", "subdomain", "boundary")}, subdomain_names=names,
+        tension=np.array([subdomain.tension or 1.0 for subdomain in mesh.subdomains]),
+        inclusions=list(mesh.inclusions)), interfaces, {}, not_reached=job.not_reached, case=case)
+    if job.HasField("sweep"):
+        traces = {int(row): _traces(arrays, f"traces/{row}", len(interfaces)) for row in job.sweep.traces}
+        kept = [row for row, found in traces.items() if found]  # the others did not end
+        result.sweep = _sweep([load.name for load in job.load_cases], list(mesh.inclusions), _below(arrays, "sweep/"),
+                              kept, job.error.message, _seconds(job.sweep_answer.solve_time))
+        result.loads = {f"row-{row}": _row(result.sweep, row, traces[row], interfaces) for row in kept}
+        return result
+    indices = {interface.name: i for i, interface in enumerate(interfaces)}
+    for i, answer in enumerate(job.answers):
+        load = _load_of(answer, job.solver)
+        prefix = f"loads/{i}/"
+        load.traces = _traces(arrays, prefix + "traces", len(interfaces))
+        load.history = _below(arrays, prefix + "history/")
+        load.indicator = arrays.get(prefix + "indicator")
+        load.contact_intervals = [(indices[part.interface], part.begin, part.end) for part in answer.contact_intervals]
+        load.fields = [Field(name, arrays[f"fields/{k}/nodes"], arrays[f"fields/{k}/triangles"],
+                             arrays[f"{prefix}fields/{k}"])
+                       for k, name in enumerate(names) if f"{prefix}fields/{k}" in arrays]
+        stages = [stage for stage in job.stages if i < len(stage.answers)]
+        if stages:
+            load.stages = {"triangles": np.array([stage.triangles for stage in stages]),
+                           "seconds": np.array([stage.seconds for stage in stages])}
+            for name in ("energy", "energy_lower", "energy_upper", "error_bound_relative", "displacement_error"):
+                load.stages[name] = np.array([_known(stage.answers[i], name) for stage in stages])
+        result.loads[load.name] = load
+    return result
+
+
+def _status(code: int) -> str:
+    return str(solve_pb2.LoadCaseAnswer.Status.Name(int(code))).removeprefix("STATUS_").lower()
+
+
+def _sweep(loads: list[str], inclusions: list[str], columns: Arrays, kept: list[int], error: str,
+           seconds: float) -> Sweep:
+    rows = len(columns["status"])
+    every: Arrays = {"displacement": np.empty((rows, 0)), "contact": np.empty((rows, 0), np.uint8),
+                     "contact_nodes": np.empty((0, 2), np.int32), **columns}
+    return Sweep(loads, inclusions, **every, kept=kept, error=error, solve_seconds=seconds)
+
+
+def _row(sweep: Sweep, row: int, traces: list[Trace], interfaces: list[Interface]) -> Load:
+    """The answer to a row whose traces were kept."""
+    load = Load(f"row-{row}", _status(sweep.status[row]), method="active-set", iterations=int(sweep.steps[row]),
+                energy=float(sweep.energy[row]), contact_length=float(sweep.contact_length[row]), traces=traces)
+    for i, name in enumerate(sweep.inclusions):
+        slope = sweep.slope[row, i].tolist() if sweep.slope is not None else (0.0, 0.0)
+        load.inclusions[name] = Inclusion(name, float(sweep.displacement[row, i]), Bx=slope[0], By=slope[1])
+    for i, trace in enumerate(traces):
+        for first, last in runs(trace.contact):
+            if trace.contact[first]:
+                s = interfaces[i].s
+                load.contact_intervals.append((i, float(s[first]), float(s[last - 1])))
+    return load
+
+
+def runs(values: Array) -> list[tuple[int, int]]:
+    """(first, last + 1) of equal entries."""
+    cuts = (np.flatnonzero(np.diff(values)) + 1).tolist()
+    return list(zip([0, *cuts], [*cuts, len(values)])) if len(values) else []
+
+
+def _known(message: Any, name: str) -> Any:
+    """NaN where it is optional and not set."""
+    described = message.DESCRIPTOR.fields_by_name[name]
+    return NAN if described.has_presence and not message.HasField(name) else getattr(message, name)
+
+
+def _seconds(duration: Any) -> float:
+    return float(duration.seconds + duration.nanos * 1e-9)
+
+
+def _asked(load: Load, solver: solve_pb2.Solver) -> None:
+    """Of the method, with the defaults of the API."""
+    def given(message: Any, name: str, default: float) -> float:
+        return float(getattr(message, name)) if message.HasField(name) else default
+    load.method = "uzawa" if solver.HasField("uzawa") else "active-set"
+    if load.method == "active-set":
+        load.tolerance = given(solver.active_set, "tolerance", 1e-12)
+        return
+    load.mass = "consistent" if solver.uzawa.mass == solve_pb2.MASS_CONSISTENT else "lumped"
+    load.p = given(solver.uzawa, "p", 1e5)
+    load.kkt_tolerance = given(solver.uzawa, "kkt_tolerance", NAN)
+    if not solver.uzawa.HasField("kkt_tolerance"):
+        load.epsilon = given(solver.uzawa, "epsilon", 1e-12)
+
+
+def _load_of(answer: solve_pb2.LoadCaseAnswer, solver: solve_pb2.Solver) -> Load:
+    status = _status(answer.status)
+    load = Load(answer.name, status, answer.reason, answer.error.message, iterations=answer.iterations,
+                solve_seconds=_seconds(answer.solve_time))
+    _asked(load, solver)
+    if status not in ("converged", "not_converged"):
+        return load
+    for name in SCALARS:
+        if name in answer.DESCRIPTOR.fields_by_name and name not in ("status", "reason", "error"):
+            setattr(load, name, _known(answer, name))
+    load.warnings = list(answer.warnings)
+    load.kkt = {name: getattr(answer.kkt, name + "_relative") for name in KKT}
+    load.kkt_absolute = {name: getattr(answer.kkt, name) for name in KKT}
+    for part in answer.inclusions:
+        load.inclusions[part.name] = Inclusion(part.name, **{
+            entry.name: _known(part, _INCLUSION.get(entry.name, entry.name))
+            for entry in fields(Inclusion) if entry.name != "name"})
+    return load
+
+
+def _arrays(group: Any) -> Arrays:
+    return {name: item[()] for name, item in group.items() if hasattr(item, "shape")}
+
+
+def _texts(dataset: Any) -> list[str]:
+    return [str(text) for text in dataset.asstr()[()]]
+
+
+def _of_file(file: Any) -> Result:
+    group = file["mesh"]
+    mesh = Mesh(**{name: group[name][()] for name in ("nodes", "triangles", "subdomain", "boundary", "tension")},
+                subdomain_names=_texts(group["subdomain_names"]), inclusions=_texts(group["inclusions"]))
+    interfaces = [Interface(file[f"interfaces/{i}"].attrs["name"], **_arrays(file[f"interfaces/{i}"]))
+                  for i in range(len(file["interfaces"]))]
+    groups = sorted(file["loads"].items(), key=lambda item: int(item[1].attrs.get("index", 0)))
+    attributes = file.attrs
+    result = Result(attributes["title"], attributes["job"], attributes["mesh"], mesh, interfaces,
+                    {name: _load_in(name, item) for name, item in groups}, None, attributes.get("not_reached", ""),
+                    attributes["case"], attributes["server_version"], attributes["mesh_sha256"],
+                    *(float(attributes[name + "_seconds"]) for name in ("mesh", "factorize", "solve", "total")))
+    if "sweep" in file:
+        sweep = file["sweep"]
+        arrays = _arrays(sweep)
+        kept = [int(row) for row in arrays.pop("kept", [])]
+        loads, inclusions = ([str(name) for name in sweep.attrs[key]] for key in ("loads", "inclusions"))
+        result.sweep = _sweep(loads, inclusions, arrays, kept, sweep.attrs["error"],
+                              float(sweep.attrs["solve_seconds"]))
+    return result
+
+
+def _load_in(name: str, group: Any) -> Load:
+    load = Load(name, group.attrs["status"])
+    for key in SCALARS:
+        if key in group.attrs:
+            value = group.attrs[key]
+            setattr(load, key, value if isinstance(value, str) else value.item())
+    load.warnings = _texts(group["warnings"]) if "warnings" in group else []
+    parts = group["inclusions"]
+    known = {entry.name for entry in fields(Inclusion)} - {"name"}
+    columns = {key: parts[key][()] for key in parts if key in known}
+    load.inclusions = {part: Inclusion(part, **{key: float(column[i]) for key, column in columns.items()})
+                       for i, part in enumerate(_texts(parts["name"]))}
+    traces = group["traces"] if "traces" in group else {}
+    load.traces = [Trace(**_arrays(traces[str(i)])) for i in range(len(traces))]
+    history = _arrays(group["history"]) if "history" in group else {}
+    if any(values.size for values in history.values()):
+        load.history = history
+        load.kkt = {key: float(group.attrs["kkt_relative_" + key]) for key in KKT}
+        load.kkt_absolute = {key: float(group.attrs["kkt_" + key]) for key in KKT}
+    elif load.status == "failed":  # the file of the command has 0
+        load.contact_length = NAN
+    load.stages = _arrays(group["stages"]) if "stages" in group else {}
+    contact = _arrays(group["contact_intervals"])
+    load.contact_intervals = [(int(i), float(begin), float(end)) for i, begin, end in
+                              zip(contact["interface"], contact["begin"], contact["end"])]
+    found = group["fields"] if "fields" in group else {}
+    load.fields = [Field(found[str(i)].attrs["name"], **_arrays(found[str(i)])) for i in range(len(found))]
+    load.indicator = group["indicator"][()] if "indicator" in group else None
+    return load

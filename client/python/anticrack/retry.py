@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""When a failed call is tried again. Every call can be repeated: jobs have a request id, meshes and uploads are named
+by their content, a watch goes on behind a number, a read at an offset."""
+from __future__ import annotations
+
+import random
+import time
+
+from .errors import ServerError
+
+FIRST, LONGEST = 0.1, 1.0  # delays before the second try and at most [s]
+
+
+class Backoff:
+    """Delays that double, each drawn from its upper half. patience: gives up when failing for longer [s];
+    first_contact: the same before the server has answered once, since a wrong address should fail soon."""
+
+    def __init__(self, patience: float, first_contact: float) -> None:
+        self.patience, self.first_contact = patience, first_contact
+        self.met = False
+        self._delay, self._since = FIRST, 0.0
+
+    def fresh(self) -> Backoff:
+        """For another call to the same server."""
+        other = Backoff(self.patience, self.first_contact)
+        other.met = self.met
+        return other
+
+    @property
+    def failing(self) -> bool:
+        """Since the last success."""
+        return self._since > 0
+
+    def succeeded(self) -> None:
+        self.met, self._delay, self._since = True, FIRST, 0.0
+
+    def next(self, error: ServerError) -> float:
+        """Seconds to wait before the next try; raises `error` to give up."""
+        now = time.monotonic()
+        self._since = self._since or now
+        delay = max(random.uniform(self._delay / 2, self._delay), error.retry_delay)
+        self._delay = min(2 * self._delay, LONGEST)
+        limit = self.patience if self.met or not error.lost else self.first_contact
+        if not error.may_retry or now - self._since + delay > limit:
+            raise error
+        return delay

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes the result file that the project's README describes."""
+from __future__ import annotations
+
+import os
+import tempfile
+from dataclasses import fields
+from typing import Any
+
+import h5py
+import numpy as np
+
+from .result import KKT, SCALARS, Inclusion, Load, Result, Sweep
+
+_TEXT = h5py.string_dtype()
+_HISTORY = {"iteration": "i4", "contact_count": "i4", "criterion": "f8", "energy": "f8",
+            **{f"kkt_{name}": "f8" for name in KKT}}
+
+
+def save(result: Result, path: str | os.PathLike[str]) -> None:
+    """Whole or not at all."""
+    folder = os.path.dirname(os.path.abspath(path))
+    with tempfile.TemporaryDirectory(prefix=".anticrack-", dir=folder) as scratch:
+        made = os.path.join(scratch, "result.h5")
+        with h5py.File(made, "w") as file:
+            _put_result(file, result)
+        os.replace(made, path)
+
+
+def _put(group: Any, name: str, values: Any, units: str = "-") -> None:
+    texts = isinstance(values, list) and (not values or isinstance(values[0], str))
+    array = np.array(values, dtype=_TEXT if texts else None)
+    group.create_dataset(name, data=array, **({"compression": "gzip", "shuffle": True} if array.size > 1000 else {}))
+    group[name].attrs["units"] = units
+
+
+def _put_arrays(group: Any, record: Any) -> None:
+    """All that a record has."""
+    for field in fields(record):
+        value = getattr(record, field.name)
+        if isinstance(value, np.ndarray):
+            _put(group, field.name, value)
+
+
+def _put_attributes(group: Any, record: Any, names: list[str]) -> None:
+    for name in names:
+        value = getattr(record, name)
+        group.attrs[name] = np.int32(value) if isinstance(value, int) else value
+
+
+def _put_result(file: Any, result: Result) -> None:
+    from . import __version__
+    file.attrs.update({"format": "anticrack-result/1", "client_version": __version__, "mesh": result.mesh_name})
+    _put_attributes(file, result, ["title", "case", "server_version", "job", "mesh_sha256", "not_reached", *(
+        name + "_seconds" for name in ("mesh", "factorize", "solve", "total"))])
+    mesh = file.create_group("mesh")
+    _put_arrays(mesh, result.mesh)
+    for name in ("subdomain_names", "inclusions"):
+        _put(mesh, name, getattr(result.mesh, name))
+    file.create_group("interfaces")
+    for i, interface in enumerate(result.interfaces):
+        group = file.create_group(f"interfaces/{i}")
+        group.attrs["name"] = interface.name
+        _put_arrays(group, interface)
+    file.create_group("loads")
+    for i, load in enumerate(result.loads.values()):
+        group = file.create_group(f"loads/{load.name}")
+        group.attrs["index"] = np.int32(i)
+        _put_load(group, load)
+    if result.sweep is not None:
+        _put_sweep(file.create_group("sweep"), result.sweep)
+
+
+def _put_load(group: Any, load: Load) -> None:
+    _put_attributes(group, load, SCALARS)
+    for name in KKT:
+        group.attrs["kkt_" + name], group.attrs["kkt_relative_" + name] = load.kkt_absolute[name], load.kkt[name]
+    _put(group, "warnings", load.warnings)
+    inclusions = group.create_group("inclusions")
+    for field in fields(Inclusion):
+        column = [getattr(inclusion, field.name) for inclusion in load.inclusions.values()]
+        _put(inclusions, field.name, column if field.name == "name" else np.array(column, dtype=float))
+    contact = group.create_group("contact_intervals")
+    for i, (name, kind) in enumerate((("interface", np.int32), ("begin", float), ("end", float))):
+        _put(contact, name, np.array([part[i] for part in load.contact_intervals], dtype=kind))
+    traces, history = group.create_group("traces"), group.create_group("history")
+    for i, trace in enumerate(load.traces):
+        _put_arrays(traces.create_group(str(i)), trace)
+    for name, dtype in _HISTORY.items():
+        _put(history, name, load.history.get(name, np.empty(0, dtype)))
+    if load.stages:
+        stages = group.create_group("stages")
+        for name, values in load.stages.items():
+            _put(stages, name, values, "s" if name == "seconds" else "-")
+    for i, part in enumerate(load.fields):
+        field_group = group.require_group(f"fields/{i}")
+        field_group.attrs["name"] = part.subdomain
+        _put_arrays(field_group, part)
+    if load.indicator is not None:
+        _put(group, "indicator", load.indicator)
+
+
+def _put_sweep(group: Any, sweep: Sweep) -> None:
+    counts = np.bincount(sweep.status, minlength=6)
+    group.attrs.update({"description": "row k of every dataset belongs to load case k", "source": "",
+                        "error": sweep.error, "solve_seconds": sweep.solve_seconds, "converged": np.int32(counts[3]),
+                        "not_converged": np.int32(counts[4]), "failed": np.int32(counts[5])})
+    for name in ("loads", "inclusions"):
+        group.attrs[name] = np.array(getattr(sweep, name), dtype=_TEXT)
+    for field in fields(sweep):
+        value = getattr(sweep, field.name)
+        if isinstance(value, np.ndarray) and (value.size or value.ndim == 1):  # columns of nothing are left out
+            _put(group, field.name, value)
+    _put(group, "kept", np.array(sweep.kept, dtype=np.int32))

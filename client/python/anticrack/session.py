@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What one does with a server, written once for blocking and asynchronous clients. Lost connections are retried."""
+from __future__ import annotations
+
+import hashlib
+import logging
+import os
+import pathlib
+import uuid
+from collections.abc import AsyncIterator, Callable, Iterable, Sequence
+from typing import Any
+
+
+from .arrays import Array
+from .blocks import BlockReceiver
+from .case import Case, as_case
+from .errors import CaseError, ServerError
+from .places import in_terms_of
+from .result import Result
+from .retry import Backoff
+from .sweeps import sweep_of
+from .translate import Requests
+from .transport import Transport
+from .v1 import mesh_pb2, server_pb2, solve_pb2, upload_pb2
+
+LOG = logging.getLogger("anticrack")
+CHUNK = 1 << 20
+FILES_A_STREAM = 500  # the server takes 1000
+TRIES_OF_DAMAGED_DATA = 3
+ENDED = (solve_pb2.Job.STATE_SUCCEEDED, solve_pb2.Job.STATE_NOT_CONVERGED, solve_pb2.Job.STATE_FAILED,
+         solve_pb2.Job.STATE_CANCELLED)
+
+
+class Session:
+    def __init__(self, transport: Transport, address: str, backoff: Backoff) -> None:
+        self.transport, self.address, self.backoff = transport, address, backoff
+
+    async def _wait(self, backoff: Backoff, error: ServerError) -> None:
+        """Until the next try; raises `error`, if it is about a lost connection with the cure, to give up."""
+        try:
+            first = not backoff.failing
+            delay = backoff.next(error)
+            if first and self.backoff.met:
+                LOG.warning("server %s: %s; trying again for up to %g s", self.address, error, backoff.patience)
+        except ServerError:
+            if not error.lost or error.reason:
+                raise
+            raise ServerError(error.code, f"cannot reach the server at {self.address} ({error}); is it anticrackd, and "
+                              "does it want TLS (ca, cert, key)? anticrack.local() starts a private one") from None
+        await self.transport.sleep(delay)
+
+    def _succeeded(self, backoff: Backoff) -> None:
+        backoff.succeeded()
+        self.backoff.met = True
+
+    async def call(self, method: Any, request: Any, deletes: bool = False) -> Any:
+        """deletes: NOT_FOUND after a lost answer is success, None."""
+        backoff, lost = self.backoff.fresh(), False
+        while True:
+            try:
+                response = await self.transport.unary(method, request)
+            except ServerError as error:
+                if deletes and lost and error.code == "NOT_FOUND":
+                    return None
+                lost = lost or error.lost
+                await self._wait(backoff, error)
+            else:
+                self._succeeded(backoff)
+                return response
+
+    async def events(self, name: str, after: int = 0) -> AsyncIterator[solve_pb2.WatchJobResponse]:
+        """Every event of a job after a number, in order and once each, up to the one that ends it; goes on behind the
+        last one after a lost connection. Where the server keeps that one no longer, starts again from the earliest."""
+        backoff = self.backoff.fresh()
+        while True:
+            lost = ServerError("UNAVAILABLE", "the server closed the stream early")
+            stream = self.transport.stream(self.transport.jobs.WatchJob,
+                                           solve_pb2.WatchJobRequest(name=name, after_sequence=after))
+            try:
+                async for message in stream:
+                    self._succeeded(backoff)
+                    numbered = message.WhichOneof("event") not in ("snapshot", "heartbeat")
+                    if numbered and message.sequence <= after:
+                        continue
+                    after = message.sequence if numbered else after
+                    yield message
+                    if message.HasField("ended"):
+                        return
+            except ServerError as error:
+                if error.code == "OUT_OF_RANGE" and after:
+                    after = 0
+                    continue
+                lost = error
+            finally:
+                await stream.aclose()  # type: ignore[attr-defined]
+            await self._wait(backoff, lost)
+
+    async def block(self, method: Any, request_type: Callable[..., Any], name: str) -> dict[str, Array]:
+        """The arrays that a method streams; goes on where it was after a lost connection."""
+        backoff, receiver, damaged = self.backoff.fresh(), BlockReceiver(), 0
+        while True:
+            lost = ServerError("UNAVAILABLE", "the server closed the stream early")
+            try:
+                async for message in self.transport.stream(method, request_type(name=name, offset=receiver.offset)):
+                    self._succeeded(backoff)
+                    receiver.accept(message)
+                if receiver.complete:
+                    return receiver.finish()
+            except ServerError as error:
+                lost = error
+                if error.code == "DATA_LOSS":
+                    damaged += 1
+                    if damaged == TRIES_OF_DAMAGED_DATA:
+                        raise
+                    receiver = BlockReceiver()
+                    continue
+            await self._wait(backoff, lost)
+
+    async def upload(self, contents: Sequence[bytes], kind: upload_pb2.Upload.Kind) -> list[str]:
+        """Their names."""
+        names: list[str] = []
+        for begin in range(0, len(contents), FILES_A_STREAM):
+            names += await self._upload(contents[begin:begin + FILES_A_STREAM], kind)
+        return names
+
+    async def _upload(self, contents: Sequence[bytes], kind: upload_pb2.Upload.Kind) -> list[str]:
+        def parts() -> Iterable[upload_pb2.CreateUploadsRequest]:
+            for content in contents:
+                header = upload_pb2.CreateUploadsRequest.Header(
+                    size=len(content), sha256=hashlib.sha256(content).hexdigest(), kind=kind)
+                yield upload_pb2.CreateUploadsRequest(header=header)
+                for begin in range(0, len(content), CHUNK):
+                    yield upload_pb2.CreateUploadsRequest(chunk=content[begin:begin + CHUNK])
+        backoff = self.backoff.fresh()
+        while True:
+            try:
+                response = await self.transport.upload(parts)
+            except ServerError as error:
+                await self._wait(backoff, error)
+            else:
+                self._succeeded(backoff)
+                return [upload.name for upload in response.uploads]
+
+    async def _create_mesh(self, requests: Requests) -> mesh_pb2.Mesh:
+        if requests.msh is not None:
+            content = requests.msh if isinstance(requests.msh, bytes) else _content(requests.msh)
+            requests.mesh.upload = (await self.upload([content], upload_pb2.Upload.KIND_MSH))[0]
+        return await self.call(self.transport.meshes.CreateMesh, requests.mesh)  # type: ignore[no-any-return]
+
+    async def create_mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
+        case = as_case(case)
+        try:
+            return await self._create_mesh(case.requests(loads_needed=False))
+        except ServerError as error:
+            raise in_terms_of(case.source, error) from None
+
+    async def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
+                     traces: Sequence[int] = ()) -> solve_pb2.Job:
+        case = as_case(case)
+        try:
+            return await self._submit(case.requests(loads_needed=nodal_forces is None), coefficients, nodal_forces,
+                                      traces)
+        except ServerError as error:
+            raise in_terms_of(case.source, error) from None
+
+    async def _submit(self, requests: Requests, coefficients: Any, nodal_forces: Any,
+                      traces: Sequence[int]) -> solve_pb2.Job:
+        job = requests.job
+        if requests.arrays:
+            names = await self.upload([values.tobytes() for _, values in requests.arrays],
+                                      upload_pb2.Upload.KIND_ARRAY)
+            for (index, _), name in zip(requests.arrays, names):
+                job.load_cases[index].force.array.upload = name
+        matrix = sweep_of(job, coefficients, nodal_forces, traces)
+        if matrix is not None:
+            target = job.sweep.coefficients if coefficients is not None else job.sweep.nodal_forces
+            target.upload = (await self.upload([matrix], upload_pb2.Upload.KIND_ARRAY))[0]
+        job.mesh = (await self._create_mesh(requests)).name
+        request = solve_pb2.CreateJobRequest(job=job, request_id=str(uuid.uuid4()))
+        return await self.call(self.transport.jobs.CreateJob, request)  # type: ignore[no-any-return]
+
+    async def mesh(self, name: str) -> mesh_pb2.Mesh:
+        """Once it is meshed, or has failed."""
+        pause = 0.02
+        while True:
+            mesh = await self.call(self.transport.meshes.GetMesh, mesh_pb2.GetMeshRequest(name=name))
+            if mesh.state == mesh_pb2.Mesh.STATE_FAILED or mesh.sha256:
+                return mesh  # type: ignore[no-any-return]
+            await self.transport.sleep(pause)
+            pause = min(1.5 * pause, 0.5)
+
+    async def mesh_arrays(self, name: str) -> dict[str, Array]:
+        return await self.block(self.transport.meshes.ReadMesh, mesh_pb2.ReadMeshRequest, name)
+
+    async def job(self, name: str) -> solve_pb2.Job:
+        return await self.call(self.transport.jobs.GetJob, solve_pb2.GetJobRequest(name=name))  # type: ignore
+
+    async def jobs(self, limit: int) -> list[solve_pb2.Job]:
+        """The newest, without load cases and answers."""
+        found: list[solve_pb2.Job] = []
+        request = solve_pb2.ListJobsRequest()
+        while len(found) < limit:
+            request.page_size = min(limit - len(found), 1000)
+            page = await self.call(self.transport.jobs.ListJobs, request)
+            found.extend(page.jobs)
+            request.page_token = page.next_page_token
+            if not page.next_page_token:
+                break
+        return found
+
+    async def cancel(self, name: str) -> solve_pb2.Job:
+        return await self.call(self.transport.jobs.CancelJob, solve_pb2.CancelJobRequest(name=name))  # type: ignore
+
+    async def delete(self, name: str) -> None:
+        await self.call(self.transport.jobs.DeleteJob, solve_pb2.DeleteJobRequest(name=name), deletes=True)
+
+    async def info(self) -> server_pb2.ServerInfo:
+        return await self.call(self.transport.server.GetServerInfo, server_pb2.GetServerInfoRequest())  # type: ignore
+
+    async def result(self, name: str, case_text: str = "") -> Result:
+        """Of an ended job."""
+        job = await self.job(name)
+        stages = [stage.mesh for stage in job.stages if stage.answers]
+        mesh = await self.mesh(stages[-1] if stages else job.mesh)
+        arrays = await self.block(self.transport.jobs.ReadResult, solve_pb2.ReadResultRequest, name)
+        mesh_arrays, info = await self.mesh_arrays(mesh.name), await self.info()
+        return Result.of_job(job, mesh, mesh_arrays, arrays, case_text, info.version)
+
+
+def _content(path: pathlib.Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise CaseError(f"mesh.file: {path}: {error.strerror}; name a .msh file") from None

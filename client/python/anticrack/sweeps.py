@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Many combinations of a case's loads in one job."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from .errors import CaseError
+from .v1 import solve_pb2
+
+
+def sweep_of(job: solve_pb2.Job, coefficients: Any, nodal_forces: Any, traces: Sequence[int]) -> bytes | None:
+    """Makes a job a sweep; the matrix to upload, none where neither is given.
+
+    coefficients (rows, loads) in the order of the case's loads, or a DataFrame with their names as columns;
+    nodal_forces (rows, nodes): f on the nodes of the mesh. traces: rows whose traces are kept."""
+    if coefficients is None and nodal_forces is None:
+        if traces:
+            raise CaseError("traces are of a sweep; give coefficients or nodal_forces")
+        return None
+    if coefficients is not None and nodal_forces is not None:
+        raise CaseError("give coefficients or nodal_forces, not both")
+    names = [load.name for load in job.load_cases]
+    if coefficients is not None and hasattr(coefficients, "columns"):
+        if sorted(map(str, coefficients.columns)) != sorted(names):
+            raise CaseError(f"columns {list(coefficients.columns)} are not the loads {names}")
+        coefficients = coefficients[names].to_numpy()
+    matrix = np.asarray(coefficients if coefficients is not None else nodal_forces)
+    columns = len(names) if coefficients is not None else None
+    if matrix.ndim != 2 or not matrix.size or (columns is not None and matrix.shape[1] != columns):
+        wanted = "nodes" if columns is None else columns
+        raise CaseError(f"an array of shape {matrix.shape} is not (rows, {wanted})")
+    if matrix.dtype.kind not in "fiu" or not np.isfinite(matrix).all():
+        raise CaseError("coefficients and forces are finite numbers")
+    if job.HasField("accuracy"):
+        raise CaseError("a sweep is on one mesh; leave accuracy out")
+    del job.outputs[:]
+    job.sweep.traces.extend(sorted({int(row) for row in traces}))
+    if nodal_forces is not None:
+        del job.load_cases[:]
+    return matrix.astype("<f8").tobytes()

@@ -1,0 +1,323 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A case, as tables, to the messages of the API. Shapes and types are checked here, ranges and meaning by the
+server."""
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .arrays import Array
+from .sections import Section
+from .v1 import mesh_pb2, solve_pb2
+
+_PRESETS = ["paper", "uniform", "graded", "coarse"]
+_UZAWA = ["theta", "epsilon", "p", "max_iterations", "mass", "kkt_tolerance"]
+_ACTIVE_SET = ["tolerance", "max_steps"]
+_FORCE = ('write a number, an expression in x and y in quotes, {region = number} or {file = "f.h5", dataset = "/f", '
+          'per = "triangle"}')
+
+
+@dataclass
+class Requests:
+    """msh: the file to upload, its path or its bytes. arrays: (index of the load case, values of its f)."""
+    mesh: mesh_pb2.CreateMeshRequest = field(default_factory=mesh_pb2.CreateMeshRequest)
+    job: solve_pb2.Job = field(default_factory=solve_pb2.Job)
+    msh: Path | bytes | None = None
+    arrays: list[tuple[int, Array]] = field(default_factory=list)
+
+
+def requests_of(tables: Mapping[str, Any], source: str, folder: Path, loads_needed: bool = True) -> Requests:
+    """`source` names the case in errors; names of files are relative to `folder`."""
+    root = Section(tables, "", ["title", "geometry", "mesh", "solver", "accuracy", "load", "job", "output"], source)
+    out = Requests()
+    title = root.text("title")
+    if title is not None:
+        out.mesh.title = out.job.title = title
+    _mesh(root, folder, out)
+    _solver(root, out.job.solver)
+    if loads_needed or "load" in root:
+        root.need("load", "write [[load]] with name and f for each load case")
+    for section in root.sections("load", ["name", "f", "boundary_value", "traction", "point_forces",
+                                          "inclusion_forces", "inclusion_moments"]):
+        _load(section, folder, out)
+    _accuracy(root, out)
+    _job(root, out.job)
+    output = root.section("output", ["fields"])
+    if output is not None and output.boolean("fields"):
+        out.job.outputs.append(solve_pb2.OUTPUT_FIELDS)
+    # Fields are drawn with where their errors come from, if the method bounds them.
+    if out.job.HasField("accuracy") or (out.job.outputs and out.job.solver.HasField("active_set")):
+        out.job.outputs.append(solve_pb2.OUTPUT_INDICATORS)
+    return out
+
+
+def _set(message: Any, **values: Any) -> None:
+    """Those that are not None."""
+    for name, value in values.items():
+        if value is not None:
+            setattr(message, name, value)
+
+
+def _mesh(root: Section, folder: Path, out: Requests) -> None:
+    geometry = root.section("geometry", ["boundary", "interface", "inclusion", "crack", "neumann", "region"])
+    mesh = root.section("mesh", ["preset", "size", "tip_size", "grading", "align", "file", "groups", "tension",
+                                 "inclusions"])
+    out.mesh.options.preset = mesh_pb2.MESH_PRESET_GRADED
+    if mesh is not None:
+        _options(mesh, out.mesh.options)
+    if mesh is not None and "file" in mesh:
+        if geometry is not None:
+            raise geometry.error("", "there is a mesh.file too; remove one of the two")
+        data = mesh.table["file"]
+        out.msh = data if isinstance(data, bytes) else folder / (mesh.text("file") or "")
+        return
+    root.need("geometry", 'write [geometry] with boundary and interface, or mesh.file = "x.msh"')
+    assert geometry is not None
+    _geometry(geometry, out.mesh.geometry)
+    if "accuracy" in root and not (mesh is not None and "preset" in mesh):
+        out.mesh.options.preset = mesh_pb2.MESH_PRESET_COARSE
+
+
+def _options(section: Section, options: mesh_pb2.MeshOptions) -> None:
+    preset = section.choice("preset", _PRESETS)
+    name = "graded" if preset is None else _PRESETS[preset]
+    _set(options, preset=None if preset is None else mesh_pb2.MESH_PRESET_PAPER + preset)
+    idle = {"paper": ["size", "tip_size", "grading", "align"], "uniform": ["tip_size", "grading"]}.get(name, [])
+    section.refuse(idle, f'means nothing with preset "{name}"; remove it, or write preset = "graded"')
+    if "file" in section:
+        section.refuse(["align"], "means nothing with mesh.file; remove one of the two")
+    else:
+        section.refuse(["groups"], 'belongs to mesh.file; write file = "x.msh" beside it')
+        section.refuse(["tension"], "belongs to mesh.file; for a geometry write [[geometry.region]] with name, at and "
+                                    "tension")
+        section.refuse(["inclusions"], "belongs to mesh.file; for a geometry write tilt or fixed in its "
+                                       "[[geometry.inclusion]]")
+    _set(options, size=section.positive("size"), tip_size=section.positive("tip_size"),
+         grading=section.positive("grading"))
+    if "align" in section:
+        lines = section.list_of(section.get("align"), "align", "a list of lines", "write [[[x, y], [x, y], ...], ...]")
+        for i, line in enumerate(lines):
+            options.align.add(points=section.points_of(line, f"align.{i}"))
+    groups = section.section("groups", ["curve", "surface"])
+    if groups is not None:
+        _groups(groups, "curve", options.curve_groups)
+        _groups(groups, "surface", options.surface_groups)
+    options.tension.update(section.numbers("tension", "write subdomain = number for each of them"))
+    cure = "write NAME = { tilt = true } or NAME = { fixed = 0.1 } for each of them"
+    for name, entry in section.entries("inclusions", cure):
+        motion = options.inclusion_motions[name]
+        _motion(Section(entry, f"mesh.inclusions.{name}", ["tilt", "fixed"], section.source), motion)
+
+
+def _groups(section: Section, key: str, groups: Any) -> None:
+    cure = ('write the tag of a physical group and its meaning in quotes, for example curve.7 = "crack" or '
+            'surface.1 = "top"')
+    for tag, meaning in section.entries(key, cure):
+        if not tag.isdecimal() or not 1 <= int(tag) < 2**31:
+            raise section.error(f"{key}.{tag}", f"'{tag}' is not a tag; {cure}")
+        if not isinstance(meaning, str) or not meaning:
+            raise section.error(f"{key}.{tag}", f"{meaning!r} is not a meaning of a group; {cure}")
+        groups[int(tag)] = meaning
+
+
+def _motion(section: Section, message: Any) -> None:
+    _set(message, tilt=section.boolean("tilt"), fixed=section.number("fixed"))
+    if message.tilt and "fixed" in section:
+        raise section.error("fixed", "the inclusion has tilt = true too, but one that is held does not tilt; remove "
+                                     "one of the two")
+
+
+def _geometry(section: Section, geometry: mesh_pb2.Geometry) -> None:
+    boundary = section.points_of(section.need("boundary", "write [[x, y], [x, y], ...]"), "boundary")
+    geometry.boundary.extend(mesh_pb2.Point(**point) for point in boundary)
+    _interfaces(section, geometry)
+    for part in section.sections("inclusion", ["name", "from", "to", "delaminated", "tilt", "fixed", "contact"]):
+        part.refuse(["contact"], "belongs to [[geometry.crack]]; an inclusion has delaminated = true or false")
+        inclusion = geometry.inclusions.add(name=_name(part, "inclusion"), part=_line(part))
+        delaminated = part.get("delaminated")
+        if isinstance(delaminated, list):
+            inclusion.delaminated_parts.SetInParent()
+            for i, pair in enumerate(delaminated):
+                inclusion.delaminated_parts.parts.add(**part.part_of(pair, f"delaminated.{i}"))
+        elif "delaminated" in part:
+            if not isinstance(delaminated, bool):
+                raise part.error("delaminated", f"{delaminated!r} is not possible; write true, false or "
+                                                "[[from, to], ...]")
+            inclusion.delaminated = delaminated
+        _motion(part, inclusion)
+    for part in section.sections("crack", ["name", "from", "to", "contact", "tilt", "fixed"]):
+        part.refuse(["tilt", "fixed"], "belongs to [[geometry.inclusion]]; nothing rigid lies on a crack, so remove "
+                                       "it")
+        _set(geometry.cracks.add(name=_name(part, "crack"), part=_line(part)), contact=part.boolean("contact"))
+    _neumann(section, geometry)
+    for part in section.sections("region", ["name", "at", "tension"]):
+        at = part.point_of(part.need("at", "write [x, y], a point inside the region"), "at")
+        _set(geometry.regions.add(name=_name(part, "region"), at=at), tension=part.positive("tension"))
+
+
+def _name(section: Section, what: str) -> str:
+    section.need("name", f"give the {what} a name")
+    return section.text("name") or ""
+
+
+def _line(section: Section) -> mesh_pb2.InterfacePart:
+    cure = "write [x, y], a point of an interface"
+    return mesh_pb2.InterfacePart(**{key: section.point_of(section.need(key, cure), key) for key in ("from", "to")})
+
+
+def _neumann(section: Section, geometry: mesh_pb2.Geometry) -> None:
+    parts = section.get("neumann")
+    if parts == "all":  # a part from a point to itself is the whole boundary
+        if geometry.boundary:
+            geometry.neumann.add(**{"from": geometry.boundary[0], "to": geometry.boundary[0]})
+    elif isinstance(parts, (list, tuple)):
+        for i, pair in enumerate(parts):
+            geometry.neumann.add(**section.part_of(pair, f"neumann.{i}"))
+    elif "neumann" in section:
+        raise section.error("neumann", f"{parts!r} is not possible; write [[from, to], ...], parts of the boundary "
+                                       'walked counterclockwise, or "all"')
+
+
+def _interfaces(section: Section, geometry: mesh_pb2.Geometry) -> None:
+    value = section.get("interface")
+    if isinstance(value, (list, tuple)) and not (value and isinstance(value[0], Mapping)):
+        geometry.interfaces.add().polyline.points.extend(
+            mesh_pb2.Point(**point) for point in section.points_of(value, "interface"))
+        return
+    shapes = "points = [[x, y], ...], arc = [from, through, to] or spline = [[x, y], ...]"
+    for part in section.sections("interface", ["name", "points", "arc", "spline", "closed"]):
+        given = [key for key in ("points", "arc", "spline") if key in part]
+        if not given:
+            raise part.error("", f"an interface without a shape; write {shapes}")
+        if len(given) > 1:
+            raise part.error(given[1], f"the interface has {given[0]} too; remove one of the two")
+        points = part.points_of(part.get(given[0]), given[0])
+        curve = geometry.interfaces.add(name=part.text("name") or "", closed=part.boolean("closed") or False)
+        if given[0] == "arc":
+            if len(points) != 3:
+                raise part.error("arc", f"{points!r} is not an arc; write [from, through, to], three points with the "
+                                        "second between the others")
+            part.refuse(["closed"], "an arc has two ends; remove the key, or write a spline through the points")
+            curve.arc.CopyFrom(mesh_pb2.Arc(**dict(zip(("from", "through", "to"), points))))
+        else:
+            line = curve.polyline if given[0] == "points" else curve.spline
+            line.points.extend(mesh_pb2.Point(**point) for point in points)
+            line.SetInParent()
+
+
+def _solver(root: Section, solver: solve_pb2.Solver) -> None:
+    section = root.section("solver", ["method", *_UZAWA, *_ACTIVE_SET])
+    if section is None or not section.choice("method", ["active-set", "uzawa"]):
+        solver.active_set.SetInParent()
+        if section is not None:
+            section.refuse(_UZAWA, 'belongs to method "uzawa"; remove it, or write method = "uzawa"')
+            _set(solver.active_set, tolerance=section.number("tolerance"), max_steps=section.count("max_steps"))
+        return
+    section.refuse(_ACTIVE_SET, 'belongs to method "active-set"; remove it, or write method = "active-set"')
+    solver.uzawa.SetInParent()
+    if section.get("theta") == "auto":
+        solver.uzawa.theta_auto = True
+    elif "theta" in section:
+        solver.uzawa.theta = section.number_of(section.get("theta"), "theta", 'write a number above 0, or "auto"')
+    mass = section.choice("mass", ["lumped", "consistent"])
+    _set(solver.uzawa, epsilon=section.number("epsilon"), p=section.number("p"),
+         max_iterations=section.count("max_iterations"), kkt_tolerance=section.number("kkt_tolerance"),
+         mass=None if mass is None else solve_pb2.MASS_LUMPED + mass)
+
+
+def _load(section: Section, folder: Path, out: Requests) -> None:
+    load = out.job.load_cases.add(name=_name(section, "load case"),
+                                  boundary_value=section.expression("boundary_value"),
+                                  traction=section.expression("traction"))
+    for force in section.sections("point_forces", ["at", "value"]):
+        at = force.point_of(force.need("at", "write [x, y], where the force acts"), "at")
+        force.need("value", "write the force, a number")
+        load.point_forces.add(at=at, value=force.number("value"))
+    load.inclusion_forces.update(section.numbers("inclusion_forces", "write inclusion = number for each of them"))
+    cure = "write inclusion = [Mx, My] for each of them"
+    for name, entry in section.entries("inclusion_moments", cure):
+        moment = load.inclusion_moments[name]
+        moment.x, moment.y = section.numbers_of(entry, f"inclusion_moments.{name}", 2, "a moment", cure)
+    # Without any other load, a missing f is most likely forgotten.
+    if "f" in section or not (load.boundary_value or load.traction or load.point_forces or load.inclusion_forces
+                              or load.inclusion_moments):
+        section.need("f", _FORCE)
+        load.force.SetInParent()
+        _force(section, folder, load.force, out)
+
+
+def _force(section: Section, folder: Path, force: solve_pb2.Force, out: Requests) -> None:
+    value = section.get("f")
+    if isinstance(value, str):
+        force.expression = value
+    elif not isinstance(value, Mapping):
+        force.constant = section.number_of(value, "f", _FORCE)
+    elif any(key in value for key in ("values", "dataset", "per")) or isinstance(value.get("file"), str):
+        known = ["values", "per"] if "values" in value else ["file", "dataset", "per"]
+        array = Section(value, f"{section.path}.f", known, section.source)
+        array.need("per", 'write per = "triangle" or per = "node"')
+        force.array.per_triangle = array.choice("per", ["triangle", "node"]) == 0
+        out.arrays.append((len(out.job.load_cases) - 1, _values(array, folder)))
+    else:
+        force.per_region.SetInParent()
+        force.per_region.values.update(section.numbers("f", "write one number for each region"))
+
+
+def _values(section: Section, folder: Path) -> Array:
+    key = "values"
+    if key in section:
+        values = section.table[key]
+    else:
+        import h5py
+        section.need("file", "name an HDF5 file")
+        section.need("dataset", 'name the dataset in the file, as "/f"')
+        path, key = folder / (section.text("file") or ""), "dataset"
+        try:
+            with h5py.File(path) as file:
+                values = file[section.text("dataset")][()]
+        except (OSError, KeyError) as error:
+            raise section.error("file", f"{path}: {error}") from None
+    array = np.asarray(values)
+    if array.ndim != 1 or array.dtype.kind not in "fiu" or not np.isfinite(array).all():
+        raise section.error(key, f"{array.dtype} of shape {array.shape} is not one finite number for each node or "
+                                 "triangle")
+    return array.astype("<f8")
+
+
+def _accuracy(root: Section, out: Requests) -> None:
+    section = root.section("accuracy", ["energy", "A", "max_triangles", "time", "keep_stages"])
+    if section is None:
+        return
+    for key, name in (("energy", "energy"), ("A", "displacement")):
+        error = section.number(key)
+        if error is not None and not 1e-6 <= error <= 1:
+            raise section.error(key, f"{error:g} is out of range; write a relative error from 1e-6 to 1, as 1e-3")
+        _set(out.job.accuracy, **{name: error})
+    if "energy" not in section and "A" not in section:
+        raise section.error("", "no accuracy; write energy = 1e-3, A = 1e-3, or both")
+    _set(out.job.accuracy, max_triangles=section.count("max_triangles"), keep_stages=section.boolean("keep_stages"))
+    time = section.time("time")
+    if time is not None:
+        out.job.accuracy.time.CopyFrom(time)
+    if out.job.solver.HasField("uzawa"):
+        raise root.error("solver.method", 'the answers of "uzawa" have no bounds; with [accuracy] write method = '
+                                          '"active-set"')
+    for index, _ in out.arrays:
+        raise root.error(f"load.{index}.f", "values in a file belong to one mesh, and [accuracy] refines it; write f "
+                                            "as an expression")
+
+
+def _job(root: Section, job: solve_pb2.Job) -> None:
+    section = root.section("job", ["priority", "queue_timeout", "run_timeout"])
+    if section is None:
+        return
+    priority = section.choice("priority", ["interactive", "normal", "bulk"])
+    _set(job, priority=None if priority is None else solve_pb2.Job.PRIORITY_INTERACTIVE + priority)
+    for key in ("queue_timeout", "run_timeout"):
+        time = section.time(key)
+        if time is not None:
+            getattr(job, key).CopyFrom(time)

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cases from TOML and from objects: the same as the command's, and refused by name where they are wrong."""
+import os
+import pathlib
+
+import numpy
+
+import anticrack
+from anticrack import Case, Crack, Geometry, Inclusion, Interface, Load, Mesh, Region
+from processes import ANTICRACK, Daemon, FolderTest, run
+
+EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
+SQUARE = [[-1, -1], [1, -1], [1, 1], [-1, 1]]
+FIBRE = """
+[geometry]
+boundary = [[-1,-1], [1,-1], [1,1], [-1,1]]
+interface = [[-1,0], [1,0]]
+[[geometry.inclusion]]
+name = "fibre"
+from = [-0.5, 0]
+to = [0.5, 0]
+delaminated = true
+"""
+# What is added to it, and what the error says.
+WRONG = [
+    ("[solver]\ntheat = 1", "case: solver.theat: unknown key; did you mean theta?"),
+    ("[solver]\ntheta = 1", "case: solver.theta: belongs to method \"uzawa\""),
+    ("[mesh]\npreset = 'fine'", "case: mesh.preset: 'fine' is not possible; known are paper, uniform, graded, coarse"),
+    ("[mesh]\npreset = 'paper'\nsize = 1", "case: mesh.size: means nothing with preset \"paper\""),
+    ("[mesh]\nsize = 0", "case: mesh.size: 0.0 is not above 0"),
+    ("[mesh]\nfile = 'x.msh'", "case: geometry: there is a mesh.file too"),
+    ("[mesh]\ntension = {a = 1}", "case: mesh.tension: belongs to mesh.file"),
+    ("[[geometry.crack]]\nname = 'c'", "case: geometry.crack.0.from: missing; write [x, y]"),
+    ("[[geometry.region]]\nname = 'r'\nat = [0]", "case: geometry.region.0.at: [0] is not a point"),
+    ("[[load]]\nname = 'a'", "case: load.0.f: missing; write a number"),
+    ("[[load]]\nname = 'a'\nf = [1]", "case: load.0.f: [1] is not a finite number"),
+    ("[[load]]\nname = 'a'\nf = {values = [1]}", "case: load.0.f.per: missing"),
+    ("[[load]]\nname = 'a'\nf = {file = 'none.h5', dataset = '/f', per = 'node'}", "case: load.0.f.file: none.h5: "),
+    ("[[load]]\nname = 'a'\nf = inf", "case: load.0.f: inf is not a finite number"),
+    ("[accuracy]\nenergy = 2", "case: accuracy.energy: 2 is out of range"),
+    ("[accuracy]\ntime = 1", "case: accuracy: no accuracy"),
+    ("[job]\nrun_timeout = '3 weeks'", "case: job.run_timeout: '3 weeks' is not a time"),
+    ("[output]\nfields = 1", "case: output.fields: 1 is neither true nor false"),
+    ("", "case: load: missing"),
+]
+
+
+class FromToml(FolderTest):
+    def test_every_example_is_what_the_command_makes_of_it(self):
+        with Daemon(self.folder) as daemon, anticrack.connect(f"127.0.0.1:{daemon.port}") as client:
+            cases = sorted(EXAMPLES.glob("*.toml"))
+            self.assertGreater(len(cases), 10)
+            for case in cases:
+                ours = client.submit(case)
+                submitted = run(ANTICRACK, "--server", f"127.0.0.1:{daemon.port}", "job", "submit", case)
+                self.assertEqual(submitted.returncode, 0, submitted.stderr)
+                theirs = client.job(submitted.stdout.strip())
+                ours.refresh()
+                for job in (ours, theirs):
+                    job.cancel()
+                for name in ("title", "mesh", "load_cases", "solver", "outputs", "priority", "accuracy"):
+                    self.assertEqual(getattr(ours.message, name), getattr(theirs.message, name), f"{case}: {name}")
+
+    def test_keys_that_no_example_has(self):
+        text = FIBRE + """
+[mesh]
+preset = "uniform"
+size = 0.1
+align = [[[-0.5, 0.5], [0.5, 0.5]]]
+[solver]
+method = "uzawa"
+theta = "auto"
+mass = "consistent"
+kkt_tolerance = 1e-6
+max_iterations = 3
+[job]
+priority = "bulk"
+queue_timeout = "10min"
+run_timeout = 1.5
+[[load]]
+name = "a"
+inclusion_forces = { fibre = 1 }
+"""
+        text = text.replace("delaminated = true", "delaminated = true\nfixed = 0.1")
+        (self.folder / "case.toml").write_text(text, encoding="utf-8")
+        with Daemon(self.folder) as daemon, anticrack.connect(f"127.0.0.1:{daemon.port}") as client:
+            ours = client.submit(self.folder / "case.toml").refresh().message
+            submitted = run(ANTICRACK, "--server", f"127.0.0.1:{daemon.port}", "job", "submit",
+                            self.folder / "case.toml")
+            theirs = client.job(submitted.stdout.strip()).message
+        for name in ("mesh", "load_cases", "solver", "priority", "queue_timeout", "run_timeout"):
+            self.assertEqual(getattr(ours, name), getattr(theirs, name), name)
+
+    def test_wrong_ones_name_the_key_and_the_cure(self):
+        for text, said in WRONG:
+            with self.assertRaises(anticrack.CaseError, msg=text) as caught:
+                Case.parse(FIBRE + text).requests(loads_needed="load" in said)
+            self.assertTrue(str(caught.exception).startswith(said), f"{caught.exception} / {said}")
+
+    def test_files_that_are_none(self):
+        (self.folder / "broken.toml").write_text("[geometry", encoding="utf-8")
+        (self.folder / "binary.toml").write_bytes(b"\xff\xfe")
+        for name, said in (("none", "cannot be read"), ("broken", "this is not TOML"), ("binary", "this is not text")):
+            with self.assertRaisesRegex(anticrack.CaseError, f"{name}.toml: {said}"):
+                Case.read(self.folder / f"{name}.toml")
+
+
+class FromObjects(FolderTest):
+    def test_are_the_same_as_from_toml(self):
+        self.maxDiff = None
+        case = Case(
+            Geometry(numpy.array(SQUARE), [Interface([[-1, 0], [1, 0]], name="middle"),
+                                           Interface(arc=[(0, 0), (0.3, 0.6), (0.4, 1)], name="arc")],
+                     [Inclusion("fibre", (-0.5, 0), (numpy.float64(-0.2), 0), delaminated=[((-0.5, 0), (-0.4, 0))],
+                                tilt=True)],
+                     [Crack("crack", (0.3, 0), (0.6, 0), contact=False)], [Region("top", (-0.5, 0.5), tension=2)],
+                     neumann=[((1, -1), (1, 1))]),
+            [Load("pulled", point_forces=[((0.2, 0.3), 1)], inclusion_moments={"fibre": (1, 2)}, traction=0.2),
+             Load("pressed", {"top": 1}, boundary_value="x")],
+            Mesh("uniform", size=0.1), anticrack.Uzawa(theta="auto"), title="both", fields=True, priority="bulk")
+        text = """
+title = "both"
+[geometry]
+boundary = [[-1, -1], [1, -1], [1, 1], [-1, 1]]
+neumann = [[[1, -1], [1, 1]]]
+interface = [{ name = "middle", points = [[-1, 0], [1, 0]] },
+             { name = "arc", arc = [[0, 0], [0.3, 0.6], [0.4, 1]] }]
+inclusion = [{ name = "fibre", from = [-0.5, 0], to = [-0.2, 0], delaminated = [[[-0.5, 0], [-0.4, 0]]], tilt = true }]
+crack = [{ name = "crack", from = [0.3, 0], to = [0.6, 0], contact = false }]
+region = [{ name = "top", at = [-0.5, 0.5], tension = 2 }]
+[mesh]
+preset = "uniform"
+size = 0.1
+[solver]
+method = "uzawa"
+theta = "auto"
+[output]
+fields = true
+[job]
+priority = "bulk"
+[[load]]
+name = "pulled"
+traction = 0.2
+point_forces = [{ at = [0.2, 0.3], value = 1 }]
+inclusion_moments = { fibre = [1, 2] }
+[[load]]
+name = "pressed"
+f = { top = 1 }
+boundary_value = "x"
+"""
+        ours, theirs = case.requests(), Case.parse(text).requests()
+        self.assertEqual(ours.mesh, theirs.mesh)
+        self.assertEqual(ours.job, theirs.job)
+
+    def test_what_is_wrong_is_named(self):
+        square = Geometry(SQUARE)
+        for case, said in (
+                (lambda: Case(square, [Load("a", numpy.ones(3))]), "load.0.f.per: missing"),
+                (lambda: Case(square, [Load("a", numpy.ones((3, 2)), per="node")]), r"load.0.f.values: .*\(3, 2\)"),
+                (lambda: Case(square, [Load("a", numpy.array([numpy.nan]), per="node")]), "load.0.f.values: "),
+                (lambda: Case(square, [Load("a", 1, per="node")]), "load a: per goes with an array"),
+                (lambda: Case(square, [Load("a", True)]), "load.0.f: true is not a finite number"),
+                (lambda: Case(square, [Load("a", 1)], Mesh(curves={0: "crack"})), "mesh.groups: belongs to mesh.file")):
+            with self.assertRaisesRegex(anticrack.CaseError, said):
+                case().requests()
+
+
+class Msh(FolderTest):
+    def test_wrong_arrays_are_named(self):
+        points = [[0, 0], [1, 0], [0, 1]]
+        for cells, groups, said in (
+                ({"triangle": [[0, 1, 3]]}, {}, "points that are not there"),
+                ({"triangle": [[0, 1]]}, {}, r"integers \(n, 3\)"),
+                ({"quad": [[0, 1, 2, 0]]}, {}, "no part of a membrane"),
+                ({"triangle": [[0, 1, 2]]}, {"triangle": ["a", "b"]}, "2 names for 1 cells")):
+            with self.assertRaisesRegex(anticrack.CaseError, said):
+                anticrack.Msh(points, cells, groups).to_bytes()

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The figures: what they show, and what they ask for where it is missing."""
+import os
+import pathlib
+import unittest
+import warnings
+
+import matplotlib
+import numpy
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402
+
+import anticrack  # noqa: E402
+from anticrack import draw  # noqa: E402
+from processes import ANTICRACKD  # noqa: E402
+
+EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
+
+
+class Figures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with anticrack.local(program=ANTICRACKD) as client:
+            cls.several = client.run(EXAMPLES / "several-inclusions.toml", progress=False)
+            cls.skew = client.run(EXAMPLES / "paper-2.toml", progress=False)
+            cls.sweep = client.run(EXAMPLES / "load-ratio.toml", numpy.eye(2), progress=False)
+            case = anticrack.Case.read(EXAMPLES / "load-ratio.toml")
+            case.tables["accuracy"] = {"energy": 0.05}
+            cls.accurate = client.run(case, progress=False)
+
+    def setUp(self):
+        warnings.simplefilter("error")
+        self.addCleanup(warnings.resetwarnings)
+        self.addCleanup(pyplot.close, "all")
+
+    def test_membrane(self):
+        ax = draw.membrane(self.several, "opening")
+        self.assertEqual({text.get_text() for text in ax.texts}, {"long", "short"})
+        ax.figure.canvas.draw()
+        with self.assertRaisesRegex(anticrack.Error, "fields = true"):
+            draw.membrane(self.accurate.__class__(**{**vars(self.sweep), "loads": self.without_fields()}))
+
+    def without_fields(self):
+        return {"a": anticrack.result.Load("a", "converged")}
+
+    def test_traces_choose_the_most_eventful_interface(self):
+        ax = draw.traces(self.several, "pulled")
+        jumps = [numpy.abs(trace.jump).max() for trace in self.several["pulled"].traces]
+        name = self.several.interfaces[int(numpy.argmax(jumps))].name
+        self.assertEqual(ax.get_xlabel(), f"arc length of {name}")
+        other = draw.traces(self.several, "pulled", "upper")
+        self.assertEqual(other.get_xlabel(), "arc length of upper")
+        with self.assertRaisesRegex(anticrack.Error, "no interface 'lower'; known are middle, upper"):
+            draw.traces(self.several, "pulled", "lower")
+        with self.assertRaisesRegex(anticrack.Error, "no load 'pushed'; known are opening, pulled"):
+            draw.traces(self.several, "pushed")
+        ax.figure.canvas.draw()
+
+    def test_pressure_says_that_tips_are_left_out(self):
+        ax = draw.pressure(self.skew)
+        self.assertIn("2 % at each tip left out", ax.get_xlabel())
+        (line,) = ax.lines
+        s = line.get_xdata()
+        self.assertGreater(s.min(), 0.5)
+        self.assertLess(s.max(), 1.5)
+        self.assertGreater(line.get_ydata().max(), 0)
+
+    def test_convergence_lies_over_others(self):
+        ax = draw.convergence(self.skew)
+        self.assertIs(draw.convergence(self.several, "opening", ax), ax)
+        self.assertEqual(len(ax.lines), 4)
+        self.assertIn("example-2: relative change per iteration", ax.get_legend_handles_labels()[1])
+
+    def test_error_band(self):
+        ax = draw.error_band(self.accurate, "opening")
+        band = ax.collections[0].get_paths()[0].vertices
+        self.assertLess(band[:, 1].min(), self.accurate["opening"].energy)
+        with self.assertRaisesRegex(anticrack.Error, "accuracy"):
+            draw.error_band(self.skew)
+
+    def test_sweep(self):
+        (line,) = draw.sweep(self.sweep, "opening").lines
+        self.assertEqual(line.get_xdata().tolist(), [0, 1])
+        (line,) = draw.sweep(self.sweep, numpy.array([2.0, 1.0]), "gamma_c").lines
+        self.assertEqual(line.get_ydata().tolist(), self.sweep.sweep.displacement[::-1, 0].tolist())
+        with self.assertRaisesRegex(anticrack.Error, "not the result of a sweep"):
+            draw.sweep(self.skew)

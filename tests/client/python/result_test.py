@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Result files of the command and answers from the server are the same objects."""
+import dataclasses
+import json
+import os
+import pathlib
+
+import h5py
+import numpy
+
+import anticrack
+from processes import ANTICRACK, Daemon, FolderTest, run
+
+EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
+ACCURATE = """
+[geometry]
+boundary = [[-1,-1], [1,-1], [1,1], [-1,1]]
+interface = [[-1,0], [1,0]]
+[[geometry.inclusion]]
+name = "fibre"
+from = [-0.5, 0]
+to = [0.5, 0]
+[[load]]
+name = "skew"
+f = "x * y > 0 ? 1 : -1"
+[accuracy]
+energy = 0.05
+"""
+
+
+class Results(FolderTest):
+    def assert_same(self, ours, theirs, where):
+        """Records, lists, dictionaries and arrays; NaN is NaN."""
+        if dataclasses.is_dataclass(ours):
+            for field in dataclasses.fields(ours):
+                self.assert_same(getattr(ours, field.name), getattr(theirs, field.name), f"{where}.{field.name}")
+        elif isinstance(ours, dict):
+            self.assertEqual(list(ours) if where == ".loads" else sorted(ours),
+                             list(theirs) if where == ".loads" else sorted(theirs), where)
+            for key, value in ours.items():
+                self.assert_same(value, theirs[key], f"{where}[{key}]")
+        elif isinstance(ours, (list, tuple)):
+            self.assertEqual(len(ours), len(theirs), where)
+            for i, value in enumerate(ours):
+                self.assert_same(value, theirs[i], f"{where}[{i}]")
+        elif isinstance(ours, (numpy.ndarray, float)):
+            numpy.testing.assert_array_equal(ours, theirs, where)
+        else:
+            self.assertEqual(ours, theirs, where)
+
+    def both(self, case, *arguments, wanted=0):
+        """As the command saved it, and as the server tells it."""
+        path = self.folder / "result.h5"
+        with Daemon(self.folder) as daemon, anticrack.connect(f"127.0.0.1:{daemon.port}") as client:
+            ended = run(ANTICRACK, "--server", f"127.0.0.1:{daemon.port}", *arguments, case, "-o", path)
+            self.assertEqual(ended.returncode, wanted, ended.stderr)
+            file = anticrack.read(path)
+            told = client.job(file.job).result()
+        told.case, told.total_seconds = file.case, file.total_seconds  # which the server does not tell
+        return file, told
+
+    def assert_saved(self, result):
+        """A file of ours is read back as it was, and the command takes it for its own."""
+        path = self.folder / "saved.h5"
+        result.save(path)
+        self.assert_same(result, anticrack.read(path), "")
+        shown = [run(ANTICRACK, "--json", "show", file) for file in (path, self.folder / "result.h5")]
+        self.assertEqual([ended.returncode for ended in shown], [0, 0], shown[0].stderr)
+        ours, theirs = (json.loads(ended.stdout) for ended in shown)
+        for told in (ours, theirs):
+            told.pop("file")
+            told.get("sweep", {}).pop("source", None)
+            for answer in told["answers"]:
+                if answer["status"] == "failed" or answer["name"].startswith("row-"):  # 0 for what is not known
+                    answer.update(worst_kkt=None, contact_length=None)
+        self.assertEqual(ours, theirs)
+        for command in ("plot", "export") if all(load.fields for load in result.loads.values()) else ("plot",):
+            ended = run(ANTICRACK, command, path, "-o", self.folder / command)
+            self.assertEqual(ended.returncode, 0, ended.stderr)
+
+    def test_of_load_cases(self):
+        for name in ("several-inclusions", "tilt", "floating", "paper-2"):
+            file, told = self.both(EXAMPLES / f"{name}.toml", "run")
+            self.assert_same(file, told, "")
+            self.assertTrue(file.case.startswith("# SPDX"))
+            self.assert_saved(told)
+
+    def test_of_load_cases_that_failed_and_did_not_converge(self):
+        case = self.folder / "failing.toml"
+        text = ACCURATE.partition("[accuracy]")[0] + """
+[[load]]
+name = "infinite"
+f = "1 / (x - x)"
+[solver]
+method = "uzawa"
+max_iterations = 3
+"""
+        case.write_text(text, encoding="utf-8")
+        file, told = self.both(case, "run", wanted=1)
+        self.assert_same(file, told, "")
+        self.assertEqual((told["skew"].status, told["infinite"].status), ("not_converged", "failed"))
+        self.assert_saved(told)
+
+    def test_of_stages(self):
+        case = self.folder / "accurate.toml"
+        case.write_text(ACCURATE, encoding="utf-8")
+        file, told = self.both(case, "run")
+        self.assert_same(file, told, "")
+        self.assertGreater(len(file["skew"].stages["triangles"]), 1)
+        self.assert_saved(told)
+
+    def test_of_sweeps(self):
+        table = EXAMPLES / "load-ratio.csv"
+        file, told = self.both(EXAMPLES / "load-ratio.toml", "sweep", "--coefficients", table, "--traces", "0,2")
+        self.assertEqual(file.sweep.kept, [0, 2])
+        told.sweep.coefficients = file.sweep.coefficients  # which the server does not tell
+        self.assert_same(file, told, "")
+        self.assert_saved(told)
+
+    def test_as_a_table(self):
+        file, _ = self.both(EXAMPLES / "several-inclusions.toml", "run")
+        frame = file.frame()
+        self.assertEqual(list(frame.index), ["opening", "pulled"])
+        self.assertEqual(frame.loc["pulled", "A of short"], file["pulled"].inclusions["short"].A)
+        self.assertEqual(frame["energy"].tolist(), [load.energy for load in file.loads.values()])
+
+    def test_other_files_are_refused(self):
+        other = self.folder / "other.h5"
+        with h5py.File(other, "w") as file:
+            file.attrs["format"] = "other"
+        with self.assertRaisesRegex(anticrack.Error, "other.h5: is no result file"):
+            anticrack.read(other)
+        for path in (self.folder / "none.h5", EXAMPLES / "arc.toml"):
+            with self.assertRaisesRegex(anticrack.Error, f"{path.name}: cannot be read"):
+                anticrack.read(path)
