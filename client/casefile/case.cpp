@@ -87,13 +87,15 @@ void note(const Section& section, const std::string& field, Spots& spots) {
 }
 
 Case parse_case(const std::string& text, const std::filesystem::path& path,
-                const std::vector<std::string>& overrides, Loads loads) {
+                const std::vector<std::string>& overrides, Loads loads,
+                const std::vector<std::string>& only) {
   Case result;
   result.path = path;
   result.text = text;
   toml::table table = parse(text, path.string());
   for (const std::string& assignment : overrides) apply_override(table, assignment);
-  if (!overrides.empty()) {
+  if (!only.empty()) keep_loads(table, only);
+  if (!overrides.empty() || !only.empty()) {
     std::ostringstream out;
     out << table << '\n';
     result.text = out.str();
@@ -141,7 +143,7 @@ Case mesh_file_case(const std::filesystem::path& file, const std::string& title,
 }
 
 Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
-               Loads loads) {
+               Loads loads, const std::vector<std::string>& only) {
   constexpr const char* cure = "; name a case, a TOML file";
   if (std::filesystem::is_directory(path))
     throw Error({"", path.string(), 0}, std::string("is a folder") + cure);
@@ -153,7 +155,7 @@ Case read_case(const std::filesystem::path& path, const std::vector<std::string>
     if (!std::filesystem::is_regular_file(path) || !file)
       throw Error({"", path.string(), 0}, "cannot be read" + reason(errno) + cure);
   }
-  return parse_case(text.str(), path, overrides, loads);
+  return parse_case(text.str(), path, overrides, loads, only);
 }
 
 }  // namespace anticrack::casefile

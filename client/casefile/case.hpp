@@ -42,13 +42,15 @@ struct Case {
 /// Whether a case must have a [[load]].
 enum class Loads { needed, optional };
 
-/// Reads a case and applies the overrides ("key=value") in order. Throws Error.
+/// Reads a case and applies the overrides ("key=value") in order. `only`: names of the loads that
+/// are kept; none: all. Throws Error.
 Case read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides = {},
-               Loads loads = Loads::needed);
+               Loads loads = Loads::needed, const std::vector<std::string>& only = {});
 
 /// The same for a text; `path` names it in errors, and relative names of files refer to its folder.
 Case parse_case(const std::string& text, const std::filesystem::path& path,
-                const std::vector<std::string>& overrides = {}, Loads loads = Loads::needed);
+                const std::vector<std::string>& overrides = {}, Loads loads = Loads::needed,
+                const std::vector<std::string>& only = {});
 
 /// Only a mesh, from a .msh file; the overrides are keys of [mesh], "mesh.preset=...".
 Case mesh_file_case(const std::filesystem::path& file, const std::string& title,

@@ -164,4 +164,18 @@ void apply_override(toml::table& root, const std::string& assignment) {
   Walk(source, std::move(parts)).assign(root, std::move(*parsed.get("value")));
 }
 
+void keep_loads(toml::table& root, const std::vector<std::string>& names) {
+  toml::array* loads = root["load"].as_array();
+  const std::vector<std::string> there = loads ? names_in(*loads) : std::vector<std::string>();
+  for (const std::string& name : names) {
+    if (std::ranges::find(there, name) != there.end()) continue;
+    throw Error({"load", "--load " + name.substr(0, 80), 0},
+                there.empty() ? "the case has no loads with names; write name = \"...\" in [[load]]"
+                              : "none of them is called so; " + words::suggestion(name, there));
+  }
+  for (std::size_t i = there.size(); i-- > 0;)
+    if (std::ranges::find(names, there[i]) == names.end())
+      loads->erase(loads->cbegin() + static_cast<std::ptrdiff_t>(i));
+}
+
 }  // namespace anticrack::casefile

@@ -55,6 +55,9 @@ std::optional<google::protobuf::Duration> read_time(const Section& section, cons
 /// Throws Error for a key that does not exist, control characters and invalid UTF-8.
 void apply_override(toml::table& root, const std::string& assignment);
 
+/// Removes every [[load]] but those of these names. Throws Error for a name that none has.
+void keep_loads(toml::table& root, const std::vector<std::string>& names);
+
 /// Records where the section and its values were written, as FIELD and FIELD.KEY.
 void note(const Section& section, const std::string& field, Spots& spots);
 

@@ -31,6 +31,7 @@ namespace {
 struct JobOptions {
   std::string case_file;
   std::vector<std::string> overrides;
+  std::vector<std::string> loads;
   std::string name;
   std::string output;
   int limit = 50;
@@ -64,7 +65,8 @@ void print_job(Session& session, const v1::Job& job) {
 bool prints_outcome(const Globals& globals) { return globals.json || !globals.quiet; }
 
 int submit_case(const JobOptions& options, const Globals& globals) {
-  const casefile::Case the_case = casefile::read_case(options.case_file, options.overrides);
+  const casefile::Case the_case = casefile::read_case(options.case_file, options.overrides,
+                                                      casefile::Loads::needed, options.loads);
   Session session(globals);
   const v1::Job job = submit(session, the_case, client::make_uuid());
   tell_submitted(session, job);
@@ -246,6 +248,7 @@ void add_job(CLI::App& app, const Globals& globals, Command& chosen) {
       add("submit", "Submit a case and return at once", "paper.toml", submit_case);
   add_case(*submit_command, options->case_file);
   add_case_flags(*submit_command, options->overrides);
+  add_load_flag(*submit_command, options->loads);
   CLI::App* list = add("list", "List jobs", "--state running", list_jobs);
   add_list_flags(*list, "jobs", options->limit, options->owner);
   list->add_option("--state", options->states, "Only jobs in this state; again for more")

@@ -18,11 +18,13 @@ struct RunOptions {
   std::string case_file;
   std::string output;
   std::vector<std::string> overrides;
+  std::vector<std::string> loads;
 };
 
 int run(const RunOptions& options, const Globals& globals) {
   const auto begin = std::chrono::steady_clock::now();
-  casefile::Case the_case = casefile::read_case(options.case_file, options.overrides);
+  casefile::Case the_case = casefile::read_case(options.case_file, options.overrides,
+                                                casefile::Loads::needed, options.loads);
   if (the_case.job.priority() == v1::Job::PRIORITY_UNSPECIFIED)
     the_case.job.set_priority(v1::Job::PRIORITY_INTERACTIVE);  // somebody waits for it
   const std::filesystem::path output = result_file(options.case_file, options.output);
@@ -52,6 +54,7 @@ void add_run(CLI::App& app, const Globals& globals, Command& chosen) {
                    "Result file, HDF5 (default: CASE.h5 in this folder)")
       ->type_name("FILE");
   add_case_flags(*command, options->overrides);
+  add_load_flag(*command, options->loads);
   command->footer(
       "Ctrl-C detaches and prints the command that attaches again; a second Ctrl-C within two\n"
       "seconds cancels the job and saves what had ended. With --local the first one cancels. "

@@ -100,6 +100,15 @@ void add_case_flags(CLI::App& command, std::vector<std::string>& overrides) {
   add("--run-timeout", "job.run_timeout", "TIME", "Stop if it has not ended after, e.g. 2h");
 }
 
+void add_load_flag(CLI::App& command, std::vector<std::string>& loads) {
+  command
+      .add_option("--load", loads,
+                  "Solve this load case only, with [accuracy] on meshes of its own; again for more "
+                  "(default: all)")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+}
+
 client::Error in_terms_of(const casefile::Case& the_case, const client::Error& error) {
   std::string message;
   for (const client::FieldViolation& violation : error.details().fields) {

@@ -29,6 +29,9 @@ namespace anticrack::cli {
 /// submit a case.
 void add_case_flags(CLI::App& command, std::vector<std::string>& overrides);
 
+/// --load: only these load cases of the case.
+void add_load_flag(CLI::App& command, std::vector<std::string>& loads);
+
 /// The server names fields of a request; the user knows lines of a file.
 client::Error in_terms_of(const casefile::Case& the_case, const client::Error& error);
 

@@ -123,5 +123,22 @@ TEST(Overrides, RefuseWhatNoCaseFileCouldHold) {
   EXPECT_EQ(parse(sample_text, {"title=" + text}).job.title(), text);
 }
 
+TEST(Overrides, KeepSomeLoads) {
+  const Case all = parse_case(sample_text, "case.toml");
+  ASSERT_EQ(all.job.load_cases_size(), 2);
+  const std::string second = all.job.load_cases(1).name();
+  const Case one = parse_case(sample_text, "case.toml", {}, Loads::needed, {second});
+  ASSERT_EQ(one.job.load_cases_size(), 1);
+  EXPECT_EQ(one.job.load_cases(0).DebugString(), all.job.load_cases(1).DebugString());
+  const Case again = parse_case(one.text, "case.toml");
+  EXPECT_EQ(again.job.DebugString(), one.job.DebugString()) << "the text is that of what is run";
+  try {
+    parse_case(sample_text, "case.toml", {}, Loads::needed, {second + "s"});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("did you mean " + second));
+  }
+}
+
 }  // namespace
 }  // namespace anticrack::casefile
