@@ -14,20 +14,31 @@ constexpr double most_levels = 8;
 /// Of the sum of the indicators.
 constexpr double doerfler = 0.5;
 
+/// sqrt(tau), for  sum_K eta_K^2 / max(1, eta_K / sqrt(tau)) = target. From below, in a few steps:
+/// which triangles stay whole decides the rest.
+double root_of_tau(std::span<const double> indicator, double target) {
+  for (double root = 0;;) {
+    double whole = 0;
+    double roots = 0;
+    for (const double one : indicator) {
+      const double eta = std::sqrt(one);
+      (eta > root ? roots : whole) += eta > root ? eta : one;
+    }
+    const double next = roots > 0 ? (target - whole) / roots : 0;
+    if (!(next > root)) return root;
+    root = next;
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> levels(std::span<const double> indicator, double reduction) {
-  double sum = 0;
-  double roots = 0;
-  for (const double one : indicator) {
-    sum += one;
-    roots += std::sqrt(one);
-  }
+  const double sum = std::accumulate(indicator.begin(), indicator.end(), 0.0);
   std::vector<std::uint8_t> levels(indicator.size(), 0);
   if (!(sum > 0)) return levels;
-  const double root_of_tau = sum / (reduction * roots);
+  const double root = root_of_tau(indicator, sum / reduction);
   for (std::size_t t = 0; t < levels.size(); ++t) {
-    const double pieces = std::sqrt(indicator[t]) / root_of_tau;
+    const double pieces = std::sqrt(indicator[t]) / root;
     const double wanted = pieces > 1 ? std::round(std::log2(pieces)) : 0;
     levels[t] = static_cast<std::uint8_t>(std::min(wanted, most_levels));
   }
@@ -37,9 +48,13 @@ std::vector<std::uint8_t> levels(std::span<const double> indicator, double reduc
   std::ranges::sort(order, [&](std::int32_t a, std::int32_t b) {
     return of(a) > of(b) || (of(a) == of(b) && a < b);
   });
+  // Triangles that are each other's image under a symmetry differ by rounding only: all or none.
+  constexpr double equal = 1 - 1e-6;
   double marked = 0;
+  double last = 0;
   for (const std::int32_t t : order) {
-    if (marked >= doerfler * sum) break;
+    if (marked >= doerfler * sum && of(t) < equal * last) break;
+    last = of(t);
     std::uint8_t& level = levels[static_cast<std::size_t>(t)];
     level = std::max<std::uint8_t>(level, 1);
     marked += of(t);

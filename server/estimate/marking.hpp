@@ -14,11 +14,11 @@ namespace anticrack::estimate {
 /// most (and less where the solution is singular), shape (m).
 ///
 /// Two bisections of a triangle in which the solution is smooth leave a quarter of its indicator,
-/// so n pieces of it leave 1/n. The fewest triangles have equal indicators, eta_K^2 / n_K^2 = tau,
-/// and then sum_K n_K tau = (sum_K eta_K^2) / reduction gives tau = ((sum_K eta_K^2) / (reduction
-/// sum_K eta_K))^2, and the levels log2(n_K). This takes a few meshes where marking by Doerfler
-/// takes one for every half; what that would mark (the largest indicators, a half of their sum) is
-/// bisected at least once here too, so that its convergence holds. O(m log m).
+/// so n pieces of it leave 1/n. The fewest triangles have equal indicators eta_K^2 / n_K^2 = tau
+/// where they are cut, n_K > 1; tau follows from what is to be left, and the levels are log2(n_K).
+/// This takes a few meshes where marking by Doerfler takes one for every half; what that would mark
+/// (the largest indicators, a half of their sum) is bisected at least once here too, so that its
+/// convergence holds. O(m log m).
 std::vector<std::uint8_t> levels(std::span<const double> indicator, double reduction);
 
 /// Triangles after these levels, without those that are bisected to conform.

@@ -89,6 +89,32 @@ void check_accuracy(const store::JobSpec& spec) {
   }
 }
 
+void tighten(store::CaseRecord& answer, const store::CaseRecord& before) {
+  using Bound = std::optional<double>;
+  const auto closer = [](Bound& lower, Bound& upper, const Bound& other_lower,
+                         const Bound& other_upper) {
+    if (!other_lower || !other_upper) return;
+    const double low = lower ? std::max(*lower, *other_lower) : *other_lower;
+    const double high = upper ? std::min(*upper, *other_upper) : *other_upper;
+    if (low > high) return;  // by rounding
+    lower = low;
+    upper = high;
+  };
+  if (!answer.answer.energy_lower) return;  // it says why it has no bounds
+  closer(answer.answer.energy_lower, answer.answer.energy_upper, before.answer.energy_lower,
+         before.answer.energy_upper);
+  const std::size_t both =
+      std::min(answer.answer.inclusions.size(), before.answer.inclusions.size());
+  for (std::size_t j = 0; j < both; ++j) {
+    contact::InclusionAnswer& one = answer.answer.inclusions[j];
+    const contact::InclusionAnswer& other = before.answer.inclusions[j];
+    closer(one.displacement_lower, one.displacement_upper, other.displacement_lower,
+           other.displacement_upper);
+    closer(one.slope_x_lower, one.slope_x_upper, other.slope_x_lower, other.slope_x_upper);
+    closer(one.slope_y_lower, one.slope_y_upper, other.slope_y_lower, other.slope_y_upper);
+  }
+}
+
 store::StageAnswer stage_answer(const store::CaseRecord& ended_case) {
   const contact::AnswerSummary& answer = ended_case.answer;
   store::StageAnswer result{answer.energy, answer.energy_lower, answer.energy_upper,
@@ -169,7 +195,9 @@ Verdict judge(const std::vector<store::StageRecord>& stages,
   if (stages.size() > patience) {
     const Worst before = worst_of(stages[stages.size() - 1 - patience], wanted);
     if (worst.excess > 0.9 * before.excess)
-      return stop("finer meshes no longer help: rounding, or a tip_size too large for it");
+      return stop(
+          "finer meshes no longer help: rounding, a tip_size too large for it, or, of A, more than "
+          "3,000 nodes on the interfaces");
   }
   return {};
 }

@@ -15,6 +15,10 @@ namespace anticrack::jobs {
 /// job that cannot be solved in stages.
 void check_accuracy(const store::JobSpec& spec);
 
+/// Bounds are of the membrane, whatever the mesh: those of the stage before hold for the answer of
+/// this one as well, where they are closer.
+void tighten(store::CaseRecord& answer, const store::CaseRecord& before);
+
 /// What is kept of an answer. Its displacement_error is half the width of the bounds of A over the
 /// largest |A| of the load case, the largest of all inclusions; unset where one has no bounds.
 store::StageAnswer stage_answer(const store::CaseRecord& ended_case);

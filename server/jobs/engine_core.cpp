@@ -86,6 +86,8 @@ void EngineCore::move_on(const JobPtr& job) {
   job->mesh = job->stages->records.back().mesh;
   job->mesh_operator.reset();
   job->spool.reset();
+  job->stages->before.clear();
+  for (const LiveCase& one : job->cases) job->stages->before.push_back(one.record);
   job->cases.assign(job->cases.size(), {});
   job->next_unit = 0;
   job->result_bytes = 0;
@@ -157,6 +159,11 @@ void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
   bool trim = false;
   for (EndedCase& ended_case : cases) {
     LiveJob& job = *ended_case.task.job;
+    if (job.stages && ended_case.task.index < job.stages->before.size()) {
+      auto record = std::make_shared<store::CaseRecord>(*ended_case.outcome.record);
+      tighten(*record, *job.stages->before[ended_case.task.index]);
+      ended_case.outcome.record = std::move(record);
+    }
     if (ended_case.outcome.result && job.result_bytes > options.max_result_bytes)
       ended_case.outcome = refused_case(ended_case.task, options.max_result_bytes);
     const std::uint64_t before = job.result_bytes;

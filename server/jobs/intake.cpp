@@ -175,7 +175,7 @@ void recover(EngineCore& core) {
     const bool waits_since_it_was_made = !record.started;
     record.state = JobState::queued;
     record.started.reset();
-    record.cases.assign(case_count(record.spec), {});
+    if (record.stages.size() < 2) record.cases.assign(case_count(record.spec), {});
     record.sweep = {};
     add_step(record.timeline, JobState::queued, "the server was started");
     std::shared_ptr<void> mesh_use, stage_use;

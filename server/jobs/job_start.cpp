@@ -43,9 +43,11 @@ std::optional<SweepPlan> plan_of(const EngineCore& core, const LiveJob& job,
 
 /// False where the store could not take it.
 bool store_start(EngineCore& core, const JobSnapshot& snapshot,
-                 const std::optional<SweepPlan>& plan) {
+                 const std::optional<SweepPlan>& plan, const LiveStages* stages) {
   try {
     store::JobRecord record = snapshot.record();
+    for (std::size_t i = 0; stages != nullptr && i < stages->before.size(); ++i)
+      record.cases[i] = *stages->before[i];
     record.state = JobState::running;
     record.started = store::Clock::now();
     if (plan) record.spec.sweep->rows = plan->rows;
@@ -117,7 +119,7 @@ void start_job(EngineCore& core, EngineCore::Lock& lock,
                           mesh_operator->mesh().subdomains.size(), core.options.max_result_arrays);
     require_answers(*job->spec, mesh_operator->mesh().inclusions);
     plan = plan_of(core, *job, *mesh_operator);
-    stored = another_stage || store_start(core, snapshot, plan);
+    stored = another_stage || store_start(core, snapshot, plan, job->stages.get());
   } catch (...) {
     core.stop(job, Stop::failed, error_of(std::current_exception()));
   }

@@ -98,6 +98,9 @@ LiveJob::LiveJob(std::uint64_t submission, JobRecord record, std::uint64_t cases
   for (std::size_t i = 1; i < stages->records.size(); ++i)
     stages->made.push_back(stages->records[i].mesh);
   if (stages->records.size() > 1)
+    for (store::CaseRecord& one : record.cases)
+      stages->before.push_back(std::make_shared<const store::CaseRecord>(std::move(one)));
+  if (stages->records.size() > 1)
     stages->seconds_before = stages->records[stages->records.size() - 2].seconds;
 }
 

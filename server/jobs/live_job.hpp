@@ -33,6 +33,8 @@ struct LiveCase {
 /// way begins anew with a spool and cases of its own.
 struct LiveStages {
   std::vector<store::StageRecord> records;  ///< the last one has begun
+  /// Answers of the stage before, whose bounds hold still; none in the first.
+  std::vector<std::shared_ptr<const store::CaseRecord>> before;
   std::string not_reached;
   bool over = false;          ///< no stage comes after the one that has ended
   double seconds_before = 0;  ///< until this server had it

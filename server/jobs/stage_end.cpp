@@ -70,7 +70,6 @@ void store_progress(EngineCore& core, const JobSnapshot& snapshot,
   try {
     store::JobRecord record = snapshot.record();
     record.stages = stages;
-    record.cases.assign(record.cases.size(), {});
     core.store.put(record);
   } catch (const std::exception&) {
     // A disk that refuses now is asked again at the next stage.

@@ -81,7 +81,7 @@ TEST(Adaptive, EnergiesConvergeLikeOneOverTheTrianglesWithContact) {
       const double error = stage.energy - limit;
       std::printf("[ figures  ] %7zu triangles: energy error %.3e, bound %.3e\n", stage.triangles,
                   error, stage.energy - stage.lower);
-      if (stage.triangles < 500 || stage.triangles > 60'000) continue;
+      if (stage.triangles < 500 || stage.triangles > 100'000) continue;
       x.push_back(std::log(static_cast<double>(stage.triangles)));
       y.push_back(std::log(error));
     }

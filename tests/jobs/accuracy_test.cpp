@@ -71,6 +71,26 @@ TEST(Accuracy, OfADisplacementIsRelativeToTheLargestOfTheLoadCase) {
   EXPECT_TRUE(std::isinf(excess(stage_answer(record), *spec.accuracy)));
 }
 
+TEST(Accuracy, BoundsOfTheStageBeforeHoldStill) {
+  CaseRecord before = answer_between(-2, -1), now = answer_between(-2.5, -1.5);
+  before.answer.inclusions = {inclusion(2, 1.9, 2.1), inclusion(1, 0.9, 1.2)};
+  now.answer.inclusions = {inclusion(2, 1.8, 2.05), inclusion(1, 0.8, 1.1)};
+  now.answer.inclusions[1].displacement_lower.reset();
+  now.answer.inclusions[1].displacement_upper.reset();
+  tighten(now, before);
+  EXPECT_EQ(now.answer.energy_lower, -2);
+  EXPECT_EQ(now.answer.energy_upper, -1.5);
+  EXPECT_EQ(now.answer.inclusions[0].displacement_lower, 1.9);
+  EXPECT_EQ(now.answer.inclusions[0].displacement_upper, 2.05);
+  EXPECT_EQ(now.answer.inclusions[1].displacement_lower, 0.9) << "it has none of its own";
+  CaseRecord apart = answer_between(-1, -0.9), unbounded = answer_between(-9, -9);
+  tighten(apart, before);
+  EXPECT_EQ(apart.answer.energy_lower, -1);
+  unbounded.answer.energy_lower.reset();
+  tighten(unbounded, before);
+  EXPECT_FALSE(unbounded.answer.energy_lower) << "it says why";
+}
+
 TEST(Accuracy, GoesOnUntilItIsReached) {
   const JobSpec spec = energy_to(0.1);
   EXPECT_FALSE(judge_one(answer_between(-3, -2), spec).over);

@@ -237,7 +237,12 @@ TEST(EngineStages, GoOnAfterAStopInEachOfThemWithTheSameBits) {
   EXPECT_EQ(job.state, JobState::succeeded);
   ASSERT_EQ(job.stages.size(), whole.stages.size());
   EXPECT_EQ(numbers_of(test.engine, id), expected);
-  EXPECT_EQ(job.cases[0].answer.energy_lower, whole.cases[0].answer.energy_lower);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(job.cases[i].answer.energy_lower, whole.cases[i].answer.energy_lower);
+    const contact::InclusionAnswer& one = job.cases[i].answer.inclusions[0];
+    EXPECT_EQ(one.displacement_lower, whole.cases[i].answer.inclusions[0].displacement_lower);
+    EXPECT_EQ(one.displacement_upper, whole.cases[i].answer.inclusions[0].displacement_upper);
+  }
 }
 
 TEST(EngineStages, DoNotNeedToBeStored) {
