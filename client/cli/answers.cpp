@@ -17,6 +17,7 @@
 #include "cli/progress.hpp"
 #include "cli/sweep_text.hpp"
 #include "cli/text.hpp"
+#include "results/interval.hpp"
 #include "results/tables.hpp"
 
 namespace anticrack::cli {
@@ -59,7 +60,7 @@ struct Column {
 
   std::string of(const results::Inclusion& inclusion) const {
     if (lower == nullptr || !std::isfinite(inclusion.*lower)) return number(inclusion.*value);
-    return interval(inclusion.*lower, inclusion.*upper);
+    return results::interval(inclusion.*lower, inclusion.*upper);
   }
 };
 
@@ -160,7 +161,7 @@ std::vector<std::string> row_of(const results::Load& load, const Told& inclusion
       sanitise(load.name), std::string(word(load.status)), std::to_string(load.iterations),
       when_answered(by_uzawa ? load.criterion : load.kkt_relative.largest(), 2, true)};
   inclusions.add(load, row);
-  row.push_back(is_bounded(load) ? interval(load.energy_lower, load.energy_upper)
+  row.push_back(is_bounded(load) ? results::interval(load.energy_lower, load.energy_upper)
                                  : when_answered(load.energy));
   if (bounded)
     row.push_back(

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/text.hpp"
+#include "results/interval.hpp"
 
 namespace anticrack::cli {
 
@@ -24,10 +25,10 @@ std::string stages_table(const results::Load& load) {
   rows[1].emplace_back("s");
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const double lower = stages.energy_lower[i], upper = stages.energy_upper[i];
-    auto& row = rows.emplace_back(
-        std::vector{std::to_string(i + 1), std::to_string(stages.triangles[i]),
-                    std::isfinite(lower) ? interval(lower, upper) : number(stages.energy[i]),
-                    number(100 * stages.error_bound_relative[i], 2)});
+    auto& row = rows.emplace_back(std::vector{
+        std::to_string(i + 1), std::to_string(stages.triangles[i]),
+        std::isfinite(lower) ? results::interval(lower, upper) : number(stages.energy[i]),
+        number(100 * stages.error_bound_relative[i], 2)});
     if (of_a) row.push_back(number(100 * stages.displacement_error[i], 2));
     row.push_back(seconds(stages.seconds[i]));
   }

@@ -84,30 +84,6 @@ std::string number(double value, int digits, bool exponent) {
   return std::string(buffer.data(), static_cast<std::size_t>(length));
 }
 
-std::string interval(double lower, double upper) {
-  if (!std::isfinite(lower) || !std::isfinite(upper)) return "-";
-  const double middle = lower + 0.5 * (upper - lower), half = 0.5 * (upper - lower);
-  const double size = std::max(std::abs(middle), half);
-  if (!(size > 0)) return "0 +- 0";
-  const auto decade = [](double value) { return static_cast<int>(std::floor(std::log10(value))); };
-  constexpr int most_digits = 6;  // behind the first of the larger number
-  const int exponent = decade(size) < -4 || decade(size) > 5 ? decade(size) : 0;
-  const int behind = std::min(most_digits - decade(size), half > 0 ? 1 - decade(half) : most_digits);
-  const double unit = std::pow(10.0, -behind);
-  const double shown = std::round(middle / unit) * unit;
-  const double beside = std::ceil(std::max(upper - shown, shown - lower) / unit - 1e-6) * unit;
-  const int decimals = std::max(0, behind + exponent);
-  const double scale = std::pow(10.0, -exponent);
-  const auto fixed = [&](double value) {
-    std::array<char, 64> buffer{};
-    const int length =
-        std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, value * scale + 0.0);
-    return std::string(buffer.data(), static_cast<std::size_t>(length));
-  };
-  const std::string text = fixed(shown) + " +- " + fixed(beside);
-  return exponent == 0 ? text : "(" + text + ")e" + std::to_string(exponent);
-}
-
 std::string exact(double value) {
   if (!std::isfinite(value)) return "";
   std::array<char, 32> buffer{};

@@ -28,12 +28,6 @@ std::string pad_left(std::string_view text, std::size_t width);
 /// As printf's %.*g or, for `exponent`, %.*e; "-" for what is not finite.
 std::string number(double value, int digits = 6, bool exponent = false);
 
-/// An interval by its middle and half its width, "0.1038 +- 0.0010": the width to two digits,
-/// rounded so that the printed interval contains the given one; of a width below 1e-6 of the middle
-/// one digit there. Of numbers that are large or small "(1.038 +- 0.010)e-05". "-" where an end
-/// is not finite.
-std::string interval(double lower, double upper);
-
 /// Shortest text that gives the number back; empty for what is not finite.
 std::string exact(double value);
 

@@ -8,6 +8,9 @@
 #include <charconv>
 #include <cmath>
 #include <set>
+#include <utility>
+
+#include "results/interval.hpp"
 
 namespace anticrack::figures {
 namespace {
@@ -118,6 +121,14 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t width, std::
 }
 
 std::string number(double value, int digits) { return printed(value, digits); }
+
+std::string bounded(double lower, double upper) {
+  std::string text = results::interval(lower, upper);
+  for (const auto& [plain, sign] : {std::pair{"+-", "\xC2\xB1"}, std::pair{"-", "\xE2\x88\x92"}})
+    for (std::size_t at = 0; (at = text.find(plain, at)) != std::string::npos; at += 3)
+      text.replace(at, std::string_view(plain).size(), sign);
+  return text;
+}
 
 std::string readable(double value, int digits) {
   const std::string plain = printed(value, digits);

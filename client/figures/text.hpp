@@ -39,6 +39,9 @@ std::string number(double value, int digits = 9);
 /// A few significant digits, for people: "−1.5×10⁻¹²".
 std::string readable(double value, int digits = 4);
 
+/// An interval, for people: "0.10383 ± 0.00020".
+std::string bounded(double lower, double upper);
+
 /// A file name stem for each name: [A-Za-z0-9][A-Za-z0-9_.-]*. No two stems, with any of `suffixes`
 /// or none, are equal, ignoring case.
 std::vector<std::string> file_stems(const std::vector<std::string>& names,

@@ -60,7 +60,9 @@ std::string traces_heading(const Profile& profile, const Load& load) {
         std::any_of(profile.fibres.begin(), profile.fibres.end(),
                     [&](const Fibre& fibre) { return fibre.inclusion == inclusion.name; });
     if (!here) continue;
-    answer += ",  A = " + readable(inclusion.displacement);
+    answer += ",  A = " + (std::isfinite(inclusion.displacement_lower)
+                               ? bounded(inclusion.displacement_lower, inclusion.displacement_upper)
+                               : readable(inclusion.displacement));
     if (inclusion.tilted()) {
       answer += ", B = (" + readable(inclusion.slope_x) + ", " + readable(inclusion.slope_y) + ")";
     }

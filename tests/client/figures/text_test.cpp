@@ -63,6 +63,9 @@ TEST(Number, does_not_depend_on_the_locale_and_marks_what_is_not_finite) {
 
 TEST(Readable, is_written_as_in_print) {
   EXPECT_EQ(readable(0.0865712), "0.08657");
+  EXPECT_EQ(bounded(-0.1703715, -0.1695454),
+            "\xE2\x88\x92"
+            "0.16996 \xC2\xB1 0.00042");
   EXPECT_EQ(readable(-0.5),
             "\xE2\x88\x92"
             "0.5");
