@@ -21,7 +21,6 @@
 #include "cli/text.hpp"
 #include "cli/to_result.hpp"
 #include "client/jobs.hpp"
-#include "client/meshes.hpp"
 #include "client/uuid.hpp"
 #include "results/file.hpp"
 
@@ -44,22 +43,8 @@ struct JobOptions {
   std::string full() const { return full_name(Collection::jobs, name); }
 };
 
-// The message, and how large the mesh of its answers is, unless that cannot be had.
-std::string job_json(Session& session, const v1::Job& job) {
-  Json json = Json::parse(to_json(job));
-  try {
-    const v1::Mesh mesh = client::get_mesh(session.connection(), mesh_of(job), session.stop());
-    for (const auto& [key, count] : {std::pair("triangle_count", mesh.triangle_count()),
-                                     std::pair("node_count", mesh.node_count())})
-      if (count > 0) json[key] = std::to_string(count);  // as protobuf writes 64 bits
-  } catch (const client::Error&) {
-  } catch (const client::Interrupted&) {  // by what cancelled the job
-  }
-  return to_text(json);
-}
-
-void print_job(Session& session, const v1::Job& job) {
-  print_document(session.globals().json ? job_json(session, job) : job_text(job));
+void print_job(const Globals& globals, const v1::Job& job) {
+  print_document(globals.json ? to_json(job) : job_text(job));
 }
 
 bool prints_outcome(const Globals& globals) { return globals.json || !globals.quiet; }
@@ -133,7 +118,7 @@ v1::Job get_job(Session& session, const std::string& name) {
 int show(const JobOptions& options, const Globals& globals) {
   const std::string name = options.full();
   Session session(globals);
-  print_job(session, get_job(session, name));
+  print_job(globals, get_job(session, name));
   return exit_ok;
 }
 
@@ -141,7 +126,7 @@ int cancel(const JobOptions& options, const Globals& globals) {
   const std::string name = options.full();
   Session session(globals);
   const v1::Job job = call_about(session, Collection::jobs, name, client::cancel_job);
-  if (prints_outcome(globals)) print_job(session, job);
+  if (prints_outcome(globals)) print_job(globals, job);
   return exit_ok;
 }
 
@@ -163,7 +148,7 @@ int watch_job(const JobOptions& options, const Globals& globals) {
     return exit_interrupted;
   }
   if (prints_outcome(globals))
-    print_job(session, followed.job);
+    print_job(globals, followed.job);
   else
     complain_of(followed.job);
   return followed.how == Followed::How::cancelled ? exit_interrupted : exit_code_of(followed.job);
