@@ -49,6 +49,12 @@ Worst worst_of(const store::StageRecord& stage, const store::AccuracySpec& wante
   return worst;
 }
 
+/// Empty: it has bounds.
+std::string why_unbounded(const store::CaseRecord& one) {
+  if (one.error) return one.error->what();
+  return one.status == contact::Status::converged ? one.answer.no_bracket : one.answer.reason;
+}
+
 double relative_width(const store::StageAnswer& answer) {
   const double width = *answer.energy_upper - *answer.energy_lower;
   return width > 0 ? width / std::abs(answer.energy) : 0;
@@ -170,12 +176,15 @@ Verdict judge(const std::vector<store::StageRecord>& stages,
     return Verdict{true, not_reached(last, spec, why)};
   };
   for (const store::CaseRecord* one : cases) {
-    if (one->status != contact::Status::converged) return {true, ""};  // the job says so
-    if (one->answer.no_bracket.empty()) continue;
-    if (stages.size() == 1) return stop(one->answer.no_bracket);
-    const std::string why =
-        fmt::format("on {} there are no bounds: {}", last.triangles, one->answer.no_bracket);
-    return {true, not_reached(stages[stages.size() - 2], spec, why), true};
+    const std::string why = why_unbounded(*one);
+    if (why.empty()) continue;
+    if (stages.size() > 1) {
+      return {true,
+              not_reached(stages[stages.size() - 2], spec,
+                          fmt::format("on {} there are no bounds: {}", last.triangles, why)),
+              true};
+    }
+    return one->status == contact::Status::converged ? stop(why) : Verdict{true, ""};
   }
   const Worst worst = worst_of(last, wanted);
   if (worst.excess <= 1) return {true, ""};

@@ -120,8 +120,10 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
   --job->active;
   if (!verdict.over) stages.made.push_back(records.back().mesh);
   if (verdict.over || job->why != Stop::none) {
-    if (!verdict.over || verdict.fall_back) records.pop_back();
-    if (verdict.fall_back)
+    // After a restart of the server they are gone.
+    const bool fall_back = verdict.fall_back && !stages.last.cases.empty();
+    if (!verdict.over || fall_back) records.pop_back();
+    if (fall_back)
       job->cases = std::exchange(stages.last.cases, {});
     else
       stages.last = {};

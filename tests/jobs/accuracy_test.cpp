@@ -127,9 +127,14 @@ TEST(Accuracy, SaysWhatWasReachedAndWhatStoppedIt) {
 TEST(Accuracy, AFailedLoadCaseEndsIt) {
   CaseRecord failed;
   failed.status = contact::Status::failed;
+  failed.error = errors::Error(errors::Reason::limit_exceeded, "too much");
   const Verdict verdict = judge_one(failed, energy_to(0.1));
   EXPECT_TRUE(verdict.over);
   EXPECT_EQ(verdict.not_reached, "") << "the load case says why";
+  const StageRecord before{"mesh", 50, 0, {stage_answer(answer_between(-3, -2))}};
+  const Verdict later = judge_one(failed, energy_to(0.1), {before});
+  EXPECT_TRUE(later.fall_back);
+  EXPECT_THAT(later.not_reached, HasSubstr("on 100 there are no bounds: too much"));
 }
 
 std::string field_at_fault(const JobSpec& spec) {
