@@ -57,8 +57,10 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
     one = std::max(0.0, one);
     const double oscillation = load.oscillation.empty() ? 0 : load.oscillation[t];
     if (lifted.empty()) {
-      const double size = std::sqrt(one) + oscillation;
-      one = oscillation > 0 ? size * size : one;
+      if (oscillation > 0) {
+        const double size = std::sqrt(one) + oscillation;
+        one = size * size;
+      }
       half_distance += 0.5 * one;
       squared += one;
       continue;

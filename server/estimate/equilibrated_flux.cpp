@@ -2,25 +2,20 @@
 #include "estimate/equilibrated_flux.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <array>
+#include <memory>
 
+#include "estimate/flux_kernels.hpp"
 #include "fem/triangle_rules.hpp"
 #include "mesh/at.hpp"
 
 namespace anticrack::estimate {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1]}; }
 void add(Vector& to, double factor, const Vector& what) {
   to[0] += factor * what[0];
   to[1] += factor * what[1];
-}
-/// By coordinates, which are multiplied at once.
-void add_product(Vector& to, const FanCorner& corner, const Vector& mean) {
-  for (std::size_t d = 0; d < 2; ++d) to[d] += corner.compliance * (corner.edge[d] * mean[d]);
 }
 /// Outward normal of an edge of a counterclockwise triangle, as long as the edge.
 Vector normal(const Vector& edge) { return {edge[1], -edge[0]}; }
@@ -30,179 +25,115 @@ constexpr std::size_t previous(std::size_t corner) {
   return corner % 3 == 0 ? corner + 2 : corner - 1;
 }
 
+/// Memory of the loops, which a thread keeps unless it is much: page faults take longer than they.
+class Scratch {
+ public:
+  explicit Scratch(std::size_t doubles) {
+    const std::size_t count = doubles / std::size(Line{}.values) + 1;
+    if (count <= size) return;
+    size = 0;
+    lines = std::make_unique_for_overwrite<Line[]>(count);
+    size = count;
+  }
+  ~Scratch() {
+    constexpr std::size_t most_kept = (std::size_t{8} << 20) / sizeof(Line);
+    if (size <= most_kept) return;
+    lines.reset();
+    size = 0;
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  double* values() const { return lines[0].values; }
+
+ private:
+  struct alignas(64) Line {
+    double values[8];
+  };
+  static inline thread_local std::unique_ptr<Line[]> lines;
+  static inline thread_local std::size_t size = 0;
+};
+
+FluxMesh flux_mesh(const CutMesh& cut) {
+  std::int32_t largest = 0;
+  for (std::size_t fan = 0; fan < cut.fan_count(); ++fan)
+    largest = std::max(largest, cut.first_corner[fan + 1] - cut.first_corner[fan]);
+  const Shapes& shapes = cut.shapes;
+  return {cut.triangle_count(),    cut.fan_count(),
+          cut.faces.size(),        at(largest),
+          cut.copy.data(),         cut.first_corner.data(),
+          cut.first_stop.data(),   shapes.edge.front().data(),
+          shapes.stiffness.data(), shapes.compliance.data(),
+          shapes.softness.data(),  shapes.around.data(),
+          cut.stops.data(),        cut.faces.data()};
+}
+
 }  // namespace
 
-EquilibratedFlux::EquilibratedFlux(const CutMesh& cut, const Balance& balance, FaceBounds bounds,
-                                   int polish_sweeps)
+EquilibratedFlux::EquilibratedFlux(const Balance& balance, const CutMesh& cut)
     : _cut(cut),
       _balance(balance),
-      _is_pressure(bounds.empty()),
       _tension(cut.shapes.tension),
       _area(cut.shapes.area),
-      _edge(cut.shapes.edge) {
-  build(measure(), bounds);
-  for (int sweep = 0; sweep < polish_sweeps; ++sweep) polish(bounds);
-  turn();
+      _edge(cut.shapes.edge),
+      _mean(cut.triangle_count()),
+      _distance(cut.triangle_count()),
+      _through(2 * cut.faces.size()) {}
+
+EquilibratedFlux::EquilibratedFlux(const CutMesh& cut, const Balance& balance, FaceBounds bounds,
+                                   int polish)
+    : EquilibratedFlux(balance, cut) {
+  make({this, 1}, {&bounds, 1}, polish);
 }
 
-/// Minus half the outward flux of T grad u through each side: with G = sum of u_i e_i, that of side
-/// i is -T G.e_i / (2 area).
-std::vector<double> EquilibratedFlux::measure() {
-  const std::size_t count = _cut.triangle_count();
-  std::vector<double> half(3 * count);
-  _mean.assign(count, Vector{});
-  if (!_balance.force.empty()) _rest.resize(count);
-  for (std::size_t t = 0; t < count; ++t) {
-    const std::int32_t* copy = &_cut.copy[3 * t];
-    const Vector* edge = &_edge[3 * t];
-    const double u = _balance.u[at(copy[0])], q = _cut.shapes.stiffness[t];
-    Vector sum{};
-    add(sum, _balance.u[at(copy[1])] - u, edge[1]);
-    add(sum, _balance.u[at(copy[2])] - u, edge[2]);
-    for (std::size_t i = 0; i < 3; ++i) half[3 * t + i] = q * dot(sum, edge[i]);
-    _norm_squared += q * dot(sum, sum);
-    if (!_rest.empty()) balance(t);
+std::vector<EquilibratedFlux> EquilibratedFlux::of_all(const CutMesh& cut,
+                                                       std::span<const Balance> loads,
+                                                       std::span<const FaceBounds> bounds,
+                                                       int polish) {
+  std::vector<EquilibratedFlux> fluxes;
+  fluxes.reserve(loads.size());
+  for (const Balance& load : loads) fluxes.push_back(EquilibratedFlux(load, cut));
+  for (std::size_t done = 0; done < loads.size(); done += flux_lanes) {
+    const std::size_t count = std::min(loads.size() - done, flux_lanes);
+    make(std::span(fluxes).subspan(done, count),
+         bounds.empty() ? bounds : bounds.subspan(done, count), polish);
   }
-  return half;
+  return fluxes;
 }
 
-/// What the load makes of sigma - T grad u besides: d/2 (x - centroid) with the divergence d, and
-/// the bubble  b = 1/3 sum_(i<j) (f_j - f_i)(P_j - P_i) l_i l_j,  div b = -(f - mean f), which has
-/// no flux through the sides. With the loads f_i, their sum s and d_i = f_k - f_j this is a part
-/// -(f_0 e_2 + f_1 e_0 + f_2 e_1) / (2 area) of the mean, and the square of what is left
-///   1/area sum_i e_i.e_i (s^2 / 144 + (2 d_i^2 - d_j d_k - s (s - 3 f_i)) / 45).
-void EquilibratedFlux::balance(std::size_t t) {
-  const Vector* edge = &_edge[3 * t];
-  const double* force = &_balance.force[3 * t];
-  const double d[3] = {force[2] - force[1], force[0] - force[2], force[1] - force[0]};
-  const double sum = force[0] + force[1] + force[2];
-  add(_mean[t], d[2], edge[2]);
-  add(_mean[t], -d[0], edge[1]);
-  double rest = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double bubble =
-        2 * d[i] * d[i] - d[(i + 1) % 3] * d[(i + 2) % 3] - sum * (sum - 3 * force[i]);
-    rest += dot(edge[i], edge[i]) * (1.0 / 144 * sum * sum + 1.0 / 45 * bubble);
+/// Lanes beyond are those of the last load.
+void EquilibratedFlux::make(std::span<EquilibratedFlux> fluxes, std::span<const FaceBounds> bounds,
+                            int polish) {
+  static const FluxKernels& kernels = *supported_flux_kernels(0);
+  const std::size_t lanes = fluxes.size() == 1 ? 1 : flux_lanes;
+  const FluxMesh mesh = flux_mesh(fluxes.front()._cut);
+  std::array<FluxLane, flux_lanes> lane;
+  const auto values = [](std::span<const double> of) { return of.empty() ? nullptr : of.data(); };
+  for (std::size_t l = 0; l < lanes; ++l) {
+    EquilibratedFlux& own = fluxes[std::min(l, fluxes.size() - 1)];
+    const Balance& load = own._balance;
+    lane[l] = {load.u.data(),
+               values(load.force),
+               values(load.traction),
+               bounds.empty() ? nullptr : values(bounds[std::min(l, fluxes.size() - 1)]),
+               own._mean.front().data(),
+               own._distance.data(),
+               own._through.data(),
+               0,
+               0};
   }
-  _rest[t] = 4 * rest;
-}
-
-std::span<const Stop> EquilibratedFlux::stops(std::size_t fan) const {
-  return std::span(_cut.stops)
-      .subspan(at(_cut.first_stop[fan]), at(_cut.first_stop[fan + 1] - _cut.first_stop[fan]));
-}
-
-std::span<const FanCorner> EquilibratedFlux::corners(std::size_t fan) const {
-  return std::span(_cut.shapes.around)
-      .subspan(at(_cut.first_corner[fan]), at(_cut.first_corner[fan + 1] - _cut.first_corner[fan]));
+  const Scratch scratch(lanes * scratch_of(mesh));
+  (lanes == 1 ? kernels.one : kernels.several)(mesh, lane.data(), polish, scratch.values());
+  for (std::size_t l = 0; l < fluxes.size(); ++l) {
+    fluxes[l]._norm_squared = lane[l].norm_squared;
+    fluxes[l]._imbalance = lane[l].imbalance;
+    fluxes[l].turn();
+  }
 }
 
 double EquilibratedFlux::jump(std::size_t face, std::size_t end) const {
   const Face& own = _cut.faces[face];
   return _balance.u[at(_cut.ends(_cut.faces[at(own.other)])[1 - end])] -
          _balance.u[at(_cut.ends(own)[end])];
-}
-
-/// Derivative of int p [u] by the flux through the fan's spokes.
-double EquilibratedFlux::slope_of_work(std::size_t fan) const {
-  double slope = 0;
-  if (!_is_pressure) return slope;
-  for (const Stop& stop : stops(fan))
-    if (presses(_cut.faces[at(stop.face)].condition))
-      slope -= 0.5 * stop.sign() * (jump(at(stop.face), 0) + jump(at(stop.face), 1));
-  return slope;
-}
-
-/// Changes the flux through the fan's spokes to the least distance that is allowed; how far.
-double EquilibratedFlux::step(std::size_t fan, double slope, FaceBounds bounds) {
-  const double best = -slope * _cut.shapes.softness[fan];
-  if (stops(fan).empty()) return best;
-  const double change = allowed(fan, best, bounds);
-  for (const Stop& stop : stops(fan))
-    _through[2 * at(stop.face) + at(stop.end)] += stop.sign() * change;
-  return change;
-}
-
-/// The nearest change by which all faces of the fan stay within their bounds.
-double EquilibratedFlux::allowed(std::size_t fan, double best, FaceBounds bounds) const {
-  double low = -infinite, high = infinite;
-  for (const Stop& stop : stops(fan)) {
-    const Face& face = _cut.faces[at(stop.face)];
-    const std::size_t place = 2 * at(stop.face) + at(stop.end);
-    double least = -infinite, most = infinite;
-    if (face.condition == Condition::given) {
-      least = most = face.traction < 0 || _balance.traction.empty()
-                         ? 0
-                         : _balance.traction[2 * at(face.traction) + at(stop.end)];
-    } else if (presses(face.condition)) {
-      most = _is_pressure ? 0 : bounds[place];
-      if (!_is_pressure) least = -most;
-    } else {
-      continue;
-    }
-    const double now = _through[place];
-    if (stop.end == 0) {  // w = -x
-      low = std::max(low, now - most);
-      high = std::min(high, now - least);
-    } else {
-      low = std::max(low, least - now);
-      high = std::min(high, most - now);
-    }
-  }
-  if (low > high) return 0.5 * (low + high);  // by rounding
-  return std::clamp(best, low, high);
-}
-
-/// `flux` round the node, by its part in a triangle.
-void EquilibratedFlux::rotate(const FanCorner& corner, double flux) {
-  Vector& mean = _mean[at(corner.triangle)];
-  const Vector old = mean;
-  mean = {old[0] + flux * corner.edge[0], old[1] + flux * corner.edge[1]};
-}
-
-/// The fan of corner i adds to the flux through the sides j and k of its triangle x out and x' in,
-/// where fans to come stand for half of T grad u. With a = x less half of T grad u through side j
-/// this adds a e_i / (2 area) to the mean of sigma - T grad u, the load apart.
-void EquilibratedFlux::build(const std::vector<double>& half, FaceBounds bounds) {
-  _through.assign(2 * _cut.faces.size(), 0);
-  const double* const force = _balance.force.empty() ? nullptr : _balance.force.data();
-  std::vector<double> spokes(1), rotations;
-  for (std::size_t fan = 0; fan < _cut.fan_count(); ++fan) {
-    const std::span<const FanCorner> around = corners(fan);
-    if (rotations.size() < around.size()) {
-      rotations.resize(2 * around.size());
-      spokes.resize(2 * around.size() + 1);
-    }
-    double* x = spokes.data();
-    double* a = rotations.data();
-    Vector slope{slope_of_work(fan), 0};
-    for (const FanCorner& one : around) {
-      const double out = *x + half[one.own()] - (force ? force[one.own()] : 0);
-      *a = out + half[one.next()];
-      Vector mean = _mean[at(one.triangle)];
-      add(mean, *a, one.edge);
-      add_product(slope, one, mean);
-      *++x = out;
-      ++a;
-    }
-    const std::span<const Stop> stops = this->stops(fan);
-    if (stops.empty()) _imbalance = std::max(_imbalance, std::abs(*x));
-    for (const Stop& stop : stops)
-      _through[2 * at(stop.face) + at(stop.end)] = stop.sign() * spokes[at(stop.spoke)];
-    const double change = step(fan, slope[0] + slope[1], bounds);
-    a = rotations.data();
-    for (const FanCorner& one : around) rotate(one, *a++ + change);
-  }
-}
-
-void EquilibratedFlux::polish(FaceBounds bounds) {
-  for (std::size_t fan = 0; fan < _cut.fan_count(); ++fan) {
-    const std::span<const FanCorner> around = corners(fan);
-    Vector slope{slope_of_work(fan), 0};
-    for (const FanCorner& one : around) add_product(slope, one, _mean[at(one.triangle)]);
-    const double change = step(fan, slope[0] + slope[1], bounds);
-    for (const FanCorner& one : around) rotate(one, change);
-  }
 }
 
 /// The moment of w_0, w_1 in the ends of a face less that of their even flux along it is
@@ -222,6 +153,16 @@ void EquilibratedFlux::turn() {
   }
   std::sort(_turns.begin(), _turns.end(),
             [](const Turn& a, const Turn& b) { return a.side < b.side; });
+  for (const Turn& one : _turns) {
+    const std::size_t t = one.side / 3;
+    double sum = 0;
+    for (std::size_t p = 0; p < fem::rule_5.size; ++p) {
+      const double b = fem::rule_5.b[p], c = fem::rule_5.c[p];
+      const Vector value = difference(t, {1 - b - c, b, c});
+      sum += fem::rule_5.weight[p] * dot(value, value);
+    }
+    _distance[t] = _area[t] * sum / _tension[t];
+  }
 }
 
 std::vector<EquilibratedFlux::Turn>::const_iterator EquilibratedFlux::first_turn(
@@ -257,25 +198,6 @@ Vector EquilibratedFlux::difference(std::size_t triangle,
   return result;
 }
 
-std::vector<double> EquilibratedFlux::distance() const {
-  std::vector<double> distance(_mean.size());
-  for (std::size_t t = 0; t < distance.size(); ++t) {
-    const double rest = _rest.empty() ? 0 : _rest[t];
-    distance[t] = _cut.shapes.compliance[t] * (dot(_mean[t], _mean[t]) + rest);
-  }
-  for (const Turn& one : _turns) {
-    const std::size_t t = one.side / 3;
-    double sum = 0;
-    for (std::size_t p = 0; p < fem::rule_5.size; ++p) {
-      const double b = fem::rule_5.b[p], c = fem::rule_5.c[p];
-      const Vector value = difference(t, {1 - b - c, b, c});
-      sum += fem::rule_5.weight[p] * dot(value, value);
-    }
-    distance[t] = _area[t] * sum / _tension[t];
-  }
-  return distance;
-}
-
 std::vector<double> EquilibratedFlux::work_of_pressure() const {
   std::vector<double> work(_cut.faces.size(), 0);
   for (std::size_t face = 0; face < work.size(); ++face) {
@@ -288,12 +210,9 @@ std::vector<double> EquilibratedFlux::work_of_pressure() const {
 }
 
 Vector EquilibratedFlux::flux_of(std::size_t triangle, std::span<const double> values) const {
-  const std::int32_t* copy = &_cut.copy[3 * triangle];
-  const double first = values[at(copy[0])], scale = 2 * _cut.shapes.stiffness[triangle];
-  Vector sum{};
-  add(sum, values[at(copy[1])] - first, _edge[3 * triangle + 1]);
-  add(sum, values[at(copy[2])] - first, _edge[3 * triangle + 2]);
-  return {-scale * sum[1], scale * sum[0]};
+  const double scale = 2 * _cut.shapes.stiffness[triangle];
+  const Vector rise = rise_of(triangle, values);
+  return {-scale * rise[1], scale * rise[0]};
 }
 
 double EquilibratedFlux::flux_through(std::size_t side, std::span<const double> values) const {

@@ -35,9 +35,14 @@ class EquilibratedFlux {
  public:
   EquilibratedFlux(const CutMesh& cut, const Balance& balance, FaceBounds bounds = {},
                    int polish = 1);
+  /// Of several loads at once, with the bits of each alone: all with a force or none. No bounds:
+  /// the pressure, else those of each.
+  static std::vector<EquilibratedFlux> of_all(const CutMesh& cut, std::span<const Balance> loads,
+                                              std::span<const FaceBounds> bounds = {},
+                                              int polish = 1);
 
   /// int |sigma - T grad u|^2 / T of each triangle, shape (m).
-  std::vector<double> distance() const;
+  const std::vector<double>& distance() const noexcept { return _distance; }
   /// int p [u] of each face, on minus faces, shape (faces): 0 elsewhere.
   std::vector<double> work_of_pressure() const;
   /// Outward flux through each face, (faces, 2): the parts of its ends 0 and 1.
@@ -46,9 +51,19 @@ class EquilibratedFlux {
   Vector difference(std::size_t triangle, const std::array<double, 3>& place) const;
   /// Its mean over a triangle; where `turned` is false and f is 0 it is constant.
   Vector mean_difference(std::size_t triangle) const;
+  /// The same times 2 area.
+  const Vector& mean(std::size_t triangle) const { return _mean[triangle]; }
   bool turned(std::size_t triangle) const;
   /// [u] at an end of a minus face.
   double jump(std::size_t face, std::size_t end) const;
+  /// Sum of v_i e_i of a triangle; turned by 90 degrees, 2 area grad v.
+  Vector rise_of(std::size_t triangle, std::span<const double> values) const {
+    const std::int32_t* copy = &_cut.copy[3 * triangle];
+    const Vector* edge = &_edge[3 * triangle];
+    const double first = values[at(copy[0])], second = values[at(copy[1])] - first,
+                 third = values[at(copy[2])] - first;
+    return {second * edge[1][0] + third * edge[2][0], second * edge[1][1] + third * edge[2][1]};
+  }
   /// T grad v of a triangle, and its outward flux through a side; values of v in the copies.
   Vector flux_of(std::size_t triangle, std::span<const double> values) const;
   double flux_through(std::size_t side, std::span<const double> values) const;
@@ -62,26 +77,17 @@ class EquilibratedFlux {
   double imbalance() const noexcept { return _imbalance; }
 
  private:
-  std::vector<double> measure();
-  void balance(std::size_t triangle);
-  void build(const std::vector<double>& half, FaceBounds bounds);
-  void polish(FaceBounds bounds);
-  void rotate(const FanCorner& corner, double flux);
+  EquilibratedFlux(const Balance& balance, const CutMesh& cut);  // to be made
+  static void make(std::span<EquilibratedFlux> fluxes, std::span<const FaceBounds> bounds,
+                   int polish);
   void turn();
-  double slope_of_work(std::size_t fan) const;
-  double step(std::size_t fan, double slope, FaceBounds bounds);
-  double allowed(std::size_t fan, double best, FaceBounds bounds) const;
-  std::span<const Stop> stops(std::size_t fan) const;
-  std::span<const FanCorner> corners(std::size_t fan) const;
 
   const CutMesh& _cut;
   Balance _balance;
-  bool _is_pressure;                           // the work of the pressure counts
   const std::vector<double>&_tension, &_area;  // (m)
   const std::vector<Vector>& _edge;            // (corners) opposite to the corner, counterclockwise
   std::vector<Vector> _mean;                   // (m) of sigma - T grad u, times 2 area
-  std::vector<double> _rest;  // (m) int |sigma - T grad u - its mean|^2 times 4 area; empty: 0
-  std::vector<double> _through;
+  std::vector<double> _distance, _through;
   struct Turn {
     std::size_t side;
     double kappa;

@@ -20,10 +20,12 @@ struct Cone {
   bool left() const { return beyond > 1e-12 * largest; }
 };
 
-/// Integrals of tau - T grad z with itself and with sigma - T grad u_h, over T.
+/// Integrals of tau - T grad z with itself and with sigma - T grad u_h, and of that with itself,
+/// over T.
 struct Products {
   double square = 0;
   double mixed = 0;
+  double distance = 0;
 };
 
 class Sum {
@@ -36,21 +38,26 @@ class Sum {
   Products products() const {
     Products sum;
     const EquilibratedFlux& sigma = _primal.flux;
+    const Shapes& shapes = _primal.cut.shapes;
     for (std::size_t t = 0; t < _primal.cut.triangle_count(); ++t) {
-      const Vector shift = sigma.flux_of(t, _rest);
-      const double scale = sigma.area(t) / sigma.tension(t);
-      const auto add = [&](double weight, const Vector& of_tau, const Vector& of_sigma) {
-        const Vector off{of_tau[0] + shift[0], of_tau[1] + shift[1]};
-        sum.square += weight * scale * (off[0] * off[0] + off[1] * off[1]);
-        sum.mixed += weight * scale * (off[0] * of_sigma[0] + off[1] * of_sigma[1]);
+      sum.distance += std::max(0.0, sigma.distance()[t]);
+      const auto add = [&](double factor, const Vector& off, const Vector& of_sigma) {
+        sum.square += factor * dot(off, off);
+        sum.mixed += factor * dot(off, of_sigma);
       };
-      if (!_tau.turned(t)) {  // constant
-        add(1, _tau.mean_difference(t), sigma.mean_difference(t));
+      if (!_tau.turned(t)) {  // constant: 2 area times both
+        const Vector &of_tau = _tau.mean(t), rise = sigma.rise_of(t, _rest);
+        const double tension = shapes.tension[t];
+        add(shapes.compliance[t], {of_tau[0] - tension * rise[1], of_tau[1] + tension * rise[0]},
+            sigma.mean(t));
         continue;
       }
+      const Vector shift = sigma.flux_of(t, _rest);
+      const double scale = sigma.area(t) / sigma.tension(t);
       for (std::size_t p = 0; p < fem::rule_5.size; ++p) {
         const double b = fem::rule_5.b[p], c = fem::rule_5.c[p];
-        add(fem::rule_5.weight[p], _tau.difference(t, {1 - b - c, b, c}),
+        const Vector of_tau = _tau.difference(t, {1 - b - c, b, c});
+        add(scale * fem::rule_5.weight[p], {of_tau[0] + shift[0], of_tau[1] + shift[1]},
             sigma.difference(t, {1 - b - c, b, c}));
       }
     }
@@ -71,29 +78,24 @@ class Sum {
   std::vector<double> _rest;
 };
 
-}  // namespace
-
-double half_width(double c, double eta, double rho) {
-  return 2 * c * rho <= eta ? eta * rho : c * rho * rho + eta * eta / (4 * c);
-}
-
-EquilibratedFlux dual_flux(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual) {
+/// |q| <= c p.
+std::vector<double> cone_of(const EquilibratedFlux& sigma, double c) {
   std::vector<double> bounds = sigma.through_faces();
-  for (double& bound : bounds) bound = dual.c * std::abs(bound);
-  return EquilibratedFlux(cut, {dual.reacting, {}, {}}, bounds);
+  for (double& bound : bounds) bound = c * std::abs(bound);
+  return bounds;
 }
 
-Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
+Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
+  const Primal& primal = *aimed.primal;
+  const Dual& dual = aimed.dual;
   const CutMesh& cut = primal.cut;
   const EquilibratedFlux& sigma = primal.flux;
-  const EquilibratedFlux tau = dual_flux(cut, sigma, dual);
 
-  double distance = 0, pressure = 0;
-  for (const double one : sigma.distance()) distance += std::max(0.0, one);
+  double pressure = 0;
   for (const double one : sigma.work_of_pressure()) pressure += std::max(0.0, one);
   const Sum sum(primal, dual, tau);
   const Products products = sum.products();
-  double residual = 0, mixed = 0.5 * products.mixed;
+  double residual = 0, mixed = 0.5 * products.mixed, distance = products.distance;
   for (const Lift& lift : primal.lifts) {
     const auto side = at(cut.faces[at(lift.face)].side);
     residual -= lift.mean * sigma.flux_through(side, dual.z);
@@ -134,7 +136,7 @@ Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
   const double rho = std::sqrt(std::max(0.0, distance) / 4 + pressure);
   const double eta = std::sqrt(products.square), middle = dual.value + work + residual + mixed;
   const double extra =
-      unloaded * std::sqrt(beyond) + 1e-12 * (std::abs(dual.value) + std::abs(middle));
+      aimed.unloaded * std::sqrt(beyond) + 1e-12 * (std::abs(dual.value) + std::abs(middle));
   return {middle - half_width(below, eta, rho) - extra,
           middle + half_width(above, eta, rho) + extra,
           mixed,
@@ -144,6 +146,35 @@ Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
           rho,
           below,
           above};
+}
+
+}  // namespace
+
+double half_width(double c, double eta, double rho) {
+  return 2 * c * rho <= eta ? eta * rho : c * rho * rho + eta * eta / (4 * c);
+}
+
+EquilibratedFlux dual_flux(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual) {
+  return EquilibratedFlux(cut, {dual.reacting, {}, {}}, cone_of(sigma, dual.c));
+}
+
+std::vector<Interval> intervals(const CutMesh& cut, std::span<const Aimed> of) {
+  std::vector<std::vector<double>> cones;
+  std::vector<Balance> balances;
+  for (const Aimed& one : of) {
+    cones.push_back(cone_of(one.primal->flux, one.dual.c));
+    balances.push_back({one.dual.reacting, {}, {}});
+  }
+  const std::vector<FaceBounds> bounds(cones.begin(), cones.end());
+  const std::vector<EquilibratedFlux> taus = EquilibratedFlux::of_all(cut, balances, bounds);
+  std::vector<Interval> found;
+  for (std::size_t i = 0; i < of.size(); ++i) found.push_back(interval(of[i], taus[i]));
+  return found;
+}
+
+Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
+  const Aimed one{&primal, dual, unloaded};
+  return intervals(primal.cut, {&one, 1}).front();
 }
 
 double norm_of_flux(const CutMesh& cut, std::span<const double> reacting) {

@@ -58,8 +58,17 @@ double half_width(double c, double eta, double rho);
 /// The tau of a Dual, next to a flux sigma: |q| <= c p on each end of a face.
 EquilibratedFlux dual_flux(const CutMesh& cut, const EquilibratedFlux& sigma, const Dual& dual);
 
-/// `unloaded`: norm of a tau without q, of which the oscillation takes its share. Infinite where z
-/// or tau leave the cone. O(m).
+/// A dual of an answer. `unloaded`: norm of a tau without q, of which the oscillation takes its
+/// share.
+struct Aimed {
+  const Primal* primal;
+  Dual dual;
+  double unloaded = 0;
+};
+
+/// Of several at once, with the bits of each alone. Infinite where z or tau leave the cone. O(m)
+/// each.
+std::vector<Interval> intervals(const CutMesh& cut, std::span<const Aimed> of);
 Interval interval(const Primal& primal, const Dual& dual, double unloaded);
 
 /// |tau| of a tau for a unit force with all cracks free. O(m).

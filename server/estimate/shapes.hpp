@@ -21,11 +21,8 @@ constexpr double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[
 struct FanCorner {
   std::int32_t triangle;
   std::int16_t i, j;
-  Vector edge;        ///< e_i
+  double edge[2];     ///< e_i
   double compliance;  ///< of the triangle
-
-  std::size_t own() const noexcept { return 3 * at(triangle) + at(i); }
-  std::size_t next() const noexcept { return 3 * at(triangle) + at(j); }
 };
 
 struct Shapes {

@@ -58,18 +58,31 @@ void recover_fields(const std::vector<PreparedCase>& cases, std::vector<Solved>&
 }
 
 /// From the fields, which are kept only where they are asked for.
-void add_bounds(const PreparedCase& prepared, Solved& solved) {
-  const store::JobSpec& spec = spec_of(prepared);
-  if (solved.failure || spec.without_bounds) return;
-  try {
-    if (solved.answer.status == contact::Status::converged)
-      solved.indicator = prepared.task.job->mesh_operator->estimate(
-          prepared.load, solved.answer, prepared.task.job->stop.get_token());
-  } catch (...) {
-    solved.failure = std::current_exception();
+void add_bounds(const std::vector<PreparedCase>& cases, std::vector<Solved>& solved) {
+  std::vector<operators::MeshOperator::Estimate> estimates;
+  std::vector<Solved*> of_estimates;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (solved[i].failure || spec_of(cases[i]).without_bounds ||
+        solved[i].answer.status != contact::Status::converged)
+      continue;
+    estimates.push_back({&cases[i].load, &solved[i].answer, cases[i].task.job->stop.get_token()});
+    of_estimates.push_back(&solved[i]);
   }
-  if (!spec.fields) solved.answer.fields.clear();
-  if (!spec.indicators && !spec.accuracy) solved.indicator = {};
+  try {
+    cases.front().task.job->mesh_operator->estimate(estimates);
+  } catch (...) {  // no memory for the mesh's own part
+    for (auto& one : estimates) one.failure = std::current_exception();
+  }
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    of_estimates[i]->failure = estimates[i].failure;
+    of_estimates[i]->indicator = std::move(estimates[i].indicator);
+  }
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const store::JobSpec& spec = spec_of(cases[i]);
+    if (solved[i].failure || spec.without_bounds) continue;
+    if (!spec.fields) solved[i].answer.fields.clear();
+    if (!spec.indicators && !spec.accuracy) solved[i].indicator = {};
+  }
 }
 
 }  // namespace
@@ -93,7 +106,7 @@ std::vector<EndedCase> solve_exactly(const std::vector<PreparedCase>& cases,
   solved.reserve(cases.size());
   for (const PreparedCase& prepared : cases) solved.push_back(solve(prepared, iterations));
   recover_fields(cases, solved);
-  for (std::size_t i = 0; i < cases.size(); ++i) add_bounds(cases[i], solved[i]);
+  add_bounds(cases, solved);
   std::vector<EndedCase> ended;
   ended.reserve(cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {

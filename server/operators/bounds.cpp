@@ -18,59 +18,107 @@ std::string obstacle_of(const LoadOnTraces& load, const estimate::CutMesh& cut,
   return "";
 }
 
+/// What the bounds of an answer are made from.
+struct Material {
+  MeshOperator::Estimate& of;
+  const LoadOnTraces& load;
+  std::vector<double> u;
+  std::vector<estimate::Lift> lifts;
+  estimate::LoadBalance balance;
+};
+
+/// All but u, which is there. False with the reason in the answer.
+bool add_load(const std::vector<ddm::Subdomain>& subdomains, const estimate::CutMesh& cut,
+              Material& to) {
+  const LoadParts& parts = to.load.parts;
+  if (const std::string& given = parts.boundary_value; !given.empty())
+    to.lifts = estimate::lifts(
+        cut, fem::values_at(estimate::lift_points(cut), given, "boundary_value"), to.u);
+  if (!std::ranges::all_of(to.lifts, &estimate::Lift::smooth)) {
+    to.of.answer->no_bracket =
+        "boundary_value jumps along an edge, or is too sharp for the mesh: make it continuous, or "
+        "the mesh finer";
+    return false;
+  }
+  std::vector<fem::ForceParts> force = parts.integrated;
+  for (std::size_t s = 0; s < force.size(); ++s) {
+    if (auto linear = fem::linear_parts(subdomains[s].part, parts.force, subdomains[s].name,
+                                        {subdomains[s].node, subdomains[s].triangle, to.of.stop}))
+      force[s] = std::move(*linear);
+  }
+  to.balance = estimate::load_balance(cut, force, parts.traction);
+  return true;
+}
+
+void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
+                 std::span<const Material> materials) {
+  std::vector<estimate::Balance> balances;
+  for (const Material& one : materials)
+    balances.push_back({one.u, one.balance.force, one.balance.traction});
+  const std::vector<estimate::EquilibratedFlux> fluxes =
+      estimate::EquilibratedFlux::of_all(cut, balances);
+  std::vector<estimate::Primal> primals;
+  std::vector<Bounded> bounded;
+  primals.reserve(materials.size());
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const auto& [of, load, u, lifts, balance] = materials[i];
+    contact::Answer& answer = *of.answer;
+    const estimate::Bracket bracket =
+        estimate::bracket(cut, fluxes[i], balance, lifts, u, answer.energy);
+    answer.energy_lower = bracket.lower;
+    answer.energy_upper = bracket.upper;
+    answer.error_bound = bracket.error;
+    answer.error_bound_relative = bracket.error_relative;
+    of.indicator.resize(bracket.indicator.size());
+    for (std::size_t t = 0; t < bracket.indicator.size(); ++t)
+      of.indicator[at(cut.triangle[t])] = bracket.indicator[t];
+    bounded.push_back(
+        {load, primals.emplace_back(cut, fluxes[i], balance, lifts, u), answer, of.stop});
+  }
+  bound_displacements(parts, bounded);
+}
+
 }  // namespace
 
 std::vector<double> MeshOperator::estimate(const PreparedLoad& load, contact::Answer& answer,
                                            const std::stop_token& stop) const {
-  require_prepared(load, true);
-  const LoadOnTraces& condensed = load._data->condensed;
-  const std::vector<ddm::Subdomain>& subdomains = _parts->decomposition.subdomains;
+  Estimate one{&load, &answer, stop};
+  estimate({&one, 1});
+  if (one.failure) std::rethrow_exception(one.failure);
+  return std::move(one.indicator);
+}
+
+void MeshOperator::estimate(std::span<Estimate> all) const {
+  constexpr std::size_t together = 4;  // more are not faster
+  for (; all.size() > together; all = all.subspan(together)) estimate(all.first(together));
+  if (all.empty()) return;
   const estimate::CutMesh& cut =
       _parts->cut.get([this] { return estimate::cut_mesh(*_parts->mesh, _parts->decomposition); });
-  answer.no_bracket = obstacle_of(condensed, cut, answer);
-  if (!answer.no_bracket.empty()) return {};
-  if (stop.stop_requested())
-    throw errors::Error(errors::Reason::cancelled, "stopped before the error was estimated");
-
-  const bool recovered = answer.fields.empty();
-  if (recovered) {
-    const PreparedLoad* const one[] = {&load};
-    contact::Answer* const its[] = {&answer};
-    recover_fields(one, its);
+  std::vector<Material> materials;
+  for (Estimate& one : all) {
+    try {
+      require_prepared(*one.load, true);
+      const LoadOnTraces& load = one.load->_data->condensed;
+      contact::Answer& answer = *one.answer;
+      answer.no_bracket = obstacle_of(load, cut, answer);
+      if (!answer.no_bracket.empty()) continue;
+      if (one.stop.stop_requested())
+        throw errors::Error(errors::Reason::cancelled, "stopped before the error was estimated");
+      const bool recovered = answer.fields.empty();
+      if (recovered) recover_fields({&one.load, 1}, {&one.answer, 1});
+      Material material{one, load, of_copies(answer.fields), {}, {}};
+      if (recovered) answer.fields.clear();
+      if (add_load(_parts->decomposition.subdomains, cut, material))
+        materials.push_back(std::move(material));
+    } catch (...) {
+      one.failure = std::current_exception();
+    }
   }
-  const std::vector<double> u = of_copies(answer.fields);
-  if (recovered) answer.fields.clear();
-
-  std::vector<fem::ForceParts> force = condensed.parts.integrated;
-  for (std::size_t s = 0; s < force.size(); ++s) {
-    if (auto linear =
-            fem::linear_parts(subdomains[s].part, condensed.parts.force, subdomains[s].name,
-                              {subdomains[s].node, subdomains[s].triangle, stop}))
-      force[s] = std::move(*linear);
+  try {
+    find_bounds(*_parts, cut, materials);
+  } catch (...) {
+    for (const Material& one : materials) one.of.failure = std::current_exception();
   }
-  std::vector<estimate::Lift> lifts;
-  if (const std::string& given = condensed.parts.boundary_value; !given.empty())
-    lifts = estimate::lifts(cut,
-                            fem::values_at(estimate::lift_points(cut), given, "boundary_value"), u);
-  if (!std::ranges::all_of(lifts, &estimate::Lift::smooth)) {
-    answer.no_bracket =
-        "boundary_value jumps along an edge, or is too sharp for the mesh: make it continuous, or "
-        "the mesh finer";
-    return {};
-  }
-  const estimate::LoadBalance balance =
-      estimate::load_balance(cut, force, condensed.parts.traction);
-  const estimate::EquilibratedFlux flux(cut, {u, balance.force, balance.traction});
-  estimate::Bracket bracket = estimate::bracket(cut, flux, balance, lifts, u, answer.energy);
-  answer.energy_lower = bracket.lower;
-  answer.energy_upper = bracket.upper;
-  answer.error_bound = bracket.error;
-  answer.error_bound_relative = bracket.error_relative;
-  bound_displacements(*_parts, condensed, {cut, flux, balance, lifts, u}, answer, stop);
-  std::vector<double> indicator(bracket.indicator.size());
-  for (std::size_t t = 0; t < indicator.size(); ++t)
-    indicator[at(cut.triangle[t])] = bracket.indicator[t];
-  return indicator;
 }
 
 }  // namespace anticrack::operators

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <optional>
+#include <utility>
 
 #include "contact/trace_state.hpp"
 #include "estimate/bracket.hpp"
@@ -50,60 +52,85 @@ std::vector<Aim> aims(const MeshOperator::Parts& parts) {
 /// Bounds of the cone that are tried; most answers need two.
 constexpr int most_tries = 4;
 
-class Intervals {
+/// The best of a few bounds of the cone, each wider than the one before.
+class Search {
  public:
-  Intervals(const MeshOperator::Parts& parts, const contact::Adjoint& adjoint,
-            const estimate::Primal& primal)
-      : _parts(parts),
-        _primal(primal),
-        _adjoint(adjoint),
-        _norm(std::sqrt(primal.flux.norm_squared())) {}
+  Search(const Bounded& of, const contact::Adjoint& adjoint, const Aim& aim)
+      : _of(of), _adjoint(adjoint), _aim(aim), _goal(adjoint.aim(aim.goal)) {
+    const double norm = std::sqrt(of.primal.flux.norm_squared());
+    _c = 2 * (norm > 0 ? std::sqrt(_goal.compliance) / norm : 1);
+  }
 
-  /// The best of a few bounds of the cone, each wider than the one before. False where none holds:
-  /// forces that tie the sides of crossing cracks may leave any cone.
-  bool find(const Aim& aim, contact::InclusionAnswer& answer) const {
-    const contact::Adjoint::Goal goal = _adjoint.aim(aim.goal);
-    if (!(goal.compliance > 0)) {  // held
-      answer.*aim.lower = answer.*aim.upper = answer.*aim.value;
-      return true;
+  const Bounded& of() const { return _of; }
+  const Aim& aim() const { return _aim; }
+  bool held() const { return !(_goal.compliance > 0); }
+  bool done() const { return held() || _tries == most_tries; }
+
+  /// The next step needs the flux of an unloaded pair first.
+  bool unloaded() const { return !_unloaded && !_of.primal.load.oscillation.empty(); }
+  void set_unloaded(double norm) { _unloaded = norm; }
+
+  contact::Adjoint::Pair pair() const { return _adjoint.clipped(_goal, unloaded() ? 0 : _c); }
+  estimate::Aimed aimed(const AdjointFields& fields) const {
+    return {&_of.primal, {fields[0], fields[1], value(), _c}, _unloaded.value_or(0)};
+  }
+
+  void take(const estimate::Interval& one) {
+    ++_tries;
+    if (!std::isfinite(one.width())) {
+      _c *= 8;
+      return;
     }
-    const double unit = _norm > 0 ? std::sqrt(goal.compliance) / _norm : 1;
-    double unloaded = 0;
-    if (!_primal.load.oscillation.empty()) {
-      const contact::Adjoint::Pair pair = _adjoint.clipped(goal, 0);
-      unloaded = estimate::norm_of_flux(_primal.cut, adjoint_fields(_parts, pair)[1]);
-    }
-    estimate::Interval best;
-    double c = 2 * unit;
-    for (int tries = 0; tries < most_tries; ++tries) {
-      const contact::Adjoint::Pair pair = _adjoint.clipped(goal, c);
-      const auto [z, reacting] = adjoint_fields(_parts, pair);
-      const estimate::Interval one =
-          estimate::interval(_primal, {z, reacting, answer.*aim.value, c}, unloaded);
-      if (!std::isfinite(one.width())) {
-        c *= 8;
-        continue;
-      }
-      const bool better = one.width() < best.width();
-      if (better) best.estimate = one.estimate;
-      best.lower = std::max(best.lower, one.lower);
-      best.upper = std::min(best.upper, one.upper);
-      if (!better || !(one.short_of > 1)) break;
-      c *= std::clamp(one.short_of, 1.5, 8.0);
-    }
-    if (!std::isfinite(best.width())) return false;
-    answer.*aim.lower = best.lower;
-    answer.*aim.upper = best.upper;
-    if (aim.estimate != nullptr) answer.*aim.estimate = best.estimate;
+    const bool better = one.width() < _best.width();
+    if (better) _best.estimate = one.estimate;
+    _best.lower = std::max(_best.lower, one.lower);
+    _best.upper = std::min(_best.upper, one.upper);
+    if (!better || !(one.short_of > 1)) _tries = most_tries;
+    _c *= std::clamp(one.short_of, 1.5, 8.0);
+  }
+
+  /// False where none holds: forces that tie the sides of crossing cracks may leave any cone.
+  bool finish() const {
+    contact::InclusionAnswer& answer = _of.answer.inclusions[_aim.inclusion];
+    if (!held() && !std::isfinite(_best.width())) return false;
+    answer.*_aim.lower = held() ? value() : _best.lower;
+    answer.*_aim.upper = held() ? value() : _best.upper;
+    if (!held() && _aim.estimate != nullptr) answer.*_aim.estimate = _best.estimate;
     return true;
   }
 
  private:
-  const MeshOperator::Parts& _parts;
-  const estimate::Primal& _primal;
+  double value() const { return _of.answer.inclusions[_aim.inclusion].*_aim.value; }
+
+  const Bounded& _of;
   const contact::Adjoint& _adjoint;
-  double _norm;
+  const Aim& _aim;
+  contact::Adjoint::Goal _goal;
+  double _c = 0;
+  std::optional<double> _unloaded;
+  estimate::Interval _best;
+  int _tries = 0;
 };
+
+/// A step of each.
+void advance(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
+             std::span<Search* const> searches) {
+  std::vector<contact::Adjoint::Pair> pairs;
+  for (const Search* search : searches) pairs.push_back(search->pair());
+  const std::vector<AdjointFields> fields = adjoint_fields(parts, pairs);
+  std::vector<estimate::Aimed> aimed;
+  std::vector<Search*> of_aimed;
+  for (std::size_t i = 0; i < searches.size(); ++i) {
+    if (searches[i]->unloaded()) {
+      searches[i]->set_unloaded(estimate::norm_of_flux(cut, fields[i][1]));
+    } else {
+      aimed.push_back(searches[i]->aimed(fields[i]));
+      of_aimed.push_back(searches[i]);
+    }
+  }
+  const std::vector<estimate::Interval> found = estimate::intervals(cut, aimed);
+  for (std::size_t i = 0; i < found.size(); ++i) of_aimed[i]->take(found[i]);
+}
 
 class UntilStopped final : public contact::Observer {
  public:
@@ -192,23 +219,28 @@ bool bounded(const contact::Answer& answer) {
          contact::within(answer.kkt_relative, most_kkt);
 }
 
-std::array<std::vector<double>, 2> adjoint_fields(const MeshOperator::Parts& parts,
-                                                  const contact::Adjoint::Pair& pair) {
-  const std::array<std::vector<Eigen::VectorXd>, 2> traces{parts.skeleton->scatter(pair.z),
-                                                           parts.skeleton->scatter(pair.reacting)};
-  std::array<std::vector<double>, 2> fields;
+std::vector<AdjointFields> adjoint_fields(const MeshOperator::Parts& parts,
+                                          std::span<const contact::Adjoint::Pair> pairs) {
+  std::vector<std::vector<Eigen::VectorXd>> traces;
+  for (const contact::Adjoint::Pair& pair : pairs)
+    for (const Eigen::VectorXd* of : {&pair.z, &pair.reacting})
+      traces.push_back(parts.skeleton->scatter(*of));
+  std::vector<AdjointFields> fields(pairs.size());
   for (std::size_t s = 0; s < parts.operators.size(); ++s) {
     const ddm::Subdomain& subdomain = parts.decomposition.subdomains[s];
     ddm::CondensedLoad none;
     none.z_interior.setZero(static_cast<Eigen::Index>(subdomain.interior));
     none.dirichlet.setZero(static_cast<Eigen::Index>(subdomain.dirichlet));
     const auto count = static_cast<Eigen::Index>(subdomain.node.size());
-    std::array<Eigen::VectorXd, 2> values{Eigen::VectorXd(count), Eigen::VectorXd(count)};
-    std::array<ddm::SubdomainOperator::Solved, 2> both{
-        {{none, traces[0][s], values[0]}, {none, traces[1][s], values[1]}}};
-    parts.operators[s].recover(both);
-    for (std::size_t f = 0; f < 2; ++f)
-      fields[f].insert(fields[f].end(), values[f].begin(), values[f].end());
+    std::vector<Eigen::VectorXd> values(traces.size(), Eigen::VectorXd(count));
+    std::vector<ddm::SubdomainOperator::Solved> solved;
+    for (std::size_t f = 0; f < traces.size(); ++f)
+      solved.push_back({none, traces[f][s], values[f]});
+    parts.operators[s].recover(solved);
+    for (std::size_t f = 0; f < traces.size(); ++f) {
+      std::vector<double>& field = fields[f / 2][f % 2];
+      field.insert(field.end(), values[f].begin(), values[f].end());
+    }
   }
   return fields;
 }
@@ -219,21 +251,44 @@ std::vector<double> of_copies(const std::vector<contact::Field>& fields) {
   return u;
 }
 
-void bound_displacements(const MeshOperator::Parts& parts, const LoadOnTraces& load,
-                         const estimate::Primal& primal, contact::Answer& answer,
-                         const std::stop_token& stop) {
+void bound_displacements(const MeshOperator::Parts& parts, std::span<const Bounded> answers) {
   constexpr std::size_t most_inclusions = 16;  // a few solves each
-  if (answer.inclusions.size() > most_inclusions) return;
-  std::optional<contact::Adjoint> adjoint;
-  if (parts.skeleton)
-    adjoint.emplace(*parts.skeleton, contact::CaseLoads{load.subdomains, load.inclusion_forces},
-                    answer);
-  const bool possible = adjoint && adjoint->possible();
-  for (const Aim& aim : aims(parts)) {
-    contact::InclusionAnswer& one = answer.inclusions[aim.inclusion];
-    if (!possible || !Intervals(parts, *adjoint, primal).find(aim, one))
-      Slopes(parts, load, primal, *answer.energy_lower, *answer.energy_upper, stop).find(aim, one);
+  constexpr std::size_t together = 4;
+  if (answers.empty() || parts.mesh->inclusions.size() > most_inclusions) return;
+  const std::vector<Aim> goals = aims(parts);
+  std::deque<contact::Adjoint> adjoints;
+  std::deque<Search> searches;
+  std::vector<std::pair<const Bounded*, const Aim*>> by_energy;
+  for (const Bounded& of : answers) {
+    const bool possible =
+        parts.skeleton &&
+        adjoints
+            .emplace_back(*parts.skeleton,
+                          contact::CaseLoads{of.load.subdomains, of.load.inclusion_forces},
+                          of.answer)
+            .possible();
+    for (const Aim& aim : goals) {
+      if (possible)
+        searches.emplace_back(of, adjoints.back(), aim);
+      else
+        by_energy.emplace_back(&of, &aim);
+    }
   }
+  std::vector<Search*> active;
+  auto next = searches.begin();
+  for (;;) {
+    std::erase_if(active, [](const Search* search) { return search->done(); });
+    for (; active.size() < together && next != searches.end(); ++next)
+      if (!next->done()) active.push_back(&*next);
+    if (active.empty()) break;
+    advance(parts, answers.front().primal.cut, active);
+  }
+  for (const Search& search : searches)
+    if (!search.finish()) by_energy.emplace_back(&search.of(), &search.aim());
+  for (const auto& [of, aim] : by_energy)
+    Slopes(parts, of->load, of->primal, *of->answer.energy_lower, *of->answer.energy_upper,
+           of->stop)
+        .find(*aim, of->answer.inclusions[aim->inclusion]);
 }
 
 }  // namespace anticrack::operators

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <span>
 #include <stop_token>
@@ -67,6 +68,16 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// errors::Error (cancelled).
   std::vector<double> estimate(const PreparedLoad& load, contact::Answer& answer,
                                const std::stop_token& stop = {}) const;
+  struct Estimate {
+    const PreparedLoad* load;
+    contact::Answer* answer;
+    std::stop_token stop;
+    std::vector<double> indicator{};
+    std::exception_ptr failure{};
+  };
+  /// The same of several at once, faster, with the bits of each alone; what is thrown for one is
+  /// its failure.
+  void estimate(std::span<Estimate> all) const;
 
   /// Condenses loads to be combined: O(N) each and O(n_G^2 + N m) for the energy of pairs; N m
   /// numbers of memory meanwhile. Cached (BasisCache): loads that differ by name only, arrays

@@ -11,6 +11,8 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "operators/mesh_operator.hpp"
 #include "reference/random_membrane.hpp"
@@ -145,6 +147,71 @@ TEST_P(Bounds, ContainTheAnswersOfAMeshTwoLevelsFiner) {
       tally.without, tally.unsolved, tally.widest, tally.nearest);
   EXPECT_GT(tally.energies, static_cast<int>(count) / 2);
   EXPECT_GT(tally.displacements, static_cast<int>(count) / 4);
+}
+
+/// All bounds of an answer.
+std::vector<double> bounds_of(const contact::Answer& answer) {
+  std::vector<double> bounds;
+  const auto add = [&](const std::optional<double>& one) {
+    bounds.push_back(one.value_or(-1e300));
+  };
+  for (const auto& one :
+       {answer.energy_lower, answer.energy_upper, answer.error_bound, answer.error_bound_relative})
+    add(one);
+  for (const contact::InclusionAnswer& of : answer.inclusions)
+    for (const auto& one :
+         {of.displacement_lower, of.displacement_upper, of.displacement_estimated_error,
+          of.slope_x_lower, of.slope_x_upper, of.slope_y_lower, of.slope_y_upper})
+      add(one);
+  return bounds;
+}
+
+/// How many of a random membrane have bounds, alone and with others the same.
+int compare_alone(unsigned seed, const Variant& variant) {
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  constexpr std::size_t count = 6;  // not a multiple of what is done at once
+  reference::RandomMembrane membrane(seed, variant.rich);
+  const mesh::Mesh mesh = membrane.mesh();
+  const auto op = operators::MeshOperator::factorise(std::make_shared<const mesh::Mesh>(mesh), 1,
+                                                     {}, variant.most_dense);
+  std::vector<operators::PreparedLoad> loads;
+  std::vector<contact::Answer> alone;
+  testing::Silent silent;
+  while (loads.size() < count) {
+    const Random random = random_load(membrane, mesh);
+    fem::Load load = random.load;
+    load.force = fem::Array{"", true, std::make_shared<const std::vector<double>>(random.force)};
+    if (loads.size() % 2 == 1) load.boundary_value = "sin(3*x)*y";  // not linear along edges
+    const fem::Load* const one[] = {&load};
+    const auto prepared = std::move(op->prepare(one).front());
+    if (const auto* error = std::get_if<errors::Error>(&prepared)) throw errors::Error(*error);
+    loads.push_back(std::get<operators::PreparedLoad>(prepared));
+    alone.push_back(testing::solve(*op, loads.back(), contact::ActiveSetOptions{}, true, silent));
+  }
+  std::vector<contact::Answer> together = alone;
+  std::vector<operators::MeshOperator::Estimate> all;
+  for (std::size_t i = 0; i < count; ++i) all.push_back({&loads[i], &together[i], {}});
+  op->estimate(all);
+  int bounded = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    EXPECT_FALSE(all[i].failure);
+    EXPECT_EQ(op->estimate(loads[i], alone[i]), all[i].indicator);
+    EXPECT_EQ(alone[i].no_bracket, together[i].no_bracket);
+    EXPECT_EQ(bounds_of(alone[i]), bounds_of(together[i]));
+    bounded += alone[i].energy_lower ? 1 : 0;
+  }
+  return bounded;
+}
+
+TEST_P(Bounds, HaveTheSameBitsAloneAndWithOthers) {
+  int bounded = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    try {
+      bounded += compare_alone(seed, GetParam());
+    } catch (const errors::Error&) {  // nothing holds a part
+    }
+  }
+  EXPECT_GT(bounded, 60);
 }
 
 INSTANTIATE_TEST_SUITE_P(Random, Bounds,

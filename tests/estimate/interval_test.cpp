@@ -144,7 +144,7 @@ void check_identities(unsigned seed, bool rich, Figures& tally) {
     const double truth = fine.answer.inclusions[j].displacement;
     for (const double c : {0.5 * unit, 2 * unit, 16 * unit}) {
       const contact::Adjoint::Pair pair = adjoint.clipped(goal, c);
-      const auto [z, reacting] = operators::adjoint_fields(coarse.parts, pair);
+      const auto [z, reacting] = operators::adjoint_fields(coarse.parts, {&pair, 1}).front();
       const Dual dual{z, reacting, coarse.answer.inclusions[j].displacement, c};
       const Interval found = interval({coarse.cut, sigma, load, none, coarse.u}, dual, 0);
       tally.left += std::isfinite(found.width()) ? 0 : 1;

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#define ANTICRACK_FLUX_KERNELS flux_avx2
+#include "estimate/flux_loops.hpp"

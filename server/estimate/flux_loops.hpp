@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The loops of flux_kernels.hpp: include it once in a file compiled for an instruction set, with
+// ANTICRACK_FLUX_KERNELS the name of the FluxKernels. Calls no inline function of another header:
+// one compiled here could be linked into code for any processor.
+#include "estimate/flux_kernels.hpp"
+
+namespace anticrack::estimate {
+namespace {
+
+/// A number of each lane.
+template <std::size_t lanes>
+struct Numbers;
+template <>
+struct Numbers<1> {
+  using Type = double;
+};
+template <>
+struct Numbers<flux_lanes> {
+  using Type = double __attribute__((vector_size(flux_lanes * sizeof(double))));
+};
+
+template <std::size_t lanes>
+class Flux {
+  using V = typename Numbers<lanes>::Type;
+
+ public:
+  Flux(const FluxMesh& mesh, FluxLane* lane, double* scratch)
+      : _mesh(mesh), _lane(lane), _pressure(lane->bounds == nullptr) {
+    const auto take = [&scratch](std::size_t count) {
+      V* const taken = reinterpret_cast<V*>(scratch);
+      scratch += count * lanes;
+      return taken;
+    };
+    _spoke = take(6 * mesh.triangles);
+    _mean = take(2 * mesh.triangles);
+    _rest = take(mesh.triangles);
+    _through = take(2 * mesh.faces);
+    _x = take(mesh.largest_fan + 1);
+  }
+
+  void run(int polish_sweeps) {
+    if (_lane->force != nullptr)
+      measure<true>();
+    else
+      measure<false>();
+    build();
+    for (int sweep = 0; sweep < polish_sweeps; ++sweep) polish();
+    finish();
+  }
+
+ private:
+  template <class Value>
+  static V of_lanes(const Value& value) {
+    if constexpr (lanes == 1)
+      return value(0);
+    else
+      return V{value(0), value(1), value(2), value(3)};
+  }
+  static double of(const V& values, std::size_t lane) {
+    if constexpr (lanes == 1)
+      return values;
+    else
+      return values[lane];
+  }
+  static V larger(const V& a, const V& b) { return a < b ? b : a; }
+  static V smaller(const V& a, const V& b) { return b < a ? b : a; }
+
+  V u(std::int32_t copy) const {
+    return of_lanes([&](std::size_t l) { return _lane[l].u[copy]; });
+  }
+  V force(std::size_t corner) const {
+    return of_lanes([&](std::size_t l) { return _lane[l].force[corner]; });
+  }
+
+  /// Minus half the outward flux of T grad u through each side: with G = sum of u_i e_i, that of
+  /// side i is -T G.e_i / (2 area). And what the load makes of sigma - T grad u besides: d/2 (x -
+  /// centroid) with the divergence d, and the bubble
+  ///   b = 1/3 sum_(i<j) (f_j - f_i)(P_j - P_i) l_i l_j,  div b = -(f - mean f),
+  /// which has no flux through the sides. With the loads f_i, their sum s and d_i = f_k - f_j this
+  /// is a part -(f_0 e_2 + f_1 e_0 + f_2 e_1) / (2 area) of the mean, and the square of what is
+  /// left
+  ///   1/area sum_i e_i.e_i (s^2 / 144 + (2 d_i^2 - d_j d_k - s (s - 3 f_i)) / 45).
+  template <bool loaded>
+  void measure() {
+    V norm_squared{};
+    for (std::size_t t = 0; t < _mesh.triangles; ++t) {
+      const std::int32_t* const copy = _mesh.copy + 3 * t;
+      const double* const edge = _mesh.edge + 6 * t;
+      const double q = _mesh.stiffness[t];
+      const V first = u(copy[0]), second = u(copy[1]) - first, third = u(copy[2]) - first;
+      const V gx = second * edge[2] + third * edge[4], gy = second * edge[3] + third * edge[5];
+      norm_squared += q * (gx * gx + gy * gy);
+      V half[3], f[3] = {};
+      for (std::size_t i = 0; i < 3; ++i) half[i] = q * (gx * edge[2 * i] + gy * edge[2 * i + 1]);
+      V mx{}, my{};
+      if constexpr (loaded) {
+        for (std::size_t i = 0; i < 3; ++i) f[i] = force(3 * t + i);
+        const V d[3] = {f[2] - f[1], f[0] - f[2], f[1] - f[0]};
+        const V sum = f[0] + f[1] + f[2];
+        mx = d[2] * edge[4] - d[0] * edge[2];
+        my = d[2] * edge[5] - d[0] * edge[3];
+        V rest{};
+        for (std::size_t i = 0; i < 3; ++i) {
+          const V bubble =
+              2 * d[i] * d[i] - d[(i + 1) % 3] * d[(i + 2) % 3] - sum * (sum - 3 * f[i]);
+          const double length = edge[2 * i] * edge[2 * i] + edge[2 * i + 1] * edge[2 * i + 1];
+          rest += length * (1.0 / 144 * sum * sum + 1.0 / 45 * bubble);
+        }
+        _rest[t] = 4 * rest;
+      }
+      _mean[2 * t] = mx;
+      _mean[2 * t + 1] = my;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const V out = half[i] - f[i];
+        _spoke[2 * (3 * t + i)] = out;
+        _spoke[2 * (3 * t + i) + 1] = out + half[(i + 1) % 3];
+      }
+    }
+    for (std::size_t l = 0; l < lanes; ++l) _lane[l].norm_squared = of(norm_squared, l);
+  }
+
+  /// The fan of corner i adds to the flux through the sides j and k of its triangle x out and x'
+  /// in, where fans to come stand for half of T grad u. With a = x less half of T grad u through
+  /// side j this adds a e_i / (2 area) to the mean of sigma - T grad u, the load apart.
+  void build() {
+    V imbalance{};
+    for (std::size_t place = 0; place < 2 * _mesh.faces; ++place) _through[place] = V{};
+    for (std::size_t fan = 0; fan < _mesh.fans; ++fan) {
+      const FanCorner* const end = _mesh.around + _mesh.first_corner[fan + 1];
+      V x{}, sx = slope_of_work(fan), sy{};
+      V* spoke = _x;
+      *spoke = x;
+      for (const FanCorner* one = _mesh.around + _mesh.first_corner[fan]; one != end; ++one) {
+        const std::size_t t = static_cast<std::size_t>(one->triangle);
+        const V* const own = _spoke + 2 * (3 * t + static_cast<std::size_t>(one->i));
+        V* const mean = _mean + 2 * t;
+        const V a = x + own[1], mx = mean[0] + a * one->edge[0], my = mean[1] + a * one->edge[1];
+        x += own[0];
+        mean[0] = mx;
+        mean[1] = my;
+        sx += mx * (one->compliance * one->edge[0]);
+        sy += my * (one->compliance * one->edge[1]);
+        *++spoke = x;
+      }
+      const std::int32_t first_stop = _mesh.first_stop[fan], last_stop = _mesh.first_stop[fan + 1];
+      if (first_stop == last_stop) imbalance = larger(imbalance, larger(x, -x));
+      for (std::int32_t s = first_stop; s < last_stop; ++s) {
+        const Stop& stop = _mesh.stops[s];
+        _through[2 * stop.face + stop.end] = sign(stop) * _x[stop.spoke];
+      }
+      rotate(fan, step(fan, sx + sy));
+    }
+    for (std::size_t l = 0; l < lanes; ++l) _lane[l].imbalance = of(imbalance, l);
+  }
+
+  void polish() {
+    for (std::size_t fan = 0; fan < _mesh.fans; ++fan) {
+      const FanCorner* const end = _mesh.around + _mesh.first_corner[fan + 1];
+      V sx = slope_of_work(fan), sy{};
+      for (const FanCorner* one = _mesh.around + _mesh.first_corner[fan]; one != end; ++one) {
+        const V* const mean = _mean + 2 * static_cast<std::size_t>(one->triangle);
+        sx += mean[0] * (one->compliance * one->edge[0]);
+        sy += mean[1] * (one->compliance * one->edge[1]);
+      }
+      rotate(fan, step(fan, sx + sy));
+    }
+  }
+
+  /// `flux` round the node.
+  void rotate(std::size_t fan, const V& flux) {
+    const FanCorner* const end = _mesh.around + _mesh.first_corner[fan + 1];
+    for (const FanCorner* one = _mesh.around + _mesh.first_corner[fan]; one != end; ++one) {
+      V* const mean = _mean + 2 * static_cast<std::size_t>(one->triangle);
+      mean[0] += flux * one->edge[0];
+      mean[1] += flux * one->edge[1];
+    }
+  }
+
+  static double sign(const Stop& stop) { return stop.end == 0 ? -1 : 1; }
+  static bool is_minus(const Face& face) {
+    return face.condition == Condition::pressed || face.condition == Condition::crack_minus;
+  }
+
+  /// Copy at an end of a face.
+  std::int32_t at_end(const Face& face, std::int32_t end) const {
+    return _mesh.copy[face.side - face.side % 3 + (face.side % 3 + 1 + end) % 3];
+  }
+  V jump(const Face& face, std::int32_t end) const {
+    return u(at_end(_mesh.face[face.other], 1 - end)) - u(at_end(face, end));
+  }
+
+  /// Derivative of int p [u] by the flux through the fan's spokes.
+  V slope_of_work(std::size_t fan) const {
+    V slope{};
+    if (!_pressure) return slope;
+    for (std::int32_t s = _mesh.first_stop[fan]; s < _mesh.first_stop[fan + 1]; ++s) {
+      const Stop& stop = _mesh.stops[s];
+      const Face& face = _mesh.face[stop.face];
+      if (is_minus(face)) slope -= 0.5 * sign(stop) * (jump(face, 0) + jump(face, 1));
+    }
+    return slope;
+  }
+
+  /// Changes the flux through the fan's spokes to the least distance that is allowed; how far.
+  V step(std::size_t fan, const V& slope) {
+    const V best = -slope * _mesh.softness[fan];
+    const std::int32_t first = _mesh.first_stop[fan], last = _mesh.first_stop[fan + 1];
+    if (first == last) return best;
+    const V change = allowed(first, last, best);
+    for (std::int32_t s = first; s < last; ++s) {
+      const Stop& stop = _mesh.stops[s];
+      _through[2 * stop.face + stop.end] += sign(stop) * change;
+    }
+    return change;
+  }
+
+  /// The nearest change by which all faces of the fan stay within their bounds.
+  V allowed(std::int32_t first, std::int32_t last, const V& best) const {
+    V low = V{} - __builtin_inf(), high = V{} + __builtin_inf();
+    for (std::int32_t s = first; s < last; ++s) {
+      const Stop& stop = _mesh.stops[s];
+      const Face& face = _mesh.face[stop.face];
+      const std::int32_t place = 2 * stop.face + stop.end;
+      V least = V{} - __builtin_inf(), most{};
+      if (face.condition == Condition::given) {
+        if (face.traction >= 0)
+          most = of_lanes([&](std::size_t l) {
+            const double* const traction = _lane[l].traction;
+            return traction == nullptr ? 0 : traction[2 * face.traction + stop.end];
+          });
+        least = most;
+      } else if (is_minus(face)) {
+        if (!_pressure) {
+          most = of_lanes([&](std::size_t l) { return _lane[l].bounds[place]; });
+          least = -most;
+        }
+      } else {
+        continue;
+      }
+      const V now = _through[place];
+      if (stop.end == 0) {  // w = -x
+        low = larger(low, now - most);
+        high = smaller(high, now - least);
+      } else {
+        low = larger(low, least - now);
+        high = smaller(high, most - now);
+      }
+    }
+    const V within = smaller(larger(best, low), high);
+    return low > high ? 0.5 * (low + high) : within;  // by rounding
+  }
+
+  void finish() {
+    const bool loaded = _lane->force != nullptr;
+    for (std::size_t t = 0; t < _mesh.triangles; ++t) {
+      const V mx = _mean[2 * t], my = _mean[2 * t + 1];
+      const V square = mx * mx + my * my;
+      const V distance = _mesh.compliance[t] * (loaded ? square + _rest[t] : square);
+      for (std::size_t l = 0; l < lanes; ++l) {
+        _lane[l].mean[2 * t] = of(mx, l);
+        _lane[l].mean[2 * t + 1] = of(my, l);
+        _lane[l].distance[t] = of(distance, l);
+      }
+    }
+    for (std::size_t place = 0; place < 2 * _mesh.faces; ++place)
+      for (std::size_t l = 0; l < lanes; ++l) _lane[l].through[place] = of(_through[place], l);
+  }
+
+  const FluxMesh& _mesh;
+  FluxLane* const _lane;
+  const bool _pressure;
+  /// (corners, 2): less the load, half the flux out through the spoke after the corner, and with
+  /// that of the one after the next.
+  V* _spoke;
+  V* _mean;
+  V* _rest;  // (triangles) int |sigma - T grad u - its mean|^2 times 4 area
+  V* _through;
+  V* _x;  // through the spokes of a fan
+};
+
+template <std::size_t lanes>
+void balance(const FluxMesh& mesh, FluxLane* lane, int polish, double* scratch) {
+  Flux<lanes>(mesh, lane, scratch).run(polish);
+}
+
+}  // namespace
+
+extern const FluxKernels ANTICRACK_FLUX_KERNELS{balance<1>, balance<flux_lanes>};
+
+}  // namespace anticrack::estimate
