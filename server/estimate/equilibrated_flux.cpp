@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "estimate/equilibrated_flux.hpp"
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <memory>
+#include <new>
 
 #include "estimate/flux_kernels.hpp"
 #include "fem/triangle_rules.hpp"
@@ -25,31 +29,35 @@ constexpr std::size_t previous(std::size_t corner) {
   return corner % 3 == 0 ? corner + 2 : corner - 1;
 }
 
-/// Memory of the loops, which a thread keeps unless it is much: page faults take longer than they.
+/// Uninitialised memory of the loops, aligned to cache lines, which a thread keeps unless it is
+/// much: page faults take longer than the loops. Much has huge pages, if available.
 class Scratch {
  public:
   explicit Scratch(std::size_t doubles) {
-    const std::size_t count = doubles / std::size(Line{}.values) + 1;
-    if (count <= size) return;
+    const std::size_t bytes = doubles * sizeof(double), alignment = bytes > most_kept ? huge : line;
+    const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
+    if (rounded <= size) return;
     size = 0;
-    lines = std::make_unique_for_overwrite<Line[]>(count);
-    size = count;
+    memory.reset(static_cast<double*>(std::aligned_alloc(alignment, rounded)));
+    if (!memory) throw std::bad_alloc();
+    size = rounded;
+    if (alignment == huge) static_cast<void>(madvise(memory.get(), size, MADV_HUGEPAGE));  // a hint
   }
   ~Scratch() {
-    constexpr std::size_t most_kept = (std::size_t{8} << 20) / sizeof(Line);
     if (size <= most_kept) return;
-    lines.reset();
+    memory.reset();
     size = 0;
   }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
-  double* values() const { return lines[0].values; }
+  double* values() const { return memory.get(); }
 
  private:
-  struct alignas(64) Line {
-    double values[8];
+  static constexpr std::size_t line = 64, huge = std::size_t{2} << 20, most_kept = 4 * huge;
+  struct Free {
+    void operator()(double* values) const noexcept { std::free(values); }
   };
-  static inline thread_local std::unique_ptr<Line[]> lines;
+  static inline thread_local std::unique_ptr<double, Free> memory;
   static inline thread_local std::size_t size = 0;
 };
 

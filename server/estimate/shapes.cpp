@@ -41,11 +41,7 @@ Shapes shapes(const Triangles& triangles, const Fans& fans) {
       const std::int32_t corner = fans.corners[n], t = corner / 3, i = corner % 3;
       const Vector& edge = shapes.edge[at(corner)];
       const double compliance = shapes.compliance[at(t)];
-      shapes.around.push_back({t,
-                               static_cast<std::int16_t>(i),
-                               static_cast<std::int16_t>((i + 1) % 3),
-                               {edge[0], edge[1]},
-                               compliance});
+      shapes.around.push_back({t, i, {edge[0], edge[1]}, compliance});
       stiffness += compliance * dot(edge, edge);
     }
     shapes.softness.push_back(1 / stiffness);

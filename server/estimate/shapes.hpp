@@ -17,10 +17,10 @@ using Vector = std::array<double, 2>;
 
 constexpr double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
 
-/// A corner of a fan: corner i of a triangle, with the one after it, and what loops over fans need.
+/// A corner of a fan: corner i of a triangle, and what loops over fans need.
 struct FanCorner {
   std::int32_t triangle;
-  std::int16_t i, j;
+  std::int32_t i;
   double edge[2];     ///< e_i
   double compliance;  ///< of the triangle
 };

@@ -89,7 +89,7 @@ std::vector<double> MeshOperator::estimate(const PreparedLoad& load, contact::An
 }
 
 void MeshOperator::estimate(std::span<Estimate> all) const {
-  constexpr std::size_t together = 4;  // more are not faster
+  constexpr std::size_t together = 8;  // more are not faster
   for (; all.size() > together; all = all.subspan(together)) estimate(all.first(together));
   if (all.empty()) return;
   const estimate::CutMesh& cut =
