@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <future>
 #include <set>
-#include <thread>
 #include <variant>
 
 #include "jobs/engine_support.hpp"
@@ -234,12 +234,16 @@ TEST(EngineStages, GoOnAfterAStopInEachOfThemWithTheSameBits) {
     Engine test({}, options);
     if (id.empty()) id = test.submit(spec);
     if (store::ended(test.state(id))) break;  // a stop came late
-    // The stop comes from another thread: it waits for the one that tells.
-    std::thread stopper;
-    const auto listener = when(test.engine, id, phase_is("stage " + std::to_string(stage)),
-                               [&] { stopper = std::thread([&] { test.engine.stop(0ms); }); });
-    ASSERT_TRUE(anticrack::testing::eventually([&] { return stopper.joinable(); }));
-    stopper.join();
+    std::promise<void> begun;
+    const auto solves = [stage](const Event& event) {  // this stage or, after a late stop, another
+      const auto* phase = std::get_if<PhaseEvent>(&event);
+      if (phase == nullptr) return std::holds_alternative<EndEvent>(event);
+      return phase->detail.starts_with("stage ") && phase->detail.find(':') == std::string::npos &&
+             std::stoul(phase->detail.substr(6)) >= stage;
+    };
+    const auto listener = when(test.engine, id, solves, [&] { begun.set_value(); });
+    ASSERT_EQ(begun.get_future().wait_for(300s), std::future_status::ready);
+    test.engine.stop(0ms);
   }
   Engine test({}, options);
   const JobRecord job =
