@@ -100,8 +100,9 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
     out << table << '\n';
     result.text = out.str();
   }
-  const Section root(table, "",
-                     {"title", "geometry", "mesh", "solver", "accuracy", "load", "job", "output"});
+  const Section root(
+      table, "",
+      {"title", "geometry", "mesh", "solver", "accuracy", "units", "load", "job", "output"});
   if (const auto title = root.text("title")) {
     result.mesh.set_title(*title);
     result.job.set_title(*title);
@@ -112,6 +113,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& path,
   if (loads == Loads::needed || root.find("load")) read_loads(root, result);
   read_accuracy(root, result);
   read_job(root, result.job, result.spots);
+  read_units(root, result.job, result.spots);
   if (const auto output = root.section("output", {"fields"})) {
     if (output->boolean("fields").value_or(false)) result.job.add_outputs(v1::OUTPUT_FIELDS);
     note(*output, "", result.spots);

@@ -4,128 +4,117 @@
 namespace anticrack::casefile {
 namespace {
 
-void set_point(const Section& section, const char* key, const char* cure, v1::Point& point) {
-  set(point, point_of(section.need(key, cure), section.path_of(key)));
-}
-
-// [from, to] of an interface or of the boundary.
-template <class Part>
-void read_pair(const toml::node& node, const std::string& key, Part& part) {
-  const toml::array* pair = node.as_array();
-  if (!pair || pair->size() != 2) {
-    throw Error(spot_of(node, key),
-                shown(node) + " is not a part; write [from, to] with points from and to");
-  }
-  set(*part.mutable_from(), point_of(*pair->get(0), entry_key(key, 0)));
-  set(*part.mutable_to(), point_of(*pair->get(1), entry_key(key, 1)));
-}
-
-template <class Parts>
-void add_pairs(const toml::array& list, const std::string& key, const std::string& field,
-               Parts& parts, Spots& spots) {
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    read_pair(*list.get(i), entry_key(key, i), *parts.Add());
-    spots[entry_field(field, i)] = spot_of(*list.get(i), entry_key(key, i));
-  }
-}
-
-// Name and ends of an inclusion or a crack.
-template <class Line>
-void read_line(const Section& section, const std::string& field, Line& line, Spots& spots) {
-  constexpr const char* cure = "write [x, y], a point of an interface";
-  set_point(section, "from", cure, *line.mutable_part()->mutable_from());
-  set_point(section, "to", cure, *line.mutable_part()->mutable_to());
-  note(section, field, spots);
-  note(section, field + ".part", spots);
-  spots[field + ".part"] = section.spot_of("from");
-}
-
-void read_delamination(const Section& section, const std::string& field, v1::Inclusion& inclusion,
-                       Spots& spots) {
-  const toml::node* node = section.find("delaminated");
-  if (!node) return;
-  const std::string key = section.path_of("delaminated");
-  const std::string parts = field + ".delaminated_parts";
-  spots[parts] = section.spot_of("delaminated");
-  if (const toml::array* list = node->as_array()) {
-    add_pairs(*list, key, parts + ".parts", *inclusion.mutable_delaminated_parts()->mutable_parts(),
-              spots);
-  } else if (const auto all = node->value_exact<bool>()) {
-    inclusion.set_delaminated(*all);
-  } else {
-    throw Error(spot_of(*node, key),
-                shown(*node) + " is not possible; write true, false or [[from, to], ...]");
-  }
-}
-
-void read_inclusions(const Section& geometry_section, v1::Geometry& geometry, Spots& spots) {
-  for (const Section& section : geometry_section.sections(
-           "inclusion", {"name", "from", "to", "delaminated", "tilt", "fixed", "contact"})) {
-    refuse_keys(section, {"contact"},
-                "belongs to [[geometry.crack]]; an inclusion has delaminated = true or false");
-    const std::string field = entry_field("geometry.inclusions", geometry.inclusions().size());
-    v1::Inclusion& inclusion = *geometry.add_inclusions();
-    inclusion.set_name(section.need_text("name", "give the inclusion a name"));
-    read_line(section, field, inclusion, spots);
-    read_delamination(section, field, inclusion, spots);
-    read_motion(section, inclusion);
-  }
-}
-
-void read_cracks(const Section& geometry_section, v1::Geometry& geometry, Spots& spots) {
-  for (const Section& section :
-       geometry_section.sections("crack", {"name", "from", "to", "contact", "tilt", "fixed"})) {
-    refuse_keys(section, {"tilt", "fixed"},
-                "belongs to [[geometry.inclusion]]; nothing rigid lies on a crack, so remove it");
-    const std::string field = entry_field("geometry.cracks", geometry.cracks().size());
-    v1::Crack& crack = *geometry.add_cracks();
-    crack.set_name(section.need_text("name", "give the crack a name"));
-    read_line(section, field, crack, spots);
-    if (const auto contact = section.boolean("contact")) crack.set_contact(*contact);
-  }
-}
-
-void read_neumann(const Section& section, v1::Geometry& geometry, Spots& spots) {
-  const toml::node* node = section.find("neumann");
-  if (!node) return;
-  if (const toml::array* list = node->as_array()) {
-    add_pairs(*list, section.path_of("neumann"), "geometry.neumann", *geometry.mutable_neumann(),
-              spots);
+// A polygon, or sides.
+void read_boundary(const Section& geometry_section, v1::Geometry& geometry, Spots& spots) {
+  const toml::node& node = geometry_section.need(
+      "boundary", "write [[x, y], [x, y], ...], or [[geometry.boundary]] for each side");
+  if (!lists_tables(node)) {
+    add_points(node, geometry_section.path_of("boundary"), "geometry.boundary",
+               *geometry.mutable_boundary(), spots);
     return;
   }
-  if (node->value_exact<std::string>() != "all") {
-    throw Error(section.spot_of("neumann"),
-                shown(*node) +
-                    " is not possible; write [[from, to], ...], parts of the boundary "
-                    "walked counterclockwise, or \"all\"");
+  spots["geometry.sides"] = geometry_section.spot_of("boundary");
+  for (const Section& section : geometry_section.sections(
+           "boundary", {"name", "points", "arc", "spline", "center", "angle", "length"})) {
+    const std::string field = entry_field("geometry.sides", geometry.sides().size());
+    note(section, field, spots);
+    v1::Side& side = *geometry.add_sides();
+    side.set_name(section.text("name").value_or(""));
+    const std::string shape = shape_of(section, line_keys, "the side");
+    if (shape.empty()) {
+      throw Error(section.spot(),
+                  "a side without a shape; write points = [[x, y], ...], arc = [from, through, to] "
+                  "or spline = [[x, y], ...]");
+    }
+    read_line(section, shape, field + ".line", *side.mutable_line(), spots);
   }
-  if (geometry.boundary().empty()) return;
-  // A part from a point to itself is the whole boundary.
-  v1::BoundaryPart& part = *geometry.add_neumann();
-  *part.mutable_from() = geometry.boundary(0);
-  *part.mutable_to() = geometry.boundary(0);
+}
+
+void read_holes(const Section& geometry_section, v1::Geometry& geometry, Spots& spots) {
+  for (const Section& section :
+       geometry_section.sections("hole", {"name", "circle", "points", "spline"})) {
+    const std::string field = entry_field("geometry.holes", geometry.holes().size());
+    note(section, field, spots);
+    v1::Hole& hole = *geometry.add_holes();
+    hole.set_name(section.text("name").value_or(""));
+    read_outline(section, "the hole", field + ".outline", *hole.mutable_outline(), spots);
+  }
 }
 
 void read_regions(const Section& geometry_section, v1::Geometry& geometry, Spots& spots) {
-  for (const Section& section : geometry_section.sections("region", {"name", "at", "tension"})) {
-    note(section, entry_field("geometry.regions", geometry.regions().size()), spots);
+  for (const Section& section : geometry_section.sections(
+           "region", {"name", "at", "circle", "points", "spline", "tension"})) {
+    const std::string field = entry_field("geometry.regions", geometry.regions().size());
+    note(section, field, spots);
     v1::Region& region = *geometry.add_regions();
     region.set_name(section.need_text("name", "give the region a name"));
-    set_point(section, "at", "write [x, y], a point inside the region", *region.mutable_at());
-    if (const auto tension = section.positive("tension")) region.set_tension(*tension);
+    const std::string shape = shape_of(section, {"at", "circle", "points", "spline"}, "the region");
+    if (shape == "at" || shape.empty()) {
+      const toml::node& at = section.need(
+          "at",
+          "write [x, y], a point inside the region, or its outline: circle, points or spline");
+      set(*region.mutable_at(), point_of(at, section.path_of("at")));
+    } else {
+      read_outline(section, "the region", field + ".outline", *region.mutable_outline(), spots);
+    }
+    const auto tension = tension_of(section, "tension");
+    if (!tension) continue;
+    if (const auto* number = std::get_if<double>(&*tension)) {
+      region.set_tension(*number);
+    } else {
+      *region.mutable_tension_law() = std::get<v1::Tension>(*tension);
+      spots[field + ".tension_law"] = section.spot_of("tension");
+    }
   }
 }
 
 }  // namespace
 
+void read_neumann(const Section& section, v1::Geometry& geometry, Spots& spots) {
+  constexpr const char* cure =
+      " is not possible; write a list of names of sides and holes, or of [from, to], parts of the "
+      "boundary walked counterclockwise, or \"all\"";
+  const toml::node* node = section.find("neumann");
+  if (!node) return;
+  spots["geometry.neumann_sides"] = section.spot_of("neumann");
+  const toml::array* list = node->as_array();
+  for (std::size_t i = 0; list && i < list->size(); ++i) {
+    const toml::node& entry = *list->get(i);
+    const std::string key = entry_key(section.path_of("neumann"), i);
+    if (const auto name = entry.value_exact<std::string>()) {
+      spots[entry_field("geometry.neumann_sides", geometry.neumann_sides_size())] =
+          spot_of(entry, key);
+      geometry.add_neumann_sides(*name);
+    } else {
+      spots[entry_field("geometry.neumann", geometry.neumann_size())] = spot_of(entry, key);
+      read_pair(entry, key, *geometry.add_neumann());
+    }
+  }
+  if (list) return;
+  if (node->value_exact<std::string>() != "all")
+    throw Error(section.spot_of("neumann"), shown(*node) + cure);
+  const auto add_names = [&](const auto& owners, const std::string& other) {
+    for (int i = 0; i < owners.size(); ++i) {
+      geometry.add_neumann_sides(owners[i].name().empty() ? other + std::to_string(i + 1)
+                                                          : owners[i].name());
+    }
+  };
+  add_names(geometry.sides(), "side-");
+  add_names(geometry.holes(), "hole-");
+  if (geometry.boundary().empty()) return;
+  // A part from a point to itself is the whole polygon.
+  v1::BoundaryPart& part = *geometry.add_neumann();
+  *part.mutable_from() = geometry.boundary(0);
+  *part.mutable_to() = geometry.boundary(0);
+}
+
 v1::Geometry read_geometry(const Section& section, Spots& spots) {
   v1::Geometry geometry;
   note(section, "geometry", spots);
-  add_points(section.need("boundary", "write [[x, y], [x, y], ...]"), section.path_of("boundary"),
-             "geometry.boundary", *geometry.mutable_boundary(), spots);
+  read_boundary(section, geometry, spots);
+  read_holes(section, geometry, spots);
   read_interfaces(section, geometry, spots);
-  read_inclusions(section, geometry, spots);
-  read_cracks(section, geometry, spots);
+  read_parts(section, geometry, spots);
   read_neumann(section, geometry, spots);
   read_regions(section, geometry, spots);
   return geometry;

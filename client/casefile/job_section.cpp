@@ -32,4 +32,12 @@ void read_job(const Section& root, v1::Job& job, Spots& spots) {
   if (const auto time = read_time(*section, "run_timeout")) *job.mutable_run_timeout() = *time;
 }
 
+void read_units(const Section& root, v1::Job& job, Spots& spots) {
+  const auto section = root.section("units", {"length", "force"});
+  if (!section) return;
+  note(*section, "units", spots);
+  job.mutable_units()->set_length(section->text("length").value_or(""));
+  job.mutable_units()->set_force(section->text("force").value_or(""));
+}
+
 }  // namespace anticrack::casefile

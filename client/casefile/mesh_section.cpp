@@ -115,8 +115,7 @@ v1::MeshOptions read_mesh_options(const Section& section, Spots& spots) {
     read_groups(*groups, "surface", "options.surface_groups", *options.mutable_surface_groups(),
                 spots);
   }
-  add_numbers(section, "tension", "write subdomain = number for each of them", "options.tension",
-              *options.mutable_tension(), spots);
+  read_tensions(section, options, spots);
   read_motions(section, options, spots);
   return options;
 }

@@ -8,9 +8,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "casefile/case.hpp"
+#include "casefile/error.hpp"
 #include "casefile/section.hpp"
 
 namespace anticrack::casefile {
@@ -18,8 +20,8 @@ namespace anticrack::casefile {
 /// Field of a request -> where its value was written.
 using Spots = std::map<std::string, Spot>;
 
-inline const std::vector<std::string> geometry_keys{"boundary", "interface", "inclusion",
-                                                    "crack",    "neumann",   "region"};
+inline const std::vector<std::string> geometry_keys{"boundary", "hole",    "interface", "inclusion",
+                                                    "crack",    "neumann", "region"};
 inline const std::vector<std::string> mesh_keys{
     "preset", "size", "tip_size", "grading", "align", "file", "groups", "tension", "inclusions"};
 
@@ -29,10 +31,44 @@ v1::Geometry read_geometry(const Section& section, Spots& spots);
 /// `interface` of [geometry]: a list of points, or tables with points, arc or spline. Optional.
 void read_interfaces(const Section& section, v1::Geometry& geometry, Spots& spots);
 
+/// `neumann` of [geometry], once boundary and holes are read.
+void read_neumann(const Section& section, v1::Geometry& geometry, Spots& spots);
+
+/// Inclusions and cracks of [geometry].
+void read_parts(const Section& section, v1::Geometry& geometry, Spots& spots);
+
+/// Keys of lines with two ends, in the order of `shape_of`.
+inline const std::vector<std::string> line_keys{"points", "arc", "spline", "center"};
+
+/// The one key among `keys` that gives the shape of `what`; empty for none. Throws Error for two.
+std::string shape_of(const Section& section, const std::vector<std::string>& keys,
+                     const std::string& what);
+
+/// Points, arc or spline, by their key.
+void read_curve(const Section& section, const std::string& key, const std::string& field,
+                v1::InterfaceCurve& curve, Spots& spots);
+
+/// A line by a key of line_keys.
+void read_line(const Section& section, const std::string& key, const std::string& field,
+               v1::Line& line, Spots& spots);
+
+/// circle, points or spline, one of them. Throws Error where there is none.
+void read_outline(const Section& section, const std::string& what, const std::string& field,
+                  v1::Outline& outline, Spots& spots);
+
+/// Whether a key holds a table or a list of tables.
+bool lists_tables(const toml::node& node);
+
 /// `section` is [mesh], read with mesh_keys. Throws Error for a key that has no meaning beside the
 /// others: sizes of another preset, `align` with a file, groups, tension and inclusions without
 /// one.
 v1::MeshOptions read_mesh_options(const Section& section, Spots& spots);
+
+/// A number, or a law: an expression in quotes, or {along, across, angle}. None: no such key.
+using GivenTension = std::variant<double, v1::Tension>;
+std::optional<GivenTension> tension_of(const Section& section, const std::string& key);
+/// Those by subdomain of a mesh from a file.
+void read_tensions(const Section& section, v1::MeshOptions& options, Spots& spots);
 
 /// [solver] of the root. Throws Error for a key of the other method.
 v1::Solver read_solver(const Section& root, Spots& spots);
@@ -42,6 +78,9 @@ void read_loads(const Section& root, Case& result);
 
 /// [job] of the root: priority and time limits.
 void read_job(const Section& root, v1::Job& job, Spots& spots);
+
+/// [units] of the root.
+void read_units(const Section& root, v1::Job& job, Spots& spots);
 
 /// [accuracy] of the root, once solver and loads are read: Error where they do not go with it.
 void read_accuracy(const Section& root, Case& result);
@@ -65,6 +104,18 @@ void note(const Section& section, const std::string& field, Spots& spots);
 inline void set(v1::Point& point, const Point& xy) {
   point.set_x(xy[0]);
   point.set_y(xy[1]);
+}
+
+/// [from, to], points of an interface or of the boundary, into a message with both.
+template <class Part>
+void read_pair(const toml::node& node, const std::string& key, Part& part) {
+  const toml::array* pair = node.as_array();
+  if (!pair || pair->size() != 2) {
+    throw Error(spot_of(node, key),
+                shown(node) + " is not a part; write [from, to] with points from and to");
+  }
+  set(*part.mutable_from(), point_of(*pair->get(0), entry_key(key, 0)));
+  set(*part.mutable_to(), point_of(*pair->get(1), entry_key(key, 1)));
 }
 
 /// "list[3]": the field of an entry of a repeated field.

@@ -7,6 +7,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -55,6 +56,7 @@ using Member = double results::Inclusion::*;
 // A number of an inclusion and, where it may have them, its bounds.
 struct Column {
   const char* name;
+  const char* dimension;  // as results::Units has it
   Member value;
   Member lower = nullptr, upper = nullptr;
 
@@ -68,14 +70,20 @@ struct Column {
 std::span<const Column> told_of(const Moved& inclusion) {
   using results::Inclusion;
   static constexpr std::array<Column, 5> columns{
-      {{"A", &Inclusion::displacement, &Inclusion::displacement_lower,
+      {{"A", "L", &Inclusion::displacement, &Inclusion::displacement_lower,
         &Inclusion::displacement_upper},
-       {"Bx", &Inclusion::slope_x, &Inclusion::slope_x_lower, &Inclusion::slope_x_upper},
-       {"By", &Inclusion::slope_y, &Inclusion::slope_y_lower, &Inclusion::slope_y_upper},
-       {"Mx", &Inclusion::moment_x},
-       {"My", &Inclusion::moment_y}}};
+       {"Bx", "", &Inclusion::slope_x, &Inclusion::slope_x_lower, &Inclusion::slope_x_upper},
+       {"By", "", &Inclusion::slope_y, &Inclusion::slope_y_lower, &Inclusion::slope_y_upper},
+       {"Mx", "F L", &Inclusion::moment_x},
+       {"My", "F L", &Inclusion::moment_y}}};
   return std::span(columns).first(inclusion.tilted ? columns.size() : 1);
 }
+
+// Above a column of the table: without a dimension the second row is empty there.
+struct Head {
+  std::string name;
+  std::optional<std::string> dimension{};
+};
 
 // What the rows of the table tell of inclusions: each, or of many how far they move.
 class Told {
@@ -85,18 +93,19 @@ class Told {
 
   bool each() const { return _inclusions.size() <= few_inclusions; }
 
-  std::vector<std::string> head() const {
-    std::vector<std::string> head;
+  // Names of columns with their dimensions.
+  std::vector<Head> head() const {
+    std::vector<Head> head;
     for (const Moved& inclusion : _inclusions) {
       if (!each()) break;
       for (const Column& column : told_of(inclusion)) {
-        head.emplace_back(column.name);
-        if (_inclusions.size() > 1) head.back() += " " + sanitise(inclusion.name);
+        head.push_back({column.name, column.dimension});
+        if (_inclusions.size() > 1) head.back().name += " " + sanitise(inclusion.name);
       }
     }
     if (each()) return head;
-    head = {"inclusions", "least A", of, "greatest A", of};
-    if (_tilt) head.insert(head.end(), {"greatest |B|", of});
+    head = {{"inclusions", ""}, {"least A", "L"}, {of}, {"greatest A", "L"}, {of}};
+    if (_tilt) head.insert(head.end(), {{"greatest |B|", ""}, {of}});
     return head;
   }
 
@@ -223,30 +232,27 @@ Json contact_json(const results::Load& load, const std::vector<results::Interfac
 
 }  // namespace
 
-std::string answers_table(const std::vector<results::Load>& loads) {
+std::string answers_table(const std::vector<results::Load>& loads, const results::Units& units) {
   const Told inclusions(inclusions_of(loads));
   const bool by_uzawa = std::any_of(loads.begin(), loads.end(), [](const results::Load& load) {
     return std::isfinite(load.theta);
   });
-  std::vector<std::string> head{"load", "status", "iterations", by_uzawa ? "criterion" : "KKT"};
+  std::vector<Head> head{
+      {"load"}, {"status"}, {"iterations", ""}, {by_uzawa ? "criterion" : "KKT", ""}};
   std::ranges::move(inclusions.head(), std::back_inserter(head));
   const bool bounded = std::ranges::any_of(loads, is_bounded);
-  head.emplace_back("energy");
-  if (bounded) head.emplace_back("error");
-  head.emplace_back("contact length");
-  if (by_uzawa) head.insert(head.end(), {"theta", "theta*"});
-  head.emplace_back("wall time");
-  std::vector<std::string> units(head.size(), "-");
-  if (bounded) units[std::ranges::find(head, "error") - head.begin()] = "%";
+  head.push_back({"energy", "F L"});
+  if (bounded) head.push_back({"error", "%"});
+  head.push_back({"contact length", "L"});
+  if (by_uzawa) head.insert(head.end(), {{"theta", ""}, {"theta*", ""}});
+  head.push_back({"wall time", "s"});
   std::vector<std::size_t> left{1};
-  units[0] = units[1] = "";
-  units.back() = "s";
-  for (std::size_t i = 0; i < head.size(); ++i) {
-    if (head[i] != Told::of) continue;
-    units[i] = "";
-    left.push_back(i);
+  std::vector<std::vector<std::string>> rows(2);
+  for (const Head& column : head) {
+    if (column.name == Told::of) left.push_back(rows[0].size());
+    rows[0].push_back(column.name);
+    rows[1].push_back(column.dimension ? units.of(*column.dimension) : "");
   }
-  std::vector<std::vector<std::string>> rows{head, units};
   std::string remarks;
   for (const results::Load& load : loads) {
     rows.push_back(row_of(load, inclusions, by_uzawa, bounded));
@@ -257,16 +263,20 @@ std::string answers_table(const std::vector<results::Load>& loads) {
 }
 
 std::string answers_table(const results::Result& result) {
-  return result.sweep ? sweep_table(*result.sweep) : answers_table(result.loads);
+  return result.sweep ? sweep_table(*result.sweep, result.units)
+                      : answers_table(result.loads, result.units);
 }
 
 std::string inclusions_table(const results::Result& result) {
-  if (result.sweep) return sweep_inclusions(*result.sweep);
+  if (result.sweep) return sweep_inclusions(*result.sweep, result.units);
   const auto columns = told_of({"", any_tilts(inclusions_of(result.loads))});
   std::vector<std::vector<std::string>> rows{{"load", "inclusion"}, {"", ""}};
-  for (const Column& column : columns) rows[0].emplace_back(column.name);
+  for (const Column& column : columns) {
+    rows[0].emplace_back(column.name);
+    rows[1].push_back(result.units.of(column.dimension));
+  }
   rows[0].insert(rows[0].end(), {"resultant", "contact length"});
-  rows[1].resize(rows[0].size(), "-");
+  rows[1].insert(rows[1].end(), {result.units.of("F"), result.units.of("L")});
   for (const results::Load& load : result.loads) {
     if (!has_answer(load)) continue;
     for (const results::Inclusion& inclusion : load.inclusions) {
@@ -309,6 +319,7 @@ std::string answers_json(const results::Result& result, const std::filesystem::p
             {"file", file.string()},
             {"job", result.job_name},
             {"mesh", result.mesh_name},
+            {"units", {{"length", result.units.length}, {"force", result.units.force}}},
             {"triangle_count", result.mesh.triangle_count()},
             {"node_count", result.mesh.node_count()},
             {"mesh_seconds", result.timings.mesh_seconds},

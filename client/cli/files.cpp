@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "cli/answers.hpp"
@@ -32,6 +33,8 @@ struct FileOptions {
   std::string csv;
   bool inclusions = false;
   figures::Options figures;
+  bool together = false;
+  std::string interface;  ///< of those drawn together; empty: the most eventful
 };
 
 // The result with the loads that were asked for, in their order.
@@ -101,7 +104,11 @@ int tell_made(const std::vector<std::filesystem::path>& files,
 }
 
 int plot(const FileOptions& options, const Globals& globals) {
-  const figures::Drawn drawn = figures::draw(read_result(options), options.folder, options.figures);
+  results::Result result = read_result(options);
+  const figures::Drawn drawn = options.together
+                                   ? figures::draw_together(std::move(result), options.interface,
+                                                            options.folder, options.figures)
+                                   : figures::draw(result, options.folder, options.figures);
   return tell_made(drawn.files, drawn.notes, globals);
 }
 
@@ -138,14 +145,24 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
       ->required()
       ->type_name("DIR");
   add_figure_options(*plot_command, options->figures);
+  CLI::Option* together = plot_command->add_flag(
+      "--together", options->together,
+      "One figure, together, of up to 8 loads over each other on one interface");
+  plot_command
+      ->add_option("--interface", options->interface,
+                   "Of --together: this interface (default: the one with the largest jump)")
+      ->needs(together)
+      ->type_name("NAME");
   plot_command->footer(
-      "Of every load: LOAD-membrane, LOAD-traces (u-, u+ and [u] on the interface),\n"
-      "LOAD-convergence and, of a job with an accuracy, LOAD-accuracy (error against triangles),\n"
-      "85 mm wide, a column of a journal; and LOAD, the first two side by side. Of a sweep: sweep\n"
-      "(A and the contact length), sweep-contact (where the cracks are closed) and the traces of\n"
-      "rows that were kept.\n\n"
+      "Of every load: LOAD-membrane, LOAD-plan (from above, u and the flux), LOAD-traces (u-, u+\n"
+      "and [u] on the interface, and the contact pressure), LOAD-convergence and, of a job with "
+      "an\n"
+      "accuracy, LOAD-accuracy (error against triangles), 85 mm wide, a column of a journal; and\n"
+      "LOAD, an overview. Of a sweep: sweep (A and the contact length), sweep-contact (where the\n"
+      "cracks are closed) and the traces of rows that were kept.\n\n"
       "Example:\n  anticrack plot paper.h5 -o figures\n"
-      "  anticrack plot paper.h5 -o figures --format pdf --no-titles");
+      "  anticrack plot paper.h5 -o figures --format pdf --no-titles\n"
+      "  anticrack plot several.h5 -o figures --together --interface middle");
   plot_command->callback([options, &globals, &chosen] {
     chosen = [options, &globals] { return plot(*options, globals); };
   });

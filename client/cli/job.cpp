@@ -164,6 +164,7 @@ v1::Job with_fields(const v1::Job& job) {
   *again.mutable_outputs() = job.outputs();
   again.add_outputs(v1::OUTPUT_FIELDS);
   again.set_without_bounds(job.without_bounds());
+  if (job.has_units()) *again.mutable_units() = job.units();
   again.set_priority(v1::Job::PRIORITY_INTERACTIVE);
   return again;
 }

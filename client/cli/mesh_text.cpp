@@ -26,12 +26,20 @@ std::string motion_of(const Motion& motion) {
   return motion.tilt() ? ", tilts" : "";
 }
 
-/// How inclusions move that do not just move by u = A, by their names: the mesh's definition says
-/// it.
+/// Which side comes off, walked along the inclusion, where the case says it by left and right.
+std::string side_of(const v1::Inclusion& inclusion) {
+  if (inclusion.has_delaminated() && !inclusion.delaminated()) return "";
+  if (inclusion.delaminated_side() == v1::LINE_SIDE_LEFT) return ", its left comes off";
+  const bool right = inclusion.delaminated_side() == v1::LINE_SIDE_RIGHT || inclusion.has_line();
+  return right ? ", its right comes off" : "";
+}
+
+/// How inclusions move that do not just move by u = A, and which side of them comes off, by their
+/// names: the mesh's definition says it.
 std::map<std::string, std::string> motions_of(const v1::Mesh& mesh) {
   std::map<std::string, std::string> motions;
   for (const v1::Inclusion& each : mesh.geometry().inclusions())
-    motions[each.name()] += motion_of(each);
+    motions[each.name()] += motion_of(each) + side_of(each);
   for (const auto& [name, motion] : mesh.options().inclusion_motions())
     motions[name] += motion_of(motion);
   return motions;
@@ -69,11 +77,12 @@ std::string subdomains(const v1::Mesh& mesh) {
   Rows rows{{"subdomain", "triangles", "nodes", "area", "tension", "smallest angle",
              "shortest edge", "longest edge", "held by"}};
   for (const v1::SubdomainInfo& each : mesh.subdomains()) {
-    rows.push_back({sanitise(each.name()), std::to_string(each.triangle_count()),
-                    std::to_string(each.node_count()), number(each.area()), number(each.tension()),
-                    number(each.minimum_angle(), 3), number(each.shortest_edge(), 3),
-                    number(each.longest_edge(), 3),
-                    each.floating() ? "interfaces only" : "the boundary"});
+    rows.push_back(
+        {sanitise(each.name()), std::to_string(each.triangle_count()),
+         std::to_string(each.node_count()), number(each.area()),
+         each.has_tension_law() ? sanitise(law_text(each.tension_law())) : number(each.tension()),
+         number(each.minimum_angle(), 3), number(each.shortest_edge(), 3),
+         number(each.longest_edge(), 3), each.floating() ? "interfaces only" : "the boundary"});
   }
   return short_table(std::move(rows), {8});
 }
@@ -114,6 +123,11 @@ std::string boundary(const v1::Mesh& mesh) {
 }
 
 }  // namespace
+
+std::string law_text(const v1::Tension& law) {
+  if (law.across().empty()) return law.along();
+  return "along " + law.along() + ", across " + law.across() + ", angle " + number(law.angle());
+}
 
 std::string mesh_text(const v1::Mesh& mesh) {
   std::string text = head(mesh);

@@ -110,9 +110,13 @@ void add_load_flag(CLI::App& command, std::vector<std::string>& loads) {
 }
 
 client::Error in_terms_of(const casefile::Case& the_case, const client::Error& error) {
-  std::string message;
+  std::string message, told_of, told;
   for (const client::FieldViolation& violation : error.details().fields) {
     const std::optional<casefile::Spot> spot = the_case.locate(violation.field);
+    // Of two keys that cause it together, the one that the case leaves out.
+    if (spot && violation.description == told && told_of.starts_with(spot->key + ".")) continue;
+    told_of = spot ? spot->key : "";
+    told = violation.description;
     message += message.empty() ? "" : "\n";
     message += spot ? casefile::prefix(*spot) : violation.field + ": ";
     message += violation.description;

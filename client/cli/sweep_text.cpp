@@ -40,15 +40,18 @@ using Rows = std::vector<std::vector<std::string>>;
 
 const std::vector<std::string> head_of_spans{"", "least", "of", "most", "of"};
 
-void add_span(const std::string& name, const SweepSummary::Range& range, Rows& rows) {
-  rows.push_back({sanitise(name), number(range.low), "", number(range.high), ""});
+void add_span(const std::string& name, const std::string& unit, const SweepSummary::Range& range,
+              Rows& rows) {
+  rows.push_back(
+      {sanitise(results::labelled(name, unit)), number(range.low), "", number(range.high), ""});
 }
 
-void add_inclusions(const results::Sweep& sweep, const SweepSummary& counts, Rows& rows) {
+void add_inclusions(const results::Sweep& sweep, const SweepSummary& counts,
+                    const results::Units& units, Rows& rows) {
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
-    add_span(name_of("A", sweep, i), counts.displacement[i], rows);
+    add_span(name_of("A", sweep, i), units.label("L"), counts.displacement[i], rows);
     for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(i); ++part)
-      add_span(name_of(slope_parts[part], sweep, i), counts.slope[i][part], rows);
+      add_span(name_of(slope_parts[part], sweep, i), "", counts.slope[i][part], rows);
   }
 }
 
@@ -60,21 +63,23 @@ std::string table_of_spans(Rows rows) {
 }
 
 /// The least and the most of all inclusions, and whose they are.
-void add_extremes(const results::Sweep& sweep, const SweepSummary& counts, Rows& rows) {
+void add_extremes(const results::Sweep& sweep, const SweepSummary& counts,
+                  const results::Units& units, Rows& rows) {
   const std::size_t inclusions = sweep.inclusions.size();
-  const auto add_one = [&](const char* name, const auto& range_of) {
+  const auto add_one = [&](const char* name, const std::string& unit, const auto& range_of) {
     std::size_t least = 0, most = 0;
     for (std::size_t i = 1; i < inclusions; ++i) {
       if (range_of(i).low < range_of(least).low) least = i;
       if (range_of(i).high > range_of(most).high) most = i;
     }
-    rows.push_back({name + (" of " + std::to_string(inclusions) + " inclusions"),
+    rows.push_back({sanitise(results::labelled(
+                        name + (" of " + std::to_string(inclusions) + " inclusions"), unit)),
                     number(range_of(least).low), sanitise(sweep.inclusions[least]),
                     number(range_of(most).high), sanitise(sweep.inclusions[most])});
   };
-  add_one("A", [&](std::size_t i) { return counts.displacement[i]; });
+  add_one("A", units.label("L"), [&](std::size_t i) { return counts.displacement[i]; });
   for (std::size_t part = 0; part < slope_parts.size() && counts.tilted(); ++part)
-    add_one(slope_parts[part], [&](std::size_t i) { return counts.slope[i][part]; });
+    add_one(slope_parts[part], "", [&](std::size_t i) { return counts.slope[i][part]; });
 }
 
 Json range_json(const SweepSummary::Range& range) {
@@ -94,7 +99,7 @@ std::string csv_head(const results::Sweep& sweep, std::size_t loads) {
 
 }  // namespace
 
-std::string sweep_table(const results::Sweep& sweep) {
+std::string sweep_table(const results::Sweep& sweep, const results::Units& units) {
   const SweepSummary counts = summary(sweep);
   std::string text = counted(sweep.rows(), "row");
   if (!sweep.source.empty()) text += " of " + sanitise(sweep.source);
@@ -104,11 +109,11 @@ std::string sweep_table(const results::Sweep& sweep) {
             ", KKT residuals at most " + number(counts.worst_kkt, 2) + "\n\n";
     Rows rows{head_of_spans};
     if (sweep.inclusions.size() > few_inclusions)
-      add_extremes(sweep, counts, rows);
+      add_extremes(sweep, counts, units, rows);
     else
-      add_inclusions(sweep, counts, rows);
-    add_span("contact length", counts.contact_length, rows);
-    add_span("energy", counts.energy, rows);
+      add_inclusions(sweep, counts, units, rows);
+    add_span("contact length", units.label("L"), counts.contact_length, rows);
+    add_span("energy", units.label("F L"), counts.energy, rows);
     text += table_of_spans(std::move(rows));
     if (sweep.inclusions.size() > few_inclusions)
       text += "all inclusions: anticrack show RESULT --inclusions, or --csv FILE\n";
@@ -118,10 +123,10 @@ std::string sweep_table(const results::Sweep& sweep) {
   return text;
 }
 
-std::string sweep_inclusions(const results::Sweep& sweep) {
+std::string sweep_inclusions(const results::Sweep& sweep, const results::Units& units) {
   Rows rows{head_of_spans};
   const SweepSummary counts = summary(sweep);
-  if (counts.converged > 0) add_inclusions(sweep, counts, rows);
+  if (counts.converged > 0) add_inclusions(sweep, counts, units, rows);
   return rows.size() == 1 ? "no inclusions\n" : table_of_spans(std::move(rows));
 }
 

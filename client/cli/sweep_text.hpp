@@ -6,16 +6,16 @@
 #include <string>
 
 #include "cli/json.hpp"
-#include "results/sweep.hpp"
+#include "results/result.hpp"
 
 namespace anticrack::cli {
 
 /// How many rows ended how, the span of A, contact length and energy, and what went wrong. Of many
 /// inclusions one span, and whose its ends are.
-std::string sweep_table(const results::Sweep& sweep);
+std::string sweep_table(const results::Sweep& sweep, const results::Units& units);
 
 /// The span of A of every inclusion, and of B of those that tilt.
-std::string sweep_inclusions(const results::Sweep& sweep);
+std::string sweep_inclusions(const results::Sweep& sweep, const results::Units& units);
 
 Json sweep_json(const results::Sweep& sweep);  ///< the same
 

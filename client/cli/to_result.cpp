@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "cli/mesh_text.hpp"
 #include "results/assemble.hpp"
 #include "results/tables.hpp"
 
@@ -83,8 +84,11 @@ results::Load to_load(const v1::LoadCase& load_case, const v1::LoadCaseAnswer& a
   set_solver(solver, load);
   load.iterations = answer.iterations();
   load.solve_seconds = seconds_of(answer.solve_time());
-  if (load.status != results::Status::converged && load.status != results::Status::not_converged)
+  if (load.status != results::Status::converged && load.status != results::Status::not_converged) {
+    load.kkt = load.kkt_relative = results::unknown_kkt;
+    load.contact_length = results::unknown;
     return load;
+  }
   copy_scalars(answer, load);
   load.theta = positive_or_unknown(load.theta);
   load.theta_star = positive_or_unknown(load.theta_star);
@@ -142,6 +146,9 @@ void add_names(const v1::Mesh& from, results::Mesh& to) {
   for (const v1::SubdomainInfo& subdomain : from.subdomains()) {
     to.subdomains.push_back(subdomain.name());
     to.tension.push_back(subdomain.tension() > 0 ? subdomain.tension() : 1);
+    if (!subdomain.has_tension_law()) continue;
+    to.tension_law.resize(static_cast<std::size_t>(from.subdomains_size()));
+    to.tension_law[to.tension.size() - 1] = law_text(subdomain.tension_law());
   }
   to.inclusions.assign(from.inclusions().begin(), from.inclusions().end());
 }
@@ -183,6 +190,8 @@ std::string mesh_of(const v1::Job& job) {
   return mesh;
 }
 
+results::Units to_units(const v1::Units& units) { return {units.length(), units.force()}; }
+
 std::vector<results::Load> to_loads(const v1::Job& job) {
   std::vector<results::Load> loads;
   loads.reserve(static_cast<std::size_t>(job.load_cases_size()));
@@ -218,6 +227,7 @@ results::Result to_result(const Fetched& fetched) {
   result.job_name = fetched.job.name();
   result.mesh_sha256 = fetched.mesh.sha256();
   result.not_reached = fetched.job.not_reached();
+  result.units = to_units(fetched.job.units());
   result.timings.mesh_seconds = fetched.mesh.mesh_seconds();
   result.timings.factorize_seconds = fetched.mesh.factorize_seconds();
   add_names(fetched.mesh, result.mesh);

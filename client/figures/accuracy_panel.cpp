@@ -71,15 +71,17 @@ std::string legend_at(double height, const Place& place) {
          " center top vertical maxrows 3 Left reverse noenhanced samplen 2.5 font ',7'\n";
 }
 
-std::string errors_panel(const std::vector<Bounds>& stages, const Place& place) {
+/// `legend_height`: of its upper end.
+std::string errors_panel(const std::vector<Bounds>& stages, const Place& place, const Box& box,
+                         double legend_height, bool with_axis) {
   Range errors = empty_range();
   for (const Bounds& at : stages) {
     errors.include(at.error);
     errors.include(at.displacement_error);
   }
-  std::string text = margins(place, 0.605, 0.935) + axes() + caption(heading(stages), place);
-  text += log_axis('x', triangles_of(stages), false) + log_axis('y', errors);
-  text += beside("'relative error bound [-]'", place) + legend_at(0.592, place);
+  std::string text = margins(place, box.bottom, box.top) + axes() + caption(heading(stages), place);
+  text += log_axis('x', triangles_of(stages), with_axis) + log_axis('y', errors);
+  text += beside("'relative error bound'", place) + legend_at(legend_height, place);
   text +=
       "plot $stages using 1:7 with lines linewidth 0.7 linecolor rgb '#888888' dashtype solid "
       "title 'as 1 / triangles', ";
@@ -88,10 +90,11 @@ std::string errors_panel(const std::vector<Bounds>& stages, const Place& place) 
     text += ", " + curve(3, "linecolor " + vermillion + " dashtype (8,4)",
                          "A, half the width of its bounds");
   }
-  return text + "\nunset label\n";
+  return text + "\nunset label\nunset logscale\n";
 }
 
-std::string bracket_panel(const std::vector<Bounds>& stages, const Place& place) {
+std::string bracket_panel(const std::vector<Bounds>& stages, const std::string& unit,
+                          const Place& place) {
   Range energies = empty_range();
   for (const Bounds& at : stages)
     for (const double value : {at.lower, at.upper, at.energy}) energies.include(value);
@@ -99,9 +102,9 @@ std::string bracket_panel(const std::vector<Bounds>& stages, const Place& place)
   energies = {energies.low - room, energies.high + room};
   const Scale scale(energies);
   std::string text = margins(place, 0.19, 0.465) + axes();
-  text += log_axis('x', triangles_of(stages)) + "unset logscale y\n" +
-          axis_range('y', scale.drawn(energies), 6);
-  text += below("'triangles'", 0.125, place) + beside("'energy " + scale.unit() + "'", place);
+  text += log_axis('x', triangles_of(stages)) + axis_range('y', scale.drawn(energies), 6);
+  text += below("'triangles'", 0.125, place) +
+          beside(figures::quoted(scale.label("energy", unit)), place);
   text += legend_at(0.095, place);
   text += "plot $stages using 1:" + scale.column(4) + ":" + scale.column(5) +
           " with filledcurves fillcolor " + contact_shade +
@@ -116,12 +119,24 @@ std::string bracket_panel(const std::vector<Bounds>& stages, const Place& place)
 
 std::size_t bounded_stages(const Load& load) { return bounds_of(load.stages).size(); }
 
-Picture accuracy_picture(const results::Result& result, const Load& load) {
+Picture errors_picture(const results::Result& result, const Load& load) {
   const std::vector<Bounds> stages = bounds_of(load.stages);
   return {accuracy_data(stages),
           {result.title, load.name},
           [stages](Format, const Place& place) {
-            return errors_panel(stages, place) + bracket_panel(stages, place);
+            return below("'triangles'", 0.2, place) +
+                   errors_panel(stages, place, {0.305, 0.905}, 0.15, true);
+          },
+          narrow};
+}
+
+Picture accuracy_picture(const results::Result& result, const Load& load) {
+  const std::vector<Bounds> stages = bounds_of(load.stages);
+  return {accuracy_data(stages),
+          {result.title, load.name},
+          [stages, energy = result.units.label("F L")](Format, const Place& place) {
+            return errors_panel(stages, place, {0.605, 0.935}, 0.592, false) +
+                   bracket_panel(stages, energy, place);
           },
           tall};
 }

@@ -19,11 +19,11 @@ std::string margins(const Place& place, double bottom, double top) {
   return margins(place, 0.185, 0.96, bottom, top);
 }
 
-std::string caption(const std::string& text, const Place& place) {
+std::string caption(const std::string& text, const Place& place, double height) {
   const bool fits = length(text) <= 46;
   return "set label 2 " + quoted(text, 56) + (fits ? "" : " font ',7'") + " at screen " +
          number(place.x + 0.5 * place.width) + ", screen " +
-         number(place.y + 0.955 * place.height) + " center noenhanced textcolor rgb '#222222'\n";
+         number(place.y + height * place.height) + " center noenhanced textcolor rgb '#222222'\n";
 }
 
 std::string below(const std::string& quoted_text, double height, const Place& place) {
@@ -81,8 +81,9 @@ std::string Scale::column(int number) const {
   return _exponent == 0 ? name : "($" + name + "*1e" + std::to_string(-_exponent) + ")";
 }
 
-std::string Scale::unit() const {
-  return _exponent == 0 ? "[-]" : "[" + power_of_ten(_exponent) + "]";
+std::string Scale::label(const std::string& name, const std::string& unit) const {
+  const std::string power = _exponent == 0 ? "" : power_of_ten(_exponent);
+  return results::labelled(name, power + (power.empty() || unit.empty() ? "" : " ") + unit);
 }
 
 std::string axis_range(char axis, const Range& range, int most, double step) {

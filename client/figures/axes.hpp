@@ -3,6 +3,7 @@
 // Shared by panels: colours, margins, labels, ranges. For the sources of this folder only.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "figures/canvas.hpp"
@@ -22,14 +23,29 @@ inline const std::string delaminated_colour = "rgb '#E69F00'";
 inline const std::string crack_colour = "rgb '#B04A8A'";
 inline const std::string free_colour = "rgb '#8CD17D'";
 
+struct CurveStyle {
+  const char* colour;
+  const char* dash;
+};
+
+/// Those of a picture differ in colour and dash.
+inline constexpr std::array<CurveStyle, 8> curve_styles{{{"#0072B2", "solid"},
+                                                         {"#D55E00", "(8,4)"},
+                                                         {"#009E73", "(2,3)"},
+                                                         {"#CC79A7", "(12,3,3,3)"},
+                                                         {"#222222", "(4,4)"},
+                                                         {"#E69F00", "solid"},
+                                                         {"#56B4E9", "(8,4)"},
+                                                         {"#8C6D31", "(2,3)"}}};
+
 /// Position of the axes, fractions of the place.
 std::string margins(const Place& place, double left, double right, double bottom, double top);
 
 /// The same with room for the labels of a vertical axis.
 std::string margins(const Place& place, double bottom, double top);
 
-/// Above the axes.
-std::string caption(const std::string& text, const Place& place);
+/// Above the axes, at a height of the place.
+std::string caption(const std::string& text, const Place& place, double height = 0.955);
 
 /// Label of the horizontal axis at a height of the place: the distance of `set xlabel` differs
 /// between terminals.
@@ -72,8 +88,8 @@ class Scale {
   Range drawn(const Range& range) const noexcept;
   /// A column of data as drawn, for `using`.
   std::string column(int number) const;
-  /// "[-]", or "[10⁻⁶]".
-  std::string unit() const;
+  /// "u [10⁻⁶ mm]", with what there is of it in brackets.
+  std::string label(const std::string& name, const std::string& unit) const;
 
  private:
   int _exponent = 0;

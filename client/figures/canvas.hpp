@@ -30,6 +30,7 @@ struct Canvas {
 
 inline constexpr Canvas narrow{85, 68};  ///< a column of a journal
 inline constexpr Canvas page{170, 68};   ///< two panels side by side, over both columns
+inline constexpr Canvas square{85, 80};  ///< a map of the membrane
 inline constexpr Canvas tall{85, 104};   ///< two panels, one above the other
 
 /// Part of the picture, fractions from its lower left corner.
@@ -39,6 +40,18 @@ struct Place {
   double width = 1;
   double height = 1;
 };
+
+/// Height of the whole picture over its width, where a place in it has the size of the canvas.
+inline double aspect(const Place& place, const Canvas& canvas) {
+  return canvas.height / place.height / (canvas.width / place.width);
+}
+
+/// The place above a foot, `height` mm of a canvas that has the place, and the foot.
+inline std::pair<Place, Place> above_foot(const Place& place, const Canvas& canvas, double height) {
+  const double part = place.height * height / canvas.height;
+  return {{place.x, place.y + part, place.width, place.height - part},
+          {place.x, place.y, place.width, part}};
+}
 
 /// The left and the right half.
 inline std::pair<Place, Place> halves(const Place& place) {

@@ -24,11 +24,12 @@ const std::string blue_solid = "linecolor " + blue + " dashtype solid";
 std::vector<Series> series_of(const Load& load) {
   const results::History& history = load.history;
   if (load.method != "active-set")
-    return {{&history.criterion, "relative change of u, squared", blue_solid}};
+    return {{&history.criterion, "of u in the energy norm, squared", blue_solid}};
   return {
-      {&history.kkt.gap, "gap", blue_solid},
-      {&history.kkt.sign, "sign", "linecolor " + vermillion + " dashtype (8,4)"},
-      {&history.kkt.complementarity, "complementarity", "linecolor " + black + " dashtype (2,3)"}};
+      {&history.kkt.gap, "gap: faces overlap", blue_solid},
+      {&history.kkt.sign, "sign: closed faces pull", "linecolor " + vermillion + " dashtype (8,4)"},
+      {&history.kkt.complementarity, "complementarity: pressure where open",
+       "linecolor " + black + " dashtype (2,3)"}};
 }
 
 bool drawable(double value) { return value > 0 && std::isfinite(value); }
@@ -84,13 +85,13 @@ std::string convergence_panel(const Load& load, const Place& place) {
   text += caption(how, place);
   text += "set logscale y\nset format y '10^{%T}'\nset ytics autofreq\n";
   text += below(steps ? "'step of the active set'" : "'iteration'", 0.175, place);
-  text += beside(steps ? "'KKT residual [-]'" : "'criterion of step 3 [-]'", place);
+  text += beside(steps ? "'KKT residual'" : "'relative change per iteration'", place);
   const double last = load.history.size() == 0 ? 1 : load.history.iteration.back();
   text += axis_range('x', {0, last}, std::min(6, static_cast<int>(last)));
   const double lowest = foot(load);
   text += "set yrange [" + number(0.5 * lowest) + ":*]\n";
   if (has_zero(load)) text += "set ytics add ('0' " + number(lowest) + ")\n";
-  text += legend(2, place);
+  text += legend(3, place);
   const std::string with =
       load.history.size() <= few ? " with linespoints pointtype 7 pointsize 0.4" : " with lines";
   std::string plots;
@@ -110,6 +111,8 @@ std::string convergence_panel(const Load& load, const Place& place) {
 }
 
 }  // namespace
+
+bool has_convergence(const Load& load) { return load.history.size() > 1; }
 
 Picture convergence_picture(const results::Result& result, const Load& load) {
   return {convergence_data(load),

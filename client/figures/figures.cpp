@@ -5,10 +5,12 @@
 #include <utility>
 
 #include "figures/drawing.hpp"
+#include "figures/interface_axis.hpp"
 #include "figures/panels.hpp"
 #include "figures/surface.hpp"
 #include "figures/sweep_figures.hpp"
 #include "figures/text.hpp"
+#include "words/nearest.hpp"
 
 namespace anticrack::figures {
 namespace {
@@ -41,8 +43,6 @@ void draw_kept_rows(const Result& result, Drawing& drawing) {
   }
 }
 
-bool has_convergence(const Load& load) { return load.history.size() > 1; }
-
 void draw_load(const Result& result, const Load& load, const std::string& stem, Drawing& drawing) {
   if (load.traces.empty()) {
     drawing.drawn.notes.push_back("load \"" + load.name + "\" has no traces (" +
@@ -53,11 +53,12 @@ void draw_load(const Result& result, const Load& load, const std::string& stem, 
       load.fields.empty() ? Surface{} : surface(result, load, surface_triangles);
   if (membrane.triangles.empty()) {
     drawing.drawn.notes.push_back("load \"" + load.name +
-                                  "\": no membrane drawn, it has no fields; " +
+                                  "\": no membrane and no plan drawn, it has no fields; " +
                                   results::fields_cure(result));
   } else {
-    drawing.draw(stem, combined_picture(result, load, membrane));
+    drawing.draw(stem, overview_picture(result, load, membrane));
     drawing.draw(stem + "-membrane", membrane_picture(result, load, membrane));
+    drawing.draw(stem + "-plan", plan_picture(result, load, membrane));
   }
   draw_traces(result, load, stem, drawing);
   if (has_convergence(load)) drawing.draw(stem + "-convergence", convergence_picture(result, load));
@@ -78,15 +79,29 @@ void note_single_steps(const Result& result, Drawing& drawing) {
                                 (count == 1 ? " load" : " loads") + " solved in a single step");
 }
 
+void require_consistent(const Result& result) {
+  const std::string fault = results::first_fault(result);
+  if (!fault.empty()) throw Error("the result is inconsistent: " + fault);
+}
+
+/// The index of the interface called `name`; of none the most eventful.
+std::size_t chosen(const Result& result, const std::string& name) {
+  if (name.empty()) return most_eventful(result, result.loads);
+  std::vector<std::string> known;
+  for (const results::Interface& interface : result.interfaces) known.push_back(interface.name);
+  const auto found = std::ranges::find(known, name);
+  if (found == known.end())
+    throw Error("there is no interface " + name + "; " + words::suggestion(name, known));
+  return static_cast<std::size_t>(found - known.begin());
+}
+
 }  // namespace
 
 Drawn draw(const Result& result, const fs::path& folder, const Options& options) {
-  const std::string fault = results::first_fault(result);
-  if (!fault.empty()) throw Error("the result is inconsistent: " + fault);
-
+  require_consistent(result);
   std::vector<std::string> names;
   for (const Load& load : result.loads) names.push_back(load.name);
-  std::vector<std::string> suffixes{"-membrane", "-convergence", "-accuracy"};
+  std::vector<std::string> suffixes{"-membrane", "-plan", "-convergence", "-accuracy"};
   for (std::size_t i = 0; i < result.interfaces.size(); ++i) suffixes.push_back(traces_suffix(i));
   const std::vector<std::string> stems = file_stems(names, suffixes);
 
@@ -99,6 +114,24 @@ Drawn draw(const Result& result, const fs::path& folder, const Options& options)
   for (std::size_t i = 0; i < result.loads.size(); ++i)
     draw_load(result, result.loads[i], stems[i], drawing);
   note_single_steps(result, drawing);
+  return std::move(drawing.drawn);
+}
+
+Drawn draw_together(Result result, const std::string& interface, const fs::path& folder,
+                    const Options& options) {
+  require_consistent(result);
+  std::erase_if(result.loads, [](const Load& load) { return load.traces.empty(); });
+  if (result.loads.empty() || result.interfaces.empty())
+    throw Error("no load has traces of an interface: nothing to draw together");
+  Drawing drawing(folder, options);
+  const std::size_t count = result.loads.size();
+  if (count > together_limit) {
+    result.loads.resize(together_limit);
+    drawing.drawn.notes.push_back("the first " + std::to_string(together_limit) + " of " +
+                                  std::to_string(count) +
+                                  " loads drawn together; choose others with --load");
+  }
+  drawing.draw("together", together_picture(result, chosen(result, interface)));
   return std::move(drawing.drawn);
 }
 

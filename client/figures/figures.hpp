@@ -35,11 +35,14 @@ struct Drawn {
 
 /// Draws for every load with traces, in each format, in `folder` (created if missing):
 ///   LOAD-membrane     the deformed membrane with its slit open; needs fields
-///   LOAD-traces       u-, u+ and [u] along each interface, contact shaded
-///   LOAD-convergence  the criterion of every iteration, or the KKT residuals of every step, log;
+///   LOAD-plan         from above: lines of u over the flux; needs fields
+///   LOAD-traces       u-, u+ and [u] along each interface, contact shaded, its pressure below
+///   LOAD-convergence  the relative change of every iteration, or the KKT residuals of every step,
+///   log;
 ///                     not of a single step
 ///   LOAD-accuracy     the bounds of the energy and of A over the triangles of the stages
-///   LOAD              membrane left, traces right, as in the paper; 170 mm wide, all else 85 mm
+///   LOAD              an overview: membrane left, traces of the most eventful interface right, as
+///                     in the paper, and what else there is below; 170 mm wide, all else 85 mm
 /// Of a sweep instead:
 ///   sweep             A and the contact length over the rows, or over the coefficient that varies
 ///   sweep-contact     where the cracks are closed, row by row (-2, ... of further interfaces)
@@ -49,5 +52,11 @@ struct Drawn {
 /// for the folder results::Error; files already drawn stay.
 Drawn draw(const results::Result& result, const std::filesystem::path& folder,
            const Options& options = {});
+
+/// Draws "together": [u], u-, u+ and the contact pressure of the loads with traces, the first
+/// eight, on one interface, the most eventful where the name is empty. Throws as `draw`, and Error
+/// for a name that no interface has or where no load has traces.
+Drawn draw_together(results::Result result, const std::string& interface,
+                    const std::filesystem::path& folder, const Options& options = {});
 
 }  // namespace anticrack::figures

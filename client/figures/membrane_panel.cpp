@@ -1,41 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "figures/axes.hpp"
+#include "figures/palette.hpp"
 #include "figures/panels.hpp"
 #include "figures/text.hpp"
 
 namespace anticrack::figures {
 namespace {
 
-/// viridis: for u of one sign.
-const std::string sequential =
-    "set palette defined (0 '#440154', 1 '#482878', 2 '#3e4a89', 3 '#31688e', 4 '#26828e', "
-    "5 '#1f9e89', 6 '#35b779', 7 '#6ece58', 8 '#b5de2b', 9 '#fde725')\n";
+/// Colours of u; zero is in the middle where u has both signs.
+struct Shades {
+  Palette palette = viridis;
+  Range range;
+};
 
-/// Blue to red through light grey: for u of both signs, zero in the middle.
-const std::string diverging =
-    "set palette defined (0 '#1b4f8f', 1 '#4a90c8', 2 '#a6cbe3', 3 '#dedede', 4 '#f4b698', "
-    "5 '#d6604d', 6 '#97162b')\n";
-
-std::string colours(const Surface& surface, const Scale& scale) {
+Shades shades_of(const Surface& surface) {
   const double largest = surface.largest();
-  std::string palette = sequential;
-  double low = surface.lowest;
-  double high = surface.highest;
-  if (largest == 0) {
-    low = -1;
-    high = 1;
-  } else if (std::min(-low, high) > 0.05 * largest) {
-    palette = diverging;
-    low = -largest;
-    high = largest;
-  }
-  const Range drawn = scale.drawn({low, high});
-  return palette + "set cbrange [" + number(drawn.low) + ":" + number(drawn.high) +
-         "]\nset cbtics " + number(label_step(drawn, 4)) +
-         " offset 0,0.3 font ',7' textcolor rgb '#333333'\n";
+  if (largest == 0) return {viridis, {-1, 1}};
+  if (std::min(-surface.lowest, surface.highest) > 0.05 * largest)
+    return {diverging, {-largest, largest}};
+  return {viridis, {surface.lowest, surface.highest}};
 }
 
 std::string membrane_heading(double factor, const results::Load& load) {
@@ -45,9 +31,10 @@ std::string membrane_heading(double factor, const results::Load& load) {
   return text;
 }
 
-std::string space_label(int tag, const std::string& text, double x, double y, double z) {
-  return "set label " + std::to_string(tag) + " '" + text + "' at first " + number(x) + ", first " +
-         number(y) + ", first " + number(z) + " center noenhanced\n";
+std::string space_label(int tag, const std::string& quoted_text, const Vertex& at,
+                        const std::string& more = {}) {
+  return "set label " + std::to_string(tag) + " " + quoted_text + " at first " + number(at.x) +
+         ", first " + number(at.y) + ", first " + number(at.u) + " center noenhanced" + more + "\n";
 }
 
 /// A short side has no room for as many labels.
@@ -60,15 +47,38 @@ std::string label_steps(const Surface& surface) {
          step(surface.y_min, surface.y_max) + " nomirror offset 0.3,-0.2\n";
 }
 
-std::string membrane_data(const Surface& surface) {
+/// Of a triangle, by the mean slope around its corners: by its own, neighbours would differ and the
+/// triangles be seen. The light comes from the upper left of a viewer at `view` degrees.
+double brightness(const Triangle& triangle, double factor, double view) {
+  constexpr double to_right = -0.5, away = -0.3, up = 0.81;
+  const double angle = view * std::numbers::pi / 180;
+  double x = 0, y = 0;
+  for (const Vertex& vertex : triangle) {
+    x -= factor * vertex.slope_x / 3;
+    y -= factor * vertex.slope_y / 3;
+  }
+  const double lit = (x * (to_right * std::cos(angle) - away * std::sin(angle)) +
+                      y * (to_right * std::sin(angle) + away * std::cos(angle)) + up) /
+                     std::sqrt(x * x + y * y + 1);
+  return std::isfinite(lit) ? 0.65 + 0.35 * std::clamp(lit, 0.0, 1.0) : 1;
+}
+
+std::string membrane_data(const Surface& surface, double view, bool mesh) {
   const double factor = amplification(surface);
+  const Shades shades = shades_of(surface);
   std::string text = "$membrane << EOD\n";
-  const auto line = [&](const Vertex& v) {
-    text += number(v.x) + " " + number(v.y) + " " + number(factor * v.u, 6) + " " + number(v.u, 6) +
-            "\n";
-  };
   // gnuplot has no triangles: each is a quadrilateral A B / C C.
-  for (const Triangle& triangle : surface.triangles) {
+  constexpr std::size_t most = 24000;
+  for (const Triangle& triangle :
+       mesh ? surface.triangles : refined(surface.triangles, surface.width() / 60, most)) {
+    const double u = (triangle[0].u + triangle[1].u + triangle[2].u) / 3;
+    const std::string shade = " " +
+                              colour(shades.palette, (u - shades.range.low) / shades.range.size(),
+                                     brightness(triangle, factor, view)) +
+                              "\n";
+    const auto line = [&](const Vertex& v) {
+      text += number(v.x) + " " + number(v.y) + " " + number(factor * v.u, 6) + shade;
+    };
     line(triangle[0]);
     line(triangle[1]);
     text += "\n";
@@ -77,6 +87,29 @@ std::string membrane_data(const Surface& surface) {
     text += "\n\n";
   }
   return text + "EOD\n";
+}
+
+using Names = std::vector<std::pair<std::string, Vertex>>;
+
+/// Inclusions, each at the middle of its first part, on the plus face, which it holds.
+Names names_of(const results::Result& result, const results::Load& load, double factor) {
+  Names names;
+  for (std::size_t i = 0; i < load.traces.size(); ++i) {
+    const results::Interface& interface = result.interfaces[i];
+    const std::vector<std::int32_t>& of = interface.edges.inclusion;
+    for (std::size_t first = 0, end = 0; first < of.size(); first = end) {
+      for (end = first; end < of.size() && of[end] == of[first];) ++end;
+      if (of[first] < 0) continue;
+      const std::string& name = result.mesh.inclusions[static_cast<std::size_t>(of[first])];
+      if (std::ranges::find(names, name, &Names::value_type::first) != names.end()) continue;
+      const double middle = (interface.s[first] + interface.s[end]) / 2;
+      const auto node = static_cast<std::size_t>(std::ranges::lower_bound(interface.s, middle) -
+                                                 interface.s.begin());
+      names.push_back(
+          {name, {interface.x[node], interface.y[node], factor * load.traces[i].u_plus[node]}});
+    }
+  }
+  return names;
 }
 
 /// A job with an accuracy made the mesh for its answer. Of more triangles edges could not be told
@@ -94,8 +127,12 @@ std::string border(bool mesh, Format format) {
   return format == Format::svg ? "set pm3d noborder\n" : "set pm3d border retrace linewidth 0.3\n";
 }
 
+/// More names would cover each other and the membrane.
+constexpr std::size_t most_names = 6;
+
 std::string membrane_panel(const Surface& surface, const results::Load& load, double view,
-                           bool mesh, const Place& place, Format format) {
+                           bool mesh, const Names& names, const std::string& length,
+                           const Place& place, Format format) {
   const double factor = amplification(surface);
   const double low = factor * surface.lowest;
   const double high = factor * surface.highest;
@@ -116,24 +153,36 @@ std::string membrane_panel(const Surface& surface, const results::Load& load, do
   text += "set zrange [" + number(std::min(low, 0.0)) + ":" +
           number(std::max(high, low + 0.1 * surface.width())) + "]\n";
   text += "set xyplane at " + number(base) + "\n";
-  text += "set view 58, " + number(view) + ", 1.5\nset view equal xyz\n";
+  // So steep that the underside is seldom seen below the near edge.
+  text += "set view 52, " + number(view) + ", 1.5\nset view equal xyz\n";
   const Scale scale({surface.lowest, surface.highest});
-  text += colours(surface, scale);
-  text += "set pm3d depthorder corners2color mean lighting primary 0.35 specular 0.08\n";
-  text += border(mesh, format);
+  const Shades shades = shades_of(surface);
+  text += colour_bar(shades.palette, scale.drawn(shades.range));
+  text += "set cbtics offset 0,0.3\nset pm3d depthorder\n" + border(mesh, format);
   text += "set colorbox user horizontal origin " + at(0.22, 0.105) + " size screen " +
           number(0.56 * place.width) + ", screen " + number(0.03 * place.height) + "\n";
-  text += "set label 5 'u " + scale.unit() + "' at " + at(0.81, 0.12) + " left noenhanced\n";
+  text += "set label 5 " + figures::quoted(scale.label("u", length)) + " at " + at(0.81, 0.12) +
+          " left noenhanced\n";
   text += caption(membrane_heading(factor, load), place);
   // Not `set xlabel`: terminals keep different distances for it.
   const double middle_x = (surface.x_min + surface.x_max) / 2;
   const double middle_y = (surface.y_min + surface.y_max) / 2;
   const double away = 0.33 * surface.width();
-  text += space_label(3, "x [-]", middle_x, surface.y_min - away, base);
-  text += space_label(4, "y [-]", surface.x_max + away, middle_y, base);
-  text += "splot $membrane using 1:2:3:" + scale.column(4) + " with pm3d notitle\n";
-  text += "unset label\n";
-  return text;
+  // As gnuplot's axes, on the near sides.
+  const double front = view < 90 || view > 270 ? surface.y_min - away : surface.y_max + away;
+  const double side = view < 180 ? surface.x_max + away : surface.x_min - away;
+  text += space_label(3, figures::quoted(results::labelled("x", length)), {middle_x, front, base});
+  text += space_label(4, figures::quoted(results::labelled("y", length)), {side, middle_y, base});
+  if (names.size() <= most_names) {
+    int tag = 10;
+    for (const auto& [name, middle] : names)
+      text += space_label(tag++, figures::quoted(name, 18), middle,
+                          " offset 0,0.6 font ',7' textcolor " + black + " front");
+  }
+  text +=
+      "splot $membrane using 1:2:3:4 with pm3d fillcolor rgb variable linewidth 0.3 notitle, "
+      "NaN with pm3d notitle";  // which alone has the colour bar
+  return text + "\nunset label\n";
 }
 
 }  // namespace
@@ -145,31 +194,23 @@ double membrane_view(const results::Result& result) {
     const results::Interface& interface = result.interfaces[0];
     angle = std::atan2(interface.y.back() - interface.y.front(),
                        interface.x.back() - interface.x.front()) *
-            180 / std::acos(-1.0);
+            180 / std::numbers::pi;
   }
   return std::fmod(oblique + 360 - angle, 360);
 }
 
 Picture membrane_picture(const results::Result& result, const results::Load& load,
                          const Surface& surface) {
-  return {membrane_data(surface),
-          {result.title, load.name},
-          [&, mesh = shows_mesh(result, load, surface)](Format format, const Place& place) {
-            return membrane_panel(surface, load, membrane_view(result), mesh, place, format);
-          },
-          narrow};
-}
-
-Picture combined_picture(const results::Result& result, const results::Load& load,
-                         const Surface& surface) {
-  const Picture left = membrane_picture(result, load, surface);
-  const Picture right = traces_picture(result, load, 0);
-  return {left.data + right.data, left.title,
-          [left = left.plots, right = right.plots](Format format, const Place& place) {
-            const auto [left_half, right_half] = halves(place);
-            return left(format, left_half) + right(format, right_half);
-          },
-          page};
+  const double view = membrane_view(result);
+  const bool mesh = shows_mesh(result, load, surface);
+  const Names names = names_of(result, load, amplification(surface));
+  return {
+      membrane_data(surface, view, mesh),
+      {result.title, load.name},
+      [=, &surface, &load, length = result.units.label("L")](Format format, const Place& place) {
+        return membrane_panel(surface, load, view, mesh, names, length, place, format);
+      },
+      narrow};
 }
 
 }  // namespace anticrack::figures

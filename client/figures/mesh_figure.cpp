@@ -16,18 +16,6 @@ constexpr std::size_t drawn_triangles = 60000;
 constexpr Canvas one_panel{85, 98};
 constexpr Canvas two_panels{170, 91};
 
-/// The places of the panels and of the legend below; `legend_height` in mm.
-std::pair<Place, Place> panels_and_legend(const Place& area, const Canvas& canvas,
-                                          double legend_height) {
-  const double part = area.height * legend_height / canvas.height;
-  return {{area.x, area.y + part, area.width, area.height - part},
-          {area.x, area.y, area.width, part}};
-}
-
-double height_of_picture(const Place& area, const Canvas& canvas) {
-  return canvas.height / area.height / canvas.width;
-}
-
 std::string counts(const results::Mesh& mesh) {
   return std::to_string(mesh.triangle_count()) + " triangles, " +
          std::to_string(mesh.node_count()) + " nodes";
@@ -59,8 +47,8 @@ Picture mesh_picture(const results::MeshPlan& plan, std::vector<std::string>& no
   if (!finest_tip(plan, near, tip)) {
     return {data, title,
             [=](Format, const Place& area) {
-              const auto [panel, foot] = panels_and_legend(area, one_panel, 14);
-              return mesh_panel(overview, first, panel, height_of_picture(area, one_panel)) +
+              const auto [panel, foot] = above_foot(area, one_panel, 14);
+              return mesh_panel(overview, first, panel, aspect(area, one_panel)) +
                      mesh_legend(overview, 4, foot);
             },
             one_panel};
@@ -70,9 +58,9 @@ Picture mesh_picture(const results::MeshPlan& plan, std::vector<std::string>& no
                          few(detail, "around the tip", notes)};
   return {data + mesh_data(detail, second.tag), title,
           [=](Format, const Place& area) {
-            const auto [panels, foot] = panels_and_legend(area, two_panels, 8);
+            const auto [panels, foot] = above_foot(area, two_panels, 8);
             const auto [left, right] = halves(panels);
-            const double height = height_of_picture(area, two_panels);
+            const double height = aspect(area, two_panels);
             return mesh_panel(overview, first, left, height) +
                    mesh_panel(detail, second, right, height) + mesh_legend(overview, 2, foot);
           },

@@ -226,6 +226,24 @@ bool finest_tip(const MeshPlan& plan, Window& window, results::Tip& tip) {
   return true;
 }
 
+std::vector<Stretch> loose_sides(const std::vector<Stretch>& delaminated, double distance) {
+  std::vector<Stretch> sides;
+  for (const Stretch& stretch : delaminated) {
+    Stretch side;
+    for (std::size_t i = 0; i < stretch.size(); ++i) {
+      const Spot& before = stretch[i == 0 ? 0 : i - 1];
+      const Spot& after = stretch[std::min(i + 1, stretch.size() - 1)];
+      const double dx = after.x - before.x, dy = after.y - before.y;
+      const double length = std::hypot(dx, dy);
+      if (length > 0)
+        side.push_back(
+            {stretch[i].x + distance * dy / length, stretch[i].y - distance * dx / length});
+    }
+    sides.push_back(std::move(side));
+  }
+  return sides;
+}
+
 MeshLayers layers(const MeshPlan& plan, const Window& window) {
   MeshLayers result;
   add_triangles(plan.mesh, window, result);
@@ -235,6 +253,9 @@ MeshLayers layers(const MeshPlan& plan, const Window& window) {
     add_stretches(plan, line, smallest, result);
     add_pointers(plan, line, window, result);
   }
+  constexpr std::size_t delaminated = 4;  // index of the kind's stretches
+  result.loose = loose_sides(result.interfaces[delaminated],
+                             0.012 * std::max(window.width(), window.height()));
   drop_if_many(result.plus_sides);
   drop_if_many(result.inclusions);
   for (const results::Tip& tip : plan.tips)

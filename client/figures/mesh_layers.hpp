@@ -46,6 +46,9 @@ struct MeshLayers {
   std::vector<Pointer> plus_sides;  ///< of interfaces
   std::vector<Pointer> inclusions;  ///< into the minus sides
   std::vector<std::pair<Spot, std::string>> subdomain_names;
+  std::vector<Stretch> contours;                     ///< of u
+  std::vector<std::pair<Spot, std::string>> levels;  ///< of contours
+  std::vector<Stretch> loose;  ///< beside delaminated inclusions, on the side that came off
 };
 
 /// The whole mesh with a margin.
@@ -54,6 +57,9 @@ Window whole(const results::Mesh& mesh);
 /// The neighbourhood of the tip with the smallest edge: a fortieth of the mesh, or more if its
 /// triangles would be larger than a few pixels. False if no tip is finer than the mesh around it.
 bool finest_tip(const results::MeshPlan& plan, Window& window, results::Tip& tip);
+
+/// The delaminated stretches, `distance` away on their minus sides.
+std::vector<Stretch> loose_sides(const std::vector<Stretch>& delaminated, double distance);
 
 /// All that is inside the window and larger than about a pixel. O(triangles log triangles).
 MeshLayers layers(const results::MeshPlan& plan, const Window& window);
@@ -72,6 +78,8 @@ struct MeshPanel {
   Window window;
   std::string caption;
   bool with_triangles = true;
+  results::Units units{};
+  std::vector<std::string> paints{};  ///< of the triangles, without their edges; none: pale ones
 };
 
 /// Draws the layers with equal scales in the middle of the place. `height`: of the picture, divided

@@ -38,6 +38,10 @@ const Style dirichlet{"dirichlet", "lines linewidth 1.8 linecolor rgb '#444444' 
                       "u given"};
 const Style neumann{"neumann", "lines linewidth 2.5 linecolor " + green + " dashtype (2,2)",
                     "traction given"};
+const Style contours{"contours", "lines linewidth 0.6 linecolor rgb '#333333' dashtype solid",
+                     "u = const"};
+const Style loose{"loose", "lines linewidth 1.5 linecolor rgb '#D00000' dashtype (2,2)",
+                  "the side that came off"};
 const Style tips{"tips", "points pointtype 6 pointsize 0.5 linewidth 1 linecolor rgb '#000000'",
                  "tip"};
 
@@ -66,12 +70,14 @@ std::string triangles_of(const std::vector<std::array<Spot, 3>>& triangles) {
 using Layer = std::pair<Style, const std::vector<Stretch>*>;
 
 /// From the lowest to the highest.
-std::array<Layer, 7> line_layers(const MeshLayers& layers) {
-  return {{{dirichlet, &layers.dirichlet},
+std::array<Layer, 9> line_layers(const MeshLayers& layers) {
+  return {{{contours, &layers.contours},
+           {dirichlet, &layers.dirichlet},
            {neumann, &layers.neumann},
            {glue, &layers.interfaces[1]},
            {bonded, &layers.interfaces[3]},
            {delaminated, &layers.interfaces[4]},
+           {loose, &layers.loose},
            {free_crack, &layers.interfaces[5]},
            {crack, &layers.interfaces[2]}}};
 }
@@ -120,8 +126,8 @@ std::string labels(const MeshLayers& layers) {
   }
   for (const Pointer& inclusion : layers.inclusions)
     text += label(inclusion.name, inclusion.to, beyond(inclusion), "#000000");
-  for (const auto& [spot, name] : layers.subdomain_names)
-    text += label(name, spot, "center", "#555555");
+  for (const auto* names : {&layers.subdomain_names, &layers.levels})
+    for (const auto& [spot, name] : *names) text += label(name, spot, "center", "#555555");
   return text;
 }
 
@@ -141,21 +147,28 @@ std::string mesh_data(const MeshLayers& layers, const std::string& tag) {
 std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const Place& place,
                        double height) {
   const Window& window = panel.window;
+  const std::string length = panel.units.label("L");
   std::string text = margins(window, place, height) + axes();
   text += "unset key\nset border 0\nunset grid\nset tics out\n";
   // A short side has no room for as many labels.
   const double step = label_step({0, std::max(window.width(), window.height())}, 5);
   text += axis_range('x', {window.x_min, window.x_max}, 5, step);
   text += axis_range('y', {window.y_min, window.y_max}, 5, step);
-  text += below("'x [-]'", 0.02, place) + beside("'y [-]'", place) + caption(panel.caption, place);
+  text += below(figures::quoted(results::labelled("x", length)), 0.02, place) +
+          beside(figures::quoted(results::labelled("y", length)), place) +
+          caption(panel.caption, place);
   text += labels(layers);
   std::string plots = "plot NaN notitle";
   for (std::size_t d = 0; panel.with_triangles && d < layers.triangles.size(); ++d) {
     if (layers.triangles[d].empty()) continue;
     const std::string data = ", $subdomain" + std::to_string(d) + panel.tag + " using 1:2 with ";
-    plots += data + "filledcurves closed fillcolor rgb '" + paints[d % paints.size()] +
+    const bool painted = !panel.paints.empty();
+    const std::string paint = painted ? panel.paints.at(d) : paints[d % paints.size()];
+    plots += data + "filledcurves closed fillcolor rgb '" + paint +
              "' fillstyle solid 1 noborder notitle";
-    plots += data + "lines linewidth 0.3 linecolor rgb '#A8A8A8' notitle";
+    // Without edges of its colour what lies behind shines through between the triangles.
+    plots +=
+        data + "lines linewidth 0.3 linecolor rgb '" + (painted ? paint : "#A8A8A8") + "' notitle";
   }
   for (const auto& [style, stretches] : line_layers(layers)) {
     if (stretches->empty()) continue;
@@ -166,6 +179,8 @@ std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const P
     plots += drawn_data(style, panel.tag);
   }
   if (!layers.tips.empty()) plots += drawn_data(tips, panel.tag);
+  // Out of sight, for the colour bar.
+  if (!panel.paints.empty()) plots += ", '+' using (NaN):(NaN):(0) with points palette notitle";
   return text + plots + "\nunset label\nunset arrow\n";
 }
 

@@ -44,16 +44,18 @@ Profile profile(const results::Result& result, std::size_t index, const results:
   if (result.interfaces.size() > 1) profile.name = interface.name;
   const std::size_t k = interface.node_count();
   const double tolerance = k == 0 ? 0 : 1e-9 * interface.s.back();
+  std::string axis;
   if (constant(interface.y, tolerance) && monotone(interface.x)) {
-    profile.axis = "x [-]";
+    axis = "x";
     profile.position = interface.x;
   } else if (constant(interface.x, tolerance) && monotone(interface.y)) {
-    profile.axis = "y [-]";
+    axis = "y";
     profile.position = interface.y;
   } else {
-    profile.axis = "arc length s [-]";
+    axis = "arc length s";
     profile.position = interface.s;
   }
+  profile.axis = results::labelled(axis, result.units.label("L"));
 
   const auto band = [&](double a, double b) { return Band{std::min(a, b), std::max(a, b)}; };
   const auto& at = profile.position;

@@ -25,7 +25,7 @@ struct Fibre {
 
 struct Profile {
   std::string name;              ///< of the interface, if there are several
-  std::string axis;              ///< label, e.g. "x [-]"
+  std::string axis;              ///< label, e.g. "x [mm]"
   std::vector<double> position;  ///< (k) along the axis, increasing or decreasing
   std::vector<Band> delaminated;
   std::vector<Band> crack;

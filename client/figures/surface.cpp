@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -24,11 +25,13 @@ struct Cut {
   std::vector<std::size_t> node;  // of the mesh, by vertex
   std::vector<double> u;
   std::vector<Corners> triangles;
+  std::vector<double> tension;  // of each triangle
 };
 
-Cut cut_open(const Load& load) {
+Cut cut_open(const Mesh& mesh, const Load& load) {
   Cut cut;
-  for (const results::Field& field : load.fields) {
+  for (std::size_t d = 0; d < load.fields.size(); ++d) {
+    const results::Field& field = load.fields[d];
     const std::size_t first = cut.node.size();
     cut.node.insert(cut.node.end(), field.nodes.begin(), field.nodes.end());
     cut.u.insert(cut.u.end(), field.u.begin(), field.u.end());
@@ -38,8 +41,36 @@ Cut cut_open(const Load& load) {
         corners[c] = first + static_cast<std::size_t>(field.triangles[t + c]);
       cut.triangles.push_back(corners);
     }
+    cut.tension.resize(cut.triangles.size(), mesh.tension[d]);
   }
   return cut;
+}
+
+/// All vertices, with the means over their triangles.
+std::vector<Vertex> vertices(const Mesh& mesh, const Cut& cut) {
+  std::vector<Vertex> all(cut.node.size());
+  std::vector<double> area(cut.node.size(), 0);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i] = {mesh.xy[2 * cut.node[i]], mesh.xy[2 * cut.node[i] + 1], cut.u[i]};
+  for (std::size_t t = 0; t < cut.triangles.size(); ++t) {
+    const Corners& corners = cut.triangles[t];
+    const Vertex &a = all[corners[0]], &b = all[corners[1]], &c = all[corners[2]];
+    const double twice = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+    if (!(twice > 0)) continue;
+    // Times twice the area.
+    const double x = (b.u - a.u) * (c.y - a.y) - (c.u - a.u) * (b.y - a.y);
+    const double y = (c.u - a.u) * (b.x - a.x) - (b.u - a.u) * (c.x - a.x);
+    for (const std::size_t corner : corners) {
+      all[corner].slope_x += x;
+      all[corner].slope_y += y;
+      all[corner].flux += cut.tension[t] * std::hypot(x, y);
+      area[corner] += twice;
+    }
+  }
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (double Vertex::*mean : {&Vertex::slope_x, &Vertex::slope_y, &Vertex::flux})
+      if (area[i] > 0) all[i].*mean /= area[i];
+  return all;
 }
 
 /// Nodes on the boundary of the membrane, whatever holds there.
@@ -159,13 +190,16 @@ Surface surface(const Result& result, const Load& load, std::size_t limit) {
     surface.y_max = std::max(surface.y_max, mesh.xy[2 * i + 1]);
   }
 
-  const Cut cut = cut_open(load);
+  const Cut cut = cut_open(mesh, load);
+  const std::vector<Vertex> all = vertices(mesh, cut);
+  for (const Vertex& vertex : all)
+    if (std::isfinite(vertex.flux))
+      surface.largest_flux = std::max(surface.largest_flux, vertex.flux);
   for (const Corners& corners : coarsen(mesh, cut, surface, limit)) {
     Triangle triangle;
     bool finite = true;
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t node = cut.node[corners[c]];
-      triangle[c] = {mesh.xy[2 * node], mesh.xy[2 * node + 1], cut.u[corners[c]]};
+      triangle[c] = all[corners[c]];
       finite = finite && std::isfinite(triangle[c].u);
     }
     if (!finite) continue;
@@ -178,8 +212,35 @@ Surface surface(const Result& result, const Load& load, std::size_t limit) {
   return surface;
 }
 
+std::vector<Triangle> refined(std::vector<Triangle> triangles, double longest, std::size_t limit) {
+  const auto is_long = [&](const Triangle& t) {
+    return std::max({std::hypot(t[1].x - t[0].x, t[1].y - t[0].y),
+                     std::hypot(t[2].x - t[1].x, t[2].y - t[1].y),
+                     std::hypot(t[0].x - t[2].x, t[0].y - t[2].y)}) > longest;
+  };
+  const auto middle = [](const Vertex& a, const Vertex& b) {
+    return Vertex{(a.x + b.x) / 2,
+                  (a.y + b.y) / 2,
+                  (a.u + b.u) / 2,
+                  (a.slope_x + b.slope_x) / 2,
+                  (a.slope_y + b.slope_y) / 2,
+                  (a.flux + b.flux) / 2};
+  };
+  for (;;) {
+    const auto first = std::ranges::partition(triangles, std::not_fn(is_long)).begin();
+    const std::vector<Triangle> coarse(first, triangles.end());
+    if (coarse.empty() || triangles.size() + 3 * coarse.size() > limit) return triangles;
+    triangles.erase(first, triangles.end());
+    for (const auto& [a, b, c] : coarse) {
+      const Vertex ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      for (const Triangle& part : {Triangle{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
+        triangles.push_back(part);
+    }
+  }
+}
+
 double amplification(const Surface& surface) {
-  const double wanted = 0.38 * surface.width() / (surface.highest - surface.lowest);
+  const double wanted = 0.3 * surface.width() / (surface.highest - surface.lowest);
   if (!std::isfinite(wanted) || wanted <= 0) return 1;
   const double power = std::pow(10.0, std::floor(std::log10(wanted)));
   const double leading = wanted / power;

@@ -15,6 +15,11 @@ struct Vertex {
   double x = 0;
   double y = 0;
   double u = 0;
+  /// Mean over the triangles at the vertex on its face of the interfaces, by area: grad u, and
+  /// |T grad u|.
+  double slope_x = 0;
+  double slope_y = 0;
+  double flux = 0;
 };
 
 using Triangle = std::array<Vertex, 3>;
@@ -23,6 +28,7 @@ struct Surface {
   std::vector<Triangle> triangles;
   double lowest = 0;  ///< u over all vertices, zero included
   double highest = 0;
+  double largest_flux = 0;  ///< of all vertices, also of those that were merged
   double x_min = 0, x_max = 0, y_min = 0, y_max = 0;  ///< of the mesh
 
   double largest() const noexcept;  ///< |u|
@@ -34,7 +40,11 @@ struct Surface {
 /// interior separately. Needs load.fields. O(m log m).
 Surface surface(const results::Result& result, const results::Load& load, std::size_t limit);
 
-/// A round factor that scales u to about a third of the membrane's width; 1 for u = 0.
+/// The same surface with triangles of at most `longest` edges, each split into four as often as it
+/// takes, as long as there are at most `limit`.
+std::vector<Triangle> refined(std::vector<Triangle> triangles, double longest, std::size_t limit);
+
+/// A round factor that scales u to at most three tenths of the membrane's width; 1 for u = 0.
 double amplification(const Surface& surface);
 
 }  // namespace anticrack::figures

@@ -2,7 +2,6 @@
 #include "figures/sweep_figures.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include "figures/axes.hpp"
@@ -20,22 +19,6 @@ constexpr std::size_t strip_limit = 400;
 
 constexpr const char* open_shade = "'#e4e4e4'";
 constexpr const char* closed_shade = "'#0072B2'";
-
-struct CurveStyle {
-  const char* colour;
-  const char* dash;
-};
-
-/// Of curve i; those of a picture differ in colour and dash.
-CurveStyle style_of(std::size_t i) {
-  constexpr std::array<CurveStyle, 6> styles{{{"#0072B2", "solid"},
-                                              {"#D55E00", "(8,4)"},
-                                              {"#009E73", "(2,3)"},
-                                              {"#CC79A7", "(12,3,3,3)"},
-                                              {"#222222", "(4,4)"},
-                                              {"#E69F00", "solid"}}};
-  return styles[i % styles.size()];
-}
 
 /// As a data block; extends `heights` by its values.
 std::string curve_block(const std::string& name, const std::vector<CurvePoint>& points,
@@ -101,11 +84,10 @@ Range with_room(Range heights) {
 std::string axis_label(const SweepAxis& axis) { return figures::quoted(axis.label); }
 
 std::string panel(const SweepAxis& axis, const std::string& label, const Range& heights,
-                  const Scale& scale, const std::string& plots, const Place& place) {
+                  const std::string& plots, const Place& place) {
   return axis_range('x', extent(axis), 6, step_of(axis)) +
-         axis_range('y', scale.drawn(heights), 8) +
-         beside(figures::quoted(label + " " + scale.unit()), place) + "plot " + plots +
-         "\nunset label\n";
+         axis_range('y', Scale(heights).drawn(heights), 8) + beside(figures::quoted(label), place) +
+         "plot " + plots + "\nunset label\n";
 }
 
 /// Entries of the legend; what is beyond is drawn alike and counted.
@@ -114,14 +96,16 @@ constexpr std::size_t named = 6;
 /// A number of every inclusion over the axis.
 struct Curves {
   std::string name;  ///< of the number; that of its data blocks goes on with the inclusion's index
+  std::string unit;  ///< of the number
   std::string blocks;  ///< the data
   Range heights = empty_range();
 };
 
 /// Of column `part` of `parts` that `values` has for each inclusion.
 Curves curves_of(const Sweep& sweep, const SweepAxis& axis, const std::string& name,
-                 const std::vector<double>& values, std::size_t part, std::size_t parts) {
-  Curves curves{name, {}};
+                 const std::string& unit, const std::vector<double>& values, std::size_t part,
+                 std::size_t parts) {
+  Curves curves{name, unit, {}};
   const std::size_t inclusions = sweep.inclusions.size();
   for (std::size_t i = 0; i < inclusions; ++i) {
     curves.blocks +=
@@ -137,8 +121,8 @@ std::string legend_of(const SweepAxis& axis, const std::vector<std::string>& inc
   std::string keys;
   if (inclusions.size() == 1) return keys;
   for (std::size_t i = 0; i < std::min(named, inclusions.size()); ++i) {
-    keys +=
-        ", keyentry" + drawn_as(axis, style_of(i)) + " title " + figures::quoted(inclusions[i], 18);
+    keys += ", keyentry" + drawn_as(axis, curve_styles.at(i)) + " title " +
+            figures::quoted(inclusions[i], 18);
   }
   if (inclusions.size() > named) {
     keys += ", keyentry with lines linecolor rgb '#bbbbbb' title '" +
@@ -149,14 +133,15 @@ std::string legend_of(const SweepAxis& axis, const std::vector<std::string>& inc
 
 std::string panel(const SweepAxis& axis, const Curves& curves, std::size_t inclusions,
                   const std::string& keys, const Place& place) {
-  const Scale scale(curves.heights);
+  const Range heights = with_room(curves.heights);
+  const Scale scale(heights);
   std::string plots;
   for (std::size_t i = inclusions; i-- > 0;) {
-    const CurveStyle style = i < named ? style_of(i) : CurveStyle{"#bbbbbb", "solid"};
+    const CurveStyle style = i < named ? curve_styles.at(i) : CurveStyle{"#bbbbbb", "solid"};
     plots += (plots.empty() ? "$" : ", $") + curves.name + std::to_string(i) +
              " using 1:" + scale.column(2) + drawn_as(axis, style) + " notitle";
   }
-  return panel(axis, curves.name, with_room(curves.heights), scale, plots + keys, place);
+  return panel(axis, scale.label(curves.name, curves.unit), heights, plots + keys, place);
 }
 
 /// One panel above the other, over one axis; the legend of the upper one in between.
@@ -180,17 +165,19 @@ Picture sweep_picture(const Result& result, const SweepAxis& axis) {
   Range lengths{0, 0};
   const std::string data =
       curve_block("length", curve(sweep, axis, sweep.contact_length, 0, 1, point_limit), lengths);
-  const Curves displacements = curves_of(sweep, axis, "A", sweep.displacement, 0, 1);
+  const std::string length = result.units.label("L");
+  const Curves displacements = curves_of(sweep, axis, "A", length, sweep.displacement, 0, 1);
   if (lengths.high == 0) lengths.high = 1;
   lengths = with_room(lengths);
   const Scale of_lengths(lengths);
 
   return {data + displacements.blocks, sweep_title(result),
           [=, &sweep, &axis](Format, const Place& place) {
-            const std::string contact = panel(axis, "contact length", lengths, of_lengths,
-                                              "$length using 1:" + of_lengths.column(2) +
-                                                  drawn_as(axis, style_of(0)) + " notitle",
-                                              place);
+            const std::string contact =
+                panel(axis, of_lengths.label("contact length", length), lengths,
+                      "$length using 1:" + of_lengths.column(2) + drawn_as(axis, curve_styles[0]) +
+                          " notitle",
+                      place);
             if (inclusions == 0) {
               return margins(place, 0.16, 0.905) + below(axis_label(axis), 0.04, place) + axes() +
                      caption(counted_rows(sweep), place) + contact;
@@ -204,8 +191,8 @@ Picture sweep_picture(const Result& result, const SweepAxis& axis) {
 
 Picture slope_picture(const Result& result, const SweepAxis& axis) {
   const Sweep& sweep = *result.sweep;
-  const Curves along_x = curves_of(sweep, axis, "Bx", sweep.slope, 0, 2);
-  const Curves along_y = curves_of(sweep, axis, "By", sweep.slope, 1, 2);
+  const Curves along_x = curves_of(sweep, axis, "Bx", "", sweep.slope, 0, 2);
+  const Curves along_y = curves_of(sweep, axis, "By", "", sweep.slope, 1, 2);
   return {along_x.blocks + along_y.blocks, sweep_title(result),
           [=, &sweep, &axis](Format, const Place& place) {
             const std::size_t inclusions = sweep.inclusions.size();

@@ -18,7 +18,7 @@ namespace anticrack::figures {
 struct SweepAxis {
   enum class Parameter { row, coefficient, angle };
 
-  std::string label;  ///< "row", "coefficient of shear [-]", "angle from pull to shear [°]"
+  std::string label;  ///< "row", "coefficient of shear", "angle from pull to shear [°]"
   Parameter parameter = Parameter::row;
   std::vector<double> position;    ///< (rows)
   std::vector<std::size_t> order;  ///< rows by increasing position
@@ -49,7 +49,7 @@ struct ContactBox {
 };
 
 struct ContactMap {
-  std::string position_label;  ///< "x [-]"
+  std::string position_label;  ///< "x [mm]"
   std::string interface;       ///< its name, if there are several
   std::vector<ContactBox> boxes;
   bool shades = false;  ///< a box stands for several rows

@@ -128,7 +128,7 @@ SweepAxis sweep_axis(const Sweep& sweep) {
   };
   std::iota(axis.position.begin(), axis.position.end(), 0.0);
   if (varying.size() == 1) {
-    axis.label = "coefficient of " + name(0, 20) + " [-]";
+    axis.label = "coefficient of " + name(0, 20);
     axis.parameter = Parameter::coefficient;
     for (std::size_t row = 0; row < sweep.rows(); ++row)
       axis.position[row] = sweep.coefficients[row * sweep.loads.size() + varying[0]];

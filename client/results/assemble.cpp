@@ -58,6 +58,7 @@ Load load_of(const Sweep& sweep, std::size_t row, std::vector<Trace> traces,
   load.iterations = sweep.steps[row];
   load.energy = sweep.energy[row];
   load.contact_length = sweep.contact_length[row];
+  load.kkt = load.kkt_relative = unknown_kkt;
   const std::size_t inclusions = sweep.inclusions.size();
   for (std::size_t i = 0; i < inclusions; ++i) {
     load.inclusions.push_back({sweep.inclusions[i], sweep.displacement[row * inclusions + i],

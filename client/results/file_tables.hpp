@@ -38,11 +38,11 @@ std::size_t columns_of(const Row& row, const Record& record) {
 
 /// A dataset, with its meaning if the table says that the file holds it.
 template <class Row, class T>
-void put_row(const Handle& group, const Row& row, const std::vector<T>& values,
+void put_row(const Handle& group, const Units& units, const Row& row, const std::vector<T>& values,
              std::size_t columns) {
   const Handle dataset =
       put_array(group, std::string(row.name), value_type<T>, values.data(), values.size(),
-                {columns, arrays::depth_of(row.shape)}, {}, row.unit);
+                {columns, arrays::depth_of(row.shape)}, {}, units.of(row.unit));
   if (row.explained) put(dataset, "meaning", std::string(row.what));
 }
 
@@ -72,12 +72,13 @@ bool may_be_missing(const Row& row) {
 /// Datasets of a group. What is optional is left out where it is empty, and what has columns by
 /// name: HDF5 has no chunks without extent.
 template <class Record, class... Tables>
-void put_arrays(const Handle& group, const Record& record, const Tables&... tables) {
+void put_arrays(const Handle& group, const Units& units, const Record& record,
+                const Tables&... tables) {
   arrays::for_each(
       [&](const auto& row) {
         const auto& values = std::invoke(row.member, record);
         if (values.empty() && may_be_missing(row)) return;
-        put_row(group, row, values, columns_of(row, record));
+        put_row(group, units, row, values, columns_of(row, record));
       },
       tables...);
 }
@@ -100,7 +101,8 @@ using Stored = std::conditional_t<std::is_same_v<T, std::size_t>, std::int32_t, 
 
 /// A list of records as datasets, one a member.
 template <class Record, class Table>
-void put_list(const Handle& group, const std::vector<Record>& records, const Table& table) {
+void put_list(const Handle& group, const Units& units, const std::vector<Record>& records,
+              const Table& table) {
   arrays::for_each(
       [&](const auto& row) {
         using Value = Stored<arrays::MemberOf<const Record, decltype(row.member)>>;
@@ -108,7 +110,7 @@ void put_list(const Handle& group, const std::vector<Record>& records, const Tab
         column.reserve(records.size());
         for (const Record& record : records)
           column.push_back(static_cast<Value>(std::invoke(row.member, record)));
-        put_row(group, row, column, 0);
+        put_row(group, units, row, column, 0);
       },
       table);
 }

@@ -108,7 +108,7 @@ inline void put(const Handle& object, const std::string& attribute,
 /// chunks come `filtered`. An empty unit is that of the case. Returned for further attributes.
 Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
                  std::size_t count, const Row& row, const FilteredChunks& filtered = {},
-                 std::string_view unit = {});
+                 const std::string& unit = "-");
 
 // Reading. Only hard links are followed and only data inside the file is read, so a file from
 // elsewhere cannot pull in others.

@@ -172,7 +172,7 @@ void put_attribute(const Handle& object, const std::string& name, ValueType type
 
 Handle put_array(const Handle& group, const std::string& name, ValueType type, const void* values,
                  std::size_t count, const Row& row, const FilteredChunks& filtered,
-                 std::string_view unit) {
+                 const std::string& unit) {
   const std::string what = "cannot write dataset " + name;
   const std::size_t width = row.width();
   if (count % width != 0) throw Fault(what + ": not whole rows");
@@ -200,7 +200,7 @@ Handle put_array(const Handle& group, const std::string& name, ValueType type, c
                      is_text ? text_transfer() : H5P_DEFAULT, source.data),
             what);
   }
-  put(dataset, "units", std::string(unit.empty() ? "-" : unit));
+  put(dataset, "units", unit);
   write_chunks(dataset, filtered, before, filtered.size(), chunk, what);
   return dataset;
 }

@@ -83,6 +83,7 @@ Result get_result(const Handle& root, std::uint64_t budget) {
   Result result;
   get_values(root, result, tables::result);
   get_values(root, result.timings, tables::timings);
+  get_values(root, result.units, tables::units);
   get_arrays(open_group(root, "mesh"), budget, result.mesh, tables::mesh, tables::mesh_names);
   result.interfaces = list_of(root, "interfaces", [budget](const Handle& group) {
     Interface interface;

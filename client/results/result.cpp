@@ -86,6 +86,9 @@ void check_mesh(const Mesh& mesh, Faults& faults) {
   faults.in_range("mesh.subdomain", mesh.subdomain, mesh.subdomains.size());
   faults.length("mesh.tension", mesh.tension.size(), mesh.subdomains.size(), "subdomains");
   faults.finite("mesh.tension", mesh.tension);
+  if (!mesh.tension_law.empty())
+    faults.length("mesh.tension_law", mesh.tension_law.size(), mesh.subdomains.size(),
+                  "subdomains");
 }
 
 void check_kinds(const std::string& at, const std::vector<Kind>& kinds, Faults& faults) {
@@ -226,6 +229,29 @@ std::string first_edge_fault(const std::string& at, const Edges& edges, std::siz
   Faults faults;
   check_edges(at, edges, nodes, mesh, faults);
   return faults.first();
+}
+
+std::string Units::of(std::string_view dimension) const {
+  std::string unit;
+  for (const char c : dimension) {
+    const bool is_unit = c == 'F' || c == 'L';
+    const std::string& name = c == 'F' ? force : length;
+    if (is_unit && name.empty()) return "-";
+    if (is_unit)
+      unit += name;
+    else
+      unit += c;
+  }
+  return unit.empty() ? "-" : unit;
+}
+
+std::string Units::label(std::string_view dimension) const {
+  const std::string unit = of(dimension);
+  return unit == "-" ? "" : unit;
+}
+
+std::string labelled(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : name + " [" + unit + "]";
 }
 
 std::string first_fault(const Result& result) {

@@ -28,13 +28,14 @@ enum class Kind : std::int32_t {
 };
 
 struct Mesh {
-  std::vector<double> xy;               ///< (n,2) row-major
-  std::vector<std::int32_t> triangles;  ///< (m,3) row-major, counterclockwise
-  std::vector<std::int32_t> subdomain;  ///< (m) index into subdomains
-  std::vector<std::int32_t> boundary;   ///< (b,2) row-major, edges where u is prescribed
-  std::vector<std::string> subdomains;  ///< names
-  std::vector<double> tension;          ///< T of -div(T grad u) = f, one a subdomain
-  std::vector<std::string> inclusions;  ///< names
+  std::vector<double> xy;                ///< (n,2) row-major
+  std::vector<std::int32_t> triangles;   ///< (m,3) row-major, counterclockwise
+  std::vector<std::int32_t> subdomain;   ///< (m) index into subdomains
+  std::vector<std::int32_t> boundary;    ///< (b,2) row-major, edges where u is prescribed
+  std::vector<std::string> subdomains;   ///< names
+  std::vector<double> tension;           ///< T of -div(T grad u) = f, one a subdomain
+  std::vector<std::string> tension_law;  ///< of a subdomain, empty: a number; or none at all
+  std::vector<std::string> inclusions;   ///< names
 
   /// n and m of the shapes above.
   std::size_t node_count() const noexcept { return xy.size() / 2; }
@@ -74,6 +75,7 @@ struct Kkt {
   double largest() const noexcept;  ///< NaN where one of them is
   bool operator==(const Kkt&) const = default;
 };
+inline constexpr Kkt unknown_kkt{unknown, unknown, unknown, unknown};
 
 struct Inclusion {
   std::string name;
@@ -139,8 +141,8 @@ struct Field {
 /// One entry per stage of a job with an accuracy, each on a finer mesh than the one before. NaN
 /// where the stage had no bounds.
 struct Stages {
-  std::vector<std::int64_t> triangles;       ///< of the stage's mesh, increasing
-  std::vector<double> energy;                ///< Pi(u)
+  std::vector<std::int64_t> triangles;  ///< of the stage's mesh, increasing
+  std::vector<double> energy;           ///< Pi(u)
   std::vector<double> energy_lower, energy_upper, error_bound_relative;  ///< as in Load
   /// Half the width of the bounds of A over the largest |A|, the largest of all inclusions.
   std::vector<double> displacement_error;
@@ -195,6 +197,23 @@ struct Timings {
   bool operator==(const Timings&) const = default;
 };
 
+/// Names of units, for people; empty: none.
+struct Units {
+  std::string length;
+  std::string force;
+
+  /// The unit of what has this dimension, in F (force) and L (length): "F/L^2" is "N/mm^2". Any
+  /// other text, as "s", is a unit already. "-" where there is none, or where the unit of the
+  /// length or the force has no name.
+  std::string of(std::string_view dimension) const;
+  /// The same for a label: empty in place of "-".
+  std::string label(std::string_view dimension) const;
+  bool operator==(const Units&) const = default;
+};
+
+/// "x [mm]"; the name alone where the unit is empty.
+std::string labelled(const std::string& name, const std::string& unit);
+
 struct Result {
   std::string title;
   std::string case_text;  ///< the TOML as run, overrides applied
@@ -204,6 +223,7 @@ struct Result {
   std::string job_name;     ///< "jobs/ID"
   std::string mesh_sha256;  ///< 64 lower-case hexadecimal digits
   std::string not_reached;  ///< which accuracy of the job, what stopped it, and the cure
+  Units units;
   Timings timings;
   Mesh mesh;
   std::vector<Interface> interfaces;

@@ -29,6 +29,11 @@ inline constexpr auto result = std::tuple{
     optional(scalar("not_reached", &Result::not_reached,
                     "which accuracy of the job, what stopped it, and the cure")),
 };
+/// Files from before cases had units lack these.
+inline constexpr auto units = std::tuple{
+    optional(scalar("unit_length", &Units::length, "")),
+    optional(scalar("unit_force", &Units::force, "names of L and F below, if the case gives them")),
+};
 inline constexpr auto timings = std::tuple{
     scalar("mesh_seconds", &Timings::mesh_seconds, "meshing", "s"),
     scalar("factorize_seconds", &Timings::factorize_seconds, "factorising", "s"),
@@ -39,14 +44,18 @@ inline constexpr auto timings = std::tuple{
 // Of /mesh: what ReadMesh streams under the same names, and what the message Mesh says.
 
 inline constexpr auto mesh = std::tuple{
-    array("nodes", "n,2", &Mesh::xy, "coordinates"),
+    array("nodes", "n,2", &Mesh::xy, "coordinates", "L"),
     array("triangles", "m,3", &Mesh::triangles, "indices into nodes, counterclockwise"),
     array("subdomain", "m", &Mesh::subdomain, "of a triangle: index into subdomain_names"),
     array("boundary", "b,2", &Mesh::boundary, "edges where u is prescribed"),
 };
 inline constexpr auto mesh_names = std::tuple{
     array("subdomain_names", "d", &Mesh::subdomains, "in the order of the numbers above"),
-    array("tension", "d", &Mesh::tension, "T of -div(T grad u) = f"),
+    array("tension", "d", &Mesh::tension, "T of -div(T grad u) = f; of a law its mean", "F/L"),
+    optional(
+        array("tension_law", "d", &Mesh::tension_law,
+              "expression, or along, across and angle [degrees]; empty: the number; none where "
+              "no subdomain has one")),
     array("inclusions", "i", &Mesh::inclusions, "names"),
 };
 
@@ -78,12 +87,12 @@ inline constexpr auto load = std::tuple{
     scalar("criterion", &Load::criterion, "of the last iteration"),
     scalar("theta", &Load::theta, "used by Algorithm 2"),
     scalar("theta_star", &Load::theta_star, "of Theorem 4"),
-    scalar("energy", &Load::energy, "Pi(u)"),
+    scalar("energy", &Load::energy, "Pi(u)", "F L"),
     // Files from before answers had bounds lack these.
-    optional(scalar("energy_lower", &Load::energy_lower, "")),
-    optional(
-        scalar("energy_upper", &Load::energy_upper, "the membrane's own Pi lies between them")),
-    optional(scalar("error_bound", &Load::error_bound, "of u in the energy norm")),
+    optional(scalar("energy_lower", &Load::energy_lower, "", "F L")),
+    optional(scalar("energy_upper", &Load::energy_upper, "the membrane's own Pi lies between them",
+                    "F L")),
+    optional(scalar("error_bound", &Load::error_bound, "of u in the energy norm", "(F L)^(1/2)")),
     optional(
         scalar("error_bound_relative", &Load::error_bound_relative, "the same over the norm of u")),
     optional(scalar("no_bracket", &Load::no_bracket, "why there are no bounds")),
@@ -97,7 +106,7 @@ inline constexpr auto load = std::tuple{
     scalar("kkt_relative_sign", within(&Load::kkt_relative, &Kkt::sign), ""),
     scalar("kkt_relative_complementarity", within(&Load::kkt_relative, &Kkt::complementarity),
            "the same, relative"),
-    scalar("contact_length", &Load::contact_length, "of all cracks and delaminated parts"),
+    scalar("contact_length", &Load::contact_length, "of all cracks and delaminated parts", "L"),
     scalar("weakly_active", &Load::weakly_active, "crack nodes with neither jump nor pressure"),
     scalar("solve_seconds", &Load::solve_seconds, "on the server", "s"),
 };
@@ -107,15 +116,16 @@ inline constexpr auto load_arrays = std::tuple{
 inline constexpr auto indicator = std::tuple{
     optional(explained("indicator", "m", &Load::indicator,
                        "part of each triangle in the square of error_bound; none where it was not "
-                       "asked for or there are no bounds")),
+                       "asked for or there are no bounds",
+                       "F L")),
 };
 /// Of a job with an accuracy.
 inline constexpr auto stages = std::tuple{
     explained("triangles", "stages", &Stages::triangles, "of the stage's mesh, increasing"),
-    array("energy", "stages", &Stages::energy, "Pi(u)"),
-    array("energy_lower", "stages", &Stages::energy_lower, ""),
+    array("energy", "stages", &Stages::energy, "Pi(u)", "F L"),
+    array("energy_lower", "stages", &Stages::energy_lower, "", "F L"),
     array("energy_upper", "stages", &Stages::energy_upper,
-          "the membrane's own Pi lies between them"),
+          "the membrane's own Pi lies between them", "F L"),
     explained("error_bound_relative", "stages", &Stages::error_bound_relative,
               "of u in the energy norm, over the norm of u"),
     explained(
@@ -126,22 +136,22 @@ inline constexpr auto stages = std::tuple{
 };
 inline constexpr auto inclusions = std::tuple{
     array("name", "i", &Inclusion::name, "of the inclusion"),
-    array("A", "i", &Inclusion::displacement, "equation (5)"),
-    array("resultant", "i", &Inclusion::resultant, "the force on it, equation (6)"),
-    array("contact_length", "i", &Inclusion::contact_length, "of its delaminated part"),
+    array("A", "i", &Inclusion::displacement, "equation (5)", "L"),
+    array("resultant", "i", &Inclusion::resultant, "the force on it, equation (6)", "F"),
+    array("contact_length", "i", &Inclusion::contact_length, "of its delaminated part", "L"),
     // Files from before inclusions could tilt lack what follows.
     optional(array("Bx", "i", &Inclusion::slope_x, "")),
     optional(array("By", "i", &Inclusion::slope_y,
                    "u = A + Bx (x - x0) + By (y - y0) along it, (x0, y0) the middle of its "
                    "bounding box; 0 unless it tilts")),
-    optional(array("Mx", "i", &Inclusion::moment_x, "")),
-    optional(array("My", "i", &Inclusion::moment_y, "the moment on it about (x0, y0)")),
+    optional(array("Mx", "i", &Inclusion::moment_x, "", "F L")),
+    optional(array("My", "i", &Inclusion::moment_y, "the moment on it about (x0, y0)", "F L")),
     // Files from before answers had bounds lack these.
-    optional(array("A_lower", "i", &Inclusion::displacement_lower, "")),
+    optional(array("A_lower", "i", &Inclusion::displacement_lower, "", "L")),
     optional(array("A_upper", "i", &Inclusion::displacement_upper,
-                   "the membrane's own A lies between them")),
+                   "the membrane's own A lies between them", "L")),
     optional(array("A_estimated_error", "i", &Inclusion::displacement_estimated_error,
-                   "estimate of the membrane's own A minus A, no bound")),
+                   "estimate of the membrane's own A minus A, no bound", "L")),
     optional(array("Bx_lower", "i", &Inclusion::slope_x_lower, "")),
     optional(array("Bx_upper", "i", &Inclusion::slope_x_upper, "")),
     optional(array("By_lower", "i", &Inclusion::slope_y_lower, "")),
@@ -150,8 +160,8 @@ inline constexpr auto inclusions = std::tuple{
 };
 inline constexpr auto contact_intervals = std::tuple{
     array("interface", "c", &ContactInterval::interface, "index into /interfaces"),
-    array("begin", "c", &ContactInterval::begin, "arc length"),
-    array("end", "c", &ContactInterval::end, "arc length; begin: contact in a single node"),
+    array("begin", "c", &ContactInterval::begin, "arc length", "L"),
+    array("end", "c", &ContactInterval::end, "arc length; begin: contact in a single node", "L"),
 };
 
 // Of /sweep, around the arrays of ReadResult.

@@ -20,37 +20,40 @@ using hdf5::put;
 using hdf5::put_arrays;
 using hdf5::put_values;
 
-void put_interface(const Handle& parent, std::size_t index, const Interface& interface) {
+void put_interface(const Handle& parent, std::size_t index, const Interface& interface,
+                   const Units& units) {
   const Handle group = create_group(parent, std::to_string(index));
   put_values(group, interface, tables::interface);
-  put_arrays(group, interface, arrays::interface_nodes<Interface>);
-  put_arrays(group, interface.edges, tables::edges);
+  put_arrays(group, units, interface, arrays::interface_nodes<Interface>);
+  put_arrays(group, units, interface.edges, tables::edges);
 }
 
-void put_load(const Handle& parent, std::size_t index, const Load& load, const Mesh& mesh) {
+void put_load(const Handle& parent, std::size_t index, const Load& load, const Mesh& mesh,
+              const Units& units) {
   const Handle group = create_group(parent, load.name);
   put(group, "index", static_cast<std::int32_t>(index));
   put_values(group, load, tables::load);
-  put_arrays(group, load, tables::load_arrays, tables::indicator);
-  put_list(create_group(group, "inclusions"), load.inclusions, tables::inclusions);
-  put_list(create_group(group, "contact_intervals"), load.contact_intervals,
+  put_arrays(group, units, load, tables::load_arrays, tables::indicator);
+  put_list(create_group(group, "inclusions"), units, load.inclusions, tables::inclusions);
+  put_list(create_group(group, "contact_intervals"), units, load.contact_intervals,
            tables::contact_intervals);
   const Handle traces = create_group(group, "traces");
   for (std::size_t i = 0; i < load.traces.size(); ++i)
-    put_arrays(create_group(traces, std::to_string(i)), load.traces[i], arrays::trace<Trace>);
-  put_arrays(create_group(group, "history"), load.history, arrays::history<History>);
+    put_arrays(create_group(traces, std::to_string(i)), units, load.traces[i],
+               arrays::trace<Trace>);
+  put_arrays(create_group(group, "history"), units, load.history, arrays::history<History>);
   if (load.stages.size() != 0)
-    put_arrays(create_group(group, "stages"), load.stages, tables::stages);
+    put_arrays(create_group(group, "stages"), units, load.stages, tables::stages);
   if (load.fields.empty()) return;
   const Handle fields = create_group(group, "fields");
   for (std::size_t i = 0; i < load.fields.size(); ++i) {
     const Handle field = create_group(fields, std::to_string(i));
     put(field, "name", mesh.subdomains[i]);
-    put_arrays(field, load.fields[i], arrays::subdomain<Field>, arrays::field<Field>);
+    put_arrays(field, units, load.fields[i], arrays::subdomain<Field>, arrays::field<Field>);
   }
 }
 
-void put_sweep(const Handle& root, const Sweep& sweep) {
+void put_sweep(const Handle& root, const Sweep& sweep, const Units& units) {
   const Handle group = create_group(root, "sweep");
   const SweepSummary counts = summary(sweep);
   put(group, "description", std::string("row k of every dataset belongs to load case k"));
@@ -58,10 +61,11 @@ void put_sweep(const Handle& root, const Sweep& sweep) {
   put(group, "converged", static_cast<std::int32_t>(counts.converged));
   put(group, "not_converged", static_cast<std::int32_t>(counts.not_converged));
   put(group, "failed", static_cast<std::int32_t>(counts.failed));
-  put_arrays(group, sweep, tables::sweep_arrays);
+  put_arrays(group, units, sweep, tables::sweep_arrays);
 }
 
-void put_mesh(const Handle& root, const Mesh& mesh, const CompressedMesh& compressed) {
+void put_mesh(const Handle& root, const Mesh& mesh, const Units& units,
+              const CompressedMesh& compressed) {
   const Handle group = create_group(root, "mesh");
   arrays::for_each(
       [&](const auto& row) {
@@ -70,24 +74,26 @@ void put_mesh(const Handle& root, const Mesh& mesh, const CompressedMesh& compre
         hdf5::put_array(group, std::string(row.name),
                         value_type<std::ranges::range_value_t<decltype(values)>>, values.data(),
                         values.size(), {arrays::columns_of(row.shape)},
-                        chunks == compressed.end() ? hdf5::FilteredChunks() : chunks->second);
+                        chunks == compressed.end() ? hdf5::FilteredChunks() : chunks->second,
+                        units.of(row.unit));
       },
       tables::mesh);
-  put_arrays(group, mesh, tables::mesh_names);
+  put_arrays(group, units, mesh, tables::mesh_names);
 }
 
 void put_all(const Handle& root, const Result& result, const CompressedMesh& compressed) {
   put(root, "format", std::string(format));
   put_values(root, result, tables::result);
+  put_values(root, result.units, tables::units);
   put_values(root, result.timings, tables::timings);
-  put_mesh(root, result.mesh, compressed);
+  put_mesh(root, result.mesh, result.units, compressed);
   const Handle interfaces = create_group(root, "interfaces");
   for (std::size_t i = 0; i < result.interfaces.size(); ++i)
-    put_interface(interfaces, i, result.interfaces[i]);
+    put_interface(interfaces, i, result.interfaces[i], result.units);
   const Handle loads = create_group(root, "loads");
   for (std::size_t i = 0; i < result.loads.size(); ++i)
-    put_load(loads, i, result.loads[i], result.mesh);
-  if (result.sweep) put_sweep(root, *result.sweep);
+    put_load(loads, i, result.loads[i], result.mesh, result.units);
+  if (result.sweep) put_sweep(root, *result.sweep, result.units);
 }
 
 }  // namespace

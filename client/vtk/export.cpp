@@ -98,10 +98,11 @@ UnstructuredGrid membrane(const Result& result, const Load& load) {
     grid.xy.push_back(result.mesh.xy[at]);
     grid.xy.push_back(result.mesh.xy[at + 1]);
   }
-  grid.points = {{"u", std::move(u)}, {"node", std::move(node)}};
-  grid.cells = {{"tension", std::move(tension)}, {"subdomain", std::move(subdomain)}};
+  const auto unit = [&](const char* dimension) { return result.units.label(dimension); };
+  grid.points = {{"u", std::move(u), unit("L")}, {"node", std::move(node)}};
+  grid.cells = {{"tension", std::move(tension), unit("F/L")}, {"subdomain", std::move(subdomain)}};
   if (!load.indicator.empty())
-    grid.cells.push_back({"error_indicator", indicator_by_cell(result.mesh, load)});
+    grid.cells.push_back({"error_indicator", indicator_by_cell(result.mesh, load), unit("F L")});
   return grid;
 }
 
@@ -131,8 +132,13 @@ UnstructuredGrid interfaces(const Result& result, const Load& load) {
     append(contact, trace.contact);
     append(inclusion, line.edges.inclusion);
   }
-  grid.points = {{"u_minus", u_minus},   {"u_plus", u_plus}, {"jump", jump},
-                 {"pressure", pressure}, {"s", s},           {"kind", kind},
+  const std::string length = result.units.label("L");
+  grid.points = {{"u_minus", u_minus, length},
+                 {"u_plus", u_plus, length},
+                 {"jump", jump, length},
+                 {"pressure", pressure, result.units.label("F/L")},
+                 {"s", s, length},
+                 {"kind", kind},
                  {"contact", contact}};
   grid.cells = {{"interface", index}, {"inclusion", inclusion}};
   return grid;

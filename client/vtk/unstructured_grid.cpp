@@ -16,19 +16,36 @@ std::string attribute(const char* name, const std::string& value) {
   return std::string(" ") + name + "=\"" + value + "\"";
 }
 
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '&' || c == '<' || c == '"' || code < 0x20)
+      out += "&#" + std::to_string(code < 0x20 ? int{' '} : int{code}) + ";";
+    else
+      out += c;
+  }
+  return out;
+}
+
 /// The arrays behind the XML, each after its length in bytes.
 class Appended {
  public:
   template <class T>
   std::string element(const std::string& name, const char* type, std::span<const T> values,
-                      std::size_t components = 1) {
+                      std::size_t components = 1, const std::string& unit = {}) {
     const std::string offset = std::to_string(_bytes.size());
     const std::uint64_t length = values.size_bytes();
     append(&length, sizeof(length));
     append(values.data(), values.size_bytes());
-    return "        <DataArray" + attribute("type", type) + attribute("Name", name) +
-           attribute("NumberOfComponents", std::to_string(components)) +
-           attribute("format", "appended") + attribute("offset", offset) + "/>\n";
+    const std::string tag = "        <DataArray" + attribute("type", type) +
+                            attribute("Name", name) +
+                            attribute("NumberOfComponents", std::to_string(components)) +
+                            attribute("format", "appended") + attribute("offset", offset);
+    if (unit.empty()) return tag + "/>\n";
+    return tag + ">\n          <InformationKey" + attribute("name", "UNITS_LABEL") +
+           attribute("location", "vtkDataArray") + ">" + escaped(unit) +
+           "</InformationKey>\n        </DataArray>\n";
   }
 
   const std::string& bytes() const noexcept { return _bytes; }
@@ -55,7 +72,7 @@ std::string elements(const std::vector<Data>& arrays, std::size_t count, Appende
         [&]<class T>(const std::vector<T>& values) {
           require(values.size() == count, data.name);
           const char* type = std::is_same_v<T, double> ? "Float64" : "Int32";
-          text += appended.element<T>(data.name, type, values);
+          text += appended.element<T>(data.name, type, values, 1, data.unit);
         },
         data.values);
   }
@@ -92,18 +109,6 @@ const char* const file_head = "<?xml version=\"1.0\"?>\n";
 std::string file_tag(const char* type) {
   return std::string("<VTKFile") + attribute("type", type) + attribute("version", "1.0") +
          attribute("byte_order", "LittleEndian") + attribute("header_type", "UInt64") + ">\n";
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '&' || c == '<' || c == '"' || code < 0x20)
-      out += "&#" + std::to_string(code < 0x20 ? int{' '} : int{code}) + ";";
-    else
-      out += c;
-  }
-  return out;
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ namespace anticrack::vtk {
 struct Data {
   std::string name;
   std::variant<std::vector<double>, std::vector<std::int32_t>> values;
+  std::string unit{};  ///< VTK's UNITS_LABEL; any text, empty: none
 };
 
 enum class Cell : std::uint8_t { line = 3, triangle = 5 };  ///< the numbers are VTK's

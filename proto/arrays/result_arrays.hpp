@@ -16,9 +16,9 @@ namespace anticrack::arrays {
 /// Below interface_folder: an entry for each of the k nodes of an interface.
 template <class Interface>
 inline constexpr auto interface_nodes = std::tuple{
-    array("s", "k", &Interface::s, "arc length from the interface's start"),
-    array("x", "k", &Interface::x, ""),
-    array("y", "k", &Interface::y, "coordinates"),
+    array("s", "k", &Interface::s, "arc length from the interface's start", "L"),
+    array("x", "k", &Interface::x, "", "L"),
+    array("y", "k", &Interface::y, "coordinates", "L"),
     explained("kind", "k", &Interface::kind,
               "1 glue, 2 crack, 3 bonded inclusion, 4 delaminated inclusion, 5 free crack"),
 };
@@ -26,10 +26,10 @@ inline constexpr auto interface_nodes = std::tuple{
 /// Below load_traces or row_traces and the interface's index: an entry for each node.
 template <class Trace>
 inline constexpr auto trace = std::tuple{
-    array("u_minus", "k", &Trace::u_minus, "u on the minus side"),
-    array("u_plus", "k", &Trace::u_plus, "u on the plus side"),
-    array("jump", "k", &Trace::jump, "u_plus - u_minus"),
-    array("pressure", "k", &Trace::pressure, "contact pressure on cracks, flux on glue"),
+    array("u_minus", "k", &Trace::u_minus, "u on the minus side", "L"),
+    array("u_plus", "k", &Trace::u_plus, "u on the plus side", "L"),
+    array("jump", "k", &Trace::jump, "u_plus - u_minus", "L"),
+    array("pressure", "k", &Trace::pressure, "contact pressure on cracks, flux on glue", "F/L"),
     array("contact", "k", &Trace::contact, "1 where a crack is closed under pressure, else 0"),
 };
 
@@ -38,7 +38,7 @@ template <class Record>
 inline constexpr auto history = std::tuple{
     array("iteration", "n", &Record::iteration, "from 1, increasing"),
     array("criterion", "n", &Record::criterion, "of step 3 of Algorithm 2; 1 in the first"),
-    array("energy", "n", &Record::energy, "Pi(u)"),
+    array("energy", "n", &Record::energy, "Pi(u)", "F L"),
     array("contact_count", "n", &Record::contact_count, "crack nodes with positive pressure"),
     array("kkt_equilibrium", "n", within(&Record::kkt, &decltype(Record::kkt)::equilibrium), ""),
     array("kkt_gap", "n", within(&Record::kkt, &decltype(Record::kkt)::gap), ""),
@@ -57,7 +57,7 @@ inline constexpr auto subdomain = std::tuple{
 /// Below load_fields the subdomain alone is the array: of one load.
 template <class Field>
 inline constexpr auto field = std::tuple{
-    array("u", "n", &Field::u, "displacement in these nodes"),
+    array("u", "n", &Field::u, "displacement in these nodes", "L"),
 };
 
 /// Below sweep_folder: an entry for each row of the sweep.
@@ -68,9 +68,9 @@ inline constexpr auto sweep_rows = std::tuple{
         "3 converged, 4 not converged, 5 failed, 6 cancelled; no number of a row is right but "
         "where it converged"),
     explained("steps", "rows", &Columns::steps, "steps of the active set"),
-    explained("energy", "rows", &Columns::energy, "Pi(u)"),
+    explained("energy", "rows", &Columns::energy, "Pi(u)", "F L"),
     explained("contact_length", "rows", &Columns::contact_length,
-              "length in contact, of all cracks and delaminated inclusions"),
+              "length in contact, of all cracks and delaminated inclusions", "L"),
     explained("kkt", "rows", &Columns::kkt,
               "largest relative residual of the optimality conditions"),
 };
@@ -87,7 +87,7 @@ inline constexpr auto sweep_contacts = std::tuple{
 template <class Columns>
 inline constexpr auto sweep_matrices = std::tuple{
     explained("displacement", "rows,inclusions", &Columns::displacement,
-              "A of each inclusion, in the order of the attribute inclusions"),
+              "A of each inclusion, in the order of the attribute inclusions", "L"),
     optional(explained("slope", "rows,inclusions,2", &Columns::slope,
                        "Bx, By of each inclusion; none where no inclusion tilts")),
     explained("contact", "rows,contacts", &Columns::contact,
@@ -99,26 +99,14 @@ inline constexpr auto sweep_matrices = std::tuple{
 inline std::string interface_folder(std::size_t interface) {
   return "interfaces/" + std::to_string(interface) + "/";
 }
-inline std::string load_folder(std::size_t load) {
-  return "loads/" + std::to_string(load) + "/";
-}
-inline std::string load_traces(std::size_t load) {
-  return load_folder(load) + "traces/";
-}
-inline std::string row_traces(std::size_t row) {
-  return "traces/" + std::to_string(row) + "/";
-}
-inline std::string load_history(std::size_t load) {
-  return load_folder(load) + "history/";
-}
+inline std::string load_folder(std::size_t load) { return "loads/" + std::to_string(load) + "/"; }
+inline std::string load_traces(std::size_t load) { return load_folder(load) + "traces/"; }
+inline std::string row_traces(std::size_t row) { return "traces/" + std::to_string(row) + "/"; }
+inline std::string load_history(std::size_t load) { return load_folder(load) + "history/"; }
 inline std::string field_folder(std::size_t subdomain) {
   return "fields/" + std::to_string(subdomain) + "/";
 }
-inline std::string load_fields(std::size_t load) {
-  return load_folder(load) + "fields/";
-}
-inline std::string sweep_folder() {
-  return "sweep/";
-}
+inline std::string load_fields(std::size_t load) { return load_folder(load) + "fields/"; }
+inline std::string sweep_folder() { return "sweep/"; }
 
 }  // namespace anticrack::arrays

@@ -20,15 +20,15 @@ struct Array {
   Member member;
   std::string_view what;    ///< for people
   bool explained = false;   ///< files say `what`, too: the numbers do not explain themselves
-  std::string_view unit{};  ///< for people; empty: that of the case
+  std::string_view unit{};  ///< for people; in F (force) and L (length) where the case names them
   bool optional = false;    ///< may be missing: the member then is empty, or its default
 };
 
 /// A row: a std::vector of numbers or texts, or with an empty shape a single one.
 template <class Member>
 constexpr Array<Member> array(std::string_view name, std::string_view shape, Member member,
-                              std::string_view what) {
-  return {name, shape, member, what};
+                              std::string_view what, std::string_view unit = {}) {
+  return {name, shape, member, what, false, unit};
 }
 
 /// The same with `explained`.
@@ -55,9 +55,7 @@ constexpr Array<Member> optional(Array<Member> row) {
 /// A member of a member.
 template <class Outer, class Inner>
 constexpr auto within(Outer outer, Inner inner) {
-  return [ outer, inner ](auto& record) -> auto& {
-    return record.*outer.*inner;
-  };
+  return [ outer, inner ](auto& record) -> auto& { return record.*outer.*inner; };
 }
 
 /// visit(row) for each row of one or more tables, in order.

@@ -45,36 +45,31 @@ std::vector<mesh::Point> Translation<std::vector<mesh::Point>>::read(const v1::P
   return points;
 }
 
-using Line = Translation<std::vector<mesh::Point>>;
+namespace {
 
-void Translation<mesh::InterfaceSpec>::write(const mesh::InterfaceSpec& value,
-                                             v1::InterfaceCurve& to) {
-  write_fields(value, to, {"shape", "points"});
-  switch (value.shape) {
-    case mesh::Shape::polyline:
-      return Line::write(value.points, *to.mutable_polyline());
-    case mesh::Shape::spline:
-      return Line::write(value.points, *to.mutable_spline());
-    case mesh::Shape::arc:
-      break;
-  }
-  int i = 0;
+using Through = Translation<std::vector<mesh::Point>>;
+
+/// Shape and points of a v1::InterfaceCurve or v1::Line that runs through its points.
+template <class Curve>
+void write_curve(mesh::Shape shape, const std::vector<mesh::Point>& points, Curve& to) {
+  if (shape == mesh::Shape::polyline) return Through::write(points, *to.mutable_polyline());
+  if (shape == mesh::Shape::spline) return Through::write(points, *to.mutable_spline());
+  std::size_t i = 0;
   for (const char* point : {"from", "through", "to"})
-    write_field(value.points.at(static_cast<std::size_t>(i++)), *to.mutable_arc(), point);
+    write_field(points.at(i++), *to.mutable_arc(), point);
 }
 
-mesh::InterfaceSpec Translation<mesh::InterfaceSpec>::read(const v1::InterfaceCurve& from) {
-  mesh::InterfaceSpec value;
-  read_fields(from, value, {"shape", "points"});
+template <class Curve, class Spec>
+void read_curve(const Curve& from, Spec& value) {
   switch (from.shape_case()) {
-    case v1::InterfaceCurve::kPolyline:
-      value.points = Line::read(from.polyline());
-      return value;
-    case v1::InterfaceCurve::kSpline:
+    case Curve::kPolyline:
+      value.points = Through::read(from.polyline());
+      return;
+    case Curve::kSpline:
       value.shape = mesh::Shape::spline;
-      value.points = Line::read(from.spline());
-      return value;
-    case v1::InterfaceCurve::kArc:
+      value.points = Through::read(from.spline());
+      return;
+    case Curve::kArc:
       value.shape = mesh::Shape::arc;
       for (const char* point : {"from", "through", "to"}) {
         try {
@@ -83,42 +78,155 @@ mesh::InterfaceSpec Translation<mesh::InterfaceSpec>::read(const v1::InterfaceCu
           throw error.below("arc");
         }
       }
-      return value;
-    case v1::InterfaceCurve::SHAPE_NOT_SET:
+      return;
+    default:
       break;
   }
-  throw Error(Reason::invalid_argument, "an interface is a polyline, an arc or a spline; set one")
+  throw Error(Reason::invalid_argument, "a line is a polyline, an arc or a spline; set one")
       .at("polyline");
 }
 
+/// The middle of a v1::Segment or v1::Circle.
+template <class Shape>
+mesh::Point center_of(const Shape& from, const char* name) {
+  try {
+    return read_one<mesh::Point>(from, "center");
+  } catch (Error& error) {
+    throw error.below(name);
+  }
+}
+
+/// An inclusion, crack or region is given by itself, in `own`, or by a point or part of others.
+template <class Spec>
+void require_one(const Message& from, const Spec& own, const char* own_name, const char* name) {
+  if (!own || !has(from, field_of(from, name))) return;
+  throw Error(Reason::invalid_argument,
+              std::string(own_name) + " and " + name + " are both set; set one of them")
+      .at(own_name);
+}
+
+}  // namespace
+
+void Translation<mesh::InterfaceSpec>::write(const mesh::InterfaceSpec& value,
+                                             v1::InterfaceCurve& to) {
+  write_fields(value, to, {"shape", "points"});
+  write_curve(value.shape, value.points, to);
+}
+
+mesh::InterfaceSpec Translation<mesh::InterfaceSpec>::read(const v1::InterfaceCurve& from) {
+  mesh::InterfaceSpec value;
+  read_fields(from, value, {"shape", "points"});
+  read_curve(from, value);
+  return value;
+}
+
+void Translation<mesh::LineSpec>::write(const mesh::LineSpec& value, v1::Line& to) {
+  if (value.shape != mesh::Shape::segment) return write_curve(value.shape, value.points, to);
+  v1::Segment& segment = *to.mutable_segment();
+  write_field(value.points.at(0), segment, "center");
+  segment.set_angle(value.angle);
+  segment.set_length(value.length);
+}
+
+mesh::LineSpec Translation<mesh::LineSpec>::read(const v1::Line& from) {
+  mesh::LineSpec value;
+  if (!from.has_segment()) {
+    read_curve(from, value);
+    return value;
+  }
+  value.shape = mesh::Shape::segment;
+  value.points = {center_of(from.segment(), "segment")};
+  value.angle = from.segment().angle();
+  value.length = from.segment().length();
+  return value;
+}
+
+void Translation<mesh::OutlineSpec>::write(const mesh::OutlineSpec& value, v1::Outline& to) {
+  if (value.shape == mesh::Shape::polyline)
+    return Through::write(value.points, *to.mutable_polygon());
+  if (value.shape == mesh::Shape::spline) return Through::write(value.points, *to.mutable_spline());
+  write_field(value.points.at(0), *to.mutable_circle(), "center");
+  to.mutable_circle()->set_radius(value.radius);
+}
+
+mesh::OutlineSpec Translation<mesh::OutlineSpec>::read(const v1::Outline& from) {
+  switch (from.shape_case()) {
+    case v1::Outline::kPolygon:
+      return {mesh::Shape::polyline, Through::read(from.polygon())};
+    case v1::Outline::kSpline:
+      return {mesh::Shape::spline, Through::read(from.spline())};
+    case v1::Outline::kCircle:
+      return {mesh::Shape::circle, {center_of(from.circle(), "circle")}, from.circle().radius()};
+    case v1::Outline::SHAPE_NOT_SET:
+      break;
+  }
+  throw Error(Reason::invalid_argument, "an outline is a circle, a polygon or a spline; set one")
+      .at("polygon");
+}
+
+void Translation<mesh::CrackSpec>::write(const mesh::CrackSpec& value, v1::Crack& to) {
+  write_fields(value, to, {"part"});
+  if (!value.line) write_field(value.part, to, "part");
+}
+
+mesh::CrackSpec Translation<mesh::CrackSpec>::read(const v1::Crack& from) {
+  mesh::CrackSpec value;
+  read_fields(from, value, {"part"});
+  require_one(from, value.line, "line", "part");
+  if (!value.line) read_field(from, "part", value.part);
+  return value;
+}
+
+void Translation<mesh::RegionSpec>::write(const mesh::RegionSpec& value, v1::Region& to) {
+  write_fields(value, to, {"at"});
+  if (!value.outline) write_field(value.at, to, "at");
+}
+
+mesh::RegionSpec Translation<mesh::RegionSpec>::read(const v1::Region& from) {
+  mesh::RegionSpec value;
+  read_fields(from, value, {"at"});
+  require_one(from, value.outline, "outline", "at");
+  if (!value.outline) read_field(from, "at", value.at);
+  return value;
+}
+
 void Translation<mesh::InclusionSpec>::write(const mesh::InclusionSpec& value, v1::Inclusion& to) {
-  write_fields(value, to, {"delaminated", "motion"});
+  write_fields(value, to, {"part", "delaminated", "motion", "stretches"});
+  if (!value.line) write_field(value.part, to, "part");
   write_fields(value.motion, to);
-  if (value.delaminated.empty()) {
+  if (value.delaminated.empty() && value.stretches.empty()) {
     to.set_delaminated(false);
   } else {
     v1::InterfaceParts& parts = *to.mutable_delaminated_parts();
     write_field(value.delaminated, parts, "parts");
+    write_field(value.stretches, parts, "stretches");
   }
 }
 
 mesh::InclusionSpec Translation<mesh::InclusionSpec>::read(const v1::Inclusion& from) {
   mesh::InclusionSpec value;
-  read_fields(from, value, {"delaminated", "motion"});
+  read_fields(from, value, {"part", "delaminated", "motion", "stretches"});
+  require_one(from, value.line, "line", "part");
+  if (!value.line) read_field(from, "part", value.part);
   read_fields(from, value.motion);
   if (!from.has_delaminated_parts()) {
     const bool whole = !from.has_delaminated() || from.delaminated();
-    if (whole) value.delaminated = {value.part};
+    if (!whole) return value;
+    if (value.line)
+      value.stretches = {{0, 1}};
+    else
+      value.delaminated = {value.part};
     return value;
   }
   const v1::InterfaceParts& parts = from.delaminated_parts();
   try {
-    if (parts.parts().empty()) {
+    if (parts.parts().empty() && parts.stretches().empty()) {
       throw Error(Reason::invalid_argument,
                   "no part is named; set delaminated = false for a bonded inclusion")
           .at("parts");
     }
     read_field(parts, "parts", value.delaminated);
+    read_field(parts, "stretches", value.stretches);
   } catch (Error& error) {
     throw error.below("delaminated_parts");
   }

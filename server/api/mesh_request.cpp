@@ -16,31 +16,68 @@ using errors::Reason;
 
 std::size_t part_count(const v1::Geometry& geometry) {
   auto count = static_cast<std::size_t>(geometry.inclusions_size() + geometry.cracks_size());
-  for (const v1::Inclusion& inclusion : geometry.inclusions())
-    count += inclusion.delaminated_parts().parts().size();
+  for (const v1::Inclusion& inclusion : geometry.inclusions()) {
+    const v1::InterfaceParts& parts = inclusion.delaminated_parts();
+    count += static_cast<std::size_t>(parts.parts_size() + parts.stretches_size());
+  }
   return count;
 }
 
-int vertex_count(const v1::InterfaceCurve& curve) {
-  return curve.polyline().points_size() + curve.spline().points_size();
+/// Of a v1::InterfaceCurve or v1::Line.
+template <class Line>
+int vertex_count(const Line& line) {
+  return line.polyline().points_size() + line.spline().points_size();
+}
+int vertex_count(const v1::Outline& line) {
+  return line.polygon().points_size() + line.spline().points_size();
+}
+
+/// The vertices of some lines, together.
+class Vertices {
+ public:
+  explicit Vertices(const char* what) : _what(what) {}
+  void add(int count, const char* list, int index) {
+    _count += static_cast<std::size_t>(count);
+    if (_count <= max_vertices) return;
+    throw Error(Reason::limit_exceeded,
+                fmt::format("more than {} points in all {} together", max_vertices, _what))
+        .at(fmt::format("geometry.{}[{}]", list, index));
+  }
+
+ private:
+  const char* _what;
+  std::size_t _count = 0;
+};
+
+void require_vertices(const v1::Geometry& geometry) {
+  Vertices boundary("sides and holes");
+  for (int i = 0; i < geometry.sides_size(); ++i)
+    boundary.add(vertex_count(geometry.sides(i).line()), "sides", i);
+  for (int i = 0; i < geometry.holes_size(); ++i)
+    boundary.add(vertex_count(geometry.holes(i).outline()), "holes", i);
+  Vertices lines("interfaces");
+  for (int i = 0; i < geometry.interfaces_size(); ++i)
+    lines.add(vertex_count(geometry.interfaces(i)), "interfaces", i);
+  for (int i = 0; i < geometry.inclusions_size(); ++i)
+    lines.add(vertex_count(geometry.inclusions(i).line()), "inclusions", i);
+  for (int i = 0; i < geometry.cracks_size(); ++i)
+    lines.add(vertex_count(geometry.cracks(i).line()), "cracks", i);
+  for (int i = 0; i < geometry.regions_size(); ++i)
+    lines.add(vertex_count(geometry.regions(i).outline()), "regions", i);
 }
 
 void require_counts(const v1::Geometry& geometry) {
   require_count(geometry.boundary().size(), max_vertices, "geometry.boundary", "vertices");
+  require_count(geometry.sides().size(), max_sides, "geometry.sides", "sides");
+  require_count(geometry.holes().size(), max_sides, "geometry.holes", "holes");
   require_count(geometry.interfaces().size(), max_interfaces, "geometry.interfaces", "interfaces");
-  std::size_t vertices = 0;
-  for (int i = 0; i < geometry.interfaces_size(); ++i) {
-    vertices += static_cast<std::size_t>(vertex_count(geometry.interfaces(i)));
-    if (vertices > max_vertices) {
-      throw Error(Reason::limit_exceeded,
-                  fmt::format("more than {} points in all interfaces together", max_vertices))
-          .at(fmt::format("geometry.interfaces[{}]", i));
-    }
-  }
   require_count(part_count(geometry), max_parts, "geometry.inclusions",
                 "inclusions, cracks and delaminated parts");
   require_count(geometry.neumann().size(), max_parts, "geometry.neumann", "parts of the boundary");
+  require_count(geometry.neumann_sides().size(), 2 * max_sides, "geometry.neumann_sides",
+                "sides and holes");
   require_count(geometry.regions().size(), max_regions, "geometry.regions", "regions");
+  require_vertices(geometry);
 }
 
 void require_counts(const v1::MeshOptions& options) {
@@ -52,6 +89,7 @@ void require_counts(const v1::MeshOptions& options) {
   require_count(options.curve_groups().size(), max_regions, "options.curve_groups", "groups");
   require_count(options.surface_groups().size(), max_regions, "options.surface_groups", "groups");
   require_count(options.tension().size(), max_regions, "options.tension", "subdomains");
+  require_count(options.tension_laws().size(), max_regions, "options.tension_laws", "subdomains");
   require_count(options.inclusion_motions().size(), max_parts, "options.inclusion_motions",
                 "inclusions");
 }
@@ -93,8 +131,9 @@ Error below_mesh_request(const Error& error) {
     // in the request, the list is inside a message
     const std::string list = ".delaminated_parts";
     std::string path = "geometry." + field;
-    const std::size_t at = path.find(list);
-    if (at != std::string::npos) path.insert(at + list.size(), ".parts");
+    const std::size_t end = path.find(list) + list.size();
+    if (path.find(list) != std::string::npos && (end == path.size() || path[end] == '['))
+      path.insert(end, ".parts");
     return path;
   });
   if (result.fields().empty() && result.reason() == Reason::not_found) result.at("upload");

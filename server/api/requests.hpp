@@ -22,6 +22,8 @@ constexpr std::size_t max_vertices = 10'000;
 constexpr std::size_t max_parts = 1'000;
 /// Interfaces of one geometry, and lines for its mesh to follow.
 constexpr std::size_t max_interfaces = 1'000;
+/// Sides of one boundary, and holes in it.
+constexpr std::size_t max_sides = 1'000;
 /// Subdomains named in one geometry, groups named for one upload.
 constexpr std::size_t max_regions = 1'000;
 constexpr std::size_t max_title_bytes = 200;

@@ -45,7 +45,11 @@ struct Translation<mesh::Point> {
 };
 ANTICRACK_TRANSLATION(std::vector<mesh::Point>, v1::Polyline);
 ANTICRACK_TRANSLATION(mesh::InterfaceSpec, v1::InterfaceCurve);
+ANTICRACK_TRANSLATION(mesh::LineSpec, v1::Line);
+ANTICRACK_TRANSLATION(mesh::OutlineSpec, v1::Outline);
 ANTICRACK_TRANSLATION(mesh::InclusionSpec, v1::Inclusion);
+ANTICRACK_TRANSLATION(mesh::CrackSpec, v1::Crack);
+ANTICRACK_TRANSLATION(mesh::RegionSpec, v1::Region);
 ANTICRACK_TRANSLATION(mesh::MeshOptions, v1::MeshOptions);
 
 // fem/ and contact/

@@ -12,6 +12,7 @@ namespace anticrack::app {
 
 meshes::CatalogueOptions catalogue_options(const Config& config) {
   meshes::CatalogueOptions options = config.meshes;
+  options.max_expression_bytes = config.jobs.max_expression_bytes;
   mesher::HelperOptions& helper = options.helper;
   helper.time_limit = std::chrono::ceil<std::chrono::seconds>(config.meshing_time);
   if (helper.executable.empty()) helper.executable = mesher::default_executable();

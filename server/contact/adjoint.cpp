@@ -11,25 +11,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// w of an answer, from its traces.
-VectorXd unknowns_of(const ddm::Decomposition& decomposition, const Answer& answer) {
-  VectorXd w = VectorXd::Zero(static_cast<Index>(decomposition.skeleton.unknowns));
-  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
-    const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
-    for (std::size_t i = 0; i < answer.side_traces[s].size(); ++i)
-      w[unknown[i]] = answer.side_traces[s][i];
-  }
-  return w;
-}
-
-bool factorise(const Eigen::MatrixXd& matrix, Eigen::LLT<Eigen::MatrixXd>& factor) {
-  factor.compute(matrix);
-  if (matrix.size() == 0) return true;
-  if (factor.info() != Eigen::Success) return false;
-  const double smallest = factor.matrixLLT().diagonal().minCoeff();
-  return regular_pivot(smallest * smallest, matrix.rows());
-}
-
 /// Where cracks cross, how the flux shares lambda among them is no part of the answer: a contact
 /// beside another one in its node.
 std::vector<bool> cross(const ddm::Decomposition& decomposition) {
@@ -43,68 +24,55 @@ std::vector<bool> cross(const ddm::Decomposition& decomposition) {
   return found;
 }
 
+/// Force per pair, from the pressures of an answer.
+VectorXd forces_of(const TraceProblem& traces, const Answer& answer) {
+  VectorXd force = VectorXd::Zero(traces.pair_count());
+  const auto& sides = traces.decomposition().interface_sides;
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    for (std::size_t k = 0; k < sides[i].size(); ++k)
+      if (const std::int32_t pair = sides[i][k].pair; pair >= 0)
+        force[pair] = traces.lumped_mass()[pair] * answer.traces[i].pressure[k];
+  return force;
+}
+
 VectorXd clip(const VectorXd& values, const VectorXd& most) {
   return values.cwiseMin(most).cwiseMax(-most);
 }
 
 }  // namespace
 
-Adjoint::Adjoint(const SkeletonProblem& problem, const CaseLoads& loads, const Answer& answer)
-    : _problem(problem) {
-  const ddm::Decomposition& decomposition = problem.traces().decomposition();
+Adjoint::Adjoint(const TraceProblem& traces, const Answer& answer)
+    : _possible(traces.decomposition().skeleton.dependent.empty()) {
+  if (!_possible) return;
+  const ddm::Decomposition& decomposition = traces.decomposition();
   const ddm::Skeleton& skeleton = decomposition.skeleton;
   const auto contacts = static_cast<Index>(skeleton.independent);
-  if (!skeleton.dependent.empty() || contacts > most_contacts) return;
-  const VectorXd w = unknowns_of(decomposition, answer);
-  std::vector<VectorXd> g;
-  g.reserve(loads.subdomains.size());
-  for (const ddm::CondensedLoad& load : loads.subdomains) g.push_back(load.g);
-  _lambda = problem.multipliers(problem.gather(g) - problem.apply(w)).cwiseMax(0.0);
+  const VectorXd w = unknowns_of(decomposition, answer), force = forces_of(traces, answer);
   _jumps.resize(contacts);
+  _lambda.setZero(contacts);
+  for (std::size_t i = 0; i < decomposition.pairs.size(); ++i)
+    if (const std::int32_t contact = decomposition.pairs[i].contact; contact >= 0)
+      _lambda[contact] += force[static_cast<Index>(i)];
   const std::vector<bool> crossing = cross(decomposition);
   for (Index i = 0; i < contacts; ++i) {
     const ddm::Contact& contact = skeleton.contacts[at(i)];
     _jumps[i] = std::max(0.0, w[contact.plus] - w[contact.minus]);
-    const bool open = answer.closed[at(i)] == 0;
-    if (open) _open.push_back(i);
-    if (open || crossing[at(i)]) _lambda[i] = 0;
+    _open.push_back(answer.closed[at(i)] == 0);
+    if (_open.back() != 0 || crossing[at(i)]) _lambda[i] = 0;
   }
-  const Eigen::MatrixXd& matrix = problem.lcp().scaled_matrix();
-  _possible = factorise(matrix, _of_all) && factorise(matrix(_open, _open), _of_open);
 }
 
-Adjoint::Goal Adjoint::aim(const ddm::Terms& terms) const {
-  Goal goal;
-  const Maps& maps = _problem.traces().maps();
-  VectorXd unit = VectorXd::Zero(maps.unknowns());
-  for (const auto& [index, factor] : terms) unit[index] += factor;
-  goal.load = _problem.reduce(unit, VectorXd::Zero(maps.held_count()));
-  const VectorXd scale = _problem.lcp().scale().head(_jumps.size());
-  goal.jumps = VectorXd::Zero(_jumps.size());
-  if (!_open.empty()) {
-    const VectorXd scaled = scale.cwiseProduct(goal.load.r);
-    const VectorXd of_open = scaled(_open);
-    const VectorXd jumps = _of_open.solve(of_open);
-    goal.jumps(_open) = jumps;
-  }
-  goal.reactions = -goal.load.r;
-  if (!_open.empty())
-    goal.reactions += (_problem.lcp().scaled_matrix() * goal.jumps).cwiseQuotient(scale);
-  goal.reactions(_open).setZero();
-  goal.jumps = goal.jumps.cwiseProduct(scale);
-  goal.compliance = unit.dot(_problem.unknowns(goal.load, goal.jumps));
+Adjoint::Goal Adjoint::aim(const UnitForce& force, const Opened& opened) const {
+  Goal goal{&force, opened.d, -opened.residual, force.compliance + force.r.dot(opened.d)};
+  for (Index i = 0; i < goal.reactions.size(); ++i)
+    if (_open[at(i)] != 0) goal.reactions[i] = 0;
   return goal;
 }
 
-Adjoint::Pair Adjoint::clipped(const Goal& goal, double c) const {
-  Pair pair;
-  const VectorXd jumps = clip(goal.jumps, c * _jumps);
-  pair.z = _problem.unknowns(goal.load, jumps);
-  const VectorXd scale = _problem.lcp().scale().head(_jumps.size());
-  VectorXd free = scale.cwiseProduct(goal.load.r + clip(goal.reactions, c * _lambda));
-  if (free.size() > 0) _of_all.solveInPlace(free);
-  pair.reacting = _problem.unknowns(goal.load, free.cwiseProduct(scale));
-  return pair;
+VectorXd Adjoint::jumps(const Goal& goal, double c) const { return clip(goal.jumps, c * _jumps); }
+
+VectorXd Adjoint::load(const Goal& goal, double c) const {
+  return goal.force->r + clip(goal.reactions, c * _lambda);
 }
 
 }  // namespace anticrack::contact

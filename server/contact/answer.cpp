@@ -149,6 +149,16 @@ void describe(const TraceProblem& problem, const mesh::Mesh& mesh, const CaseLoa
     answer.side_traces.emplace_back(trace.begin(), trace.end());
 }
 
+Eigen::VectorXd unknowns_of(const ddm::Decomposition& decomposition, const Answer& answer) {
+  Eigen::VectorXd w =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(decomposition.skeleton.unknowns));
+  for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
+    const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
+    for (std::size_t i = 0; i < unknown.size(); ++i) w[unknown[i]] = answer.side_traces[s][i];
+  }
+  return w;
+}
+
 void recover_fields(const TraceProblem& problem, std::span<const SolvedCase> cases) {
   const std::vector<ddm::Subdomain>& subdomains = problem.decomposition().subdomains;
   for (std::size_t s = 0; s < subdomains.size(); ++s) {

@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Of the preconditioned size of the load: what conjugate gradients end at.
-constexpr double first_tolerance = 0.1, last_tolerance = 1e-13;
+constexpr double first_tolerance = 0.1, last_tolerance = 1e-13, rounding_tolerance = 1e-15;
 /// Below this part of the load, in scaled numbers, d and lambda are rounding of the solves.
 constexpr double solve_rounding = 4 * lcp_rounding;
 /// Steps of the blocks before single contacts decide; iterations of one run of conjugate gradients.
@@ -96,10 +96,7 @@ class BlockLcp::Run {
     VectorXd next(d.size());
     for (const ContactBlock& block : _blocks) {
       const auto& scale = block.lcp.scale();
-      const VectorXd before = d(block.contacts).cwiseQuotient(scale.head(block.lcp.size()));
-      const VectorXd load =
-          residual(block.contacts) +
-          (block.lcp.scaled_matrix() * before).cwiseQuotient(scale.head(block.lcp.size()));
+      const VectorXd load = residual(block.contacts) + block.lcp.apply(d(block.contacts));
       const VectorXd size =
           VectorXd::Constant(load.size(), unit).cwiseQuotient(scale.head(block.lcp.size()));
       LcpAnswer answer = block.lcp.solve(load, size, {}, of_block(block, closed),
@@ -158,19 +155,18 @@ class BlockLcp::Run {
     return result;
   }
 
-  /// S^ d = r on the open contacts, from d as it is there. False if it did not get to the
-  /// tolerance.
-  bool solve_open(double tolerance, double size) {
+  /// S^ d = r on the open contacts, from d as it is there, or as near as it gets.
+  void solve_open(double tolerance, double size) {
     restrict();
     factorise();
     VectorXd left = open_residual(), z = precondition(left), direction = z;
     double product = z.dot(left);
     for (int k = 0; k < most_iterations; ++k) {
-      if (!(product > tolerance * tolerance * size)) return product >= 0 || k > 0;
+      if (!(product > tolerance * tolerance * size)) return;
       const VectorXd image = _lcp._membrane.apply(direction);
       ++solves;
       const double curvature = direction.dot(image);
-      if (!(curvature > 0)) return false;
+      if (!(curvature > 0)) return;
       const double way = product / curvature;
       d += way * direction;
       residual -= way * image;
@@ -180,18 +176,22 @@ class BlockLcp::Run {
       direction = z + next / product * direction;
       product = next;
     }
-    return false;
   }
 
-  /// The residual anew: that of the iteration drifts.
-  void refresh(const VectorXd& r) {
+  /// As far as rounding lets it: the residual of the iteration drifts.
+  void solve_to_rounding(const VectorXd& r, double size) {
+    solve_open(last_tolerance, size);
     residual = r - _lcp._membrane.apply(d, true);
     solves += 2;
+    solve_open(rounding_tolerance, size);
   }
 
-  /// sqrt(b'M^-1 b) squared of the load, the scale of the tolerance.
+  /// sqrt(b'M^-1 b) squared of the load with all contacts open, the scale of the tolerance.
   double size_of(const VectorXd& b) {
+    std::vector<char> all_open(closed.size(), 0);
+    std::swap(all_open, closed);
     factorise();
+    std::swap(all_open, closed);
     return b.dot(precondition(b));
   }
 
@@ -256,6 +256,21 @@ class BlockLcp::Run {
   MatrixXd _hat_factor;
 };
 
+BlockLcp::Opened BlockLcp::solve_open(const VectorXd& r, const std::vector<char>& closed) const {
+  Run run(*this, r);
+  const double size = run.size_of(r);
+  if (closed.empty())
+    run.closed.assign(run.closed.size(), 0);
+  else
+    run.closed = closed;
+  run.solve_to_rounding(r, size);
+  const auto largest = [scale = _scale.head(r.size())](const VectorXd& of) {
+    return of.size() == 0 ? 0 : scale.cwiseProduct(of).lpNorm<Eigen::Infinity>();
+  };
+  const double left = largest(run.open_residual());
+  return {std::move(run.d), std::move(run.residual), left == 0 ? 0 : left / largest(r)};
+}
+
 BlockLcp::Answer BlockLcp::solve(const VectorXd& r, const VectorXd& magnitude,
                                  const LcpOptions& options, std::span<const char> start,
                                  const OnStep& on_step) const {
@@ -265,10 +280,7 @@ BlockLcp::Answer BlockLcp::solve(const VectorXd& r, const VectorXd& magnitude,
   const double largest = r.size() == 0 ? 0 : scale.cwiseProduct(terms).lpNorm<Eigen::Infinity>();
   const double unit = largest > 0 ? largest : 1;
   Run run(*this, r);
-  std::vector<char> all_open(run.closed.size(), 0);
-  std::swap(all_open, run.closed);
   const double size = run.size_of(r);
-  std::swap(all_open, run.closed);
   if (start.empty())
     run.start_coarse();
   else
@@ -283,11 +295,10 @@ BlockLcp::Answer BlockLcp::solve(const VectorXd& r, const VectorXd& magnitude,
     if (run.closed == before && answer.steps > 0) tolerance = last_tolerance;
     by_blocks = by_blocks && answer.steps < block_steps;
     if (!by_blocks) tolerance = last_tolerance;
-    run.solve_open(tolerance, size);
-    if (tolerance <= last_tolerance) {
-      run.refresh(r);
+    if (tolerance > last_tolerance)
       run.solve_open(tolerance, size);
-    }
+    else
+      run.solve_to_rounding(r, size);
     ++answer.steps;
     jump = signed_jumps(run.d);
     run.close_rows_without_open_nodes();

@@ -46,6 +46,15 @@ class BlockLcp {
   Answer solve(const Eigen::VectorXd& r, const Eigen::VectorXd& magnitude,
                const LcpOptions& options, std::span<const char> start, const OnStep& on_step) const;
 
+  /// d = 0 on the closed contacts, (S^ d)_i = r_i on the open ones, whatever the signs.
+  struct Opened {
+    Eigen::VectorXd d;
+    Eigen::VectorXd residual;  ///< r - S^ d
+    double left = 0;           ///< largest residual on open contacts, of the largest of |r|
+  };
+  /// `closed`: of all conditions; empty: none is.
+  Opened solve_open(const Eigen::VectorXd& r, const std::vector<char>& closed) const;
+
   /// Jumps of all conditions.
   Eigen::VectorXd jumps(const Eigen::VectorXd& d, const std::vector<char>& closed) const;
   /// lambda of all conditions from S^ d - r.

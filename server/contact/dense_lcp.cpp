@@ -434,6 +434,13 @@ VectorXd DenseLcp::solve_open(const OpenFactor& open, const VectorXd& b) const {
   return of_nodes.cwiseProduct(open.solve(of_nodes.cwiseProduct(b)));
 }
 
+VectorXd DenseLcp::apply(const VectorXd& d) const {
+  const auto of_nodes = _scale.head(size());
+  VectorXd result(d.size());
+  multiply(_matrix, d.cwiseQuotient(of_nodes), result);
+  return result.cwiseQuotient(of_nodes);
+}
+
 std::size_t DenseLcp::bytes() const noexcept {
   return sizeof(double) * at(_matrix.size() + 2 * _scale.size());
 }

@@ -101,6 +101,9 @@ class DenseLcp {
   /// x with (S x)_i = b_i on the open nodes of an answer's factor, else 0, for refinement. O(c^2).
   Eigen::VectorXd solve_open(const OpenFactor& open, const Eigen::VectorXd& b) const;
 
+  /// S d. O(c^2).
+  Eigen::VectorXd apply(const Eigen::VectorXd& d) const;
+
   /// The jumps of all conditions: d, then G d, 0 where closed and not below.
   Eigen::VectorXd jumps(const Eigen::VectorXd& d, const std::vector<char>& closed) const;
   /// lambda of all conditions from S d - r, given which are closed. O(c).

@@ -163,14 +163,27 @@ std::vector<ddm::CondensedLoad> JoinedMembrane::no_loads() const {
 
 /// F in [x d p].
 VectorXd JoinedMembrane::gather(std::span<const ddm::CondensedLoad> loads) const {
-  const ddm::Skeleton& skeleton = _decomposition.skeleton;
-  VectorXd force = VectorXd::Zero(_matrix.rows()),
-           on_values = VectorXd::Zero(index(skeleton.unknowns));
+  VectorXd on_values = VectorXd::Zero(index(_decomposition.skeleton.unknowns));
   for (std::size_t s = 0; s < loads.size(); ++s) {
-    force.segment(_first[s], loads[s].z_interior.size()) = loads[s].z_interior;
     const std::vector<std::int32_t>& unknown = _decomposition.subdomains[s].unknown;
     for (std::size_t i = 0; i < unknown.size(); ++i) on_values[unknown[i]] += loads[s].g[index(i)];
   }
+  VectorXd force = spread(on_values);
+  for (std::size_t s = 0; s < loads.size(); ++s)
+    force.segment(_first[s], loads[s].z_interior.size()) = loads[s].z_interior;
+  return force;
+}
+
+VectorXd JoinedMembrane::gather(const ddm::Terms& unit) const {
+  VectorXd on_values = VectorXd::Zero(index(_decomposition.skeleton.unknowns));
+  for (const auto& [k, factor] : unit) on_values[k] += factor;
+  return spread(on_values);
+}
+
+/// Forces on the skeleton's values, in [x d p].
+VectorXd JoinedMembrane::spread(const VectorXd& on_values) const {
+  const ddm::Skeleton& skeleton = _decomposition.skeleton;
+  VectorXd force = VectorXd::Zero(_matrix.rows());
   for (std::size_t i = 0; i < skeleton.unknowns; ++i) {
     const double value = on_values[index(i)];
     for (const auto& [k, factor] : skeleton.rows[i].free) force[_interior + k] += factor * value;
@@ -199,7 +212,21 @@ VectorXd JoinedMembrane::solve_refined(const VectorXd& force) const {
 
 JoinedMembrane::Reduced JoinedMembrane::reduce(std::span<const ddm::CondensedLoad> loads,
                                                const VectorXd& p) const {
-  const VectorXd force = gather(loads);
+  return reduce(gather(loads), p);
+}
+
+JoinedMembrane::Reduced JoinedMembrane::force_of(const ddm::Terms& unit) const {
+  Reduced result;
+  result.force = gather(unit).head(size());
+  result.p = VectorXd::Zero(_pp.rows());
+  return result;
+}
+
+JoinedMembrane::Reduced JoinedMembrane::reduce(const ddm::Terms& unit) const {
+  return reduce(gather(unit), VectorXd::Zero(_pp.rows()));
+}
+
+JoinedMembrane::Reduced JoinedMembrane::reduce(const VectorXd& force, const VectorXd& p) const {
   Reduced result;
   result.p = p;
   result.force = force.head(size()) - _xp * p;
@@ -219,7 +246,12 @@ VectorXd JoinedMembrane::apply(const VectorXd& d, bool refined) const {
 }
 
 VectorXd JoinedMembrane::solve(const Reduced& load, const VectorXd& d) const {
-  return solve_refined(load.force - _b.transpose() * d);
+  VectorXd x = solve_once(load.force - _b.transpose() * d);
+  Reduced not_held;
+  not_held.p = VectorXd::Zero(load.p.size());
+  const VectorXd w = values(not_held, x, d);
+  x += solve_once(load.force + gather(residual(no_loads(), x, w)).head(size()));
+  return x;
 }
 
 VectorXd JoinedMembrane::values(const Reduced& load, const VectorXd& x, const VectorXd& d) const {
@@ -241,6 +273,24 @@ VectorXd JoinedMembrane::field(std::size_t subdomain, const VectorXd& x, const V
   return u;
 }
 
+VectorXd JoinedMembrane::forces(std::size_t subdomain, const VectorXd& u) const {
+  VectorXd result = VectorXd::Zero(u.size());
+  add_product(_stiffness[subdomain].free, u, result);
+  return result;
+}
+
+std::vector<ddm::CondensedLoad> JoinedMembrane::residual(std::span<const ddm::CondensedLoad> loads,
+                                                         const VectorXd& x,
+                                                         const VectorXd& w) const {
+  std::vector<ddm::CondensedLoad> result(loads.size());
+  for (std::size_t s = 0; s < loads.size(); ++s) {
+    const VectorXd force = forces(s, field(s, x, w));
+    result[s].z_interior = loads[s].z_interior - force.head(loads[s].z_interior.size());
+    result[s].g = loads[s].g - force.tail(loads[s].g.size());
+  }
+  return result;
+}
+
 void JoinedMembrane::fill(std::span<const ddm::CondensedLoad> loads, const VectorXd& x,
                           const VectorXd& w, TraceState& state) const {
   state.trace.clear();
@@ -248,9 +298,7 @@ void JoinedMembrane::fill(std::span<const ddm::CondensedLoad> loads, const Vecto
   state.of_interiors = 0;
   for (std::size_t s = 0; s < loads.size(); ++s) {
     const Index trace = index(_decomposition.subdomains[s].trace);
-    const VectorXd u = field(s, x, w);
-    VectorXd force = VectorXd::Zero(u.size());
-    add_product(_stiffness[s].free, u, force);
+    const VectorXd u = field(s, x, w), force = forces(s, u);
     state.trace.emplace_back(u.tail(trace));
     state.flux.emplace_back(force.tail(trace) - loads[s].g);
     const auto interior = u.head(u.size() - trace);

@@ -59,9 +59,15 @@ class JoinedMembrane {
   /// Two solves: one of iterative refinement. `p`: see held_values.
   Reduced reduce(std::span<const ddm::CondensedLoad> loads, const Eigen::VectorXd& p) const;
 
+  /// Of a unit force on a sum of unknowns.
+  Reduced reduce(const ddm::Terms& unit) const;
+  /// Its force and p alone, which solve() and values() need.
+  Reduced force_of(const ddm::Terms& unit) const;
+
   /// S^ d. One solve, or two with a step of iterative refinement.
   Eigen::VectorXd apply(const Eigen::VectorXd& d, bool refined = false) const;
-  /// x for jumps d. Two solves.
+  /// x for jumps d. Two solves: the residual is that of the nodes. The equation of an inclusion
+  /// that moves sums forces of all its nodes in [x d p], far larger than what is left of them.
   Eigen::VectorXd solve(const Reduced& load, const Eigen::VectorXd& d) const;
 
   /// w of the skeleton.
@@ -70,6 +76,10 @@ class JoinedMembrane {
   /// u on the free nodes of a subdomain.
   Eigen::VectorXd field(std::size_t subdomain, const Eigen::VectorXd& x,
                         const Eigen::VectorXd& w) const;
+  /// Loads less the forces K u on the nodes. O(N).
+  std::vector<ddm::CondensedLoad> residual(std::span<const ddm::CondensedLoad> loads,
+                                           const Eigen::VectorXd& x,
+                                           const Eigen::VectorXd& w) const;
   /// Traces, fluxes and the energy of the interiors.
   void fill(std::span<const ddm::CondensedLoad> loads, const Eigen::VectorXd& x,
             const Eigen::VectorXd& w, TraceState& state) const;
@@ -89,7 +99,11 @@ class JoinedMembrane {
 
  private:
   Eigen::SparseMatrix<double> assemble();
+  Eigen::VectorXd forces(std::size_t subdomain, const Eigen::VectorXd& u) const;
   Eigen::VectorXd gather(std::span<const ddm::CondensedLoad> loads) const;
+  Eigen::VectorXd gather(const ddm::Terms& unit) const;
+  Eigen::VectorXd spread(const Eigen::VectorXd& on_values) const;
+  Reduced reduce(const Eigen::VectorXd& force, const Eigen::VectorXd& p) const;
   Eigen::VectorXd solve_once(const Eigen::VectorXd& force) const;
   Eigen::VectorXd solve_refined(const Eigen::VectorXd& force) const;
 

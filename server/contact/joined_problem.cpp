@@ -50,22 +50,36 @@ class JoinedCase {
     _d = d;
   }
 
-  /// Traces, fluxes, and multipliers from the forces themselves.
+  /// Traces, fluxes and multipliers. Where rounding of S^ d shows, a step of iterative refinement.
   void finish(const BlockLcp::Answer& solution) {
-    const VectorXd x = _membrane.solve(_reduced, solution.d);
-    const VectorXd w = _membrane.values(_reduced, x, solution.d);
-    _membrane.fill(_loads, x, w, _solved.state());
-    _solved.state().load_size = std::max(largest(_reduced.force), largest(_reduced.r));
-    _solved.set_motion(w);
-    const VectorXd force = _membrane.multipliers(_solved.state());
-    const VectorXd lambda = _problem.lcp().split(force, solution.closed).cwiseMax(0.0);
-    _solved.fill(_problem.lcp().jumps(solution.d, solution.closed), lambda);
-    _solved.settle_contact(solution.pressed, lambda);
+    constexpr double most_left = 1e-12;
+    VectorXd d = solution.d, x = _membrane.solve(_reduced, d);
+    move_to(x, d, solution);
+    const double size = scales_of(_loads, _solved.state()).force;
+    if (ratio(_solved.sample().kkt.equilibrium, size) <= most_left) return;
+    const VectorXd w = _membrane.values(_reduced, x, d), no_p = VectorXd::Zero(_reduced.p.size());
+    const JoinedMembrane::Reduced left = _membrane.reduce(_membrane.residual(_loads, x, w), no_p);
+    const VectorXd step = _problem.lcp().solve_open(left.r, solution.closed).d;
+    x += _membrane.solve(left, step);
+    d = (d + step).cwiseMax(0.0);
+    move_to(x, d, solution);
   }
 
  private:
   /// |u|_V^2 with every contact closed.
   double size() const { return _membrane.work(_reduced, _reduced); }
+
+  /// Multipliers from the forces themselves.
+  void move_to(const VectorXd& x, const VectorXd& d, const BlockLcp::Answer& solution) {
+    const VectorXd w = _membrane.values(_reduced, x, d);
+    _membrane.fill(_loads, x, w, _solved.state());
+    _solved.state().load_size = std::max(largest(_reduced.force), largest(_reduced.r));
+    _solved.set_motion(w);
+    const VectorXd force = _membrane.multipliers(_solved.state());
+    const VectorXd lambda = _problem.lcp().split(force, solution.closed).cwiseMax(0.0);
+    _solved.fill(_problem.lcp().jumps(d, solution.closed), lambda);
+    _solved.settle_contact(solution.pressed, lambda);
+  }
 
   const JoinedProblem& _problem;
   const JoinedMembrane& _membrane;
@@ -117,11 +131,7 @@ void JoinedProblem::recover_fields(std::span<const SolvedCase> cases) const {
   const ddm::Skeleton& skeleton = decomposition.skeleton;
   for (const SolvedCase& one : cases) {
     // The jumps from the traces, and from those everything else.
-    VectorXd w(static_cast<Index>(skeleton.unknowns));
-    for (std::size_t s = 0; s < decomposition.subdomains.size(); ++s) {
-      const std::vector<std::int32_t>& unknown = decomposition.subdomains[s].unknown;
-      for (std::size_t i = 0; i < unknown.size(); ++i) w[unknown[i]] = one.answer.side_traces[s][i];
-    }
+    const VectorXd w = unknowns_of(decomposition, one.answer);
     VectorXd d(_membrane.contacts());
     for (Index c = 0; c < d.size(); ++c)
       d[c] = w[skeleton.contacts[at(c)].plus] - w[skeleton.contacts[at(c)].minus];

@@ -188,9 +188,19 @@ std::vector<VectorXd> SkeletonProblem::scatter(const VectorXd& w) const {
   return traces;
 }
 
+const OpenFactor& SkeletonProblem::all_open() const {
+  return _all_open.get([this] {
+    OpenFactor factor;
+    factor.factorise(_lcp.scaled_matrix(), _lcp.scaled_rows(),
+                     std::vector<char>(at(_lcp.conditions()), 0));
+    return factor;
+  });
+}
+
 std::size_t SkeletonProblem::bytes() const noexcept {
-  return sizeof(double) * at(_h.size() + _closed_to_open.size()) + _nested_start.bytes() +
-         _lcp.bytes() + maps().bytes();
+  const auto all_open = _all_open.known() == nullptr ? 0 : _lcp.size() * _lcp.size();
+  return sizeof(double) * at(_h.size() + _closed_to_open.size() + all_open) +
+         _nested_start.bytes() + _lcp.bytes() + maps().bytes();
 }
 
 }  // namespace anticrack::contact

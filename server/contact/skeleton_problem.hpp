@@ -9,6 +9,7 @@
 #include "contact/dense_lcp.hpp"
 #include "contact/nested_start.hpp"
 #include "contact/trace_problem.hpp"
+#include "ddm/lazy.hpp"
 
 namespace anticrack::contact {
 
@@ -60,6 +61,8 @@ class SkeletonProblem {
   std::vector<Eigen::VectorXd> scatter(const Eigen::VectorXd& w) const;
 
   const DenseLcp& lcp() const noexcept { return _lcp; }
+  /// Of the lcp with every contact open; made at the first call, O(c^3).
+  const OpenFactor& all_open() const;
   const NestedStart& nested_start() const noexcept { return _nested_start; }
   const TraceProblem& traces() const noexcept { return _traces; }
   /// Memory of the matrices.
@@ -78,6 +81,7 @@ class SkeletonProblem {
   Eigen::MatrixXd _closed_to_open;  // W = H^-1 C
   NestedStart _nested_start;
   DenseLcp _lcp;
+  ddm::Lazy<OpenFactor> _all_open;
 };
 
 }  // namespace anticrack::contact

@@ -53,6 +53,9 @@ Answer solve_active_set(const SkeletonProblem& problem, const mesh::Mesh& mesh,
                         const CaseLoads& loads, const ActiveSetOptions& options, bool fields,
                         Observer& observer, std::span<const char> start = {});
 
+/// w of an answer, from its traces. O(n).
+Eigen::VectorXd unknowns_of(const ddm::Decomposition& decomposition, const Answer& answer);
+
 /// A load case to recover fields for; its answer has side_traces.
 struct SolvedCase {
   std::span<const ddm::CondensedLoad> loads;  ///< one per subdomain

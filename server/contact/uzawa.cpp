@@ -132,7 +132,7 @@ void Uzawa::measure(int c) {
     const double trace_energy = trace.dot(force);  // t'S t
     iterate.energy += trace_energy / 2 - load.g.dot(trace) + load.energy_constant;
     const double norm = trace_energy - 2 * load.g_boundary.dot(trace) + load.norm_constant;
-    const double tension = _problem.decomposition().subdomains[s].tension;
+    const double tension = _problem.decomposition().subdomains[s].tension.mean;
     iterate.size = std::max(iterate.size, std::sqrt(std::max(norm, 0.0) / tension));
     if (iterate.number > 1) {
       const double change = (trace - _previous_trace.col(c).segment(first, size))

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ddm/cut_steps.hpp"
+#include "errors/errors.hpp"
 #include "mesh/at.hpp"
 
 namespace anticrack::ddm {
@@ -60,6 +61,19 @@ class Numbering {
       subdomain.name = mesh.subdomains[s];
       subdomain.tension = mesh.tension.empty() ? 1.0 : mesh.tension[s];
       number(subdomain, traces[s]);
+    }
+  }
+
+  void add_laws(const std::stop_token& stop) {
+    for (std::size_t s = 0; s < _mesh.tension_laws.size(); ++s) {
+      if (_mesh.tension_laws[s].along.empty()) continue;
+      Subdomain& subdomain = _subdomains[s];
+      try {
+        subdomain.tension =
+            fem::tension(subdomain.part, _mesh.tension_laws[s], subdomain.name, stop);
+      } catch (errors::Error& error) {
+        throw error.below("tension_law");
+      }
     }
   }
 
@@ -225,11 +239,12 @@ void place_held(const std::vector<Subdomain>& subdomains, std::vector<Held>& hel
 
 }  // namespace
 
-Decomposition cut(const mesh::Mesh& mesh) {
+Decomposition cut(const mesh::Mesh& mesh, const std::stop_token& stop) {
   const Sides sides = find_sides(mesh);
   Ties ties = tie(mesh, sides);
   Numbering numbering(mesh, sides);
   numbering.add_unknowns(ties);
+  numbering.add_laws(stop);
   Decomposition result;
   result.subdomains = numbering.take_subdomains();
   result.pairs = place_pairs(sides, ties, numbering.side_trace());

@@ -5,11 +5,13 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "ddm/linear_conditions.hpp"
 #include "fem/interface_mass.hpp"
+#include "fem/tension.hpp"
 #include "fem/triangulation.hpp"
 #include "mesh/mesh.hpp"
 
@@ -22,8 +24,8 @@ namespace anticrack::ddm {
 /// edges cut its neighbourhood. Two on a slit, one at its tip.
 struct Subdomain {
   std::string name;
-  double tension = 1;
   fem::Triangulation part;
+  fem::Tension tension;
   std::vector<std::int32_t> node;      ///< (n) index into Mesh::xy of each local node
   std::vector<std::int32_t> triangle;  ///< (m) index into the mesh's triangles
   std::size_t interior = 0;
@@ -121,8 +123,8 @@ struct Decomposition {
 /// O(m log k) for k interface edges. Throws errors::Error: mesh_invalid for an interface edge
 /// without a triangle on each side, an inclusion without edges, or a part of the membrane without
 /// Dirichlet node and interface; invalid_argument for inclusions that share nodes and are fixed at
-/// different values; numerical for a part that nothing holds.
-Decomposition cut(const mesh::Mesh& mesh);
+/// different values; numerical for a part that nothing holds; as fem::tension() at "tension_law".
+Decomposition cut(const mesh::Mesh& mesh, const std::stop_token& stop = {});
 
 /// Why Algorithm 2 of the paper does not apply, with the cure, or empty: a subdomain has a part
 /// without Dirichlet nodes, the rigid sides of an inclusion lie in two subdomains, or an inclusion

@@ -97,12 +97,12 @@ std::vector<Lift> lifts(const CutMesh& cut, std::span<const double> samples,
   for (std::size_t f = 0; f < cut.faces.size(); ++f) {
     if (!is_dirichlet(cut.faces[f])) continue;
     const auto corners = corners_of(cut.faces[f]);
-    const Vector &p = cut.at[at(cut.copy[corners[0]])], &q = cut.at[at(cut.copy[corners[1]])],
-                 &r = cut.at[at(cut.copy[corners[2]])];
-    const double area = 0.5 * ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]));
+    // From P_1 to P_2, and from P_3 to P_1.
+    const Vector &side = cut.shapes.edge[corners[2]], &back = cut.shapes.edge[corners[1]];
+    const double area = 0.5 * (side[1] * back[0] - side[0] * back[1]);
     // Gradients of l_2 and l_3.
-    const Vector second{(r[1] - p[1]) / (2 * area), -(r[0] - p[0]) / (2 * area)};
-    const Vector third{-(q[1] - p[1]) / (2 * area), (q[0] - p[0]) / (2 * area)};
+    const Vector second{-back[1] / (2 * area), back[0] / (2 * area)};
+    const Vector third{-side[1] / (2 * area), side[0] / (2 * area)};
     const double at_p = u[at(cut.copy[corners[0]])], at_q = u[at(cut.copy[corners[1]])];
     Lift lift{static_cast<std::int32_t>(f)};
     std::array<std::array<double, points>, halves> of_halves{};

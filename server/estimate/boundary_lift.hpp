@@ -18,7 +18,7 @@ struct Lift {
   std::int32_t face = 0;
   double mean = 0;              ///< int_0^1 phi ds
   double first = 0;             ///< int_0^1 s phi ds
-  double gradient_squared = 0;  ///< int |grad w|^2
+  double gradient_squared = 0;  ///< int |grad w|^2 after the map of the tension (Shapes)
   /// Whether phi looks like the polynomials by which this is integrated. Of a g_D that jumps, or
   /// rises like the square root of s, the energy is infinite and the integral means nothing.
   bool smooth = true;

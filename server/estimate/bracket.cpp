@@ -50,15 +50,18 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
 
   Bracket result;
   result.indicator = flux.distance();
-  double half_distance = 0;  // eta^2 / 2 less |w|^2 / 2, which Pi(v) has as well
+  const bool varies = !cut.shapes.variation.empty();
+  double half_distance = 0;  // eta^2 / 2, less |w|^2 / 2, which Pi(v) has as well, if T is known
   double squared = 0, work = 0, lift_energy = 0, lift_norm = 0;
   for (std::size_t t = 0; t < result.indicator.size(); ++t) {
     double& one = result.indicator[t];
     one = std::max(0.0, one);
     const double oscillation = load.oscillation.empty() ? 0 : load.oscillation[t];
+    const fem::Variation of = varies ? cut.shapes.variation[t] : fem::Variation();
+    const double spread = varies ? of.spread * std::sqrt(flux.energy_of(t, u)) : 0;
     if (lifted.empty()) {
-      if (oscillation > 0) {
-        const double size = std::sqrt(one) + oscillation;
+      if (varies || oscillation > 0) {
+        const double size = of.below * std::sqrt(one) + spread + oscillation;
         one = size * size;
       }
       half_distance += 0.5 * one;
@@ -68,12 +71,13 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
     const OnTriangle& w = lifted[t];
     const double distance = std::max(0.0, one - 2 * w.difference + w.norm * w.norm);
     const double rest = oscillation * (j_11 / std::numbers::pi * w.norm);  // of int f w
-    const double size = std::sqrt(distance) + oscillation;
-    half_distance += 0.5 * one - w.difference + oscillation * std::sqrt(distance) +
-                     0.5 * oscillation * oscillation + 2 * rest;
+    const double norm = of.above * w.norm, beyond = spread * norm + rest;  // of int T grad u.grad w
+    const double size = of.below * std::sqrt(distance) + spread + of.most() * w.norm + oscillation;
+    half_distance += 0.5 * size * size + beyond + rest;
+    if (!varies) half_distance -= 0.5 * norm * norm;
     lift_energy += w.energy;
-    result.upper += 0.5 * w.norm * w.norm + rest;
-    lift_norm += w.norm * w.norm;
+    result.upper += 0.5 * norm * norm + beyond;
+    lift_norm += norm * norm;
     one = size * size;
     squared += one;
   }
@@ -84,8 +88,9 @@ Bracket bracket(const CutMesh& cut, const EquilibratedFlux& flux, const LoadBala
     result.indicator[at(cut.faces[face].side / 3)] += 2 * std::max(0.0, work_of_face[face]);
   }
   work = std::max(0.0, work);
-  // No interval arithmetic: rounding is some 1e-14.
-  const double rounding = 1e-12 * (std::abs(energy) + flux.norm_squared());
+  // No interval arithmetic: rounding is some 1e-14. Integrals of T are known less well.
+  const double rounding = 1e-12 * (std::abs(energy) + flux.norm_squared()) +
+                          (varies ? 10 * fem::tension_tolerance * flux.norm_squared() : 0);
   result.lower = energy + lift_energy - half_distance - work - rounding;
   result.upper += energy + lift_energy + rounding;
   result.error = 0.5 * (std::sqrt(squared) + std::sqrt(squared + 4 * work)) + std::sqrt(lift_norm);

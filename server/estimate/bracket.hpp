@@ -7,7 +7,12 @@
 //   Pi(v) - Pi(u) <= eta^2 / 2 + P,   |u - v| <= (eta + sqrt(eta^2 + 4 P)) / 2,
 //   eta = |sigma - T grad v|,   P = int p_s [v],   Pi(u) <= Pi(v).
 //
-// Prager & Synge's hypercircle with contact. The polygonal membrane is meant.
+// Prager & Synge's hypercircle with contact. The polygonal membrane is meant. Where T varies on a
+// triangle, T_h its mean there, Pi(u_h) and |u_h| are exact, as grad u_h is constant, and
+//
+//   |sigma - T grad u_h| <= max sqrt(T_h/T) |sigma - T_h grad u_h|_h + spread |grad u_h|_h
+//
+// in the norms of 1/T, and with index h of 1/T_h and T_h; spread^2 = mean of (T - T_h)^2 / (T T_h).
 #pragma once
 
 #include <span>

@@ -47,7 +47,6 @@ class Cutting {
       for (const std::int32_t node : subdomain.part.triangles) _cut.copy.push_back(copies + node);
       for (std::size_t i = 0; i < subdomain.part.node_count(); ++i)
         _cut.at.push_back({subdomain.part.xy[2 * i], subdomain.part.xy[2 * i + 1]});
-      _cut.tension.push_back(subdomain.tension);
       _cut.first_triangle.push_back(static_cast<std::int32_t>(_cut.triangle.size()));
       _cut.first_copy.push_back(static_cast<std::int32_t>(_cut.at.size()));
     }
@@ -230,15 +229,20 @@ class Cutting {
 
 std::size_t CutMesh::bytes() const noexcept {
   const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
-  return shapes.bytes() + of(first_triangle) + of(first_copy) + of(copy) + of(at) + of(tension) +
-         of(triangle) + of(faces) + of(first_corner) + of(corners) + of(first_stop) + of(stops);
+  return shapes.bytes() + of(first_triangle) + of(first_copy) + of(copy) + of(at) + of(triangle) +
+         of(faces) + of(first_corner) + of(corners) + of(first_stop) + of(stops);
 }
 
 CutMesh cut_mesh(const mesh::Mesh& mesh, const ddm::Decomposition& decomposition) {
   CutMesh cut = Cutting(mesh, decomposition)();
+  std::vector<const fem::Tension*> tension;
+  for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
+    tension.push_back(&subdomain.tension);
+    if (cut.obstacle.empty()) cut.obstacle = subdomain.tension.obstacle;
+  }
   if (cut.obstacle.empty())
-    cut.shapes = shapes({cut.copy, cut.at, cut.first_triangle, cut.tension},
-                        {cut.first_corner, cut.corners});
+    cut.shapes =
+        shapes({cut.copy, cut.at, cut.first_triangle, tension}, {cut.first_corner, cut.corners});
   return cut;
 }
 

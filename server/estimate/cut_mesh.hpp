@@ -55,7 +55,6 @@ struct CutMesh {
   std::vector<std::int32_t> first_copy;      ///< (subdomains + 1)
   std::vector<std::int32_t> copy;            ///< (corners)
   std::vector<Vector> at;                    ///< (copies) coordinates
-  std::vector<double> tension;               ///< (subdomains)
   std::vector<std::int32_t> triangle;        ///< (triangles) index into the mesh's
 
   std::vector<Face> faces;
@@ -70,7 +69,8 @@ struct CutMesh {
   std::vector<Stop> stops;
   Shapes shapes;
 
-  /// Why no flux can be equilibrated fan by fan, with the place; empty: it can.
+  /// Why no flux can be equilibrated fan by fan, with the place, or no bounds be proved; empty: it
+  /// can.
   std::string obstacle;
 
   std::size_t triangle_count() const noexcept { return triangle.size(); }

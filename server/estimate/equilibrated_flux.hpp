@@ -30,7 +30,8 @@ using FaceBounds = std::span<const double>;
 /// sigma.n = -p, on both of a crack the same; through the faces of an inclusion the force on it.
 /// RT0 gives those of one that tilts another moment than the nodal forces have; there kappa
 /// curl(l_0 l_1) is added, which changes no other flux and no mean. O(m); `polish`: sweeps over the
-/// fans, after the first, that bring it nearer to T grad u.
+/// fans, after the first, that bring it nearer to T grad u. All vectors are those after the maps of
+/// the tension, and T is its mean on each triangle (Shapes).
 class EquilibratedFlux {
  public:
   EquilibratedFlux(const CutMesh& cut, const Balance& balance, FaceBounds bounds = {},
@@ -67,6 +68,11 @@ class EquilibratedFlux {
   /// T grad v of a triangle, and its outward flux through a side; values of v in the copies.
   Vector flux_of(std::size_t triangle, std::span<const double> values) const;
   double flux_through(std::size_t side, std::span<const double> values) const;
+  /// int grad v.T grad v of a triangle, the square of a norm.
+  double energy_of(std::size_t triangle, std::span<const double> values) const {
+    const Vector rise = rise_of(triangle, values);
+    return _cut.shapes.stiffness[triangle] * dot(rise, rise);
+  }
   double tension(std::size_t triangle) const { return _tension[triangle]; }
   double area(std::size_t triangle) const { return _area[triangle]; }
   /// Outward normal of a side, as long as the side.

@@ -11,27 +11,51 @@
 namespace anticrack::estimate {
 namespace {
 
-/// How far jumps or pressures leave the cone, against the largest value that rounding is of.
+double largest_of(std::span<const double> values) {
+  double largest = 0;
+  for (const double one : values) largest = std::max(largest, std::abs(one));
+  return largest;
+}
+
+/// How far jumps or pressures leave the cone, against what is rounding.
 struct Cone {
-  explicit Cone(std::span<const double> values) {
-    for (const double one : values) largest = std::max(largest, std::abs(one));
-  }
-  double largest = 0, beyond = 0;
-  bool left() const { return beyond > 1e-12 * largest; }
+  double rounding = 0, beyond = 0;
+  double all_beyond = 0;  ///< sum
+  bool left() const { return beyond > rounding; }
 };
 
 /// Integrals of tau - T grad z with itself and with sigma - T grad u_h, and of that with itself,
-/// over T.
+/// over T. Where T varies on triangles, bounds; `slack` of the error of `mixed`.
 struct Products {
   double square = 0;
   double mixed = 0;
   double distance = 0;
+  double slack = 0;
+
+  void operator+=(const Products& by) {
+    square += by.square;
+    mixed += by.mixed;
+    distance += by.distance;
+    slack += by.slack;
+  }
 };
+
+/// Of a triangle from those with the mean of T: see bracket.hpp. |1/T - 1/T_h| T_h <= `change`.
+Products varied(const Products& by_mean, const fem::Variation& variation, double norm_of_z,
+                double norm_of_u) {
+  const double a = variation.below * std::sqrt(by_mean.square), b = variation.spread * norm_of_z,
+               c = variation.below * std::sqrt(by_mean.distance), d = variation.spread * norm_of_u;
+  const double change =
+      std::max(variation.below * variation.below - 1, 1 - 1 / (variation.above * variation.above));
+  return {(a + b) * (a + b), by_mean.mixed, (c + d) * (c + d),
+          change * std::sqrt(by_mean.square * by_mean.distance) + a * d + b * (c + d) +
+              20 * fem::tension_tolerance * norm_of_z * norm_of_u};
+}
 
 class Sum {
  public:
   Sum(const Primal& primal, const Dual& dual, const EquilibratedFlux& tau)
-      : _primal(primal), _tau(tau), _rest(dual.z.size()) {
+      : _primal(primal), _tau(tau), _z(dual.z), _rest(dual.z.size()) {
     for (std::size_t i = 0; i < _rest.size(); ++i) _rest[i] = dual.reacting[i] - dual.z[i];
   }
 
@@ -40,26 +64,12 @@ class Sum {
     const EquilibratedFlux& sigma = _primal.flux;
     const Shapes& shapes = _primal.cut.shapes;
     for (std::size_t t = 0; t < _primal.cut.triangle_count(); ++t) {
-      sum.distance += std::max(0.0, sigma.distance()[t]);
-      const auto add = [&](double factor, const Vector& off, const Vector& of_sigma) {
-        sum.square += factor * dot(off, off);
-        sum.mixed += factor * dot(off, of_sigma);
-      };
-      if (!_tau.turned(t)) {  // constant: 2 area times both
-        const Vector &of_tau = _tau.mean(t), rise = sigma.rise_of(t, _rest);
-        const double tension = shapes.tension[t];
-        add(shapes.compliance[t], {of_tau[0] - tension * rise[1], of_tau[1] + tension * rise[0]},
-            sigma.mean(t));
-        continue;
-      }
-      const Vector shift = sigma.flux_of(t, _rest);
-      const double scale = sigma.area(t) / sigma.tension(t);
-      for (std::size_t p = 0; p < fem::rule_5.size; ++p) {
-        const double b = fem::rule_5.b[p], c = fem::rule_5.c[p];
-        const Vector of_tau = _tau.difference(t, {1 - b - c, b, c});
-        add(scale * fem::rule_5.weight[p], {of_tau[0] + shift[0], of_tau[1] + shift[1]},
-            sigma.difference(t, {1 - b - c, b, c}));
-      }
+      const Products own = of_triangle(t);
+      if (shapes.variation.empty())
+        sum += own;
+      else
+        sum += varied(own, shapes.variation[t], std::sqrt(sigma.energy_of(t, _z)),
+                      std::sqrt(sigma.energy_of(t, _primal.u)));
     }
     return sum;
   }
@@ -73,15 +83,43 @@ class Sum {
   }
 
  private:
+  Products of_triangle(std::size_t t) const {
+    const EquilibratedFlux& sigma = _primal.flux;
+    const Shapes& shapes = _primal.cut.shapes;
+    Products sum;
+    sum.distance = std::max(0.0, sigma.distance()[t]);
+    const auto add = [&](double factor, const Vector& off, const Vector& of_sigma) {
+      sum.square += factor * dot(off, off);
+      sum.mixed += factor * dot(off, of_sigma);
+    };
+    if (!_tau.turned(t)) {  // constant: 2 area times both
+      const Vector &of_tau = _tau.mean(t), rise = sigma.rise_of(t, _rest);
+      const double tension = shapes.tension[t];
+      add(shapes.compliance[t], {of_tau[0] - tension * rise[1], of_tau[1] + tension * rise[0]},
+          sigma.mean(t));
+      return sum;
+    }
+    const Vector shift = sigma.flux_of(t, _rest);
+    const double scale = sigma.area(t) / sigma.tension(t);
+    for (std::size_t p = 0; p < fem::rule_5.size; ++p) {
+      const double b = fem::rule_5.b[p], c = fem::rule_5.c[p];
+      const Vector of_tau = _tau.difference(t, {1 - b - c, b, c});
+      add(scale * fem::rule_5.weight[p], {of_tau[0] + shift[0], of_tau[1] + shift[1]},
+          sigma.difference(t, {1 - b - c, b, c}));
+    }
+    return sum;
+  }
+
   const Primal& _primal;
   const EquilibratedFlux& _tau;
+  std::span<const double> _z;
   std::vector<double> _rest;
 };
 
-/// |q| <= c p.
+/// |q| <= c p; where p < 0 by rounding, 0.
 std::vector<double> cone_of(const EquilibratedFlux& sigma, double c) {
   std::vector<double> bounds = sigma.through_faces();
-  for (double& bound : bounds) bound = c * std::abs(bound);
+  for (double& bound : bounds) bound = c * std::max(0.0, -bound);
   return bounds;
 }
 
@@ -90,6 +128,7 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
   const Dual& dual = aimed.dual;
   const CutMesh& cut = primal.cut;
   const EquilibratedFlux& sigma = primal.flux;
+  if (!cut.shapes.variation.empty() && !primal.lifts.empty()) return {};
 
   double pressure = 0;
   for (const double one : sigma.work_of_pressure()) pressure += std::max(0.0, one);
@@ -105,11 +144,15 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
   }
 
   double above = 0, below = 0, work = 0;
-  Cone jumps(dual.z), pressures(tau.through_faces());
+  // Fluxes are sums of T grad z', whose rounding is of T |z'|.
+  const double tension = largest_of(cut.shapes.tension);
+  Cone jumps{1e-12 * largest_of(dual.z)}, pressures{1e-12 * largest_of(tau.through_faces()) +
+                                                    1e-13 * tension * largest_of(dual.reacting)};
   const auto limit = [&](Cone& cone, double of_dual, double of_primal) {
     if (of_dual == 0) return;
     const double most = dual.c * std::max(0.0, of_primal), size = std::abs(of_dual);
     cone.beyond = std::max(cone.beyond, size - most);
+    cone.all_beyond += std::max(0.0, size - most);
     double& c = of_dual > 0 ? above : below;
     c = std::max(c, size < most ? size / of_primal : dual.c);
   };
@@ -135,8 +178,9 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
   for (const double one : primal.load.oscillation) beyond += one * one;
   const double rho = std::sqrt(std::max(0.0, distance) / 4 + pressure);
   const double eta = std::sqrt(products.square), middle = dual.value + work + residual + mixed;
-  const double extra =
-      aimed.unloaded * std::sqrt(beyond) + 1e-12 * (std::abs(dual.value) + std::abs(middle));
+  const double extra = aimed.unloaded * std::sqrt(beyond) + 0.5 * products.slack +
+                       1e-12 * (std::abs(dual.value) + std::abs(middle)) +
+                       2 * largest_of(primal.u) * pressures.all_beyond;
   return {middle - half_width(below, eta, rho) - extra,
           middle + half_width(above, eta, rho) + extra,
           mixed,
@@ -182,7 +226,9 @@ double norm_of_flux(const CutMesh& cut, std::span<const double> reacting) {
   const EquilibratedFlux tau(cut, {reacting, {}, {}}, none);
   double distance = 0;
   for (const double one : tau.distance()) distance += std::max(0.0, one);
-  return std::sqrt(tau.norm_squared()) + std::sqrt(distance);
+  double below = 1;
+  for (const fem::Variation& one : cut.shapes.variation) below = std::max(below, one.below);
+  return below * (std::sqrt(tau.norm_squared()) + std::sqrt(distance));
 }
 
 }  // namespace anticrack::estimate

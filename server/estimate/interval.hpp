@@ -12,6 +12,9 @@
 //   mid - R(c_l) <= A <= mid + R(c_u),
 //   R(c) = eta rho  if 2 c rho <= eta,  else  c rho^2 + eta^2 / (4 c).
 //
+// Where T varies on triangles, eta and rho are bounded as in bracket.hpp, mid is that of the mean
+// and R has its error; not where w is not 0.
+//
 // Guaranteed for the load that sigma balances; a load beyond (LoadBalance::oscillation) widens it.
 #pragma once
 
@@ -66,8 +69,8 @@ struct Aimed {
   double unloaded = 0;
 };
 
-/// Of several at once, with the bits of each alone. Infinite where z or tau leave the cone. O(m)
-/// each.
+/// Of several at once, with the bits of each alone. Infinite where z or tau leave the cone, or
+/// where T varies on triangles and w is not 0. O(m) each.
 std::vector<Interval> intervals(const CutMesh& cut, std::span<const Aimed> of);
 Interval interval(const Primal& primal, const Dual& dual, double unloaded);
 

@@ -11,22 +11,14 @@ namespace {
 
 constexpr double trace_constant = 0.329;
 
-struct Shape {
-  double area;
-  double diameter;
-};
-
-Shape shape_of(const CutMesh& cut, std::size_t t) {
-  const auto place = [&](std::size_t i) { return cut.at[at(cut.copy[3 * t + i % 3])]; };
-  const auto [px, py] = place(0);
-  const auto [qx, qy] = place(1);
-  const auto [rx, ry] = place(2);
-  Shape shape{0.5 * ((qx - px) * (ry - py) - (qy - py) * (rx - px)), 0};
-  for (std::size_t i = 0; i < 3; ++i) {
-    shape.diameter = std::max(
-        shape.diameter, std::hypot(place(i + 1)[0] - place(i)[0], place(i + 1)[1] - place(i)[1]));
-  }
-  return shape;
+/// The diameter of a triangle after the map of its tension over the root of that tension, by which
+/// Poincare's and the trace inequality hold in the energy norm.
+double size_of(const Shapes& shapes, std::size_t t) {
+  double squared = 0;
+  for (std::size_t i = 3 * t; i < 3 * t + 3; ++i)
+    squared = std::max(squared, dot(shapes.edge[i], shapes.edge[i]));
+  return std::sqrt(squared / shapes.tension[t]) *
+         (shapes.variation.empty() ? 1 : shapes.variation[t].below);
 }
 
 /// int (f - P_1 f)^2, from int f^2 and int f phi_i.
@@ -51,10 +43,9 @@ LoadBalance load_balance(const CutMesh& cut, const std::vector<fem::ForceParts>&
     const auto first = at(cut.first_triangle[s]);
     balance.force.insert(balance.force.end(), force[s].load.begin(), force[s].load.end());
     for (std::size_t k = 0; k < force[s].square.size(); ++k) {
-      const Shape shape = shape_of(cut, first + k);
-      oscillation(first + k) +=
-          shape.diameter / (j_11 * std::sqrt(cut.tension[s])) *
-          std::sqrt(beyond_linear(force[s].square[k], &force[s].load[3 * k], shape.area));
+      oscillation(first + k) += size_of(cut.shapes, first + k) / j_11 *
+                                std::sqrt(beyond_linear(force[s].square[k], &force[s].load[3 * k],
+                                                        cut.shapes.area[first + k]));
     }
   }
   std::vector<double> square;
@@ -72,12 +63,8 @@ LoadBalance load_balance(const CutMesh& cut, const std::vector<fem::ForceParts>&
     const double* load = &balance.traction[2 * at(face.traction)];
     const double sum = load[0] + load[1];
     const double beyond = std::max(0.0, square[at(face.traction)] - sum * sum / length);
-    const Shape shape = shape_of(cut, t);
-    const auto s = std::upper_bound(cut.first_triangle.begin(), cut.first_triangle.end(),
-                                    static_cast<std::int32_t>(t)) -
-                   cut.first_triangle.begin() - 1;
-    oscillation(t) += std::sqrt(trace_constant * length * shape.diameter * shape.diameter /
-                                (shape.area * cut.tension[static_cast<std::size_t>(s)]) * beyond);
+    oscillation(t) +=
+        size_of(cut.shapes, t) * std::sqrt(trace_constant * length / cut.shapes.area[t] * beyond);
   }
   return balance;
 }

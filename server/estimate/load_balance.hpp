@@ -20,6 +20,7 @@ struct LoadBalance {
   std::vector<double> traction;  ///< as Balance::traction; empty: 0
   /// (triangles) bound of the effect of what is not balanced,
   ///   h/(j_11 sqrt(T)) |f - P_1 f| + sqrt(0.329 |e| h^2/(|K| T)) |g - mean g|_e ;  empty: 0.
+  /// h and T after the map of the tension; where that varies, times Variation::below.
   /// P_1: projection on linear functions; j_11 from the Poincare constant of triangles, Laugesen &
   /// Siudeja (2009).
   std::vector<double> oscillation;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "estimate/shapes.hpp"
 
+#include <algorithm>
+
 #include "mesh/at.hpp"
 
 namespace anticrack::estimate {
@@ -8,16 +10,26 @@ namespace anticrack::estimate {
 std::size_t Shapes::bytes() const noexcept {
   const auto of = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
   return of(area) + of(tension) + of(stiffness) + of(compliance) + of(edge) + of(around) +
-         of(softness);
+         of(softness) + of(variation);
 }
 
 Shapes shapes(const Triangles& triangles, const Fans& fans) {
   const std::size_t count = triangles.copy.size() / 3;
   Shapes shapes;
-  shapes.tension.resize(count);
-  for (std::size_t s = 0; s < triangles.tension.size(); ++s)
-    for (auto t = at(triangles.first_triangle[s]); t < at(triangles.first_triangle[s + 1]); ++t)
-      shapes.tension[t] = triangles.tension[s];
+  shapes.tension.reserve(count);
+  std::vector<fem::Isotropic> maps;
+  maps.reserve(count);
+  for (std::size_t s = 0; s < triangles.tension.size(); ++s) {
+    const fem::Tension& tension = *triangles.tension[s];
+    const auto first = at(triangles.first_triangle[s]);
+    for (auto t = first; t < at(triangles.first_triangle[s + 1]); ++t) {
+      maps.push_back(tension.isotropic(t - first));
+      shapes.tension.push_back(maps.back().tension);
+    }
+    if (tension.variation.empty()) continue;
+    shapes.variation.resize(count);
+    std::ranges::copy(tension.variation, &shapes.variation[first]);
+  }
   shapes.area.resize(count);
   shapes.stiffness.resize(count);
   shapes.compliance.resize(count);
@@ -27,7 +39,7 @@ Shapes shapes(const Triangles& triangles, const Fans& fans) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Vector& from = triangles.at[at(triangles.copy[3 * t + (i + 1) % 3])];
       const Vector& to = triangles.at[at(triangles.copy[3 * t + (i + 2) % 3])];
-      edge[i] = {to[0] - from[0], to[1] - from[1]};
+      edge[i] = maps[t](to[0] - from[0], to[1] - from[1]);
     }
     shapes.area[t] = 0.5 * (edge[2][1] * edge[1][0] - edge[2][0] * edge[1][1]);
     shapes.stiffness[t] = shapes.tension[t] / (4 * shapes.area[t]);

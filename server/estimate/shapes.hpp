@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "fem/tension.hpp"
 #include "mesh/at.hpp"
 
 namespace anticrack::estimate {
@@ -25,14 +26,17 @@ struct FanCorner {
   double compliance;  ///< of the triangle
 };
 
+/// Of triangles after the map of their tension (fem::Isotropic): fluxes s become A s, what goes
+/// through an edge and all integrals stay.
 struct Shapes {
-  std::vector<double> area;        ///< (triangles)
-  std::vector<double> tension;     ///< (triangles)
-  std::vector<double> stiffness;   ///< (triangles) T / (4 area)
-  std::vector<double> compliance;  ///< (triangles) 1 / (4 area T)
-  std::vector<Vector> edge;        ///< (corners) e_i, opposite, counterclockwise
-  std::vector<FanCorner> around;   ///< of all fans
-  std::vector<double> softness;    ///< (fans) 1 over the sum of e_i.e_i / (4 area T)
+  std::vector<double> area;               ///< (triangles)
+  std::vector<double> tension;            ///< (triangles) T after the map
+  std::vector<fem::Variation> variation;  ///< (triangles) empty: T is constant on each
+  std::vector<double> stiffness;          ///< (triangles) T / (4 area)
+  std::vector<double> compliance;         ///< (triangles) 1 / (4 area T)
+  std::vector<Vector> edge;               ///< (corners) e_i, opposite, counterclockwise
+  std::vector<FanCorner> around;          ///< of all fans
+  std::vector<double> softness;           ///< (fans) 1 over the sum of e_i.e_i / (4 area T)
 
   std::size_t bytes() const noexcept;
 };
@@ -41,7 +45,7 @@ struct Triangles {
   std::span<const std::int32_t> copy;            ///< (triangles, 3)
   std::span<const Vector> at;                    ///< (copies)
   std::span<const std::int32_t> first_triangle;  ///< (subdomains + 1)
-  std::span<const double> tension;               ///< (subdomains)
+  std::span<const fem::Tension* const> tension;  ///< (subdomains)
 };
 
 struct Fans {

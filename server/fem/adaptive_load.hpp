@@ -24,6 +24,13 @@ struct IntegrationLimits {
   double first_work = 1e12;
 };
 
+/// Work so that integrating never takes more than a few times what solving does, some 40 ns a
+/// triangle.
+constexpr IntegrationLimits limits_of(double tolerance, std::size_t triangles) {
+  const auto count = static_cast<double>(triangles);
+  return {tolerance, 8e6 + 250 * count, 2e7 + 1000 * count};
+}
+
 struct IntegrationReport {
   /// Sum of the estimated errors of the nodal values over int |f| (0 for f = 0). Above the
   /// tolerance only if the work was limited. Infinite: no estimate is possible, int f may not

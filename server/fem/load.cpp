@@ -28,12 +28,7 @@ void require_count(std::size_t count, std::size_t limit, const char* what,
 }
 
 void require_expression(const std::string& text, const std::string& field, std::size_t max_bytes) {
-  if (text.size() > max_bytes) {
-    throw errors::Error(errors::Reason::expression_invalid,
-                        "the expression is " + std::to_string(text.size()) +
-                            " bytes long; at most " + std::to_string(max_bytes) + " are allowed")
-        .at(field);
-  }
+  require_length(text, field, max_bytes);
   expression::parse(text, field);
 }
 
@@ -69,6 +64,14 @@ void check_point_forces(const std::vector<PointForce>& forces) {
 }
 
 }  // namespace
+
+void require_length(const std::string& text, const std::string& field, std::size_t max_bytes) {
+  if (text.size() <= max_bytes) return;
+  throw errors::Error(errors::Reason::expression_invalid,
+                      "the expression is " + std::to_string(text.size()) + " bytes long; at most " +
+                          std::to_string(max_bytes) + " are allowed")
+      .at(field);
+}
 
 void check(const Load& load, std::size_t max_expression_bytes) {
   std::visit(CheckForce{max_expression_bytes}, load.force);

@@ -71,6 +71,9 @@ constexpr std::size_t max_point_forces = 10'000;
 /// Regions of a PerRegion, inclusions with a force, and those with a moment.
 constexpr std::size_t max_named_forces = 1'000;
 
+/// Throws errors::Error (expression_invalid) if a text is longer.
+void require_length(const std::string& text, const std::string& field, std::size_t max_bytes);
+
 /// Throws errors::Error (expression_invalid, invalid_argument, limit_exceeded) with the field at
 /// fault: "force.expression", "force.per_region[NAME]", "force.constant", "force.array.upload",
 /// "boundary_value", "traction", "point_forces[I].value", "inclusion_forces[NAME]",

@@ -93,12 +93,6 @@ std::vector<double> at_points(std::span<const double> xy, const expression::Func
   return values;
 }
 
-/// So that integrating never takes more than a few times what solving does, some 40 ns a triangle.
-IntegrationLimits limits(std::size_t triangles) {
-  const auto count = static_cast<double>(triangles);
-  return {force_tolerance(triangles), 8e6 + 250 * count, 2e7 + 1000 * count};
-}
-
 struct AssembleForce {
   const Triangulation& part;
   const std::string& region;
@@ -155,7 +149,8 @@ struct AssembleForce {
     Eigen::VectorXd load = zero();
     const IntegrationReport report =
         integrate_load(part.xy, part.triangles, force, {load.data(), part.node_count()},
-                       limits(part.triangle_count()), context.stop, context.parts);
+                       limits_of(force_tolerance(part.triangle_count()), part.triangle_count()),
+                       context.stop, context.parts);
     if (context.relative_error != nullptr) *context.relative_error = report.relative_error_estimate;
     return load;
   }

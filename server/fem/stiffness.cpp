@@ -34,7 +34,7 @@ Place place_in(std::int32_t a, std::int32_t b, std::int32_t free) {
 /// The columns, still with an entry for each triangle, diagonals apart.
 class Columns {
  public:
-  Columns(const Triangulation& part, double tension, std::int32_t free)
+  Columns(const Triangulation& part, const Tension& tension, std::int32_t free)
       : _end(part.node_count() + 1, 0), _diagonal(part.node_count(), 0.0) {
     const std::vector<std::int32_t>& node = part.triangles;
     for (std::size_t t = 0; t < node.size(); t += 3)
@@ -42,7 +42,8 @@ class Columns {
         ++_end[at(place_in(node[t + a], node[t + (a + 1) % 3], free).column) + 1];
     for (std::size_t j = 1; j < _end.size(); ++j) _end[j] += _end[j - 1];
     _entries.resize(node.size());
-    for (std::size_t t = 0; t < node.size(); t += 3) add(part, &node[t], tension, free);
+    for (std::size_t t = 0; t < node.size(); t += 3)
+      add(part, &node[t], tension.isotropic(t / 3), free);
     // _end[j] has moved from where column j begins to where it ends.
     std::int32_t begin = 0;
     for (std::size_t j = 0; j < _diagonal.size(); ++j) begin = merge(j, begin);
@@ -76,17 +77,18 @@ class Columns {
   }
 
  private:
-  void add(const Triangulation& part, const std::int32_t* node, double tension, std::int32_t free) {
+  void add(const Triangulation& part, const std::int32_t* node, const Isotropic& isotropic,
+           std::int32_t free) {
     std::array<std::array<double, 2>, 3> edge{};  // edge[a] is opposite to corner a
     for (std::size_t a = 0; a < 3; ++a) {
       const std::size_t from = 2 * at(node[(a + 1) % 3]), to = 2 * at(node[(a + 2) % 3]);
-      edge[a] = {part.xy[to] - part.xy[from], part.xy[to + 1] - part.xy[from + 1]};
+      edge[a] = isotropic(part.xy[to] - part.xy[from], part.xy[to + 1] - part.xy[from + 1]);
     }
     const double twice_area = edge[0][0] * edge[1][1] - edge[0][1] * edge[1][0];
     // grad(phi_a) is edge[a] turned by a right angle over twice the area.
     const auto entry = [&](std::size_t a, std::size_t b) {
       const double dot = edge[a][0] * edge[b][0] + edge[a][1] * edge[b][1];
-      return tension * (dot / (2.0 * twice_area));
+      return isotropic.tension * (dot / (2.0 * twice_area));
     };
     for (std::size_t a = 0; a < 3; ++a) {
       const std::size_t b = (a + 1) % 3;
@@ -133,7 +135,7 @@ class Columns {
 
 }  // namespace
 
-Stiffness stiffness(const Triangulation& part, double tension, Eigen::Index free) {
+Stiffness stiffness(const Triangulation& part, const Tension& tension, Eigen::Index free) {
   const auto nodes = static_cast<std::int32_t>(part.node_count());
   const auto first = static_cast<std::int32_t>(free);
   const Columns columns(part, tension, first);

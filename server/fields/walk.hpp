@@ -10,7 +10,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -28,13 +30,32 @@ inline constexpr bool is_a<Container<Items...>, Container> = true;
 template <class T>
 concept Whole = std::is_integral_v<T> || std::is_enum_v<T>;
 
-/// A struct with a field that came after its hashes were kept: added_field(value), beside its list,
-/// returns that field. At its default it has no leaves, so that the old hashes hold; else they
+/// A struct with fields that came after its hashes were kept: added_fields(value), beside its list,
+/// ties them. At its default such a field has no leaves, so that the old hashes hold; else they
 /// follow its name with a "+", which no user's name has.
 template <class T>
 concept Grown = Listed<const T> && requires(const T& value) {
-  added_field(value);
+  added_fields(value);
 };
+
+enum class Added { no, at_default, changed };
+
+/// Whether a field of a Grown value is among the added ones, and at its default.
+template <class T>
+Added added(const void* field, const T& value) {
+  const T initial{};
+  Added result = Added::no;
+  const auto look = [&]<std::size_t... i>(const auto& own, const auto& defaults,
+                                          std::index_sequence<i...>) {
+    ((result = field != static_cast<const void*>(&std::get<i>(own)) ? result
+               : std::get<i>(own) == std::get<i>(defaults)          ? Added::at_default
+                                                                    : Added::changed),
+     ...);
+  };
+  const auto own = added_fields(value);
+  look(own, added_fields(initial), std::make_index_sequence<std::tuple_size_v<decltype(own)>>());
+  return result;
+}
 
 /// Calls sink(leaf) in order with every std::uint64_t (integers, enums, times, lengths of lists,
 /// indices of alternatives), double and std::string. Different values give different leaves;
@@ -69,10 +90,9 @@ void walk(const T& value, Sink&& sink) {
   } else if constexpr (Listed<const T>) {
     for_each(value, [&](const auto& field) {
       if constexpr (Grown<T>) {
-        if (static_cast<const void*>(&field.value) == &added_field(value)) {
-          if (added_field(value) == added_field(T())) return;
-          sink("+" + std::string(field.name));
-        }
+        const Added is = added(&field.value, value);
+        if (is == Added::at_default) return;
+        if (is == Added::changed) sink("+" + std::string(field.name));
       }
       walk(field.value, sink);
     });

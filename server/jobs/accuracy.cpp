@@ -191,8 +191,8 @@ Verdict judge(const std::vector<store::StageRecord>& stages,
   if (wanted.displacement && !last.answers[worst.load].displacement_error) {
     return stop(cases[worst.load]->answer.inclusions.empty()
                     ? "the mesh has no inclusion; ask for an accuracy of the energy"
-                    : "there are no bounds of A on this mesh (more than 16 inclusions, or 3000 "
-                      "nodes on interfaces); ask for an accuracy of the energy");
+                    : "there are no bounds of A on this mesh (too many inclusions and triangles, "
+                      "or a part that only contact holds); ask for an accuracy of the energy");
   }
   if (last.triangles >= max_triangles)
     return stop("that is all that max_triangles allows; raise it");
@@ -205,8 +205,9 @@ Verdict judge(const std::vector<store::StageRecord>& stages,
     const Worst before = worst_of(stages[stages.size() - 1 - patience], wanted);
     if (worst.excess > 0.9 * before.excess)
       return stop(
-          "finer meshes no longer help: rounding, a tip_size too large for it, or, of A, more than "
-          "3,000 nodes on the interfaces");
+          "finer meshes no longer help: rounding, a tip_size too large for it, or, of A, cracks "
+          "that "
+          "cross or more than 16 inclusions");
   }
   return {};
 }

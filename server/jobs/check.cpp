@@ -83,6 +83,17 @@ void check_time(std::chrono::milliseconds wanted, std::chrono::milliseconds long
   }
 }
 
+void check_unit(const std::string& unit, const char* field) {
+  constexpr std::size_t most_bytes = 16;
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  if (unit.size() > most_bytes || std::ranges::any_of(unit, is_control)) {
+    throw Error(Reason::invalid_argument, "not the name of a unit: use at most " +
+                                              std::to_string(most_bytes) +
+                                              " bytes without control characters, as mm")
+        .at(field);
+  }
+}
+
 }  // namespace
 
 void check(const store::JobSpec& spec, const EngineOptions& options) {
@@ -97,6 +108,10 @@ void check(const store::JobSpec& spec, const EngineOptions& options) {
   else
     check_count(spec.loads.size(), options);
   if (spec.accuracy) check_accuracy(spec);
+  if (spec.units) {
+    check_unit(spec.units->length, "units.length");
+    check_unit(spec.units->force, "units.force");
+  }
   check_names(spec.loads);
   for (std::size_t i = 0; i < spec.loads.size(); ++i) {
     try {

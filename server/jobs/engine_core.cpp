@@ -23,7 +23,7 @@ constexpr std::size_t prepared_limit = 3;
 /// between the arrays that went, and would keep their pages.
 constexpr std::uint64_t trim_every = std::uint64_t{16} << 20U;
 
-/// See LiveStages::indicator.
+/// See LiveStages::indicator. Largest values: the order in which load cases end does not matter.
 void add_indicator(LiveStages& stages, const store::AccuracySpec& wanted,
                    const store::CaseRecord& record, std::vector<double>& indicator) {
   constexpr double most = 1e3;  // where bounds of A are missing yet
@@ -31,6 +31,7 @@ void add_indicator(LiveStages& stages, const store::AccuracySpec& wanted,
   const double sum = std::accumulate(indicator.begin(), indicator.end(), 0.0);
   if (!(factor > 1) || !(sum > 0)) return;
   for (double& one : indicator) one *= factor / sum;
+  const std::lock_guard lock(stages.indicator_mutex);
   if (stages.indicator.empty()) {
     stages.indicator = std::move(indicator);
     return;
@@ -172,9 +173,13 @@ void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
   }
   lock.unlock();
   if (trim) operators::return_freed_memory();
-  for (const EndedCase& ended_case : cases) {
-    ended_case.task.job->log->append(
+  for (EndedCase& ended_case : cases) {
+    LiveJob& job = *ended_case.task.job;
+    job.log->append(
         CaseEvent{static_cast<std::int32_t>(ended_case.task.index), ended_case.outcome.record});
+    if (job.stages)
+      add_indicator(*job.stages, *job.spec->accuracy, *ended_case.outcome.record,
+                    ended_case.outcome.indicator);
   }
   lock.lock();
   for (EndedCase& ended_case : cases) {
@@ -188,8 +193,7 @@ void EngineCore::deliver(Lock& lock, std::vector<EndedCase> cases) {
     ++cases_ended;
     std::uint64_t of_stages = 0;
     if (job->stages) {
-      add_indicator(*job->stages, *job->spec->accuracy, *live_case.record,
-                    ended_case.outcome.indicator);
+      const std::lock_guard of_indicator(job->stages->indicator_mutex);
       of_stages = job->stages->last.bytes + fields::bytes_of(job->stages->indicator);
     } else {
       --job->queued_cases;

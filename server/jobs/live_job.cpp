@@ -189,7 +189,8 @@ std::string stage_name(const LiveJob& job) {
 Error mesh_failed(const std::string& mesh, const Error& error) {
   std::vector<std::string> fields;
   for (const errors::FieldViolation& violation : error.fields())
-    if (violation.field.starts_with("options.")) fields.push_back("mesh." + violation.field);
+    if (violation.field.starts_with("options.") || violation.field.starts_with("geometry."))
+      fields.push_back("mesh." + violation.field);
   if (fields.empty()) fields.emplace_back("mesh");
   return retold(error, "meshes/" + mesh + ": " + error.what(), fields);
 }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -42,6 +43,7 @@ struct LiveStages {
   /// (triangles) of the load cases that are not accurate enough, each over its sum and times its
   /// excess (accuracy.hpp), the largest; empty: none.
   std::vector<double> indicator;
+  std::mutex indicator_mutex;  ///< guards it in place of the engine's: many triangles
   struct Complete {
     std::vector<LiveCase> cases;  ///< empty: no stage has ended
     std::shared_ptr<const store::BlockSource> result;
@@ -155,7 +157,7 @@ Outcome conclude(LiveJob& job);
 /// "stage 3", of the one that has begun.
 std::string stage_name(const LiveJob& job);
 
-/// A mesh's error as a job's, at field "mesh", or below it where options of the mesh are at fault:
+/// A mesh's error as a job's, at field "mesh", or below it where its definition is at fault:
 /// "mesh.options.tension[top]".
 errors::Error mesh_failed(const std::string& mesh, const errors::Error& error);
 

@@ -239,6 +239,7 @@ Mesh Bisection::finish() && {
   mesh.subdomain = std::move(_subdomain);
   mesh.subdomains = _base.subdomains;
   mesh.tension = _base.tension;
+  mesh.tension_laws = _base.tension_laws;
   mesh.inclusions = _base.inclusions;
   mesh.motions = _base.motions;
   mesh.interfaces = _base.interfaces;

@@ -15,9 +15,10 @@ namespace {
 
 // The first eight bytes: what follows, and the version of the format.
 constexpr std::string_view mesh_tag = "ACMESH2\n";
-constexpr std::string_view moving_mesh_tag = "ACMESH3\n";  // motions follow
-constexpr std::string_view request_tag = "ACMREQ2\n";
-constexpr std::string_view reply_tag = "ACMREP2\n";
+constexpr std::string_view moving_mesh_tag = "ACMESH3\n";     // motions follow
+constexpr std::string_view mesh_with_laws_tag = "ACMESH4\n";  // motions and tension laws follow
+constexpr std::string_view request_tag = "ACMREQ3\n";
+constexpr std::string_view reply_tag = "ACMREP3\n";
 
 constexpr auto last_reason = static_cast<std::int32_t>(errors::Reason::internal);
 
@@ -26,10 +27,16 @@ bool moves(const Mesh& mesh) {
   return std::ranges::any_of(mesh.motions, [](const Motion& m) { return m != Motion(); });
 }
 
-/// Fields that do not count for the hash of a mesh, and motions, which are new: a mesh without them
-/// keeps its hash.
+bool has_laws(const Mesh& mesh) {
+  return std::ranges::any_of(mesh.tension_laws,
+                             [](const TensionLaw& l) { return !l.along.empty(); });
+}
+
+/// Fields that do not count for the hash of a mesh, and motions and laws, which are new: a mesh
+/// without them keeps its hash.
 bool is_beside(std::string_view field) {
-  return field == "warnings" || field == "bisection_bound" || field == "motions";
+  return field == "warnings" || field == "bisection_bound" || field == "motions" ||
+         field == "tension_laws";
 }
 
 void put(Writer& out, const Mesh& mesh) {
@@ -121,18 +128,21 @@ static Choices choices_of(Preset) {
 }
 
 Bytes encode(const Mesh& mesh) {
-  const bool moving = moves(mesh);
-  Writer out(moving ? moving_mesh_tag : mesh_tag);
+  const bool moving = moves(mesh), laws = has_laws(mesh);
+  Writer out(laws ? mesh_with_laws_tag : moving ? moving_mesh_tag : mesh_tag);
   put(out, mesh);
-  if (moving) out.value(mesh.motions);
+  if (moving || laws) out.value(moving ? mesh.motions : std::vector<Motion>());
+  if (laws) out.value(mesh.tension_laws);
   return out.take();
 }
 
 Mesh decode_mesh(std::span<const std::byte> bytes) {
-  const bool moving = Reader::begins(bytes, moving_mesh_tag);
-  Reader in(bytes, moving ? moving_mesh_tag : mesh_tag);
+  const bool moving = Reader::begins(bytes, moving_mesh_tag),
+             laws = Reader::begins(bytes, mesh_with_laws_tag);
+  Reader in(bytes, laws ? mesh_with_laws_tag : moving ? moving_mesh_tag : mesh_tag);
   Mesh mesh = get_mesh(in);
-  if (moving) in.read(mesh.motions);
+  if (moving || laws) in.read(mesh.motions);
+  if (laws) in.read(mesh.tension_laws);
   in.end();
   return mesh;
 }
@@ -163,6 +173,7 @@ Bytes encode(const MesherReply& reply) {
   if (const auto* mesh = std::get_if<Mesh>(&reply)) {
     put(out, *mesh);
     out.value(mesh->motions);
+    out.value(mesh->tension_laws);
     out.value(mesh->warnings);
     out.value(mesh->bisection_bound);
   } else {
@@ -180,6 +191,7 @@ MesherReply decode_reply(std::span<const std::byte> bytes) {
   }
   Mesh mesh = get_mesh(in);
   in.read(mesh.motions);
+  in.read(mesh.tension_laws);
   in.read(mesh.warnings);
   in.read(mesh.bisection_bound);
   in.end();

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "mesh/at.hpp"
+#include "mesh/geometry_boundary.hpp"
 #include "mesh/geometry_primitives.hpp"
 #include "mesh/geometry_steps.hpp"
 #include "mesh/refine.hpp"
@@ -40,20 +41,24 @@ double expected_triangles(double area, double size, double pieces) {
 /// The ends of inclusions, of their delaminated parts, and of cracks.
 std::size_t tip_count(const Geometry& geometry) {
   std::set<Point> ends;
+  std::size_t within = 0;
   const auto add = [&](const Part& part) { ends.insert({part.from, part.to}); };
   for (const InclusionSpec& inclusion : geometry.inclusions) {
     add(inclusion.part);
     std::ranges::for_each(inclusion.delaminated, add);
+    for (const StretchSpec& stretch : inclusion.stretches)
+      within += (stretch.from > 0 ? 1 : 0) + (stretch.to < 1 ? 1 : 0);
   }
   for (const CrackSpec& crack : geometry.cracks) add(crack.part);
-  return ends.size();
+  return ends.size() + within;
 }
 
 /// The edge length where none is given.
-double default_size(const Geometry& geometry, Preset preset, std::span<const Point> polygon) {
-  if (!graded(preset)) return diagonal(polygon) / uniform_divisions;
-  const double share = tip_share(0.5 * std::sqrt(signed_area(polygon)), tip_count(geometry));
-  const double size = std::min(diagonal(polygon) / graded_divisions, share / share_divisions);
+double default_size(const Geometry& geometry, Preset preset, double across, double area) {
+  if (!graded(preset)) return across / uniform_divisions;
+  if (!(area > 0)) return across / graded_divisions;  // the holes are refused later
+  const double share = tip_share(0.5 * std::sqrt(area), tip_count(geometry));
+  const double size = std::min(across / graded_divisions, share / share_divisions);
   return preset == Preset::coarse ? coarsening * size : size;
 }
 
@@ -68,30 +73,18 @@ std::size_t bounded(double expected, std::size_t max_triangles, const std::strin
       .at(field);
 }
 
-/// Whether the boundary is Neumann on both sides of a station.
-bool neumann_around(const Layout& layout, const Network& network, double t) {
-  const double spans = network.lines.front().line.spans();
-  bool before = false;
-  bool after = false;
-  for (const Stretch& stretch : layout.neumann) {
-    for (const double s : {t, t + spans}) {
-      before = before || (stretch.begin < s && s <= stretch.end);
-      after = after || (stretch.begin <= s && s < stretch.end);
-    }
-  }
-  return before && after;
-}
-
 /// Refuses inclusions and cracks that touch the Dirichlet boundary.
-void check_contacts(const Layout& layout, const Network& network) {
+void check_contacts(const Layout& layout, const Plan& plan) {
+  std::vector<bool> held(plan.points.size(), false);
+  for (const PlannedCurve& curve : plan.curves)
+    if (curve.role == Role::dirichlet) held[at(curve.a)] = held[at(curve.b)] = true;
   for (const PlacedPart& part : layout.parts) {
     for (const bool end : {false, true}) {
       const int point = end ? part.end.point : part.begin.point;
-      const double t = station_of(network.lines.front(), point);
-      if (t < 0) continue;
-      if (neumann_around(layout, network, t)) continue;
-      const std::string field = part.field + ".part" + (end != part.reversed ? ".to" : ".from");
-      refuse(field, field, " ", show(network.points[at(point)]),
+      if (!held[at(point)]) continue;
+      const std::string which = end != part.reversed ? ".to" : ".from";
+      const std::string field = place_of(part) + (part.own ? "" : which);
+      refuse(field, field, " ", show(plan.points[at(point)]),
              " touches the boundary, at an end of the interface; a tip must lie inside the "
              "membrane, or where the boundary is Neumann on both sides of it");
     }
@@ -99,7 +92,7 @@ void check_contacts(const Layout& layout, const Network& network) {
 }
 
 /// Refuses two inclusions that share a point where their interfaces meet.
-void check_inclusions_apart(const Plan& plan) {
+void check_inclusions_apart(const Layout& layout, const Plan& plan) {
   std::unordered_map<int, int> holder;  // of a point
   for (const PlannedCurve& curve : plan.curves) {
     if (curve.inclusion < 0) continue;
@@ -108,40 +101,64 @@ void check_inclusions_apart(const Plan& plan) {
       if (other == curve.inclusion) continue;
       const auto last = at(std::max(other, curve.inclusion));
       const auto first = at(std::min(other, curve.inclusion));
-      refuse(indexed("inclusions", last) + ".part", indexed("inclusions", last), " and ",
-             indexed("inclusions", first), " share the point ", show(plan.points[at(point)]),
+      const PlacedPart& part = layout.parts[last];  // inclusions come first
+      refuse(place_of(part), part.field, " and ", layout.parts[first].field, " share the point ",
+             show(plan.points[at(point)]),
              "; the membrane is tied to both there, so leave glue between them");
     }
   }
 }
 
-void add_curves(const Layout& layout, const Network& network, Plan& plan) {
+/// The stretch that each chord of an interface lies on, or null.
+std::vector<const Stretch*> stretches_of(const Layout& layout, const Network& network) {
+  std::vector<const Stretch*> stretches;
+  stretches.reserve(network.chords.size());
+  for (const Chord& chord : network.chords) {
+    const bool interface = network.lines[at(chord.line)].role == Role::interface;
+    stretches.push_back(interface ? stretch_of(layout.stretches, network, chord) : nullptr);
+  }
+  return stretches;
+}
+
+void add_curves(const Layout& layout, const Network& network,
+                const std::vector<const Stretch*>& stretches, Plan& plan) {
   plan.points = network.points;
   plan.curves.reserve(network.chords.size());
-  for (const Chord& chord : network.chords) {
+  for (std::size_t e = 0; e < network.chords.size(); ++e) {
+    const Chord& chord = network.chords[e];
     PlannedCurve curve;
     curve.a = chord.a;
     curve.b = chord.b;
     curve.role = network.lines[at(chord.line)].role;
     if (curve.role == Role::dirichlet && stretch_of(layout.neumann, network, chord) != nullptr)
       curve.role = Role::neumann;
-    if (curve.role == Role::interface) {
-      const Stretch* stretch = stretch_of(layout.stretches, network, chord);
-      if (stretch != nullptr) {
-        curve.kind = stretch->kind;
-        curve.inclusion = stretch->inclusion;
-      }
+    if (const Stretch* stretch = stretches[e]) {
+      curve.kind = stretch->kind;
+      curve.inclusion = stretch->inclusion;
     }
     plan.curves.push_back(curve);
   }
 }
 
+/// The numerics let the minus side come off; on a crack the plus side is the user's left.
+std::vector<Walk> walks_of(const std::vector<const Stretch*>& stretches) {
+  std::vector<Walk> walks;
+  walks.reserve(stretches.size());
+  for (const Stretch* stretch : stretches) {
+    const bool directed = stretch != nullptr && stretch->kind != Kind::inclusion;
+    walks.push_back(!directed           ? Walk::either
+                    : stretch->plus_off ? Walk::reversed
+                                        : Walk::as_written);
+  }
+  return walks;
+}
+
 void check_for_paper(const Geometry& geometry, const MeshOptions& options, const Plan& plan) {
-  const bool one = geometry.interfaces.size() == 1 && options.align.empty() &&
-                   geometry.interfaces[0].shape == Shape::polyline &&
-                   !geometry.interfaces[0].closed && plan.interfaces.size() == 1 &&
-                   plan.faces.size() == 2 && plan.faces[0].embedded.empty() &&
-                   plan.faces[1].embedded.empty();
+  const bool one =
+      geometry.interfaces.size() == 1 && options.align.empty() && geometry.sides.empty() &&
+      geometry.holes.empty() && geometry.interfaces[0].shape == Shape::polyline &&
+      !geometry.interfaces[0].closed && plan.interfaces.size() == 1 && plan.faces.size() == 2 &&
+      plan.faces[0].embedded.empty() && plan.faces[1].embedded.empty();
   if (one) return;
   throw errors::Error(errors::Reason::invalid_argument,
                       "preset paper is for one polyline that cuts the polygon in two from "
@@ -175,22 +192,21 @@ std::size_t check_size(const Network& network, double area, double size,
 
 Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_triangles) {
   check_for_geometry(options);
-  Network network = lay_lines(given, options);
+  Drawn geometry = draw(given);
+  Network network = lay_lines(geometry, options);
   Plan plan;
-  Geometry geometry = given;
   if (snap_ends(network, geometry, plan.warnings)) network = lay_lines(geometry, options);
   const std::vector<std::string> names = check_names(geometry);
-  const std::vector<Point> polygon = network.lines.front().line.vertices();
-  const double area = signed_area(polygon);
-  const double size =
-      options.size > 0 ? options.size : default_size(geometry, options.preset, polygon);
+  const double area = area_of(network);
+  const double size = options.size > 0 ? options.size
+                                       : default_size(geometry, options.preset,
+                                                      diagonal(outer_polygon(network)), area);
   std::size_t triangles = 0;
   if (options.preset != Preset::paper) triangles = check_size(network, area, size, max_triangles);
   // The lines alone first, so that their faults are not reported as faults of the parts on them.
   Network lines = network;
   cut(lines, size, curve_limit);
   const Layout layout = lay_parts(geometry, network);
-  check_contacts(layout, network);
   cut(network, size, curve_limit);
 
   plan.triangles = triangles;
@@ -198,9 +214,11 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
     plan.inclusions.push_back(inclusion.name);
     plan.motions.push_back(inclusion.motion);
   }
-  add_curves(layout, network, plan);
-  check_inclusions_apart(plan);
-  lay_subdomains(geometry, network, names, plan);
+  const std::vector<const Stretch*> stretches = stretches_of(layout, network);
+  add_curves(layout, network, stretches, plan);
+  check_contacts(layout, plan);
+  check_inclusions_apart(layout, plan);
+  lay_subdomains(geometry, network, names, walks_of(stretches), plan);
   if (options.preset == Preset::paper) {
     check_for_paper(geometry, options, plan);
     plan_paper(area, max_triangles, plan);

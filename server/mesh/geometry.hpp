@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The parametric geometry of a case: a polygon, interfaces in it, what lies on them. Pure data and
-// checks, without the mesher.
+// The parametric geometry of a case: a boundary, holes and interfaces in it, what lies on them.
+// Pure data and checks, without the mesher.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "fields/fields.hpp"
@@ -22,51 +24,113 @@ struct Part {
 };
 ANTICRACK_FIELDS(Part, from, to)
 
-enum class Shape { polyline, arc, spline };
+enum class Shape { polyline, arc, spline, segment, circle };
+
+/// A line with two ends: through `points`, or a segment.
+struct LineSpec {
+  Shape shape = Shape::polyline;  ///< no circle
+  std::vector<Point> points;      ///< as of InterfaceSpec; segment: its middle
+  double angle = 0;   ///< segment: degrees, counterclockwise from the x axis, of its direction
+  double length = 0;  ///< segment: > 0
+  bool operator==(const LineSpec&) const = default;
+};
+ANTICRACK_FIELDS(LineSpec, shape, points, angle, length)
+
+/// A closed line, either orientation.
+struct OutlineSpec {
+  Shape shape = Shape::polyline;  ///< or spline or circle
+  std::vector<Point> points;      ///< the last is joined to the first; circle: its middle
+  double radius = 0;              ///< circle: > 0
+  bool operator==(const OutlineSpec&) const = default;
+};
+ANTICRACK_FIELDS(OutlineSpec, shape, points, radius)
 
 /// A line in the membrane, plus side on its left. Ends on the boundary, on another interface, or
 /// free: see InterfaceCurve of the API.
 struct InterfaceSpec {
   std::string name;
-  Shape shape = Shape::polyline;
-  std::vector<Point> points;  ///< polyline, spline: through all; arc: from, through, to
-  bool closed = false;        ///< polyline and spline only
+  Shape shape = Shape::polyline;  ///< no segment; a circle only within plan(): centre, radius
+  std::vector<Point> points;      ///< polyline, spline: through all; arc: from, through, to
+  bool closed = false;            ///< polyline and spline only
 };
 ANTICRACK_FIELDS(InterfaceSpec, name, shape, points, closed)
 
+/// A stretch of a line, by arc length over the line's length: 0 <= from < to <= 1.
+struct StretchSpec {
+  double from = 0;
+  double to = 0;
+  bool operator==(const StretchSpec&) const = default;
+};
+ANTICRACK_FIELDS(StretchSpec, from, to)
+
+/// A side of a line, walked from its start to its end. The numbers are those of the API.
+enum class LineSide : std::int32_t { unspecified = 0, left = 1, right = 2 };
+
 struct InclusionSpec {
   std::string name;
-  Part part;
+  Part part;                      ///< on an interface; means nothing where `line` is set
   std::vector<Part> delaminated;  ///< parts of `part`; the rest is bonded. {part}: all delaminated
   Motion motion{};
+  std::optional<LineSpec> line{};        ///< all of an interface of its own, with its name
+  std::vector<StretchSpec> stretches{};  ///< delaminated as well
+  LineSide delaminated_side = LineSide::unspecified;  ///< that comes off; unset: the minus side
 };
-ANTICRACK_FIELDS(InclusionSpec, name, part, delaminated, motion)
-inline const auto& added_field(const InclusionSpec& of) { return of.motion; }
+ANTICRACK_FIELDS(InclusionSpec, name, part, delaminated, motion, line, stretches, delaminated_side)
+inline auto added_fields(const InclusionSpec& of) {
+  return std::tie(of.motion, of.line, of.stretches, of.delaminated_side);
+}
 
 struct CrackSpec {
   std::string name;
-  Part part;
-  bool contact = true;  ///< [u] >= 0; false: its faces are free
+  Part part;                       ///< as of an inclusion
+  bool contact = true;             ///< [u] >= 0; false: its faces are free
+  std::optional<LineSpec> line{};  ///< as of an inclusion
 };
-ANTICRACK_FIELDS(CrackSpec, name, part, contact)
-inline const auto& added_field(const CrackSpec& of) { return of.contact; }
+ANTICRACK_FIELDS(CrackSpec, name, part, contact, line)
+inline auto added_fields(const CrackSpec& of) { return std::tie(of.contact, of.line); }
 
 struct RegionSpec {
   std::string name;
-  Point at{};          ///< inside the subdomain it names
+  Point at{};          ///< inside the subdomain it names; means nothing where `outline` is set
   double tension = 1;  ///< T > 0
+  std::optional<OutlineSpec> outline{};     ///< an interface of glue with its name: what is inside
+  std::optional<TensionLaw> tension_law{};  ///< in place of `tension`
 };
-ANTICRACK_FIELDS(RegionSpec, name, at, tension)
+ANTICRACK_FIELDS(RegionSpec, name, at, tension, outline, tension_law)
+inline auto added_fields(const RegionSpec& of) { return std::tie(of.outline, of.tension_law); }
+
+/// A side of the boundary. Begins where the one before it ends.
+struct SideSpec {
+  std::string name;  ///< empty: side-1, side-2, ...
+  LineSpec line;
+  bool operator==(const SideSpec&) const = default;
+};
+ANTICRACK_FIELDS(SideSpec, name, line)
+
+/// A hole in the membrane, part of its boundary.
+struct HoleSpec {
+  std::string name;  ///< empty: hole-1, hole-2, ...
+  OutlineSpec outline;
+  bool operator==(const HoleSpec&) const = default;
+};
+ANTICRACK_FIELDS(HoleSpec, name, outline)
 
 struct Geometry {
   std::vector<Point> boundary;  ///< simple polygon, not closed, either orientation
   std::vector<InterfaceSpec> interfaces;
   std::vector<InclusionSpec> inclusions;
   std::vector<CrackSpec> cracks;
-  std::vector<Part> neumann;  ///< of the boundary, counterclockwise; from == to: all of it
+  std::vector<Part> neumann;  ///< of the outer boundary, counterclockwise; from == to: all of it
   std::vector<RegionSpec> regions;
+  std::vector<SideSpec> sides{};  ///< in place of `boundary`, either orientation
+  std::vector<HoleSpec> holes{};
+  std::vector<std::string> neumann_sides{};  ///< names of sides and holes
 };
-ANTICRACK_FIELDS(Geometry, boundary, interfaces, inclusions, cracks, neumann, regions)
+ANTICRACK_FIELDS(Geometry, boundary, interfaces, inclusions, cracks, neumann, regions, sides, holes,
+                 neumann_sides)
+inline auto added_fields(const Geometry& of) {
+  return std::tie(of.sides, of.holes, of.neumann_sides);
+}
 
 /// Coarse: graded, from a default size four times as large.
 enum class Preset { graded, paper, uniform, coarse };
@@ -86,10 +150,13 @@ struct MeshOptions {
   std::map<std::int32_t, std::string> surface_groups{};  ///< physical tag -> subdomain
   std::map<std::string, double> tension{};               ///< subdomain -> T
   std::map<std::string, Motion> inclusion_motions{};     ///< inclusion -> how it moves
+  std::map<std::string, TensionLaw> tension_laws{};      ///< subdomain -> T, in place of a number
 };
 ANTICRACK_FIELDS(MeshOptions, preset, size, tip_size, grading, align, curve_groups, surface_groups,
-                 tension, inclusion_motions)
-inline const auto& added_field(const MeshOptions& of) { return of.inclusion_motions; }
+                 tension, inclusion_motions, tension_laws)
+inline auto added_fields(const MeshOptions& of) {
+  return std::tie(of.inclusion_motions, of.tension_laws);
+}
 
 /// What a straight curve of the plan is.
 enum class Role : std::int32_t { dirichlet, neumann, interface, align };
@@ -100,7 +167,7 @@ struct PlannedCurve {
   int b = 0;
   int intervals = 1;
   Role role = Role::dirichlet;
-  int left = -1;   ///< face on the left of a-b, -1: outside the membrane
+  int left = -1;   ///< face on the left of a-b, -1: outside the membrane, or in a hole
   int right = -1;  ///< and on its right; equal to `left` for a curve inside a face
   // of an interface:
   Kind kind = Kind::glue;
@@ -116,16 +183,17 @@ struct PlannedInterface {
 ANTICRACK_FIELDS(PlannedInterface, name, curves)
 
 /// A face of the arrangement of all curves. Faces separated by align lines only are one subdomain,
-/// share its name and tension, and follow each other. Loops hold +-(curve index + 1), negative
+/// share its name, tension and law, and follow each other. Loops hold +-(curve index + 1), negative
 /// where they walk from b to a.
 struct PlannedFace {
   std::string name;
   double tension = 1;
+  TensionLaw law;                       ///< in place of `tension`, if it has one
   std::vector<int> outer;               ///< counterclockwise, the face on its left
   std::vector<std::vector<int>> holes;  ///< clockwise, the face on its left
   std::vector<int> embedded;            ///< indices of curves inside it that bound no other face
 };
-ANTICRACK_FIELDS(PlannedFace, name, tension, outer, holes, embedded)
+ANTICRACK_FIELDS(PlannedFace, name, tension, law, outer, holes, embedded)
 
 /// How to grade a mesh; see mesh/refine.hpp. h0 = 0: no grading.
 struct GradingSpec {
@@ -151,14 +219,16 @@ struct Plan {
 ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, motions, growth, grading,
                  triangles, warnings)
 
-/// Checks a geometry and cuts it into curves with the intervals of the preset. Throws errors::Error
-/// with the field at fault ("boundary", "interfaces[0].polyline", "inclusions[1].part.from",
+/// Checks a geometry and cuts it into curves with the intervals of the preset. An interface is
+/// walked against its direction where another side of an inclusion comes off than its minus side.
+/// Throws errors::Error with the field at fault ("boundary", "sides[2].line",
+/// "interfaces[0].polyline", "inclusions[1].part.from", "inclusions[1].line.segment",
 /// "inclusions[0].fixed", "regions[0].at", "options.size", ...): geometry_invalid (the boundary
-/// crosses itself, an interface leaves the membrane or runs along another, a part lies on no
-/// interface, touches the Dirichlet boundary or overlaps another, values are not finite, names are
-/// empty, malformed or used twice, a motion has a fault); invalid_argument for options;
-/// limit_exceeded for more than 20,000 vertices or more than `max_triangles` expected triangles.
-/// O(v^2) for v vertices.
+/// crosses itself or does not close, a hole lies outside or touches something, an interface leaves
+/// the membrane or runs along another, a part lies on no interface, touches the Dirichlet boundary
+/// or overlaps another, values are not finite, names are empty, malformed, unknown or used twice, a
+/// motion has a fault); invalid_argument for options; limit_exceeded for more than 20,000 vertices
+/// or more than `max_triangles` expected triangles. O(v^2) for v vertices.
 Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_triangles);
 
 /// Check the options of a geometry (all but the points of `align`, which plan() checks) and of an

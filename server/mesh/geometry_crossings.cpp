@@ -80,7 +80,8 @@ class Meetings {
 
   void two_lines(const Chord& s, const Chord& t) {
     const int common = shared(s, t);
-    if (s.line == 0) return against_boundary(s, t, common);
+    if (at(t.line) < _network.boundary) return between_boundaries(s, t, common);
+    if (at(s.line) < _network.boundary) return against_boundary(s, t, common);
     if (common < 0) {
       if (distance(segment(s), segment(t)) <= _tolerance) cross(s, t);
       return;
@@ -110,6 +111,21 @@ class Meetings {
     check_angle(s, t, at, std::min(between, std::numbers::pi - between));
   }
 
+  /// Two sides, which may meet at their ends, or a hole and another line.
+  void between_boundaries(const Chord& s, const Chord& t, int common) const {
+    const bool sides = at(t.line) < _network.outer;
+    const bool follow = sides && common >= 0 && (s.b == t.a || t.b == s.a);
+    const bool meets = follow ? other(s, common) == other(t, common) || on_one_another(s, t, common)
+                              : common >= 0 || distance(segment(s), segment(t)) <= _tolerance;
+    const std::string& field = line(t).field;
+    if (meets) {
+      refuse(field, field, " and ", line(s).field, " touch or cross near ", show(segment(t).a),
+             sides ? "; sides of the boundary meet at their ends only"
+                   : "; a hole lies inside the boundary and touches neither it nor another hole");
+    }
+    if (follow) check_angle(s, t, common);
+  }
+
   /// `s` is the boundary's.
   void against_boundary(const Chord& s, const Chord& t, int common) const {
     const NetworkLine& other_line = line(t);
@@ -122,9 +138,9 @@ class Meetings {
                            : common >= 0 || distance(segment(s), segment(t)) <= _tolerance;
     if (meets) {
       refuse(field, field,
-             " leaves the polygon or touches its boundary in between: the stretch from ",
-             show(segment(t).a), " to ", show(segment(t).b), " meets the boundary's edge ",
-             show(segment(s).a), "-", show(segment(s).b),
+             " leaves the membrane or touches its boundary in between: the stretch from ",
+             show(segment(t).a), " to ", show(segment(t).b), " meets the edge ", show(segment(s).a),
+             "-", show(segment(s).b), " of ", line(s).field,
              "; only its two ends may lie on the boundary");
     }
     if (at_its_end) check_angle(s, t, common);

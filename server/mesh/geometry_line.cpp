@@ -10,16 +10,10 @@
 namespace anticrack::mesh {
 namespace {
 
-constexpr double largest_turn = std::numbers::pi / 18;
 constexpr int samples_a_span = 32;
 constexpr int samples_half_an_arc = 128;
 
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1]; }
-
-/// Angle from one direction to another, without its sign.
-double turn(const Point& a, const Point& b) {
-  return std::abs(std::atan2(a[0] * b[1] - a[1] * b[0], dot(a, b)));
-}
 
 }  // namespace
 
@@ -44,14 +38,27 @@ Line Line::arc(const Point& a, const Point& b, const Point& c) {
   line._centre = {a[0] + to_centre[0], a[1] + to_centre[1]};
   line._radius = std::hypot(to_centre[0], to_centre[1]);
   const bool left = twice > 0;  // a, b, c counterclockwise
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Point spoke = minus(line._vertices[i], line._centre);
-    double& angle = line._angles[i];
-    angle = std::atan2(spoke[1], spoke[0]);
-    if (i == 0) continue;
-    while (left && angle <= line._angles[i - 1]) angle += 2 * std::numbers::pi;
-    while (!left && angle >= line._angles[i - 1]) angle -= 2 * std::numbers::pi;
+  for (const Point& vertex : line._vertices) {
+    const Point spoke = minus(vertex, line._centre);
+    double angle = std::atan2(spoke[1], spoke[0]);
+    if (!line._angles.empty()) {
+      while (left && angle <= line._angles.back()) angle += 2 * std::numbers::pi;
+      while (!left && angle >= line._angles.back()) angle -= 2 * std::numbers::pi;
+    }
+    line._angles.push_back(angle);
   }
+  line.sample();
+  return line;
+}
+
+Line Line::circle(const Point& centre, double radius) {
+  const auto [x, y] = centre;
+  Line line(Shape::circle, true,
+            {{x, y + radius}, {x + radius, y}, {x, y - radius}, {x - radius, y}});
+  line._centre = centre;
+  line._radius = radius;
+  for (int quarter = 1; quarter >= -3; --quarter)
+    line._angles.push_back(quarter * std::numbers::pi / 2);
   line.sample();
   return line;
 }
@@ -96,10 +103,12 @@ Line Line::spline(std::vector<Point> points, bool closed) {
 int Line::samples_in_span() const noexcept {
   switch (_shape) {
     case Shape::arc:
+    case Shape::circle:
       return samples_half_an_arc;
     case Shape::spline:
       return samples_a_span;
     case Shape::polyline:
+    case Shape::segment:
       break;
   }
   return 1;
@@ -162,7 +171,7 @@ Point Line::at(double t) const noexcept {
   const Point b = vertex(k + 1);
   if (u <= 0) return a;
   if (u >= 1) return b;
-  if (_shape == Shape::arc) {
+  if (!_angles.empty()) {
     const double angle = angle_at(k, u);
     return {_centre[0] + _radius * std::cos(angle), _centre[1] + _radius * std::sin(angle)};
   }
@@ -184,7 +193,7 @@ Point Line::derivative(double t) const noexcept {
   const Point a = vertex(k);
   const Point b = vertex(k + 1);
   if (_shape == Shape::polyline) return minus(b, a);
-  if (_shape == Shape::arc) {
+  if (!_angles.empty()) {
     const double angle = angle_at(k, u);
     const double speed = _radius * sweep(k);
     return {-speed * std::sin(angle), speed * std::cos(angle)};
@@ -255,46 +264,6 @@ double Line::distance_to(const Point& p) const noexcept {
   for (std::size_t i = 1; i < _samples.size(); ++i)
     off = std::min(off, distance(p, Segment{_samples[i - 1].p, _samples[i].p}));
   return off;
-}
-
-/// The cumulated number of chords after each of `steps` equal pieces of the parameter.
-std::vector<double> Line::measure(double from, double to, double size, int steps) const {
-  std::vector<double> sum{0};
-  sum.reserve(static_cast<std::size_t>(steps) + 1);
-  Point before = at(from);
-  // a little inside, so that a corner between spans does not count
-  Point direction = derivative(from + 1e-9 * (to - from));
-  for (int i = 1; i <= steps; ++i) {
-    const double t = from + (to - from) * i / steps;
-    const Point here = at(t);
-    const Point heading = derivative(t - 1e-9 * (to - from));
-    sum.push_back(sum.back() +
-                  std::max(distance(before, here) / size, turn(direction, heading) / largest_turn));
-    before = here;
-    direction = heading;
-  }
-  return sum;
-}
-
-double Line::chords_between(double from, double to, double size) const {
-  return measure(from, to, size, 4 * samples_a_span).back();
-}
-
-std::vector<double> Line::cuts_between(double from, double to, double size) const {
-  const double expected = std::ceil(chords_between(from, to, size));
-  const int steps = 4 * samples_a_span + 4 * static_cast<int>(expected);
-  const std::vector<double> sum = measure(from, to, size, steps);
-  const auto pieces = static_cast<int>(std::ceil(sum.back() - 1e-6));
-  std::vector<double> cuts;
-  cuts.reserve(static_cast<std::size_t>(std::max(0, pieces)));
-  std::size_t i = 1;
-  for (int k = 1; k < pieces; ++k) {
-    const double wanted = sum.back() * k / pieces;
-    while (sum[i] < wanted) ++i;
-    const double part = (wanted - sum[i - 1]) / (sum[i] - sum[i - 1]);
-    cuts.push_back(from + (to - from) * (static_cast<double>(i - 1) + part) / steps);
-  }
-  return cuts;
 }
 
 }  // namespace anticrack::mesh

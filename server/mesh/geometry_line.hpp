@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A line of the plane with a parameter: polyline, arc through three points, or centripetal
+// A line of the plane with a parameter: polyline, arc through three points, circle, or centripetal
 // Catmull-Rom spline (E. Catmull, R. Rom 1974; P. Yuksel, S. Schaefer, J. Keyser, Parameterization
 // and applications of Catmull-Rom curves, Computer-Aided Design 43 (2011)). Lengths in the unit of
 // the geometry.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -22,6 +21,8 @@ class Line {
   static Line polyline(std::vector<Point> points, bool closed);
   /// From a through b to c, all three vertices; they are not on one straight line.
   static Line arc(const Point& a, const Point& b, const Point& c);
+  /// Clockwise from the point above the centre; four spans. The radius is positive.
+  static Line circle(const Point& centre, double radius);
   /// At least 3 points, no two consecutive ones equal.
   static Line spline(std::vector<Point> points, bool closed);
 
@@ -44,6 +45,9 @@ class Line {
   std::optional<double> locate(const Point& p, double tolerance) const;
   /// Of `p` from the line; exact for a polyline, else from fine chords.
   double distance_to(const Point& p) const noexcept;
+  /// The parameter up to which the line from `from` on has a part of its length up to `to`.
+  /// O(samples).
+  double along(double from, double to, double part) const;
   /// How many chords of length `size` or a turn of ten degrees the line takes from one parameter to
   /// another. Not for polylines.
   double chords_between(double from, double to, double size) const;
@@ -79,9 +83,9 @@ class Line {
   std::vector<Point> _in;   ///< and at its end
   Point _centre{};
   double _radius = 0;
-  std::array<double, 3> _angles{};  ///< arc: of its vertices seen from the centre
-  std::vector<Sample> _samples;     ///< as many in every span
-  std::vector<Box> _boxes;          ///< of each span
+  std::vector<double> _angles;   ///< arc, circle: where each span begins and ends, from the centre
+  std::vector<Sample> _samples;  ///< as many in every span
+  std::vector<Box> _boxes;       ///< of each span
   Box _box;
 };
 

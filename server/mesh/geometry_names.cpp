@@ -38,20 +38,22 @@ class Names {
 
 }  // namespace
 
-std::vector<std::string> check_names(const Geometry& geometry) {
+std::vector<std::string> side_names(const Geometry& geometry) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name, const char* other, std::size_t i) {
+    names.push_back(name.empty() ? other + std::to_string(i + 1) : name);
+  };
+  for (std::size_t i = 0; i < geometry.boundary.size(); ++i) add("", "side-", i);
+  for (std::size_t i = 0; i < geometry.sides.size(); ++i) add(geometry.sides[i].name, "side-", i);
+  for (std::size_t i = 0; i < geometry.holes.size(); ++i) add(geometry.holes[i].name, "hole-", i);
+  return names;
+}
+
+std::vector<std::string> check_names(const Drawn& geometry) {
   check_count(geometry.inclusions.size(), "inclusions");
   check_count(geometry.cracks.size(), "cracks");
   check_count(geometry.regions.size(), "regions");
   check_count(geometry.neumann.size(), "neumann");
-  Names lines;
-  std::vector<std::string> interfaces;
-  interfaces.reserve(geometry.interfaces.size());
-  for (std::size_t i = 0; i < geometry.interfaces.size(); ++i) {
-    std::string name = geometry.interfaces[i].name;
-    if (name.empty()) name = i == 0 ? "interface" : "interface-" + std::to_string(i + 1);
-    lines.add(name, indexed("interfaces", i), "interface");
-    interfaces.push_back(std::move(name));
-  }
   Names parts;
   for (std::size_t i = 0; i < geometry.inclusions.size(); ++i)
     parts.add(geometry.inclusions[i].name, indexed("inclusions", i), "inclusion and crack");
@@ -60,6 +62,24 @@ std::vector<std::string> check_names(const Geometry& geometry) {
   Names regions;
   for (std::size_t i = 0; i < geometry.regions.size(); ++i)
     regions.add(geometry.regions[i].name, indexed("regions", i), "region");
+  Names sides;
+  const std::vector<std::string> boundary = side_names(geometry);
+  const std::size_t outer = boundary.size() - geometry.holes.size();
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    sides.add(boundary[i], i < outer ? indexed("sides", i) : indexed("holes", i - outer),
+              "side and hole");
+  }
+  // a line of its own has the name of its owner, which is good
+  Names lines;
+  std::vector<std::string> interfaces;
+  interfaces.reserve(geometry.interfaces.size());
+  for (std::size_t i = 0; i < geometry.interfaces.size(); ++i) {
+    const std::string& field = geometry.fields[i];
+    std::string name = geometry.interfaces[i].name;
+    if (name.empty()) name = i == 0 ? "interface" : "interface-" + std::to_string(i + 1);
+    lines.add(name, field.substr(0, field.find('.')), "interface");
+    interfaces.push_back(std::move(name));
+  }
   return interfaces;
 }
 

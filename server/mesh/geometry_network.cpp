@@ -5,99 +5,14 @@
 #include <cmath>
 
 #include "mesh/at.hpp"
+#include "mesh/geometry_boundary.hpp"
+#include "mesh/geometry_curves.hpp"
 #include "mesh/geometry_primitives.hpp"
 
 namespace anticrack::mesh {
 namespace {
 
-/// Refuses points far outside the membrane first: products of such coordinates would overflow.
-void check_near(const Point& p, const std::string& field, const Outline& outline) {
-  if (distance(p, outline.boundary.front()) > 10 * outline.tolerance / relative_tolerance)
-    refuse(field, field, " ", show(p), " lies outside the polygon; it must lie in the membrane");
-}
-
-/// Of a polyline or spline.
-void check_vertices(const std::vector<Point>& points, const std::string& owner,
-                    const std::string& field, const Outline& outline) {
-  check_points(points, field);
-  for (std::size_t i = 0; i < points.size(); ++i) check_near(points[i], indexed(field, i), outline);
-  check_distinct(points, field, outline.tolerance);
-  if (distance(points.front(), points.back()) <= outline.tolerance) {
-    refuse(owner, owner, " starts and ends at the same point ", show(points.front()),
-           "; for a closed line set `closed` and leave the last point out");
-  }
-}
-
-Line polyline_of(const std::vector<Point>& points, bool closed, const std::string& owner,
-                 const std::string& field, const Outline& outline) {
-  const std::size_t least = closed ? 3 : 2;
-  if (points.size() < least) {
-    refuse(owner, owner, " has ", points.size(), " vertices; a ", (closed ? "closed " : ""),
-           "polyline takes at least ", least);
-  }
-  check_vertices(points, owner, field, outline);
-  check_simple(points, closed, owner, field, outline.tolerance);
-  return Line::polyline(points, closed);
-}
-
-Line spline_of(const InterfaceSpec& spec, const std::string& owner, const Outline& outline) {
-  if (spec.points.size() < 3)
-    refuse(owner, owner, " has ", spec.points.size(), " points; a spline takes at least 3");
-  check_vertices(spec.points, owner, owner + ".points", outline);
-  return Line::spline(spec.points, spec.closed);
-}
-
-Line arc_of(const InterfaceSpec& spec, const std::string& owner, const Outline& outline) {
-  const double tolerance = outline.tolerance;
-  if (spec.points.size() != 3) {
-    refuse(owner, owner, " has ", spec.points.size(),
-           " points; an arc is given by three: from, through, to");
-  }
-  if (spec.closed)
-    refuse(owner, owner, " is closed, which an arc cannot be; make the circle a closed spline");
-  const std::array<const char*, 3> names{".from", ".through", ".to"};
-  for (std::size_t i = 0; i < 3; ++i) {
-    check_point(spec.points[i], owner + names[i]);
-    check_near(spec.points[i], owner + names[i], outline);
-  }
-  const Point& a = spec.points[0];
-  const Point& b = spec.points[1];
-  const Point& c = spec.points[2];
-  if (distance(a, c) <= tolerance)
-    refuse(owner + ".to", owner, " starts and ends at the same point ", show(a));
-  const double ab = distance(a, b), bc = distance(b, c), ac = distance(a, c);
-  const double twice_area = std::abs(signed_area(std::array{a, b, c})) * 2;
-  // A flatter arc's centre is lost to rounding: its radius ab bc ac / (2 twice_area) exceeds the
-  // membrane by far. The negation also catches NaN.
-  const bool flat = distance(b, Segment{a, c}) <= 1e3 * tolerance ||
-                    !(ab * bc * ac <= 1e15 * tolerance * twice_area);
-  if (flat || ab <= tolerance || bc <= tolerance) {
-    refuse(owner + ".through", owner, ".through ", show(b), " lies ", show(twice_area / ac),
-           " off the straight line through ", show(a), " and ", show(c),
-           "; that is not an arc, give a polyline instead");
-  }
-  return Line::arc(a, b, c);
-}
-
-NetworkLine interface_line(const InterfaceSpec& spec, const std::string& name,
-                           const Outline& outline) {
-  switch (spec.shape) {
-    case Shape::arc:
-      return {name + ".arc", Role::interface, arc_of(spec, name + ".arc", outline), {}};
-    case Shape::spline:
-      return {name + ".spline", Role::interface, spline_of(spec, name + ".spline", outline), {}};
-    case Shape::polyline:
-      break;
-  }
-  const std::string field = name + ".polyline";
-  return {field,
-          Role::interface,
-          polyline_of(spec.points, spec.closed, field, field + ".points", outline),
-          {}};
-}
-
-void check_counts(const Geometry& geometry, const MeshOptions& options) {
-  check_count(geometry.interfaces.size(), "interfaces", "entries", max_interfaces);
+void check_counts(const Drawn& geometry, const MeshOptions& options) {
   check_count(options.align.size(), "options.align", "lines", max_interfaces);
   std::size_t vertices = 0;
   for (const InterfaceSpec& spec : geometry.interfaces) vertices += spec.points.size();
@@ -184,41 +99,53 @@ void cut_line(Network& network, std::size_t l, double size, std::size_t max_chor
   }
 }
 
-void check_inside(const Network& network, const std::vector<Point>& polygon) {
+/// Refuses lines that run outside the membrane, by a chord of each: a ray from a point in the
+/// membrane meets the boundary in an odd number of points.
+void check_inside(const Network& network) {
+  std::vector<std::vector<Segment>> edges(network.boundary);
+  for (const Chord& chord : network.chords)
+    if (at(chord.line) < network.boundary)
+      edges[at(chord.line)].push_back({network.points[at(chord.a)], network.points[at(chord.b)]});
   int before = -1;
   for (const Chord& chord : network.chords) {
-    if (chord.line == before || chord.line == 0) continue;
+    if (chord.line == before || at(chord.line) < network.outer) continue;
     before = chord.line;
     const Point& a = network.points[at(chord.a)];
     const Point& b = network.points[at(chord.b)];
     const Point middle{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
-    if (inside(middle, polygon)) continue;
+    bool odd = false;
+    for (std::size_t l = 0; l < edges.size(); ++l)
+      if (l != at(chord.line) && ray_meets(middle, edges[l])) odd = !odd;
+    if (odd) continue;
     const std::string& field = network.lines[at(chord.line)].field;
-    refuse(field, field, " runs outside the polygon, at ", show(middle),
+    refuse(field, field, " runs outside the polygon or in a hole, at ", show(middle),
            "; it must lie in the membrane");
   }
 }
 
 }  // namespace
 
-Network lay_lines(const Geometry& geometry, const MeshOptions& options) {
-  const Outline outline = check_outline(geometry.boundary);
+Network lay_lines(const Drawn& geometry, const MeshOptions& options) {
+  Boundary boundary = lay_boundary(geometry);
   check_counts(geometry, options);
   Network network;
-  network.tolerance = outline.tolerance;
-  network.lines.reserve(1 + geometry.interfaces.size() + options.align.size());
-  network.lines.push_back(
-      {"boundary", Role::dirichlet, Line::polyline(outline.boundary, true), {}});
+  network.tolerance = boundary.outline.tolerance;
+  network.turned = boundary.turned;
+  network.outer = boundary.outer;
+  network.boundary = boundary.lines.size();
+  network.lines = std::move(boundary.lines);
+  network.lines.reserve(network.boundary + geometry.interfaces.size() + options.align.size());
   for (std::size_t i = 0; i < geometry.interfaces.size(); ++i) {
+    const std::string& field = geometry.fields[i];
     network.lines.push_back(
-        interface_line(geometry.interfaces[i], indexed("interfaces", i), outline));
+        {field, Role::interface, lay_curve(geometry.interfaces[i], field, boundary.outline), {}});
   }
   for (std::size_t i = 0; i < options.align.size(); ++i) {
     const std::string field = indexed("options.align", i);
     network.lines.push_back(
         {field,
          Role::align,
-         polyline_of(options.align[i], false, field, field + ".points", outline),
+         lay_curve({"", Shape::polyline, options.align[i]}, field, boundary.outline),
          {}});
   }
   for (std::size_t l = 0; l < network.lines.size(); ++l) {
@@ -273,7 +200,7 @@ void cut(Network& network, double size, std::size_t max_chords) {
     for (std::size_t l = 0; l < network.lines.size(); ++l) cut_line(network, l, size, max_chords);
     const std::vector<Crossing> found = find_crossings(network);
     if (found.empty()) {
-      check_inside(network, network.lines.front().line.vertices());
+      check_inside(network);
       return;
     }
     if (found.size() > max_chords) {

@@ -11,7 +11,7 @@
 
 #include "mesh/geometry.hpp"
 #include "mesh/geometry_line.hpp"
-#include "mesh/geometry_outline.hpp"
+#include "mesh/geometry_own_lines.hpp"
 
 namespace anticrack::mesh {
 
@@ -22,7 +22,7 @@ struct Station {
 };
 
 struct NetworkLine {
-  std::string field;  ///< "boundary", "interfaces[0].arc", "options.align[0]"
+  std::string field;  ///< "boundary", "sides[2].line.arc", "interfaces[0].arc", "options.align[0]"
   Role role = Role::interface;
   Line line;
   std::vector<Station> stations;  ///< in order; a closed line's first is not there again
@@ -49,7 +49,12 @@ class PointIndex {
 };
 
 struct Network {
-  std::vector<NetworkLine> lines;  ///< the boundary (counterclockwise), interfaces, align
+  /// The outer boundary (counterclockwise, one line or the sides in their order), holes
+  /// (clockwise), interfaces, align.
+  std::vector<NetworkLine> lines;
+  bool turned = false;       ///< the outer boundary was written clockwise
+  std::size_t outer = 0;     ///< so many lines are the outer boundary,
+  std::size_t boundary = 0;  ///< and so many that and the holes
   std::vector<Point> points;
   PointIndex stations;        ///< the points that are stations of a line
   double tolerance = 0;       ///< points closer than this are one
@@ -58,7 +63,7 @@ struct Network {
 
 /// The boundary, the interfaces and the align lines, each checked by itself; no chords yet.
 /// Throws errors::Error (geometry_invalid, limit_exceeded).
-Network lay_lines(const Geometry& geometry, const MeshOptions& options);
+Network lay_lines(const Drawn& geometry, const MeshOptions& options);
 
 /// Adds a station at `p` to every line that passes within the tolerance. Uses an existing point
 /// there, if any. Returns the number of the point.
@@ -81,8 +86,9 @@ struct Crossing {
 };
 
 /// Checks every pair of chords and returns the crossings that are no stations yet. Throws
-/// geometry_invalid for a line that meets itself, leaves the polygon, touches the boundary other
-/// than with its ends, runs along another line or meets it at less than a degree.
+/// geometry_invalid for a line that meets itself, leaves the membrane, touches the boundary other
+/// than with its ends, runs along another line or meets it at less than a degree, and for a hole
+/// that touches another line of the boundary.
 /// O(c log c + pairs of chords over the same x).
 std::vector<Crossing> find_crossings(const Network& network);
 

@@ -78,6 +78,8 @@ void check_for_geometry(const MeshOptions& options) {
               "name subdomains by the regions of the geometry");
   for_uploads(options.tension.empty(), "options.tension",
               "give tensions in the regions of the geometry");
+  for_uploads(options.tension_laws.empty(), "options.tension_laws",
+              "give tensions in the regions of the geometry");
   for_uploads(options.inclusion_motions.empty(), "options.inclusion_motions",
               "say tilt or fixed in the inclusions of the geometry");
 }
@@ -102,6 +104,13 @@ void check_for_upload(const MeshOptions& options) {
     if (std::isfinite(tension) && tension > 0) continue;
     const std::string field = "options.tension[" + name + "]";
     refuse_option(field, field + " is " + show(tension) + "; a tension is a number above 0");
+  }
+  for (const auto& [name, law] : options.tension_laws) {
+    const std::string field = "options.tension_laws[" + name + "]";
+    const std::string fault = fault_of(law);
+    if (!fault.empty()) refuse_option(field, field + ": " + fault);
+    if (options.tension.contains(name))
+      refuse_option(field, field + " and options.tension[" + name + "] are given; leave one out");
   }
   for (const auto& [name, motion] : options.inclusion_motions) {
     // As above: the import knows the inclusions.

@@ -115,18 +115,7 @@ double check_polygon(const std::vector<Point>& boundary) {
   if (boundary.size() < 3)
     refuse("boundary", "boundary has ", boundary.size(), " vertices; a polygon takes at least 3");
   check_points(boundary, "boundary");
-  const double extent = diagonal(boundary);
-  const double tolerance = relative_tolerance * extent;
-  double largest = 0;
-  for (const Point& p : boundary) largest = std::max({largest, std::abs(p[0]), std::abs(p[1])});
-  if (extent > 0 && extent < 1e-6 * largest) {
-    refuse("boundary", "boundary is ", show(extent), " across, but lies ", show(largest),
-           " from the origin: too far for double precision; move it to the origin");
-  }
-  if (extent > 0 && extent < min_extent) {
-    refuse("boundary", "boundary is ", show(extent), " across; at least ", show(min_extent),
-           " is required; choose a smaller unit of length");
-  }
+  const double tolerance = check_extent(boundary, "boundary");
   check_distinct(boundary, "boundary", tolerance);
   if (distance(boundary.front(), boundary.back()) <= tolerance) {
     const std::size_t last = boundary.size() - 1;
@@ -150,6 +139,21 @@ void check_point(const Point& p, const std::string& field) {
              show(max_coordinate), " in size");
     }
   }
+}
+
+double check_extent(const std::vector<Point>& boundary, const std::string& owner) {
+  const double extent = diagonal(boundary);
+  double largest = 0;
+  for (const Point& p : boundary) largest = std::max({largest, std::abs(p[0]), std::abs(p[1])});
+  if (extent > 0 && extent < 1e-6 * largest) {
+    refuse(owner, "boundary is ", show(extent), " across, but lies ", show(largest),
+           " from the origin: too far for double precision; move it to the origin");
+  }
+  if (extent > 0 && extent < min_extent) {
+    refuse(owner, "boundary is ", show(extent), " across; at least ", show(min_extent),
+           " is required; choose a smaller unit of length");
+  }
+  return relative_tolerance * extent;
 }
 
 Outline check_outline(const std::vector<Point>& boundary) {

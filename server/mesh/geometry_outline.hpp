@@ -13,10 +13,13 @@ namespace anticrack::mesh {
 
 /// Points closer than this fraction of the boundary's diagonal count as one.
 inline constexpr double relative_tolerance = 1e-9;
+/// And points nearer than this to the line they must lie on are moved onto it.
+inline constexpr double snap_reach = 1e-6;
 inline constexpr std::size_t max_vertices = 20'000;
 inline constexpr std::size_t max_interfaces = 1'000;
 
-/// The polygon counterclockwise, and the distance within which two points are one.
+/// The vertices of the boundary, of a polygon counterclockwise, and the distance within which two
+/// points are one.
 struct Outline {
   std::vector<Point> boundary;
   double tolerance = 0;
@@ -25,6 +28,10 @@ struct Outline {
 /// Throws errors::Error (geometry_invalid, limit_exceeded) with the field at fault: "boundary",
 /// "boundary[i]". O(v^2).
 Outline check_outline(const std::vector<Point>& boundary);
+
+/// The distance within which points of a boundary are one. Throws geometry_invalid at `owner` where
+/// it is too small or too far from the origin for double precision.
+double check_extent(const std::vector<Point>& boundary, const std::string& owner);
 
 /// Throws geometry_invalid at `field` unless both coordinates are finite and at most 1e100 in size.
 void check_point(const Point& p, const std::string& field);

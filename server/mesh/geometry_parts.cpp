@@ -12,6 +12,10 @@
 namespace anticrack::mesh {
 namespace {
 
+constexpr const char* own_line =
+    "; or give it a line of its own in place of from and to: points, arc, spline, or center, angle "
+    "and length";
+
 struct Ends {
   int from = 0;  ///< points of the network
   int to = 0;
@@ -27,7 +31,8 @@ std::vector<int> lines_at(const Network& network, Role role, int point) {
   return lines;
 }
 
-void refuse_off(const Network& network, const Point& p, const std::string& field) {
+[[noreturn]] void refuse_off(const Network& network, const Point& p, const std::string& field,
+                             const char* cure = "") {
   double off = std::numeric_limits<double>::infinity();
   const Line* nearest = nullptr;
   for (const NetworkLine& line : network.lines) {
@@ -37,11 +42,11 @@ void refuse_off(const Network& network, const Point& p, const std::string& field
     off = std::min(off, d);
   }
   if (nearest == nullptr)
-    refuse(field, field, " ", show(p), " lies on no interface: there is none");
+    refuse(field, field, " ", show(p), " lies on no interface: there is none", cure);
   const std::optional<double> t = nearest->locate(p, 1.01 * off);
   refuse(field, field, " ", show(p), " lies ", show(off),
          " off the interface; it must lie on it, to ", show(snap_distance(network)),
-         t ? "; nearest is " + show(nearest->at(*t)) : "");
+         t ? "; nearest is " + show(nearest->at(*t)) : "", cure);
 }
 
 Ends mark_ends(Network& network, const Part& part) {
@@ -52,8 +57,8 @@ Ends mark_ends(Network& network, const Part& part) {
 int line_of(const Network& network, const Part& part, const Ends& ends, const std::string& field) {
   const std::vector<int> from = lines_at(network, Role::interface, ends.from);
   const std::vector<int> to = lines_at(network, Role::interface, ends.to);
-  if (from.empty()) refuse_off(network, part.from, field + ".from");
-  if (to.empty()) refuse_off(network, part.to, field + ".to");
+  if (from.empty()) refuse_off(network, part.from, field + ".from", own_line);
+  if (to.empty()) refuse_off(network, part.to, field + ".to", own_line);
   if (ends.from == ends.to)
     refuse(field, field, " has no length: it runs from ", show(part.from), " to ", show(part.to));
   std::vector<int> both;
@@ -88,13 +93,55 @@ PlacedPart place(const Network& network, int l, const Ends& ends) {
   return placed;
 }
 
+/// All of an inclusion's or crack's own line.
+PlacedPart place_own(const Network& network, std::size_t l) {
+  const std::vector<Station>& stations = network.lines[l].stations;
+  PlacedPart placed{static_cast<int>(l), stations.front(), stations.back()};
+  placed.own = true;
+  return placed;
+}
+
+/// The place of an inclusion where it has a part of its length, walked from its start.
+Station place_at(Network& network, const PlacedPart& whole, double part) {
+  if (part == (whole.reversed ? 1 : 0)) return whole.begin;
+  if (part == (whole.reversed ? 0 : 1)) return whole.end;
+  const Line& line = network.lines[at(whole.line)].line;
+  const double t = line.along(whole.begin.t, whole.end.t, whole.reversed ? 1 - part : part);
+  const int point = mark(network, line.at(t < line.spans() ? t : line.on_line(t)));
+  const double own = station_of(network.lines[at(whole.line)], point);
+  return {own < whole.begin.t ? own + line.spans() : own, point};
+}
+
+/// The stretches of an inclusion that are given by their lengths.
+std::vector<PlacedPart> place_stretches(Network& network, const InclusionSpec& inclusion,
+                                        const PlacedPart& whole) {
+  const std::string list = whole.field + ".delaminated_parts.stretches";
+  check_count(inclusion.stretches.size(), list);
+  std::vector<PlacedPart> parts;
+  parts.reserve(inclusion.stretches.size());
+  for (std::size_t k = 0; k < inclusion.stretches.size(); ++k) {
+    const std::string field = indexed(list, k);
+    const auto [from, to] = inclusion.stretches[k];
+    if (!(from >= 0 && from < to && to <= 1)) {
+      refuse(field, field, " runs from ", show(from), " to ", show(to),
+             "; it is given by arc length over the inclusion's, 0 <= from < to <= 1");
+    }
+    PlacedPart placed{whole.line, place_at(network, whole, from), place_at(network, whole, to),
+                      field};
+    if (placed.begin.point == placed.end.point)
+      refuse(field, field, " from ", show(from), " to ", show(to), " is too short");
+    if (placed.begin.t > placed.end.t) std::swap(placed.begin, placed.end);
+    parts.push_back(std::move(placed));
+  }
+  return parts;
+}
+
 /// The delaminated parts of an inclusion, in order.
 std::vector<PlacedPart> place_delaminated(Network& network, const InclusionSpec& inclusion,
                                           const PlacedPart& whole) {
   const std::string list = whole.field + ".delaminated_parts";
   check_count(inclusion.delaminated.size(), list);
-  std::vector<PlacedPart> parts;
-  parts.reserve(inclusion.delaminated.size());
+  std::vector<PlacedPart> parts = place_stretches(network, inclusion, whole);
   const Point begin = network.points[at(whole.begin.point)];
   const Point end = network.points[at(whole.end.point)];
   for (std::size_t k = 0; k < inclusion.delaminated.size(); ++k) {
@@ -132,11 +179,13 @@ std::vector<PlacedPart> place_delaminated(Network& network, const InclusionSpec&
 }
 
 /// Bonded and delaminated stretches of one inclusion.
-void add_inclusion(const PlacedPart& whole, const std::vector<PlacedPart>& delaminated,
-                   Layout& layout) {
+void add_inclusion(const PlacedPart& whole, LineSide side,
+                   const std::vector<PlacedPart>& delaminated, Layout& layout) {
+  const LineSide plus = whole.reversed ? LineSide::right : LineSide::left;
   double at = whole.begin.t;
   const auto add = [&](double end, Kind kind) {
-    if (end > at) layout.stretches.push_back({whole.line, at, end, kind, whole.inclusion});
+    if (end > at)
+      layout.stretches.push_back({whole.line, at, end, kind, whole.inclusion, side == plus});
     at = end;
   };
   for (const PlacedPart& part : delaminated) {
@@ -150,7 +199,7 @@ void check_pair(const Network& network, const PlacedPart& left, const PlacedPart
                 double shift) {
   const double begin = right.begin.t + shift;
   if (begin > left.end.t) return;
-  const std::string field = right.field + ".part";
+  const std::string field = place_of(right);
   const std::string place = show(network.points[at(right.begin.point)]);
   if (begin == left.end.t) {
     refuse(field, right.field, " and ", left.field, " share the tip ", place,
@@ -179,70 +228,40 @@ void check_apart(const Network& network, std::vector<PlacedPart> parts) {
   }
 }
 
-std::vector<Stretch> lay_neumann(const Geometry& geometry, Network& network) {
-  struct Placed {
-    Stretch stretch;
-    std::string field;
-  };
-  std::vector<Placed> placed;
-  placed.reserve(geometry.neumann.size());
-  const double spans = network.lines.front().line.spans();
-  for (std::size_t i = 0; i < geometry.neumann.size(); ++i) {
-    const std::string field = indexed("neumann", i);
-    const Part& part = geometry.neumann[i];
-    const Ends ends = mark_ends(network, part);
-    const auto on_boundary = [&](int point, const Point& p, const char* which) {
-      const double t = station_of(network.lines.front(), point);
-      if (t >= 0) return t;
-      refuse(field + which, field, which, " ", show(p), " lies ",
-             show(network.lines.front().line.distance_to(p)),
-             " off the boundary; it must lie on it, to ", show(snap_distance(network)));
-    };
-    const double begin = on_boundary(ends.from, part.from, ".from");
-    double end = on_boundary(ends.to, part.to, ".to");
-    if (end <= begin) end += spans;
-    placed.push_back({{0, begin, end, Kind::glue, -1}, field});
-  }
-  std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
-    return a.stretch.begin < b.stretch.begin;
-  });
-  std::vector<Stretch> stretches;
-  stretches.reserve(placed.size());
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    stretches.push_back(placed[i].stretch);
-    if (placed.size() == 1) break;
-    const Placed& next = placed[(i + 1) % placed.size()];
-    const double shift = i + 1 == placed.size() ? spans : 0;
-    if (next.stretch.begin + shift < placed[i].stretch.end)
-      refuse(next.field, next.field, " and ", placed[i].field, " overlap; make them one part");
-  }
-  return stretches;
-}
-
 }  // namespace
 
-Layout lay_parts(const Geometry& geometry, Network& network) {
+std::string place_of(const PlacedPart& part) { return part.field + (part.own ? ".line" : ".part"); }
+
+Layout lay_parts(const Drawn& geometry, Network& network) {
   Layout layout;
   layout.parts.reserve(geometry.inclusions.size() + geometry.cracks.size());
-  const auto add = [&](const Part& part, const std::string& owner, int inclusion) {
+  const auto add = [&](const Part& part, int own, const std::string& owner, int inclusion) {
     const std::string field = owner + ".part";
-    const Ends ends = mark_ends(network, part);
-    PlacedPart placed = place(network, line_of(network, part, ends, field), ends);
+    PlacedPart placed;
+    if (own >= 0) {
+      placed = place_own(network, network.boundary + at(own));
+    } else {
+      const Ends ends = mark_ends(network, part);
+      placed = place(network, line_of(network, part, ends, field), ends);
+    }
     placed.field = owner;
     placed.inclusion = inclusion;
     layout.parts.push_back(std::move(placed));
   };
   for (std::size_t i = 0; i < geometry.inclusions.size(); ++i) {
-    add(geometry.inclusions[i].part, indexed("inclusions", i), static_cast<int>(i));
+    const InclusionSpec& inclusion = geometry.inclusions[i];
+    add(inclusion.part, geometry.inclusion_lines[i], indexed("inclusions", i), static_cast<int>(i));
     const PlacedPart& whole = layout.parts.back();
-    add_inclusion(whole, place_delaminated(network, geometry.inclusions[i], whole), layout);
-    const std::string fault = fault_of(geometry.inclusions[i].motion);
+    add_inclusion(whole, inclusion.delaminated_side, place_delaminated(network, inclusion, whole),
+                  layout);
+    const std::string fault = fault_of(inclusion.motion);
     if (!fault.empty()) refuse(whole.field + ".fixed", whole.field, ": ", fault);
   }
   for (std::size_t i = 0; i < geometry.cracks.size(); ++i) {
-    add(geometry.cracks[i].part, indexed("cracks", i), -1);
+    const CrackSpec& crack = geometry.cracks[i];
+    add(crack.part, geometry.crack_lines[i], indexed("cracks", i), -1);
     const PlacedPart& placed = layout.parts.back();
-    const Kind kind = geometry.cracks[i].contact ? Kind::crack : Kind::free;
+    const Kind kind = crack.contact ? Kind::crack : Kind::free;
     layout.stretches.push_back({placed.line, placed.begin.t, placed.end.t, kind, -1});
   }
   check_apart(network, layout.parts);

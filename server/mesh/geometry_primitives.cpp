@@ -97,15 +97,27 @@ double signed_area(std::span<const Point> polygon) noexcept {
   return twice / 2;
 }
 
+namespace {
+
+/// Whether the ray from `p` along x crosses the edge.
+bool ray_crosses(const Point& p, Point a, Point b) noexcept {
+  if ((a[1] > p[1]) == (b[1] > p[1])) return false;
+  if (a[1] > b[1]) std::swap(a, b);
+  return cross(a, b, p) > 0;
+}
+
+}  // namespace
+
+bool ray_meets(const Point& p, std::span<const Segment> edges) noexcept {
+  bool odd = false;
+  for (const Segment& edge : edges) odd = odd != ray_crosses(p, edge.a, edge.b);
+  return odd;
+}
+
 bool inside(const Point& p, std::span<const Point> polygon) noexcept {
   bool odd = false;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    Point a = polygon[i];
-    Point b = polygon[(i + 1) % polygon.size()];
-    if ((a[1] > p[1]) == (b[1] > p[1])) continue;
-    if (a[1] > b[1]) std::swap(a, b);
-    if (cross(a, b, p) > 0) odd = !odd;
-  }
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    odd = odd != ray_crosses(p, polygon[i], polygon[(i + 1) % polygon.size()]);
   return odd;
 }
 

@@ -49,6 +49,8 @@ void each_near_pair(std::span<const Segment> segments, double reach,
 double signed_area(std::span<const Point> polygon) noexcept;
 /// Whether a point that is not on the boundary lies inside.
 bool inside(const Point& p, std::span<const Point> polygon) noexcept;
+/// Whether a ray from `p` crosses an odd number of these edges.
+bool ray_meets(const Point& p, std::span<const Segment> edges) noexcept;
 /// Diagonal of the bounding box.
 double diagonal(std::span<const Point> points) noexcept;
 

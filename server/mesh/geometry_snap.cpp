@@ -9,7 +9,6 @@
 namespace anticrack::mesh {
 namespace {
 
-constexpr double relative_reach = 1e-6;
 constexpr std::size_t most_warnings = 100;
 
 class Snap {
@@ -66,31 +65,33 @@ class Snap {
 }  // namespace
 
 double snap_distance(const Network& network) noexcept {
-  return network.tolerance * (relative_reach / relative_tolerance);
+  return network.tolerance * (snap_reach / relative_tolerance);
 }
 
-bool snap_ends(const Network& network, Geometry& geometry, std::vector<std::string>& warnings) {
+bool snap_ends(const Network& network, Drawn& geometry, std::vector<std::string>& warnings) {
   Snap snap(network, warnings);
   for (std::size_t i = 0; i < geometry.interfaces.size(); ++i) {
     InterfaceSpec& spec = geometry.interfaces[i];
     if (spec.closed) continue;
+    const std::size_t own = network.boundary + i;
     const auto other = [&](std::size_t l) {
-      return l != i + 1 && network.lines[l].role != Role::align;
+      return l != own && network.lines[l].role != Role::align;
     };
-    const std::string field = network.lines[i + 1].field;
+    const std::string& field = network.lines[own].field;
     snap.move(spec.points.front(), field + ", its first point", other);
     snap.move(spec.points.back(), field + ", its last point", other);
   }
   for (std::size_t i = 0; i < geometry.inclusions.size(); ++i) {
     InclusionSpec& inclusion = geometry.inclusions[i];
     const std::string field = indexed("inclusions", i);
-    snap.move_part(inclusion.part, field + ".part");
+    if (!inclusion.line) snap.move_part(inclusion.part, field + ".part");
     for (std::size_t k = 0; k < inclusion.delaminated.size() && k < max_vertices; ++k)
       snap.move_part(inclusion.delaminated[k], indexed(field + ".delaminated_parts", k));
   }
   for (std::size_t i = 0; i < geometry.cracks.size(); ++i)
-    snap.move_part(geometry.cracks[i].part, indexed("cracks", i) + ".part");
-  const auto boundary = [](std::size_t l) { return l == 0; };
+    if (!geometry.cracks[i].line)
+      snap.move_part(geometry.cracks[i].part, indexed("cracks", i) + ".part");
+  const auto boundary = [&](std::size_t l) { return l < network.outer; };
   for (std::size_t i = 0; i < geometry.neumann.size(); ++i) {
     snap.move(geometry.neumann[i].from, indexed("neumann", i) + ".from", boundary);
     snap.move(geometry.neumann[i].to, indexed("neumann", i) + ".to", boundary);

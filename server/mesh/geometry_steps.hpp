@@ -22,12 +22,17 @@ double snap_distance(const Network& network) noexcept;
 /// onto an interface, those of the Neumann boundary onto the boundary. `warnings` lists them,
 /// up to a hundred. `network`: of the same geometry. Returns whether a point was moved. O(points
 /// times lines).
-bool snap_ends(const Network& network, Geometry& geometry, std::vector<std::string>& warnings);
+bool snap_ends(const Network& network, Drawn& geometry, std::vector<std::string>& warnings);
 
 /// The names of the interfaces, empty ones filled in. Throws errors::Error (geometry_invalid, or
 /// limit_exceeded) at "interfaces[0].name", "inclusions[0].name", ... for a malformed name or one
-/// used twice; inclusions and cracks share one set of names, interfaces and regions have their own.
-std::vector<std::string> check_names(const Geometry& geometry);
+/// used twice; inclusions and cracks share one set of names, so do sides and holes, interfaces and
+/// regions have their own.
+std::vector<std::string> check_names(const Drawn& geometry);
+
+/// The names of the sides of the boundary in the order in which they were written, then those of
+/// the holes; empty ones filled in.
+std::vector<std::string> side_names(const Geometry& geometry);
 
 /// `name`, or the first of `name`-2, `name`-3, ... not in `used`; added to `used`.
 std::string unused_name(const std::string& name, std::vector<std::string>& used);
@@ -42,6 +47,7 @@ struct Stretch {
   double end = 0;
   Kind kind = Kind::crack;
   int inclusion = -1;
+  bool plus_off = false;  ///< delaminated: the plus side comes off instead of the minus side
 };
 
 /// A whole inclusion or crack.
@@ -49,39 +55,64 @@ struct PlacedPart {
   int line = 0;
   Station begin;
   Station end;
-  std::string field;      ///< of the inclusion or crack
+  std::string field{};    ///< of the inclusion or crack
   int inclusion = -1;     ///< -1: a crack
   bool reversed = false;  ///< `begin` is the part's `to`
+  bool own = false;       ///< all of a line of its own
 };
+
+/// The field in which the part was given.
+std::string place_of(const PlacedPart& part);
 
 struct Layout {
   std::vector<PlacedPart> parts;
   std::vector<Stretch> stretches;
-  std::vector<Stretch> neumann;  ///< of line 0
+  std::vector<Stretch> neumann;  ///< of the boundary
 };
 
 /// Places the parts on the lines, which get stations at their ends; a tip keeps the coordinates it
 /// was given. Throws errors::Error (geometry_invalid) at "inclusions[1].part.from",
 /// "neumann[0].to", ... for a part off every interface, without length, or overlapping another one;
 /// at "inclusions[0].fixed" for a motion with a fault.
-Layout lay_parts(const Geometry& geometry, Network& network);
+Layout lay_parts(const Drawn& geometry, Network& network);
+
+/// Where the boundary is Neumann. Throws errors::Error (geometry_invalid) at "neumann[0].to",
+/// "neumann_sides[1]", ... for a part off the boundary or overlapping another one, for one that is
+/// more than a straight side where the reverse would be just a side, and for an unknown name.
+std::vector<Stretch> lay_neumann(const Geometry& geometry, Network& network);
 
 /// The stretch that holds a chord; none: null.
 const Stretch* stretch_of(const std::vector<Stretch>& stretches, const Network& network,
                           const Chord& chord) noexcept;
+
+// Chains of curves.
+
+/// How a curve must be walked by its chain.
+enum class Walk { either, as_written, reversed };
+
+/// Splits what is left of each interface into chains of curves, also where curves must be walked in
+/// different directions. The first chain of an interface keeps its name. Throws errors::Error
+/// (geometry_invalid) at "interfaces[i].polyline" where nothing is left.
+void add_chains(const Network& network, const std::vector<std::string>& names,
+                const std::vector<bool>& kept, const std::vector<Walk>& walks, Plan& plan);
+
+/// Reverses the chains, and their curves, that must be.
+void turn_chains(const std::vector<Walk>& walks, Plan& plan);
 
 // From chords with their conditions to faces, subdomains and interface chains.
 
 /// Fills the faces, `left` and `right` of the curves and the interfaces of a plan whose curves are
 /// the chords of the network, one by one, with role, kind and inclusion set. Glue with the same
 /// subdomain on both sides is removed; an interface becomes the chains that are left of it. Faces
-/// separated by align lines only are one subdomain and share its name. Subdomains are numbered in
-/// the order in which a walk along the interfaces meets them, minus side first. `names`: of the
-/// interfaces. Throws errors::Error (geometry_invalid) at "interfaces[i].polyline" for an interface
-/// of which nothing is left, at "regions[i].at" for a region outside the membrane, on a line, or in
-/// a subdomain that another region names.
-void lay_subdomains(const Geometry& geometry, const Network& network,
-                    const std::vector<std::string>& names, Plan& plan);
+/// separated by align lines only, or by cracks and inclusions within the outline of a region, are
+/// one subdomain and share its name. Subdomains are numbered in the order in which a walk along the
+/// interfaces meets them, minus side first, before chains are reversed. `names`: of the interfaces.
+/// `walks`: of each curve. Throws errors::Error (geometry_invalid) as add_chains(), at
+/// "regions[i].at" for a region outside the membrane, on a line, or in a subdomain that another
+/// region names, at "regions[i].outline" for one that an interface divides.
+void lay_subdomains(const Drawn& geometry, const Network& network,
+                    const std::vector<std::string>& names, const std::vector<Walk>& walks,
+                    Plan& plan);
 
 // How many pieces a curve is cut into.
 

@@ -23,22 +23,68 @@ Edges edges_of(const Plan& plan) {
   return edges;
 }
 
-/// The faces of one subdomain as a set: align lines do not separate subdomains.
-UnionFind join_faces(const Plan& plan, const Arrangement& arrangement,
+/// The curves of the outlines of regions, and on which side of each its inside lies.
+struct Outlines {
+  std::vector<int> region;   ///< of each curve; -1: no outline's
+  std::vector<bool> inside;  ///< of each region: on the left
+};
+
+Outlines find_outlines(const Drawn& geometry, const Network& network, const Plan& plan) {
+  std::vector<int> of_line(network.lines.size(), -1);
+  for (std::size_t i = 0; i < geometry.regions.size(); ++i) {
+    const int line = geometry.region_lines[i];
+    if (line >= 0) of_line[network.boundary + at(line)] = static_cast<int>(i);
+  }
+  Outlines outlines{{}, std::vector<bool>(geometry.regions.size())};
+  outlines.region.reserve(plan.curves.size());
+  for (const Chord& chord : network.chords) outlines.region.push_back(of_line[at(chord.line)]);
+  std::vector<std::vector<Point>> polygons(geometry.regions.size());
+  for (std::size_t e = 0; e < plan.curves.size(); ++e)
+    if (outlines.region[e] >= 0)
+      polygons[at(outlines.region[e])].push_back(plan.points[at(plan.curves[e].a)]);
+  for (std::size_t i = 0; i < polygons.size(); ++i)
+    outlines.inside[i] = signed_area(polygons[i]) > 0;
+  return outlines;
+}
+
+int inner_face(const Outlines& outlines, const Arrangement& arrangement, std::size_t curve) {
+  const bool left = outlines.inside[at(outlines.region[curve])];
+  return (left ? arrangement.left : arrangement.right)[curve];
+}
+
+/// The faces of one subdomain as a set: align lines do not separate subdomains, nor do cracks and
+/// inclusions within the outline of a region.
+UnionFind join_faces(const Plan& plan, const Outlines& outlines, const Arrangement& arrangement,
                      const std::vector<bool>& used) {
   UnionFind subdomains(arrangement.faces.size());
+  std::vector<bool> inside(arrangement.faces.size(), false);
   for (std::size_t e = 0; e < plan.curves.size(); ++e) {
-    if (!used[e] || plan.curves[e].role != Role::align) continue;
-    subdomains.unite(arrangement.left[e], arrangement.right[e]);
+    if (!used[e]) continue;
+    if (outlines.region[e] >= 0) inside[at(inner_face(outlines, arrangement, e))] = true;
+    if (plan.curves[e].role == Role::align)
+      subdomains.unite(arrangement.left[e], arrangement.right[e]);
+  }
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (std::size_t e = 0; e < plan.curves.size(); ++e) {
+      const PlannedCurve& curve = plan.curves[e];
+      const bool parts = curve.role == Role::interface && curve.kind == Kind::glue;
+      if (!used[e] || parts || outlines.region[e] >= 0) continue;
+      const int left = arrangement.left[e], right = arrangement.right[e];
+      if (left < 0 || right < 0 || !(inside[at(left)] || inside[at(right)])) continue;
+      grown = grown || !(inside[at(left)] && inside[at(right)]);
+      inside[at(left)] = inside[at(right)] = true;
+      subdomains.unite(left, right);
+    }
   }
   return subdomains;
 }
 
 /// The curves to keep: all but glue with the same subdomain on both sides.
-std::vector<bool> kept_curves(const Plan& plan, const Edges& edges) {
+std::vector<bool> kept_curves(const Plan& plan, const Outlines& outlines, const Edges& edges) {
   std::vector<bool> kept(edges.size(), true);
   const Arrangement all = arrange(plan.points, edges, kept);
-  UnionFind subdomains = join_faces(plan, all, kept);
+  UnionFind subdomains = join_faces(plan, outlines, all, kept);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const PlannedCurve& curve = plan.curves[e];
     if (curve.role != Role::interface || curve.kind != Kind::glue) continue;
@@ -85,8 +131,9 @@ struct Order {
   int count = 0;
 };
 
-Order order_faces(const Plan& plan, const Arrangement& loops, const std::vector<bool>& kept) {
-  UnionFind subdomains = join_faces(plan, loops, kept);
+Order order_faces(const Plan& plan, const Outlines& outlines, const Arrangement& loops,
+                  const std::vector<bool>& kept) {
+  UnionFind subdomains = join_faces(plan, outlines, loops, kept);
   Order order;
   const std::size_t n = loops.faces.size();
   order.subdomain.assign(n, -1);
@@ -115,6 +162,7 @@ Order order_faces(const Plan& plan, const Arrangement& loops, const std::vector<
 struct Named {
   std::vector<std::string> name;  ///< per subdomain
   std::vector<double> tension;
+  std::vector<TensionLaw> law;
 };
 
 void check_given_tension(double tension, const std::string& field) {
@@ -122,39 +170,75 @@ void check_given_tension(double tension, const std::string& field) {
   refuse(field, field, " is ", show(tension), "; a tension is a number above 0");
 }
 
-Named name_subdomains(const Geometry& geometry, const Network& network, const Plan& plan,
-                      const Edges& edges, const std::vector<bool>& kept, const Arrangement& loops,
-                      const Order& order) {
+void check_law(const RegionSpec& region, const std::string& field) {
+  if (!region.tension_law) return;
+  const std::string fault = fault_of(*region.tension_law);
+  if (!fault.empty()) refuse(field, field, ": ", fault);
+  if (region.tension != 1)
+    refuse(field, field, " and a tension of ", show(region.tension), " are given; leave one out");
+}
+
+/// The subdomain around the point of a region.
+int subdomain_at(const RegionSpec& region, const std::string& field, const Network& network,
+                 const Plan& plan, const Edges& edges, const std::vector<bool>& kept,
+                 const Arrangement& loops, const Order& order) {
+  check_point(region.at, field);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const Segment s{plan.points[at(edges[e][0])], plan.points[at(edges[e][1])]};
+    if (!kept[e] || distance(region.at, s) > network.tolerance) continue;
+    refuse(field, field, " ", show(region.at), " lies on ",
+           network.lines[at(network.chords[e].line)].field,
+           "; it must lie inside the subdomain it names");
+  }
+  const int face = face_at(loops, plan.points, edges, region.at);
+  if (face >= 0 && order.subdomain[at(face)] >= 0) return order.subdomain[at(face)];
+  refuse(field, field, " ", show(region.at),
+         " lies outside the membrane; it must lie inside the subdomain it names");
+}
+
+/// The one subdomain within the outline of a region.
+int subdomain_within(int region, const std::string& field, const Outlines& outlines,
+                     const Network& network, const Arrangement& loops, const Order& order) {
+  int subdomain = -1;
+  for (std::size_t e = 0; e < outlines.region.size(); ++e) {
+    if (outlines.region[e] != region) continue;
+    const int own = order.subdomain[at(inner_face(outlines, loops, e))];
+    if (subdomain < 0) subdomain = own;
+    if (own == subdomain) continue;
+    refuse(field, field, ", at ", show(network.points[at(network.chords[e].a)]),
+           ", is crossed by an interface that divides the region into several subdomains; end the "
+           "interface at the outline, or make a region of each part");
+  }
+  return subdomain;
+}
+
+Named name_subdomains(const Drawn& geometry, const Network& network, const Plan& plan,
+                      const Outlines& outlines, const Edges& edges, const std::vector<bool>& kept,
+                      const Arrangement& loops, const Order& order) {
   const auto count = at(order.count);
-  Named named{std::vector<std::string>(count), std::vector<double>(count, 1)};
+  Named named{std::vector<std::string>(count), std::vector<double>(count, 1),
+              std::vector<TensionLaw>(count)};
   std::vector<std::size_t> owner(count);
   std::vector<std::string> used;
   used.reserve(geometry.regions.size() + count);
   for (std::size_t i = 0; i < geometry.regions.size(); ++i) {
     const RegionSpec& region = geometry.regions[i];
-    const std::string field = indexed("regions", i) + ".at";
-    check_point(region.at, field);
+    const std::string field = indexed("regions", i) + (region.outline ? ".outline" : ".at");
     check_given_tension(region.tension, indexed("regions", i) + ".tension");
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      const Segment s{plan.points[at(edges[e][0])], plan.points[at(edges[e][1])]};
-      if (!kept[e] || distance(region.at, s) > network.tolerance) continue;
-      refuse(field, field, " ", show(region.at), " lies on ",
-             network.lines[at(network.chords[e].line)].field,
-             "; it must lie inside the subdomain it names");
-    }
-    const int face = face_at(loops, plan.points, edges, region.at);
-    if (face < 0) {
-      refuse(field, field, " ", show(region.at),
-             " lies outside the membrane; it must lie inside the subdomain it names");
-    }
-    const auto subdomain = at(order.subdomain[at(face)]);
+    check_law(region, indexed("regions", i) + ".tension_law");
+    const auto subdomain =
+        at(region.outline
+               ? subdomain_within(static_cast<int>(i), field, outlines, network, loops, order)
+               : subdomain_at(region, field, network, plan, edges, kept, loops, order));
     if (!named.name[subdomain].empty()) {
-      refuse(field, field, " ", show(region.at), " lies in the subdomain that ",
-             indexed("regions", owner[subdomain]), " names already; leave one of them out");
+      refuse(field, field, region.outline ? " holds" : " " + show(region.at) + " lies in",
+             " the subdomain that ", indexed("regions", owner[subdomain]),
+             " names already; leave one of them out");
     }
     owner[subdomain] = i;
     named.name[subdomain] = region.name;
     named.tension[subdomain] = region.tension;
+    named.law[subdomain] = region.tension_law.value_or(TensionLaw());
     used.push_back(region.name);
   }
   for (std::size_t s = 0; s < count; ++s) {
@@ -162,46 +246,6 @@ Named name_subdomains(const Geometry& geometry, const Network& network, const Pl
     named.name[s] = unused_name("omega" + std::to_string(s + 1), used);
   }
   return named;
-}
-
-/// Splits what is left of each interface into chains of curves.
-void add_chains(const Network& network, const std::vector<std::string>& names,
-                const std::vector<bool>& kept, Plan& plan) {
-  std::vector<std::vector<std::vector<int>>> chains(names.size());
-  for (std::size_t e = 0; e < network.chords.size(); ++e) {
-    const auto line = at(network.chords[e].line);
-    if (network.lines[line].role != Role::interface || !kept[e]) continue;
-    auto& own = chains[line - 1];
-    const bool goes_on = !own.empty() && own.back().back() + 1 == static_cast<int>(e);
-    if (!goes_on) own.emplace_back();
-    own.back().push_back(static_cast<int>(e));
-  }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    auto& own = chains[i];
-    const NetworkLine& line = network.lines[i + 1];
-    if (own.empty()) {
-      refuse(line.field, line.field,
-             " separates nothing and carries nothing: the same subdomain lies on both of its "
-             "sides; put a crack or an inclusion on it, extend it to the boundary or to another "
-             "interface, or make it a line of options.align");
-    }
-    const auto joined = [&](int before, int after) {
-      return plan.curves[at(before)].b == plan.curves[at(after)].a;
-    };
-    if (line.line.closed() && own.size() > 1 && joined(own.back().back(), own.front().front())) {
-      own.back().insert(own.back().end(), own.front().begin(), own.front().end());
-      own.erase(own.begin());
-    }
-    for (auto& chain : own) plan.interfaces.push_back({names[i], std::move(chain)});
-  }
-  // the first chain of an interface keeps its name; the others get unused ones
-  std::vector<std::string> used = names;
-  for (std::size_t i = 1; i < plan.interfaces.size(); ++i) {
-    if (plan.interfaces[i].name != plan.interfaces[i - 1].name) continue;
-    const std::string name = plan.interfaces[i].name;
-    for (; i < plan.interfaces.size() && plan.interfaces[i].name == name; ++i)
-      plan.interfaces[i].name = unused_name(name, used);
-  }
 }
 
 /// Removes the curves that are not kept, and the points only they use.
@@ -231,29 +275,37 @@ void compact(const std::vector<bool>& kept, Plan& plan) {
 
 }  // namespace
 
-void lay_subdomains(const Geometry& geometry, const Network& network,
-                    const std::vector<std::string>& names, Plan& plan) {
+void lay_subdomains(const Drawn& geometry, const Network& network,
+                    const std::vector<std::string>& names, const std::vector<Walk>& walks,
+                    Plan& plan) {
   const Edges edges = edges_of(plan);
-  const std::vector<bool> kept = kept_curves(plan, edges);
-  add_chains(network, names, kept, plan);
+  const Outlines outlines = find_outlines(geometry, network, plan);
+  const std::vector<bool> kept = kept_curves(plan, outlines, edges);
+  add_chains(network, names, kept, walks, plan);
   Faces faces = find_faces(plan, edges, kept);
-  const Order order = order_faces(plan, faces.loops, kept);
-  const Named named = name_subdomains(geometry, network, plan, edges, kept, faces.loops, order);
+  // the boundary has the membrane on its left: what is inside a hole is outside
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (at(network.chords[e].line) < network.boundary) faces.loops.right[e] = Arrangement::outside;
+  const Order order = order_faces(plan, outlines, faces.loops, kept);
+  const Named named =
+      name_subdomains(geometry, network, plan, outlines, edges, kept, faces.loops, order);
   std::vector<int> place(faces.loops.faces.size(), -1);
   plan.faces.reserve(order.faces.size());
   for (const int f : order.faces) {
     const auto face = at(f);
     place[face] = static_cast<int>(plan.faces.size());
     const auto subdomain = at(order.subdomain[face]);
-    plan.faces.push_back(
-        {named.name[subdomain], named.tension[subdomain], std::move(faces.loops.faces[face].outer),
-         std::move(faces.loops.faces[face].holes), std::move(faces.embedded[face])});
+    plan.faces.push_back({named.name[subdomain], named.tension[subdomain], named.law[subdomain],
+                          std::move(faces.loops.faces[face].outer),
+                          std::move(faces.loops.faces[face].holes),
+                          std::move(faces.embedded[face])});
   }
   const auto placed = [&](int face) { return face < 0 ? -1 : place[at(face)]; };
   for (std::size_t e = 0; e < edges.size(); ++e) {
     plan.curves[e].left = placed(faces.loops.left[e]);
     plan.curves[e].right = placed(faces.loops.right[e]);
   }
+  turn_chains(walks, plan);
   compact(kept, plan);
 }
 

@@ -103,6 +103,18 @@ void check_tension(const Mesh& mesh) {
   }
 }
 
+void check_laws(const Mesh& mesh) {
+  if (!mesh.tension_laws.empty() && mesh.tension_laws.size() != mesh.subdomains.size()) {
+    fail("tension_laws has ", mesh.tension_laws.size(), " entries for ", mesh.subdomains.size(),
+         " subdomains; it takes one each, or none at all");
+  }
+  for (std::size_t s = 0; s < mesh.tension_laws.size(); ++s) {
+    if (mesh.tension_laws[s] == TensionLaw()) continue;
+    const std::string fault = fault_of(mesh.tension_laws[s]);
+    if (!fault.empty()) fail("subdomain ", s, " (\"", mesh.subdomains[s], "\"): ", fault);
+  }
+}
+
 void check_motions(const Mesh& mesh) {
   if (!mesh.motions.empty() && mesh.motions.size() != mesh.inclusions.size()) {
     fail("motions has ", mesh.motions.size(), " entries for ", mesh.inclusions.size(),
@@ -226,6 +238,12 @@ void check_boundary(const Mesh& mesh, const EdgeTable& edges) {
 
 }  // namespace
 
+std::string fault_of(const TensionLaw& law) {
+  if (law.along.empty()) return "the tension along is empty; give an expression in x and y";
+  if (std::isfinite(law.angle) && std::abs(law.angle) <= 360) return "";
+  return "the angle of the tension is " + show(law.angle) + "; give degrees from -360 to 360";
+}
+
 std::string fault_of(const Motion& motion) {
   if (!motion.fixed) return "";
   if (!std::isfinite(*motion.fixed))
@@ -256,6 +274,7 @@ void validate(const Mesh& mesh) {
   check_nodes(mesh);
   check_triangles(mesh);
   check_tension(mesh);
+  check_laws(mesh);
   check_motions(mesh);
   const EdgeTable edges(mesh.triangles);
   check_edges(mesh, edges, check_interfaces(mesh, edges));

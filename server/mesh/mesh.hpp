@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fields/fields.hpp"
+#include "mesh/tension.hpp"
 
 namespace anticrack::mesh {
 
@@ -51,16 +52,17 @@ ANTICRACK_FIELDS(Interface, name, nodes, kind, inclusion)
 /// not overlapping at an edge; every node and subdomain has a triangle; an interface edge is an
 /// edge of exactly two triangles, of different subdomains if it is glue; an edge between two
 /// subdomains lies on exactly one interface; a Dirichlet edge belongs to exactly one triangle; an
-/// edge has an inclusion if and only if its kind needs one; tension is positive; no motion has a
-/// fault. Edges of one triangle that are not in `dirichlet` are the Neumann boundary.
+/// edge has an inclusion if and only if its kind needs one; tension is positive; no motion and no
+/// law has a fault. Edges of one triangle that are not in `dirichlet` are the Neumann boundary.
 struct Mesh {
-  std::vector<double> xy;               ///< (n,2) row-major, unit of the geometry
-  std::vector<std::int32_t> triangles;  ///< (m,3) row-major
-  std::vector<std::int32_t> subdomain;  ///< (m) index into subdomains
-  std::vector<std::string> subdomains;  ///< names
-  std::vector<double> tension;          ///< (subdomains) T > 0 of each; empty: 1 everywhere
-  std::vector<std::string> inclusions;  ///< names
-  std::vector<Motion> motions;          ///< (inclusions) of each; empty: all keep their direction
+  std::vector<double> xy;                ///< (n,2) row-major, unit of the geometry
+  std::vector<std::int32_t> triangles;   ///< (m,3) row-major
+  std::vector<std::int32_t> subdomain;   ///< (m) index into subdomains
+  std::vector<std::string> subdomains;   ///< names
+  std::vector<double> tension;           ///< (subdomains) T > 0 of each; empty: 1 everywhere
+  std::vector<TensionLaw> tension_laws;  ///< (subdomains) in place of `tension`; empty: none
+  std::vector<std::string> inclusions;   ///< names
+  std::vector<Motion> motions;           ///< (inclusions) of each; empty: all keep their direction
   std::vector<Interface> interfaces;
   std::vector<std::array<std::int32_t, 2>> dirichlet;  ///< edges of the boundary where u = g_D
   std::vector<std::string> warnings;                   ///< what was repaired or assumed
@@ -71,8 +73,8 @@ struct Mesh {
   std::size_t node_count() const noexcept { return xy.size() / 2; }
   std::size_t triangle_count() const noexcept { return triangles.size() / 3; }
 };
-ANTICRACK_FIELDS(Mesh, xy, triangles, subdomain, subdomains, tension, inclusions, motions,
-                 interfaces, dirichlet, warnings, bisection_bound)
+ANTICRACK_FIELDS(Mesh, xy, triangles, subdomain, subdomains, tension, tension_laws, inclusions,
+                 motions, interfaces, dirichlet, warnings, bisection_bound)
 
 /// Throws errors::Error (mesh_invalid) naming the first invariant violated and where. O(m log m).
 void validate(const Mesh& mesh);

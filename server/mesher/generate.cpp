@@ -250,6 +250,7 @@ std::vector<std::int32_t> name_subdomains(const Plan& plan, mesh::Mesh& mesh) {
     if (known != mesh.subdomains.end()) continue;
     mesh.subdomains.push_back(face.name);
     mesh.tension.push_back(face.tension);
+    mesh.tension_laws.push_back(face.law);
   }
   return subdomain_of;
 }

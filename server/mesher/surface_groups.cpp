@@ -126,23 +126,38 @@ void take_pieces(const mesh::EdgeTable& edges,
                                 count, list_of(mesh.subdomains, "\""))));
 }
 
+/// The number of the subdomain that a tension is given for.
+std::size_t subdomain_of(const std::string& name, const std::string& field, const Mesh& mesh) {
+  const auto found = std::find(mesh.subdomains.begin(), mesh.subdomains.end(), name);
+  if (found == mesh.subdomains.end()) {
+    refuse_option(field,
+                  fmt::format("tension is given for \"{}\", which is not a subdomain; they are {}",
+                              printable(name), list_of(mesh.subdomains, "\"")));
+  }
+  return at(found - mesh.subdomains.begin());
+}
+
+void take_laws(const std::map<std::string, mesh::TensionLaw>& given, Mesh& mesh) {
+  if (given.empty()) return;
+  mesh.tension_laws.resize(mesh.subdomains.size());
+  for (const auto& [name, law] : given) {
+    const std::string field = fmt::format("options.tension_laws[{}]", printable(name));
+    mesh.tension_laws[subdomain_of(name, field, mesh)] = law;
+  }
+}
+
 void take_tension(const std::map<std::string, double>& given, Mesh& mesh) {
   if (given.empty()) return;
   mesh.tension.assign(mesh.subdomains.size(), 1.0);
   for (const auto& [name, value] : given) {
     const std::string field = fmt::format("options.tension[{}]", printable(name));
-    const auto found = std::find(mesh.subdomains.begin(), mesh.subdomains.end(), name);
-    if (found == mesh.subdomains.end()) {
-      refuse_option(
-          field, fmt::format("tension is given for \"{}\", which is not a subdomain; they are {}",
-                             printable(name), list_of(mesh.subdomains, "\"")));
-    }
+    const std::size_t subdomain = subdomain_of(name, field, mesh);
     if (!(value > 0) || !std::isfinite(value)) {
       refuse_option(
           field,
           fmt::format("the tension of \"{}\" is {:g}; give a finite number above 0", name, value));
     }
-    mesh.tension[at(found - mesh.subdomains.begin())] = value;
+    mesh.tension[subdomain] = value;
   }
 }
 
@@ -165,6 +180,7 @@ void read_surfaces(const MshFile& file, const mesh::MeshOptions& options,
     }
   }
   take_tension(options.tension, mesh);
+  take_laws(options.tension_laws, mesh);
 }
 
 }  // namespace anticrack::mesher

@@ -23,6 +23,7 @@ struct CatalogueOptions {
   std::size_t max_triangles = 4'000'000;
   std::size_t max_pending = 64;     ///< meshes waiting for the mesher; then `busy`
   std::size_t max_meshes = 10'000;  ///< records; then quota_exceeded
+  std::size_t max_expression_bytes = 4096;
   /// Called without a lock for each mesh that the helper made or failed to make. Must not throw.
   std::function<void(const store::MeshRecord&)> meshed = {};
 };

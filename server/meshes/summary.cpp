@@ -15,6 +15,7 @@
 #include "mesh/quality.hpp"
 #include "mesh/refine.hpp"
 #include "mesh/union_find.hpp"
+#include "meshes/tension_laws.hpp"
 
 namespace anticrack::meshes {
 
@@ -103,10 +104,7 @@ void find_floating(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
 std::vector<store::SubdomainSummary> subdomains(const mesh::Mesh& mesh,
                                                 const mesh::EdgeTable& edges) {
   std::vector<store::SubdomainSummary> result(mesh.subdomains.size());
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i].name = mesh.subdomains[i];
-    if (!mesh.tension.empty()) result[i].tension = mesh.tension[i];
-  }
+  for (std::size_t i = 0; i < result.size(); ++i) result[i].name = mesh.subdomains[i];
   measure_triangles(mesh, result);
   count_nodes(mesh, result);
   find_floating(mesh, edges, result);
@@ -178,6 +176,7 @@ void summarize(const mesh::Mesh& mesh, store::MeshRecord& record) {
   record.triangle_count = mesh.triangle_count();
   const mesh::EdgeTable edges(mesh.triangles);
   record.subdomains = subdomains(mesh, edges);
+  summarize_tension(mesh, record);
   record.interfaces.clear();
   for (const mesh::Interface& interface : mesh.interfaces)
     record.interfaces.push_back(summary(mesh, interface));

@@ -10,6 +10,7 @@
 #include "errors/errors.hpp"
 #include "mesh/codec.hpp"
 #include "meshes/summary.hpp"
+#include "meshes/tension_laws.hpp"
 #include "store/digest.hpp"
 #include "store/files.hpp"
 
@@ -50,6 +51,7 @@ std::string require_upload(const store::Store& store, const store::UploadRef& up
 
 std::size_t check_definition(const store::MeshDefinition& definition, const std::string& owner,
                              const CatalogueOptions& options, const store::Store& store) {
+  check_laws(definition, options.max_expression_bytes);
   if (const auto* source = std::get_if<store::GeometrySource>(&definition))
     return mesh::plan(source->geometry, source->options, options.max_triangles).triangles;
   if (std::holds_alternative<store::Refinement>(definition)) return 0;

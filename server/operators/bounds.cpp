@@ -89,7 +89,11 @@ std::vector<double> MeshOperator::estimate(const PreparedLoad& load, contact::An
 }
 
 void MeshOperator::estimate(std::span<Estimate> all) const {
-  constexpr std::size_t together = 8;  // more are not faster
+  constexpr std::size_t most_together = 8;  // more are not faster
+  // Fields, fluxes and scratch take some 450 bytes a triangle and load.
+  constexpr std::size_t most_triangles = 600'000;  // of all: 270 MB
+  const std::size_t together =
+      std::clamp(most_triangles / _parts->mesh->triangle_count(), std::size_t{1}, most_together);
   for (; all.size() > together; all = all.subspan(together)) estimate(all.first(together));
   if (all.empty()) return;
   const estimate::CutMesh& cut =

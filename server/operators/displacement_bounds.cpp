@@ -1,53 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "operators/displacement_bounds.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <deque>
 #include <optional>
 #include <utility>
 
+#include "contact/adjoint.hpp"
 #include "contact/trace_state.hpp"
 #include "estimate/bracket.hpp"
-#include "mesh/at.hpp"
+#include "estimate/interval.hpp"
+#include "operators/aims.hpp"
 
 namespace anticrack::operators {
 namespace {
-
-/// A displacement of an inclusion, the unit force that works on it, and where its bounds go.
-struct Aim {
-  const ddm::Terms& goal;
-  std::size_t inclusion;
-  fem::Load force;
-  double contact::InclusionAnswer::*value;
-  std::optional<double> contact::InclusionAnswer::*lower, contact::InclusionAnswer::*upper;
-  std::optional<double> contact::InclusionAnswer::*estimate = nullptr;
-};
-
-std::vector<Aim> aims(const MeshOperator::Parts& parts) {
-  using Of = contact::InclusionAnswer;
-  std::vector<Aim> aims;
-  for (std::size_t j = 0; j < parts.mesh->inclusions.size(); ++j) {
-    const ddm::RigidMotion& motion = parts.decomposition.skeleton.motions[j];
-    const auto moment = [&](const fem::Moment& unit) {
-      fem::Load force;
-      force.inclusion_moments[parts.mesh->inclusions[j]] = unit;
-      return force;
-    };
-    fem::Load force;
-    force.inclusion_forces[parts.mesh->inclusions[j]] = 1;
-    aims.push_back({motion.displacement, j, force, &Of::displacement, &Of::displacement_lower,
-                    &Of::displacement_upper, &Of::displacement_estimated_error});
-    if (!motion.slope_x.empty())
-      aims.push_back({motion.slope_x, j, moment({1, 0}), &Of::slope_x, &Of::slope_x_lower,
-                      &Of::slope_x_upper});
-    if (!motion.slope_y.empty())
-      aims.push_back({motion.slope_y, j, moment({0, 1}), &Of::slope_y, &Of::slope_y_lower,
-                      &Of::slope_y_upper});
-  }
-  return aims;
-}
 
 /// Bounds of the cone that are tried; most answers need two.
 constexpr int most_tries = 4;
@@ -55,8 +24,10 @@ constexpr int most_tries = 4;
 /// The best of a few bounds of the cone, each wider than the one before.
 class Search {
  public:
-  Search(const Bounded& of, const contact::Adjoint& adjoint, const Aim& aim)
-      : _of(of), _adjoint(adjoint), _aim(aim), _goal(adjoint.aim(aim.goal)) {
+  /// `unloaded`: norm of the flux of a unit force with every contact open.
+  Search(const Bounded& of, const contact::Adjoint& adjoint, const Aim& aim,
+         contact::Adjoint::Goal goal, double unloaded)
+      : _of(of), _adjoint(adjoint), _aim(aim), _goal(std::move(goal)), _unloaded(unloaded) {
     const double norm = std::sqrt(of.primal.flux.norm_squared());
     _c = 2 * (norm > 0 ? std::sqrt(_goal.compliance) / norm : 1);
   }
@@ -66,13 +37,10 @@ class Search {
   bool held() const { return !(_goal.compliance > 0); }
   bool done() const { return held() || _tries == most_tries; }
 
-  /// The next step needs the flux of an unloaded pair first.
-  bool unloaded() const { return !_unloaded && !_of.primal.load.oscillation.empty(); }
-  void set_unloaded(double norm) { _unloaded = norm; }
-
-  contact::Adjoint::Pair pair() const { return _adjoint.clipped(_goal, unloaded() ? 0 : _c); }
-  estimate::Aimed aimed(const AdjointFields& fields) const {
-    return {&_of.primal, {fields[0], fields[1], value(), _c}, _unloaded.value_or(0)};
+  Eigen::VectorXd load() const { return _adjoint.load(_goal, _c); }
+  Eigen::VectorXd jumps() const { return _adjoint.jumps(_goal, _c); }
+  estimate::Aimed aimed(std::span<const double> z, std::span<const double> reacting) const {
+    return {&_of.primal, {z, reacting, _aim.value_in(_of.answer), _c}, _unloaded};
   }
 
   void take(const estimate::Interval& one) {
@@ -88,26 +56,24 @@ class Search {
     if (!better || !(one.short_of > 1)) _tries = most_tries;
     _c *= std::clamp(one.short_of, 1.5, 8.0);
   }
+  void give_up() { _tries = most_tries; }
 
   /// False where none holds: forces that tie the sides of crossing cracks may leave any cone.
   bool finish() const {
-    contact::InclusionAnswer& answer = _of.answer.inclusions[_aim.inclusion];
+    const double value = _aim.value_in(_of.answer);
     if (!held() && !std::isfinite(_best.width())) return false;
-    answer.*_aim.lower = held() ? value() : _best.lower;
-    answer.*_aim.upper = held() ? value() : _best.upper;
-    if (!held() && _aim.estimate != nullptr) answer.*_aim.estimate = _best.estimate;
+    _aim.set(_of.answer, held() ? value : _best.lower, held() ? value : _best.upper);
+    if (!held() && _aim.estimate != nullptr)
+      _of.answer.inclusions[_aim.inclusion].*_aim.estimate = _best.estimate;
     return true;
   }
 
  private:
-  double value() const { return _of.answer.inclusions[_aim.inclusion].*_aim.value; }
-
   const Bounded& _of;
   const contact::Adjoint& _adjoint;
   const Aim& _aim;
   contact::Adjoint::Goal _goal;
-  double _c = 0;
-  std::optional<double> _unloaded;
+  double _c = 0, _unloaded;
   estimate::Interval _best;
   int _tries = 0;
 };
@@ -115,21 +81,27 @@ class Search {
 /// A step of each.
 void advance(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
              std::span<Search* const> searches) {
-  std::vector<contact::Adjoint::Pair> pairs;
-  for (const Search* search : searches) pairs.push_back(search->pair());
-  const std::vector<AdjointFields> fields = adjoint_fields(parts, pairs);
-  std::vector<estimate::Aimed> aimed;
-  std::vector<Search*> of_aimed;
+  std::vector<Eigen::VectorXd> loads;
+  for (const Search* search : searches) loads.push_back(search->load());
+  const std::vector<contact::Opened> opened = solve_open(parts, {}, loads);
+  std::vector<contact::Displaced> displaced;
+  std::vector<Search*> solved;
   for (std::size_t i = 0; i < searches.size(); ++i) {
-    if (searches[i]->unloaded()) {
-      searches[i]->set_unloaded(estimate::norm_of_flux(cut, fields[i][1]));
-    } else {
-      aimed.push_back(searches[i]->aimed(fields[i]));
-      of_aimed.push_back(searches[i]);
+    if (!opened[i].solved) {
+      searches[i]->give_up();
+      continue;
     }
+    solved.push_back(searches[i]);
+    displaced.push_back({&searches[i]->aim().goal, searches[i]->jumps()});
+    displaced.push_back({&searches[i]->aim().goal, opened[i].d});
   }
+  const std::vector<std::vector<double>> fields = parts.with_problem(
+      [&](const auto& problem) { return contact::fields_of(problem, displaced); });
+  std::vector<estimate::Aimed> aimed;
+  for (std::size_t i = 0; i < solved.size(); ++i)
+    aimed.push_back(solved[i]->aimed(fields[2 * i], fields[2 * i + 1]));
   const std::vector<estimate::Interval> found = estimate::intervals(cut, aimed);
-  for (std::size_t i = 0; i < found.size(); ++i) of_aimed[i]->take(found[i]);
+  for (std::size_t i = 0; i < found.size(); ++i) solved[i]->take(found[i]);
 }
 
 class UntilStopped final : public contact::Observer {
@@ -158,21 +130,21 @@ class Slopes {
         _gap(upper - lower),
         _stop(stop) {}
 
-  void find(const Aim& aim, contact::InclusionAnswer& answer) const {
-    const fem::Load* const force[] = {&aim.force};
+  void find(const Aim& aim, contact::Answer& answer) const {
+    const fem::Load load = aim.force(*_parts.mesh);
+    const fem::Load* const force[] = {&load};
     const CondensedOutcome condensed = condense_loads(force, *_parts.mesh, _parts.decomposition,
                                                       _parts.condense(), _parts.neumann, _stop)
                                            .front();
     const auto* unit = std::get_if<LoadOnTraces>(&condensed);
     if (unit == nullptr) return;
     const contact::Answer alone = solve({unit->subdomains, unit->inclusion_forces}, false);
-    const double compliance = alone.inclusions[aim.inclusion].*aim.value;
+    const double compliance = aim.value_in(alone);
     if (alone.status != contact::Status::converged || !(compliance > 0)) return;
     const double d = std::sqrt(2 * _gap / compliance);
     const std::optional<double> below = lower_with(*unit, -d), above = lower_with(*unit, d);
     if (!(d > 0) || !below || !above) return;
-    answer.*aim.lower = (*below - _upper) / d;
-    answer.*aim.upper = (_upper - *above) / d;
+    aim.set(answer, (*below - _upper) / d, (_upper - *above) / d);
   }
 
  private:
@@ -211,67 +183,53 @@ class Slopes {
   const std::stop_token& _stop;
 };
 
-}  // namespace
-
-bool bounded(const contact::Answer& answer) {
-  constexpr double most_kkt = 1e-10;
-  return answer.status == contact::Status::converged &&
-         contact::within(answer.kkt_relative, most_kkt);
-}
-
-std::vector<AdjointFields> adjoint_fields(const MeshOperator::Parts& parts,
-                                          std::span<const contact::Adjoint::Pair> pairs) {
-  std::vector<std::vector<Eigen::VectorXd>> traces;
-  for (const contact::Adjoint::Pair& pair : pairs)
-    for (const Eigen::VectorXd* of : {&pair.z, &pair.reacting})
-      traces.push_back(parts.skeleton->scatter(*of));
-  std::vector<AdjointFields> fields(pairs.size());
-  for (std::size_t s = 0; s < parts.operators.size(); ++s) {
-    const ddm::Subdomain& subdomain = parts.decomposition.subdomains[s];
-    ddm::CondensedLoad none;
-    none.z_interior.setZero(static_cast<Eigen::Index>(subdomain.interior));
-    none.dirichlet.setZero(static_cast<Eigen::Index>(subdomain.dirichlet));
-    const auto count = static_cast<Eigen::Index>(subdomain.node.size());
-    std::vector<Eigen::VectorXd> values(traces.size(), Eigen::VectorXd(count));
-    std::vector<ddm::SubdomainOperator::Solved> solved;
-    for (std::size_t f = 0; f < traces.size(); ++f)
-      solved.push_back({none, traces[f][s], values[f]});
-    parts.operators[s].recover(solved);
-    for (std::size_t f = 0; f < traces.size(); ++f) {
-      std::vector<double>& field = fields[f / 2][f % 2];
-      field.insert(field.end(), values[f].begin(), values[f].end());
+/// A_h +- |tau| |u - u_h|, tau the flux of a unit force with every contact open: A - A_h is
+/// int tau . grad (u - u_h), as tau carries nothing through contacts.
+void bound_by_norms(const MeshOperator::Parts& parts, const std::vector<Aim>& goals,
+                    std::span<const Bounded> answers) {
+  // Goals times triangles: about a second, once for the mesh.
+  const std::size_t most_work = parts.skeleton ? 30'000'000 : 2'000'000;
+  const estimate::CutMesh& cut = answers.front().primal.cut;
+  const bool possible = goals.size() <= most_work / cut.triangle_count();
+  for (const Bounded& of : answers) {
+    if (!possible) {
+      of.answer.warnings.push_back(fmt::format(
+          "no bounds of A: {} inclusions on {} triangles, more than {} of both multiplied; use a "
+          "coarser mesh for them",
+          parts.mesh->inclusions.size(), cut.triangle_count(), most_work));
+      continue;
+    }
+    const std::vector<double>& norms = flux_norms(parts, cut, goals);
+    for (std::size_t k = 0; k < goals.size(); ++k) {
+      const double value = goals[k].value_in(of.answer), half = norms[k] * *of.answer.error_bound;
+      const double rounding = half > 0 ? 1e-12 * std::abs(value) : 0;
+      if (std::isfinite(half))
+        goals[k].set(of.answer, value - half - rounding, value + half + rounding);
     }
   }
-  return fields;
 }
 
-std::vector<double> of_copies(const std::vector<contact::Field>& fields) {
-  std::vector<double> u;
-  for (const contact::Field& field : fields) u.insert(u.end(), field.u.begin(), field.u.end());
-  return u;
-}
-
-void bound_displacements(const MeshOperator::Parts& parts, std::span<const Bounded> answers) {
-  constexpr std::size_t most_inclusions = 16;  // a few solves each
+void bound_by_adjoints(const MeshOperator::Parts& parts, const std::vector<Aim>& goals,
+                       std::span<const Bounded> answers) {
   constexpr std::size_t together = 4;
-  if (answers.empty() || parts.mesh->inclusions.size() > most_inclusions) return;
-  const std::vector<Aim> goals = aims(parts);
+  const estimate::CutMesh& cut = answers.front().primal.cut;
+  const std::vector<contact::UnitForce> forces = unit_forces(parts, goals);
+  std::vector<Eigen::VectorXd> r;
+  for (const contact::UnitForce& force : forces) r.push_back(force.r);
   std::deque<contact::Adjoint> adjoints;
   std::deque<Search> searches;
   std::vector<std::pair<const Bounded*, const Aim*>> by_energy;
   for (const Bounded& of : answers) {
-    const bool possible =
-        parts.skeleton &&
-        adjoints
-            .emplace_back(*parts.skeleton,
-                          contact::CaseLoads{of.load.subdomains, of.load.inclusion_forces},
-                          of.answer)
-            .possible();
-    for (const Aim& aim : goals) {
-      if (possible)
-        searches.emplace_back(of, adjoints.back(), aim);
+    const contact::Adjoint& adjoint = adjoints.emplace_back(parts.problem, of.answer);
+    const bool loaded_beyond = !of.primal.load.oscillation.empty();
+    std::vector<contact::Opened> opened;
+    if (adjoint.possible()) opened = solve_open(parts, of.answer.closed, r);
+    for (std::size_t k = 0; k < goals.size(); ++k) {
+      const double unloaded = loaded_beyond ? flux_norms(parts, cut, goals)[k] : 0;
+      if (adjoint.possible() && opened[k].solved && std::isfinite(unloaded))
+        searches.emplace_back(of, adjoint, goals[k], adjoint.aim(forces[k], opened[k]), unloaded);
       else
-        by_energy.emplace_back(&of, &aim);
+        by_energy.emplace_back(&of, &goals[k]);
     }
   }
   std::vector<Search*> active;
@@ -281,14 +239,38 @@ void bound_displacements(const MeshOperator::Parts& parts, std::span<const Bound
     for (; active.size() < together && next != searches.end(); ++next)
       if (!next->done()) active.push_back(&*next);
     if (active.empty()) break;
-    advance(parts, answers.front().primal.cut, active);
+    advance(parts, cut, active);
   }
   for (const Search& search : searches)
     if (!search.finish()) by_energy.emplace_back(&search.of(), &search.aim());
   for (const auto& [of, aim] : by_energy)
     Slopes(parts, of->load, of->primal, *of->answer.energy_lower, *of->answer.energy_upper,
            of->stop)
-        .find(*aim, of->answer.inclusions[aim->inclusion]);
+        .find(*aim, of->answer);
+}
+
+}  // namespace
+
+bool bounded(const contact::Answer& answer) {
+  constexpr double most_kkt = 1e-10;
+  return answer.status == contact::Status::converged &&
+         contact::within(answer.kkt_relative, most_kkt);
+}
+
+std::vector<double> of_copies(const std::vector<contact::Field>& fields) {
+  std::vector<double> u;
+  for (const contact::Field& field : fields) u.insert(u.end(), field.u.begin(), field.u.end());
+  return u;
+}
+
+void bound_displacements(const MeshOperator::Parts& parts, std::span<const Bounded> answers) {
+  constexpr std::size_t most_inclusions = 16;  // a few solves each for every load
+  if (answers.empty() || parts.mesh->inclusions.empty()) return;
+  const std::vector<Aim> goals = aims(parts);
+  if (parts.mesh->inclusions.size() > most_inclusions)
+    bound_by_norms(parts, goals, answers);
+  else
+    bound_by_adjoints(parts, goals, answers);
 }
 
 }  // namespace anticrack::operators

@@ -80,10 +80,12 @@ double block_bytes(const mesh::Mesh& mesh) {
 std::size_t estimate_bytes(const mesh::Mesh& mesh) {
   // The factor of a planar graph ordered by nested dissection has O(n log n) entries; measured with
   // all other data per node: 30 to 42 bytes a node and log2(n), from 1 k to 2 M nodes. Dense: S and
-  // the flexibility on the trace; H and W on the skeleton; S^ with its coarser levels, a factor and
-  // a block of either on the contacts. Joined: the stiffness three times, and the blocks.
+  // the flexibility on the trace; H and W on the skeleton; S^ with its coarser levels, two
+  // factors and a block of either on the contacts. Joined: the stiffness three times, and the
+  // blocks.
   constexpr double bytes_per_node_and_level = 60, bytes_per_node = 200, bytes_per_joined_node = 500;
-  constexpr double trace_blocks = 3, skeleton_blocks = 2, contact_blocks = 3.5, fixed = 1 << 14;
+  constexpr double trace_blocks = 3, skeleton_blocks = 2, contact_blocks = 4.5, fixed = 1 << 14,
+                   bytes_per_law = sizeof(fem::Tension::of_triangle[0]) + sizeof(fem::Variation);
   const ddm::Sides sides = ddm::find_sides(mesh);
   const std::vector<Size> sizes = subdomain_sizes(mesh, sides);
   const SkeletonSize skeleton = skeleton_size(mesh, sides);
@@ -105,6 +107,9 @@ std::size_t estimate_bytes(const mesh::Mesh& mesh) {
     bytes += skeleton_blocks * sizeof(double) * skeleton.unknowns * skeleton.unknowns;
     bytes += contact_blocks * sizeof(double) * skeleton.contacts * skeleton.contacts;
   }
+  const bool has_laws = std::ranges::any_of(
+      mesh.tension_laws, [](const mesh::TensionLaw& law) { return !law.along.empty(); });
+  if (has_laws) bytes += bytes_per_law * static_cast<double>(mesh.triangle_count());
   return static_cast<std::size_t>(bytes);
 }
 

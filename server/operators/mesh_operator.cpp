@@ -56,7 +56,7 @@ std::size_t bytes_of(const ddm::Decomposition& decomposition) {
   for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
     bytes += bytes_of(subdomain.part.xy) + bytes_of(subdomain.part.triangles) +
              bytes_of(subdomain.node) + bytes_of(subdomain.triangle) + bytes_of(subdomain.rigid) +
-             bytes_of(subdomain.unknown);
+             bytes_of(subdomain.unknown) + subdomain.tension.bytes();
   }
   for (const std::vector<ddm::SidePair>& sides : decomposition.interface_sides)
     bytes += bytes_of(sides);
@@ -68,7 +68,7 @@ std::size_t bytes_of(const ddm::Decomposition& decomposition) {
 MeshOperator::Parts::Parts(std::shared_ptr<const mesh::Mesh> cut_mesh, int threads,
                            const std::stop_token& stop, std::size_t most_dense)
     : mesh(std::move(cut_mesh)),
-      decomposition(ddm::cut(*mesh)),
+      decomposition(ddm::cut(*mesh, stop)),
       neumann(*mesh, decomposition),
       operators(contact::is_long(decomposition, most_dense)
                     ? std::vector<ddm::SubdomainOperator>()
@@ -132,6 +132,7 @@ std::size_t MeshOperator::bytes() const noexcept {
   for (const ddm::SubdomainOperator& subdomain : _parts->operators) bytes += subdomain.bytes();
   bytes += _parts->with_problem([](const auto& problem) { return problem.bytes(); });
   if (const estimate::CutMesh* cut = _parts->cut.known()) bytes += cut->bytes();
+  if (const std::vector<double>* norms = _parts->flux_norms.known()) bytes += bytes_of(*norms);
   return bytes + _parts->sweep_geometry.bytes() + _parts->bases.bytes();
 }
 

@@ -41,7 +41,8 @@ struct MeshOperator::Parts {
   contact::SweepGeometry sweep_geometry;
   std::vector<contact::TraceGeometry> geometry;
   mutable BasisCache bases;
-  ddm::Lazy<estimate::CutMesh> cut;  // made for the first bounds
+  ddm::Lazy<estimate::CutMesh> cut;           // made for the first bounds
+  ddm::Lazy<std::vector<double>> flux_norms;  // see aims.hpp
 
   template <class Use>
   decltype(auto) with_problem(const Use& use) const;

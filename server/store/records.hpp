@@ -58,9 +58,10 @@ struct SubdomainSummary {
   double minimum_angle = 0;  ///< degrees
   double shortest_edge = 0;
   double longest_edge = 0;
+  std::optional<mesh::TensionLaw> tension_law{};  ///< of which `tension` is the mean
 };
 ANTICRACK_FIELDS(SubdomainSummary, name, node_count, triangle_count, area, tension, floating,
-                 minimum_angle, shortest_edge, longest_edge)
+                 minimum_angle, shortest_edge, longest_edge, tension_law)
 
 struct TipSummary {
   mesh::Point at{};
@@ -200,6 +201,13 @@ struct StageRecord {
 };
 ANTICRACK_FIELDS(StageRecord, mesh, triangles, seconds, answers)
 
+/// Names of units, for people; empty: none.
+struct Units {
+  std::string length;
+  std::string force;
+};
+ANTICRACK_FIELDS(Units, length, force)
+
 /// What a client asked for.
 struct JobSpec {
   std::string title;
@@ -211,12 +219,13 @@ struct JobSpec {
   bool without_bounds = false;             ///< answers have no bounds of their errors
   std::optional<SweepSpec> sweep{};        ///< loads are its basis
   std::optional<AccuracySpec> accuracy{};  ///< solved in stages
+  std::optional<Units> units{};            ///< of all numbers
   Priority priority = Priority::normal;
   std::chrono::milliseconds queue_time_limit{0};  ///< from creation to start; 0: the server's
   std::chrono::milliseconds run_time_limit{0};    ///< from start to end; 0: the server's
 };
 ANTICRACK_FIELDS(JobSpec, title, mesh, loads, solver, fields, indicators, without_bounds, sweep,
-                 accuracy, priority, queue_time_limit, run_time_limit)
+                 accuracy, units, priority, queue_time_limit, run_time_limit)
 
 /// A step of a job's way: it passed into `state`, or into another phase of it.
 struct Step {

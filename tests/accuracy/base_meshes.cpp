@@ -52,12 +52,15 @@ mesh::Mesh generated(double h0) {
 }
 
 mesh::Mesh generated(const mesh::MeshOptions& options) {
+  return generated(testing::paper_geometry(), options);
+}
+
+mesh::Mesh generated(const mesh::Geometry& geometry, const mesh::MeshOptions& options) {
   mesher::HelperOptions helper;
   helper.executable = ANTICRACK_MESHER;
   constexpr std::size_t limit = 1'000'000;
-  return mesher::run(
-      helper, mesh::GenerateRequest{mesh::plan(testing::paper_geometry(), options, limit), limit},
-      {});
+  return mesher::run(helper, mesh::GenerateRequest{mesh::plan(geometry, options, limit), limit},
+                     {});
 }
 
 mesh::Mesh turned(mesh::Mesh mesh) {

@@ -23,6 +23,8 @@ mesh::Mesh shaken(unsigned seed);
 /// default.
 mesh::Mesh generated(double h0);
 mesh::Mesh generated(const mesh::MeshOptions& options);
+/// The same of another geometry.
+mesh::Mesh generated(const mesh::Geometry& geometry, const mesh::MeshOptions& options);
 
 enum class Mirror { x, y };
 

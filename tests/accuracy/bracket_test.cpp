@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 #include "accuracy/base_meshes.hpp"
 #include "accuracy/error_norms.hpp"
@@ -61,6 +62,25 @@ TEST(Bracket, ContainsThemOnTheMeshesOfThePresets) {
       for (std::size_t i = 0; i < 4; ++i) check_example(i, *op);
       mesh = mesh::refine(mesh, std::vector<std::uint8_t>(mesh.triangle_count(), 2), 2'000'000);
     }
+  }
+}
+
+TEST(Bracket, OfAJoinedMembraneIsAsCloseAsOfDenseMatrices) {
+  const auto mesh =
+      std::make_shared<const mesh::Mesh>(mesh::grade(diagonals(), {0.05, 0.2, 0}, 2'000'000));
+  const auto dense = operators::MeshOperator::factorise(mesh, 2, {});
+  const auto joined = operators::MeshOperator::factorise(mesh, 2, {}, 0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    check_example(i, *joined);
+    fem::Load load;
+    load.force = fem::Expression{paper_forces[i]};
+    const auto of_dense = solve_bounded(*dense, load), of_joined = solve_bounded(*joined, load);
+    const contact::InclusionAnswer &one = of_dense.inclusions[0], &other = of_joined.inclusions[0];
+    const auto width = [](const contact::InclusionAnswer& of) {
+      return *of.displacement_upper - *of.displacement_lower;
+    };
+    EXPECT_NEAR(width(other), width(one), 0.1 * width(one)) << "but for signs of rounding";
+    EXPECT_TRUE(other.displacement_estimated_error) << "by the adjoint";
   }
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "contact/joined_problem.hpp"
+#include "contact/linear_contact.hpp"
 #include "contact/membrane.hpp"
 #include "support/grid_mesh.hpp"
 
@@ -63,6 +64,8 @@ class Strip {
     }
     return _joined.membrane().reduce(loads, held_values(decomposition, loads));
   }
+  const SkeletonProblem& skeleton() const { return _dense.skeleton; }
+  const JoinedProblem& joined() const { return _joined; }
   const DenseLcp& dense() const { return _dense.skeleton.lcp(); }
   const BlockLcp& blocks() const { return _joined.lcp(); }
   const JoinedMembrane& membrane() const { return _joined.membrane(); }
@@ -141,6 +144,38 @@ TEST_P(LongCrack, AppliesTheMatrixOfTheDenseProblem) {
   const VectorXd wanted =
       (strip.dense().scaled_matrix() * d.cwiseQuotient(scale)).cwiseQuotient(scale);
   EXPECT_LT(difference(strip.membrane().apply(d, true), wanted), 1e-12);
+}
+
+/// What adjoints are made of: open contacts whatever the sign of their jumps.
+TEST_P(LongCrack, HasTheLinearAnswersOfTheDenseProblem) {
+  const Strip strip(GetParam().make());
+  const ddm::Skeleton& skeleton = strip.membrane().decomposition().skeleton;
+  const ddm::Terms on = skeleton.motions.empty() ? ddm::Terms{{skeleton.contacts[500].minus, 1}}
+                                                 : skeleton.motions.front().displacement;
+  const UnitForce force = unit_force(strip.skeleton(), on), other = unit_force(strip.joined(), on);
+  EXPECT_NEAR(other.compliance, force.compliance, 1e-10 * force.compliance);
+  EXPECT_LT(difference(other.r, force.r), 1e-10);
+  const JoinedMembrane::Reduced load = strip.reduce(waves[0]);
+  const std::vector<char> closed =
+      strip.dense().solve(load.r, load.magnitude, {}, {}, proceed).closed;
+  for (const std::vector<char>& kept : {closed, std::vector<char>()}) {
+    const Opened dense = solve_open(strip.skeleton(), kept, {&force.r, 1}).front();
+    const Opened joined = solve_open(strip.joined(), kept, {&force.r, 1}).front();
+    ASSERT_TRUE(dense.solved && joined.solved);
+    std::printf("[ figures  ] %s: d %.1e, reactions %.1e of %.1e\n", GetParam().name,
+                (joined.d - dense.d).lpNorm<Eigen::Infinity>() / force.compliance,
+                (joined.residual - dense.residual).lpNorm<Eigen::Infinity>(),
+                force.r.lpNorm<Eigen::Infinity>());
+    EXPECT_LT((joined.d - dense.d).lpNorm<Eigen::Infinity>(), 1e-9 * force.compliance);
+    EXPECT_LT((joined.residual - dense.residual).lpNorm<Eigen::Infinity>(),
+              1e-9 * force.r.lpNorm<Eigen::Infinity>());
+    const Displaced displaced{&on, dense.d};
+    const std::vector<double> u = fields_of(strip.skeleton(), {&displaced, 1}).front(),
+                              v = fields_of(strip.joined(), {&displaced, 1}).front();
+    EXPECT_LT(difference(VectorXd::Map(u.data(), static_cast<Index>(u.size())),
+                         VectorXd::Map(v.data(), static_cast<Index>(v.size()))),
+              1e-9);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Strips, LongCrack,

@@ -41,7 +41,7 @@ struct Upper {
   const Subdomain& subdomain = decomposition.subdomains[1];
   SubdomainOperator factorised{subdomain};
   Eigen::SparseMatrix<double> stiffness =
-      anticrack::testing::plain_stiffness(subdomain.part, subdomain.tension);
+      anticrack::testing::plain_stiffness(subdomain.part, subdomain.tension.mean);
 
   CondensedLoad condense(const Field& load_of, const Field& boundary) const {
     return factorised

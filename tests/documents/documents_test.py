@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the documents say, tried: every command of their shell blocks is typed as it stands, every case is
-solved, every link and every name of the code leads somewhere.
+solved, every line of a stage is one that the commands print, every link and every name of the code leads
+somewhere.
 
 In a document `jobs/ID` and `meshes/ID` stand for the last one that a command printed, `exit code N` in the
 comment of a command for how it ends (0 otherwise)."""
@@ -75,13 +76,15 @@ class Commands(FolderTest):
                           f'exec {BIN}/anticrackd "$@"\n', encoding="utf-8")
         daemon.chmod(0o755)
 
-        script = [SHELL]
+        script, stages = [SHELL], []
         for kind, block in BLOCK.findall(document.read_text(encoding="utf-8")):
             if kind == "sh":
                 for command, comment in commands(block):
                     if not any(command.startswith(name) for name in ELSEWHERE):
                         code = re.search(r"exit code (\d+)", comment)
                         script.append(f"step {code.group(1) if code else 0} {quoted(command)}")
+            elif kind == "text":
+                stages += re.findall(r"^stage \d+: .*$", block, re.M)
             elif kind == "python":
                 script.append(f"step 0 {quoted(sys.executable + ' -c ' + quoted(block))}")
             elif kind == "toml" and "[geometry]" in block:
@@ -99,6 +102,8 @@ class Commands(FolderTest):
         ended = subprocess.run(["bash", "-c", "\n".join(script)], cwd=project, env=environment, text=True,
                                capture_output=True, check=False)
         self.assertEqual((ended.returncode, ended.stderr), (0, ""))
+        printed = pathlib.Path(environment["OUTPUT"]).read_text(encoding="utf-8").splitlines()
+        self.assertEqual([line for line in stages if line not in printed], [])
 
 
 def of(document):
@@ -117,7 +122,7 @@ class Words(FolderTest):
 
     def test_links_lead_somewhere(self):
         for document in DOCUMENTS:
-            for target in re.findall(r"\]\(([^)#\s]+)", document.read_text(encoding="utf-8")):
+            for target in re.findall(r'(?:\]\(|src=")([^)#\s"]+)', document.read_text(encoding="utf-8")):
                 if "://" not in target:
                     self.assertTrue((document.parent / target).exists(), f"{document}: {target}")
 

@@ -130,21 +130,30 @@ void check_identities(unsigned seed, bool rich, Figures& tally) {
                 a * (2 * of.middle + x), 1e-10 * a * scale);
   ++tally.brackets;
 
-  const contact::Adjoint adjoint(*coarse.parts.skeleton, coarse.loads(), coarse.answer);
+  const contact::Adjoint adjoint(coarse.parts.problem, coarse.answer);
   if (!adjoint.possible()) return;
   LoadBalance load;
   load.force = coarse.force;
   load.traction = coarse.traction;
   const std::vector<Lift> none;
   for (std::size_t j = 0; j < coarse.answer.inclusions.size(); ++j) {
-    const contact::Adjoint::Goal goal =
-        adjoint.aim(coarse.parts.decomposition.skeleton.motions[j].displacement);
-    if (!(goal.compliance > 1e-9)) continue;
+    const contact::SkeletonProblem& problem = *coarse.parts.skeleton;
+    const ddm::Terms& aim = coarse.parts.decomposition.skeleton.motions[j].displacement;
+    const contact::UnitForce force = contact::unit_force(problem, aim);
+    const contact::Opened kept =
+        std::move(contact::solve_open(problem, coarse.answer.closed, {&force.r, 1}).front());
+    const contact::Adjoint::Goal goal = adjoint.aim(force, kept);
+    if (!kept.solved || !(goal.compliance > 1e-9)) continue;
     const double unit = std::sqrt(goal.compliance / std::max(scale, 1e-9));
     const double truth = fine.answer.inclusions[j].displacement;
     for (const double c : {0.5 * unit, 2 * unit, 16 * unit}) {
-      const contact::Adjoint::Pair pair = adjoint.clipped(goal, c);
-      const auto [z, reacting] = operators::adjoint_fields(coarse.parts, {&pair, 1}).front();
+      const Eigen::VectorXd clipped = adjoint.load(goal, c);
+      const contact::Opened free =
+          std::move(contact::solve_open(problem, {}, {&clipped, 1}).front());
+      if (!free.solved) continue;
+      const contact::Displaced pair[] = {{&aim, adjoint.jumps(goal, c)}, {&aim, free.d}};
+      const std::vector<std::vector<double>> fields = contact::fields_of(problem, pair);
+      const std::vector<double>&z = fields[0], &reacting = fields[1];
       const Dual dual{z, reacting, coarse.answer.inclusions[j].displacement, c};
       const Interval found = interval({coarse.cut, sigma, load, none, coarse.u}, dual, 0);
       tally.left += std::isfinite(found.width()) ? 0 : 1;

@@ -15,6 +15,7 @@
 #include "fem/triangle_rules.hpp"
 #include "mesh/at.hpp"
 #include "operators/mesh_parts.hpp"
+#include "reference/random_laws.hpp"
 #include "reference/random_membrane.hpp"
 #include "support/mesh_quality.hpp"
 #include "support/silent_observer.hpp"
@@ -65,10 +66,13 @@ struct Solved {
   bool converged() const { return answer.status == contact::Status::converged; }
 
   double area(std::size_t t) const { return mesh::area(*mesh, at(cut.triangle[t])); }
-  double tension(std::size_t t) const {
-    return mesh->tension[at(mesh->subdomain[at(cut.triangle[t])])];
+  double tension(std::size_t t) const { return cut.shapes.tension[t]; }
+  /// After the map of the tension, which is constant in a subdomain.
+  Vector place(std::size_t corner) const {
+    const Vector& x = cut.at[at(cut.copy[corner])];
+    const auto subdomain = at(mesh->subdomain[at(cut.triangle[corner / 3])]);
+    return parts.decomposition.subdomains[subdomain].tension.isotropic(0)(x[0], x[1]);
   }
-  Vector place(std::size_t corner) const { return cut.at[at(cut.copy[corner])]; }
   /// Outward, as long as the side.
   Vector normal(std::size_t side) const {
     const std::size_t t = side / 3, i = side % 3;
@@ -105,7 +109,9 @@ struct Nested {
 
   Nested(unsigned seed, bool rich) {
     reference::RandomMembrane membrane(seed, rich);
-    const mesh::Mesh mesh = membrane.mesh(), finer = mesh::refine_uniform(mesh);
+    mesh::Mesh mesh = membrane.mesh();
+    if (seed % 3 == 0) reference::add_laws(membrane, false, mesh);
+    const mesh::Mesh finer = mesh::refine_uniform(mesh);
     std::vector<double> force, finer_force;
     if (seed % 2 == 0) {
       for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {

@@ -34,6 +34,7 @@ void expect_equal(const Mesh& a, const Mesh& b) {
   EXPECT_EQ(a.subdomain, b.subdomain);
   EXPECT_EQ(a.subdomains, b.subdomains);
   EXPECT_EQ(a.tension, b.tension);
+  EXPECT_EQ(a.tension_laws, b.tension_laws);
   EXPECT_EQ(a.inclusions, b.inclusions);
   EXPECT_EQ(a.motions, b.motions);
   EXPECT_EQ(a.dirichlet, b.dirichlet);
@@ -51,6 +52,14 @@ Mesh moving_mesh() {
   Mesh mesh = small_mesh();
   mesh.motions = {{true, {}}};
   mesh.interfaces[0].kind[0] = mesh::Kind::free;
+  return mesh;
+}
+
+/// One with a tension that varies, whose inclusion keeps its direction.
+Mesh varying_mesh() {
+  Mesh mesh = small_mesh();
+  mesh.tension_laws.resize(mesh.subdomains.size());
+  mesh.tension_laws.back() = {"1 + x^2", "2", 30};
   return mesh;
 }
 
@@ -88,7 +97,7 @@ errors::Error full_error() {
 }
 
 TEST(Codec, MeshComesBack) {
-  for (const Mesh& mesh : {small_mesh(), moving_mesh()}) {
+  for (const Mesh& mesh : {small_mesh(), moving_mesh(), varying_mesh()}) {
     const Mesh back = mesh::decode_mesh(mesh::encode(mesh));
     expect_equal(mesh, back);
     EXPECT_TRUE(back.warnings.empty());
@@ -115,6 +124,12 @@ TEST(Codec, EqualMeshesGiveEqualBytes) {
   b.motions[0].fixed = 0;
   EXPECT_NE(mesh::encode(a), mesh::encode(b));
   b.motions.clear();
+  // no laws mean none of each
+  b.tension_laws.resize(b.subdomains.size());
+  EXPECT_EQ(mesh::encode(a), mesh::encode(b));
+  b.tension_laws[0].along = "1";
+  EXPECT_NE(mesh::encode(a), mesh::encode(b));
+  b.tension_laws.clear();
   b.xy[2] = 1e-300;
   EXPECT_NE(mesh::encode(a), mesh::encode(b));
 }
@@ -207,7 +222,9 @@ TEST(Codec, ImportRequestComesBack) {
 }
 
 TEST(Codec, ReplyCarriesWarnings) {
-  const mesh::MesherReply reply = moving_mesh();
+  Mesh sent_mesh = moving_mesh();
+  sent_mesh.tension_laws = varying_mesh().tension_laws;
+  const mesh::MesherReply reply = sent_mesh;
   const Mesh back = std::get<Mesh>(mesh::decode_reply(mesh::encode(reply)));
   expect_equal(std::get<Mesh>(reply), back);
   EXPECT_EQ(back.warnings, std::get<Mesh>(reply).warnings);
@@ -228,6 +245,7 @@ TEST(Codec, ReplyCarriesAnError) {
 TEST(Codec, TruncationAtEveryByteIsRefused) {
   expect_exact(mesh::encode(small_mesh()), [](const Bytes& b) { mesh::decode_mesh(b); });
   expect_exact(mesh::encode(moving_mesh()), [](const Bytes& b) { mesh::decode_mesh(b); });
+  expect_exact(mesh::encode(varying_mesh()), [](const Bytes& b) { mesh::decode_mesh(b); });
   const auto request = [](const Bytes& b) { mesh::decode_request(b); };
   expect_exact(mesh::encode(mesh::MesherRequest(generate_request())), request);
   expect_exact(mesh::encode(import_request()), request);

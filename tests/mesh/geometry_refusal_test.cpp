@@ -107,13 +107,13 @@ const Fault faults[] = {
        g.interfaces[0].points[1] = {1.5, 0};
      },
      "interfaces[0].polyline",
-     {"leaves the polygon", "(1.5, 0)"}},
+     {"leaves the membrane", "(1.5, 0)"}},
     {"InterfaceLeaves",
      [](Geometry& g) {
        g.interfaces[0].points = {{-1, 0}, {0, -2}, {1, 0}};
      },
      "interfaces[0].polyline",
-     {"leaves the polygon", "(-1, 0) to (0, -2)"}},
+     {"leaves the membrane", "(-1, 0) to (0, -2)"}},
     {"InterfaceOutside",
      [](Geometry& g) {
        g.interfaces[0].points = {{-1, 0}, {-2, 0}, {-2, 3}, {0, 3}, {0, 1}};

@@ -215,6 +215,7 @@ Mesh ring_mesh(int low, int high) {
   Mesh made = structured_mesh(16, 16, {});
   made.subdomains = {"inside", "outside"};
   made.tension = {2, 0.5};
+  made.tension_laws = {{}, {"1 + x", "", 0}};
   made.inclusions = {"rim"};
   made.motions = {{true, {}}};
   for (std::size_t t = 0; t < made.triangle_count(); ++t) {

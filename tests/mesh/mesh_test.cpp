@@ -102,6 +102,18 @@ const Damage damages[] = {
        m.tension = {1, 0};
      },
      "tension of subdomain 1 (\"upper\") is 0"},
+    {"LawCount", [](Mesh& m) { m.tension_laws.resize(1); },
+     "tension_laws has 1 entries for 2 subdomains"},
+    {"LawWithoutAlong",
+     [](Mesh& m) {
+       m.tension_laws = {{"1", "", 0}, {"", "1", 0}};
+     },
+     "subdomain 1 (\"upper\"): the tension along is empty"},
+    {"LawTurnedTooFar",
+     [](Mesh& m) {
+       m.tension_laws = {{"1", "", 361}, {}};
+     },
+     "the angle of the tension is 361"},
     {"TensionNotFinite",
      [](Mesh& m) {
        m.tension = {std::numeric_limits<double>::infinity(), 1};

@@ -137,6 +137,7 @@ inline void expect_refines(const mesh::Mesh& base, const mesh::Mesh& fine) {
   EXPECT_TRUE(std::equal(base.xy.begin(), base.xy.end(), fine.xy.begin()));
   EXPECT_EQ(fine.subdomains, base.subdomains);
   EXPECT_EQ(fine.tension, base.tension);
+  EXPECT_EQ(fine.tension_laws, base.tension_laws);
   EXPECT_EQ(fine.inclusions, base.inclusions);
   EXPECT_EQ(fine.motions, base.motions);
   EXPECT_EQ(fine.warnings, base.warnings);

@@ -209,6 +209,15 @@ TEST(ImportGroups, TensionIsPerSubdomain) {
   }
 }
 
+TEST(ImportGroups, ALawIsThatOfItsSubdomain) {
+  MeshOptions options;
+  options.tension_laws = {{"plus", {"1 + x", "2", 30}}};
+  EXPECT_THAT(import_sample(square_sample(), options).tension_laws,
+              ElementsAre(mesh::TensionLaw{}, options.tension_laws["plus"]));
+  options.tension_laws = {{"top", {"1", "", 0}}};
+  EXPECT_THAT(fault(options, "options.tension_laws[top]"), HasSubstr("which is not a subdomain"));
+}
+
 TEST(ImportGroups, AnInclusionMovesAsTheOptionsSay) {
   EXPECT_THAT(import_sample(square_sample()).motions, IsEmpty());
   MeshOptions options;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 
 #include "mesh/edges.hpp"
@@ -283,6 +284,47 @@ TEST(Shapes, DefaultMeshOfThePapersSquareIsAsLargeAsThePapers) {
   EXPECT_GE(triangles, 9'000U);
   EXPECT_LE(triangles, 12'000U);
   expect_graded(geometry, 2);
+}
+
+TEST(Shapes, HolesOfEveryForm) {
+  Geometry geometry = square_shape();
+  geometry.holes = {
+      {"round", {Shape::circle, {{0.5, 0.5}}, 0.2}},
+      {"tiny", {Shape::circle, {{-0.7, 0.7}}, 1e-3}},
+      {"square", {Shape::polyline, {{-0.6, -0.6}, {-0.2, -0.6}, {-0.2, -0.2}, {-0.6, -0.2}}}},
+      {"bean", {Shape::spline, {{0.3, -0.5}, {0.5, -0.6}, {0.7, -0.5}, {0.5, -0.4}}}}};
+  geometry.cracks = {{"notch", {}, true, mesh::LineSpec{Shape::segment, {{-0.1, -0.4}}, 0, 0.2}}};
+  geometry.neumann_sides = {"square", "side-3"};
+  const Mesh mesh = make_shape(geometry, uniform(0.1));
+  EXPECT_EQ(mesh.subdomains.size(), 1U);
+  const double holes = 0.04 * std::numbers::pi + 0.16 + 0.054;
+  EXPECT_NEAR(whole_area(mesh), 4 - holes, 5e-3);
+  EXPECT_NEAR(dirichlet_length(mesh), 6 + 0.4 * std::numbers::pi + 0.93, 0.02);
+  EXPECT_NEAR(length(mesh, Kind::crack), 0.2, 1e-12);
+  EXPECT_THAT(tip_points(mesh), UnorderedElementsAre(Point{0, -0.4}));
+  expect_graded(geometry, 1);
+}
+
+TEST(Shapes, SidesLinesOfTheirOwnAndARegion) {
+  Geometry geometry;
+  geometry.sides = {{"base", {Shape::polyline, {{-1, 0}, {1, 0}}}},
+                    {"arch", {Shape::arc, {{1, 0}, {0, 1}, {-1, 0}}}}};
+  mesh::InclusionSpec bar{"bar", {}, {}};
+  bar.line = mesh::LineSpec{Shape::segment, {{0, 0.5}}, 30, 0.8};
+  bar.stretches = {{0, 0.5}};
+  bar.delaminated_side = mesh::LineSide::left;
+  geometry.inclusions = {bar};
+  geometry.regions = {{"disc", {}, 2, mesh::OutlineSpec{Shape::circle, {{0, 0.5}}, 0.2}}};
+  const Mesh mesh = make_shape(geometry, uniform(0.05));
+  EXPECT_NEAR(areas(mesh)["disc"], 0.04 * std::numbers::pi, 2e-3);
+  EXPECT_NEAR(whole_area(mesh), std::numbers::pi / 2, 5e-3);
+  EXPECT_NEAR(length(mesh, Kind::delaminated), 0.4, 1e-12);
+  EXPECT_NEAR(length(mesh, Kind::inclusion), 0.4, 1e-12);
+  // walked back, so that the side that comes off is its minus side
+  const mesh::Interface& chain = mesh.interfaces.at(0);
+  EXPECT_GT(mesh::position(mesh, chain.nodes.front())[0], 0.3);
+  EXPECT_EQ(chain.kind.back(), Kind::delaminated);
+  expect_graded(geometry, 5);
 }
 
 }  // namespace

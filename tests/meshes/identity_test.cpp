@@ -82,7 +82,25 @@ TEST(Identity, IsThatOfTheWholeDefinition) {
       },
       [](mesh::Geometry& g) { g.inclusions[0].motion.tilt = true; },
       [](mesh::Geometry& g) { g.inclusions[0].motion.fixed = 0; },
-      [](mesh::Geometry& g) { g.inclusions[0].motion.fixed = 1; }};
+      [](mesh::Geometry& g) { g.inclusions[0].motion.fixed = 1; },
+      [](mesh::Geometry& g) { g.inclusions[0].delaminated_side = mesh::LineSide::left; },
+      [](mesh::Geometry& g) { g.inclusions[0].delaminated_side = mesh::LineSide::right; },
+      [](mesh::Geometry& g) {
+        g.inclusions[0].stretches = {{0, 1}};
+      },
+      [](mesh::Geometry& g) { g.inclusions[0].line.emplace(); },
+      [](mesh::Geometry& g) {
+        g.inclusions[0].line = {{mesh::Shape::segment, {{0, 0}}, 0, 1}};
+      },
+      [](mesh::Geometry& g) {
+        g.inclusions[0].line = {{mesh::Shape::segment, {{0, 0}}, 1, 0}};
+      },
+      [](mesh::Geometry& g) {
+        g.regions = {{"stiff", {}, 1, mesh::OutlineSpec{}}};
+      },
+      [](mesh::Geometry& g) { g.sides.emplace_back(); },
+      [](mesh::Geometry& g) { g.holes.emplace_back(); },
+      [](mesh::Geometry& g) { g.neumann_sides = {"side-1"}; }};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     GeometrySource source = paper();
     changes[i](source.geometry);
@@ -126,6 +144,12 @@ TEST(Identity, CountsEveryOptionOfAGeometryAndOfAnUpload) {
       },
       [](mesh::MeshOptions& o) {
         o.inclusion_motions = {{"b", {false, 1}}};
+      },
+      [](mesh::MeshOptions& o) {
+        o.tension_laws = {{"b", {"1", "", 0}}};
+      },
+      [](mesh::MeshOptions& o) {
+        o.tension_laws = {{"b", {"1", "", 30}}};
       }};
   std::set<std::string> seen;
   for (std::size_t i = 0; i < changes.size(); ++i) {

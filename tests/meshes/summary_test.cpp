@@ -8,6 +8,8 @@
 #include <cstring>
 
 #include "mesh/refine.hpp"
+#include "meshes/tension_laws.hpp"
+#include "support/errors.hpp"
 #include "support/structured_mesh.hpp"
 
 namespace anticrack::meshes {
@@ -92,10 +94,45 @@ TEST(Summary, MeasuresShapesAndTheBoundary) {
     EXPECT_FALSE(subdomain.floating);
   }
   EXPECT_EQ(record.bisection_bound, 44);
+  EXPECT_FALSE(record.subdomains[1].tension_law);
   EXPECT_NEAR(record.dirichlet_length, 6, 1e-12);
   EXPECT_NEAR(record.neumann_length, 2, 1e-12);
   summarize(mesh, record);  // of an attempt before
   EXPECT_NEAR(record.neumann_length, 2, 1e-12);
+}
+
+TEST(Summary, TellsTheMeanOfALawOrWhereItWasWritten) {
+  mesh::Mesh mesh = example();  // from -1 to 1
+  mesh.tension_laws.resize(2);
+  mesh.tension_laws[1] = {"3 + x", "1", 30};
+  store::MeshRecord record;
+  summarize(mesh, record);
+  EXPECT_EQ(record.subdomains[0].tension, 1);
+  EXPECT_NEAR(record.subdomains[1].tension, 2, 1e-12);
+  EXPECT_EQ(record.subdomains[1].tension_law, mesh.tension_laws[1]);
+
+  mesh.tension_laws[1].across = "x";
+  const auto field_with = [&](const store::MeshDefinition& definition) {
+    record.definition = definition;
+    return anticrack::testing::error_of([&] { summarize(mesh, record); })->fields().front().field;
+  };
+  store::GeometrySource source;
+  source.geometry.regions = {{"other"}, {mesh.subdomains[1]}};
+  EXPECT_EQ(field_with(source), "geometry.regions[1].tension_law.across");
+  EXPECT_EQ(field_with(store::UploadRef{}),
+            "options.tension_laws[" + mesh.subdomains[1] + "].across");
+  EXPECT_EQ(field_with(store::Refinement{}), "tension_law.across");
+}
+
+TEST(Laws, AreLookedAtInThePointOfTheirRegionIfItHasOne) {
+  store::GeometrySource source;
+  mesh::RegionSpec& region = source.geometry.regions.emplace_back();
+  region.at = {0, 0};
+  region.tension_law = mesh::TensionLaw{"x - 0.1", "", 0};
+  EXPECT_EQ(anticrack::testing::error_of([&] { check_laws(source, 100); })->fields().front().field,
+            "regions[0].tension_law.along");
+  region.outline = mesh::OutlineSpec{mesh::Shape::circle, {{0.6, 0.6}}, 0.2};
+  EXPECT_NO_THROW(check_laws(source, 100));
 }
 
 TEST(Summary, TellsTheTipsAndHowFineTheMeshIsThere) {

@@ -2,6 +2,7 @@
 #include "reference/monolithic_contact.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "mesh/at.hpp"
@@ -19,6 +21,19 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 using mesh::Kind;
+
+using Tensor = Eigen::Matrix2d;
+
+/// A number, or a law of constants.
+Tensor tension_of(const mesh::Mesh& mesh, std::size_t subdomain) {
+  const double number = mesh.tension.empty() ? 1 : mesh.tension[subdomain];
+  if (mesh.tension_laws.empty() || mesh.tension_laws[subdomain].along.empty())
+    return number * Tensor::Identity();
+  const mesh::TensionLaw& law = mesh.tension_laws[subdomain];
+  const Tensor turn = Eigen::Rotation2Dd(law.angle * std::acos(-1.0) / 180).toRotationMatrix();
+  return turn * Eigen::Vector2d(std::stod(law.along), std::stod(law.across)).asDiagonal() *
+         turn.transpose();
+}
 
 struct Sets {
   explicit Sets(std::size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
@@ -305,15 +320,15 @@ void MonolithicContact::solve(const MonolithicLoad& load) {
       y[k] = _mesh.xy[2 * node + 1];
     }
     const double area = ((x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])) / 2;
-    const double tension = _mesh.tension.empty() ? 1 : _mesh.tension[at(_mesh.subdomain[t])];
+    const Tensor tension = tension_of(_mesh, at(_mesh.subdomain[t]));
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3;
       f[_dof[3 * t + i]] += load.force[t] * area / 3;
       for (std::size_t j = 0; j < 3; ++j) {
         const std::size_t j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-        const double value =
-            tension / (4 * area) *
-            ((y[i1] - y[i2]) * (y[j1] - y[j2]) + (x[i2] - x[i1]) * (x[j2] - x[j1]));
+        const Eigen::Vector2d of_i{y[i1] - y[i2], x[i2] - x[i1]},
+            of_j{y[j1] - y[j2], x[j2] - x[j1]};
+        const double value = of_i.dot(tension * of_j) / (4 * area);
         entries.emplace_back(_dof[3 * t + i], _dof[3 * t + j], value);
       }
     }

@@ -104,6 +104,14 @@ const std::vector<BadMesh>& bad_meshes() {
        "INVALID_ARGUMENT", "options.size"},
       {"SizeZero", [](auto& request) { request.mutable_options()->set_size(0); },
        "INVALID_ARGUMENT", "options.size"},
+      {"LawNotAboveZero",
+       [](v1::CreateMeshRequest& request) {
+         v1::Region& region = *request.mutable_geometry()->add_regions();
+         region.set_name("top");
+         region.mutable_at()->set_y(0.5);
+         region.mutable_tension_law()->set_along("y - 0.5");
+       },
+       "EXPRESSION_INVALID", "geometry.regions[0].tension_law.along"},
       {"TensionZero",
        [](auto& request) {
          v1::Region& region = *geometry(request).add_regions();

@@ -97,6 +97,39 @@ TEST(GeometryToDomain, TakesEveryShapeRegionAndBoundaryPart) {
   EXPECT_EQ(result.regions[1].at, (mesh::Point{0.25, 0}));
 }
 
+TEST(GeometryToDomain, TakesSidesHolesAndLinesOfTheirOwn) {
+  v1::CreateMeshRequest request = paper_mesh();
+  v1::Geometry& geometry = *request.mutable_geometry();
+  v1::Inclusion& bar = *geometry.mutable_inclusions(0);
+  bar.clear_part();
+  v1::Segment& segment = *bar.mutable_line()->mutable_segment();
+  segment.mutable_center()->set_x(0.5);
+  segment.set_angle(20);
+  segment.set_length(0.25);
+  bar.set_delaminated_side(v1::LINE_SIDE_LEFT);
+  geometry.add_cracks()->mutable_line()->mutable_spline()->add_points()->set_y(2);
+  v1::Circle& circle = *geometry.add_regions()->mutable_outline()->mutable_circle();
+  circle.mutable_center()->set_y(-1);
+  circle.set_radius(3);
+  v1::Side& side = *geometry.add_sides();
+  side.set_name("left");
+  side.mutable_line()->mutable_polyline()->add_points()->set_x(4);
+  geometry.add_holes()->mutable_outline()->mutable_polygon()->add_points()->set_x(5);
+  geometry.add_neumann_sides("left");
+  const mesh::Geometry result = geometry_of(request);
+  EXPECT_EQ(result.inclusions[0].line,
+            (mesh::LineSpec{mesh::Shape::segment, {{0.5, 0}}, 20, 0.25}));
+  EXPECT_EQ(result.inclusions[0].delaminated_side, mesh::LineSide::left);
+  EXPECT_EQ(result.inclusions[0].stretches, (std::vector<mesh::StretchSpec>{{0, 1}}));
+  EXPECT_TRUE(result.inclusions[0].delaminated.empty());
+  EXPECT_EQ(result.cracks[0].line, (mesh::LineSpec{mesh::Shape::spline, {{0, 2}}}));
+  EXPECT_EQ(result.regions[0].outline, (mesh::OutlineSpec{mesh::Shape::circle, {{0, -1}}, 3}));
+  EXPECT_EQ(result.sides,
+            (std::vector<mesh::SideSpec>{{"left", {mesh::Shape::polyline, {{4, 0}}}}}));
+  EXPECT_EQ(result.holes, (std::vector<mesh::HoleSpec>{{"", {mesh::Shape::polyline, {{5, 0}}}}}));
+  EXPECT_EQ(result.neumann_sides, std::vector<std::string>{"left"});
+}
+
 TEST(GeometryToDomain, TakesEveryOption) {
   v1::CreateMeshRequest request = paper_mesh();
   request.clear_options();
@@ -188,6 +221,22 @@ TEST(GeometryToDomain, RefusesWhatItsTypesCannotExpress) {
         request.mutable_geometry()->add_interfaces()->mutable_arc()->mutable_from();
       },
       Reason::invalid_argument, "geometry.interfaces[1].arc.through");
+  expect_mesh_refused(
+      [](auto& request) {
+        request.mutable_geometry()->mutable_inclusions(0)->mutable_line()->mutable_polyline();
+      },
+      Reason::invalid_argument, "geometry.inclusions[0].line");
+  expect_mesh_refused(
+      [](auto& request) { request.mutable_geometry()->add_cracks()->mutable_line(); },
+      Reason::invalid_argument, "geometry.cracks[0].line.polyline");
+  expect_mesh_refused(
+      [](auto& request) {
+        request.mutable_geometry()->add_cracks()->mutable_line()->mutable_segment();
+      },
+      Reason::invalid_argument, "geometry.cracks[0].line.segment.center");
+  expect_mesh_refused(
+      [](auto& request) { request.mutable_geometry()->add_holes()->mutable_outline(); },
+      Reason::invalid_argument, "geometry.holes[0].outline.polygon");
   expect_mesh_refused([](auto& request) { request.mutable_geometry()->add_regions(); },
                       Reason::invalid_argument, "geometry.regions[0].at");
   expect_mesh_refused([](auto& request) { request.mutable_geometry()->add_neumann(); },
@@ -212,6 +261,32 @@ TEST(GeometryToDomain, RefusesWhatItsTypesCannotExpress) {
 }
 
 TEST(GeometryToDomain, CountsBeforeItConverts) {
+  expect_mesh_refused(
+      [](auto& request) {
+        for (std::size_t i = 0; i <= api::max_sides; ++i) request.mutable_geometry()->add_sides();
+      },
+      Reason::limit_exceeded, "geometry.sides");
+  expect_mesh_refused(
+      [](auto& request) {
+        for (std::size_t i = 0; i <= api::max_sides; ++i) request.mutable_geometry()->add_holes();
+      },
+      Reason::limit_exceeded, "geometry.holes");
+  expect_mesh_refused(
+      [](auto& request) {
+        auto& holes = *request.mutable_geometry()->mutable_holes();
+        for (int k = 0; k < 2; ++k) {
+          auto& polygon = *holes.Add()->mutable_outline()->mutable_polygon();
+          for (std::size_t i = 0; i <= max_vertices / 2; ++i) polygon.add_points();
+        }
+      },
+      Reason::limit_exceeded, "geometry.holes[1]");
+  expect_mesh_refused(
+      [](auto& request) {
+        auto& parts =
+            *request.mutable_geometry()->mutable_inclusions(0)->mutable_delaminated_parts();
+        for (std::size_t i = 0; i < max_parts; ++i) parts.add_stretches();
+      },
+      Reason::limit_exceeded, "geometry.inclusions");
   expect_mesh_refused(
       [](auto& request) {
         for (std::size_t i = 0; i < max_vertices; ++i) request.mutable_geometry()->add_boundary();
@@ -268,6 +343,8 @@ TEST(GeometryToDomain, PutsTheDomainsFieldsIntoTheRequest) {
   EXPECT_EQ(path("inclusions[0].part.from"), "geometry.inclusions[0].part.from");
   EXPECT_EQ(path("inclusions[0].delaminated_parts[1].to"),
             "geometry.inclusions[0].delaminated_parts.parts[1].to");
+  EXPECT_EQ(path("inclusions[0].delaminated_parts.stretches[1]"),
+            "geometry.inclusions[0].delaminated_parts.stretches[1]");
   EXPECT_EQ(path("options.size"), "options.size");
   EXPECT_EQ(path("upload"), "upload");
 }

@@ -105,9 +105,9 @@ class AnyValue {
   template <class Enum>
   requires std::is_enum_v<Enum>
   void fill(Enum& value) {
-    constexpr bool from_0 = std::is_same_v<Enum, mesh::Preset> ||
-                            std::is_same_v<Enum, mesh::Shape> ||
-                            std::is_same_v<Enum, store::SweepSpec::Cases>;
+    constexpr bool from_0 =
+        std::is_same_v<Enum, mesh::Preset> || std::is_same_v<Enum, mesh::Shape> ||
+        std::is_same_v<Enum, mesh::LineSide> || std::is_same_v<Enum, store::SweepSpec::Cases>;
     value = static_cast<Enum>(below(count(value)) + (from_0 ? 0 : 1));
     if constexpr (std::is_same_v<Enum, store::JobState>)
       if (static_cast<int>(value) == 7) value = store::JobState::not_converged;  // there is no 7
@@ -118,6 +118,21 @@ class AnyValue {
     fields::for_each(value, [this](const auto& field) { fill(field.value); });
     if constexpr (std::is_same_v<Struct, mesh::InterfaceSpec>) {
       if (value.shape == mesh::Shape::arc) value.points.resize(3);
+    } else if constexpr (std::is_same_v<Struct, mesh::LineSpec>) {
+      if (below(2) == 1) value.shape = mesh::Shape::segment;
+      const bool segment = value.shape == mesh::Shape::segment;
+      if (segment || value.shape == mesh::Shape::arc) value.points.resize(segment ? 1 : 3);
+      if (!segment) value.angle = value.length = 0;
+    } else if constexpr (std::is_same_v<Struct, mesh::OutlineSpec>) {
+      const bool circle = value.shape == mesh::Shape::arc;  // which it cannot be
+      if (circle) value.shape = mesh::Shape::circle;
+      if (circle) value.points.resize(1);
+      if (!circle) value.radius = 0;
+    } else if constexpr (std::is_same_v<Struct, mesh::InclusionSpec> ||
+                         std::is_same_v<Struct, mesh::CrackSpec>) {
+      if (value.line) value.part = {};
+    } else if constexpr (std::is_same_v<Struct, mesh::RegionSpec>) {
+      if (value.outline) value.at = {};
     } else if constexpr (std::is_same_v<Struct, mesh::MeshOptions>) {
       positive(value.size);
       positive(value.tip_size);
@@ -140,6 +155,7 @@ class AnyValue {
   static std::uint64_t count(mesh::Kind) { return 4; }
   static std::uint64_t count(mesh::Preset) { return 3; }
   static std::uint64_t count(mesh::Shape) { return 3; }
+  static std::uint64_t count(mesh::LineSide) { return 3; }
   static std::uint64_t count(contact::Mass) { return 2; }
   static std::uint64_t count(contact::Status) { return 6; }
   static std::uint64_t count(store::MeshState) { return 6; }

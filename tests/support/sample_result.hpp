@@ -33,6 +33,7 @@ inline results::Mesh sample_mesh(int n) {
   results::Mesh mesh;
   mesh.subdomains = {"lower", "upper"};
   mesh.tension = {1, 2};
+  mesh.tension_law = {"", "along 2, across 1, angle 30"};
   mesh.inclusions = {"fibre"};
   const int side = 2 * n + 1;
   for (int j = 0; j < side; ++j) {
@@ -109,7 +110,7 @@ inline results::Load sample_load(const std::string& name, const results::Mesh& m
     trace.u_minus.push_back(sample_u(x, 0, false, contact));
     trace.u_plus.push_back(sample_u(x, 0, true, contact));
     trace.jump.push_back(trace.u_plus.back() - trace.u_minus.back());
-    trace.pressure.push_back(closed ? 0.2 + x : 0.0);
+    trace.pressure.push_back(closed ? -0.15 - x : 0.0);
     trace.contact.push_back(closed ? 1 : 0);
   }
   load.traces.push_back(trace);

@@ -22,9 +22,10 @@ from .translate import Requests, requests_of
 Point = Sequence[float]
 Points = Sequence[Point] | Array
 Part = tuple[Point, Point]
+Tension = float | str | Mapping[str, float | str]
 # Where a name of Python's differs from the key in TOML.
 _KEYS = {"start": "from", "end": "to", "interfaces": "interface", "inclusions": "inclusion", "cracks": "crack",
-         "regions": "region"}
+         "regions": "region", "holes": "hole"}
 
 
 def _table(record: Any, keys: Mapping[str, str] = _KEYS) -> dict[str, Any]:
@@ -45,6 +46,26 @@ class _Table:
         return _table(self)
 
 
+@dataclass(kw_only=True)
+class _Line(_Table):
+    """A line by its points, as an arc (start, through, end), a spline, or straight by its center, the angle [degrees]
+    at which it points and its length."""
+    points: Points | None = None
+    arc: Points | None = None
+    spline: Points | None = None
+    center: Point | None = None
+    angle: float | None = None
+    length: float | None = None
+
+
+@dataclass(kw_only=True)
+class _Outline(_Table):
+    """A closed line: circle = {"center": (x, y), "radius": r}, the corners of a polygon, or a spline."""
+    circle: Mapping[str, Any] | None = None
+    points: Points | None = None
+    spline: Points | None = None
+
+
 @dataclass
 class Interface(_Table):
     """A line on which cracks and inclusions lie, by its points, as an arc (start, through, end) or a spline; its plus
@@ -57,44 +78,62 @@ class Interface(_Table):
 
 
 @dataclass
-class Inclusion(_Table):
-    """A thin rigid inclusion on an interface. delaminated: all of it, none, or parts [(start, end), ...]. tilt: it
-    turns as well; fixed: held at this u."""
+class Inclusion(_Line):
+    """A thin rigid inclusion: from start to end on an interface, or on a line of its own: points, arc, spline, or
+    center, angle and length. delaminated: all of it, none, "left" or "right", parts [(start, end), ...], or
+    stretches [(0.5, 1.0), ...] by arc length over its length; side: "left" or "right", that comes off, beside a list.
+    tilt: it turns as well; fixed: held at this u."""
     name: str
-    start: Point
-    end: Point
-    delaminated: bool | Sequence[Part] | None = None
+    start: Point | None = None
+    end: Point | None = None
+    delaminated: bool | str | Sequence[Part] | Sequence[tuple[float, float]] | None = None
     tilt: bool | None = None
     fixed: float | None = None
+    side: str | None = None
 
 
 @dataclass
-class Crack(_Table):
-    """A crack on an interface; contact: [u] >= 0 (the default), else free faces."""
+class Crack(_Line):
+    """A crack, placed as an inclusion; contact: [u] >= 0 (the default), else free faces."""
     name: str
-    start: Point
-    end: Point
+    start: Point | None = None
+    end: Point | None = None
     contact: bool | None = None
 
 
 @dataclass
-class Region(_Table):
-    """Names the subdomain around a point and gives it its tension T [force per length]."""
+class Region(_Outline):
+    """Names the subdomain around the point `at`, or all inside an outline: points, a spline, or circle = {"center": (x,
+    y), "radius": r}. Gives it its tension T [force per length]: a number, an expression in x and y, or {"along": T1,
+    "across": T2, "angle": degrees}, T1 in the direction of the angle."""
     name: str
-    at: Point
-    tension: float | None = None
+    at: Point | None = None
+    tension: Tension | None = None
+
+
+@dataclass
+class Side(_Line):
+    """A side of the boundary, which begins where the one before it ends; a line as that of an inclusion."""
+    name: str | None = None
+
+
+@dataclass
+class Hole(_Outline):
+    """A hole in the membrane; an outline as that of a region."""
+    name: str | None = None
 
 
 @dataclass
 class Geometry(_Table):
-    """boundary: polygon, u = g_D on it but on the parts `neumann`, [(start, end), ...] walked counterclockwise or
-    "all"."""
-    boundary: Points
+    """boundary: polygon or sides, u = g_D on it and on the holes but where `neumann` says: names of sides (side-1, ...
+    of a polygon) and holes, (start, end) walked counterclockwise, or "all"."""
+    boundary: Points | Sequence[Side]
     interfaces: list[Interface] = field(default_factory=list)
     inclusions: list[Inclusion] = field(default_factory=list)
     cracks: list[Crack] = field(default_factory=list)
     regions: list[Region] = field(default_factory=list)
-    neumann: Sequence[Part] | str | None = None
+    neumann: Sequence[Part | str] | str | None = None
+    holes: list[Hole] = field(default_factory=list)
 
 
 @dataclass
@@ -102,7 +141,7 @@ class Mesh(_Table):
     """How fine the mesh is: preset "graded" (default), "uniform", "paper" or "coarse"; sizes are lengths.
 
     file: a .msh, or an Msh of arrays, instead of a geometry; only with it curves and surfaces (physical tag -> what it
-    is), tension (by subdomain) and inclusions (by name: {"tilt": True} or {"fixed": u})."""
+    is), tension (by subdomain, as of a Region) and inclusions (by name: {"tilt": True} or {"fixed": u})."""
     preset: str | None = None
     size: float | None = None
     tip_size: float | None = None
@@ -111,7 +150,7 @@ class Mesh(_Table):
     file: str | os.PathLike[str] | Msh | None = None
     curves: Mapping[int, str] | None = None
     surfaces: Mapping[int, str] | None = None
-    tension: Mapping[str, float] | None = None
+    tension: Mapping[str, Tension] | None = None
     inclusions: Mapping[str, Mapping[str, Any]] | None = None
 
     def table(self) -> dict[str, Any]:
@@ -187,18 +226,27 @@ class Accuracy(_Table):
     keep_stages: bool | None = None
 
 
+@dataclass
+class Units(_Table):
+    """Names of units, for people: nothing is converted. "mm" and "N" give T in N/mm, f in N/mm^2, energies in N mm."""
+    length: str | None = None
+    force: str | None = None
+
+
 class Case:
     """tables: as tomllib reads a case; may be changed before it is submitted."""
 
     def __init__(self, geometry: Geometry | None = None, loads: Sequence[Load] = (), mesh: Mesh | None = None,
                  solver: ActiveSet | Uzawa | None = None, accuracy: Accuracy | None = None, title: str = "",
-                 fields: bool = False, priority: str | None = None, queue_timeout: float | str | None = None,
+                 units: Units | None = None, fields: bool = False, priority: str | None = None,
+                 queue_timeout: float | str | None = None,
                  run_timeout: float | str | None = None) -> None:
         """fields: keep u on every node, to draw the membrane. Timeouts are seconds, or text such as "2h"."""
         job = {"priority": priority, "queue_timeout": queue_timeout, "run_timeout": run_timeout}
         tables: dict[str, Any] = {
             "title": title or None, "geometry": geometry and geometry.table(), "mesh": mesh and mesh.table(),
             "solver": solver and solver.table(), "accuracy": accuracy and accuracy.table(),
+            "units": units and units.table(),
             "load": [load.table() for load in loads] or None, "output": {"fields": True} if fields else None,
             "job": {key: value for key, value in job.items() if value is not None} or None}
         self.tables = {key: value for key, value in tables.items() if value is not None}

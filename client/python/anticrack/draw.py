@@ -9,9 +9,7 @@ import numpy as np
 
 from .arrays import Array
 from .errors import Error
-from .result import BONDED, CRACK, DELAMINATED, FREE, Load, Result, runs
-
-_TIPS = 0.02  # of the length of a crack at each end: there the pressure grows without bound
+from .result import BONDED, CRACK, DELAMINATED, FREE, Interface, Load, Result, Trace, runs
 
 
 def _axes(ax: Any) -> Any:
@@ -29,7 +27,7 @@ def _load(result: Result, load: str | Load | None) -> Load:
 
 
 def _interface(result: Result, load: Load, interface: int | str | None) -> int:
-    """The one named, or the most eventful: whose jump is largest."""
+    """The one named, or the most eventful: whose jump is largest or, if nothing is open, whose contact is longest."""
     if isinstance(interface, int):
         return interface
     names = [entry.name for entry in result.interfaces]
@@ -39,19 +37,65 @@ def _interface(result: Result, load: Load, interface: int | str | None) -> int:
         return names.index(interface)
     if not load.traces:
         raise Error(f"{load.name} has no traces")
-    return int(np.argmax([np.abs(trace.jump).max(initial=0) for trace in load.traces]))
+    jumps = [np.abs(trace.jump).max(initial=0) for trace in load.traces]
+    largest = max(np.abs(trace.u_plus).max(initial=0) for trace in load.traces)
+    if max(jumps) > 1e-9 * largest:
+        return int(np.argmax(jumps))
+    return int(np.argmax([_lengths(line) @ (trace.contact != 0)
+                          for line, trace in zip(result.interfaces, load.traces)]))
+
+
+def _lengths(line: Interface) -> Array:
+    """Half of the edges at each node."""
+    edges = np.diff(line.s, prepend=line.s[:1], append=line.s[-1:])
+    return np.asarray((edges[:-1] + edges[1:]) / 2)
+
+
+def _cut(values: Array, weights: Array, part: float, room: float) -> tuple[float, float]:
+    """The end of an axis for values that are singular at tips, and the highest of them: `room` times what `part` of the
+    weight stays below, or the highest if that is little more."""
+    order = np.argsort(values)
+    below = np.cumsum(weights[order])
+    highest = float(values[order[-1]])
+    shown = room * float(values[order[np.searchsorted(below, part * below[-1])]])
+    return (highest if highest <= 1.25 * shown else shown), highest
+
+
+def _shade_contact(line: Interface, trace: Trace, ax: Any) -> None:
+    label: str | None = "contact"
+    for first, last in runs(trace.contact):
+        if trace.contact[first]:
+            ax.axvspan(line.s[first], line.s[last - 1], color="0.85", zorder=0, label=label)
+            label = None
+
+
+def _fields(load: Load) -> list[Any]:
+    if not load.fields:
+        raise Error(f"{load.name} has no fields; solve with Case(fields=True), in TOML [output] fields = true")
+    return load.fields
+
+
+def _levels(load: Load, levels: int) -> Array:
+    low, high = min(f.u.min() for f in load.fields), max(f.u.max() for f in load.fields)
+    return np.asarray(np.linspace(low, high if high > low else low + 1, levels + 1))
 
 
 def interfaces(result: Result, ax: Any = None, labels: bool = True) -> Any:
-    """Inclusions (black, solid where bonded, dashed where delaminated), with their names, and cracks (red)."""
+    """Inclusions (black, solid where bonded, dashed where delaminated, with dots on the side that came off), with their
+    names, and cracks (red)."""
     ax = _axes(ax)
     named: set[int] = set()
+    away = 0.012 * np.ptp(result.mesh.nodes, axis=0).max()
     for interface in result.interfaces:
         for first, last in runs(interface.edge_kind * 100_000 + interface.edge_inclusion):
             kind, inclusion = int(interface.edge_kind[first]), int(interface.edge_inclusion[first])
             x, y = interface.x[first:last + 1], interface.y[first:last + 1]
             if kind in (BONDED, DELAMINATED):
                 ax.plot(x, y, "--" if kind == DELAMINATED else "-", color="black", linewidth=2)
+                if kind == DELAMINATED:
+                    along = np.gradient(x), np.gradient(y)
+                    length = np.hypot(*along)
+                    ax.plot(x + away * along[1] / length, y - away * along[0] / length, ":", color="tab:red")
                 if labels and inclusion not in named:
                     named.add(inclusion)
                     middle = len(x) // 2
@@ -59,7 +103,8 @@ def interfaces(result: Result, ax: Any = None, labels: bool = True) -> Any:
                                 textcoords="offset points", ha="center")
             elif kind in (CRACK, FREE):
                 ax.plot(x, y, "-" if kind == CRACK else ":", color="tab:red", linewidth=2)
-    ax.set(aspect="equal", xlabel="x", ylabel="y")
+    length = result.units.label("L")
+    ax.set(aspect="equal", xlabel="x" + length, ylabel="y" + length)
     return ax
 
 
@@ -68,17 +113,51 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, lev
     """u from above, in colours and contour lines, with cracks and inclusions; takes a case with fields."""
     from matplotlib.tri import Triangulation
     ax, load = _axes(ax), _load(result, load)
-    if not load.fields:
-        raise Error(f"{load.name} has no fields; solve with Case(fields=True), in TOML [output] fields = true")
-    low, high = min(f.u.min() for f in load.fields), max(f.u.max() for f in load.fields)
-    steps = np.linspace(low, high if high > low else low + 1, levels + 1)
-    for part in load.fields:
-        x, y = result.mesh.nodes[part.nodes].T
-        triangulation = Triangulation(x, y, part.triangles)
-        shades = ax.tricontourf(triangulation, part.u, steps, cmap=cmap)
+    for part in _fields(load):
+        triangulation = Triangulation(*result.mesh.nodes[part.nodes].T, part.triangles)
+        shades = ax.tricontourf(triangulation, part.u, _levels(load, levels), cmap=cmap)
         if lines:
-            ax.tricontour(triangulation, part.u, steps, colors="black", linewidths=0.3, linestyles="solid")
-    ax.figure.colorbar(shades, ax=ax, label="u")
+            ax.tricontour(triangulation, part.u, _levels(load, levels), colors="black", linewidths=0.3,
+                          linestyles="solid")
+    ax.figure.colorbar(shades, ax=ax, label="u" + result.units.label("L"))
+    interfaces(result, ax)
+    ax.set_title(load.name)
+    return ax
+
+
+def flux(result: Result, load: str | Load | None = None) -> list[Array]:
+    """|T grad u| in the triangles of each subdomain, as its field lists them; takes a case with fields."""
+    sizes = []
+    for tension, part in zip(result.mesh.tension, _fields(_load(result, load))):
+        a, b, c = np.moveaxis(result.mesh.nodes[part.nodes][part.triangles], 1, 0)
+        u = part.u[part.triangles]
+        (bx, by), (cx, cy) = (b - a).T, (c - a).T
+        ub, uc = u[:, 1] - u[:, 0], u[:, 2] - u[:, 0]
+        sizes.append(tension * np.hypot(ub * cy - uc * by, uc * bx - ub * cx) / (bx * cy - cx * by))
+    return sizes
+
+
+def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels: int = 10, cmap: str = "Blues") -> Any:
+    """From above: labelled lines of u over the flux |T grad u| in colours, with cracks and inclusions; takes a case
+    with fields. The flux grows without bound at tips: its peaks are cut off, and the colour bar says so."""
+    from matplotlib.ticker import MaxNLocator
+    from matplotlib.tri import Triangulation
+    ax, load = _axes(ax), _load(result, load)
+    sizes = flux(result, load)
+    parts = [Triangulation(*result.mesh.nodes[part.nodes].T, part.triangles) for part in load.fields]
+    corners = [np.stack((part.x, part.y), -1)[part.triangles] for part in parts]
+    areas = [np.abs(np.linalg.det(np.diff(each, axis=1))) for each in corners]
+    shown, highest = _cut(np.concatenate(sizes), np.concatenate(areas), 0.98, 1.5)
+    steps = MaxNLocator(levels).tick_values(*_levels(load, 1))  # round
+    for part, field, size in zip(parts, load.fields, sizes):
+        shades = ax.tripcolor(part, size, vmin=0, vmax=shown if shown > 0 else 1, cmap=cmap, rasterized=True)
+        inner = steps[(steps > field.u.min()) & (steps < field.u.max())]
+        if inner.size:
+            lines = ax.tricontour(part, field.u, inner, colors="black", linewidths=0.6, linestyles="solid")
+            ax.clabel(lines, inner[::2], fmt="%.3g", fontsize="x-small")
+    said = f", peaks cut off, up to {highest:.2g}" if shown < highest else ""
+    ax.figure.colorbar(shades, ax=ax, label=f"$|T \\nabla u|${result.units.label('F/L')}{said}",
+                       extend="max" if said else "neither")
     interfaces(result, ax)
     ax.set_title(load.name)
     return ax
@@ -93,38 +172,40 @@ def traces(result: Result, load: str | Load | None = None, interface: int | str 
     ax.plot(line.s, trace.u_minus, label="$u^-$")
     ax.plot(line.s, trace.u_plus, "--", label="$u^+$")
     ax.plot(line.s, trace.jump, ":", color="black", label="$[u] = u^+ - u^-$")
-    label: str | None = "contact"
-    for first, last in runs(trace.contact):
-        if trace.contact[first]:
-            ax.axvspan(line.s[first], line.s[last - 1], color="0.85", zorder=0, label=label)
-            label = None
+    _shade_contact(line, trace, ax)
     for inclusion in sorted(set(line.edge_inclusion.tolist()) - {-1}):
         lies = line.edge_inclusion == inclusion
         begin, end = line.s[:-1][lies].min(), line.s[1:][lies].max()
         ax.axvspan(begin, end, 0, 0.02, color="0.3")
         ax.annotate(result.mesh.inclusions[inclusion], ((begin + end) / 2, 0.03), ha="center",
                     xycoords=ax.get_xaxis_transform())
-    ax.set(xlabel=f"arc length of {line.name or 'the interface'}", ylabel="displacement", title=load.name)
+    length = result.units.label("L")
+    ax.set(xlabel=f"arc length of {line.name or 'the interface'}{length}", ylabel="displacement" + length,
+           title=load.name)
     ax.legend()
     return ax
 
 
-def pressure(result: Result, load: str | Load | None = None, interface: int | str | None = None, ax: Any = None,
-             tips: float = _TIPS) -> Any:
-    """The contact pressure on the cracks of an interface. It grows without bound at tips: `tips` of the length of each
-    crack are left out at its ends, and the axis says so."""
+def pressure(result: Result, load: str | Load | None = None, interface: int | str | None = None, ax: Any = None) -> Any:
+    """The contact pressure on the cracks of an interface, chosen as for `traces`; contact is shaded. The pressure grows
+    without bound at tips: its spikes are cut off, and the label of the axis says so."""
     ax, load = _axes(ax), _load(result, load)
     index = _interface(result, load, interface)
     line, trace = result.interfaces[index], load.traces[index]
-    cracked = np.isin(line.edge_kind, (CRACK, DELAMINATED))
-    for first, last in runs(cracked):
-        if cracked[first]:
-            s = line.s[first:last + 1]
-            cut = tips * (s[-1] - s[0])
-            inner = (s >= s[0] + cut) & (s <= s[-1] - cut)
-            ax.plot(s[inner], trace.pressure[first:last + 1][inner], label=load.name)
-    said = f" ({100 * tips:g} % at each tip left out)" if tips else ""
-    ax.set(xlabel=f"arc length of {line.name or 'the interface'}{said}", ylabel="contact pressure", title=load.name)
+    cracked = np.isin(line.kind, (CRACK, DELAMINATED))  # on glue it is a flux
+    first = not ax.lines
+    ax.plot(line.s, np.where(cracked, trace.pressure, np.nan), label=load.name)
+    unit = result.units.label("F/L")
+    label = ax.get_ylabel() or "contact pressure" + unit
+    closed = trace.contact != 0
+    if closed.any():
+        _shade_contact(line, trace, ax)
+        shown, highest = _cut(trace.pressure[closed], _lengths(line)[closed], 0.9, 1.5)
+        ax.set_ylim(0, max(1.05 * shown, 0 if first else ax.get_ylim()[1]))
+        if shown < highest:
+            label = f"contact pressure{unit}, cut off at the tips, up to {highest:.2g}"
+    ax.set(xlabel=f"arc length of {line.name or 'the interface'}{result.units.label('L')}", ylabel=label,
+           title=load.name)
     return ax
 
 
@@ -149,7 +230,7 @@ def error_band(result: Result, load: str | Load | None = None, ax: Any = None) -
     ax.fill_between(stages["triangles"], stages["energy_lower"], stages["energy_upper"], alpha=0.3,
                     label=f"{load.name}: bounds of the membrane's energy")
     ax.plot(stages["triangles"], stages["energy"], ".-", label=f"{load.name}: energy of the stage")
-    ax.set(xscale="log", xlabel="triangles", ylabel="energy")
+    ax.set(xscale="log", xlabel="triangles", ylabel="energy" + result.units.label("F L"))
     ax.legend()
     return ax
 
@@ -176,5 +257,5 @@ def sweep(result: Result, x: str | int | Array = 0, inclusion: str | int = 0, ax
         name, heights = "contact length", columns.contact_length
     order = np.argsort(values[rows], kind="stable")
     ax.plot(values[rows][order], heights[rows][order], ".-", label=name)
-    ax.set(xlabel=label, ylabel=name)
+    ax.set(xlabel=label, ylabel=name + result.units.label("L"))
     return ax

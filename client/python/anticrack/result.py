@@ -23,7 +23,8 @@ GLUE, CRACK, BONDED, DELAMINATED, FREE = range(1, 6)  # kinds of nodes and edges
 @dataclass
 class Mesh:
     """nodes (n, 2); triangles (m, 3) and boundary (b, 2), where u is prescribed: indices of nodes; subdomain (m): of a
-    triangle, index of subdomain_names (d) and tension (d); inclusions: names."""
+    triangle, index of subdomain_names (d), tension (d), of a law its mean, and tension_law (d): text, empty where the
+    tension is a number, none where all are; inclusions: names."""
     nodes: Array
     triangles: Array
     subdomain: Array
@@ -31,6 +32,7 @@ class Mesh:
     subdomain_names: list[str]
     tension: Array
     inclusions: list[str]
+    tension_law: list[str] = field(default_factory=list)
 
 
 @dataclass
@@ -194,6 +196,25 @@ class Sweep:
 
 
 @dataclass
+class Units:
+    """Names of units; empty: none."""
+    length: str = ""
+    force: str = ""
+
+    def of(self, dimension: str) -> str:
+        """Of what has this dimension, in F and L: "F/L^2" is "N/mm^2"; "-" where a unit in it has no name."""
+        names = {"F": self.force, "L": self.length}
+        if not dimension or any(letter in dimension and not name for letter, name in names.items()):
+            return "-"
+        return "".join(names.get(letter, letter) for letter in dimension)
+
+    def label(self, dimension: str) -> str:
+        """Behind the name of an axis: " [N/mm^2]"; empty where there is none."""
+        unit = self.of(dimension)
+        return "" if unit == "-" else f" [{unit}]"
+
+
+@dataclass
 class Result:
     """loads: answers by name, in the order of the case. not_reached: which accuracy was not reached and why."""
     title: str
@@ -211,6 +232,7 @@ class Result:
     factorize_seconds: float = NAN
     solve_seconds: float = NAN
     total_seconds: float = NAN
+    units: Units = field(default_factory=Units)
 
     @property
     def converged(self) -> bool:
@@ -274,6 +296,13 @@ def _traces(arrays: Mapping[str, Array], prefix: str, count: int) -> list[Trace]
     return [Trace(**trace) for trace in found if trace]
 
 
+def _laws(mesh: mesh_pb2.Mesh) -> list[str]:
+    def text(law: mesh_pb2.Tension) -> str:
+        return f"along {law.along}, across {law.across}, angle {law.angle:g}" if law.across else law.along
+    laws = [text(subdomain.tension_law) for subdomain in mesh.subdomains]
+    return laws if any(laws) else []
+
+
 def _of_job(job: solve_pb2.Job, mesh: mesh_pb2.Mesh, mesh_arrays: Mapping[str, Array],
             arrays: Mapping[str, Array], case: str) -> Result:
     interfaces = [Interface(info.name, **_below(arrays, f"interfaces/{i}/"), **{
@@ -283,7 +312,9 @@ def _of_job(job: solve_pb2.Job, mesh: mesh_pb2.Mesh, mesh_arrays: Mapping[str, A
     result = Result(job.title, job.name, mesh.name, Mesh(
         **{name: mesh_arrays[name] for name in ("nodes", "triangles", "subdomain", "boundary")}, subdomain_names=names,
         tension=np.array([subdomain.tension or 1.0 for subdomain in mesh.subdomains]),
-        inclusions=list(mesh.inclusions)), interfaces, {}, not_reached=job.not_reached, case=case)
+        inclusions=list(mesh.inclusions), tension_law=_laws(mesh)), interfaces, {}, not_reached=job.not_reached,
+        case=case)
+    result.units = Units(job.units.length, job.units.force)
     if job.HasField("sweep"):
         traces = {int(row): _traces(arrays, f"traces/{row}", len(interfaces)) for row in job.sweep.traces}
         kept = [row for row, found in traces.items() if found]  # the others did not end
@@ -401,7 +432,8 @@ def _texts(dataset: Any) -> list[str]:
 def _of_file(file: Any) -> Result:
     group = file["mesh"]
     mesh = Mesh(**{name: group[name][()] for name in ("nodes", "triangles", "subdomain", "boundary", "tension")},
-                subdomain_names=_texts(group["subdomain_names"]), inclusions=_texts(group["inclusions"]))
+                subdomain_names=_texts(group["subdomain_names"]), inclusions=_texts(group["inclusions"]),
+                tension_law=_texts(group["tension_law"]) if "tension_law" in group else [])
     interfaces = [Interface(file[f"interfaces/{i}"].attrs["name"], **_arrays(file[f"interfaces/{i}"]))
                   for i in range(len(file["interfaces"]))]
     groups = sorted(file["loads"].items(), key=lambda item: int(item[1].attrs.get("index", 0)))
@@ -409,7 +441,9 @@ def _of_file(file: Any) -> Result:
     result = Result(attributes["title"], attributes["job"], attributes["mesh"], mesh, interfaces,
                     {name: _load_in(name, item) for name, item in groups}, None, attributes.get("not_reached", ""),
                     attributes["case"], attributes["server_version"], attributes["mesh_sha256"],
-                    *(float(attributes[name + "_seconds"]) for name in ("mesh", "factorize", "solve", "total")))
+                    units=Units(attributes.get("unit_length", ""), attributes.get("unit_force", "")))
+    for name in ("mesh_seconds", "factorize_seconds", "solve_seconds", "total_seconds"):
+        setattr(result, name, float(attributes[name]))
     if "sweep" in file:
         sweep = file["sweep"]
         arrays = _arrays(sweep)
@@ -439,8 +473,6 @@ def _load_in(name: str, group: Any) -> Load:
         load.history = history
         load.kkt = {key: float(group.attrs["kkt_relative_" + key]) for key in KKT}
         load.kkt_absolute = {key: float(group.attrs["kkt_" + key]) for key in KKT}
-    elif load.status == "failed":  # the file of the command has 0
-        load.contact_length = NAN
     load.stages = _arrays(group["stages"]) if "stages" in group else {}
     contact = _arrays(group["contact_intervals"])
     load.contact_intervals = [(int(i), float(begin), float(end)) for i, begin, end in

@@ -10,11 +10,18 @@ from typing import Any
 import h5py
 import numpy as np
 
-from .result import KKT, SCALARS, Inclusion, Load, Result, Sweep
+from .result import KKT, SCALARS, Inclusion, Load, Result, Sweep, Units
 
 _TEXT = h5py.string_dtype()
 _HISTORY = {"iteration": "i4", "contact_count": "i4", "criterion": "f8", "energy": "f8",
             **{f"kkt_{name}": "f8" for name in KKT}}
+
+# Of datasets, as Units.of has them; each name means the same wherever it is.
+_DIMENSIONS = {
+    **dict.fromkeys(["nodes", "s", "x", "y", "u_minus", "u_plus", "jump", "u", "A", "A_lower", "A_upper",
+                     "A_estimated_error", "contact_length", "begin", "end", "displacement"], "L"),
+    **dict.fromkeys(["energy", "energy_lower", "energy_upper", "indicator", "Mx", "My"], "F L"),
+    "tension": "F/L", "pressure": "F/L", "resultant": "F", "seconds": "s"}
 
 
 def save(result: Result, path: str | os.PathLike[str]) -> None:
@@ -27,11 +34,12 @@ def save(result: Result, path: str | os.PathLike[str]) -> None:
         os.replace(made, path)
 
 
-def _put(group: Any, name: str, values: Any, units: str = "-") -> None:
+def _put(group: Any, name: str, values: Any) -> None:
     texts = isinstance(values, list) and (not values or isinstance(values[0], str))
     array = np.array(values, dtype=_TEXT if texts else None)
     group.create_dataset(name, data=array, **({"compression": "gzip", "shuffle": True} if array.size > 1000 else {}))
-    group[name].attrs["units"] = units
+    units = Units(group.file.attrs["unit_length"], group.file.attrs["unit_force"])
+    group[name].attrs["units"] = units.of(_DIMENSIONS.get(name, ""))
 
 
 def _put_arrays(group: Any, record: Any) -> None:
@@ -50,13 +58,16 @@ def _put_attributes(group: Any, record: Any, names: list[str]) -> None:
 
 def _put_result(file: Any, result: Result) -> None:
     from . import __version__
-    file.attrs.update({"format": "anticrack-result/1", "client_version": __version__, "mesh": result.mesh_name})
+    file.attrs.update({"format": "anticrack-result/1", "client_version": __version__, "mesh": result.mesh_name,
+                       "unit_length": result.units.length, "unit_force": result.units.force})
     _put_attributes(file, result, ["title", "case", "server_version", "job", "mesh_sha256", "not_reached", *(
         name + "_seconds" for name in ("mesh", "factorize", "solve", "total"))])
     mesh = file.create_group("mesh")
     _put_arrays(mesh, result.mesh)
     for name in ("subdomain_names", "inclusions"):
         _put(mesh, name, getattr(result.mesh, name))
+    if result.mesh.tension_law:
+        _put(mesh, "tension_law", result.mesh.tension_law)
     file.create_group("interfaces")
     for i, interface in enumerate(result.interfaces):
         group = file.create_group(f"interfaces/{i}")
@@ -91,7 +102,7 @@ def _put_load(group: Any, load: Load) -> None:
     if load.stages:
         stages = group.create_group("stages")
         for name, values in load.stages.items():
-            _put(stages, name, values, "s" if name == "seconds" else "-")
+            _put(stages, name, values)
     for i, part in enumerate(load.fields):
         field_group = group.require_group(f"fields/{i}")
         field_group.attrs["name"] = part.subdomain

@@ -3,6 +3,7 @@
 server."""
 from __future__ import annotations
 
+import numbers
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,6 +16,10 @@ from .sections import Section
 from .v1 import mesh_pb2, solve_pb2
 
 _PRESETS = ["paper", "uniform", "graded", "coarse"]
+_LINES = ["points", "arc", "spline", "center"]  # one of them gives a line
+_LINE = [*_LINES, "angle", "length"]
+_OUTLINE = ["circle", "points", "spline"]
+_SIDES = ["left", "right"]
 _UZAWA = ["theta", "epsilon", "p", "max_iterations", "mass", "kkt_tolerance"]
 _ACTIVE_SET = ["tolerance", "max_steps"]
 _FORCE = ('write a number, an expression in x and y in quotes, {region = number} or {file = "f.h5", dataset = "/f", '
@@ -32,7 +37,8 @@ class Requests:
 
 def requests_of(tables: Mapping[str, Any], source: str, folder: Path, loads_needed: bool = True) -> Requests:
     """`source` names the case in errors; names of files are relative to `folder`."""
-    root = Section(tables, "", ["title", "geometry", "mesh", "solver", "accuracy", "load", "job", "output"], source)
+    root = Section(tables, "", ["title", "geometry", "mesh", "solver", "accuracy", "units", "load", "job", "output"],
+                   source)
     out = Requests()
     title = root.text("title")
     if title is not None:
@@ -46,6 +52,10 @@ def requests_of(tables: Mapping[str, Any], source: str, folder: Path, loads_need
         _load(section, folder, out)
     _accuracy(root, out)
     _job(root, out.job)
+    units = root.section("units", ["length", "force"])
+    if units is not None:
+        out.job.units.SetInParent()
+        _set(out.job.units, length=units.text("length"), force=units.text("force"))
     output = root.section("output", ["fields"])
     if output is not None and output.boolean("fields"):
         out.job.outputs.append(solve_pb2.OUTPUT_FIELDS)
@@ -63,7 +73,7 @@ def _set(message: Any, **values: Any) -> None:
 
 
 def _mesh(root: Section, folder: Path, out: Requests) -> None:
-    geometry = root.section("geometry", ["boundary", "interface", "inclusion", "crack", "neumann", "region"])
+    geometry = root.section("geometry", ["boundary", "hole", "interface", "inclusion", "crack", "neumann", "region"])
     mesh = root.section("mesh", ["preset", "size", "tip_size", "grading", "align", "file", "groups", "tension",
                                  "inclusions"])
     out.mesh.options.preset = mesh_pb2.MESH_PRESET_GRADED
@@ -106,7 +116,15 @@ def _options(section: Section, options: mesh_pb2.MeshOptions) -> None:
     if groups is not None:
         _groups(groups, "curve", options.curve_groups)
         _groups(groups, "surface", options.surface_groups)
-    options.tension.update(section.numbers("tension", "write subdomain = number for each of them"))
+    names = [name for name, _ in section.entries("tension", "write subdomain = tension for each")]
+    tensions = section.section("tension", names)
+    for name in names:
+        assert tensions is not None
+        given = _tension(tensions, name)
+        if isinstance(given, mesh_pb2.Tension):
+            options.tension_laws[name].CopyFrom(given)
+        elif given is not None:
+            options.tension[name] = given
     cure = "write NAME = { tilt = true } or NAME = { fixed = 0.1 } for each of them"
     for name, entry in section.entries("inclusions", cure):
         motion = options.inclusion_motions[name]
@@ -132,31 +150,52 @@ def _motion(section: Section, message: Any) -> None:
 
 
 def _geometry(section: Section, geometry: mesh_pb2.Geometry) -> None:
-    boundary = section.points_of(section.need("boundary", "write [[x, y], [x, y], ...]"), "boundary")
-    geometry.boundary.extend(mesh_pb2.Point(**point) for point in boundary)
+    _boundary(section, geometry)
+    for hole in section.sections("hole", ["name", *_OUTLINE]):
+        _outline(hole, "the hole", geometry.holes.add(name=hole.text("name") or "").outline)
     _interfaces(section, geometry)
-    for part in section.sections("inclusion", ["name", "from", "to", "delaminated", "tilt", "fixed", "contact"]):
+    for part in section.sections("inclusion", ["name", "from", "to", *_LINE, "delaminated", "side", "tilt", "fixed",
+                                               "contact"]):
         part.refuse(["contact"], "belongs to [[geometry.crack]]; an inclusion has delaminated = true or false")
-        inclusion = geometry.inclusions.add(name=_name(part, "inclusion"), part=_line(part))
-        delaminated = part.get("delaminated")
-        if isinstance(delaminated, list):
-            inclusion.delaminated_parts.SetInParent()
-            for i, pair in enumerate(delaminated):
-                inclusion.delaminated_parts.parts.add(**part.part_of(pair, f"delaminated.{i}"))
-        elif "delaminated" in part:
-            if not isinstance(delaminated, bool):
-                raise part.error("delaminated", f"{delaminated!r} is not possible; write true, false or "
-                                                "[[from, to], ...]")
-            inclusion.delaminated = delaminated
+        inclusion = geometry.inclusions.add(name=_name(part, "inclusion"))
+        _place(part, "the inclusion", inclusion)
+        _delamination(part, inclusion)
         _motion(part, inclusion)
-    for part in section.sections("crack", ["name", "from", "to", "contact", "tilt", "fixed"]):
+    for part in section.sections("crack", ["name", "from", "to", *_LINE, "contact", "side", "tilt", "fixed"]):
         part.refuse(["tilt", "fixed"], "belongs to [[geometry.inclusion]]; nothing rigid lies on a crack, so remove "
                                        "it")
-        _set(geometry.cracks.add(name=_name(part, "crack"), part=_line(part)), contact=part.boolean("contact"))
+        part.refuse(["side"], "belongs to [[geometry.inclusion]]; the plus side of a crack is on its left, so write "
+                              "it the other way round")
+        crack = geometry.cracks.add(name=_name(part, "crack"))
+        _place(part, "the crack", crack)
+        _set(crack, contact=part.boolean("contact"))
     _neumann(section, geometry)
-    for part in section.sections("region", ["name", "at", "tension"]):
-        at = part.point_of(part.need("at", "write [x, y], a point inside the region"), "at")
-        _set(geometry.regions.add(name=_name(part, "region"), at=at), tension=part.positive("tension"))
+    for part in section.sections("region", ["name", "at", *_OUTLINE, "tension"]):
+        region = geometry.regions.add(name=_name(part, "region"))
+        if _shape(part, ["at", *_OUTLINE], "the region") in ("at", ""):
+            at = part.need("at", "write [x, y], a point inside the region, or its outline: circle, points or spline")
+            region.at.CopyFrom(mesh_pb2.Point(**part.point_of(at, "at")))
+        else:
+            _outline(part, "the region", region.outline)
+        given = _tension(part, "tension")
+        if isinstance(given, mesh_pb2.Tension):
+            region.tension_law.CopyFrom(given)
+        else:
+            _set(region, tension=given)
+
+
+def _tension(section: Section, key: str) -> float | mesh_pb2.Tension | None:
+    """A number, or a law: an expression, or {along, across, angle}."""
+    value = section.get(key)
+    if isinstance(value, str):
+        return mesh_pb2.Tension(along=value)
+    if not isinstance(value, Mapping):
+        return section.positive(key)
+    table = section.section(key, ["along", "across", "angle"])
+    assert table is not None
+    table.need("along", "write the tension in the direction of angle, a number or an expression")
+    return mesh_pb2.Tension(along=table.expression("along"), across=table.expression("across"),
+                            angle=table.number("angle") or 0)
 
 
 def _name(section: Section, what: str) -> str:
@@ -164,49 +203,154 @@ def _name(section: Section, what: str) -> str:
     return section.text("name") or ""
 
 
-def _line(section: Section) -> mesh_pb2.InterfacePart:
-    cure = "write [x, y], a point of an interface"
-    return mesh_pb2.InterfacePart(**{key: section.point_of(section.need(key, cure), key) for key in ("from", "to")})
+def _shape(section: Section, keys: list[str], what: str) -> str:
+    """The one of these keys that there is, or none."""
+    given = [key for key in keys if key in section]
+    if len(given) > 1:
+        raise section.error(given[1], f"{what} has {given[0]} too; remove one of the two")
+    return given[0] if given else ""
+
+
+def _curve(section: Section, shape: str, curve: Any) -> None:
+    """Points, arc or spline into an InterfaceCurve or a Line."""
+    points = section.points_of(section.get(shape), shape)
+    if shape == "arc":
+        if len(points) != 3:
+            raise section.error("arc", f"{points!r} is not an arc; write [from, through, to], three points with the "
+                                       "second between the others")
+        curve.arc.CopyFrom(mesh_pb2.Arc(**dict(zip(("from", "through", "to"), points))))
+    else:
+        line = curve.polyline if shape == "points" else curve.spline
+        line.points.extend(mesh_pb2.Point(**point) for point in points)
+        line.SetInParent()
+
+
+def _line(section: Section, shape: str, line: mesh_pb2.Line) -> None:
+    if shape != "center":
+        _curve(section, shape, line)
+        return
+    section.need("length", "write its length, beside its center")
+    line.segment.CopyFrom(mesh_pb2.Segment(center=section.point_of(section.get("center"), "center"),
+                                           angle=section.number("angle"), length=section.positive("length")))
+
+
+def _outline(section: Section, what: str, outline: mesh_pb2.Outline) -> None:
+    shape = _shape(section, _OUTLINE, what)
+    if not shape:
+        raise section.error("", f"{what} without a shape; write circle = {{ center = [x, y], radius = r }}, points = "
+                                "[[x, y], ...] or spline = [[x, y], ...]")
+    if shape == "circle":
+        circle = section.section("circle", ["center", "radius"])
+        assert circle is not None
+        center = circle.point_of(circle.need("center", "write [x, y]"), "center")
+        circle.need("radius", "write its radius")
+        outline.circle.CopyFrom(mesh_pb2.Circle(center=center, radius=circle.positive("radius")))
+        return
+    line = outline.polygon if shape == "points" else outline.spline
+    line.points.extend(mesh_pb2.Point(**point) for point in section.points_of(section.get(shape), shape))
+    line.SetInParent()
+
+
+def _boundary(section: Section, geometry: mesh_pb2.Geometry) -> None:
+    boundary = section.need("boundary", "write [[x, y], [x, y], ...], or [[geometry.boundary]] for each side")
+    if not _tables(boundary):
+        geometry.boundary.extend(mesh_pb2.Point(**point) for point in section.points_of(boundary, "boundary"))
+        return
+    for part in section.sections("boundary", ["name", *_LINE]):
+        shape = _shape(part, _LINES, "the side")
+        if not shape:
+            raise part.error("", "a side without a shape; write points = [[x, y], ...], arc = [from, through, to] or "
+                                 "spline = [[x, y], ...]")
+        _line(part, shape, geometry.sides.add(name=part.text("name") or "").line)
+
+
+def _tables(value: Any) -> bool:
+    return isinstance(value, Mapping) or (isinstance(value, (list, tuple)) and bool(value)
+                                          and isinstance(value[0], Mapping))
+
+
+def _place(section: Section, what: str, owner: Any) -> None:
+    """Of an inclusion or a crack: from and to on an interface, or a line of its own."""
+    shape = _shape(section, _LINES, what)
+    if shape != "center":
+        section.refuse(["angle", "length"], "belongs to center; write center = [x, y], angle in degrees and length")
+    if shape:
+        section.refuse(["from", "to"], f"belongs to a part of an interface, but {what} has {shape}, a line of its "
+                                       "own; remove one of the two")
+        _line(section, shape, owner.line)
+        return
+    cure = ("write [x, y], a point of an interface, or a line of its own: points, arc, spline, or center, angle and "
+            "length")
+    owner.part.CopyFrom(mesh_pb2.InterfacePart(
+        **{key: section.point_of(section.need(key, cure), key) for key in ("from", "to")}))
+
+
+def _delamination(section: Section, inclusion: mesh_pb2.Inclusion) -> None:
+    side = section.choice("side", _SIDES)
+    if side is not None:
+        inclusion.delaminated_side = _side(side)
+    if "delaminated" not in section:
+        return
+    value = section.get("delaminated")
+    if isinstance(value, (list, tuple)):
+        parts = inclusion.delaminated_parts
+        parts.SetInParent()
+        for i, pair in enumerate(value):
+            key = f"delaminated.{i}"
+            if isinstance(pair, (list, tuple)) and pair and isinstance(pair[0], numbers.Real):
+                start, end = section.numbers_of(pair, key, 2, "a stretch",
+                                                "write [0.5, 1.0], by arc length over the whole length")
+                parts.stretches.add(**{"from": start, "to": end})
+            else:
+                parts.parts.add(**section.part_of(pair, key))
+    elif isinstance(value, bool):
+        inclusion.delaminated = value
+    elif value in _SIDES:
+        section.refuse(["side"], "delaminated names a side too; remove one of the two")
+        inclusion.delaminated = True
+        inclusion.delaminated_side = _side(_SIDES.index(value))
+    else:
+        raise section.error("delaminated", f"{value!r} is not possible; write true, false, \"left\", \"right\", "
+                                           "[[from, to], ...] or [[0.5, 1.0], ...], stretches of its length")
+
+
+def _side(index: int) -> mesh_pb2.LineSide:
+    return mesh_pb2.LINE_SIDE_RIGHT if index else mesh_pb2.LINE_SIDE_LEFT
 
 
 def _neumann(section: Section, geometry: mesh_pb2.Geometry) -> None:
     parts = section.get("neumann")
-    if parts == "all":  # a part from a point to itself is the whole boundary
-        if geometry.boundary:
+    if isinstance(parts, str) and parts == "all":
+        for owners, other in ((geometry.sides, "side"), (geometry.holes, "hole")):
+            geometry.neumann_sides.extend(owner.name or f"{other}-{i + 1}" for i, owner in enumerate(owners))
+        if geometry.boundary:  # a part from a point to itself is the whole polygon
             geometry.neumann.add(**{"from": geometry.boundary[0], "to": geometry.boundary[0]})
     elif isinstance(parts, (list, tuple)):
-        for i, pair in enumerate(parts):
-            geometry.neumann.add(**section.part_of(pair, f"neumann.{i}"))
+        for i, part in enumerate(parts):
+            if isinstance(part, str):
+                geometry.neumann_sides.append(part)
+            else:
+                geometry.neumann.add(**section.part_of(part, f"neumann.{i}"))
     elif "neumann" in section:
-        raise section.error("neumann", f"{parts!r} is not possible; write [[from, to], ...], parts of the boundary "
-                                       'walked counterclockwise, or "all"')
+        raise section.error("neumann", f"{parts!r} is not possible; write a list of names of sides and holes, or of "
+                                       '[from, to], parts of the boundary walked counterclockwise, or "all"')
 
 
 def _interfaces(section: Section, geometry: mesh_pb2.Geometry) -> None:
     value = section.get("interface")
-    if isinstance(value, (list, tuple)) and not (value and isinstance(value[0], Mapping)):
+    if isinstance(value, (list, tuple)) and not _tables(value):
         geometry.interfaces.add().polyline.points.extend(
             mesh_pb2.Point(**point) for point in section.points_of(value, "interface"))
         return
-    shapes = "points = [[x, y], ...], arc = [from, through, to] or spline = [[x, y], ...]"
     for part in section.sections("interface", ["name", "points", "arc", "spline", "closed"]):
-        given = [key for key in ("points", "arc", "spline") if key in part]
-        if not given:
-            raise part.error("", f"an interface without a shape; write {shapes}")
-        if len(given) > 1:
-            raise part.error(given[1], f"the interface has {given[0]} too; remove one of the two")
-        points = part.points_of(part.get(given[0]), given[0])
+        shape = _shape(part, ["points", "arc", "spline"], "the interface")
+        if not shape:
+            raise part.error("", "an interface without a shape; write points = [[x, y], ...], arc = [from, through, "
+                                 "to] or spline = [[x, y], ...]")
         curve = geometry.interfaces.add(name=part.text("name") or "", closed=part.boolean("closed") or False)
-        if given[0] == "arc":
-            if len(points) != 3:
-                raise part.error("arc", f"{points!r} is not an arc; write [from, through, to], three points with the "
-                                        "second between the others")
+        _curve(part, shape, curve)
+        if shape == "arc":
             part.refuse(["closed"], "an arc has two ends; remove the key, or write a spline through the points")
-            curve.arc.CopyFrom(mesh_pb2.Arc(**dict(zip(("from", "through", "to"), points))))
-        else:
-            line = curve.polyline if given[0] == "points" else curve.spline
-            line.points.extend(mesh_pb2.Point(**point) for point in points)
-            line.SetInParent()
 
 
 def _solver(root: Section, solver: solve_pb2.Solver) -> None:

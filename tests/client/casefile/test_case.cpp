@@ -111,6 +111,7 @@ surface.1 = "top"
 curve.8 = "neumann"
 [mesh.tension]
 top = 2.5
+bottom = { along = 2, across = "1 + x", angle = 30 }
 [mesh.inclusions]
 rod = { tilt = true }
 bar.fixed = -0.5
@@ -129,10 +130,15 @@ f = 1
   EXPECT_EQ(the_case.locate("options.curve_groups[7]")->line, 5U);
   EXPECT_EQ(the_case.locate("options.curve_groups[12]")->key, "mesh.groups.curve");
   EXPECT_EQ(the_case.locate("options.tension.top")->line, 9U);
+  EXPECT_FALSE(options.tension().contains("bottom"));
+  EXPECT_EQ(options.tension_laws().at("bottom").along(), "2");
+  EXPECT_EQ(options.tension_laws().at("bottom").across(), "1 + x");
+  EXPECT_EQ(options.tension_laws().at("bottom").angle(), 30);
+  EXPECT_EQ(the_case.locate("options.tension_laws[bottom].across")->line, 10U);
   EXPECT_TRUE(options.inclusion_motions().at("rod").tilt());
   EXPECT_FALSE(options.inclusion_motions().at("rod").has_fixed());
   EXPECT_EQ(options.inclusion_motions().at("bar").fixed(), -0.5);
-  EXPECT_EQ(the_case.locate("options.inclusion_motions[rod]")->line, 11U);
+  EXPECT_EQ(the_case.locate("options.inclusion_motions[rod]")->line, 12U);
   EXPECT_EQ(the_case.locate("mesh.options.inclusion_motions[rod]")->key, "mesh.inclusions.rod");
 }
 
@@ -165,6 +171,10 @@ tension = 3
 [[geometry.region]]
 name = "bottom"
 at = [0, -0.9]
+[[geometry.region]]
+name = "inside"
+at = [0, 0]
+tension = "1 + x^2"
 )"));
   const v1::Geometry& geometry = the_case.mesh.geometry();
   ASSERT_EQ(geometry.interfaces_size(), 3);
@@ -175,13 +185,17 @@ at = [0, -0.9]
   EXPECT_EQ(geometry.interfaces(2).polyline().points(1).y(), -0.5);
   ASSERT_EQ(geometry.neumann_size(), 1);
   EXPECT_EQ(geometry.neumann(0).from().x(), geometry.neumann(0).to().x());
-  ASSERT_EQ(geometry.regions_size(), 2);
+  ASSERT_EQ(geometry.regions_size(), 3);
   EXPECT_EQ(geometry.regions(0).tension(), 3);
   EXPECT_EQ(geometry.regions(1).tension(), 0);
   EXPECT_EQ(the_case.locate("geometry.interfaces[0].spline.points[1]")->line, 8U);
   EXPECT_EQ(the_case.locate("geometry.interfaces[1].arc.through")->line, 11U);
   EXPECT_EQ(the_case.locate("geometry.interfaces[2]")->line, 12U);
+  EXPECT_FALSE(geometry.regions(2).has_tension());
+  EXPECT_EQ(geometry.regions(2).tension_law().along(), "1 + x^2");
   EXPECT_EQ(the_case.locate("geometry.regions[0].tension")->line, 17U);
+  EXPECT_EQ(the_case.locate("geometry.regions[2].tension_law.along")->key,
+            "geometry.region.2.tension");
   EXPECT_EQ(the_case.locate("geometry.neumann[0].from")->key, "geometry.neumann");
 }
 

@@ -67,7 +67,8 @@ const Mistake mistakes[] = {
     {"file_and_geometry", "[solver]\ntheta = 1.5\nmethod = \"uzawa\"", "[mesh]\nfile = \"a.msh\"",
      "plate.toml:3: geometry: there is a mesh.file too; remove one of the two"},
     {"no_boundary", "boundary  = [[-1, -1], [1, -1], [1, 1], [-1, 1]]\n", "",
-     "plate.toml:3: geometry.boundary: missing; write [[x, y], [x, y], ...]"},
+     "plate.toml:3: geometry.boundary: missing; write [[x, y], [x, y], ...], or "
+     "[[geometry.boundary]] for each side"},
     {"boundary_number", "[[-1, -1], [1, -1], [1, 1], [-1, 1]]", "3",
      "plate.toml:4: geometry.boundary: 3 is not a list of points; write [[x, y], [x, y], ...]"},
     {"point_of_three", "[1, -1]", "[1, -1, 0]",
@@ -79,17 +80,42 @@ const Mistake mistakes[] = {
     {"no_name", "name = \"fibre\"\n", "",
      "plate.toml:7: geometry.inclusion.0.name: missing; give the inclusion a name"},
     {"no_from", "from = [-0.5, 0]\n", "",
-     "plate.toml:7: geometry.inclusion.0.from: missing; write [x, y], a point of an interface"},
+     "plate.toml:7: geometry.inclusion.0.from: missing; write [x, y], a point of an interface, or "
+     "a line "
+     "of its own: points, arc, spline, or center, angle and length"},
     {"single_brackets", "[[geometry.inclusion]]", "[geometry.inclusion]",
      "plate.toml:7: geometry.inclusion: { from = [ -0.5, 0 ], name = 'fibre', to = [ 0.5, 0 ] } is "
      "not a list of tables; write [[geometry.inclusion]] above each of them"},
     {"delaminated_text", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = \"yes\"",
-     "plate.toml:11: geometry.inclusion.0.delaminated: 'yes' is not possible; write true, false or "
-     "[[from, to], ...]"},
-    {"delaminated_points", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = [[0, 0, 0]]",
-     "plate.toml:11: geometry.inclusion.0.delaminated.0: [ 0, 0, 0 ] is not a part; write [from, "
-     "to] "
-     "with points from and to"},
+     "plate.toml:11: geometry.inclusion.0.delaminated: 'yes' is not possible; write true, false, "
+     "\"left\", \"right\", [[from, to], ...] or [[0.5, 1.0], ...], stretches of its length"},
+    {"delaminated_points", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = [[[0, 0]]]",
+     "plate.toml:11: geometry.inclusion.0.delaminated.0: [ [ 0, 0 ] ] is not a part; write [from, "
+     "to] with points from and to"},
+    {"delaminated_stretch", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = [[0, 0.5, 1]]",
+     "plate.toml:11: geometry.inclusion.0.delaminated.0: [ 0, 0.5, 1 ] is not a stretch; write "
+     "[0.5, 1.0], by arc length over the whole length"},
+    {"side_unknown", "to   = [0.5, 0]", "to   = [0.5, 0]\nside = \"up\"",
+     "plate.toml:11: geometry.inclusion.0.side: 'up' is not possible; known are left, right"},
+    {"two_sides", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = \"left\"\nside = \"left\"",
+     "plate.toml:12: geometry.inclusion.0.side: delaminated names a side too; remove one of the "
+     "two"},
+    {"part_and_line", "to   = [0.5, 0]", "to   = [0.5, 0]\ncenter = [0, 0.5]\nlength = 1",
+     "plate.toml:9: geometry.inclusion.0.from: belongs to a part of an interface, but the "
+     "inclusion has center, a line of its own; remove one of the two"},
+    {"two_lines", "to   = [0.5, 0]", "points = [[0, 0], [1, 1]]\ncenter = [0, 0.5]",
+     "plate.toml:11: geometry.inclusion.0.center: the inclusion has points too; remove one of the "
+     "two"},
+    {"no_length", "from = [-0.5, 0]\nto   = [0.5, 0]", "center = [0, 0.5]",
+     "plate.toml:7: geometry.inclusion.0.length: missing; write its length, beside its center"},
+    {"angle_text", "from = [-0.5, 0]\nto   = [0.5, 0]",
+     "center = [0, 0.5]\nlength = 1\nangle = \"20\"",
+     "plate.toml:11: geometry.inclusion.0.angle: '20' is not a finite number; write a number "
+     "without quotes"},
+    {"angle_without_center", "to   = [0.5, 0]", "to   = [0.5, 0]\nangle = 20",
+     "plate.toml:11: geometry.inclusion.0.angle: belongs to center; write center = [x, y], angle "
+     "in "
+     "degrees and length"},
     {"no_f", "f = 1\n", "",
      "plate.toml:15: load.0.f: missing; write a number, an expression in x and y in quotes, "
      "{region = number} or {file = \"f.h5\", dataset = \"/f\", per = \"triangle\"}"},
@@ -149,9 +175,45 @@ const Mistake geometry_mistakes[] = {
               "plate.toml:6: geometry.interface.0.name: 1 is not text; write it in quotes"),
     interface("spline_point", "[[geometry.interface]]\nspline = [[-1, 0], [1]]\n",
               "plate.toml:6: geometry.interface.0.spline.1: [ 1 ] is not a point; write [x, y]"),
-    interface("neumann_text", "neumann = \"left\"\n",
-              "plate.toml:5: geometry.neumann: 'left' is not possible; write [[from, to], ...], "
-              "parts of the boundary walked counterclockwise, or \"all\""),
+    interface(
+        "neumann_text", "neumann = \"left\"\n",
+        "plate.toml:5: geometry.neumann: 'left' is not possible; write a list of names of "
+        "sides and holes, or of [from, to], parts of the boundary walked counterclockwise, or "
+        "\"all\""),
+    interface(
+        "neumann_number", "neumann = [\"left\", 2]\n",
+        "plate.toml:5: geometry.neumann.1: 2 is not a part; write [from, to] with points from "
+        "and to"),
+    interface("hole_without_shape", "[[geometry.hole]]\nname = \"window\"\n",
+              "plate.toml:5: geometry.hole.0: the hole without a shape; write circle = { center = "
+              "[x, y], radius = r }, points = [[x, y], ...] or spline = [[x, y], ...]"),
+    interface("hole_key", "[[geometry.hole]]\ncirlce = {}\n",
+              "plate.toml:6: geometry.hole.0.cirlce: unknown key; did you mean circle?"),
+    interface("hole_of_two_shapes",
+              "[[geometry.hole]]\ncircle = { center = [0, 0], radius = 1 }\nspline = []\n",
+              "plate.toml:7: geometry.hole.0.spline: the hole has circle too; remove one of the "
+              "two"),
+    interface("radius_zero", "[[geometry.hole]]\ncircle = { center = [0, 0], radius = 0 }\n",
+              "plate.toml:6: geometry.hole.0.circle.radius: 0 is not above 0; write a number above "
+              "0, or leave the key out for its default"),
+    interface("circle_without_radius", "[[geometry.hole]]\ncircle = { center = [0, 0] }\n",
+              "plate.toml:6: geometry.hole.0.circle.radius: missing; write its radius"),
+    interface("circle_number", "[[geometry.hole]]\ncircle = 3\n",
+              "plate.toml:6: geometry.hole.0.circle: 3 is not a table; write "
+              "[geometry.hole.0.circle]"),
+    interface("region_at_and_outline",
+              "[[geometry.region]]\nname = \"r\"\nat = [0, 0]\npoints = []\n",
+              "plate.toml:8: geometry.region.0.points: the region has at too; remove one of the "
+              "two"),
+    {"side_without_shape", "boundary  = [[-1, -1], [1, -1], [1, 1], [-1, 1]]",
+     "boundary = [{ name = \"left\" }]",
+     "plate.toml:4: geometry.boundary.0: a side without a shape; write points = [[x, y], ...], arc "
+     "= [from, through, to] or spline = [[x, y], ...]"},
+    {"side_key", "boundary  = [[-1, -1], [1, -1], [1, 1], [-1, 1]]", "boundary = [{ point = [] }]",
+     "plate.toml:4: geometry.boundary.0.point: unknown key; did you mean points?"},
+    {"side_of_a_crack", "[[geometry.inclusion]]\n", "[[geometry.crack]]\nside = \"left\"\n",
+     "plate.toml:8: geometry.crack.0.side: belongs to [[geometry.inclusion]]; the plus side of a "
+     "crack is on its left, so write it the other way round"},
     interface("neumann_point", "neumann = [[1, -1], [1, 1]]\n",
               "plate.toml:5: geometry.neumann.0.0: 1 is not a point; write [x, y]"),
     interface("neumann_three", "neumann = [[[1, -1], [1, 1], [0, 0]]]\n",
@@ -177,13 +239,18 @@ const Mistake geometry_mistakes[] = {
               "plate.toml:5: geometry.region.0.name: missing; give the region a name"),
     interface("region_without_at", "[[geometry.region]]\nname = \"top\"\n",
               "plate.toml:5: geometry.region.0.at: missing; write [x, y], a point inside the "
-              "region"),
+              "region, or its outline: circle, points or spline"),
     interface("region_key", "[[geometry.region]]\nname = \"top\"\nat = [0, 1]\ntensoin = 2\n",
               "plate.toml:8: geometry.region.0.tensoin: unknown key; did you mean tension?"),
     interface(
         "tension_zero", "[[geometry.region]]\nname = \"top\"\nat = [0, 1]\ntension = 0\n",
         "plate.toml:8: geometry.region.0.tension: 0 is not above 0; write a number above 0, or "
         "leave the key out for its default"),
+    interface("tension_across_alone",
+              "[[geometry.region]]\nname = \"top\"\nat = [0, 1]\ntension = { across = 2 }\n",
+              "plate.toml:8: geometry.region.0.tension.along: missing; write the tension in the "
+              "direction "
+              "of angle, a number or an expression"),
 };
 
 const Mistake mesh_mistakes[] = {
@@ -245,13 +312,10 @@ const Mistake mesh_mistakes[] = {
         "group_list", "[mesh]\nfile = \"a.msh\"\ngroups.curve = [7]",
         "plate.toml:14: mesh.groups.curve: [ 7 ] is not a table; write the tag of a physical group "
         "and its meaning in quotes, for example curve.7 = \"crack\" or surface.1 = \"top\""),
-    mesh(
-        "mesh_tension_text", "[mesh]\nfile = \"a.msh\"\ntension.top = \"2\"",
-        "plate.toml:14: mesh.tension.top: '2' is not a finite number; write subdomain = number for "
-        "each of them"),
-    mesh(
-        "mesh_tension_number", "[mesh]\nfile = \"a.msh\"\ntension = 2",
-        "plate.toml:14: mesh.tension: 2 is not a table; write subdomain = number for each of them"),
+    mesh("mesh_tension_list", "[mesh]\nfile = \"a.msh\"\ntension.top = [2]",
+         "plate.toml:14: mesh.tension.top: [ 2 ] is not a finite number; write a finite number"),
+    mesh("mesh_tension_number", "[mesh]\nfile = \"a.msh\"\ntension = 2",
+         "plate.toml:14: mesh.tension: 2 is not a table; write subdomain = tension for each"),
     mesh("steps_of_uzawa", "[solver]\nmethod = \"uzawa\"\nmax_steps = 3",
          "plate.toml:14: solver.max_steps: belongs to method \"active-set\"; remove it, or write "
          "method = \"active-set\""),

@@ -26,6 +26,16 @@ run_timeout = "2h"
   EXPECT_EQ(the_case.locate("job.run_timeout")->line, 24U);
 }
 
+TEST(UnitsSection, NamesUnits) {
+  EXPECT_FALSE(parse(sample_text).job.has_units());
+  const Case the_case = parse(sample_text + "[units]\nlength = \"mm\"\nforce = \"N\"\n");
+  EXPECT_EQ(the_case.job.units().length(), "mm");
+  EXPECT_EQ(the_case.job.units().force(), "N");
+  EXPECT_EQ(the_case.locate("job.units.force")->line, 23U);
+  EXPECT_THAT(complaint(sample_text + "[units]\nlenght = \"mm\"\n"),
+              HasSubstr("did you mean length?"));
+}
+
 TEST(JobSection, NamesWhatIsWrong) {
   EXPECT_THAT(complaint(sample_text + "[job]\npriority = \"blk\"\n"),
               HasSubstr("did you mean bulk?"));

@@ -50,6 +50,16 @@ TEST(AnswersTable, HasUnitsAndSaysWhatIsUnknown) {
       "failed: the expression is not finite at? (0, 0)\n");
 }
 
+TEST(AnswersTable, NamesUnits) {
+  results::Result result = two_loads();
+  result.units = {"mm", "N"};
+  EXPECT_THAT(answers_table(result),
+              ::testing::HasSubstr("-          -        mm       N mm              mm"));
+  EXPECT_THAT(inclusions_table(result),
+              ::testing::HasSubstr("A  resultant  contact length\n"
+                                   "                          mm          N              mm\n"));
+}
+
 TEST(AnswersTable, NamesTheCureOfAnErrorAboveOnePerCentThatNobodyChose) {
   results::Result result = two_loads();
   result.loads.resize(1);

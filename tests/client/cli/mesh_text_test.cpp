@@ -60,6 +60,16 @@ v1::Mesh sample_mesh() {
   return mesh;
 }
 
+TEST(MeshText, ShowsALawInPlaceOfItsMean) {
+  v1::Mesh mesh = sample_mesh();
+  v1::Tension& law = *mesh.mutable_subdomains(0)->mutable_tension_law();
+  law.set_along("1 + x");
+  EXPECT_THAT(mesh_text(mesh), ::testing::HasSubstr("  1 + x  "));
+  law.set_across("2");
+  law.set_angle(30);
+  EXPECT_THAT(mesh_text(mesh), ::testing::HasSubstr("along 1 + x, across 2, angle 30"));
+}
+
 TEST(MeshText, TabulatesWhatTheServerUnderstood) {
   EXPECT_EQ(mesh_text(sample_mesh()),
             "meshes/1: ready\n"
@@ -90,6 +100,12 @@ TEST(MeshText, SaysHowAnInclusionMovesWhereItIsKnown) {
   v1::Inclusion& fibre = *mesh.mutable_geometry()->add_inclusions();
   fibre.set_name("fibre");
   fibre.set_tilt(true);
+  EXPECT_THAT(mesh_text(mesh), HasSubstr("  fibre, tilts      7\n"));
+  fibre.mutable_line();
+  EXPECT_THAT(mesh_text(mesh), HasSubstr("  fibre, tilts, its right comes off      7\n"));
+  fibre.set_delaminated_side(v1::LINE_SIDE_LEFT);
+  EXPECT_THAT(mesh_text(mesh), HasSubstr("  fibre, tilts, its left comes off      7\n"));
+  fibre.set_delaminated(false);
   EXPECT_THAT(mesh_text(mesh), HasSubstr("  fibre, tilts      7\n"));
   mesh.set_upload("uploads/1");
   (*mesh.mutable_options()->mutable_inclusion_motions())["fibre"].set_fixed(0);

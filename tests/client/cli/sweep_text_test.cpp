@@ -36,6 +36,15 @@ TEST(SweepTable, SumsUp) {
             "traces of 2 rows\n");
 }
 
+TEST(SweepTable, NamesUnits) {
+  results::Result result = sample_sweep(5);
+  result.units = {"mm", "N"};
+  EXPECT_THAT(answers_table(result), HasSubstr("                     least  most\n"
+                                               "A [mm]                -0.1   0.1\n"
+                                               "contact length [mm]      0   0.9\n"
+                                               "energy [N mm]           -2    -1\n"));
+}
+
 TEST(SweepTable, HasTheSlopesOfWhatTilts) {
   EXPECT_THAT(answers_table(tilting_sweep(5)), HasSubstr("A                -0.1   0.1\n"
                                                          "Bx               -0.2   0.2\n"
@@ -58,7 +67,7 @@ TEST(SweepTable, TellsOfManyInclusionsWhoseTheEndsAre) {
                                                "A of 7 inclusions     -6  rod3    18  rod6\n"));
   EXPECT_THAT(answers_table(result),
               HasSubstr("all inclusions: anticrack show RESULT --inclusions, or --csv FILE\n"));
-  EXPECT_THAT(sweep_inclusions(sweep), HasSubstr("A rod5      5    15\n"));
+  EXPECT_THAT(sweep_inclusions(sweep, {}), HasSubstr("A rod5      5    15\n"));
 }
 
 TEST(SweepTable, NamesSeveralInclusionsAndWhatWentWrong) {

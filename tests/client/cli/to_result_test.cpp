@@ -68,6 +68,7 @@ Fetched fetched() {
   v1::SubdomainInfo& plus = *result.mesh.add_subdomains();
   plus.set_name("plus");
   plus.set_tension(2.5);
+  plus.mutable_tension_law()->set_along("2 + x");
   result.mesh.add_interfaces()->set_name("sigma");
   result.mesh.add_inclusions("fibre");
   result.job.set_name("jobs/1");
@@ -130,6 +131,7 @@ TEST(ToResult, KeepsWhatTheServerSaid) {
   EXPECT_EQ(result.mesh.node_count(), 4U);
   EXPECT_EQ(result.mesh.subdomains[1], "plus");
   EXPECT_EQ(result.mesh.tension, (Reals{1, 2.5}));
+  EXPECT_EQ(result.mesh.tension_law, (std::vector<std::string>{"", "2 + x"}));
   EXPECT_EQ(result.mesh.inclusions, std::vector<std::string>{"fibre"});
   EXPECT_EQ(result.interfaces[0].edges.kind, std::vector<results::Kind>{results::Kind::inclusion});
   EXPECT_EQ(result.interfaces[0].edges.inclusion, Integers{0});

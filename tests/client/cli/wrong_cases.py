@@ -79,6 +79,9 @@ CASES = [
     (more("[accuracy]\nenergy = 1e-3"), 2,
      'wrong.toml:21: solver.method: the answers of "uzawa" have no bounds; with [accuracy] write method = '
      '"active-set"'),
+    (more('[units]\nlength = "millimetres of mercury"'), 2,
+     "wrong.toml:14: units.length: not the name of a unit: use at most 16 bytes without control characters, as mm"),
+    (more("[units]\nforce = 1"), 2, "wrong.toml:14: units.force: 1 is not text; write it in quotes"),
     (more("[accuracy]\nenrgy = 1e-3"), 2,
      "wrong.toml:14: accuracy.enrgy: unknown key; did you mean energy?"),
     (more("[accuracy]\ntime = 60"), 2,
@@ -132,12 +135,20 @@ CASES = [
     ([("[[-1, -1], [1", "[[-1, -1, 0], [1")], 2,
      "wrong.toml:4: geometry.boundary.0: [ -1, -1, 0 ] is not a point; write [x, y]"),
     ([("[[-1, 0], [1, 0]]", "[[-2, 0], [1, 0]]")], 2,
-     "wrong.toml:5: geometry.interface: interfaces[0].polyline leaves the polygon or touches its "
-     "boundary in between: the stretch from (-2, 0) to (1, 0) meets the boundary's edge (-1, 1)-(-1, "
-     "-1); only its two ends may lie on the boundary"),
+     "wrong.toml:5: geometry.interface: interfaces[0].polyline leaves the membrane or touches its "
+     "boundary in between: the stretch from (-2, 0) to (1, 0) meets the edge (-1, 1)-(-1, -1) of boundary; "
+     "only its two ends may lie on the boundary"),
     ([("from = [-0.5, 0]", "from = [-0.5, 0.1]")], 2,
      "wrong.toml:9: geometry.inclusion.0.from: inclusions[0].part.from (-0.5, 0.1) lies 0.1 off the "
-     "interface; it must lie on it, to 2.8284271247461903e-06; nearest is (-0.5, 0)"),
+     "interface; it must lie on it, to 2.8284271247461903e-06; nearest is (-0.5, 0); or give it a line of "
+     "its own in place of from and to: points, arc, spline, or center, angle and length"),
+    ([("[1, 0]]\n", '[1, 0]]\nneumann = ["left"]\n')], 2,
+     'wrong.toml:6: geometry.neumann.0: neumann_sides[0] names no side or hole: "left"; there are side-1, side-2, '
+     "side-3, side-4"),
+    ([("[1, 0]]\n", "[1, 0]]\nneumann = [[[-1, -1], [-1, 1]]]\n")], 2,
+     "wrong.toml:6: geometry.neumann.0: neumann[0] from (-1, -1) to (-1, 1), walked counterclockwise, is all of the "
+     "boundary but the straight side between them; for that side write its name, \"side-4\", or [(-1, 1), (-1, -1)], "
+     "for the others their names"),
     ([("to = [0.5, 0]", "to = [-0.5, 0]")], 2,
      "wrong.toml:9: geometry.inclusion.0.from: inclusions[0].part has no length: it runs from (-0.5, "
      "0) to (-0.5, 0)"),
@@ -168,8 +179,8 @@ CASES = [
      "wrong.toml:13: mesh.inclusions: belongs to mesh.file; for a geometry write tilt or fixed in its "
      "[[geometry.inclusion]]"),
     ([("[1, 0]]\n", '[1, 0]]\nneumann = "left"\n')], 2,
-     "wrong.toml:6: geometry.neumann: 'left' is not possible; write [[from, to], ...], parts of the "
-     'boundary walked counterclockwise, or "all"'),
+     "wrong.toml:6: geometry.neumann: 'left' is not possible; write a list of names of sides and holes, or of "
+     '[from, to], parts of the boundary walked counterclockwise, or "all"'),
     ([("[1, 0]]\n", '[1, 0]]\nneumann = "all"\n')], 1,
      'jobs/ID failed: mesh: meshes/ID: nothing holds the subdomain "omega1" around (-1, 0): the whole '
      "boundary of the membrane is Neumann's, so it could move as a whole; make a part of the boundary "

@@ -54,6 +54,8 @@ COMMANDS = [
      "--limit: Value ten not in range 1 to 1000; see anticrack job list --help"),
     ("plot result.h5", 2,
      "--output is required; see anticrack plot --help"),
+    ("plot result.h5 -o figures --interface middle", 2,
+     "--interface requires --together; see anticrack plot --help"),
     ("sweep two.toml", 2,
      "give exactly one of --coefficients, --combinations, --nodal; see anticrack sweep --help"),
     ("sweep two.toml --coefficients a.csv --nodal b.h5:/f", 2,

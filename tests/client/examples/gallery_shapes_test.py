@@ -92,6 +92,13 @@ class Shapes(GalleryTest):
         # the last node with pressure, half an edge of 0.0625 added
         self.assertAlmostEqual(answers.loads["half"]["contact_length"], shut, delta=0.04)
 
+    def test_orthotropic(self):
+        answers = self.follow_one("orthotropic")
+        opening = answers.opens("sheared")[0]
+        self.assert_close(opening, 2 * 0.1 / math.sqrt(4 * 1), 0.01)  # the sheet without end
+        self.assert_told(("0.0992", opening))
+        self.assert_figures("sheared-membrane")
+
     def test_shear(self):
         answers = self.follow_one("shear")
         # Tada, Paris, Irwin: a row of cracks at distance 2w; c makes u what it is on the edges, y = H
@@ -173,6 +180,36 @@ class Shapes(GalleryTest):
         self.assert_close(answers.displacement("opening"), 0.105502, 0.01)  # on 164,182 triangles
         self.assert_balanced(answers, "opening", +1)
         self.assertEqual({path.suffix for path in self.figures.iterdir()}, {".png", ".svg"})
+
+    def test_opening(self):
+        answers = self.follow_one("opening")
+        (stiffener,) = answers.loads["pressure"]["inclusions"]
+        self.assertLess(stiffener["A_lower"], 0.448189)  # to 1e-4, on 432,772 triangles
+        self.assertGreater(stiffener["A_upper"], 0.448189)
+        self.assert_balanced(answers, "pressure")
+        self.assert_figures("pressure", "pressure-plan")
+
+    def test_sheet(self):
+        answers = self.follow_one("sheet")
+        up = answers.loads["up"]
+        for rigid, fine in zip(up["inclusions"], (0.18929, 0.101177)):  # on 1,595,704 triangles
+            self.assertLess(rigid["A_lower"], fine)
+            self.assertLess(fine, rigid["A_upper"])
+            self.assertLess(rigid["A_upper"] - rigid["A_lower"], 2e-2 * 0.18929)
+        self.assert_close(up["energy"], -0.2128115, 0.01)
+        low, steep = up["inclusions"]
+        self.assert_told(("0.189", (low["A_lower"] + low["A_upper"]) / 2),
+                         ("0.101", (steep["A_lower"] + steep["A_upper"]) / 2))
+        self.assertEqual([round(answers.loads[name]["inclusions"][0]["contact_length"]) for name in ("up", "down")],
+                         [20, 8])
+        self.assertEqual(steep["contact_length"], 0)
+        traces = answers.traces("up")  # walked so that the side that comes off, the left, is its minus side
+        self.assertGreater(traces["x"][0], traces["x"][-1])
+        self.assertEqual({name for name, *_ in answers.fields("up")}, {"sheet", "patch"})
+        self.assert_figures("up", "up-traces", "up-plan", "down-accuracy")
+        for load in ("up", "down"):
+            self.assert_balanced(answers, load)
+            self.assertIn(b">N/mm<", (self.folder / f"paraview/sheet/{load}-interfaces.vtu").read_bytes())
 
     def test_load_angle(self):
         answers = self.follow("load-angle")["angles.h5"]

@@ -38,6 +38,23 @@ class ReadResults(FolderTest):
         self.assertGreater(picture.stat().st_size, 20_000)
 
 
+class Sheet(FolderTest):
+    def test_is_the_case_of_the_command_to_the_bit(self):
+        solved = run(ANTICRACK, "--local", "run", EXAMPLES / "sheet.toml", "-o", self.folder / "theirs.h5")
+        self.assertEqual(solved.returncode, 0, solved.stderr)
+        path = f"{pathlib.Path(ANTICRACK).parent}:{os.environ['PATH']}"
+        ended = run(sys.executable, EXAMPLES / "sheet.py", cwd=self.folder, env=dict(os.environ, PATH=path))
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertLess(len((EXAMPLES / "sheet.py").read_text(encoding="utf-8").splitlines()), 30)
+        ours, theirs = (json.loads(run(ANTICRACK, "--json", "show", self.folder / name).stdout)
+                        for name in ("sheet.h5", "theirs.h5"))
+        self.assertEqual(ours["triangle_count"], theirs["triangle_count"])
+        for mine, other in zip(ours["answers"], theirs["answers"], strict=True):
+            self.assertEqual((mine["energy"], mine["inclusions"]), (other["energy"], other["inclusions"]))
+        self.assertGreater((self.folder / "pressure.png").stat().st_size, 10_000)
+        self.assertIn(b">N/mm<", (self.folder / "paraview/up-interfaces.vtu").read_bytes())
+
+
 class SubmitJob(FolderTest):
     def test_watches_to_the_end_and_prints_the_answers(self):
         with Daemon(self.folder) as daemon:

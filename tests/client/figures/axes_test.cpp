@@ -47,12 +47,14 @@ TEST(Range, takes_in_what_is_finite) {
 
 TEST(Scale, is_a_power_of_ten_for_what_is_small_or_large) {
   for (const Range plain : {Range{0, 0.002}, Range{-1, 1}, Range{0, 99999}, Range{0, 0}}) {
-    EXPECT_EQ(Scale(plain).unit(), "[-]");
+    EXPECT_EQ(Scale(plain).label("u", ""), "u");
+    EXPECT_EQ(Scale(plain).label("u", "mm"), "u [mm]");
     EXPECT_EQ(Scale(plain).column(2), "2");
     EXPECT_EQ(Scale(plain).drawn(plain).high, plain.high);
   }
   const Scale micro({-3e-6, 2e-6});
-  EXPECT_EQ(micro.unit(), "[10\xE2\x81\xBB\xE2\x81\xB6]");
+  EXPECT_EQ(micro.label("u", ""), "u [10\xE2\x81\xBB\xE2\x81\xB6]");
+  EXPECT_EQ(micro.label("u", "mm"), "u [10\xE2\x81\xBB\xE2\x81\xB6 mm]");
   EXPECT_EQ(micro.column(4), "($4*1e6)");
   EXPECT_DOUBLE_EQ(micro.drawn({-3e-6, 2e-6}).low, -3);
   EXPECT_EQ(Scale({0, 2e5}).column(2), "($2*1e-3)");

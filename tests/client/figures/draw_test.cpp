@@ -43,10 +43,10 @@ TEST(Draw, makes_every_figure_of_every_load) {
   const TemporaryFolder folder;
   const Drawn drawn = draw(with_stages(sample_result(10)), folder / "new/figures");
   EXPECT_THAT(drawn.notes, IsEmpty());
-  EXPECT_EQ(drawn.files.size(), 20u);
+  EXPECT_EQ(drawn.files.size(), 24u);
   std::set<std::string> expected;
   for (const char* load : {"opening", "partly_closed"}) {
-    for (const char* figure : {"", "-membrane", "-traces", "-convergence", "-accuracy"}) {
+    for (const char* figure : {"", "-membrane", "-plan", "-traces", "-convergence", "-accuracy"}) {
       expected.insert(std::string(load) + figure + ".png");
       expected.insert(std::string(load) + figure + ".svg");
     }
@@ -83,9 +83,9 @@ TEST(Draw, has_the_size_of_a_column_in_every_format) {
   result.loads.resize(1);
   const Options options{
       .formats = {Format::pdf, Format::svg, Format::png}, .dpi = 127, .titles = false};
-  EXPECT_EQ(draw(result, folder.path(), options).files.size(), 12u);
+  EXPECT_EQ(draw(result, folder.path(), options).files.size(), 15u);
   EXPECT_EQ(size_of(folder / "opening-traces.png"), (std::pair{425u, 340u}));  // 85 mm x 68 mm
-  EXPECT_EQ(size_of(folder / "opening.png"), (std::pair{850u, 340u}));
+  EXPECT_EQ(size_of(folder / "opening.png"), (std::pair{850u, 740u}));         // the plan below
   const std::string pdf = bytes_of(folder / "opening-membrane.pdf");
   EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
   const std::string svg = bytes_of(folder / "opening-traces.svg");
@@ -149,7 +149,7 @@ TEST(Draw, runs_nothing_that_a_case_says) {
   result.loads[0].inclusions = {{"'`touch pwned`", 1, 0, 0}, {"\n!touch pwned\n", 2, 0, 0}};
   result.mesh.inclusions = {"'`touch pwned`", "\n!touch pwned\n"};
   const Drawn drawn = draw(result, folder.path());
-  EXPECT_EQ(drawn.files.size(), 8u);
+  EXPECT_EQ(drawn.files.size(), 10u);
   EXPECT_EQ(files_in(folder.path()).count("pwned"), 0u);
   EXPECT_THAT(bytes_of(folder / "opening-traces.svg"), Not(HasSubstr("<script>&amp;</script>")));
 }
@@ -228,7 +228,38 @@ TEST(Draw, draws_the_steps_of_the_active_set) {
   const std::string svg = bytes_of(folder / "opening-convergence.svg");
   EXPECT_THAT(svg, HasSubstr("converged after 3 steps"));
   EXPECT_THAT(svg, HasSubstr("complementarity"));
-  EXPECT_THAT(svg, Not(HasSubstr("criterion of step 3")));
+  EXPECT_THAT(svg, HasSubstr("KKT residual"));
+}
+
+TEST(Draw, lays_the_first_eight_loads_over_each_other) {
+  const TemporaryFolder folder;
+  auto result = sample_result(4);
+  for (std::size_t i = 2; i < 10; ++i) {
+    result.loads.push_back(result.loads[i % 2]);
+    result.loads[i].name = "load-" + std::to_string(i);
+  }
+  result.loads[0].traces.clear();
+  const Drawn drawn = draw_together(result, "sigma", folder.path(), {.formats = {Format::svg}});
+  EXPECT_EQ(files_in(folder.path()), std::set<std::string>{"together.svg"});
+  EXPECT_THAT(drawn.notes, ElementsAre(HasSubstr("the first 8 of 9 loads")));
+  const std::string svg = bytes_of(folder / "together.svg");
+  for (const char* shown : {"partly closed", "load-8", "pressure", "[u]", "interface"})
+    EXPECT_THAT(svg, HasSubstr(shown));
+  for (const char* left_out : {"opening", "load-9"}) EXPECT_THAT(svg, Not(HasSubstr(left_out)));
+}
+
+TEST(Draw, lays_nothing_over_each_other_that_is_not_there) {
+  const TemporaryFolder folder;
+  auto result = sample_result(4);
+  try {
+    draw_together(result, "sigmo", folder.path());
+    FAIL() << "drew it";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "there is no interface sigmo; did you mean sigma?");
+  }
+  for (auto& load : result.loads) load.traces.clear();
+  EXPECT_THROW(draw_together(result, "", folder.path()), Error);
+  EXPECT_THAT(files_in(folder.path()), IsEmpty());
 }
 
 TEST(Draw, refuses_a_folder_it_cannot_write_and_a_broken_result) {

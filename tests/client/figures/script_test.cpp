@@ -24,9 +24,10 @@ const std::vector<Output> both{{Format::png, "a.png"}, {Format::svg, "a.svg"}};
 /// All scripts of a load, one after the other.
 std::string scripts(const results::Result& result, const results::Load& load) {
   const Surface membrane = surface(result, load, 10000);
-  return script(combined_picture(result, load, membrane), both) +
+  return script(overview_picture(result, load, membrane), both) +
          script(membrane_picture(result, load, membrane), both) +
-         script(traces_picture(result, load, 0), both) +
+         script(plan_picture(result, load, membrane), both) +
+         script(together_picture(result, 0), both) + script(traces_picture(result, load, 0), both) +
          script(convergence_picture(result, load), both) +
          (bounded_stages(load) == 0 ? "" : script(accuracy_picture(result, load), both));
 }
@@ -51,12 +52,12 @@ std::string commands(const std::string& script) {
 TEST(Script, draws_both_formats_from_one_copy_of_the_data) {
   const auto result = sample_result(4);
   const std::string drawn = script(
-      combined_picture(result, result.loads[0], surface(result, result.loads[0], 1000)), both);
+      overview_picture(result, result.loads[0], surface(result, result.loads[0], 1000)), both);
   EXPECT_THAT(drawn, HasSubstr("set output 'a.png'"));
   EXPECT_THAT(drawn, HasSubstr("set output 'a.svg'"));
   EXPECT_EQ(drawn.find("$membrane << EOD"), drawn.rfind("$membrane << EOD"));
   EXPECT_THAT(drawn, HasSubstr("amplified"));
-  EXPECT_THAT(drawn, HasSubstr("u [-]"));
+  EXPECT_THAT(drawn, HasSubstr("u"));
 }
 
 TEST(Script, marks_contact_only_where_there_is_some) {
@@ -65,6 +66,64 @@ TEST(Script, marks_contact_only_where_there_is_some) {
               Not(HasSubstr("title 'contact'")));
   EXPECT_THAT(script(traces_picture(result, result.loads[1], 0), both),
               HasSubstr("title 'contact'"));
+}
+
+TEST(Script, draws_the_pressure_only_where_there_is_contact) {
+  const auto result = sample_result(10);
+  for (const bool contact : {false, true}) {
+    const results::Load& load = result.loads[contact ? 1 : 0];
+    for (const std::string& drawn :
+         {script(traces_picture(result, load, 0), both),
+          script(overview_picture(result, load, surface(result, load, 1000)), both)}) {
+      EXPECT_EQ(drawn.find("$pressure << EOD") != std::string::npos, contact);
+      EXPECT_EQ(drawn.find("'pressure'") != std::string::npos, contact);
+    }
+  }
+}
+
+TEST(Script, says_that_spikes_of_the_pressure_are_cut_off) {
+  auto result = sample_result(10);
+  auto& trace = result.loads[1].traces[0];
+  const auto drawn = [&] { return script(traces_picture(result, result.loads[1], 0), both); };
+  for (double& pressure : trace.pressure) pressure = pressure == 0 ? 0 : 0.5;
+  EXPECT_THAT(drawn(), Not(HasSubstr("cut off")));
+  *std::ranges::find(trace.contact, 1) = 0;
+  const auto closed = std::ranges::find(trace.contact, 1) - trace.contact.begin();
+  result.interfaces[0].s[static_cast<std::size_t>(closed) - 1] =
+      result.interfaces[0].s[static_cast<std::size_t>(closed) + 1] - 1e-6;  // a graded mesh
+  result.interfaces[0].s[static_cast<std::size_t>(closed)] =
+      result.interfaces[0].s[static_cast<std::size_t>(closed) + 1] - 5e-7;
+  trace.pressure[static_cast<std::size_t>(closed)] = 3.2e4;
+  EXPECT_THAT(drawn(), HasSubstr("'cut off at the tips, up to 3.2\xC3\x97"));
+  EXPECT_THAT(drawn(), HasSubstr("set yrange [0:0.795]"));
+}
+
+TEST(Script, shows_the_most_eventful_interface_in_the_overview) {
+  auto result = sample_result(4);
+  auto& load = result.loads[0];
+  result.interfaces.push_back(result.interfaces[0]);
+  result.interfaces[1].name = "second";
+  load.traces.push_back(load.traces[0]);
+  const auto seen = [&] {
+    return script(overview_picture(result, load, surface(result, load, 1000)), both);
+  };
+  EXPECT_THAT(seen(), HasSubstr("displacements on sigma"));
+  for (double& jump : load.traces[1].jump) jump *= -2;
+  EXPECT_THAT(seen(), HasSubstr("displacements on second"));
+  // Nothing is open: the contact counts.
+  for (auto& trace : load.traces) std::ranges::fill(trace.jump, 0.0);
+  load.traces[1].contact[4] = 1;
+  EXPECT_THAT(seen(), HasSubstr("displacements on second"));
+}
+
+TEST(Script, labels_contours_and_marks_the_side_that_came_off) {
+  const auto result = sample_result(20);
+  const std::string drawn =
+      script(plan_picture(result, result.loads[0], surface(result, result.loads[0], 10000)), both);
+  EXPECT_THAT(drawn, HasSubstr("title 'the side that came off'"));
+  EXPECT_THAT(drawn, HasSubstr("set label '\xE2\x88\x92"));  // a level below zero
+  EXPECT_THAT(drawn, HasSubstr("'fibre'"));
+  EXPECT_THAT(drawn, HasSubstr("'|T \xE2\x88\x87u|"));
 }
 
 TEST(Script, names_an_inclusion_where_it_lies) {
@@ -113,7 +172,7 @@ TEST(Script, shows_rounding_as_zero) {
   }
   result.loads[0].energy = -6;  // u is about 1
   EXPECT_THAT(script(traces_picture(result, result.loads[0], 0), both),
-              HasSubstr("'displacement [-]'"));
+              HasSubstr("'displacement'"));
   result.loads[0].energy = -6e-30;  // all of u is that small
   EXPECT_THAT(script(traces_picture(result, result.loads[0], 0), both),
               HasSubstr("'displacement [10\xE2\x81\xBB\xC2\xB9\xE2\x81\xB5]'"));

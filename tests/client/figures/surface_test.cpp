@@ -40,6 +40,32 @@ TEST(Surface, has_every_triangle_with_the_u_of_its_side) {
   EXPECT_GT(opening, 0.05);  // both faces are there, apart
 }
 
+TEST(Surface, knows_the_slope_and_the_flux_of_each_side) {
+  auto result = sample_result(8);
+  for (auto& field : result.loads[0].fields)
+    for (std::size_t i = 0; i < field.nodes.size(); ++i) {
+      const auto node = static_cast<std::size_t>(field.nodes[i]);
+      field.u[i] = 3 * result.mesh.xy[2 * node] - 4 * result.mesh.xy[2 * node + 1];
+    }
+  for (const Triangle& triangle : surface(result, result.loads[0], 100000).triangles)
+    for (const Vertex& v : triangle) {
+      const bool plus = triangle[0].y + triangle[1].y + triangle[2].y > 0;  // T = 2, else 1
+      EXPECT_NEAR(v.slope_x, 3, 1e-12);
+      EXPECT_NEAR(v.slope_y, -4, 1e-12);
+      EXPECT_NEAR(v.flux, plus ? 10 : 5, 1e-12);
+    }
+}
+
+TEST(Surface, is_refined_where_triangles_are_long) {
+  const auto result = sample_result(2);
+  Surface seen = surface(result, result.loads[0], 1000);  // 32 triangles, edges of 0.71
+  seen.triangles = refined(seen.triangles, 0.4, 200);
+  EXPECT_EQ(seen.triangles.size(), 128u);
+  EXPECT_NEAR(area(seen), 4, 1e-12);
+  EXPECT_EQ(refined(seen.triangles, 0.2, 200).size(), 128u);  // 512 are too many
+  EXPECT_EQ(refined(seen.triangles, 0.4, 1000).size(), 128u);
+}
+
 TEST(Surface, is_coarsened_to_the_limit_and_stays_whole) {
   const auto result = sample_result(40);  // 12800 triangles
   const Surface seen = surface(result, result.loads[0], 3000);
@@ -61,6 +87,7 @@ results::Result slit_result(int n) {
   results::Result result = sample_result(n);
   result.mesh.subdomains = {"whole"};
   result.mesh.tension = {1};
+  result.mesh.tension_law = {};
   std::fill(result.mesh.subdomain.begin(), result.mesh.subdomain.end(), 0);
   for (results::Load& load : result.loads) {
     const results::Field lower = load.fields[0];

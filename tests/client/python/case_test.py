@@ -6,7 +6,7 @@ import pathlib
 import numpy
 
 import anticrack
-from anticrack import Case, Crack, Geometry, Inclusion, Interface, Load, Mesh, Region
+from anticrack import Case, Crack, Geometry, Hole, Inclusion, Interface, Load, Mesh, Region, Side
 from processes import ANTICRACK, Daemon, FolderTest, run
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
@@ -32,6 +32,22 @@ WRONG = [
     ("[mesh]\ntension = {a = 1}", "case: mesh.tension: belongs to mesh.file"),
     ("[[geometry.crack]]\nname = 'c'", "case: geometry.crack.0.from: missing; write [x, y]"),
     ("[[geometry.region]]\nname = 'r'\nat = [0]", "case: geometry.region.0.at: [0] is not a point"),
+    ("[[geometry.region]]\nname = 'r'\nat = [0, 0]\ncircle = 1", "case: geometry.region.0.circle: the region has at"),
+    ("[[geometry.hole]]", "case: geometry.hole.0: the hole without a shape; write circle"),
+    ("[[geometry.hole]]\ncircle = {center = [0, 0]}", "case: geometry.hole.0.circle.radius: missing"),
+    ("[[geometry.inclusion]]\nname = 'b'\nside = 'up'\nfrom = [0, 0]\nto = [1, 0]",
+     "case: geometry.inclusion.1.side: 'up' is not possible; known are left, right"),
+    ("[[geometry.inclusion]]\nname = 'b'\ncenter = [0, 0]", "case: geometry.inclusion.1.length: missing; write its"),
+    ("[[geometry.inclusion]]\nname = 'b'\narc = [[0, 0]]", "case: geometry.inclusion.1.arc: "),
+    ("[[geometry.inclusion]]\nname = 'b'\npoints = []\nto = [0, 0]",
+     "case: geometry.inclusion.1.to: belongs to a part"),
+    ("[[geometry.inclusion]]\nname = 'b'\npoints = []\nangle = 2",
+     "case: geometry.inclusion.1.angle: belongs to center"),
+    ("[[geometry.inclusion]]\nname = 'b'\npoints = []\ndelaminated = [[0, 'a']]",
+     "case: geometry.inclusion.1.delaminated.0: 'a' is not a finite number"),
+    ("[[geometry.inclusion]]\nname = 'b'\npoints = []\ndelaminated = 'left'\nside = 'left'",
+     "case: geometry.inclusion.1.side: delaminated names a side too"),
+    ("[[geometry.crack]]\nname = 'c'\nside = 'left'", "case: geometry.crack.0.side: belongs to [[geometry.inclusion]]"),
     ("[[load]]\nname = 'a'", "case: load.0.f: missing; write a number"),
     ("[[load]]\nname = 'a'\nf = [1]", "case: load.0.f: [1] is not a finite number"),
     ("[[load]]\nname = 'a'\nf = {values = [1]}", "case: load.0.f.per: missing"),
@@ -58,7 +74,7 @@ class FromToml(FolderTest):
                 ours.refresh()
                 for job in (ours, theirs):
                     job.cancel()
-                for name in ("title", "mesh", "load_cases", "solver", "outputs", "priority", "accuracy"):
+                for name in ("title", "mesh", "load_cases", "solver", "outputs", "priority", "accuracy", "units"):
                     self.assertEqual(getattr(ours.message, name), getattr(theirs.message, name), f"{case}: {name}")
 
     def test_keys_that_no_example_has(self):
@@ -106,6 +122,37 @@ inclusion_forces = { fibre = 1 }
 
 
 class FromObjects(FolderTest):
+    def test_shapes_of_their_own_are_the_same_as_from_toml(self):
+        self.maxDiff = None
+        case = Case(Geometry(
+            [Side("base", points=[(-1, 0), (1, 0)]), Side(arc=[(1, 0), (0, 1), (-1, 0)])],
+            inclusions=[Inclusion("bar", center=(0, 0.5), angle=20, length=0.5, delaminated=[(0, 0.5)], side="left"),
+                        Inclusion("bow", arc=[(0, 0.1), (0.1, 0.2), (0.2, 0.1)], delaminated="right")],
+            cracks=[Crack("slit", spline=[(-0.5, 0.1), (-0.4, 0.2), (-0.3, 0.1)])],
+            regions=[Region("patch", circle={"center": (0, 0.5), "radius": 0.1}, tension=2)],
+            holes=[Hole("window", points=[(0.5, 0.1), (0.6, 0.1), (0.6, 0.2)]), Hole(spline=numpy.eye(3, 2))],
+            neumann=["base", ((1, 0), (0, 1)), "window"]), [Load("one", {"patch": 1})])
+        text = """
+[geometry]
+neumann = ["base", [[1, 0], [0, 1]], "window"]
+boundary = [{ name = "base", points = [[-1, 0], [1, 0]] }, { arc = [[1, 0], [0, 1], [-1, 0]] }]
+inclusion = [
+    { name = "bar", center = [0, 0.5], angle = 20, length = 0.5, delaminated = [[0, 0.5]], side = "left" },
+    { name = "bow", arc = [[0, 0.1], [0.1, 0.2], [0.2, 0.1]], delaminated = "right" }]
+crack = [{ name = "slit", spline = [[-0.5, 0.1], [-0.4, 0.2], [-0.3, 0.1]] }]
+region = [{ name = "patch", circle = { center = [0, 0.5], radius = 0.1 }, tension = 2 }]
+hole = [{ name = "window", points = [[0.5, 0.1], [0.6, 0.1], [0.6, 0.2]] }, { spline = [[1, 0], [0, 1], [0, 0]] }]
+[[load]]
+name = "one"
+f = { patch = 1 }
+"""
+        ours, theirs = case.requests().mesh, Case.parse(text).requests().mesh
+        self.assertEqual(ours, theirs)
+        self.assertEqual(list(ours.geometry.neumann_sides), ["base", "window"])
+        self.assertEqual(ours.geometry.inclusions[0].delaminated_parts.stretches[0].to, 0.5)
+        everywhere = Case.parse(text.replace('["base", [[1, 0], [0, 1]], "window"]', '"all"')).requests().mesh.geometry
+        self.assertEqual(list(everywhere.neumann_sides), ["base", "side-2", "window", "hole-2"])
+
     def test_are_the_same_as_from_toml(self):
         self.maxDiff = None
         case = Case(
@@ -113,7 +160,8 @@ class FromObjects(FolderTest):
                                            Interface(arc=[(0, 0), (0.3, 0.6), (0.4, 1)], name="arc")],
                      [Inclusion("fibre", (-0.5, 0), (numpy.float64(-0.2), 0), delaminated=[((-0.5, 0), (-0.4, 0))],
                                 tilt=True)],
-                     [Crack("crack", (0.3, 0), (0.6, 0), contact=False)], [Region("top", (-0.5, 0.5), tension=2)],
+                     [Crack("crack", (0.3, 0), (0.6, 0), contact=False)],
+                     [Region("top", (-0.5, 0.5), tension={"along": 2, "across": "1 + x", "angle": 30})],
                      neumann=[((1, -1), (1, 1))]),
             [Load("pulled", point_forces=[((0.2, 0.3), 1)], inclusion_moments={"fibre": (1, 2)}, traction=0.2),
              Load("pressed", {"top": 1}, boundary_value="x")],
@@ -127,7 +175,7 @@ interface = [{ name = "middle", points = [[-1, 0], [1, 0]] },
              { name = "arc", arc = [[0, 0], [0.3, 0.6], [0.4, 1]] }]
 inclusion = [{ name = "fibre", from = [-0.5, 0], to = [-0.2, 0], delaminated = [[[-0.5, 0], [-0.4, 0]]], tilt = true }]
 crack = [{ name = "crack", from = [0.3, 0], to = [0.6, 0], contact = false }]
-region = [{ name = "top", at = [-0.5, 0.5], tension = 2 }]
+region = [{ name = "top", at = [-0.5, 0.5], tension = { along = 2, across = "1 + x", angle = 30 } }]
 [mesh]
 preset = "uniform"
 size = 0.1

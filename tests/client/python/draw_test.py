@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The figures: what they show, and what they ask for where it is missing."""
+import copy
 import os
 import pathlib
 import unittest
@@ -57,14 +58,47 @@ class Figures(unittest.TestCase):
             draw.traces(self.several, "pushed")
         ax.figure.canvas.draw()
 
-    def test_pressure_says_that_tips_are_left_out(self):
-        ax = draw.pressure(self.skew)
-        self.assertIn("2 % at each tip left out", ax.get_xlabel())
+    def test_plan_cuts_off_the_peaks_of_the_flux(self):
+        ax = draw.plan(self.several, "pulled")
+        ax.figure.canvas.draw()
+        self.assertLessEqual({"long", "short"}, {text.get_text() for text in ax.texts})
+        bar = ax.figure.axes[1]
+        self.assertIn("peaks cut off, up to", bar.get_ylabel())
+        self.assertLess(bar.get_ylim()[1], max(size.max() for size in draw.flux(self.several, "pulled")) / 10)
+        with self.assertRaisesRegex(anticrack.Error, "fields = true"):
+            draw.plan(self.several, self.without_fields()["a"])
+
+    def test_flux_has_the_tension_of_its_subdomain(self):
+        result = copy.deepcopy(self.several)
+        for part in result["pulled"].fields:
+            part.u = result.mesh.nodes[part.nodes] @ (3.0, -4.0)
+        for tension, size in zip(result.mesh.tension, draw.flux(result, "pulled")):
+            numpy.testing.assert_allclose(size, 5 * tension, rtol=1e-3)  # the smallest triangles have edges of 1e-13
+        self.assertGreater(len(set(result.mesh.tension)), 1)
+
+    def test_the_side_that_came_off_is_the_minus_side(self):
+        dots = [line for line in draw.interfaces(self.skew).lines if line.get_linestyle() == ":"]
+        self.assertEqual(len(dots), 1)
+        self.assertLess(dots[0].get_ydata().max(), 0)  # its interface runs along y = 0, the plus side above
+
+    def test_pressure_is_on_cracks_and_its_spikes_are_cut_off(self):
+        ax = draw.pressure(self.several, "pulled")
+        self.assertRegex(ax.get_ylabel(), r"cut off at the tips, up to \d")
         (line,) = ax.lines
-        s = line.get_xdata()
-        self.assertGreater(s.min(), 0.5)
-        self.assertLess(s.max(), 1.5)
-        self.assertGreater(line.get_ydata().max(), 0)
+        values = line.get_ydata()
+        self.assertLess(ax.get_ylim()[1], numpy.nanmax(values) / 1000)
+        glued = self.several.interfaces[0].kind == anticrack.result.GLUE
+        self.assertTrue(numpy.isnan(values[glued]).all())
+        self.assertNotIn("cut off", draw.pressure(self.skew).get_ylabel())
+
+    def test_where_nothing_is_open_the_longest_contact_counts(self):
+        closed = copy.deepcopy(self.several)
+        load = closed["pulled"]
+        for trace in load.traces:
+            trace.jump[:] = 0
+            trace.contact[:] = 0
+        load.traces[1].contact[5] = 1
+        self.assertIn(closed.interfaces[1].name, draw.traces(closed, "pulled").get_xlabel())
 
     def test_convergence_lies_over_others(self):
         ax = draw.convergence(self.skew)

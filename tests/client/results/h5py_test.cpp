@@ -29,7 +29,9 @@ class H5py : public ::testing::Test {
   void SetUp() override {
     Process process({"/usr/bin/python3", "-c", "import h5py"});
     if (process.wait() != 0) GTEST_SKIP() << "python3-h5py is not installed";
-    write(path, with_stages(sample_result(20)));
+    Result result = with_stages(sample_result(20));
+    result.units = {"mm", "N"};
+    write(path, result);
   }
 
   const TemporaryFolder folder;
@@ -62,7 +64,7 @@ TEST_F(H5py, sees_attributes_units_and_text) {
       "anticrack-result/1 A made-up membrane\n"
       "converged 180 1.74\n"
       "fibre 0.0863\n"
-      "(1681, 2) - int32 gzip\n"
+      "(1681, 2) mm int32 gzip\n"
       "'# \\xe9'\n");
 }
 
@@ -87,11 +89,12 @@ TEST_F(H5py, sees_stages_and_indicators) {
                    "load = f['loads/opening']\n"
                    "stages = load['stages']\n"
                    "print(stages['triangles'][:], stages['triangles'].dtype)\n"
-                   "print(round(stages['energy_upper'][4], 5), stages['seconds'].attrs['units'])\n"
+                   "print(round(stages['energy_upper'][4], 5), stages['seconds'].attrs['units'],\n"
+                   "      stages['energy'].attrs['units'], f['interfaces/0/kind'].attrs['units'])\n"
                    "print(load['indicator'].shape == f['mesh/subdomain'].shape)\n"
                    "print(f.attrs['not_reached'])"),
             "[ 293  532  968 1760 3200] int64\n"
-            "-0.16785 s\n"
+            "-0.16785 s N mm -\n"
             "True\n"
             "energy to 0.0001: the mesh has max_triangles\n");
 }
@@ -105,7 +108,7 @@ TEST_F(H5py, finds_units_on_every_dataset) {
                    "f.visititems(lambda n, o: seen.append('units' in o.attrs)\n"
                    "             if isinstance(o, h5py.Dataset) else None)\n"
                    "print(len(seen), all(seen))"),
-            "105 True\n");
+            "106 True\n");
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ std::string readme_table() {
   const std::string values = "attributes ";
   return "| where | what |\n|---|---|\n" +
          line("/", values + "`format`; " + entries<Result>(tables::result) + "; " +
-                       entries<Timings>(tables::timings)) +
+                       entries<Units>(tables::units) + "; " + entries<Timings>(tables::timings)) +
          line("/mesh", entries<Mesh>(tables::mesh, tables::mesh_names)) +
          line("/interfaces/I", "attribute " + entries<Interface>(tables::interface)) +
          line("/interfaces/I", entries<Interface>(arrays::interface_nodes<Interface>) + "; " +

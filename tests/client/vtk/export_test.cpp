@@ -41,6 +41,18 @@ TEST(Export, writes_two_files_a_load_and_their_collection) {
   }
 }
 
+TEST(Export, names_units) {
+  const TemporaryFolder folder;
+  results::Result result = sample_result(4);
+  result.units = {"<mm>", "N"};
+  export_result(result, "paper.h5", folder.path());
+  const std::string file = bytes_of(folder / "opening.vtu");
+  const std::string label = "<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">";
+  EXPECT_THAT(file, HasSubstr(label + "&#60;mm></InformationKey>"));
+  EXPECT_THAT(bytes_of(folder / "opening-interfaces.vtu"),
+              HasSubstr(label + "N/&#60;mm></InformationKey>"));
+}
+
 TEST(Export, keeps_both_faces_of_the_interface) {
   const TemporaryFolder folder;
   const results::Result result = sample_result(4);  // 81 nodes, 9 of them on the interface

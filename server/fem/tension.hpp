@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// T of -div(T grad u) = f on the triangles of a subdomain: a number, or a symmetric matrix.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "fem/triangulation.hpp"
+#include "mesh/tension.hpp"
+
+namespace anticrack::fem {
+
+/// A map of the plane that keeps areas, x' = A x with A symmetric, and the number that is the
+/// tension after it: int grad v.T grad u dx = tension int grad' v.grad' u dx'.
+struct Isotropic {
+  double xx = 1, xy = 0, yy = 1;  ///< A
+  double tension = 1;             ///< sqrt(det T)
+
+  std::array<double, 2> operator()(double x, double y) const {
+    return {xx * x + xy * y, xy * x + yy * y};
+  }
+};
+
+/// How T varies on a triangle about its mean T_h: of the direction where it varies most.
+struct Variation {
+  double below = 1;   ///< >= sqrt(T_h / T)
+  double above = 1;   ///< >= sqrt(T / T_h)
+  double spread = 0;  ///< >= sqrt(mean of (T - T_h)^2 / (T T_h))
+  /// >= |T - T_h| / sqrt(T T_h)
+  double most() const { return std::max(below - 1 / below, above - 1 / above); }
+};
+
+struct Tension {
+  Tension(double number = 1) : mean(number) {}  // NOLINT(google-explicit-constructor)
+
+  double mean;  ///< of a law over the subdomain and both directions
+  /// (m) Txx, Txy, Tyy of a law: the mean of each over the triangle. Empty: `mean` everywhere.
+  std::vector<std::array<double, 3>> of_triangle{};
+  std::vector<Variation> variation{};  ///< (m) empty: T is constant on every triangle
+  /// Why no bounds can be proved: the integrals of T are not known well enough. Empty: they can.
+  std::string obstacle{};
+
+  Isotropic isotropic(std::size_t triangle) const;
+  std::size_t bytes() const noexcept;
+};
+
+/// Of the integral of T over a subdomain; what is less is little against the bounds of the error.
+constexpr double tension_tolerance = 1e-10;
+
+/// `region`: the subdomain's name, for errors. Throws errors::Error (expression_invalid at
+/// "along" or "across" where T is not finite or not above 0 in a sample, with the point;
+/// cancelled). O(m), some 30 evaluations of each expression a triangle, two thirds of them for the
+/// signs and the variation.
+Tension tension(const Triangulation& part, const mesh::TensionLaw& law, const std::string& region,
+                const std::stop_token& stop = {});
+
+/// Checks what can be checked without a mesh: syntax, symbols, lengths, constants above 0; T in a
+/// point, if there is one. Throws errors::Error (expression_invalid) at "along" or "across".
+void check(const mesh::TensionLaw& law, std::size_t max_expression_bytes,
+           const std::array<double, 2>* point = nullptr);
+
+}  // namespace anticrack::fem

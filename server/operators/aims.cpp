@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "operators/aims.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "estimate/interval.hpp"
+
+namespace anticrack::operators {
+
+fem::Load Aim::force(const mesh::Mesh& mesh) const {
+  fem::Load load;
+  const std::string& name = mesh.inclusions[inclusion];
+  if (value == &contact::InclusionAnswer::displacement)
+    load.inclusion_forces[name] = 1;
+  else
+    load.inclusion_moments[name] = moment;
+  return load;
+}
+
+std::vector<Aim> aims(const MeshOperator::Parts& parts) {
+  using Of = contact::InclusionAnswer;
+  std::vector<Aim> aims;
+  const std::vector<ddm::RigidMotion>& motions = parts.decomposition.skeleton.motions;
+  for (std::size_t j = 0; j < motions.size(); ++j) {
+    aims.push_back({motions[j].displacement,
+                    j,
+                    {},
+                    &Of::displacement,
+                    &Of::displacement_lower,
+                    &Of::displacement_upper,
+                    &Of::displacement_estimated_error});
+    if (!motions[j].slope_x.empty())
+      aims.push_back(
+          {motions[j].slope_x, j, {1, 0}, &Of::slope_x, &Of::slope_x_lower, &Of::slope_x_upper});
+    if (!motions[j].slope_y.empty())
+      aims.push_back(
+          {motions[j].slope_y, j, {0, 1}, &Of::slope_y, &Of::slope_y_lower, &Of::slope_y_upper});
+  }
+  return aims;
+}
+
+std::vector<contact::UnitForce> unit_forces(const MeshOperator::Parts& parts,
+                                            std::span<const Aim> goals) {
+  std::vector<contact::UnitForce> forces;
+  parts.with_problem([&](const auto& problem) {
+    for (const Aim& aim : goals) forces.push_back(contact::unit_force(problem, aim.goal));
+  });
+  return forces;
+}
+
+std::vector<contact::Opened> solve_open(const MeshOperator::Parts& parts,
+                                        const std::vector<char>& closed,
+                                        std::span<const Eigen::VectorXd> r) {
+  return parts.with_problem(
+      [&](const auto& problem) { return contact::solve_open(problem, closed, r); });
+}
+
+const std::vector<double>& flux_norms(const MeshOperator::Parts& parts,
+                                      const estimate::CutMesh& cut, std::span<const Aim> goals) {
+  constexpr std::size_t together = 16;  // fields in memory at once
+  return parts.flux_norms.get([&] {
+    std::vector<double> norms;
+    for (; !goals.empty(); goals = goals.subspan(std::min(together, goals.size()))) {
+      const std::span<const Aim> some = goals.first(std::min(together, goals.size()));
+      std::vector<Eigen::VectorXd> r;
+      for (contact::UnitForce& force : unit_forces(parts, some)) r.push_back(std::move(force.r));
+      std::vector<contact::Displaced> displaced;
+      const std::vector<contact::Opened> opened = solve_open(parts, {}, r);
+      for (std::size_t k = 0; k < some.size(); ++k)
+        displaced.push_back({&some[k].goal, opened[k].d});
+      const std::vector<std::vector<double>> fields = parts.with_problem(
+          [&](const auto& problem) { return contact::fields_of(problem, displaced); });
+      for (std::size_t k = 0; k < some.size(); ++k)
+        norms.push_back(opened[k].solved ? estimate::norm_of_flux(cut, fields[k])
+                                         : std::numeric_limits<double>::infinity());
+    }
+    return norms;
+  });
+}
+
+}  // namespace anticrack::operators

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contact/linear_contact.hpp"
+#include "operators/mesh_parts.hpp"
+
+namespace anticrack::operators {
+
+/// A displacement of an inclusion, A or a slope, the unit force that works on it, and where its
+/// bounds go.
+struct Aim {
+  const ddm::Terms& goal;
+  std::size_t inclusion;
+  fem::Moment moment;  ///< of a slope
+  double contact::InclusionAnswer::*value;
+  std::optional<double> contact::InclusionAnswer::*lower, contact::InclusionAnswer::*upper;
+  std::optional<double> contact::InclusionAnswer::*estimate = nullptr;
+
+  fem::Load force(const mesh::Mesh& mesh) const;
+  double value_in(const contact::Answer& answer) const {
+    return answer.inclusions[inclusion].*value;
+  }
+  void set(contact::Answer& answer, double low, double high) const {
+    answer.inclusions[inclusion].*lower = low;
+    answer.inclusions[inclusion].*upper = high;
+  }
+};
+
+/// Of all inclusions: A, then the slopes where one tilts. Refer to the decomposition.
+std::vector<Aim> aims(const MeshOperator::Parts& parts);
+
+/// As contact::unit_force and contact::solve_open, on either problem.
+std::vector<contact::UnitForce> unit_forces(const MeshOperator::Parts& parts,
+                                            std::span<const Aim> goals);
+std::vector<contact::Opened> solve_open(const MeshOperator::Parts& parts,
+                                        const std::vector<char>& closed,
+                                        std::span<const Eigen::VectorXd> r);
+
+/// |tau| of each goal's unit force, tau in equilibrium with it and nothing through contacts;
+/// infinite where contact alone holds a part, 0 of a held inclusion. Made once for the mesh: a
+/// linear solve, a field and a flux each.
+const std::vector<double>& flux_norms(const MeshOperator::Parts& parts,
+                                      const estimate::CutMesh& cut, std::span<const Aim> goals);
+
+}  // namespace anticrack::operators
