@@ -102,8 +102,10 @@ int show_mesh(const MeshOptions& options, const Globals& globals) {
   if (options.folder.empty()) return exit_ok;
   const client::Block block = client::read_mesh(session.connection(), name, session.stop());
   const std::string stem = name.substr(std::string("meshes/").size());
-  const figures::Drawn drawn = figures::draw_mesh(to_mesh_plan(mesh, block), "mesh-" + stem,
-                                                  options.folder, options.figures);
+  results::MeshPlan plan = to_mesh_plan(mesh, block);
+  if (the_case) plan.units = to_units(the_case->job.units());
+  const figures::Drawn drawn =
+      figures::draw_mesh(plan, "mesh-" + stem, options.folder, options.figures);
   for (const auto& file : drawn.files) say(globals, file.string());
   for (const std::string& note : drawn.notes) say(globals, note);
   return exit_ok;

@@ -118,8 +118,11 @@ std::string tips(const v1::Mesh& mesh) {
 std::string boundary(const v1::Mesh& mesh) {
   if (mesh.dirichlet_length() + mesh.neumann_length() <= 0)
     return "";  // of a server that does not say
+  std::string sides;
+  for (const std::string& name : mesh.geometry().neumann_sides())
+    sides += (sides.empty() ? ": " : ", ") + sanitise(name);
   return "\nboundary: u given on a length of " + number(mesh.dirichlet_length()) +
-         ", traction on " + number(mesh.neumann_length()) + "\n";
+         ", traction on " + number(mesh.neumann_length()) + sides + "\n";
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ bool few(const MeshLayers& layers, const std::string& where, std::vector<std::st
 Picture mesh_picture(const results::MeshPlan& plan, std::vector<std::string>& notes) {
   const Window everything = whole(plan.mesh);
   const MeshLayers overview = layers(plan, everything);
-  const MeshPanel first{"A", everything, counts(plan.mesh), few(overview, "in the whole", notes)};
+  const MeshPanel first{"A", everything, counts(plan.mesh), few(overview, "in the whole", notes),
+                        plan.units};
   const Title title{plan.title.empty() ? "mesh" : plan.title, ""};
   const std::string data = mesh_data(overview, first.tag);
   Window near;
@@ -55,7 +56,7 @@ Picture mesh_picture(const results::MeshPlan& plan, std::vector<std::string>& no
   }
   const MeshLayers detail = layers(plan, near);
   const MeshPanel second{"B", near, caption_of(tip, near, everything),
-                         few(detail, "around the tip", notes)};
+                         few(detail, "around the tip", notes), plan.units};
   return {data + mesh_data(detail, second.tag), title,
           [=](Format, const Place& area) {
             const auto [panels, foot] = above_foot(area, two_panels, 8);

@@ -55,15 +55,20 @@ std::vector<Spot> thinned(const std::vector<Spot>& all, std::size_t most) {
 }  // namespace
 
 results::MeshPlan plan_of(const results::Result& result) {
-  results::MeshPlan plan{result.title, result.mesh, {}, {}};
+  results::MeshPlan plan{result.title, result.units, result.mesh, {}, {}};
   std::map<std::pair<double, double>, std::int32_t> nodes;
+  for (const results::Interface& interface : result.interfaces)
+    for (std::size_t i = 0; i < interface.node_count(); ++i)
+      nodes[{interface.x[i], interface.y[i]}] = -1;
   for (std::size_t i = 0; i < result.mesh.node_count(); ++i)
-    nodes[{result.mesh.xy[2 * i], result.mesh.xy[2 * i + 1]}] = static_cast<std::int32_t>(i);
+    if (const auto found = nodes.find({result.mesh.xy[2 * i], result.mesh.xy[2 * i + 1]});
+        found != nodes.end())
+      found->second = static_cast<std::int32_t>(i);
   for (const results::Interface& interface : result.interfaces) {
     results::InterfaceLine line{interface.name, {}, interface.edges};
     for (std::size_t i = 0; i < interface.node_count(); ++i) {
-      const auto found = nodes.find({interface.x[i], interface.y[i]});
-      if (found != nodes.end()) line.nodes.push_back(found->second);
+      const std::int32_t node = nodes.at({interface.x[i], interface.y[i]});
+      if (node >= 0) line.nodes.push_back(node);
     }
     // A file of another program may have rounded them.
     if (line.nodes.size() == interface.node_count()) plan.interfaces.push_back(std::move(line));

@@ -17,10 +17,20 @@ std::vector<std::string> paints() {
   return all;
 }
 
-std::string bar(const Peaks& flux, const std::string& unit, const Place& place) {
+/// What the colours are.
+struct Shown {
+  std::string symbol, unit;
+};
+
+Shown shown_of(const results::Result& result) {
+  if (!result.mesh.tension_law.empty()) return {"|\xE2\x88\x87u|", ""};
+  return {"|T \xE2\x88\x87u|", result.units.label("F/L")};
+}
+
+std::string bar(const Peaks& flux, const Shown& shown, const Place& place) {
   const Range range{0, flux.shown > 0 ? flux.shown : 1};
   const Scale scale(range);
-  std::string label = scale.label("|T \xE2\x88\x87u|", unit);
+  std::string label = scale.label(shown.symbol, shown.unit);
   if (flux.cut_off()) label += ", peaks cut off, up to " + readable(flux.highest, 2);
   const auto at = [&](double x, double y) {
     return "screen " + number(place.x + x * place.width) + ", screen " +
@@ -33,8 +43,8 @@ std::string bar(const Peaks& flux, const std::string& unit, const Place& place) 
          " center rotate by 90 noenhanced font ',7'\n";
 }
 
-std::string plan_heading(const results::Load& load) {
-  std::string text = "u in lines, |T \xE2\x88\x87u| in colours";
+std::string plan_heading(const results::Load& load, const Shown& shown) {
+  std::string text = "u in lines, " + shown.symbol + " in colours";
   if (load.status == results::Status::not_converged) text += ",  not converged";
   return text;
 }
@@ -46,13 +56,14 @@ Picture plan_picture(const results::Result& result, const results::Load& load,
   constexpr double foot = 13;  // mm
   const Peaks flux = flux_peaks(surface);
   const MeshLayers layers = plan_layers(result, surface, flux, shade_count, levels);
-  const results::Units units = result.units;
-  const MeshPanel panel{"P", whole(result.mesh), plan_heading(load), true, units, paints()};
+  const Shown shown = shown_of(result);
+  const MeshPanel panel{
+      "P", whole(result.mesh), plan_heading(load, shown), true, result.units, paints()};
   return {mesh_data(layers, panel.tag),
           {result.title, load.name},
           [=](Format, const Place& place) {
             const auto [map, below_map] = above_foot(place, square, foot);
-            return bar(flux, units.label("F/L"), map) +
+            return bar(flux, shown, map) +
                    mesh_panel(layers, panel, {map.x, map.y, 0.8 * map.width, map.height},
                               aspect(place, square)) +
                    mesh_legend(layers, 4, below_map);

@@ -41,7 +41,7 @@ Cut cut_open(const Mesh& mesh, const Load& load) {
         corners[c] = first + static_cast<std::size_t>(field.triangles[t + c]);
       cut.triangles.push_back(corners);
     }
-    cut.tension.resize(cut.triangles.size(), mesh.tension[d]);
+    cut.tension.resize(cut.triangles.size(), mesh.tension_law.empty() ? mesh.tension[d] : 1);
   }
   return cut;
 }

@@ -16,7 +16,7 @@ struct Vertex {
   double y = 0;
   double u = 0;
   /// Mean over the triangles at the vertex on its face of the interfaces, by area: grad u, and
-  /// |T grad u|.
+  /// |T grad u|; where some T is a law, of which a result has the mean alone, |grad u|.
   double slope_x = 0;
   double slope_y = 0;
   double flux = 0;

@@ -30,6 +30,7 @@ struct Tip {
 
 struct MeshPlan {
   std::string title;
+  Units units;
   Mesh mesh;  ///< its boundary: the edges where u is prescribed
   std::vector<InterfaceLine> interfaces;
   std::vector<Tip> tips;

@@ -149,8 +149,11 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
   Cone jumps{1e-12 * largest_of(dual.z)}, pressures{1e-12 * largest_of(tau.through_faces()) +
                                                     1e-13 * tension * largest_of(dual.reacting)};
   const auto limit = [&](Cone& cone, double of_dual, double of_primal) {
-    if (of_dual == 0) return;
     const double most = dual.c * std::max(0.0, of_primal), size = std::abs(of_dual);
+    if (size <= cone.rounding) {  // counts as 0: its sign would choose the constant of a side
+      cone.all_beyond += size;
+      return;
+    }
     cone.beyond = std::max(cone.beyond, size - most);
     cone.all_beyond += std::max(0.0, size - most);
     double& c = of_dual > 0 ? above : below;

@@ -27,11 +27,6 @@ bool moves(const Mesh& mesh) {
   return std::ranges::any_of(mesh.motions, [](const Motion& m) { return m != Motion(); });
 }
 
-bool has_laws(const Mesh& mesh) {
-  return std::ranges::any_of(mesh.tension_laws,
-                             [](const TensionLaw& l) { return !l.along.empty(); });
-}
-
 /// Fields that do not count for the hash of a mesh, and motions and laws, which are new: a mesh
 /// without them keeps its hash.
 bool is_beside(std::string_view field) {
@@ -128,7 +123,7 @@ static Choices choices_of(Preset) {
 }
 
 Bytes encode(const Mesh& mesh) {
-  const bool moving = moves(mesh), laws = has_laws(mesh);
+  const bool moving = moves(mesh), laws = !mesh.tension_laws.empty();
   Writer out(laws ? mesh_with_laws_tag : moving ? moving_mesh_tag : mesh_tag);
   put(out, mesh);
   if (moving || laws) out.value(moving ? mesh.motions : std::vector<Motion>());

@@ -252,6 +252,8 @@ std::vector<std::int32_t> name_subdomains(const Plan& plan, mesh::Mesh& mesh) {
     mesh.tension.push_back(face.tension);
     mesh.tension_laws.push_back(face.law);
   }
+  const auto none = [](const mesh::TensionLaw& law) { return law == mesh::TensionLaw(); };
+  if (std::ranges::all_of(mesh.tension_laws, none)) mesh.tension_laws.clear();
   return subdomain_of;
 }
 

@@ -107,9 +107,7 @@ std::size_t estimate_bytes(const mesh::Mesh& mesh) {
     bytes += skeleton_blocks * sizeof(double) * skeleton.unknowns * skeleton.unknowns;
     bytes += contact_blocks * sizeof(double) * skeleton.contacts * skeleton.contacts;
   }
-  const bool has_laws = std::ranges::any_of(
-      mesh.tension_laws, [](const mesh::TensionLaw& law) { return !law.along.empty(); });
-  if (has_laws) bytes += bytes_per_law * static_cast<double>(mesh.triangle_count());
+  if (!mesh.tension_laws.empty()) bytes += bytes_per_law * static_cast<double>(mesh.triangle_count());
   return static_cast<std::size_t>(bytes);
 }
 

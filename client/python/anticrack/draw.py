@@ -126,9 +126,11 @@ def membrane(result: Result, load: str | Load | None = None, ax: Any = None, lev
 
 
 def flux(result: Result, load: str | Load | None = None) -> list[Array]:
-    """|T grad u| in the triangles of each subdomain, as its field lists them; takes a case with fields."""
+    """|T grad u| in the triangles of each subdomain, as its field lists them; takes a case with fields. Where some T is
+    a law, of which a result has the mean alone, |grad u|."""
     sizes = []
-    for tension, part in zip(result.mesh.tension, _fields(_load(result, load))):
+    tensions = np.ones(len(result.mesh.tension)) if result.mesh.tension_law else result.mesh.tension
+    for tension, part in zip(tensions, _fields(_load(result, load))):
         a, b, c = np.moveaxis(result.mesh.nodes[part.nodes][part.triangles], 1, 0)
         u = part.u[part.triangles]
         (bx, by), (cx, cy) = (b - a).T, (c - a).T
@@ -138,7 +140,7 @@ def flux(result: Result, load: str | Load | None = None) -> list[Array]:
 
 
 def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels: int = 10, cmap: str = "Blues") -> Any:
-    """From above: labelled lines of u over the flux |T grad u| in colours, with cracks and inclusions; takes a case
+    """From above: labelled lines of u over the flux (see `flux`) in colours, with cracks and inclusions; takes a case
     with fields. The flux grows without bound at tips: its peaks are cut off, and the colour bar says so."""
     from matplotlib.ticker import MaxNLocator
     from matplotlib.tri import Triangulation
@@ -156,7 +158,8 @@ def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels:
             lines = ax.tricontour(part, field.u, inner, colors="black", linewidths=0.6, linestyles="solid")
             ax.clabel(lines, inner[::2], fmt="%.3g", fontsize="x-small")
     said = f", peaks cut off, up to {highest:.2g}" if shown < highest else ""
-    ax.figure.colorbar(shades, ax=ax, label=f"$|T \\nabla u|${result.units.label('F/L')}{said}",
+    name = r"$|\nabla u|$" if result.mesh.tension_law else r"$|T \nabla u|$" + result.units.label("F/L")
+    ax.figure.colorbar(shades, ax=ax, label=name + said,
                        extend="max" if said else "neither")
     interfaces(result, ax)
     ax.set_title(load.name)

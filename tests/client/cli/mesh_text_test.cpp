@@ -95,6 +95,13 @@ TEST(MeshText, TabulatesWhatTheServerUnderstood) {
             "warning: took curve 7 for a crack\n");
 }
 
+TEST(MeshText, NamesTheSidesWithATraction) {
+  v1::Mesh mesh = sample_mesh();
+  mesh.mutable_geometry()->add_neumann_sides("right");
+  mesh.mutable_geometry()->add_neumann_sides("window");
+  EXPECT_THAT(mesh_text(mesh), ::testing::HasSubstr("traction on 2: right, window\n"));
+}
+
 TEST(MeshText, SaysHowAnInclusionMovesWhereItIsKnown) {
   v1::Mesh mesh = sample_mesh();
   v1::Inclusion& fibre = *mesh.mutable_geometry()->add_inclusions();

@@ -75,6 +75,10 @@ class Figures(unittest.TestCase):
         for tension, size in zip(result.mesh.tension, draw.flux(result, "pulled")):
             numpy.testing.assert_allclose(size, 5 * tension, rtol=1e-3)  # the smallest triangles have edges of 1e-13
         self.assertGreater(len(set(result.mesh.tension)), 1)
+        result.mesh.tension_law = ["", "1 + x^2"] + [""] * (len(result.mesh.tension) - 2)
+        for size in draw.flux(result, "pulled"):  # |grad u|: T is not known
+            numpy.testing.assert_allclose(size, 5, rtol=1e-3)
+        self.assertTrue(draw.plan(result, "pulled").figure.axes[1].get_ylabel().startswith(r"$|\nabla u|$"))
 
     def test_the_side_that_came_off_is_the_minus_side(self):
         dots = [line for line in draw.interfaces(self.skew).lines if line.get_linestyle() == ":"]
