@@ -57,8 +57,8 @@ Picture plan_picture(const results::Result& result, const results::Load& load,
   const Peaks flux = flux_peaks(surface);
   const MeshLayers layers = plan_layers(result, surface, flux, shade_count, levels);
   const Shown shown = shown_of(result);
-  const MeshPanel panel{
-      "P", whole(result.mesh), plan_heading(load, shown), true, result.units, paints()};
+  const MeshPanel panel{"P",  whole(result.mesh), plan_heading(load, shown),
+                        true, result.units,       paints()};
   return {mesh_data(layers, panel.tag),
           {result.title, load.name},
           [=](Format, const Place& place) {

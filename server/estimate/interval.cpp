@@ -17,11 +17,11 @@ double largest_of(std::span<const double> values) {
   return largest;
 }
 
-/// How far jumps or pressures leave the cone, against what is rounding.
+/// How far jumps or pressures leave the cone, against what is rounding and what may be.
 struct Cone {
-  double rounding = 0, beyond = 0;
+  double rounding = 0, most = 0, beyond = 0;
   double all_beyond = 0;  ///< sum
-  bool left() const { return beyond > rounding; }
+  bool left() const { return beyond > most; }
 };
 
 /// Integrals of tau - T grad z with itself and with sigma - T grad u_h, and of that with itself,
@@ -146,8 +146,11 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
   double above = 0, below = 0, work = 0;
   // Fluxes are sums of T grad z', whose rounding is of T |z'|.
   const double tension = largest_of(cut.shapes.tension);
-  Cone jumps{1e-12 * largest_of(dual.z)}, pressures{1e-12 * largest_of(tau.through_faces()) +
-                                                    1e-13 * tension * largest_of(dual.reacting)};
+  const double of_jumps = 1e-12 * largest_of(dual.z),
+               of_pressures = 1e-12 * largest_of(tau.through_faces()) +
+                              1e-13 * tension * largest_of(dual.reacting);
+  // Conjugate gradients leave more than rounding in z'; all of it widens the interval.
+  Cone jumps{of_jumps, of_jumps}, pressures{of_pressures, 1000 * of_pressures};
   const auto limit = [&](Cone& cone, double of_dual, double of_primal) {
     const double most = dual.c * std::max(0.0, of_primal), size = std::abs(of_dual);
     if (size <= cone.rounding) {  // counts as 0: its sign would choose the constant of a side
