@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Bounds of the energy against what finer and finer meshes lead to.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <numbers>
+#include <string>
 
 #include "accuracy/base_meshes.hpp"
 #include "accuracy/error_norms.hpp"
@@ -133,6 +136,39 @@ TEST(Bracket, OfALinearSolutionIsRounding) {
   const contact::Answer answer = solve_bounded(*op, load);
   ASSERT_EQ(answer.no_bracket, "");
   EXPECT_LT(*answer.energy_upper - *answer.energy_lower, 1e-11 * std::abs(answer.energy));
+}
+
+/// A membrane with laws of tension and a g_D that edges cannot follow, rotated by so many degrees.
+contact::Answer rotated(double degrees) {
+  mesh::Mesh mesh = mesh::grade(diagonals(), {0.2, 0.2, 0}, 2'000'000);
+  const double c = std::cos(degrees * std::numbers::pi / 180),
+               s = std::sin(degrees * std::numbers::pi / 180);
+  for (std::size_t i = 0; i < mesh.xy.size(); i += 2) {
+    const double x = mesh.xy[i], y = mesh.xy[i + 1];
+    mesh.xy[i] = c * x - s * y;
+    mesh.xy[i + 1] = s * x + c * y;
+  }
+  const std::string x = fmt::format("({:.17g}*x + {:.17g}*y)", c, s),
+                    y = fmt::format("({:.17g}*y - {:.17g}*x)", c, s);
+  mesh.tension_laws = {{"2 + " + x, "0.5", 20 + degrees}, {"1 + " + x + "*" + x, "", 0}};
+  fem::Load load;
+  load.force = fem::Expression{"3*sin(2*" + x + ") - 1"};
+  load.boundary_value = x + "*" + x + "*" + y;
+  return solve_bounded(*factorise(std::move(mesh)), load);
+}
+
+TEST(Bracket, OfARotatedMembraneWithLawsIsTheSame) {
+  const contact::Answer one = rotated(0), other = rotated(40);
+  ASSERT_EQ(one.no_bracket, "");
+  const double gap = *one.energy_upper - *one.energy_lower;
+  EXPECT_GT(gap, 1e-4);
+  EXPECT_NEAR(*other.energy_lower, *one.energy_lower, 0.02 * gap);  // another order of the fans
+  EXPECT_NEAR(*other.energy_upper, *one.energy_upper, 1e-6 * gap);
+  const contact::InclusionAnswer &of_one = one.inclusions[0], &of_other = other.inclusions[0];
+  const double width = *of_one.displacement_upper - *of_one.displacement_lower;
+  EXPECT_NEAR(of_other.displacement, of_one.displacement, 1e-9);
+  EXPECT_NEAR(*of_other.displacement_lower, *of_one.displacement_lower, 0.02 * width);
+  EXPECT_NEAR(*of_other.displacement_upper, *of_one.displacement_upper, 0.02 * width);
 }
 
 TEST(Bracket, IsNotGivenForBoundaryValuesOfInfiniteEnergy) {
