@@ -56,6 +56,17 @@ std::vector<EdgeEnd> interface_edge_ends(const Mesh& mesh) {
   return ends;
 }
 
+/// Glue between subdomains of one tension: nothing changes at it.
+bool is_seam(const Mesh& mesh, const EdgeTable& edges, const EdgeEnd& end) {
+  if (end.kind != Kind::glue) return false;
+  const auto uses = edges.find(end.node, end.other);
+  if (uses.size() != 2) return false;
+  const std::size_t one = at(mesh.subdomain[at(uses[0].triangle)]),
+                    other = at(mesh.subdomain[at(uses[1].triangle)]);
+  return (mesh.tension.empty() || mesh.tension[one] == mesh.tension[other]) &&
+         (mesh.tension_laws.empty() || mesh.tension_laws[one] == mesh.tension_laws[other]);
+}
+
 }  // namespace
 
 double characteristic_length(const Mesh& mesh) {
@@ -78,8 +89,9 @@ double smallest_tip_size(const Mesh& mesh, std::span<const std::int32_t> centres
 }
 
 std::vector<std::int32_t> tips(const Mesh& mesh) {
-  const std::vector<EdgeEnd> ends = interface_edge_ends(mesh);
   const EdgeTable edges(mesh.triangles);
+  std::vector<EdgeEnd> ends = interface_edge_ends(mesh);
+  std::erase_if(ends, [&](const EdgeEnd& end) { return is_seam(mesh, edges, end); });
   const std::vector<bool> on_boundary = edges.boundary_nodes(mesh.node_count());
   const auto free_end = [&](const EdgeEnd& end) {
     if (end.kind == Kind::glue) return false;

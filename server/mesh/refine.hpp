@@ -66,6 +66,7 @@ double smallest_tip_size(const Mesh& mesh, std::span<const std::int32_t> centres
 ///   - two interface edges that differ in kind or inclusion meet there;
 ///   - a single interface edge other than glue ends there, inside the domain or, if the edge itself
 ///     lies on the boundary, on it. A crack that leaves through the boundary has no tip there.
+/// Glue between subdomains of one tension does not count: an inclusion may cross an outline.
 /// Corners of an interface or of the boundary are no tips. O(m log m).
 std::vector<std::int32_t> tips(const Mesh& mesh);
 

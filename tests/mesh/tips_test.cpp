@@ -95,6 +95,23 @@ TEST(Tips, AreFoundWhereTwoInterfacesMeet) {
   EXPECT_THAT(tips(made), ElementsAre(centre, centre + 17));
 }
 
+TEST(Tips, AreWhereAnInclusionCrossesGlueOnlyIfTheTensionJumpsThere) {
+  Mesh made = structured_mesh(16, 4, {});
+  made.inclusions = {"across"};
+  const std::int32_t centre = made.interfaces[0].nodes[8];
+  made.interfaces.push_back({"across",
+                             {centre - 17, centre, centre + 17},
+                             std::vector<Kind>(2, Kind::inclusion),
+                             std::vector<std::int32_t>(2, 0)});
+  made.tension = {1, 1};
+  EXPECT_THAT(tips(made), ElementsAre(centre - 17, centre + 17));
+  made.tension = {1, 2};
+  EXPECT_THAT(tips(made), ElementsAre(centre - 17, centre, centre + 17));
+  made.tension = {1, 1};
+  made.tension_laws = {{}, {"1 + x^2", "", 0}};
+  EXPECT_THAT(tips(made), ElementsAre(centre - 17, centre, centre + 17));
+}
+
 TEST(Tips, StayWhereTheyAreUnderRefinement) {
   const std::vector<OnInterface> parts{{-0.5, 0.5, Kind::inclusion, 0},
                                        {-0.25, 0.125, Kind::delaminated, 0}};
