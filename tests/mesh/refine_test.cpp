@@ -107,6 +107,31 @@ TEST(Refine, TwiceEverywhereCutsEachEdgeOfRightTriangles) {
   EXPECT_EQ(fine.interfaces[0].kind.size(), 2 * base.interfaces[0].kind.size());
 }
 
+/// At tips whose neighbourhood rounding of coordinates makes a grid of.
+TEST(Refine, EndsBeforeRoundingSpoilsTheShape) {
+  for (const double unit : {1e-3, 1.0, 1e3}) {
+    SCOPED_TRACE(unit);
+    Mesh mesh = structured_mesh(8, 8, line);
+    for (std::size_t i = 0; i < mesh.xy.size(); ++i)
+      mesh.xy[i] = unit * (mesh.xy[i] / 3 + (i % 2 == 0 ? 50.1 : 20.7));
+    const double bound = bisection_bound(mesh);
+    std::vector<Point> centres;
+    for (const std::int32_t tip : tips(mesh)) centres.push_back(testing::point(mesh, tip));
+    mesh = grade(mesh, {.h0 = 0.1 * unit}, most);
+    std::size_t before = 0;
+    for (int round = 0; round < 8; ++round) {
+      before = mesh.triangle_count();
+      std::vector<std::uint8_t> levels(before, 0);
+      for (std::size_t t = 0; t < before; ++t)
+        for (std::size_t i = 0; i < 3; ++i)
+          if (std::ranges::find(centres, corner(mesh, t, i)) != centres.end()) levels[t] = 8;
+      mesh = refine(mesh, levels, most);
+      ASSERT_GT(quality(mesh).minimum_angle, 0.9 * bound) << "round " << round;
+    }
+    EXPECT_EQ(mesh.triangle_count(), before);
+  }
+}
+
 TEST(Refine, RefusesMoreTrianglesThanAllowed) {
   const Mesh base = graded_square(2);
   const std::vector<std::uint8_t> levels(base.triangle_count(), 2);
