@@ -133,20 +133,19 @@ Mesh refine(const Mesh& base, std::span<const std::uint8_t> levels, std::size_t 
   const auto twice_area = [](const std::array<Point, 3>& p) {
     return (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1]);
   };
-  // Square of the smallest size that keeps its shape there, of a triangle of such coordinates.
+  // Twice the area of the smallest triangle there that keeps its shape.
   const auto least = [](const std::array<Point, 3>& p) {
     double largest = 0;
-    for (const Point& one : p) largest = std::max({largest, std::abs(one[0]), std::abs(one[1])});
-    return relative_floor * largest * (relative_floor * largest);
+    for (const auto& [x, y] : p) largest = std::max({largest, std::abs(x), std::abs(y)});
+    return std::pow(relative_floor * largest, 2);
   };
   // Halves are exact but for rounding: half a level lies between.
   std::vector<double> enough(base.triangle_count());
   for (std::size_t t = 0; t < enough.size(); ++t)
     enough[t] = twice_area(mesh.corners(t)) * std::exp2(0.5 - levels[t]);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    for (;;) {
-      const std::array<Point, 3> corners = mesh.corners(t);
-      if (!(twice_area(corners) > std::max(enough[at(mesh.origin(t))], least(corners)))) break;
+    for (auto p = mesh.corners(t); twice_area(p) > std::max(enough[at(mesh.origin(t))], least(p));
+         p = mesh.corners(t)) {
       if (mesh.bisect(t)) continue;
       throw errors::Error(errors::Reason::limit_exceeded,
                           "refining " + std::to_string(base.triangle_count()) +

@@ -81,7 +81,8 @@ Mesh grade(const Mesh& base, std::span<const std::int32_t> centres, const Gradin
            std::size_t max_triangles);
 
 /// Bisects triangle t of the base until its parts have at most 2^-levels[t] of its area, and what
-/// must be bisected with them; levels (m). With `bisection_bound`. Throws errors::Error:
+/// must be bisected with them; levels (m). Parts of an area below (1e-13 |coordinate|)^2 / 2 stay:
+/// rounding of midpoints would spoil their shape. With `bisection_bound`. Throws errors::Error:
 /// limit_exceeded beyond `max_triangles`; mesh_invalid as grade(). Complexity of grade().
 Mesh refine(const Mesh& base, std::span<const std::uint8_t> levels, std::size_t max_triangles);
 
