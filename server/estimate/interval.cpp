@@ -227,14 +227,27 @@ Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
   return intervals(primal.cut, {&one, 1}).front();
 }
 
-double norm_of_flux(const CutMesh& cut, std::span<const double> reacting) {
+std::vector<double> norms_of_fluxes(const CutMesh& cut,
+                                    std::span<const std::vector<double>> reacting) {
   const std::vector<double> none(2 * cut.faces.size(), 0.0);
-  const EquilibratedFlux tau(cut, {reacting, {}, {}}, none);
-  double distance = 0;
-  for (const double one : tau.distance()) distance += std::max(0.0, one);
+  std::vector<Balance> balances;
+  for (const std::vector<double>& one : reacting)
+    if (!one.empty()) balances.push_back({one, {}, {}});
+  const std::vector<FaceBounds> bounds(balances.size(), none);
   double below = 1;
   for (const fem::Variation& one : cut.shapes.variation) below = std::max(below, one.below);
-  return below * (std::sqrt(tau.norm_squared()) + std::sqrt(distance));
+  const std::vector<EquilibratedFlux> taus = EquilibratedFlux::of_all(cut, balances, bounds);
+  auto tau = taus.begin();
+  std::vector<double> norms;
+  for (const std::vector<double>& one : reacting) {
+    double& norm = norms.emplace_back(std::numeric_limits<double>::infinity());
+    if (one.empty()) continue;
+    double distance = 0;
+    for (const double part : tau->distance()) distance += std::max(0.0, part);
+    norm = below * (std::sqrt(tau->norm_squared()) + std::sqrt(distance));
+    ++tau;
+  }
+  return norms;
 }
 
 }  // namespace anticrack::estimate
