@@ -13,11 +13,11 @@ namespace anticrack::contact {
 /// forces take two solves each, many at once. Keeps a reference.
 class OpenMembrane {
  public:
-  /// As the factor of JoinedMembrane.
+  /// As JoinedMembrane.
   explicit OpenMembrane(const JoinedMembrane& membrane);
 
-  /// u of a unit force on each sum, as fields_of; empty where nothing but contact holds what it
-  /// moves. Bits are those of each alone.
+  /// u of a unit force on each sum, as fields_of; empty where rounding decides it. Bits are those
+  /// of each alone.
   std::vector<std::vector<double>> fields(std::span<const ddm::Terms* const> sums) const;
 
  private:

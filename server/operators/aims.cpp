@@ -72,8 +72,7 @@ std::vector<std::vector<double>> open_fields(const MeshOperator::Parts& parts,
   for (contact::UnitForce& force : unit_forces(parts, goals)) r.push_back(std::move(force.r));
   const std::vector<contact::Opened> opened = solve_open(parts, {}, r);
   std::vector<contact::Displaced> displaced;
-  for (std::size_t k = 0; k < goals.size(); ++k)
-    displaced.push_back({&goals[k].goal, opened[k].d});
+  for (std::size_t k = 0; k < goals.size(); ++k) displaced.push_back({&goals[k].goal, opened[k].d});
   std::vector<std::vector<double>> fields = parts.with_problem(
       [&](const auto& problem) { return contact::fields_of(problem, displaced); });
   for (std::size_t k = 0; k < goals.size(); ++k)
@@ -86,7 +85,7 @@ std::vector<std::vector<double>> open_fields(const MeshOperator::Parts& parts,
 const std::vector<double>& flux_norms(const MeshOperator::Parts& parts,
                                       const estimate::CutMesh& cut, std::span<const Aim> goals) {
   constexpr std::size_t together = 16;  // fields in memory at once
-  constexpr std::size_t few = 16;       // another factor costs more than conjugate gradients
+  constexpr std::size_t few = 8;        // another factor costs more than conjugate gradients
   return parts.flux_norms.get([&] {
     std::optional<contact::OpenMembrane> open;
     if (parts.joined && goals.size() > few) open.emplace(parts.joined->membrane());
