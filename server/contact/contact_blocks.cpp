@@ -112,7 +112,8 @@ Partition part(const ddm::Decomposition& decomposition) {
 /// Entries of x by their abscissae, to find those in a box.
 class Places {
  public:
-  explicit Places(const std::vector<double>& xy) : _xy(xy), _order(xy.size() / 2) {
+  explicit Places(const JoinedMembrane& membrane)
+      : _xy(membrane.places()), _order(at(membrane.size())) {
     std::iota(_order.begin(), _order.end(), 0);
     std::ranges::sort(_order, {}, [this](std::int32_t i) { return std::pair{_xy[2 * at(i)], i}; });
   }
@@ -251,7 +252,7 @@ ContactBlocks::ContactBlocks(const JoinedMembrane& membrane, const PairForces& f
                              const std::stop_token& stop) {
   const ddm::Skeleton& skeleton = membrane.decomposition().skeleton;
   const Partition partition = part(membrane.decomposition());
-  const Places places(membrane.places());
+  const Places places(membrane);
   const Indices motion = mark_motions(membrane);
   std::vector<std::optional<ContactBlock>> done(partition.blocks.size());
   const auto require_running = [&stop] {

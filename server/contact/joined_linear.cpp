@@ -25,17 +25,11 @@ std::vector<Opened> solve_open(const JoinedProblem& problem, const std::vector<c
 std::vector<std::vector<double>> fields_of(const JoinedProblem& problem,
                                            std::span<const Displaced> displaced) {
   const JoinedMembrane& membrane = problem.membrane();
-  const std::vector<ddm::Subdomain>& subdomains = membrane.decomposition().subdomains;
   std::vector<std::vector<double>> fields;
   for (const Displaced& one : displaced) {
     const JoinedMembrane::Reduced load = membrane.force_of(*one.force);
-    const VectorXd x = membrane.solve(load, one.d), w = membrane.values(load, x, one.d);
-    std::vector<double>& field = fields.emplace_back();
-    for (std::size_t s = 0; s < subdomains.size(); ++s) {
-      const VectorXd u = membrane.field(s, x, w);
-      field.insert(field.end(), u.begin(), u.end());
-      field.insert(field.end(), subdomains[s].dirichlet, 0.0);
-    }
+    const VectorXd x = membrane.solve(load, one.d);
+    fields.push_back(membrane.field(x, membrane.values(x, one.d)));
   }
   return fields;
 }

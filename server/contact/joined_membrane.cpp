@@ -63,7 +63,7 @@ Sparse JoinedMembrane::assemble() {
   }
   const Index x = _interior + index(skeleton.free), d = x + index(skeleton.independent);
   const Index all = d + index(skeleton.held.size());
-  _places.assign(2 * at(x), 0);
+  _places.assign(2 * at(d), 0);
   // What each value of the skeleton is made of, in the numbers of [x d p].
   std::vector<ddm::Terms> made_of(skeleton.unknowns);
   for (std::size_t i = 0; i < skeleton.unknowns; ++i) {
@@ -89,7 +89,7 @@ Sparse JoinedMembrane::assemble() {
         continue;
       }
       for (const ddm::Term& term : made_of[at(subdomain.unknown[i - subdomain.interior])])
-        if (term.index < x) std::copy_n(place, 2, &_places[2 * at(term.index)]);
+        if (term.index < d) std::copy_n(place, 2, &_places[2 * at(term.index)]);
     }
     const auto terms_of = [&](std::int32_t node, ddm::Term& own) -> std::span<const ddm::Term> {
       own = {first + node, 1};
@@ -195,11 +195,8 @@ VectorXd JoinedMembrane::spread(const VectorXd& on_values) const {
 }
 
 VectorXd JoinedMembrane::solve_once(const VectorXd& force) const {
-  const std::vector<ddm::SubdomainFactor::Forward> forward = _factor.forward(force);
   VectorXd x(size());
-  const VectorXd nothing(0);
-  ddm::SubdomainFactor::Backward column{forward[0].z_interior, nothing, x};
-  _factor.recover({&column, 1});
+  _factor.solve(force, x);
   return x;
 }
 
@@ -245,22 +242,29 @@ VectorXd JoinedMembrane::apply(const VectorXd& d, bool refined) const {
   return result;
 }
 
+VectorXd JoinedMembrane::forces_of(const VectorXd& x, const VectorXd& d) const {
+  return -gather(residual(no_loads(), x, values(x, d)));
+}
+
 VectorXd JoinedMembrane::solve(const Reduced& load, const VectorXd& d) const {
   VectorXd x = solve_once(load.force - _b.transpose() * d);
-  Reduced not_held;
-  not_held.p = VectorXd::Zero(load.p.size());
-  const VectorXd w = values(not_held, x, d);
-  x += solve_once(load.force + gather(residual(no_loads(), x, w)).head(size()));
+  x += solve_once(load.force - forces_of(x, d).head(size()));
   return x;
 }
 
 VectorXd JoinedMembrane::values(const Reduced& load, const VectorXd& x, const VectorXd& d) const {
+  VectorXd w = values(x, d);
+  for (Index i = 0; i < w.size(); ++i)
+    w[i] += sum_of(_decomposition.skeleton.rows[at(i)].held, load.p);
+  return w;
+}
+
+VectorXd JoinedMembrane::values(const VectorXd& x, const VectorXd& d) const {
   const ddm::Skeleton& skeleton = _decomposition.skeleton;
   VectorXd w(index(skeleton.unknowns));
   for (std::size_t i = 0; i < skeleton.unknowns; ++i) {
     const ddm::Row& row = skeleton.rows[i];
-    w[index(i)] = sum_of(row.free, x.tail(index(skeleton.free))) + sum_of(row.jumps, d) +
-                  sum_of(row.held, load.p);
+    w[index(i)] = sum_of(row.free, x.tail(index(skeleton.free))) + sum_of(row.jumps, d);
   }
   return w;
 }
@@ -271,6 +275,16 @@ VectorXd JoinedMembrane::field(std::size_t subdomain, const VectorXd& x, const V
   u.head(index(of.interior)) = x.segment(_first[subdomain], index(of.interior));
   for (std::size_t i = 0; i < of.trace; ++i) u[index(of.interior + i)] = w[of.unknown[i]];
   return u;
+}
+
+std::vector<double> JoinedMembrane::field(const VectorXd& x, const VectorXd& w) const {
+  std::vector<double> result;
+  for (std::size_t s = 0; s < _stiffness.size(); ++s) {
+    const VectorXd u = field(s, x, w);
+    result.insert(result.end(), u.begin(), u.end());
+    result.insert(result.end(), _decomposition.subdomains[s].dirichlet, 0.0);
+  }
+  return result;
 }
 
 VectorXd JoinedMembrane::forces(std::size_t subdomain, const VectorXd& u) const {

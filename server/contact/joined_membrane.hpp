@@ -59,23 +59,31 @@ class JoinedMembrane {
   /// Two solves: one of iterative refinement. `p`: see held_values.
   Reduced reduce(std::span<const ddm::CondensedLoad> loads, const Eigen::VectorXd& p) const;
 
-  /// Of a unit force on a sum of unknowns.
+  /// F in [x d p] of a unit force on a sum of unknowns.
+  Eigen::VectorXd gather(const ddm::Terms& unit) const;
+  /// Of such a force.
   Reduced reduce(const ddm::Terms& unit) const;
   /// Its force and p alone, which solve() and values() need.
   Reduced force_of(const ddm::Terms& unit) const;
 
   /// S^ d. One solve, or two with a step of iterative refinement.
   Eigen::VectorXd apply(const Eigen::VectorXd& d, bool refined = false) const;
-  /// x for jumps d. Two solves: the residual is that of the nodes. The equation of an inclusion
-  /// that moves sums forces of all its nodes in [x d p], far larger than what is left of them.
+  /// K [x d 0] in [x d p] from the forces on the nodes. The equation of an inclusion that moves sums
+  /// those of all its nodes, far larger than what is left of them.
+  Eigen::VectorXd forces_of(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const;
+  /// x for jumps d. Two solves: the residual is that of forces_of.
   Eigen::VectorXd solve(const Reduced& load, const Eigen::VectorXd& d) const;
 
   /// w of the skeleton.
   Eigen::VectorXd values(const Reduced& load, const Eigen::VectorXd& x,
                          const Eigen::VectorXd& d) const;
+  /// The same where p is 0.
+  Eigen::VectorXd values(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const;
   /// u on the free nodes of a subdomain.
   Eigen::VectorXd field(std::size_t subdomain, const Eigen::VectorXd& x,
                         const Eigen::VectorXd& w) const;
+  /// u on the nodes of all, one after another, 0 on the Dirichlet boundary.
+  std::vector<double> field(const Eigen::VectorXd& x, const Eigen::VectorXd& w) const;
   /// Loads less the forces K u on the nodes. O(N).
   std::vector<ddm::CondensedLoad> residual(std::span<const ddm::CondensedLoad> loads,
                                            const Eigen::VectorXd& x,
@@ -90,7 +98,7 @@ class JoinedMembrane {
   /// F'u of a load on the closed state of another.
   double work(std::span<const ddm::CondensedLoad> loads, const Reduced& closed) const;
 
-  /// K in [x d p], lower triangle, and a place in the plane for each entry of x.
+  /// K in [x d p], lower triangle, and a place in the plane for each entry of x and d.
   const Eigen::SparseMatrix<double>& matrix() const noexcept { return _matrix; }
   const std::vector<double>& places() const noexcept { return _places; }
   /// B, by rows.
@@ -101,7 +109,6 @@ class JoinedMembrane {
   Eigen::SparseMatrix<double> assemble();
   Eigen::VectorXd forces(std::size_t subdomain, const Eigen::VectorXd& u) const;
   Eigen::VectorXd gather(std::span<const ddm::CondensedLoad> loads) const;
-  Eigen::VectorXd gather(const ddm::Terms& unit) const;
   Eigen::VectorXd spread(const Eigen::VectorXd& on_values) const;
   Reduced reduce(const Eigen::VectorXd& force, const Eigen::VectorXd& p) const;
   Eigen::VectorXd solve_once(const Eigen::VectorXd& force) const;

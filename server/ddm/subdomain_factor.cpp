@@ -195,6 +195,16 @@ void SubdomainFactor::recover(std::span<Backward> columns) const {
       });
 }
 
+void SubdomainFactor::solve(const Eigen::Ref<const Eigen::MatrixXd>& f,
+                            Eigen::Ref<Eigen::MatrixXd> x) const {
+  const std::vector<Forward> half = forward(f);
+  const Eigen::VectorXd nothing(0);
+  std::vector<Backward> columns;
+  for (Eigen::Index j = 0; j < f.cols(); ++j)
+    columns.push_back({half[at(j)].z_interior, nothing, x.col(j)});
+  recover(columns);
+}
+
 Eigen::VectorXd SubdomainFactor::apply_schur(const Eigen::VectorXd& trace_values) const {
   Eigen::VectorXd result(trace_values.size());
   apply_schur(trace_values, result);

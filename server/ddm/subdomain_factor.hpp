@@ -53,6 +53,9 @@ class SubdomainFactor {
   /// bits do not depend on the others.
   void recover(std::span<Backward> columns) const;
 
+  /// x <- K^-1 f without interface: both of the above.
+  void solve(const Eigen::Ref<const Eigen::MatrixXd>& f, Eigen::Ref<Eigen::MatrixXd> x) const;
+
   /// S t, O(n_G^2).
   Eigen::VectorXd apply_schur(const Eigen::VectorXd& trace) const;
   /// The same into `result`, which does not overlap `trace`. No allocation.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "estimate/bracket.hpp"
+#include "estimate/flux_kernels.hpp"
 #include "fem/triangle_rules.hpp"
 #include "mesh/at.hpp"
 
@@ -198,6 +199,14 @@ Interval interval(const Aimed& aimed, const EquilibratedFlux& tau) {
           above};
 }
 
+double norm(const CutMesh& cut, const EquilibratedFlux& tau) {
+  double distance = 0;
+  for (const double one : tau.distance()) distance += std::max(0.0, one);
+  double below = 1;
+  for (const fem::Variation& one : cut.shapes.variation) below = std::max(below, one.below);
+  return below * (std::sqrt(tau.norm_squared()) + std::sqrt(distance));
+}
+
 }  // namespace
 
 double half_width(double c, double eta, double rho) {
@@ -227,14 +236,23 @@ Interval interval(const Primal& primal, const Dual& dual, double unloaded) {
   return intervals(primal.cut, {&one, 1}).front();
 }
 
-double norm_of_flux(const CutMesh& cut, std::span<const double> reacting) {
+std::vector<double> norms_of_fluxes(const CutMesh& cut,
+                                    std::span<const std::vector<double>> reacting) {
   const std::vector<double> none(2 * cut.faces.size(), 0.0);
-  const EquilibratedFlux tau(cut, {reacting, {}, {}}, none);
-  double distance = 0;
-  for (const double one : tau.distance()) distance += std::max(0.0, one);
-  double below = 1;
-  for (const fem::Variation& one : cut.shapes.variation) below = std::max(below, one.below);
-  return below * (std::sqrt(tau.norm_squared()) + std::sqrt(distance));
+  const std::vector<FaceBounds> bounds(flux_lanes, none);
+  std::vector<double> norms;
+  while (!reacting.empty()) {
+    const auto some = reacting.first(std::min(flux_lanes, reacting.size()));
+    std::vector<Balance> balances;
+    for (const std::vector<double>& one : some)
+      if (!one.empty()) balances.push_back({one, {}, {}});
+    const std::vector<EquilibratedFlux> taus = EquilibratedFlux::of_all(cut, balances, bounds);
+    auto tau = taus.begin();
+    for (const std::vector<double>& one : some)
+      norms.push_back(one.empty() ? std::numeric_limits<double>::infinity() : norm(cut, *tau++));
+    reacting = reacting.subspan(some.size());
+  }
+  return norms;
 }
 
 }  // namespace anticrack::estimate

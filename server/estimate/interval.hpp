@@ -74,7 +74,9 @@ struct Aimed {
 std::vector<Interval> intervals(const CutMesh& cut, std::span<const Aimed> of);
 Interval interval(const Primal& primal, const Dual& dual, double unloaded);
 
-/// |tau| of a tau for a unit force with all cracks free. O(m).
-double norm_of_flux(const CutMesh& cut, std::span<const double> reacting);
+/// |tau| of a tau for a unit force with all cracks free; infinite where `reacting` is empty. Of
+/// several at once, with the bits of each alone. O(m) each.
+std::vector<double> norms_of_fluxes(const CutMesh& cut,
+                                    std::span<const std::vector<double>> reacting);
 
 }  // namespace anticrack::estimate

@@ -2,8 +2,9 @@
 #include "operators/aims.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <iterator>
 
+#include "contact/open_membrane.hpp"
 #include "estimate/interval.hpp"
 
 namespace anticrack::operators {
@@ -56,24 +57,44 @@ std::vector<contact::Opened> solve_open(const MeshOperator::Parts& parts,
       [&](const auto& problem) { return contact::solve_open(problem, closed, r); });
 }
 
+namespace {
+
+std::vector<const ddm::Terms*> sums(std::span<const Aim> goals) {
+  std::vector<const ddm::Terms*> sums;
+  for (const Aim& aim : goals) sums.push_back(&aim.goal);
+  return sums;
+}
+
+/// As contact::OpenMembrane::fields.
+std::vector<std::vector<double>> open_fields(const MeshOperator::Parts& parts,
+                                             std::span<const Aim> goals) {
+  std::vector<Eigen::VectorXd> r;
+  for (contact::UnitForce& force : unit_forces(parts, goals)) r.push_back(std::move(force.r));
+  const std::vector<contact::Opened> opened = solve_open(parts, {}, r);
+  std::vector<contact::Displaced> displaced;
+  for (std::size_t k = 0; k < goals.size(); ++k) displaced.push_back({&goals[k].goal, opened[k].d});
+  std::vector<std::vector<double>> fields = parts.with_problem(
+      [&](const auto& problem) { return contact::fields_of(problem, displaced); });
+  for (std::size_t k = 0; k < goals.size(); ++k)
+    if (!opened[k].solved) fields[k].clear();
+  return fields;
+}
+
+}  // namespace
+
 const std::vector<double>& flux_norms(const MeshOperator::Parts& parts,
                                       const estimate::CutMesh& cut, std::span<const Aim> goals) {
   constexpr std::size_t together = 16;  // fields in memory at once
+  constexpr std::size_t few = 8;        // another factor costs more than conjugate gradients
   return parts.flux_norms.get([&] {
+    std::optional<contact::OpenMembrane> open;
+    if (parts.joined && goals.size() > few) open.emplace(parts.joined->membrane());
     std::vector<double> norms;
     for (; !goals.empty(); goals = goals.subspan(std::min(together, goals.size()))) {
       const std::span<const Aim> some = goals.first(std::min(together, goals.size()));
-      std::vector<Eigen::VectorXd> r;
-      for (contact::UnitForce& force : unit_forces(parts, some)) r.push_back(std::move(force.r));
-      std::vector<contact::Displaced> displaced;
-      const std::vector<contact::Opened> opened = solve_open(parts, {}, r);
-      for (std::size_t k = 0; k < some.size(); ++k)
-        displaced.push_back({&some[k].goal, opened[k].d});
-      const std::vector<std::vector<double>> fields = parts.with_problem(
-          [&](const auto& problem) { return contact::fields_of(problem, displaced); });
-      for (std::size_t k = 0; k < some.size(); ++k)
-        norms.push_back(opened[k].solved ? estimate::norm_of_flux(cut, fields[k])
-                                         : std::numeric_limits<double>::infinity());
+      const std::vector<std::vector<double>> fields =
+          open ? open->fields(sums(some)) : open_fields(parts, some);
+      std::ranges::copy(estimate::norms_of_fluxes(cut, fields), std::back_inserter(norms));
     }
     return norms;
   });

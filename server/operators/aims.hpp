@@ -44,7 +44,7 @@ std::vector<contact::Opened> solve_open(const MeshOperator::Parts& parts,
 
 /// |tau| of each goal's unit force, tau in equilibrium with it and nothing through contacts;
 /// infinite where contact alone holds a part, 0 of a held inclusion. Made once for the mesh: a
-/// linear solve, a field and a flux each.
+/// linear solve, a field and a flux each; of many on a joined membrane after a factor.
 const std::vector<double>& flux_norms(const MeshOperator::Parts& parts,
                                       const estimate::CutMesh& cut, std::span<const Aim> goals);
 

@@ -14,6 +14,7 @@
 #include "contact/joined_problem.hpp"
 #include "contact/linear_contact.hpp"
 #include "contact/membrane.hpp"
+#include "contact/open_membrane.hpp"
 #include "support/grid_mesh.hpp"
 
 namespace anticrack::contact {
@@ -174,6 +175,29 @@ TEST_P(LongCrack, HasTheLinearAnswersOfTheDenseProblem) {
                               v = fields_of(strip.joined(), {&displaced, 1}).front();
     EXPECT_LT(difference(VectorXd::Map(u.data(), static_cast<Index>(u.size())),
                          VectorXd::Map(v.data(), static_cast<Index>(v.size()))),
+              1e-9);
+  }
+}
+
+/// Bits of a force do not depend on how many are solved with it.
+TEST_P(LongCrack, HasTheFieldsOfUnitForcesWithEveryContactOpen) {
+  const Strip strip(GetParam().make());
+  const ddm::Skeleton& skeleton = strip.membrane().decomposition().skeleton;
+  std::vector<ddm::Terms> sums;
+  for (const ddm::RigidMotion& motion : skeleton.motions) sums.push_back(motion.displacement);
+  for (const std::size_t c : {3, 200, 500, 700, 1001})
+    sums.push_back({{skeleton.contacts[c].minus, 1}, {skeleton.contacts[c].plus, -0.5}});
+  std::vector<const ddm::Terms*> forces;
+  for (const ddm::Terms& sum : sums) forces.push_back(&sum);
+  const OpenMembrane open(strip.membrane());
+  const std::vector<std::vector<double>> fields = open.fields(forces);
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    EXPECT_EQ(open.fields({&forces[k], 1}).front(), fields[k]);
+    const VectorXd r = unit_force(strip.skeleton(), sums[k]).r;
+    const Displaced dense{&sums[k], solve_open(strip.skeleton(), {}, {&r, 1}).front().d};
+    const std::vector<double> u = fields_of(strip.skeleton(), {&dense, 1}).front();
+    EXPECT_LT(difference(VectorXd::Map(u.data(), static_cast<Index>(u.size())),
+                         VectorXd::Map(fields[k].data(), static_cast<Index>(fields[k].size()))),
               1e-9);
   }
 }

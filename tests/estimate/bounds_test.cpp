@@ -2,6 +2,7 @@
 //
 // Bounds on random membranes of all kinds: they hold for every finer mesh as for the membrane
 // itself, so the answers of a mesh two levels finer lie in them.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include "reference/random_fibres.hpp"
 #include "reference/random_laws.hpp"
 #include "reference/random_membrane.hpp"
+#include "support/grid_mesh.hpp"
 #include "support/mesh_quality.hpp"
 #include "support/silent_observer.hpp"
 #include "support/solve.hpp"
@@ -172,6 +174,23 @@ TEST(ManyInclusions, HaveBoundsThatContainTheAnswersOfAMeshTwoLevelsFiner) {
   std::printf("[ figures  ] %d membranes: %d A, %d slopes, %d without, nearest %.2f\n", many,
               tally.displacements, tally.slopes, tally.none, tally.nearest);
   EXPECT_GT(tally.displacements, 50);
+}
+
+TEST(ManyInclusions, OnVeryManyTrianglesOfALongInterfaceHaveNoneAndAWarning) {
+  testing::GridMesh grid(230, 230, {"all"}, [](int, int) { return 0; });
+  for (int j = 0; j < 14 * 14; ++j) {
+    const testing::GridMesh::Point from = {5 + 16 * (j % 14), 5 + 16 * (j / 14)};
+    grid.mesh.inclusions.push_back("fibre " + std::to_string(j));
+    grid.add({from, {from[0] + 2, from[1]}}, {2, mesh::Kind::delaminated}, j);
+  }
+  Random random{{}, std::vector<double>(grid.mesh.triangle_count())};
+  random.load.boundary_value = "x";
+  const contact::Answer answer = solve(grid.mesh, random, 1, true, 0);
+  EXPECT_TRUE(answer.energy_lower);
+  EXPECT_FALSE(answer.inclusions.front().displacement_lower);
+  EXPECT_THAT(answer.warnings, ::testing::Contains(::testing::StartsWith(
+                                   "no bounds of A: 196 inclusions on 105800 triangles, more than "
+                                   "20000000 of both multiplied")));
 }
 
 /// All bounds of an answer.

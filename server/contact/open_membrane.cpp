@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/open_membrane.hpp"
+
+#include "ddm/elimination_order.hpp"
+#include "mesh/at.hpp"
+
+namespace anticrack::contact {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// What the second solve may change, of the first: above, rounding decides.
+constexpr double most_change = 1e-6;
+
+ddm::SubdomainFactor factor(const JoinedMembrane& membrane) {
+  const Index all = membrane.size() + membrane.contacts();
+  const Eigen::SparseMatrix<double> matrix = membrane.matrix().topLeftCorner(all, all);
+  return {matrix, all, ddm::elimination_order(matrix, all, membrane.places())};
+}
+
+}  // namespace
+
+OpenMembrane::OpenMembrane(const JoinedMembrane& membrane)
+    : _membrane(membrane), _factor(factor(membrane)) {}
+
+std::vector<std::vector<double>> OpenMembrane::fields(
+    std::span<const ddm::Terms* const> sums) const {
+  MatrixXd left(_factor.interior(), static_cast<Index>(sums.size()));
+  for (Index k = 0; k < left.cols(); ++k)
+    left.col(k) = _membrane.gather(*sums[at(k)]).head(left.rows());
+  MatrixXd y(left.rows(), left.cols()), change(left.rows(), left.cols());
+  _factor.solve(left, y);
+  const auto x_of = [&](Index k) { return y.col(k).head(_membrane.size()); };
+  const auto d_of = [&](Index k) { return y.col(k).tail(_membrane.contacts()); };
+  for (Index k = 0; k < left.cols(); ++k)
+    left.col(k) -= _membrane.forces_of(x_of(k), d_of(k)).head(left.rows());
+  _factor.solve(left, change);
+  std::vector<std::vector<double>> fields(sums.size());
+  for (Index k = 0; k < left.cols(); ++k) {
+    const double size = y.col(k).lpNorm<Eigen::Infinity>();
+    if (!(change.col(k).lpNorm<Eigen::Infinity>() <= most_change * size)) continue;
+    y.col(k) += change.col(k);
+    const VectorXd x = x_of(k);
+    fields[at(k)] = _membrane.field(x, _membrane.values(x, d_of(k)));
+  }
+  return fields;
+}
+
+}  // namespace anticrack::contact
