@@ -15,7 +15,8 @@
 
 namespace anticrack::figures {
 
-/// The mesh of a result with its interfaces, of which it keeps coordinates. O(n log k), k nodes on interfaces.
+/// The mesh of a result with its interfaces, of which it keeps coordinates. O(n log k), k nodes on
+/// interfaces.
 results::MeshPlan plan_of(const results::Result& result);
 
 /// |T grad u|; the colours end at 1.5 times what 98 % of the area stay below.

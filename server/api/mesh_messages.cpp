@@ -96,10 +96,13 @@ mesh::Point center_of(const Shape& from, const char* name) {
   }
 }
 
-/// An inclusion, crack or region is given by itself, in `own`, or by a point or part of others.
-template <class Spec>
-void require_one(const Message& from, const Spec& own, const char* own_name, const char* name) {
-  if (!own || !has(from, field_of(from, name))) return;
+/// An inclusion, crack or region is given by itself, in `own`, or by a point or part of others,
+/// which is read into `place`.
+template <class Spec, class Place>
+void read_place(const Message& from, const Spec& own, const char* own_name, const char* name,
+                Place& place) {
+  if (!own) return read_field(from, name, place);
+  if (!has(from, field_of(from, name))) return;
   throw Error(Reason::invalid_argument,
               std::string(own_name) + " and " + name + " are both set; set one of them")
       .at(own_name);
@@ -172,8 +175,7 @@ void Translation<mesh::CrackSpec>::write(const mesh::CrackSpec& value, v1::Crack
 mesh::CrackSpec Translation<mesh::CrackSpec>::read(const v1::Crack& from) {
   mesh::CrackSpec value;
   read_fields(from, value, {"part"});
-  require_one(from, value.line, "line", "part");
-  if (!value.line) read_field(from, "part", value.part);
+  read_place(from, value.line, "line", "part", value.part);
   return value;
 }
 
@@ -185,8 +187,7 @@ void Translation<mesh::RegionSpec>::write(const mesh::RegionSpec& value, v1::Reg
 mesh::RegionSpec Translation<mesh::RegionSpec>::read(const v1::Region& from) {
   mesh::RegionSpec value;
   read_fields(from, value, {"at"});
-  require_one(from, value.outline, "outline", "at");
-  if (!value.outline) read_field(from, "at", value.at);
+  read_place(from, value.outline, "outline", "at", value.at);
   return value;
 }
 
@@ -206,8 +207,7 @@ void Translation<mesh::InclusionSpec>::write(const mesh::InclusionSpec& value, v
 mesh::InclusionSpec Translation<mesh::InclusionSpec>::read(const v1::Inclusion& from) {
   mesh::InclusionSpec value;
   read_fields(from, value, {"part", "delaminated", "motion", "stretches"});
-  require_one(from, value.line, "line", "part");
-  if (!value.line) read_field(from, "part", value.part);
+  read_place(from, value.line, "line", "part", value.part);
   read_fields(from, value.motion);
   if (!from.has_delaminated_parts()) {
     const bool whole = !from.has_delaminated() || from.delaminated();

@@ -68,8 +68,8 @@ class JoinedMembrane {
 
   /// S^ d. One solve, or two with a step of iterative refinement.
   Eigen::VectorXd apply(const Eigen::VectorXd& d, bool refined = false) const;
-  /// K [x d 0] in [x d p] from the forces on the nodes. The equation of an inclusion that moves sums
-  /// those of all its nodes, far larger than what is left of them.
+  /// K [x d 0] in [x d p] from the forces on the nodes. The equation of an inclusion that moves
+  /// sums those of all its nodes, far larger than what is left of them.
   Eigen::VectorXd forces_of(const Eigen::VectorXd& x, const Eigen::VectorXd& d) const;
   /// x for jumps d. Two solves: the residual is that of forces_of.
   Eigen::VectorXd solve(const Reduced& load, const Eigen::VectorXd& d) const;

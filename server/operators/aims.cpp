@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 #include "contact/open_membrane.hpp"
 #include "estimate/interval.hpp"

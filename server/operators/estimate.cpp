@@ -107,7 +107,8 @@ std::size_t estimate_bytes(const mesh::Mesh& mesh) {
     bytes += skeleton_blocks * sizeof(double) * skeleton.unknowns * skeleton.unknowns;
     bytes += contact_blocks * sizeof(double) * skeleton.contacts * skeleton.contacts;
   }
-  if (!mesh.tension_laws.empty()) bytes += bytes_per_law * static_cast<double>(mesh.triangle_count());
+  if (!mesh.tension_laws.empty())
+    bytes += bytes_per_law * static_cast<double>(mesh.triangle_count());
   return static_cast<std::size_t>(bytes);
 }
 
