@@ -17,7 +17,8 @@ void MeshOperator::require_prepared(const PreparedLoad& load, bool fields) const
     throw errors::Error(errors::Reason::internal, "a load that was prepared on another mesh");
   if (fields && !load._data->has_interior) {
     throw errors::Error(errors::Reason::internal,
-                        "a combination of loads has no fields; prepare it as a load of its own");
+                        "a combination of loads has no fields; prepare it as a load of its own, or the "
+                        "basis with bounds");
   }
 }
 
