@@ -14,6 +14,7 @@
 #include "cli/options.hpp"
 #include "cli/sweep_input.hpp"
 #include "cli/sweep_text.hpp"
+#include "cli/text.hpp"
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
 #include "client/uuid.hpp"
