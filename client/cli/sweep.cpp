@@ -139,9 +139,10 @@ void add_options(CLI::App& command, SweepOptions& options) {
                   "Rows, from 0, whose traces are kept: all, none, or for example 0,10,20-30")
       ->type_name("ROWS")
       ->capture_default_str();
-  command.add_flag("--bounds", options.files.bounds,
-                   "Bounds of the energy and of every A in each row, as a load case has them; a row "
-                   "then takes as long as one");
+  command.add_flag(
+      "--bounds", options.files.bounds,
+      "Bounds of the energy and of every A in each row, as a load case has them; a row "
+      "then takes as long as one");
   CLI::Option* output = command
                             .add_option("-o,--output,--out", options.output,
                                         "Result file, HDF5 (default: CASE.h5 in this folder)")

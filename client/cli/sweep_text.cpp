@@ -92,8 +92,8 @@ std::string bounds_text(const results::Sweep& sweep, const SweepSummary& counts,
                         const results::Units& units) {
   if (sweep.energy_lower.empty()) return "";
   if (counts.bounded == 0) return "no row has bounds\n";
-  std::string text = "bounds of " + counted(counts.bounded, "row") +
-                     ": of the energy at most " + per_cent(counts.energy_width) + " wide";
+  std::string text = "bounds of " + counted(counts.bounded, "row") + ": of the energy at most " +
+                     per_cent(counts.energy_width) + " wide";
   if (std::isfinite(counts.displacement_error))
     text += ", of A at most +- " + number(counts.displacement_error, 2) +
             (units.label("L").empty() ? "" : " " + sanitise(units.label("L")));

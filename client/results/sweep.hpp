@@ -24,14 +24,14 @@ struct Sweep {
   /// unknown: the server does not return them.
   std::vector<double> coefficients;
 
-  std::vector<Status> status;               ///< (rows) numbers of a row hold only if converged
-  std::vector<std::int32_t> steps;          ///< (rows) of the active set
-  std::vector<double> energy;               ///< (rows) Pi(u)
+  std::vector<Status> status;       ///< (rows) numbers of a row hold only if converged
+  std::vector<std::int32_t> steps;  ///< (rows) of the active set
+  std::vector<double> energy;       ///< (rows) Pi(u)
   /// (rows) of the membrane's own Pi, NaN where a row has none; empty: not asked for.
   std::vector<double> energy_lower, energy_upper;
-  std::vector<double> contact_length;       ///< (rows) over all cracks and delaminated parts
-  std::vector<double> kkt;                  ///< (rows) largest relative residual
-  std::vector<double> displacement;         ///< (rows, inclusions) row-major: A of equation (5)
+  std::vector<double> contact_length;  ///< (rows) over all cracks and delaminated parts
+  std::vector<double> kkt;             ///< (rows) largest relative residual
+  std::vector<double> displacement;    ///< (rows, inclusions) row-major: A of equation (5)
   std::vector<double> displacement_lower, displacement_upper;  ///< of it, as those of the energy
   std::vector<double> slope;                ///< (rows, inclusions, 2) Bx, By; empty: none tilts
   std::vector<std::uint8_t> contact;        ///< (rows, contacts) row-major: 1 closed under pressure

@@ -222,9 +222,9 @@ struct SweepColumns {
 
   std::size_t inclusions = 0;
   std::size_t contacts = 0;
-  std::vector<Status> status;          ///< only converged rows hold results
-  std::vector<std::int32_t> steps;     ///< of the active set
-  std::vector<double> energy;          ///< Pi(u)
+  std::vector<Status> status;       ///< only converged rows hold results
+  std::vector<std::int32_t> steps;  ///< of the active set
+  std::vector<double> energy;       ///< Pi(u)
   /// Bounds of the membrane's own, NaN where a row has none; empty: not asked for.
   std::vector<double> energy_lower, energy_upper;
   std::vector<double> contact_length;  ///< over all cracks and delaminated parts

@@ -26,7 +26,7 @@ namespace anticrack::operators {
 /// Loads of one mesh, condensed and reduced for the rows of a sweep. Does not keep the mesh.
 struct CondensedBasis {
   contact::SweepLoads reduced;
-  std::vector<LoadOnTraces> loads;          ///< without z_boundary, parts; z_interior: joined, or bounded
+  std::vector<LoadOnTraces> loads;  ///< without z_boundary, parts; z_interior: joined, or bounded
   std::vector<ddm::LoadProducts> products;  ///< per subdomain
   std::vector<BalancedLoad> balanced;       ///< of each load; empty: rows have no bounds
   std::vector<std::string> warnings;        ///< of all loads, each once

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "estimate/bracket.hpp"
@@ -25,6 +26,7 @@ struct Material {
   std::vector<double> u;
   std::vector<estimate::Lift> lifts;
   estimate::LoadBalance balance;
+  double parts_energy = 0;
 };
 
 void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
@@ -38,8 +40,15 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
   std::vector<Bounded> bounded;
   primals.reserve(materials.size());
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    const auto& [of, load, u, lifts, balance] = materials[i];
+    const auto& [of, load, u, lifts, balance, parts_energy] = materials[i];
     contact::Answer& answer = *of.answer;
+    constexpr double most_cancelled = 1e3;  // what rounding leaves of more is beyond the bracket's
+    if (parts_energy > most_cancelled * (std::abs(answer.energy) + fluxes[i].norm_squared())) {
+      answer.no_bracket =
+          "the loads that are combined cancel, and rounding is not small beside what they leave: "
+          "give their sum as a load of its own";
+      continue;
+    }
     const estimate::Bracket bracket =
         estimate::bracket(cut, fluxes[i], balance, lifts, u, answer.energy);
     answer.energy_lower = bracket.lower;
@@ -92,14 +101,15 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
       if (recovered) recover_fields({&one.load, 1}, {&one.answer, 1});
       Material material{one, load, of_copies(answer.fields), {}, {}};
       if (recovered) answer.fields.clear();
-      BalancedLoad of_load = data.balanced ? *data.balanced
-                                           : balanced(load.parts, _parts->decomposition.subdomains,
-                                                      cut, one.stop);
+      BalancedLoad of_load =
+          data.balanced ? *data.balanced
+                        : balanced(load.parts, _parts->decomposition.subdomains, cut, one.stop);
       if (!of_load.boundary.empty())
         material.lifts = estimate::lifts(cut, of_load.boundary, material.u);
       answer.no_bracket = obstacle_of(material.lifts);
       if (!answer.no_bracket.empty()) continue;
       material.balance = std::move(of_load.balance);
+      material.parts_energy = data.parts_energy;
       materials.push_back(std::move(material));
     } catch (...) {
       one.failure = std::current_exception();

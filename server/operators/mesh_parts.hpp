@@ -62,6 +62,7 @@ struct PreparedLoad::Data {
   LoadOnTraces condensed;
   bool has_interior = true;  ///< not so of a combination without bounds: it has no fields
   std::optional<BalancedLoad> balanced{};  ///< of a combination with bounds, instead of parts
+  double parts_energy = 0;  ///< of a combination: sum |c_j c_k| |Pi_jk|, contacts closed
 
   contact::CaseLoads loads() const { return {condensed.subdomains, condensed.inclusion_forces}; }
   /// Numbers of the load that every answer to it repeats.

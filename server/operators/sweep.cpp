@@ -27,8 +27,7 @@ void require_memory(std::size_t loads, const ddm::Decomposition& decomposition, 
     throw errors::Error(
         errors::Reason::limit_exceeded,
         std::to_string(loads) + " loads on " + std::to_string(nodes) + " nodes are more than " +
-            std::to_string(max_basis_bytes >> 20U) +
-            " MiB" + (bounds ? " with bounds" : "") +
+            std::to_string(max_basis_bytes >> 20U) + " MiB" + (bounds ? " with bounds" : "") +
             ": combine fewer loads, or take a coarser mesh (larger size or tip_size)");
   }
 }
@@ -180,6 +179,9 @@ PreparedLoad MeshOperator::combine(const LoadBasis& basis,
   if (data->has_interior) {
     data->balanced = operators::combine(condensed.balanced, coefficients);
     data->condensed.parts.obstacle = data->balanced->obstacle;
+    Eigen::VectorXd sizes = Eigen::VectorXd::Ones(condensed.reduced.energy.cols());
+    sizes.head(c.size()) = c.cwiseAbs();
+    data->parts_energy = sizes.dot(condensed.reduced.energy.cwiseAbs() * sizes);
   }
   data->condensed.warnings = condensed.warnings;
   for (std::size_t s = 0; s < condensed.products.size(); ++s) {

@@ -153,8 +153,8 @@ TEST(EngineSweep, HasTheBoundsOfLoadCasesWhereItIsAskedForThem) {
 
 TEST(EngineSweep, SaysWhyARowHasNoBounds) {
   Engine test;
-  store::JobSpec spec = combinations(
-      test.ready_mesh(mesh_size), upload(test.backend, {1, 0, 0, 1, 0, 0.5, 0, 1, 0, 0, 0, 1}));
+  store::JobSpec spec = combinations(test.ready_mesh(mesh_size),
+                                     upload(test.backend, {1, 0, 0, 1, 0, 0.5, 0, 1, 0, 0, 0, 1}));
   spec.loads[2].force = 0.0;
   spec.loads[2].point_forces = {{0.3, 0.4, 1}};
   spec.sweep->bounds = true;
@@ -209,8 +209,7 @@ TEST(EngineSweep, TakesNodalForces) {
   const std::vector<store::CaseRecord> cases = test.ended(plain).cases;
   ASSERT_EQ(test.ended(bounded).state, JobState::succeeded);
   std::vector<double> lower;
-  for (const store::CaseRecord& record : cases)
-    lower.push_back(record.answer.energy_lower.value());
+  for (const store::CaseRecord& record : cases) lower.push_back(record.answer.energy_lower.value());
   expect_near(*array<double>(*test.engine.result(bounded), "sweep/energy_lower"), lower);
 }
 

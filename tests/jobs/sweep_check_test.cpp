@@ -56,9 +56,7 @@ TEST_F(SweepCheck, BoundsTheBasis) {
 TEST_F(SweepCheck, IsForTheActiveSetWithoutFields) {
   EXPECT_TRUE(refuses([](JobSpec& bad) { bad.solver = contact::UzawaOptions(); }, "solver.uzawa"));
   EXPECT_TRUE(refuses([](JobSpec& bad) { bad.fields = true; }, "outputs"));
-  const auto with_and_without = [](JobSpec& bad) {
-    bad.sweep->bounds = bad.without_bounds = true;
-  };
+  const auto with_and_without = [](JobSpec& bad) { bad.sweep->bounds = bad.without_bounds = true; };
   EXPECT_TRUE(refuses(with_and_without, "sweep.bounds"));
 }
 

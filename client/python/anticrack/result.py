@@ -192,8 +192,8 @@ class Sweep:
         if self.coefficients is not None:
             columns.update((name, self.coefficients[:, i]) for i, name in enumerate(self.loads))
         columns["status"] = [_status(code) for code in self.status]
-        bounded = self.energy_lower is not None
-        for name in ("steps", "energy", *(["energy_lower", "energy_upper"] if bounded else []), "contact_length", "kkt"):
+        bounds = ("energy_lower", "energy_upper") if self.energy_lower is not None else ()
+        for name in ("steps", "energy", *bounds, "contact_length", "kkt"):
             columns[name] = getattr(self, name)
         for i, name in enumerate(self.inclusions):
             columns[f"A of {name}"] = self.displacement[:, i]
