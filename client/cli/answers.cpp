@@ -170,8 +170,9 @@ std::vector<std::string> row_of(const results::Load& load, const Told& inclusion
       sanitise(load.name), std::string(word(load.status)), std::to_string(load.iterations),
       when_answered(by_uzawa ? load.criterion : load.kkt_relative.largest(), 2, true)};
   inclusions.add(load, row);
-  row.push_back(is_bounded(load) ? results::interval(load.energy_lower, load.energy_upper)
-                                 : when_answered(load.energy));
+  row.push_back(answered && std::isfinite(load.energy_lower)
+                    ? results::interval(load.energy_lower, load.energy_upper)
+                    : when_answered(load.energy));
   if (bounded)
     row.push_back(
         when_answered(100 * load.error_bound_relative, load.error_bound_relative < 1 ? 2 : 3));

@@ -14,6 +14,7 @@
 #include "cli/options.hpp"
 #include "cli/sweep_input.hpp"
 #include "cli/sweep_text.hpp"
+#include "cli/text.hpp"
 #include "client/jobs.hpp"
 #include "client/meshes.hpp"
 #include "client/uuid.hpp"
@@ -94,6 +95,8 @@ int follow_sweep(Session& session, const Targets& targets, const casefile::Case&
   if (!input.nodal) result->sweep->coefficients = std::move(input.values);
   save(targets.result, *result, session, followed);
   save_csv(targets.csv, *result->sweep, globals);
+  for (const std::string& warning : followed.job.sweep_answer().warnings())
+    say(globals, "warning: " + sanitise(warning));
   print_answers(globals, followed.job, *result, targets.result);
   return job_code;
 }
@@ -136,6 +139,10 @@ void add_options(CLI::App& command, SweepOptions& options) {
                   "Rows, from 0, whose traces are kept: all, none, or for example 0,10,20-30")
       ->type_name("ROWS")
       ->capture_default_str();
+  command.add_flag(
+      "--bounds", options.files.bounds,
+      "Bounds of the energy and of every A in each row, as a load case has them; a row "
+      "then takes as long as one");
   CLI::Option* output = command
                             .add_option("-o,--output,--out", options.output,
                                         "Result file, HDF5 (default: CASE.h5 in this folder)")
@@ -159,7 +166,8 @@ void add_sweep(CLI::App& app, const Globals& globals, Command& chosen) {
   command->footer(
       "Row k of the file is the load case c_k1 load_1 + c_k2 load_2 + ..., solved by the active\n"
       "set. The answers are columns: A, energy, contact length, steps, status and contact of\n"
-      "every row, and traces of the rows you name. Ctrl-C detaches, as in run.\n\n"
+      "every row, with --bounds also bounds of A and the energy, and traces of the rows you name.\n"
+      "Ctrl-C detaches, as in run.\n\n"
       "Example:\n  anticrack sweep load-ratio.toml --coefficients load-ratio.csv\n"
       "  anticrack sweep plate.toml --coefficients runs.h5:/c --traces 0,100-110 --csv runs.csv");
   on(*command, options, globals, chosen, sweep);

@@ -153,6 +153,7 @@ SweepInput read_sweep_input(const SweepFiles& files, const casefile::Case& the_c
   input.nodal = !files.nodal.empty();
   input.source = input.nodal ? files.nodal : files.coefficients;
   input.traces = files.traces;
+  input.bounds = files.bounds;
   if (input.nodal)
     read_nodal(files, input);
   else
@@ -166,6 +167,7 @@ void make_sweep(const SweepInput& input, const v1::ServerLimits& limits, casefil
   const std::vector<std::uint32_t> traces = select_rows(input.traces, input.rows, most);
   v1::Job& job = the_case.job;
   job.mutable_sweep()->mutable_traces()->Add(traces.begin(), traces.end());
+  job.mutable_sweep()->set_bounds(input.bounds);
   matrix_of(input, job);
   // Rows have no fields; a case for `run` often asks for them.
   job.clear_outputs();

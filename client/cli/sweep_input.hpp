@@ -19,12 +19,14 @@ struct SweepFiles {
   std::string coefficients;  ///< FILE.csv or FILE.h5:/PATH, without a path /coefficients
   std::string nodal;         ///< FILE.h5:/PATH
   std::string traces = "none";
+  bool bounds = false;
 };
 
 struct SweepInput {
   bool nodal = false;          ///< rows of f on the nodes; else of coefficients of the loads
   std::string source;          ///< where they are from
   std::string traces;          ///< rows whose traces to keep, not looked at yet
+  bool bounds = false;         ///< asked for
   std::vector<double> values;  ///< (rows, columns) row-major
   std::size_t rows = 0;
   std::size_t columns = 0;

@@ -2,6 +2,7 @@
 #include "cli/sweep_text.hpp"
 
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -86,15 +87,32 @@ Json range_json(const SweepSummary::Range& range) {
   return {{"min", range.low}, {"max", range.high}};
 }
 
+/// "bounds of 9 rows: of the energy at most 0.89 % wide, of A at most +- 0.0056".
+std::string bounds_text(const results::Sweep& sweep, const SweepSummary& counts,
+                        const results::Units& units) {
+  if (sweep.energy_lower.empty()) return "";
+  if (counts.bounded == 0) return "no row has bounds\n";
+  std::string text = "bounds of " + counted(counts.bounded, "row") + ": of the energy at most " +
+                     per_cent(counts.energy_width) + " wide";
+  if (std::isfinite(counts.displacement_error))
+    text += ", of A at most +- " + number(counts.displacement_error, 2) +
+            (units.label("L").empty() ? "" : " " + sanitise(units.label("L")));
+  return text + "\n";
+}
+
 std::string csv_head(const results::Sweep& sweep, std::size_t loads) {
   std::string head = "row";
   for (std::size_t i = 0; i < loads; ++i) head += "," + csv_field(sweep.loads[i]);
   for (std::size_t i = 0; i < sweep.inclusions.size(); ++i) {
     head += "," + csv_field(name_of("A", sweep, i));
+    if (!sweep.energy_lower.empty())
+      for (const char* part : {"A_lower", "A_upper"})
+        head += "," + csv_field(name_of(part, sweep, i));
     for (const char* part : slope_parts)
       if (!sweep.slope.empty()) head += "," + csv_field(name_of(part, sweep, i));
   }
-  return head + ",energy,contact_length,steps,status\n";
+  return head + (sweep.energy_lower.empty() ? ",energy" : ",energy,energy_lower,energy_upper") +
+         ",contact_length,steps,status\n";
 }
 
 }  // namespace
@@ -118,6 +136,7 @@ std::string sweep_table(const results::Sweep& sweep, const results::Units& units
     if (sweep.inclusions.size() > few_inclusions)
       text += "all inclusions: anticrack show RESULT --inclusions, or --csv FILE\n";
   }
+  text += bounds_text(sweep, counts, units);
   if (!sweep.kept.empty()) text += "traces of " + counted(sweep.kept.size(), "row") + "\n";
   if (!sweep.error.empty()) text += sanitise(sweep.error) + "\n";
   return text;
@@ -151,7 +170,10 @@ Json sweep_json(const results::Sweep& sweep) {
           {"loads", sweep.loads},
           {"inclusions", std::move(inclusions)},
           {"contact_length", range_json(counts.contact_length)},
-          {"energy", range_json(counts.energy)}};
+          {"energy", range_json(counts.energy)},
+          {"bounded", counts.bounded},
+          {"energy_width", counts.energy_width},
+          {"displacement_error", counts.displacement_error}};
 }
 
 std::string sweep_csv(const results::Sweep& sweep) {
@@ -163,7 +185,13 @@ std::string sweep_csv(const results::Sweep& sweep) {
     const bool right = status == results::Status::converged;
     const auto add = [&text, right](double value) {
       text += ',';
-      if (right) text += exact(value);
+      if (right && std::isfinite(value)) text += exact(value);
+    };
+    const auto add_bounds = [&](const std::vector<double>& lower, const std::vector<double>& upper,
+                                std::size_t place) {
+      if (lower.empty()) return;
+      add(lower[place]);
+      add(upper[place]);
     };
     text += std::to_string(row);
     for (std::size_t i = 0; i < loads; ++i) {
@@ -172,10 +200,12 @@ std::string sweep_csv(const results::Sweep& sweep) {
     }
     for (std::size_t i = 0; i < inclusions; ++i) {
       add(sweep.displacement[row * inclusions + i]);
+      add_bounds(sweep.displacement_lower, sweep.displacement_upper, row * inclusions + i);
       for (std::size_t part = 0; part < slope_parts.size() && !sweep.slope.empty(); ++part)
         add(sweep.slope_at(row, i, part));
     }
     add(sweep.energy[row]);
+    add_bounds(sweep.energy_lower, sweep.energy_upper, row);
     add(sweep.contact_length[row]);
     text += "," + std::to_string(sweep.steps[row]) + ",";
     text += results::name(status);

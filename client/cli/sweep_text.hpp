@@ -10,8 +10,8 @@
 
 namespace anticrack::cli {
 
-/// How many rows ended how, the span of A, contact length and energy, and what went wrong. Of many
-/// inclusions one span, and whose its ends are.
+/// How many rows ended how, the span of A, contact length and energy, and what went wrong; how wide
+/// the bounds are. Of many inclusions one span, and whose its ends are.
 std::string sweep_table(const results::Sweep& sweep, const results::Units& units);
 
 /// The span of A of every inclusion, and of B of those that tilt.
@@ -20,8 +20,8 @@ std::string sweep_inclusions(const results::Sweep& sweep, const results::Units& 
 Json sweep_json(const results::Sweep& sweep);  ///< the same
 
 /// A line per row: row, coefficients by the names of their loads, A per inclusion, energy,
-/// contact_length, steps, status. Numbers to full precision; those of a row that did not converge
-/// are left out. O(size of the sweep).
+/// contact_length, steps, status; bounds beside what they are of. Numbers to full precision; those
+/// of a row that did not converge are left out. O(size of the sweep).
 std::string sweep_csv(const results::Sweep& sweep);
 
 }  // namespace anticrack::cli

@@ -64,6 +64,13 @@ Load load_of(const Sweep& sweep, std::size_t row, std::vector<Trace> traces,
     load.inclusions.push_back({sweep.inclusions[i], sweep.displacement[row * inclusions + i],
                                unknown, unknown, sweep.slope_at(row, i, 0),
                                sweep.slope_at(row, i, 1), unknown, unknown});
+    if (sweep.energy_lower.empty()) continue;
+    load.inclusions[i].displacement_lower = sweep.displacement_lower[row * inclusions + i];
+    load.inclusions[i].displacement_upper = sweep.displacement_upper[row * inclusions + i];
+  }
+  if (!sweep.energy_lower.empty()) {
+    load.energy_lower = sweep.energy_lower[row];
+    load.energy_upper = sweep.energy_upper[row];
   }
   for (std::size_t i = 0; i < traces.size(); ++i)
     add_contact_intervals(interfaces[i], i, traces[i], load.contact_intervals);

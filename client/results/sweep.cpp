@@ -15,6 +15,19 @@ void widen(SweepSummary::Range& range, double value) {
   range.high = std::fmax(range.high, value);
 }
 
+void add_bounds(const Sweep& sweep, std::size_t row, SweepSummary& result) {
+  if (sweep.energy_lower.empty() || !std::isfinite(sweep.energy_lower[row])) return;
+  ++result.bounded;
+  const double width = sweep.energy_upper[row] - sweep.energy_lower[row];
+  result.energy_width =
+      std::fmax(result.energy_width, width > 0 ? width / std::abs(sweep.energy[row]) : 0);
+  const std::size_t inclusions = sweep.inclusions.size();
+  for (std::size_t i = row * inclusions; i < (row + 1) * inclusions; ++i)
+    result.displacement_error =
+        std::fmax(result.displacement_error,
+                  0.5 * (sweep.displacement_upper[i] - sweep.displacement_lower[i]));
+}
+
 std::string length_fault(const Sweep& sweep) {
   std::string fault;
   arrays::for_each(
@@ -45,6 +58,15 @@ bool is_node(std::int32_t interface, std::int32_t node,
   return interface >= 0 && static_cast<std::size_t>(interface) < interface_nodes.size() &&
          node >= 0 &&
          static_cast<std::size_t>(node) < interface_nodes[static_cast<std::size_t>(interface)];
+}
+
+/// All bounds or none.
+std::string bounds_fault(const Sweep& sweep) {
+  const std::size_t rows = sweep.energy_lower.size(), inclusions = sweep.inclusions.size();
+  const bool whole = sweep.energy_upper.size() == rows &&
+                     sweep.displacement_lower.size() == rows * inclusions &&
+                     sweep.displacement_upper.size() == rows * inclusions;
+  return whole ? "" : "sweep has some of its bounds without the others";
 }
 
 std::string range_fault(const Sweep& sweep, const std::vector<std::size_t>& interface_nodes) {
@@ -100,6 +122,7 @@ SweepSummary summary(const Sweep& sweep) {
     result.most_steps = std::max(result.most_steps, sweep.steps[row]);
     result.worst_kkt = std::fmax(result.worst_kkt, sweep.kkt[row]);
     widen(result.energy, sweep.energy[row]);
+    add_bounds(sweep, row, result);
     widen(result.contact_length, sweep.contact_length[row]);
     for (std::size_t i = 0; i < inclusions; ++i) {
       widen(result.displacement[i], sweep.displacement[row * inclusions + i]);
@@ -114,7 +137,8 @@ SweepSummary summary(const Sweep& sweep) {
 std::string row_name(std::int64_t row) { return "row-" + std::to_string(row); }
 
 std::string first_fault(const Sweep& sweep, const std::vector<std::size_t>& interface_nodes) {
-  const std::string fault = length_fault(sweep);
+  std::string fault = length_fault(sweep);
+  if (fault.empty()) fault = bounds_fault(sweep);
   return fault.empty() ? range_fault(sweep, interface_nodes) : fault;
 }
 

@@ -24,12 +24,15 @@ struct Sweep {
   /// unknown: the server does not return them.
   std::vector<double> coefficients;
 
-  std::vector<Status> status;               ///< (rows) numbers of a row hold only if converged
-  std::vector<std::int32_t> steps;          ///< (rows) of the active set
-  std::vector<double> energy;               ///< (rows) Pi(u)
-  std::vector<double> contact_length;       ///< (rows) over all cracks and delaminated parts
-  std::vector<double> kkt;                  ///< (rows) largest relative residual
-  std::vector<double> displacement;         ///< (rows, inclusions) row-major: A of equation (5)
+  std::vector<Status> status;       ///< (rows) numbers of a row hold only if converged
+  std::vector<std::int32_t> steps;  ///< (rows) of the active set
+  std::vector<double> energy;       ///< (rows) Pi(u)
+  /// (rows) of the membrane's own Pi, NaN where a row has none; empty: not asked for.
+  std::vector<double> energy_lower, energy_upper;
+  std::vector<double> contact_length;  ///< (rows) over all cracks and delaminated parts
+  std::vector<double> kkt;             ///< (rows) largest relative residual
+  std::vector<double> displacement;    ///< (rows, inclusions) row-major: A of equation (5)
+  std::vector<double> displacement_lower, displacement_upper;  ///< of it, as those of the energy
   std::vector<double> slope;                ///< (rows, inclusions, 2) Bx, By; empty: none tilts
   std::vector<std::uint8_t> contact;        ///< (rows, contacts) row-major: 1 closed under pressure
   std::vector<std::int32_t> contact_nodes;  ///< (contacts, 2): interface, and node of it
@@ -66,6 +69,11 @@ struct SweepSummary {
   std::vector<Range> displacement;          ///< one an inclusion
   std::vector<std::array<Range, 2>> slope;  ///< of Bx and By, one an inclusion
   Range contact_length, energy;
+  std::size_t bounded = 0;  ///< converged rows whose energy has bounds
+  /// Of these: the largest width of the bounds over the energy's size, and half the largest width
+  /// of the bounds of A, of all inclusions; NaN: there are none.
+  double energy_width = std::numeric_limits<double>::quiet_NaN();
+  double displacement_error = std::numeric_limits<double>::quiet_NaN();
 
   /// Whether the inclusion has a slope in a row that converged.
   bool tilted(std::size_t inclusion) const noexcept {

@@ -69,6 +69,9 @@ inline constexpr auto sweep_rows = std::tuple{
         "where it converged"),
     explained("steps", "rows", &Columns::steps, "steps of the active set"),
     explained("energy", "rows", &Columns::energy, "Pi(u)", "F L"),
+    optional(array("energy_lower", "rows", &Columns::energy_lower, "", "F L")),
+    optional(array("energy_upper", "rows", &Columns::energy_upper,
+                   "if asked for: the membrane's own Pi lies between them", "F L")),
     explained("contact_length", "rows", &Columns::contact_length,
               "length in contact, of all cracks and delaminated inclusions", "L"),
     explained("kkt", "rows", &Columns::kkt,
@@ -83,11 +86,14 @@ inline constexpr auto sweep_contacts = std::tuple{
 };
 
 /// Below sweep_folder: a row for each row of the sweep. No array where it would have no column, and
-/// no slope where no inclusion tilts.
+/// no slope where no inclusion tilts, and bounds only where they are asked for.
 template <class Columns>
 inline constexpr auto sweep_matrices = std::tuple{
     explained("displacement", "rows,inclusions", &Columns::displacement,
               "A of each inclusion, in the order of the attribute inclusions", "L"),
+    optional(array("displacement_lower", "rows,inclusions", &Columns::displacement_lower, "", "L")),
+    optional(array("displacement_upper", "rows,inclusions", &Columns::displacement_upper,
+                   "if asked for: the membrane's own A lies between them", "L")),
     optional(explained("slope", "rows,inclusions,2", &Columns::slope,
                        "Bx, By of each inclusion; none where no inclusion tilts")),
     explained("contact", "rows,contacts", &Columns::contact,

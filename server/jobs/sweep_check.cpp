@@ -19,6 +19,7 @@ using store::SweepSpec;
 
 constexpr std::uint64_t combinations_a_case = 256;
 constexpr std::uint64_t forces_a_case = (1U << 20U) / sizeof(double);
+constexpr std::uint64_t bounded_cost = 32;  // of a row with bounds, in rows without
 
 std::uint64_t parts(std::uint64_t whole, std::uint64_t part) {
   return std::max<std::uint64_t>(1, (whole + part - 1) / part);
@@ -94,6 +95,11 @@ void check_sweep(const store::JobSpec& spec, const EngineOptions& options) {
                 "cases of a job")
         .at("outputs");
   }
+  if (sweep.bounds && spec.without_bounds) {
+    throw Error(Reason::invalid_argument,
+                "the job asks for bounds of the rows and for no bounds: leave one of them out")
+        .at("sweep.bounds");
+  }
   check_traces(sweep, static_cast<std::size_t>(options.max_load_cases));
 }
 
@@ -144,8 +150,9 @@ std::uint64_t queued_cases(const store::JobSpec& spec, const store::Store& store
   if (!spec.sweep) return spec.loads.size();
   try {
     const std::uint64_t values = find_matrix(*spec.sweep, store, owner).values;
-    return combines(*spec.sweep) ? parts(values, combinations_a_case * spec.loads.size())
-                                 : parts(values, forces_a_case);
+    const std::uint64_t cost = spec.sweep->bounds ? bounded_cost : 1;
+    return combines(*spec.sweep) ? parts(values, combinations_a_case / cost * spec.loads.size())
+                                 : parts(values, forces_a_case / cost);
   } catch (const Error&) {
     return 1;  // it will fail when it starts
   }

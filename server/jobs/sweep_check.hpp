@@ -15,8 +15,8 @@ namespace anticrack::jobs {
 const char* matrix_field(const store::SweepSpec& sweep);
 
 /// The part of `check` that is about the sweep, which the job has: throws errors::Error
-/// (invalid_argument, limit_exceeded) at "load_cases", "solver.uzawa", "outputs", "sweep.traces" or
-/// "sweep.traces[i]". Says nothing of the matrix.
+/// (invalid_argument, limit_exceeded) at "load_cases", "solver.uzawa", "outputs", "sweep.bounds",
+/// "sweep.traces" or "sweep.traces[i]". Says nothing of the matrix.
 void check_sweep(const store::JobSpec& spec, const EngineOptions& options);
 
 /// The upload that holds a sweep's matrix.
@@ -37,7 +37,7 @@ std::uint64_t rows_of(const store::SweepSpec& sweep, std::uint64_t values, std::
                       std::uint64_t max_rows);
 
 /// What a job counts in the queue (jobs/admission.hpp), in load cases. Rows of a sweep are cheaper:
-/// 256 combinations, or a megabyte of nodal forces, are as one.
+/// 256 combinations, or a megabyte of nodal forces, are as one; with bounds a 32nd of that.
 std::uint64_t queued_cases(const store::JobSpec& spec, const store::Store& store,
                            const std::string& owner);
 

@@ -35,6 +35,10 @@ class StopOnly final : public contact::Observer {
   const std::stop_token _stop;
 };
 
+void add_new(const std::string& warning, std::vector<std::string>& warnings) {
+  if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
+}
+
 /// Rows [first, first + count) of a job's matrix.
 class ChunkRows {
  public:
@@ -52,7 +56,7 @@ class ChunkRows {
     const std::vector<double> values = read(_first, _count);
     const operators::LoadBasis& basis = *_job.sweep->basis;
     require_complete(mesh_operator().sweep(basis, values, options(), *_columns, _start, _stop));
-    return spool([&](std::size_t row) {
+    return finish([&](std::size_t row) {
       const auto coefficients = std::span(values).subspan(row * _plan.columns);
       return mesh_operator().combine(basis, coefficients.first(_plan.columns));
     });
@@ -61,8 +65,11 @@ class ChunkRows {
   SweepChunk nodal_forces() {
     std::vector<operators::PreparedLoad> loads = prepare();
     require_complete(mesh_operator().sweep(loads, options(), *_columns, _start, _stop));
-    return spool([&](std::size_t row) { return std::move(loads[row]); });
+    return finish([&](std::size_t row) { return loads[row]; });
   }
+
+  /// Why rows have no bounds, and what else is said of them.
+  const std::vector<std::string>& warnings() const noexcept { return _warnings; }
 
  private:
   const operators::MeshOperator& mesh_operator() const { return *_job.mesh_operator; }
@@ -114,18 +121,54 @@ class ChunkRows {
     return prepared;
   }
 
-  /// The columns, and the traces of the rows that keep them; `load(i)`: the load of row _first + i.
+  /// `load(i)`: the load of row _first + i.
+  template <class Load>
+  SweepChunk finish(const Load& load) {
+    if (_job.spec->sweep->bounds) add_bounds(load);
+    return spool(load);
+  }
+
+  contact::Answer solve(const operators::PreparedLoad& load) const {
+    StopOnly observer(_stop);
+    contact::Answer answer = mesh_operator().solve(load, options(), false, observer);
+    require_complete(answer.status != contact::Status::cancelled);
+    return answer;
+  }
+
+  /// Of the rows that converged, as of load cases: a chunk is what is estimated together.
+  template <class Load>
+  void add_bounds(const Load& load) {
+    std::vector<std::size_t> rows;
+    std::vector<operators::PreparedLoad> loads;
+    std::vector<contact::Answer> answers;
+    for (std::size_t i = 0; i < _count; ++i) {
+      if (_columns->status[i] != contact::Status::converged) continue;
+      rows.push_back(i);
+      loads.push_back(load(i));
+      answers.push_back(solve(loads.back()));
+    }
+    std::vector<operators::MeshOperator::Estimate> estimates;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      estimates.push_back({&loads[k], &answers[k], _stop});
+    mesh_operator().estimate(estimates);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (estimates[k].failure) std::rethrow_exception(estimates[k].failure);
+      _columns->take_bounds(rows[k], answers[k]);
+      if (!answers[k].no_bracket.empty())
+        add_new("rows without bounds: " + answers[k].no_bracket, _warnings);
+      for (const std::string& warning : answers[k].warnings) add_new(warning, _warnings);
+    }
+  }
+
+  /// The columns, and the traces of the rows that keep them.
   template <class Load>
   SweepChunk spool(const Load& load) const {
     const std::vector<std::uint32_t>& rows = _job.spec->sweep->traces;
     store::BlockBuilder traces;
-    StopOnly observer(_stop);
     auto row = std::lower_bound(rows.begin(), rows.end(), _first);
     for (; row != rows.end() && *row < _first + _count; ++row) {
-      const operators::PreparedLoad prepared = load(static_cast<std::size_t>(*row - _first));
-      const contact::Answer answer = mesh_operator().solve(prepared, options(), false, observer);
-      require_complete(answer.status != contact::Status::cancelled);
-      add_traces(traces, arrays::row_traces(*row), answer.traces);
+      add_traces(traces, arrays::row_traces(*row),
+                 solve(load(static_cast<std::size_t>(*row - _first))).traces);
     }
     return {_job.spool->append(chunk_arrays(*_columns).bytes), spooled(*_job.spool, traces.take())};
   }
@@ -137,6 +180,7 @@ class ChunkRows {
   const std::stop_token _stop;
   std::shared_ptr<SweepColumns> _columns;
   std::vector<char> _start;  ///< empty: every chunk begins with all contacts closed
+  std::vector<std::string> _warnings;
 };
 
 store::SweepRecord record_of(const SweepColumns& columns) {
@@ -175,7 +219,7 @@ std::shared_ptr<const operators::LoadBasis> condense_basis(
     }
     pointers.push_back(&loads.back());
   }
-  return mesh_operator.basis(pointers, job.stop.get_token());
+  return mesh_operator.basis(pointers, job.stop.get_token(), job.spec->sweep->bounds);
 }
 
 EndedChunk solve_chunk(const Task& task, std::atomic<std::uint64_t>& iterations) {
@@ -186,6 +230,7 @@ EndedChunk solve_chunk(const Task& task, std::atomic<std::uint64_t>& iterations)
     ended.columns = rows.columns();
     const SweepColumns& columns = *ended.columns;
     ended.record = record_of(columns);
+    ended.record.warnings = rows.warnings();
     const auto elapsed = std::chrono::steady_clock::now() - task.taken;
     ended.record.solve_time = elapsed;
     iterations.fetch_add(steps_of(columns), std::memory_order_relaxed);
@@ -203,6 +248,7 @@ void add(store::SweepRecord& sum, const store::SweepRecord& rows) {
   sum.most_steps = std::max(sum.most_steps, rows.most_steps);
   sum.worst_kkt = std::max(sum.worst_kkt, rows.worst_kkt);
   sum.solve_time += rows.solve_time;
+  for (const std::string& warning : rows.warnings) add_new(warning, sum.warnings);
 }
 
 }  // namespace anticrack::jobs

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "jobs/sweep_plan.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "errors/errors.hpp"
@@ -30,19 +31,21 @@ std::size_t motions(const mesh::Mesh& mesh) {
 
 /// Of the arrays of sweep_result.hpp.
 std::uint64_t result_bytes(const operators::MeshOperator& mesh_operator, std::uint64_t rows,
-                           std::uint64_t traces) {
+                           std::uint64_t traces, bool bounds) {
   constexpr std::uint64_t a_row = 2 * sizeof(std::int32_t) + 3 * sizeof(double);
   constexpr std::uint64_t a_node = 3 * sizeof(double) + sizeof(std::int32_t);
   constexpr std::uint64_t a_trace_node = 4 * sizeof(double) + sizeof(std::int32_t);
   constexpr std::uint64_t alignment = 8;
   const std::uint64_t contacts = mesh_operator.contact_nodes().size();
   const std::uint64_t interfaces = mesh_operator.trace_geometry().size();
+  const std::uint64_t bounded =
+      bounds ? 2 * sizeof(double) * (1 + mesh_operator.mesh().inclusions.size()) : 0;
   std::uint64_t nodes = 0;
   for (const contact::TraceGeometry& interface : mesh_operator.trace_geometry())
     nodes += interface.s.size();
-  return rows * (a_row + sizeof(double) * motions(mesh_operator.mesh()) + contacts) +
+  return rows * (a_row + sizeof(double) * motions(mesh_operator.mesh()) + bounded + contacts) +
          contacts * 2 * sizeof(std::int32_t) + nodes * (a_node + traces * a_trace_node) +
-         alignment * (9 + interfaces * (4 + 5 * traces));
+         alignment * (bounds ? 13 : 9) + alignment * (interfaces * (4 + 5 * traces));
 }
 
 }  // namespace
@@ -68,7 +71,8 @@ SweepPlan plan_sweep(const store::JobSpec& spec, MatrixFile matrix,
   plan.matrix = std::move(matrix.path);
   plan.chunk_rows = chunk_rows(sweep.cases, nodes, mesh_operator.contact_nodes().size(),
                                motions(mesh_operator.mesh()));
-  plan.result_bytes = result_bytes(mesh_operator, plan.rows, sweep.traces.size());
+  if (sweep.bounds) plan.chunk_rows = std::min(plan.chunk_rows, mesh_operator.estimated_together());
+  plan.result_bytes = result_bytes(mesh_operator, plan.rows, sweep.traces.size(), sweep.bounds);
   if (plan.result_bytes > options.max_result_bytes) {
     throw Error(Reason::limit_exceeded, "the answers to " + std::to_string(plan.rows) +
                                             " rows take " + std::to_string(plan.result_bytes) +

@@ -68,15 +68,16 @@ Contacts contacts_of(const std::vector<std::array<std::int32_t, 2>>& nodes) {
 SweepColumns unsolved_rows(const LiveJob& job, std::size_t rows) {
   const mesh::Mesh& mesh = job.mesh_operator->mesh();
   return {rows, mesh.inclusions.size(), job.mesh_operator->contact_nodes().size(),
-          contact::tilts(mesh)};
+          contact::tilts(mesh), job.spec->sweep->bounds};
 }
 
 store::Block chunk_arrays(const SweepColumns& columns) {
   BlockBuilder builder;
   arrays::for_each(
       [&](const auto& row) {
-        builder.add(arrays::sweep_folder() + std::string(row.name),
-                    std::invoke(row.member, columns));
+        const auto& values = std::invoke(row.member, columns);
+        if (row.optional && values.empty()) return;
+        builder.add(arrays::sweep_folder() + std::string(row.name), values);
       },
       arrays::sweep_rows<SweepColumns>);
   arrays::for_each(

@@ -33,8 +33,8 @@ void append(std::string& key, const std::string& text) {
 
 }  // namespace
 
-std::optional<std::string> key_of(std::span<const fem::Load* const> loads) {
-  std::string key;
+std::optional<std::string> key_of(std::span<const fem::Load* const> loads, bool bounds) {
+  std::string key(1, bounds ? 'b' : '-');
   for (const fem::Load* load : loads) {
     const auto* array = std::get_if<fem::Array>(&load->force);
     if (array != nullptr && array->upload.empty()) return std::nullopt;
@@ -60,9 +60,10 @@ std::size_t CondensedBasis::bytes() const noexcept {
       bytes += sizeof(part) + bytes_of(part.g) + bytes_of(part.z_interior) +
                bytes_of(part.g_boundary) + bytes_of(part.dirichlet) +
                bytes_of(part.dirichlet_force) + bytes_of(part.on_dirichlet) +
-               bytes_of(part.z_interior) + bytes_of(part.z_boundary);
+               bytes_of(part.z_boundary);
     }
   }
+  for (const BalancedLoad& load : balanced) bytes += sizeof(load) + load.bytes();
   for (const ddm::LoadProducts& product : products)
     bytes += sizeof(double) * static_cast<std::size_t>(product.energy.size() + product.norm.size());
   return bytes;

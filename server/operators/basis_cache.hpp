@@ -19,23 +19,25 @@
 #include "ddm/subdomain_operator.hpp"
 #include "fem/load.hpp"
 #include "operators/condense_loads.hpp"
+#include "operators/load_bounds.hpp"
 
 namespace anticrack::operators {
 
 /// Loads of one mesh, condensed and reduced for the rows of a sweep. Does not keep the mesh.
 struct CondensedBasis {
   contact::SweepLoads reduced;
-  std::vector<LoadOnTraces> loads;          ///< without z_boundary; z_interior only where joined
+  std::vector<LoadOnTraces> loads;  ///< without z_boundary, parts; z_interior: joined, or bounded
   std::vector<ddm::LoadProducts> products;  ///< per subdomain
+  std::vector<BalancedLoad> balanced;       ///< of each load; empty: rows have no bounds
   std::vector<std::string> warnings;        ///< of all loads, each once
 
   /// Memory of its arrays.
   std::size_t bytes() const noexcept;
 };
 
-/// Key of a list of loads: equal if and only if all their fields but the names are; an array is
-/// represented by the hash of its upload. None if an array has no hash.
-std::optional<std::string> key_of(std::span<const fem::Load* const> loads);
+/// Key of a list of loads, with or without bounds: equal if and only if all their fields but the
+/// names are; an array is represented by the hash of its upload. None if an array has no hash.
+std::optional<std::string> key_of(std::span<const fem::Load* const> loads, bool bounds = false);
 
 /// The bases of one mesh used last: at most 8, and 64 MiB with their keys. The least recently used
 /// one is dropped first; a basis too large alone is not kept. Thread-safe; no lock is held while a

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "estimate/bracket.hpp"
-#include "estimate/load_balance.hpp"
 #include "mesh/at.hpp"
 #include "operators/displacement_bounds.hpp"
+#include "operators/load_bounds.hpp"
 
 namespace anticrack::operators {
 namespace {
@@ -25,30 +26,8 @@ struct Material {
   std::vector<double> u;
   std::vector<estimate::Lift> lifts;
   estimate::LoadBalance balance;
+  double parts_energy = 0;
 };
-
-/// All but u, which is there. False with the reason in the answer.
-bool add_load(const std::vector<ddm::Subdomain>& subdomains, const estimate::CutMesh& cut,
-              Material& to) {
-  const LoadParts& parts = to.load.parts;
-  if (const std::string& given = parts.boundary_value; !given.empty())
-    to.lifts = estimate::lifts(
-        cut, fem::values_at(estimate::lift_points(cut), given, "boundary_value"), to.u);
-  if (!std::ranges::all_of(to.lifts, &estimate::Lift::smooth)) {
-    to.of.answer->no_bracket =
-        "boundary_value jumps along an edge, or is too sharp for the mesh: make it continuous, or "
-        "the mesh finer";
-    return false;
-  }
-  std::vector<fem::ForceParts> force = parts.integrated;
-  for (std::size_t s = 0; s < force.size(); ++s) {
-    if (auto linear = fem::linear_parts(subdomains[s].part, parts.force, subdomains[s].name,
-                                        {subdomains[s].node, subdomains[s].triangle, to.of.stop}))
-      force[s] = std::move(*linear);
-  }
-  to.balance = estimate::load_balance(cut, force, parts.traction);
-  return true;
-}
 
 void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
                  std::span<const Material> materials) {
@@ -61,8 +40,15 @@ void find_bounds(const MeshOperator::Parts& parts, const estimate::CutMesh& cut,
   std::vector<Bounded> bounded;
   primals.reserve(materials.size());
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    const auto& [of, load, u, lifts, balance] = materials[i];
+    const auto& [of, load, u, lifts, balance, parts_energy] = materials[i];
     contact::Answer& answer = *of.answer;
+    constexpr double most_cancelled = 1e3;  // what rounding leaves of more is beyond the bracket's
+    if (parts_energy > most_cancelled * (std::abs(answer.energy) + fluxes[i].norm_squared())) {
+      answer.no_bracket =
+          "the loads that are combined cancel, and rounding is not small beside what they leave: "
+          "give their sum as a load of its own";
+      continue;
+    }
     const estimate::Bracket bracket =
         estimate::bracket(cut, fluxes[i], balance, lifts, u, answer.energy);
     answer.energy_lower = bracket.lower;
@@ -88,21 +74,24 @@ std::vector<double> MeshOperator::estimate(const PreparedLoad& load, contact::An
   return std::move(one.indicator);
 }
 
-void MeshOperator::estimate(std::span<Estimate> all) const {
+std::size_t MeshOperator::estimated_together() const noexcept {
   constexpr std::size_t most_together = 8;  // more are not faster
   // Fields, fluxes and scratch take some 450 bytes a triangle and load.
   constexpr std::size_t most_triangles = 600'000;  // of all: 270 MB
-  const std::size_t together =
-      std::clamp(most_triangles / _parts->mesh->triangle_count(), std::size_t{1}, most_together);
+  return std::clamp(most_triangles / _parts->mesh->triangle_count(), std::size_t{1}, most_together);
+}
+
+void MeshOperator::estimate(std::span<Estimate> all) const {
+  const std::size_t together = estimated_together();
   for (; all.size() > together; all = all.subspan(together)) estimate(all.first(together));
   if (all.empty()) return;
-  const estimate::CutMesh& cut =
-      _parts->cut.get([this] { return estimate::cut_mesh(*_parts->mesh, _parts->decomposition); });
+  const estimate::CutMesh& cut = _parts->cut_mesh();
   std::vector<Material> materials;
   for (Estimate& one : all) {
     try {
       require_prepared(*one.load, true);
-      const LoadOnTraces& load = one.load->_data->condensed;
+      const PreparedLoad::Data& data = *one.load->_data;
+      const LoadOnTraces& load = data.condensed;
       contact::Answer& answer = *one.answer;
       answer.no_bracket = obstacle_of(load, cut, answer);
       if (!answer.no_bracket.empty()) continue;
@@ -112,8 +101,16 @@ void MeshOperator::estimate(std::span<Estimate> all) const {
       if (recovered) recover_fields({&one.load, 1}, {&one.answer, 1});
       Material material{one, load, of_copies(answer.fields), {}, {}};
       if (recovered) answer.fields.clear();
-      if (add_load(_parts->decomposition.subdomains, cut, material))
-        materials.push_back(std::move(material));
+      BalancedLoad of_load =
+          data.balanced ? *data.balanced
+                        : balanced(load.parts, _parts->decomposition.subdomains, cut, one.stop);
+      if (!of_load.boundary.empty())
+        material.lifts = estimate::lifts(cut, of_load.boundary, material.u);
+      answer.no_bracket = obstacle_of(material.lifts);
+      if (!answer.no_bracket.empty()) continue;
+      material.balance = std::move(of_load.balance);
+      material.parts_energy = data.parts_energy;
+      materials.push_back(std::move(material));
     } catch (...) {
       one.failure = std::current_exception();
     }

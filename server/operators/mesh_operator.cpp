@@ -136,6 +136,10 @@ std::size_t MeshOperator::bytes() const noexcept {
   return bytes + _parts->sweep_geometry.bytes() + _parts->bases.bytes();
 }
 
+const estimate::CutMesh& MeshOperator::Parts::cut_mesh() const {
+  return cut.get([this] { return estimate::cut_mesh(*mesh, decomposition); });
+}
+
 void require_threadsafe_blas() { ddm::require_threadsafe_blas(); }
 
 }  // namespace anticrack::operators

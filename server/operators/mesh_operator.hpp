@@ -78,14 +78,18 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   /// The same of several at once, faster, with the bits of each alone; what is thrown for one is
   /// its failure.
   void estimate(std::span<Estimate> all) const;
+  /// How many that are worth it, and fit in memory.
+  std::size_t estimated_together() const noexcept;
 
   /// Condenses loads to be combined: O(N) each and O(n_G^2 + N m) for the energy of pairs; N m
   /// numbers of memory meanwhile. Cached (BasisCache): loads that differ by name only, arrays
   /// compared by the hash of their upload, are condensed once. Errors of
   /// loads as in prepare(), thrown with "load_cases[j]." before the field; limit_exceeded beyond
-  /// max_basis_bytes.
+  /// max_basis_bytes. `bounds`: keeps what fields and bounds of combinations take, O(N) numbers a
+  /// load.
   std::shared_ptr<const LoadBasis> basis(std::span<const fem::Load* const> loads,
-                                         const std::stop_token& stop = {}) const;
+                                         const std::stop_token& stop = {},
+                                         bool bounds = false) const;
 
   /// Solves the rows of a sweep, row k for the load sum_j c_kj f_j, coefficients (rows, loads)
   /// row-major. Each starts from the contact of the one before, the first from `start` (empty: all
@@ -101,7 +105,8 @@ class MeshOperator : public std::enable_shared_from_this<MeshOperator> {
   bool sweep(std::span<const PreparedLoad> loads, const contact::ActiveSetOptions& options,
              contact::SweepColumns& rows, std::vector<char>& start,
              const std::stop_token& stop = {}) const;
-  /// A row as a load, to solve for traces but not fields. O((trace + Dirichlet nodes) m).
+  /// A row as a load, to solve for traces; for fields and bounds only of a basis with `bounds`.
+  /// O((trace + Dirichlet nodes) m), with bounds O(N m).
   PreparedLoad combine(const LoadBasis& basis, std::span<const double> coefficients) const;
 
   /// (interface, index in its trace_geometry()) of each node that may open, the columns of

@@ -41,11 +41,12 @@ struct MeshOperator::Parts {
   contact::SweepGeometry sweep_geometry;
   std::vector<contact::TraceGeometry> geometry;
   mutable BasisCache bases;
-  ddm::Lazy<estimate::CutMesh> cut;           // made for the first bounds
+  ddm::Lazy<estimate::CutMesh> cut;           // made for the first bounds; see cut_mesh()
   ddm::Lazy<std::vector<double>> flux_norms;  // see aims.hpp
 
   template <class Use>
   decltype(auto) with_problem(const Use& use) const;
+  const estimate::CutMesh& cut_mesh() const;
   /// Loads of a subdomain by nodes (rows) and g_D, a column each.
   Condense condense() const;
 };
@@ -59,7 +60,9 @@ decltype(auto) MeshOperator::Parts::with_problem(const Use& use) const {
 struct PreparedLoad::Data {
   std::shared_ptr<const MeshOperator> mesh_operator;
   LoadOnTraces condensed;
-  bool has_interior = true;  ///< not so of a combination: no field can be recovered
+  bool has_interior = true;  ///< not so of a combination without bounds: it has no fields
+  std::optional<BalancedLoad> balanced{};  ///< of a combination with bounds, instead of parts
+  double parts_energy = 0;  ///< of a combination: sum |c_j c_k| |Pi_jk|, contacts closed
 
   contact::CaseLoads loads() const { return {condensed.subdomains, condensed.inclusion_forces}; }
   /// Numbers of the load that every answer to it repeats.

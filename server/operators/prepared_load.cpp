@@ -16,8 +16,10 @@ void MeshOperator::require_prepared(const PreparedLoad& load, bool fields) const
   if (!load._data || load._data->mesh_operator.get() != this)
     throw errors::Error(errors::Reason::internal, "a load that was prepared on another mesh");
   if (fields && !load._data->has_interior) {
-    throw errors::Error(errors::Reason::internal,
-                        "a combination of loads has no fields; prepare it as a load of its own");
+    throw errors::Error(
+        errors::Reason::internal,
+        "a combination of loads has no fields; prepare it as a load of its own, or the "
+        "basis with bounds");
   }
 }
 

@@ -16,15 +16,19 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-void require_memory(std::size_t loads, const ddm::Decomposition& decomposition) {
-  std::size_t nodes = 0;
-  for (const ddm::Subdomain& subdomain : decomposition.subdomains) nodes += subdomain.node.size();
-  if (nodes > 0 && loads > max_basis_bytes / sizeof(double) / nodes) {
+void require_memory(std::size_t loads, const ddm::Decomposition& decomposition, bool bounds) {
+  std::size_t nodes = 0, numbers = 0;
+  for (const ddm::Subdomain& subdomain : decomposition.subdomains) {
+    nodes += subdomain.node.size();
+    // With bounds: the force on each corner, and the oscillation.
+    numbers += subdomain.node.size() + (bounds ? 4 * subdomain.part.triangle_count() : 0);
+  }
+  if (numbers > 0 && loads > max_basis_bytes / sizeof(double) / numbers) {
     throw errors::Error(
         errors::Reason::limit_exceeded,
         std::to_string(loads) + " loads on " + std::to_string(nodes) + " nodes are more than " +
-            std::to_string(max_basis_bytes >> 20U) +
-            " MiB: combine fewer loads, or take a coarser mesh (larger size or tip_size)");
+            std::to_string(max_basis_bytes >> 20U) + " MiB" + (bounds ? " with bounds" : "") +
+            ": combine fewer loads, or take a coarser mesh (larger size or tip_size)");
   }
 }
 
@@ -51,8 +55,10 @@ std::vector<const ddm::CondensedLoad*> on_subdomain(const std::vector<LoadOnTrac
 
 /// Computes the products of loads that the energy needs, then frees the interiors that nothing
 /// needs any more.
-CondensedBasis basis_of(std::vector<LoadOnTraces> loads, const MeshOperator::Parts& parts) {
+CondensedBasis basis_of(std::vector<LoadOnTraces> loads, std::vector<BalancedLoad> balanced,
+                        const MeshOperator::Parts& parts) {
   CondensedBasis result;
+  result.balanced = std::move(balanced);
   const auto m = static_cast<Index>(loads.size());
   const bool condensed = parts.skeleton.has_value();
   MatrixXd constants = MatrixXd::Zero(m, m);
@@ -63,7 +69,7 @@ CondensedBasis basis_of(std::vector<LoadOnTraces> loads, const MeshOperator::Par
   std::vector<contact::CaseLoads> cases;
   for (LoadOnTraces& load : loads) {
     for (ddm::CondensedLoad& part : load.subdomains) {
-      if (condensed) part.z_interior.resize(0);
+      if (condensed && result.balanced.empty()) part.z_interior.resize(0);
       part.z_boundary.resize(0);
     }
     cases.push_back({load.subdomains, load.inclusion_forces});
@@ -89,19 +95,25 @@ const std::vector<std::string>& LoadBasis::warnings() const noexcept {
 }
 
 std::shared_ptr<const LoadBasis> MeshOperator::basis(std::span<const fem::Load* const> loads,
-                                                     const std::stop_token& stop) const {
+                                                     const std::stop_token& stop,
+                                                     bool bounds) const {
   if (loads.empty()) {
     throw errors::Error(errors::Reason::invalid_argument, "a sweep combines at least one load")
         .at("load_cases");
   }
-  require_memory(loads.size(), _parts->decomposition);
+  require_memory(loads.size(), _parts->decomposition, bounds);
   const auto make = [&]() -> BasisCache::Basis {
+    std::vector<LoadOnTraces> condensed =
+        sound(condense_loads(loads, *_parts->mesh, _parts->decomposition, _parts->condense(),
+                             _parts->neumann, stop, bounds));
+    std::vector<BalancedLoad> of_bounds;
+    if (bounds)
+      of_bounds =
+          balanced(loads, condensed, _parts->decomposition.subdomains, _parts->cut_mesh(), stop);
     return std::make_shared<const CondensedBasis>(
-        basis_of(sound(condense_loads(loads, *_parts->mesh, _parts->decomposition,
-                                      _parts->condense(), _parts->neumann, stop)),
-                 *_parts));
+        basis_of(std::move(condensed), std::move(of_bounds), *_parts));
   };
-  const std::optional<std::string> key = key_of(loads);
+  const std::optional<std::string> key = key_of(loads, bounds);
   return std::make_shared<const LoadBasis>(std::make_shared<const LoadBasis::Data>(
       LoadBasis::Data{shared_from_this(), key ? _parts->bases.get(*key, stop, make) : make()}));
 }
@@ -163,7 +175,14 @@ PreparedLoad MeshOperator::combine(const LoadBasis& basis,
                                             static_cast<Index>(coefficients.size()));
   auto data = std::make_shared<PreparedLoad::Data>();
   data->mesh_operator = shared_from_this();
-  data->has_interior = false;
+  data->has_interior = !condensed.balanced.empty();
+  if (data->has_interior) {
+    data->balanced = operators::combine(condensed.balanced, coefficients);
+    data->condensed.parts.obstacle = data->balanced->obstacle;
+    Eigen::VectorXd sizes = Eigen::VectorXd::Ones(condensed.reduced.energy.cols());
+    sizes.head(c.size()) = c.cwiseAbs();
+    data->parts_energy = sizes.dot(condensed.reduced.energy.cwiseAbs() * sizes);
+  }
   data->condensed.warnings = condensed.warnings;
   for (std::size_t s = 0; s < condensed.products.size(); ++s) {
     data->condensed.subdomains.push_back(

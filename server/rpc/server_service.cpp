@@ -51,6 +51,7 @@ constexpr std::array features{
     "point_forces",
     "priority",
     "sweep",
+    "sweep.bounds",
     "timeouts",
     "traction",
     "units",

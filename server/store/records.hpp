@@ -155,8 +155,9 @@ struct SweepSpec {
   std::uint64_t rows = 0;               ///< of nodal forces: known when the job starts
   std::vector<std::uint32_t> traces{};  ///< rows whose traces are kept, ascending
   bool packed = false;                  ///< the matrix came with the job
+  bool bounds = false;                  ///< rows have bounds of their errors
 };
-ANTICRACK_FIELDS(SweepSpec, cases, upload, rows, traces, packed)
+ANTICRACK_FIELDS(SweepSpec, cases, upload, rows, traces, packed, bounds)
 
 /// Of a sweep that has ended; its columns are in the result block.
 struct SweepRecord {
@@ -166,7 +167,7 @@ struct SweepRecord {
   int most_steps = 0;
   double worst_kkt = 0;                    ///< relative, over the rows that converged
   std::chrono::nanoseconds solve_time{0};  ///< on solver threads, added up
-  std::vector<std::string> warnings{};     ///< of the loads that are combined
+  std::vector<std::string> warnings{};     ///< of the loads that are combined, and of bounds
 };
 ANTICRACK_FIELDS(SweepRecord, converged, not_converged, failed, most_steps, worst_kkt, solve_time,
                  warnings)

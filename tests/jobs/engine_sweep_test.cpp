@@ -119,6 +119,58 @@ TEST(EngineSweep, CombinesAsLoadCasesDo) {
   EXPECT_EQ(record.sweep.worst_kkt, largest(*array<double>(*result, "sweep/kkt")));
 }
 
+TEST(EngineSweep, HasTheBoundsOfLoadCasesWhereItIsAskedForThem) {
+  Engine test;
+  const std::string mesh = test.ready_mesh(mesh_size);
+  const std::vector<double> matrix = eighths(20 * std::size_t{3}, 5);  // three chunks
+  store::JobSpec spec = combinations(mesh, upload(test.backend, matrix));
+  const std::string without = test.submit(spec);
+  test.ended(without);
+  spec.sweep->bounds = true;
+  const std::string sweep = test.submit(spec), plain = test.submit(one_by_one(mesh, matrix));
+  const JobRecord ended = test.ended(sweep), expected = test.ended(plain);
+  ASSERT_EQ(ended.state, JobState::succeeded);
+  EXPECT_TRUE(ended.sweep.warnings.empty());
+  const auto result = test.engine.result(sweep), other = test.engine.result(without);
+  expect_same_answers(*result, expected);
+  EXPECT_EQ(*array<double>(*result, "sweep/energy"), *array<double>(*other, "sweep/energy"));
+  EXPECT_EQ(layout(*other, "sweep/energy_lower"), nullptr);
+  EXPECT_EQ(layout(*other, "sweep/displacement_upper"), nullptr);
+  std::vector<double> lower, upper, a_lower, a_upper;
+  for (const store::CaseRecord& record : expected.cases) {
+    lower.push_back(record.answer.energy_lower.value());
+    upper.push_back(record.answer.energy_upper.value());
+    for (const contact::InclusionAnswer& inclusion : record.answer.inclusions) {
+      a_lower.push_back(inclusion.displacement_lower.value());
+      a_upper.push_back(inclusion.displacement_upper.value());
+    }
+  }
+  expect_near(*array<double>(*result, "sweep/energy_lower"), lower);
+  expect_near(*array<double>(*result, "sweep/energy_upper"), upper);
+  expect_near(*array<double>(*result, "sweep/displacement_lower"), a_lower);
+  expect_near(*array<double>(*result, "sweep/displacement_upper"), a_upper);
+}
+
+TEST(EngineSweep, SaysWhyARowHasNoBounds) {
+  Engine test;
+  store::JobSpec spec = combinations(test.ready_mesh(mesh_size),
+                                     upload(test.backend, {1, 0, 0, 1, 0, 0.5, 0, 1, 0, 0, 0, 1}));
+  spec.loads[2].force = 0.0;
+  spec.loads[2].point_forces = {{0.3, 0.4, 1}};
+  spec.sweep->bounds = true;
+  const std::string id = test.submit(spec);
+  const JobRecord ended = test.ended(id);
+  ASSERT_EQ(ended.sweep.converged, 4U);
+  ASSERT_EQ(ended.sweep.warnings.size(), 1U);
+  EXPECT_EQ(ended.sweep.warnings[0].rfind("rows without bounds: a point force", 0), 0U);
+  const auto result = test.engine.result(id);
+  for (const char* name : {"energy_lower", "energy_upper", "displacement_lower"}) {
+    const auto values = *array<double>(*result, std::string("sweep/") + name);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      EXPECT_EQ(std::isnan(values[i]), (i * 4 / values.size()) % 2 == 1) << name << i;
+  }
+}
+
 TEST(EngineSweep, TellsTheWarningsOfItsBasis) {
   Engine test;
   store::JobSpec spec =
@@ -152,6 +204,13 @@ TEST(EngineSweep, TakesNodalForces) {
   const std::string plain = test.submit(one_by_one(mesh, coefficients));
   expect_same_answers(*test.engine.result(sweep), test.ended(plain));
   expect_same_traces(*test.engine.result(sweep), *test.engine.result(plain), spec.sweep->traces);
+  spec.sweep->bounds = true;
+  const std::string bounded = test.submit(spec);
+  const std::vector<store::CaseRecord> cases = test.ended(plain).cases;
+  ASSERT_EQ(test.ended(bounded).state, JobState::succeeded);
+  std::vector<double> lower;
+  for (const store::CaseRecord& record : cases) lower.push_back(record.answer.energy_lower.value());
+  expect_near(*array<double>(*test.engine.result(bounded), "sweep/energy_lower"), lower);
 }
 
 TEST(EngineSweep, GivesTheSameBitsWithOneThreadAndTwo) {
@@ -164,11 +223,14 @@ TEST(EngineSweep, GivesTheSameBitsWithOneThreadAndTwo) {
     const std::string mesh = test.ready_mesh(mesh_size);
     store::JobSpec spec = combinations(mesh, upload(test.backend, matrix));
     spec.sweep->traces = {700};
-    const std::string sweep = test.submit(spec);
-    ASSERT_EQ(test.ended(sweep).state, JobState::succeeded);
-    hashes.insert(test.engine.result(sweep)->sha256());
+    for (const bool bounds : {false, true}) {
+      spec.sweep->bounds = bounds;
+      const std::string sweep = test.submit(spec);
+      ASSERT_EQ(test.ended(sweep).state, JobState::succeeded);
+      hashes.insert(test.engine.result(sweep)->sha256());
+    }
   }
-  EXPECT_EQ(hashes.size(), 1U);
+  EXPECT_EQ(hashes.size(), 2U);
 }
 
 TEST(EngineSweep, RowsThatDoNotConvergeDoNotFailIt) {

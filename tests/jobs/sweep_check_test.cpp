@@ -56,6 +56,8 @@ TEST_F(SweepCheck, BoundsTheBasis) {
 TEST_F(SweepCheck, IsForTheActiveSetWithoutFields) {
   EXPECT_TRUE(refuses([](JobSpec& bad) { bad.solver = contact::UzawaOptions(); }, "solver.uzawa"));
   EXPECT_TRUE(refuses([](JobSpec& bad) { bad.fields = true; }, "outputs"));
+  const auto with_and_without = [](JobSpec& bad) { bad.sweep->bounds = bad.without_bounds = true; };
+  EXPECT_TRUE(refuses(with_and_without, "sweep.bounds"));
 }
 
 TEST_F(SweepCheck, WantsTracesAscendingAndFew) {
@@ -103,6 +105,9 @@ TEST_F(SweepCheck, CountsInTheQueueByItsMatrix) {
   EXPECT_EQ(cost(combinations("mesh", upload(backend, {1, 2, 3}))), 1U);
   EXPECT_EQ(cost(combinations("mesh", matrix)), 2U);
   EXPECT_EQ(cost(nodal_forces("mesh", matrix)), 1U);
+  JobSpec bounded = combinations("mesh", matrix);
+  bounded.sweep->bounds = true;
+  EXPECT_EQ(cost(bounded), 33U);
   EXPECT_EQ(cost(nodal_forces("mesh", upload(backend, std::vector<double>((1U << 17U) + 1)))), 2U);
   EXPECT_EQ(cost(combinations("mesh", hash)), 1U);  // it is not there
   JobSpec plain = combinations("mesh", hash);
@@ -118,6 +123,8 @@ TEST_F(SweepCheck, IsAnotherJobWithAnotherSweep) {
   spec.sweep->traces = {1};
   EXPECT_TRUE(add());
   spec.sweep->traces = {2};
+  EXPECT_TRUE(add());
+  spec.sweep->bounds = true;
   EXPECT_TRUE(add());
   spec.sweep->cases = Cases::nodal_forces;
   EXPECT_TRUE(add());

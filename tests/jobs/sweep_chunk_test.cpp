@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -19,9 +20,10 @@ using errors::Reason;
 /// A job of 300 rows in two chunks, as it is when a thread takes the first.
 class ChunkTest : public ::testing::Test {
  protected:
-  explicit ChunkTest(bool tilt = false) {
+  explicit ChunkTest(bool tilt = false, bool bounds = false) {
     store::JobRecord record;
     record.spec = combinations("mesh", upload(backend, eighths(300 * std::size_t{3})));
+    record.spec.sweep->bounds = bounds;
     job = std::make_shared<LiveJob>(1, record, 1, 1U << 20U, nullptr);
     const std::string mesh = ready_mesh(backend, 0.25);
     job->mesh_operator = backend.catalogue.find(mesh);
@@ -81,6 +83,33 @@ TEST_F(TiltingChunkTest, HasSlopesOfEveryRowAndTheBytesThatWerePlanned) {
   EXPECT_EQ(array<double>(*block, "sweep/slope")->front(), 0) << "of a row without an answer";
   EXPECT_LE(block->size(), job->sweep->plan.result_bytes);
   EXPECT_GT(block->size() + 1000, job->sweep->plan.result_bytes);
+}
+
+class BoundedChunkTest : public ChunkTest {
+ protected:
+  BoundedChunkTest() : ChunkTest(false, true) {}
+};
+
+TEST_F(BoundedChunkTest, IsSmallAndHasTheBytesThatWerePlanned) {
+  EXPECT_EQ(job->sweep->plan.chunk_rows, 8U);
+  job->sweep->chunks[1] = solve(1).solved;
+  const auto block = sweep_result(*job, contact::Status::cancelled);
+  EXPECT_LE(block->size(), job->sweep->plan.result_bytes);
+  EXPECT_GT(block->size() + 1000, job->sweep->plan.result_bytes);
+  const auto lower = *array<double>(*block, "sweep/energy_lower");
+  const auto energy = *array<double>(*block, "sweep/energy");
+  const auto upper = *array<double>(*block, "sweep/energy_upper");
+  ASSERT_EQ(lower.size(), 300U);
+  EXPECT_TRUE(std::isnan(lower[0])) << "of a row without an answer";
+  for (std::size_t row = 8; row < 16; ++row) {
+    EXPECT_LE(lower[row], energy[row]);
+    EXPECT_LE(energy[row], upper[row]);
+  }
+}
+
+TEST_F(BoundedChunkTest, IsLeftWhereItsJobStops) {
+  job->stop.request_stop();
+  EXPECT_FALSE(solve(0).solved.columns);
 }
 
 TEST_F(ChunkTest, IsLeftWhereItsJobStops) {

@@ -161,6 +161,40 @@ TEST(Sweep, AnswersEveryRowAsAJobOfItsOwn) {
   }
 }
 
+TEST(Sweep, HasBoundsOfEveryRowWhereItIsAskedForThem) {
+  RunningServer server;
+  const std::string mesh = server.create(paper_mesh()).name();
+  v1::CreateJobRequest request = sweep_job(mesh, matrix);
+  request.mutable_job()->mutable_sweep()->set_bounds(true);
+  const v1::Job swept = server.finish(server.create(request).name());
+  ASSERT_EQ(swept.state(), v1::Job::STATE_SUCCEEDED) << swept.error().message();
+  EXPECT_TRUE(swept.sweep().bounds());
+  EXPECT_EQ(swept.sweep_answer().warnings_size(), 0);
+  Received block, traces;
+  ASSERT_TRUE(read_result(server, swept.name(), 0, block).ok());
+  const v1::Job alone = solve_alone(server, mesh, traces);
+  expect_columns(block, alone, traces);
+  std::vector<double> lower, upper, a_lower, a_upper;
+  for (const v1::LoadCaseAnswer& answer : alone.answers()) {
+    lower.push_back(answer.energy_lower());
+    upper.push_back(answer.energy_upper());
+    a_lower.push_back(answer.inclusions(0).displacement_lower());
+    a_upper.push_back(answer.inclusions(0).displacement_upper());
+  }
+  constexpr double of_integrals = 1e-6;  // f jumps: its oscillation is rounding
+  const auto near = [&](const char* name, const std::vector<double>& expected) {
+    EXPECT_THAT(doubles(block, name),
+                ::testing::Pointwise(::testing::DoubleNear(of_integrals), expected));
+  };
+  near("sweep/energy_lower", lower);
+  near("sweep/energy_upper", upper);
+  near("sweep/displacement_lower", a_lower);
+  near("sweep/displacement_upper", a_upper);
+  request.mutable_job()->set_without_bounds(true);
+  expect_error(server.try_create(request), grpc::StatusCode::INVALID_ARGUMENT, "INVALID_ARGUMENT",
+               "job.sweep.bounds");
+}
+
 TEST(Sweep, OfAnUploadIsTheSame) {
   RunningServer server;
   const std::string mesh = server.create(paper_mesh()).name();

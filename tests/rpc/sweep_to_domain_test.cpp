@@ -31,11 +31,14 @@ TEST(SweepToDomain, NamesAPackedMatrixByItsHash) {
   v1::Job job = good_sweep();
   job.mutable_sweep()->add_traces(3);
   job.mutable_sweep()->add_traces(5);
+  job.mutable_sweep()->set_bounds(true);
   const store::JobSpec spec = to_spec(job, sweep_limits);
   ASSERT_TRUE(spec.sweep);
   EXPECT_EQ(spec.sweep->cases, store::SweepSpec::Cases::combinations);
   EXPECT_EQ(spec.sweep->upload, store::Sha256().add(packed({1, 2, 3})).finish());
   EXPECT_THAT(spec.sweep->traces, ElementsAre(3u, 5u));
+  EXPECT_TRUE(spec.sweep->bounds);
+  EXPECT_FALSE(to_spec(good_sweep(), sweep_limits).sweep->bounds);
   EXPECT_EQ(spec.loads.size(), 3u);
 }
 

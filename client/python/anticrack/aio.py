@@ -103,14 +103,14 @@ class AsyncClient:
         self._session = session
 
     async def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
-                     traces: Sequence[int] = ()) -> AsyncJob:
+                     traces: Sequence[int] = (), bounds: bool = False) -> AsyncJob:
         case = as_case(case)
-        message = await self._session.submit(case, coefficients, nodal_forces, traces)
+        message = await self._session.submit(case, coefficients, nodal_forces, traces, bounds)
         return AsyncJob(self._session, message, case.text, coefficients)
 
     async def run(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
-                  traces: Sequence[int] = (), progress: bool = False) -> Result:
-        job = await self.submit(case, coefficients, nodal_forces, traces)
+                  traces: Sequence[int] = (), progress: bool = False, bounds: bool = False) -> Result:
+        job = await self.submit(case, coefficients, nodal_forces, traces, bounds)
         return await (await job.wait(progress)).result()
 
     async def mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:

@@ -111,19 +111,20 @@ class Client:
         self._session = session
 
     def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
-               traces: Sequence[int] = ()) -> Job:
+               traces: Sequence[int] = (), bounds: bool = False) -> Job:
         """A job of a case, or of a file with one; returns at once.
 
         A sweep solves a load case for every row of coefficients (rows, loads), a DataFrame or an array in the order of
-        the loads, or of nodal_forces (rows, nodes): f on the mesh's nodes. traces: rows whose traces are kept."""
+        the loads, or of nodal_forces (rows, nodes): f on the mesh's nodes. traces: rows whose traces are kept.
+        bounds: of the energy and of every A in each row, which then takes as long as a load case."""
         case = as_case(case)
-        message = finished(self._session.submit(case, coefficients, nodal_forces, traces))
+        message = finished(self._session.submit(case, coefficients, nodal_forces, traces, bounds))
         return Job(self._session, message, case.text, coefficients)
 
     def run(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
-            traces: Sequence[int] = (), progress: bool = True) -> Result:
+            traces: Sequence[int] = (), progress: bool = True, bounds: bool = False) -> Result:
         """Submits, waits and fetches the answers."""
-        return self.submit(case, coefficients, nodal_forces, traces).wait(progress).result()
+        return self.submit(case, coefficients, nodal_forces, traces, bounds).wait(progress).result()
 
     def mesh(self, case: Case | str | os.PathLike[str]) -> mesh_pb2.Mesh:
         """The mesh of a case, once it is meshed: its counts, subdomains and interfaces (Mesh in mesh.proto)."""

@@ -157,7 +157,9 @@ class Sweep:
     """Columns, an entry a row: status (3 converged, 4 not converged, 5 failed, 6 cancelled), steps, energy,
     contact_length, kkt (largest relative residual), displacement (rows, inclusions): A, slope (rows, inclusions, 2) or
     None, contact (rows, contacts) of the crack nodes contact_nodes (contacts, 2): interface, node. coefficients
-    (rows, loads), or None where they are not known. kept: rows whose traces are in Result.loads["row-K"]."""
+    (rows, loads), or None where they are not known. energy_lower, energy_upper, displacement_lower, displacement_upper:
+    bounds of the membrane's own, NaN where a row has none, or None where they were not asked for. kept: rows whose
+    traces are in Result.loads["row-K"]."""
     loads: list[str]
     inclusions: list[str]
     status: Array
@@ -169,6 +171,10 @@ class Sweep:
     contact: Array
     contact_nodes: Array
     slope: Array | None = None
+    energy_lower: Array | None = None
+    energy_upper: Array | None = None
+    displacement_lower: Array | None = None
+    displacement_upper: Array | None = None
     coefficients: Array | None = None
     kept: list[int] = field(default_factory=list)
     error: str = ""
@@ -180,16 +186,20 @@ class Sweep:
         return np.asarray(self.status == solve_pb2.LoadCaseAnswer.STATUS_CONVERGED)
 
     def frame(self) -> Any:
-        """A pandas.DataFrame, a line a row: coefficients, A and slopes by name; takes pandas."""
+        """A pandas.DataFrame, a line a row: coefficients, A, its bounds and slopes by name; takes pandas."""
         import pandas
         columns: dict[str, Any] = {}
         if self.coefficients is not None:
             columns.update((name, self.coefficients[:, i]) for i, name in enumerate(self.loads))
         columns["status"] = [_status(code) for code in self.status]
-        for name in ("steps", "energy", "contact_length", "kkt"):
+        bounds = ("energy_lower", "energy_upper") if self.energy_lower is not None else ()
+        for name in ("steps", "energy", *bounds, "contact_length", "kkt"):
             columns[name] = getattr(self, name)
         for i, name in enumerate(self.inclusions):
             columns[f"A of {name}"] = self.displacement[:, i]
+            if self.displacement_lower is not None and self.displacement_upper is not None:
+                columns[f"A_lower of {name}"] = self.displacement_lower[:, i]
+                columns[f"A_upper of {name}"] = self.displacement_upper[:, i]
             if self.slope is not None:
                 columns[f"Bx of {name}"], columns[f"By of {name}"] = self.slope[:, i, 0], self.slope[:, i, 1]
         return pandas.DataFrame(columns).rename_axis("row")
@@ -362,6 +372,11 @@ def _row(sweep: Sweep, row: int, traces: list[Trace], interfaces: list[Interface
     for i, name in enumerate(sweep.inclusions):
         slope = sweep.slope[row, i].tolist() if sweep.slope is not None else (0.0, 0.0)
         load.inclusions[name] = Inclusion(name, float(sweep.displacement[row, i]), Bx=slope[0], By=slope[1])
+        if sweep.displacement_lower is not None and sweep.displacement_upper is not None:
+            load.inclusions[name].A_lower = float(sweep.displacement_lower[row, i])
+            load.inclusions[name].A_upper = float(sweep.displacement_upper[row, i])
+    if sweep.energy_lower is not None and sweep.energy_upper is not None:
+        load.energy_lower, load.energy_upper = float(sweep.energy_lower[row]), float(sweep.energy_upper[row])
     for i, trace in enumerate(traces):
         for first, last in runs(trace.contact):
             if trace.contact[first]:

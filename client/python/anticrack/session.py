@@ -155,23 +155,23 @@ class Session:
             raise in_terms_of(case.source, error) from None
 
     async def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
-                     traces: Sequence[int] = ()) -> solve_pb2.Job:
+                     traces: Sequence[int] = (), bounds: bool = False) -> solve_pb2.Job:
         case = as_case(case)
         try:
             return await self._submit(case.requests(loads_needed=nodal_forces is None), coefficients, nodal_forces,
-                                      traces)
+                                      traces, bounds)
         except ServerError as error:
             raise in_terms_of(case.source, error) from None
 
     async def _submit(self, requests: Requests, coefficients: Any, nodal_forces: Any,
-                      traces: Sequence[int]) -> solve_pb2.Job:
+                      traces: Sequence[int], bounds: bool) -> solve_pb2.Job:
         job = requests.job
         if requests.arrays:
             names = await self.upload([values.tobytes() for _, values in requests.arrays],
                                       upload_pb2.Upload.KIND_ARRAY)
             for (index, _), name in zip(requests.arrays, names):
                 job.load_cases[index].force.array.upload = name
-        matrix = sweep_of(job, coefficients, nodal_forces, traces)
+        matrix = sweep_of(job, coefficients, nodal_forces, traces, bounds)
         if matrix is not None:
             target = job.sweep.coefficients if coefficients is not None else job.sweep.nodal_forces
             target.upload = (await self.upload([matrix], upload_pb2.Upload.KIND_ARRAY))[0]

@@ -11,14 +11,16 @@ from .errors import CaseError
 from .v1 import solve_pb2
 
 
-def sweep_of(job: solve_pb2.Job, coefficients: Any, nodal_forces: Any, traces: Sequence[int]) -> bytes | None:
+def sweep_of(job: solve_pb2.Job, coefficients: Any, nodal_forces: Any, traces: Sequence[int],
+             bounds: bool) -> bytes | None:
     """Makes a job a sweep; the matrix to upload, none where neither is given.
 
     coefficients (rows, loads) in the order of the case's loads, or a DataFrame with their names as columns;
-    nodal_forces (rows, nodes): f on the nodes of the mesh. traces: rows whose traces are kept."""
+    nodal_forces (rows, nodes): f on the nodes of the mesh. traces: rows whose traces are kept. bounds: of every row."""
     if coefficients is None and nodal_forces is None:
-        if traces:
-            raise CaseError("traces are of a sweep; give coefficients or nodal_forces")
+        if traces or bounds:
+            raise CaseError("traces and bounds are of a sweep; give coefficients or nodal_forces"
+                            + (" (load cases have bounds anyway)" if bounds else ""))
         return None
     if coefficients is not None and nodal_forces is not None:
         raise CaseError("give coefficients or nodal_forces, not both")
@@ -37,6 +39,7 @@ def sweep_of(job: solve_pb2.Job, coefficients: Any, nodal_forces: Any, traces: S
     if job.HasField("accuracy"):
         raise CaseError("a sweep is on one mesh; leave accuracy out")
     del job.outputs[:]
+    job.sweep.bounds = bounds
     job.sweep.traces.extend(sorted({int(row) for row in traces}))
     if nodal_forces is not None:
         del job.load_cases[:]

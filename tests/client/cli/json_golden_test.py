@@ -121,6 +121,10 @@ class JsonGolden(GoldenTest):
         same = self.document("sweep", "sweep", "plate.toml", "--combinations", "named.h5", "--traces", "0")["sweep"]
         self.assertEqual(same | {"source": ""}, answers | {"source": ""})
         self.document("sweep", "show", "rows.h5")
+        bounded = self.document("sweep-bounds", *rows, "--bounds", "--traces", "0", "-o", "bounded.h5")
+        self.assertEqual(bounded["sweep"]["bounded"], 1, "a point force is in the others")
+        self.assertLess(bounded["answers"][0]["energy_lower"], bounded["answers"][0]["energy"])
+        self.assertIsNone(answers["energy_width"])
         job = self.document("sweep-detach", *rows, "--detach")["name"]
         self.document("job-show-sweep", "job", "watch", job)
 

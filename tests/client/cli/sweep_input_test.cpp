@@ -133,7 +133,9 @@ TEST(MakeSweep, LeavesAJobWithoutFieldsAndWithTheRowsToKeep) {
   casefile::Case the_case = two_load_case();
   SweepInput input = rows_of_two(10);
   input.traces = "7,1-2";
+  input.bounds = true;
   make_sweep(input, limits(), the_case);
+  EXPECT_TRUE(the_case.job.sweep().bounds());
   EXPECT_THAT(the_case.job.sweep().traces(), ElementsAre(1, 2, 7));
   EXPECT_TRUE(the_case.job.sweep().has_coefficients());
   EXPECT_TRUE(the_case.job.outputs().empty());

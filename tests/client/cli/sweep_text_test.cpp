@@ -55,6 +55,15 @@ TEST(SweepTable, HasTheSlopesOfWhatTilts) {
   EXPECT_EQ(answers_table(level), answers_table(sample_sweep(5)));
 }
 
+TEST(SweepTable, SaysHowWideBoundsAre) {
+  results::Result result = anticrack::testing::bounded_sweep(5);
+  EXPECT_THAT(answers_table(result),
+              HasSubstr("-1\nbounds of 3 rows: of the energy at most 0.5 % wide, of A at most +- "
+                        "0.01\ntraces of 2 rows\n"));
+  result.sweep->energy_lower.assign(5, results::unknown);
+  EXPECT_THAT(answers_table(result), HasSubstr("no row has bounds\n"));
+}
+
 TEST(SweepTable, TellsOfManyInclusionsWhoseTheEndsAre) {
   results::Result result = sample_sweep(3);
   results::Sweep& sweep = *result.sweep;
@@ -141,6 +150,17 @@ TEST(SweepCsv, HasSlopesWhereAnInclusionTilts) {
   EXPECT_THAT(text, ::testing::StartsWith("row,skew,opening,A,Bx,By,energy,contact_length,steps,"
                                           "status\n0,1,-1,-0.1,-0.2,-0.5,-2,"));
   EXPECT_THAT(text, HasSubstr("\n3,1,0.5,,,,,,5,not_converged\n"));
+}
+
+TEST(SweepCsv, HasBoundsBesideWhatTheyAreOf) {
+  results::Result result = anticrack::testing::bounded_sweep(5);
+  result.sweep->displacement_lower[0] = -0.125;
+  const std::string text = sweep_csv(*result.sweep);
+  EXPECT_THAT(text, ::testing::StartsWith("row,skew,opening,A,A_lower,A_upper,energy,energy_lower,"
+                                          "energy_upper,contact_length,steps,status\n"
+                                          "0,1,-1,-0.1,-0.125,"));
+  EXPECT_THAT(text, HasSubstr("\n3,1,0.5,,,,,,,,5,not_converged\n"));
+  EXPECT_THAT(text, HasSubstr("\n4,1,1,0.1,,,-2,,,"));
 }
 
 TEST(SweepCsv, GivesNumbersBackExactly) {

@@ -125,10 +125,30 @@ class Jobs(unittest.TestCase):
         self.assertAlmostEqual(sweep.energy[0], self.client.run(case, progress=False)["one"].energy, places=12)
         self.assertIsNone(sweep.coefficients)
 
+    def test_sweeps_have_bounds_on_request(self):
+        case = EXAMPLES / "load-ratio.toml"
+        coefficients = numpy.array([[1.0, 0], [0, 1], [1, 1]])
+        result = self.client.run(case, coefficients, traces=[1], bounds=True, progress=False)
+        alone, sweep = self.client.run(case, progress=False), result.sweep
+        for row, name in enumerate(("skew", "opening")):
+            fibre = alone[name].inclusions["gamma_c"]
+            numpy.testing.assert_allclose(
+                [sweep.energy_lower[row], sweep.energy_upper[row], sweep.displacement_lower[row, 0],
+                 sweep.displacement_upper[row, 0]],
+                [alone[name].energy_lower, alone[name].energy_upper, fibre.A_lower, fibre.A_upper], rtol=1e-6)
+        kept = result["row-1"]
+        self.assertEqual((kept.energy_upper, kept.inclusions["gamma_c"].A_lower),
+                         (sweep.energy_upper[1], sweep.displacement_lower[1, 0]))
+        frame = sweep.frame()
+        self.assertEqual(frame["energy_lower"].tolist(), sweep.energy_lower.tolist())
+        self.assertTrue((frame["A_lower of gamma_c"] < frame["A of gamma_c"]).all())
+        self.assertIsNone(self.client.run(case, coefficients, progress=False).sweep.energy_lower)
+
     def test_wrong_sweeps_are_refused(self):
         case = EXAMPLES / "load-ratio.toml"
         for arguments, said in (({"coefficients": [[1.0]]}, r"\(1, 1\) is not \(rows, 2\)"),
-                                ({"traces": [0]}, "traces"), ({"coefficients": [[numpy.inf, 1]]}, "finite"),
+                                ({"traces": [0]}, "traces"), ({"bounds": True}, "have bounds anyway"),
+                                ({"coefficients": [[numpy.inf, 1]]}, "finite"),
                                 ({"coefficients": [[1, 1]], "nodal_forces": [[1]]}, "not both")):
             with self.assertRaisesRegex(anticrack.CaseError, said):
                 self.client.submit(case, **arguments)

@@ -122,7 +122,9 @@ max_iterations = 3
 
     def test_of_sweeps(self):
         table = EXAMPLES / "load-ratio.csv"
-        file, told = self.both(EXAMPLES / "load-ratio.toml", "sweep", "--coefficients", table, "--traces", "0,2")
+        file, told = self.both(EXAMPLES / "load-ratio.toml", "sweep", "--coefficients", table, "--traces", "0,2",
+                               "--bounds")
+        self.assertTrue((file.sweep.energy_lower < file.sweep.energy).all())
         self.assertEqual(file.sweep.kept, [0, 2])
         told.sweep.coefficients = file.sweep.coefficients  # which the server does not tell
         self.assert_same(file, told, "")

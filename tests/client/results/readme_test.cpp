@@ -139,6 +139,7 @@ TEST(Readme, lists_what_a_file_holds_and_nothing_else) {
   Names held;
   add_names(anticrack::testing::with_stages(anticrack::testing::sample_result(2)), held);
   add_names(anticrack::testing::tilting_sweep(5), held);
+  add_names(anticrack::testing::bounded_sweep(5), held);
   Names listed;
   std::istringstream lines(readme_table());
   for (std::string text; std::getline(lines, text);) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <utility>
 
 #include "client/sample_sweep.hpp"
@@ -60,6 +61,28 @@ TEST(SweepFile, HasSlopesInThreeDimensions) {
     H5Dclose(set);
     H5Fclose(file);
   }
+}
+
+TEST(SweepFile, HasBoundsWhereTheyWereAskedFor) {
+  Result result = anticrack::testing::bounded_sweep(5);
+  const Sweep back = *written_and_read(result).sweep;
+  EXPECT_TRUE(std::isnan(back.energy_lower.back()) && std::isnan(back.displacement_upper.back()));
+  for (const auto& [name, member] : std::map<std::string, std::vector<double> Sweep::*>{
+           {"energy_lower", &Sweep::energy_lower},
+           {"energy_upper", &Sweep::energy_upper},
+           {"displacement_lower", &Sweep::displacement_lower},
+           {"displacement_upper", &Sweep::displacement_upper}}) {
+    std::vector<double> read = back.*member, wanted = (*result.sweep).*member;
+    read.pop_back();
+    wanted.pop_back();
+    EXPECT_EQ(read, wanted) << name;
+    Result other = result;
+    ((*other.sweep).*member).clear();
+    EXPECT_THAT(first_fault(other), HasSubstr("sweep has some of its bounds")) << name;
+    ((*other.sweep).*member).assign(4, 0.0);
+    EXPECT_THAT(first_fault(other), HasSubstr("sweep." + name + " has 4 entries instead of 5"));
+  }
+  EXPECT_TRUE(written_and_read(sample_sweep(5)).sweep->energy_lower.empty());
 }
 
 TEST(SweepFile, RefusesSlopesOfAnotherShape) {
@@ -175,6 +198,14 @@ TEST(SweepSummary, CountsAndSpansTheConvergedRows) {
   EXPECT_DOUBLE_EQ(counts.energy.low, -2);
   EXPECT_EQ(counts.most_steps, 2) << "of rows 0 and 4";
   EXPECT_EQ(counts.worst_kkt, 1e-13);
+}
+
+TEST(SweepSummary, TellsTheWidestBounds) {
+  const SweepSummary counts = summary(*anticrack::testing::bounded_sweep(5).sweep);
+  EXPECT_EQ(counts.bounded, 3U) << "a row did not converge, another has none";
+  EXPECT_NEAR(counts.energy_width, 0.005, 1e-12);
+  EXPECT_NEAR(counts.displacement_error, 0.01, 1e-12);
+  EXPECT_TRUE(std::isnan(summary(*sample_sweep(5).sweep).energy_width));
 }
 
 TEST(SweepSummary, SpansTheSlopes) {
