@@ -41,16 +41,16 @@ std::string traces_heading(const Profile& profile, const Load& load) {
   return length(bounds) <= most ? bounds : where + answers(profile, load, false);
 }
 
-std::string traces_data(const Profile& profile, const results::Trace& trace,
-                        const Pressure& pressure) {
-  std::string text = "$traces << EOD\n", closing = "$pressure << EOD\n";
-  for (std::size_t i = 0; i < profile.position.size(); ++i) {
-    const std::string at = number(profile.position[i]) + " ";
-    text += at + number(trace.u_minus[i]) + " " + number(trace.u_plus[i]) + " " +
-            number(trace.jump[i]) + "\n";
-    closing += at + number(pressure.values[i]) + "\n";
+/// Columns over the position.
+std::string block(const std::string& name, const std::vector<double>& position,
+                  const std::vector<const std::vector<double>*>& columns) {
+  std::string text = "$" + name + " << EOD\n";
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    text += number(position[i]);
+    for (const std::vector<double>* column : columns) text += " " + number((*column)[i]);
+    text += "\n";
   }
-  return text + "EOD\n" + (pressure.peaks.highest > 0 ? closing + "EOD\n" : "");
+  return text + "EOD\n";
 }
 
 std::string curve(const std::string& column, const std::string& style, const char* title) {
@@ -100,7 +100,9 @@ TracesPanels traces_panels(const results::Result& result, const Load& load, std:
   const Pressure pressed = pressure(result.interfaces[interface], trace);
   const std::string axis = figures::quoted(along.axis);
   const results::Units units = result.units;
-  return {traces_data(along, trace, pressed),
+  const bool in_contact = pressed.peaks.highest > 0;
+  return {block("traces", along.position, {&trace.u_minus, &trace.u_plus, &trace.jump}),
+          in_contact ? block("pressure", along.position, {&pressed.values}) : "",
           [=, &trace, &load](const Place& place, const Box& box) {
             return displacements(along, trace, load, units, place, box);
           },
@@ -109,7 +111,8 @@ TracesPanels traces_panels(const results::Result& result, const Load& load, std:
                                   place, box);
           },
           [=](double height, const Place& place) { return below(axis, height, place); },
-          pressed.peaks.highest > 0};
+          along.name,
+          in_contact};
 }
 
 Picture traces_picture(const results::Result& result, const Load& load, std::size_t interface) {
@@ -122,7 +125,7 @@ Picture traces_picture(const results::Result& result, const Load& load, std::siz
             },
             narrow};
   }
-  return {panels.data, title,
+  return {panels.data + panels.pressure_data, title,
           [=](Format, const Place& place) {
             return "set format x ''\n" + panels.displacements(place, {0.48, 0.93}) +
                    "unset key\nset format x\n" + panels.axis_label(0.135, place) +
