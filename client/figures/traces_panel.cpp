@@ -12,33 +12,37 @@ namespace {
 using results::Load;
 
 /// A and B of the inclusions here.
-std::string answers(const Profile& profile, const Load& load, bool with_bounds) {
+std::string answers(const Profile& profile, const Load& load, const std::string& unit,
+                    bool with_bounds) {
   std::string answer;
   for (const results::Inclusion& inclusion : load.inclusions) {
     const bool here =
         std::any_of(profile.fibres.begin(), profile.fibres.end(),
                     [&](const Fibre& fibre) { return fibre.inclusion == inclusion.name; });
     if (!here) continue;
-    answer += ",  A = " + (with_bounds && std::isfinite(inclusion.displacement_lower)
-                               ? bounded(inclusion.displacement_lower, inclusion.displacement_upper)
-                               : readable(inclusion.displacement));
+    answer += ",  A = " +
+              (with_bounds && std::isfinite(inclusion.displacement_lower)
+                   ? bounded(inclusion.displacement_lower, inclusion.displacement_upper)
+                   : readable(inclusion.displacement)) +
+              (unit.empty() ? "" : " " + unit);
     if (inclusion.tilted()) {
       answer += ", B = (" + readable(inclusion.slope_x) + ", " + readable(inclusion.slope_y) + ")";
     }
-    if (load.inclusions.size() > 1) answer += " (" + shortened(inclusion.name, 12) + ")";
+    if (load.inclusions.size() > 1 && inclusion.name != profile.name)
+      answer += " (" + shortened(inclusion.name, 12) + ")";
   }
   if (load.status == results::Status::not_converged) answer += ",  not converged";
   return answer;
 }
 
-std::string traces_heading(const Profile& profile, const Load& load) {
+std::string traces_heading(const Profile& profile, const Load& load, const std::string& unit) {
   constexpr std::size_t most = 50;
   const std::string where =
       profile.name.empty() ? std::string("the interface") : shortened(profile.name, 20);
-  const std::string bounds = where + answers(profile, load, true);
+  const std::string bounds = where + answers(profile, load, unit, true);
   const std::string full = "displacements on " + bounds;
   if (length(full) <= most) return full;
-  return length(bounds) <= most ? bounds : where + answers(profile, load, false);
+  return length(bounds) <= most ? bounds : where + answers(profile, load, unit, false);
 }
 
 /// Columns over the position.
@@ -66,7 +70,7 @@ std::string displacements(const Profile& profile, const results::Trace& trace, c
   std::string text = margins(place, box.bottom, box.top) + axes();
   text += contact_strips(profile) + part_bars(profile);
   text += axis_range('x', extent(profile)) + axis_range('y', scale.drawn(high), 9);
-  text += caption(traces_heading(profile, load), place);
+  text += caption(traces_heading(profile, load, units.label("L")), place);
   text += beside(figures::quoted(scale.label("displacement", units.label("L"))), place);
   text += legend((keys.count + 4) / 2, place);
   text += "plot 0 with lines linewidth 0.7 linecolor rgb '#888888' notitle";

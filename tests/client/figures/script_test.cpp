@@ -155,6 +155,9 @@ TEST(Script, names_an_inclusion_where_it_lies) {
   const auto named = [&] { return script(traces_picture(result, load, 0), both); };
   EXPECT_THAT(named(), HasSubstr("'fibre' at graph 0.5"));
   EXPECT_THAT(named(), HasSubstr("A = 0.0863'"));
+  result.units.length = "mm";
+  EXPECT_THAT(named(), HasSubstr("A = 0.0863 mm'"));
+  result.units.length.clear();
   // Not one that lies on no edge here, whatever its A.
   load.inclusions = {{"other", 0.0863, 0, 0}, {"fibre", 0.0863, 0, 0}};
   EXPECT_THAT(named(), HasSubstr("'fibre' at graph 0.5"));
