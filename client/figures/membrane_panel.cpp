@@ -154,7 +154,7 @@ std::string membrane_panel(const Surface& surface, const results::Load& load, do
   const double turned = std::fmod(view, 90) * std::numbers::pi / 180;
   const double aside = 0.1 * (std::cos(turned) - std::sin(turned)) * place.width;
   text +=
-      "set origin " + number(place.x - aside) + "," + number(place.y + 0.08 * place.height) + "\n";
+      "set origin " + number(place.x - aside) + "," + number(place.y + 0.07 * place.height) + "\n";
   text += "set size " + number(place.width) + "," + number(place.height) + "\n";
   text += "unset key\nset border 15 linewidth 0.7 linecolor rgb '#888888'\n";
   text += "unset xlabel\nunset ylabel\n";

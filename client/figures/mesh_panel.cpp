@@ -106,7 +106,7 @@ std::vector<Style> shown_styles(const MeshLayers& layers) {
 /// The largest box inside the place in which both axes have one scale; `height` of the picture, in
 /// widths of it.
 std::string margins(const Window& window, const Place& place, double height) {
-  constexpr double left = 0.2, right = 0.97, bottom = 0.13, top = 0.92;
+  constexpr double left = 0.2, right = 0.97, bottom = 0.145, top = 0.92;
   const double room_x = (right - left) * place.width;
   const double room_y = (top - bottom) * place.height * height;
   const double scale = std::min(room_x / window.width(), room_y / window.height());

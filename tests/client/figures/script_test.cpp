@@ -134,6 +134,17 @@ TEST(Script, shows_the_pressure_of_the_interface_that_has_most_of_it) {
   EXPECT_THAT(seen(), HasSubstr("'contact pressure on second'"));
 }
 
+TEST(Script, has_one_number_at_the_near_corner_of_the_membrane) {
+  auto result = sample_result(4);
+  const auto drawn = [&] {
+    const Surface membrane = surface(result, result.loads[0], 1000);
+    return script(membrane_picture(result, result.loads[0], membrane), both);
+  };
+  EXPECT_THAT(drawn(), HasSubstr("set ytics -0.5, 0.5, 1 nomirror"));
+  for (double& x : result.interfaces[0].x) x = -x;  // seen from the other side
+  EXPECT_THAT(drawn(), HasSubstr("set ytics -1, 0.5, 0.8 nomirror"));
+}
+
 TEST(Script, labels_contours_and_marks_the_side_that_came_off) {
   auto result = sample_result(20);
   const auto draw = [&] {
