@@ -138,7 +138,8 @@ class Geometry(_Table):
 
 @dataclass
 class Mesh(_Table):
-    """How fine the mesh is: preset "graded" (default), "uniform", "paper" or "coarse"; sizes are lengths.
+    """How fine the mesh is: preset "graded" (default), "uniform", "paper" or "coarse"; sizes are lengths,
+    chord_angle is in degrees.
 
     file: a .msh, or an Msh of arrays, instead of a geometry; only with it curves and surfaces (physical tag -> what it
     is), tension (by subdomain, as of a Region) and inclusions (by name: {"tilt": True} or {"fixed": u})."""
@@ -146,6 +147,7 @@ class Mesh(_Table):
     size: float | None = None
     tip_size: float | None = None
     grading: float | None = None
+    chord_angle: float | None = None
     align: Sequence[Points] | None = None
     file: str | os.PathLike[str] | Msh | None = None
     curves: Mapping[int, str] | None = None

@@ -74,8 +74,8 @@ def _set(message: Any, **values: Any) -> None:
 
 def _mesh(root: Section, folder: Path, out: Requests) -> None:
     geometry = root.section("geometry", ["boundary", "hole", "interface", "inclusion", "crack", "neumann", "region"])
-    mesh = root.section("mesh", ["preset", "size", "tip_size", "grading", "align", "file", "groups", "tension",
-                                 "inclusions"])
+    mesh = root.section("mesh", ["preset", "size", "tip_size", "grading", "chord_angle", "align", "file", "groups",
+                                 "tension", "inclusions"])
     out.mesh.options.preset = mesh_pb2.MESH_PRESET_GRADED
     if mesh is not None:
         _options(mesh, out.mesh.options)
@@ -99,7 +99,7 @@ def _options(section: Section, options: mesh_pb2.MeshOptions) -> None:
     idle = {"paper": ["size", "tip_size", "grading", "align"], "uniform": ["tip_size", "grading"]}.get(name, [])
     section.refuse(idle, f'means nothing with preset "{name}"; remove it, or write preset = "graded"')
     if "file" in section:
-        section.refuse(["align"], "means nothing with mesh.file; remove one of the two")
+        section.refuse(["align", "chord_angle"], "means nothing with mesh.file; remove one of the two")
     else:
         section.refuse(["groups"], 'belongs to mesh.file; write file = "x.msh" beside it')
         section.refuse(["tension"], "belongs to mesh.file; for a geometry write [[geometry.region]] with name, at and "
@@ -107,7 +107,7 @@ def _options(section: Section, options: mesh_pb2.MeshOptions) -> None:
         section.refuse(["inclusions"], "belongs to mesh.file; for a geometry write tilt or fixed in its "
                                        "[[geometry.inclusion]]")
     _set(options, size=section.positive("size"), tip_size=section.positive("tip_size"),
-         grading=section.positive("grading"))
+         grading=section.positive("grading"), chord_angle=section.positive("chord_angle"))
     if "align" in section:
         lines = section.list_of(section.get("align"), "align", "a list of lines", "write [[[x, y], [x, y], ...], ...]")
         for i, line in enumerate(lines):
