@@ -217,7 +217,7 @@ void note_chords(const Geometry& geometry, const Network& network,
   std::ostringstream note;
   note << std::setprecision(2) << "curves count as chords: " << name << " is " << pieces[worst]
        << " of them, up to " << most
-       << " off the curve, and bounds are those for the chords; mesh.chord_angle = 2.5 (10 unless "
+       << " off the curve, and bounds are those for the chords; mesh.chord_angle = 1.25 (5 unless "
           "given) brings them 16 times closer";
   warnings.push_back(note.str());
 }

@@ -18,7 +18,7 @@ namespace anticrack::mesh {
 /// How curves are cut: a chord is at most `size` long, and the curve turns by at most `turn` on it.
 struct ChordRule {
   double size = 0;
-  double turn = std::numbers::pi / 18;  ///< radians
+  double turn = std::numbers::pi / 36;  ///< radians
 };
 
 /// Span k of a line runs over the parameters [k, k+1]; the ends of the spans are its vertices.

@@ -25,7 +25,7 @@ void check_sizes(const MeshOptions& options) {
   if (!(options.chord_angle >= 0 && options.chord_angle <= 45)) {
     refuse_option("options.chord_angle",
                   "options.chord_angle is " + show(options.chord_angle) +
-                      "; it is a number of degrees above 0 and at most 45, ten if unset");
+                      "; it is a number of degrees above 0 and at most 45, five if unset");
   }
   if (!(options.grading > 0 && options.grading <= 1)) {
     refuse_option("options.grading", "options.grading is " + show(options.grading) +
