@@ -348,7 +348,7 @@ def _of_job(job: solve_pb2.Job, mesh: mesh_pb2.Mesh, mesh_arrays: Mapping[str, A
             load.stages = {"triangles": np.array([stage.triangles for stage in stages]),
                            "seconds": np.array([stage.seconds for stage in stages])}
             for name in ("energy", "energy_lower", "energy_upper", "error_bound_relative", "displacement_error"):
-                load.stages[name] = np.array([_known(stage.answers[i], name) for stage in stages])
+                load.stages[name] = np.array([known(stage.answers[i], name) for stage in stages])
         result.loads[load.name] = load
     return result
 
@@ -391,7 +391,7 @@ def runs(values: Array) -> list[tuple[int, int]]:
     return list(zip([0, *cuts], [*cuts, len(values)])) if len(values) else []
 
 
-def _known(message: Any, name: str) -> Any:
+def known(message: Any, name: str) -> Any:
     """NaN where it is optional and not set."""
     described = message.DESCRIPTOR.fields_by_name[name]
     return NAN if described.has_presence and not message.HasField(name) else getattr(message, name)
@@ -425,13 +425,13 @@ def _load_of(answer: solve_pb2.LoadCaseAnswer, solver: solve_pb2.Solver) -> Load
         return load
     for name in SCALARS:
         if name in answer.DESCRIPTOR.fields_by_name and name not in ("status", "reason", "error"):
-            setattr(load, name, _known(answer, name))
+            setattr(load, name, known(answer, name))
     load.warnings = list(answer.warnings)
     load.kkt = {name: getattr(answer.kkt, name + "_relative") for name in KKT}
     load.kkt_absolute = {name: getattr(answer.kkt, name) for name in KKT}
     for part in answer.inclusions:
         load.inclusions[part.name] = Inclusion(part.name, **{
-            entry.name: _known(part, _INCLUSION.get(entry.name, entry.name))
+            entry.name: known(part, _INCLUSION.get(entry.name, entry.name))
             for entry in fields(Inclusion) if entry.name != "name"})
     return load
 

@@ -24,6 +24,11 @@ COARSE = Mesh(size=0.2)
 LONG = anticrack.Uzawa(theta=1e-3, max_iterations=20_000)
 
 
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
 class Jobs(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -182,16 +187,23 @@ class Jobs(unittest.TestCase):
         self.assertLessEqual(load.energy_upper - load.energy_lower, 0.02 * abs(load.energy))
         self.assertEqual(load.stages["triangles"][-1], len(result.mesh.triangles))
         self.assertEqual(load.stages["energy"][-1], load.energy)
-        self.assertIn("triangles ended after", out.getvalue())
+        width = (load.energy_upper - load.energy_lower) / abs(load.energy)
+        said = (f"stage {len(job.message.stages)}: {len(result.mesh.triangles)} triangles, energy {width:.3g} of 0.02, "
+                f"A {load.stages['displacement_error'][-1]:.3g} of 0.05")
+        self.assertIn(f"{job.name}: {said}\n", out.getvalue())
+        self.assertEqual(out.getvalue().count("stage 1: "), 1)
+        bar = Terminal()
+        shown = Progress(job.message, bar)
+        for message in job.events():
+            shown.take(message)
+        self.assertIn(said, bar.getvalue().split("\n")[-3])
+        self.assertIn(f"\r{job.name} [##############################] 1/1 load cases, succeeded", bar.getvalue())
         unreached = self.client.run(Case(GEOMETRY, [OPENING], accuracy=Accuracy(A=1e-6, max_triangles=2000)),
                                     progress=False)
         self.assertFalse(unreached.converged)
         self.assertIn("max_triangles", unreached.not_reached)
 
     def test_progress_is_lines_or_a_bar(self):
-        class Terminal(io.StringIO):
-            def isatty(self):
-                return True
         plain, bar = io.StringIO(), Terminal()
         job = self.client.submit(Case(GEOMETRY, [OPENING], COARSE)).wait(out=plain)
         self.assertRegex(plain.getvalue(), rf"(?m)^{job.name}: opening: converged after \d+ steps?$")
