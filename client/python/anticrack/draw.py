@@ -8,33 +8,29 @@ from typing import Any
 import numpy as np
 
 from .arrays import Array
-from .errors import Error
+from .errors import Error, package
+from .names import place
 from .result import BONDED, CRACK, DELAMINATED, FREE, Interface, Load, Result, Trace, runs
 
 
 def _axes(ax: Any) -> Any:
-    from matplotlib import pyplot
-    return pyplot.subplots(layout="constrained")[1] if ax is None else ax
+    if ax is not None:
+        return ax
+    return package("matplotlib.pyplot").subplots(layout="constrained")[1]
 
 
 def _load(result: Result, load: str | Load | None) -> Load:
     if isinstance(load, Load):
         return load
-    name = next(iter(result.loads), "") if load is None else load
-    if name not in result.loads:
-        raise Error(f"there is no load '{name}'; known are {', '.join(result.loads)}")
-    return result.loads[name]
+    return result.loads[next(iter(result.loads), "") if load is None else load]
 
 
 def _interface(result: Result, load: Load, interface: int | str | None) -> int:
     """The one named, or the most eventful: whose jump is largest or, if nothing is open, whose contact is longest."""
     if isinstance(interface, int):
         return interface
-    names = [entry.name for entry in result.interfaces]
     if interface is not None:
-        if interface not in names:
-            raise Error(f"there is no interface '{interface}'; known are {', '.join(names)}")
-        return names.index(interface)
+        return result.interfaces.place(interface)
     if not load.traces:
         raise Error(f"{load.name} has no traces")
     jumps = [np.abs(trace.jump).max(initial=0) for trace in load.traces]
@@ -111,8 +107,8 @@ def interfaces(result: Result, ax: Any = None, labels: bool = True) -> Any:
 def membrane(result: Result, load: str | Load | None = None, ax: Any = None, levels: int = 12, lines: bool = True,
              cmap: str = "viridis") -> Any:
     """u from above, in colours and contour lines, with cracks and inclusions; takes a case with fields."""
-    from matplotlib.tri import Triangulation
     ax, load = _axes(ax), _load(result, load)
+    from matplotlib.tri import Triangulation
     for part in _fields(load):
         triangulation = Triangulation(*result.mesh.nodes[part.nodes].T, part.triangles)
         shades = ax.tricontourf(triangulation, part.u, _levels(load, levels), cmap=cmap)
@@ -142,9 +138,9 @@ def flux(result: Result, load: str | Load | None = None) -> list[Array]:
 def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels: int = 10, cmap: str = "Blues") -> Any:
     """From above: labelled lines of u over the flux (see `flux`) in colours, with cracks and inclusions; takes a case
     with fields. The flux grows without bound at tips: its peaks are cut off, and the colour bar says so."""
+    ax, load = _axes(ax), _load(result, load)
     from matplotlib.ticker import MaxNLocator
     from matplotlib.tri import Triangulation
-    ax, load = _axes(ax), _load(result, load)
     sizes = flux(result, load)
     parts = [Triangulation(*result.mesh.nodes[part.nodes].T, part.triangles) for part in load.fields]
     corners = [np.stack((part.x, part.y), -1)[part.triangles] for part in parts]
@@ -248,13 +244,13 @@ def sweep(result: Result, x: str | int | Array = 0, inclusion: str | int = 0, ax
     if isinstance(x, (str, int)):
         if columns.coefficients is None:
             raise Error("the coefficients are not known; give x, a value for every row")
-        index = columns.loads.index(x) if isinstance(x, str) else x
+        index = place("load", x, columns.loads) if isinstance(x, str) else x
         label, values = f"coefficient of {columns.loads[index]}", columns.coefficients[:, index]
     else:
         label, values = "", np.asarray(x)
     rows = columns.converged
     if columns.inclusions:
-        chosen = columns.inclusions.index(inclusion) if isinstance(inclusion, str) else inclusion
+        chosen = place("inclusion", inclusion, columns.inclusions) if isinstance(inclusion, str) else inclusion
         name, heights = f"A of {columns.inclusions[chosen]}", columns.displacement[:, chosen]
     else:
         name, heights = "contact length", columns.contact_length

@@ -2,6 +2,7 @@
 """What a job is doing: a bar on a terminal and in a notebook, plain lines elsewhere."""
 from __future__ import annotations
 
+import os
 import sys
 import time
 from typing import Any, TextIO
@@ -11,7 +12,7 @@ import numpy as np
 from .result import known
 from .v1 import solve_pb2
 
-WIDTH = 30
+WIDTH = 20
 PAUSE = 0.1  # between two looks of a bar [s]
 
 
@@ -43,7 +44,8 @@ class State:
         elif event == "samples" and message.samples.iteration:
             samples = message.samples
             name = self.loads[samples.load_case[-1]] if samples.load_case[-1] < len(self.loads) else ""
-            self.now = f"{name}: iteration {samples.iteration[-1]}, criterion {samples.criterion[-1]:.2g}"
+            criterion = f", criterion {samples.criterion[-1]:.2g}" if self.step == "iteration" else ""
+            self.now = f"{name}: {self.step} {samples.iteration[-1]}{criterion}"
         elif event == "sweep_rows":
             self.ended += len(message.sweep_rows.status)
             self.now = "solving"
@@ -123,7 +125,7 @@ class Progress:
             self._handle.update({"text/plain": text}, raw=True)
         elif self._bar:
             self._out.write("".join("\r" + stage.ljust(self._shown) + "\n" for stage in stages))
-            text = self._text()[:100]
+            text = self._text()[:self._columns()]
             self._out.write("\r" + text.ljust(self._shown))
             self._shown = len(text)
             if message.HasField("ended"):
@@ -132,6 +134,13 @@ class Progress:
         elif line:
             self._out.write("".join(f"{self._name}: {part}\n" for part in line.split("\n")))
             self._out.flush()
+
+    def _columns(self) -> int:
+        """A longer text would go on in a second line, which stays."""
+        try:
+            return os.get_terminal_size(self._out.fileno()).columns - 1
+        except OSError:
+            return 100
 
     def _text(self) -> str:
         return f"{self._name} {self._state.bar()}"

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from .arrays import Array
+from .errors import package
 from .sections import Section
 from .v1 import mesh_pb2, solve_pb2
 
@@ -416,7 +417,7 @@ def _values(section: Section, folder: Path) -> Array:
     if key in section:
         values = section.table[key]
     else:
-        import h5py
+        h5py = package("h5py")
         section.need("file", "name an HDF5 file")
         section.need("dataset", 'name the dataset in the file, as "/f"')
         path, key = folder / (section.text("file") or ""), "dataset"

@@ -197,7 +197,7 @@ class Jobs(unittest.TestCase):
         for message in job.events():
             shown.take(message)
         self.assertIn(said, bar.getvalue().split("\n")[-3])
-        self.assertIn(f"\r{job.name} [##############################] 1/1 load cases, succeeded", bar.getvalue())
+        self.assertIn(f"\r{job.name} [####################] 1/1 load cases, succeeded", bar.getvalue())
         unreached = self.client.run(Case(GEOMETRY, [OPENING], accuracy=Accuracy(A=1e-6, max_triangles=2000)),
                                     progress=False)
         self.assertFalse(unreached.converged)
@@ -211,7 +211,7 @@ class Jobs(unittest.TestCase):
         shown = Progress(job.message, bar)
         for message in job.events():
             shown.take(message)
-        self.assertIn(f"\r{job.name} [##############################] 1/1 load cases, succeeded", bar.getvalue())
+        self.assertIn(f"\r{job.name} [####################] 1/1 load cases, succeeded", bar.getvalue())
         self.assertEqual(bar.getvalue().count("\n"), 1)
 
     def test_progress_in_a_notebook_is_one_text_that_changes(self):
