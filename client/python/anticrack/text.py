@@ -31,6 +31,12 @@ def interval(lower: float, upper: float, value: float, unit: str = "") -> str:
     return f"({texts[0]} +- {texts[1]})e{exponent}{unit} ({texts[2]}e{exponent} on the mesh)"
 
 
+def short(text: str, most: int = 60) -> str:
+    """In one line, cut."""
+    text = " ".join(text.split())
+    return text if len(text) <= most else text[:most] + "..."
+
+
 def counted(count: int, one: str) -> str:
     return f"{count} {one}{'' if count == 1 else 's'}"
 

@@ -89,6 +89,11 @@ class Jobs(unittest.TestCase):
                 self.client.submit(Case.parse(case + "\n[[load]]\nname = 'a'\nf = 1"))
             self.assertTrue(str(caught.exception).startswith(said), caught.exception)
 
+    def test_a_region_that_is_not_there_is_named(self):
+        geometry = Geometry(GEOMETRY.boundary, regions=[anticrack.Region("sheet", (0, 0.5))])
+        with self.assertRaisesRegex(anticrack.ServerError, "^load.0.f.*shet.*sheet"):
+            self.client.run(Case(geometry, [Load("a", {"shet": 1})]), progress=False)
+
     def test_a_mesh_that_fails_says_why(self):
         far = Geometry(GEOMETRY.boundary, [Interface([(3, 0), (4, 0)])], [Inclusion("fibre", (3, 0), (4, 0))])
         with self.assertRaises(anticrack.ServerError) as caught:
@@ -154,6 +159,8 @@ class Jobs(unittest.TestCase):
         for arguments, said in (({"coefficients": [[1.0]]}, r"\(1, 1\) is not \(rows, 2\)"),
                                 ({"traces": [0]}, "traces"), ({"bounds": True}, "have bounds anyway"),
                                 ({"coefficients": [[numpy.inf, 1]]}, "finite"),
+                                ({"coefficients": [[1, 1], [1]]}, "not all of one length"),
+                                ({"coefficients": [[1, 1]], "traces": ["a"]}, "traces: .*write .0, 2."),
                                 ({"coefficients": [[1, 1]], "nodal_forces": [[1]]}, "not both")):
             with self.assertRaisesRegex(anticrack.CaseError, said):
                 self.client.submit(case, **arguments)
