@@ -344,14 +344,17 @@ class Result:
 
     def _repr_html_(self) -> str:
         """For a notebook."""
-        names = list(next(iter(self.loads.values())).inclusions)[:8] if self.loads else []
-        rows = []
+        most = 8  # columns
+        every = list(next(iter(self.loads.values())).inclusions) if self.loads else []
+        rows, names = [], every[:most]
         for load in self.loads.values():
             parts = [load.inclusions.get(name) for name in names]
             rows.append([load.name, load.status.replace("_", " "), load._energy(), *(
                 interval(part.A_lower, part.A_upper, part.A) if part is not None else "-" for part in parts)])
         head = ["load", "status", "energy", *(f"A of {name}{self.units.label('L')}" for name in names)]
         title = self._title() + (f"; not reached: {self.not_reached}" if self.not_reached else "")
+        if len(every) > most:
+            title += f"; A of the first {most} of {len(every)} inclusions"
         return html_table(title, head, rows)
 
     @classmethod
