@@ -129,7 +129,8 @@ def interfaces(result: Result, ax: Any = None, labels: bool = True) -> Any:
                 up, right = across[1, middle], across[0, middle]
                 ax.annotate(result.mesh.inclusions[inclusion], (x[middle], y[middle]), xytext=(6 * right, 6 * up),
                             textcoords="offset points", va="bottom" if up > 0.5 else "top" if up < -0.5 else "center",
-                            ha="center" if abs(up) > 0.9 else "left" if right > 0 else "right")
+                            ha="center" if abs(up) > 0.9 else "left" if right > 0 else "right",
+                            bbox={"boxstyle": "round,pad=0.1", "facecolor": "white", "alpha": 0.6, "linewidth": 0})
     if labels and drawn:
         ax.legend(list(drawn.values()), list(drawn), loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=2,
                   fontsize="small", frameon=False)
