@@ -273,7 +273,7 @@ def error_band(result: Result, load: str | Load | None = None, ax: Any = None) -
 
 def sweep(result: Result, x: str | int | Array = 0, inclusion: str | int = 0, ax: Any = None) -> Any:
     """A of an inclusion (where there is none: the contact length) over a coefficient by the name or index of its load,
-    or over values (rows) of one's own; rows that did not converge are left out."""
+    or over values (rows) of one's own, with a band where rows have bounds. Rows that did not converge are left out."""
     ax = _axes(ax)
     columns = result.sweep
     if columns is None:
@@ -285,13 +285,16 @@ def sweep(result: Result, x: str | int | Array = 0, inclusion: str | int = 0, ax
         label, values = f"coefficient of {columns.loads[index]}", columns.coefficients[:, index]
     else:
         label, values = "", np.asarray(x)
-    rows = columns.converged
+    rows = np.flatnonzero(columns.converged)
+    rows = rows[np.argsort(values[rows], kind="stable")]
     if columns.inclusions:
         chosen = place("inclusion", inclusion, columns.inclusions) if isinstance(inclusion, str) else inclusion
         name, heights = f"A of {columns.inclusions[chosen]}", columns.displacement[:, chosen]
+        if columns.displacement_lower is not None and columns.displacement_upper is not None:
+            ax.fill_between(values[rows], columns.displacement_lower[rows, chosen],
+                            columns.displacement_upper[rows, chosen], alpha=0.3, label="bounds")
     else:
         name, heights = "contact length", columns.contact_length
-    order = np.argsort(values[rows], kind="stable")
-    ax.plot(values[rows][order], heights[rows][order], ".-", label=name)
+    ax.plot(values[rows], heights[rows], ".-", label=name)
     ax.set(xlabel=label, ylabel=name + result.units.label("L"))
     return ax

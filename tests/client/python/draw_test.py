@@ -25,7 +25,7 @@ class Figures(unittest.TestCase):
         with anticrack.local(program=ANTICRACKD) as client:
             cls.several = client.run(EXAMPLES / "several-inclusions.toml", progress=False)
             cls.skew = client.run(EXAMPLES / "paper-2.toml", progress=False)
-            cls.sweep = client.run(EXAMPLES / "load-ratio.toml", numpy.eye(2), progress=False)
+            cls.sweep = client.run(EXAMPLES / "load-ratio.toml", numpy.eye(2), bounds=True, progress=False)
             case = anticrack.Case.read(EXAMPLES / "load-ratio.toml")
             case.tables["accuracy"] = {"energy": 0.05}
             cls.accurate = client.run(case, progress=False)
@@ -150,6 +150,10 @@ class Figures(unittest.TestCase):
         self.assertEqual(line.get_xdata().tolist(), [0, 1])
         (line,) = draw.sweep(self.sweep, numpy.array([2.0, 1.0]), "gamma_c").lines
         self.assertEqual(line.get_ydata().tolist(), self.sweep.sweep.displacement[::-1, 0].tolist())
+        (band,) = draw.sweep(self.sweep, "opening", ax=matplotlib.figure.Figure().subplots()).collections
+        ends = band.get_paths()[0].vertices[:, 1]
+        self.assertEqual((ends.min(), ends.max()), (self.sweep.sweep.displacement_lower.min(),
+                                                    self.sweep.sweep.displacement_upper.max()))
         with self.assertRaisesRegex(anticrack.Error, "no load 'openin'; known are .*; did you mean opening"):
             draw.sweep(self.sweep, "openin")
         with self.assertRaisesRegex(anticrack.Error, "not the result of a sweep"):
