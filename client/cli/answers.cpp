@@ -244,7 +244,7 @@ std::string answers_table(const std::vector<results::Load>& loads, const results
   std::ranges::move(inclusions.head(), std::back_inserter(head));
   const bool bounded = std::ranges::any_of(loads, is_bounded);
   head.push_back({"energy", "F L"});
-  if (bounded) head.push_back({"error", "%"});
+  if (bounded) head.push_back({"error of u", "%"});
   head.push_back({"contact length", "L"});
   if (by_uzawa) head.insert(head.end(), {{"theta", ""}, {"theta*", ""}});
   head.push_back({"wall time", "s"});

@@ -76,20 +76,32 @@ std::size_t bounded(double expected, std::size_t max_triangles, const std::strin
       .at(field);
 }
 
+/// Refuses a membrane that could move as a whole.
+void check_held(const Geometry& geometry, const Plan& plan) {
+  const auto held = [](const PlannedCurve& curve) { return curve.role == Role::dirichlet; };
+  const auto fixed = [](const Motion& motion) { return motion.fixed.has_value(); };
+  if (std::ranges::any_of(plan.curves, held) || std::ranges::any_of(plan.motions, fixed)) return;
+  refuse(geometry.neumann_sides.empty() ? "neumann" : "neumann_sides",
+         "all of the boundary is in neumann, so nothing holds the membrane and it could move as a "
+         "whole; leave a side or a hole out of neumann, or hold an inclusion, as by fixed = 0");
+}
+
 /// Refuses inclusions and cracks that touch the Dirichlet boundary.
-void check_contacts(const Layout& layout, const Plan& plan) {
-  std::vector<bool> held(plan.points.size(), false);
-  for (const PlannedCurve& curve : plan.curves)
-    if (curve.role == Role::dirichlet) held[at(curve.a)] = held[at(curve.b)] = true;
+void check_contacts(const Layout& layout, const Network& network, const Plan& plan) {
+  std::vector<int> held(plan.points.size(), -1);  // the line of the boundary that holds a point
+  for (std::size_t e = 0; e < plan.curves.size(); ++e)
+    if (const PlannedCurve& curve = plan.curves[e]; curve.role == Role::dirichlet)
+      held[at(curve.a)] = held[at(curve.b)] = network.chords[e].line;
   for (const PlacedPart& part : layout.parts) {
     for (const bool end : {false, true}) {
       const int point = end ? part.end.point : part.begin.point;
-      if (!held[at(point)]) continue;
+      if (held[at(point)] < 0) continue;
       const std::string which = end != part.reversed ? ".to" : ".from";
-      const std::string field = place_of(part) + (part.own ? "" : which);
-      refuse(field, field, " ", show(plan.points[at(point)]),
-             " touches the boundary, at an end of the interface; a tip must lie inside the "
-             "membrane, or where the boundary is Neumann on both sides of it");
+      const std::string& line = network.lines[at(held[at(point)])].field;
+      refuse(place_of(part) + (part.own ? "" : which), part.field, " ends at ",
+             show(plan.points[at(point)]), " on ", line == "boundary" ? "the " : "", line,
+             ", where u is held; end it inside the membrane, or name the hole or the sides that "
+             "meet there in neumann, which lets them go");
     }
   }
 }
@@ -222,9 +234,7 @@ void note_chords(const Geometry& geometry, const Network& network,
   warnings.push_back(note.str());
 }
 
-}  // namespace
-
-Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_triangles) {
+Plan lay_plan(const Geometry& given, const MeshOptions& options, std::size_t max_triangles) {
   check_for_geometry(options);
   Drawn geometry = draw(given);
   Network network = lay_lines(geometry, options);
@@ -253,7 +263,8 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   }
   const std::vector<const Stretch*> stretches = stretches_of(layout, network);
   add_curves(layout, network, stretches, plan);
-  check_contacts(layout, plan);
+  check_held(geometry, plan);
+  check_contacts(layout, network, plan);
   check_inclusions_apart(layout, plan);
   lay_subdomains(geometry, network, names, walks_of(stretches), plan);
   if (options.preset == Preset::paper) {
@@ -265,6 +276,21 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   set_intervals(plan, size);
   if (graded(options.preset)) plan.grading = {size, options.grading, options.tip_size};
   return plan;
+}
+
+}  // namespace
+
+Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_triangles) {
+  try {
+    Plan plan = lay_plan(geometry, options, max_triangles);
+    for (std::string& warning : plan.warnings) warning = with_names(warning, geometry);
+    return plan;
+  } catch (const errors::Error& error) {
+    // a name at fault tells nothing apart
+    if (error.fields().empty() || error.fields()[0].field.ends_with(".name")) throw;
+    throw errors::Error(error.reason(), with_names(error.what(), geometry))
+        .at(error.fields()[0].field);
+  }
 }
 
 }  // namespace anticrack::mesh

@@ -229,7 +229,7 @@ const Fault boundary_faults[] = {
        g.holes = {window("a", {0.75, 0}, 0.1)};
      },
      "interfaces[0].polyline",
-     {"leaves the membrane", "of holes[0].outline.circle"}},
+     {"leaves the membrane", R"(of hole "a")"}},
     {"InterfaceInAHole",
      [](Geometry& g) {
        g.holes = {window("a", {0, 0.5}, 0.3)};
@@ -243,6 +243,13 @@ const Fault boundary_faults[] = {
      },
      "holes[0].outline.polygon",
      {"2 vertices"}},
+    {"CrackToAHeldHole",
+     [](Geometry& g) {
+       g.holes = {window("", {0, 0.5}, 0.2)};
+       g.cracks = {{"cut", {}, true, LineSpec{Shape::polyline, {{0.2, 0.5}, {0.6, 0.5}}}}};
+     },
+     "cracks[0].line",
+     {R"(crack "cut" ends at (0.2, 0.5) on hole "hole-1", where u is held)", "in neumann"}},
     {"NamesTwice",
      [](Geometry& g) {
        g.holes = {window("side-1", {0, 0.5}, 0.2)};
