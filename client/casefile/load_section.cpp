@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "casefile/sections.hpp"
 
+#include <algorithm>
 #include <optional>
+
+#include "words/nearest.hpp"
 
 namespace anticrack::casefile {
 namespace {
@@ -72,6 +75,31 @@ void read_moments(const Section& section, const std::string& field, v1::LoadCase
   }
 }
 
+// What a load names must be in the geometry; what is in a .msh file the server says.
+void check_names(const Section& section, const char* key, const std::string& what,
+                 const std::vector<std::string>& known) {
+  for (const auto& [name, entry] : section.entries(key, "")) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    throw Error(spot_of(*entry, section.path_of(key, name)),
+                "there is no " + what + " of this name; " +
+                    (known.empty() ? "name one by [[geometry." + what + "]]"
+                                   : words::suggestion(name, known)));
+  }
+}
+
+void check_names(const Section& section, const v1::LoadCase& load, const v1::Geometry& geometry) {
+  std::vector<std::string> regions, inclusions;
+  for (const v1::Region& region : geometry.regions()) regions.push_back(region.name());
+  for (const v1::Inclusion& inclusion : geometry.inclusions())
+    inclusions.push_back(inclusion.name());
+  // Where a subdomain has no region it is omega1, omega2, ...: only the server knows how many.
+  for (const auto& [region, value] : load.force().per_region().values())
+    if (region.starts_with("omega")) regions.push_back(region);
+  if (load.force().has_per_region()) check_names(section, "f", "region", regions);
+  check_names(section, "inclusion_forces", "inclusion", inclusions);
+  check_names(section, "inclusion_moments", "inclusion", inclusions);
+}
+
 void read_load(const Section& section, std::size_t index, Case& result) {
   const std::string field = entry_field("load_cases", index);
   Spots& spots = result.spots;
@@ -97,6 +125,7 @@ void read_load(const Section& section, std::size_t index, Case& result) {
       result.force_files.push_back(*std::move(file));
     }
   }
+  if (result.mesh.has_geometry()) check_names(section, load, result.mesh.geometry());
 }
 
 }  // namespace

@@ -49,6 +49,17 @@ Spot spot_of(const toml::node& node, std::string key) {
   return spot;
 }
 
+namespace {
+
+/// The shortest text that reads back as the same number.
+std::string number_text(double value) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  return {digits.data(), end};
+}
+
+}  // namespace
+
 std::string shown(const toml::node& node) {
   constexpr std::size_t longest = 60;
   std::ostringstream out;
@@ -56,6 +67,8 @@ std::string shown(const toml::node& node) {
     toml::table on_one_line(*table);
     on_one_line.is_inline(true);
     out << toml::array{on_one_line}.get(0)->ref<toml::table>();
+  } else if (const toml::value<double>* number = node.as_floating_point()) {
+    out << number_text(**number);  // toml_formatter writes 17 digits
   } else {
     node.visit([&out](const auto& value) { out << toml::toml_formatter(value); });
   }
@@ -156,11 +169,8 @@ std::optional<double> Section::positive(std::string_view key) const {
 std::optional<std::string> Section::expression(std::string_view key) const {
   const toml::node* node = find(key);
   if (!node || node->is_string()) return text(key);
-  const double value =
-      number_of(*node, path_of(key), "write a number, or an expression in x and y in quotes");
-  std::array<char, 32> digits{};  // of the shortest text that reads back as the same number
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  return std::string(digits.data(), end);
+  return number_text(
+      number_of(*node, path_of(key), "write a number, or an expression in x and y in quotes"));
 }
 
 std::vector<std::pair<std::string, const toml::node*>> Section::entries(

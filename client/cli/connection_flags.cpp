@@ -48,7 +48,7 @@ bool is_port(std::string_view text) {
 
 void add_connection_flags(CLI::App& app, ConnectionFlags& flags) {
   app.add_option("--server", flags.server,
-                 "HOST:PORT or unix:PATH of anticrackd (default: localhost:7433)")
+                 "HOST:PORT or unix:PATH of anticrackd (default: 127.0.0.1:7433)")
       ->type_name("ADDRESS")
       ->envname("ANTICRACK_SERVER");
   app.add_flag("--tls", flags.credentials.tls,
@@ -123,7 +123,7 @@ void check_server_address(const std::string& address) {
   }
   const std::string port = address.substr(colon + 1);
   if (host.empty())
-    refuse(address, "no host is named; write HOST:PORT, for example localhost" + address);
+    refuse(address, "no host is named; write HOST:PORT, for example 127.0.0.1" + address);
   if (!is_port(port))
     refuse(address, "\"" + port + "\" is not a port; write a number from 1 to 65535");
 }

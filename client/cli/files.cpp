@@ -104,9 +104,10 @@ int tell_made(const std::vector<std::filesystem::path>& files,
 
 int plot(const FileOptions& options, const Globals& globals) {
   results::Result result = read_result(options);
+  const std::string folder = options.folder.empty() ? "figures" : options.folder;
   const figures::Drawn drawn =
-      options.together ? figures::draw_together(std::move(result), options.folder, options.figures)
-                       : figures::draw(result, options.folder, options.figures);
+      options.together ? figures::draw_together(std::move(result), folder, options.figures)
+                       : figures::draw(result, folder, options.figures);
   return tell_made(drawn.files, drawn.notes, globals);
 }
 
@@ -139,8 +140,8 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
 
   CLI::App* plot_command = app.add_subcommand("plot", "Draw the figures of a result file");
   add_file(*plot_command, *options, "Result file, HDF5");
-  plot_command->add_option("-o,--output", options->folder, "Folder of the figures")
-      ->required()
+  plot_command
+      ->add_option("-o,--output", options->folder, "Folder of the figures (default: figures)")
       ->type_name("DIR");
   add_figure_options(*plot_command, options->figures);
   CLI::Option* together = plot_command->add_flag(

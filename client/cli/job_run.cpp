@@ -158,10 +158,10 @@ void save(const fs::path& file, const results::Result& result, const Session& se
 
 void print_answers(const Globals& globals, const v1::Job& job, const results::Result& result,
                    const fs::path& file) {
+  if (globals.quiet && !globals.json) return complain_of(job);
+  complain_of_failure(job);
   if (globals.json)
     print_document(answers_json(result, file));
-  else if (globals.quiet)
-    complain_of(job);
   else
     print_document("\n" + answers_table(result) + accuracy_text(job) + "\n" +
                    sanitise(summary(result, file)));

@@ -92,7 +92,7 @@ std::string info_text(const v1::ServerInfo& info, const std::string& address) {
 void add_server(CLI::App& app, const Globals& globals, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("server", "Show version, limits and counters of the server");
-  command->footer("Example:\n  anticrack --server localhost:7433 server");
+  command->footer("Example:\n  anticrack --server 127.0.0.1:7433 server");
   command->callback([&globals, &chosen] {
     chosen = [&globals] {
       Session session(globals);

@@ -15,7 +15,7 @@ std::string stages_table(const results::Load& load) {
   if (stages.size() == 0) return "";
   const bool of_a = std::ranges::any_of(stages.displacement_error,
                                         [](double error) { return std::isfinite(error); });
-  std::vector<std::vector<std::string>> rows{{"stage", "triangles", "energy", "error"},
+  std::vector<std::vector<std::string>> rows{{"stage", "triangles", "energy", "error of u"},
                                              {"", "-", "-", "%"}};
   if (of_a) {
     rows[0].emplace_back("error of A");

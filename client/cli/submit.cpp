@@ -194,6 +194,10 @@ void complain_of(const v1::Job& job) {
   for (const std::string& line : shortfalls(job)) complain(line);
 }
 
+void complain_of_failure(const v1::Job& job) {
+  if (job.state() == v1::Job::STATE_FAILED) complain(shortfalls(job).front());
+}
+
 AheadFuture fetch_ahead(Session& session, const v1::Job& job) {
   return std::async(std::launch::async,
                     [&session, mesh = job.mesh(),

@@ -87,5 +87,7 @@ int exit_code_of(const v1::Job& job);
 
 /// Prints as errors what did not go as it was asked for: with --quiet this is all that is told.
 void complain_of(const v1::Job& job);
+/// Only why it could not be run to its end, where it left answers: those of its last whole stage.
+void complain_of_failure(const v1::Job& job);
 
 }  // namespace anticrack::cli

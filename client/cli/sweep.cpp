@@ -42,6 +42,11 @@ casefile::Case read_case(const SweepOptions& options, const Globals& globals) {
     say(globals,
         "The loads of the case are not used: each row of " + options.files.nodal + " is a load");
   }
+  if (leave_out_accuracy(the_case)) {
+    say(globals,
+        "[accuracy] is not used: a sweep has one mesh, of mesh.size; --bounds tells how far each "
+        "row is from the membrane");
+  }
   return the_case;
 }
 

@@ -111,11 +111,6 @@ void read_combinations(const SweepFiles& files, const casefile::Case& the_case, 
 }
 
 void check_task(const casefile::Case& the_case) {
-  if (the_case.job.has_accuracy()) {
-    throw casefile::Error(the_case.locate("accuracy").value_or(casefile::Spot{}),
-                          "a sweep has one mesh, and [accuracy] refines it; take [accuracy] out of "
-                          "the case, and set mesh.size");
-  }
   if (the_case.job.solver().has_uzawa()) {
     throw casefile::Error(
         the_case.locate("solver.method").value_or(casefile::Spot{}),
@@ -146,6 +141,14 @@ void check_limits(const SweepInput& input, const v1::ServerLimits& limits) {
 }
 
 }  // namespace
+
+bool leave_out_accuracy(casefile::Case& the_case) {
+  if (!the_case.job.has_accuracy()) return false;
+  the_case.job.clear_accuracy();
+  if (!the_case.spots.contains("options.preset"))
+    the_case.mesh.mutable_options()->set_preset(v1::MESH_PRESET_GRADED);
+  return true;
+}
 
 SweepInput read_sweep_input(const SweepFiles& files, const casefile::Case& the_case) {
   check_task(the_case);

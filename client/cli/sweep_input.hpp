@@ -38,6 +38,10 @@ struct SweepInput {
 /// What is sent within the request; more goes as an upload.
 inline constexpr std::size_t inline_matrix_bytes = std::size_t{1} << 20;
 
+/// A sweep has one mesh: takes the accuracy out of the case, and the coarse mesh that only it would
+/// begin on. False where there is none.
+bool leave_out_accuracy(casefile::Case& the_case);
+
 /// Reads the matrix and checks it against the case. Throws casefile::Error and results::Error, with
 /// file, line and cure.
 SweepInput read_sweep_input(const SweepFiles& files, const casefile::Case& the_case);

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Submits a job made of Python objects, watches it and prints its answers.
 
-    python3 submit_job.py [HOST:PORT]        default: $ANTICRACK_SERVER, or localhost:7433
+    python3 submit_job.py [HOST:PORT]        default: $ANTICRACK_SERVER, or 127.0.0.1:7433
 
 Takes the Python package anticrack (python3-anticrack).
 """

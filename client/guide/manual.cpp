@@ -52,7 +52,7 @@ class PageWriter {
     footer();
     if (&program != &command) {
       _out << ".SH SEE ALSO\n.BR " << plain(program.name) << " (" << section
-           << "): options of every command, exit codes\n";
+           << "):\noptions of every command, exit codes\n";
     }
   }
 

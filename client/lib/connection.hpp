@@ -14,7 +14,7 @@
 
 namespace anticrack::client {
 
-inline constexpr std::string_view default_address = "localhost:7433";
+inline constexpr std::string_view default_address = "127.0.0.1:7433";
 
 struct ConnectionOptions {
   std::string address{default_address};        ///< HOST:PORT or unix:PATH

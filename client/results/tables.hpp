@@ -73,10 +73,13 @@ inline constexpr auto edges = std::tuple{
 // Of /loads/NAME: attributes, and what is in it. Those that LoadCaseAnswer has under the same name
 // are copied by it.
 
-inline constexpr auto load = std::tuple{
+inline constexpr auto load_end = std::tuple{
     scalar("status", &Load::status, "converged, not_converged, failed or cancelled"),
     scalar("reason", &Load::reason, "why it did not converge"),
     scalar("error", &Load::error, "why it failed"),
+    scalar("solve_seconds", &Load::solve_seconds, "on the server", "s"),
+};
+inline constexpr auto load_solver = std::tuple{
     scalar("method", &Load::method, "active-set or uzawa"),
     scalar("mass", &Load::mass, "lumped or consistent"),
     scalar("epsilon", &Load::epsilon, "stopping criterion asked of Algorithm 2"),
@@ -87,6 +90,8 @@ inline constexpr auto load = std::tuple{
     scalar("criterion", &Load::criterion, "of the last iteration"),
     scalar("theta", &Load::theta, "used by Algorithm 2"),
     scalar("theta_star", &Load::theta_star, "of Theorem 4"),
+};
+inline constexpr auto load_answer = std::tuple{
     scalar("energy", &Load::energy, "Pi(u)", "F L"),
     // Files from before answers had bounds lack these.
     optional(scalar("energy_lower", &Load::energy_lower, "", "F L")),
@@ -96,6 +101,10 @@ inline constexpr auto load = std::tuple{
     optional(
         scalar("error_bound_relative", &Load::error_bound_relative, "the same over the norm of u")),
     optional(scalar("no_bracket", &Load::no_bracket, "why there are no bounds")),
+    scalar("contact_length", &Load::contact_length, "of all cracks and delaminated parts", "L"),
+    scalar("weakly_active", &Load::weakly_active, "crack nodes with neither jump nor pressure"),
+};
+inline constexpr auto load_residuals = std::tuple{
     scalar("kkt_equilibrium", within(&Load::kkt, &Kkt::equilibrium), ""),
     scalar("kkt_gap", within(&Load::kkt, &Kkt::gap), ""),
     scalar("kkt_sign", within(&Load::kkt, &Kkt::sign), ""),
@@ -106,10 +115,8 @@ inline constexpr auto load = std::tuple{
     scalar("kkt_relative_sign", within(&Load::kkt_relative, &Kkt::sign), ""),
     scalar("kkt_relative_complementarity", within(&Load::kkt_relative, &Kkt::complementarity),
            "the same, relative"),
-    scalar("contact_length", &Load::contact_length, "of all cracks and delaminated parts", "L"),
-    scalar("weakly_active", &Load::weakly_active, "crack nodes with neither jump nor pressure"),
-    scalar("solve_seconds", &Load::solve_seconds, "on the server", "s"),
 };
+inline constexpr auto load = std::tuple_cat(load_end, load_solver, load_answer, load_residuals);
 inline constexpr auto load_arrays = std::tuple{
     array("warnings", "w", &Load::warnings, "e.g. of a load not integrated as exactly as asked"),
 };

@@ -2,7 +2,7 @@
 # `cpack --config build/release/CPackConfig.cmake -B DIR`: a Debian package of each component.
 set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_GENERATOR DEB)
-# Of a build that made programs only, as that of quickstart, the manual pages and the library are missing.
+# Of a build that made programs only, as that of quickstart, the library is missing.
 set(CPACK_INSTALL_COMMANDS "\"${CMAKE_COMMAND}\" --build \"${CMAKE_BINARY_DIR}\" --target product")
 set(CPACK_COMPONENTS_ALL server client library python)
 set(CPACK_DEB_COMPONENT_INSTALL ON)

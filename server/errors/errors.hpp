@@ -46,6 +46,9 @@ enum class Reason {
 /// Stable upper-case name of a reason, e.g. "EXPRESSION_INVALID".
 std::string_view name(Reason reason) noexcept;
 
+/// Significant digits of a number in a message.
+constexpr int shown_digits = 8;
+
 /// A field of the request, and its fault.
 struct FieldViolation {
   std::string field;  ///< path, e.g. "load_cases[1].force.expression"

@@ -29,7 +29,7 @@ double Function::operator()(double x, double y) const {
 void Function::require_finite(double x, double y, double value) const {
   if (!std::isfinite(value)) {
     std::ostringstream message;
-    message.precision(17);
+    message.precision(errors::shown_digits);
     message << "the expression has the value " << value << " at (x, y) = (" << x << ", " << y
             << "); it must be finite wherever the membrane is";
     errors::Error error(errors::Reason::expression_invalid, message.str());

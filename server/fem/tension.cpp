@@ -27,7 +27,7 @@ void require_positive(const std::string& field, const std::string& region, doubl
                       double value) {
   if (value > 0 && std::isfinite(value)) return;
   std::ostringstream message;
-  message.precision(17);
+  message.precision(errors::shown_digits);
   message << "the tension " << field;
   if (!region.empty()) message << " of \"" << region << '"';
   message << " is " << value << " at (x, y) = (" << x << ", " << y

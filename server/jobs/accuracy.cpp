@@ -167,6 +167,14 @@ std::string not_reached(const store::StageRecord& last, const store::JobSpec& sp
                      reached.empty() ? "no bounds" : reached, last.triangles, why);
 }
 
+std::string limit_reached(const store::JobSpec& spec, std::uint64_t max_triangles) {
+  const bool own = max_triangles == spec.accuracy->max_triangles;
+  return fmt::format("a finer mesh has more than {} triangles, {}", max_triangles,
+                     own ? "max_triangles of the accuracy; raise it"
+                         : "mesh-triangles of the server; ask for a larger error, or start the "
+                           "server with more");
+}
+
 Verdict judge(const std::vector<store::StageRecord>& stages,
               const std::vector<const store::CaseRecord*>& cases, const store::JobSpec& spec,
               std::uint64_t max_triangles, double seconds) {
@@ -195,7 +203,7 @@ Verdict judge(const std::vector<store::StageRecord>& stages,
                       "or a part that only contact holds); ask for an accuracy of the energy");
   }
   if (last.triangles >= max_triangles)
-    return stop("that is all that max_triangles allows; raise it");
+    return stop(limit_reached(spec, max_triangles));
   if (spec.accuracy->time.count() > 0 &&
       seconds >= std::chrono::duration<double>(spec.accuracy->time).count())
     return stop("the time for it is over; raise accuracy.time");

@@ -42,4 +42,7 @@ Verdict judge(const std::vector<store::StageRecord>& stages,
 std::string not_reached(const store::StageRecord& last, const store::JobSpec& spec,
                         const std::string& why);
 
+/// Which limit on the triangles of a mesh it is, with the cure.
+std::string limit_reached(const store::JobSpec& spec, std::uint64_t max_triangles);
+
 }  // namespace anticrack::jobs

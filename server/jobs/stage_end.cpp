@@ -37,8 +37,7 @@ std::uint64_t most_triangles(const EngineCore& core, const LiveJob& job) {
 /// The mesh of the next stage: as much finer as the accuracy and the limit let it. Throws
 /// errors::Error.
 store::MeshRecord next_mesh(EngineCore& core, const LiveJob& job,
-                            const std::vector<double>& indicator) {
-  const std::uint64_t most = most_triangles(core, job);
+                            const std::vector<double>& indicator, std::uint64_t most) {
   const double sum = std::accumulate(indicator.begin(), indicator.end(), 0.0);
   for (double reduction = std::min(sum / aim, most_reduction);;
        reduction = 1 + (reduction - 1) / 2) {
@@ -76,12 +75,6 @@ void store_progress(EngineCore& core, const JobSnapshot& snapshot,
   }
 }
 
-std::string why_no_mesh(const Error& error) {
-  return error.reason() == Reason::limit_exceeded
-             ? "a finer mesh has more triangles than max_triangles or the server allow; raise it"
-             : error.what();
-}
-
 }  // namespace
 
 void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
@@ -99,19 +92,23 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
       stages.seconds_before + std::chrono::duration<double>(now - *stages.begun).count();
   for (const store::CaseRecord* one : cases) ended.answers.push_back(stage_answer(*one));
   const auto event = std::make_shared<const store::StageRecord>(ended);
-  Verdict verdict = judge(records, cases, *job->spec, most_triangles(core, *job), ended.seconds);
+  const std::uint64_t most = most_triangles(core, *job);
+  Verdict verdict = judge(records, cases, *job->spec, most, ended.seconds);
   LiveStages::Complete complete;
   std::shared_ptr<void> use;
   if (!verdict.over) {
     try {
-      const store::MeshRecord mesh = next_mesh(core, *job, indicator);
+      const store::MeshRecord mesh = next_mesh(core, *job, indicator, most);
       use = core.catalogue.use(mesh.id);
       complete = {job->cases, result_block(*job), job->answer_bytes + job->spool->memory()};
       records.push_back({mesh.id, mesh.triangle_count});
       store_progress(core, snapshot, records);
     } catch (...) {
       const Error error = error_of(std::current_exception());
-      verdict = {true, not_reached(*event, *job->spec, why_no_mesh(error))};
+      const std::string why = error.reason() == Reason::limit_exceeded
+                                  ? limit_reached(*job->spec, most)
+                                  : error.what();
+      verdict = {true, not_reached(*event, *job->spec, why)};
     }
   }
   job->log->append(StageEvent{event});

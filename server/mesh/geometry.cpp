@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <numbers>
 #include <set>
 #include <span>
+#include <sstream>
 #include <unordered_map>
 
 #include "mesh/at.hpp"
@@ -73,20 +76,32 @@ std::size_t bounded(double expected, std::size_t max_triangles, const std::strin
       .at(field);
 }
 
+/// Refuses a membrane that could move as a whole.
+void check_held(const Geometry& geometry, const Plan& plan) {
+  const auto held = [](const PlannedCurve& curve) { return curve.role == Role::dirichlet; };
+  const auto fixed = [](const Motion& motion) { return motion.fixed.has_value(); };
+  if (std::ranges::any_of(plan.curves, held) || std::ranges::any_of(plan.motions, fixed)) return;
+  refuse(geometry.neumann_sides.empty() ? "neumann" : "neumann_sides",
+         "all of the boundary is in neumann, so nothing holds the membrane and it could move as a "
+         "whole; leave a side or a hole out of neumann, or hold an inclusion, as by fixed = 0");
+}
+
 /// Refuses inclusions and cracks that touch the Dirichlet boundary.
-void check_contacts(const Layout& layout, const Plan& plan) {
-  std::vector<bool> held(plan.points.size(), false);
-  for (const PlannedCurve& curve : plan.curves)
-    if (curve.role == Role::dirichlet) held[at(curve.a)] = held[at(curve.b)] = true;
+void check_contacts(const Layout& layout, const Network& network, const Plan& plan) {
+  std::vector<int> held(plan.points.size(), -1);  // the line of the boundary that holds a point
+  for (std::size_t e = 0; e < plan.curves.size(); ++e)
+    if (const PlannedCurve& curve = plan.curves[e]; curve.role == Role::dirichlet)
+      held[at(curve.a)] = held[at(curve.b)] = network.chords[e].line;
   for (const PlacedPart& part : layout.parts) {
     for (const bool end : {false, true}) {
       const int point = end ? part.end.point : part.begin.point;
-      if (!held[at(point)]) continue;
+      if (held[at(point)] < 0) continue;
       const std::string which = end != part.reversed ? ".to" : ".from";
-      const std::string field = place_of(part) + (part.own ? "" : which);
-      refuse(field, field, " ", show(plan.points[at(point)]),
-             " touches the boundary, at an end of the interface; a tip must lie inside the "
-             "membrane, or where the boundary is Neumann on both sides of it");
+      const std::string& line = network.lines[at(held[at(point)])].field;
+      refuse(place_of(part) + (part.own ? "" : which), part.field, " ends at ",
+             show(plan.points[at(point)]), " on ", line == "boundary" ? "the " : "", line,
+             ", where u is held; end it inside the membrane, or name the hole or the sides that "
+             "meet there in neumann, which lets them go");
     }
   }
 }
@@ -188,9 +203,38 @@ std::size_t check_size(const Network& network, double area, double size,
                  "an edge length of " + show(size), "options.size");
 }
 
-}  // namespace
+/// Says how far the chords lie from the curve that they miss most.
+void note_chords(const Geometry& geometry, const Network& network,
+                 std::span<const std::string> interfaces, std::vector<std::string>& warnings) {
+  std::vector<int> pieces(network.lines.size());
+  double most = 0;
+  std::size_t worst = 0;
+  for (const Chord& chord : network.chords) {
+    const NetworkLine& on = network.lines[at(chord.line)];
+    if (on.line.straight()) continue;
+    ++pieces[at(chord.line)];
+    const Point& a = network.points[at(chord.a)];
+    const Point& b = network.points[at(chord.b)];
+    const Point curve = on.line.at(on.line.on_line((chord.from + chord.to) / 2));
+    const double off = distance(curve, Point{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2});
+    if (off > most) worst = at(chord.line);
+    most = std::max(most, off);
+  }
+  if (most == 0) return;
+  const std::vector<std::string> sides = side_names(geometry);
+  const std::size_t holes = sides.size() - geometry.holes.size();
+  const std::string& name = worst < network.outer      ? sides[worst]
+                            : worst < network.boundary ? sides[holes + worst - network.outer]
+                                                       : interfaces[worst - network.boundary];
+  std::ostringstream note;
+  note << std::setprecision(2) << "curves count as chords: " << name << " is " << pieces[worst]
+       << " of them, up to " << most
+       << " off the curve, and bounds are those for the chords; mesh.chord_angle = 1.25 (5 unless "
+          "given) brings them 16 times closer";
+  warnings.push_back(note.str());
+}
 
-Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_triangles) {
+Plan lay_plan(const Geometry& given, const MeshOptions& options, std::size_t max_triangles) {
   check_for_geometry(options);
   Drawn geometry = draw(given);
   Network network = lay_lines(geometry, options);
@@ -205,9 +249,12 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   if (options.preset != Preset::paper) triangles = check_size(network, area, size, max_triangles);
   // The lines alone first, so that their faults are not reported as faults of the parts on them.
   Network lines = network;
-  cut(lines, size, curve_limit);
+  ChordRule rule{size};
+  if (options.chord_angle > 0) rule.turn = options.chord_angle * std::numbers::pi / 180;
+  cut(lines, rule, curve_limit);
   const Layout layout = lay_parts(geometry, network);
-  cut(network, size, curve_limit);
+  cut(network, rule, curve_limit);
+  if (options.chord_angle == 0) note_chords(geometry, network, names, plan.warnings);
 
   plan.triangles = triangles;
   for (const InclusionSpec& inclusion : geometry.inclusions) {
@@ -216,7 +263,8 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   }
   const std::vector<const Stretch*> stretches = stretches_of(layout, network);
   add_curves(layout, network, stretches, plan);
-  check_contacts(layout, plan);
+  check_held(geometry, plan);
+  check_contacts(layout, network, plan);
   check_inclusions_apart(layout, plan);
   lay_subdomains(geometry, network, names, walks_of(stretches), plan);
   if (options.preset == Preset::paper) {
@@ -228,6 +276,21 @@ Plan plan(const Geometry& given, const MeshOptions& options, std::size_t max_tri
   set_intervals(plan, size);
   if (graded(options.preset)) plan.grading = {size, options.grading, options.tip_size};
   return plan;
+}
+
+}  // namespace
+
+Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_triangles) {
+  try {
+    Plan plan = lay_plan(geometry, options, max_triangles);
+    for (std::string& warning : plan.warnings) warning = with_names(warning, geometry);
+    return plan;
+  } catch (const errors::Error& error) {
+    // a name at fault tells nothing apart
+    if (error.fields().empty() || error.fields()[0].field.ends_with(".name")) throw;
+    throw errors::Error(error.reason(), with_names(error.what(), geometry))
+        .at(error.fields()[0].field);
+  }
 }
 
 }  // namespace anticrack::mesh

@@ -151,11 +151,12 @@ struct MeshOptions {
   std::map<std::string, double> tension{};               ///< subdomain -> T
   std::map<std::string, Motion> inclusion_motions{};     ///< inclusion -> how it moves
   std::map<std::string, TensionLaw> tension_laws{};      ///< subdomain -> T, in place of a number
+  double chord_angle = 0;  ///< geometry: largest turn of a chord of a curve, degrees; 0: five
 };
 ANTICRACK_FIELDS(MeshOptions, preset, size, tip_size, grading, align, curve_groups, surface_groups,
-                 tension, inclusion_motions, tension_laws)
+                 tension, inclusion_motions, tension_laws, chord_angle)
 inline auto added_fields(const MeshOptions& of) {
-  return std::tie(of.inclusion_motions, of.tension_laws);
+  return std::tie(of.inclusion_motions, of.tension_laws, of.chord_angle);
 }
 
 /// What a straight curve of the plan is.

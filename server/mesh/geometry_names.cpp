@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <regex>
 
 #include "mesh/geometry_outline.hpp"
 #include "mesh/geometry_primitives.hpp"
@@ -81,6 +82,38 @@ std::vector<std::string> check_names(const Drawn& geometry) {
     interfaces.push_back(std::move(name));
   }
   return interfaces;
+}
+
+std::string with_names(const std::string& message, const Geometry& geometry) {
+  static const std::regex field(
+      R"(\b(inclusion|crack|interface|region|hole|side)s\[(\d+)\](?:\.(?:line|part|outline)\b)?)"
+      R"((?:\.(?:polyline|polygon|segment|arc|spline|circle)\b)?((?:\.[a-z_]+|\[\d+\])*))");
+  static const std::regex api_word("_parts(\\.stretches)?|_law");  // the key is shorter
+  const std::vector<std::string> boundary = side_names(geometry);
+  const std::size_t outer = boundary.size() - geometry.holes.size();
+  const auto name_of = [&](const std::string& kind, std::size_t i) -> std::string {
+    if (kind == "inclusion") return geometry.inclusions[i].name;
+    if (kind == "crack") return geometry.cracks[i].name;
+    if (kind == "region") return geometry.regions[i].name;
+    if (kind == "interface") return geometry.interfaces[i].name;
+    return boundary[kind == "hole" ? outer + i : i];
+  };
+  std::string named;
+  auto rest = message.begin();
+  for (std::sregex_iterator found(message.begin(), message.end(), field), end; found != end;
+       ++found) {
+    const std::smatch& match = *found;
+    const std::size_t index = std::stoul(match[2]);
+    const std::string name = name_of(match[1], index);
+    named.append(rest, match[0].first);
+    const bool only = name.empty() && geometry.interfaces.size() == 1;
+    named += (only ? "the " : "") + match[1].str();
+    if (!only) named += name.empty() ? " " + std::to_string(index + 1) : " \"" + name + "\"";
+    const std::string key = match[3];
+    if (!key.empty()) named += ": " + std::regex_replace(key.substr(1), api_word, "");
+    rest = match[0].second;
+  }
+  return named.append(rest, message.end());
 }
 
 std::string unused_name(const std::string& name, std::vector<std::string>& used) {

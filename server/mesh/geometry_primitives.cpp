@@ -136,7 +136,8 @@ double diagonal(std::span<const Point> points) noexcept {
 
 std::string show(double value) {
   std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                 std::chars_format::general, errors::shown_digits);
   return {digits.data(), end.ptr};
 }
 

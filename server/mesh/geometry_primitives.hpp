@@ -54,7 +54,7 @@ bool ray_meets(const Point& p, std::span<const Segment> edges) noexcept;
 /// Diagonal of the bounding box.
 double diagonal(std::span<const Point> points) noexcept;
 
-/// For messages; the fewest digits that read back as the same number.
+/// For messages.
 std::string show(const Point& p);
 std::string show(double value);
 

@@ -34,6 +34,10 @@ std::vector<std::string> check_names(const Drawn& geometry);
 /// the holes; empty ones filled in.
 std::vector<std::string> side_names(const Geometry& geometry);
 
+/// A message about a geometry with its parts by their names and the keys of a case: for
+/// "inclusions[0].line.polyline.points[1]" it says inclusion "stiffener": points[1].
+std::string with_names(const std::string& message, const Geometry& geometry);
+
 /// `name`, or the first of `name`-2, `name`-3, ... not in `used`; added to `used`.
 std::string unused_name(const std::string& name, std::vector<std::string>& used);
 

@@ -22,7 +22,7 @@ EdgeKey key(std::int32_t a, std::int32_t b) noexcept { return {std::min(a, b), s
 template <class... Parts>
 [[noreturn]] void fail(const Parts&... parts) {
   std::ostringstream text;
-  text.precision(17);
+  text.precision(errors::shown_digits);
   (text << ... << parts);
   throw errors::Error(errors::Reason::mesh_invalid, text.str());
 }

@@ -187,6 +187,11 @@ MeshRecord MeshCatalogue::refine(const Parent& parent, std::span<const std::uint
     coarse.bisection_bound = get(parent.mesh).bisection_bound;
     const mesh::Mesh fine =
         mesh::refine(coarse, levels, std::min(max_triangles, _state->options.max_triangles));
+    if (fine.triangle_count() == coarse.triangle_count()) {
+      throw Error(Reason::numerical,
+                  "the triangles that the error comes from are as small as rounding lets them be; "
+                  "ask for a larger error, or put the origin near them");
+    }
     record.owner = parent.owner;
     record.title = "a stage of jobs/" + parent.job;
     record.definition = definition;

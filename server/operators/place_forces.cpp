@@ -29,7 +29,7 @@ double diagonal(const mesh::Mesh& mesh) {
 
 Error refused(std::size_t index, const fem::PointForce& force, const std::string& why) {
   std::ostringstream message;
-  message.precision(17);
+  message.precision(errors::shown_digits);
   message << "the point (" << force.x << ", " << force.y << ") is " << why;
   return Error(Reason::invalid_argument, message.str())
       .at("point_forces[" + std::to_string(index) + "].at");

@@ -105,7 +105,10 @@ TEST(Accuracy, SaysWhatWasReachedAndWhatStoppedIt) {
   const Verdict full = judge_one(far, spec, {}, 100);
   EXPECT_TRUE(full.over);
   EXPECT_THAT(full.not_reached, HasSubstr("load case \"pull\" reached energy 0.5 of 0.1 on 100"));
-  EXPECT_THAT(full.not_reached, HasSubstr("max_triangles"));
+  EXPECT_THAT(full.not_reached, HasSubstr("more than 100 triangles, mesh-triangles of the server"));
+  spec.accuracy->max_triangles = 100;
+  EXPECT_THAT(judge_one(far, spec, {}, 100).not_reached,
+              HasSubstr("more than 100 triangles, max_triangles of the accuracy"));
 
   spec.accuracy->time = 2s;
   EXPECT_FALSE(judge_one(far, spec, {}, 1000, 1.9).over);

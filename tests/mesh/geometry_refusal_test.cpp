@@ -101,7 +101,7 @@ const Fault faults[] = {
        g.interfaces[0].points = {{-1, 0}, {-1, 0}, {1, 0}};
      },
      "interfaces[0].polyline.points[1]",
-     {"repeats interfaces[0].polyline.points[0]"}},
+     {R"(repeats interface "interface": points[0])"}},
     {"InterfaceEndsOutside",
      [](Geometry& g) {
        g.interfaces[0].points[1] = {1.5, 0};
@@ -155,8 +155,8 @@ const Fault faults[] = {
        g.interfaces[0].points = {{-1, 0}, {0.5, 0}, {0, 0.5}, {0, -0.5}, {1, -0.5}};
      },
      "interfaces[0].polyline",
-     {"crosses", "points[0] to interfaces[0].polyline.points[1]",
-      "points[2] to interfaces[0].polyline.points[3]"}},
+     {"crosses", R"(points[0] to interface "interface": points[1])",
+      R"(points[2] to interface "interface": points[3])"}},
     {"InterfaceFoldsBack",
      [](Geometry& g) {
        g.interfaces[0].points = {{-1, 0}, {0.5, 0}, {0, 0}, {0, 1}};
@@ -205,19 +205,19 @@ const Fault faults[] = {
        g.inclusions[0] = {"a", {{-1, 0}, {0, 0}}, {}};
      },
      "inclusions[0].part.from",
-     {"(-1, 0) touches the boundary"}},
+     {"(-1, 0) on the boundary, where u is held"}},
     {"InclusionAtTheEnd",
      [](Geometry& g) {
        g.inclusions[0] = {"a", {{0, 0}, {1, 0}}, {}};
      },
      "inclusions[0].part.to",
-     {"(1, 0) touches the boundary"}},
+     {"(1, 0) on the boundary, where u is held"}},
     {"InclusionAtTheEndBackwards",
      [](Geometry& g) {
        g.inclusions[0] = {"a", {{1, 0}, {0, 0}}, {}};
      },
      "inclusions[0].part.from",
-     {"(1, 0) touches the boundary"}},
+     {"(1, 0) on the boundary, where u is held"}},
     {"InclusionWithoutLength",
      [](Geometry& g) {
        g.inclusions[0] = {"a", {{0.25, 0}, {0.25, 0}}, {}};
@@ -229,11 +229,11 @@ const Fault faults[] = {
        g.cracks = {crack("a", 0.6, 0.8), crack("b", 0.9, 0.7)};
      },
      "cracks[1].part",
-     {"cracks[1] and cracks[0] overlap", "(0.7, 0)"}},
+     {R"(crack "b" and crack "a" overlap)", "(0.7, 0)"}},
     {"CrackInsideInclusion",
      [](Geometry& g) { g.cracks = {crack("a", -0.1, 0.1)}; },
      "cracks[0].part",
-     {"cracks[0] and inclusions[0] overlap"}},
+     {R"(crack "a" and inclusion "inclusion" overlap)"}},
     {"SharedTip",
      [](Geometry& g) { g.cracks = {crack("a", 0.5, 0.7)}; },
      "cracks[0].part",
@@ -261,7 +261,7 @@ const Fault faults[] = {
        g.inclusions[0].delaminated = {{{0, 0}, {0.3, 0}}, {{-0.4, 0}, {0.1, 0}}};
      },
      "inclusions[0].delaminated_parts[0]",
-     {"delaminated_parts[1]", "overlap"}},
+     {"delaminated[1]", "overlap"}},
     {"DelaminatedTouch",
      [](Geometry& g) {
        g.inclusions[0].delaminated = {{{-0.4, 0}, {0, 0}}, {{0, 0}, {0.3, 0}}};

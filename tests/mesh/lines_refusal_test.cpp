@@ -60,7 +60,7 @@ const Fault line_faults[] = {
        add(g, "b", {{1, 0}, {-1, 0}});
      },
      "interfaces[1].polyline",
-     {"interfaces[0].polyline", "run along each other"}},
+     {R"(interface "b" and interface "interface" run along each other)"}},
     {"InterfacesPartlyAlongEachOther",
      [](Geometry& g) {
        add(g, "b", {{0, 1}, {0, 0}, {0.5, 0}, {1, -1}});
@@ -183,7 +183,7 @@ const Fault line_faults[] = {
        g.cracks = {{"c", {{0.75, 0}, {0, 0.5}}}};
      },
      "cracks[0].part",
-     {"starts on interfaces[0].polyline", "ends on interfaces[1].polyline"}},
+     {R"(crack "c" starts on interface "interface" and ends on interface "b")"}},
     {"PartThatMayLieOnTwo",
      [](Geometry& g) {
        curve(g, Shape::arc, {{-0.25, 0}, {0, 0.25}, {0.25, 0}});
@@ -191,7 +191,7 @@ const Fault line_faults[] = {
        g.cracks = {crack("c", -0.25, 0.25)};
      },
      "cracks[0].part",
-     {"interfaces[0].polyline", "interfaces[1].arc", "told apart"}},
+     {R"(interface "interface" or on interface "curve")", "told apart"}},
     {"PartWithoutInterface",
      [](Geometry& g) { g.interfaces.clear(); },
      "inclusions[0].part.from",
@@ -215,7 +215,7 @@ const Fault line_faults[] = {
        g.inclusions.push_back({"b", {{0, -0.5}, {0, 0.5}}, {}});
      },
      "inclusions[1].part",
-     {"inclusions[0]", "(0, 0)", "tied to both"}},
+     {R"(inclusion "b" and inclusion "inclusion")", "(0, 0)", "tied to both"}},
     {"InclusionsTouchAtAJunction",
      [](Geometry& g) {
        add(g, "b", {{0.25, 0}, {0.25, 1}});
@@ -226,7 +226,7 @@ const Fault line_faults[] = {
     {"CrackAtTheDirichletBoundary",
      [](Geometry& g) { g.cracks = {crack("c", 0.75, 1)}; },
      "cracks[0].part.to",
-     {"touches the boundary", "Neumann"}},
+     {"ends at (1, 0) on the boundary", "in neumann"}},
     {"RingAllCracked",
      [](Geometry& g) {
        add(g, "b", {{0, 0.25}, {0.5, 0.25}, {0, 0.5}}, true);
@@ -283,7 +283,7 @@ const Fault line_faults[] = {
        g.regions = {{"r", {0.25, 0}, 1}};
      },
      "regions[0].at",
-     {"lies on interfaces[0].polyline"}},
+     {R"(lies on interface "interface")"}},
     {"RegionOnTheBoundary",
      [](Geometry& g) {
        g.regions = {{"r", {1, 0.5}, 1}};
@@ -295,7 +295,7 @@ const Fault line_faults[] = {
        g.regions = {{"r", {0, 0.5}, 1}, {"s", {0.5, 0.5}, 1}};
      },
      "regions[1].at",
-     {"regions[0]"}},
+     {R"(region "s": at (0.5, 0.5))", R"(region "r" names already)"}},
     {"RegionNamesTwice",
      [](Geometry& g) {
        g.regions = {{"r", {0, 0.5}, 1}, {"r", {0, -0.5}, 1}};

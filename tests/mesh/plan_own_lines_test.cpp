@@ -94,7 +94,7 @@ TEST(OwnLines, MayEndOnTheBoundaryAndOnOthers) {
   expect_consistent(plan, 4);
   EXPECT_EQ(ends_of(plan, 0).second, (Point{1, 0}));
   ASSERT_EQ(plan.warnings.size(), 1U);
-  EXPECT_EQ(plan.warnings[0].find("cracks[0].line.segment, its last point"), 0U);
+  EXPECT_EQ(plan.warnings[0].find(R"(crack "edge", its last point)"), 0U);
   geometry.cracks.push_back({"branch", {}, true, segment({0.75, 0.1}, 90, 0.2)});
   expect_consistent(plan_of(geometry), 4);
 }

@@ -68,6 +68,9 @@ TEST(PlanParts, NeumannPartsOfTheBoundary) {
     geometry.neumann = {{{-1, 0}, {0, -1}}};
     EXPECT_DOUBLE_EQ(length_of(plan_of(geometry), Role::neumann), 2);
     geometry.neumann = {{{0.25, -1}, {0.25, -1}}};
+    EXPECT_TRUE(testing::throws([&] { plan_of(geometry); }, errors::Reason::geometry_invalid,
+                                "neumann"));  // nothing holds it, but for an inclusion
+    geometry.inclusions = {{"bar", {}, {}, {.fixed = 0.1}, mesh::LineSpec{mesh::Shape::segment, {{0, 0}}, 0, 0.5}}};
     EXPECT_DOUBLE_EQ(length_of(plan_of(geometry), Role::neumann), 8);
     EXPECT_EQ(length_of(plan_of(geometry), Role::dirichlet), 0);
   }
@@ -113,12 +116,11 @@ TEST(PlanParts, EndsALittleOffTheirLineAreMovedOntoIt) {
   const Plan plan = plan_of(geometry);
   expect_consistent(plan, 4);
   ASSERT_EQ(plan.warnings.size(), 5U);
-  EXPECT_EQ(plan.warnings[0].find("interfaces[1].polyline, its first point (0.333333, 0.1) lies "),
-            0U)
+  EXPECT_EQ(plan.warnings[0].find(R"(interface "b", its first point (0.333333, 0.1) lies )"), 0U)
       << plan.warnings[0];
   for (std::size_t i = 1; i < 5; ++i) {
-    const char* const fields[] = {"", "interfaces[1]", "inclusions[0].part.to",
-                                  "cracks[0].part.from", "neumann[0].from"};
+    const char* const fields[] = {"", R"(interface "b")", R"(inclusion "bar": to )",
+                                  R"(crack "c": from )", "neumann[0].from"};
     EXPECT_EQ(plan.warnings[i].find(fields[i]), 0U) << plan.warnings[i];
   }
   EXPECT_TRUE(plan_of(square()).warnings.empty());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Solves a case with the C++ library: how far an upward load of 1 lifts a delaminated rigid fibre.
-//   solve [HOST:PORT]        default: localhost:7433
+//   solve [HOST:PORT]        default: 127.0.0.1:7433
 #include <google/protobuf/text_format.h>
 #include <anticrack/client/jobs.hpp>
 #include <anticrack/client/meshes.hpp>

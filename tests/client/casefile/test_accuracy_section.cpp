@@ -61,6 +61,7 @@ TEST(AccuracySection, NamesWhatIsWrong) {
       EXPECT_THAT(complaint_of(std::string(key) + " = " + bad + "\n"),
                   EndsWith(" is out of range; write a relative error from 1e-6 to 1, as 1e-3"));
     }
+    EXPECT_THAT(complaint_of(std::string(key) + " = 1e-7\n"), HasSubstr(": 1e-07 is out"));
     for (const char* bad : {"nan", "'small'", "true"})
       EXPECT_THAT(complaint_of(std::string(key) + " = " + bad + "\n"),
                   HasSubstr("is not a finite number"));

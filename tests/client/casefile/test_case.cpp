@@ -79,11 +79,11 @@ kkt_tolerance = 1e-9)") + "boundary_value = \"-y\"\n");
 }
 
 TEST(Case, TakesForcesByRegion) {
-  const Case the_case = parse(sample_with("f = 1\n", "f = {minus = -1, plus = 2.5}\n"));
+  const Case the_case = parse(sample_with("f = 1\n", "f = {omega1 = -1, omega2 = 2.5}\n"));
   const auto& values = the_case.job.load_cases(0).force().per_region().values();
   EXPECT_EQ(values.size(), 2U);
-  EXPECT_EQ(values.at("minus"), -1);
-  EXPECT_EQ(values.at("plus"), 2.5);
+  EXPECT_EQ(values.at("omega1"), -1);
+  EXPECT_EQ(values.at("omega2"), 2.5);
 }
 
 TEST(Case, NeedsNoForceWhereABoundaryValueIsGiven) {
@@ -277,18 +277,20 @@ TEST(Case, SolvesByTheActiveSetUnlessSaidOtherwise) {
 
 TEST(Case, TakesTheOptionsOfAMesh) {
   const Case the_case = parse(sample_text, {"mesh.size=0.1", "mesh.tip_size=1e-9",
-                                            "mesh.grading=0.5", "mesh.align=[[[0, 0], [0, 0.5]]]"});
+                                            "mesh.grading=0.5", "mesh.chord_angle=5",
+                                            "mesh.align=[[[0, 0], [0, 0.5]]]"});
   const v1::MeshOptions& options = the_case.mesh.options();
   EXPECT_EQ(options.preset(), v1::MESH_PRESET_GRADED);
   EXPECT_EQ(options.size(), 0.1);
   EXPECT_EQ(options.tip_size(), 1e-9);
   EXPECT_EQ(options.grading(), 0.5);
+  EXPECT_EQ(options.chord_angle(), 5);
   ASSERT_EQ(options.align_size(), 1);
   EXPECT_EQ(options.align(0).points(1).y(), 0.5);
 }
 
 TEST(Case, IsReadTheSameEveryTime) {
-  const std::string text = sample_with("f = 1\n", "f = {a = 1, b = 2, c = 3}\n");
+  const std::string text = sample_with("f = 1\n", "f = {omega1 = 1, omega2 = 2, omega3 = 3}\n");
   const std::vector<std::string> overrides{"title=Other"};
   EXPECT_EQ(parse(text, overrides).text, parse(text, overrides).text);
   EXPECT_EQ(parse(text, overrides).mesh.SerializeAsString(),

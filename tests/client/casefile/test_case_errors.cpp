@@ -364,6 +364,12 @@ const Mistake load_mistakes[] = {
          "plate.toml:17: load.0.inclusion_forces.fibre: '2' is not a finite number; write "
          "inclusion = "
          "number for each of them"),
+    load("unknown_inclusion", "inclusion_forces = {fibr = 2}\n",
+         "plate.toml:17: load.0.inclusion_forces.fibr: there is no inclusion of this name; did you "
+         "mean fibre?"),
+    load("unknown_region", "f = {top = 1}\n",
+         "plate.toml:17: load.0.f.top: there is no region of this name; name one by "
+         "[[geometry.region]]"),
     load("inclusion_moments_list", "inclusion_moments = [0, 1]\n",
          "plate.toml:17: load.0.inclusion_moments: [ 0, 1 ] is not a table; write inclusion = "
          "[Mx, My] for each of them"),

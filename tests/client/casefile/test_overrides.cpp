@@ -27,8 +27,8 @@ TEST(Overrides, TakeBareWordsAsText) {
 
 TEST(Overrides, TakeTomlValues) {
   EXPECT_EQ(parse(sample_text, {"title=\"3\""}).job.title(), "3");
-  const Case the_case = parse(sample_text, {"load.1.f={plus = 2}"});
-  EXPECT_EQ(the_case.job.load_cases(1).force().per_region().values().at("plus"), 2);
+  const Case the_case = parse(sample_text, {"load.1.f={omega2 = 2}"});
+  EXPECT_EQ(the_case.job.load_cases(1).force().per_region().values().at("omega2"), 2);
   EXPECT_EQ(parse(sample_text, {"geometry.boundary=[[0, 0], [1, 0], [0, 1]]"})
                 .mesh.geometry()
                 .boundary_size(),

@@ -121,7 +121,7 @@ class PlainGolden(GoldenTest):
         self.said("run-accuracy", "run", "accuracy.toml")
         self.said("run-not-reached", "run", "accuracy.toml", "--set", "accuracy.max_triangles=100", code=3)
         self.said("export", "export", "plate.h5", "-o", "paraview")
-        self.said("plot", "plot", "plate.h5", "--load", "skew", "-o", "figures")
+        self.said("plot", "plot", "plate.h5", "--load", "skew")
         self.said("sweep", "sweep", "plate.toml", "--coefficients", "rows.csv", "--traces", "all", "-o", "rows.h5",
                   "--csv", "answers.csv")
         self.said("show-sweep", "show", "rows.h5")

@@ -27,10 +27,10 @@ TEST(StagesTable, has_a_row_for_each_stage) {
   EXPECT_EQ(stages_table(sample()),
             "\n"
             "open?ing, stage by stage:\n"
-            "stage  triangles             energy  error  error of A    time\n"
-            "               -                  -      %           %       s\n"
-            "1            212             -0.147      -           -  0.0123\n"
-            "2           1210  -0.1675 +- 0.0025      5         1.2     0.5\n");
+            "stage  triangles             energy  error of u  error of A    time\n"
+            "               -                  -           %           %       s\n"
+            "1            212             -0.147           -           -  0.0123\n"
+            "2           1210  -0.1675 +- 0.0025           5         1.2     0.5\n");
 }
 
 TEST(StagesTable, tells_the_error_of_a_only_where_it_is_known) {

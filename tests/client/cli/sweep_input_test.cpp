@@ -109,14 +109,18 @@ TEST(SweepInput, IsOfTheActiveSetOnly) {
               HasSubstr("plate.toml:7: solver.method: a sweep is solved by the active set"));
 }
 
-TEST(SweepInput, HasNoAccuracy) {
+TEST(SweepInput, LeavesOutTheAccuracyAndItsCoarseMesh) {
   casefile::Case the_case = two_load_case();
-  the_case.job.mutable_accuracy()->set_energy(1e-3);
-  the_case.spots["accuracy"] = {"accuracy", "plate.toml", 7};
-  EXPECT_THAT(complaint_of([&] {
-                read_sweep_input({"c.csv", "", "none"}, the_case);
-              }),
-              HasSubstr("plate.toml:7: accuracy: a sweep has one mesh"));
+  EXPECT_FALSE(leave_out_accuracy(the_case));
+  for (const bool given : {false, true}) {
+    the_case.job.mutable_accuracy()->set_energy(1e-3);
+    the_case.mesh.mutable_options()->set_preset(v1::MESH_PRESET_COARSE);
+    if (given) the_case.spots["options.preset"] = {"mesh.preset", "plate.toml", 7};
+    EXPECT_TRUE(leave_out_accuracy(the_case));
+    EXPECT_FALSE(the_case.job.has_accuracy());
+    EXPECT_EQ(the_case.mesh.options().preset(),
+              given ? v1::MESH_PRESET_COARSE : v1::MESH_PRESET_GRADED);
+  }
 }
 
 SweepInput rows_of_two(std::size_t rows) {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pages that `anticrack manual` writes, as man shows them."""
 import os
+import pathlib
 
 from command_tree import all_commands, help_of, options_of
 from processes import ANTICRACK, FolderTest, run
@@ -27,6 +28,12 @@ class Manual(FolderTest):
             self.assertIn("-".join(["anticrack", *path]) + " - " + help_of(*path).splitlines()[0].split(".")[0], page)
             for option in options_of(*path):
                 self.assertIn(option, page)
+
+    def test_is_found_beside_the_command(self):
+        bin = pathlib.Path(ANTICRACK).parent
+        found = run("man", "-w", "anticrack-run", env={"PATH": f"{bin}:{os.environ['PATH']}"}).stdout
+        self.assertEqual(found.strip(), str(bin.parent / "share/man/man1/anticrack-run.1.gz"))
+        self.assertIn("SEE ALSO\n       anticrack(1): options of every command, exit codes\n", self.shown("run"))
 
     def test_keeps_examples_as_they_are_typed(self):
         for path in all_commands():

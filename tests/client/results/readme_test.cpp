@@ -65,7 +65,10 @@ std::string readme_table() {
          line("/interfaces/I", "attribute " + entries<Interface>(tables::interface)) +
          line("/interfaces/I", entries<Interface>(arrays::interface_nodes<Interface>) + "; " +
                                    entries<Edges>(tables::edges)) +
-         line("/loads/LOAD", values + "`index`: from 0; " + entries<Load>(tables::load)) +
+         line("/loads/LOAD", values + "`index`: from 0; " + entries<Load>(tables::load_end)) +
+         line("/loads/LOAD", values + entries<Load>(tables::load_solver)) +
+         line("/loads/LOAD", values + entries<Load>(tables::load_answer)) +
+         line("/loads/LOAD", values + entries<Load>(tables::load_residuals)) +
          line("/loads/LOAD", entries<Load>(tables::load_arrays, tables::indicator)) +
          line("/loads/LOAD/stages", "with an accuracy: " + entries<Stages>(tables::stages)) +
          line("/loads/LOAD/inclusions", entries<Inclusion>(tables::inclusions)) +
