@@ -96,7 +96,7 @@ def _boundary(mesh: Mesh) -> dict[str, Array]:
     _, first, count = np.unique(keys(edges), return_index=True, return_counts=True)
     outer = edges[first[count == 1]]
     held = np.isin(keys(outer), keys(mesh.boundary))
-    return {"u given": outer[held], "free, or traction given": outer[~held]}
+    return {"u given": outer[held], "free or traction": outer[~held]}
 
 
 def interfaces(result: Result, ax: Any = None, labels: bool = True) -> Any:

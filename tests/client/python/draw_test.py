@@ -128,7 +128,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(draw.plan(result, "pulled").get_title(), "pulled: lines of u [mm]")
         result.mesh.boundary = result.mesh.boundary[:-3]
         free = draw.interfaces(result).get_legend().get_texts()[1]
-        self.assertEqual(free.get_text(), "free, or traction given")
+        self.assertEqual(free.get_text(), "free or traction")
         edges = draw.interfaces(result).collections[1].get_segments()
         self.assertEqual(len(edges), 3)
 
