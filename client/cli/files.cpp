@@ -106,10 +106,10 @@ int tell_made(const std::vector<std::filesystem::path>& files,
 int plot(const FileOptions& options, const Globals& globals) {
   results::Result result = read_result(options);
   const std::string folder = options.folder.empty() ? "figures" : options.folder;
-  const figures::Drawn drawn = options.together
-                                   ? figures::draw_together(std::move(result), options.interface,
-                                                            folder, options.figures)
-                                   : figures::draw(result, folder, options.figures);
+  const figures::Drawn drawn =
+      options.together
+          ? figures::draw_together(std::move(result), options.interface, folder, options.figures)
+          : figures::draw(result, folder, options.figures);
   return tell_made(drawn.files, drawn.notes, globals);
 }
 
