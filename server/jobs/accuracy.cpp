@@ -202,8 +202,7 @@ Verdict judge(const std::vector<store::StageRecord>& stages,
                     : "there are no bounds of A on this mesh (too many inclusions and triangles, "
                       "or a part that only contact holds); ask for an accuracy of the energy");
   }
-  if (last.triangles >= max_triangles)
-    return stop(limit_reached(spec, max_triangles));
+  if (last.triangles >= max_triangles) return stop(limit_reached(spec, max_triangles));
   if (spec.accuracy->time.count() > 0 &&
       seconds >= std::chrono::duration<double>(spec.accuracy->time).count())
     return stop("the time for it is over; raise accuracy.time");

@@ -105,9 +105,8 @@ void end_stage(EngineCore& core, EngineCore::Lock& lock, const JobPtr& job) {
       store_progress(core, snapshot, records);
     } catch (...) {
       const Error error = error_of(std::current_exception());
-      const std::string why = error.reason() == Reason::limit_exceeded
-                                  ? limit_reached(*job->spec, most)
-                                  : error.what();
+      const std::string why =
+          error.reason() == Reason::limit_exceeded ? limit_reached(*job->spec, most) : error.what();
       verdict = {true, not_reached(*event, *job->spec, why)};
     }
   }

@@ -59,7 +59,7 @@ class MeshCatalogue {
   /// A mesh whose triangles are bisected, levels (m) as mesh::refine() has them: made at once and
   /// written, its operators when they are prepared. The same parent and levels give the same mesh.
   /// Throws errors::Error: not_found, not_ready (the parent), limit_exceeded, quota_exceeded,
-  /// disk_full.
+  /// disk_full, numerical (what is to be bisected is as small as mesh::refine() makes triangles).
   store::MeshRecord refine(const Parent& parent, std::span<const std::uint8_t> levels,
                            std::size_t max_triangles);
   std::size_t max_triangles() const noexcept;  ///< of a mesh
