@@ -228,8 +228,9 @@ ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, motions, g
 /// crosses itself or does not close, nothing is held, a hole lies outside or touches something, an
 /// interface leaves the membrane or runs along another, a part lies on no interface, touches the
 /// Dirichlet boundary or overlaps another, values are not finite, names are empty, malformed,
-/// unknown or used twice, a motion has a fault); invalid_argument for options; limit_exceeded for more than 20,000 vertices
-/// or more than `max_triangles` expected triangles. O(v^2) for v vertices.
+/// unknown or used twice, a motion has a fault); invalid_argument for options; limit_exceeded for
+/// more than 20,000 vertices or more than `max_triangles` expected triangles. O(v^2) for v
+/// vertices.
 Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_triangles);
 
 /// Check the options of a geometry (all but the points of `align`, which plan() checks) and of an

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <regex>
 
 #include "mesh/geometry_outline.hpp"
@@ -85,30 +86,39 @@ std::vector<std::string> check_names(const Drawn& geometry) {
 }
 
 std::string with_names(const std::string& message, const Geometry& geometry) {
+  constexpr std::size_t longest = 4000;
   static const std::regex field(
-      R"(\b(inclusion|crack|interface|region|hole|side)s\[(\d+)\](?:\.(?:line|part|outline)\b)?)"
+      R"(\b(inclusion|crack|interface|region|hole|side)s\[(\d{1,6})\](?:\.(?:line|part|outline)\b)?)"
       R"((?:\.(?:polyline|polygon|segment|arc|spline|circle)\b)?((?:\.[a-z_]+|\[\d+\])*))");
   static const std::regex api_word("_parts(\\.stretches)?|_law");  // the key is shorter
   const std::vector<std::string> boundary = side_names(geometry);
   const std::size_t outer = boundary.size() - geometry.holes.size();
-  const auto name_of = [&](const std::string& kind, std::size_t i) -> std::string {
-    if (kind == "inclusion") return geometry.inclusions[i].name;
-    if (kind == "crack") return geometry.cracks[i].name;
-    if (kind == "region") return geometry.regions[i].name;
-    if (kind == "interface") return geometry.interfaces[i].name;
-    return boundary[kind == "hole" ? outer + i : i];
+  // A message may quote what a user wrote: none where no such part exists.
+  const auto name_of = [&](const std::string& kind, std::size_t i) -> std::optional<std::string> {
+    const auto in = [i](const auto& parts) {
+      return i < parts.size() ? std::optional(parts[i].name) : std::nullopt;
+    };
+    if (kind == "inclusion") return in(geometry.inclusions);
+    if (kind == "crack") return in(geometry.cracks);
+    if (kind == "region") return in(geometry.regions);
+    if (kind == "interface") return in(geometry.interfaces);
+    const std::size_t k = kind == "hole" ? outer + i : i;
+    return k < (kind == "hole" ? boundary.size() : outer) ? std::optional(boundary[k])
+                                                          : std::nullopt;
   };
+  if (message.size() > longest) return message;  // std::regex needs the stack for its length
   std::string named;
   auto rest = message.begin();
   for (std::sregex_iterator found(message.begin(), message.end(), field), end; found != end;
        ++found) {
     const std::smatch& match = *found;
     const std::size_t index = std::stoul(match[2]);
-    const std::string name = name_of(match[1], index);
+    const std::optional<std::string> name = name_of(match[1], index);
+    if (!name) continue;
     named.append(rest, match[0].first);
-    const bool only = name.empty() && geometry.interfaces.size() == 1;
+    const bool only = name->empty() && geometry.interfaces.size() == 1;
     named += (only ? "the " : "") + match[1].str();
-    if (!only) named += name.empty() ? " " + std::to_string(index + 1) : " \"" + name + "\"";
+    if (!only) named += name->empty() ? " " + std::to_string(index + 1) : " \"" + *name + "\"";
     const std::string key = match[3];
     if (!key.empty()) named += ": " + std::regex_replace(key.substr(1), api_word, "");
     rest = match[0].second;

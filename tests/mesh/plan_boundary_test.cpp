@@ -243,6 +243,10 @@ const Fault boundary_faults[] = {
      },
      "holes[0].outline.polygon",
      {"2 vertices"}},
+    {"NamesASideLikeAPartThatIsNotThere",
+     [](Geometry& g) { g.neumann_sides = {"inclusions[99].line"}; },
+     "neumann_sides[0]",
+     {"inclusions[99].line"}},
     {"CrackToAHeldHole",
      [](Geometry& g) {
        g.holes = {window("", {0, 0.5}, 0.2)};
