@@ -191,22 +191,22 @@ Picture sweep_picture(const Result& result, const SweepAxis& axis) {
   lengths = with_room(lengths);
   const Scale of_lengths(lengths);
 
-  return {
-      data + displacements.blocks, sweep_title(result),
-      [=, &sweep, &axis](Format, const Place& place) {
-        const std::string contact = panel(axis, of_lengths.label("contact length", length), lengths,
-                                          "$length using 1:" + of_lengths.column(2) +
-                                              drawn_as(axis, curve_styles[0]) + " notitle",
-                                          place);
-        if (inclusions == 0) {
-          return margins(place, 0.16, 0.905) + below(axis_label(axis), 0.04, place) + axes() +
-                 caption(counted_rows(sweep), place) + contact;
-        }
-        const std::string keys = legend_of(axis, sweep.inclusions);
-        return stacked(sweep, axis, panel(axis, displacements, inclusions, keys, place), contact,
-                       place, displacements.bounds.empty() ? "" : "; thin: bounds");
-      },
-      inclusions == 0 ? narrow : tall};
+  return {data + displacements.blocks, sweep_title(result),
+          [=, &sweep, &axis](Format, const Place& place) {
+            const std::string contact =
+                panel(axis, of_lengths.label("contact length", length), lengths,
+                      "$length using 1:" + of_lengths.column(2) + drawn_as(axis, curve_styles[0]) +
+                          " notitle",
+                      place);
+            if (inclusions == 0) {
+              return margins(place, 0.16, 0.905) + below(axis_label(axis), 0.04, place) + axes() +
+                     caption(counted_rows(sweep), place) + contact;
+            }
+            const std::string keys = legend_of(axis, sweep.inclusions);
+            return stacked(sweep, axis, panel(axis, displacements, inclusions, keys, place),
+                           contact, place, displacements.bounds.empty() ? "" : "; thin: bounds");
+          },
+          inclusions == 0 ? narrow : tall};
 }
 
 Picture slope_picture(const Result& result, const SweepAxis& axis) {
