@@ -26,7 +26,8 @@ void refuse_what_means_nothing(const Section& section, v1::MeshPreset preset) {
                 "means nothing with preset \"uniform\"; remove it, or write preset = \"graded\"");
   }
   if (section.find("file")) {
-    refuse_keys(section, {"align"}, "means nothing with mesh.file; remove one of the two");
+    refuse_keys(section, {"align", "chord_angle"},
+                "means nothing with mesh.file; remove one of the two");
   } else {
     refuse_keys(section, {"groups"}, "belongs to mesh.file; write file = \"x.msh\" beside it");
     refuse_keys(section, {"tension"},
@@ -108,6 +109,7 @@ v1::MeshOptions read_mesh_options(const Section& section, Spots& spots) {
   if (const auto size = section.positive("size")) options.set_size(*size);
   if (const auto tip_size = section.positive("tip_size")) options.set_tip_size(*tip_size);
   if (const auto grading = section.positive("grading")) options.set_grading(*grading);
+  if (const auto angle = section.positive("chord_angle")) options.set_chord_angle(*angle);
   note(section, "options", spots);
   read_align(section, options, spots);
   if (const auto groups = section.section("groups", {"curve", "surface"})) {

@@ -22,8 +22,9 @@ using Spots = std::map<std::string, Spot>;
 
 inline const std::vector<std::string> geometry_keys{"boundary", "hole",    "interface", "inclusion",
                                                     "crack",    "neumann", "region"};
-inline const std::vector<std::string> mesh_keys{
-    "preset", "size", "tip_size", "grading", "align", "file", "groups", "tension", "inclusions"};
+inline const std::vector<std::string> mesh_keys{"preset",      "size",      "tip_size", "grading",
+                                                "chord_angle", "align",     "file",     "groups",
+                                                "tension",     "inclusions"};
 
 /// `section` is [geometry], read with geometry_keys.
 v1::Geometry read_geometry(const Section& section, Spots& spots);

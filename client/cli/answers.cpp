@@ -136,20 +136,21 @@ class Told {
       return;
     }
     constexpr std::size_t widest_name = 24;
-    const auto add_one = [&row](const results::Inclusion& inclusion, double value) {
-      row.insert(row.end(), {number(value), fit(sanitise(inclusion.name), widest_name)});
+    const auto add_one = [&row](const results::Inclusion& inclusion, std::string value) {
+      row.insert(row.end(), {std::move(value), fit(sanitise(inclusion.name), widest_name)});
     };
+    const Column& moved = told_of({}).front();
     row.push_back(std::to_string(load.inclusions.size()));
     const auto [least, greatest] =
         std::ranges::minmax_element(load.inclusions, {}, &results::Inclusion::displacement);
-    add_one(*least, least->displacement);
-    add_one(*greatest, greatest->displacement);
+    add_one(*least, moved.of(*least));
+    add_one(*greatest, moved.of(*greatest));
     if (!_tilt) return;
     const auto slope = [](const results::Inclusion& inclusion) {
       return std::hypot(inclusion.slope_x, inclusion.slope_y);
     };
     const auto steepest = std::ranges::max_element(load.inclusions, {}, slope);
-    add_one(*steepest, slope(*steepest));
+    add_one(*steepest, number(slope(*steepest)));
   }
 
   std::vector<Moved> _inclusions;

@@ -34,7 +34,6 @@ struct FileOptions {
   bool inclusions = false;
   figures::Options figures;
   bool together = false;
-  std::string interface;  ///< of those drawn together; empty: the most eventful
 };
 
 // The result with the loads that were asked for, in their order.
@@ -107,9 +106,8 @@ int plot(const FileOptions& options, const Globals& globals) {
   results::Result result = read_result(options);
   const std::string folder = options.folder.empty() ? "figures" : options.folder;
   const figures::Drawn drawn =
-      options.together
-          ? figures::draw_together(std::move(result), options.interface, folder, options.figures)
-          : figures::draw(result, folder, options.figures);
+      options.together ? figures::draw_together(std::move(result), folder, options.figures)
+                       : figures::draw(result, folder, options.figures);
   return tell_made(drawn.files, drawn.notes, globals);
 }
 
@@ -150,9 +148,19 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
       "--together", options->together,
       "One figure, together, of up to 8 loads over each other on one interface");
   plot_command
-      ->add_option("--interface", options->interface,
-                   "Of --together: this interface (default: the one with the largest jump)")
-      ->needs(together)
+      ->add_option("--only", options->figures.only,
+                   "Of overview, membrane, plan, traces, convergence and accuracy those to draw, "
+                   "separated by commas (default: all that have something to show)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"overview", "membrane", "plan", "traces", "convergence", "accuracy"}))
+      ->excludes(together)
+      ->type_name("LIST");
+  plot_command
+      ->add_option("--interface", options->figures.interface,
+                   "Draw the traces of this interface, also in the overview and with --together "
+                   "(default: of all that can open; in the overview of the one that opens most, "
+                   "and the pressure of one in contact)")
       ->type_name("NAME");
   plot_command->footer(
       "Of every load: LOAD-membrane, LOAD-plan (from above, u and the flux), LOAD-traces (u-, u+\n"
@@ -163,7 +171,8 @@ void add_files(CLI::App& app, const Globals& globals, Command& chosen) {
       "cracks are closed) and the traces of rows that were kept.\n\n"
       "Example:\n  anticrack plot paper.h5 -o figures\n"
       "  anticrack plot paper.h5 -o figures --format pdf --no-titles\n"
-      "  anticrack plot several.h5 -o figures --together --interface middle");
+      "  anticrack plot several.h5 -o figures --together --interface middle\n"
+      "  anticrack plot several.h5 -o figures --only overview,traces --interface upper");
   plot_command->callback([options, &globals, &chosen] {
     chosen = [options, &globals] { return plot(*options, globals); };
   });

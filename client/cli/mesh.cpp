@@ -3,6 +3,7 @@
 //   anticrack mesh create | upload | list | show | warm | evict | delete
 #include "client/meshes.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -36,14 +37,23 @@ struct MeshOptions {
   figures::Options figures;
 };
 
-int show_mesh(const Globals& globals, const v1::Mesh& mesh) {
-  print_document(globals.json ? to_json(mesh) : mesh_text(mesh));
+CaseFacts facts_of(const casefile::Case& the_case) {
+  const auto& loads = the_case.job.load_cases();
+  const bool free = !loads.empty() && std::ranges::all_of(loads, [](const v1::LoadCase& load) {
+    return load.traction().empty();
+  });
+  return {to_units(the_case.job.units()), free};
+}
+
+int show_mesh(const Globals& globals, const v1::Mesh& mesh, const CaseFacts& facts = {}) {
+  print_document(globals.json ? to_json(mesh) : mesh_text(mesh, facts));
   return exit_ok;
 }
 
 // Of a command that is not asked to show the mesh: with --quiet only how to find one it has made.
-int tell_mesh(const Globals& globals, const v1::Mesh& mesh, bool made) {
-  if (!globals.quiet || globals.json) return show_mesh(globals, mesh);
+int tell_mesh(const Globals& globals, const v1::Mesh& mesh, bool made,
+              const CaseFacts& facts = {}) {
+  if (!globals.quiet || globals.json) return show_mesh(globals, mesh, facts);
   if (made) print_document(mesh.name());
   return exit_ok;
 }
@@ -67,7 +77,8 @@ int create(const casefile::Case& the_case, const MeshOptions& options, const Glo
   const v1::Mesh mesh = create_mesh(session, the_case);
   return translated(the_case, [&] {
     checked(mesh);
-    return tell_mesh(globals, options.no_wait ? mesh : wait_for(session, mesh.name()), true);
+    return tell_mesh(globals, options.no_wait ? mesh : wait_for(session, mesh.name()), true,
+                     facts_of(the_case));
   });
 }
 
@@ -98,12 +109,14 @@ int show_mesh(const MeshOptions& options, const Globals& globals) {
   if (options.folder.empty() && !the_case) return show_mesh(globals, get_mesh(session, name));
   const v1::Mesh mesh =
       about(session, Collection::meshes, name, [&] { return wait_for(session, name); });
-  show_mesh(globals, mesh);
+  const CaseFacts facts = the_case ? facts_of(*the_case) : CaseFacts{};
+  show_mesh(globals, mesh, facts);
   if (options.folder.empty()) return exit_ok;
   const client::Block block = client::read_mesh(session.connection(), name, session.stop());
   const std::string stem = name.substr(std::string("meshes/").size());
   results::MeshPlan plan = to_mesh_plan(mesh, block);
-  if (the_case) plan.units = to_units(the_case->job.units());
+  plan.units = facts.units;
+  plan.free = facts.free;
   const figures::Drawn drawn =
       figures::draw_mesh(plan, "mesh-" + stem, options.folder, options.figures);
   for (const auto& file : drawn.files) say(globals, file.string());

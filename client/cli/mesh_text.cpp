@@ -73,9 +73,24 @@ std::string sizes(const v1::Mesh& mesh) {
   return text;
 }
 
-std::string subdomains(const v1::Mesh& mesh) {
+/// A second head, where the case names any: the dimensions as Units::of takes them, empty for none.
+void add_units(const results::Units& units, const std::vector<std::string>& dimensions,
+               Rows& rows) {
+  if (units == results::Units{}) return;
+  std::vector<std::string> row;
+  for (const std::string& dimension : dimensions)
+    row.push_back(dimension.empty() ? "" : units.of(dimension));
+  rows.push_back(std::move(row));
+}
+
+std::string spot(const v1::Point& point) {
+  return "(" + number(point.x()) + ", " + number(point.y()) + ")";
+}
+
+std::string subdomains(const v1::Mesh& mesh, const results::Units& units) {
   Rows rows{{"subdomain", "triangles", "nodes", "area", "tension", "smallest angle",
              "shortest edge", "longest edge", "held by"}};
+  add_units(units, {"", "", "", "L^2", "F/L", "degrees", "L", "L", ""}, rows);
   for (const v1::SubdomainInfo& each : mesh.subdomains()) {
     rows.push_back(
         {sanitise(each.name()), std::to_string(each.triangle_count()),
@@ -87,7 +102,7 @@ std::string subdomains(const v1::Mesh& mesh) {
   return short_table(std::move(rows), {8});
 }
 
-std::string interfaces(const v1::Mesh& mesh) {
+std::string interfaces(const v1::Mesh& mesh, const results::Units& units) {
   const auto motions = motions_of(mesh);
   const auto inclusion_of = [&](int inclusion) -> std::string {
     if (inclusion < 0 || inclusion >= mesh.inclusions_size()) return "-";
@@ -95,34 +110,43 @@ std::string interfaces(const v1::Mesh& mesh) {
     const auto motion = motions.find(name);
     return sanitise(name) + (motion == motions.end() ? "" : motion->second);
   };
-  Rows rows{{"interface", "from", "to", "kind", "inclusion", "edges"}};
+  Rows rows{{"interface", "s = 0 at", "s from", "s to", "kind", "inclusion", "edges"}};
+  add_units(units, {"", "L", "L", "L", "", "", ""}, rows);
+  const std::size_t head = rows.size();
   for (const v1::InterfaceInfo& interface : mesh.interfaces()) {
     for (const auto& segment : interface.segments()) {
-      rows.push_back({sanitise(interface.name()), number(segment.begin()), number(segment.end()),
-                      kind_of(segment.kind()), inclusion_of(segment.inclusion()),
-                      std::to_string(segment.edge_count())});
+      rows.push_back({sanitise(interface.name()),
+                      interface.has_start() ? spot(interface.start()) : "-",
+                      number(segment.begin()), number(segment.end()), kind_of(segment.kind()),
+                      inclusion_of(segment.inclusion()), std::to_string(segment.edge_count())});
     }
   }
-  return rows.size() == 1 ? "no interfaces\n" : short_table(std::move(rows), {3, 4});
+  return rows.size() == head ? "no interfaces\n" : short_table(std::move(rows), {1, 4, 5});
 }
 
-std::string tips(const v1::Mesh& mesh) {
+std::string tips(const v1::Mesh& mesh, const results::Units& units) {
   Rows rows{{"tip on", "x", "y", "smallest edge"}};
+  add_units(units, {"", "L", "L", "L"}, rows);
   for (const v1::TipInfo& tip : mesh.tips()) {
     rows.push_back({sanitise(tip.interface()), number(tip.at().x()), number(tip.at().y()),
                     number(tip.smallest_edge(), 3)});
   }
-  return rows.size() == 1 ? "" : "\n" + short_table(std::move(rows));
+  return mesh.tips_size() == 0 ? "" : "\n" + short_table(std::move(rows));
 }
 
-std::string boundary(const v1::Mesh& mesh) {
+std::string boundary(const v1::Mesh& mesh, const CaseFacts& facts) {
   if (mesh.dirichlet_length() + mesh.neumann_length() <= 0)
     return "";  // of a server that does not say
   std::string sides;
   for (const std::string& name : mesh.geometry().neumann_sides())
     sides += (sides.empty() ? ": " : ", ") + sanitise(name);
-  return "\nboundary: u given on a length of " + number(mesh.dirichlet_length()) +
-         ", traction on " + number(mesh.neumann_length()) + sides + "\n";
+  const std::string unit = facts.units.label("L"), shown = unit.empty() ? "" : " " + unit;
+  std::string text =
+      "\nboundary: u given on a length of " + number(mesh.dirichlet_length()) + shown;
+  if (mesh.neumann_length() > 0)
+    text += (facts.free ? ", free on " : ", free or traction on ") + number(mesh.neumann_length()) +
+            shown + sides;
+  return text + "\n";
 }
 
 }  // namespace
@@ -132,11 +156,11 @@ std::string law_text(const v1::Tension& law) {
   return "along " + law.along() + ", across " + law.across() + ", angle " + number(law.angle());
 }
 
-std::string mesh_text(const v1::Mesh& mesh) {
+std::string mesh_text(const v1::Mesh& mesh, const CaseFacts& facts) {
   std::string text = head(mesh);
   if (mesh.triangle_count() > 0) {
-    text += sizes(mesh) + "\n" + subdomains(mesh) + "\n" + interfaces(mesh) + tips(mesh) +
-            boundary(mesh);
+    text += sizes(mesh) + "\n" + subdomains(mesh, facts.units) + "\n" +
+            interfaces(mesh, facts.units) + tips(mesh, facts.units) + boundary(mesh, facts);
   }
   for (const std::string& warning : mesh.warnings()) text += "warning: " + sanitise(warning) + "\n";
   return text;

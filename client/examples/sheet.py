@@ -17,9 +17,7 @@ loads = [Load("up", {"patch": 1e-3}, inclusion_forces={"steep": 0.5}),
          Load("down", {"patch": -1e-3}, inclusion_forces={"steep": 0.5})]
 with anticrack.local() as client:
     result = client.run(Case(geometry, loads, accuracy=Accuracy(A=1e-2), units=Units("mm", "N"), fields=True))
-for load in result.loads.values():
-    for part in load.inclusions.values():
-        print(f"{load.name}: A of {part.name} = {part.A:.4f} mm, from {part.A_lower:.4f} to {part.A_upper:.4f}")
+print(result)
 anticrack.draw.pressure(result, "up").figure.savefig("pressure.png")
 result.save("sheet.h5")
 subprocess.run(["anticrack", "export", "sheet.h5", "-o", "paraview"], check=True)

@@ -112,7 +112,7 @@ std::string convergence_panel(const Load& load, const Place& place) {
 
 }  // namespace
 
-bool has_convergence(const Load& load) { return load.history.size() > 1; }
+bool has_convergence(const Load& load) { return load.history.size() > 2; }
 
 Picture convergence_picture(const results::Result& result, const Load& load) {
   return {convergence_data(load),

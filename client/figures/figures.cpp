@@ -2,6 +2,8 @@
 #include "figures/figures.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "figures/drawing.hpp"
@@ -26,57 +28,116 @@ std::string traces_suffix(std::size_t interface) {
   return interface == 0 ? "-traces" : "-traces-" + std::to_string(interface + 1);
 }
 
+bool named(const Options& options, std::string_view figure) {
+  return std::ranges::find(options.only, figure) != options.only.end();
+}
+
+bool wanted(const Options& options, std::string_view figure) {
+  return options.only.empty() || named(options, figure);
+}
+
+/// The index of the interface that is asked for; none: no interface is.
+std::optional<std::size_t> asked_for(const Result& result, const Options& options) {
+  if (options.interface.empty()) return std::nullopt;
+  std::vector<std::string> known;
+  for (const results::Interface& interface : result.interfaces) known.push_back(interface.name);
+  const auto found = std::ranges::find(known, options.interface);
+  if (found == known.end())
+    throw Error("there is no interface " + options.interface + "; " +
+                words::suggestion(options.interface, known));
+  return static_cast<std::size_t>(found - known.begin());
+}
+
+Eventful eventful(const Result& result, const std::vector<Load>& loads, const Options& options) {
+  const auto asked = asked_for(result, options);
+  return asked ? Eventful{*asked, *asked} : most_eventful(result, loads);
+}
+
 void draw_traces(const Result& result, const Load& load, const std::string& stem,
-                 Drawing& drawing) {
+                 const Options& options, Drawing& drawing) {
+  if (!wanted(options, "traces")) return;
+  const auto asked = asked_for(result, options);
   for (std::size_t i = 0; i < load.traces.size(); ++i)
-    drawing.draw(stem + traces_suffix(i), traces_picture(result, load, i));
+    if (asked ? i == *asked : can_open(result.interfaces[i]))
+      drawing.draw(stem + traces_suffix(i), traces_picture(result, load, i));
+}
+
+void note_interfaces_that_cannot_open(const Result& result, const Options& options,
+                                      Drawing& drawing) {
+  if (!wanted(options, "traces") || !options.interface.empty()) return;
+  std::vector<std::string> closed;
+  for (const results::Interface& interface : result.interfaces)
+    if (!can_open(interface)) closed.push_back(interface.name);
+  if (closed.empty()) return;
+  drawing.drawn.notes.push_back("no traces drawn of " + std::to_string(closed.size()) +
+                                (closed.size() == 1 ? " interface" : " interfaces") +
+                                " of glue or bonded inclusions alone; --interface " + closed[0] +
+                                " draws " + (closed.size() == 1 ? "them" : "those of one"));
 }
 
 /// A sweep may have kept thousands of rows.
-void draw_kept_rows(const Result& result, Drawing& drawing) {
+void draw_kept_rows(const Result& result, const Options& options, Drawing& drawing) {
   constexpr std::size_t most = 12;
   for (std::size_t i = 0; i < std::min(most, result.loads.size()); ++i)
-    draw_traces(result, result.loads[i], result.loads[i].name, drawing);
+    draw_traces(result, result.loads[i], result.loads[i].name, options, drawing);
   if (result.loads.size() > most) {
     drawing.drawn.notes.push_back("traces drawn of the first " + std::to_string(most) + " of " +
                                   std::to_string(result.loads.size()) + " rows");
   }
 }
 
-void draw_load(const Result& result, const Load& load, const std::string& stem, Drawing& drawing) {
+/// Of fewer no convergence is drawn.
+std::size_t fewest_steps(const Options& options) { return named(options, "convergence") ? 2 : 3; }
+
+/// The overview, the membrane and the plan.
+void draw_fields(const Result& result, const Load& load, const std::string& stem,
+                 const Options& options, Drawing& drawing) {
+  const bool overview = wanted(options, "overview"), membrane = wanted(options, "membrane"),
+             plan = wanted(options, "plan");
+  if (!overview && !membrane && !plan) return;
+  const Surface shape = load.fields.empty() ? Surface{} : surface(result, load, surface_triangles);
+  if (shape.triangles.empty()) {
+    drawing.drawn.notes.push_back("load \"" + load.name +
+                                  "\": no membrane and no plan drawn, it has no fields; " +
+                                  results::fields_cure(result));
+    return;
+  }
+  if (overview)
+    drawing.draw(stem, overview_picture(result, load, shape, eventful(result, {load}, options)));
+  if (membrane) drawing.draw(stem + "-membrane", membrane_picture(result, load, shape));
+  if (plan) drawing.draw(stem + "-plan", plan_picture(result, load, shape));
+}
+
+void draw_load(const Result& result, const Load& load, const std::string& stem,
+               const Options& options, Drawing& drawing) {
   if (load.traces.empty()) {
     drawing.drawn.notes.push_back("load \"" + load.name + "\" has no traces (" +
                                   std::string(results::name(load.status)) + "): nothing to draw");
     return;
   }
-  const Surface membrane =
-      load.fields.empty() ? Surface{} : surface(result, load, surface_triangles);
-  if (membrane.triangles.empty()) {
-    drawing.drawn.notes.push_back("load \"" + load.name +
-                                  "\": no membrane and no plan drawn, it has no fields; " +
-                                  results::fields_cure(result));
-  } else {
-    drawing.draw(stem, overview_picture(result, load, membrane));
-    drawing.draw(stem + "-membrane", membrane_picture(result, load, membrane));
-    drawing.draw(stem + "-plan", plan_picture(result, load, membrane));
-  }
-  draw_traces(result, load, stem, drawing);
-  if (has_convergence(load)) drawing.draw(stem + "-convergence", convergence_picture(result, load));
+  draw_fields(result, load, stem, options, drawing);
+  draw_traces(result, load, stem, options, drawing);
+  if (wanted(options, "convergence") && load.history.size() >= fewest_steps(options))
+    drawing.draw(stem + "-convergence", convergence_picture(result, load));
+  if (!wanted(options, "accuracy")) return;
   if (bounded_stages(load) > 1) {
     drawing.draw(stem + "-accuracy", accuracy_picture(result, load));
-  } else if (load.stages.size() != 0) {
+  } else if (load.stages.size() != 0 || named(options, "accuracy")) {
     drawing.drawn.notes.push_back("load \"" + load.name +
                                   "\": no accuracy drawn, fewer than two stages have bounds");
   }
 }
 
-void note_single_steps(const Result& result, Drawing& drawing) {
-  const auto count = std::count_if(result.loads.begin(), result.loads.end(), [](const Load& load) {
-    return !load.traces.empty() && !has_convergence(load);
+void note_few_steps(const Result& result, const Options& options, Drawing& drawing) {
+  const std::size_t fewest = fewest_steps(options);
+  const auto count = std::ranges::count_if(result.loads, [&](const Load& load) {
+    return !load.traces.empty() && load.history.size() < fewest;
   });
-  if (count == 0) return;
-  drawing.drawn.notes.push_back("no convergence drawn of " + std::to_string(count) +
-                                (count == 1 ? " load" : " loads") + " solved in a single step");
+  if (count == 0 || !wanted(options, "convergence")) return;
+  drawing.drawn.notes.push_back(
+      "no convergence drawn of " + std::to_string(count) + (count == 1 ? " load" : " loads") +
+      (fewest == 2 ? " solved in a single step"
+                   : " solved in one or two steps; --only convergence draws two"));
 }
 
 void require_consistent(const Result& result) {
@@ -84,21 +145,11 @@ void require_consistent(const Result& result) {
   if (!fault.empty()) throw Error("the result is inconsistent: " + fault);
 }
 
-/// The index of the interface called `name`; of none the most eventful.
-std::size_t chosen(const Result& result, const std::string& name) {
-  if (name.empty()) return most_eventful(result, result.loads);
-  std::vector<std::string> known;
-  for (const results::Interface& interface : result.interfaces) known.push_back(interface.name);
-  const auto found = std::ranges::find(known, name);
-  if (found == known.end())
-    throw Error("there is no interface " + name + "; " + words::suggestion(name, known));
-  return static_cast<std::size_t>(found - known.begin());
-}
-
 }  // namespace
 
 Drawn draw(const Result& result, const fs::path& folder, const Options& options) {
   require_consistent(result);
+  asked_for(result, options);  // before a folder is made
   std::vector<std::string> names;
   for (const Load& load : result.loads) names.push_back(load.name);
   std::vector<std::string> suffixes{"-membrane", "-plan", "-convergence", "-accuracy"};
@@ -107,18 +158,19 @@ Drawn draw(const Result& result, const fs::path& folder, const Options& options)
 
   Drawing drawing(folder, options);
   if (result.sweep) {
-    draw_sweep(result, drawing);
-    draw_kept_rows(result, drawing);
+    if (options.only.empty()) draw_sweep(result, drawing);
+    draw_kept_rows(result, options, drawing);
+    if (!result.loads.empty()) note_interfaces_that_cannot_open(result, options, drawing);
     return std::move(drawing.drawn);
   }
   for (std::size_t i = 0; i < result.loads.size(); ++i)
-    draw_load(result, result.loads[i], stems[i], drawing);
-  note_single_steps(result, drawing);
+    draw_load(result, result.loads[i], stems[i], options, drawing);
+  note_interfaces_that_cannot_open(result, options, drawing);
+  note_few_steps(result, options, drawing);
   return std::move(drawing.drawn);
 }
 
-Drawn draw_together(Result result, const std::string& interface, const fs::path& folder,
-                    const Options& options) {
+Drawn draw_together(Result result, const fs::path& folder, const Options& options) {
   require_consistent(result);
   std::erase_if(result.loads, [](const Load& load) { return load.traces.empty(); });
   if (result.loads.empty() || result.interfaces.empty())
@@ -131,7 +183,8 @@ Drawn draw_together(Result result, const std::string& interface, const fs::path&
                                   std::to_string(count) +
                                   " loads drawn together; choose others with --load");
   }
-  drawing.draw("together", together_picture(result, chosen(result, interface)));
+  drawing.draw("together",
+               together_picture(result, eventful(result, result.loads, options).pressed));
   return std::move(drawing.drawn);
 }
 

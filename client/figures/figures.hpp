@@ -26,6 +26,12 @@ struct Options {
   int dpi = 300;                                          ///< dots an inch of a PNG
   bool titles = true;                                     ///< of case and load, above the panels
   std::chrono::seconds time_limit{120};                   ///< for one picture
+  /// Of overview, membrane, plan, traces, convergence and accuracy those to draw of a load; none:
+  /// all that have something to show.
+  std::vector<std::string> only{};
+  /// The only one of the traces, and that of overview and together; empty: the most eventful there,
+  /// and traces of all that can open.
+  std::string interface {};
 };
 
 struct Drawn {
@@ -36,27 +42,27 @@ struct Drawn {
 /// Draws for every load with traces, in each format, in `folder` (created if missing):
 ///   LOAD-membrane     the deformed membrane with its slit open; needs fields
 ///   LOAD-plan         from above: lines of u over the flux; needs fields
-///   LOAD-traces       u-, u+ and [u] along each interface, contact shaded, its pressure below
+///   LOAD-traces       u-, u+ and [u] along each interface that can open, contact shaded, its
+///                     pressure below
 ///   LOAD-convergence  the relative change of every iteration, or the KKT residuals of every step,
-///   log;
-///                     not of a single step
+///                     log; of at least three, of two where it is asked for
 ///   LOAD-accuracy     the bounds of the energy and of A over the triangles of the stages
 ///   LOAD              an overview: membrane left, traces of the most eventful interface right, as
-///                     in the paper, and what else there is below; 170 mm wide, all else 85 mm
+///                     in the paper, and what else there is below, as the pressure where there is
+///                     contact; 170 mm wide, all else 85 mm
 /// Of a sweep instead:
 ///   sweep             A and the contact length over the rows, or over the coefficient that varies
 ///   sweep-contact     where the cracks are closed, row by row (-2, ... of further interfaces)
 ///   row-K-traces      of the first rows whose traces were kept
 /// LOAD is the load's name made safe for a file name, and unique; further interfaces are
 /// LOAD-traces-2 and so on. Each file is written under a temporary name and renamed. Throws Error,
-/// for the folder results::Error; files already drawn stay.
+/// also for a name that no interface has, for the folder results::Error; files already drawn stay.
 Drawn draw(const results::Result& result, const std::filesystem::path& folder,
            const Options& options = {});
 
 /// Draws "together": [u], u-, u+ and the contact pressure of the loads with traces, the first
-/// eight, on one interface, the most eventful where the name is empty. Throws as `draw`, and Error
-/// for a name that no interface has or where no load has traces.
-Drawn draw_together(results::Result result, const std::string& interface,
-                    const std::filesystem::path& folder, const Options& options = {});
+/// eight, on one interface. Throws as `draw`, and Error where no load has traces.
+Drawn draw_together(results::Result result, const std::filesystem::path& folder,
+                    const Options& options = {});
 
 }  // namespace anticrack::figures

@@ -94,7 +94,13 @@ Range with_bars(Range range, const Profile& profile) {
   return {range.low - (profile.fibres.empty() ? 0.08 : 0.2) * size, range.high + 0.06 * size};
 }
 
-std::size_t most_eventful(const results::Result& result, const std::vector<results::Load>& loads) {
+bool can_open(const results::Interface& interface) {
+  return std::ranges::any_of(interface.edges.kind, [](results::Kind kind) {
+    return kind != results::Kind::glue && kind != results::Kind::inclusion;
+  });
+}
+
+Eventful most_eventful(const results::Result& result, const std::vector<results::Load>& loads) {
   constexpr double rounding = 1e-9;  // of u
   std::vector<double> jumps(result.interfaces.size(), 0), contact(result.interfaces.size(), 0);
   double largest = 0;
@@ -111,10 +117,14 @@ std::size_t most_eventful(const results::Result& result, const std::vector<resul
       contact[i] = std::max(contact[i], length);
     }
   }
-  const auto open = std::ranges::max_element(jumps);
-  if (open == jumps.end()) return 0;
-  if (*open > rounding * largest) return static_cast<std::size_t>(open - jumps.begin());
-  return static_cast<std::size_t>(std::ranges::max_element(contact) - contact.begin());
+  if (jumps.empty()) return {};
+  const auto index_of_largest = [](const std::vector<double>& values) {
+    return static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
+  };
+  const std::size_t longest = index_of_largest(contact);
+  std::size_t open = index_of_largest(jumps);
+  if (jumps[open] <= rounding * largest) open = longest;
+  return {open, 2 * contact[open] >= contact[longest] ? open : longest};
 }
 
 }  // namespace anticrack::figures

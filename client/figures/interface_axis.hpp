@@ -31,8 +31,17 @@ Keys part_keys(const Profile& profile);
 /// `range` with room for the bars and the names below, and some above.
 Range with_bars(Range range, const Profile& profile);
 
-/// The interface with the most to see in these loads: the largest jump, or if nothing is open the
-/// longest contact. 0 without traces.
-std::size_t most_eventful(const results::Result& result, const std::vector<results::Load>& loads);
+/// Whether it has a crack or a delaminated part.
+bool can_open(const results::Interface& interface);
+
+/// The interfaces with the most to see in these loads.
+struct Eventful {
+  std::size_t open = 0;  ///< the largest jump, or if nothing is open the longest contact
+  /// The same, if it is in contact on at least half of the longest contact; else the longest.
+  std::size_t pressed = 0;
+};
+
+/// 0 and 0 without traces.
+Eventful most_eventful(const results::Result& result, const std::vector<results::Load>& loads);
 
 }  // namespace anticrack::figures

@@ -37,14 +37,21 @@ std::string space_label(int tag, const std::string& quoted_text, const Vertex& a
          ", first " + number(at.y) + ", first " + number(at.u) + " center noenhanced" + more + "\n";
 }
 
-/// A short side has no room for as many labels.
-std::string label_steps(const Surface& surface) {
+/// Whether the side of the lowest y is near the viewer, as gnuplot's x axis is.
+bool sees_low_y(double view) { return view < 90 || view > 270; }
+
+/// A short side has no room for as many labels, the near corner for one and not for two.
+std::string label_steps(const Surface& surface, double view) {
   const double least = label_step({0, surface.width()}, 6);
   const auto step = [&](double low, double high) {
-    return number(std::max(least, label_step({low, high}, 4)));
+    return std::max(least, label_step({low, high}, 4));
   };
-  return "set xtics " + step(surface.x_min, surface.x_max) + " nomirror offset 0,-0.3\nset ytics " +
-         step(surface.y_min, surface.y_max) + " nomirror offset 0.3,-0.2\n";
+  const double y_step = step(surface.y_min, surface.y_max);
+  const double low = surface.y_min + (sees_low_y(view) ? 0.4 * y_step : 0);
+  const double high = surface.y_max - (sees_low_y(view) ? 0 : 0.4 * y_step);
+  return "set xtics " + number(step(surface.x_min, surface.x_max)) +
+         " nomirror offset 0,-0.3\nset ytics " + number(std::ceil(low / y_step) * y_step) + ", " +
+         number(y_step) + ", " + number(high) + " nomirror offset 0.3,-0.2\n";
 }
 
 /// Of a triangle, by the mean slope around its corners: by its own, neighbours would differ and the
@@ -142,12 +149,16 @@ std::string membrane_panel(const Surface& surface, const results::Load& load, do
            number(place.y + y * place.height);
   };
   std::string text;
-  // gnuplot centres the box, not what is drawn in it, which leaves room above.
-  text += "set origin " + number(place.x) + "," + number(place.y + 0.06 * place.height) + "\n";
+  // gnuplot centres the box, not what is drawn in it, which leaves room above, and not the labels
+  // of its two near sides, which take room where they run away from the viewer.
+  const double turned = std::fmod(view, 90) * std::numbers::pi / 180;
+  const double aside = 0.1 * (std::cos(turned) - std::sin(turned)) * place.width;
+  text +=
+      "set origin " + number(place.x - aside) + "," + number(place.y + 0.07 * place.height) + "\n";
   text += "set size " + number(place.width) + "," + number(place.height) + "\n";
   text += "unset key\nset border 15 linewidth 0.7 linecolor rgb '#888888'\n";
   text += "unset xlabel\nunset ylabel\n";
-  text += "set tics font ',7' textcolor rgb '#333333'\nunset ztics\n" + label_steps(surface);
+  text += "set tics font ',7' textcolor rgb '#333333'\nunset ztics\n" + label_steps(surface, view);
   text += "set xrange [" + number(surface.x_min) + ":" + number(surface.x_max) + "]\n";
   text += "set yrange [" + number(surface.y_min) + ":" + number(surface.y_max) + "]\n";
   text += "set zrange [" + number(std::min(low, 0.0)) + ":" +
@@ -167,10 +178,13 @@ std::string membrane_panel(const Surface& surface, const results::Load& load, do
   // Not `set xlabel`: terminals keep different distances for it.
   const double middle_x = (surface.x_min + surface.x_max) / 2;
   const double middle_y = (surface.y_min + surface.y_max) / 2;
-  const double away = 0.33 * surface.width();
+  // A label beside its numbers needs more room than one below them.
+  const double angle = view * std::numbers::pi / 180;
+  const double below_x = (0.29 + 0.07 * std::abs(std::sin(angle))) * surface.width();
+  const double beside_y = (0.29 + 0.07 * std::abs(std::cos(angle))) * surface.width();
   // As gnuplot's axes, on the near sides.
-  const double front = view < 90 || view > 270 ? surface.y_min - away : surface.y_max + away;
-  const double side = view < 180 ? surface.x_max + away : surface.x_min - away;
+  const double front = sees_low_y(view) ? surface.y_min - below_x : surface.y_max + below_x;
+  const double side = view < 180 ? surface.x_max + beside_y : surface.x_min - beside_y;
   text += space_label(3, figures::quoted(results::labelled("x", length)), {middle_x, front, base});
   text += space_label(4, figures::quoted(results::labelled("y", length)), {side, middle_y, base});
   if (names.size() <= most_names) {

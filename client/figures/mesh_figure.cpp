@@ -21,10 +21,11 @@ std::string counts(const results::Mesh& mesh) {
          std::to_string(mesh.node_count()) + " nodes";
 }
 
-std::string caption_of(const results::Tip& tip, const Window& window, const Window& whole) {
-  return "around the tip (" + readable(tip.x, 3) + ", " + readable(tip.y, 3) + "), \xC3\x97" +
+std::string caption_of(const results::Tip& tip, const Window& window, const Window& whole,
+                       const std::string& unit) {
+  return "at the tip (" + readable(tip.x, 3) + ", " + readable(tip.y, 3) + "), \xC3\x97" +
          readable(whole.width() / window.width(), 2) + ", edges from " +
-         readable(tip.smallest_edge, 2);
+         readable(tip.smallest_edge, 2) + (unit.empty() ? "" : " " + unit);
 }
 
 bool few(const MeshLayers& layers, const std::string& where, std::vector<std::string>& notes) {
@@ -48,22 +49,24 @@ Picture mesh_picture(const results::MeshPlan& plan, std::vector<std::string>& no
   if (!finest_tip(plan, near, tip)) {
     return {data, title,
             [=](Format, const Place& area) {
-              const auto [panel, foot] = above_foot(area, one_panel, 14);
+              const int rows = legend_rows(overview, 2);
+              const auto [panel, foot] = above_foot(area, one_panel, legend_height(rows));
               return mesh_panel(overview, first, panel, aspect(area, one_panel)) +
-                     mesh_legend(overview, 4, foot);
+                     mesh_legend(overview, rows, foot);
             },
             one_panel};
   }
   const MeshLayers detail = layers(plan, near);
-  const MeshPanel second{"B", near, caption_of(tip, near, everything),
+  const MeshPanel second{"B", near, caption_of(tip, near, everything, plan.units.label("L")),
                          few(detail, "around the tip", notes), plan.units};
   return {data + mesh_data(detail, second.tag), title,
           [=](Format, const Place& area) {
-            const auto [panels, foot] = above_foot(area, two_panels, 8);
+            const int rows = legend_rows(overview, 4);
+            const auto [panels, foot] = above_foot(area, two_panels, legend_height(rows));
             const auto [left, right] = halves(panels);
             const double height = aspect(area, two_panels);
             return mesh_panel(overview, first, left, height) +
-                   mesh_panel(detail, second, right, height) + mesh_legend(overview, 2, foot);
+                   mesh_panel(detail, second, right, height) + mesh_legend(overview, rows, foot);
           },
           two_panels};
 }

@@ -7,6 +7,9 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <utility>
+
+#include "figures/text.hpp"
 
 namespace anticrack::figures {
 namespace {
@@ -97,6 +100,19 @@ void add_stretches(const MeshPlan& plan, const InterfaceLine& line, double small
   }
 }
 
+/// Of the name at the end of an arrow.
+Window box_of(const Pointer& pointer, const Window& window) {
+  const Window at_end = name_box(pointer.name, pointer.to, window);
+  const double dx = pointer.to.x < pointer.from.x ? -0.5 : 0.5;
+  const double dy = pointer.to.y < pointer.from.y ? -0.5 : 0.5;
+  Spot middle = pointer.to;
+  if (pointer.sideways())
+    middle.x += dx * at_end.width();
+  else
+    middle.y += dy * at_end.height();
+  return name_box(pointer.name, middle, window);
+}
+
 /// An arrow into the plus side, at the part `where` of the length of the edges for which `meant` is
 /// true and which the window shows.
 template <class Meant>
@@ -126,27 +142,76 @@ std::optional<Pointer> pointer(const MeshPlan& plan, const InterfaceLine& line,
   return std::nullopt;
 }
 
-void add_pointers(const MeshPlan& plan, const InterfaceLine& line, const Window& window,
-                  MeshLayers& to) {
-  // A little off the middle: there may be a tip, a cross point or another interface's arrow.
-  const auto plus = pointer(plan, line, window, 0.56, [](std::size_t) { return true; });
-  if (plus) to.plus_sides.push_back(*plus);
-  std::set<std::int32_t> here(line.edges.inclusion.begin(), line.edges.inclusion.end());
-  here.erase(-1);
-  for (const std::int32_t inclusion : here) {
-    auto found = pointer(plan, line, window, 0.5,
-                         [&](std::size_t e) { return line.edges.inclusion[e] == inclusion; });
-    if (!found) continue;
-    found->to = {2 * found->from.x - found->to.x, 2 * found->from.y - found->to.y};
-    found->name = plan.mesh.inclusions[static_cast<std::size_t>(inclusion)];
-    to.inclusions.push_back(*found);
+/// Names and arrows of more would cover the lines.
+constexpr std::size_t most_pointers = 16;
+
+/// A pointer and where else along its line it may stand.
+using Choices = std::vector<Pointer>;
+
+/// Of each the one whose name covers no other one, and the least of the interfaces; where every
+/// name would cover one, none.
+void place_names(const std::vector<Choices>& all, const Window& window, MeshLayers& to,
+                 std::vector<Pointer>& placed) {
+  if (all.size() > most_pointers) return;
+  for (const Choices& choices : all) {
+    const Pointer* best = nullptr;
+    std::ptrdiff_t least = std::numeric_limits<std::ptrdiff_t>::max();
+    for (const Pointer& pointer : choices) {
+      const Window box = box_of(pointer, window);
+      if (!is_free(box, to.taken)) continue;
+      std::ptrdiff_t covered = 0;
+      for (const auto& stretches : to.interfaces)
+        for (const Stretch& stretch : stretches)
+          covered +=
+              std::ranges::count_if(stretch, [&](const Spot& spot) { return inside(spot, box); });
+      if (covered < least) best = &pointer;
+      least = std::min(least, covered);
+    }
+    if (best == nullptr) continue;
+    to.taken.push_back(box_of(*best, window));
+    to.taken.push_back(box_of(Stretch{best->from, best->to}));
+    placed.push_back(*best);
   }
 }
 
-/// Names and arrows of more would cover each other and the lines.
-void drop_if_many(std::vector<Pointer>& pointers) {
-  constexpr std::size_t most = 16;
-  if (pointers.size() > most) pointers.clear();
+void add_plus_sides(const MeshPlan& plan, const Window& window, MeshLayers& to) {
+  std::vector<Choices> all;
+  for (const InterfaceLine& line : plan.interfaces) {
+    Choices choices;
+    // A little off the middle: there may be a tip, a cross point or another interface's arrow.
+    for (const double where : {0.56, 0.3, 0.8, 0.42, 0.15, 0.9}) {
+      auto found = pointer(plan, line, window, where, [](std::size_t) { return true; });
+      if (!found) break;
+      found->name += " +";
+      choices.push_back(*found);
+    }
+    if (!choices.empty()) all.push_back(std::move(choices));
+  }
+  place_names(all, window, to, to.plus_sides);
+}
+
+void add_inclusions(const MeshPlan& plan, const Window& window, MeshLayers& to) {
+  std::vector<Choices> all;
+  for (const InterfaceLine& line : plan.interfaces) {
+    std::set<std::int32_t> here(line.edges.inclusion.begin(), line.edges.inclusion.end());
+    here.erase(-1);
+    for (const std::int32_t inclusion : here) {
+      const std::string& name = plan.mesh.inclusions[static_cast<std::size_t>(inclusion)];
+      const auto is_it = [&](const Pointer& side) { return side.name == name + " +"; };
+      if (std::ranges::any_of(to.plus_sides, is_it)) continue;
+      Choices choices;
+      for (const double where : {0.5, 0.25, 0.75, 0.1, 0.9}) {
+        const auto found = pointer(plan, line, window, where, [&](std::size_t e) {
+          return line.edges.inclusion[e] == inclusion;
+        });
+        if (!found) break;
+        const Spot from = found->from;
+        choices.push_back({from, {2 * from.x - found->to.x, 2 * from.y - found->to.y}, name});
+      }
+      if (!choices.empty()) all.push_back(std::move(choices));
+    }
+  }
+  place_names(all, window, to, to.inclusions);
 }
 
 double squared(const Spot& a, const Spot& b) {
@@ -173,8 +238,6 @@ void add_subdomain_names(const Mesh& mesh, const Window& window, MeshLayers& to)
   add(to.dirichlet);
   add(to.neumann);
   std::ranges::for_each(to.interfaces, add);
-  for (const auto* pointers : {&to.plus_sides, &to.inclusions})
-    for (const Pointer& pointer : *pointers) lines.push_back(pointer.to);
   lines = thinned(lines, 1000);
   const double margin_x = 0.12 * window.width();
   const double margin_y = 0.08 * window.height();
@@ -186,7 +249,9 @@ void add_subdomain_names(const Mesh& mesh, const Window& window, MeshLayers& to)
     for (const auto& triangle : thinned(to.triangles[d], 3000)) {
       const Spot centre{(triangle[0].x + triangle[1].x + triangle[2].x) / 3,
                         (triangle[0].y + triangle[1].y + triangle[2].y) / 3};
-      if (!inside(centre, room_for_names)) continue;
+      if (!inside(centre, room_for_names) ||
+          !is_free(name_box(mesh.subdomains[d], centre, window), to.taken))
+        continue;
       double room = std::numeric_limits<double>::infinity();
       for (const Spot& spot : lines) room = std::min(room, squared(centre, spot));
       if (room > best) {
@@ -194,11 +259,29 @@ void add_subdomain_names(const Mesh& mesh, const Window& window, MeshLayers& to)
         place = centre;
       }
     }
-    if (best > 0) to.subdomain_names.emplace_back(place, mesh.subdomains[d]);
+    if (best == 0) continue;
+    to.subdomain_names.emplace_back(place, mesh.subdomains[d]);
+    to.taken.push_back(name_box(mesh.subdomains[d], place, window));
   }
 }
 
 }  // namespace
+
+bool Pointer::sideways() const noexcept {
+  return std::abs(to.x - from.x) > 0.5 * std::abs(to.y - from.y);
+}
+
+Window name_box(const std::string& name, const Spot& middle, const Window& window) {
+  constexpr double character = 0.022, height = 0.055;  // of the longer side
+  const double size = std::max(window.width(), window.height());
+  const double half_x = 0.5 * size * character * static_cast<double>(length(name) + 1);
+  const double half_y = 0.5 * size * height;
+  return {middle.x - half_x, middle.x + half_x, middle.y - half_y, middle.y + half_y};
+}
+
+bool is_free(const Window& box, const std::vector<Window>& taken) {
+  return std::ranges::none_of(taken, [&](const Window& other) { return overlap(box, other); });
+}
 
 Window whole(const Mesh& mesh) {
   std::vector<Spot> spots;
@@ -244,23 +327,26 @@ std::vector<Stretch> loose_sides(const std::vector<Stretch>& delaminated, double
   return sides;
 }
 
-MeshLayers layers(const MeshPlan& plan, const Window& window) {
+MeshLayers layers(const MeshPlan& plan, const Window& window, Named names) {
   MeshLayers result;
+  result.free = plan.free;
   add_triangles(plan.mesh, window, result);
   add_boundary(plan.mesh, result);
   const double smallest = std::max(window.width(), window.height()) / panel_pixels;
   for (const InterfaceLine& line : plan.interfaces) {
     add_stretches(plan, line, smallest, result);
-    add_pointers(plan, line, window, result);
+    const Spot start = spot_of(plan.mesh, line.nodes.front());
+    if (inside(start, window)) result.starts.push_back(start);
   }
+  if (result.starts.size() > most_pointers) result.starts.clear();
+  if (names == Named::all) add_plus_sides(plan, window, result);
+  add_inclusions(plan, window, result);
   constexpr std::size_t delaminated = 4;  // index of the kind's stretches
   result.loose = loose_sides(result.interfaces[delaminated],
                              0.012 * std::max(window.width(), window.height()));
-  drop_if_many(result.plus_sides);
-  drop_if_many(result.inclusions);
   for (const results::Tip& tip : plan.tips)
     if (inside({tip.x, tip.y}, window)) result.tips.push_back(tip);
-  add_subdomain_names(plan.mesh, window, result);
+  if (names == Named::all) add_subdomain_names(plan.mesh, window, result);
   return result;
 }
 

@@ -35,7 +35,16 @@ using Stretch = std::vector<Spot>;  ///< a polyline
 struct Pointer {
   Spot from, to;  ///< an arrow off the interface
   std::string name;
+
+  /// Whether the name stands beside the end of the arrow, and not above or below it.
+  bool sideways() const noexcept;
 };
+
+/// About the part of the window that a name takes, with its middle at the spot.
+Window name_box(const std::string& name, const Spot& middle, const Window& window);
+
+/// Whether a part of the window is still free of names.
+bool is_free(const Window& box, const std::vector<Window>& taken);
 
 struct MeshLayers {
   std::vector<std::vector<std::array<Spot, 3>>> triangles;  ///< by subdomain
@@ -43,9 +52,12 @@ struct MeshLayers {
   std::array<std::vector<Stretch>, 6> interfaces;           ///< by results::Kind, 0 unused
   std::vector<Stretch> dirichlet, neumann;                  ///< edges of the boundary
   std::vector<results::Tip> tips;
-  std::vector<Pointer> plus_sides;  ///< of interfaces
-  std::vector<Pointer> inclusions;  ///< into the minus sides
+  std::vector<Spot> starts;         ///< of interfaces, where s = 0
+  bool free = false;                ///< no traction acts on `neumann`
+  std::vector<Pointer> plus_sides;  ///< of interfaces; where names would cover each other of some
+  std::vector<Pointer> inclusions;  ///< into the minus sides; the same
   std::vector<std::pair<Spot, std::string>> subdomain_names;
+  std::vector<Window> taken;                         ///< by names
   std::vector<Stretch> contours;                     ///< of u
   std::vector<std::pair<Spot, std::string>> levels;  ///< of contours
   std::vector<Stretch> loose;  ///< beside delaminated inclusions, on the side that came off
@@ -61,8 +73,11 @@ bool finest_tip(const results::MeshPlan& plan, Window& window, results::Tip& tip
 /// The delaminated stretches, `distance` away on their minus sides.
 std::vector<Stretch> loose_sides(const std::vector<Stretch>& delaminated, double distance);
 
+/// What has a name: an inclusion that has the name of its interface is not named twice.
+enum class Named { inclusions, all };
+
 /// All that is inside the window and larger than about a pixel. O(triangles log triangles).
-MeshLayers layers(const results::MeshPlan& plan, const Window& window);
+MeshLayers layers(const results::MeshPlan& plan, const Window& window, Named names = Named::all);
 
 /// Two nodes, the lower number first.
 using Edge = std::pair<std::int32_t, std::int32_t>;
@@ -87,7 +102,11 @@ struct MeshPanel {
 std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const Place& place,
                        double height);
 
-/// The legend of all panels, in columns of `rows` entries.
+/// Rows of the legend of all panels in that many columns, and their height, mm.
+int legend_rows(const MeshLayers& layers, int columns);
+inline double legend_height(int rows) { return 1.5 + 3.2 * rows; }
+
+/// The legend, in columns of `rows` entries.
 std::string mesh_legend(const MeshLayers& layers, int rows, const Place& place);
 
 }  // namespace anticrack::figures

@@ -37,11 +37,13 @@ const Style delaminated{"delaminated",
 const Style dirichlet{"dirichlet", "lines linewidth 1.8 linecolor rgb '#444444' dashtype solid",
                       "u given"};
 const Style neumann{"neumann", "lines linewidth 2.5 linecolor " + green + " dashtype (2,2)",
-                    "traction given"};
+                    "free or traction"};
 const Style contours{"contours", "lines linewidth 0.6 linecolor rgb '#333333' dashtype solid",
                      "u = const"};
 const Style loose{"loose", "lines linewidth 1.5 linecolor rgb '#D00000' dashtype (2,2)",
                   "the side that came off"};
+const Style starts{"starts", "points pointtype 4 pointsize 0.6 linewidth 1 linecolor " + blue,
+                   "s = 0"};
 const Style tips{"tips", "points pointtype 6 pointsize 0.5 linewidth 1 linecolor rgb '#000000'",
                  "tip"};
 
@@ -67,6 +69,12 @@ std::string triangles_of(const std::vector<std::array<Spot, 3>>& triangles) {
   return text;
 }
 
+std::string points_of(const std::vector<Spot>& spots) {
+  std::string text;
+  for (const Spot& spot : spots) text += at(spot);
+  return text;
+}
+
 using Layer = std::pair<Style, const std::vector<Stretch>*>;
 
 /// From the lowest to the highest.
@@ -82,10 +90,23 @@ std::array<Layer, 9> line_layers(const MeshLayers& layers) {
            {crack, &layers.interfaces[2]}}};
 }
 
+/// Those of the legend.
+std::vector<Style> shown_styles(const MeshLayers& layers) {
+  std::vector<Style> styles;
+  for (const auto& [style, stretches] : line_layers(layers)) {
+    if (stretches->empty()) continue;
+    styles.push_back(style);
+    if (stretches == &layers.neumann && layers.free) styles.back().legend = "free";
+  }
+  if (!layers.tips.empty()) styles.push_back(tips);
+  if (!layers.starts.empty()) styles.push_back(starts);
+  return styles;
+}
+
 /// The largest box inside the place in which both axes have one scale; `height` of the picture, in
 /// widths of it.
 std::string margins(const Window& window, const Place& place, double height) {
-  constexpr double left = 0.15, right = 0.97, bottom = 0.13, top = 0.92;
+  constexpr double left = 0.2, right = 0.97, bottom = 0.145, top = 0.92;
   const double room_x = (right - left) * place.width;
   const double room_y = (top - bottom) * place.height * height;
   const double scale = std::min(room_x / window.width(), room_y / window.height());
@@ -110,8 +131,7 @@ std::string label(const std::string& name, const Spot& spot, const std::string& 
 std::string beyond(const Pointer& pointer) {
   const double dx = pointer.to.x - pointer.from.x;
   const double dy = pointer.to.y - pointer.from.y;
-  if (std::abs(dx) > 0.5 * std::abs(dy))
-    return dx < 0 ? "right offset -0.6,0" : "left offset 0.6,0";
+  if (pointer.sideways()) return dx < 0 ? "right offset -0.6,0" : "left offset 0.6,0";
   return "center offset 0," + std::string(dy < 0 ? "-0.6" : "0.6");
 }
 
@@ -122,7 +142,7 @@ std::string labels(const MeshLayers& layers) {
     text += "set arrow from " + number(side.from.x) + "," + number(side.from.y) + " to " +
             number(side.to.x) + "," + number(side.to.y) +
             " head filled size screen 0.008,22 linewidth 1.2 linecolor rgb '#000000' front\n";
-    text += label(side.name + " +", side.to, beyond(side), "#000000");
+    text += label(side.name, side.to, beyond(side), "#000000");
   }
   for (const Pointer& inclusion : layers.inclusions)
     text += label(inclusion.name, inclusion.to, beyond(inclusion), "#000000");
@@ -139,9 +159,10 @@ std::string mesh_data(const MeshLayers& layers, const std::string& tag) {
     text += mesh_block("subdomain" + std::to_string(d) + tag, triangles_of(layers.triangles[d]));
   for (const auto& [style, stretches] : line_layers(layers))
     text += mesh_block(style.name + tag, lines_of(*stretches));
-  std::string points;
-  for (const results::Tip& tip : layers.tips) points += at({tip.x, tip.y});
-  return text + mesh_block(tips.name + tag, points);
+  std::vector<Spot> spots;
+  for (const results::Tip& tip : layers.tips) spots.push_back({tip.x, tip.y});
+  return text + mesh_block(tips.name + tag, points_of(spots)) +
+         mesh_block(starts.name + tag, points_of(layers.starts));
 }
 
 std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const Place& place,
@@ -179,9 +200,14 @@ std::string mesh_panel(const MeshLayers& layers, const MeshPanel& panel, const P
     plots += drawn_data(style, panel.tag);
   }
   if (!layers.tips.empty()) plots += drawn_data(tips, panel.tag);
+  if (!layers.starts.empty()) plots += drawn_data(starts, panel.tag);
   // Out of sight, for the colour bar.
   if (!panel.paints.empty()) plots += ", '+' using (NaN):(NaN):(0) with points palette notitle";
   return text + plots + "\nunset label\nunset arrow\n";
+}
+
+int legend_rows(const MeshLayers& layers, int columns) {
+  return (static_cast<int>(shown_styles(layers).size()) + columns - 1) / columns;
 }
 
 std::string mesh_legend(const MeshLayers& layers, int rows, const Place& place) {
@@ -189,11 +215,8 @@ std::string mesh_legend(const MeshLayers& layers, int rows, const Place& place) 
   text += "set xrange [0:1]\nset yrange [0:1]\n" + figures::margins(place, 0, 1, 0, 1);
   text += legend(rows, place);
   std::string keys = "plot NaN notitle";
-  for (const auto& [style, stretches] : line_layers(layers))
-    if (!stretches->empty())
-      keys += std::string(", keyentry with ") + style.drawn + " title '" + style.legend + "'";
-  if (!layers.tips.empty())
-    keys += std::string(", keyentry with ") + tips.drawn + " title '" + tips.legend + "'";
+  for (const Style& style : shown_styles(layers))
+    keys += std::string(", keyentry with ") + style.drawn + " title '" + style.legend + "'";
   return text + keys + "\n";
 }
 

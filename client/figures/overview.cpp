@@ -2,7 +2,6 @@
 #include <optional>
 #include <utility>
 
-#include "figures/interface_axis.hpp"
 #include "figures/panels.hpp"
 
 namespace anticrack::figures {
@@ -15,11 +14,12 @@ const std::string fresh = "reset\nset encoding utf8\nset minussign\n";
 std::optional<Picture> beside_plan(const results::Result& result, const results::Load& load,
                                    const TracesPanels& traces) {
   if (traces.in_contact) {
-    return Picture{"",
+    return Picture{traces.pressure_data,
                    {},
                    [=](Format, const Place& place) {
-                     return caption("contact pressure", place) + traces.axis_label(0.13, place) +
-                            traces.pressure(place, {0.21, 0.885});
+                     const std::string on = traces.name.empty() ? "" : " on " + traces.name;
+                     return caption("contact pressure" + on, place) +
+                            traces.axis_label(0.13, place) + traces.pressure(place, {0.21, 0.885});
                    },
                    narrow};
   }
@@ -31,16 +31,16 @@ std::optional<Picture> beside_plan(const results::Result& result, const results:
 }  // namespace
 
 Picture overview_picture(const results::Result& result, const results::Load& load,
-                         const Surface& surface) {
+                         const Surface& surface, const Eventful& interfaces) {
   const Picture membrane = membrane_picture(result, load, surface);
-  const TracesPanels traces = traces_panels(result, load, most_eventful(result, {load}));
+  const TracesPanels traces = traces_panels(result, load, interfaces.open);
   const auto upper = [=, left = membrane.plots](Format format, const Place& place) {
     const auto [left_half, right_half] = halves(place);
     return left(format, left_half) + traces.axis_label(0.2, right_half) +
            traces.displacements(right_half, {0.305, 0.905});
   };
   std::string data = membrane.data + traces.data;
-  const auto other = beside_plan(result, load, traces);
+  const auto other = beside_plan(result, load, traces_panels(result, load, interfaces.pressed));
   if (!other) return {data, membrane.title, upper, page};
   const Picture plan = plan_picture(result, load, surface);
   const Canvas both{page.width, page.height + square.height};

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "figures/canvas.hpp"
+#include "figures/interface_axis.hpp"
 #include "figures/pressure.hpp"
 #include "figures/surface.hpp"
 #include "results/result.hpp"
@@ -32,9 +33,10 @@ Range heights(const std::vector<const results::Trace*>& traces, double energy);
 
 /// What there is to see along an interface, to be put into a picture.
 struct TracesPanels {
-  std::string data;
+  std::string data, pressure_data;
   std::function<std::string(const Place&, const Box&)> displacements, pressure;
   std::function<std::string(double height, const Place&)> axis_label;
+  std::string name;         ///< of the interface, if there are several
   bool in_contact = false;  ///< else there is no pressure to draw
 };
 
@@ -52,7 +54,7 @@ inline constexpr std::size_t together_limit = 8;
 /// load. Of at most together_limit loads, all with traces.
 Picture together_picture(const results::Result& result, std::size_t interface);
 
-/// More than one iteration.
+/// More than two iterations: of two the line says nothing.
 bool has_convergence(const results::Load& load);
 
 /// The criterion of step 3 of Algorithm 2 over the iterations, and epsilon; or the KKT residuals of
@@ -74,10 +76,10 @@ Picture errors_picture(const results::Result& result, const results::Load& load)
 Picture plan_picture(const results::Result& result, const results::Load& load,
                      const Surface& surface);
 
-/// Membrane left, traces of the most eventful interface right, as in the paper's Figures 2-5. Where
-/// there is something for it, a second row: the plan, and the first that there is of the contact
-/// pressure, the bounds of an accuracy and the convergence.
+/// Membrane left, traces of an interface right, as in the paper's Figures 2-5. Where there is
+/// something for it, a second row: the plan, and the first that there is of the contact pressure,
+/// the bounds of an accuracy and the convergence.
 Picture overview_picture(const results::Result& result, const results::Load& load,
-                         const Surface& surface);
+                         const Surface& surface, const Eventful& interfaces);
 
 }  // namespace anticrack::figures

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "figures/text.hpp"
@@ -29,9 +30,12 @@ void add_spots(const std::vector<Stretch>& stretches, std::vector<Spot>& to) {
   for (const Stretch& stretch : stretches) to.insert(to.end(), stretch.begin(), stretch.end());
 }
 
-/// The spot of a level with the most room around it, away from lines and farther from labels.
+/// The spot of a level with the most room around it, away from lines and farther from labels, where
+/// its name covers no other one.
+template <class Free>
 std::pair<Spot, double> roomiest(const std::vector<Stretch>& stretches,
-                                 const std::vector<Spot>& lines, const std::vector<Spot>& labels) {
+                                 const std::vector<Spot>& lines, const std::vector<Spot>& labels,
+                                 const Free& is_free_at) {
   constexpr double width = 3;  // of a label, about, over its height
   constexpr std::size_t looked_at = 200;
   const std::size_t step = 1 + stretches.size() / looked_at;
@@ -39,7 +43,7 @@ std::pair<Spot, double> roomiest(const std::vector<Stretch>& stretches,
   for (std::size_t i = 0; i < stretches.size(); i += step) {
     const double room = std::min(nearest(stretches[i].front(), lines),
                                  nearest(stretches[i].front(), labels) / width);
-    if (room > best.second) best = {stretches[i].front(), room};
+    if (room > best.second && is_free_at(stretches[i].front())) best = {stretches[i].front(), room};
   }
   return best;
 }
@@ -52,10 +56,21 @@ std::vector<Spot> thinned(const std::vector<Spot>& all, std::size_t most) {
   return some;
 }
 
+/// Whether a case has the key, or a comment that looks like it.
+bool gives_traction(std::string_view toml) {
+  constexpr std::string_view key = "traction";
+  for (std::size_t at = toml.find(key); at != std::string_view::npos; at = toml.find(key, at + 1)) {
+    const std::size_t behind = toml.find_first_not_of(" \t\"'", at + key.size());
+    if (behind != std::string_view::npos && toml[behind] == '=') return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 results::MeshPlan plan_of(const results::Result& result) {
   results::MeshPlan plan{result.title, result.units, result.mesh, {}, {}};
+  plan.free = !result.case_text.empty() && !gives_traction(result.case_text);
   std::map<std::pair<double, double>, std::int32_t> nodes;
   for (const results::Interface& interface : result.interfaces)
     for (std::size_t i = 0; i < interface.node_count(); ++i)
@@ -123,9 +138,7 @@ MeshLayers plan_layers(const results::Result& result, const Surface& surface, co
   const results::MeshPlan plan = plan_of(result);
   const Window window = whole(plan.mesh);
   const double size = std::max(window.width(), window.height());
-  MeshLayers layers = figures::layers(plan, window);
-  layers.plus_sides.clear();
-  layers.subdomain_names.clear();
+  MeshLayers layers = figures::layers(plan, window, Named::inclusions);
   layers.triangles = flux_classes(surface, flux, classes);
   layers.triangle_count = surface.triangles.size();
 
@@ -141,9 +154,13 @@ MeshLayers plan_layers(const results::Result& result, const Surface& surface, co
   const double step = label_step(u, most);
   for (double index = std::ceil(u.low / step); index * step <= u.high; ++index) {
     const std::vector<Stretch> lines = contour(surface, index * step);
-    const auto [spot, room] = roomiest(lines, taken, labels);
+    const std::string name = readable(index * step, 3);
+    const auto [spot, room] = roomiest(lines, taken, labels, [&](const Spot& at) {
+      return is_free(name_box(name, at, window), layers.taken);
+    });
     if (room > 0.045 * size) {
-      layers.levels.emplace_back(spot, readable(index * step, 3));
+      layers.levels.emplace_back(spot, name);
+      layers.taken.push_back(name_box(name, spot, window));
       labels.push_back(spot);
     }
     layers.contours.insert(layers.contours.end(), lines.begin(), lines.end());

@@ -53,7 +53,6 @@ std::string plan_heading(const results::Load& load, const Shown& shown) {
 
 Picture plan_picture(const results::Result& result, const results::Load& load,
                      const Surface& surface) {
-  constexpr double foot = 13;  // mm
   const Peaks flux = flux_peaks(surface);
   const MeshLayers layers = plan_layers(result, surface, flux, shade_count, levels);
   const Shown shown = shown_of(result);
@@ -62,11 +61,12 @@ Picture plan_picture(const results::Result& result, const results::Load& load,
   return {mesh_data(layers, panel.tag),
           {result.title, load.name},
           [=](Format, const Place& place) {
-            const auto [map, below_map] = above_foot(place, square, foot);
+            const int rows = legend_rows(layers, 2);
+            const auto [map, below_map] = above_foot(place, square, legend_height(rows));
             return bar(flux, shown, map) +
                    mesh_panel(layers, panel, {map.x, map.y, 0.8 * map.width, map.height},
                               aspect(place, square)) +
-                   mesh_legend(layers, 4, below_map);
+                   mesh_legend(layers, rows, below_map);
           },
           square};
 }

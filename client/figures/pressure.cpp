@@ -35,16 +35,18 @@ std::string pressure_panel(const Profile& profile, const std::vector<Pressure>& 
   for (const Pressure& each : pressures)
     all = {std::max(all.highest, each.peaks.highest), std::max(all.shown, each.peaks.shown)};
   std::string text = margins(place, box.bottom, box.top) + axes() + contact_strips(profile);
+  const std::string unit = units.label("F/L");
   if (all.cut_off()) {
     text += "set label 6 " +
-            figures::quoted("cut off at the tips, up to " + readable(all.highest, 2)) +
+            figures::quoted("cut off at the tips, up to " + readable(all.highest, 2) +
+                            (unit.empty() ? "" : " " + unit)) +
             " at graph 1, graph 1 right offset 0,0.5 noenhanced font ',7' textcolor " + black +
             " front\n";
   }
   const Range heights{0, 1.06 * all.shown};
   const Scale scale(heights);
   text += axis_range('x', extent(profile)) + axis_range('y', scale.drawn(heights), 4);
-  text += beside(figures::quoted(scale.label("pressure", units.label("F/L"))), place);
+  text += beside(figures::quoted(scale.label("pressure", unit)), place);
   std::string plots;
   for (const PressureCurve& curve : curves) {
     plots += (plots.empty() ? "plot $" : ", $") + curve.block + " using 1:" + scale.column(2) +

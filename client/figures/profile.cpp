@@ -6,6 +6,8 @@
 #include <functional>
 #include <utility>
 
+#include "figures/text.hpp"
+
 namespace anticrack::figures {
 namespace {
 
@@ -53,6 +55,8 @@ Profile profile(const results::Result& result, std::size_t index, const results:
     profile.position = interface.y;
   } else {
     axis = "arc length s";
+    if (k > 0)
+      axis += " from (" + readable(interface.x[0], 4) + ", " + readable(interface.y[0], 4) + ")";
     profile.position = interface.s;
   }
   profile.axis = results::labelled(axis, result.units.label("L"));

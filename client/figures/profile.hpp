@@ -37,7 +37,9 @@ struct Profile {
   std::vector<Band> contact;
 };
 
-/// The axis is x or y if the interface is parallel to it (as in the paper), else arc length. O(k).
+/// The axis is x or y if the interface is parallel to it (as in the paper), else arc length, from
+/// the interface's first node, which the label names: the server may have turned the line of the
+/// user. O(k).
 Profile profile(const results::Result& result, std::size_t interface, const results::Trace& trace);
 
 }  // namespace anticrack::figures

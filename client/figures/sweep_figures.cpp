@@ -99,6 +99,7 @@ struct Curves {
   std::string unit;  ///< of the number
   std::string blocks;  ///< the data
   Range heights = empty_range();
+  std::vector<std::string> bounds{};  ///< data blocks beside those of the numbers: "lower", "upper"
 };
 
 /// Of column `part` of `parts` that `values` has for each inclusion.
@@ -114,6 +115,22 @@ Curves curves_of(const Sweep& sweep, const SweepAxis& axis, const std::string& n
                     curves.heights);
   }
   return curves;
+}
+
+/// A over the axis; with bounds where neighbouring rows are joined.
+Curves displacements_of(const Sweep& sweep, const SweepAxis& axis, const std::string& unit) {
+  Curves all = curves_of(sweep, axis, "A", unit, sweep.displacement, 0, 1);
+  if (sweep.displacement_lower.empty() || !axis.joined()) return all;
+  const auto add = [&](const char* name, const std::vector<double>& values) {
+    const Curves bound = curves_of(sweep, axis, name, unit, values, 0, 1);
+    all.blocks += bound.blocks;
+    all.heights.include(bound.heights.low);
+    all.heights.include(bound.heights.high);
+    all.bounds.emplace_back(name);
+  };
+  add("lower", sweep.displacement_lower);
+  add("upper", sweep.displacement_upper);
+  return all;
 }
 
 /// The entries of the legend, to go on a plot.
@@ -140,16 +157,19 @@ std::string panel(const SweepAxis& axis, const Curves& curves, std::size_t inclu
     const CurveStyle style = i < named ? curve_styles.at(i) : CurveStyle{"#bbbbbb", "solid"};
     plots += (plots.empty() ? "$" : ", $") + curves.name + std::to_string(i) +
              " using 1:" + scale.column(2) + drawn_as(axis, style) + " notitle";
+    for (const std::string& bound : curves.bounds)
+      plots += ", $" + bound + std::to_string(i) + " using 1:" + scale.column(2) +
+               " with lines linewidth 0.5 linecolor rgb '" + style.colour + "' notitle";
   }
   return panel(axis, scale.label(curves.name, curves.unit), heights, plots + keys, place);
 }
 
 /// One panel above the other, over one axis; the legend of the upper one in between.
 std::string stacked(const Sweep& sweep, const SweepAxis& axis, const std::string& upper,
-                    const std::string& lower, const Place& place) {
+                    const std::string& lower, const Place& place, const std::string& note = {}) {
   const bool legend = sweep.inclusions.size() > 1;
   std::string text = margins(place, legend ? 0.6 : 0.545, 0.935) + axes();
-  text += "set format x ''\n" + caption(counted_rows(sweep), place);
+  text += "set format x ''\n" + caption(counted_rows(sweep) + note, place);
   text += "set key at screen " + number(place.x + 0.54 * place.width) + ", screen " +
           number(place.y + 0.59 * place.height) +
           " center top horizontal maxrows 3 Left reverse noenhanced samplen 2.5 font ',7'\n";
@@ -166,27 +186,27 @@ Picture sweep_picture(const Result& result, const SweepAxis& axis) {
   const std::string data =
       curve_block("length", curve(sweep, axis, sweep.contact_length, 0, 1, point_limit), lengths);
   const std::string length = result.units.label("L");
-  const Curves displacements = curves_of(sweep, axis, "A", length, sweep.displacement, 0, 1);
+  const Curves displacements = displacements_of(sweep, axis, length);
   if (lengths.high == 0) lengths.high = 1;
   lengths = with_room(lengths);
   const Scale of_lengths(lengths);
 
-  return {data + displacements.blocks, sweep_title(result),
-          [=, &sweep, &axis](Format, const Place& place) {
-            const std::string contact =
-                panel(axis, of_lengths.label("contact length", length), lengths,
-                      "$length using 1:" + of_lengths.column(2) + drawn_as(axis, curve_styles[0]) +
-                          " notitle",
-                      place);
-            if (inclusions == 0) {
-              return margins(place, 0.16, 0.905) + below(axis_label(axis), 0.04, place) + axes() +
-                     caption(counted_rows(sweep), place) + contact;
-            }
-            const std::string keys = legend_of(axis, sweep.inclusions);
-            return stacked(sweep, axis, panel(axis, displacements, inclusions, keys, place),
-                           contact, place);
-          },
-          inclusions == 0 ? narrow : tall};
+  return {
+      data + displacements.blocks, sweep_title(result),
+      [=, &sweep, &axis](Format, const Place& place) {
+        const std::string contact = panel(axis, of_lengths.label("contact length", length), lengths,
+                                          "$length using 1:" + of_lengths.column(2) +
+                                              drawn_as(axis, curve_styles[0]) + " notitle",
+                                          place);
+        if (inclusions == 0) {
+          return margins(place, 0.16, 0.905) + below(axis_label(axis), 0.04, place) + axes() +
+                 caption(counted_rows(sweep), place) + contact;
+        }
+        const std::string keys = legend_of(axis, sweep.inclusions);
+        return stacked(sweep, axis, panel(axis, displacements, inclusions, keys, place), contact,
+                       place, displacements.bounds.empty() ? "" : "; thin: bounds");
+      },
+      inclusions == 0 ? narrow : tall};
 }
 
 Picture slope_picture(const Result& result, const SweepAxis& axis) {

@@ -12,45 +12,49 @@ namespace {
 using results::Load;
 
 /// A and B of the inclusions here.
-std::string answers(const Profile& profile, const Load& load, bool with_bounds) {
+std::string answers(const Profile& profile, const Load& load, const std::string& unit,
+                    bool with_bounds) {
   std::string answer;
   for (const results::Inclusion& inclusion : load.inclusions) {
     const bool here =
         std::any_of(profile.fibres.begin(), profile.fibres.end(),
                     [&](const Fibre& fibre) { return fibre.inclusion == inclusion.name; });
     if (!here) continue;
-    answer += ",  A = " + (with_bounds && std::isfinite(inclusion.displacement_lower)
-                               ? bounded(inclusion.displacement_lower, inclusion.displacement_upper)
-                               : readable(inclusion.displacement));
+    answer += ",  A = " +
+              (with_bounds && std::isfinite(inclusion.displacement_lower)
+                   ? bounded(inclusion.displacement_lower, inclusion.displacement_upper)
+                   : readable(inclusion.displacement)) +
+              (unit.empty() ? "" : " " + unit);
     if (inclusion.tilted()) {
       answer += ", B = (" + readable(inclusion.slope_x) + ", " + readable(inclusion.slope_y) + ")";
     }
-    if (load.inclusions.size() > 1) answer += " (" + shortened(inclusion.name, 12) + ")";
+    if (load.inclusions.size() > 1 && inclusion.name != profile.name)
+      answer += " (" + shortened(inclusion.name, 12) + ")";
   }
   if (load.status == results::Status::not_converged) answer += ",  not converged";
   return answer;
 }
 
-std::string traces_heading(const Profile& profile, const Load& load) {
+std::string traces_heading(const Profile& profile, const Load& load, const std::string& unit) {
   constexpr std::size_t most = 50;
   const std::string where =
       profile.name.empty() ? std::string("the interface") : shortened(profile.name, 20);
-  const std::string bounds = where + answers(profile, load, true);
+  const std::string bounds = where + answers(profile, load, unit, true);
   const std::string full = "displacements on " + bounds;
   if (length(full) <= most) return full;
-  return length(bounds) <= most ? bounds : where + answers(profile, load, false);
+  return length(bounds) <= most ? bounds : where + answers(profile, load, unit, false);
 }
 
-std::string traces_data(const Profile& profile, const results::Trace& trace,
-                        const Pressure& pressure) {
-  std::string text = "$traces << EOD\n", closing = "$pressure << EOD\n";
-  for (std::size_t i = 0; i < profile.position.size(); ++i) {
-    const std::string at = number(profile.position[i]) + " ";
-    text += at + number(trace.u_minus[i]) + " " + number(trace.u_plus[i]) + " " +
-            number(trace.jump[i]) + "\n";
-    closing += at + number(pressure.values[i]) + "\n";
+/// Columns over the position.
+std::string block(const std::string& name, const std::vector<double>& position,
+                  const std::vector<const std::vector<double>*>& columns) {
+  std::string text = "$" + name + " << EOD\n";
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    text += number(position[i]);
+    for (const std::vector<double>* column : columns) text += " " + number((*column)[i]);
+    text += "\n";
   }
-  return text + "EOD\n" + (pressure.peaks.highest > 0 ? closing + "EOD\n" : "");
+  return text + "EOD\n";
 }
 
 std::string curve(const std::string& column, const std::string& style, const char* title) {
@@ -66,7 +70,7 @@ std::string displacements(const Profile& profile, const results::Trace& trace, c
   std::string text = margins(place, box.bottom, box.top) + axes();
   text += contact_strips(profile) + part_bars(profile);
   text += axis_range('x', extent(profile)) + axis_range('y', scale.drawn(high), 9);
-  text += caption(traces_heading(profile, load), place);
+  text += caption(traces_heading(profile, load, units.label("L")), place);
   text += beside(figures::quoted(scale.label("displacement", units.label("L"))), place);
   text += legend((keys.count + 4) / 2, place);
   text += "plot 0 with lines linewidth 0.7 linecolor rgb '#888888' notitle";
@@ -100,7 +104,9 @@ TracesPanels traces_panels(const results::Result& result, const Load& load, std:
   const Pressure pressed = pressure(result.interfaces[interface], trace);
   const std::string axis = figures::quoted(along.axis);
   const results::Units units = result.units;
-  return {traces_data(along, trace, pressed),
+  const bool in_contact = pressed.peaks.highest > 0;
+  return {block("traces", along.position, {&trace.u_minus, &trace.u_plus, &trace.jump}),
+          in_contact ? block("pressure", along.position, {&pressed.values}) : "",
           [=, &trace, &load](const Place& place, const Box& box) {
             return displacements(along, trace, load, units, place, box);
           },
@@ -109,7 +115,8 @@ TracesPanels traces_panels(const results::Result& result, const Load& load, std:
                                   place, box);
           },
           [=](double height, const Place& place) { return below(axis, height, place); },
-          pressed.peaks.highest > 0};
+          along.name,
+          in_contact};
 }
 
 Picture traces_picture(const results::Result& result, const Load& load, std::size_t interface) {
@@ -122,7 +129,7 @@ Picture traces_picture(const results::Result& result, const Load& load, std::siz
             },
             narrow};
   }
-  return {panels.data, title,
+  return {panels.data + panels.pressure_data, title,
           [=](Format, const Place& place) {
             return "set format x ''\n" + panels.displacements(place, {0.48, 0.93}) +
                    "unset key\nset format x\n" + panels.axis_label(0.135, place) +

@@ -34,6 +34,7 @@ struct MeshPlan {
   Mesh mesh;  ///< its boundary: the edges where u is prescribed
   std::vector<InterfaceLine> interfaces;
   std::vector<Tip> tips;
+  bool free = false;  ///< no traction acts where u is not given; false: it is not known
 };
 
 /// Adds the arrays of ReadMesh to the contents of the message Mesh: title, names and tension of the

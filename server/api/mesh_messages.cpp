@@ -238,6 +238,7 @@ void Translation<mesh::MeshOptions>::write(const mesh::MeshOptions& value, v1::M
   to.set_preset(presets.at(static_cast<std::size_t>(value.preset)));
   if (value.size == 0) to.clear_size();
   if (value.tip_size == 0) to.clear_tip_size();
+  if (value.chord_angle == 0) to.clear_chord_angle();
   if (value.grading == mesh::MeshOptions().grading) to.clear_grading();
 }
 
@@ -247,7 +248,7 @@ mesh::MeshOptions Translation<mesh::MeshOptions>::read(const v1::MeshOptions& fr
   const int preset = get_number(from, field_of(from, "preset"), -1);
   for (std::size_t i = 0; i < presets.size(); ++i)
     if (presets[i] == preset) value.preset = static_cast<mesh::Preset>(i);
-  for (const char* length : {"size", "tip_size"}) {
+  for (const char* length : {"size", "tip_size", "chord_angle"}) {
     if (has(from, field_of(from, length)) && get<double>(from, field_of(from, length), -1) == 0) {
       throw Error(Reason::invalid_argument, "0 is not above 0; leave it unset for the default")
           .at(length);

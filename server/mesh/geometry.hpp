@@ -151,11 +151,12 @@ struct MeshOptions {
   std::map<std::string, double> tension{};               ///< subdomain -> T
   std::map<std::string, Motion> inclusion_motions{};     ///< inclusion -> how it moves
   std::map<std::string, TensionLaw> tension_laws{};      ///< subdomain -> T, in place of a number
+  double chord_angle = 0;  ///< geometry: largest turn of a chord of a curve, degrees; 0: five
 };
 ANTICRACK_FIELDS(MeshOptions, preset, size, tip_size, grading, align, curve_groups, surface_groups,
-                 tension, inclusion_motions, tension_laws)
+                 tension, inclusion_motions, tension_laws, chord_angle)
 inline auto added_fields(const MeshOptions& of) {
-  return std::tie(of.inclusion_motions, of.tension_laws);
+  return std::tie(of.inclusion_motions, of.tension_laws, of.chord_angle);
 }
 
 /// What a straight curve of the plan is.
@@ -227,8 +228,9 @@ ANTICRACK_FIELDS(Plan, points, curves, interfaces, faces, inclusions, motions, g
 /// crosses itself or does not close, nothing is held, a hole lies outside or touches something, an
 /// interface leaves the membrane or runs along another, a part lies on no interface, touches the
 /// Dirichlet boundary or overlaps another, values are not finite, names are empty, malformed,
-/// unknown or used twice, a motion has a fault); invalid_argument for options; limit_exceeded for more than 20,000 vertices
-/// or more than `max_triangles` expected triangles. O(v^2) for v vertices.
+/// unknown or used twice, a motion has a fault); invalid_argument for options; limit_exceeded for
+/// more than 20,000 vertices or more than `max_triangles` expected triangles. O(v^2) for v
+/// vertices.
 Plan plan(const Geometry& geometry, const MeshOptions& options, std::size_t max_triangles);
 
 /// Check the options of a geometry (all but the points of `align`, which plan() checks) and of an

@@ -21,7 +21,7 @@ struct Boundary {
 /// "holes[0].outline.circle.radius", ... O(v^2) for v vertices.
 Boundary lay_boundary(const Geometry& geometry);
 
-/// The boundary without holes, counterclockwise, with chords of at most ten degrees.
+/// The boundary without holes, counterclockwise, with chords of at most five degrees.
 std::vector<Point> outer_polygon(const Network& network);
 
 /// Of the membrane with the same chords, length unit squared.

@@ -112,7 +112,8 @@ std::vector<Point> polygon_of(const Line& line) {
   std::vector<Point> polygon;
   for (int k = 0; k < line.spans(); ++k) {
     polygon.push_back(line.at(k));
-    for (const double t : line.cuts_between(k, k + 1, line.length())) polygon.push_back(line.at(t));
+    for (const double t : line.cuts_between(k, k + 1, {line.length()}))
+      polygon.push_back(line.at(t));
   }
   if (!line.closed()) polygon.push_back(line.at(line.spans()));
   return polygon;

@@ -17,7 +17,7 @@ namespace anticrack::mesh {
 /// same x.
 Line lay_curve(const InterfaceSpec& spec, const std::string& field, const Outline& outline);
 
-/// The vertices of a line, and ends of chords of at most ten degrees where it is curved.
+/// The vertices of a line, and ends of chords of at most five degrees where it is curved.
 std::vector<Point> polygon_of(const Line& line);
 
 }  // namespace anticrack::mesh

@@ -6,6 +6,7 @@
 // the geometry.
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -13,6 +14,12 @@
 #include "mesh/geometry_primitives.hpp"
 
 namespace anticrack::mesh {
+
+/// How curves are cut: a chord is at most `size` long, and the curve turns by at most `turn` on it.
+struct ChordRule {
+  double size = 0;
+  double turn = std::numbers::pi / 36;  ///< radians
+};
 
 /// Span k of a line runs over the parameters [k, k+1]; the ends of the spans are its vertices.
 class Line {
@@ -48,11 +55,10 @@ class Line {
   /// The parameter up to which the line from `from` on has a part of its length up to `to`.
   /// O(samples).
   double along(double from, double to, double part) const;
-  /// How many chords of length `size` or a turn of ten degrees the line takes from one parameter to
-  /// another. Not for polylines.
-  double chords_between(double from, double to, double size) const;
+  /// How many chords of a rule the line takes from one parameter to another. Not for polylines.
+  double chords_between(double from, double to, const ChordRule& rule) const;
   /// Parameters strictly between that cut this part of the line into such chords.
-  std::vector<double> cuts_between(double from, double to, double size) const;
+  std::vector<double> cuts_between(double from, double to, const ChordRule& rule) const;
 
  private:
   struct Sample {
@@ -72,7 +78,7 @@ class Line {
   double sweep(int k) const noexcept;
   double angle_at(int k, double u) const noexcept;
   double closest(const Point& p, double low, double high) const noexcept;
-  std::vector<double> measure(double from, double to, double size, int steps) const;
+  std::vector<double> measure(double from, double to, const ChordRule& rule, int steps) const;
 
   Shape _shape = Shape::polyline;
   bool _closed = false;

@@ -3,14 +3,12 @@
 // Lines by their length, and cut into chords.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "mesh/geometry_line.hpp"
 
 namespace anticrack::mesh {
 namespace {
 
-constexpr double largest_turn = std::numbers::pi / 18;
 constexpr int steps_at_least = 128;
 
 /// Angle from one direction to another, without its sign.
@@ -37,7 +35,7 @@ double Line::along(double from, double to, double part) const {
 }
 
 /// The cumulated number of chords after each of `steps` equal pieces of the parameter.
-std::vector<double> Line::measure(double from, double to, double size, int steps) const {
+std::vector<double> Line::measure(double from, double to, const ChordRule& rule, int steps) const {
   std::vector<double> sum{0};
   sum.reserve(static_cast<std::size_t>(steps) + 1);
   Point before = at(from);
@@ -47,22 +45,22 @@ std::vector<double> Line::measure(double from, double to, double size, int steps
     const double t = from + (to - from) * i / steps;
     const Point here = at(t);
     const Point heading = derivative(t - 1e-9 * (to - from));
-    sum.push_back(sum.back() +
-                  std::max(distance(before, here) / size, turn(direction, heading) / largest_turn));
+    sum.push_back(sum.back() + std::max(distance(before, here) / rule.size,
+                                        turn(direction, heading) / rule.turn));
     before = here;
     direction = heading;
   }
   return sum;
 }
 
-double Line::chords_between(double from, double to, double size) const {
-  return measure(from, to, size, steps_at_least).back();
+double Line::chords_between(double from, double to, const ChordRule& rule) const {
+  return measure(from, to, rule, steps_at_least).back();
 }
 
-std::vector<double> Line::cuts_between(double from, double to, double size) const {
-  const double expected = std::ceil(chords_between(from, to, size));
+std::vector<double> Line::cuts_between(double from, double to, const ChordRule& rule) const {
+  const double expected = std::ceil(chords_between(from, to, rule));
   const int steps = steps_at_least + 4 * static_cast<int>(expected);
-  const std::vector<double> sum = measure(from, to, size, steps);
+  const std::vector<double> sum = measure(from, to, rule, steps);
   const auto pieces = static_cast<int>(std::ceil(sum.back() - 1e-6));
   std::vector<double> cuts;
   cuts.reserve(static_cast<std::size_t>(std::max(0, pieces)));

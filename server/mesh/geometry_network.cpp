@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "mesh/at.hpp"
 #include "mesh/geometry_boundary.hpp"
@@ -61,7 +62,7 @@ std::uint64_t cell(const Point& p, double tolerance, int dx, int dy) {
 
 /// Adds the chords between two stations of a line, with new points on curved lines.
 void cut_stretch(Network& network, std::size_t l, const Station& from, const Station& to,
-                 double size, std::size_t max_chords) {
+                 const ChordRule& rule, std::size_t max_chords) {
   const Line& line = network.lines[l].line;
   Chord chord{static_cast<int>(l), from.point, 0, from.t, 0};
   const auto add = [&](double t, int point) {
@@ -72,14 +73,16 @@ void cut_stretch(Network& network, std::size_t l, const Station& from, const Sta
     chord.a = point;
   };
   if (!line.straight()) {
-    if (line.chords_between(from.t, to.t, size) + static_cast<double>(network.chords.size()) >
+    if (line.chords_between(from.t, to.t, rule) + static_cast<double>(network.chords.size()) >
         static_cast<double>(max_chords)) {
       throw errors::Error(errors::Reason::limit_exceeded,
-                          "an edge length of " + show(size) + " cuts the lines into more than " +
-                              std::to_string(max_chords) + " pieces; choose a larger one")
+                          "an edge length of " + show(rule.size) + " and chords of " +
+                              show(rule.turn * 180 / std::numbers::pi) +
+                              " degrees cut the lines into more than " +
+                              std::to_string(max_chords) + " pieces; choose larger ones")
           .at("options.size");
     }
-    for (const double t : line.cuts_between(from.t, to.t, size)) {
+    for (const double t : line.cuts_between(from.t, to.t, rule)) {
       network.points.push_back(line.at(t));
       add(t, static_cast<int>(network.points.size()) - 1);
     }
@@ -87,15 +90,15 @@ void cut_stretch(Network& network, std::size_t l, const Station& from, const Sta
   add(to.t, to.point);
 }
 
-void cut_line(Network& network, std::size_t l, double size, std::size_t max_chords) {
+void cut_line(Network& network, std::size_t l, const ChordRule& rule, std::size_t max_chords) {
   const std::vector<Station> stations = network.lines[l].stations;
   const Line& line = network.lines[l].line;
   for (std::size_t i = 1; i < stations.size(); ++i)
-    cut_stretch(network, l, stations[i - 1], stations[i], size, max_chords);
+    cut_stretch(network, l, stations[i - 1], stations[i], rule, max_chords);
   if (line.closed()) {
     Station again = stations.front();
     again.t += line.spans();
-    cut_stretch(network, l, stations.back(), again, size, max_chords);
+    cut_stretch(network, l, stations.back(), again, rule, max_chords);
   }
 }
 
@@ -191,13 +194,13 @@ double station_of(const NetworkLine& line, int point) noexcept {
   return -1;
 }
 
-void cut(Network& network, double size, std::size_t max_chords) {
+void cut(Network& network, const ChordRule& rule, std::size_t max_chords) {
   constexpr int rounds = 5;
   std::size_t known = network.points.size();  // points that are stations
   for (int round = 0; round < rounds; ++round) {
     network.chords.clear();
     network.points.resize(known);
-    for (std::size_t l = 0; l < network.lines.size(); ++l) cut_line(network, l, size, max_chords);
+    for (std::size_t l = 0; l < network.lines.size(); ++l) cut_line(network, l, rule, max_chords);
     const std::vector<Crossing> found = find_crossings(network);
     if (found.empty()) {
       check_inside(network);

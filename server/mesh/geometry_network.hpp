@@ -72,11 +72,11 @@ int mark(Network& network, const Point& p);
 /// The parameter of the line's station at a point of the network; -1 where it has none.
 double station_of(const NetworkLine& line, int point) noexcept;
 
-/// Cuts the lines at their stations and crossings; curved lines into chords of at most `size` with
-/// ends on the curve. Throws errors::Error: geometry_invalid where lines run along each other,
+/// Cuts the lines at their stations and crossings; curved lines into chords of the rule with ends
+/// on the curve. Throws errors::Error: geometry_invalid where lines run along each other,
 /// leave the membrane or meet at too small an angle; limit_exceeded at "options.size" beyond
 /// `max_chords`.
-void cut(Network& network, double size, std::size_t max_chords);
+void cut(Network& network, const ChordRule& rule, std::size_t max_chords);
 
 /// Two lines that meet where at least one has no station.
 struct Crossing {

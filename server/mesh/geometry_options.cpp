@@ -22,6 +22,11 @@ void check_length(double value, const std::string& field, const char* meaning) {
 void check_sizes(const MeshOptions& options) {
   check_length(options.size, "options.size", "an edge length");
   check_length(options.tip_size, "options.tip_size", "an edge length");
+  if (!(options.chord_angle >= 0 && options.chord_angle <= 45)) {
+    refuse_option("options.chord_angle",
+                  "options.chord_angle is " + show(options.chord_angle) +
+                      "; it is a number of degrees above 0 and at most 45, five if unset");
+  }
   if (!(options.grading > 0 && options.grading <= 1)) {
     refuse_option("options.grading", "options.grading is " + show(options.grading) +
                                          "; it is an exponent above 0 and at most 1");
@@ -91,10 +96,11 @@ void check_for_upload(const MeshOptions& options) {
                   "preset paper is for a geometry; an upload is taken as it is (uniform) or "
                   "graded");
   }
-  if (!options.align.empty()) {
-    refuse_option("options.align",
-                  "options.align is for a geometry; an upload has its edges already");
-  }
+  const auto for_geometries = [](bool empty, const std::string& field) {
+    if (!empty) refuse_option(field, field + " is for a geometry; an upload has its edges already");
+  };
+  for_geometries(options.align.empty(), "options.align");
+  for_geometries(options.chord_angle == 0, "options.chord_angle");
   for (const auto& [tag, name] : options.curve_groups)
     check_curve_group(name, "options.curve_groups[" + std::to_string(tag) + "]");
   for (const auto& [tag, name] : options.surface_groups)

@@ -157,7 +157,9 @@ void measure_boundary(const mesh::Mesh& mesh, const mesh::EdgeTable& edges,
 
 store::InterfaceSummary summary(const mesh::Mesh& mesh, const mesh::Interface& interface) {
   const std::vector<double> s = mesh::arc_length(mesh, interface);
-  store::InterfaceSummary result{interface.name, s.back(), s.size(), {}};
+  const std::size_t first = 2 * at(interface.nodes.front());
+  store::InterfaceSummary result{
+      interface.name, s.back(), s.size(), {}, {{mesh.xy[first], mesh.xy[first + 1]}}};
   for (std::size_t e = 0; e < interface.kind.size(); ++e) {
     if (e == 0 || interface.kind[e] != interface.kind[e - 1] ||
         interface.inclusion[e] != interface.inclusion[e - 1])

@@ -84,8 +84,9 @@ struct InterfaceSummary {
   double length = 0;
   std::uint64_t node_count = 0;
   std::vector<SegmentSummary> segments;
+  std::optional<mesh::Point> start{};  ///< where its arc length is 0
 };
-ANTICRACK_FIELDS(InterfaceSummary, name, length, node_count, segments)
+ANTICRACK_FIELDS(InterfaceSummary, name, length, node_count, segments, start)
 
 struct MeshRecord {
   std::string id;     ///< first 16 digits of the hash of definition and owner

@@ -54,6 +54,8 @@ TEST(MeshOptions, AreThoseOfAGeometry) {
   for (const double grading : {0.0, -0.1, 1.1, nan_value}) {
     expect_refused({.grading = grading}, "options.grading");
   }
+  for (const double angle : {-1.0, 45.1, nan_value})
+    expect_refused({.chord_angle = angle}, "options.chord_angle");
   expect_refused({.size = 0.1, .tip_size = 0.2}, "options.tip_size");
   expect_refused({.preset = mesh::Preset::uniform, .tip_size = 0.01}, "options.tip_size");
   expect_refused({.curve_groups = {{1, "crack"}}}, "options.curve_groups");
@@ -104,6 +106,7 @@ TEST(MeshOptions, OfAnUploadAreChecked) {
   refused({.preset = mesh::Preset::paper}, "options.preset");
   refused({.size = nan_value}, "options.size");
   refused({.align = {{{0, 0}, {1, 0}}}}, "options.align");
+  refused({.chord_angle = 5}, "options.chord_angle");
   for (const char* name :
        {"", "fibre", "inclusion", "inclusion:", "crack:1", "free:", "delaminated:a b"}) {
     refused({.curve_groups = {{3, name}}}, "options.curve_groups[3]");

@@ -82,7 +82,26 @@ TEST(Sides, InterfacesEndOnThem) {
   geometry.interfaces = {polyline("across", {{0, -1}, {std::sqrt(0.5) + 1, std::sqrt(0.5)}})};
   const Plan plan = plan_of(geometry, 0.05);
   EXPECT_EQ(areas(plan).size(), 2U);
-  EXPECT_TRUE(plan.warnings.empty());
+  ASSERT_EQ(plan.warnings.size(), 1U) << "no end was moved";
+  EXPECT_TRUE(plan.warnings[0].starts_with("curves count as chords")) << plan.warnings[0];
+}
+
+// a circle of n chords has the area r^2 n sin(2 pi / n) / 2
+TEST(Holes, CirclesHaveAsManyChordsAsTheAngleAsks) {
+  Geometry geometry = square();
+  geometry.holes = {window("small", {0.5, 0.5}, 0.25), window("large", {-0.5, -0.5}, 0.3)};
+  for (const double angle : {0.0, 10.0, 2.5, 40.0}) {
+    const mesh::MeshOptions options{.size = 1, .chord_angle = angle};
+    const Plan plan = mesh::plan(geometry, options, testing::enough);
+    const double n = 360 / (angle == 0 ? 5 : angle == 40 ? 30 : angle);
+    const double circles = n * std::sin(2 * pi / n) / 2 * (0.25 * 0.25 + 0.3 * 0.3);
+    EXPECT_NEAR(areas(plan).begin()->second, 4 - circles, 1e-12) << angle;
+    ASSERT_EQ(plan.warnings.size(), angle == 0 ? 1U : 0U);
+    if (angle > 0) continue;
+    // 0.3 (1 - cos 2.5 degrees) = 0.000286
+    EXPECT_NE(plan.warnings[0].find("large is 72 of them, up to 0.00029 off"), std::string::npos)
+        << plan.warnings[0];
+  }
 }
 
 TEST(Holes, AreOutside) {
@@ -111,7 +130,7 @@ TEST(Holes, InterfacesAndCracksEndOnThem) {
   Plan plan = plan_of(geometry, 0.1);
   EXPECT_EQ(areas(plan).size(), 2U);
   EXPECT_EQ(plan.faces.size(), 2U);
-  EXPECT_EQ(plan.warnings.size(), 1U);
+  EXPECT_EQ(plan.warnings.size(), 2U) << "an end moved, and chords";
   expect_consistent(plan, areas(plan).at("omega1") + areas(plan).at("omega2"));
   geometry.interfaces.pop_back();
   geometry.cracks = {{"slit", {{-0.5, 0}, {-0.25, 0}}}};

@@ -70,7 +70,8 @@ TEST(PlanParts, NeumannPartsOfTheBoundary) {
     geometry.neumann = {{{0.25, -1}, {0.25, -1}}};
     EXPECT_TRUE(testing::throws([&] { plan_of(geometry); }, errors::Reason::geometry_invalid,
                                 "neumann"));  // nothing holds it, but for an inclusion
-    geometry.inclusions = {{"bar", {}, {}, {.fixed = 0.1}, mesh::LineSpec{mesh::Shape::segment, {{0, 0}}, 0, 0.5}}};
+    geometry.inclusions = {
+        {"bar", {}, {}, {.fixed = 0.1}, mesh::LineSpec{mesh::Shape::segment, {{0, 0}}, 0, 0.5}}};
     EXPECT_DOUBLE_EQ(length_of(plan_of(geometry), Role::neumann), 8);
     EXPECT_EQ(length_of(plan_of(geometry), Role::dirichlet), 0);
   }

@@ -71,8 +71,11 @@ TEST_F(Catalogue, RefusesARefinementThatAddsNothing) {
   const std::string id = backend.create();
   ASSERT_TRUE(reaches(id, MeshState::ready));
   std::vector<std::uint8_t> levels(backend.catalogue.get(id).triangle_count, 0);
-  EXPECT_TRUE(throws([&] { backend.catalogue.refine({id, "job", ""}, levels, 10'000); },
-                     Reason::numerical));
+  EXPECT_TRUE(throws(
+      [&] {
+        backend.catalogue.refine({id, "job", ""}, levels, 10'000);
+      },
+      Reason::numerical));
   EXPECT_EQ(backend.catalogue.list({{}, 10, {}}).size(), 1U);
   levels[0] = 1;
   EXPECT_GT(backend.catalogue.refine({id, "job", ""}, levels, 10'000).triangle_count,

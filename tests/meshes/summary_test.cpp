@@ -51,6 +51,7 @@ TEST(Summary, JoinsEdgesOfOneKindToSegments) {
   const store::InterfaceSummary& interface = record.interfaces[0];
   EXPECT_NEAR(interface.length, 2, 1e-12);
   EXPECT_EQ(interface.node_count, 9U);
+  EXPECT_THAT(interface.start.value(), ElementsAre(DoubleNear(-1, 1e-12), DoubleNear(0, 1e-12)));
   ASSERT_EQ(interface.segments.size(), 3U);
   EXPECT_EQ(interface.segments[0].kind, mesh::Kind::glue);
   EXPECT_EQ(interface.segments[0].inclusion, -1);

@@ -136,6 +136,7 @@ class AnyValue {
     } else if constexpr (std::is_same_v<Struct, mesh::MeshOptions>) {
       positive(value.size);
       positive(value.tip_size);
+      positive(value.chord_angle);
     } else if constexpr (std::is_same_v<Struct, store::MeshRecord>) {
       positive(value.theta_star);
       positive(value.bisection_bound);

@@ -8,17 +8,18 @@ import copy
 import os
 import pathlib
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
-from typing import Any
-
-import numpy as np
+from typing import Any, TypeVar
 
 from .arrays import Array
 from .errors import CaseError
 from .msh import Msh
+from .sections import shown
+from .text import listed, short
 from .translate import Requests, requests_of
 
+T = TypeVar("T")
 Point = Sequence[float]
 Points = Sequence[Point] | Array
 Part = tuple[Point, Point]
@@ -33,11 +34,22 @@ def _table(record: Any, keys: Mapping[str, str] = _KEYS) -> dict[str, Any]:
     out: dict[str, Any] = {}
     for entry in fields(record):
         value = getattr(record, entry.name)
-        if isinstance(value, list) and value and hasattr(value[0], "table"):
-            value = [item.table() for item in value]
+        if isinstance(value, (list, tuple)):
+            value = [item.table() if isinstance(item, _Table) else item for item in value]
         if value is not None and not (isinstance(value, (list, dict)) and not value):
             out[keys.get(entry.name, entry.name)] = value
     return out
+
+
+def _list_of(values: Any, kind: type[T], key: str, example: str) -> list[T]:
+    """Raises CaseError where something else is in it."""
+    if isinstance(values, (str, Mapping, _Table)) or not isinstance(values, Iterable):
+        raise CaseError(f"{key}: {shown(values)} is not a list; write [{example}]")
+    items = list(values)
+    for i, item in enumerate(items):
+        if not isinstance(item, kind):
+            raise CaseError(f"{key}.{i}: {shown(item)} is not of the class {kind.__name__}; write {example}")
+    return items
 
 
 class _Table:
@@ -45,8 +57,15 @@ class _Table:
         """As in TOML."""
         return _table(self)
 
+    def __repr__(self) -> str:
+        """What is given; long values are cut."""
+        given = {entry.name: getattr(self, entry.name) for entry in fields(self)}  # type: ignore[arg-type]
+        told = [f"{name}={short(repr(given[name]))}" for name in sorted(given, key=lambda name: name != "name")
+                if given[name] is not None and not (isinstance(given[name], list) and not given[name])]
+        return f"{type(self).__name__}({', '.join(told)})"
 
-@dataclass(kw_only=True)
+
+@dataclass(kw_only=True, repr=False)
 class _Line(_Table):
     """A line by its points, as an arc (start, through, end), a spline, or straight by its center, the angle [degrees]
     at which it points and its length."""
@@ -58,7 +77,7 @@ class _Line(_Table):
     length: float | None = None
 
 
-@dataclass(kw_only=True)
+@dataclass(kw_only=True, repr=False)
 class _Outline(_Table):
     """A closed line: circle = {"center": (x, y), "radius": r}, the corners of a polygon, or a spline."""
     circle: Mapping[str, Any] | None = None
@@ -66,7 +85,7 @@ class _Outline(_Table):
     spline: Points | None = None
 
 
-@dataclass
+@dataclass(repr=False)
 class Interface(_Table):
     """A line on which cracks and inclusions lie, by its points, as an arc (start, through, end) or a spline; its plus
     side is on its left. closed: a ring of points or of a spline."""
@@ -77,7 +96,7 @@ class Interface(_Table):
     closed: bool | None = None
 
 
-@dataclass
+@dataclass(repr=False)
 class Inclusion(_Line):
     """A thin rigid inclusion: from start to end on an interface, or on a line of its own: points, arc, spline, or
     center, angle and length. delaminated: all of it, none, "left" or "right", parts [(start, end), ...], or
@@ -92,7 +111,7 @@ class Inclusion(_Line):
     side: str | None = None
 
 
-@dataclass
+@dataclass(repr=False)
 class Crack(_Line):
     """A crack, placed as an inclusion; contact: [u] >= 0 (the default), else free faces."""
     name: str
@@ -101,7 +120,7 @@ class Crack(_Line):
     contact: bool | None = None
 
 
-@dataclass
+@dataclass(repr=False)
 class Region(_Outline):
     """Names the subdomain around the point `at`, or all inside an outline: points, a spline, or circle = {"center": (x,
     y), "radius": r}. Gives it its tension T [force per length]: a number, an expression in x and y, or {"along": T1,
@@ -111,19 +130,19 @@ class Region(_Outline):
     tension: Tension | None = None
 
 
-@dataclass
+@dataclass(repr=False)
 class Side(_Line):
     """A side of the boundary, which begins where the one before it ends; a line as that of an inclusion."""
     name: str | None = None
 
 
-@dataclass
+@dataclass(repr=False)
 class Hole(_Outline):
     """A hole in the membrane; an outline as that of a region."""
     name: str | None = None
 
 
-@dataclass
+@dataclass(repr=False)
 class Geometry(_Table):
     """boundary: polygon or sides, u = g_D on it and on the holes but where `neumann` says: names of sides (side-1, ...
     of a polygon) and holes, (start, end) walked counterclockwise, or "all"."""
@@ -135,10 +154,20 @@ class Geometry(_Table):
     neumann: Sequence[Part | str] | str | None = None
     holes: list[Hole] = field(default_factory=list)
 
+    def table(self) -> dict[str, Any]:
+        for name, kind, example in (("interfaces", Interface, "Interface(points)"),
+                                    ("inclusions", Inclusion, "Inclusion(name, points=points)"),
+                                    ("cracks", Crack, "Crack(name, points=points)"),
+                                    ("regions", Region, "Region(name, at=(x, y))"),
+                                    ("holes", Hole, "Hole(points=points)")):
+            _list_of(getattr(self, name), kind, f"geometry.{_KEYS[name]}", example)
+        return _table(self)
 
-@dataclass
+
+@dataclass(repr=False)
 class Mesh(_Table):
-    """How fine the mesh is: preset "graded" (default), "uniform", "paper" or "coarse"; sizes are lengths.
+    """How fine the mesh is: preset "graded" (default), "uniform", "paper" or "coarse"; sizes are lengths,
+    chord_angle is in degrees.
 
     file: a .msh, or an Msh of arrays, instead of a geometry; only with it curves and surfaces (physical tag -> what it
     is), tension (by subdomain, as of a Region) and inclusions (by name: {"tilt": True} or {"fixed": u})."""
@@ -146,6 +175,7 @@ class Mesh(_Table):
     size: float | None = None
     tip_size: float | None = None
     grading: float | None = None
+    chord_angle: float | None = None
     align: Sequence[Points] | None = None
     file: str | os.PathLike[str] | Msh | None = None
     curves: Mapping[int, str] | None = None
@@ -155,22 +185,21 @@ class Mesh(_Table):
 
     def table(self) -> dict[str, Any]:
         out = _table(self, {})
-        groups = {toml: {str(tag): meaning for tag, meaning in out.pop(name).items()}
-                  for name, toml in (("curves", "curve"), ("surfaces", "surface")) if name in out}
+        groups = {toml: out.pop(name) for name, toml in (("curves", "curve"), ("surfaces", "surface")) if name in out}
         if groups:
             out["groups"] = groups
         if isinstance(self.file, Msh):
             out["file"] = self.file.to_bytes()
-        elif self.file is not None:
+        elif isinstance(self.file, os.PathLike):
             out["file"] = os.fspath(self.file)
         return out
 
 
-@dataclass
+@dataclass(repr=False)
 class Load(_Table):
     """f [force per area]: a number, an expression in x and y, {subdomain: number}, or with per = "node" or "triangle"
-    an array with a value for each of the mesh. boundary_value, traction: numbers or expressions. point_forces:
-    [((x, y), force), ...]. inclusion_forces: {name: force}; inclusion_moments: {name: (Mx, My)}."""
+    an array with a value for each of the mesh; no Python function. boundary_value, traction: numbers or expressions.
+    point_forces: [((x, y), force), ...]. inclusion_forces: {name: force}; inclusion_moments: {name: (Mx, My)}."""
     name: str
     f: float | str | Mapping[str, float] | Array | None = None
     per: str | None = None
@@ -183,16 +212,23 @@ class Load(_Table):
     def table(self) -> dict[str, Any]:
         out = _table(self)
         per = out.pop("per", None)
-        if isinstance(self.f, np.ndarray) and self.f.ndim > 0:
+        if isinstance(self.f, (list, tuple)) or getattr(self.f, "ndim", 0) > 0:
             out["f"] = {"values": self.f, **({"per": per} if per else {})}
         elif per is not None:
             raise CaseError(f"load {self.name}: per goes with an array of values")
         if self.point_forces is not None:
-            out["point_forces"] = [{"at": at, "value": value} for at, value in self.point_forces]
+            out["point_forces"] = [{"at": at, "value": value} for at, value in self._pairs()]
         return out
 
+    def _pairs(self) -> list[tuple[Any, Any]]:
+        try:
+            return [(at, value) for at, value in self.point_forces or ()]
+        except (TypeError, ValueError):
+            raise CaseError(f"load {self.name}: point_forces: {shown(self.point_forces)} is not a list of points and "
+                            "forces; write [((x, y), force), ...]") from None
 
-@dataclass
+
+@dataclass(repr=False)
 class ActiveSet(_Table):
     """Exact, the default."""
     tolerance: float | None = None
@@ -202,7 +238,7 @@ class ActiveSet(_Table):
         return {"method": "active-set", **_table(self)}
 
 
-@dataclass
+@dataclass(repr=False)
 class Uzawa(_Table):
     """Algorithm 2 of the paper. theta: a number or "auto"; mass: "lumped" or "consistent"."""
     theta: float | str | None = None
@@ -216,7 +252,7 @@ class Uzawa(_Table):
         return {"method": "uzawa", **_table(self)}
 
 
-@dataclass
+@dataclass(kw_only=True, repr=False)
 class Accuracy(_Table):
     """Relative errors to reach, with proof: of the energy and of the displacements A. time: seconds, or "10min"."""
     energy: float | None = None
@@ -226,7 +262,7 @@ class Accuracy(_Table):
     keep_stages: bool | None = None
 
 
-@dataclass
+@dataclass(repr=False)
 class Units(_Table):
     """Names of units, for people: nothing is converted. "mm" and "N" give T in N/mm, f in N/mm^2, energies in N mm."""
     length: str | None = None
@@ -243,11 +279,18 @@ class Case:
                  run_timeout: float | str | None = None) -> None:
         """fields: keep u on every node, to draw the membrane. Timeouts are seconds, or text such as "2h"."""
         job = {"priority": priority, "queue_timeout": queue_timeout, "run_timeout": run_timeout}
+        records = {"geometry": (geometry, (Geometry,), "Geometry(boundary), or Case.read(path) of a file"),
+                   "mesh": (mesh, (Mesh,), "Mesh(size=0.1)"),
+                   "solver": (solver, (ActiveSet, Uzawa), "ActiveSet() or Uzawa()"),
+                   "accuracy": (accuracy, (Accuracy,), "Accuracy(energy=1e-3) or Accuracy(A=1e-3)"),
+                   "units": (units, (Units,), 'Units("mm", "N")')}
+        for key, (record, kinds, example) in records.items():
+            if record is not None and not isinstance(record, kinds):
+                raise CaseError(f"{key}: {shown(record)} is not possible; write {example}")
         tables: dict[str, Any] = {
-            "title": title or None, "geometry": geometry and geometry.table(), "mesh": mesh and mesh.table(),
-            "solver": solver and solver.table(), "accuracy": accuracy and accuracy.table(),
-            "units": units and units.table(),
-            "load": [load.table() for load in loads] or None, "output": {"fields": True} if fields else None,
+            "title": title or None, **{key: record and record.table() for key, (record, *_) in records.items()},
+            "load": [load.table() for load in _list_of(loads, Load, "load", "Load(name, f)")] or None,
+            "output": {"fields": fields} if fields else None,
             "job": {key: value for key, value in job.items() if value is not None} or None}
         self.tables = {key: value for key, value in tables.items() if value is not None}
         self.text, self.source, self.folder = "", "", pathlib.Path()
@@ -275,6 +318,9 @@ class Case:
             raise CaseError(f"{path}: this is not text; name a case, a TOML file") from None
         return cls.parse(text, str(path), path.parent)
 
+    def __repr__(self) -> str:
+        return f"<Case {self.tables.get('title', '')!r} with {listed(self.tables)}>"
+
     def copy(self) -> Case:
         return copy.deepcopy(self)
 
@@ -285,4 +331,6 @@ class Case:
 
 def as_case(case: Case | str | os.PathLike[str]) -> Case:
     """Of a path: its file."""
+    if not isinstance(case, (Case, str, os.PathLike)):
+        raise CaseError(f"case: {shown(case)} is no case; give a Case, or the path of a TOML file")
     return case if isinstance(case, Case) else Case.read(case)

@@ -14,6 +14,7 @@ from . import private_server
 from .case import Case, as_case
 from .credentials import Credentials, Path, address_of, token_of
 from .errors import ServerError, of_status
+from .places import in_terms_of
 from .progress import Progress
 from .result import Result
 from .retry import Backoff
@@ -46,7 +47,7 @@ class JobState:
     @property
     def error(self) -> ServerError | None:
         """Of one that failed."""
-        return of_status(self.message.error) if self.message.HasField("error") else None
+        return in_terms_of("", of_status(self.message.error)) if self.message.HasField("error") else None
 
     def _raise_if_nothing_came(self) -> None:
         if self.message.result_state != solve_pb2.Job.RESULT_STATE_AVAILABLE:
@@ -109,6 +110,9 @@ class Client:
 
     def __init__(self, session: Session) -> None:
         self._session = session
+
+    def __repr__(self) -> str:
+        return f"<client of {self._session.address}>"
 
     def submit(self, case: Case | str | os.PathLike[str], coefficients: Any = None, nodal_forces: Any = None,
                traces: Sequence[int] = (), bounds: bool = False) -> Job:

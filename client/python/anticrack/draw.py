@@ -8,41 +8,44 @@ from typing import Any
 import numpy as np
 
 from .arrays import Array
-from .errors import Error
-from .result import BONDED, CRACK, DELAMINATED, FREE, Interface, Load, Result, Trace, runs
+from .errors import Error, package
+from .names import place
+from .result import BONDED, CRACK, DELAMINATED, FREE, Interface, Load, Mesh, Result, Trace, runs
+
+
+# Of kinds of edges: name, line and colour.
+_LINES = {BONDED: ("bonded inclusion", "-", "black"), DELAMINATED: ("delaminated inclusion", "--", "black"),
+          CRACK: ("crack, [u] \u2265 0", "-", "tab:red"), FREE: ("free crack", "-", "tab:orange")}
 
 
 def _axes(ax: Any) -> Any:
-    from matplotlib import pyplot
-    return pyplot.subplots(layout="constrained")[1] if ax is None else ax
+    if ax is not None:
+        return ax
+    return package("matplotlib.pyplot").subplots(layout="constrained")[1]
 
 
 def _load(result: Result, load: str | Load | None) -> Load:
     if isinstance(load, Load):
         return load
-    name = next(iter(result.loads), "") if load is None else load
-    if name not in result.loads:
-        raise Error(f"there is no load '{name}'; known are {', '.join(result.loads)}")
-    return result.loads[name]
+    return result.loads[next(iter(result.loads), "") if load is None else load]
 
 
-def _interface(result: Result, load: Load, interface: int | str | None) -> int:
-    """The one named, or the most eventful: whose jump is largest or, if nothing is open, whose contact is longest."""
+def _interface(result: Result, load: Load, interface: int | str | None, pressed: bool = False) -> int:
+    """The one named, or the most eventful: whose jump is largest or, if nothing is open, whose contact is longest.
+    pressed: whose contact is longest, but the same one where its contact is at least half as long; as the command."""
     if isinstance(interface, int):
         return interface
-    names = [entry.name for entry in result.interfaces]
     if interface is not None:
-        if interface not in names:
-            raise Error(f"there is no interface '{interface}'; known are {', '.join(names)}")
-        return names.index(interface)
+        return result.interfaces.place(interface)
     if not load.traces:
         raise Error(f"{load.name} has no traces")
     jumps = [np.abs(trace.jump).max(initial=0) for trace in load.traces]
     largest = max(np.abs(trace.u_plus).max(initial=0) for trace in load.traces)
-    if max(jumps) > 1e-9 * largest:
-        return int(np.argmax(jumps))
-    return int(np.argmax([_lengths(line) @ (trace.contact != 0)
-                          for line, trace in zip(result.interfaces, load.traces)]))
+    contact = [_lengths(line) @ (trace.contact != 0) for line, trace in zip(result.interfaces, load.traces)]
+    longest, opened = int(np.argmax(contact)), int(np.argmax(jumps))
+    if jumps[opened] <= 1e-9 * largest or (pressed and 2 * contact[opened] < contact[longest]):
+        return longest
+    return opened
 
 
 def _lengths(line: Interface) -> Array:
@@ -59,6 +62,11 @@ def _cut(values: Array, weights: Array, part: float, room: float) -> tuple[float
     highest = float(values[order[-1]])
     shown = room * float(values[order[np.searchsorted(below, part * below[-1])]])
     return (highest if highest <= 1.25 * shown else shown), highest
+
+
+def _arc_length(result: Result, line: Interface) -> str:
+    """For an axis."""
+    return f"arc length of {line.name} from ({line.x[0]:.4g}, {line.y[0]:.4g}){result.units.label('L')}"
 
 
 def _shade_contact(line: Interface, trace: Trace, ax: Any) -> None:
@@ -80,39 +88,65 @@ def _levels(load: Load, levels: int) -> Array:
     return np.asarray(np.linspace(low, high if high > low else low + 1, levels + 1))
 
 
+def _boundary(mesh: Mesh) -> dict[str, Array]:
+    """Edges (n, 2) of the boundary, by what is given on them."""
+    def keys(edges: Array) -> Array:
+        return np.asarray(edges.min(axis=1).astype(np.int64) * len(mesh.nodes) + edges.max(axis=1))
+    edges = np.concatenate([mesh.triangles[:, [i, (i + 1) % 3]] for i in range(3)])
+    _, first, count = np.unique(keys(edges), return_index=True, return_counts=True)
+    outer = edges[first[count == 1]]
+    held = np.isin(keys(outer), keys(mesh.boundary))
+    return {"u given": outer[held], "free or traction": outer[~held]}
+
+
 def interfaces(result: Result, ax: Any = None, labels: bool = True) -> Any:
-    """Inclusions (black, solid where bonded, dashed where delaminated, with dots on the side that came off), with their
-    names, and cracks (red)."""
+    """The boundary, the inclusions, with dots on the side that came off, and the cracks; labels: names of inclusions,
+    and a legend of the lines."""
     ax = _axes(ax)
+    from matplotlib.collections import LineCollection
+    drawn: dict[str, Any] = {}
+    for (what, edges), color, width in zip(_boundary(result.mesh).items(), ("0.3", "tab:green"), (2.5, 1.2)):
+        if len(edges):
+            segments = LineCollection(list(result.mesh.nodes[edges]), linewidth=width, color=color, capstyle="round")
+            drawn[what] = ax.add_collection(segments)
     named: set[int] = set()
     away = 0.012 * np.ptp(result.mesh.nodes, axis=0).max()
     for interface in result.interfaces:
         for first, last in runs(interface.edge_kind * 100_000 + interface.edge_inclusion):
             kind, inclusion = int(interface.edge_kind[first]), int(interface.edge_inclusion[first])
+            if kind not in _LINES:
+                continue
             x, y = interface.x[first:last + 1], interface.y[first:last + 1]
-            if kind in (BONDED, DELAMINATED):
-                ax.plot(x, y, "--" if kind == DELAMINATED else "-", color="black", linewidth=2)
-                if kind == DELAMINATED:
-                    along = np.gradient(x), np.gradient(y)
-                    length = np.hypot(*along)
-                    ax.plot(x + away * along[1] / length, y - away * along[0] / length, ":", color="tab:red")
-                if labels and inclusion not in named:
-                    named.add(inclusion)
-                    middle = len(x) // 2
-                    ax.annotate(result.mesh.inclusions[inclusion], (x[middle], y[middle]), xytext=(0, 4),
-                                textcoords="offset points", ha="center")
-            elif kind in (CRACK, FREE):
-                ax.plot(x, y, "-" if kind == CRACK else ":", color="tab:red", linewidth=2)
-    length = result.units.label("L")
-    ax.set(aspect="equal", xlabel="x" + length, ylabel="y" + length)
+            what, line, color = _LINES[kind]
+            (drawn[what],) = ax.plot(x, y, line, color=color, linewidth=2)
+            across = np.stack((-np.gradient(y), np.gradient(x))) / np.hypot(np.gradient(x), np.gradient(y))
+            if kind == DELAMINATED:
+                (drawn["the side that came off"],) = ax.plot(x - away * across[0], y - away * across[1], ":",
+                                                             color="tab:red")
+            if labels and inclusion >= 0 and inclusion not in named:
+                named.add(inclusion)
+                middle = len(x) // 2
+                up, right = across[1, middle], across[0, middle]
+                ax.annotate(result.mesh.inclusions[inclusion], (x[middle], y[middle]), xytext=(6 * right, 6 * up),
+                            textcoords="offset points", va="bottom" if up > 0.5 else "top" if up < -0.5 else "center",
+                            ha="center" if abs(up) > 0.9 else "left" if right > 0 else "right",
+                            bbox={"boxstyle": "round,pad=0.1", "facecolor": "white", "alpha": 0.6, "linewidth": 0})
+    if labels and drawn:
+        ax.legend(list(drawn.values()), list(drawn), loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=2,
+                  fontsize="small", frameon=False)
+    length, low, high = result.units.label("L"), result.mesh.nodes.min(axis=0), result.mesh.nodes.max(axis=0)
+    margin = 0.03 * (high - low).max()
+    ax.set(aspect="equal", xlabel="x" + length, ylabel="y" + length, xlim=(low[0] - margin, high[0] + margin),
+           ylim=(low[1] - margin, high[1] + margin))
+    ax.locator_params(nbins=6)
     return ax
 
 
 def membrane(result: Result, load: str | Load | None = None, ax: Any = None, levels: int = 12, lines: bool = True,
              cmap: str = "viridis") -> Any:
     """u from above, in colours and contour lines, with cracks and inclusions; takes a case with fields."""
-    from matplotlib.tri import Triangulation
     ax, load = _axes(ax), _load(result, load)
+    from matplotlib.tri import Triangulation
     for part in _fields(load):
         triangulation = Triangulation(*result.mesh.nodes[part.nodes].T, part.triangles)
         shades = ax.tricontourf(triangulation, part.u, _levels(load, levels), cmap=cmap)
@@ -142,9 +176,9 @@ def flux(result: Result, load: str | Load | None = None) -> list[Array]:
 def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels: int = 10, cmap: str = "Blues") -> Any:
     """From above: labelled lines of u over the flux (see `flux`) in colours, with cracks and inclusions; takes a case
     with fields. The flux grows without bound at tips: its peaks are cut off, and the colour bar says so."""
+    ax, load = _axes(ax), _load(result, load)
     from matplotlib.ticker import MaxNLocator
     from matplotlib.tri import Triangulation
-    ax, load = _axes(ax), _load(result, load)
     sizes = flux(result, load)
     parts = [Triangulation(*result.mesh.nodes[part.nodes].T, part.triangles) for part in load.fields]
     corners = [np.stack((part.x, part.y), -1)[part.triangles] for part in parts]
@@ -162,7 +196,7 @@ def plan(result: Result, load: str | Load | None = None, ax: Any = None, levels:
     ax.figure.colorbar(shades, ax=ax, label=name + said,
                        extend="max" if said else "neither")
     interfaces(result, ax)
-    ax.set_title(load.name)
+    ax.set_title(f"{load.name}: lines of u{result.units.label('L')}")
     return ax
 
 
@@ -182,18 +216,17 @@ def traces(result: Result, load: str | Load | None = None, interface: int | str 
         ax.axvspan(begin, end, 0, 0.02, color="0.3")
         ax.annotate(result.mesh.inclusions[inclusion], ((begin + end) / 2, 0.03), ha="center",
                     xycoords=ax.get_xaxis_transform())
-    length = result.units.label("L")
-    ax.set(xlabel=f"arc length of {line.name or 'the interface'}{length}", ylabel="displacement" + length,
-           title=load.name)
+    ax.set(xlabel=_arc_length(result, line), ylabel="displacement" + result.units.label("L"), title=load.name)
     ax.legend()
     return ax
 
 
 def pressure(result: Result, load: str | Load | None = None, interface: int | str | None = None, ax: Any = None) -> Any:
-    """The contact pressure on the cracks of an interface, chosen as for `traces`; contact is shaded. The pressure grows
-    without bound at tips: its spikes are cut off, and the label of the axis says so."""
+    """The contact pressure on the cracks of an interface; contact is shaded. Unless it is named, the interface of
+    `traces` or, where its contact is less than half as long as another's, the one with the longest contact. The
+    pressure grows without bound at tips: its spikes are cut off, and the label of the axis says so."""
     ax, load = _axes(ax), _load(result, load)
-    index = _interface(result, load, interface)
+    index = _interface(result, load, interface, pressed=True)
     line, trace = result.interfaces[index], load.traces[index]
     cracked = np.isin(line.kind, (CRACK, DELAMINATED))  # on glue it is a flux
     first = not ax.lines
@@ -207,8 +240,8 @@ def pressure(result: Result, load: str | Load | None = None, interface: int | st
         ax.set_ylim(0, max(1.05 * shown, 0 if first else ax.get_ylim()[1]))
         if shown < highest:
             label = f"contact pressure{unit}, cut off at the tips, up to {highest:.2g}"
-    ax.set(xlabel=f"arc length of {line.name or 'the interface'}{result.units.label('L')}", ylabel=label,
-           title=load.name)
+    title = load.name if closed.any() else f"{load.name}: no contact"
+    ax.set(xlabel=_arc_length(result, line), ylabel=label, title=title)
     return ax
 
 
@@ -240,7 +273,7 @@ def error_band(result: Result, load: str | Load | None = None, ax: Any = None) -
 
 def sweep(result: Result, x: str | int | Array = 0, inclusion: str | int = 0, ax: Any = None) -> Any:
     """A of an inclusion (where there is none: the contact length) over a coefficient by the name or index of its load,
-    or over values (rows) of one's own; rows that did not converge are left out."""
+    or over values (rows) of one's own, with a band where rows have bounds. Rows that did not converge are left out."""
     ax = _axes(ax)
     columns = result.sweep
     if columns is None:
@@ -248,17 +281,20 @@ def sweep(result: Result, x: str | int | Array = 0, inclusion: str | int = 0, ax
     if isinstance(x, (str, int)):
         if columns.coefficients is None:
             raise Error("the coefficients are not known; give x, a value for every row")
-        index = columns.loads.index(x) if isinstance(x, str) else x
+        index = place("load", x, columns.loads) if isinstance(x, str) else x
         label, values = f"coefficient of {columns.loads[index]}", columns.coefficients[:, index]
     else:
         label, values = "", np.asarray(x)
-    rows = columns.converged
+    rows = np.flatnonzero(columns.converged)
+    rows = rows[np.argsort(values[rows], kind="stable")]
     if columns.inclusions:
-        chosen = columns.inclusions.index(inclusion) if isinstance(inclusion, str) else inclusion
+        chosen = place("inclusion", inclusion, columns.inclusions) if isinstance(inclusion, str) else inclusion
         name, heights = f"A of {columns.inclusions[chosen]}", columns.displacement[:, chosen]
+        if columns.displacement_lower is not None and columns.displacement_upper is not None:
+            ax.fill_between(values[rows], columns.displacement_lower[rows, chosen],
+                            columns.displacement_upper[rows, chosen], alpha=0.3, label="bounds")
     else:
         name, heights = "contact length", columns.contact_length
-    order = np.argsort(values[rows], kind="stable")
-    ax.plot(values[rows][order], heights[rows][order], ".-", label=name)
+    ax.plot(values[rows], heights[rows], ".-", label=name)
     ax.set(xlabel=label, ylabel=name + result.units.label("L"))
     return ax

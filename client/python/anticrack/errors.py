@@ -2,6 +2,7 @@
 """What goes wrong: in a case, on the way to the server, or on it."""
 from __future__ import annotations
 
+import importlib
 from typing import Any
 
 import grpc
@@ -15,6 +16,29 @@ class Error(Exception):
 
 class CaseError(Error, ValueError):
     """A case that is wrong before the server sees it; the message names the file, the key and the cure."""
+
+
+class UnknownName(Error, KeyError):
+    """There is nothing of this name; the message has the names that are known."""
+
+    def __str__(self) -> str:
+        return Exception.__str__(self)  # KeyError's is in quotes
+
+
+class MissingPackage(Error, ImportError):
+    """What is asked for takes a package that is not installed."""
+
+
+def package(module: str) -> Any:
+    """A module of a package that not everybody has."""
+    try:
+        return importlib.import_module(module)
+    except ModuleNotFoundError as error:
+        name = module.partition(".")[0]
+        if error.name is not None and error.name.partition(".")[0] != name:
+            raise
+        raise MissingPackage(f"this takes {name}, which is not installed; install it with 'apt install python3-{name}' "
+                             f"or 'pip install {name}'", name=name) from None
 
 
 class LocalServerError(Error):

@@ -10,11 +10,12 @@ import numpy as np
 
 from .arrays import Array
 from .errors import CaseError
+from .text import counted
 
 _TYPES = {"line": (1, 1, 2), "triangle": (2, 2, 3)}  # of a cell: type in MSH, dimension, nodes
 
 
-@dataclass
+@dataclass(repr=False)
 class Msh:
     """points (n, 2) or (n, 3); cells: "triangle" (m, 3) and "line" (l, 2), indices of points from 0.
 
@@ -23,6 +24,10 @@ class Msh:
     points: Array
     cells: Mapping[str, Array]
     groups: Mapping[str, Any] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        cells = ", ".join(counted(len(array), kind) for kind, array in self.cells.items())
+        return f"<Msh of {counted(len(self.points), 'point')}, {cells}>"
 
     @classmethod
     def of_meshio(cls, mesh: Any) -> Msh:

@@ -10,6 +10,8 @@ from .errors import ServerError
 _KEYS = [(r"^(job|mesh)\.", ""), (r"^load_cases\b", "load"), (r"^(load\.\d+)\.force\b.*", r"\1.f"),
          (r"^geometry\.interfaces\b", "geometry.interface"), (r"^geometry\.inclusions\b", "geometry.inclusion"),
          (r"^geometry\.cracks\b", "geometry.crack"), (r"^geometry\.regions\b", "geometry.region"),
+         (r"^geometry\.holes\b", "geometry.hole"), (r"^geometry\.sides\b", "geometry.boundary"),
+         (r"^geometry\.neumann_sides\b", "geometry.neumann"),
          (r"\.polyline\b(\.points)?", ".points"), (r"\.spline\.points\b", ".spline"), (r"\.part\.(from|to)\b", r".\1"),
          (r"\.delaminated_parts\.parts\b", ".delaminated"), (r"^solver\.(uzawa|active_set)\b", "solver"),
          (r"^options\.(curve|surface)_groups\b", r"mesh.groups.\1"),

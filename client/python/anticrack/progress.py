@@ -2,60 +2,103 @@
 """What a job is doing: a bar on a terminal and in a notebook, plain lines elsewhere."""
 from __future__ import annotations
 
+import os
 import sys
 import time
 from typing import Any, TextIO
 
+import numpy as np
+
+from .result import known
 from .v1 import solve_pb2
 
-WIDTH = 30
+WIDTH = 20
 PAUSE = 0.1  # between two looks of a bar [s]
 
 
 class State:
-    """Follows the events of a job; the text of what is worth a line, or None."""
+    """Follows the events of a job; the text of what is worth a line, or None. stages: of an accuracy, a line each."""
 
     def __init__(self, job: solve_pb2.Job) -> None:
         self.total = job.sweep_answer.rows if job.HasField("sweep") else job.load_case_count or len(job.load_cases)
         self.loads = [load.name for load in job.load_cases]
         self.unit = "rows" if job.HasField("sweep") else "load cases"
         self.step = "iteration" if job.solver.HasField("uzawa") else "step"
+        self.accuracy = job.accuracy if job.HasField("accuracy") else None
+        self.stages: dict[str, str] = {}
         self.ended, self.now = 0, "submitted"
 
     def take(self, message: solve_pb2.WatchJobResponse) -> str | None:
         event = message.WhichOneof("event")
-        line = None
+        lines = []
+        for load in message.load_cases_ended:
+            self.ended += 1
+            lines += self._load_ended(load.answer)
         if event == "snapshot":
             self.total = message.snapshot.job.sweep_answer.rows or self.total
+            lines += [line for stage in message.snapshot.job.stages for line in self._stage_ended(stage)]
         elif event == "phase":
-            state = solve_pb2.Job.State.Name(message.phase.state).removeprefix("STATE_").replace("_", " ").lower()
-            line = self.now = f"{state} ({message.phase.detail})" if message.phase.detail else state
+            state = _word(solve_pb2.Job.State.Name(message.phase.state))
+            self.now = f"{state} ({message.phase.detail})" if message.phase.detail else state
+            lines.append(self.now)
         elif event == "samples" and message.samples.iteration:
             samples = message.samples
             name = self.loads[samples.load_case[-1]] if samples.load_case[-1] < len(self.loads) else ""
-            self.now = f"{name}: iteration {samples.iteration[-1]}, criterion {samples.criterion[-1]:.2g}"
+            criterion = f", criterion {samples.criterion[-1]:.2g}" if self.step == "iteration" else ""
+            self.now = f"{name}: {self.step} {samples.iteration[-1]}{criterion}"
         elif event == "sweep_rows":
             self.ended += len(message.sweep_rows.status)
             self.now = "solving"
         elif event == "stage_ended":
-            self.ended = 0
-            line = f"stage of {message.stage_ended.triangles} triangles ended after {message.stage_ended.seconds:.2g} s"
+            self.ended = 0  # the next one solves them again
+            lines += self._stage_ended(message.stage_ended)
         elif event == "ended":
-            line = self.now = solve_pb2.Job.State.Name(message.ended.state).removeprefix("STATE_").lower().replace(
-                "_", " ")
-        for load in message.load_cases_ended:
-            self.ended += 1
-            status = solve_pb2.LoadCaseAnswer.Status.Name(load.answer.status).removeprefix("STATUS_").lower()
-            count = load.answer.iterations
-            said = (f"{load.answer.name}: {status.replace('_', ' ')} after {count} {self.step}"
-                    f"{'' if count == 1 else 's'}")
-            line = f"{line}\n{said}" if line else said
-        return line
+            self.now = _word(solve_pb2.Job.State.Name(message.ended.state))
+            self.ended = message.ended.load_cases_ended or self.ended
+            lines.append(self.now)
+        return "\n".join(lines) or None
+
+    def _load_ended(self, answer: solve_pb2.LoadCaseAnswer) -> list[str]:
+        if self.accuracy is not None and answer.status == answer.STATUS_CONVERGED:
+            return []  # in each stage again: what goes well is told by the line of the stage
+        count = answer.iterations
+        return [f"{answer.name}: {_word(solve_pb2.LoadCaseAnswer.Status.Name(answer.status))} after {count} {self.step}"
+                f"{'' if count == 1 else 's'}"]
+
+    def _stage_ended(self, stage: solve_pb2.Stage) -> list[str]:
+        """A watch may tell of a stage twice."""
+        if not stage.answers or stage.mesh in self.stages or self.accuracy is None:
+            return []
+        self.stages[stage.mesh] = (f"stage {len(self.stages) + 1}: {stage.triangles} triangles, "
+                                   + _errors(stage, self.accuracy))
+        return [self.stages[stage.mesh]]
 
     def bar(self) -> str:
         part = min(self.ended / self.total, 1) if self.total else 0
         done = int(part * WIDTH)
         return f"[{'#' * done}{'.' * (WIDTH - done)}] {self.ended}/{self.total} {self.unit}, {self.now}"
+
+
+def _word(name: str) -> str:
+    return name.removeprefix("STATE_").removeprefix("STATUS_").lower().replace("_", " ")
+
+
+def _errors(stage: solve_pb2.Stage, asked: solve_pb2.Accuracy) -> str:
+    """The largest of all load cases, as the command tells them: "energy 0.0021 of 0.001", what is not asked for in per
+    cent; "-" where one is not known."""
+    def text(error: float, most: float) -> str:
+        if most:
+            return f"{error:.3g} of {most:.6g}" if np.isfinite(error) else f"- of {most:.6g}"
+        return f"{100 * error:.{2 if error < 1 else 3}g} %" if np.isfinite(error) else "- %"
+    columns = {name: np.array([known(answer, name) for answer in stage.answers])
+               for name in ("energy", "energy_lower", "energy_upper", "displacement_error")}
+    widths = np.maximum(columns["energy_upper"] - columns["energy_lower"], 0)
+    sizes = np.where(widths == 0, 1, np.abs(columns["energy"]))
+    energy, moved = (widths / sizes).max(), columns["displacement_error"].max()
+    told = "energy " + text(energy, asked.energy)
+    if asked.HasField("displacement") or np.isfinite(moved):
+        told += ", A " + text(moved, asked.displacement)
+    return told
 
 
 class Progress:
@@ -69,16 +112,20 @@ class Progress:
         self._shown, self._next = 0, 0.0
 
     def take(self, message: solve_pb2.WatchJobResponse) -> None:
+        before = len(self._state.stages)
         line = self._state.take(message)
+        stages = list(self._state.stages.values())[before:]
         drawn = self._handle is not None or self._bar
-        if drawn and not message.HasField("ended"):
+        if drawn and not stages and not message.HasField("ended"):
             if time.monotonic() < self._next:
                 return
             self._next = time.monotonic() + PAUSE
         if self._handle is not None:
-            self._handle.update({"text/plain": self._text()}, raw=True)
+            text = "\n".join([*self._state.stages.values(), self._text()])
+            self._handle.update({"text/plain": text}, raw=True)
         elif self._bar:
-            text = self._text()[:100]
+            self._out.write("".join("\r" + stage.ljust(self._shown) + "\n" for stage in stages))
+            text = self._text()[:self._columns()]
             self._out.write("\r" + text.ljust(self._shown))
             self._shown = len(text)
             if message.HasField("ended"):
@@ -87,6 +134,13 @@ class Progress:
         elif line:
             self._out.write("".join(f"{self._name}: {part}\n" for part in line.split("\n")))
             self._out.flush()
+
+    def _columns(self) -> int:
+        """A longer text would go on in a second line, which stays."""
+        try:
+            return os.get_terminal_size(self._out.fileno()).columns - 1
+        except OSError:
+            return 100
 
     def _text(self) -> str:
         return f"{self._name} {self._state.bar()}"

@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 
 from .arrays import Array
-from .errors import Error
+from .errors import Error, package
+from .names import Named, Parts
+from .text import counted, html_table, interval, lines, listed
 from .v1 import mesh_pb2, solve_pb2
 
 NAN = float("nan")
@@ -21,6 +23,30 @@ GLUE, CRACK, BONDED, DELAMINATED, FREE = range(1, 6)  # kinds of nodes and edges
 
 
 @dataclass
+class Units:
+    """Names of units; empty: none."""
+    length: str = ""
+    force: str = ""
+
+    def of(self, dimension: str) -> str:
+        """Of what has this dimension, in F and L: "F/L^2" is "N/mm^2"; "-" where a unit in it has no name."""
+        names = {"F": self.force, "L": self.length}
+        if not dimension or any(letter in dimension and not name for letter, name in names.items()):
+            return "-"
+        return "".join(names.get(letter, letter) for letter in dimension)
+
+    def behind(self, dimension: str) -> str:
+        """Behind a number: " N/mm^2"; empty where there is none."""
+        unit = self.of(dimension)
+        return "" if unit == "-" else f" {unit}"
+
+    def label(self, dimension: str) -> str:
+        """Behind the name of an axis: " [N/mm^2]"; empty where there is none."""
+        unit = self.behind(dimension).strip()
+        return f" [{unit}]" if unit else ""
+
+
+@dataclass(repr=False)
 class Mesh:
     """nodes (n, 2); triangles (m, 3) and boundary (b, 2), where u is prescribed: indices of nodes; subdomain (m): of a
     triangle, index of subdomain_names (d), tension (d), of a law its mean, and tension_law (d): text, empty where the
@@ -34,8 +60,12 @@ class Mesh:
     inclusions: list[str]
     tension_law: list[str] = field(default_factory=list)
 
+    def __repr__(self) -> str:
+        return (f"mesh of {counted(len(self.nodes), 'node')} and {counted(len(self.triangles), 'triangle')}; "
+                f"subdomains: {listed(self.subdomain_names)}; inclusions: {listed(self.inclusions) or 'none'}")
 
-@dataclass
+
+@dataclass(repr=False)
 class Interface:
     """s (k): arc length; x, y (k): coordinates; kind (k) and edge_kind (k-1): 1 glue, 2 crack, 3 bonded inclusion,
     4 delaminated inclusion, 5 free crack; edge_inclusion (k-1): index of Mesh.inclusions, -1 none."""
@@ -46,9 +76,14 @@ class Interface:
     kind: Array
     edge_kind: Array
     edge_inclusion: Array
+    units = Units()  # here and below: of the result that it is part of
+
+    def __repr__(self) -> str:
+        length = self.s[-1] if len(self.s) else 0.0
+        return f"{self.name}: {counted(len(self.s), 'node')}, {length:.6g}{self.units.behind('L')} long"
 
 
-@dataclass
+@dataclass(repr=False)
 class Trace:
     """On the nodes (k) of an interface: u on its sides, jump = u_plus - u_minus, pressure (on glue the flux), contact
     (1 where a crack is closed under pressure)."""
@@ -57,18 +92,32 @@ class Trace:
     jump: Array
     pressure: Array
     contact: Array
+    name, units = "", Units()  # of the interface
+
+    def __repr__(self) -> str:
+        return (f"{self.name or 'interface'}: {counted(len(self.jump), 'node')}, {int((self.contact != 0).sum())} in "
+                f"contact, [u] up to {self.jump.max(initial=0):.4g}{self.units.behind('L')}")
 
 
-@dataclass
+@dataclass(repr=False)
 class Field:
     """u (n) of a subdomain on nodes (n), indices of Mesh.nodes, a slit's twice; triangles (m, 3): indices of these."""
     subdomain: str
     nodes: Array
     triangles: Array
     u: Array
+    units = Units()
+
+    @property
+    def name(self) -> str:
+        return self.subdomain
+
+    def __repr__(self) -> str:
+        return (f"{self.name}: {counted(len(self.nodes), 'node')}, {counted(len(self.triangles), 'triangle')}, u from "
+                f"{self.u.min():.4g} to {self.u.max():.4g}{self.units.behind('L')}")
 
 
-@dataclass
+@dataclass(repr=False)
 class Inclusion:
     """u = A + Bx (x - x0) + By (y - y0) along it; resultant: the force on it; Mx, My: the moment about (x0, y0); the
     membrane's own A lies between A_lower and A_upper."""
@@ -87,6 +136,14 @@ class Inclusion:
     Bx_upper: float = NAN
     By_lower: float = NAN
     By_upper: float = NAN
+    units = Units()
+
+    def __repr__(self) -> str:
+        told = f"{self.name}: A = {interval(self.A_lower, self.A_upper, self.A, self.units.behind('L'))}"
+        if self.Bx or self.By:
+            told += (f", Bx = {interval(self.Bx_lower, self.Bx_upper, self.Bx)}, "
+                     f"By = {interval(self.By_lower, self.By_upper, self.By)}")
+        return told
 
 
 # Names in the file -> in InclusionAnswer.
@@ -96,16 +153,16 @@ _INCLUSION = {"A": "displacement", "Bx": "slope_x", "By": "slope_y", "Mx": "mome
               "Bx_upper": "slope_x_upper", "By_lower": "slope_y_lower", "By_upper": "slope_y_upper"}
 
 
-@dataclass
+@dataclass(repr=False)
 class Load:
     """The answer to a load case. status: "converged", "not_converged" (see reason), "failed" (see error) or
     "cancelled". mass to tolerance: as asked of the method. The membrane's own energy lies between energy_lower and
     energy_upper.
 
-    kkt: relative residuals of the optimality conditions. traces: one for each interface. history: arrays (n), one
-    entry an iteration. stages: arrays, one entry a stage; empty without an accuracy. contact_intervals: (index of the
-    interface, begin, end) in arc length. fields: one for each subdomain, where they were asked for. indicator (m): part
-    of each triangle in the square of error_bound, or None."""
+    kkt: relative residuals of the optimality conditions. traces: one for each interface, by its name or index. history:
+    arrays (n), one entry an iteration. stages: arrays, one entry a stage; empty without an accuracy.
+    contact_intervals: (index of the interface, begin, end) in arc length. fields: one for each subdomain, by its name
+    or index, where they were asked for. indicator (m): part of each triangle in the square of error_bound, or None."""
     name: str
     status: str
     reason: str = ""
@@ -132,13 +189,14 @@ class Load:
     warnings: list[str] = field(default_factory=list)
     kkt: dict[str, float] = field(default_factory=lambda: dict.fromkeys(KKT, NAN))
     kkt_absolute: dict[str, float] = field(default_factory=lambda: dict.fromkeys(KKT, NAN))
-    inclusions: dict[str, Inclusion] = field(default_factory=dict)
-    traces: list[Trace] = field(default_factory=list)
+    inclusions: Named[Inclusion] = field(default_factory=lambda: Named("inclusion"))
+    traces: Parts[Trace] = field(default_factory=lambda: Parts("interface"))
     history: Arrays = field(default_factory=dict)
     stages: Arrays = field(default_factory=dict)
     contact_intervals: list[tuple[int, float, float]] = field(default_factory=list)
-    fields: list[Field] = field(default_factory=list)
+    fields: Parts[Field] = field(default_factory=lambda: Parts("subdomain"))
     indicator: Array | None = None
+    units = Units()
 
     @property
     def converged(self) -> bool:
@@ -148,11 +206,35 @@ class Load:
         """A of every inclusion."""
         return {name: inclusion.A for name, inclusion in self.inclusions.items()}
 
+    def _energy(self) -> str:
+        return interval(self.energy_lower, self.energy_upper, self.energy, self.units.behind("F L"))
+
+    def __repr__(self) -> str:
+        told = f"{self.name}: {self.status.replace('_', ' ')}"
+        if self.reason or self.error:
+            told += f" ({self.reason or self.error})"
+        if not np.isnan(self.energy):
+            told += (f", energy = {self._energy()}, contact length "
+                     f"{self.contact_length:.6g}{self.units.behind('L')}")
+        if self.no_bracket:
+            told += f"\nno bounds: {self.no_bracket}"
+        if self.inclusions:
+            told += "\n" + lines(list(self.inclusions.values()))
+        return told.replace("\n", "\n  ")
+
+    def _repr_html_(self) -> str:
+        """For a notebook."""
+        length, force = self.units.label("L"), self.units.label("F")
+        rows = [[part.name, interval(part.A_lower, part.A_upper, part.A), f"{part.resultant:.6g}",
+                 f"{part.contact_length:.6g}"] for part in self.inclusions.values()]
+        return html_table(repr(self).partition("\n")[0], ["inclusion", "A" + length, "resultant" + force,
+                                                          "contact length" + length], rows)
+
 
 SCALARS = [entry.name for entry in fields(Load) if str(entry.type) in ("str", "int", "float") and entry.name != "name"]
 
 
-@dataclass
+@dataclass(repr=False)
 class Sweep:
     """Columns, an entry a row: status (3 converged, 4 not converged, 5 failed, 6 cancelled), steps, energy,
     contact_length, kkt (largest relative residual), displacement (rows, inclusions): A, slope (rows, inclusions, 2) or
@@ -187,7 +269,7 @@ class Sweep:
 
     def frame(self) -> Any:
         """A pandas.DataFrame, a line a row: coefficients, A, its bounds and slopes by name; takes pandas."""
-        import pandas
+        pandas = package("pandas")
         columns: dict[str, Any] = {}
         if self.coefficients is not None:
             columns.update((name, self.coefficients[:, i]) for i, name in enumerate(self.loads))
@@ -204,35 +286,21 @@ class Sweep:
                 columns[f"Bx of {name}"], columns[f"By of {name}"] = self.slope[:, i, 0], self.slope[:, i, 1]
         return pandas.DataFrame(columns).rename_axis("row")
 
-
-@dataclass
-class Units:
-    """Names of units; empty: none."""
-    length: str = ""
-    force: str = ""
-
-    def of(self, dimension: str) -> str:
-        """Of what has this dimension, in F and L: "F/L^2" is "N/mm^2"; "-" where a unit in it has no name."""
-        names = {"F": self.force, "L": self.length}
-        if not dimension or any(letter in dimension and not name for letter, name in names.items()):
-            return "-"
-        return "".join(names.get(letter, letter) for letter in dimension)
-
-    def label(self, dimension: str) -> str:
-        """Behind the name of an axis: " [N/mm^2]"; empty where there is none."""
-        unit = self.of(dimension)
-        return "" if unit == "-" else f" [{unit}]"
+    def __repr__(self) -> str:
+        return (f"sweep of {counted(len(self.status), 'row')}, {int(self.converged.sum())} converged; loads: "
+                f"{listed(self.loads)}; inclusions: {listed(self.inclusions) or 'none'}")
 
 
-@dataclass
+@dataclass(repr=False)
 class Result:
-    """loads: answers by name, in the order of the case. not_reached: which accuracy was not reached and why."""
+    """loads: answers by name, in the order of the case; interfaces: by name or index. not_reached: which accuracy was
+    not reached and why."""
     title: str
     job: str
     mesh_name: str
     mesh: Mesh
-    interfaces: list[Interface]
-    loads: dict[str, Load]
+    interfaces: Parts[Interface]
+    loads: Named[Load]
     sweep: Sweep | None = None
     not_reached: str = ""
     case: str = ""
@@ -256,30 +324,54 @@ class Result:
 
     def frame(self) -> Any:
         """The answers as a pandas.DataFrame, a line a load case, with "A of NAME" and its bounds; takes pandas."""
-        import pandas
-        lines = []
+        pandas = package("pandas")
+        rows = []
         for load in self.loads.values():
             line = {name: getattr(load, name) for name in ("name", *SCALARS)}
             for name, inclusion in load.inclusions.items():
                 line.update({f"{column} of {name}": getattr(inclusion, column)
                              for column in ("A", "A_lower", "A_upper", "resultant")})
-            lines.append(line)
-        return pandas.DataFrame(lines).set_index("name") if lines else pandas.DataFrame()
+            rows.append(line)
+        return pandas.DataFrame(rows).set_index("name") if rows else pandas.DataFrame()
+
+    def _title(self) -> str:
+        what = repr(self.sweep) if self.sweep is not None else counted(len(self.loads), "load case")
+        return f"{self.title or 'result'}: {counted(len(self.mesh.triangles), 'triangle')}, {what}"
+
+    def __repr__(self) -> str:
+        told = [self._title(), *([repr(self.loads)] if self.loads else [])]
+        return "\n".join(told + [f"not reached: {self.not_reached}"] * bool(self.not_reached))
+
+    def _repr_html_(self) -> str:
+        """For a notebook."""
+        most = 8  # columns
+        every = list(next(iter(self.loads.values())).inclusions) if self.loads else []
+        rows, names = [], every[:most]
+        for load in self.loads.values():
+            parts = [load.inclusions.get(name) for name in names]
+            rows.append([load.name, load.status.replace("_", " "), load._energy(), *(
+                interval(part.A_lower, part.A_upper, part.A) if part is not None else "-" for part in parts)])
+        head = ["load", "status", "energy", *(f"A of {name}{self.units.label('L')}" for name in names)]
+        title = self._title() + (f"; not reached: {self.not_reached}" if self.not_reached else "")
+        if len(every) > most:
+            title += f"; A of the first {most} of {len(every)} inclusions"
+        return html_table(title, head, rows)
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Result:
         """Of a result file, "anticrack-result/1"."""
-        import h5py
+        h5py = package("h5py")
         try:
             with h5py.File(path) as file:
                 if file.attrs.get("format") != "anticrack-result/1":
                     raise Error(f"{os.fspath(path)}: is no result file of anticrack")
-                return _of_file(file)
+                return _told(_of_file(file))
         except (OSError, KeyError) as error:
             raise Error(f"{os.fspath(path)}: cannot be read as a result file: {error}") from None
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """As a result file, which the command shows, plots and exports too; replaces one that is there."""
+        package("h5py")
         from .save import save
         save(self, path)
 
@@ -292,7 +384,21 @@ class Result:
         result.mesh_seconds, result.factorize_seconds = mesh.mesh_seconds, mesh.factorize_seconds
         result.solve_seconds = _seconds(job.sweep_answer.solve_time) if result.sweep is not None else sum(
             load.solve_seconds for load in result.loads.values())
-        return result
+        return _told(result)
+
+
+def _told(result: Result) -> Result:
+    """Its parts know their units, and traces their interfaces."""
+    for line in result.interfaces:
+        line.units = result.units
+    for load in result.loads.values():
+        load.units = result.units
+        parts: list[Any] = [*load.inclusions.values(), *load.traces, *load.fields]
+        for part in parts:
+            part.units = result.units
+        for line, trace in zip(result.interfaces, load.traces):
+            trace.name = line.name
+    return result
 
 
 def _below(arrays: Mapping[str, Array], prefix: str) -> Arrays:
@@ -301,9 +407,9 @@ def _below(arrays: Mapping[str, Array], prefix: str) -> Arrays:
             if name.startswith(prefix) and "/" not in name[len(prefix):]}
 
 
-def _traces(arrays: Mapping[str, Array], prefix: str, count: int) -> list[Trace]:
+def _traces(arrays: Mapping[str, Array], prefix: str, count: int) -> Parts[Trace]:
     found = [_below(arrays, f"{prefix}/{i}/") for i in range(count)]
-    return [Trace(**trace) for trace in found if trace]
+    return Parts("interface", [Trace(**trace) for trace in found if trace])
 
 
 def _laws(mesh: mesh_pb2.Mesh) -> list[str]:
@@ -315,22 +421,23 @@ def _laws(mesh: mesh_pb2.Mesh) -> list[str]:
 
 def _of_job(job: solve_pb2.Job, mesh: mesh_pb2.Mesh, mesh_arrays: Mapping[str, Array],
             arrays: Mapping[str, Array], case: str) -> Result:
-    interfaces = [Interface(info.name, **_below(arrays, f"interfaces/{i}/"), **{
+    interfaces = Parts("interface", [Interface(info.name, **_below(arrays, f"interfaces/{i}/"), **{
         name: mesh_arrays[f"interfaces/{i}/{name}"] for name in ("edge_kind", "edge_inclusion")})
-        for i, info in enumerate(mesh.interfaces)]
+        for i, info in enumerate(mesh.interfaces)])
     names = [subdomain.name for subdomain in mesh.subdomains]
     result = Result(job.title, job.name, mesh.name, Mesh(
         **{name: mesh_arrays[name] for name in ("nodes", "triangles", "subdomain", "boundary")}, subdomain_names=names,
         tension=np.array([subdomain.tension or 1.0 for subdomain in mesh.subdomains]),
-        inclusions=list(mesh.inclusions), tension_law=_laws(mesh)), interfaces, {}, not_reached=job.not_reached,
-        case=case)
+        inclusions=list(mesh.inclusions), tension_law=_laws(mesh)), interfaces, Named("load"),
+        not_reached=job.not_reached, case=case)
     result.units = Units(job.units.length, job.units.force)
     if job.HasField("sweep"):
         traces = {int(row): _traces(arrays, f"traces/{row}", len(interfaces)) for row in job.sweep.traces}
         kept = [row for row, found in traces.items() if found]  # the others did not end
         result.sweep = _sweep([load.name for load in job.load_cases], list(mesh.inclusions), _below(arrays, "sweep/"),
                               kept, job.error.message, _seconds(job.sweep_answer.solve_time))
-        result.loads = {f"row-{row}": _row(result.sweep, row, traces[row], interfaces) for row in kept}
+        result.loads = Named("load", ((f"row-{row}", _row(result.sweep, row, traces[row], interfaces))
+                                      for row in kept))
         return result
     indices = {interface.name: i for i, interface in enumerate(interfaces)}
     for i, answer in enumerate(job.answers):
@@ -340,15 +447,15 @@ def _of_job(job: solve_pb2.Job, mesh: mesh_pb2.Mesh, mesh_arrays: Mapping[str, A
         load.history = _below(arrays, prefix + "history/")
         load.indicator = arrays.get(prefix + "indicator")
         load.contact_intervals = [(indices[part.interface], part.begin, part.end) for part in answer.contact_intervals]
-        load.fields = [Field(name, arrays[f"fields/{k}/nodes"], arrays[f"fields/{k}/triangles"],
-                             arrays[f"{prefix}fields/{k}"])
-                       for k, name in enumerate(names) if f"{prefix}fields/{k}" in arrays]
+        load.fields += [Field(name, arrays[f"fields/{k}/nodes"], arrays[f"fields/{k}/triangles"],
+                              arrays[f"{prefix}fields/{k}"])
+                        for k, name in enumerate(names) if f"{prefix}fields/{k}" in arrays]
         stages = [stage for stage in job.stages if i < len(stage.answers)]
         if stages:
             load.stages = {"triangles": np.array([stage.triangles for stage in stages]),
                            "seconds": np.array([stage.seconds for stage in stages])}
             for name in ("energy", "energy_lower", "energy_upper", "error_bound_relative", "displacement_error"):
-                load.stages[name] = np.array([_known(stage.answers[i], name) for stage in stages])
+                load.stages[name] = np.array([known(stage.answers[i], name) for stage in stages])
         result.loads[load.name] = load
     return result
 
@@ -365,7 +472,7 @@ def _sweep(loads: list[str], inclusions: list[str], columns: Arrays, kept: list[
     return Sweep(loads, inclusions, **every, kept=kept, error=error, solve_seconds=seconds)
 
 
-def _row(sweep: Sweep, row: int, traces: list[Trace], interfaces: list[Interface]) -> Load:
+def _row(sweep: Sweep, row: int, traces: Parts[Trace], interfaces: list[Interface]) -> Load:
     """The answer to a row whose traces were kept."""
     load = Load(f"row-{row}", _status(sweep.status[row]), method="active-set", iterations=int(sweep.steps[row]),
                 energy=float(sweep.energy[row]), contact_length=float(sweep.contact_length[row]), traces=traces)
@@ -391,7 +498,7 @@ def runs(values: Array) -> list[tuple[int, int]]:
     return list(zip([0, *cuts], [*cuts, len(values)])) if len(values) else []
 
 
-def _known(message: Any, name: str) -> Any:
+def known(message: Any, name: str) -> Any:
     """NaN where it is optional and not set."""
     described = message.DESCRIPTOR.fields_by_name[name]
     return NAN if described.has_presence and not message.HasField(name) else getattr(message, name)
@@ -425,13 +532,13 @@ def _load_of(answer: solve_pb2.LoadCaseAnswer, solver: solve_pb2.Solver) -> Load
         return load
     for name in SCALARS:
         if name in answer.DESCRIPTOR.fields_by_name and name not in ("status", "reason", "error"):
-            setattr(load, name, _known(answer, name))
+            setattr(load, name, known(answer, name))
     load.warnings = list(answer.warnings)
     load.kkt = {name: getattr(answer.kkt, name + "_relative") for name in KKT}
     load.kkt_absolute = {name: getattr(answer.kkt, name) for name in KKT}
     for part in answer.inclusions:
         load.inclusions[part.name] = Inclusion(part.name, **{
-            entry.name: _known(part, _INCLUSION.get(entry.name, entry.name))
+            entry.name: known(part, _INCLUSION.get(entry.name, entry.name))
             for entry in fields(Inclusion) if entry.name != "name"})
     return load
 
@@ -449,13 +556,14 @@ def _of_file(file: Any) -> Result:
     mesh = Mesh(**{name: group[name][()] for name in ("nodes", "triangles", "subdomain", "boundary", "tension")},
                 subdomain_names=_texts(group["subdomain_names"]), inclusions=_texts(group["inclusions"]),
                 tension_law=_texts(group["tension_law"]) if "tension_law" in group else [])
-    interfaces = [Interface(file[f"interfaces/{i}"].attrs["name"], **_arrays(file[f"interfaces/{i}"]))
-                  for i in range(len(file["interfaces"]))]
+    lines_in = [file[f"interfaces/{i}"] for i in range(len(file["interfaces"]))]
+    interfaces = Parts("interface", [Interface(line.attrs["name"], **_arrays(line)) for line in lines_in])
     groups = sorted(file["loads"].items(), key=lambda item: int(item[1].attrs.get("index", 0)))
     attributes = file.attrs
     result = Result(attributes["title"], attributes["job"], attributes["mesh"], mesh, interfaces,
-                    {name: _load_in(name, item) for name, item in groups}, None, attributes.get("not_reached", ""),
-                    attributes["case"], attributes["server_version"], attributes["mesh_sha256"],
+                    Named("load", ((name, _load_in(name, item)) for name, item in groups)), None,
+                    attributes.get("not_reached", ""), attributes["case"], attributes["server_version"],
+                    attributes["mesh_sha256"],
                     units=Units(attributes.get("unit_length", ""), attributes.get("unit_force", "")))
     for name in ("mesh_seconds", "factorize_seconds", "solve_seconds", "total_seconds"):
         setattr(result, name, float(attributes[name]))
@@ -479,10 +587,10 @@ def _load_in(name: str, group: Any) -> Load:
     parts = group["inclusions"]
     known = {entry.name for entry in fields(Inclusion)} - {"name"}
     columns = {key: parts[key][()] for key in parts if key in known}
-    load.inclusions = {part: Inclusion(part, **{key: float(column[i]) for key, column in columns.items()})
-                       for i, part in enumerate(_texts(parts["name"]))}
+    load.inclusions.update((part, Inclusion(part, **{key: float(column[i]) for key, column in columns.items()}))
+                           for i, part in enumerate(_texts(parts["name"])))
     traces = group["traces"] if "traces" in group else {}
-    load.traces = [Trace(**_arrays(traces[str(i)])) for i in range(len(traces))]
+    load.traces += [Trace(**_arrays(traces[str(i)])) for i in range(len(traces))]
     history = _arrays(group["history"]) if "history" in group else {}
     if any(values.size for values in history.values()):
         load.history = history
@@ -493,6 +601,6 @@ def _load_in(name: str, group: Any) -> Load:
     load.contact_intervals = [(int(i), float(begin), float(end)) for i, begin, end in
                               zip(contact["interface"], contact["begin"], contact["end"])]
     found = group["fields"] if "fields" in group else {}
-    load.fields = [Field(found[str(i)].attrs["name"], **_arrays(found[str(i)])) for i in range(len(found))]
+    load.fields += [Field(found[str(i)].attrs["name"], **_arrays(found[str(i)])) for i in range(len(found))]
     load.indicator = group["indicator"][()] if "indicator" in group else None
     return load

@@ -13,6 +13,7 @@ import numpy as np
 from google.protobuf.duration_pb2 import Duration
 
 from .errors import CaseError
+from .text import short
 
 _SECONDS = {"": 1, "s": 1, "ms": 1e-3, "min": 60, "h": 3600, "d": 86400}
 
@@ -26,8 +27,9 @@ def suggestion(word: str, known: Iterable[str]) -> str:
 def shown(value: Any) -> str:
     if isinstance(value, bool):
         return str(value).lower()
-    text = f"'{value}'" if isinstance(value, str) else str(value).replace("\n", " ")
-    return text if len(text) <= 60 else text[:60] + "..."
+    if callable(value):
+        return f"the Python function {getattr(value, '__name__', value)}"
+    return short(f"'{value}'" if isinstance(value, str) else str(value))
 
 
 class Section:

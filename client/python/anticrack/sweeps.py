@@ -2,12 +2,14 @@
 """Many combinations of a case's loads in one job."""
 from __future__ import annotations
 
+import operator
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from .errors import CaseError
+from .sections import shown
 from .v1 import solve_pb2
 
 
@@ -29,7 +31,10 @@ def sweep_of(job: solve_pb2.Job, coefficients: Any, nodal_forces: Any, traces: S
         if sorted(map(str, coefficients.columns)) != sorted(names):
             raise CaseError(f"columns {list(coefficients.columns)} are not the loads {names}")
         coefficients = coefficients[names].to_numpy()
-    matrix = np.asarray(coefficients if coefficients is not None else nodal_forces)
+    try:
+        matrix = np.asarray(coefficients if coefficients is not None else nodal_forces)
+    except ValueError:
+        raise CaseError("coefficients or nodal_forces: the rows are not all of one length") from None
     columns = len(names) if coefficients is not None else None
     if matrix.ndim != 2 or not matrix.size or (columns is not None and matrix.shape[1] != columns):
         wanted = "nodes" if columns is None else columns
@@ -40,7 +45,10 @@ def sweep_of(job: solve_pb2.Job, coefficients: Any, nodal_forces: Any, traces: S
         raise CaseError("a sweep is on one mesh; leave accuracy out")
     del job.outputs[:]
     job.sweep.bounds = bounds
-    job.sweep.traces.extend(sorted({int(row) for row in traces}))
+    try:
+        job.sweep.traces.extend(sorted({operator.index(row) for row in traces}))
+    except TypeError:
+        raise CaseError(f"traces: {shown(traces)} is not a list of rows; write [0, 2]") from None
     if nodal_forces is not None:
         del job.load_cases[:]
     return matrix.astype("<f8").tobytes()

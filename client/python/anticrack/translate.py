@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from .arrays import Array
+from .errors import package
 from .sections import Section
 from .v1 import mesh_pb2, solve_pb2
 
@@ -24,6 +25,11 @@ _UZAWA = ["theta", "epsilon", "p", "max_iterations", "mass", "kkt_tolerance"]
 _ACTIVE_SET = ["tolerance", "max_steps"]
 _FORCE = ('write a number, an expression in x and y in quotes, {region = number} or {file = "f.h5", dataset = "/f", '
           'per = "triangle"}')
+
+
+_TENSION = "write a number above 0, an expression in x and y in quotes, or {along = T1, across = T2, angle = degrees}"
+_NODES = ('give its values on the nodes of client.mesh_arrays(client.mesh(case))["nodes"], as Load(name, values, '
+          'per="node")')
 
 
 @dataclass
@@ -74,8 +80,8 @@ def _set(message: Any, **values: Any) -> None:
 
 def _mesh(root: Section, folder: Path, out: Requests) -> None:
     geometry = root.section("geometry", ["boundary", "hole", "interface", "inclusion", "crack", "neumann", "region"])
-    mesh = root.section("mesh", ["preset", "size", "tip_size", "grading", "align", "file", "groups", "tension",
-                                 "inclusions"])
+    mesh = root.section("mesh", ["preset", "size", "tip_size", "grading", "chord_angle", "align", "file", "groups",
+                                 "tension", "inclusions"])
     out.mesh.options.preset = mesh_pb2.MESH_PRESET_GRADED
     if mesh is not None:
         _options(mesh, out.mesh.options)
@@ -99,7 +105,7 @@ def _options(section: Section, options: mesh_pb2.MeshOptions) -> None:
     idle = {"paper": ["size", "tip_size", "grading", "align"], "uniform": ["tip_size", "grading"]}.get(name, [])
     section.refuse(idle, f'means nothing with preset "{name}"; remove it, or write preset = "graded"')
     if "file" in section:
-        section.refuse(["align"], "means nothing with mesh.file; remove one of the two")
+        section.refuse(["align", "chord_angle"], "means nothing with mesh.file; remove one of the two")
     else:
         section.refuse(["groups"], 'belongs to mesh.file; write file = "x.msh" beside it')
         section.refuse(["tension"], "belongs to mesh.file; for a geometry write [[geometry.region]] with name, at and "
@@ -107,7 +113,7 @@ def _options(section: Section, options: mesh_pb2.MeshOptions) -> None:
         section.refuse(["inclusions"], "belongs to mesh.file; for a geometry write tilt or fixed in its "
                                        "[[geometry.inclusion]]")
     _set(options, size=section.positive("size"), tip_size=section.positive("tip_size"),
-         grading=section.positive("grading"))
+         grading=section.positive("grading"), chord_angle=section.positive("chord_angle"))
     if "align" in section:
         lines = section.list_of(section.get("align"), "align", "a list of lines", "write [[[x, y], [x, y], ...], ...]")
         for i, line in enumerate(lines):
@@ -190,6 +196,8 @@ def _tension(section: Section, key: str) -> float | mesh_pb2.Tension | None:
     if isinstance(value, str):
         return mesh_pb2.Tension(along=value)
     if not isinstance(value, Mapping):
+        if key in section:
+            section.number_of(value, key, _TENSION)
         return section.positive(key)
     table = section.section(key, ["along", "across", "angle"])
     assert table is not None
@@ -399,7 +407,7 @@ def _force(section: Section, folder: Path, force: solve_pb2.Force, out: Requests
     if isinstance(value, str):
         force.expression = value
     elif not isinstance(value, Mapping):
-        force.constant = section.number_of(value, "f", _FORCE)
+        force.constant = section.number_of(value, "f", f"{_FORCE}; or {_NODES}" if callable(value) else _FORCE)
     elif any(key in value for key in ("values", "dataset", "per")) or isinstance(value.get("file"), str):
         known = ["values", "per"] if "values" in value else ["file", "dataset", "per"]
         array = Section(value, f"{section.path}.f", known, section.source)
@@ -416,7 +424,7 @@ def _values(section: Section, folder: Path) -> Array:
     if key in section:
         values = section.table[key]
     else:
-        import h5py
+        h5py = package("h5py")
         section.need("file", "name an HDF5 file")
         section.need("dataset", 'name the dataset in the file, as "/f"')
         path, key = folder / (section.text("file") or ""), "dataset"
@@ -425,7 +433,10 @@ def _values(section: Section, folder: Path) -> Array:
                 values = file[section.text("dataset")][()]
         except (OSError, KeyError) as error:
             raise section.error("file", f"{path}: {error}") from None
-    array = np.asarray(values)
+    try:
+        array = np.asarray(values)
+    except ValueError as error:  # lists of several lengths
+        raise section.error(key, str(error)) from None
     if array.ndim != 1 or array.dtype.kind not in "fiu" or not np.isfinite(array).all():
         raise section.error(key, f"{array.dtype} of shape {array.shape} is not one finite number for each node or "
                                  "triangle")

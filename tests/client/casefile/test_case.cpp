@@ -277,12 +277,14 @@ TEST(Case, SolvesByTheActiveSetUnlessSaidOtherwise) {
 
 TEST(Case, TakesTheOptionsOfAMesh) {
   const Case the_case = parse(sample_text, {"mesh.size=0.1", "mesh.tip_size=1e-9",
-                                            "mesh.grading=0.5", "mesh.align=[[[0, 0], [0, 0.5]]]"});
+                                            "mesh.grading=0.5", "mesh.chord_angle=5",
+                                            "mesh.align=[[[0, 0], [0, 0.5]]]"});
   const v1::MeshOptions& options = the_case.mesh.options();
   EXPECT_EQ(options.preset(), v1::MESH_PRESET_GRADED);
   EXPECT_EQ(options.size(), 0.1);
   EXPECT_EQ(options.tip_size(), 1e-9);
   EXPECT_EQ(options.grading(), 0.5);
+  EXPECT_EQ(options.chord_angle(), 5);
   ASSERT_EQ(options.align_size(), 1);
   EXPECT_EQ(options.align(0).points(1).y(), 0.5);
 }

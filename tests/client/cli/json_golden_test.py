@@ -90,7 +90,7 @@ class JsonGolden(GoldenTest):
     def test_runs_and_their_files(self):
         self.document("run", "run", "plate.toml", "-o", "plate.h5")
         self.document("run", "show", "plate.h5")
-        self.document("files", "plot", "plate.h5", "--load", "opening", "-o", "figures")
+        self.document("files", "plot", "plate.h5", "--load", "opening", "--only", "plan,traces", "-o", "figures")
         self.document("files", "export", "plate.h5", "-o", "paraview")
         uzawa = ("run", "plate.toml", "-o", "uzawa.h5", "--set", 'solver={method="uzawa", theta=1.5}')
         self.document("run-uzawa", *uzawa)

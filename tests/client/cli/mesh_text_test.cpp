@@ -33,6 +33,8 @@ v1::Mesh sample_mesh() {
   mesh.add_inclusions("fibre");
   v1::InterfaceInfo& interface = *mesh.add_interfaces();
   interface.set_name("rim");
+  interface.mutable_start()->set_x(-1);
+  interface.mutable_start()->set_y(0.25);
   auto& glue = *interface.add_segments();
   glue.set_kind(v1::INTERFACE_KIND_GLUE);
   glue.set_inclusion(-1);
@@ -83,15 +85,15 @@ TEST(MeshText, TabulatesWhatTheServerUnderstood) {
             "patch              4      5   0.5        2            31.2          1e-13           "
             "0.1  interfaces only\n"
             "\n"
-            "interface  from    to  kind         inclusion  edges\n"
-            "rim           0  0.25  glue         -              3\n"
-            "rim        0.25     1  delaminated  fibre          7\n"
-            "slit          0   0.5  free crack   -              2\n"
+            "interface  s = 0 at    s from  s to  kind         inclusion  edges\n"
+            "rim        (-1, 0.25)       0  0.25  glue         -              3\n"
+            "rim        (-1, 0.25)    0.25     1  delaminated  fibre          7\n"
+            "slit       -                0   0.5  free crack   -              2\n"
             "\n"
             "tip on    x  y  smallest edge\n"
             "rim     0.5  0          1e-13\n"
             "\n"
-            "boundary: u given on a length of 6, traction on 2\n"
+            "boundary: u given on a length of 6, free or traction on 2\n"
             "warning: took curve 7 for a crack\n");
 }
 
@@ -100,6 +102,16 @@ TEST(MeshText, NamesTheSidesWithATraction) {
   mesh.mutable_geometry()->add_neumann_sides("right");
   mesh.mutable_geometry()->add_neumann_sides("window");
   EXPECT_THAT(mesh_text(mesh), ::testing::HasSubstr("traction on 2: right, window\n"));
+}
+
+TEST(MeshText, HasTheUnitsOfTheCaseAndSaysWhatIsFree) {
+  const std::string text = mesh_text(sample_mesh(), {{"mm", "N"}, true});
+  EXPECT_THAT(text, HasSubstr("held by\n"
+                              "                             mm^2     N/mm         degrees         "
+                              "    mm            mm\n"));
+  EXPECT_THAT(text, HasSubstr("edges\n           mm              mm    mm\n"));
+  EXPECT_THAT(text, HasSubstr("tip on    x   y  smallest edge\n         mm  mm             mm\n"));
+  EXPECT_THAT(text, HasSubstr("u given on a length of 6 mm, free on 2 mm\n"));
 }
 
 TEST(MeshText, SaysHowAnInclusionMovesWhereItIsKnown) {

@@ -8,6 +8,11 @@ import numpy
 from processes import ANTICRACK, run
 
 
+def middle(entry, name):
+    lower, upper = entry.get(f"{name}_lower"), entry.get(f"{name}_upper")
+    return entry[name] if lower is None else (lower + upper) / 2
+
+
 class Answers:
     """The answers of a result file, as `show --json` tells them, and its fields."""
 
@@ -16,6 +21,13 @@ class Answers:
         assert shown.returncode == 0, shown.stderr
         self.loads = {answer["name"]: answer for answer in json.loads(shown.stdout)["answers"]}
         self.file = h5py.File(path)
+
+    def told(self, load, inclusion=0):
+        """A as the table has it: the middle of its bounds, or without bounds that of the mesh."""
+        return middle(self.loads[load]["inclusions"][inclusion], "A")
+
+    def told_energy(self, load):
+        return middle(self.loads[load], "energy")
 
     def displacement(self, load, inclusion=0):
         return self.loads[load]["inclusions"][inclusion]["A"]

@@ -119,7 +119,37 @@ TEST(Draw, says_what_it_left_out) {
   EXPECT_THAT(drawn.notes,
               ElementsAre(HasSubstr("no fields; to have them: anticrack job fetch jobs/"),
                           HasSubstr("no traces (failed)"), HasSubstr("no fields"),
-                          HasSubstr("1 load solved in a single step")));
+                          HasSubstr("1 load solved in one or two steps")));
+}
+
+TEST(Draw, leaves_out_what_says_nothing_and_draws_what_is_asked_for) {
+  const TemporaryFolder folder;
+  auto result = sample_result(4);
+  result.loads.resize(1);
+  result.interfaces.push_back(result.interfaces[0]);
+  result.interfaces[1].name = "glued";
+  std::ranges::fill(result.interfaces[1].edges.kind, results::Kind::inclusion);
+  std::ranges::fill(result.interfaces[1].edges.inclusion, 0);
+  result.loads[0].traces.push_back(result.loads[0].traces[0]);
+  auto& history = result.loads[0].history;
+  for (auto* values : {&history.criterion, &history.energy, &history.kkt.equilibrium,
+                       &history.kkt.gap, &history.kkt.sign, &history.kkt.complementarity})
+    values->resize(2);
+  history.iteration.resize(2);
+  history.contact_count.resize(2);
+  const Drawn drawn = draw(result, folder / "all", {.formats = {Format::png}});
+  EXPECT_EQ(files_in(folder / "all"),
+            (std::set<std::string>{"opening.png", "opening-membrane.png", "opening-plan.png",
+                                   "opening-traces.png"}));
+  EXPECT_THAT(drawn.notes,
+              ElementsAre(HasSubstr("1 interface of glue or bonded inclusions alone; --interface "
+                                    "glued"),
+                          HasSubstr("one or two steps; --only convergence")));
+  const Options asked{
+      .formats = {Format::png}, .only = {"traces", "convergence"}, .interface = "glued"};
+  EXPECT_THAT(draw(result, folder / "some", asked).notes, IsEmpty());
+  EXPECT_EQ(files_in(folder / "some"),
+            (std::set<std::string>{"opening-convergence.png", "opening-traces-2.png"}));
 }
 
 TEST(Draw, draws_no_accuracy_of_a_single_stage) {
@@ -239,7 +269,8 @@ TEST(Draw, lays_the_first_eight_loads_over_each_other) {
     result.loads[i].name = "load-" + std::to_string(i);
   }
   result.loads[0].traces.clear();
-  const Drawn drawn = draw_together(result, "sigma", folder.path(), {.formats = {Format::svg}});
+  const Drawn drawn =
+      draw_together(result, folder.path(), {.formats = {Format::svg}, .interface = "sigma"});
   EXPECT_EQ(files_in(folder.path()), std::set<std::string>{"together.svg"});
   EXPECT_THAT(drawn.notes, ElementsAre(HasSubstr("the first 8 of 9 loads")));
   const std::string svg = bytes_of(folder / "together.svg");
@@ -252,13 +283,13 @@ TEST(Draw, lays_nothing_over_each_other_that_is_not_there) {
   const TemporaryFolder folder;
   auto result = sample_result(4);
   try {
-    draw_together(result, "sigmo", folder.path());
+    draw_together(result, folder.path(), {.interface = "sigmo"});
     FAIL() << "drew it";
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "there is no interface sigmo; did you mean sigma?");
   }
   for (auto& load : result.loads) load.traces.clear();
-  EXPECT_THROW(draw_together(result, "", folder.path()), Error);
+  EXPECT_THROW(draw_together(result, folder.path()), Error);
   EXPECT_THAT(files_in(folder.path()), IsEmpty());
 }
 

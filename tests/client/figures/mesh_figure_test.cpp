@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -56,7 +57,7 @@ TEST(MeshLayers, point_into_the_plus_side) {
   const results::MeshPlan plan = sample_mesh_plan(10);
   const MeshLayers seen = layers(plan, whole(plan.mesh));
   ASSERT_EQ(seen.plus_sides.size(), 2u);
-  EXPECT_EQ(seen.plus_sides[0].name, "sigma");  // walked to the right: its left is above
+  EXPECT_EQ(seen.plus_sides[0].name, "sigma +");  // walked to the right: its left is above
   EXPECT_DOUBLE_EQ(seen.plus_sides[0].from.y, 0);
   EXPECT_GT(seen.plus_sides[0].to.y, 0.05);
   EXPECT_DOUBLE_EQ(seen.plus_sides[0].to.x, seen.plus_sides[0].from.x);
@@ -70,6 +71,41 @@ TEST(MeshLayers, name_inclusions_on_the_minus_side) {
   EXPECT_EQ(seen.inclusions[0].name, "fibre");
   EXPECT_NEAR(seen.inclusions[0].from.x, 0.1, 1e-12);  // from -0.3 to 0.5
   EXPECT_LT(seen.inclusions[0].to.y, -0.05);
+}
+
+TEST(MeshLayers, name_an_inclusion_that_is_its_interface_once) {
+  results::MeshPlan plan = sample_mesh_plan(10);
+  plan.interfaces[0].name = "fibre";
+  const MeshLayers seen = layers(plan, whole(plan.mesh));
+  EXPECT_EQ(seen.plus_sides[0].name, "fibre +");
+  EXPECT_THAT(seen.inclusions, IsEmpty());
+  EXPECT_EQ(layers(plan, whole(plan.mesh), Named::inclusions).inclusions.size(), 1u);
+}
+
+TEST(MeshLayers, let_no_name_cover_another) {
+  results::MeshPlan plan = sample_mesh_plan(10);
+  const results::InterfaceLine line = plan.interfaces[0];
+  for (int i = 0; i < 9; ++i) plan.interfaces.push_back(line);
+  const Window window = whole(plan.mesh);
+  const std::vector<Pointer> seen = layers(plan, window).plus_sides;
+  EXPECT_GT(seen.size(), 3u);
+  EXPECT_LT(seen.size(), 11u);  // there is no room for all
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const Window box = name_box(seen[i].name, seen[i].to, window);
+    for (std::size_t j = i + 1; j < seen.size(); ++j)
+      EXPECT_TRUE(std::abs(seen[i].to.x - seen[j].to.x) > box.width() ||
+                  std::abs(seen[i].to.y - seen[j].to.y) > box.height())
+          << i << " " << j;
+  }
+}
+
+TEST(MeshLayers, mark_where_s_begins) {
+  results::MeshPlan plan = sample_mesh_plan(10);
+  std::ranges::reverse(plan.interfaces[0].nodes);  // the server turned it
+  const MeshLayers seen = layers(plan, whole(plan.mesh));
+  ASSERT_EQ(seen.starts.size(), 2u);
+  EXPECT_DOUBLE_EQ(seen.starts[0].x, 1);
+  EXPECT_DOUBLE_EQ(seen.starts[0].y, 0);
 }
 
 TEST(MeshLayers, name_subdomains_inside_them) {
@@ -113,17 +149,19 @@ TEST(MeshFigure, is_drawn_with_its_legend_and_the_finest_tip) {
   EXPECT_GT(std::filesystem::file_size(drawn.files[0]), 20000u);
   const std::string svg = file_bytes(drawn.files[1]);
   for (const char* text :
-       {"A made-up mesh", "1681 nodes", "around the tip (0.5, 0)", "sigma +", "slit +", "upper",
-        "glue", "traction given", "bonded inclusion", "free crack", ">fibre<", "x", "y"}) {
+       {"A made-up mesh", "1681 nodes", "at the tip (0.5, 0)", "sigma +", "slit +", "upper", "glue",
+        "free or traction", "bonded inclusion", "free crack", ">fibre<", "x", "y"}) {
     EXPECT_THAT(svg, HasSubstr(text));
   }
 }
 
 TEST(MeshFigure, of_a_uniform_mesh_is_one_panel) {
   std::vector<std::string> notes;
-  const std::string text =
-      script(mesh_picture(sample_mesh_plan(10), notes), {{Format::png, "a.png"}});
-  EXPECT_THAT(text, Not(HasSubstr("around the tip")));
+  results::MeshPlan plan = sample_mesh_plan(10);
+  plan.free = true;
+  const std::string text = script(mesh_picture(plan, notes), {{Format::png, "a.png"}});
+  EXPECT_THAT(text, Not(HasSubstr("at the tip")));
+  EXPECT_THAT(text, HasSubstr("title 'free'"));
   EXPECT_THAT(notes, IsEmpty());
 }
 

@@ -66,6 +66,17 @@ TEST(PlanLayers, find_the_nodes_of_interfaces_again) {
   EXPECT_TRUE(plan_of(result).interfaces.empty());
 }
 
+TEST(PlanLayers, know_from_the_case_that_no_traction_acts) {
+  auto result = sample_result(4);
+  const auto free = [&](const std::string& case_text) {
+    result.case_text = case_text;
+    return plan_of(result).free;
+  };
+  EXPECT_FALSE(free(""));
+  EXPECT_TRUE(free("neumann = 'all'  # no traction acts"));
+  EXPECT_FALSE(free("[[load]]\nname = 'traction'\n'traction' = 2"));
+}
+
 TEST(PlanLayers, label_levels_apart_from_each_other) {
   const auto result = sample_result(20);
   const Surface seen = surface(result, result.loads[0], 10000);

@@ -21,11 +21,15 @@ using ::testing::Not;
 
 const std::vector<Output> both{{Format::png, "a.png"}, {Format::svg, "a.svg"}};
 
+std::string overview(const results::Result& result, const results::Load& load,
+                     const Surface& membrane) {
+  return script(overview_picture(result, load, membrane, most_eventful(result, {load})), both);
+}
+
 /// All scripts of a load, one after the other.
 std::string scripts(const results::Result& result, const results::Load& load) {
   const Surface membrane = surface(result, load, 10000);
-  return script(overview_picture(result, load, membrane), both) +
-         script(membrane_picture(result, load, membrane), both) +
+  return overview(result, load, membrane) + script(membrane_picture(result, load, membrane), both) +
          script(plan_picture(result, load, membrane), both) +
          script(together_picture(result, 0), both) + script(traces_picture(result, load, 0), both) +
          script(convergence_picture(result, load), both) +
@@ -51,8 +55,8 @@ std::string commands(const std::string& script) {
 
 TEST(Script, draws_both_formats_from_one_copy_of_the_data) {
   const auto result = sample_result(4);
-  const std::string drawn = script(
-      overview_picture(result, result.loads[0], surface(result, result.loads[0], 1000)), both);
+  const std::string drawn =
+      overview(result, result.loads[0], surface(result, result.loads[0], 1000));
   EXPECT_THAT(drawn, HasSubstr("set output 'a.png'"));
   EXPECT_THAT(drawn, HasSubstr("set output 'a.svg'"));
   EXPECT_EQ(drawn.find("$membrane << EOD"), drawn.rfind("$membrane << EOD"));
@@ -72,9 +76,8 @@ TEST(Script, draws_the_pressure_only_where_there_is_contact) {
   const auto result = sample_result(10);
   for (const bool contact : {false, true}) {
     const results::Load& load = result.loads[contact ? 1 : 0];
-    for (const std::string& drawn :
-         {script(traces_picture(result, load, 0), both),
-          script(overview_picture(result, load, surface(result, load, 1000)), both)}) {
+    for (const std::string& drawn : {script(traces_picture(result, load, 0), both),
+                                     overview(result, load, surface(result, load, 1000))}) {
       EXPECT_EQ(drawn.find("$pressure << EOD") != std::string::npos, contact);
       EXPECT_EQ(drawn.find("'pressure'") != std::string::npos, contact);
     }
@@ -104,9 +107,7 @@ TEST(Script, shows_the_most_eventful_interface_in_the_overview) {
   result.interfaces.push_back(result.interfaces[0]);
   result.interfaces[1].name = "second";
   load.traces.push_back(load.traces[0]);
-  const auto seen = [&] {
-    return script(overview_picture(result, load, surface(result, load, 1000)), both);
-  };
+  const auto seen = [&] { return overview(result, load, surface(result, load, 1000)); };
   EXPECT_THAT(seen(), HasSubstr("displacements on sigma"));
   for (double& jump : load.traces[1].jump) jump *= -2;
   EXPECT_THAT(seen(), HasSubstr("displacements on second"));
@@ -114,6 +115,34 @@ TEST(Script, shows_the_most_eventful_interface_in_the_overview) {
   for (auto& trace : load.traces) std::ranges::fill(trace.jump, 0.0);
   load.traces[1].contact[4] = 1;
   EXPECT_THAT(seen(), HasSubstr("displacements on second"));
+}
+
+TEST(Script, shows_the_pressure_of_the_interface_that_has_most_of_it) {
+  auto result = sample_result(10);
+  auto& load = result.loads[1];
+  result.interfaces.push_back(result.interfaces[0]);
+  result.interfaces[1].name = "second";
+  load.traces.push_back(load.traces[0]);
+  const auto seen = [&] { return overview(result, load, surface(result, load, 1000)); };
+  EXPECT_THAT(seen(), HasSubstr("'contact pressure on sigma'"));
+  // The first opens more and is in contact in a single node.
+  auto& open = load.traces[0];
+  for (double& jump : open.jump) jump *= 2;
+  const auto closed = std::ranges::find(open.contact, 1);
+  std::fill(closed + 1, open.contact.end(), 0);
+  EXPECT_THAT(seen(), HasSubstr("displacements on sigma"));
+  EXPECT_THAT(seen(), HasSubstr("'contact pressure on second'"));
+}
+
+TEST(Script, has_one_number_at_the_near_corner_of_the_membrane) {
+  auto result = sample_result(4);
+  const auto drawn = [&] {
+    const Surface membrane = surface(result, result.loads[0], 1000);
+    return script(membrane_picture(result, result.loads[0], membrane), both);
+  };
+  EXPECT_THAT(drawn(), HasSubstr("set ytics -0.5, 0.5, 1 nomirror"));
+  for (double& x : result.interfaces[0].x) x = -x;  // seen from the other side
+  EXPECT_THAT(drawn(), HasSubstr("set ytics -1, 0.5, 0.8 nomirror"));
 }
 
 TEST(Script, labels_contours_and_marks_the_side_that_came_off) {
@@ -137,6 +166,9 @@ TEST(Script, names_an_inclusion_where_it_lies) {
   const auto named = [&] { return script(traces_picture(result, load, 0), both); };
   EXPECT_THAT(named(), HasSubstr("'fibre' at graph 0.5"));
   EXPECT_THAT(named(), HasSubstr("A = 0.0863'"));
+  result.units.length = "mm";
+  EXPECT_THAT(named(), HasSubstr("A = 0.0863 mm'"));
+  result.units.length.clear();
   // Not one that lies on no edge here, whatever its A.
   load.inclusions = {{"other", 0.0863, 0, 0}, {"fibre", 0.0863, 0, 0}};
   EXPECT_THAT(named(), HasSubstr("'fibre' at graph 0.5"));

@@ -141,6 +141,17 @@ TEST(SweepScript, HasACurvePerInclusionAndKeepsStrangeNamesQuoted) {
   EXPECT_THAT(drawn, HasSubstr("3 rows, 1 without an answer left out"));
 }
 
+TEST(SweepScript, DrawsTheBoundsOfRowsThatAreJoined) {
+  results::Result result = anticrack::testing::bounded_sweep(5);
+  const std::string drawn = script(sweep_picture(result, sweep_axis(*result.sweep)), png);
+  EXPECT_THAT(drawn, HasSubstr("$lower0 << EOD\n-1 -0.11\n"));
+  EXPECT_THAT(drawn, HasSubstr("$upper0 << EOD\n-1 -0.09\n"));
+  EXPECT_THAT(drawn, HasSubstr("; thin: bounds"));
+  result.sweep->coefficients.clear();  // rows in no order
+  EXPECT_THAT(script(sweep_picture(result, sweep_axis(*result.sweep)), png),
+              Not(HasSubstr("$lower0")));
+}
+
 TEST(SweepScript, DrawsTheSlopesOneAboveTheOther) {
   results::Result result = anticrack::testing::tilting_sweep(3);
   result.sweep->inclusions = {"one", "two"};

@@ -201,6 +201,8 @@ boundary_value = "x"
         self.assertEqual(ours.job, theirs.job)
 
     def test_what_is_wrong_is_named(self):
+        def bump(x, y):
+            return x * y
         square = Geometry(SQUARE)
         for case, said in (
                 (lambda: Case(square, [Load("a", numpy.ones(3))]), "load.0.f.per: missing"),
@@ -208,9 +210,33 @@ boundary_value = "x"
                 (lambda: Case(square, [Load("a", numpy.array([numpy.nan]), per="node")]), "load.0.f.values: "),
                 (lambda: Case(square, [Load("a", 1, per="node")]), "load a: per goes with an array"),
                 (lambda: Case(square, [Load("a", True)]), "load.0.f: true is not a finite number"),
+                (lambda: Case(square, [Load("a", [1, 2])]), "load.0.f.per: missing"),
+                (lambda: Case(square, [Load("a", [[1], [1, 2]], per="node")]), "load.0.f.values: "),
+                (lambda: Case(square, [Load("a", bump)]), "f: the Python function bump .*expression .*per=.node"),
+                (lambda: Case(square, [Load("a", 1, boundary_value=bump)]), "load.0.boundary_value: .*bump .*express"),
+                (lambda: Case(Geometry(SQUARE, regions=[Region("r", (0, 0), tension=bump)]), [Load("a", 1)]),
+                 "geometry.region.0.tension: the Python function bump .*along = T1"),
+                (lambda: Case(square, [Load("a", point_forces=[(0, 0, 1)])]), r"point_forces: .*\[\(\(x, y\), force\)"),
+                (lambda: Case(square, Load("a", 1)), r"load: Load\(name='a', f=1\) is not a list; write \[Load"),
+                (lambda: Case(square, ["a"]), "load.0: 'a' is not of the class Load; write Load"),
+                (lambda: Case("case.toml"), "geometry: 'case.toml' is not possible; write .*Case.read"),
+                (lambda: Case(square, accuracy=0.01), r"accuracy: 0.01 is not possible; write Accuracy\(energy=1e-3\)"),
+                (lambda: Case(Geometry(SQUARE, inclusions=Inclusion("b", (0, 0), (1, 0)))), "geometry.inclusion: Inc"),
+                (lambda: Case(Geometry(SQUARE, cracks=["c"])), "geometry.crack.0: 'c' is not of the class Crack"),
+                (lambda: Case(mesh=Mesh(file="x.msh", curves=["crack"])), "mesh.groups.curve: .* is not a table"),
+                (lambda: anticrack.case.as_case(3), "case: 3 is no case; give a Case"),
                 (lambda: Case(square, [Load("a", 1)], Mesh(curves={0: "crack"})), "mesh.groups: belongs to mesh.file")):
             with self.assertRaisesRegex(anticrack.CaseError, said):
                 case().requests()
+        with self.assertRaises(TypeError):
+            anticrack.Accuracy(0.01)  # of what?
+
+    def test_are_told_by_what_is_given(self):
+        self.assertEqual(repr(Inclusion("fibre", (0, 0), (1, 0), fixed=0.5)),
+                         "Inclusion(name='fibre', start=(0, 0), end=(1, 0), fixed=0.5)")
+        case = Case(Geometry(SQUARE, inclusions=[Inclusion("b", points=numpy.zeros((1000, 2)))] * 9), [Load("a", 1)])
+        self.assertEqual(repr(case), "<Case '' with geometry, load>")
+        self.assertLess(len(repr(Inclusion("b", points=numpy.zeros((1000, 2))))), 120)
 
 
 class Msh(FolderTest):

@@ -24,6 +24,11 @@ COARSE = Mesh(size=0.2)
 LONG = anticrack.Uzawa(theta=1e-3, max_iterations=20_000)
 
 
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
 class Jobs(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -83,6 +88,11 @@ class Jobs(unittest.TestCase):
             with self.assertRaises(anticrack.ServerError, msg=text) as caught:
                 self.client.submit(Case.parse(case + "\n[[load]]\nname = 'a'\nf = 1"))
             self.assertTrue(str(caught.exception).startswith(said), caught.exception)
+
+    def test_a_region_that_is_not_there_is_named(self):
+        geometry = Geometry(GEOMETRY.boundary, regions=[anticrack.Region("sheet", (0, 0.5))])
+        with self.assertRaisesRegex(anticrack.ServerError, "^load.0.f.*shet.*sheet"):
+            self.client.run(Case(geometry, [Load("a", {"shet": 1})]), progress=False)
 
     def test_a_mesh_that_fails_says_why(self):
         far = Geometry(GEOMETRY.boundary, [Interface([(3, 0), (4, 0)])], [Inclusion("fibre", (3, 0), (4, 0))])
@@ -149,6 +159,8 @@ class Jobs(unittest.TestCase):
         for arguments, said in (({"coefficients": [[1.0]]}, r"\(1, 1\) is not \(rows, 2\)"),
                                 ({"traces": [0]}, "traces"), ({"bounds": True}, "have bounds anyway"),
                                 ({"coefficients": [[numpy.inf, 1]]}, "finite"),
+                                ({"coefficients": [[1, 1], [1]]}, "not all of one length"),
+                                ({"coefficients": [[1, 1]], "traces": ["a"]}, "traces: .*write .0, 2."),
                                 ({"coefficients": [[1, 1]], "nodal_forces": [[1]]}, "not both")):
             with self.assertRaisesRegex(anticrack.CaseError, said):
                 self.client.submit(case, **arguments)
@@ -182,16 +194,23 @@ class Jobs(unittest.TestCase):
         self.assertLessEqual(load.energy_upper - load.energy_lower, 0.02 * abs(load.energy))
         self.assertEqual(load.stages["triangles"][-1], len(result.mesh.triangles))
         self.assertEqual(load.stages["energy"][-1], load.energy)
-        self.assertIn("triangles ended after", out.getvalue())
+        width = (load.energy_upper - load.energy_lower) / abs(load.energy)
+        said = (f"stage {len(job.message.stages)}: {len(result.mesh.triangles)} triangles, energy {width:.3g} of 0.02, "
+                f"A {load.stages['displacement_error'][-1]:.3g} of 0.05")
+        self.assertIn(f"{job.name}: {said}\n", out.getvalue())
+        self.assertEqual(out.getvalue().count("stage 1: "), 1)
+        bar = Terminal()
+        shown = Progress(job.message, bar)
+        for message in job.events():
+            shown.take(message)
+        self.assertIn(said, bar.getvalue().split("\n")[-3])
+        self.assertIn(f"\r{job.name} [####################] 1/1 load cases, succeeded", bar.getvalue())
         unreached = self.client.run(Case(GEOMETRY, [OPENING], accuracy=Accuracy(A=1e-6, max_triangles=2000)),
                                     progress=False)
         self.assertFalse(unreached.converged)
         self.assertIn("max_triangles", unreached.not_reached)
 
     def test_progress_is_lines_or_a_bar(self):
-        class Terminal(io.StringIO):
-            def isatty(self):
-                return True
         plain, bar = io.StringIO(), Terminal()
         job = self.client.submit(Case(GEOMETRY, [OPENING], COARSE)).wait(out=plain)
         self.assertRegex(plain.getvalue(), rf"(?m)^{job.name}: opening: converged after \d+ steps?$")
@@ -199,7 +218,7 @@ class Jobs(unittest.TestCase):
         shown = Progress(job.message, bar)
         for message in job.events():
             shown.take(message)
-        self.assertIn(f"\r{job.name} [##############################] 1/1 load cases, succeeded", bar.getvalue())
+        self.assertIn(f"\r{job.name} [####################] 1/1 load cases, succeeded", bar.getvalue())
         self.assertEqual(bar.getvalue().count("\n"), 1)
 
     def test_progress_in_a_notebook_is_one_text_that_changes(self):

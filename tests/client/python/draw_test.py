@@ -25,7 +25,7 @@ class Figures(unittest.TestCase):
         with anticrack.local(program=ANTICRACKD) as client:
             cls.several = client.run(EXAMPLES / "several-inclusions.toml", progress=False)
             cls.skew = client.run(EXAMPLES / "paper-2.toml", progress=False)
-            cls.sweep = client.run(EXAMPLES / "load-ratio.toml", numpy.eye(2), progress=False)
+            cls.sweep = client.run(EXAMPLES / "load-ratio.toml", numpy.eye(2), bounds=True, progress=False)
             case = anticrack.Case.read(EXAMPLES / "load-ratio.toml")
             case.tables["accuracy"] = {"energy": 0.05}
             cls.accurate = client.run(case, progress=False)
@@ -49,9 +49,10 @@ class Figures(unittest.TestCase):
         ax = draw.traces(self.several, "pulled")
         jumps = [numpy.abs(trace.jump).max() for trace in self.several["pulled"].traces]
         name = self.several.interfaces[int(numpy.argmax(jumps))].name
-        self.assertEqual(ax.get_xlabel(), f"arc length of {name}")
+        self.assertTrue(ax.get_xlabel().startswith(f"arc length of {name} from ("), ax.get_xlabel())
         other = draw.traces(self.several, "pulled", "upper")
-        self.assertEqual(other.get_xlabel(), "arc length of upper")
+        upper = self.several.interfaces["upper"]
+        self.assertEqual(other.get_xlabel(), f"arc length of upper from ({upper.x[0]:.4g}, {upper.y[0]:.4g})")
         with self.assertRaisesRegex(anticrack.Error, "no interface 'lower'; known are middle, upper"):
             draw.traces(self.several, "pulled", "lower")
         with self.assertRaisesRegex(anticrack.Error, "no load 'pushed'; known are opening, pulled"):
@@ -104,6 +105,33 @@ class Figures(unittest.TestCase):
         load.traces[1].contact[5] = 1
         self.assertIn(closed.interfaces[1].name, draw.traces(closed, "pulled").get_xlabel())
 
+    def test_pressure_is_of_the_interface_in_contact(self):
+        result = copy.deepcopy(self.several)
+        load = result["pulled"]
+        self.assertIn("of middle from", draw.traces(result, load).get_xlabel())
+        for trace in load.traces:
+            trace.contact[:] = 0
+        self.assertEqual(draw.pressure(result, load).get_title(), "pulled: no contact")
+        load.traces["upper"].contact[5:9] = load.traces["upper"].pressure[5:9] = 1
+        self.assertIn("of upper from", draw.pressure(result, load).get_xlabel())
+        self.assertIn("of middle from", draw.traces(result, load).get_xlabel())
+        self.assertIn("of middle from", draw.pressure(result, load, interface="middle").get_xlabel())
+
+    def test_lines_have_a_legend_and_axes_units(self):
+        result = copy.deepcopy(self.several)
+        result.units.length, result.units.force = "mm", "N"
+        for ax in (draw.plan(result, "pulled"), draw.membrane(result, "pulled")):
+            said = [text.get_text() for text in ax.get_legend().get_texts()]
+            self.assertEqual(said, ["u given", "delaminated inclusion", "the side that came off", "bonded inclusion",
+                                    "crack, [u] \u2265 0"])
+            self.assertEqual((ax.get_xlabel(), ax.get_ylabel()), ("x [mm]", "y [mm]"))
+        self.assertEqual(draw.plan(result, "pulled").get_title(), "pulled: lines of u [mm]")
+        result.mesh.boundary = result.mesh.boundary[:-3]
+        free = draw.interfaces(result).get_legend().get_texts()[1]
+        self.assertEqual(free.get_text(), "free or traction")
+        edges = draw.interfaces(result).collections[1].get_segments()
+        self.assertEqual(len(edges), 3)
+
     def test_convergence_lies_over_others(self):
         ax = draw.convergence(self.skew)
         self.assertIs(draw.convergence(self.several, "opening", ax), ax)
@@ -122,5 +150,11 @@ class Figures(unittest.TestCase):
         self.assertEqual(line.get_xdata().tolist(), [0, 1])
         (line,) = draw.sweep(self.sweep, numpy.array([2.0, 1.0]), "gamma_c").lines
         self.assertEqual(line.get_ydata().tolist(), self.sweep.sweep.displacement[::-1, 0].tolist())
+        (band,) = draw.sweep(self.sweep, "opening", ax=matplotlib.figure.Figure().subplots()).collections
+        ends = band.get_paths()[0].vertices[:, 1]
+        self.assertEqual((ends.min(), ends.max()), (self.sweep.sweep.displacement_lower.min(),
+                                                    self.sweep.sweep.displacement_upper.max()))
+        with self.assertRaisesRegex(anticrack.Error, "no load 'openin'; known are .*; did you mean opening"):
+            draw.sweep(self.sweep, "openin")
         with self.assertRaisesRegex(anticrack.Error, "not the result of a sweep"):
             draw.sweep(self.skew)

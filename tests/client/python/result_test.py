@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Result files of the command and answers from the server are the same objects."""
+import copy
 import dataclasses
 import json
 import os
 import pathlib
+import re
+import sys
 
 import h5py
 import numpy
 
 import anticrack
+from anticrack.text import interval
 from processes import ANTICRACK, Daemon, FolderTest, run
 
 EXAMPLES = pathlib.Path(os.environ["EXAMPLES"])
@@ -136,6 +140,63 @@ max_iterations = 3
         self.assertEqual(list(frame.index), ["opening", "pulled"])
         self.assertEqual(frame.loc["pulled", "A of short"], file["pulled"].inclusions["short"].A)
         self.assertEqual(frame["energy"].tolist(), [load.energy for load in file.loads.values()])
+
+    def test_are_told_in_a_few_lines(self):
+        case = self.folder / "accurate.toml"
+        case.write_text(ACCURATE, encoding="utf-8")
+        file, told = self.both(case, "run")
+        shown = run(ANTICRACK, "show", self.folder / "result.h5").stdout
+        for result in (file, told):
+            title, load, part = repr(result).split("\n")
+            self.assertEqual(title, f"result: {len(result.mesh.triangles)} triangles, 1 load case")
+            self.assertRegex(load, r"^skew: converged, energy = -[\d.]+ \+- [\d.]+ N mm \(-[\d.]+ on the mesh\)")
+            self.assertRegex(part, r"^  fibre: A = .* mm \(.* on the mesh\)$")
+            for line in (load, part):  # the words of the command
+                self.assertIn(re.search(r"= (\(.*?\)e-\d+|.*? \+- [\d.]+)", line)[1], shown)
+            self.assertIn("<td>fibre</td>", result["skew"]._repr_html_())
+            self.assertIn("<th>A of fibre [mm]</th>", result._repr_html_())
+            for item in (result.mesh, *result.interfaces, *result["skew"].traces, result["skew"].inclusions["fibre"]):
+                self.assertLess(len(repr(item)), 200)
+
+    def test_are_found_by_name(self):
+        file, _ = self.both(EXAMPLES / "several-inclusions.toml", "run")
+        load = copy.deepcopy(file["pulled"])
+        self.assertEqual(load.traces["upper"].u_plus.tolist(), file["pulled"].traces[1].u_plus.tolist())
+        self.assertEqual(file.interfaces["upper"].name, "upper")
+        self.assertIs(load.fields[file.mesh.subdomain_names[1]], load.fields[1])
+        for find, said in ((lambda: file["pushed"], "no load 'pushed'; known are opening, pulled; did you mean pulled"),
+                           (lambda: load.inclusions["shrt"], "'shrt'; known are long, short; did you mean short"),
+                           (lambda: load.traces["lower"], "no interface 'lower'; known are middle, upper$"),
+                           (lambda: load.fields["x"], "no subdomain 'x'; known are ")):
+            with self.assertRaisesRegex(anticrack.Error, said) as caught:
+                find()
+            self.assertIsInstance(caught.exception, KeyError)
+
+    def test_an_interval_contains_the_bounds(self):
+        self.assertEqual(interval(0.44447, 0.45197, 0.4457, " mm"), "0.4482 +- 0.0038 mm (0.4457 on the mesh)")
+        self.assertEqual(interval(1e-7, 1.2e-7, 1.1e-7), "(1.10 +- 0.10)e-7 (1.10e-7 on the mesh)")
+        self.assertEqual(interval(float("nan"), 1, 0.25, " mm"), "0.25 mm")
+        self.assertEqual(interval(0, 0, 0), "0 +- 0 (0 on the mesh)")
+
+    def test_a_package_that_is_missing_is_named(self):
+        self.both(EXAMPLES / "slit.toml", "run")
+        script = """
+import sys, anticrack
+result = anticrack.read("result.h5")
+for name, use in (("pandas", result.frame), ("matplotlib", lambda: anticrack.draw.traces(result)),
+                  ("h5py", lambda: anticrack.read("result.h5")), ("h5py", lambda: result.save("other.h5"))):
+    for module in [module for module in sys.modules if module.partition(".")[0] == name]:
+        del sys.modules[module]
+    sys.modules[name] = None  # as if it were not installed
+    try:
+        use()
+    except ImportError as error:
+        print(error)
+"""
+        ended = run(sys.executable, "-c", script, cwd=self.folder)
+        self.assertEqual(ended.stdout.splitlines(), [
+            f"this takes {name}, which is not installed; install it with 'apt install python3-{name}' or 'pip install "
+            f"{name}'" for name in ("pandas", "matplotlib", "h5py", "h5py")], ended.stderr)
 
     def test_other_files_are_refused(self):
         other = self.folder / "other.h5"

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is found by name; a name that is not there is told with those that are."""
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from typing import Any, SupportsIndex, TypeVar, overload
+
+from .errors import UnknownName
+from .text import lines, listed
+
+T = TypeVar("T")
+
+
+def unknown(what: str, name: object, known: Iterable[str]) -> UnknownName:
+    known = list(known)
+    near = difflib.get_close_matches(str(name), known, 1)
+    return UnknownName(f"there is no {what} {name!r}; " + (f"known are {listed(known)}" if known else "there are none")
+                       + (f"; did you mean {near[0]}?" if near else ""))
+
+
+def place(what: str, name: str, known: list[str]) -> int:
+    """The index of a name."""
+    if name not in known:
+        raise unknown(what, name, known)
+    return known.index(name)
+
+
+class Named(dict[str, T]):
+    """what: they are, for errors: "load"."""
+
+    def __init__(self, what: str, items: Iterable[tuple[str, T]] = ()) -> None:
+        super().__init__(items)
+        self.what = what
+
+    def __missing__(self, name: str) -> T:
+        raise unknown(self.what, name, self)
+
+    def __repr__(self) -> str:
+        return lines(list(self.values()))
+
+
+class Parts(list[T]):
+    """In their order, by index or by name."""
+
+    def __init__(self, what: str, items: Iterable[T] = ()) -> None:
+        super().__init__(items)
+        self.what = what
+
+    @overload
+    def __getitem__(self, key: SupportsIndex | str) -> T: ...
+
+    @overload
+    def __getitem__(self, key: slice) -> list[T]: ...
+
+    def __getitem__(self, key: Any) -> Any:
+        return super().__getitem__(self.place(key) if isinstance(key, str) else key)
+
+    def place(self, name: str) -> int:
+        """The index of the one of this name."""
+        return place(self.what, name, [str(getattr(item, "name")) for item in self])
+
+    def __repr__(self) -> str:
+        return lines(self)

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers and tables for people to read."""
+from __future__ import annotations
+
+import html
+import math
+from collections.abc import Iterable, Sequence
+
+
+def interval(lower: float, upper: float, value: float, unit: str = "") -> str:
+    """The middle and half the width, as in the command's tables, and the mesh's own value: "0.4483 +- 0.0038 mm (0.4462
+    on the mesh)". The printed interval contains the given one. Without bounds the value alone."""
+    if not math.isfinite(lower) or not math.isfinite(upper):
+        return f"{value:.6g}{unit}"
+    middle, half = lower + (upper - lower) / 2, (upper - lower) / 2
+    size = max(abs(middle), half)
+    if not size > 0:
+        return f"0 +- 0{unit} ({value:.6g} on the mesh)"
+
+    def decade(number: float) -> int:
+        return math.floor(math.log10(number))
+    most = 6  # digits behind the first of the larger number
+    exponent = decade(size) if decade(size) < -4 or decade(size) > 5 else 0
+    behind = min(most - decade(size), 1 - decade(half) if half > 0 else most)
+    step = 10.0 ** -behind
+    shown = round(middle / step) * step
+    beside = math.ceil(max(upper - shown, shown - lower) / step - 1e-6) * step
+    texts = [f"{number / 10.0 ** exponent + 0.0:.{max(0, behind + exponent)}f}" for number in (shown, beside, value)]
+    if not exponent:
+        return f"{texts[0]} +- {texts[1]}{unit} ({texts[2]} on the mesh)"
+    return f"({texts[0]} +- {texts[1]})e{exponent}{unit} ({texts[2]}e{exponent} on the mesh)"
+
+
+def short(text: str, most: int = 60) -> str:
+    """In one line, cut."""
+    text = " ".join(text.split())
+    return text if len(text) <= most else text[:most] + "..."
+
+
+def counted(count: int, one: str) -> str:
+    return f"{count} {one}{'' if count == 1 else 's'}"
+
+
+def listed(names: Iterable[object], most: int = 20) -> str:
+    """Separated by commas; of many the first."""
+    texts = [str(name) for name in names]
+    return ", ".join(texts[:most]) + (f" and {len(texts) - most} more" if len(texts) > most else "")
+
+
+def lines(items: Sequence[object], most: int = 10) -> str:
+    """Each below the one before; of many the first."""
+    more = [f"and {len(items) - most} more"] if len(items) > most else []
+    return "\n".join([repr(item) for item in items[:most]] + more)
+
+
+def html_table(title: str, head: Sequence[str], rows: Sequence[Sequence[str]], most: int = 50) -> str:
+    """Of many rows the first."""
+    def row(cells: Sequence[str], tag: str) -> str:
+        return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in cells) + "</tr>"
+    more = f"<p>and {len(rows) - most} more</p>" if len(rows) > most else ""
+    return (f"<p>{html.escape(title)}</p><table>{row(head, 'th')}{''.join(row(cells, 'td') for cells in rows[:most])}"
+            f"</table>{more}")
