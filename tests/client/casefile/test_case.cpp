@@ -276,9 +276,9 @@ TEST(Case, SolvesByTheActiveSetUnlessSaidOtherwise) {
 }
 
 TEST(Case, TakesTheOptionsOfAMesh) {
-  const Case the_case = parse(sample_text, {"mesh.size=0.1", "mesh.tip_size=1e-9",
-                                            "mesh.grading=0.5", "mesh.chord_angle=5",
-                                            "mesh.align=[[[0, 0], [0, 0.5]]]"});
+  const Case the_case =
+      parse(sample_text, {"mesh.size=0.1", "mesh.tip_size=1e-9", "mesh.grading=0.5",
+                          "mesh.chord_angle=5", "mesh.align=[[[0, 0], [0, 0.5]]]"});
   const v1::MeshOptions& options = the_case.mesh.options();
   EXPECT_EQ(options.preset(), v1::MESH_PRESET_GRADED);
   EXPECT_EQ(options.size(), 0.1);
