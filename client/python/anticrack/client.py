@@ -166,7 +166,7 @@ class Client:
 def connect(address: str | None = None, *, tls: bool = False, ca: Path | None = None, cert: Path | None = None,
             key: Path | None = None, token: str | None = None, token_file: Path | None = None,
             patience: float = 300.0, first_contact: float = 3.0) -> Client:
-    """A client of the server at "HOST:PORT" or "unix:PATH" (ANTICRACK_SERVER, or localhost:7433). The first call
+    """A client of the server at "HOST:PORT" or "unix:PATH" (ANTICRACK_SERVER, or 127.0.0.1:7433). The first call
     connects.
 
     tls: with the system's authorities; ca: with this one. cert, key: of this client. token, or its file (or

@@ -13,7 +13,7 @@ import grpc
 from .errors import CaseError
 
 Path = str | os.PathLike[str]
-DEFAULT_ADDRESS = "localhost:7433"
+DEFAULT_ADDRESS = "127.0.0.1:7433"
 # Heartbeats come every 10 s: a stream that is silent for longer may hang on a dead connection.
 CHANNEL = [("grpc.keepalive_time_ms", 30_000), ("grpc.keepalive_timeout_ms", 10_000),
            ("grpc.initial_reconnect_backoff_ms", 100), ("grpc.min_reconnect_backoff_ms", 1_000),
