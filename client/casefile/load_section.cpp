@@ -95,6 +95,12 @@ void check_names(const Section& section, const v1::LoadCase& load, const v1::Geo
   // Where a subdomain has no region it is omega1, omega2, ...: only the server knows how many.
   for (const auto& [region, value] : load.force().per_region().values())
     if (region.starts_with("omega")) regions.push_back(region);
+  if (!load.traction().empty() && load.traction() != "0" && geometry.neumann().empty() &&
+      geometry.neumann_sides().empty()) {
+    throw Error(section.spot_of("traction"),
+                "nothing has a traction, as no part of the boundary is in geometry.neumann; name "
+                "its sides or holes there");
+  }
   if (load.force().has_per_region()) check_names(section, "f", "region", regions);
   check_names(section, "inclusion_forces", "inclusion", inclusions);
   check_names(section, "inclusion_moments", "inclusion", inclusions);

@@ -171,7 +171,8 @@ void keep_loads(toml::table& root, const std::vector<std::string>& names) {
     if (std::ranges::find(there, name) != there.end()) continue;
     throw Error({"load", "--load " + name.substr(0, 80), 0},
                 there.empty() ? "the case has no loads with names; write name = \"...\" in [[load]]"
-                              : "none of them is called so; " + words::suggestion(name, there));
+                              : "no load is called " + name.substr(0, 80) + "; " +
+                                    words::suggestion(name, there));
   }
   for (std::size_t i = there.size(); i-- > 0;)
     if (std::ranges::find(names, there[i]) == names.end())

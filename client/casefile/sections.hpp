@@ -112,8 +112,9 @@ template <class Part>
 void read_pair(const toml::node& node, const std::string& key, Part& part) {
   const toml::array* pair = node.as_array();
   if (!pair || pair->size() != 2) {
-    throw Error(spot_of(node, key),
-                shown(node) + " is not a part; write [from, to] with points from and to");
+    throw Error(
+        spot_of(node, key),
+        shown(node) + " is not a part; a part is [from, to], and a list of parts [[from, to]]");
   }
   set(*part.mutable_from(), point_of(*pair->get(0), entry_key(key, 0)));
   set(*part.mutable_to(), point_of(*pair->get(1), entry_key(key, 1)));

@@ -69,10 +69,12 @@ void note_interfaces_that_cannot_open(const Result& result, const Options& optio
   for (const results::Interface& interface : result.interfaces)
     if (!can_open(interface)) closed.push_back(interface.name);
   if (closed.empty()) return;
-  drawing.drawn.notes.push_back("no traces drawn of " + std::to_string(closed.size()) +
-                                (closed.size() == 1 ? " interface" : " interfaces") +
-                                " of glue or bonded inclusions alone; --interface " + closed[0] +
-                                " draws " + (closed.size() == 1 ? "them" : "those of one"));
+  drawing.drawn.notes.push_back(
+      (closed.size() == 1
+           ? "an interface is glued or bonded all along and has no traces drawn"
+           : std::to_string(closed.size()) +
+                 " interfaces are glued or bonded all along and have no traces drawn") +
+      std::string("; --interface ") + closed[0] + " draws them");
 }
 
 /// A sweep may have kept thousands of rows.
@@ -134,10 +136,11 @@ void note_few_steps(const Result& result, const Options& options, Drawing& drawi
     return !load.traces.empty() && load.history.size() < fewest;
   });
   if (count == 0 || !wanted(options, "convergence")) return;
-  drawing.drawn.notes.push_back(
-      "no convergence drawn of " + std::to_string(count) + (count == 1 ? " load" : " loads") +
-      (fewest == 2 ? " solved in a single step"
-                   : " solved in one or two steps; --only convergence draws two"));
+  drawing.drawn.notes.push_back(std::to_string(count) +
+                                (count == 1 ? " load was solved in " : " loads were solved in ") +
+                                (fewest == 2 ? "a single step: no convergence is drawn"
+                                             : "one or two steps: no convergence is drawn; --only "
+                                               "convergence draws that of two"));
 }
 
 void require_consistent(const Result& result) {

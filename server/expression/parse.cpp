@@ -73,7 +73,8 @@ void require_syntax(const std::string& text, const std::string& field) {
   }
   if (parser.GetNumResults() != 1) {
     throw invalid(field, "the expression \"" + text + "\" gives " +
-                             std::to_string(parser.GetNumResults()) + " values; it must give one");
+                             std::to_string(parser.GetNumResults()) +
+                             " values; it must give one, and the decimal sign is a point");
   }
 }
 

@@ -226,10 +226,13 @@ void note_chords(const Geometry& geometry, const Network& network,
   const std::string& name = worst < network.outer      ? sides[worst]
                             : worst < network.boundary ? sides[holes + worst - network.outer]
                                                        : interfaces[worst - network.boundary];
+  const auto curves = std::ranges::count_if(pieces, [](int count) { return count > 0; });
   std::ostringstream note;
-  note << std::setprecision(2) << "curves count as chords: " << name << " is " << pieces[worst]
-       << " of them, up to " << most
-       << " off the curve, and bounds are those for the chords; mesh.chord_angle = 1.25 (5 unless "
+  note << std::setprecision(2) << (curves == 1 ? "a curve counts" : "curves count")
+       << " as chords: " << name
+       << (curves == 1 ? "" : ", the coarsest of " + std::to_string(curves) + ",") << " is "
+       << pieces[worst] << " of them, up to " << most
+       << " off the curve; bounds hold for the chords, and mesh.chord_angle = 1.25 (5 unless "
           "given) brings them 16 times closer";
   warnings.push_back(note.str());
 }

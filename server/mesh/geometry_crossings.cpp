@@ -141,7 +141,8 @@ class Meetings {
              " leaves the membrane or touches its boundary in between: the stretch from ",
              show(segment(t).a), " to ", show(segment(t).b), " meets the edge ", show(segment(s).a),
              "-", show(segment(s).b), " of ", line(s).field,
-             "; only its two ends may lie on the boundary");
+             other_line.line.closed() ? "; it must lie inside, apart from the boundary"
+                                      : "; only its two ends may lie on the boundary");
     }
     if (at_its_end) check_angle(s, t, common);
   }

@@ -141,7 +141,7 @@ class Neumann {
     for (std::size_t i = 0; i < std::min(_names.size(), most_names); ++i)
       all += (i == 0 ? "" : ", ") + _names[i];
     const bool printable = std::ranges::all_of(name, [](char c) { return c >= ' ' && c <= '~'; });
-    refuse(field, field, " names no side or hole",
+    refuse(field, "neumann names no side or hole",
            printable && name.size() <= 64 ? ": \"" + name + "\"" : "", "; there are ", all,
            _names.size() > most_names ? ", ..." : "");
   }

@@ -214,8 +214,12 @@ int subdomain_within(int region, const std::string& field, const Outlines& outli
 
 Named name_subdomains(const Drawn& geometry, const Network& network, const Plan& plan,
                       const Outlines& outlines, const Edges& edges, const std::vector<bool>& kept,
-                      const Arrangement& loops, const Order& order) {
+                      const Arrangement& loops, const Order& order,
+                      std::vector<std::string>& warnings) {
   const auto count = at(order.count);
+  const bool any_tension = std::ranges::any_of(geometry.regions, [](const RegionSpec& region) {
+    return region.tension != 1 || region.tension_law;
+  });
   Named named{std::vector<std::string>(count), std::vector<double>(count, 1),
               std::vector<TensionLaw>(count)};
   std::vector<std::size_t> owner(count);
@@ -244,6 +248,11 @@ Named name_subdomains(const Drawn& geometry, const Network& network, const Plan&
   for (std::size_t s = 0; s < count; ++s) {
     if (!named.name[s].empty()) continue;
     named.name[s] = unused_name("omega" + std::to_string(s + 1), used);
+    if (any_tension) {
+      warnings.push_back("no region names the subdomain " + named.name[s] +
+                         ", so its tension is 1; a region with a point of it as `at` gives it "
+                         "another");
+    }
   }
   return named;
 }
@@ -287,8 +296,8 @@ void lay_subdomains(const Drawn& geometry, const Network& network,
   for (std::size_t e = 0; e < edges.size(); ++e)
     if (at(network.chords[e].line) < network.boundary) faces.loops.right[e] = Arrangement::outside;
   const Order order = order_faces(plan, outlines, faces.loops, kept);
-  const Named named =
-      name_subdomains(geometry, network, plan, outlines, edges, kept, faces.loops, order);
+  const Named named = name_subdomains(geometry, network, plan, outlines, edges, kept, faces.loops,
+                                      order, plan.warnings);
   std::vector<int> place(faces.loops.faces.size(), -1);
   plan.faces.reserve(order.faces.size());
   for (const int f : order.faces) {

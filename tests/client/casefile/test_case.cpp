@@ -232,7 +232,8 @@ boundary_value = "-y"
 point_forces = [{at = [0.5, 0.25], value = -2}, {at = [0, 0.5], value = 1}]
 inclusion_forces = {fibre = 2}
 inclusion_moments = {fibre = [0.5, -0.25]}
-)"));
+)"),
+                              {"geometry.neumann=[\"side-1\"]"});
   const v1::LoadCase& load = the_case.job.load_cases(0);
   EXPECT_FALSE(load.has_force());
   EXPECT_EQ(load.traction(), "0.5");

@@ -86,12 +86,16 @@ const Mistake mistakes[] = {
     {"single_brackets", "[[geometry.inclusion]]", "[geometry.inclusion]",
      "plate.toml:7: geometry.inclusion: { from = [ -0.5, 0 ], name = 'fibre', to = [ 0.5, 0 ] } is "
      "not a list of tables; write [[geometry.inclusion]] above each of them"},
+    {"traction_without_neumann", "name = \"one\"", "name = \"one\"\ntraction = \"1\"",
+     "plate.toml:17: load.0.traction: nothing has a traction, as no part of the boundary is in "
+     "geometry.neumann; "
+     "name its sides or holes there"},
     {"delaminated_text", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = \"yes\"",
      "plate.toml:11: geometry.inclusion.0.delaminated: 'yes' is not possible; write true, false, "
      "\"left\", \"right\", [[from, to], ...] or [[0.5, 1.0], ...], stretches of its length"},
     {"delaminated_points", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = [[[0, 0]]]",
-     "plate.toml:11: geometry.inclusion.0.delaminated.0: [ [ 0, 0 ] ] is not a part; write [from, "
-     "to] with points from and to"},
+     "plate.toml:11: geometry.inclusion.0.delaminated.0: [ [ 0, 0 ] ] is not a part; a part is "
+     "[from, to], and a list of parts [[from, to]]"},
     {"delaminated_stretch", "to   = [0.5, 0]", "to   = [0.5, 0]\ndelaminated = [[0, 0.5, 1]]",
      "plate.toml:11: geometry.inclusion.0.delaminated.0: [ 0, 0.5, 1 ] is not a stretch; write "
      "[0.5, 1.0], by arc length over the whole length"},
@@ -180,10 +184,9 @@ const Mistake geometry_mistakes[] = {
         "plate.toml:5: geometry.neumann: 'left' is not possible; write a list of names of "
         "sides and holes, or of [from, to], parts of the boundary walked counterclockwise, or "
         "\"all\""),
-    interface(
-        "neumann_number", "neumann = [\"left\", 2]\n",
-        "plate.toml:5: geometry.neumann.1: 2 is not a part; write [from, to] with points from "
-        "and to"),
+    interface("neumann_number", "neumann = [\"left\", 2]\n",
+              "plate.toml:5: geometry.neumann.1: 2 is not a part; a part is [from, to], and a list "
+              "of parts [[from, to]]"),
     interface("hole_without_shape", "[[geometry.hole]]\nname = \"window\"\n",
               "plate.toml:5: geometry.hole.0: the hole without a shape; write circle = { center = "
               "[x, y], radius = r }, points = [[x, y], ...] or spline = [[x, y], ...]"),
@@ -218,7 +221,7 @@ const Mistake geometry_mistakes[] = {
               "plate.toml:5: geometry.neumann.0.0: 1 is not a point; write [x, y]"),
     interface("neumann_three", "neumann = [[[1, -1], [1, 1], [0, 0]]]\n",
               "plate.toml:5: geometry.neumann.0: [ [ 1, -1 ], [ 1, 1 ], [ 0, 0 ] ] is not a part; "
-              "write [from, to] with points from and to"),
+              "a part is [from, to], and a list of parts [[from, to]]"),
     {"contact_of_an_inclusion", "from = [-0.5, 0]\n", "from = [-0.5, 0]\ncontact = false\n",
      "plate.toml:10: geometry.inclusion.0.contact: belongs to [[geometry.crack]]; an inclusion has "
      "delaminated = true or false"},

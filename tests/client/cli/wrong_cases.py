@@ -143,7 +143,7 @@ CASES = [
      "interface; it must lie on it, to 2.8284271e-06; nearest is (-0.5, 0); or give it a line of "
      "its own in place of from and to: points, arc, spline, or center, angle and length"),
     ([("[1, 0]]\n", '[1, 0]]\nneumann = ["left"]\n')], 2,
-     'wrong.toml:6: geometry.neumann.0: neumann_sides[0] names no side or hole: "left"; there are side-1, side-2, '
+     'wrong.toml:6: geometry.neumann.0: neumann names no side or hole: "left"; there are side-1, side-2, '
      "side-3, side-4"),
     ([("[1, 0]]\n", "[1, 0]]\nneumann = [[[-1, -1], [-1, 1]]]\n")], 2,
      "wrong.toml:6: geometry.neumann.0: neumann[0] from (-1, -1) to (-1, 1), walked counterclockwise, is all of the "
